@@ -24,6 +24,9 @@ MODULES = {
     "jnc-t01": "mnclab.controls.jnc_t01",
 }
 
+#: Other names that a control answers to.
+ALSO = {"iso": "g43"}
+
 
 class Controls(Mapping[str, Control]):
     """All controls by name; a control is imported when it is first asked for."""
@@ -32,6 +35,7 @@ class Controls(Mapping[str, Control]):
         self._built: dict[str, Control] = {}
 
     def __getitem__(self, name: str) -> Control:
+        name = ALSO.get(name, name)
         if name not in self._built:
             if name in MODULES:
                 self._built[name] = import_module(MODULES[name]).CONTROL
@@ -59,7 +63,8 @@ class Controls(Mapping[str, Control]):
         }
 
     def __repr__(self) -> str:
-        return "\n".join(f"{name:8s} {self[name].title}" for name in self)
+        also = {known: f" (also {name})" for name, known in ALSO.items()}
+        return "\n".join(f"{name:8s} {self[name].title}{also.get(name, '')}" for name in self)
 
     def _repr_html_(self) -> str:
         rows = [(name, one.title, str(len(one.functions)), str(len(one.cycles))) for name, one in self.items()]

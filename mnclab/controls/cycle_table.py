@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.setup import Datum
-from mnclab.machining.steps import Call, Coolant, Orient, Say, Spin, Step, Swivel, Turn, Wait, Write
+from mnclab.machining.steps import Call, Coolant, Orient, Pause, Say, Spin, Step, Swivel, Turn, Wait, Write
 from mnclab.path.listing import figure, point
 from mnclab.runs.values import described, said
 from mnclab.text.tables import html_table, text_table
@@ -147,6 +147,7 @@ def written(step: Write) -> str:
 DETAILS: dict[type[Step], Callable[[Any], str]] = {
     Turn: lambda step: f"{figure(math.degrees(step.angle))}°",
     Wait: lambda step: f"{figure(step.seconds)} s",
+    Pause: lambda s: "program stop",
     Spin: lambda s: SPINDLE[s.turning] + (f", {figure(s.speed)} rev/min" if s.turning and s.speed else ""),
     Orient: lambda step: f"at {figure(step.angle)}°",
     Coolant: lambda step: "on" if step.on else "off",

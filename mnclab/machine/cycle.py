@@ -64,7 +64,7 @@ class Parameter:
     is_variable: bool = field(init=False)
     """Whether it is a variable of the program (Q200), not an address (X)."""
     in_units: bool = field(init=False)
-    """Whether it is such a variable, of a length or feed in the unit of the program."""
+    """Whether it is a length or a feed, in the unit of the program."""
 
     def __repr__(self) -> str:
         return written(self)
@@ -72,7 +72,7 @@ class Parameter:
     def __post_init__(self) -> None:
         variable = self.address[0] == "Q" and self.address[1:].isdigit() and self.type != "text"
         object.__setattr__(self, "is_variable", variable)
-        object.__setattr__(self, "in_units", variable and self.unit in ("mm", "mm/min", "mm/rev"))
+        object.__setattr__(self, "in_units", self.unit in ("mm", "mm/min", "mm/rev"))
 
     @property
     def allowed(self) -> str:

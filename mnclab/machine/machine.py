@@ -85,6 +85,10 @@ class Machine(Placed):
             alarm.span = alarm.span and alarm.span._replace(program=self.program)
             raise
 
+    def length(self, word: Word) -> float:
+        """The number of a word that is a length or a feed, mm: of a control that says in its program what it counts in."""
+        return self.value(word) * self.variable_unit
+
     def change(self, name: str, value: Any) -> None:
         """Set an attribute (feed, side, plane, …) and note it in the history, where the table of `State` says so.
 

@@ -22,7 +22,8 @@ from mnclab.text.tables import html_table, text_table
 class Setting(NamedTuple):
     """One choice. Its kind is that of the default: true or false, a number, or one of `choices` (value -> meaning).
 
-    `source` is the section of the manual, or the name of the reading where the manual leaves it open.
+    `source` is the section of the manual, or the name of the reading where the manual leaves it open. `chooses`: what a
+    choice makes of other settings, as long as nobody gives them (choice -> name -> value).
     """
 
     name: str
@@ -33,6 +34,7 @@ class Setting(NamedTuple):
     unit: str = ""
     at_least: float | None = None
     at_most: float | None = None
+    chooses: Mapping[str, Mapping[str, Any]] = MappingProxyType({})
 
     def __repr__(self) -> str:
         return written(self)
@@ -100,10 +102,12 @@ def chosen(declared: Iterable[Setting], given: Mapping[str, Any], control: str, 
             told = hint(str(name)[:40], known, 1) or listed
             place = source and source.place_of("settings", name)
             raise Alarm(f"{control} has no setting {shown(name)}", place, hint=told, source=source)
-    found = {}
-    for name, setting in known.items():
+    found: dict[str, Any] = {}
+    by_others: dict[str, Any] = {}
+    for name, setting in sorted(known.items(), key=lambda item: not item[1].chooses):  # the choosing ones first
         try:
-            found[name] = setting.check(given.get(name, setting.default))
+            found[name] = setting.check(given.get(name, by_others.get(name, setting.default)))
+            by_others |= setting.chooses.get(found[name], {})
         except Alarm as alarm:
             alarm.source, alarm.span = source, source and source.place_of("settings", name)
             raise
@@ -117,7 +121,9 @@ def rows(settings: Iterable[Setting]) -> list[tuple[str, str, str, str, str]]:
         default = str(one.default).lower() if isinstance(one.default, bool) else str(one.default)
         unit = f" {one.unit}" if one.unit else ""
         table.append((one.name, default + unit, "" if one.choices else one.allowed, one.meaning, one.source))
-        table += [("", "", choice, meaning, "") for choice, meaning in one.choices.items()]
+        for choice, meaning in one.choices.items():
+            others = ", ".join(f"{name} {value}" for name, value in one.chooses.get(choice, {}).items())
+            table.append(("", "", choice, f"{meaning}: {others}" if others else meaning, ""))
     return table
 
 

@@ -88,7 +88,7 @@ class State:
     tables: Tables = part(lambda m: Tables(m.setup, m.control.magazine), outlives=True)
     variables: Variables = part(Variables, outlives=True)
     measured: Measured = part(Measured, outlives=True)
-    variable_unit: float = part(1.0)  # mm that a length of 1 in a variable stands for: 25.4 in a program in inches
+    variable_unit: float = part(1.0)  # mm that a length of 1 of the program or a variable stands for: 25.4 for inches
     cycle: Definition | None = part(None)  # the cycle that a call runs
     position_cycle: Definition | None = part(None, compared=(PATTERN, REPEAT))  # the cycle that runs at each position
     memory: Any = part(lambda m: m.control.memory and m.control.memory())  # what a control keeps beside the common state

@@ -83,6 +83,12 @@ class Orient(NamedTuple):
     angle: float
 
 
+class Pause(NamedTuple):
+    """The program stops, until the operator starts it again."""
+
+    label: str
+
+
 class Coolant(NamedTuple):
     """The coolant is switched."""
 
@@ -174,7 +180,8 @@ class Write(NamedTuple):
 
 
 Step = (
-    Go | Turn | Along | Thread | Wait | Spin | Orient | Coolant | Touch | Swivel | Each | Call | Blocks | Record | Say | Write
+    Go | Turn | Along | Thread | Wait | Spin | Orient | Pause | Coolant | Touch | Swivel | Each | Call | Blocks | Record | Say
+    | Write
 )
 
 

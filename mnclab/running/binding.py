@@ -25,7 +25,9 @@ def assign(
     words: dict[str, Word] = {}
     for word in given:
         fitting = (p for p in cycle.parameters() if word.address in (p.address, *p.aliases))
-        parameter = next(p for p in fitting if p.several or p.name not in words)
+        parameter = next((p for p in fitting if p.several or p.name not in words), None)
+        if parameter is None:
+            m.alarm(f"{word} says again what another word of {code} says", word, hint="keep one of them")
         value = value_of(m, parameter, code, word, cycle.in_variables)
         words.setdefault(parameter.name, word)
         values[parameter.name] = (*values.get(parameter.name, ()), value) if parameter.several else value
@@ -52,8 +54,12 @@ def value_of(m: Machine, parameter: Parameter, code: str, word: Word, in_variabl
 
 
 def unit_of(m: Machine, parameter: Parameter) -> float:
-    """What a number of a parameter that lives in a variable is multiplied with: 25.4 for lengths and feeds in inches."""
-    return m.variable_unit if parameter.in_units else 1.0
+    """What a number of a parameter is multiplied with: 25.4 for lengths and feeds in inches.
+
+    Where cycles live in variables, the reader has done so with those that are none.
+    """
+    written = parameter.is_variable or m.control.storage != "variables"
+    return m.variable_unit if parameter.in_units and written else 1.0
 
 
 def store(m: Machine, definition: Definition) -> None:

@@ -49,7 +49,7 @@ class PlainWords:
     a plain block (R0 of Klartext): its reader calls no other block plain. `helices` says whether arcs with a third
     coordinate need no word of their own now, and hears how many more were made. `letters` are the addresses that the
     control has; `straight_arcs`: an arc without R and centre is a straight line, `whole_circles`: one without
-    coordinates is a circle; where they are not, that is a fault.
+    coordinates is a circle; where they are not, that is a fault. `unit` is what its lengths and feeds are multiplied with.
     """
 
     motions: Mapping[float | None, tuple[str, int]]
@@ -61,6 +61,7 @@ class PlainWords:
     letters: str = LETTERS
     straight_arcs: bool = False
     whole_circles: bool = True
+    unit: Callable[[Machine], float] = lambda m: 1.0
 
 
 @dataclass
@@ -140,10 +141,15 @@ class Bulk:
     # --- what the run is ---------------------------------------------------------------------------------------------
 
     def columns(self, first: int, end: int) -> dict[str, Array]:
-        """The words of the blocks by address (n,), nan where not written; an address that is never written is left out."""
+        """The words of the blocks by address (n,), nan where not written; an address that is never written is left out.
+
+        Lengths and feeds are mm, whatever the program counts in.
+        """
         program, n = self.program, end - first
         a, b = int(program.first[first]), int(program.first[end])
         address, value = program.address[a:b], program.value[a:b]
+        if (unit := self.rule.unit(self.machine) if self.rule else 1.0) != 1:
+            value = np.where(address == self.index.get("G", -1), value, value * unit)
         found: dict[str, Array] = {}
         block: NDArray[np.int64] | None = None
         for name, index in self.index.items():

@@ -82,7 +82,11 @@ class Planner:
             if not function.moves:
                 self.hand_out(function, index)
         if self.active and not cycle and not any(f.ends_cycle for f in functions):
-            self.claim_again(functions)
+            if self.modal.ends and any(f.moves for f in functions):
+                over = next(f for f in control.functions.values() if f.ends_cycle)
+                self.act(over, over.code, -1, ())
+            else:
+                self.claim_again(functions)
         owned = any(f.owns for f in functions)
         for function, index in called:
             if function.moves and (function.owns or not owned):

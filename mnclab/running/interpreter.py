@@ -77,6 +77,7 @@ class Interpreter:
         makes another function."""
         self.recent: deque[tuple[int, range, list[Any]]] = deque(maxlen=RECENT)  # of which program; window, blocks
         self.skips = bool(machine.settings.get("block_skip"))
+        self.ends = Modal.ends_cycle(machine.settings)
         self.loaded: dict[int, Loaded] = {}
         self.alarms: list[Alarm] = []  # that readers found
         self.switch(0)
@@ -174,7 +175,7 @@ class Interpreter:
     def plan_for(self, keyword: str, kinds: tuple[Any, ...], words: list[Word]) -> Plan:
         machine = self.machine
         active = machine.position_cycle.cycle if machine.position_cycle else None
-        modal = machine.modal.get(self.control.motion), machine.modal.get("call"), machine.pole is not None, active
+        modal = machine.modal.get(self.control.motion), machine.modal.get("call"), machine.pole is not None, active, self.ends
         plan = self.plans.get((keyword, kinds, modal))
         if plan is None:
             planner = Planner(self.control, Modal._make(modal), keyword, words)

@@ -22,7 +22,7 @@ from mnclab.running.binding import as_it_stands, bind, fault
 from mnclab.running.repeating import at_each
 
 from mnclab.machining.steps import (  # isort: skip
-    Along, Blocks, Call, Coolant, Each, Go, Orient, Record, Say, Spin, Step, Swivel, Thread, Touch, Turn, Wait, Write,
+    Along, Blocks, Call, Coolant, Each, Go, Orient, Pause, Record, Say, Spin, Step, Swivel, Thread, Touch, Turn, Wait, Write,
 )  # fmt: skip
 
 Place = tuple[float, float]
@@ -86,6 +86,8 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = 
                 m.spindle(step.speed, step.turning)
             case Orient():
                 m.orient(step.angle)
+            case Pause():
+                m.stop()
             case Coolant():
                 m.coolant()
             case Touch():

@@ -57,7 +57,7 @@ def repeat_hole(bulk: Bulk, first: int, end: int, least: int) -> int:
     machine = bulk.machine
     places, alike = _places(bulk, first, end)
     good = len(alike) if alike.all() else int(np.argmin(alike))
-    if good < least or machine.pole is not None or not _anywhere(machine):
+    if good < least or machine.pole is not None or not _anywhere(machine) or not _position_alone(bulk, first):
         bulk.not_before = first + max(good, 1)
         return 0
     visits: list[Visit | None] = []
@@ -88,6 +88,13 @@ def repeat_hole(bulk: Bulk, first: int, end: int, least: int) -> int:
     _moved(machine, model, places[2:][:count], steps, lines)
     machine.step = begun + count - 1
     return count + 2
+
+
+def _position_alone(bulk: Bulk, block: int) -> bool:
+    """Whether a block holds nothing but coordinates: another motion, or a count of holes, is for the other tier."""
+    program = bulk.program
+    words = program.address[program.first[block] : program.first[block + 1]]
+    return all(program.addresses[k] in "XYZRF" for k in words)
 
 
 def _obey(flow: Course, block: int) -> None:

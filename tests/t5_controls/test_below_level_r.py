@@ -22,9 +22,7 @@ CASES = [(control, cycle) for control, cycles in CYCLES.items() for cycle in cyc
 
 def motion(control, cycle, level, back, more="X20\nX30 Y9\n"):
     text = f"G17 G90 G54 F120 S800 M3\nG0 X0 Y0 Z{level}\n{back} {cycle}\n{more}G80\n"
-    run = mnclab.run(
-        text, control, Setup(start=(0, 0, 50), settings={"undescribed": "accept"} if control == "g43" else {})
-    )
+    run = mnclab.run(text, control, Setup(start=(0, 0, 50)))
     assert run.ok, run.alarms
     return run.toolpath.motion[run.toolpath.motion.line > 2]
 
@@ -50,7 +48,7 @@ def test_from_level_r_or_above_nothing_is_new(control, cycle, level, back, end):
 def test_the_motion_of_linuxcnc():
     rows = motion("g43", "G83 X10 Y5 Z-20 R2 Q8", -5, "G98", more="")
     clear = 0.254  # mm, 0.01 inch
-    setup = Setup(settings={"undescribed": "accept", "peck_clearance": clear})
+    setup = Setup(settings={"peck_clearance": clear})
     run = mnclab.run("F120\nG0 Z-5\nG98 G83 X10 Y5 Z-20 R2 Q8\n", "g43", setup)
     heights = [2, 2, -6, 2, -6 + clear, -14, 2, -14 + clear, -20, 2]
     assert run.toolpath.motion[run.toolpath.motion.line == 3].end[:, 2] == pytest.approx(heights)

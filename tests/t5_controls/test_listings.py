@@ -24,7 +24,6 @@ SETUPS = {
     "g43": Setup(
         tools={2: Tool(radius=4, length=120), 5: Tool(radius=5, length=85)},
         correctors={2: (0, 0, 120), 7: (0, 0, 85)},
-        settings={"undescribed": "accept"},
     ),
     "mnc": Setup(
         tools={**MILLS, 7: Tool(radius=3, length=50, dl=0.2)},

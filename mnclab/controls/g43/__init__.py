@@ -1,21 +1,21 @@
 """A milling control of ISO words with G43, G44 and G49; of its manual there is one chapter.
 
-`lengths` holds what that chapter says, `language` the functions of its example and what its other titles must mean,
-`cycles` the drilling cycles of ISO controls.
+So it is the ISO mill that its users take it for: `language.lengths` holds what that chapter says, the other files of
+`language` the functions of its example and what ISO controls mean by the others, `cycles` their drilling cycles.
 """
 
 from __future__ import annotations
 
-from mnclab.controls.g43 import cycles, language, lengths
+from mnclab.controls.g43 import cycles, remarks
+from mnclab.controls.g43.language import lengths, motion, offsets, references, units
+from mnclab.controls.g43.settings import SETTINGS
 from mnclab.controls.g43.signs import SIGNS
-from mnclab.controls.g43.state import Memory, memory
+from mnclab.controls.g43.state import Memory
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.control import Control, FunctionTable
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
-from mnclab.machine.settings import Setting, one_of
-from mnclab.machine.setup import Datum
 from mnclab.machine.trial import TrialWords, in_block
 from mnclab.path.compensation import Compensation
 from mnclab.running.bulk import PlainWords
@@ -26,21 +26,9 @@ PHASES = (
     *("compensation", "dwell", "motion", "call", "end"),
 )
 
-SETTINGS = (
-    Setting("block_skip", False, "operator mode: blocks with / are passed over", "ISO 6983"),
-    one_of("undescribed", "codes of chapters that the source does not have", "other chapters",
-           warn="their ISO meaning, with a warning", accept="their ISO meaning, without a word", refuse="an alarm"),
-    Setting("peck_clearance", 1.0, "where G83 returns to above the last depth, and how far G73 lifts", "", {}, "mm", 0),
-    Setting("arc_tolerance", 0.01, "difference of the radii at start and end of an arc", "", {}, "mm", 0),
-    one_of("gouge", "what happens where a compensated tool does not fit",
-           refuse="an alarm, before the tool goes there", mark="it cuts anyway: marked rows and warnings"),
-    Setting("bulk", True, "obey long runs of plain blocks at once"),
-)  # fmt: skip
-
 _NO_SYNTAX = "the source does not say how this control writes it"
 REFUSED = (
     {code: f"not built: subprograms; {_NO_SYNTAX}" for code in ("M98", "M99", "G65", "G66", "G67")}
-    | {code: "not built: boring that needs an operator or a shifted tool" for code in ("G87", "G88")}
     | {code: "not built: only the first reference point is, G28" for code in ("G29", "G30")}
 )
 
@@ -48,13 +36,13 @@ MEANINGS = {
     **{f"G{n} {letter}": f"centre along {axis} from the start" for n in (2, 3) for letter, axis in zip("IJK", "XYZ")},
     **{f"G52 {axis}": f"origin's {axis} from the work offset" for axis in "XYZ"},
     **{f"G92 {axis}": f"new value of {axis} where the tool stands" for axis in "XYZ"},
-    "R": "radius", "G4 P": "milliseconds", "G4 X": "seconds",
+    "R": "radius", "G4 P": "the time, counted as the setting dwell_p says", "G4 X": "seconds",
 }  # fmt: skip
 
 
 def start(m: Machine) -> None:
     """G54 is active at the start; the tip hangs below the spindle by the length of the tool."""
-    m.select_datum(m.tables.datums.get(1, Datum()))
+    offsets.start(m)
     lengths.place(m, "tip")
 
 
@@ -65,30 +53,31 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
 
 #: What help lists, and hints name, before the others.
 FIRST = "G0 G1 G2 G3 G17 G18 G19 G90 G91 G54 G55 G56 G57 G58 G59 G53 G52 G92 G28 F S G94 G95 G61 G64"
-_ALL = language.FUNCTIONS | lengths.FUNCTIONS
+_ALL = motion.FUNCTIONS | offsets.FUNCTIONS | references.FUNCTIONS | units.FUNCTIONS | lengths.FUNCTIONS
 FUNCTIONS = FunctionTable({code: _ALL[code] for code in (*FIRST.split(), *_ALL)})
 
 CONTROL = Control(
     name="g43",
-    title="ISO milling control with G43, G44, G49",
+    title="ISO mill (control with G43, G44, G49)",
     suffixes=(".g43", ".iso"),
     read=reader("g43", comment=";"),
     functions=FUNCTIONS,
     cycles=cycles.CYCLES,
     phases=PHASES,
     settings=SETTINGS,
-    frames=("datum", "local", "length"),
+    frames=("length", "datum", "local"),
     memory=Memory,
     compensation=Compensation(approach="corner", change=True, look_ahead=True),
     start=start,
     signs=SIGNS,
     refused=REFUSED,
     meanings=MEANINGS,
-    together=language.together,
+    together=motion.together,
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
-        ready=lambda m: not lengths.pending(m) and {"G2", "G3"} <= memory(m).undescribed,
+        ready=lambda m: not lengths.pending(m) and remarks.silent(m, "G2", "G3"),
         helices=more_helices,
+        unit=lambda m: m.variable_unit,
     ),
     trial=trial_program,
 )

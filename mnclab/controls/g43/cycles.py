@@ -1,9 +1,10 @@
-"""Drilling and boring cycles: G73, G74, G76, G81 to G86, G89, until G80.
+"""Drilling and boring cycles: G73, G74, G76, G81 to G89, until G80.
 
 Of this chapter the source has only the title. The cycles are those that ISO controls have under these codes: over the
 hole, at rapid to level R, the work down to Z, and back to the initial level (G98) or to level R (G99). Under G91, R counts
 from the initial level and Z from level R. Z, R, F, and Q and P where they mean the same, hold from one cycle to the next
-until G80, and so does the initial level.
+until G80, and so does the initial level. K or L is the number of holes, each by X and Y of the block further under G91;
+without holes (K0), or in a block without X, Y, Z and R, the data are kept for later blocks.
 """
 
 from __future__ import annotations
@@ -11,23 +12,35 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-from mnclab.controls.g43.language import ISO, undescribed
-from mnclab.controls.g43.lengths import activate
+import numpy as np
+
+from mnclab.controls.g43.language.lengths import activate
+from mnclab.controls.g43.remarks import ISO, undescribed
 from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address import holes
 from mnclab.machine.control import Words
 from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param
 from mnclab.machine.machine import Machine
-from mnclab.machining.holes.drilling import bore_and_stop, drill, ream
+from mnclab.machining.holes.drilling import back_bore, back_to_axis, bore_and_stop, drill, ream
 from mnclab.machining.holes.tapping import tap
-from mnclab.machining.steps import Step
+from mnclab.machining.steps import RAPID, Each, Go, Step, moved
 
 CYCLES = CycleTable()
+MOST_HOLES = 9999  # of one block
 
 POSITION = "X Y Z R"
 
 dwell = partial(param, "P", "dwell at the bottom, milliseconds", "ms", default=0, at_least=0, modal=True, example=500)
+repeats = partial(
+    param, ("K", "L"), "number of holes", "", default=1, type="integer", at_least=0, at_most=MOST_HOLES, example=1
+)
 peck = partial(param, "Q", "depth of one peck", above=0, incremental=True, modal=True, example=5)
+
+
+def initial_level_alone(m: Machine) -> Iterator[tuple[str, str]]:
+    """A fault where a cycle that cannot stay at level R is to do so."""
+    if m.modal["return"] == "G99":
+        yield "", "always comes back to the initial level: write G98"
 
 
 class HoleCycle(holes.AtHole, Cycle):
@@ -35,6 +48,7 @@ class HoleCycle(holes.AtHole, Cycle):
 
     shares = True
     dwell: float = 0.0
+    repeats: float = 1
 
     @classmethod
     def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
@@ -43,7 +57,11 @@ class HoleCycle(holes.AtHole, Cycle):
         if not memory(m).machine_coordinates:
             activate(m, "XYZ")
         kept.setdefault("initial", m.to_machine(m.programmed)[2])
+        kept["step"] = (0.0, 0.0)
+        if given.keys().isdisjoint(("x", "y", "bottom", "r_level")):
+            values["repeats"] = 0
         if m.modal["dimension"] == "G91":
+            kept["step"] = values.get("x", 0.0), values.get("y", 0.0)
             for k, name in enumerate("xy"):
                 if name in given:
                     values[name] += m.programmed[k]
@@ -57,6 +75,21 @@ class HoleCycle(holes.AtHole, Cycle):
             kept.pop("depth", None)
         holes.take_feed(m, values, given)
         return values
+
+    def about(self, m: Machine) -> tuple[float, float]:
+        return super().about(m) if self.repeats == 1 else (0.0, 0.0)
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        if self.repeats == 1:
+            return self.hole(m)
+        assert m.position_cycle is not None
+        first, step = np.array(super().about(m)), np.array(m.position_cycle.extra["step"])
+        points = first + np.arange(self.repeats)[:, None] * step
+        return iter([Each(points, lambda x, y: moved(self.hole(m), x, y))])
+
+    def hole(self, m: Machine) -> Iterator[Step]:
+        """The way over a hole, the work, and the way up."""
+        return super().moves(m)
 
     @property
     def seconds(self) -> float:
@@ -72,6 +105,7 @@ class Drilling(HoleCycle):
     bottom: float = holes.bottom()
     r_level: float = holes.r_level()
     feed: float | None = holes.feed()
+    repeats: float = repeats()
 
     def work(self, m: Machine) -> Iterator[Step]:
         return drill(self.levels(), above=self.r_level, feed=None, reenter=0)
@@ -87,6 +121,7 @@ class Counterboring(HoleCycle):
     r_level: float = holes.r_level()
     dwell: float = dwell()
     feed: float | None = holes.feed()
+    repeats: float = repeats()
 
     def work(self, m: Machine) -> Iterator[Step]:
         return drill(self.levels(), above=self.r_level, feed=None, reenter=0, dwell_bottom=self.seconds)
@@ -102,6 +137,7 @@ class DeepHoleDrilling(HoleCycle):
     r_level: float = holes.r_level()
     peck: float = peck()
     feed: float | None = holes.feed()
+    repeats: float = repeats()
 
     def work(self, m: Machine) -> Iterator[Step]:
         return drill(self.levels(), above=self.r_level, feed=None, reenter=m.settings["peck_clearance"])
@@ -117,6 +153,7 @@ class ChipBreaking(HoleCycle):
     r_level: float = holes.r_level()
     peck: float = peck()
     feed: float | None = holes.feed()
+    repeats: float = repeats()
 
     def work(self, m: Machine) -> Iterator[Step]:
         levels, back = self.levels(), m.settings["peck_clearance"]
@@ -133,6 +170,7 @@ class RightTapping(HoleCycle):
     r_level: float = holes.r_level()
     dwell: float = dwell()
     feed: float | None = holes.feed()
+    repeats: float = repeats()
     needs = (holes.no_pitch,)
 
     def work(self, m: Machine) -> Iterator[Step]:
@@ -149,6 +187,7 @@ class LeftTapping(HoleCycle):
     r_level: float = holes.r_level()
     dwell: float = dwell()
     feed: float | None = holes.feed()
+    repeats: float = repeats()
     needs = (holes.no_pitch,)
 
     def work(self, m: Machine) -> Iterator[Step]:
@@ -170,6 +209,7 @@ class Reaming(HoleCycle):
     bottom: float = holes.bottom()
     r_level: float = holes.r_level()
     feed: float | None = holes.feed()
+    repeats: float = repeats()
 
     def work(self, m: Machine) -> Iterator[Step]:
         return ream(self.bottom, above=self.r_level, feed=None, retract=None)
@@ -185,6 +225,7 @@ class DwellReaming(HoleCycle):
     r_level: float = holes.r_level()
     dwell: float = dwell()
     feed: float | None = holes.feed()
+    repeats: float = repeats()
 
     def work(self, m: Machine) -> Iterator[Step]:
         return ream(self.bottom, above=self.r_level, feed=None, retract=None, dwell=self.seconds)
@@ -200,6 +241,7 @@ class StoppedBoring(HoleCycle):
     r_level: float = holes.r_level()
     dwell: float = dwell()
     feed: float | None = holes.feed()
+    repeats: float = repeats()
     needs = (holes.spindle_stands,)
 
     def work(self, m: Machine) -> Iterator[Step]:
@@ -217,8 +259,60 @@ class FineBoring(HoleCycle):
     shift: float = param("Q", "shift off the wall", above=0, incremental=True, modal=True, example=0.2)
     dwell: float = dwell()
     feed: float | None = holes.feed()
+    repeats: float = repeats()
     needs = (holes.spindle_stands,)
 
     def work(self, m: Machine) -> Iterator[Step]:
         shift, turning = self.shift, m.turning
         return bore_and_stop(self.bottom, above=self.r_level, dwell=self.seconds, turning=turning, shift=shift)
+
+
+@CYCLES("G87", "Back boring", runs="position", source=f"{ISO}; FANUC", triggers=POSITION)
+class BackBoring(HoleCycle):
+    """Off the axis by Q along -X with the spindle oriented, at rapid through the hole to level R, on the axis again up to Z.
+
+    R lies below Z. The tool always comes back to the initial level, the way it came.
+    """
+
+    x: float | None = holes.position("X", 20)
+    y: float | None = holes.position("Y", 10)
+    bottom: float = param("Z", "depth of the counterbore from below", modal=True, example=-10)
+    r_level: float = param("R", "level R, below the workpiece", modal=True, example=-25)
+    shift: float = param("Q", "shift off the axis", above=0, incremental=True, modal=True, example=0.2)
+    dwell: float = dwell()
+    feed: float | None = holes.feed()
+    repeats: float = repeats()
+    needs = (holes.spindle_stands, initial_level_alone)
+
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        if not self.bottom > self.r_level:
+            yield "bottom", f"must lie above level R, got Z {self.bottom:g} and R {self.r_level:g}"
+
+    def hole(self, m: Machine) -> Iterator[Step]:
+        yield Go("to the hole", x=0.0, y=0.0)
+        yield from self.work(m)
+
+    def work(self, m: Machine) -> Iterator[Step]:
+        above, turning = m.programmed[2], m.turning
+        yield from back_bore(
+            above=above, below=self.r_level, bottom=self.bottom, eccentricity=self.shift, direction=1, angle=0.0,
+            feed=None, travel=RAPID, dwell=self.seconds, turning=turning, leave=False,
+        )  # fmt: skip
+        yield from back_to_axis(above, turning)
+
+
+@CYCLES("G88", "Boring, spindle stop, out by hand", runs="position", source=f"{ISO}; FANUC", triggers=POSITION)
+class HandBoring(HoleCycle):
+    """In at feed, spindle stop, program stop: the operator draws the tool out, and the program goes on above the hole."""
+
+    x: float | None = holes.position("X", 20)
+    y: float | None = holes.position("Y", 10)
+    bottom: float = holes.bottom()
+    r_level: float = holes.r_level()
+    dwell: float = dwell()
+    feed: float | None = holes.feed()
+    repeats: float = repeats()
+    needs = (holes.spindle_stands,)
+
+    def work(self, m: Machine) -> Iterator[Step]:
+        return bore_and_stop(self.bottom, above=self.r_level, dwell=self.seconds, turning=m.turning, by_hand=True)

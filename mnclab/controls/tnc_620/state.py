@@ -37,7 +37,8 @@ class Memory:
     orientation: float | None = None  # where M19 and M20 stop the spindle, degrees
     probe_input: float | None = None
 
-    # datums and transformations
+    # datums, transformations, planes
+    pole_plane: str = "XY"  # of CC, whose axes `Machine.pole` counts along
     machine_datum: tuple[Word, Place] | None = None  # M91 or M92 of the block, and the machine coordinates it counts from
     preset: int | None = None  # the active row
     datum_table: DatumTable | None = None

@@ -22,7 +22,7 @@ ARGUMENTS = (("X", "x"), ("Y", "y"), ("Z", "z"))
 def coordinates(m: Machine, words: Words, absolute: bool) -> dict[str, Any]:
     """Targets of the axes that are written, as arguments of a verb (`x=`, …); increments count from the register."""
     found = {
-        name: value if type(value := words[axis][1]) is float else m.value(words[axis])
+        name: value if type(value := words[axis][1]) is float and m.variable_unit == 1 else m.length(words[axis])
         for axis, name in ARGUMENTS
         if axis in words
     }
@@ -66,10 +66,10 @@ def arc(m: Machine, words: Words, sense: int, absolute: bool, line_without_centr
             m.alarm(both, words["R"], hint="keep one of them")
         m.warn(f"{both}: {'R counts' if by_radius else 'I J K count'}", words["R"])
     head = words["R"] if by_radius else next(iter(offsets.values()))
-    radius = m.value(head) if by_radius else None
+    radius = m.length(head) if by_radius else None
     if radius == 0:
         m.alarm("R must not be 0", head)
-    centre = None if by_radius else {k: m.programmed[k] + m.value(word) for k, word in offsets.items()}
+    centre = None if by_radius else {k: m.programmed[k] + m.length(word) for k, word in offsets.items()}
     m.arc(**to, sense=sense, centre=centre, radius=radius, word=head, tolerance=tolerance)
 
 
@@ -107,7 +107,7 @@ def feed(m: Machine, words: Words) -> None:
     value = m.value(words["F"])
     if value <= 0:
         m.alarm(f"F (feed rate) must be greater than 0, got {value:g}", words["F"])
-    m.change("feed", value)
+    m.change("feed", value * m.variable_unit)
 
 
 def spindle_speed(m: Machine, words: Words) -> None:

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from mnclab.machining.depths import infeeds
-from mnclab.machining.steps import RAPID, Coolant, Go, Orient, Spin, Step, Wait
+from mnclab.machining.steps import RAPID, Coolant, Go, Orient, Pause, Spin, Step, Wait
 
 #: Where a tool is shifted to before it leaves a bore: unit steps along the two axes of the plane.
 DIRECTIONS = {1: (-1.0, 0.0), 2: (0.0, -1.0), 3: (1.0, 0.0), 4: (0.0, 1.0)}
@@ -104,9 +104,13 @@ def bore(
 
 
 def bore_and_stop(
-    bottom: float, *, above: float, turning: int, dwell: float = 0.0, shift: float = 0.0, feed: float | None = None
-) -> Iterator[Step]:
-    """Bore, stop the spindle, retract, spindle on; with a `shift` it stops oriented and the tool leaves the wall along -x."""
+    bottom: float, *, above: float, turning: int, dwell: float = 0.0, shift: float = 0.0, feed: float | None = None,
+    by_hand: bool = False,
+) -> Iterator[Step]:  # fmt: skip
+    """Bore, stop the spindle, retract, spindle on; with a `shift` it stops oriented and the tool leaves the wall along -x.
+
+    `by_hand`: the program stops before it retracts.
+    """
     yield Go("bore", bottom, feed)
     yield Wait("dwell at the bottom", dwell)
     if shift:
@@ -114,6 +118,8 @@ def bore_and_stop(
         yield Go("leave the wall", x=-shift, y=0.0)
     else:
         yield Spin("stop the spindle", 0)
+    if by_hand:
+        yield Pause("out by hand")
     yield Go("retract", above)
     if shift:
         yield Go("back to the axis", x=0.0, y=0.0)
@@ -122,12 +128,13 @@ def bore_and_stop(
 
 def back_bore(
     *, above: float, below: float, bottom: float, eccentricity: float, direction: int, angle: float,
-    feed: float | None, travel: float | None, dwell: float, turning: int, coolant: bool = False,
+    feed: float | None, travel: float | None, dwell: float, turning: int, coolant: bool = False, leave: bool = True,
 ) -> Iterator[Step]:  # fmt: skip
     """Counterbore from below: shifted through the hole, back to its axis, up to the `bottom` of the counterbore.
 
     Levels are those of the tip: `below` with the edge free under the workpiece. `travel` is the feed through the hole;
-    `coolant` goes on and off with the spindle. The tool ends at `above`, still shifted, the spindle stopped.
+    `coolant` goes on and off with the spindle. With `leave` the tool goes down out of the counterbore before it is shifted.
+    It ends at `above`, still shifted, the spindle stopped.
     """
     x, y = (eccentricity * step for step in DIRECTIONS[direction])
     oriented = Orient(f"orient the spindle to {angle:g} degrees", angle)
@@ -140,7 +147,8 @@ def back_bore(
         yield Coolant("coolant on", True)
     yield Go("counterbore", bottom, feed)
     yield Wait("dwell at the bottom", dwell)
-    yield Go("leave the counterbore", below, travel)
+    if leave:
+        yield Go("leave the counterbore", below, travel)
     yield oriented
     if coolant:
         yield Coolant("coolant off", False)

@@ -13,7 +13,6 @@ from mnclab import Kind, Setup, Tool
 
 RECORDS = json.loads((Path(__file__).parents[2] / "authorities" / "g43.json").read_text("utf-8"))["records"]
 KINDS = {"rapid": Kind.RAPID, "line": Kind.LINE}
-QUIET = {"undescribed": "accept"}
 
 
 def joined(rows):
@@ -30,7 +29,7 @@ def joined(rows):
 
 @pytest.mark.parametrize("record", RECORDS, ids=lambda record: record["name"])
 def test_against_linuxcnc(record):
-    run = mnclab.run(record["text"], "g43", Setup(settings=QUIET | {"peck_clearance": 0.254}))
+    run = mnclab.run(record["text"], "g43", Setup(settings={"dialect": "linuxcnc"}))
     assert run.ok and not run.alarms
     moves = run.toolpath.motion
     ours = joined(zip(moves.line.tolist(), moves.kind.tolist(), moves.end.round(9).tolist(), moves.feed.tolist()))
@@ -41,7 +40,7 @@ def test_against_linuxcnc(record):
     assert np.abs(np.array([row[2] for row in ours]) - [row[2] for row in theirs]).max() < 2e-9
     assert [row[3] for row in ours] == pytest.approx([row[3] for row in theirs])
 
-run = partial(running.run, control="g43", undescribed="accept")
+run = partial(running.run, control="g43")
 
 
 def test_a_hole_under_length_compensation():
@@ -72,7 +71,11 @@ def test_fine_boring_leaves_the_wall():
 
 
 def test_every_code_of_another_chapter_is_remarked_once():
-    found = mnclab.run("G91 X1\nG91 X1\nG2 X2 R1 F100\nX2 R1\n", "g43")
+    """If the setting wants it; by default a run says nothing of them, and the table of functions does."""
+    text = "G91 X1\nG91 X1\nG2 X2 R1 F100\nX2 R1\n"
+    assert not mnclab.run(text, "g43").alarms
+    assert mnclab.controls["g43"].functions["G2"].source == "ISO meaning"
+    found = mnclab.run(text, "g43", Setup(settings={"undescribed": "warn"}))
     assert [str(alarm).split(": ", 2)[2].split(":")[0] for alarm in found.alarms] == ["G91", "G2"]
 
 
@@ -107,11 +110,11 @@ def test_q_and_p_hold_where_they_mean_the_same():
     assert cuts.end[:, 2].tolist() == [-9, -20]
     path = run(f"{START}G99 G82 X10 Z-20 R2 P700\nG81 X30\nG89 X40 P800\nG82 X50\n").toolpath
     assert path[path.kind == Kind.DWELL].time.tolist() == [0.7, 0.8, 0.8]
-    alarm = mnclab.run(f"{START}G83 X10 Z-20 R2 Q5\nG76 X40\n", "g43", Setup(settings=QUIET)).alarms[-1]
+    alarm = mnclab.run(f"{START}G83 X10 Z-20 R2 Q5\nG76 X40\n", "g43").alarms[-1]
     assert alarm.message == "G76 Q (shift off the wall) is missing" and alarm.span.line == 4
 
 
 @pytest.mark.parametrize("between", ["G80", "G80 G0 X1"])
 def test_hole_data_end_with_g80(between):
-    alarm = mnclab.run(f"{START}G83 X10 Z-20 R2 Q5\n{between}\nG73 X40 Q8\n", "g43", Setup(settings=QUIET)).alarms[-1]
+    alarm = mnclab.run(f"{START}G83 X10 Z-20 R2 Q5\n{between}\nG73 X40 Q8\n", "g43").alarms[-1]
     assert (alarm.message, alarm.span.line) == ("G73 Z (bottom of the hole) is missing", 5)

@@ -9,7 +9,7 @@ import running
 import mnclab
 from mnclab import Tool
 
-run = partial(running.run, control="g43", undescribed="accept")
+run = partial(running.run, control="g43")
 
 
 def test_work_offsets_and_machine_coordinates():

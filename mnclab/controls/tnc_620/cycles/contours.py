@@ -24,7 +24,9 @@ from mnclab.machining.depths import infeeds
 from mnclab.machining.milling.residue import left_by
 from mnclab.machining.milling.rings import rings
 from mnclab.machining.steps import Along, Go, Record, Say, Step, Write
+from mnclab.path.kinds import Kind
 from mnclab.path.outline import outline
+from mnclab.path.toolpath import Toolpath
 from mnclab.running.binding import unit_of
 
 CYCLES = CycleTable()
@@ -111,7 +113,7 @@ def contour_region(m: Machine) -> Generator[Step, Any, Region]:
         assert recording is not None
         if not len(recording.path):
             m.alarm(f"label {label} describes no contour")
-        if (abs(recording.path.end[:, 2] - recording.start[2]) > 1e-9).any():
+        if (abs(recording.path.end[:, 2] - recording.start[2]) > 1e-9).any() or upright(recording.path):
             m.alarm(f"the contour of label {label} moves along the tool axis")
         if not recording.side:
             m.alarm(f"the contour of label {label} has no RL or RR: pocket or island cannot be told apart")
@@ -126,6 +128,11 @@ def contour_region(m: Machine) -> Generator[Step, Any, Region]:
         return united(pockets, islands)
     except ValueError as error:
         m.alarm(f"the contour is no area: {error}")
+
+
+def upright(path: Toolpath) -> bool:
+    """Whether there are arcs outside the plane XY."""
+    return bool(((path.kind == Kind.ARC) & (abs(path.axis[:, 2]) < 0.5)).any())
 
 
 def united(pockets: Sequence[tuple[Contour, tuple[float, float]]], islands: Sequence[Contour]) -> Region:

@@ -14,7 +14,7 @@ import numpy as np
 
 from mnclab.controls.tnc_620.language.checks import above_zero
 from mnclab.controls.tnc_620.language.motion import SIDED, SIDES, coordinates, feed, heading, refuse_rapid, scaled, side
-from mnclab.controls.tnc_620.language.pole import polar_point
+from mnclab.controls.tnc_620.language.pole import polar_point, pole
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import INF, Machine
@@ -86,7 +86,10 @@ def point(m: Machine, words: Words, meaning: str) -> dict[str, float]:
     """Where an approach ends, or a departure of the form LCT; z where it is written."""
     to = coordinates(m, words)
     if words.code.split()[1].startswith("P"):
-        to["x"], to["y"] = polar_point(m, words)
+        plane, _ = pole(m, words)
+        if plane != m.plane:
+            m.alarm(f"{words.code}: the pole CC lies in {plane}, approaches and departures in {m.plane}")
+        to |= polar_point(m, words)
     elif "x" not in to or "y" not in to:
         m.alarm(f"{words.code} needs X and Y of {meaning}")
     return to

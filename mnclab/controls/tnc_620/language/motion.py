@@ -9,8 +9,8 @@ from mnclab.controls.tnc_620.cycles.chain import to_angle, to_rotary
 from mnclab.controls.tnc_620.language.checks import counted, one_of
 from mnclab.controls.tnc_620.language.feeds import FEED_WORDS, feed
 from mnclab.controls.tnc_620.language.machine_datum import machine_target
-from mnclab.controls.tnc_620.language.pole import angle_here, polar_point, pole
-from mnclab.controls.tnc_620.state import memory
+from mnclab.controls.tnc_620.language.pole import angle_here, plane_of, polar_point, pole, within_plane
+from mnclab.controls.tnc_620.state import Place, memory
 from mnclab.geometry.arcs import tangent_arc_of_one
 from mnclab.machine.control import Function, FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
@@ -60,7 +60,7 @@ def line(m: Machine, words: Words) -> None:
         if to:
             m.alarm(f"{polar[0].address} and coordinates of axes stand in one block", polar[0], hint="write LP PR… PA…")
         m.warn("L with polar coordinates is read as LP", polar[0])
-        to["x"], to["y"] = polar_point(m, words)
+        to |= polar_point(m, words)
     if any(axis in words for axis in AXES_OF_ROTATION) and (turned := rotary_angles(m, words)) != angles(m):
         target = m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z")))
         if math.dist(target, m.tip) <= 1e-9:  # a frame rounds
@@ -81,7 +81,7 @@ def polar_line(m: Machine, words: Words) -> None:
     """To a point given by its distance and angle from the pole CC."""
     f = feed(m, words)
     side(m, words, begins=True)
-    m.line(*polar_point(m, words), f=f)
+    m.line(**polar_point(m, words), f=f)
 
 
 def rotary_angles(m: Machine, words: Words) -> Angles:
@@ -108,67 +108,79 @@ def turning_sense(what: Function, word: Word, _: int) -> str:
     return f"sense of rotation ({sense})" if sense and word.address == "DR" else ""
 
 
-@FUNCTIONS("C", "Circular path around CC", takes=f"X Y DR {SIDED}", source="8.3, example")
+@FUNCTIONS("C", "Circular path around CC", takes=f"X Y Z DR {SIDED}", source="8.3, example")
 def circle(m: Machine, words: Words) -> None:
-    """An arc around the centre CC; an end equal to the start is a full circle."""
+    """An arc around the centre CC, in its plane; an end equal to the start is a full circle."""
     f = feed(m, words)
     side(m, words, begins=False)
-    about, turning = pole(m, words, "circle centre"), sense(m, words)
+    (plane, about), turning = pole(m, words, "circle centre"), sense(m, words)
     refuse_rapid(m, words)
-    m.arc(**coordinates(m, words, "XY"), sense=turning, centre=dict(enumerate(about)), f=f, tolerance=TOLERANCE)
+    if outside := next((words[axis] for axis in AXES if axis in words and axis not in plane), None):
+        m.alarm(f"C {outside}: the circle centre CC lies in {plane}", outside, f"write CC {outside.address}… before it")
+    centre = dict(zip(PLANES[plane], about, strict=False))
+    with within_plane(m, words, plane):
+        m.arc(**coordinates(m, words, plane), sense=turning, centre=centre, f=f, tolerance=TOLERANCE)
 
 
-@FUNCTIONS("CP", "Circular path, polar; helix", takes=f"PA Z DR {SIDED}", source="10.1, example")
+@FUNCTIONS("CP", "Circular path, polar; helix", takes=f"PA X Y Z DR {SIDED}", source="10.1, example")
 def polar_circle(m: Machine, words: Words) -> None:
-    """Around the pole CC on the present radius: to the angle PA, or by the angle IPA of any number of turns."""
+    """Around the pole CC on the present radius: to the angle PA, or by the angle IPA of any number of turns.
+
+    The axis across the plane of the pole (Z, where that is XY) makes a helix.
+    """
     f = feed(m, words)
     side(m, words, begins=False)
-    turning, (u, v) = sense(m, words), pole(m, words)
+    turning, (plane, about) = sense(m, words), pole(m, words)
     refuse_rapid(m, words)
+    if inside := next((words[axis] for axis in AXES if axis in words and axis in plane), None):
+        across = AXES[PLANES[plane][2]]
+        m.alarm(f"CP {inside}: the pole lies in {plane}, a helix has its end in {across}", inside)
     if "PA" not in words:
         m.alarm("CP needs PA (polar angle of the end) or IPA (angle travelled)")
     word, here = words["PA"], angle_here(m, words)
-    value, level = m.value(word), coordinates(m, words, "Z").get("z")
+    value, level = m.value(word), next(iter(coordinates(m, words).values()), None)
     if not word.incremental:
         away = turning * (math.radians(value) - here) % math.tau
-        travel = away if SAME < away < math.tau - SAME else math.tau
-        m.turn((u, v), turning * travel, level, f)
-        return
-    if value == 0:
+        travel = turning * (away if SAME < away < math.tau - SAME else math.tau)
+    elif value == 0:
         m.alarm("CP IPA (angle travelled) must not be 0", word)
-    if (value > 0) != (turning > 0):
+    elif (value > 0) != (turning > 0):
         m.alarm(f"CP IPA{value:+g} and DR{'+' if turning > 0 else '-'} turn in opposite senses", word)
-    m.turn((u, v), math.radians(value), level, f)
+    else:
+        travel = math.radians(value)
+    with within_plane(m, words, plane):
+        m.turn(about, travel, level, f)
 
 
-@FUNCTIONS("CR", "Circular path with radius", takes=f"X Y R DR {SIDED}", source="9.2")
+@FUNCTIONS("CR", "Circular path with radius", takes=f"X Y Z R DR {SIDED}", source="9.2")
 def circle_by_radius(m: Machine, words: Words) -> None:
-    """An arc of a radius: up to half a turn, with a negative radius more."""
+    """An arc of a radius, in the plane of its axes: up to half a turn, with a negative radius more."""
     f = feed(m, words)
     side(m, words, begins=False)
-    turning, to = sense(m, words), coordinates(m, words, "XY")
+    turning, plane, to = sense(m, words), plane_of(m, words), coordinates(m, words)
     refuse_rapid(m, words)
     if "R" not in words:
         m.alarm("CR needs the radius R")
     radius = m.value(words["R"])
     if radius == 0:
         m.alarm("CR R (radius) must not be 0", words["R"])
-    x, y, _ = m.target(to.get("x"), to.get("y"), None)
-    if abs(x - m.programmed[0]) < 1e-3 and abs(y - m.programmed[1]) < 1e-3:
+    if all(abs(one - other) < 1e-3 for one, other in zip(end(m, to), m.programmed, strict=True)):
         m.alarm("CR needs an end other than its start", words["R"], hint="a full circle is written with CC and C")
-    m.arc(**to, sense=turning, radius=radius, f=f, word=words["R"])
+    with within_plane(m, words, plane):
+        m.arc(**to, sense=turning, radius=radius, f=f, word=words["R"])
 
 
-@FUNCTIONS("CT", "Circular path with tangential connection", takes=f"X Y {SIDED}", source="8.13, example")
+@FUNCTIONS("CT", "Circular path with tangential connection", takes=f"X Y Z {SIDED}", source="8.13, example")
 def tangential_circle(m: Machine, words: Words) -> None:
-    """An arc that goes on where the element before it points; straight ahead it is a line."""
+    """An arc that goes on where the element before it points, in the plane of its axes; straight ahead it is a line."""
     f = feed(m, words)
     side(m, words, begins=False)
     refuse_rapid(m, words)
-    to = coordinates(m, words, "XY")
+    plane, to = plane_of(m, words), coordinates(m, words)
     if not to:
-        m.alarm("CT needs X or Y of its end")
-    tangent_arc(m, words, m.target(to.get("x"), to.get("y"), None)[:2], f)
+        m.alarm(f"CT needs {m.plane[0]} or {m.plane[1]} of its end")
+    with within_plane(m, words, plane):
+        tangent_arc(m, words, to, f)
 
 
 @FUNCTIONS("CTP", "Tangential arc, polar", takes=f"PR PA {SIDED}", source="Klartext, not described")
@@ -177,36 +189,48 @@ def polar_tangent_arc(m: Machine, words: Words) -> None:
     f = feed(m, words)
     side(m, words, begins=False)
     refuse_rapid(m, words)
-    tangent_arc(m, words, polar_point(m, words), f)
+    plane, _ = pole(m, words)
+    with within_plane(m, words, plane):
+        tangent_arc(m, words, polar_point(m, words), f)
 
 
-def tangent_arc(m: Machine, words: Words, to: tuple[float, float], f: float | None) -> None:
+def end(m: Machine, to: dict[str, float]) -> Place:
+    """The whole point of a target."""
+    return m.target(to.get("x"), to.get("y"), to.get("z"))
+
+
+def tangent_arc(m: Machine, words: Words, to: dict[str, float], f: float | None) -> None:
     """From where the tool stands, tangent to the element before, to a point of the plane."""
-    start, travel = m.programmed[:2], heading(m, words)
-    if math.dist(start, to) < 1e-3:
+    first, second, _ = PLANES[m.plane]
+    travel, stop = heading(m, words), end(m, to)
+    one, other = ((point[first], point[second]) for point in (m.programmed, stop))
+    if math.dist(one, other) < 1e-3:
         m.alarm(f"{words.code} needs an end other than its start")
-    found = tangent_arc_of_one(start, to, travel)
+    found = tangent_arc_of_one(one, other, travel)
     if found is None:
         m.alarm(f"{words.code}: the end lies straight behind the element before, no tangential arc leads there")
-    centre, turning = found
+    (u, v), turning = found
     if turning == 0:
-        m.line(*to, f=f)
+        m.line(*stop, f=f)
     else:
-        m.arc(*to, sense=turning, centre=dict(enumerate(centre)), f=f, tolerance=TOLERANCE)
+        m.arc(*stop, sense=turning, centre={first: u, second: v}, f=f, tolerance=TOLERANCE)
 
 
 def heading(m: Machine, words: Words) -> tuple[float, float]:
     """The unit tangent at the end of the path element directly before, in program coordinates of the plane."""
+    first, second, normal = PLANES[m.plane]
     before, travel = m.recorder.last(), m.heading()
     if before is None or travel is None:
         m.alarm(f"{words.code} needs a path element directly before it", hint="whose end gives the direction")
-    if abs(travel[PLANES[m.plane][2]]) > 1e-9:
-        m.alarm(f"{words.code} needs a path element in the working plane directly before it")
     if isinstance(before[1], Corner):
         word = "RND" if before[1].label == "rounding" else "CHF"
         m.alarm(f"{words.code} cannot follow {word}: its direction is that of the element before")
     here, on = m.to_program(m.tip), m.to_program(a + b for a, b in zip(m.tip, travel, strict=True))
-    u, v = on[0] - here[0], on[1] - here[1]
+    way = [b - a for a, b in zip(here, on, strict=True)]
+    if abs(way[normal]) > 1e-9:
+        plane = "the working plane" if m.plane == "XY" else f"the plane {m.plane}"
+        m.alarm(f"{words.code} needs a path element in {plane} directly before it")
+    u, v = way[first], way[second]
     length = math.hypot(u, v)
     return u / length, v / length
 

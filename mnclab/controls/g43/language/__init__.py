@@ -1,0 +1,1 @@
+"""The functions of the ISO mill, by what they do."""

@@ -1,0 +1,1 @@
+"""How programs of the ISO mill are written."""
