@@ -6,8 +6,6 @@ functions, `cycles` holds the fixed cycles by chapter of the manual, `later` nam
 
 from __future__ import annotations
 
-import re
-
 from mnclab.controls.tnc_620 import later
 from mnclab.controls.tnc_620.cycles import (
     boring,
@@ -63,6 +61,7 @@ from mnclab.controls.tnc_620.language import (
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
+from mnclab.controls.tnc_620.signs import SIGNS
 from mnclab.controls.tnc_620.state import Memory
 from mnclab.controls.tnc_620.tables import datum_tables
 from mnclab.controls.tnc_620.trial import trial_program
@@ -149,15 +148,9 @@ MEANINGS = {
     **{f"PATTERN DEF {address}": meaning for address, meaning in pattern_definitions.MEANINGS.items()},
 }  # fmt: skip
 
-_KLARTEXT = re.compile(
-    r"(?im)^[ \t\ufeff]*(?:\d+[ \t]*)?(BEGIN[ \t]+PGM|TOOL[ \t]+CALL|CYCL[ \t]+DEF|CALL[ \t]+LBL|L[ \t]+I?[XYZ])"
-)
-
-_DIN_ISO = re.compile(r"(?im)^[ \t\ufeff]*%[^\r\n;*]*?[ \t]G[ \t]*7[01]\b")
-
 CONTROL = Control(
     name="tnc-620", title="HEIDENHAIN TNC 620 (2018)", suffixes=(".h", ".i"),
-    read=reader.read, looks_like=lambda text: _KLARTEXT.search(text) is not None or _DIN_ISO.search(text) is not None,
+    read=reader.read, signs=SIGNS,
     functions=FUNCTIONS, cycles=CYCLES, names=ISO_NAMES, refused=later.REFUSED, together=later.strange_parameters(CYCLES),
     phases=PHASES, codes=("M",), word_functions=False, meanings=MEANINGS, told=motion.turning_sense, trial=trial_program,
     settings=SETTINGS, memory=Memory, start=program.start, frames=("preset",),
