@@ -22,7 +22,7 @@ from mnclab.text.expression import Expression
 from mnclab.text.precedence import Token
 
 FUNCTION = re.compile(r"D[ \t]*(\d{1,3})(?![\d.,])[ \t]*:?", FLAGS)
-_P = {number: re.compile(rf"[ \t]*P[ \t]*0?{number}(?![\d.,])", FLAGS) for number in (1, 2, 3)}
+_P = {number: re.compile(rf"[ \t]*P[ \t]*(?:0{number}|{number}(?![\d.,]))", FLAGS) for number in (1, 2, 3)}
 _EQUALS = re.compile(r"[ \t]*=", FLAGS)
 _CONVERSATIONAL = re.compile(r"SYSREAD|SYSWRITE|ERROR|IF(?![A-Z])", FLAGS)
 

@@ -30,6 +30,8 @@ def said(alarm: Alarm, program: Program) -> Alarm:
         return alarm
     name, message = name_of(block), alarm.message
     message = re.sub(rf"(?<![\w.]){re.escape(block.keyword)}(?![\w.])", lambda _: name, message) if name else message
+    if re.fullmatch(r"G\d{3,}", name):  # whose words have the same letters
+        return alarm.changed(message=message, args=(message,))
     read = f"the block is read as {' '.join([block.keyword, *map(str, block.words)])}"
     return alarm.changed(message=message, hint=f"{alarm.hint}; {read}" if alarm.hint else read, args=(message,))
 

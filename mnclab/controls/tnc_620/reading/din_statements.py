@@ -61,8 +61,9 @@ REFUSED = {
     70: "the unit, which stands in the first block: %NAME G70", 71: "the unit, which stands in the first block: %NAME G71",
 }  # fmt: skip
 _L = re.compile(r"[ \t]*L", FLAGS)
-_CALLED = re.compile(r"(\d{1,9})(?![\d.])(?:[ \t]*,[ \t]*(\d{1,9}))?", FLAGS)
-_AT_PATTERN = re.compile(r"[ \t]*PAT(?![A-Z])", FLAGS)
+_CALLED = re.compile(r"(\d{1,9})(?![\d.])", FLAGS)
+_REPEATS = re.compile(r"[ \t]*,[ \t]*(\d{1,9})(?![\d.])", FLAGS)
+_AT_PATTERN = re.compile(r"[ \t]*PAT", FLAGS)
 _NAME_OF_PROGRAM = re.compile(r"[ \t]*(?:P[ \t]*0?1(?!\d)|PGM(?![A-Z]))?[ \t]*:?[ \t]*%?", FLAGS)
 
 
@@ -115,10 +116,10 @@ def call_label(cursor: Cursor) -> None:
             got = found.group(1)
             raise Fault(f"a label must be a number from 0 to 65535, got {got}", begin, len(got))
         cursor.builder.word("label", float(found.group(1)), begin, len(found.group(1)))
-        if found.group(2) and int(found.group(2)):
-            cursor.builder.word("REP", float(found.group(2)), found.start(2), len(found.group(2)))
     else:
         labels.label(cursor, parameter=True)
+    if (found := cursor.match(_REPEATS)) and int(found.group(1)):
+        cursor.builder.word("REP", float(found.group(1)), found.start(1), len(found.group(1)))
 
 
 def called(cursor: Cursor) -> str:

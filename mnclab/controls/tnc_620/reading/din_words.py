@@ -19,8 +19,8 @@ from mnclab.text.program_builder import ProgramBuilder
 MEASURED = frozenset("XYZUVWABCIJKRH")
 
 _G = re.compile(r"G[ \t]*(\d{1,4})(?![\d.,])[ \t]*:?", FLAGS)
-_FEED = re.compile(r"F[ \t]*(MAX|AUTO)(?![A-Z])", FLAGS)
-_P = re.compile(r"P[ \t]*(\d{1,2})(?![\d.,])", FLAGS)
+_FEED = re.compile(r"F[ \t]*(MAX|AUTO)", FLAGS)
+_P = re.compile(r"P[ \t]*(\d\d(?=[ \t]*[-+\dQ])|\d(?=[ \t]+[-+\dQ]|[-+Q]))", FLAGS)
 _LETTERS = re.compile(r"DR2(?=[ \t]*[+-])|DL|DR|FU|FZ|[A-Z]", FLAGS)
 _TEXT_PARAMETER = re.compile(r"[ \t]*QS[ \t]?(\d{1,4})(?!\d)", FLAGS)
 _KNOWN = MEASURED | set("FSTLM") | {"DL", "DR", "DR2", "FU", "FZ"}
