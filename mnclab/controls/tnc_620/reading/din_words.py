@@ -95,6 +95,8 @@ def _word(cursor: Cursor, begin: int) -> tuple[str, Any]:
 
 def _strange(cursor: Cursor, letter: str) -> Fault:
     """The fault at what is no word of these programs."""
+    if cursor.text[cursor.at] == "*":
+        return Fault("* ends a block: no words may stand behind it", cursor.at, hint="the next block begins with N")
     if letter in _KNOWN:
         return Fault(f"{letter} needs a number", cursor.at, len(letter))
     if not letter:
