@@ -28,6 +28,9 @@ SIGNS = (
         r"(?<![A-Z])G50[ \t]*S|(?<![A-Z])G(?:7[0-3][ \t]*[PUW]|28[ \t]*[UW])|(?<![A-Z])T\d{4}(?!\d)(?![ \t]*M)|(?<![A-Z])G96\b",
         -4, "words of lathes",
     ),
-    sign(r"\A(?![\s\S]*Y[ \t]*[-+.\d#\[])(?=[\s\S]*X[ \t]*[-+.\d])(?=[\s\S]*Z[ \t]*[-+.\d])", -1, "positions of X and Z, and no Y"),
+    sign(
+        r"\A(?![\s\S]*Y[ \t]*[-+.\d#\[])(?=[\s\S]*X[ \t]*[-+.\d])(?=[\s\S]*Z[ \t]*[-+.\d])",
+        -1, "positions of X and Z, and no Y",
+    ),
     sign(r"'|[~@][ \t]*$|^[^\n/;]*\*[ \t]*$", -6, "marks of other controls"),
 )
