@@ -6,8 +6,6 @@ So it is the ISO mill that its users take it for: `language.lengths` holds what 
 
 from __future__ import annotations
 
-import re
-
 from mnclab.controls.g43 import cycles
 from mnclab.controls.g43.language import (
     auxiliary,
@@ -25,6 +23,7 @@ from mnclab.controls.g43.language import (
 from mnclab.controls.g43.meanings import MEANINGS
 from mnclab.controls.g43.refused import REFUSED
 from mnclab.controls.g43.settings import SETTINGS
+from mnclab.controls.g43.signs import SIGNS
 from mnclab.controls.g43.state import Memory
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
@@ -43,8 +42,6 @@ PHASES = (
 
 _NO_SYNTAX = "the source does not say how this control writes it"
 SUBPROGRAMS = {code: f"not built: subprograms; {_NO_SYNTAX}" for code in ("M98", "M99", "G65", "G66", "G67")}
-
-_LENGTHS = re.compile(r"^[^;\n]*G[ \t]*4[349](?!\d)", re.I | re.M)
 
 
 def start(m: Machine) -> None:
@@ -77,7 +74,7 @@ CONTROL = Control(
     memory=Memory,
     compensation=Compensation(approach="corner", change=True, look_ahead=True, rapid=True),
     start=start,
-    looks_like=lambda text: _LENGTHS.search(text) is not None,
+    signs=SIGNS,
     refused=REFUSED | SUBPROGRAMS,
     meanings=MEANINGS,
     together=motion.together,

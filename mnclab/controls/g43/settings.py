@@ -17,11 +17,15 @@ REFERENCES = {2: "second", 3: "third", 4: "fourth"}  # points of G30
 #: What a dialect chooses; Fanuc's are the defaults.
 DIALECTS: dict[str, dict[str, Any]] = {
     "fanuc": {},
-    "haas": {"dwell_p": "point", "g51_factor": "as_written", "g10_p0": "refuse", "d_measures": "diameter",
-             "g53_motion": "modal", "g53_increment": "absolute"},
-    "linuxcnc": {"dwell_p": "seconds", "peck_clearance": 0.254, "arc_by_both": "refuse", "length_acts": "at_once",
-                 "g52_g92": "one", "g53_motion": "modal", "g53_increment": "absolute", "g10_p0": "active",
-                 "g10_l20": "position", "g10_increment": "replaces", "g51_factor": "as_written"},
+    "haas": {
+        "dwell_p": "point", "g51_factor": "as_written", "g10_p0": "refuse", "d_measures": "diameter",
+        "g53_motion": "modal", "g53_increment": "absolute",
+    },
+    "linuxcnc": {
+        "dwell_p": "seconds", "peck_clearance": 0.254, "below_r": "straight", "arc_by_both": "refuse",
+        "length_acts": "at_once", "g52_g92": "one", "g53_motion": "modal", "g53_increment": "absolute",
+        "g10_p0": "active", "g10_l20": "position", "g10_increment": "replaces", "g51_factor": "as_written",
+    },
 }  # fmt: skip
 
 PROGRAM = (
@@ -80,8 +84,9 @@ COORDINATES = (
 HOLES = (
     one_of("motion_in_cycle", "what G0, G1, G2 and G3 do while a cycle is active", ALL,
            ends="they end the cycle", waits="they wait until its end, and each position is a hole"),
-    one_of("below_r", "which way a cycle begins from below level R", LINUXCNC,
-           up="first up to level R, then over the hole", across="first over the hole, then up to level R (Fanuc)"),
+    one_of("below_r", "which way a cycle begins from below level R", "on the safe side",
+           up="first up to level R, then over the hole", across="first over the hole, then up to level R (Fanuc)",
+           straight="to level R first if the initial level is below it, else straight to R over the hole (LinuxCNC)"),
 )  # fmt: skip
 
 SETTINGS = PROGRAM + MOTION + COORDINATES + TECHNOLOGY + HOLES

@@ -21,7 +21,10 @@ from mnclab.text.strings import TextFormula
 
 CYCLES = CycleTable()
 SETTINGS = (
-    Setting("clock", 0.0, "the time that %time engraves, from 1970 in UTC; 0: now", "12.6", unit="s", at_least=0),
+    Setting(
+        "clock", 0.0, "the time, from 1970 in UTC; 0: for %time that of the computer, for FN 16, FN 18 and SYSSTR none", "12.6",
+        unit="s", at_least=0,
+    ),
     Setting("counter", 0, "what %count engraves", "12.6", at_least=0),
 )
 

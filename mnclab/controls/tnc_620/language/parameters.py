@@ -9,8 +9,6 @@ import math
 import re
 from collections.abc import Callable
 
-import numpy as np
-
 from mnclab.controls.tnc_620.language.checks import whole
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
@@ -118,42 +116,3 @@ def start(m: Machine) -> None:
             m.alarm(f"Setup(variables=…): {name} cannot be {value!r}", hint="numbers in Q and QR, texts in QS")
         if name not in PREASSIGNED and not name.startswith("QL"):
             m.variables[name] = value if isinstance(value, str) else float(value)
-
-
-#: ID20, by NR.
-SYSTEM: dict[float, Callable[[Machine], float | None]] = {
-    1: lambda m: float(m.tool.number),
-    3: PREASSIGNED["Q109"],
-    4: lambda m: m.speed,
-    5: spindle_status,
-    8: PREASSIGNED["Q111"],
-    9: lambda m: m.feed,
-}
-
-
-@FUNCTIONS("FN 18,", "Reading system data", takes="target ID NR IDX", source="Klartext, not described")
-def read_system(m: Machine, words: Words) -> None:
-    """ID20: tool, axis, speed, spindle, coolant, feed (NR 1, 3, 4, 5, 8, 9); ID210 NR4: the scale of axis IDX."""
-    identity, number = m.value(words["ID"]), m.value(words["NR"])
-    index = m.value(words["IDX"]) if "IDX" in words else 1.0
-    value = None
-    if identity == 20 and number in SYSTEM:
-        value = SYSTEM[number](m)
-    elif (identity, number) == (210, 4) and index in (1, 2, 3):  # how much longer the machine's way is along X, Y, Z
-        value = float(np.linalg.norm(m.frames.matrix[:3, int(index) - 1]))
-    m.variables.state_read = m.step
-    if value is None:
-        m.alarm(
-            f"FN 18: SYSREAD ID{identity:g} NR{number:g} IDX{index:g} is not built yet, or has no value", words["ID"]
-        )
-    give(m, words["target"], value)
-
-
-@FUNCTIONS("FN 17,", "Writing system data", takes="ID NR IDX value", source="17.2")
-def write_system(m: Machine, words: Words) -> None:
-    """ID990 NR6: the input of the probe for cycle 3; the probe here answers at either."""
-    identity, number = m.value(words["ID"]), m.value(words["NR"])
-    if (identity, number) != (990, 6) or "IDX" in words:
-        m.alarm(f"FN 17: SYSWRITE ID{identity:g} NR{number:g} is not built yet", words["ID"], "ID990 NR6 is")
-    memory(m).probe_input = m.value(words["value"])
-    m.log("probe input", memory(m).probe_input)

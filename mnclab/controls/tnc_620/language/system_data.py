@@ -1,0 +1,288 @@
+"""System data: what FN 18 reads of the control by group (ID), number (NR) and index (IDX).
+
+The rows are those of the lists that public manuals print, as far as the machine here knows them: "System data" of the
+Klartext manuals of TNC 620 and TNC 7; ID10 NR1 and NR2, ID503 and what an index left out means: iTNC 530, technical manual
+9.5.4. Lengths are mm and feeds mm/min whatever the unit of the program, angles degrees.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Container
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from mnclab.controls.tnc_620.cycles import chain
+from mnclab.controls.tnc_620.language.parameters import PREASSIGNED
+from mnclab.controls.tnc_620.state import active_preset, memory
+from mnclab.controls.tnc_620.tables.datum_tables import row_of
+from mnclab.machine.machine import Machine
+from mnclab.machine.settings import Setting
+from mnclab.machine.setup import Datum
+from mnclab.path.tool import Tool
+
+SETTINGS = (
+    Setting("execution", True, "a program that asks (ID992 NR16) is executed, and not simulated", "System data, ID992"),
+)
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a program asks for; `index` is nan where it names none."""
+
+    group: float
+    number: float
+    index: float
+
+    def __str__(self) -> str:
+        index = "" if math.isnan(self.index) else f" IDX{self.index:g}"
+        return f"ID{self.group:g} NR{self.number:g}{index}"
+
+
+class Missing(Exception):
+    """Why there is no value."""
+
+
+Read = Callable[[Machine, Asked], float | None]
+
+
+class Row(NamedTuple):
+    """One of the system data: what it is, how it is read, its indices (None: any), and the one that is meant without."""
+
+    title: str
+    read: Read
+    indices: Container[float] | None = ()
+    default: float = math.nan
+
+
+# --- reading ----------------------------------------------------------------------------------------------------------
+
+
+def named(m: Machine, asked: Asked) -> Tool:
+    """The row of the tool table that the index names."""
+    for number, tool in m.tables.tools.items():
+        if number == asked.index:
+            return tool
+    raise Missing(f"the tool table has no row {asked.index:g}")
+
+
+def active(m: Machine, asked: Asked) -> Tool:
+    """The row of the tool in the spindle: without the deltas of TOOL CALL."""
+    return m.tables.tools.get(m.tool.number, m.tool)
+
+
+def index_of(tool: Tool) -> float:
+    """Of the tool 5.2 it is 2."""
+    return float(round(tool.number % 1 * 10))
+
+
+#: Columns of the tool table by NR of ID50, ID950.
+COLUMNS = {
+    1: ("length", "L"), 2: ("radius", "R"), 3: ("corner", "R2"), 4: ("dl", "DL"), 5: ("dr", "DR"),
+    13: ("cutting_length", "LCUTS"), 14: ("plunge_angle", "ANGLE"), 15: ("teeth", "CUT"), 32: ("angle", "T-ANGLE"),
+    33: ("pitch", "PITCH"), 40: ("pitch", "PITCH"),
+}  # fmt: skip
+#: Numbers of the kinds in the column TYPE.
+TYPES = {
+    "mill": 0, "drill": 1, "tap": 2, "reamer": 3, "countersink": 5, "face mill": 14, "thread mill": 15, "probe": 21,
+}  # fmt: skip
+
+
+def column(name: str, tool: Callable[[Machine, Asked], Tool]) -> Read:
+    return lambda m, asked: float(getattr(tool(m, asked), name))
+
+
+def kind(tool: Callable[[Machine, Asked], Tool]) -> Read:
+    return lambda m, asked: TYPES.get(tool(m, asked).kind)
+
+
+def with_deltas(name: str, delta: str) -> Read:
+    """1: of the tool table, 2: with its delta, 3: with that of TOOL CALL, too."""
+
+    def read(m: Machine, asked: Asked) -> float:
+        tool = m.tool if asked.index == 3 else active(m, asked)
+        return float(getattr(tool, name) + (getattr(tool, delta) if delta and asked.index > 1 else 0.0))
+
+    return read
+
+
+def parameter(name: str) -> Read:
+    """A Q parameter of the active machining cycle: lengths and feeds in mm."""
+
+    def read(m: Machine, asked: Asked) -> float:
+        if m.cycle is None:
+            raise Missing("no machining cycle is defined")
+        cycle = m.cycle.cycle
+        if not any(name in (p.address, *p.aliases) for p in cycle.parameters()):
+            raise Missing(f"{cycle.code} has no {name}")
+        if not isinstance(value := m.variables.get(name), float):
+            raise Missing(f"{name} is {value}")
+        return value * m.variable_unit
+
+    return read
+
+
+def kept(name: str) -> Read:
+    """What the control keeps in a Q parameter, too."""
+    return lambda m, asked: PREASSIGNED[name](m)
+
+
+def number_of_cycle(m: Machine, asked: Asked) -> float:
+    if m.cycle is None:
+        raise Missing("no machining cycle is defined")
+    return float(m.cycle.cycle.code.split()[-1])
+
+
+def feed(m: Machine, asked: Asked) -> float:
+    if m.feed is None:
+        raise Missing("no feed rate was programmed")
+    return m.feed * m.speed if m.per_rev else m.feed
+
+
+def scale(m: Machine, asked: Asked) -> float:
+    """How much longer the way of the machine is along an axis."""
+    return float(np.linalg.norm(m.frames.matrix[:3, int(asked.index) - 1]))
+
+
+def mirrored(m: Machine, asked: Asked) -> float:
+    frame = m.frames[chain.place(m, chain.MIRROR)] @ m.frames[chain.MIRROR + chain.ALSO]
+    return float(sum(1 << k for k in range(3) if frame[k, k] < 0))
+
+
+def kind_of_tilt(m: Machine, asked: Asked) -> float:
+    if chain.TILT not in m.frames:
+        return 0.0
+    return 1.0 if m.settings["tilt_angles"] == "axes" else 2.0
+
+
+def shift(m: Machine, asked: Asked) -> float:
+    return (*chain.shift_of(m), *memory(m).rotary_shift)[int(asked.index) - 1]
+
+
+def travel(side: int) -> Read:
+    """A limit switch of an axis: 0 the negative one."""
+
+    def read(m: Machine, asked: Asked) -> float:
+        limits = m.setup.limits.travel
+        value = math.inf if limits is None else limits[int(asked.index) - 1][side]
+        if math.isinf(value):
+            raise Missing("the travel of the axis is not known: Setup(limits=mnclab.Limits(travel=…)) says it")
+        return value
+
+    return read
+
+
+def along_the_contour(m: Machine) -> None:
+    if m.side:
+        raise Missing("under radius compensation the tool stands beside the programmed point: write R0 before")
+
+
+def on_the_machine(m: Machine, asked: Asked) -> float:
+    """As M91 counts: the spindle reference, above the tip."""
+    along_the_contour(m)
+    x, y, z = m.tip
+    return (x, y, z + m.tool.effective_length, *map(math.degrees, m.rotary))[int(asked.index) - 1]
+
+
+def in_the_program(m: Machine, asked: Asked) -> float:
+    along_the_contour(m)
+    turned = (chain.to_angle(m, k, math.degrees(angle)) for k, angle in enumerate(m.rotary))
+    return (*m.programmed, *turned)[int(asked.index) - 1]
+
+
+def datum(m: Machine, asked: Asked) -> float | None:
+    try:
+        row = row_of(m, int(asked.number))
+    except LookupError as error:
+        raise Missing(f"the row {error.args[0]}") from None
+    return row.get("xyzabc"[int(asked.index) - 1])
+
+
+def preset(m: Machine, asked: Asked) -> float:
+    presets = m.tables.presets
+    if asked.number and asked.number not in presets:
+        raise Missing(f"the preset table has no row {asked.number:g}")
+    return presets.get(int(asked.number), Datum())[int(asked.index) - 1]
+
+
+def clock(m: Machine, asked: Asked) -> float:
+    if not (seconds := float(m.settings["clock"])):
+        raise Missing("a run has no time of day: the setting clock gives it one")
+    return seconds
+
+
+def never(m: Machine, asked: Asked) -> float:
+    """Of M functions that are refused."""
+    return 0.0
+
+
+# --- the table --------------------------------------------------------------------------------------------------------
+
+LINEAR, AXES = range(1, 4), range(1, 7)  # X Y Z, and A B C
+OVERSIZE = range(1, 4)
+ROWS: dict[tuple[float, float], Row] = {
+    (10, 1): Row("unit of the main program", kept("Q113")),
+    (10, 2): Row("overlap factor of pockets", kept("Q112")),
+    (10, 3): Row("number of the active machining cycle", number_of_cycle),
+    (20, 1): Row("number of the active tool", lambda m, a: float(int(m.tool.number))),
+    (20, 3): Row("active tool axis", kept("Q109")),
+    (20, 4): Row("programmed spindle speed", lambda m, a: m.speed),
+    (20, 5): Row("active spindle status", kept("Q110")),
+    (20, 8): Row("coolant status", kept("Q111")),
+    (20, 9): Row("active feed rate", feed),
+    (20, 11): Row("index of the active tool", lambda m, a: index_of(m.tool)),
+    (30, 1): Row("set-up clearance of the active cycle", parameter("Q200")),
+    (30, 2): Row("depth of the active cycle", parameter("Q201")),
+    (30, 3): Row("plunging depth of the active cycle", parameter("Q202")),
+    (30, 4): Row("feed rate for plunging of the active cycle", parameter("Q206")),
+    (30, 10): Row("feed rate for milling of the active cycle", parameter("Q207")),
+    (35, 2): Row("radius compensation", lambda m, a: float(m.side != 0)),
+    (50, 36): Row("TYPE of a tool", kind(named), None),
+    (950, 36): Row("TYPE of the active tool", kind(active)),
+    (60, 1): Row("number of the tool of TOOL CALL", lambda m, a: float(int(m.tool.number))),
+    (60, 2): Row("tool axis of TOOL CALL", kept("Q109")),
+    (60, 3): Row("spindle speed of TOOL CALL", lambda m, a: m.speed),
+    (60, 4): Row("delta length of TOOL CALL", lambda m, a: m.tool.dl - active(m, a).dl),
+    (60, 5): Row("delta radius of TOOL CALL", lambda m, a: m.tool.dr - active(m, a).dr),
+    (60, 7): Row("delta corner radius of TOOL CALL", lambda m, a: m.tool.corner - active(m, a).corner),
+    (60, 8): Row("tool index of TOOL CALL", lambda m, a: index_of(m.tool)),
+    (200, 1): Row("active radius", with_deltas("radius", "dr"), OVERSIZE, 3),
+    (200, 2): Row("active length", with_deltas("length", "dl"), OVERSIZE, 3),
+    (200, 3): Row("active corner radius", with_deltas("corner", ""), OVERSIZE, 3),
+    (210, 1): Row("basic rotation", lambda m, a: m.tables.presets.get(active_preset(m), Datum()).rotation),
+    (210, 2): Row("programmed rotation", lambda m, a: chain.angle_of(m)),
+    (210, 3): Row("mirrored axes: 1 X, 2 Y, 4 Z, or their sum", mirrored),
+    (210, 4): Row("active scaling factor", scale, LINEAR, 1),
+    (210, 5): Row("tilt angle A, B, C", lambda m, a: memory(m).tilt_angles.get("abc"[int(a.index) - 1], 0.0), LINEAR),
+    (210, 6): Row("tilted working plane, -1 or 0", lambda m, a: -float(chain.TILT in m.frames)),
+    (210, 10): Row("kind of the tilt: 0 none, 1 axes, 2 spatial angles", kind_of_tilt),
+    (220, 2): Row("active datum shift", shift, AXES),
+    (230, 2): Row("negative limit switch", travel(0), LINEAR),
+    (230, 3): Row("positive limit switch", travel(1), LINEAR),
+    (230, 5): Row("limit switches: 0 on, 1 off", lambda m, a: float(m.setup.limits.travel is None), LINEAR, 1),
+    (240, 1): Row("nominal position in the REF system", on_the_machine, AXES),
+    (240, 8): Row("actual position in the REF system", on_the_machine, AXES),
+    (270, 1): Row("position in the active coordinate system", in_the_program, AXES),
+    (280, 1): Row("M128 is active", never),
+    (310, 116): Row("M116 is active", never),
+    (310, 128): Row("M128 is active", never),
+    (310, 144): Row("M144 is active", never),
+    (320, 1): Row("system time, seconds from 1970", clock, (0,), 0),
+    (505, 1): Row("a datum table is selected", lambda m, a: float(bool(memory(m).datum_table or m.tables.datums))),
+    (530, 1): Row("number of the active preset", lambda m, a: float(active_preset(m))),
+    (992, 16): Row("really executed, 1 or 0", lambda m, a: float(m.settings["execution"])),
+}  # fmt: skip
+#: Groups whose number is the row of a table.
+TABLES: dict[float, Row] = {
+    500: Row("value of the active datum table", datum, AXES),
+    503: Row("value of the preset table", preset, LINEAR),
+    507: Row("value of the preset table", preset, LINEAR),
+}  # fmt: skip
+
+
+for _number, (_name, _title) in COLUMNS.items():
+    ROWS[50, _number] = Row(f"{_title} of a tool", column(_name, named), None)
+    ROWS[950, _number] = Row(f"{_title} of the active tool", column(_name, active))
+
