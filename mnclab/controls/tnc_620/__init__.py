@@ -54,6 +54,7 @@ from mnclab.controls.tnc_620.language import (
     program,
     retraction,
     rotary_rules,
+    secondary_axes,
     system_access,
     system_data,
     tools,
@@ -98,7 +99,7 @@ SETTINGS = (
         unit="s", at_least=0,
     ),
     *tools.SETTINGS, *no_effect.SETTINGS, *retraction.SETTINGS, *tilting.SETTINGS, *engraving.SETTINGS,
-    *obsolete_faces.SETTINGS, *system_data.SETTINGS,
+    *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS,
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
@@ -139,6 +140,7 @@ MEANINGS = {
     "RI": "radius of the bore", "DI": "diameter of the bore", "DIM": "whether X is the radius or the diameter",
     "BLK FORM CYLINDER axis": "axis", "BLK FORM ROTATION axis": "axis", "file": "name of a file",
     **{axis: f"angle of the rotary axis {axis}" for axis in "ABC"},
+    **{axis: f"secondary axis along {along}" for axis, along in zip("UVW", "XYZ", strict=True)},
     **{f"M94:{axis}": f"the rotary axis {axis}" for axis in "ABC"},
     **{f"M118:{axis}": f"greatest way of the handwheel along {axis}" for axis in "XYZ"},
     **{f"M118:{axis}": f"greatest turn of the handwheel around {axis}" for axis in "ABC"},
@@ -153,7 +155,7 @@ CONTROL = Control(
     read=reader.read, signs=SIGNS,
     functions=FUNCTIONS, cycles=CYCLES, names=ISO_NAMES, refused=later.REFUSED, together=later.strange_parameters(CYCLES),
     phases=PHASES, codes=("M",), word_functions=False, meanings=MEANINGS, told=motion.turning_sense, trial=trial_program,
-    settings=SETTINGS, memory=Memory, start=program.start, frames=("preset",),
+    settings=SETTINGS, memory=Memory, start=program.start, frames=(secondary_axes.FRAME, "preset"),
     storage="variables", preassigned=parameters.PREASSIGNED, local_variables="QL",
     named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again,
     compensation=Compensation(approach="perpendicular", rapid=True),

@@ -72,7 +72,7 @@ NOT_THERE = {
 }
 
 WORDS = {
-    **{axis: f"the axis {axis} is not built yet" for axis in "UVW"},
+    **{axis: f"the secondary axis {axis} is built for L alone" for axis in "UVW"},
     **{axis: f"the rotary axis {axis} is built for L alone" for axis in "ABC"},
 }  # fmt: skip
 

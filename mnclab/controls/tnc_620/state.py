@@ -41,6 +41,7 @@ class Memory:
 
     # datums, transformations, planes
     pole_plane: str = "XY"  # of CC, whose axes `Machine.pole` counts along
+    secondary: Place = (0.0, 0.0, 0.0)  # where U, V and W stand
     machine_datum: tuple[Word, Place] | None = None  # M91 or M92 of the block, and the machine coordinates it counts from
     preset: int | None = None  # the active row
     datum_table: DatumTable | None = None
