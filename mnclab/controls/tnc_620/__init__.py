@@ -51,6 +51,7 @@ from mnclab.controls.tnc_620.language import (
     system_data,
     tools,
 )
+from mnclab.controls.tnc_620.printing import output
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
@@ -89,7 +90,7 @@ SETTINGS = (
         "thread_wait", 0.0, "how long the spindle stands at the bottom of a tapped thread (thrdWaitingTime, no. 113601)", "5.2",
         unit="s", at_least=0,
     ),
-    *tilting.SETTINGS, *engraving.SETTINGS, *system_data.SETTINGS,
+    *tilting.SETTINGS, *engraving.SETTINGS, *system_data.SETTINGS, *output.SETTINGS,
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
@@ -98,7 +99,7 @@ FUNCTIONS = (
     | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | machine_datum.FUNCTIONS | feeds.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
     | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS | system_access.FUNCTIONS
-    | circle_data.FUNCTIONS | plc.FUNCTIONS | preset.FUNCTIONS
+    | circle_data.FUNCTIONS | plc.FUNCTIONS | preset.FUNCTIONS | output.FUNCTIONS
 )  # fmt: skip
 CHAPTERS = (
     defaults, drilling, boring, pecking, tapping, threads, point_patterns, pockets, slots, studs, walled_faces,
@@ -119,6 +120,7 @@ MEANINGS = {
     "text": "name of the tool in a text parameter",
     "first": "the first operand", "second": "the second operand", "parameter": "the parameter that is asked about",
     "state": "whether it has a value", "undefined": "it has no value any more", "FN 14 number": "error number",
+    "mask": "file with the mask", "output": "file that is written", "item": "what is put out",
     "points": "the first parameter of the points", "FN 25 axis": "axis of the datum",
     "FN 25 first": "coordinate that a point has", "FN 25 second": "coordinate that it gets",
     "ID": "group of system data", "NR": "number in its group", "IDX": "index", "FN 17 value": "the value to write",

@@ -52,10 +52,7 @@ STATEMENTS = {
     **{f"BLK FORM {form}": "blank" for form in "CYLINDER ROTATION FILE".split()},
 }  # fmt: skip
 
-FN = {
-    15: "unformatted output", 16: "formatted output", 26: "opening a table", 27: "writing to a table",
-    28: "reading from a table",
-}  # fmt: skip
+FN = {26: "opening a table", 27: "writing to a table", 28: "reading from a table"}
 
 M = {
     97: "small contour steps", 98: "open contour corners", 101: "replacement tool", 102: "end of M101",

@@ -30,6 +30,7 @@ class Memory:
     main_unit: str | None = None
     selected_program: str | None = None
     stock: Blank | None = None
+    closed_files: frozenset[str] = frozenset()  # in small letters: what is written to them next begins anew
 
     # feed, spindle, probe
     auto_feed: float | None = None  # of TOOL CALL, mm/min
