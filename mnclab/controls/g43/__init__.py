@@ -6,11 +6,10 @@ So it is the ISO mill that its users take it for: `language.lengths` holds what 
 
 from __future__ import annotations
 
-import re
-
 from mnclab.controls.g43 import cycles, remarks
 from mnclab.controls.g43.language import lengths, motion, offsets, references, units
 from mnclab.controls.g43.settings import SETTINGS
+from mnclab.controls.g43.signs import SIGNS
 from mnclab.controls.g43.state import Memory
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
@@ -39,8 +38,6 @@ MEANINGS = {
     **{f"G92 {axis}": f"new value of {axis} where the tool stands" for axis in "XYZ"},
     "R": "radius", "G4 P": "the time, counted as the setting dwell_p says", "G4 X": "seconds",
 }  # fmt: skip
-
-_LENGTHS = re.compile(r"^[^;\n]*G[ \t]*4[349](?!\d)", re.I | re.M)
 
 
 def start(m: Machine) -> None:
@@ -72,7 +69,7 @@ CONTROL = Control(
     memory=Memory,
     compensation=Compensation(approach="corner", change=True, look_ahead=True),
     start=start,
-    looks_like=lambda text: _LENGTHS.search(text) is not None,
+    signs=SIGNS,
     refused=REFUSED,
     meanings=MEANINGS,
     together=motion.together,

@@ -6,16 +6,18 @@ for machining centres, Haas's for mills, the documentation of LinuxCNC.
 
 from __future__ import annotations
 
+from typing import Any
+
 from mnclab.machine.settings import Setting, one_of
 
 FANUC, HAAS, LINUXCNC = "Fanuc", "Haas", "LinuxCNC"
 ALL = "Fanuc, Haas, LinuxCNC"
 
 #: What a dialect chooses; Fanuc's are the defaults.
-DIALECTS = {
+DIALECTS: dict[str, dict[str, Any]] = {
     "fanuc": {},
     "haas": {"dwell_p": "point"},
-    "linuxcnc": {"dwell_p": "seconds", "peck_clearance": 0.254, "arc_by_both": "refuse"},
+    "linuxcnc": {"below_r": "straight", "dwell_p": "seconds", "peck_clearance": 0.254, "arc_by_both": "refuse"},
 }  # fmt: skip
 
 PROGRAM = (
@@ -49,8 +51,9 @@ TECHNOLOGY = (
 HOLES = (
     one_of("motion_in_cycle", "what G0, G1, G2 and G3 do while a cycle is active", ALL,
            ends="they end the cycle", waits="they wait until its end, and each position is a hole"),
-    one_of("below_r", "which way a cycle begins from below level R", LINUXCNC,
-           up="first up to level R, then over the hole", across="first over the hole, then up to level R (Fanuc)"),
+    one_of("below_r", "which way a cycle begins from below level R", "on the safe side",
+           up="first up to level R, then over the hole", across="first over the hole, then up to level R (Fanuc)",
+           straight="to level R first if the initial level is below it, else straight to R over the hole (LinuxCNC)"),
 )  # fmt: skip
 
 SETTINGS = PROGRAM + MOTION + TECHNOLOGY + HOLES
