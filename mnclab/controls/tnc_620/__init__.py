@@ -53,6 +53,7 @@ from mnclab.controls.tnc_620.language import (
     program,
     system_access,
     system_data,
+    system_texts,
     tools,
 )
 from mnclab.controls.tnc_620.printing import output
@@ -149,7 +150,7 @@ CONTROL = Control(
     functions=FUNCTIONS, cycles=CYCLES, names=ISO_NAMES, refused=later.REFUSED, together=later.strange_parameters(CYCLES),
     phases=PHASES, codes=("M",), word_functions=False, meanings=MEANINGS, told=motion.turning_sense, trial=trial_program,
     settings=SETTINGS, memory=Memory, start=program.start, frames=("preset",),
-    storage="variables", preassigned=parameters.PREASSIGNED, local_variables="QL",
+    storage="variables", preassigned={**parameters.PREASSIGNED, **system_texts.TEXTS}, local_variables="QL",
     named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again,
     compensation=Compensation(approach="perpendicular", rapid=True),
     bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call")),
