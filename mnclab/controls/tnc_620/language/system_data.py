@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mnclab.controls.tnc_620.clock import time_of_day
 from mnclab.controls.tnc_620.cycles import chain
 from mnclab.controls.tnc_620.language.machine_datum import above_tip
 from mnclab.controls.tnc_620.language.parameters import PREASSIGNED
@@ -209,9 +210,9 @@ def preset(m: Machine, asked: Asked) -> float:
 
 
 def clock(m: Machine, asked: Asked) -> float:
-    if not (seconds := float(m.settings["clock"])):
+    if (now := time_of_day(m)) is None:
         raise Missing("a run has no time of day: the setting clock gives it one")
-    return seconds
+    return now.timestamp()
 
 
 def holds(m: Machine, code: str) -> float:
