@@ -17,7 +17,9 @@ ALL = "Fanuc, Haas, LinuxCNC"
 DIALECTS: dict[str, dict[str, Any]] = {
     "fanuc": {},
     "haas": {"dwell_p": "point"},
-    "linuxcnc": {"dwell_p": "seconds", "peck_clearance": 0.254, "arc_by_both": "refuse"},
+    "linuxcnc": {
+        "macros": "linuxcnc", "main_m99": "repeat", "dwell_p": "seconds", "peck_clearance": 0.254, "arc_by_both": "refuse",
+    },
 }  # fmt: skip
 
 PROGRAM = (
@@ -55,4 +57,14 @@ HOLES = (
            up="first up to level R, then over the hole", across="first over the hole, then up to level R (Fanuc)"),
 )  # fmt: skip
 
-SETTINGS = PROGRAM + MOTION + TECHNOLOGY + HOLES
+MACROS = (
+    one_of("macros", "variables without a value, AND, OR, FIX, FUP, MOD and the ranges of angles", FANUC,
+           fanuc="without a value an address is left out, AND works on bits, FIX cuts off, angles are 0 to 360",
+           linuxcnc="0, AND is true or false, FIX rounds down, angles are -180 to 180, EQ forgives 0.0001"),
+    one_of("main_m99", "M99 in the main program", "the simulation runs a program once",
+           end="the program ends here, with a warning", repeat="it begins again, for ever (Fanuc, LinuxCNC)"),
+    Setting("skip_switches", 123456789, "the switches that are on where block_skip is: their digits; / is /1", FANUC,
+            {}, "", 1, 987654321),
+)  # fmt: skip
+
+SETTINGS = PROGRAM + MACROS + MOTION + TECHNOLOGY + HOLES
