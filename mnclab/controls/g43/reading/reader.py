@@ -11,6 +11,7 @@ import re
 from bisect import bisect_right
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,12 +19,13 @@ from numpy.typing import NDArray
 from mnclab.controls.g43.reading import formulas
 from mnclab.controls.g43.reading.statements import HEAD, Fault, Statements, end_of_operand
 from mnclab.controls.word_address.reader import Labels, Marks, clean_blocks, read_words, skip_blanks
-from mnclab.text.alarm import Alarm
+from mnclab.text.alarm import Alarm, Span
 from mnclab.text.program import Program
 from mnclab.text.program_builder import MOST_WORDS, ProgramBuilder
 from mnclab.text.words import Scan, scan
 
 COMMENT = r"[(;]"
+AXES, GOING = "XYZ", {1.0, 2.0, 3.0, 90.0, 91.0}
 CALLS = (65.0, 66.0)  # G words with arguments
 _TAPE = re.compile(r"^[ \t\ufeff]*%([^\r\n]*)", re.MULTILINE)
 _SKIP = re.compile(r"/[ \t]*([1-9])?(?!\d)")
@@ -73,6 +75,7 @@ class _Reader:
         self.statements = Statements(self.builder)
         self.labels: Labels = []
         self.programs: Labels = []
+        self.another = -1  # the % of another program
         first, last = self.tape(found)
         special = found.count > MOST_WORDS
         letter, value = found.letter, found.value
@@ -96,8 +99,7 @@ class _Reader:
                 self.builder.block(mark.start())
                 continue
             if mark.group(1).strip() and not mark.group(1).lstrip().startswith(("(", ";")):
-                hint = "a file holds one of them; those of O numbers may stand one after another"
-                self.builder.alarm("another program begins here", mark.end() - len(mark.group(1)) - 1, 1, hint)
+                self.another = mark.end() - len(mark.group(1)) - 1
             rest = self.text[mark.end() :]
             if begun := re.search(r"[^\s\0%]", rest):
                 at = mark.end() + begun.start()
@@ -121,10 +123,17 @@ class _Reader:
         for index in self.odd:
             self.read_line(int(index))
         self.statements.close()
-        if self.statements.last >= 0:
+        if self.another >= 0:
+            builder.block(self.another)
+            hint = "a file holds one of them; those of O numbers may stand one after another"
+            builder.alarm("another program begins here", self.another, 1, hint)
+        elif self.statements.last >= 0:
             builder.block(len(self.text))  # there is a block after every loop
         self.set_labels()
-        return builder.build(bulk)
+        program = builder.build(bulk)
+        if faults := lonely_corners(program):
+            program = replace(program, alarms=tuple(sorted((*program.alarms, *faults), key=lambda a: a.span or Span(0, 0))))
+        return program
 
     # --- lines -------------------------------------------------------------------------------------------------------
 
@@ -184,7 +193,7 @@ class _Reader:
         head = HEAD.match(code, at)
         call = None if head else _CALL.search(code, at)
         keyword = head.group().upper() if head else call.group()[:1].upper() + "6" + call.group()[-1] if call else ""
-        builder.block(start, "" if keyword in ("THEN", "ELSE") else keyword, bool(skip))
+        builder.block(start, "" if keyword in ("THEN", "ELSE") else keyword, skip)
         if label:
             self.labels.append((start, int(label.group(1))))
         if head:
@@ -246,6 +255,23 @@ class _Reader:
             name = f"O{self.programs[place][1]} N{int(number)}" if place >= 0 else f"N{int(number)}"
             seen[name] += 1
             labels[name if seen[name] == 1 else f"{name} ({seen[name]})"] = at
+
+
+def lonely_corners(program: Program) -> list[Alarm]:
+    """An Alarm at each corner that the next block does not go on from: a corner lies between two elements."""
+    faults = []
+    for k, name in enumerate(program.addresses):
+        for at in np.flatnonzero(program.address == k) if name in (",R", ",C") else ():
+            block = after = int(np.searchsorted(program.first, at, "right")) - 1
+            while (after := after + 1) < len(program) and program.first[after] == program.first[after + 1]:
+                pass  # a comment
+            words = program[after].words if after < len(program) else ()
+            codes = {word.value for word in words if word.address == "G"}
+            goes = any(word.address in AXES for word in words) and codes <= GOING
+            if not goes or program.keywords[program.keyword[after]] or program.skip[[block, after]].any():
+                hint = "the block after it holds X, Y or Z, with G1, G2 or G3 if with a G word, and is not passed over"
+                faults.append(Alarm(f"{name} lies between two lines or arcs", program.word(int(at)).span, hint=hint))
+    return faults
 
 
 def nothing_said(text: str) -> bool:
