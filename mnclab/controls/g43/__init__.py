@@ -6,8 +6,6 @@ So it is the ISO mill that its users take it for: `language.lengths` holds what 
 
 from __future__ import annotations
 
-import re
-
 from mnclab.controls.g43 import cycles, remarks
 from mnclab.controls.g43.language import (
     corners,
@@ -22,6 +20,7 @@ from mnclab.controls.g43.language import (
 )
 from mnclab.controls.g43.reading.reader import read
 from mnclab.controls.g43.settings import SETTINGS
+from mnclab.controls.g43.signs import SIGNS
 from mnclab.controls.g43.state import Memory
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.machine.control import Control, FunctionTable
@@ -51,8 +50,6 @@ MEANINGS = {
     "R": "radius", "P": "number of a program", "L": "how often", "M99 P": "the block to go on at",
     "G4 P": "the time, counted as the setting dwell_p says", "G4 X": "seconds",
 }  # fmt: skip
-
-_LENGTHS = re.compile(r"^[^;\n]*G[ \t]*4[349](?!\d)", re.I | re.M)
 
 
 def start(m: Machine) -> None:
@@ -86,7 +83,7 @@ CONTROL = Control(
     memory=Memory,
     compensation=Compensation(approach="corner", change=True, look_ahead=True),
     start=start,
-    looks_like=lambda text: _LENGTHS.search(text) is not None,
+    signs=SIGNS,
     refused=REFUSED,
     meanings=MEANINGS,
     together=motion.together,

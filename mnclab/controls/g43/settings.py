@@ -18,7 +18,8 @@ DIALECTS: dict[str, dict[str, Any]] = {
     "fanuc": {},
     "haas": {"dwell_p": "point"},
     "linuxcnc": {
-        "macros": "linuxcnc", "main_m99": "repeat", "dwell_p": "seconds", "peck_clearance": 0.254, "arc_by_both": "refuse",
+        "macros": "linuxcnc", "main_m99": "repeat", "below_r": "straight", "dwell_p": "seconds", "peck_clearance": 0.254,
+        "arc_by_both": "refuse",
     },
 }  # fmt: skip
 
@@ -53,8 +54,9 @@ TECHNOLOGY = (
 HOLES = (
     one_of("motion_in_cycle", "what G0, G1, G2 and G3 do while a cycle is active", ALL,
            ends="they end the cycle", waits="they wait until its end, and each position is a hole"),
-    one_of("below_r", "which way a cycle begins from below level R", LINUXCNC,
-           up="first up to level R, then over the hole", across="first over the hole, then up to level R (Fanuc)"),
+    one_of("below_r", "which way a cycle begins from below level R", "on the safe side",
+           up="first up to level R, then over the hole", across="first over the hole, then up to level R (Fanuc)",
+           straight="to level R first if the initial level is below it, else straight to R over the hole (LinuxCNC)"),
 )  # fmt: skip
 
 MACROS = (

@@ -1,7 +1,7 @@
 """What the TNC 620 knows and is not built yet: refused by name where a program uses it.
 
 What gets built leaves these tables (a test says so). The names of the cycles are those of the manual's list
-(chapter 20) and, for the obsolete ones, of earlier manuals.
+(chapter 20).
 """
 
 from __future__ import annotations
@@ -17,11 +17,6 @@ CYCLES = {
     21: "Pilot drilling", 23: "Floor finishing", 24: "Side finishing", 25: "Contour train", 27: "Cylinder surface",
     28: "Cylinder surface slot", 29: "Cylinder surface ridge", 39: "Cylinder surface contour",
     270: "Contour train data", 275: "Trochoidal slot", 276: "Three-dimensional contour train",
-    # technically obsolete, but programs with them still run (1.2)
-    1: "Pecking", 2: "Tapping", 3: "Slot milling", 4: "Pocket milling", 5: "Circular pocket", 17: "Rigid tapping",
-    210: "Slot with reciprocating plunge", 211: "Circular slot with reciprocating plunge", 212: "Pocket finishing",
-    213: "Stud finishing", 214: "Circular pocket finishing", 215: "Circular stud finishing",
-    230: "Multipass milling", 231: "Ruled surface",
 }  # fmt: skip
 
 PROBING = {
@@ -49,14 +44,12 @@ STATEMENTS = {
     "TRANS DATUM": "datum shift", "QC": "contour formula",
     **{f"PLANE {form}": "tilted plane" for form in "SPATIAL PROJECTED EULER VECTOR POINTS RELATIV AXIAL RESET".split()},
     **{f"FUNCTION {form}": "special function" for form in "TCPM PARAXMODE PARAXCOMP RESET MODE DWELL FEED".split()},
-    **{f"BLK FORM {form}": "blank" for form in "CYLINDER ROTATION FILE".split()},
+    "BLK FORM FILE": "blank from a file",
 }  # fmt: skip
 
 FN = {
-    15: "unformatted output", 16: "formatted output", 19: "values to the PLC", 20: "synchronizing with the PLC",
-    23: "circle from three points", 24: "circle from four points", 25: "setting the datum", 26: "opening a table",
-    27: "writing to a table", 28: "reading from a table", 29: "values to the PLC", 37: "exporting parameters",
-    38: "sending to a log",
+    15: "unformatted output", 16: "formatted output", 26: "opening a table", 27: "writing to a table",
+    28: "reading from a table",
 }  # fmt: skip
 
 M = {

@@ -56,6 +56,18 @@ def tool(cursor: Cursor, words: Read) -> None:
     words(cursor)
 
 
+def turned_blank(cursor: Cursor) -> None:
+    """The axis, DIM_R or DIM_D, and the label of the half section."""
+    begin, example = cursor.blanks(), "for example BLK FORM ROTATION Z DIM_R LBL 1"
+    if found := cursor.match(_AXIS):
+        cursor.add("axis", found.group().upper(), begin)
+    begin = cursor.blanks()
+    found = cursor.expect(_DIM, "DIM_R (radii) or DIM_D (diameters) is missing", example)
+    cursor.add("DIM", found.group(1).upper(), begin)
+    cursor.expect(_LBL, "LBL, the label of the contour, is missing", example)
+    labels.label(cursor, parameter=True)
+
+
 def program_name(cursor: Cursor) -> None:
     """BEGIN PGM and END PGM: name and unit."""
     begin = cursor.blanks()
@@ -130,6 +142,7 @@ WORDS: dict[str, Read] = {
     "DECLARE STRING": declared_text, "SEL PATTERN": file_name, "SEL TABLE": file_name,
     "PATTERN DEF": plain,  # whose lines PatternWords reads
     "BEGIN PGM": program_name, "END PGM": program_name, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
+    "BLK FORM CYLINDER": with_axis, "BLK FORM ROTATION": turned_blank,
     **{f"{way} {form}": plain for way in ("APPR", "DEP") for form in _FORMS},
 }  # fmt: skip
 
@@ -149,6 +162,9 @@ _TARGET = re.compile(r"Q([LRSC]?)[ \t]?(\d{1,6})[ \t]*=", FLAGS)
 _M = re.compile(r"M[ \t]*\d", FLAGS)
 _PARAMETER_HEAD = re.compile(r"\bQ([LRS]?)[ \t]*(\d{1,4})[ \t]*=[ \t]*", FLAGS)
 _FEED_WORD = re.compile(rf"[ \t]*(?:F[ \t]*(?:AUTO|MAX)|F[UZ][ \t]*{NUMBER}|PREDEF)(?![A-Z])", FLAGS)
+_AXIS = re.compile(r"[A-Z](?![A-Z])", FLAGS)
+_DIM = re.compile(r"DIM_([RD])(?![A-Z])", FLAGS)
+_LBL = re.compile(r"[ \t]*LBL(?![A-Z])", FLAGS)
 _STRING = re.compile(r"[ \t]*QS[ \t]*\d{1,4}", FLAGS)
 #: A coordinate, another number with a sign, an M function, a feed, a speed.
 _LIKE_A_WORD = re.compile(

@@ -41,14 +41,14 @@ _SENSE = re.compile(r"DR[ \t]*([+-])(?![ \t]*[\dQ.,])", FLAGS)
 
 _ADDRESSES = (
     "X Y Z U V W A B C R LEN CCA PR PA F FU FZ S M T DL DR L REP ROT SCL CCX CCY CCZ CCPR CCPA ABST AN D CLSD "
-    "P1X P1Y P2X P2Y P3X P3Y PDX PDY RX RY RPR RPA RAN PAR DP RCCX RCCY RCCPR RCCPA"
+    "DIST RI DI P1X P1Y P2X P2Y P3X P3Y PDX PDY RX RY RPR RPA RAN PAR DP RCCX RCCY RCCPR RCCPA"
 ).split()
 _NAMED = re.compile(rf"(I?)(DR2(?=[ \t]*[+-])|{'|'.join(sorted(_ADDRESSES, key=len, reverse=True))})", FLAGS)
 
 #: Addresses of lengths and of feeds along a path: inches in a program that begins with INCH.
 LENGTHS = frozenset(
-    "X Y Z U V W R LEN PR F FU FZ DL DR DR2 L CCX CCY CCZ CCPR ABST D P1X P1Y P2X P2Y P3X P3Y PDX PDY DX DY "
-    "DP DEPTH PITCH length".split()
+    "X Y Z U V W R RI DI DIST LEN PR F FU FZ DL DR DR2 L CCX CCY CCZ CCPR ABST D P1X P1Y P2X P2Y P3X P3Y PDX PDY DX DY "
+    "DP DEPTH PITCH SETUP PECKG PECKG:F RADIUS length".split()
 )
 
 #: Addresses that belong to an M function when they stand directly behind it: `M103 F20` beside a feed F of the block.
