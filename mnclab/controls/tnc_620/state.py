@@ -31,6 +31,8 @@ class Memory:
     main_unit: str | None = None
     selected_program: str | None = None
     stock: Blank | Body | None = None
+    told: frozenset[str] = frozenset()  # warnings that are given once a program
+    closed_files: frozenset[str] = frozenset()  # in small letters: what is written to them next begins anew
 
     # feed, spindle, probe
     auto_feed: float | None = None  # of TOOL CALL, mm/min
