@@ -47,8 +47,6 @@ STATEMENTS = {
     "BLK FORM FILE": "blank from a file",
 }  # fmt: skip
 
-FN = {26: "opening a table", 27: "writing to a table", 28: "reading from a table"}
-
 M = {
     97: "small contour steps", 98: "open contour corners", 101: "replacement tool", 102: "end of M101",
     107: "no error with replacement tools", 108: "end of M107", 116: "feed of rotary axes in mm/min",
@@ -75,7 +73,6 @@ WAITING = {
     **{f"CYCL DEF {n}": title for n, title in CYCLES.items()},
     **{f"TCH PROBE {n}": title for n, title in PROBING.items()},
     **STATEMENTS,
-    **{f"FN {n}": title for n, title in FN.items()},
     **{f"M{n}": title for n, title in M.items()},
 }
 #: Codes and addresses that are not built, with the sentence that says so.
