@@ -23,7 +23,11 @@ def tabled(inside, blocks: str, table: str = TABLE) -> mnc.Run:
 
 def test_fields_of_a_row_come_into_parameters(inside) -> None:
     """The manual: the first value into the parameter, the next ones into those after it."""
-    run = tabled(inside, '3 FN 28: TABREAD Q10 = 0/"X,Y,RADIUS"\n4 Q5 = 7\n5 FN 28: TABREAD QR2 = +Q5/"x, radius"\n6 FN28:TABREAD QS1=0/"DOC"')
+    blocks = (
+        '3 FN 28: TABREAD Q10 = 0/"X,Y,RADIUS"\n4 Q5 = 7\n5 FN 28: TABREAD QR2 = +Q5/"x, radius"\n'
+        '6 FN28:TABREAD QS1=0/"DOC"'
+    )
+    run = tabled(inside, blocks)
     assert run.ok, run.alarms
     names = ("Q10", "Q11", "Q12", "QR2", "QR3", "QS1")
     assert [run.variables[name] for name in names] == [10.5, -20, 5, 0.25, 2.5, "first hole"]
@@ -85,5 +89,6 @@ def test_a_faulty_table_is_refused_at_its_line(table: str, message: str, inside)
 
 
 def test_tables_in_a_program_in_inches_are_refused(tnc) -> None:
-    (alarm,) = tnc("0 BEGIN PGM A INCH\n1 FN 26: TABOPEN TAB1.TAB\n2 END PGM A INCH\n", mnc.Setup(files={"TAB1.TAB": TABLE})).alarms
+    setup = mnc.Setup(files={"TAB1.TAB": TABLE})
+    (alarm,) = tnc("0 BEGIN PGM A INCH\n1 FN 26: TABOPEN TAB1.TAB\n2 END PGM A INCH\n", setup).alarms
     assert alarm.message == "FN 26: tables in a program in inches are not built yet"
