@@ -8,6 +8,7 @@ from mnclab.controls.tnc_620.language.blank import half_given
 from mnclab.controls.tnc_620.language.checks import not_negative
 from mnclab.controls.tnc_620.reading.words import INCH
 from mnclab.controls.tnc_620.state import memory
+from mnclab.controls.tnc_620.tables.free_tables import put_out_tables
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
@@ -59,6 +60,7 @@ def finish(m: Machine) -> None:
         m.set_modal("coolant", "M9")
         m.coolant()
     perform(m, "END PGM", cancel(m))
+    put_out_tables(m)
     m.ended = True
 
 

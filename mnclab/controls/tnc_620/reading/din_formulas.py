@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 
 from mnclab.controls.tnc_620.reading import labels
+from mnclab.controls.tnc_620.reading.file_functions import FILES
 from mnclab.controls.tnc_620.reading.formulas import (
     FN,
     OPERAND,
@@ -46,8 +47,11 @@ def function(cursor: Cursor, number: int, begin: int) -> None:
         _operand(cursor, number, 1, "number")
     elif number in (17, 18):
         _system(cursor, number)
+    elif read := FN.get(number) or FILES.get(number):
+        cursor.match(_P[1])
+        read(cursor)
     else:
-        cursor.at = cursor.stop  # refused by its name
+        cursor.at = cursor.stop  # to the PLC, or refused by its name
 
 
 def _parameter(cursor: Cursor, number: int, which: int) -> int:
