@@ -376,7 +376,7 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
         control.magazine
     )  # somebody may have written into its tables, and may again
     interpreter = Interpreter(control, setup, program)
-    machine, alarms = interpreter.machine, interpreter.alarms
+    machine, alarms = interpreter.machine, list[Alarm]()
     broken, collecting = False, gc.isenabled()
     gc.disable()  # running makes no reference cycles, and the collector would look at every kept row again
     try:
@@ -392,7 +392,8 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
             finish()
         except Alarm as alarm:
             alarms.append(alarm)
-    result = Run(program, setup, control, machine, alarms + machine.alarms)
+    told = [interpreter.flow.said(alarm) for alarm in (*alarms, *machine.alarms)]
+    result = Run(program, setup, control, machine, interpreter.alarms + told)
     if strict and not result.ok:
         raise next(found for found in result.alarms if found.severity == ALARM)
     return result

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import re
 from array import array
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -141,6 +141,8 @@ class Program:
     """Where the file lies that the program was read from; empty for a text. Programs that it calls are sought there."""
     labels: Mapping[str, int] = field(default_factory=dict)
     """Block index of each jump target, as the reader of the control found them."""
+    said: Callable[[Alarm, Program], Alarm] | None = None
+    """Words an alarm of a run anew, for a program that has other names than those of its control's language (DIN/ISO)."""
 
     def __post_init__(self) -> None:
         for name, value in vars(self).items():

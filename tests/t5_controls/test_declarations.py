@@ -21,7 +21,8 @@ CATALOGUE = Path(__file__).parents[1] / "authorities" / "catalogue"
 
 def tables(control):
     """The rows of each cycle by its code."""
-    entries = json.loads((CATALOGUE / f"parameters-{control}.json").read_text(encoding="utf-8"))
+    files = sorted(CATALOGUE.glob(f"parameters-{control}*.json"))  # with that of obsolete cycles
+    entries = [entry for file in files for entry in json.loads(file.read_text(encoding="utf-8"))]
     found = {}
     for entry in entries:  # "CYCL DEF 7 (datum table)" is another form of CYCL DEF 7
         for code in (entry["code"].partition(" (")[0], *entry["aliases"]):

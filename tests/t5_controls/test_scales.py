@@ -14,6 +14,8 @@ import pytest
 
 import mnclab
 from mnclab import Kind, Setup, Tool
+from mnclab.controls.tnc_620.reading import obsolete_blocks
+from mnclab.controls.tnc_620.trial import as_sub_blocks
 from mnclab.controls.tnc_620.trial import klartext as signed
 from mnclab.machine import trial
 
@@ -27,10 +29,10 @@ QUIET = (7, 8, 9, 10, 11, 12, 13, 14, 19, 20, 26, 32, 239, 247)  # what does not
 BUILT = [*MNC, *(code for code in TNC if code.startswith("CYCL") and int(code.split()[-1]) not in QUIET)]
 
 #: What the frames must spare (mnc: MNC-PREP-XFORM; TNC 620: 5.2 to 5.10): the pitch of a tap, any size of a thread or a bar.
-TAPS = ("G84", "G309", "CYCL DEF 206", "CYCL DEF 207", "CYCL DEF 209", "CYCL DEF 18")
+TAPS = ("G84", "G309", *(f"CYCL DEF {n}" for n in (2, 17, 18, 206, 207, 209)))
 TRUE_TO_SIZE = ("G304", "CYCL DEF 204", *(f"CYCL DEF {n}" for n in (262, 263, 264, 265, 267)))
 HOLES = ("G83", "G85", "G300", "G301", "G302", "G303", "G305", "G307",
-         *(f"CYCL DEF {n}" for n in (200, 201, 202, 203, 205, 220, 221, 240, 241)))  # fmt: skip
+         *(f"CYCL DEF {n}" for n in (1, 200, 201, 202, 203, 205, 220, 221, 240, 241)))  # fmt: skip
 MILLS = [code for code in BUILT if code not in (*TAPS, *TRUE_TO_SIZE, *HOLES)]
 
 #: More ways to run a cycle than its examples.
@@ -103,6 +105,9 @@ def program(code, values, frame, s=1.0):
         return "\n".join(["G90 G54", f"T{tool} S1000 M3", frame, f"G0 X{x} Y{y} Z{z} F100", block, call, ""])
     head = f"BEGIN PGM A MM\nTOOL CALL {tool} Z S1000\nM3\n{frame}L X{x} Y{y} Z{z} R0 FMAX\n"
     call = f"L X{u} Y{v} R0 FMAX M99\n"
+    if code in obsolete_blocks.CODES:  # they begin at the set-up clearance
+        block = "\n".join(as_sub_blocks(TNC[code], words(code, values)))
+        return f"{head}{block}\nL Z{values['clearance']:g} FMAX\n{call}END PGM A MM\n"
     if code in ("CYCL DEF 220", "CYCL DEF 221"):
         head, call = head + klartext("CYCL DEF 200", larger("CYCL DEF 200", values_of("CYCL DEF 200", {}), s)), ""
     if code == "CYCL DEF 18":

@@ -18,7 +18,8 @@ from mnclab.geometry.contours import Contour, Floats, steps_within
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, polygons, stays
 from mnclab.geometry.vectors import cross
-from mnclab.machining.milling.clearing import Clearing, Piece, links, numbered, piecewise
+from mnclab.machining.milling import concentric
+from mnclab.machining.milling.clearing import Clearing, Piece, joined, links, numbered, piecewise
 from mnclab.machining.milling.rings import Ring, rings_in_order
 
 CHORD = 5e-4  # mm
@@ -148,3 +149,17 @@ def _one_way(parts: list[Contour]) -> list[Contour]:
     points = [parts[0].points, *(turn.points[:-1] for turn in parts[1:]), last.points[-1:]]
     bulge = [parts[0].bulge, *(turn.bulge[:-1] for turn in parts[1:]), np.zeros(1)]
     return [Contour(np.vstack(points), np.concatenate(bulge), closed=False)]
+
+
+def round_pocket(diameter: float, radius: float, stepover: float, *, climb: bool = True) -> Clearing:
+    """A circular pocket about (0, 0) on one spiral of half circles from its middle, and the full circle of its wall.
+
+    Each turn is at most a `stepover` wider than the one before; no pass where the tool fills the pocket.
+    """
+    reach = diameter / 2 - radius
+    turns = concentric.steps(reach, stepover)
+    if not turns:
+        return joined([], (), radius, place=np.zeros(2))
+    ring = Contour.circle((0, 0), reach, clockwise=not climb)
+    way = half_circles((0, 0), 0.0, reach, 2 * turns, clockwise=not climb)
+    return joined([way, ring], ("spiral", "last circle"), radius, place=np.zeros(2))

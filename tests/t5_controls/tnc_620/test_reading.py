@@ -193,4 +193,4 @@ def test_the_control_is_found_by_the_text_and_the_suffix(tmp_path) -> None:
     assert looks_like("N10 G1 X5\nN20 M30\n", mnc.controls) == ""
     file = tmp_path / "A.H"
     file.write_text("1 L X+1\n")
-    assert mnc.read(file, "tnc-620").control == "tnc-620" and CONTROL.suffixes == (".h",)
+    assert mnc.read(file, "tnc-620").control == "tnc-620" and CONTROL.suffixes == (".h", ".i")

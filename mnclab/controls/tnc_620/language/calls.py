@@ -39,6 +39,10 @@ FREE = ("FPOL", "FL", "FLT", "FC", "FCT")
 PLACES = frozenset("X Y Z U V W A B C PR PA".split())
 #: Cycles whose contours stand in the program: a point shifts their datum (SL cycles and the program call).
 PLACED_BY_DATUM = frozenset(f"CYCL DEF {n}" for n in (12, *range(21, 26), 27, 28, 29, 39, 275, 276))
+#: Cycles with a position of their own, to which the one of the call is added (3.1).
+WITH_POSITION = frozenset(f"CYCL DEF {n}" for n in (*range(210, 216), 230, 231))
+#: Cycles at a surface that they know from where the tool stands, which a pattern does not say.
+FROM_THE_TOOL = frozenset(f"CYCL DEF {n}" for n in (1, 2, 3, 4, 5, 17))
 
 
 @FUNCTIONS("CYCL CALL,", "Cycle call", group="call", modal=False, phase="call", takes=FEED_WORDS, source="3.1")
@@ -128,11 +132,11 @@ def planes(m: Machine, definition: Definition) -> tuple[float, float, float]:
 
 
 def call_at(definition: Definition, x: float, y: float, z: float, **instead: float) -> Iterator[Step]:
-    """The cycle where the tool stands, x y, its surface shifted by z; a contour cycle with its datum there.
+    """The cycle where the tool stands, x y, its surface shifted by z; one with a place of its own with its datum there.
 
     `instead` are values that count in place of its own.
     """
-    shift = (x, y, z) if definition.cycle.code in PLACED_BY_DATUM else (0.0, 0.0, z)
+    shift = (x, y, z) if definition.cycle.code in PLACED_BY_DATUM | WITH_POSITION else (0.0, 0.0, z)
     if any(shift):
         yield Write("frame", frames.shift(*shift), "point")
     yield Call(instead)
@@ -147,6 +151,8 @@ def cycle_call_pattern(m: Machine, words: Words) -> None:
     pattern = memory(m).pattern
     if pattern is None:
         m.alarm(f"{CODE} has no pattern", hint="write PATTERN DEF or SEL PATTERN before it")
+    if definition.code in FROM_THE_TOOL:
+        m.alarm(f"{CODE}: {definition.code} begins where the tool stands, at no surface", hint="call it with M99 or M89")
     if m.plane != "XY":
         m.alarm(f"{CODE}: the points of a pattern lie in X and Y, the tool axis must be Z")
     perform(m, CODE, at_points(m, definition, pattern, feed(m, words)), about=(0.0, 0.0))

@@ -1,0 +1,182 @@
+"""Obsolete cycles with sub-blocks that mill, which still run (1.2): slot 3, pocket 4 and circular pocket 5.
+
+They are those of earlier manuals (TNC 407 8.2, TNC 426/430 8.4). The ends of a slot are round. Readings where they are
+silent: a layer of a pocket ends with a lift by the set-up clearance and the way back to the middle; a slot is left on an
+arc like the one to its wall, which is a quarter circle, or a half one in a slot too short for that.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from mnclab.controls.tnc_620.cycles import at_clearance
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, length
+from mnclab.controls.tnc_620.cycles.at_clearance import AtClearance
+from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, at_least, not_zero, with_radius
+from mnclab.controls.tnc_620.cycles.pockets import CORNERS
+from mnclab.geometry import shapes
+from mnclab.geometry.contours import Contour
+from mnclab.machine.cycle import CycleTable, few_passes, too_many
+from mnclab.machine.machine import Machine
+from mnclab.machine.true_size import MILLS
+from mnclab.machining.milling import concentric
+from mnclab.machining.milling.clearing import Clearing
+from mnclab.machining.milling.figures import straight
+from mnclab.machining.milling.finishing import half_circles, quarter_circles
+from mnclab.machining.milling.pocket_steps import Feeds, rough
+from mnclab.machining.milling.rounds import finish_rounds
+from mnclab.machining.milling.spirals import round_pocket
+from mnclab.machining.milling.to_and_fro import straight_infeeds
+from mnclab.machining.steps import Go, Step
+
+CYCLES = CycleTable()
+SENSE: dict[float, str] = {1: "+: counter-clockwise, climb milling with M3", -1: "-: clockwise"}
+
+
+@CYCLES("CYCL DEF 3", "Slot milling", source="1.2")
+class SlotMilling(AtClearance):
+    """Mills a slot along X or Y: along its middle with an infeed at each end, then once round its wall in climb milling.
+
+    The tool stands a tool radius within the end of the slot. A slot as wide as the tool has no wall to finish.
+    """
+
+    does = MILLS
+    clearance: float = at_clearance.clearance()
+    depth: float = at_clearance.depth()
+    infeed: float = at_clearance.infeed()
+    plunge_feed: float = at_clearance.plunge_feed()
+    x: float = coordinate("X", "side along X", note="the longer side is the length, its sign the first direction", example=50)
+    y: float = coordinate("Y", "side along Y", note="the shorter side is the width", example=12)
+    feed: float = at_clearance.feed("F", "feed rate for milling", example=500)
+
+    @property
+    def sides(self) -> tuple[str, float, str, float]:
+        """Length, with its direction, and width, each after its name."""
+        return ("x", self.x, "y", self.y) if abs(self.x) > abs(self.y) else ("y", self.y, "x", self.x)
+
+    def contradictions(self) -> Iterator[Fault]:
+        yield from super().contradictions()
+        _, long, name, width = self.sides
+        if abs(long) <= width + SAME:
+            yield name, f"must be less than the other side, {abs(long):g}, got {width:g}"
+
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        yield from with_radius(m)
+        yield from not_zero(self, "feed", "plunge_feed", purpose="to mill with")
+        _, _, name, width = self.sides
+        yield from at_least(self, name, 2 * m.radius, "the tool diameter")
+        if width > 4 * m.radius + SAME:
+            yield name, f"must be at most twice the tool diameter, {4 * m.radius:g}, got {width:g}"
+
+    def line(self, m: Machine) -> Contour:
+        """Between the centres of the round ends, from where the tool stands."""
+        name, long, _, width = self.sides
+        sign, inset = math.copysign(1.0, long), width / 2 - m.radius
+        near, far = sign * inset, sign * (abs(long) - width + inset)
+        return Contour([(near, 0.0), (far, 0.0)] if name == "x" else [(0.0, near), (0.0, far)], closed=False)
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        if not self.down:
+            yield self.left_out
+            return
+        above, levels, line, feeds = m.programmed[2], self.levels(m), self.line(m), Feeds(self.feed, self.plunge_feed)
+        inset = self.sides[3] / 2 - m.radius
+        x, y = line.points[0].tolist()
+        yield Go("to the centre of the first end", x=x, y=y)
+        yield from straight_infeeds(line, levels, feeds)
+        if inset > concentric.NOTHING:
+            line = line.reversed() if len(levels) % 2 else line
+            yield from finish_rounds(*_wall(line, inset), tuple(line.points[0].tolist()), levels[-1:], feeds)
+        yield Go("retract", above)
+        yield Go("back to the start", x=0.0, y=0.0)
+
+
+def _wall(line: Contour, inset: float) -> tuple[Contour, tuple[Contour, ...]]:
+    """The way round the wall, counter-clockwise, and the arcs to it and off it from and to the line."""
+    wall = shapes.slot(line.reversed(), 2 * inset)
+    if line.length < inset:
+        return wall, half_circles(wall, inset, 1)
+    side = wall.started_at(inset * (math.pi / 2 + 1))  # a quarter of the round end, and as far along the straight side
+    return side, quarter_circles(side, inset, 1)
+
+
+@CYCLES("CYCL DEF 4", "Pocket milling", source="1.2")
+class PocketMilling(AtClearance):
+    """Roughs a rectangular pocket about the tool in layers, outwards on rectangles, from the middle and back to it.
+
+    Each layer begins in the positive direction of the longer side, of two equal ones in that of Y.
+    """
+
+    does = MILLS
+    clearance: float = at_clearance.clearance()
+    depth: float = at_clearance.depth()
+    infeed: float = at_clearance.infeed()
+    plunge_feed: float = at_clearance.plunge_feed()
+    x: float = length("X", "side along X", example=80)
+    y: float = length("Y", "side along Y", note="greater than twice RADIUS and the stepover", example=40)
+    feed: float = at_clearance.feed("F", "feed rate for milling", example=500)
+    sense: float = choice("DR", "sense of the path", SENSE, example=1)
+    corner_radius: float = length("RADIUS", "corner radius", default=0, note="0: the tool radius", example=8)
+
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        yield from with_radius(m)
+        yield from not_zero(self, "feed", "plunge_feed", purpose="to mill with")
+        for name in ("x", "y"):
+            yield from at_least(self, name, 2 * max(m.radius, self.corner_radius), "twice the radius of tool and corner")
+        if 0 < self.corner_radius < m.radius - SAME:
+            yield "corner_radius", f"must be 0 or at least the tool radius, {m.radius:g}, got {self.corner_radius:g}"
+        if self.y <= (least := 2 * self.corner_radius + m.settings["overlap"] * m.radius):
+            yield "y", f"must be greater than twice RADIUS and the stepover, {least:g}, got {self.y:g}"
+        yield from passes_to_wait_for(self, m)
+
+    def clearing(self, m: Machine) -> Clearing:
+        return concentric.rectangle(
+            self.x, self.y, m.radius, min(m.settings["overlap"], CORNERS) * m.radius, corner=self.corner_radius,
+            climb=self.sense > 0, begin=int(self.x <= self.y),
+        )  # fmt: skip
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        return layers(self, m)
+
+
+@CYCLES("CYCL DEF 5", "Circular pocket", source="1.2")
+class CircularPocket(AtClearance):
+    """Roughs a circular pocket about the tool in layers, each on a spiral from the middle to the wall."""
+
+    does = MILLS
+    clearance: float = at_clearance.clearance()
+    depth: float = at_clearance.depth()
+    infeed: float = at_clearance.infeed()
+    plunge_feed: float = at_clearance.plunge_feed()
+    radius: float = length("RADIUS", "radius of the pocket", example=30)
+    feed: float = at_clearance.feed("F", "feed rate for milling", example=500)
+    sense: float = choice("DR", "sense of the path", SENSE, example=1)
+
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        yield from with_radius(m)
+        yield from not_zero(self, "feed", "plunge_feed", purpose="to mill with")
+        yield from at_least(self, "radius", m.radius, "the tool radius")
+        yield from passes_to_wait_for(self, m)
+
+    def clearing(self, m: Machine) -> Clearing:
+        return round_pocket(2 * self.radius, m.radius, m.settings["overlap"] * m.radius, climb=self.sense > 0)
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        return layers(self, m)
+
+
+def passes_to_wait_for(c: PocketMilling | CircularPocket, m: Machine) -> Iterator[Fault]:
+    yield from too_many("feed", lambda: c.clearing(m))
+    yield from few_passes("infeed", len(c.levels(m)), sum(len(way.starts) for way in c.clearing(m).passes))
+
+
+def layers(c: PocketMilling | CircularPocket, m: Machine) -> Iterator[Step]:
+    """Layer by layer from the middle, and up to where the tool stood."""
+    if not c.down:
+        yield c.left_out
+        return
+    yield from rough(
+        c.clearing(m), c.levels(m), surface=c.surface(m), clearance=c.down * abs(c.clearance), down=straight,
+        feeds=Feeds(c.feed, c.plunge_feed), departure=0.0, side=1 if c.sense > 0 else -1, end=m.programmed[2],
+    )  # fmt: skip

@@ -1,0 +1,185 @@
+"""Obsolete slots with a reciprocating plunge, which still run (1.2): 210 straight, 211 circular.
+
+They are those of earlier manuals (TNC 426/430 8.4, iTNC 530). A slot lies about a centre line from the centre of its first
+arc (the left one, the one at the starting angle) to that of its last. Roughing cuts along that line alone, finishing once
+round the wall. Readings where they are silent: one reciprocating movement is there and back, so each way sinks by half of
+Q202; finishing goes up to the wall and off it on half circles, in 210 from the middle of the line, in 211 from its begin.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import coordinate, length
+from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, at_least, not_zero, with_radius
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
+from mnclab.geometry import shapes
+from mnclab.geometry.contours import Contour
+from mnclab.machine.cycle import CycleTable, too_many
+from mnclab.machine.machine import Machine
+from mnclab.machine.true_size import MILLS
+from mnclab.machining.depths import infeeds
+from mnclab.machining.milling.concentric import NOTHING
+from mnclab.machining.milling.finishing import half_circles
+from mnclab.machining.milling.pocket_steps import Feeds
+from mnclab.machining.milling.rounds import finish_rounds
+from mnclab.machining.milling.to_and_fro import oblique_infeeds
+from mnclab.machining.steps import Along, Go, Say, Step, moved
+
+CYCLES = CycleTable()
+WIDEST = 3  # tool diameters
+
+
+@CYCLES("CYCL DEF 210", "Slot with reciprocating plunge", source="1.2")
+class StraightSlot(AtSurface):
+    """Mills a straight slot along its middle, to and fro and down on the way, then round its wall."""
+
+    does = MILLS
+    about = in_program_coordinates
+    clearance: float = addresses.clearance()
+    depth: float = addresses.depth()
+    milling_feed: float = addresses.milling_feed()
+    infeed: float = addresses.infeed(note="of one way there and back")
+    machining_operation: float = addresses.operation()
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance(example=50)
+    centre_x: float = coordinate("Q216", "centre along the first axis", example=50)
+    centre_y: float = coordinate("Q217", "centre along the second axis", example=50)
+    slot_length: float = length("Q218", "slot length", note="over all", example=80)
+    slot_width: float = addresses.slot_width()
+    rotation_angle: float = addresses.angle("Q224", "angle of rotation", note="about the centre of the slot", example=15)
+    finishing_infeed: float = addresses.finishing_infeed()
+    plunging_feed: float = addresses.plunge_feed(default=0, note="of finishing; 0: as Q207")
+
+    def contradictions(self) -> Iterator[Fault]:
+        return infeed_given(self)
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from check_slot(self, m)
+        if self.depth and self.slot_length <= max(4 * m.radius, self.slot_width) + NOTHING:
+            least = max(4 * m.radius, self.slot_width)
+            yield "slot_length", f"must be greater than twice the tool diameter and Q219, {least:g}, got {self.slot_length:g}"
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        """From the middle of the slot the half circle leads to the wall on the right of the line."""
+        half = max(self.slot_length - self.slot_width, 0.0) / 2
+        ahead = shapes.placed(np.array([(half, 0.0)]), (0, 0), math.radians(self.rotation_angle))
+        line, back = (Contour(np.vstack([one, two]), closed=False) for one, two in ((-ahead, ahead), (ahead, 0 * ahead)))
+        return mill(self, m, Slot(line, back, (self.slot_width / 2 - m.radius) * math.pi / 2 + half))
+
+
+@CYCLES("CYCL DEF 211", "Circular slot with reciprocating plunge", source="1.2")
+class CircularSlot(AtSurface):
+    """Mills a slot on an arc along its middle, to and fro and down on the way, then round its wall."""
+
+    does = MILLS
+    about = in_program_coordinates
+    clearance: float = addresses.clearance()
+    depth: float = addresses.depth()
+    milling_feed: float = addresses.milling_feed()
+    infeed: float = addresses.infeed(note="of one way there and back")
+    machining_operation: float = addresses.operation()
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance(example=50)
+    centre_x: float = coordinate("Q216", "centre along the first axis", example=50)
+    centre_y: float = coordinate("Q217", "centre along the second axis", example=50)
+    pitch_circle_diameter: float = length("Q244", "diameter of the pitch circle", example=80)
+    slot_width: float = addresses.slot_width()
+    starting_angle: float = addresses.angle("Q245", "starting angle", example=45)
+    angular_length: float = addresses.angle("Q248", "angular length of the slot", incremental=True, at_least=0, example=90)
+    finishing_infeed: float = addresses.finishing_infeed()
+    plunging_feed: float = addresses.plunge_feed(default=0, note="of finishing; 0: as Q207")
+
+    def contradictions(self) -> Iterator[Fault]:
+        return infeed_given(self)
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from check_slot(self, m)
+        if not self.depth:
+            return
+        if self.pitch_circle_diameter <= self.slot_width + NOTHING:
+            found = f"{self.slot_width:g}, got {self.pitch_circle_diameter:g}"
+            yield "pitch_circle_diameter", f"must be greater than the slot width Q219, {found}"
+        if (way := self.pitch_circle_diameter / 2 * math.radians(self.angular_length)) <= NOTHING:
+            yield "angular_length", f"must make a way for the plunge, got {way:g} mm"
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        begin, sweep = math.radians(self.starting_angle), math.radians(self.angular_length)
+        line = shapes.arc(self.pitch_circle_diameter / 2, begin, sweep)
+        return mill(self, m, Slot(line, line.reversed()))
+
+
+AnySlot: TypeAlias = StraightSlot | CircularSlot
+
+# --- what both share ------------------------------------------------------------------------------------------------
+
+
+def infeed_given(c: AnySlot) -> Iterator[Fault]:
+    """An infeed; a depth of 0 is not executed, so nothing of it can be wrong."""
+    if c.depth:
+        yield from not_zero(c, "infeed")
+        yield from too_many("finishing_infeed", lambda: finishing_levels(c))
+
+
+def check_slot(c: AnySlot, m: Machine) -> Iterator[Fault]:
+    """The tool fits into the slot, and is not less than a third as wide."""
+    if not c.depth:
+        return
+    yield from c.signs(m)
+    yield from with_radius(m)
+    yield from not_zero(c, "milling_feed", purpose="to mill with")
+    yield from at_least(c, "slot_width", 2 * m.radius, "the tool diameter")
+    if c.slot_width > (most := WIDEST * 2 * m.radius) + SAME:
+        yield "slot_width", f"must be at most three times the tool diameter, {most:g}, got {c.slot_width:g}"
+    yield from too_many("infeed", lambda: c.pecks(m))
+
+
+def finishing_levels(c: AnySlot) -> tuple[float, ...]:
+    return infeeds(c.surface, c.surface + c.depth, c.finishing_infeed)
+
+
+class Slot(NamedTuple):
+    """The centre line of a slot; the way from its end to where finishing begins; how far along the wall that leads to it."""
+
+    line: Contour
+    back: Contour
+    along: float = 0.0
+
+
+def mill(c: AnySlot, m: Machine, slot: Slot) -> Iterator[Step]:
+    """Roughing from the begin of the line, finishing from the end of the way back; all counts from Q216 and Q217."""
+    inset = c.slot_width / 2 - m.radius
+    finishes = c.machining_operation != 1 and inset > NOTHING
+    if not c.down:
+        yield c.left_out
+    elif c.machining_operation == 2 and not finishes:
+        yield Say("Q215=2 finishes nothing: the slot is as wide as the tool")
+    else:
+        x, y = (slot.back.points[-1] if c.machining_operation == 2 else slot.line.points[0]).tolist()
+        yield Go("to the second set-up clearance", max(m.programmed[2], c.end))
+        yield Go("over the start", x=c.centre_x + x, y=c.centre_y + y)
+        yield Go("to the set-up clearance", c.above)
+        yield from moved(cut(c, slot, inset if finishes else 0.0), c.centre_x, c.centre_y)
+        yield from c.leave()
+
+
+def cut(c: AnySlot, slot: Slot, inset: float) -> Iterator[Step]:
+    """From the set-up clearance down to the bottom; several infeeds of finishing begin at the set-up clearance again."""
+    levels, feed = finishing_levels(c), c.milling_feed
+    if c.machining_operation != 2:
+        yield Go("to the surface", c.surface, feed)
+        yield from oblique_infeeds(slot.line, c.surface, infeeds(c.surface, c.surface + c.depth, c.infeed), feed)
+        if inset or isinstance(c, StraightSlot):
+            yield Along("back", slot.back, feed)
+        if inset and len(levels) > 1:
+            yield Go("to the set-up clearance", c.above)
+    if inset:
+        wall = shapes.slot(slot.line.reversed(), 2 * inset).started_at(slot.along)
+        start = slot.back.points[-1].tolist()
+        feeds = Feeds(feed, c.plunging_feed or feed)
+        yield from finish_rounds(wall, half_circles(wall, inset, 1), (start[0], start[1]), levels, feeds)
