@@ -132,7 +132,7 @@ def test_a_contour_of_a_cycle_is_no_place_to_start():
         "4 L X+0 Y+0 Z+50 FMAX M3\n5 CYCL DEF 14.0 CONTOUR\n6 CYCL DEF 14.1 CONTOUR LABEL 1\n"
         "7 CYCL DEF 20 CONTOUR DATA Q1=-8 Q2=+1 Q3=+0.2 Q4=+0.1 Q5=+0 Q6=+2 Q7=+50 Q8=+0.5 Q9=+1\n"
         "8 CYCL DEF 22 ROUGH-OUT Q10=-4 Q11=100 Q12=300 Q18=0 Q19=0 Q208=500\n9 CYCL CALL\n10 M30\n"
-        "11 LBL 1\n12 L X+10 Y+10 RR\n13 L X+70\n14 L Y+70\n15 L X+10\n16 L Y+10\n17 LBL 0\n18 END PGM A MM\n"
+        "11 LBL 1\n12 L X+10 Y+10 RL\n13 L X+70\n14 L Y+70\n15 L X+10\n16 L Y+10\n17 LBL 0\n18 END PGM A MM\n"
     )
     run = mnclab.run(text, "tnc-620")
     assert run.ok, run.alarms
