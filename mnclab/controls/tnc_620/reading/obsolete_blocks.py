@@ -29,7 +29,8 @@ NAMES: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 _MEANT = {word.replace(" ", ""): address for address, (_, *words) in NAMES.items() for word in words}
 
-_WORD = re.compile(r"(?:(?!Q[LR]?\d)(?:[^\d\s;~+,=.-]|\.(?![ \t]*[\d.]))[ \t]*)*", FLAGS)
+_WORD = re.compile(r"(?:(?!Q[LR]?\d)(?:[^\d\s;~+,=.-]|\.(?!\d))[ \t]*)*", FLAGS)
+_AUTO = re.compile(r"F[ \t]*AUTO(?![A-Z])", FLAGS)
 _EQUALS = re.compile(r"[ \t]*=", FLAGS)
 _SENSE = re.compile(r"[ \t]*([+-])(?![ \t]*[\dQ.,])", FLAGS)
 
@@ -44,14 +45,16 @@ def values(cursor: Cursor, addresses: str) -> None:
 
 def _value(cursor: Cursor, address: str, kind: str) -> None:
     begin, meaning = cursor.blanks(), NAMES[kind][0]
+    if kind == "F" and cursor.match(_AUTO):
+        cursor.add(address, "FAUTO", begin)
+        return
     found = cursor.match(_WORD)
     word = "".join(found.group().upper().split()) if found else ""
     meant = _MEANT.get(word)
-    if kind == "F" and word == "FAUTO":
-        cursor.add(address, word, begin)
-        return
     if (meant not in (None, kind)) or (kind in ("F", "DR") and word not in ("", kind)):
         raise Fault(f"{word} stands where the {meaning} belongs", begin, max(1, len(word)))
+    if found and found.group()[-1:].isalpha() and cursor.text[cursor.at : cursor.stop][:1] == ".":
+        raise Fault(f"a point between {word} and a digit may belong to either", cursor.at, hint="write a blank before or after it")
     cursor.match(_EQUALS)
     if kind == "DR":
         sense = cursor.expect(_SENSE, "DR needs + or -")
