@@ -86,7 +86,7 @@ def test_a_pocket_begins_along_its_longer_side(rows, x: float, y: float, sense: 
     assert (np.sign(arcs.sweep) == (1 if sense == "+" else -1)).all()
 
 
-@pytest.mark.parametrize(("x", "y", "corner", "radius", "overlap"), [(80, 40, 10, 5, 1), (50, 70, 0, 6, 1.4), (60, 60, 8, 5, 1.9)])
+@pytest.mark.parametrize(("x", "y", "corner", "radius", "overlap"), [(80, 40, 10, 5, 1), (50, 70, 0, 6, 1.4), (60, 60, 8, 5, 2)])
 def test_what_a_pocket_is(rows, x: float, y: float, corner: float, radius: float, overlap: float) -> None:
     path = rows(cut(POCKET.format(x, y, "+", corner), radius, x=7, y=-3, overlap=overlap))
     r = max(corner, radius)

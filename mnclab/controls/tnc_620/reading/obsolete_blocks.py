@@ -54,7 +54,7 @@ def _value(cursor: Cursor, address: str, kind: str) -> None:
     if (meant not in (None, kind)) or (kind in ("F", "DR") and word not in ("", kind)):
         raise Fault(f"{word} stands where the {meaning} belongs", begin, max(1, len(word)))
     if found and found.group()[-1:].isalpha() and cursor.text[cursor.at : cursor.stop][:1] == ".":
-        raise Fault(f"a point between {word} and a digit may belong to either", cursor.at, hint="write a blank before or after it")
+        raise Fault(f"a point between {word} and a digit may belong to either", cursor.at, hint="write a blank beside it")
     cursor.match(_EQUALS)
     if kind == "DR":
         sense = cursor.expect(_SENSE, "DR needs + or -")
