@@ -1,4 +1,4 @@
-; 10:18 alarm: F90 has no meaning in this block
+; 10:18 alarm: F stands twice
 BEGIN PGM A MM
 TOOL CALL 1 Z S1000
 L X+20 Y+10 Z+2 R0 FMAX M3

@@ -1,7 +1,7 @@
 """The sub-blocks of the cycles 1 to 5 and 17: which value stands where, each behind a word of the dialog.
 
 The words are those of the control's language (`DEPTH`, `TIEFE` …): what a number means follows from its place. A word that
-is known and means the value of another place is refused, for then one of the two is wrong.
+is known and belongs to another place is refused, for then one of the two is wrong.
 """
 
 from __future__ import annotations
@@ -36,31 +36,42 @@ _SENSE = re.compile(r"[ \t]*([+-])(?![ \t]*[\dQ.,])", FLAGS)
 
 
 def values(cursor: Cursor, addresses: str) -> None:
-    """The values of one sub-block in their order; those behind the first may be missing."""
-    for number, address in enumerate(addresses.split()):
-        if number and cursor.done:
-            return
-        _value(cursor, address, address.rpartition(":")[2])
+    """The values of one sub-block, in any order where words tell them apart; those behind the first may be missing."""
+    left = addresses.split()
+    _value(cursor, left)
+    while left and not cursor.done:
+        _value(cursor, left)
+    begin = cursor.blanks()
+    if _MEANT.get(again := _word(cursor), "-") in addresses:
+        raise Fault(f"{again} stands twice", begin, len(again))
+    cursor.at = begin
 
 
-def _value(cursor: Cursor, address: str, kind: str) -> None:
-    begin, meaning = cursor.blanks(), NAMES[kind][0]
-    if kind == "F" and cursor.match(_AUTO):
-        cursor.add(address, "FAUTO", begin)
-        return
+def _word(cursor: Cursor) -> str:
+    """The words of the dialog up to the next value, without their blanks."""
     found = cursor.match(_WORD)
-    word = "".join(found.group().upper().split()) if found else ""
-    meant = _MEANT.get(word)
-    if (meant not in (None, kind)) or (kind in ("F", "DR") and word not in ("", kind)):
-        raise Fault(f"{word} stands where the {meaning} belongs", begin, max(1, len(word)))
-    if found and found.group()[-1:].isalpha() and cursor.text[cursor.at : cursor.stop][:1] == ".":
+    return "".join(found.group().upper().split()) if found else ""
+
+
+def _value(cursor: Cursor, left: list[str]) -> None:
+    """One of the values that are `left`: that of a word that is known, else the next one."""
+    begin, kinds = cursor.blanks(), [address.rpartition(":")[2] for address in left]
+    if "F" in kinds and cursor.match(_AUTO):
+        cursor.add(left.pop(kinds.index("F")), "FAUTO", begin)
+        return
+    word = _word(cursor)
+    kind = _MEANT.get(word, kinds[0])
+    if kind not in kinds or (kind in ("F", "DR") and word not in ("", kind)):
+        raise Fault(f"{word} stands where the {NAMES[kinds[0]][0]} belongs", begin, max(1, len(word)))
+    address = left.pop(kinds.index(kind))
+    if cursor.text[cursor.at - 1].isalpha() and cursor.rest()[:1] == ".":
         raise Fault(f"a point between {word} and a digit may belong to either", cursor.at, hint="write a blank beside it")
     cursor.match(_EQUALS)
     if kind == "DR":
         sense = cursor.expect(_SENSE, "DR needs + or -")
         cursor.add(address, 1.0 if sense.group(1) == "+" else -1.0, begin)
         return
-    value = cursor.needed(f"a number is missing: the {meaning}", begin, max(1, cursor.at - begin))
+    value = cursor.needed(f"a number is missing: the {NAMES[kind][0]}", begin, max(1, cursor.at - begin))
     cursor.add(address, value, begin)
 
 
