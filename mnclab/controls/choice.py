@@ -9,6 +9,7 @@ from itertools import islice
 from pathlib import Path, PurePath
 
 from mnclab.controls import CONTROLS
+from mnclab.controls.recognition import looks_like, recognise
 from mnclab.machine.control import Control, Function
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.parameter_table import help_html, help_text
@@ -23,7 +24,6 @@ from mnclab.text.nearest import hint
 from mnclab.text.notation import Notation
 from mnclab.text.program import Program
 
-LOOKED_AT = 20_000  # characters of a program that tell its control
 MOST_FILES = 1000  # of a folder, looked through for a name
 
 
@@ -32,8 +32,9 @@ def run(
 ) -> Run:
     """Read and run a part program.
 
-    `source`: a text, or the path of a file. `control`: a name of `mnclab.controls`; None asks the file's suffix, then
-    the text, and refuses to guess when two fit. Faults are collected in `run.alarms`; `strict` raises the first.
+    `source`: a text, or the path of a file. `control`: a name of `mnclab.controls`; None asks the file's suffix and the
+    signs in the text (see `controls.recognition`), and refuses to guess when two fit. Faults are collected in
+    `run.alarms`; `strict` raises the first.
     """
     program = source if isinstance(source, Program) else read(source, control)
     return run_program(program, CONTROLS[program.control], setup, strict=strict)
@@ -62,12 +63,9 @@ def _point_out_another(program: Program) -> None:
     first = next((alarm for alarm in program.alarms if alarm.severity == ALARM), None)
     if first is None or len(program.faulty_blocks()) < max(3, len(program) / 4):  # a slip or two
         return
-    head = program.text[:LOOKED_AT]
-    if len(program.text) > LOOKED_AT:  # whole lines
-        head = head[: max(head.rfind("\n"), head.rfind("\r")) + 1]
-    alike = [one.name for one in CONTROLS.values() if one.looks_like and one.looks_like(head)]
-    if len(alike) == 1 and alike[0] != program.control:
-        said = f"this looks like a program of {alike[0]}, and was read as one of {program.control}"
+    alike = looks_like(program.text, CONTROLS)
+    if alike and alike != f"a program of {program.control}":
+        said = f"this looks like {alike}, and was read as one of {program.control}"
         first.hint = f"{said}; {first.hint}" if first.hint else said
 
 
@@ -147,16 +145,7 @@ def choose(control: str | None, name: str, text: str) -> Control:
             known = f"known: {', '.join(CONTROLS)}"
             raise Alarm(f"there is no control {shown(control)}", hint=f"{known}; {near}" if near else known)
         return CONTROLS[control]
-    suffix = Path(name).suffix.lower()
-    by_suffix = [one for one in CONTROLS.values() if suffix and suffix in one.suffixes]
-    if len(by_suffix) == 1:
-        return by_suffix[0]
-    fitting = [one for one in by_suffix or CONTROLS.values() if one.looks_like and one.looks_like(text)]
-    if len(fitting) == 1:
-        return fitting[0]
-    nothing = "nothing in the text or the file's name says which control it is for"
-    which = "more than one control fits" if fitting else nothing
-    raise Alarm(f"{which}: name it", hint=f"control= one of {', '.join(CONTROLS)}")
+    return recognise(name, text, CONTROLS)
 
 
 class Help:

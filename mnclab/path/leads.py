@@ -36,7 +36,8 @@ class Lead(NamedTuple):
 
     `form` is "LT" (a tangent line of `length` mm), "LN" (a line square to the contour), "CT" (an arc of `radius` mm
     and `angle` rad) or "LCT" (a line and a tangent arc). A negative radius turns away from the tool's side `side`
-    (+1 left, -1 right, 0 none). `departs`: from the contour. `feed` is that of the line to H, infinite at rapid.
+    (+1 left, -1 right, 0 none). `departs`: from the contour. `feed` is that of the line to H, or from
+    the arc of a departure LCT; infinite at rapid.
     """
 
     form: str
@@ -180,7 +181,8 @@ def _departure(view: PlaneView, row: int, lead: Lead, t: Array) -> list[_Part]:
     found = way(lead._replace(side=-lead.side), end[:2], start[:2], -t)
     if lead.form != "LCT":
         return [_Part(end, found.centre_at(start[2]), -found.sweep)]
-    return _moving(start, _Part(np.append(found.by, start[2]), found.centre_at(start[2]), -found.sweep), _Part(end))
+    arc = _Part(np.append(found.by, start[2]), found.centre_at(start[2]), -found.sweep)
+    return _moving(start, arc, _Part(end, feed=lead.feed))
 
 
 def _moving(start: Array, first: _Part, last: _Part) -> list[_Part]:

@@ -29,8 +29,6 @@ def called(m: Machine, name: str, what: str, span: Span | None = None) -> int:
     flow = course(m)
     index = flow.found.get((flow.program.folder, name))
     if index is None:
-        if name.lower().endswith(".i"):
-            raise Alarm(f"{what} {name}: DIN/ISO programs (.I) are not built yet", span)
         key, text, folder = found(m, name, what, span)
         same = (k for k, known in enumerate(flow.programs) if known.name == key and (k or known.folder))
         index = next(same, None)
@@ -52,16 +50,17 @@ class Found(NamedTuple):
 
 def found(m: Machine, name: str, what: str, span: Span | None, kind: str = "program") -> Found:
     """The file that a statement (`what`) names; an Alarm if there is none. A `kind` other than programs names its type."""
-    caller, suffixes = m.flow.program, m.control.suffixes
-    wanted = _spelt(name, suffixes)
-    files = {_spelt(known, suffixes): (known, source) for known, source in m.setup.files.items()}
-    for key in (wanted, _last(wanted)):
-        if key in files:
-            known, source = files[key]
-            if isinstance(source, str):
-                return Found(known, source, caller.folder)
-            return Found(str(source), _text(source, what, span), str(source.parent))
-    file = _beside(caller, _last(wanted))
+    caller = m.flow.program
+    types = sorted(m.control.suffixes, key=lambda suffix: not caller.name.lower().endswith(suffix)) or [""]  # its own first
+    for wanted, suffix in ((_spelt(name, suffix), suffix) for suffix in types):
+        files = {_spelt(known, suffix): (known, source) for known, source in m.setup.files.items()}
+        for key in (wanted, _last(wanted)):
+            if key in files:
+                known, source = files[key]
+                if isinstance(source, str):
+                    return Found(known, source, caller.folder)
+                return Found(str(source), _text(source, what, span), str(source.parent))
+    file = next(filter(None, (_beside(caller, _last(_spelt(name, suffix))) for suffix in types)), None)
     if file is not None and not Path(os.path.realpath(file)).is_relative_to(os.path.realpath(caller.folder)):
         elsewhere = "it is a symbolic link to another folder, and files are taken from the folder of the program alone"
         raise Alarm(f"{what} {name}: {elsewhere}", span, hint="Setup(files=…) names files that lie elsewhere")
@@ -91,10 +90,10 @@ def _text(path: Path, what: str, span: Span | None) -> str:
         raise
 
 
-def _spelt(name: str, suffixes: tuple[str, ...]) -> str:
-    """A name as it is compared: small letters, one kind of slash, with the type of the control."""
+def _spelt(name: str, suffix: str) -> str:
+    """A name as it is compared: small letters, one kind of slash, with a type of the control."""
     name = name.strip().replace("\\", "/").lower()
-    return name if "." in _last(name) or not suffixes else name + suffixes[0]
+    return name if "." in _last(name) else name + suffix
 
 
 def _last(name: str) -> str:

@@ -158,6 +158,11 @@ class Course:
         m.recorder.most = self.most_rows(m)
         return len(self.programs) - 1
 
+    def said(self, alarm: Alarm) -> Alarm:
+        """An alarm in the words of the program that it is about."""
+        program = self.programs[alarm.span.program if alarm.span else 0]
+        return program.said(alarm, program) if program.said else alarm
+
     @property
     def called(self) -> bool:
         return len(self.running) > 1

@@ -14,6 +14,7 @@ import numpy as np
 
 from mnclab.geometry import frames
 from mnclab.geometry.frames import Matrix
+from mnclab.machine.coordinates import PLANES
 from mnclab.machine.flow import Flow, Recording
 from mnclab.machine.state import PUT_BACK
 from mnclab.machine.waiting import determine
@@ -25,20 +26,19 @@ from mnclab.text.alarm import Alarm, Span
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
-_NOWHERE = (float("nan"), float("nan"), 0.0)
-
-
 def record(m: Machine, flow: Flow, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
     """Obey a label for its contour; an Alarm when it has none or does not begin with both coordinates.
 
     `after` is the label before it in the same contour, whose transformations still act.
     """
     kept, outer = m.snapshot(PUT_BACK), m.matrix
+    nan, across = float("nan"), PLANES[m.plane][2]
+    x, y, z = (0.0 if axis == across else nan for axis in range(3))
     path_so_far = {"recorder": m.recorder, "programmed_pieces": m.programmed_pieces, "settled": m.settled}
     if after is not None:
         m.put(frames=after.frames, memory=after.memory)
-    m.put(recorder=m.recorder.another(_NOWHERE), programmed_pieces=[], settled=[], recorded_only=True)
-    m.put(tip=_NOWHERE, programmed=_NOWHERE, side=0, feed=m.feed or 1.0, exact_here=False)
+    m.put(recorder=m.recorder.another((x, y, z)), programmed_pieces=[], settled=[], recorded_only=True)
+    m.put(tip=(x, y, z), programmed=(x, y, z), side=0, feed=m.feed or 1.0, exact_here=False)
     try:
         with m.variables.own_level():
             flow.call(m, label, span)

@@ -19,6 +19,7 @@ from mnclab.machine.control import Control
 from mnclab.machine.cutting_rows import stock_of
 from mnclab.machine.machine import Machine
 from mnclab.machine.machine_file import load
+from mnclab.machine.output import written
 from mnclab.machine.settling import paths, shifted, stop_at_travel
 from mnclab.machine.setup import Setup, Tables
 from mnclab.path.columns import Index
@@ -82,6 +83,7 @@ class Run:
         self.history = History(machine.logs, len(self.steps.block))
         self.variables: dict[str, Any] = self._as_of_end("", machine.variables)
         self.measured: dict[str, Any] = self._as_of_end("measured ", machine.measured)
+        self.files = written(self.history, self.history.changed)
         self.tables: Tables = machine.tables if machine.cut is None else self._tables_of_history()
         self.frames = machine.frames
         self.gouges: tuple[Gouge, ...] = tuple(shifted(machine))
@@ -366,7 +368,7 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
         control.magazine
     )  # somebody may have written into its tables, and may again
     interpreter = Interpreter(control, setup, program)
-    machine, alarms = interpreter.machine, interpreter.alarms
+    machine, alarms = interpreter.machine, list[Alarm]()
     broken, collecting = False, gc.isenabled()
     gc.disable()  # running makes no reference cycles, and the collector would look at every kept row again
     try:
@@ -382,7 +384,8 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
             finish()
         except Alarm as alarm:
             alarms.append(alarm)
-    result = Run(program, setup, control, machine, alarms + machine.alarms)
+    told = [interpreter.flow.said(alarm) for alarm in (*alarms, *machine.alarms)]
+    result = Run(program, setup, control, machine, interpreter.alarms + told)
     if strict and not result.ok:
         raise next(found for found in result.alarms if found.severity == ALARM)
     return result

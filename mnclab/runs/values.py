@@ -79,6 +79,8 @@ def _plain(value: Any) -> str:
         return value
     if isinstance(value, tuple) and len(value) == 4 and np.shape(value[-1]) == (4,):
         return described(np.array(value)) or "none"
+    if hasattr(type(value), "faces"):  # a blank
+        return " to ".join(point(corner) for corner in value.bounds)
     if isinstance(value, tuple) and type(value).__str__ is not tuple.__str__:  # it says itself what it is
         return str(value)
     if isinstance(value, tuple):

@@ -1,9 +1,9 @@
 """The motion that LinuxCNC's interpreter makes of a program, in mm and full double precision.
 
-    /usr/bin/python3 tests/authorities/linuxcnc_oracle.py PROGRAM.ngc
+    /usr/bin/python3 tests/authorities/linuxcnc_oracle.py PROGRAM.ngc …
 
 Needs Debian's package `linuxcnc-uspace`, which brings the module `gcode` for Debian's own Python. It prints
-one JSON object: `ok`, `error` and `line` of a refused program, and `motion`, a list of
+one JSON object a line for each program: `ok`, `error` and `line` of a refused program, and `motion`, a list of
 
     kind     "rapid", "feed" or "arc"
     line     line of PROGRAM.ngc, 1-based
@@ -136,4 +136,5 @@ def answer(path):
 
 
 if __name__ == "__main__":
-    print(json.dumps(answer(sys.argv[1])))
+    for program in sys.argv[1:]:
+        print(json.dumps(answer(program)), flush=True)

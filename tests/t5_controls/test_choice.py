@@ -38,7 +38,7 @@ def test_two_that_fit_are_not_chosen_from(monkeypatch):
     twin = replace(mnclab.controls["mnc"], name="twin", suffixes=())
     mnclab.controls.add(twin)
     try:
-        with pytest.raises(Alarm, match="more than one control fits: name it"):
+        with pytest.raises(Alarm, match="may be a program of mnc or a program of twin: name the control"):
             mnclab.read(SQUARES["mnc"])
     finally:
         mnclab.controls.remove("twin")

@@ -6,14 +6,31 @@ So it is the ISO mill that its users take it for: `language.lengths` holds what 
 
 from __future__ import annotations
 
-import re
-
-from mnclab.controls.g43 import cycles, remarks
-from mnclab.controls.g43.language import lengths, motion, offsets, references, units
+from mnclab.controls.g43 import cycles
+from mnclab.controls.g43.language import (
+    auxiliary,
+    corners,
+    data_setting,
+    lengths,
+    macros,
+    modes,
+    motion,
+    offsets,
+    polar,
+    programs,
+    references,
+    tools,
+    transformations,
+    units,
+    variables,
+)  # fmt: skip
+from mnclab.controls.g43.meanings import MEANINGS
+from mnclab.controls.g43.reading.reader import read
+from mnclab.controls.g43.refused import REFUSED
 from mnclab.controls.g43.settings import SETTINGS
+from mnclab.controls.g43.signs import SIGNS
 from mnclab.controls.g43.state import Memory
 from mnclab.controls.word_address.motion import more_helices
-from mnclab.controls.word_address.reader import reader
 from mnclab.machine.control import Control, FunctionTable
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
@@ -23,30 +40,17 @@ from mnclab.running.bulk import PlainWords
 
 #: Order inside a block.
 PHASES = (
-    *("plane", "feed", "spindle", "tool", "change", "corrector", "length", "auxiliary", "frames", "local"),
-    *("compensation", "dwell", "motion", "call", "end"),
+    *("plane", "feed", "spindle", "tool", "change", "data", "corrector", "length", "auxiliary", "frames", "local"),
+    *("transformation", "compensation", "dwell", "motion", "call", "end"),
 )
 
-_NO_SYNTAX = "the source does not say how this control writes it"
-REFUSED = (
-    {code: f"not built: subprograms; {_NO_SYNTAX}" for code in ("M98", "M99", "G65", "G66", "G67")}
-    | {code: "not built: only the first reference point is, G28" for code in ("G29", "G30")}
-)
-
-MEANINGS = {
-    **{f"G{n} {letter}": f"centre along {axis} from the start" for n in (2, 3) for letter, axis in zip("IJK", "XYZ")},
-    **{f"G52 {axis}": f"origin's {axis} from the work offset" for axis in "XYZ"},
-    **{f"G92 {axis}": f"new value of {axis} where the tool stands" for axis in "XYZ"},
-    "R": "radius", "G4 P": "the time, counted as the setting dwell_p says", "G4 X": "seconds",
-}  # fmt: skip
-
-_LENGTHS = re.compile(r"^[^;\n]*G[ \t]*4[349](?!\d)", re.I | re.M)
 
 
 def start(m: Machine) -> None:
     """G54 is active at the start; the tip hangs below the spindle by the length of the tool."""
     offsets.start(m)
     lengths.place(m, "tip")
+    variables.start(m)
 
 
 def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
@@ -55,30 +59,37 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
 
 
 #: What help lists, and hints name, before the others.
-FIRST = "G0 G1 G2 G3 G17 G18 G19 G90 G91 G54 G55 G56 G57 G58 G59 G53 G52 G92 G28 F S G94 G95 G61 G64"
-_ALL = motion.FUNCTIONS | offsets.FUNCTIONS | references.FUNCTIONS | units.FUNCTIONS | lengths.FUNCTIONS
+FIRST = "G0 G1 G2 G3 G17 G18 G19 G90 G91 G54 G55 G56 G57 G58 G59 G53 G52 G92 G28 G68 G51 G10 F S G94 G95 G61 G64"
+_PARTS = (
+    modes, motion, offsets, transformations, polar, references, units, lengths, tools, data_setting, auxiliary, macros,
+    programs, corners,
+)  # fmt: skip
+_ALL = {code: function for part in _PARTS for code, function in part.FUNCTIONS.items()}
 FUNCTIONS = FunctionTable({code: _ALL[code] for code in (*FIRST.split(), *_ALL)})
 
 CONTROL = Control(
     name="g43",
     title="ISO mill (control with G43, G44, G49)",
     suffixes=(".g43", ".iso"),
-    read=reader("g43", comment=";"),
+    read=read,
     functions=FUNCTIONS,
     cycles=cycles.CYCLES,
     phases=PHASES,
     settings=SETTINGS,
-    frames=("length", "datum", "local"),
+    frames=("length", "external", "datum", "set", "local", "mirror", "rotation", "scaling"),
     memory=Memory,
-    compensation=Compensation(approach="corner", change=True, look_ahead=True),
+    compensation=Compensation(approach="corner", change=True, look_ahead=True, rapid=True),
     start=start,
-    looks_like=lambda text: _LENGTHS.search(text) is not None,
+    signs=SIGNS,
     refused=REFUSED,
     meanings=MEANINGS,
     together=motion.together,
+    computed=macros.computed,
+    preassigned=variables.PREASSIGNED,
+    calls_again=programs.calls_again,
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
-        ready=lambda m: not lengths.pending(m) and remarks.silent(m, "G2", "G3"),
+        ready=lambda m: motion.is_plain(m) and not m.modal.get("call"),
         helices=more_helices,
         unit=lambda m: m.variable_unit,
     ),

@@ -91,6 +91,19 @@ class HoleCycle(holes.AtHole, Cycle):
         """The way over a hole, the work, and the way up."""
         return super().moves(m)
 
+    def approach(self, m: Machine) -> Iterator[Step]:
+        assert m.position_cycle is not None
+        way, level = m.settings["below_r"], m.programmed[2]
+        straight = way == "straight"
+        if straight and holes.initial_level(m, m.position_cycle.extra) < self.r_level:
+            yield Go("to level R", self.r_level)
+            yield self.across()
+        elif level < self.r_level and way != "up":
+            yield self.across()._replace(z=self.r_level if straight else None)
+            yield Go("to level R", self.r_level)
+        else:
+            yield from super().approach(m)
+
     @property
     def seconds(self) -> float:
         return self.dwell / 1000

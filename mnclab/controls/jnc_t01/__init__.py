@@ -7,7 +7,8 @@
 from __future__ import annotations
 
 from mnclab.controls.jnc_t01 import cycles, feeds, motion
-from mnclab.controls.jnc_t01.reader import looks_like, read
+from mnclab.controls.jnc_t01.reader import read
+from mnclab.controls.jnc_t01.signs import SIGNS
 from mnclab.controls.jnc_t01.state import Memory
 from mnclab.machine.control import Control, Modal
 from mnclab.machine.cycle import Cycle
@@ -89,7 +90,7 @@ CONTROL = Control(
     frames=("offset", "corrector"),
     memory=Memory,
     start=start,
-    looks_like=looks_like,
+    signs=SIGNS,
     refused=REFUSED,
     meanings=MEANINGS,
     relative=("G92 X", "G92 Z"),

@@ -18,7 +18,6 @@ FORMATS = {**dict.fromkeys("GMTLN", "n"), **dict.fromkeys("DFS", "n.n"), **dict.
 _LOOKS_LATIN = dict(zip("ХхМмТтКкІі", "XxMmTtKkIi", strict=True))
 _CODE = re.compile(rf"^[^{COMMENT}\r\n]*", re.MULTILINE)
 _LETTERS = re.compile(f"[{''.join(_LOOKS_LATIN)}]")
-_LINE = re.compile(r"[ \t]*(?:[DFGIKLMRSTUWXZ][+-]?(?:\d+(?:\.\d*)?|\.\d+)[ \t]*)*", re.IGNORECASE)
 
 _words = words.reader("jnc-t01", COMMENT, labels=False, skip=False, headers="%")
 
@@ -44,9 +43,3 @@ def _fold(text: str) -> tuple[str, list[int]]:
     for at in places:
         letters[at] = _LOOKS_LATIN[text[at]]
     return "".join(letters), places
-
-
-def looks_like(text: str) -> bool:
-    """Whether there are comments behind apostrophes, and beside them nothing but words of this control."""
-    lines = text.splitlines()
-    return any(COMMENT in line for line in lines) and all(_LINE.fullmatch(line.partition(COMMENT)[0]) for line in lines)

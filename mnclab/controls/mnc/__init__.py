@@ -7,11 +7,10 @@ and 10), `settings` what a machine may need otherwise. Codes of probing are refu
 
 from __future__ import annotations
 
-import re
-
 from mnclab.controls.mnc import auxiliary, language, polar, transforms
 from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets, prepared
 from mnclab.controls.mnc.settings import SETTINGS
+from mnclab.controls.mnc.signs import SIGNS
 from mnclab.controls.mnc.state import Memory
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
@@ -33,14 +32,6 @@ REFUSED = (
     | {f"G{n}": _LATER for n in (470, 471, 472, 480, 481, 482, 490, 491, 492, 499)}
     | {f"G{n}": "this control has no such cycle, G83 does its work" for n in (81, 82)}
 )
-
-_G_BLOCK = re.compile(r"^[ \t/\ufeff]*(N[ \t]*\d+[ \t]*)?G[ \t]*\d", re.IGNORECASE | re.MULTILINE)
-
-
-def looks_like(text: str) -> bool:
-    """Blocks of G words, and none of the marks by which other languages are known."""
-    return _G_BLOCK.search(text) is not None and re.search(r"[*~@;']|BEGIN[ \t]+PGM|G[ \t]*4[349](?!\d)", text) is None
-
 
 #: What the words of functions are, where their letters do not say it.
 MEANINGS = {
@@ -85,7 +76,7 @@ CONTROL = Control(
     memory=Memory,
     compensation=Compensation(approach="corner", change=True, look_ahead=True),
     start=language.power_on,
-    looks_like=looks_like,
+    signs=SIGNS,
     refused=REFUSED,
     meanings=MEANINGS,
     relative=tuple(f"G{n} {letter}" for n in range(10, 14) for letter in "RA"),

@@ -8,7 +8,8 @@ radius everywhere else.
 from __future__ import annotations
 
 from mnclab.controls.nc_31 import drilling, functions, grooving, notation, stock_removal, threads
-from mnclab.controls.nc_31.reader import looks_like, read
+from mnclab.controls.nc_31.reader import read
+from mnclab.controls.nc_31.signs import SIGNS
 from mnclab.controls.nc_31.state import Memory
 from mnclab.machine.control import Control
 from mnclab.machine.cycle import Cycle
@@ -67,7 +68,7 @@ CONTROL = Control(
     memory=Memory,
     settings=SETTINGS,
     start=functions.power_on,
-    looks_like=looks_like,
+    signs=SIGNS,
     refused=REFUSED,
     meanings=MEANINGS,
     told=notation.told,

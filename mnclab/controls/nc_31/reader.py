@@ -35,7 +35,6 @@ _LOOKS_LATIN = dict(zip("ХМРТСЗхмртсз", "XMPTCZ" * 2, strict=True))
 _FOLD = str.maketrans(_LOOKS_LATIN | {c: c.upper() for c in ascii_lowercase})
 _WORD = re.compile(r"([A-Z])[ \t]*(?:(@)[ \t]*)?([+-]?[0-9]+)")
 _CHAMFER = re.compile(r"[+-][ \t]*45(?![0-9])")
-_FRAME = re.compile(rf"\s*(N\s*[0-9]+\s*)?[{ADDRESSES}]\s*(?:@\s*)?[+-]?[0-9]+((?:\s*[*~@])*)\s*(;.*)?")
 
 
 def read(text: str, name: str = "program") -> Program:
@@ -47,13 +46,6 @@ def read(text: str, name: str = "program") -> Program:
         frames.read_line(begin, end)
     frames.close()
     return builder.build()
-
-
-def looks_like(text: str) -> bool:
-    """Whether every line is a frame and some carry marks."""
-    lines = [line for line in text.translate(_FOLD).splitlines() if line.partition(COMMENT)[0].strip()]
-    found = [_FRAME.fullmatch(line) for line in lines]
-    return all(found) and any(match and match[2] for match in found)
 
 
 class _Frames:

@@ -1,12 +1,10 @@
-"""The HEIDENHAIN TNC 620 milling control (NC software 81760x-06, 2018), conversational programs.
+"""The HEIDENHAIN TNC 620 milling control (NC software 81760x-06, 2018), conversational programs and DIN/ISO programs.
 
 `reader` makes blocks of lines, `statements` and `words` say how each is written, `language` obeys statements and M
 functions, `cycles` holds the fixed cycles by chapter of the manual, `later` names what is not built yet.
 """
 
 from __future__ import annotations
-
-import re
 
 from mnclab.controls.tnc_620 import later
 from mnclab.controls.tnc_620.cycles import (
@@ -37,7 +35,9 @@ from mnclab.controls.tnc_620.cycles import patterns as point_patterns
 from mnclab.controls.tnc_620.language import (
     approach,
     auxiliary,
+    blank,
     calls,
+    circle_data,
     feeds,
     flow,
     free_contours,
@@ -45,17 +45,26 @@ from mnclab.controls.tnc_620.language import (
     joints,
     machine_datum,
     motion,
+    no_effect,
     parameters,
     pattern_definitions,
+    plc,
     pole,
+    preset,
     program,
+    retraction,
+    rotary_rules,
+    secondary_axes,
     system_access,
     system_data,
+    system_texts,
     tools,
 )
+from mnclab.controls.tnc_620.printing import output
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
+from mnclab.controls.tnc_620.signs import SIGNS
 from mnclab.controls.tnc_620.state import Memory
 from mnclab.controls.tnc_620.tables import datum_tables
 from mnclab.controls.tnc_620.trial import trial_program
@@ -91,15 +100,18 @@ SETTINGS = (
         "thread_wait", 0.0, "how long the spindle stands at the bottom of a tapped thread (thrdWaitingTime, no. 113601)", "5.2",
         unit="s", at_least=0,
     ),
-    *tilting.SETTINGS, *engraving.SETTINGS, *obsolete_faces.SETTINGS, *system_data.SETTINGS,
+    *tools.SETTINGS, *no_effect.SETTINGS, *retraction.SETTINGS, *tilting.SETTINGS, *engraving.SETTINGS,
+    *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS, *output.SETTINGS,
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
 FUNCTIONS = (
     pole.FUNCTIONS | motion.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
-    | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
+    | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS | blank.FUNCTIONS
     | machine_datum.FUNCTIONS | feeds.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
+    | no_effect.FUNCTIONS | rotary_rules.FUNCTIONS | retraction.FUNCTIONS
     | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS | system_access.FUNCTIONS
+    | circle_data.FUNCTIONS | plc.FUNCTIONS | preset.FUNCTIONS | output.FUNCTIONS
 )  # fmt: skip
 CHAPTERS = (
     defaults, drilling, boring, pecking, tapping, threads, point_patterns, pockets, slots, studs, walled_faces,
@@ -112,7 +124,8 @@ for chapter in CHAPTERS:
 
 #: What the words of statements are.
 MEANINGS = {
-    **feeds.MEANINGS, "FMAX": "rapid traverse", "FAUTO": "feed rate of TOOL CALL", "M103:F": "share downwards in percent",
+    **feeds.MEANINGS, "FMAX": "rapid traverse", "G00": "rapid traverse",
+    "FAUTO": "feed rate of TOOL CALL", "M103:F": "share downwards in percent",
     "S": "spindle speed", "R": "radius", "DR": "sense of rotation", "R0": "no radius compensation",
     "RL": "compensation to the left", "RR": "compensation to the right", "LEN": "length", "PR": "polar radius",
     "PA": "polar angle", "CCA": "centre angle", "length": "side length", "REP": "repetitions", "label": "label",
@@ -121,27 +134,32 @@ MEANINGS = {
     "text": "name of the tool in a text parameter",
     "first": "the first operand", "second": "the second operand", "parameter": "the parameter that is asked about",
     "state": "whether it has a value", "undefined": "it has no value any more", "FN 14 number": "error number",
+    "mask": "file with the mask", "output": "file that is written", "item": "what is put out",
+    "points": "the first parameter of the points", "FN 25 axis": "axis of the datum",
+    "FN 25 first": "coordinate that a point has", "FN 25 second": "coordinate that it gets",
     "ID": "group of system data", "NR": "number in its group", "IDX": "index", "FN 17 value": "the value to write",
-    "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length", "file": "name of a file",
+    "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length",
+    "BLK FORM CYLINDER L": "length", "BLK FORM CYLINDER D": "diameter", "DIST": "from the datum to the front face",
+    "RI": "radius of the bore", "DI": "diameter of the bore", "DIM": "whether X is the radius or the diameter",
+    "BLK FORM CYLINDER axis": "axis", "BLK FORM ROTATION axis": "axis", "file": "name of a file",
     **{axis: f"angle of the rotary axis {axis}" for axis in "ABC"},
+    **{axis: f"secondary axis along {along}" for axis, along in zip("UVW", "XYZ", strict=True)},
     **{f"M94:{axis}": f"the rotary axis {axis}" for axis in "ABC"},
     **{f"M118:{axis}": f"greatest way of the handwheel along {axis}" for axis in "XYZ"},
     **{f"M118:{axis}": f"greatest turn of the handwheel around {axis}" for axis in "ABC"},
+    **no_effect.WORDS, **rotary_rules.WORDS, **retraction.WORDS,
+    **{f"PLANE RESET {address}": meaning for address, meaning in retraction.PLANE.items()},
     "FSELECT number": "number of the solution, as the control shows them", **free_words.WORDS,
     **{f"PATTERN DEF {address}": meaning for address, meaning in pattern_definitions.MEANINGS.items()},
 }  # fmt: skip
 
-_KLARTEXT = re.compile(
-    r"(?im)^[ \t\ufeff]*(?:\d+[ \t]*)?(BEGIN[ \t]+PGM|TOOL[ \t]+CALL|CYCL[ \t]+DEF|CALL[ \t]+LBL|L[ \t]+I?[XYZ])"
-)
-
 CONTROL = Control(
-    name="tnc-620", title="HEIDENHAIN TNC 620 (2018)", suffixes=(".h",),
-    read=reader.read, looks_like=lambda text: _KLARTEXT.search(text) is not None,
+    name="tnc-620", title="HEIDENHAIN TNC 620 (2018)", suffixes=(".h", ".i"),
+    read=reader.read, signs=SIGNS,
     functions=FUNCTIONS, cycles=CYCLES, names=ISO_NAMES, refused=later.REFUSED, together=later.strange_parameters(CYCLES),
     phases=PHASES, codes=("M",), word_functions=False, meanings=MEANINGS, told=motion.turning_sense, trial=trial_program,
-    settings=SETTINGS, memory=Memory, start=program.start, frames=("preset",),
-    storage="variables", preassigned=parameters.PREASSIGNED, local_variables="QL",
+    settings=SETTINGS, memory=Memory, start=program.start, frames=(secondary_axes.FRAME, "preset"),
+    storage="variables", preassigned={**parameters.PREASSIGNED, **system_texts.TEXTS}, local_variables="QL",
     named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again,
     compensation=Compensation(approach="perpendicular", rapid=True),
     bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call")),

@@ -11,11 +11,12 @@ from mnclab.text.program import Word
 
 if TYPE_CHECKING:
     from mnclab.controls.tnc_620.cycles.contours import ContourData, Labels
+    from mnclab.controls.tnc_620.language.blank import Blank
     from mnclab.controls.tnc_620.language.free_contours import Earlier
     from mnclab.controls.tnc_620.language.pattern_definitions import Pattern
-    from mnclab.controls.tnc_620.language.program import Blank
     from mnclab.controls.tnc_620.tables.datum_tables import DatumTable
     from mnclab.geometry.free_contour import Pair
+    from mnclab.workpiece.blank import Blank as Body
 
 Place = tuple[float, float, float]
 
@@ -29,7 +30,9 @@ class Memory:
     unit: str | None = None  # "MM" or "INCH", of the running program
     main_unit: str | None = None
     selected_program: str | None = None
-    stock: Blank | None = None
+    stock: Blank | Body | None = None
+    told: frozenset[str] = frozenset()  # warnings that are given once a program
+    closed_files: frozenset[str] = frozenset()  # in small letters: what is written to them next begins anew
 
     # feed, spindle, probe
     auto_feed: float | None = None  # of TOOL CALL, mm/min
@@ -39,6 +42,7 @@ class Memory:
 
     # datums, transformations, planes
     pole_plane: str = "XY"  # of CC, whose axes `Machine.pole` counts along
+    secondary: Place = (0.0, 0.0, 0.0)  # where U, V and W stand
     machine_datum: tuple[Word, Place] | None = None  # M91 or M92 of the block, and the machine coordinates it counts from
     preset: int | None = None  # the active row
     datum_table: DatumTable | None = None

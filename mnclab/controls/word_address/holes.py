@@ -39,6 +39,8 @@ def out_of_place(m: Machine) -> Iterator[tuple[str, str]]:
     """A fault under radius compensation or in machine coordinates."""
     if m.side:
         yield "", "cannot run under radius compensation"
+    if m.per_time:
+        yield "", "cannot run under G93: F is the time of one move there"
     if memory(m).machine_coordinates:
         yield "", "and G53 stand in one block: the cycle counts from the workpiece"
 
@@ -94,19 +96,28 @@ class AtHole(ABC):
     def about(self, m: Machine) -> tuple[float, float]:
         return m.programmed[0] if self.x is None else self.x, m.programmed[1] if self.y is None else self.y
 
+    def approach(self, m: Machine) -> Iterator[Step]:
+        """Over the hole, and to level R.
+
+        From below R the tool goes up to it first, for a rapid across would cut; no source says so, LinuxCNC does this.
+        """
+        if m.programmed[2] < self.r_level:
+            yield Go("to level R", self.r_level)
+        yield self.across()
+        yield Go("to level R", self.r_level)
+
+    def across(self) -> Go:
+        """Over the hole, from where the axes that are not written stand."""
+        return Go("to the hole", x=None if self.x is None else 0.0, y=None if self.y is None else 0.0)
+
     def moves(self, m: Machine) -> Iterator[Step]:
         """Movements 1 to 6: over the hole, to level R, the work, to level R, and with G98 to the initial level.
 
-        From below R the tool goes up to it first, for a rapid across would cut; no source says so, LinuxCNC does this. By
-        the setting `below_r` it goes across first.
         An initial level below R is none to return to: R is where nothing is in the way, and a rapid down from it would
         end in the hole, the next one lead through the workpiece. So the tool stays at R, as ISO controls have it.
         """
         work, r_level = self.work(m), self.r_level
-        if m.programmed[2] < r_level and m.settings.get("below_r") != "across":
-            yield Go("to level R", r_level)
-        yield Go("to the hole", x=None if self.x is None else 0.0, y=None if self.y is None else 0.0)
-        yield Go("to level R", r_level)
+        yield from self.approach(m)
         yield from work
         yield Go("retract", r_level)
         if m.modal["return"] == "G98" and m.position_cycle:

@@ -58,7 +58,8 @@ def places_of(run: Any) -> list[Place]:
         selected = []
         for _, is_pole, name, value in changes:
             if is_pole:
-                if value is not None and (pole := _pole(path, chain, step, value)) is not None:
+                plane = history.value("pole plane", step)
+                if value is not None and (pole := _pole(path, chain, step, value, plane)) is not None:
                     add(colours.POLE, "pole", pole)
                 continue
             frame, matrix = name.removeprefix("frame "), np.array(value)
@@ -83,15 +84,20 @@ def _code(history: Any, step: int) -> str:
     return f"{code} Q{row}" if row is not None and code in ("G147", "G247") else code
 
 
-def _pole(path: Any, chain: FrameChain, step: int, pole: tuple[float, float]) -> Array | None:
-    """A pole in the plane of the next move, nan along its normal; None if no move follows."""
+def _pole(path: Any, chain: FrameChain, step: int, pole: tuple[float, float], plane: str | None) -> Array | None:
+    """A pole in its plane, else in that of the next move, nan along the normal; None if no move follows."""
     row = int(np.searchsorted(path.step, step))
     if row >= len(path):
         return None
-    normal = int(np.argmax(np.abs(path.axis[row])))
-    upright = np.linalg.solve(chain.matrix[:3, :3], path.axis[row])[normal] > 0  # else the axes are named in turn: XZ
+    if plane is not None:
+        first, second = ("XYZ".index(axis) for axis in plane)
+        normal = 3 - first - second
+    else:
+        normal = int(np.argmax(np.abs(path.axis[row])))
+        upright = np.linalg.solve(chain.matrix[:3, :3], path.axis[row])[normal] > 0  # else the axes are named in turn: XZ
+        first, second = ((normal + 1) % 3, (normal + 2) % 3)[:: 1 if upright else -1]
     point = np.zeros(3)
-    point[[(normal + 1) % 3, (normal + 2) % 3]] = pole if upright else pole[::-1]
+    point[[first, second]] = pole
     point = frames.apply(chain.matrix, point) - path.origin
     point[normal] = np.nan
     return point

@@ -8,7 +8,7 @@ from running import run
 
 import mnclab
 from mnclab import Kind
-from mnclab.controls.jnc_t01.reader import looks_like
+from mnclab.controls.recognition import looks_like
 from mnclab.path.columns import COLUMNS
 from mnclab.running.bulk import SHORTEST
 
@@ -65,8 +65,10 @@ def test_cyrillic_letters_are_read_and_reported():
 
 
 def test_the_text_says_which_control():
-    assert looks_like("G00 X5 ' rapid\n") and looks_like("' alone\nX10.Z10.\n")
-    assert not looks_like("G00 X5\n") and not looks_like("N1 X5 ' a\n") and not looks_like("L X+5 ; 'a\n")
+    for text in ("G00 X5 ' rapid\n", "' alone\nX10.Z10.\n"):
+        assert looks_like(text, mnclab.controls) == "a program of jnc-t01"
+    for text in ("G00 X5\n", "(N1) N1 X5 Y1 ' a\n", "L X+5 ; 'a\n"):
+        assert looks_like(text, mnclab.controls) != "a program of jnc-t01"
 
 
 def test_words_of_other_controls():

@@ -3,7 +3,7 @@
 import pytest
 
 import mnclab
-from mnclab.controls.nc_31.reader import looks_like
+from mnclab.controls.recognition import looks_like
 from mnclab.text.program import AT_MARK, GROUP_MARK, RAPID_MARK
 
 PARSING = "N92 X10500 ~\nN96 G66 *\nN97 X400\nN98 Z@-1000~\n"  # catalogue, "frame": frames of the source and an @
@@ -79,5 +79,7 @@ def test_cyrillic_letters_are_read_and_reported(tmp_path):
 
 
 def test_the_text_says_which_control():
-    assert looks_like(PARSING) and looks_like("N1 G77@*~\n X5 ; diameter\n")
-    assert not looks_like("N10 G0 X5 Z7\n") and not looks_like("X5\nZ7\n") and not looks_like("")
+    for text in (PARSING, "N1 G77@*~\n X5 ; diameter\n"):
+        assert looks_like(text, mnclab.controls) == "a program of nc-31"
+    for text in ("N10 G0 X5 Z7\n", "X5\nZ7\n", ""):
+        assert looks_like(text, mnclab.controls) != "a program of nc-31"

@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 
 import mnclab as mnc
 from mnclab import Kind
+from mnclab.show.plot.datums import places_of
 
 ROUND = {"YZ": {"X": "Y", "Y": "Z", "Z": "X"}, "ZX": {"X": "Z", "Y": "X", "Z": "Y"}}
 NORMALS = {"YZ": (1, 0, 0), "ZX": (0, 1, 0)}
@@ -114,3 +115,10 @@ def test_letters_changed_round_turn_the_path(x, y, z, u, v, angle, sense, plane)
     assert other.ok == flat.ok
     assert other.toolpath.end == pytest.approx(rolled(flat.toolpath.end, plane), abs=1e-9)
     assert other.toolpath.sweep == pytest.approx(flat.toolpath.sweep, abs=1e-12, nan_ok=True)
+
+
+def test_the_cross_of_a_pole_lies_in_its_plane(inside) -> None:
+    """The next move is a line, whose own plane is XY."""
+    run = inside("2 L X+0 Y+0 Z+50 R0 FMAX M3\n3 CC X+10 Z+5\n4 LP PR+25 PA+90 F200\n5 CP IPA+180 DR+")
+    (pole,) = (place for place in places_of(run) if place.name == "pole")
+    assert pole.xyz == pytest.approx((10, math.nan, 5), nan_ok=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 import mnclab as mnc
+from mnclab.controls.recognition import looks_like
 from mnclab.controls.tnc_620 import CONTROL
 
 PROGRAM = """\
@@ -188,8 +189,8 @@ def test_first_fault_of_a_block_once_and_reading_goes_on() -> None:
 
 def test_the_control_is_found_by_the_text_and_the_suffix(tmp_path) -> None:
     for text in ("0 BEGIN PGM A MM\n", "%\n 12 l ix+5\n", "3 TOOL CALL 5 Z"):
-        assert CONTROL.looks_like(text)
-    assert not CONTROL.looks_like("N10 G1 X5\nN20 M30\n")
+        assert looks_like(text, mnc.controls) == "a program of tnc-620"
+    assert looks_like("N10 G1 X5\nN20 M30\n", mnc.controls) == ""
     file = tmp_path / "A.H"
     file.write_text("1 L X+1\n")
-    assert mnc.read(file, "tnc-620").control == "tnc-620" and CONTROL.suffixes == (".h",)
+    assert mnc.read(file, "tnc-620").control == "tnc-620" and CONTROL.suffixes == (".h", ".i")

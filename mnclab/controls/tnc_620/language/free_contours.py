@@ -16,6 +16,7 @@ from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 
+from mnclab.controls.tnc_620.language.blank import body
 from mnclab.controls.tnc_620.language.checks import counted, first
 from mnclab.controls.tnc_620.language.free_words import describe
 from mnclab.controls.tnc_620.language.motion import SIDED, TOLERANCE, feed, refuse_rapid, side
@@ -182,11 +183,11 @@ class Chain:
 
     def likely(self, m: Machine, solutions: list[list[Piece]]) -> int:
         """The one solution that closes, stays inside the blank and does not cross itself; an alarm if it is not alone."""
-        blank = memory(m).stock
+        blank = body(m)
         left = [k for k, pieces in enumerate(solutions) if free_choice.is_closed(pieces, self.start)]
         left = left or list(range(len(solutions)))
-        if blank is not None and blank.maximum:
-            low, high = blank.minimum[:2], blank.maximum[:2]
+        if blank is not None:
+            low, high = blank.bounds[:, :2].tolist()
             left = [k for k in left if free_choice.is_within(solutions[k], low, high)] or left
         if len(left) * len(self.blocks) <= MOST_COMPARED:
             left = [k for k in left if not free_choice.crosses_itself(solutions[k])] or left

@@ -58,8 +58,11 @@ def centre(m: Machine, words: Words) -> None:
     plane = plane_of(m, words)
     here = ((axis, m.programmed[AXES.index(axis)]) for axis in axes_of(plane))
     u, v = (counted(m, words[axis], at) if axis in words else at for axis, at in here)
-    memory(m).pole_plane, m.pole = plane, (u, v)
+    m.pole = u, v
     m.log("pole", m.pole)
+    if plane != memory(m).pole_plane:
+        memory(m).pole_plane = plane
+        m.log("pole plane", plane)
 
 
 def pole(m: Machine, words: Words, meaning: str = "pole") -> tuple[str, tuple[float, float]]:

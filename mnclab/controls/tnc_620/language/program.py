@@ -1,12 +1,10 @@
-"""Begin and end of a program, the blank, stops (catalogue: BEGIN PGM, END PGM, BLK FORM, STOP, M0 to M30)."""
+"""Begin and end of a program, stops (catalogue: BEGIN PGM, END PGM, STOP, M0 to M30)."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from mnclab.controls.tnc_620.cycles.chain import cancel
 from mnclab.controls.tnc_620.language import parameters
-from mnclab.controls.tnc_620.language.checks import counted, first
+from mnclab.controls.tnc_620.language.blank import half_given
 from mnclab.controls.tnc_620.reading.words import INCH
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
@@ -16,21 +14,6 @@ from mnclab.running.performing import perform
 
 FUNCTIONS = FunctionTable()
 STOPS = {"M0": "Program stop", "M1": "Optional stop"}
-
-Corner = tuple[float, float, float]
-
-
-class Blank(NamedTuple):
-    """The cuboid of BLK FORM, mm in program coordinates, and its tool axis; the greatest corner comes with 0.2."""
-
-    axis: str
-    minimum: Corner
-    maximum: Corner | None = None
-
-    def __str__(self) -> str:
-        corners = (corner for corner in (self.minimum, self.maximum) if corner)
-        return " to ".join("X{:g} Y{:g} Z{:g}".format(*corner) for corner in corners)
-
 
 def start(m: Machine) -> None:
     """The active preset is the datum of the program (setting "preset")."""
@@ -68,7 +51,7 @@ def end(m: Machine, words: Words) -> None:
 
 def finish(m: Machine) -> None:
     """The end of the run: spindle and coolant off, transformations cancelled (11.1)."""
-    if (blank := memory(m).stock) is not None and blank.maximum is None:
+    if half_given(m):
         m.warn("the blank has no greatest corner: BLK FORM 0.2 is missing")
     m.spindle(turning=0)
     if m.modal.get("coolant", "M9") != "M9":
@@ -78,43 +61,9 @@ def finish(m: Machine) -> None:
     m.ended = True
 
 
-@FUNCTIONS("BLK FORM 0.1,", "Blank: least corner", takes="axis X Y Z", source="4.11, example")
-def least_corner(m: Machine, words: Words) -> None:
-    """Tool axis and the corner with the least coordinates; for pictures only, no motion."""
-    if "axis" not in words:
-        m.alarm("BLK FORM 0.1 needs the tool axis", hint="for example BLK FORM 0.1 Z X+0 Y+0 Z-20")
-    if (blank := memory(m).stock) is not None and blank.maximum is None:
-        m.alarm("BLK FORM 0.1 stands twice: BLK FORM 0.2 belongs behind the first", words["axis"])
-    axis = str(words["axis"].value)
-    if axis not in ("X", "Y", "Z"):
-        m.alarm(f"BLK FORM 0.1: the tool axis must be X, Y or Z, got {axis}", words["axis"])
-    memory(m).stock = Blank(axis, corner(m, words))
-    m.log("stock", memory(m).stock)
-
-
-@FUNCTIONS("BLK FORM 0.2,", "Blank: greatest corner", takes="X Y Z", source="4.11, example")
-def greatest_corner(m: Machine, words: Words) -> None:
-    """The corner with the greatest coordinates; IX IY IZ count from the least corner."""
-    blank = memory(m).stock
-    if blank is None or blank.maximum is not None:
-        m.alarm("BLK FORM 0.2 needs BLK FORM 0.1 before it", first(words))
-    greatest = corner(m, words, blank.minimum)
-    for axis, low, high in zip("XYZ", blank.minimum, greatest, strict=True):
-        if not high > low:
-            m.alarm(f"BLK FORM 0.2 {axis} (greatest corner) must be greater than {low:g}, got {high:g}", words[axis])
-    memory(m).stock = blank._replace(maximum=greatest)
-    m.log("stock", memory(m).stock)
-
-
-def corner(m: Machine, words: Words, least: Corner | None = None) -> Corner:
-    for axis in "XYZ":
-        what = f"{words.code} {axis} (coordinate of the corner)"
-        if axis not in words:
-            m.alarm(f"{what} is missing", first(words))
-        if words[axis].incremental and least is None:
-            m.alarm(f"{what} must be absolute", words[axis])
-    x, y, z = (counted(m, words[axis], at) for axis, at in zip("XYZ", least or (0.0, 0.0, 0.0), strict=True))
-    return x, y, z
+@FUNCTIONS("FUNCTION RESET TCPM,", "End of TCPM", source="Klartext, not described")
+def reset_tcpm(m: Machine, words: Words) -> None:
+    """TCPM is refused where it begins: there is nothing to end."""
 
 
 @FUNCTIONS("STOP", "Program stop", phase="end", source="Klartext, not described")

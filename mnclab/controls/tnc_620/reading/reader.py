@@ -20,6 +20,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.controls.tnc_620.reading import din_reader
+from mnclab.controls.tnc_620.reading.lines import bounds
 from mnclab.controls.tnc_620.reading.statements import KEYWORDS_ONLY, WORDS, Statement, cycle_parameters, recognize
 from mnclab.controls.tnc_620.reading.words import FLAGS, INCH, LARGEST, Cursor, Fault
 from mnclab.text.alarm import KEPT, Alarm
@@ -29,7 +31,6 @@ from mnclab.text.words import Scan, characters, scan
 
 _UNIT = re.compile(r"(?<![^\r\n])[ \t\ufeff]*(?:/[ \t]*)?(?:\d+[ \t]*)?BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)
 _HEAD = re.compile(r"[ \t]*(/?)[ \t]*(\d*)[ \t]*(/?)[ \t]*")
-_BEFORE_COMMENT = re.compile(r'(?:[^;"]++|"[^"]*+(?:"|$))*+')
 _SPACED = re.compile(r"Q(\d+)[ \t]+=", FLAGS)
 _WORD = re.compile(r"[A-Z]+|\S", re.IGNORECASE)
 _PLAIN = "FRXYZ"  # letters of plain lines
@@ -47,7 +48,9 @@ _FORM_OF_LETTER[ord("R")] = NONE
 
 
 def read(text: str, name: str = "program") -> Program:
-    """The blocks of a conversational program."""
+    """The blocks of a program: DIN/ISO where its first block says so, or the type of its file, else conversational."""
+    if din_reader.begins(text) or (name.lower().endswith(".i") and _UNIT.search(text) is None):
+        return din_reader.read(text, name)
     found = scan(text, leading_number=True, bare="L")
     builder = ProgramBuilder(text, name, "tnc-620", found.starts, ";")
     unit = _UNIT.search(text)
@@ -82,7 +85,7 @@ class _Lines:
         if line != self.last + 1:
             self.statement, self.tilde, self.over = None, False, False  # plain lines stand between
         self.last = line
-        begin, stop, comment, tilde = self.bounds(line)
+        begin, stop, comment, tilde = bounds(self.builder, line)
         joined, self.tilde = self.tilde, tilde
         head = _HEAD.match(self.text, begin, stop)
         assert head is not None
@@ -106,21 +109,6 @@ class _Lines:
         except Alarm as alarm:  # from the reader of formulas, which knows its place
             self.faulty = True
             self.builder.alarms.append(alarm)
-
-    def bounds(self, line: int) -> tuple[int, int, int, bool]:
-        """Begin and end of the words, the place of the comment or -1, and whether the line ends in ~."""
-        starts, text = self.builder.line_starts, self.text
-        begin = int(starts[line])
-        end = int(starts[line + 1]) if line + 1 < len(starts) else len(text)
-        content = text[begin:end].rstrip()
-        if begin == 0 and content.startswith("\ufeff"):
-            begin, content = 1, content[1:]
-        tilde = content.endswith("~")
-        content = content.removesuffix("~")
-        comment = -1
-        if ";" in content and (words := _BEFORE_COMMENT.match(content)) and words.end() < len(content):
-            comment, content = begin + words.end(), words.group()
-        return begin, begin + len(content.rstrip(" \t")), comment, tilde
 
     def goes_on(self, at: int, stop: int) -> bool:
         if self.statement is None or self.statement.more is None or self.over or self.text[at] == "*":

@@ -30,6 +30,7 @@
     { name: 'MNC', mime: 'text/x-mnc', extensions: ['mnc', 'nc', 'ngc'], rules: ISO(/\/\/.*|;.*|\(.*?\)/y) },
     { name: 'ISO (G43)', mime: 'text/x-g43', extensions: ['g43', 'iso'], rules: ISO(/;.*|\(.*?\)/y) },
     { name: 'NC-31 (lathe)', mime: 'text/x-nc31', extensions: ['nc31'], rules: [[/;.*/y, 'comment'], ...WORDS] },
+    { name: 'DIN/ISO (TNC)', mime: 'text/x-din-iso', extensions: ['i'], rules: ISO(/;.*/y) },
     { name: 'JNC-T01 (lathe)', mime: 'text/x-jnc', extensions: ['jnc'], rules: ISO(/'.*/y) },
     {
       name: 'Klartext (TNC)', mime: 'text/x-klartext', extensions: ['klartext'],

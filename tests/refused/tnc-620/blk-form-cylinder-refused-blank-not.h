@@ -1,4 +1,0 @@
-; 4:1 alarm: BLK FORM CYLINDER is refused: blank, not built yet
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 BLK FORM CYLINDER Z R50 L100
