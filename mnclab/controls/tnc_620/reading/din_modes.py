@@ -70,8 +70,8 @@ class _Turn(NamedTuple):
         return new.joined(modes) if self.skip else new
 
 
-def modes_before(text: str, raw: Sequence[Raw]) -> list[Modes]:
-    """The modes where each block begins; where no way leads to a block, those of the block above it."""
+def modes_before(text: str, raw: Sequence[Raw]) -> list[tuple[Modes, Modes]]:
+    """The modes where each block begins, and those that the text above it says; where no way leads to a block, these."""
     turns = {k: turn for k, one in enumerate(raw) if (turn := _turn(text, one))}
     ways = _Ways(turns)
     for _ in range(MOST_ROUNDS):
@@ -81,12 +81,12 @@ def modes_before(text: str, raw: Sequence[Raw]) -> list[Modes]:
         ways.entry = dict.fromkeys(ways.labels, UNKNOWN)
         ways.exit = dict.fromkeys(ways.labels, UNKNOWN)
         ways.follow()
-    found, above = [], Modes()
+    found, now, above = [], Modes(), Modes()
     for k in range(len(raw)):
-        above = ways.before.get(k) or above
-        found.append(above)
+        now = ways.before.get(k) or now
+        found.append((now, above))
         if turn := turns.get(k):
-            above = ways.behind.get(k) or turn.after(above)
+            now, above = ways.behind.get(k) or turn.after(now), turn.after(above)
     return found
 
 

@@ -50,8 +50,11 @@ class Given(NamedTuple):
 
     def fault(self, builder: ProgramBuilder, what: str, hint: str = "") -> Fault:
         """A fault at this word, which is named as it stands in the text."""
-        shown = " ".join(builder.text[self.at : self.at + self.length].split())
-        return Fault(f"{shown} {what}", self.at, self.length, hint)
+        return Fault(f"{self.shown(builder)} {what}", self.at, self.length, hint)
+
+    def shown(self, builder: ProgramBuilder) -> str:
+        """The word as it stands in the text."""
+        return " ".join(builder.text[self.at : self.at + self.length].split())
 
 
 def read_words(cursor: Cursor, incremental: int) -> tuple[list[Given], int]:
