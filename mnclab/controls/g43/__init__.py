@@ -6,8 +6,22 @@ So it is the ISO mill that its users take it for: `language.lengths` holds what 
 
 from __future__ import annotations
 
-from mnclab.controls.g43 import cycles, remarks
-from mnclab.controls.g43.language import lengths, motion, offsets, references, units
+from mnclab.controls.g43 import cycles
+from mnclab.controls.g43.language import (
+    auxiliary,
+    data_setting,
+    lengths,
+    modes,
+    motion,
+    offsets,
+    polar,
+    references,
+    tools,
+    transformations,
+    units,
+)  # fmt: skip
+from mnclab.controls.g43.meanings import MEANINGS
+from mnclab.controls.g43.refused import REFUSED
 from mnclab.controls.g43.settings import SETTINGS
 from mnclab.controls.g43.signs import SIGNS
 from mnclab.controls.g43.state import Memory
@@ -22,22 +36,12 @@ from mnclab.running.bulk import PlainWords
 
 #: Order inside a block.
 PHASES = (
-    *("plane", "feed", "spindle", "tool", "change", "corrector", "length", "auxiliary", "frames", "local"),
-    *("compensation", "dwell", "motion", "call", "end"),
+    *("plane", "feed", "spindle", "tool", "change", "data", "corrector", "length", "auxiliary", "frames", "local"),
+    *("transformation", "compensation", "dwell", "motion", "call", "end"),
 )
 
 _NO_SYNTAX = "the source does not say how this control writes it"
-REFUSED = (
-    {code: f"not built: subprograms; {_NO_SYNTAX}" for code in ("M98", "M99", "G65", "G66", "G67")}
-    | {code: "not built: only the first reference point is, G28" for code in ("G29", "G30")}
-)
-
-MEANINGS = {
-    **{f"G{n} {letter}": f"centre along {axis} from the start" for n in (2, 3) for letter, axis in zip("IJK", "XYZ")},
-    **{f"G52 {axis}": f"origin's {axis} from the work offset" for axis in "XYZ"},
-    **{f"G92 {axis}": f"new value of {axis} where the tool stands" for axis in "XYZ"},
-    "R": "radius", "G4 P": "the time, counted as the setting dwell_p says", "G4 X": "seconds",
-}  # fmt: skip
+SUBPROGRAMS = {code: f"not built: subprograms; {_NO_SYNTAX}" for code in ("M98", "M99", "G65", "G66", "G67")}
 
 
 def start(m: Machine) -> None:
@@ -52,8 +56,9 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
 
 
 #: What help lists, and hints name, before the others.
-FIRST = "G0 G1 G2 G3 G17 G18 G19 G90 G91 G54 G55 G56 G57 G58 G59 G53 G52 G92 G28 F S G94 G95 G61 G64"
-_ALL = motion.FUNCTIONS | offsets.FUNCTIONS | references.FUNCTIONS | units.FUNCTIONS | lengths.FUNCTIONS
+FIRST = "G0 G1 G2 G3 G17 G18 G19 G90 G91 G54 G55 G56 G57 G58 G59 G53 G52 G92 G28 G68 G51 G10 F S G94 G95 G61 G64"
+_PARTS = (modes, motion, offsets, transformations, polar, references, units, lengths, tools, data_setting, auxiliary)
+_ALL = {code: function for part in _PARTS for code, function in part.FUNCTIONS.items()}
 FUNCTIONS = FunctionTable({code: _ALL[code] for code in (*FIRST.split(), *_ALL)})
 
 CONTROL = Control(
@@ -65,17 +70,17 @@ CONTROL = Control(
     cycles=cycles.CYCLES,
     phases=PHASES,
     settings=SETTINGS,
-    frames=("length", "datum", "local"),
+    frames=("length", "external", "datum", "set", "local", "mirror", "rotation", "scaling"),
     memory=Memory,
-    compensation=Compensation(approach="corner", change=True, look_ahead=True),
+    compensation=Compensation(approach="corner", change=True, look_ahead=True, rapid=True),
     start=start,
     signs=SIGNS,
-    refused=REFUSED,
+    refused=REFUSED | SUBPROGRAMS,
     meanings=MEANINGS,
     together=motion.together,
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
-        ready=lambda m: not lengths.pending(m) and remarks.silent(m, "G2", "G3"),
+        ready=motion.is_plain,
         helices=more_helices,
         unit=lambda m: m.variable_unit,
     ),

@@ -45,12 +45,15 @@ from mnclab.controls.tnc_620.language import (
     joints,
     machine_datum,
     motion,
+    no_effect,
     parameters,
     pattern_definitions,
     plc,
     pole,
     preset,
     program,
+    retraction,
+    rotary_rules,
     system_access,
     system_data,
     tools,
@@ -94,7 +97,8 @@ SETTINGS = (
         "thread_wait", 0.0, "how long the spindle stands at the bottom of a tapped thread (thrdWaitingTime, no. 113601)", "5.2",
         unit="s", at_least=0,
     ),
-    *tilting.SETTINGS, *engraving.SETTINGS, *obsolete_faces.SETTINGS, *system_data.SETTINGS,
+    *tools.SETTINGS, *no_effect.SETTINGS, *retraction.SETTINGS, *tilting.SETTINGS, *engraving.SETTINGS,
+    *obsolete_faces.SETTINGS, *system_data.SETTINGS,
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
@@ -102,6 +106,7 @@ FUNCTIONS = (
     pole.FUNCTIONS | motion.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
     | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS | blank.FUNCTIONS
     | machine_datum.FUNCTIONS | feeds.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
+    | no_effect.FUNCTIONS | rotary_rules.FUNCTIONS | retraction.FUNCTIONS
     | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS | system_access.FUNCTIONS
     | circle_data.FUNCTIONS | plc.FUNCTIONS | preset.FUNCTIONS
 )  # fmt: skip
@@ -116,7 +121,8 @@ for chapter in CHAPTERS:
 
 #: What the words of statements are.
 MEANINGS = {
-    **feeds.MEANINGS, "FMAX": "rapid traverse", "FAUTO": "feed rate of TOOL CALL", "M103:F": "share downwards in percent",
+    **feeds.MEANINGS, "FMAX": "rapid traverse", "G00": "rapid traverse",
+    "FAUTO": "feed rate of TOOL CALL", "M103:F": "share downwards in percent",
     "S": "spindle speed", "R": "radius", "DR": "sense of rotation", "R0": "no radius compensation",
     "RL": "compensation to the left", "RR": "compensation to the right", "LEN": "length", "PR": "polar radius",
     "PA": "polar angle", "CCA": "centre angle", "length": "side length", "REP": "repetitions", "label": "label",
@@ -136,6 +142,8 @@ MEANINGS = {
     **{f"M94:{axis}": f"the rotary axis {axis}" for axis in "ABC"},
     **{f"M118:{axis}": f"greatest way of the handwheel along {axis}" for axis in "XYZ"},
     **{f"M118:{axis}": f"greatest turn of the handwheel around {axis}" for axis in "ABC"},
+    **no_effect.WORDS, **rotary_rules.WORDS, **retraction.WORDS,
+    **{f"PLANE RESET {address}": meaning for address, meaning in retraction.PLANE.items()},
     "FSELECT number": "number of the solution, as the control shows them", **free_words.WORDS,
     **{f"PATTERN DEF {address}": meaning for address, meaning in pattern_definitions.MEANINGS.items()},
 }  # fmt: skip

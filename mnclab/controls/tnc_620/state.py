@@ -31,6 +31,7 @@ class Memory:
     main_unit: str | None = None
     selected_program: str | None = None
     stock: Blank | Body | None = None
+    told: frozenset[str] = frozenset()  # warnings that are given once a program
 
     # feed, spindle, probe
     auto_feed: float | None = None  # of TOOL CALL, mm/min

@@ -111,10 +111,18 @@ def test_an_index_that_means_nothing_is_named(inside) -> None:
     assert (warning.severity, warning.span[:2]) == ("warning", (3, 32)) and run.variables["Q2"] == 1
 
 
-@pytest.mark.parametrize("code", ["M116", "M128", "M144"])
-def test_what_is_never_active_is_refused(code: str) -> None:
-    """ID280 and ID310 say that these are not active, which is true as long as they cannot be."""
-    assert code in CONTROL.refused
+@pytest.mark.parametrize(("code", "asked"), [("M116", "ID310 NR116"), ("M128", "ID280 NR1"), ("M128", "ID310 NR128")])
+def test_what_holds_for_rotary_axes_is_told(code: str, asked: str, inside) -> None:
+    """-1 while it is active, 0 before and behind its end."""
+    read = "FN 18: SYSREAD Q{} = " + asked
+    end = f"M{int(code[1:]) + 1}"
+    run = inside(f"2 {read.format(1)}\n3 {code}\n4 {read.format(2)}\n5 {end}\n6 {read.format(3)}")
+    assert [run.variables[name] for name in ("Q1", "Q2", "Q3")] == [0, -1, 0]
+
+
+def test_what_is_never_active_is_refused() -> None:
+    """ID310 says that M144 is not active, which is true as long as it cannot be."""
+    assert "M144" in CONTROL.refused
 
 
 def test_a_column_of_the_tool_table_is_written(inside) -> None:

@@ -10,6 +10,7 @@ from mnclab.controls.tnc_620.language.checks import counted, one_of
 from mnclab.controls.tnc_620.language.feeds import FEED_WORDS, feed
 from mnclab.controls.tnc_620.language.machine_datum import machine_target
 from mnclab.controls.tnc_620.language.pole import angle_here, plane_of, polar_point, pole, within_plane
+from mnclab.controls.tnc_620.language.rotary_rules import refuse_rotary
 from mnclab.controls.tnc_620.state import Place, memory
 from mnclab.geometry.arcs import tangent_arc_of_one
 from mnclab.machine.control import Function, FunctionTable, Words
@@ -61,7 +62,9 @@ def line(m: Machine, words: Words) -> None:
             m.alarm(f"{polar[0].address} and coordinates of axes stand in one block", polar[0], hint="write LP PR… PA…")
         m.warn("L with polar coordinates is read as LP", polar[0])
         to |= polar_point(m, words)
-    if any(axis in words for axis in AXES_OF_ROTATION) and (turned := rotary_angles(m, words)) != angles(m):
+    turns = [words[axis] for axis in AXES_OF_ROTATION if axis in words]
+    if turns and (turned := rotary_angles(m, words)) != angles(m):
+        refuse_rotary(m, turns[0])
         target = m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z")))
         if math.dist(target, m.tip) <= 1e-9:  # a frame rounds
             turn_axes(m, turned, f)

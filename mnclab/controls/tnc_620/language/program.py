@@ -61,6 +61,11 @@ def finish(m: Machine) -> None:
     m.ended = True
 
 
+@FUNCTIONS("FUNCTION RESET TCPM,", "End of TCPM", source="Klartext, not described")
+def reset_tcpm(m: Machine, words: Words) -> None:
+    """TCPM is refused where it begins: there is nothing to end."""
+
+
 @FUNCTIONS("STOP", "Program stop", phase="end", source="Klartext, not described")
 @FUNCTIONS("M0 M1", STOPS, phase="end", modal=False, source="Klartext, not described")
 def stop(m: Machine, words: Words) -> None:

@@ -213,6 +213,10 @@ def clock(m: Machine, asked: Asked) -> float:
     return seconds
 
 
+def holds(m: Machine, code: str) -> float:
+    return -1.0 if code in m.modal.values() else 0.0
+
+
 def never(m: Machine, asked: Asked) -> float:
     """Of M functions that are refused."""
     return 0.0
@@ -265,9 +269,9 @@ ROWS: dict[tuple[float, float], Row] = {
     (240, 1): Row("nominal position in the REF system", on_the_machine, AXES),
     (240, 8): Row("actual position in the REF system", on_the_machine, AXES),
     (270, 1): Row("position in the active coordinate system", in_the_program, AXES),
-    (280, 1): Row("M128 is active", never),
-    (310, 116): Row("M116 is active", never),
-    (310, 128): Row("M128 is active", never),
+    (280, 1): Row("M128 is active", lambda m, asked: holds(m, "M128")),
+    (310, 116): Row("M116 is active", lambda m, asked: holds(m, "M116")),
+    (310, 128): Row("M128 is active", lambda m, asked: holds(m, "M128")),
     (310, 144): Row("M144 is active", never),
     (320, 1): Row("system time, seconds from 1970", clock, (0,), 0),
     (505, 1): Row("a datum table is selected", lambda m, a: float(bool(memory(m).datum_table or m.tables.datums))),

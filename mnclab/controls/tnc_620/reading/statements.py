@@ -117,6 +117,7 @@ def cycle_parameters(cursor: Cursor) -> None:
             value = text_formula(cursor, named.start(), named.end())
         elif word := cursor.match(_FEED_WORD):
             value = re.sub(r"[ \t]", "", word.group()).upper().replace(",", ".")
+            value = f"F{value}" if value in ("AUTO", "MAX") else value
         else:
             value = cursor.needed(f"{name} needs a number", begin, found.end() - begin)
         builder.word(name, value, begin, cursor.at - begin)
@@ -131,6 +132,20 @@ def name_of_cycle(cursor: Cursor, stop: int | None = None) -> None:
     cursor.at = stop
 
 
+def plane_reset(cursor: Cursor) -> None:
+    """PLANE RESET: how the rotary axes behave, in the words of the other forms of PLANE."""
+    while not cursor.done:
+        begin = cursor.at
+        if found := cursor.match(_BEHAVIOUR):
+            cursor.match(_FAR)
+            cursor.add(found.group().upper(), cursor.value(), begin)
+        elif found := cursor.match(_MEASURE):
+            name = found.group().strip().upper()
+            cursor.add(name, cursor.needed(f"{name} needs a number", begin, len(name)), begin)
+        else:
+            cursor.word()
+
+
 _FORMS = "LT LN CT LCT PLT PLN PCT PLCT".split()
 WORDS: dict[str, Read] = {
     "L": plain, "CC": plain, "C": plain, "CT": plain, "LP": plain, "CP": plain, "CTP": plain, "CR": with_radius,
@@ -142,6 +157,7 @@ WORDS: dict[str, Read] = {
     "DECLARE STRING": declared_text, "SEL PATTERN": file_name, "SEL TABLE": file_name,
     "PATTERN DEF": plain,  # whose lines PatternWords reads
     "BEGIN PGM": program_name, "END PGM": program_name, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
+    "PLANE RESET": plane_reset, "FUNCTION RESET TCPM": plain,
     "BLK FORM CYLINDER": with_axis, "BLK FORM ROTATION": turned_blank,
     **{f"{way} {form}": plain for way in ("APPR", "DEP") for form in _FORMS},
 }  # fmt: skip
@@ -155,13 +171,13 @@ KEYWORDS_ONLY = {
 _ALL = sorted([*WORDS, *KEYWORDS_ONLY], key=len, reverse=True)
 _KEYWORD = re.compile(f"(?:{'|'.join(re.escape(k) for k in _ALL)})(?![A-Z_])".replace(r"\ ", r"[ \t]+"), FLAGS)
 _CYCLE = re.compile(
-    r"(CYCL[ \t]+DEF|TCH[ \t]+PROBE|GLOBAL[ \t]+DEF)[ \t]*(?:(\d{1,5})(?:\.(\d{1,2}))?(?![.\d]))?", FLAGS
+    r"(CYCL[ \t]+DEF|TCH[ \t]+PROBE|GLOBAL[ \t]+DEF)[ \t]*(?:(\d{1,5})(?:[ \t]*\.(\d{1,2}))?(?![.\d]))?", FLAGS
 )
 _FN = re.compile(r"FN[ \t]*(\d{1,3})[ \t]*:?", FLAGS)
 _TARGET = re.compile(r"Q([LRSC]?)[ \t]?(\d{1,6})[ \t]*=", FLAGS)
 _M = re.compile(r"M[ \t]*\d", FLAGS)
 _PARAMETER_HEAD = re.compile(r"\bQ([LRS]?)[ \t]*(\d{1,4})[ \t]*=[ \t]*", FLAGS)
-_FEED_WORD = re.compile(rf"[ \t]*(?:F[ \t]*(?:AUTO|MAX)|F[UZ][ \t]*{NUMBER}|PREDEF)(?![A-Z])", FLAGS)
+_FEED_WORD = re.compile(rf"[ \t]*(?:(?:F[ \t]*)?(?:AUTO|MAX)|F[UZ][ \t]*{NUMBER}|PREDEF)(?![A-Z])", FLAGS)
 _AXIS = re.compile(r"[A-Z](?![A-Z])", FLAGS)
 _DIM = re.compile(r"DIM_([RD])(?![A-Z])", FLAGS)
 _LBL = re.compile(r"[ \t]*LBL(?![A-Z])", FLAGS)
@@ -170,6 +186,9 @@ _STRING = re.compile(r"[ \t]*QS[ \t]*\d{1,4}", FLAGS)
 _LIKE_A_WORD = re.compile(
     r"(?<![\w.-])(?:I?[XYZUVWABC][+-]?\d|[A-Z]{1,4}[+-]\d|[MFS]\d|FMAX|R[0LR]\b)(?:[\d.,]*\d)?", FLAGS
 )
+_BEHAVIOUR = re.compile(r"(?:STAY|MOVE|TURN|MB)(?![A-Z])", FLAGS)
+_FAR = re.compile(r"(?<=MB)[ \t]*MAX(?![A-Z])", FLAGS)
+_MEASURE = re.compile(r"(?:ABST|DIST)[ \t]*(?![A-Z])", FLAGS)
 _TEXT_PARAMETER = re.compile(r"QS[ \t]?(\d{1,4})(?!\d)", FLAGS)
 
 
