@@ -255,6 +255,8 @@ class _Reader:
                 self.plane(cursor, plain)
             plain = [w for w in plain if not (w.letter == "G" and w.code in din_statements.PLANES)]
             din_statements.renamed(cursor, code, STATEMENTS[code], plain)
+            if code in din_statements.SENSES:
+                put(cursor, "DR", head, din_statements.SENSES[code], inches=False)
             return
         self.with_tail(raw, cursor, head, words, rest, modes)
 
@@ -288,7 +290,7 @@ class _Reader:
         else:
             keyword = din_statements.cycle_of(code)
             self.builder.block(raw.start, keyword, raw.skip)
-            read = ignored if code == 55 or code in din_statements.OBSOLETE else cycle_parameters
+            read = ignored if code == 55 else cycle_parameters
             read(cursor)
             for at, stop in rest:
                 if not cursor.done:
