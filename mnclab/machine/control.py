@@ -143,10 +143,11 @@ class Control:
     `named` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself; `predefined`
     what PREDEF stands for in a parameter of a cycle of a code; `calls_again` whether a modal call of a cycle (a modal
     function of the group "call") calls it in a block with a keyword and words. `memory` makes what the control keeps
-    beside the common state of a machine, a dataclass. `preassigned` are variables that the control keeps itself; names
-    that begin with `local_variables` belong to one program. `modern` writes a program in the notation of today, where the
-    control's own is another. `trial` writes a short program around a cycle and its words (address and value), for its
-    form; None where it cannot. `magazine` are the tools of a setup that was given none; of a
+    beside the common state of a machine, a dataclass. `computed` works the formulas of a block without a keyword out before
+    its words are handed out: one of them may be a code, or leave its word out. `preassigned` are variables that the control
+    keeps itself; names that begin with `local_variables` belong to one program. `modern` writes a program in the notation
+    of today, where the control's own is another. `trial` writes a short program around a cycle and its words (address and
+    value), for its form; None where it cannot. `magazine` are the tools of a setup that was given none; of a
     control without tool words `cycle_tools` says which of them cut, by the code of a cycle (`mnclab.runs.cycle_tools`).
     `signs` tell its programs from those of others.
     """
@@ -185,7 +186,8 @@ class Control:
     calls_again: Callable[[str, list[Word]], bool] | None = None
     lathe: bool = False
     to_turn: str = "write S and M3 before the move"
-    preassigned: Mapping[str, Callable[[Machine], float | None]] = field(default_factory=dict)
+    computed: Callable[[Machine, list[Word]], list[Word]] | None = None
+    preassigned: Mapping[str, Callable[[Machine], float | str | None]] = field(default_factory=dict)
     local_variables: str = ""
     trial: Callable[[type[Cycle], list[tuple[str, Any]]], str | None] | None = None
     modern: Callable[[Program], Notation] | None = None

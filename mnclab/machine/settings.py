@@ -127,6 +127,12 @@ def rows(settings: Iterable[Setting]) -> list[tuple[str, str, str, str, str]]:
     return table
 
 
+def switches(settings: Mapping[str, Any]) -> frozenset[int]:
+    """The switches of block skip that are on: where the setting `block_skip` is, those among the digits of `skip_switches`."""
+    on = settings.get("block_skip") and str(int(settings.get("skip_switches", 1)))
+    return frozenset(map(int, on or ""))
+
+
 HEAD = ("setting", "default", "allowed", "meaning", "source")
 
 

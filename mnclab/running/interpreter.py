@@ -18,6 +18,7 @@ import numpy as np
 from mnclab.machine.control import Control, Function, Modal, Remark, Words
 from mnclab.machine.cycle import Cycle, Definition
 from mnclab.machine.machine import Machine
+from mnclab.machine.settings import switches
 from mnclab.machine.setup import Setup
 from mnclab.machine.waiting import determine
 from mnclab.running.binding import assign, instance, refuse_marks, store, verify
@@ -27,7 +28,7 @@ from mnclab.running.flow import Course
 from mnclab.running.handing_out import Plan, Planner
 from mnclab.running.performing import run_cycle
 from mnclab.text.alarm import ALARM, WARNING, Alarm
-from mnclab.text.program import NONE, NUMBER, Program, Word, place_of
+from mnclab.text.program import EXPRESSION, NONE, NUMBER, Program, Word, place_of
 from mnclab.text.progress import progress
 
 WINDOW = 256  # blocks whose words are made at once; more would keep the garbage collector busy
@@ -44,7 +45,7 @@ class Loaded:
     """A program ready to run: its alarms as a run shows them, the blocks that a fault stands in, its bulk tier."""
 
     def __init__(self, machine: Machine, flow: Course, program: Program, index: int) -> None:
-        self.program, self.skips = program, bool(machine.settings.get("block_skip"))
+        self.program, self.skips = program, switches(machine.settings)
         self.alarms = [self._passed_over(alarm) for alarm in alarms_of(program, index)]
         self.told = {self._block_of(alarm) for alarm in self.alarms if alarm.severity == ALARM and alarm.span}
         self.faulty = set(program.faulty_blocks().tolist())
@@ -58,7 +59,9 @@ class Loaded:
 
     def _passed_over(self, alarm: Alarm) -> Alarm:
         """An alarm of the reader; no more than a warning in a block that is passed over."""
-        if not (self.skips and alarm.span and len(self.program)) or not self.program.skip[self._block_of(alarm)]:
+        if not (self.skips and alarm.span and len(self.program)):
+            return alarm
+        if int(self.program.skip[self._block_of(alarm)]) not in self.skips:
             return alarm
         return alarm.changed(severity=WARNING)
 
@@ -72,11 +75,11 @@ class Interpreter:
         self.machine = machine = Machine(control, setup, self.flow)
         self.plans: dict[Any, Plan] = {}
         self.window = range(0)
-        self.blocks: list[tuple[int, bool, str, list[Word], tuple[Any, ...]]] = []
+        self.blocks: list[tuple[int, int, str, list[Word], tuple[Any, ...] | None]] = []
         """Of the blocks in the window: line, skip, keyword, words, and of each word its address, with the value where that
-        makes another function."""
+        makes another function; nothing where a control works its formulas out before it hands the words out."""
         self.recent: deque[tuple[int, range, list[Any]]] = deque(maxlen=RECENT)  # of which program; window, blocks
-        self.skips = bool(machine.settings.get("block_skip"))
+        self.skips = switches(machine.settings)
         self.ends = Modal.ends_cycle(machine.settings)
         self.loaded: dict[int, Loaded] = {}
         self.alarms: list[Alarm] = []  # that readers found
@@ -115,11 +118,15 @@ class Interpreter:
         if index not in window:
             window = self.open_window(index)
         machine.source_line, skip, keyword, words, kinds = self.blocks[index - window.start]
-        if skip and self.skips:
+        if skip and skip in self.skips:
             return
         if index in self.faulty:
             raise Stop if index in self.loaded[machine.program].told else Alarm(UNTOLD, self.flow.span_of_block(index))
         before = machine.programmed
+        if kinds is None:
+            assert self.control.computed is not None
+            words = self.control.computed(machine, words)
+            kinds = tuple(self.kinds(words))
         plan = self.plan_for(keyword, kinds, words)
         if plan.remarks:
             self.remark(plan.remarks, words)
@@ -144,7 +151,7 @@ class Interpreter:
             if which == running and index in window:
                 self.window, self.blocks = window, blocks
                 return window
-        program, new, codes = self.program, tuple.__new__, self.control.codes
+        program, new = self.program, tuple.__new__
         window = range(index, min(index + WINDOW, len(program)))
         here = slice(index, window.stop)
         a, b = int(program.first[index]), int(program.first[window.stop])
@@ -158,17 +165,28 @@ class Interpreter:
             new(Word, (names[k], v if form == NUMBER else None if form == NONE else payload[int(v)], at, flag))
             for k, v, form, at, flag in zip(*(part.tolist() for part in columns), strict=True)
         ]
-        kinds = [(w[0], w[1]) if w[0] in codes else w[0] for w in words]
+        kinds = self.kinds(words)
         bounds = (program.first[index : window.stop + 1] - a).tolist()
         heads = zip(
             np.asarray(program.line_of(here)).tolist(), program.skip[here].tolist(), program.keyword[here].tolist(),
             bounds[:-1], bounds[1:], strict=True,
         )  # fmt: skip
         keys = program.keywords
-        self.blocks = [(n, skip, keys[k], words[i:j], tuple(kinds[i:j])) for n, skip, k, i, j in heads]
+        odd = {}
+        if self.control.computed:
+            odd = dict.fromkeys(np.searchsorted(program.first, a + np.flatnonzero(columns[2] == EXPRESSION), "right") - 1)
+        self.blocks = [
+            (n, skip, keys[k], words[i:j], None if block in odd and not keys[k] else tuple(kinds[i:j]))
+            for block, (n, skip, k, i, j) in enumerate(heads, index)
+        ]
         self.window = window
         self.recent.append((running, window, self.blocks))
         return window
+
+    def kinds(self, words: list[Word]) -> list[Any]:
+        """What a plan depends on in words: their addresses, and of G and M the values."""
+        codes = self.control.codes
+        return [(w[0], w[1]) if w[0] in codes else w[0] for w in words]
 
     # --- planning ----------------------------------------------------------------------------------------------------
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mnclab.machine.settings import switches
 from mnclab.path.listing import figure, point, words
 from mnclab.runs.meanings import meanings
 from mnclab.runs.stages import stages
@@ -39,7 +40,7 @@ class Explanation:
             old = said(name, run.history.value(name, moment.step - 1)) if moment.step else ""
             if (new := said(name, value)) != old:
                 self.changed.append((name, old, new))
-        self.skipped = bool(moment.block.skip and run.settings.get("block_skip"))
+        self.skipped = moment.block.skip in switches(run.settings)
         self.meanings = tuple(meanings(run, moment, {name: (old, new) for name, old, new in self.changed}))
         self.stages = tuple(stages(run, moment))
         path = run.toolpath[moment.rows]

@@ -19,6 +19,7 @@ from mnclab.machine.control import Control
 from mnclab.machine.cutting_rows import stock_of
 from mnclab.machine.machine import Machine
 from mnclab.machine.machine_file import load
+from mnclab.machine.output import written
 from mnclab.machine.settling import paths, shifted, stop_at_travel
 from mnclab.machine.setup import Setup, Tables
 from mnclab.path.columns import Index
@@ -82,6 +83,7 @@ class Run:
         self.history = History(machine.logs, len(self.steps.block))
         self.variables: dict[str, Any] = self._as_of_end("", machine.variables)
         self.measured: dict[str, Any] = self._as_of_end("measured ", machine.measured)
+        self.files = written(self.history, self.history.changed)
         self.tables: Tables = machine.tables if machine.cut is None else self._tables_of_history()
         self.frames = machine.frames
         self.gouges: tuple[Gouge, ...] = tuple(shifted(machine))

@@ -93,11 +93,13 @@ class Block:
     keyword: str
     words: tuple[Word, ...]
     comment: str
-    skip: bool
+    skip: int
+    """The switch by which it is passed over, 0 for none."""
     span: Span
 
     def __str__(self) -> str:
-        head = " ".join(part for part in ("/" * self.skip + self.number, self.keyword) if part)
+        skip = f"/{self.skip if self.skip > 1 else ''}" if self.skip else ""
+        head = " ".join(part for part in (skip + self.number, self.keyword) if part)
         return " ".join([head, *map(str, self.words)]).strip()
 
     def __repr__(self) -> str:
@@ -125,7 +127,7 @@ class Program:
     first: NDArray[np.int32]
     keywords: tuple[str, ...]
     keyword: NDArray[np.int16]
-    skip: NDArray[np.bool_]
+    skip: NDArray[np.uint8]
     plain: NDArray[np.bool_]
     start: NDArray[np.int32]
     """Offset of each block in the text."""
@@ -165,7 +167,7 @@ class Program:
             keyword=self.keywords[self.keyword[index]],
             words=tuple(self.word(i) for i in range(self.first[index], self.first[index + 1])),
             comment=" ".join(comment for comment in comments if comment),
-            skip=bool(self.skip[index]),
+            skip=int(self.skip[index]),
             span=self.span_of_block(index),
         )
 

@@ -30,7 +30,7 @@ class ProgramBuilder:
         self.words: list[tuple[int, float, int, int, int, int]] = []  # address, value, form, flag, offset, length; …
         self.put_away: list[tuple[NDArray[np.float64], NDArray[np.float64]]] = []  # … earlier ones, with their blocks
         self.before = 0  # how many words those are
-        self.blocks: list[tuple[int, int, bool, bool, int]] = []  # offset, keyword, skip, plain, first word
+        self.blocks: list[tuple[int, int, int, bool, int]] = []  # offset, keyword, skip, plain, first word
         self.payload: list[Any] = []
         self.alarms = Alarms()
         self.labels: dict[str, int] = {}  # jump target -> offset of its block
@@ -43,8 +43,8 @@ class ProgramBuilder:
         """Note a fault of the text; reading goes on."""
         self.alarms.append(Alarm(message, self.span(offset, length), severity, hint))
 
-    def block(self, offset: int, keyword: str = "", skip: bool = False, plain: bool = False) -> None:
-        """Begin a block at `offset`."""
+    def block(self, offset: int, keyword: str = "", skip: int = 0, plain: bool = False) -> None:
+        """Begin a block at `offset`; `skip` is the number of the switch by which it is passed over."""
         if len(self.words) >= CHUNK:
             self.put_away.append((np.array(self.words, dtype=np.float64), np.array(self.blocks, dtype=np.float64)))
             self.before += len(self.words)
@@ -115,7 +115,7 @@ class ProgramBuilder:
             addresses=tuple(self.addresses), address=address, value=value, form=form, flag=flag,
             offset=offset.astype(np.int32, copy=False), length=length.astype(np.int16, copy=False), first=first,
             keywords=tuple(self.keywords), keyword=keyword.astype(np.int16, copy=False),
-            skip=skip.astype(bool, copy=False), plain=plain.astype(bool, copy=False),
+            skip=skip.astype(np.uint8, copy=False), plain=plain.astype(bool, copy=False),
             start=start.astype(np.int32, copy=False), line_starts=self.line_starts, payload=tuple(self.payload),
             alarms=tuple(sorted(self.alarms, key=lambda alarm: (alarm.span or Span(0, 0))[:2])),
             untold=self.alarms.untold,

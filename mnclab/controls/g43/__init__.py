@@ -9,24 +9,28 @@ from __future__ import annotations
 from mnclab.controls.g43 import cycles
 from mnclab.controls.g43.language import (
     auxiliary,
+    corners,
     data_setting,
     lengths,
+    macros,
     modes,
     motion,
     offsets,
     polar,
+    programs,
     references,
     tools,
     transformations,
     units,
+    variables,
 )  # fmt: skip
 from mnclab.controls.g43.meanings import MEANINGS
+from mnclab.controls.g43.reading.reader import read
 from mnclab.controls.g43.refused import REFUSED
 from mnclab.controls.g43.settings import SETTINGS
 from mnclab.controls.g43.signs import SIGNS
 from mnclab.controls.g43.state import Memory
 from mnclab.controls.word_address.motion import more_helices
-from mnclab.controls.word_address.reader import reader
 from mnclab.machine.control import Control, FunctionTable
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
@@ -40,14 +44,13 @@ PHASES = (
     *("transformation", "compensation", "dwell", "motion", "call", "end"),
 )
 
-_NO_SYNTAX = "the source does not say how this control writes it"
-SUBPROGRAMS = {code: f"not built: subprograms; {_NO_SYNTAX}" for code in ("M98", "M99", "G65", "G66", "G67")}
 
 
 def start(m: Machine) -> None:
     """G54 is active at the start; the tip hangs below the spindle by the length of the tool."""
     offsets.start(m)
     lengths.place(m, "tip")
+    variables.start(m)
 
 
 def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
@@ -57,7 +60,10 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
 
 #: What help lists, and hints name, before the others.
 FIRST = "G0 G1 G2 G3 G17 G18 G19 G90 G91 G54 G55 G56 G57 G58 G59 G53 G52 G92 G28 G68 G51 G10 F S G94 G95 G61 G64"
-_PARTS = (modes, motion, offsets, transformations, polar, references, units, lengths, tools, data_setting, auxiliary)
+_PARTS = (
+    modes, motion, offsets, transformations, polar, references, units, lengths, tools, data_setting, auxiliary, macros,
+    programs, corners,
+)  # fmt: skip
 _ALL = {code: function for part in _PARTS for code, function in part.FUNCTIONS.items()}
 FUNCTIONS = FunctionTable({code: _ALL[code] for code in (*FIRST.split(), *_ALL)})
 
@@ -65,7 +71,7 @@ CONTROL = Control(
     name="g43",
     title="ISO mill (control with G43, G44, G49)",
     suffixes=(".g43", ".iso"),
-    read=reader("g43", comment=";"),
+    read=read,
     functions=FUNCTIONS,
     cycles=cycles.CYCLES,
     phases=PHASES,
@@ -75,12 +81,15 @@ CONTROL = Control(
     compensation=Compensation(approach="corner", change=True, look_ahead=True, rapid=True),
     start=start,
     signs=SIGNS,
-    refused=REFUSED | SUBPROGRAMS,
+    refused=REFUSED,
     meanings=MEANINGS,
     together=motion.together,
+    computed=macros.computed,
+    preassigned=variables.PREASSIGNED,
+    calls_again=programs.calls_again,
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
-        ready=motion.is_plain,
+        ready=lambda m: motion.is_plain(m) and not m.modal.get("call"),
         helices=more_helices,
         unit=lambda m: m.variable_unit,
     ),

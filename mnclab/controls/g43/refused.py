@@ -14,6 +14,8 @@ REFUSED = (
     | dict.fromkeys(("G17.1", "G18.1", "G19.1"), "not built: planes of the axes U, V and W")
     | dict.fromkeys(("G43.2", "G43.4", "G43.5", "G53.1", "G68.2", "G68.3", "G234", "G254"),
                     "not built: the kinematics of the machine are not known")
+    | {"M97": "not built: a subprogram from a block of this program on (Haas); M98 calls programs with O numbers",
+       "G66.1": "not built: a macro call in every block"}
     | {"G7.1": "not built: the surface of a cylinder", "G12.1": _LATHE, "G13.1": _LATHE,
        "G45": _WRITTEN, "G46": _WRITTEN, "G48": _WRITTEN, "G62": "not built: slower inside corners",
        "G63": "not built: feed and override locked for tapping", "G11": "there is no data mode: G10 ends with its block",

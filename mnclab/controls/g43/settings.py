@@ -22,7 +22,8 @@ DIALECTS: dict[str, dict[str, Any]] = {
         "g53_motion": "modal", "g53_increment": "absolute",
     },
     "linuxcnc": {
-        "dwell_p": "seconds", "peck_clearance": 0.254, "below_r": "straight", "arc_by_both": "refuse",
+        "macros": "linuxcnc", "main_m99": "repeat", "dwell_p": "seconds", "peck_clearance": 0.254, "below_r": "straight",
+        "arc_by_both": "refuse",
         "length_acts": "at_once", "g52_g92": "one", "g53_motion": "modal", "g53_increment": "absolute",
         "g10_p0": "active", "g10_l20": "position", "g10_increment": "replaces", "g51_factor": "as_written",
     },
@@ -89,4 +90,14 @@ HOLES = (
            straight="to level R first if the initial level is below it, else straight to R over the hole (LinuxCNC)"),
 )  # fmt: skip
 
-SETTINGS = PROGRAM + MOTION + COORDINATES + TECHNOLOGY + HOLES
+MACROS = (
+    one_of("macros", "variables without a value, AND, OR, FIX, FUP, MOD and the ranges of angles", FANUC,
+           fanuc="without a value an address is left out, AND works on bits, FIX cuts off, angles are 0 to 360",
+           linuxcnc="0, AND is true or false, FIX rounds down, angles are -180 to 180, EQ forgives 0.0001"),
+    one_of("main_m99", "M99 in the main program", "the simulation runs a program once",
+           end="the program ends here, with a warning", repeat="it begins again, for ever (Fanuc, LinuxCNC)"),
+    Setting("skip_switches", 123456789, "the switches that are on where block_skip is: their digits; / is /1", FANUC,
+            {}, "", 1, 987654321),
+)  # fmt: skip
+
+SETTINGS = PROGRAM + MACROS + MOTION + COORDINATES + TECHNOLOGY + HOLES

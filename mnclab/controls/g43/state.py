@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from mnclab.controls.word_address import state
+from mnclab.text.program import Word
 
 Offsets = tuple[float, float, float]
 NONE: Offsets = (0.0, 0.0, 0.0)
@@ -39,6 +40,9 @@ class Memory(state.Memory):
     active_offsets: Offsets = NONE
     empty_correctors: set[str] = field(default_factory=set)  # already warned of
     undescribed: set[str] = field(default_factory=set)  # codes already warned of
+    sections: dict[int, list[tuple[int, str]]] = field(default_factory=dict)  # the programs of each file that runs
+    return_to: Word | None = None  # the block after a subprogram, where M99 names one
+    macro: object = None  # that G66 calls
 
     row: int = 1  # of the table of datums: G54
     set_aside: Offsets | None = None  # the shift that G92.2 has put aside

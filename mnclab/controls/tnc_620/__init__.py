@@ -54,10 +54,13 @@ from mnclab.controls.tnc_620.language import (
     program,
     retraction,
     rotary_rules,
+    secondary_axes,
     system_access,
     system_data,
+    system_texts,
     tools,
 )
+from mnclab.controls.tnc_620.printing import output
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
@@ -98,7 +101,7 @@ SETTINGS = (
         unit="s", at_least=0,
     ),
     *tools.SETTINGS, *no_effect.SETTINGS, *retraction.SETTINGS, *tilting.SETTINGS, *engraving.SETTINGS,
-    *obsolete_faces.SETTINGS, *system_data.SETTINGS,
+    *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS, *output.SETTINGS,
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
@@ -108,7 +111,7 @@ FUNCTIONS = (
     | machine_datum.FUNCTIONS | feeds.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
     | no_effect.FUNCTIONS | rotary_rules.FUNCTIONS | retraction.FUNCTIONS
     | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS | system_access.FUNCTIONS
-    | circle_data.FUNCTIONS | plc.FUNCTIONS | preset.FUNCTIONS
+    | circle_data.FUNCTIONS | plc.FUNCTIONS | preset.FUNCTIONS | output.FUNCTIONS
 )  # fmt: skip
 CHAPTERS = (
     defaults, drilling, boring, pecking, tapping, threads, point_patterns, pockets, slots, studs, walled_faces,
@@ -131,6 +134,7 @@ MEANINGS = {
     "text": "name of the tool in a text parameter",
     "first": "the first operand", "second": "the second operand", "parameter": "the parameter that is asked about",
     "state": "whether it has a value", "undefined": "it has no value any more", "FN 14 number": "error number",
+    "mask": "file with the mask", "output": "file that is written", "item": "what is put out",
     "points": "the first parameter of the points", "FN 25 axis": "axis of the datum",
     "FN 25 first": "coordinate that a point has", "FN 25 second": "coordinate that it gets",
     "ID": "group of system data", "NR": "number in its group", "IDX": "index", "FN 17 value": "the value to write",
@@ -139,6 +143,7 @@ MEANINGS = {
     "RI": "radius of the bore", "DI": "diameter of the bore", "DIM": "whether X is the radius or the diameter",
     "BLK FORM CYLINDER axis": "axis", "BLK FORM ROTATION axis": "axis", "file": "name of a file",
     **{axis: f"angle of the rotary axis {axis}" for axis in "ABC"},
+    **{axis: f"secondary axis along {along}" for axis, along in zip("UVW", "XYZ", strict=True)},
     **{f"M94:{axis}": f"the rotary axis {axis}" for axis in "ABC"},
     **{f"M118:{axis}": f"greatest way of the handwheel along {axis}" for axis in "XYZ"},
     **{f"M118:{axis}": f"greatest turn of the handwheel around {axis}" for axis in "ABC"},
@@ -153,8 +158,8 @@ CONTROL = Control(
     read=reader.read, signs=SIGNS,
     functions=FUNCTIONS, cycles=CYCLES, names=ISO_NAMES, refused=later.REFUSED, together=later.strange_parameters(CYCLES),
     phases=PHASES, codes=("M",), word_functions=False, meanings=MEANINGS, told=motion.turning_sense, trial=trial_program,
-    settings=SETTINGS, memory=Memory, start=program.start, frames=("preset",),
-    storage="variables", preassigned=parameters.PREASSIGNED, local_variables="QL",
+    settings=SETTINGS, memory=Memory, start=program.start, frames=(secondary_axes.FRAME, "preset"),
+    storage="variables", preassigned={**parameters.PREASSIGNED, **system_texts.TEXTS}, local_variables="QL",
     named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again,
     compensation=Compensation(approach="perpendicular", rapid=True),
     bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call")),

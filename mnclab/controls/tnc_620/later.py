@@ -47,10 +47,7 @@ STATEMENTS = {
     "BLK FORM FILE": "blank from a file",
 }  # fmt: skip
 
-FN = {
-    15: "unformatted output", 16: "formatted output", 26: "opening a table", 27: "writing to a table",
-    28: "reading from a table",
-}  # fmt: skip
+FN = {26: "opening a table", 27: "writing to a table", 28: "reading from a table"}
 
 M = {
     136: "feed per revolution", 138: "choice of tilting axes",
@@ -72,7 +69,7 @@ NOT_THERE = {
 }
 
 WORDS = {
-    **{axis: f"the axis {axis} is not built yet" for axis in "UVW"},
+    **{axis: f"the secondary axis {axis} is built for L alone" for axis in "UVW"},
     **{axis: f"the rotary axis {axis} is built for L alone" for axis in "ABC"},
 }  # fmt: skip
 

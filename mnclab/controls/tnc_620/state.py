@@ -32,6 +32,7 @@ class Memory:
     selected_program: str | None = None
     stock: Blank | Body | None = None
     told: frozenset[str] = frozenset()  # warnings that are given once a program
+    closed_files: frozenset[str] = frozenset()  # in small letters: what is written to them next begins anew
 
     # feed, spindle, probe
     auto_feed: float | None = None  # of TOOL CALL, mm/min
@@ -41,6 +42,7 @@ class Memory:
 
     # datums, transformations, planes
     pole_plane: str = "XY"  # of CC, whose axes `Machine.pole` counts along
+    secondary: Place = (0.0, 0.0, 0.0)  # where U, V and W stand
     machine_datum: tuple[Word, Place] | None = None  # M91 or M92 of the block, and the machine coordinates it counts from
     preset: int | None = None  # the active row
     datum_table: DatumTable | None = None

@@ -23,6 +23,7 @@ PIECE = 1 << 16
 LARGEST = 1e9  # no coordinate, feed or number of a program is as large
 PLAIN_LETTERS = "GXYZIJKRF"
 Labels = list[tuple[int, int]]  # offset and number of the N words
+Other = Callable[[ProgramBuilder, str, int, int], int]
 ALPHABET = tuple(chr(c) for c in range(65, 91))
 _BITS = np.zeros(128, dtype=np.int32)
 _BITS[65:91] = 1 << np.arange(26)
@@ -34,13 +35,15 @@ class Marks(NamedTuple):
     """What may stand in a line beside words: comments, which begin with a regular expression, and three marks.
 
     Without `labels` N is an address like others. Without `skip` a slash at the start of a line means nothing. A line
-    that begins with one of the characters of `headers` is one word of that address, without a number.
+    that begins with one of the characters of `headers` is one word of that address, without a number. `other` reads a word
+    that is no letter with a number, in a text from one place to another: its end, or -1 if it is none; it may raise an Alarm.
     """
 
     comment: re.Pattern[str]
     labels: bool = True
     skip: bool = True
     headers: str = ""
+    other: Other | None = None
 
 
 def reader(
@@ -55,7 +58,7 @@ def reader(
         labels: Labels = []
         if (long := found.count > MOST_WORDS).any():
             found = found.without(long)
-        bulk = _clean_blocks(builder, found, labels, mark.labels)
+        bulk = clean_blocks(builder, found, labels, mark.labels)
         for line in np.flatnonzero(~found.clean):
             _read_line(builder, text, int(found.starts[line]), mark, labels)
         _check_labels(builder, labels)
@@ -64,7 +67,7 @@ def reader(
     return read
 
 
-def _clean_blocks(builder: ProgramBuilder, found: Scan, labels: Labels, labelled: bool) -> BulkBlocks:
+def clean_blocks(builder: ProgramBuilder, found: Scan, labels: Labels, labelled: bool) -> BulkBlocks:
     """Blocks of the clean lines; N words are checked and left out where they label blocks."""
     count = found.count[found.count > 0]
     first = first_words(count)  # of each block
@@ -136,7 +139,7 @@ def _read_line(builder: ProgramBuilder, text: str, begin: int, mark: Marks, labe
     end = begin + len(text[begin:end].rstrip("\r\n"))
     comment = mark.comment.search(text, begin, end)
     stop = comment.start() if comment else end
-    at = _skip_blanks(text, begin + (text[begin : begin + 1] == "\ufeff"), stop)
+    at = skip_blanks(text, begin + (text[begin : begin + 1] == "\ufeff"), stop)
     if at >= stop:
         if comment:
             builder.block(stop)
@@ -147,19 +150,29 @@ def _read_line(builder: ProgramBuilder, text: str, begin: int, mark: Marks, labe
         return
     skip = mark.skip and text[at] == "/"
     builder.block(at, skip=skip)
-    at = _skip_blanks(text, at + skip, stop)
-    first = True
-    while at < stop:
+    at = skip_blanks(text, at + skip, stop)
+    read_words(builder, text, at, stop, mark, labels)
+
+
+def read_words(
+    builder: ProgramBuilder, text: str, at: int, stop: int, mark: Marks, labels: Labels, first: bool = True
+) -> bool:
+    """The words of a block up to `stop`; False at the first fault. `first`: nothing of the block stands before them."""
+    while (at := skip_blanks(text, at, stop)) < stop:
         match = _WORD.match(text, at, stop)
         if match is None or match.group(2) is None:
-            _refuse(builder, text, at, stop, mark)
-            return
+            end = mark.other(builder, text, at, stop) if mark.other else -1
+            if end < 0:
+                _refuse(builder, text, at, stop, mark)
+                return False
+            at, first = end, False
+            continue
         address, number = match.group(1).upper(), float(match.group(2))
         length = match.end() - at
         after = text[match.end() : match.end() + 1]
-        if match.end() < stop and (after in ".,+-" or after.isdigit()):
+        if match.end() < stop and (after in ".,+-" or after.isdigit()) and not (after == "," and mark.other):
             _refuse(builder, text, match.end(), stop, mark)
-            return
+            return False
         if address == "N" and mark.labels:
             if first and 0 < number < math.inf and number == int(number):
                 labels.append((at, int(number)))
@@ -170,11 +183,12 @@ def _read_line(builder: ProgramBuilder, text: str, begin: int, mark: Marks, labe
                 builder.alarm(f"a number must be smaller than {LARGEST:g}", at, length)
             builder.word(address, number, at, length)
             if builder.blocks and builder.full == builder.blocks[-1][0]:
-                return
-        at, first = _skip_blanks(text, match.end(), stop), False
+                return False
+        at, first = match.end(), False
+    return True
 
 
-def _skip_blanks(text: str, at: int, stop: int) -> int:
+def skip_blanks(text: str, at: int, stop: int) -> int:
     while at < stop and text[at] in " \t\ufeff":
         at += 1
     return at

@@ -139,3 +139,22 @@ def test_a_column_of_the_tool_table_is_written(inside) -> None:
 def test_the_tool_in_the_spindle_counts_as_it_was_called(inside) -> None:
     run = inside("2 FN 17: SYSWRITE ID 50 NR2 IDX1 = +3\n3 Q1 = Q108\n4 TOOL CALL 1 Z\n5 Q2 = Q108", SETUP)
     assert run.ok and (run.variables["Q1"], run.variables["Q2"]) == pytest.approx((4.9, 2.9))
+
+
+@pytest.mark.parametrize(
+    ("number", "expected"),
+    [
+        (0, "05.09.2018 07:08:09"), (1, "5.09.2018 7:08:09"), (4, "2018-09-05 07:08:09"), (8, "05.09.2018"), (12, "18-09-05"),
+        (13, "07:08:09"), (15, "7:08"),
+    ],
+)  # fmt: skip
+def test_the_time_as_a_text(number: int, expected: str, inside) -> None:
+    """SYSSTR ID321 has the formats of %time in cycle 225 (12.6); 17779 days after the first of 1970 is 5 September 2018."""
+    clock = 17779 * 86400 + 7 * 3600 + 8 * 60 + 9
+    run = inside(f'2 Q5 = {number}\n3 QS1 = "T: " || SYSSTR( ID321 NRQ5 )', clock=clock)
+    assert run.ok and run.variables["QS1"] == f"T: {expected}"
+
+
+def test_the_name_of_the_tool_as_a_text(inside) -> None:
+    run = inside("2 QS1 = SYSSTR(ID 10950 NR 1)\n3 TOOL CALL 2 Z\n4 QS2 = SYSSTR( NR1 ID10950 )\n5 Q1 = STRLEN ( SRC_QS2 )")
+    assert run.ok and [run.variables[name] for name in ("QS1", "QS2", "Q1")] == ["end mill 10", "drill 8", 7]

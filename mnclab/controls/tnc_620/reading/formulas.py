@@ -25,6 +25,8 @@ _EQUALS = re.compile(r"=[ \t]*", FLAGS)
 _UNDEFINED = re.compile(r"SET[ \t]+UNDEFINED", FLAGS)
 _ERROR = re.compile(r"[ \t]*ERROR[ \t]*=", FLAGS)
 _WRITE, _READ = re.compile(r"[ \t]*SYSWRITE(?![A-Z])", FLAGS), re.compile(r"[ \t]*SYSREAD(?![A-Z])", FLAGS)
+_PRINT, _F_PRINT = re.compile(r"[ \t]*PRINT(?![A-Z])", FLAGS), re.compile(r"[ \t]*F[ \t]*-[ \t]*PRINT(?![A-Z])", FLAGS)
+_FILE = re.compile("[^/]+")
 _CDATA = re.compile(r"CDATA(?![A-Z])", FLAGS)
 _PRESET, _AXIS, _SLASH = re.compile(r"PRESET[ \t]*=", FLAGS), re.compile("[A-CU-Z]", FLAGS), re.compile("/")
 _SYSTEM = [(name, re.compile(rf"[ \t]*{name}", FLAGS)) for name in ("ID", "NR", "IDX")]
@@ -199,6 +201,34 @@ def error(cursor: Cursor) -> None:
     operand(cursor, "number", "FN 14: ERROR = 1000")
 
 
+def print_values(cursor: Cursor) -> None:
+    """FN 15: PRINT numbers and parameters, with / between them."""
+    example = "FN 15: PRINT 1/Q1/Q2"
+    cursor.expect(_PRINT, "FN 15 needs PRINT", f"for example {example}")
+    while True:
+        begin = cursor.blanks()
+        value = cursor.value()
+        if value is None:
+            raise Fault("a number or a Q parameter was expected", begin, hint=f"for example {example}")
+        cursor.add("item", value, begin)
+        if cursor.done:
+            return
+        cursor.expect(_SLASH, "/ was expected between what is put out", f"for example {example}")
+
+
+def print_formatted(cursor: Cursor) -> None:
+    """FN 16: F-PRINT mask / file."""
+    hint = "for example FN 16: F-PRINT TNC:\\MASK.A / TNC:\\LOG.TXT"
+    cursor.expect(_F_PRINT, "FN 16 needs F-PRINT", hint)
+    for address, what in (("mask", "the file with the mask"), ("output", "the file that is written")):
+        begin = cursor.blanks()
+        found = cursor.expect(_FILE, f"{what} is missing", hint)
+        cursor.at = begin + len(found.group().rstrip())
+        cursor.add(address, found.group().strip().strip('"').strip(), begin)
+        if address == "mask":
+            cursor.expect(_SLASH, "/ and the file that is written are missing", hint)
+
+
 def circle_data(number: int) -> Read:
     """FN 23 and FN 24: the parameter that gets the centre, and the first of those with the points."""
 
@@ -267,6 +297,8 @@ FN: dict[int, Read] = {
     **{number: arithmetic(number) for number in FORMS},
     **{number: pair(number) for number in PAIRS},
     14: error,
+    15: print_values,
+    16: print_formatted,
     17: system_write,
     18: system_read,
     23: circle_data(23),

@@ -1,0 +1,232 @@
+"""Programs that call others: M98 and M99, G65 with arguments, G66 after every motion; O, where a program begins.
+
+The program of a number is sought in the running file, then in those that were called, then among `Setup(files=…)` and beside
+the running file: `O1000.nc`, `1000.nc`, whatever the ending. M98 leaves the variables #1 to #33 to the program that it calls,
+as Fanuc and LinuxCNC have it; a macro has its own.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import NamedTuple
+
+from mnclab.controls.g43.language import sections, variables
+from mnclab.controls.g43.language.macros import number
+from mnclab.controls.g43.state import memory
+from mnclab.controls.word_address.motion import first_word
+from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.machine import Machine
+from mnclab.running import files
+from mnclab.running.flow import course
+from mnclab.text.alarm import Alarm
+from mnclab.text.program import Word
+
+FUNCTIONS = FunctionTable()
+SOURCE = "Fanuc, LinuxCNC"
+MACRO = "Macro B"
+MOST = 9999  # calls by one word
+#: The variables of arguments; I, J and K of the second to tenth time have #7 to #33.
+ARGUMENTS = dict(zip("ABCIJKDEFHMQRSTUVWXYZ", (*range(1, 10), 11, 13, *range(17, 27)), strict=True))
+TAKES = " ".join(["P", "L", *(f"{letter}*" for letter in ARGUMENTS if letter != "M"), "argument*"])
+#: In whose blocks X, Y and Z are no way.
+STANDING = {4.0, 10.0, 52.0, 92.0, 50.0, 51.0, 68.0}
+
+
+class Macro(NamedTuple):
+    """A program that G66 calls after every motion: its number, how often, and its variables."""
+
+    program: int
+    times: int
+    arguments: dict[str, float]
+
+
+@FUNCTIONS("O", "Program number", phase="plane", source="ISO 6983")
+def program_number(m: Machine, words: Words) -> None:
+    """Where a program begins; one that runs into the next one ends there."""
+    found, word = sections.sections(m), words["O"]
+    if m.flow.current == found[0][0]:
+        return
+    flow, before = course(m), found[[block for block, _ in found].index(m.flow.current) - 1][1]
+    ends = "M99" if flow.calls or flow.called else "M2 or M30"
+    m.warn(f"{before} ends where O{word.value:g} begins", word, f"write {ends} before it")
+    back(m)
+    m.ended = m.ended or not (flow.returning or flow.over)
+
+
+def back(m: Machine) -> None:
+    """End the running subprogram, or the called file; nothing in the main program."""
+    if course(m).calls:
+        m.flow.leave()
+    elif m.flow.called:
+        m.flow.end_program()
+
+
+@FUNCTIONS("M98", "Subprogram call", phase="call", takes="P L", modal=False, source=SOURCE)
+def call(m: Machine, words: Words) -> None:
+    """Runs the program of P, L times; without L, of P with more than four digits the last four are the number."""
+    if "P" not in words:
+        m.alarm("M98 needs P, the number of a program", first_word(words))
+    program, times = whole(m, words["P"], 99_999_999), whole(m, words["L"], MOST) if "L" in words else 1
+    if program > MOST and "L" not in words and not known(m, program):
+        times, program = divmod(program, 10_000)
+    run(m, program, times, "M98", words["P"])
+
+
+@FUNCTIONS("M99", "End of a subprogram", phase="end", takes="P", modal=False, source=SOURCE)
+def end(m: Machine, words: Words) -> None:
+    """Back to the block after the call, or with P to that of this number; in the main program as `main_m99` has it."""
+    word, flow = words.words[0], course(m)
+    if flow.calls or flow.called:
+        memory(m).return_to = words.get("P")
+        back(m)
+    elif "P" in words:
+        m.flow.jump(m, sections.block_label(m, m.value(words["P"]), words["P"]), m.span_of(words["P"]))
+    elif m.settings["main_m99"] == "repeat":
+        m.flow.jump(m, "%", m.span_of(word))
+    else:
+        m.warn("M99 in the main program: it would begin again, and ends here", word, "setting main_m99")
+        m.ended = True
+
+
+@FUNCTIONS("G65,", "Macro call", phase="call", takes=TAKES, source=MACRO)
+def call_macro(m: Machine, words: Words) -> None:
+    """Runs the program of P, L times, with variables #1 to #33 of its own: A is #1, B #2, …; they are vacant afterwards."""
+    run_macro(m, macro(m, words, "G65"), "G65", words["P"])
+
+
+@FUNCTIONS("G66,", "Modal macro call", phase="call", takes=TAKES, source=MACRO)
+def call_after_motion(m: Machine, words: Words) -> None:
+    """From the next block on, the program of P runs after every block with X, Y or Z, until G67."""
+    if m.modal.get("call"):
+        m.alarm("G66 inside G66 is not built", words["P"] if "P" in words else None, "write G67 before it")
+    memory(m).macro = macro(m, words, "G66")
+    m.set_modal("call", "G66 again")
+
+
+@FUNCTIONS("G66 again,", "Modal macro call, after a motion", group="call", phase="call", source=MACRO)
+def call_again(m: Machine, words: Words) -> None:
+    """Not inside the macro itself."""
+    kept = memory(m).macro
+    assert isinstance(kept, Macro)
+    if m.position_cycle:
+        m.alarm("G66 and a drilling cycle are active: their order is not stated", hint="write G80 or G67 before it")
+    m.set_modal("call", "")
+    run_macro(m, kept, "G66", None)
+    m.set_modal("call", "G66 again")
+
+
+@FUNCTIONS("G67", "Modal macro call off", phase="plane", modal=False, source=MACRO)
+def no_macro(m: Machine, words: Words) -> None:
+    """Also where none was active."""
+    m.set_modal("call", "")
+
+
+def calls_again(keyword: str, words: list[Word]) -> bool:
+    """Whether G66 calls its macro after a block."""
+    codes = {word.value for word in words if word.address == "G"}
+    return not keyword and not codes & STANDING and any(word.address in ("X", "Y", "Z") for word in words)
+
+
+def macro(m: Machine, words: Words, code: str) -> Macro:
+    """What a call says; its I, J and K begin a new group where one of them does not come after the last in order."""
+    if "P" not in words:
+        m.alarm(f"{code} needs P, the number of a program")
+    program, times = whole(m, words["P"], 99_999_999), whole(m, words["L"], MOST) if "L" in words else 1
+    arguments, group, last = dict[str, float](), 0, ""
+    for word in sorted(words.words, key=lambda word: word.place):
+        letter = "M" if word.address == "argument" else word.address
+        if letter in ("P", "L"):
+            continue
+        index = ARGUMENTS[letter]
+        if letter in ("I", "J", "K"):
+            group, last = group + (letter <= last), letter
+            index += 3 * group
+            if index > 33:
+                m.alarm("I, J and K stand at most ten times each", word)
+        if (value := number(m, word)) is not None:
+            arguments[f"#{index}"] = value
+    return Macro(program, times, arguments)
+
+
+def run_macro(m: Machine, called: Macro, code: str, word: Word | None) -> None:
+    for _ in range(called.times):
+        with own_level(m, called.arguments):
+            run(m, called.program, 1, code, word)
+        if m.ended or m.flow.program is None or course(m).target >= 0:
+            return
+
+
+@contextmanager
+def own_level(m: Machine, arguments: dict[str, float]) -> Iterator[None]:
+    """Inside, #1 to #33 are those of a macro; afterwards those of before."""
+    kept = {name: m.variables[name] for name in variables.LOCAL if name in m.variables}
+    for name in kept:
+        m.variables.forget(name)
+    for name, value in arguments.items():
+        m.variables[name] = value
+    yield
+    for name in variables.LOCAL:
+        m.variables.forget(name)
+    for name, value in kept.items():
+        m.variables[name] = value
+
+
+def run(m: Machine, program: int, times: int, code: str, word: Word | None) -> None:
+    """Run a program a number of times; M99 P ends that."""
+    for _ in range(times):
+        index, label = found(m, program, code, word)
+        flow = course(m)
+        if label:
+            with flow.inside(m, index):
+                flow.call(m, label, m.span_of(word))
+        else:
+            flow.call_program(m, index, m.span_of(word))
+        if m.ended:
+            return
+        if (place := memory(m).return_to) is not None:
+            memory(m).return_to = None
+            flow.jump(m, sections.block_label(m, m.value(place), word or place), m.span_of(word))
+            return
+
+
+def whole(m: Machine, word: Word, most: int) -> int:
+    value = number(m, word) or 0.0
+    if value != int(value) or not 0 <= value <= most:
+        m.alarm(f"{word.address} must be a whole number from 0 to {most}, got {value:.10g}", word)
+    return int(value)
+
+
+def found(m: Machine, program: int, code: str, word: Word | None) -> tuple[int, str]:
+    """The file of a program, by its index, and its label there, if it has one."""
+    if (place := known(m, program)) is not None:
+        return place
+    what, label = f"{code} P{program}", f"O{program}"
+    name = file_of(m, program)
+    if name is None:
+        there = ", ".join(name for _, name in sections.sections(m)[:8]) or "no program with a number"
+        hint = f"this file has {there}; Setup(files=…) and the folder have no file {label}"
+        m.alarm(f"{what}: there is no program {label}", word, hint)
+    index = files.called(m, name, code, m.span_of(word))
+    return index, label if label in course(m).programs[index].labels else ""
+
+
+def known(m: Machine, program: int) -> tuple[int, str] | None:
+    """The place of a program in the files that were read."""
+    flow, label = course(m), f"O{program}"
+    indices = (m.program, *range(len(flow.programs)))
+    return next(((index, label) for index in indices if label in flow.programs[index].labels), None)
+
+
+def file_of(m: Machine, program: int) -> str | None:
+    """The name of the file that a program has of its own."""
+    pattern = re.compile(rf"O?0*{program}(\.\w{{1,8}})?", re.IGNORECASE)
+    names, folder = list(m.setup.files), m.flow.program.folder
+    if folder:
+        try:
+            names += sorted(os.listdir(folder))
+        except OSError as fault:
+            raise Alarm(f"the folder of the program cannot be read: {fault.strerror}") from None
+    return next((name for name in names if pattern.fullmatch(re.split(r"[/\\:]", name)[-1])), None)

@@ -1,0 +1,321 @@
+"""Reading programs of ISO mills: tapes between `%`, programs O, comments in brackets, block skip, words and statements.
+
+Lines of nothing but words with numbers are found for the whole text at once; the others are read here, one by one. A program
+number and the N of a block become jump targets, the latter only where the program jumps: `O1000`, `O1000 N10`, and where a
+number stands again `O1000 N10 (2)`.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.controls.g43.reading import formulas
+from mnclab.controls.g43.reading.statements import HEAD, Fault, Statements, end_of_operand
+from mnclab.controls.word_address.reader import Labels, Marks, clean_blocks, read_words, skip_blanks
+from mnclab.text.alarm import Alarm, Span
+from mnclab.text.program import Program
+from mnclab.text.program_builder import MOST_WORDS, ProgramBuilder
+from mnclab.text.words import Scan, scan
+
+COMMENT = r"[(;]"
+AXES, GOING = "XYZ", {1.0, 2.0, 3.0, 90.0, 91.0}
+CALLS = (65.0, 66.0)  # G words with arguments
+_TAPE = re.compile(r"^[ \t\ufeff]*%([^\r\n]*)", re.MULTILINE)
+_SKIP = re.compile(r"/[ \t]*([1-9])?(?!\d)")
+_LABEL = re.compile(r"N[ \t]*(\d{1,9})(?![\d.])[ \t]*", re.IGNORECASE)
+_NUMBER = re.compile(r"(?:O|:)[ \t]*(\d{1,8})(?![\d.])", re.IGNORECASE)
+_FLOW_WORD = re.compile(r"O[ \t]*(?:\d+|<[^<>]{0,80}>|\[[^]]{0,80}\]|#\d+)[ \t]*([A-Z]{2,})", re.IGNORECASE)
+_CORNER = re.compile(r",[ \t]*([CR])[ \t]*(?=[-+.\d#\[])", re.IGNORECASE)
+_PLAIN = re.compile(r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)")
+_CALL = re.compile(r"G[ \t]*0*6[56](?![\d.])", re.IGNORECASE)
+_WORDS = re.compile(r"[ \t]*(?:[A-Z][ \t]*[-+]?[\d.]+[ \t]*){2,}", re.IGNORECASE)
+
+
+def read(text: str, name: str = "program") -> Program:
+    """The program of a text."""
+    found = scan(text)
+    return _Reader(text, name, found).program()
+
+
+def other_word(builder: ProgramBuilder, text: str, at: int, stop: int) -> int:
+    """A word whose value is a variable or stands in brackets (`X#1`, `X-[#1+2]`), or a corner (`,R5`); its end, or -1."""
+    corner = _CORNER.match(text, at, stop)
+    if corner:
+        address, value = f",{corner.group(1).upper()}", corner.end()
+        if number := _PLAIN.match(text, value, stop):
+            builder.word(address, float(number.group()), at, number.end() - at)
+            return number.end()
+    elif text[at].isascii() and text[at].isalpha():
+        address, value = text[at].upper(), skip_blanks(text, at + 1, stop)
+    else:
+        return -1
+    end = end_of_operand(text[value:stop], 0)
+    if end < 0:
+        return -1
+    if address == "N":
+        raise Alarm("the N of a block is a number, no formula", builder.span(at))
+    builder.word(address, formulas.parse(text[value : value + end], builder.span(value)), at, value + end - at)
+    return value + end
+
+
+MARKS = Marks(re.compile(COMMENT), other=other_word)
+
+
+class _Reader:
+    def __init__(self, text: str, name: str, found: Scan) -> None:
+        self.text = text
+        self.builder = ProgramBuilder(text, name, "g43", found.starts, COMMENT)
+        self.statements = Statements(self.builder)
+        self.labels: Labels = []
+        self.programs: Labels = []
+        self.another = -1  # the % of another program
+        first, last = self.tape(found)
+        special = found.count > MOST_WORDS
+        letter, value = found.letter, found.value
+        odd = (letter == ord("O")) | ((letter == ord("G")) & np.isin(value, CALLS)) | ((letter == ord("N")) & (value == 0))
+        if odd.any():
+            special[found.line[odd]] = True
+        special[:first] = special[last:] = True
+        self.jumps = self.goes_to(found)
+        self.found = found.without(special) if special.any() else found
+        self.odd = first + np.flatnonzero(~self.found.clean[first:last])
+
+    def tape(self, found: Scan) -> tuple[int, int]:
+        """The lines of the program: from the first % on, if nothing but comments stands above it, to the next one."""
+        if "%" not in self.text:
+            return 0, len(found.starts)
+        first, stop = 0, len(found.starts)
+        for mark in _TAPE.finditer(self.text):
+            line = int(np.searchsorted(found.starts, mark.start(), "right")) - 1
+            if not first and nothing_said(self.text[: mark.start()]):
+                first = line + 1
+                self.builder.block(mark.start())
+                continue
+            if mark.group(1).strip() and not mark.group(1).lstrip().startswith(("(", ";")):
+                self.another = mark.end() - len(mark.group(1)) - 1
+            rest = self.text[mark.end() :]
+            if begun := re.search(r"[^\s\0%]", rest):
+                at = mark.end() + begun.start()
+                self.builder.alarm("what stands after the last % is not obeyed", at, severity="warning")
+            stop = line
+            break
+        return first, stop
+
+    @staticmethod
+    def goes_to(found: Scan) -> bool:
+        """Whether a clean line goes to a block: M97, or M99 with P."""
+        codes = (found.letter == ord("M")) & np.isin(found.value, (97.0, 99.0))
+        if not codes.any():
+            return False
+        lines: NDArray[np.int64] = found.line
+        return bool(np.isin(lines[codes], lines[found.letter == ord("P")]).any())
+
+    def program(self) -> Program:
+        builder = self.builder
+        bulk = clean_blocks(builder, self.found, self.labels, True)
+        for index in self.odd:
+            self.read_line(int(index))
+        self.statements.close()
+        if self.another >= 0:
+            builder.block(self.another)
+            hint = "a file holds one of them; those of O numbers may stand one after another"
+            builder.alarm("another program begins here", self.another, 1, hint)
+        elif self.statements.last >= 0:
+            builder.block(len(self.text))  # there is a block after every loop
+        self.set_labels()
+        program = builder.build(bulk)
+        if faults := lonely_corners(program):
+            program = replace(program, alarms=tuple(sorted((*program.alarms, *faults), key=lambda a: a.span or Span(0, 0))))
+        return program
+
+    # --- lines -------------------------------------------------------------------------------------------------------
+
+    def read_line(self, index: int) -> None:
+        builder, text = self.builder, self.text
+        begin = int(builder.line_starts[index])
+        end = int(builder.line_starts[index + 1]) if index + 1 < len(builder.line_starts) else len(text)
+        line = text[begin:end].rstrip("\r\n\0")
+        try:
+            parts = list(without_comments(line))
+        except Fault as fault:
+            self.fault(fault, begin, begin)
+            return
+        code = "".join(parts)[: len(line)]
+        at = len(code) - len(code.lstrip(" \t\ufeff"))
+        if at == len(code):
+            if line.strip(" \t\ufeff"):
+                builder.block(begin + len(line) - len(line.lstrip(" \t\ufeff")), plain=True)
+            return
+        self.warn_of_words(line, code, begin)
+        try:
+            self.read_block(line, code, begin, at)
+        except Fault as fault:
+            self.fault(fault, begin)
+        except Alarm as alarm:
+            builder.alarms.append(alarm)
+
+    def fault(self, fault: Fault, begin: int, block: int = -1) -> None:
+        if block >= 0:
+            self.builder.block(block)
+        self.builder.alarm(fault.message, begin + fault.at, fault.length, fault.hint)
+
+    def warn_of_words(self, line: str, code: str, begin: int) -> None:
+        """A semicolon is the end of a block, and on paper the next one may stand behind it."""
+        at = len(code.rstrip(" \t"))
+        mark = line.find(";", at)
+        if mark >= 0 and _WORDS.fullmatch(line, mark + 1):
+            self.builder.alarm(
+                "what stands after ';' is taken for a comment", begin + mark, 1, "write a line for each block", "warning"
+            )
+
+    def read_block(self, line: str, code: str, begin: int, at: int) -> None:
+        builder, start, skip = self.builder, begin + at, 0
+        label = _LABEL.match(code, at)
+        if label and code[label.end() : label.end() + 1] == "/":  # N10 /2 G0
+            at = label.end()
+        if code[at] == "/":
+            mark = _SKIP.match(code, at)
+            if mark is None:
+                builder.block(start)
+                raise Fault("/ is followed by the number of a switch, 1 to 9", at)
+            skip = int(mark.group(1) or 1)
+            at = skip_blanks(code, mark.end(), len(code))
+        label = label or _LABEL.match(code, at)
+        if label:
+            at = max(at, label.end())
+        head = HEAD.match(code, at)
+        call = None if head else _CALL.search(code, at)
+        keyword = head.group().upper() if head else call.group()[:1].upper() + "6" + call.group()[-1] if call else ""
+        builder.block(start, "" if keyword in ("THEN", "ELSE") else keyword, skip)
+        if label:
+            self.labels.append((start, int(label.group(1))))
+        if head:
+            self.statements.read(code, begin, at, message_of(line))
+            self.jumps |= self.statements.jumps
+            return
+        number = _NUMBER.match(code, at)
+        if word := _FLOW_WORD.match(code, at):
+            hint = "write M98 P… and M99, IF, WHILE: the functions of Macro B"
+            raise Fault(f"O words of LinuxCNC ({word.group(1).lower()}) are not built", at, len(word.group()), hint)
+        if number:
+            self.begin_program(number, begin)
+            at = number.end()
+        if call:  # what stands behind it are arguments
+            if code[at : call.start()].strip(" \t"):
+                raise Fault("a call stands alone in its block", call.start(), hint="write two blocks")
+            at = call.end()
+        first = not (label or number or call)
+        for a, b in pieces(code, line, at):
+            if not read_words(builder, self.text, begin + a, begin + b, MARKS, self.labels, first):
+                return
+            first = False
+        if call:
+            self.arguments()
+        self.jumps = self.jumps or {"M", "P"} <= set(code.upper())
+
+    def arguments(self) -> None:
+        """M is an argument like others, G is none."""
+        builder = self.builder
+        for k in range(int(builder.blocks[-1][4]) - builder.before, len(builder.words)):
+            address, value, form, flag, at, length = builder.words[k]
+            if address == builder.addresses.get("G"):
+                builder.alarm("G is no argument of a macro", at, length)
+            elif address == builder.addresses.get("M"):
+                address = builder.addresses.setdefault("argument", len(builder.addresses))
+                builder.words[k] = (address, value, form, flag, at, length)
+
+    def begin_program(self, number: re.Match[str], begin: int) -> None:
+        value = int(number.group(1))
+        at, length = begin + number.start(), number.end() - number.start()
+        if any(value == known for _, known in self.programs):
+            self.builder.alarm(f"O{value} stands twice", at, length, "a number is that of one program")
+        self.statements.close()
+        self.programs.append((self.builder.blocks[-1][0], value))
+        self.builder.word("O", float(value), at, length)
+
+    # --- jump targets ------------------------------------------------------------------------------------------------
+
+    def set_labels(self) -> None:
+        labels = self.builder.labels
+        for at, number in reversed(self.programs):
+            labels[f"O{number}"] = at
+        labels["%"] = 0
+        if not self.jumps:
+            return
+        starts, seen = [at for at, _ in self.programs], Counter[str]()
+        for at, number in sorted(self.labels):
+            place = bisect_right(starts, at) - 1
+            name = f"O{self.programs[place][1]} N{int(number)}" if place >= 0 else f"N{int(number)}"
+            seen[name] += 1
+            labels[name if seen[name] == 1 else f"{name} ({seen[name]})"] = at
+
+
+def lonely_corners(program: Program) -> list[Alarm]:
+    """An Alarm at each corner that the next block does not go on from: a corner lies between two elements."""
+    faults = []
+    for k, name in enumerate(program.addresses):
+        for at in np.flatnonzero(program.address == k) if name in (",R", ",C") else ():
+            block = after = int(np.searchsorted(program.first, at, "right")) - 1
+            while (after := after + 1) < len(program) and program.first[after] == program.first[after + 1]:
+                pass  # a comment
+            words = program[after].words if after < len(program) else ()
+            codes = {word.value for word in words if word.address == "G"}
+            goes = any(word.address in AXES for word in words) and codes <= GOING
+            if not goes or program.keywords[program.keyword[after]] or program.skip[[block, after]].any():
+                hint = "the block after it holds X, Y or Z, with G1, G2 or G3 if with a G word, and is not passed over"
+                faults.append(Alarm(f"{name} lies between two lines or arcs", program.word(int(at)).span, hint=hint))
+    return faults
+
+
+def nothing_said(text: str) -> bool:
+    """Whether lines hold nothing but comments."""
+    lines = (line.strip(" \t\ufeff\0") for line in text.splitlines())
+    return all(not line or line[0] in "(;" for line in lines)
+
+
+def without_comments(line: str) -> Iterator[str]:
+    """The parts of a line, with blanks in the place of comments: `( … )`, and from `;` on."""
+    at = 0
+    while at < len(line):
+        marks = [k for k in (line.find("(", at), line.find(";", at)) if k >= 0]
+        if not marks:
+            yield line[at:]
+            return
+        mark = min(marks)
+        yield line[at:mark]
+        if line[mark] == ";":
+            yield " " * (len(line) - mark)
+            return
+        close, again = line.find(")", mark), line.find("(", mark + 1)
+        if close < 0:
+            raise Fault("a comment is not closed: ')' is missing", mark)
+        if mark < again < close:
+            raise Fault("a comment cannot stand inside another", again, hint="write other brackets in a comment: [ ] or < >")
+        yield " " * (close + 1 - mark)
+        at = close + 1
+
+
+def pieces(code: str, line: str, at: int) -> Iterator[tuple[int, int]]:
+    """Where the parts of a line between comments begin and end."""
+    stop = len(code.rstrip(" \t"))
+    while at < stop:
+        while at < stop and line[at] == "(":
+            at = line.find(")", at) + 1
+        mark = line.find("(", at, stop)
+        end = mark if mark >= 0 else stop
+        if end > at:
+            yield at, end
+        at = end
+
+
+def message_of(line: str) -> str:
+    """The first comment of a line."""
+    begin = line.find("(")
+    return line[begin + 1 : line.find(")", begin)].strip() if begin >= 0 else ""
