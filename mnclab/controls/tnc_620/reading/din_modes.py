@@ -25,7 +25,7 @@ _CODE = re.compile(r"(?<![A-Z])G[ \t]*(\d{1,4})(?!\d)", FLAGS)
 _NAME = r'(\d{1,9}|"[^"]*"|QS[ \t]?\d{1,6})'
 _LABEL = rf"L[ \t]*{_NAME}"
 _SET, _CALL = re.compile(rf"G[ \t]*98[ \t]*{_LABEL}", FLAGS), re.compile(rf"{_LABEL}[ \t]*(,[ \t]*0*[1-9])?", FLAGS)
-_JUMP = re.compile(rf"D[ \t]*(?:09|9|10|11|12)\b[^*]*?P[ \t]*03[ \t]*{_NAME}", FLAGS)
+_JUMP = re.compile(rf"D[ \t]*(?:09|9|10|11|12)\b[^*]*?(?:P[ \t]*03|LBL)[ \t]*{_NAME}", FLAGS)
 _END = re.compile(r"(?<![A-Z])M[ \t]*(?:0*2|30)(?!\d)", FLAGS)
 _STRANGE = re.compile(r'"[^"]*"|Q[LRS]?\d+[ \t]*=.*', FLAGS)  # names, and the parameters of a definition
 

@@ -55,8 +55,8 @@ def _value(cursor: Cursor, address: str, kind: str) -> None:
     cursor.match(_EQUALS)
     if kind == "DR":
         sense = cursor.expect(_SENSE, "DR needs + or -")
-        value = 1.0 if sense.group(1) == "+" else -1.0  # no length, as DR is elsewhere
-        cursor.builder.word(address, value, begin, cursor.at - begin)
+        turning = 1.0 if sense.group(1) == "+" else -1.0  # no length, as DR is elsewhere
+        cursor.builder.word(address, turning, begin, cursor.at - begin)
         return
     value = cursor.needed(f"a number is missing: the {meaning}", begin, max(1, cursor.at - begin))
     cursor.add(address, value, begin)
