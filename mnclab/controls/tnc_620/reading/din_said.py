@@ -32,7 +32,7 @@ for _statement in STATEMENTS.values():
             _LETTERS.setdefault(_statement.keyword, {}).setdefault(_address, _letter)
 #: What alarms say of other blocks.
 _ELSEWHERE = {keyword: name for keyword, name in _NAMES.items() if " " in keyword} | {
-    "R0": "G40", "RL": "G41", "RR": "G42", "CC X… Y…": "I… J…", "no CC": "no I J",
+    "R0": "G40", "RL": "G41", "RR": "G42", "CC X… Y…": "I… J…", "no CC": "no I J", "FMAX is": "G00 is",
 }  # fmt: skip
 _FN, _CYCLE = re.compile(r"FN (\d+)"), re.compile(r"CYCL DEF (\d+)(?:\.\d)?")
 
