@@ -58,6 +58,7 @@ from mnclab.controls.tnc_620.language import (
     system_access,
     system_data,
     system_texts,
+    tool_axis,
     tools,
 )
 from mnclab.controls.tnc_620.printing import output
@@ -161,7 +162,7 @@ CONTROL = Control(
     phases=PHASES, codes=("M",), word_functions=False, meanings=MEANINGS, told=motion.turning_sense, trial=trial_program,
     settings=SETTINGS, memory=Memory, start=program.start, frames=(secondary_axes.FRAME, "preset"),
     storage="variables", preassigned={**parameters.PREASSIGNED, **system_texts.TEXTS}, local_variables="QL",
-    named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again,
+    named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again, turned=tool_axis.turned,
     compensation=Compensation(approach="perpendicular", rapid=True),
     bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call")),
 )  # fmt: skip
