@@ -64,7 +64,7 @@ EXAMPLE = "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
 class Run:
     """The result of running a program: both paths, alarms, history, and where the machine stands.
 
-    `gouges` are the places where a compensated tool does not fit: the one that was refused, or with the setting
+    `files` are the texts that the program wrote, by name. `gouges` are the places where a compensated tool does not fit: the one that was refused, or with the setting
     `gouge = "mark"` all of them. `stopped` is where an axis would have left its travel, machine coordinates.
     """
 
