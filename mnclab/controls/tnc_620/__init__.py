@@ -148,7 +148,7 @@ MEANINGS = {
     **{f"M94:{axis}": f"the rotary axis {axis}" for axis in "ABC"},
     **{f"M118:{axis}": f"greatest way of the handwheel along {axis}" for axis in "XYZ"},
     **{f"M118:{axis}": f"greatest turn of the handwheel around {axis}" for axis in "ABC"},
-    **no_effect.WORDS, **rotary_rules.WORDS, **retraction.WORDS,
+    "TIME": "seconds", "REV": "turns of the spindle", **no_effect.WORDS, **rotary_rules.WORDS, **retraction.WORDS,
     **{f"PLANE RESET {address}": meaning for address, meaning in retraction.PLANE.items()},
     "FSELECT number": "number of the solution, as the control shows them", **free_words.WORDS,
     **{f"PATTERN DEF {address}": meaning for address, meaning in pattern_definitions.MEANINGS.items()},

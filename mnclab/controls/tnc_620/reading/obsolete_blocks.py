@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator, Mapping
 from functools import partial
 
+from mnclab.controls.tnc_620.reading.dialog import dialog
 from mnclab.controls.tnc_620.reading.words import FLAGS, Cursor, Fault, Read
 
 _MILLED = ("SETUP", "DEPTH", "PECKG PECKG:F")
@@ -29,8 +30,6 @@ NAMES: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 _MEANT = {word.replace(" ", ""): address for address, (_, *words) in NAMES.items() for word in words}
 
-_WORD = re.compile(r"(?:(?!Q[LR]?\d)(?:[^\d\s;~+,=.-]|\.(?![ \t]*[\d.]))[ \t]*)*", FLAGS)
-_EQUALS = re.compile(r"[ \t]*=", FLAGS)
 _SENSE = re.compile(r"[ \t]*([+-])(?![ \t]*[\dQ.,])", FLAGS)
 
 
@@ -44,15 +43,13 @@ def values(cursor: Cursor, addresses: str) -> None:
 
 def _value(cursor: Cursor, address: str, kind: str) -> None:
     begin, meaning = cursor.blanks(), NAMES[kind][0]
-    found = cursor.match(_WORD)
-    word = "".join(found.group().upper().split()) if found else ""
+    word = dialog(cursor)
     meant = _MEANT.get(word)
     if kind == "F" and word == "FAUTO":
         cursor.add(address, word, begin)
         return
     if (meant not in (None, kind)) or (kind in ("F", "DR") and word not in ("", kind)):
         raise Fault(f"{word} stands where the {meaning} belongs", begin, max(1, len(word)))
-    cursor.match(_EQUALS)
     if kind == "DR":
         sense = cursor.expect(_SENSE, "DR needs + or -")
         cursor.add(address, 1.0 if sense.group(1) == "+" else -1.0, begin)
