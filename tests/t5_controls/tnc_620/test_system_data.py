@@ -62,7 +62,8 @@ BEFORE = {
         ("shifted", "ID240 NR1 IDX2", -4), ("shifted", "ID270 NR1 IDX6", -30), ("shifted", "ID240 NR1 IDX6", 0),
         ("", "ID280 NR1", 0), ("", "ID310 NR116", 0), ("", "ID320 NR1 IDX0", 1.5e9),
         ("", "ID500 NR4 IDX2", 8), ("", "ID505 NR1", 1), ("", "ID503 NR3 IDX1", 100), ("", "ID507 NR3 IDX3", -200),
-        ("", "ID530 NR1", 0), ("moved", "ID530 NR1", 3), ("", "ID992 NR16", 1),
+        ("", "ID530 NR1", 0), ("moved", "ID530 NR1", 3), ("", "ID992 NR16", 1), ("", "ID990 NR10 IDX0", 0),
+        ("", "ID992 NR10", 0),
     ],
 )  # fmt: skip
 def test_what_is_read(before: str, asked: str, expected: float, inside) -> None:
@@ -158,3 +159,9 @@ def test_the_time_as_a_text(number: int, expected: str, inside) -> None:
 def test_the_name_of_the_tool_as_a_text(inside) -> None:
     run = inside("2 QS1 = SYSSTR(ID 10950 NR 1)\n3 TOOL CALL 2 Z\n4 QS2 = SYSSTR( NR1 ID10950 )\n5 Q1 = STRLEN ( SRC_QS2 )")
     assert run.ok and [run.variables[name] for name in ("QS1", "QS2", "Q1")] == ["end mill 10", "drill 8", 7]
+
+
+def test_a_program_that_asks_whether_it_is_simulated(inside) -> None:
+    """Programs jump over probing where ID992 NR16 is 0; the setting says what they are told."""
+    blocks = "2 FN 18: SYSREAD Q1 = ID992 NR16\n3 FN 9: IF +Q1 EQU +0 GOTO LBL 9\n4 L X+5\n5 LBL 9\n6 L Y+5"
+    assert len(inside(blocks).toolpath.motion) == 2 and len(inside(blocks, execution=False).toolpath.motion) == 1
