@@ -63,7 +63,7 @@ EXAMPLE = "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
 
 
 class Run:
-    """The result of running a program: both paths, alarms, history, and where the machine stands.
+    """The result of running a program: both paths, alarms, history, the `files` it wrote, and where the machine stands.
 
     `gouges` are the places where a compensated tool does not fit: the one that was refused, or with the setting
     `gouge = "mark"` all of them. `stopped` is where an axis would have left its travel, machine coordinates.
@@ -374,9 +374,8 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
     """Run a program that was read; with `strict` the first alarm is raised instead of collected."""
     if not isinstance(setup, Setup | None):
         raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
-    setup = (Setup() if setup is None else setup).kept(
-        control.magazine
-    )  # somebody may have written into its tables, and may again
+    # somebody may have written into its tables, and may again
+    setup = (Setup() if setup is None else setup).kept(control.magazine)
     interpreter = Interpreter(control, setup, program)
     machine, alarms = interpreter.machine, list[Alarm]()
     broken, collecting = False, gc.isenabled()
