@@ -91,7 +91,7 @@ class Run:
         self.stopped: Stopped | None = machine.stopped
         self.settings = dict(machine.settings)
         self.made: dict[Any, Any] = {}  # the last parts and collisions that were asked for
-        self.nesting = flow.nesting
+        self._nesting = flow.nesting
         self.missed, self.started = MissedOnes(), (0, 0, 0)  # what a start at a block skips; its line, pass, program
 
     def _as_of_end(self, prefix: str, values: dict[str, Any]) -> dict[str, Any]:
@@ -253,11 +253,7 @@ class Run:
         run = run_program(self.program, self.control, setup)
         return run.start_at(*self.started) if self.started[0] else run
 
-    def start_at(self, line: int, pass_: int = 1, program: int = 0) -> Run:
-        """The run from a block on, as after the block search of a control: everything before the `pass_`-th execution of
-        the line is computed and nothing of it moves. `.missed` tells what is to be done first, and what reaches over.
-        """
-        return start_at(self, line, pass_, program)
+    start_at = start_at
 
     # --- doors -------------------------------------------------------------------------------------------------------
 

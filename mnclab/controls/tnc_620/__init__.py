@@ -65,6 +65,7 @@ from mnclab.controls.tnc_620.printing import output
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
+from mnclab.controls.tnc_620.reading.numbers import numbers
 from mnclab.controls.tnc_620.signs import SIGNS
 from mnclab.controls.tnc_620.state import Memory
 from mnclab.controls.tnc_620.tables import datum_tables, free_tables
@@ -157,7 +158,7 @@ MEANINGS = {
 
 CONTROL = Control(
     name="tnc-620", title="HEIDENHAIN TNC 620 (2018)", suffixes=(".h", ".i"),
-    read=reader.read, signs=SIGNS,
+    read=reader.read, signs=SIGNS, numbers=numbers,
     functions=FUNCTIONS, cycles=CYCLES, names=ISO_NAMES, refused=later.REFUSED, together=later.strange_parameters(CYCLES),
     phases=PHASES, codes=("M",), word_functions=False, meanings=MEANINGS, told=motion.turning_sense, trial=trial_program,
     settings=SETTINGS, memory=Memory, start=program.start, frames=(secondary_axes.FRAME, "preset"),
