@@ -47,8 +47,8 @@ MEANINGS = {
     **{f"G{n} {letter}": f"centre along {axis} from the start" for n in (2, 3) for letter, axis in zip("IJK", "XYZ")},
     **{f"G52 {axis}": f"origin's {axis} from the work offset" for axis in "XYZ"},
     **{f"G92 {axis}": f"new value of {axis} where the tool stands" for axis in "XYZ"},
-    "R": "radius", "P": "number of a program", "L": "how often", "M99 P": "the block to go on at",
-    "G4 P": "the time, counted as the setting dwell_p says", "G4 X": "seconds",
+    "R": "radius", "G4 P": "the time, counted as the setting dwell_p says", "G4 X": "seconds",
+    **macros.MEANINGS, **programs.MEANINGS,
 }  # fmt: skip
 
 
