@@ -16,6 +16,7 @@ The map of the house, floor by floor (a folder imports only from those above its
     runs        what is there after: Run, its history, moments, explanations
     controls    who speaks: a folder a control
     show        what people see and take away: plots, forms, files
+    shell       what is typed in a terminal
 
 This module is the front door, and nothing else: it imports numpy only. What needs more is opened when it is first asked
 for, with its own signature; `part`, `blank`, `design`, `area`, `strategies` and `schemes` are shelves: print one to see
@@ -27,6 +28,7 @@ from typing import TYPE_CHECKING, Any
 from mnclab.controls import CONTROLS as controls
 from mnclab.controls.choice import Help, modern, read, run
 from mnclab.controls.choice import help as help
+from mnclab.controls.survey import check
 from mnclab.machine.setup import Datum, Probe, Setup
 from mnclab.path.kinds import RULE_NAMES, Kind
 from mnclab.path.limits import Limits
@@ -136,6 +138,7 @@ __all__ = [
     "Workpiece",
     "area",
     "blank",
+    "check",
     "compare",
     "compare_turning",
     "compensation_panel",

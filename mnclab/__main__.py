@@ -7,28 +7,25 @@ Ctrl-C. Alarms go to stderr, one line each, in the form that editors understand:
 from __future__ import annotations
 
 import argparse
-import importlib.util
 import json
 import os
-import subprocess
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import mnclab
+from mnclab.controls import ALSO
 from mnclab.machine.machine_file import load as load_machine
 from mnclab.machine.setup_file import FORMAT, load
+from mnclab.shell.checking import check
+from mnclab.shell.lessons import lab
+from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, USAGE, describe, program, say, sensible, with_blank
 from mnclab.show import times
 from mnclab.show.export import BODIES, save
-from mnclab.text.alarm import ALARM, Alarm
-from mnclab.workpiece.collision import Collision
-
-Result = TypeVar("Result")
-CLEAN, ALARMS, USAGE, INTERRUPTED = 0, 1, 2, 130
-FIRST_LESSON = "00_first_path.ipynb"
+from mnclab.text.alarm import Alarm
 
 SUFFIXES = (
     "svg, pdf, png (pictures); html (the player); csv, json (the moves); dxf; ngc (plain blocks); stl, gltf, glb, vtk"
@@ -119,19 +116,26 @@ def parser() -> argparse.ArgumentParser:
     def output(sub: argparse.ArgumentParser, says: str) -> None:
         sub.add_argument("-o", "--output", required=True, metavar="OUT", help=says)
 
-    def options(sub: argparse.ArgumentParser, json_says: str = "") -> None:
-        sub.add_argument("--control", choices=list(mnclab.controls), help="default: from the file's suffix or its text")
+    def options(sub: argparse.ArgumentParser, json_says: str = "", starts: bool = False) -> None:
+        sub.add_argument("--control", choices=[*mnclab.controls, *ALSO], help="default: from the file's suffix or its text")
         says = "tools, datums, blank, start, settings (mnclab --help shows one)"
         sub.add_argument("--setup", metavar="S.toml", help=says)
         if json_says:
             sub.add_argument("--json", action="store_true", help=json_says)
+        if starts:
+            says = "begin at line N, as a block search does: what comes before is computed and does not move"
+            sub.add_argument("--start-at", type=int, metavar="N", help=says)
 
-    sub = command("check", check, "run programs and report their alarms", "files", nargs="+")
-    options(sub, "a list of files with their alarms on stdout instead")
+    does = "run programs and report their alarms; of a folder, a table of what ran, what was refused, and why"
+    sub = command("check", check, does, "files", nargs="+")
+    options(sub, "a list of files with their alarms on stdout instead; of a folder, the table and the reasons")
+    sub.add_argument("--csv", action="store_true", help="the table as comma-separated values on stdout instead")
+    says = "of a folder, the files with these suffixes (default: those that part programs usually have; * for all)"
+    sub.add_argument("--suffixes", type=words, metavar=".nc,.h", help=says)
     says = "find the collisions with the blank too (of the setup, or of the program); status 1 if there is one"
     sub.add_argument("--material", action="store_true", help=says)
     sub = command("run", run, "run a program and print its moves, one a line")
-    options(sub, "summary, alarms and columns of the path on stdout instead")
+    options(sub, "summary, alarms and columns of the path on stdout instead", starts=True)
     kinds = "a picture, a page to play it, a file for other programs"
     sub = command("plot", plot, f"run a program and save what it does: {kinds}")
     output(sub, f"the suffix says what: {SUFFIXES}")
@@ -139,7 +143,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--compensation", action="store_true", help=says)
     sub.add_argument("--rules", type=words, metavar="G160,G161", help="with --compensation: a picture for each rule")
     sub.add_argument("--radii", type=numbers, metavar="2,5", help="with --compensation: a picture for each radius, mm")
-    options(sub)
+    options(sub, starts=True)
     sub = command("part", part, "run a program and save what it leaves of the blank (of the setup, or of the program)")
     output(sub, f"the suffix says what: {PARTS}")
     sub.add_argument("--line", type=int, metavar="N", help="as it is after line N (default: at the end)")
@@ -157,86 +161,24 @@ def parser() -> argparse.ArgumentParser:
     sub = command("report", report, "run a program and write a report: figures, tools, times, picture, alarms, listing")
     output(sub, "an .html or a .pdf file")
     sub.add_argument("--title", help="default: the name of the file")
-    options(sub)
+    options(sub, starts=True)
     sub = command("time", time, "say how long a program takes on a machine, and where the time goes")
-    options(sub, "the times on stdout as one object instead")
+    options(sub, "the times on stdout as one object instead", starts=True)
     sub.add_argument("--machine", metavar="M", help="a named machine, or a .toml file (default: limits of the setup)")
     sub.add_argument("--override", type=float, default=100.0, metavar="PERCENT", help="feed override (default: 100)")
     sub = command("help", explain, "show the parameters of a cycle or the meaning of a function", "")
     codes = "such as G83 or CYCL DEF 200; the name of a control: all its codes; design: the file of a design"
     sub.add_argument("code", nargs="+", metavar="CODE", help=codes)
-    sub.add_argument("--control", choices=list(mnclab.controls), help="default: the only one that has the code")
+    sub.add_argument("--control", choices=[*mnclab.controls, *ALSO], help="default: the only one that has the code")
     command("lab", lab, "open the lessons in JupyterLab, which gets all options that follow", "")
     return top
-
-
-def say(alarm: Alarm, file: str = "") -> None:
-    """One line for an alarm; `file` is what it is about when it stands in no program."""
-    line = alarm.headline
-    if alarm.source is None and alarm.span is None:
-        hint = f" ({alarm.hint})" if alarm.hint else ""
-        line = f"{file or 'mnclab'}: {alarm.severity}: {alarm.message.removeprefix(f'{file} ')}{hint}"
-    print(" ".join(line.split("\n")), file=sys.stderr)
-
-
-def describe(alarm: Alarm, file: str) -> dict[str, Any]:
-    """An alarm for programs that read JSON."""
-    return alarm.as_dict() if alarm.source else alarm.as_dict() | {"file": file}
-
-
-def program(file: str) -> Path:
-    """The path of a program; an Alarm for an empty name, which would be the folder."""
-    if not file:
-        raise Alarm("the name of the program is empty")
-    return Path(file)
-
-
-def sensible(do: Callable[..., Result], *arguments: Any) -> Result:
-    """The result of what a command line asks for beside its programs; a fault in that is a wrong command line."""
-    try:
-        return do(*arguments)
-    except Alarm as alarm:
-        say(alarm)
-        sys.exit(USAGE)
 
 
 def obey(chosen: argparse.Namespace) -> mnclab.Run:
     """Run a file as the command line says; an Alarm if there is no program in it."""
     setup = None if chosen.setup is None else sensible(load, chosen.setup)
-    return mnclab.run(program(chosen.file), chosen.control, setup)
-
-
-def check(chosen: argparse.Namespace) -> int:
-    """Report the alarms of several programs."""
-    status, report = CLEAN, []
-    setup = None if chosen.setup is None else sensible(load, chosen.setup)
-    for file in chosen.files:
-        alarms: tuple[Alarm, ...] = ()
-        collisions: tuple[Collision, ...] = ()
-        try:
-            result = mnclab.run(program(file), chosen.control, setup)
-            alarms = result.alarms
-            collisions = with_blank(result).collisions() if chosen.material else ()
-        except Alarm as fault:  # no program, or no blank
-            alarms = (*alarms, fault)
-        if collisions or any(alarm.severity == ALARM for alarm in alarms):
-            status = ALARMS
-        said: dict[str, Any] = {"file": file, "alarms": [describe(alarm, file) for alarm in alarms]}
-        report.append(said | ({"collisions": [each.as_dict() for each in collisions]} if chosen.material else {}))
-        for alarm in () if chosen.json else alarms:
-            say(alarm, file)
-        for collision in () if chosen.json else collisions:
-            print(collision, file=sys.stderr)
-    if chosen.json:
-        print(json.dumps(report, indent=1))
-    return status
-
-
-def with_blank(result: mnclab.Run) -> mnclab.Run:
-    """The same run; an Alarm if there is no blank to cut."""
-    if result.stock is None:
-        raise Alarm("there is no blank to cut", hint="give one: a [stock] in the file of --setup (mnclab --help shows one)")
-    return result
+    result = mnclab.run(program(chosen.file), chosen.control, setup)
+    return result if getattr(chosen, "start_at", None) is None else sensible(result.start_at, chosen.start_at)
 
 
 def run(chosen: argparse.Namespace) -> int:
@@ -354,27 +296,6 @@ def explain(chosen: argparse.Namespace) -> int:
         return CLEAN
     print(sensible(mnclab.help, " ".join(chosen.code), chosen.control))
     return CLEAN
-
-
-def lab(chosen: argparse.Namespace) -> int:
-    """Start JupyterLab on the first lesson, with the Python that runs this."""
-    if importlib.util.find_spec("jupyterlab") is None:
-        print('mnclab: JupyterLab is not installed here; pip install "mnclab[lab]" brings it', file=sys.stderr)
-        return USAGE
-    places = (Path(__file__).resolve().parent.parent, Path.cwd())
-    home = next((place for place in places if (place / "notebooks" / FIRST_LESSON).is_file()), None)
-    if home is None:
-        print("mnclab: the lessons are not here; start this in the folder that holds notebooks/", file=sys.stderr)
-        return USAGE
-    options = [f"--LabApp.default_url=/lab/tree/notebooks/{FIRST_LESSON}"]
-    if hasattr(os, "geteuid") and os.geteuid() == 0:
-        options.append("--allow-root")
-    command = subprocess.Popen([sys.executable, "-m", "jupyterlab", *options, *chosen.rest], cwd=home)
-    while True:
-        try:
-            return command.wait()
-        except KeyboardInterrupt:
-            pass  # Ctrl-C is for JupyterLab to answer
 
 
 if __name__ == "__main__":

@@ -56,9 +56,9 @@ def check_radii(m: Machine, s: Point, e: Point, c: Point, tolerance: float, word
 
 def arc(
     m: Machine, point: Place, sense: int, centre: Mapping[int, float] | None, radius: float | None, feed: float,
-    word: Word | None, tolerance: float,
+    word: Word | None, tolerance: float, turns: int = 1,
 ) -> None:  # fmt: skip
-    """An arc of the active plane to a point, by its centre or by a signed radius."""
+    """An arc of the active plane to a point, by its centre or by a signed radius, in so many turns."""
     check_start(m, tolerance, word)
     first, second, _ = PLANES[m.plane]
     here, given = m.programmed, centre or {}
@@ -68,7 +68,7 @@ def arc(
     else:
         c = (given.get(first, s[0]), given.get(second, s[1]))
         check_radii(m, s, e, c, tolerance, word)
-    angle = sweep_of_one(s, e, c, sense) * on_machine(m, word)
+    angle = (sweep_of_one(s, e, c, sense) + math.tau * sense * (turns - 1)) * on_machine(m, word)
     middle = list(here)
     middle[first], middle[second] = c
     tip = m.to_machine(point)

@@ -187,7 +187,7 @@ class Control:
     lathe: bool = False
     to_turn: str = "write S and M3 before the move"
     computed: Callable[[Machine, list[Word]], list[Word]] | None = None
-    preassigned: Mapping[str, Callable[[Machine], float | None]] = field(default_factory=dict)
+    preassigned: Mapping[str, Callable[[Machine], float | str | None]] = field(default_factory=dict)
     local_variables: str = ""
     trial: Callable[[type[Cycle], list[tuple[str, Any]]], str | None] | None = None
     modern: Callable[[Program], Notation] | None = None

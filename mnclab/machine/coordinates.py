@@ -47,10 +47,11 @@ class Placed(State):
         self.log("frame " + name, tuple(map(tuple, (self.frames[name]).tolist())))
 
     def select_datum(self, datum: Datum, frame: str = "datum") -> None:
-        """Count from a work offset; the first one selected is the origin of the path."""
+        """Count from a work offset, and its turn of the plane XY; the first one selected is the origin of the path."""
         if self.origin is None:
             self.origin = (datum.x, datum.y, datum.z)
-        self.set_frame(frame, frames.shift(datum.x, datum.y, datum.z))
+        place = frames.shift(datum.x, datum.y, datum.z)
+        self.set_frame(frame, place @ frames.turn(math.radians(datum.rotation)) if datum.rotation else place)
 
     def to_machine(self, point: Iterable[float]) -> Place:
         x, y, z = point

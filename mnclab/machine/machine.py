@@ -159,13 +159,14 @@ class Machine(Placed):
     def arc(
         self, x: float | None = None, y: float | None = None, z: float | None = None, *,
         sense: int, centre: Mapping[int, float] | None = None, radius: float | None = None,
-        f: float | None = None, word: Word | None = None, tolerance: float = 0.01,
+        f: float | None = None, word: Word | None = None, tolerance: float = 0.01, turns: int = 1,
     ) -> None:  # fmt: skip
         """An arc in the active plane, +1 counter-clockwise, by its centre (axis number -> coordinate) or signed radius.
 
-        A third coordinate makes a helix. Start and end within a micrometre are a full circle by centre.
+        A third coordinate makes a helix. Start and end within a micrometre are a full circle by centre. `turns`: of several
+        the last one ends there.
         """
-        circles.arc(self, self.target(x, y, z), sense, centre, radius, self.feed_of(f, word), word, tolerance)
+        circles.arc(self, self.target(x, y, z), sense, centre, radius, self.feed_of(f, word), word, tolerance, turns)
 
     turn = circles.turn
 

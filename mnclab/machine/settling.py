@@ -6,6 +6,7 @@ Settled once at the end of a run, and before anything that observes the tool: a 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -73,7 +74,10 @@ def stop_at_travel(m: Machine) -> None:
 
 def _passes(m: Machine, piece: Toolpath, unfinished: bool, report: compensation.Report | None = None) -> Toolpath:
     turned, gouge = corners.apply(piece, unfinished), str(m.settings.get("gouge", "refuse"))
-    path = compensation.apply(turned, m.control.compensation, unfinished, gouge, report)
+    rules = m.control.compensation
+    if rules is not None and m.look_ahead:
+        rules = replace(rules, look_ahead=True)
+    path = compensation.apply(turned, rules, unfinished, gouge, report)
     path = leads.apply(path, turned, unfinished)
     path = feed_rules.apply(path, m.feed_rules)
     return rapids.broken(path, m.setup.limits.rapid) if m.settings.get("rapid_path") == "broken" else path

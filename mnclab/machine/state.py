@@ -106,6 +106,7 @@ class State:
     tool: Tool = part(lambda m: m.tables.tools[0], rows=True, history=True)
     side: int = part(0, rows=True, history=True)
     corner_rule: int = part(0, rows=True, history=True)
+    look_ahead: bool = part(False, history=True)  # whole contours are looked at, where the control does not always do it
     exact: bool = part(False, rows=True, history=True)
     exact_here: bool = part(False)  # in this block
     synchronous: bool = part(False, rows=True)

@@ -50,6 +50,26 @@ class Chamfer(NamedTuple):
         return f"a chamfer of {self.length:g} mm"
 
 
+class Prolonged(NamedTuple):
+    """An outside corner without an arc: the compensation leads over the point where both offsets meet."""
+
+    step: int
+
+    @property
+    def label(self) -> str:
+        return ""
+
+
+class Open(NamedTuple):
+    """The end of an element where the compensation ends too: the tool stands square to it, and no corner is cut off."""
+
+    step: int
+
+    @property
+    def label(self) -> str:
+        return ""
+
+
 Corner = Rounding | Chamfer
 NOTHING = 1e-9  # mm
 

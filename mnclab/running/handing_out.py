@@ -118,11 +118,11 @@ class Planner:
         control = self.control
         if code in control.functions:
             return control.functions[code]
+        if code in control.refused:
+            self.alarm(f"{code} is refused: {control.refused[code]}", index)
         every = control.functions.get(code[0])  # one for all codes of an address that have none of their own
         if every is not None and code[1:].isdigit() and index >= 0:
             return replace(every, code=code)
-        if code in control.refused:
-            self.alarm(f"{code} is refused: {control.refused[code]}", index)
         near = hint(code.replace("-", "").partition(".")[0], (*control.functions, *control.cycles))
         self.alarm(f"{code} is not a function of this control", index, near)
 

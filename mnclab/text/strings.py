@@ -22,13 +22,13 @@ _FLAGS = re.IGNORECASE | re.ASCII
 _LITERAL = re.compile(r'"([^"]*)"')
 _VARIABLE = re.compile(r"QS[ \t]?(\d{1,6})(?!\d)", _FLAGS)
 _FUNCTION = re.compile(r"(TOCHAR|SUBSTR|TONUMB|STRLEN|INSTR|STRCOMP|SYSSTR|CFGREAD)(?![A-Z])[ \t]*\(", _FLAGS)
-_ARGUMENT = re.compile(r"(?:(SRC|SEA)_[ \t]*|(BEG|LEN|DAT|DECIMALS)[ \t]*)", _FLAGS)
+_ARGUMENT = re.compile(r"(?:(SRC|SEA)_[ \t]*|(BEG|LEN|DAT|DECIMALS|IDX|ID|NR)[ \t]*)", _FLAGS)
 _NUMBER = re.compile(r"[+-]?[ \t]*(?:\d+(?:[.,]\d*)?|[.,]\d+|Q[LR]?\d+)", _FLAGS)
 
 #: Functions and their arguments, those that may be left out in small letters.
-TEXTS = {"TOCHAR": ("DAT", "decimals"), "SUBSTR": ("SRC", "BEG", "LEN")}
+TEXTS = {"TOCHAR": ("DAT", "decimals"), "SUBSTR": ("SRC", "BEG", "LEN"), "SYSSTR": ("ID", "NR", "idx")}
 NUMBERS = {"TONUMB": ("SRC",), "STRLEN": ("SRC",), "INSTR": ("SRC", "SEA", "beg"), "STRCOMP": ("SRC", "SEA")}
-REFUSED = {"SYSSTR": "system texts", "CFGREAD": "machine parameters"}
+REFUSED = {"CFGREAD": "machine parameters"}
 
 
 class Part(NamedTuple):
@@ -183,7 +183,7 @@ def _text(part: Part, variables: Mapping[str, Any]) -> str:
         return str(value)
     if part.text in REFUSED:
         raise Alarm(f"{part.text} is refused: {REFUSED[part.text]} are not built yet", part.span)
-    return _tochar(part, variables) if part.text == "TOCHAR" else _substr(part, variables)
+    return {"TOCHAR": _tochar, "SUBSTR": _substr, "SYSSTR": _sysstr}[part.text](part, variables)
 
 
 def _whole(part: Part, name: str, variables: Mapping[str, Any], most: float) -> int:
@@ -209,6 +209,16 @@ def _substr(part: Part, variables: Mapping[str, Any]) -> str:
         what = f"characters {begin} to {begin + length - 1} of a text of {len(source)}"
         raise Alarm(f"SUBSTR cannot take {what}", part.span, hint="the first character has the number 0")
     return source[begin : begin + length]
+
+
+def _sysstr(part: Part, variables: Mapping[str, Any]) -> str:
+    """What the control keeps in a variable of this name: `SYSSTR ID10950 NR1`."""
+    named = (f"{name}{part.arguments[name].evaluate(variables):g}" for name in ("ID", "NR", "IDX") if name in part.arguments)
+    name = " ".join(("SYSSTR", *named))
+    try:
+        return str(variables[name])
+    except KeyError:
+        raise Alarm(f"{name} is not built yet", part.span) from None
 
 
 def _tonumb(part: Part, variables: Mapping[str, Any]) -> float:
@@ -241,5 +251,5 @@ def _strcomp(part: Part, variables: Mapping[str, Any]) -> float:
 
 
 _NUMBER_OF: dict[str, Callable[[Part, Mapping[str, Any]], Any]] = {
-    "TONUMB": _tonumb, "STRLEN": _strlen, "INSTR": _instr, "STRCOMP": _strcomp, "SYSSTR": _text, "CFGREAD": _text,
+    "TONUMB": _tonumb, "STRLEN": _strlen, "INSTR": _instr, "STRCOMP": _strcomp, "CFGREAD": _text,
 }  # fmt: skip

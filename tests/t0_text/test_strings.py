@@ -123,7 +123,7 @@ def test_faults_of_writing(formula, column, length, sentence):
         ("TOCHAR(DAT+Q9)", 12, "no value was given to Q9"),
         ("TOCHAR(DAT+Q1 DECIMALS16)", 1, "TOCHAR DECIMALS must be a whole number from 0 to 15, got 16"),
         ("CFGREAD(KEY_QS1 TAG_QS2 ATR_QS3)", 1, "CFGREAD is refused: machine parameters are not built yet"),
-        ('"A" || SYSSTR(ID321 NR8)', 8, "SYSSTR is refused: system texts are not built yet"),
+        ('"A" || SYSSTR(ID321 NR8)', 8, "SYSSTR ID321 NR8 is not built yet"),
         ('"' + "x" * 200 + '" || "' + "y" * 56 + '"', 1, "a text has at most 255 characters, this one 256"),
     ],
 )

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from mnclab import __main__ as shell
+from mnclab.shell import lessons
 
 GOOD = "G90 G54 S500 M3\nG0 X0 Y0 Z5\nG1 X10.5 F100\n"
 COMMA = "G90 G54 S500 M3\nG0 X0 Y0 Z5\nG1 X10,5 F100\n"
@@ -151,7 +152,7 @@ def test_a_code_page_without_the_letter_does_not_stop_the_message(folder):
 
 
 def test_lab_needs_jupyterlab(capsys, monkeypatch):
-    monkeypatch.setattr(shell.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(lessons.importlib.util, "find_spec", lambda name: None)
     assert mnclab("lab") == 2
     assert 'pip install "mnclab[lab]"' in capsys.readouterr().err
 
@@ -166,7 +167,7 @@ def test_lab_starts_on_the_first_lesson_with_this_python(monkeypatch):
         def wait(self):
             return 0
 
-    monkeypatch.setattr(shell.subprocess, "Popen", Child)
+    monkeypatch.setattr(lessons.subprocess, "Popen", Child)
     assert mnclab("lab", "--port", "9000") == 0
     ((command, cwd),) = started
     assert command[:3] == [sys.executable, "-m", "jupyterlab"] and command[-2:] == ["--port", "9000"]

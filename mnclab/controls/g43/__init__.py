@@ -6,19 +6,27 @@ So it is the ISO mill that its users take it for: `language.lengths` holds what 
 
 from __future__ import annotations
 
-from mnclab.controls.g43 import cycles, remarks
+from mnclab.controls.g43 import cycles
 from mnclab.controls.g43.language import (
+    auxiliary,
     corners,
+    data_setting,
     lengths,
     macros,
+    modes,
     motion,
     offsets,
+    polar,
     programs,
     references,
+    tools,
+    transformations,
     units,
     variables,
-)
+)  # fmt: skip
+from mnclab.controls.g43.meanings import MEANINGS
 from mnclab.controls.g43.reading.reader import read
+from mnclab.controls.g43.refused import REFUSED
 from mnclab.controls.g43.settings import SETTINGS
 from mnclab.controls.g43.signs import SIGNS
 from mnclab.controls.g43.state import Memory
@@ -32,24 +40,9 @@ from mnclab.running.bulk import PlainWords
 
 #: Order inside a block.
 PHASES = (
-    *("plane", "feed", "spindle", "tool", "change", "corrector", "length", "auxiliary", "frames", "local"),
-    *("compensation", "dwell", "motion", "call", "end"),
+    *("plane", "feed", "spindle", "tool", "change", "data", "corrector", "length", "auxiliary", "frames", "local"),
+    *("transformation", "compensation", "dwell", "motion", "call", "end"),
 )
-
-REFUSED = {
-    "G29": "not built: only the first reference point is, G28",
-    "G30": "not built: only the first reference point is, G28",
-    "M97": "not built: a subprogram from a block of this program on (Haas); M98 calls programs with O numbers",
-    "G66.1": "not built: a macro call in every block",
-}
-
-MEANINGS = {
-    **{f"G{n} {letter}": f"centre along {axis} from the start" for n in (2, 3) for letter, axis in zip("IJK", "XYZ")},
-    **{f"G52 {axis}": f"origin's {axis} from the work offset" for axis in "XYZ"},
-    **{f"G92 {axis}": f"new value of {axis} where the tool stands" for axis in "XYZ"},
-    "R": "radius", "G4 P": "the time, counted as the setting dwell_p says", "G4 X": "seconds",
-    **macros.MEANINGS, **programs.MEANINGS,
-}  # fmt: skip
 
 
 def start(m: Machine) -> None:
@@ -65,9 +58,12 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
 
 
 #: What help lists, and hints name, before the others.
-FIRST = "G0 G1 G2 G3 G17 G18 G19 G90 G91 G54 G55 G56 G57 G58 G59 G53 G52 G92 G28 F S G94 G95 G61 G64"
-_ALL = motion.FUNCTIONS | offsets.FUNCTIONS | references.FUNCTIONS | units.FUNCTIONS | lengths.FUNCTIONS
-_ALL |= macros.FUNCTIONS | programs.FUNCTIONS | corners.FUNCTIONS
+FIRST = "G0 G1 G2 G3 G17 G18 G19 G90 G91 G54 G55 G56 G57 G58 G59 G53 G52 G92 G28 G68 G51 G10 F S G94 G95 G61 G64"
+_PARTS = (
+    modes, motion, offsets, transformations, polar, references, units, lengths, tools, data_setting, auxiliary, macros,
+    programs, corners,
+)  # fmt: skip
+_ALL = {code: function for part in _PARTS for code, function in part.FUNCTIONS.items()}
 FUNCTIONS = FunctionTable({code: _ALL[code] for code in (*FIRST.split(), *_ALL)})
 
 CONTROL = Control(
@@ -79,9 +75,9 @@ CONTROL = Control(
     cycles=cycles.CYCLES,
     phases=PHASES,
     settings=SETTINGS,
-    frames=("length", "datum", "local"),
+    frames=("length", "external", "datum", "set", "local", "mirror", "rotation", "scaling"),
     memory=Memory,
-    compensation=Compensation(approach="corner", change=True, look_ahead=True),
+    compensation=Compensation(approach="corner", change=True, look_ahead=True, rapid=True),
     start=start,
     signs=SIGNS,
     refused=REFUSED,
@@ -92,7 +88,7 @@ CONTROL = Control(
     calls_again=programs.calls_again,
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
-        ready=lambda m: not lengths.pending(m) and not m.modal.get("call") and remarks.silent(m, "G2", "G3"),
+        ready=lambda m: motion.is_plain(m) and not m.modal.get("call"),
         helices=more_helices,
         unit=lambda m: m.variable_unit,
     ),

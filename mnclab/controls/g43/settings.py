@@ -12,14 +12,20 @@ from mnclab.machine.settings import Setting, one_of
 
 FANUC, HAAS, LINUXCNC = "Fanuc", "Haas", "LinuxCNC"
 ALL = "Fanuc, Haas, LinuxCNC"
+REFERENCES = {2: "second", 3: "third", 4: "fourth"}  # points of G30
 
 #: What a dialect chooses; Fanuc's are the defaults.
 DIALECTS: dict[str, dict[str, Any]] = {
     "fanuc": {},
-    "haas": {"dwell_p": "point"},
+    "haas": {
+        "dwell_p": "point", "g51_factor": "as_written", "g10_p0": "refuse", "d_measures": "diameter",
+        "g53_motion": "modal", "g53_increment": "absolute",
+    },
     "linuxcnc": {
-        "macros": "linuxcnc", "main_m99": "repeat", "below_r": "straight", "dwell_p": "seconds", "peck_clearance": 0.254,
-        "arc_by_both": "refuse",
+        "macros": "linuxcnc", "main_m99": "repeat",
+        "dwell_p": "seconds", "peck_clearance": 0.254, "below_r": "straight", "arc_by_both": "refuse",
+        "length_acts": "at_once", "g52_g92": "one", "g53_motion": "modal", "g53_increment": "refuse",
+        "g10_p0": "active", "g10_l20": "position", "g10_increment": "replaces", "g51_factor": "as_written",
     },
 }  # fmt: skip
 
@@ -51,6 +57,32 @@ TECHNOLOGY = (
     Setting("bulk", True, "obey long runs of plain blocks at once"),
 )  # fmt: skip
 
+COORDINATES = (
+    one_of("length_acts", "when the offsets of G43, G44 and G49 count; the block itself moves nothing", "7.1",
+           axis="along an axis with its next word", at_once="at once: the coordinates are read anew (LinuxCNC)"),
+    one_of("g52_g92", "the shifts of G52 and G92", FANUC,
+           apart="two: G52 counts inside G92, which ends that of its axes", one="one register for both (LinuxCNC)"),
+    one_of("g53_motion", "G53 while G1 is active", FANUC,
+           rapid="at rapid", modal="at feed (Haas, LinuxCNC)"),
+    one_of("g53_increment", "G53 under G91", FANUC,
+           ignored="counts for nothing, with a warning", absolute="its coordinates are absolute (Haas)",
+           refuse="an alarm (LinuxCNC)"),
+    one_of("g68_increment", "R of G68 under G91", FANUC,
+           adds="adds to the angle that is active", replaces="is the angle"),
+    one_of("g51_factor", "factors of G51 without a decimal point", FANUC,
+           thousandths="thousandths: P500 is a half", as_written="as they are written (Haas)"),
+    one_of("g10_p0", "what G10 L2 P0 writes", FANUC,
+           external="an offset before all work offsets", active="the active work offset (LinuxCNC)",
+           refuse="an alarm (Haas)"),
+    one_of("g10_l20", "G10 L20", "Fanuc, Haas",
+           further="the offsets of G54.1", position="the offset by which the present point has these coordinates (LinuxCNC)"),
+    one_of("g10_increment", "G10 under G91", "Fanuc, Haas",
+           adds="adds to the table", replaces="replaces, as under G90 (LinuxCNC)"),
+    one_of("d_measures", "R of G10 L12 and L13", FANUC, radius="a radius", diameter="a diameter (Haas)"),
+    *(Setting(f"{name}_reference_{axis}", 0.0, f"{axis.upper()} of reference point {number}, machine coordinates", ALL, {}, "mm")
+      for number, name in REFERENCES.items() for axis in "xyz"),
+)  # fmt: skip
+
 HOLES = (
     one_of("motion_in_cycle", "what G0, G1, G2 and G3 do while a cycle is active", ALL,
            ends="they end the cycle", waits="they wait until its end, and each position is a hole"),
@@ -69,4 +101,4 @@ MACROS = (
             {}, "", 1, 987654321),
 )  # fmt: skip
 
-SETTINGS = PROGRAM + MACROS + MOTION + TECHNOLOGY + HOLES
+SETTINGS = PROGRAM + MACROS + MOTION + COORDINATES + TECHNOLOGY + HOLES

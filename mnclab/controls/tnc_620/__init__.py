@@ -45,22 +45,28 @@ from mnclab.controls.tnc_620.language import (
     joints,
     machine_datum,
     motion,
+    no_effect,
     parameters,
     pattern_definitions,
     plc,
     pole,
     preset,
     program,
+    retraction,
+    rotary_rules,
+    secondary_axes,
     system_access,
     system_data,
+    system_texts,
     tools,
 )
+from mnclab.controls.tnc_620.printing import output
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
 from mnclab.controls.tnc_620.signs import SIGNS
 from mnclab.controls.tnc_620.state import Memory
-from mnclab.controls.tnc_620.tables import datum_tables
+from mnclab.controls.tnc_620.tables import datum_tables, free_tables
 from mnclab.controls.tnc_620.trial import trial_program
 from mnclab.machine.control import Control
 from mnclab.machine.cycle import CycleTable
@@ -94,7 +100,8 @@ SETTINGS = (
         "thread_wait", 0.0, "how long the spindle stands at the bottom of a tapped thread (thrdWaitingTime, no. 113601)", "5.2",
         unit="s", at_least=0,
     ),
-    *tilting.SETTINGS, *engraving.SETTINGS, *obsolete_faces.SETTINGS, *system_data.SETTINGS,
+    *tools.SETTINGS, *no_effect.SETTINGS, *retraction.SETTINGS, *tilting.SETTINGS, *engraving.SETTINGS,
+    *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS, *output.SETTINGS,
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
@@ -102,8 +109,9 @@ FUNCTIONS = (
     pole.FUNCTIONS | motion.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
     | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS | blank.FUNCTIONS
     | machine_datum.FUNCTIONS | feeds.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
+    | no_effect.FUNCTIONS | rotary_rules.FUNCTIONS | retraction.FUNCTIONS
     | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS | system_access.FUNCTIONS
-    | circle_data.FUNCTIONS | plc.FUNCTIONS | preset.FUNCTIONS
+    | circle_data.FUNCTIONS | plc.FUNCTIONS | preset.FUNCTIONS | output.FUNCTIONS | free_tables.FUNCTIONS
 )  # fmt: skip
 CHAPTERS = (
     defaults, drilling, boring, pecking, tapping, threads, point_patterns, pockets, slots, studs, walled_faces,
@@ -116,7 +124,8 @@ for chapter in CHAPTERS:
 
 #: What the words of statements are.
 MEANINGS = {
-    **feeds.MEANINGS, "FMAX": "rapid traverse", "FAUTO": "feed rate of TOOL CALL", "M103:F": "share downwards in percent",
+    **feeds.MEANINGS, "FMAX": "rapid traverse", "G00": "rapid traverse",
+    "FAUTO": "feed rate of TOOL CALL", "M103:F": "share downwards in percent",
     "S": "spindle speed", "R": "radius", "DR": "sense of rotation", "R0": "no radius compensation",
     "RL": "compensation to the left", "RR": "compensation to the right", "LEN": "length", "PR": "polar radius",
     "PA": "polar angle", "CCA": "centre angle", "length": "side length", "REP": "repetitions", "label": "label",
@@ -125,6 +134,8 @@ MEANINGS = {
     "text": "name of the tool in a text parameter",
     "first": "the first operand", "second": "the second operand", "parameter": "the parameter that is asked about",
     "state": "whether it has a value", "undefined": "it has no value any more", "FN 14 number": "error number",
+    "mask": "file with the mask", "output": "file that is written", "item": "what is put out",
+    "row": "row of the table", "columns": "columns of the table", "source": "the first parameter that is written",
     "points": "the first parameter of the points", "FN 25 axis": "axis of the datum",
     "FN 25 first": "coordinate that a point has", "FN 25 second": "coordinate that it gets",
     "ID": "group of system data", "NR": "number in its group", "IDX": "index", "FN 17 value": "the value to write",
@@ -133,9 +144,12 @@ MEANINGS = {
     "RI": "radius of the bore", "DI": "diameter of the bore", "DIM": "whether X is the radius or the diameter",
     "BLK FORM CYLINDER axis": "axis", "BLK FORM ROTATION axis": "axis", "file": "name of a file",
     **{axis: f"angle of the rotary axis {axis}" for axis in "ABC"},
+    **{axis: f"secondary axis along {along}" for axis, along in zip("UVW", "XYZ", strict=True)},
     **{f"M94:{axis}": f"the rotary axis {axis}" for axis in "ABC"},
     **{f"M118:{axis}": f"greatest way of the handwheel along {axis}" for axis in "XYZ"},
     **{f"M118:{axis}": f"greatest turn of the handwheel around {axis}" for axis in "ABC"},
+    "TIME": "seconds", "REV": "turns of the spindle", **no_effect.WORDS, **rotary_rules.WORDS, **retraction.WORDS,
+    **{f"PLANE RESET {address}": meaning for address, meaning in retraction.PLANE.items()},
     "FSELECT number": "number of the solution, as the control shows them", **free_words.WORDS,
     **{f"PATTERN DEF {address}": meaning for address, meaning in pattern_definitions.MEANINGS.items()},
 }  # fmt: skip
@@ -145,8 +159,8 @@ CONTROL = Control(
     read=reader.read, signs=SIGNS,
     functions=FUNCTIONS, cycles=CYCLES, names=ISO_NAMES, refused=later.REFUSED, together=later.strange_parameters(CYCLES),
     phases=PHASES, codes=("M",), word_functions=False, meanings=MEANINGS, told=motion.turning_sense, trial=trial_program,
-    settings=SETTINGS, memory=Memory, start=program.start, frames=("preset",),
-    storage="variables", preassigned=parameters.PREASSIGNED, local_variables="QL",
+    settings=SETTINGS, memory=Memory, start=program.start, frames=(secondary_axes.FRAME, "preset"),
+    storage="variables", preassigned={**parameters.PREASSIGNED, **system_texts.TEXTS}, local_variables="QL",
     named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again,
     compensation=Compensation(approach="perpendicular", rapid=True),
     bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call")),

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from mnclab.controls.tnc_620.language.free_contours import Earlier
     from mnclab.controls.tnc_620.language.pattern_definitions import Pattern
     from mnclab.controls.tnc_620.tables.datum_tables import DatumTable
+    from mnclab.controls.tnc_620.tables.free_tables import FreeTable
     from mnclab.geometry.free_contour import Pair
     from mnclab.workpiece.blank import Blank as Body
 
@@ -31,6 +32,11 @@ class Memory:
     main_unit: str | None = None
     selected_program: str | None = None
     stock: Blank | Body | None = None
+    free_tables: dict[str, FreeTable] = field(default_factory=dict)  # by name in small letters, as they were opened
+    free_table: str | None = None  # the open one
+    table_fields: dict[str, dict[tuple[int, str], str]] = field(default_factory=dict)  # written to: by table, row and column
+    told: frozenset[str] = frozenset()  # warnings that are given once a program
+    closed_files: frozenset[str] = frozenset()  # in small letters: what is written to them next begins anew
 
     # feed, spindle, probe
     auto_feed: float | None = None  # of TOOL CALL, mm/min
@@ -40,6 +46,7 @@ class Memory:
 
     # datums, transformations, planes
     pole_plane: str = "XY"  # of CC, whose axes `Machine.pole` counts along
+    secondary: Place = (0.0, 0.0, 0.0)  # where U, V and W stand
     machine_datum: tuple[Word, Place] | None = None  # M91 or M92 of the block, and the machine coordinates it counts from
     preset: int | None = None  # the active row
     datum_table: DatumTable | None = None

@@ -39,6 +39,8 @@ def out_of_place(m: Machine) -> Iterator[tuple[str, str]]:
     """A fault under radius compensation or in machine coordinates."""
     if m.side:
         yield "", "cannot run under radius compensation"
+    if m.per_time:
+        yield "", "cannot run under G93: F is the time of one move there"
     if memory(m).machine_coordinates:
         yield "", "and G53 stand in one block: the cycle counts from the workpiece"
 

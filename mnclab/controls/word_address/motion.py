@@ -43,7 +43,14 @@ def arc(m: Machine, words: Words, sense: int, absolute: bool, line_without_centr
 
     `line_without_centre`: neither R nor I J K gives a straight line (MNC 3.4, note 1), else an alarm.
     """
-    to = coordinates(m, words, absolute)
+    arc_to(m, words, coordinates(m, words, absolute), sense, line_without_centre)
+
+
+def arc_to(
+    m: Machine, words: Words, to: dict[str, Any], sense: int, line_without_centre: bool = False,
+    absolute_centre: bool = False, turns: int = 1,
+) -> None:  # fmt: skip
+    """The same to a place that is known; the centre may count from the origin, and the arc go round several times."""
     offsets = {k: words[c] for k, c in enumerate(CENTRE) if c in words}
     if not offsets and "R" not in words:
         if to and not line_without_centre:
@@ -69,8 +76,11 @@ def arc(m: Machine, words: Words, sense: int, absolute: bool, line_without_centr
     radius = m.length(head) if by_radius else None
     if radius == 0:
         m.alarm("R must not be 0", head)
-    centre = None if by_radius else {k: m.programmed[k] + m.length(word) for k, word in offsets.items()}
-    m.arc(**to, sense=sense, centre=centre, radius=radius, word=head, tolerance=tolerance)
+    if absolute_centre and not by_radius and (missing := [CENTRE[k] for k in (first, second) if k not in offsets]):
+        m.alarm(f"the centre of the arc lacks {missing[0]}", head, hint="G90.1 is active: it counts from the origin")
+    start = (0.0, 0.0, 0.0) if absolute_centre else m.programmed
+    centre = None if by_radius else {k: start[k] + m.length(word) for k, word in offsets.items()}
+    m.arc(**to, sense=sense, centre=centre, radius=radius, word=head, tolerance=tolerance, turns=turns)
 
 
 def helix(m: Machine, words: Words) -> None:

@@ -11,6 +11,8 @@ from mnclab.geometry.curves import Curves
 from mnclab.geometry.offsets import Element, beside
 from mnclab.geometry.vectors import left
 from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.compensation.rules import STRAIGHT
+from mnclab.path.corners import Prolonged
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
 
@@ -55,7 +57,7 @@ class Elements(NamedTuple):
         return cls(
             rows, view.start[take, :2], view.end[take, :2], view.centre[take], view.tangent_start[take],
             view.tangent_end[take], view.radius[take], view.sweep[take], view.arc[take],
-            on, s, np.where(on, np.abs(radius), 0.0), on & ~before, before & ~on, turned, path.corner_rule[take],
+            on, s, np.where(on, np.abs(radius), 0.0), on & ~before, before & ~on, turned, _corner_rules(path, take),
             view.start[take, 2], view.end[take, 2],
         )  # fmt: skip
 
@@ -99,3 +101,13 @@ class Elements(NamedTuple):
         start, end = beside(self.start[k], self.t_in[k], shift * s), beside(self.end[k], self.t_out[k], shift * s)
         radius = np.abs(self.r[k] - s * np.sign(self.sweep[k]) * shift)
         return Curves(start, end, self.centre[k], radius, self.sweep[k])
+
+
+def _corner_rules(path: Toolpath, take: Index | slice) -> NDArray[np.uint8]:
+    """The rule (n,) for the corner before each element: that of its row, or straight behind one that says so."""
+    prolonged = [isinstance(joint, Prolonged) for joint in path.joints]
+    if not any(prolonged):
+        return path.corner_rule[take]
+    rule, joint = path.corner_rule[take].copy(), path.joint[take]
+    rule[1:][np.array([*prolonged, False])[joint[:-1]]] = STRAIGHT
+    return rule

@@ -9,11 +9,13 @@ from typing import Any
 
 import numpy as np
 
+from mnclab.geometry.vectors import cross, dot
 from mnclab.path.columns import Array, Mask, gathered
 from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.fit import check
-from mnclab.path.compensation.rules import CORNER, SPIKE_TURN, Compensation, Report
+from mnclab.path.compensation.rules import CORNER, SPIKE_TURN, TANGENT, Compensation, Report
+from mnclab.path.corners import Open
 from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Kind, Rule
 from mnclab.path.plane import PlaneView
@@ -40,6 +42,7 @@ def apply(
         return path
     report = Report() if report is None else report
     _check_leads(path, el, rules)
+    _check_open(path, el)
     found = Equidistant(el, rules)
     marked = check(found, path, view, gouge, report)
     _notice_spikes(path, found, report)
@@ -61,6 +64,20 @@ def _check_leads(path: Toolpath, el: Elements, rules: Compensation) -> None:
     ):  # fmt: skip
         if bad.any():
             raise PathFault(message, int(path.step[el.rows[int(np.argmax(bad))]]), hint)
+
+
+def _check_open(path: Toolpath, el: Elements) -> None:
+    """Behind an open end the contour is over, or goes on without a corner."""
+    open_ends = np.array([*(isinstance(joint, Open) for joint in path.joints), False])
+    if not open_ends.any():
+        return
+    k = np.flatnonzero(open_ends[path.joint[el.rows[:-1]]] & el.on[:-1] & el.on[1:])
+    t1, t2 = el.t_out[k], el.t_in[k + 1]
+    bent = k[(np.abs(cross(t1, t2)) >= np.sin(TANGENT)) | (dot(t1, t2) < 0)]
+    if len(bent):
+        message = "an open corner is not built where the compensated contour goes on behind it at an angle"
+        hint = "no manual says how the tool goes from one element to the next; write R0 in the block after it"
+        raise PathFault(message, int(path.step[el.rows[bent[0]]]), hint)
 
 
 def _notice_spikes(path: Toolpath, found: Equidistant, report: Report) -> None:

@@ -194,9 +194,9 @@ def test_a_preset_replaces_all_but_the_tilt() -> None:
     before = shift(1, 2) + mirror("X") + turn(10) + scale(2)
     found = run(before + text("CYCL DEF 247") + "\nL X+1 Y+2 Z+3", presets=presets)
     assert found.toolpath.end[-1].tolist() == [101, 52, 13]  # counted from the preset that was active first
-    assert [name for name, _ in found.frames] == ["preset"]
+    assert [name for name, _ in found.frames] == ["secondary axes", "preset"]
     kept = run(tilt(0, 90, 0) + text("CYCL DEF 247") + "\nL X+1 Y+2 Z+3", presets=presets)
-    assert [name for name, _ in kept.frames] == ["preset", "tilt"]
+    assert [name for name, _ in kept.frames] == ["secondary axes", "preset", "tilt"]
 
 
 def test_a_rotary_axis_is_shifted_and_mirrored() -> None:

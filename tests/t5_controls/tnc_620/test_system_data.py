@@ -111,10 +111,18 @@ def test_an_index_that_means_nothing_is_named(inside) -> None:
     assert (warning.severity, warning.span[:2]) == ("warning", (3, 32)) and run.variables["Q2"] == 1
 
 
-@pytest.mark.parametrize("code", ["M116", "M128", "M144"])
-def test_what_is_never_active_is_refused(code: str) -> None:
-    """ID280 and ID310 say that these are not active, which is true as long as they cannot be."""
-    assert code in CONTROL.refused
+@pytest.mark.parametrize(("code", "asked"), [("M116", "ID310 NR116"), ("M128", "ID280 NR1"), ("M128", "ID310 NR128")])
+def test_what_holds_for_rotary_axes_is_told(code: str, asked: str, inside) -> None:
+    """-1 while it is active, 0 before and behind its end."""
+    read = "FN 18: SYSREAD Q{} = " + asked
+    end = f"M{int(code[1:]) + 1}"
+    run = inside(f"2 {read.format(1)}\n3 {code}\n4 {read.format(2)}\n5 {end}\n6 {read.format(3)}")
+    assert [run.variables[name] for name in ("Q1", "Q2", "Q3")] == [0, -1, 0]
+
+
+def test_what_is_never_active_is_refused() -> None:
+    """ID310 says that M144 is not active, which is true as long as it cannot be."""
+    assert "M144" in CONTROL.refused
 
 
 def test_a_column_of_the_tool_table_is_written(inside) -> None:
@@ -131,3 +139,22 @@ def test_a_column_of_the_tool_table_is_written(inside) -> None:
 def test_the_tool_in_the_spindle_counts_as_it_was_called(inside) -> None:
     run = inside("2 FN 17: SYSWRITE ID 50 NR2 IDX1 = +3\n3 Q1 = Q108\n4 TOOL CALL 1 Z\n5 Q2 = Q108", SETUP)
     assert run.ok and (run.variables["Q1"], run.variables["Q2"]) == pytest.approx((4.9, 2.9))
+
+
+@pytest.mark.parametrize(
+    ("number", "expected"),
+    [
+        (0, "05.09.2018 07:08:09"), (1, "5.09.2018 7:08:09"), (4, "2018-09-05 07:08:09"), (8, "05.09.2018"), (12, "18-09-05"),
+        (13, "07:08:09"), (15, "7:08"),
+    ],
+)  # fmt: skip
+def test_the_time_as_a_text(number: int, expected: str, inside) -> None:
+    """SYSSTR ID321 has the formats of %time in cycle 225 (12.6); 17779 days after the first of 1970 is 5 September 2018."""
+    clock = 17779 * 86400 + 7 * 3600 + 8 * 60 + 9
+    run = inside(f'2 Q5 = {number}\n3 QS1 = "T: " || SYSSTR( ID321 NRQ5 )', clock=clock)
+    assert run.ok and run.variables["QS1"] == f"T: {expected}"
+
+
+def test_the_name_of_the_tool_as_a_text(inside) -> None:
+    run = inside("2 QS1 = SYSSTR(ID 10950 NR 1)\n3 TOOL CALL 2 Z\n4 QS2 = SYSSTR( NR1 ID10950 )\n5 Q1 = STRLEN ( SRC_QS2 )")
+    assert run.ok and [run.variables[name] for name in ("QS1", "QS2", "Q1")] == ["end mill 10", "drill 8", 7]

@@ -99,7 +99,7 @@ def test_cotrans_printed_points(needle) -> None:
 
 
 def test_cotrans_leaves_no_transformation(needle) -> None:
-    assert [name for name, _ in needle.frames] == ["preset"]
+    assert [name for name, _ in needle.frames] == ["secondary axes", "preset"]
     assert needle.toolpath.motion[-1].end[2] == 250
 
 
@@ -195,7 +195,7 @@ def test_rotation_cancels_radius_compensation(inside) -> None:
 @pytest.mark.parametrize("end", ["M2", "M30", "END PGM A MM"])
 def test_the_end_of_the_program_cancels_transformations(end: str, tnc) -> None:
     run = tnc(f"0 BEGIN PGM A MM\n{SHIFT}\n{TURN}\n18 {end}\n")
-    assert run.ok and [name for name, _ in run.frames] == ["preset"]
+    assert run.ok and [name for name, _ in run.frames] == ["secondary axes", "preset"]
 
 
 def test_shift_in_inches(tnc) -> None:

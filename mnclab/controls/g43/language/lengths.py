@@ -1,12 +1,15 @@
-"""Tool length compensation: G43, G44, G49 and the corrector D (7.1).
+"""Tool length compensation: G43, G44, G49 and the corrector D (7.1), or H as most ISO controls have it.
 
 What goes to the axes is base = programmed + sign · offset(D), with the sign +1 for G43, -1 for G44 and 0 for G49; the tip
 of a tool of length L is then at base - L. The manual moves nothing in the block of G43: an offset counts along an axis from
-the next word of that axis on. So the offsets that count (`Memory.active_offsets`) follow the wanted ones axis by axis.
+the next word of that axis on. So the offsets that count (`Memory.active_offsets`) follow the wanted ones axis by axis, or
+all at once, still without motion, by the setting length_acts. From the first H on it names the offset, and D the radius
+alone.
 """
 
 from __future__ import annotations
 
+from mnclab.controls.g43.language.numbers import whole
 from mnclab.controls.g43.state import NONE, Offsets, memory
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import AXES, first_word
@@ -16,6 +19,7 @@ from mnclab.machine.machine import Machine
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
+MOST = 9999  # the greatest number of a row
 SIGNS = {"G43": 1, "G44": -1, "G49": 0}
 WAYS = {"G43": ", positive", "G44": ", negative", "G49": " off"}
 TITLES = {code: f"Tool length compensation{way}" for code, way in WAYS.items()}
@@ -29,45 +33,72 @@ def compensation(m: Machine, words: Words) -> None:
     want(m, first_word(words))
 
 
+@FUNCTIONS("G43.1", "Tool length compensation by the block", group="length compensation", phase="length", takes="X Y Z",
+           still=True, source="LinuxCNC")  # fmt: skip
+def offsets_of_block(m: Machine, words: Words) -> None:
+    """X Y Z are the offsets themselves, and count as those of G43 do; an axis that is not written keeps its own."""
+    motion.uncompensated(m, words)
+    if m.settings["dialect"] != "linuxcnc":
+        m.alarm("G43.1 is refused: outside LinuxCNC it follows a tilted tool axis, which is not built", first_word(words),
+                hint="setting dialect: linuxcnc")  # fmt: skip
+    kept = memory(m)
+    x, y, z = (m.length(words[axis]) if axis in words else kept.wanted_offsets[k] for k, axis in enumerate(AXES))
+    set_wanted(m, (x, y, z))
+
+
 @FUNCTIONS("D", "Corrector", phase="corrector", source="7.1")
 def corrector(m: Machine, words: Words) -> None:
-    """Offsets for G43 and G44, and the radius for G41 and G42; no axis moves."""
-    word = words["D"]
-    number = m.value(word)
-    if number != int(number) or not 0 <= number <= 99:
-        m.alarm(f"D (corrector) must be a whole number from 0 to 99, got {number:g}", word)
-    motion.refuse_change(m, "corrector", word)
-    choose(m, int(number), word)
+    """The radius for G41 and G42 and, without H in the program, the offsets for G43 and G44; no axis moves."""
+    number = whole(m, words, "D", 0, MOST)
+    motion.refuse_change(m, "corrector", words["D"])
+    choose(m, number, words["D"])
+
+
+@FUNCTIONS("H", "Length corrector", phase="corrector", source="Fanuc, Haas, LinuxCNC")
+def length_corrector(m: Machine, words: Words) -> None:
+    """The offsets for G43 and G44 from now on; H0 has none. No axis moves."""
+    memory(m).length_corrector = number = whole(m, words, "H", 0, MOST)
+    m.log("length corrector", number)
+    want(m, words["H"])
 
 
 def choose(m: Machine, number: int, word: Word | None) -> None:
     """Corrector `number` from now on: its offsets, and its radius where the tool table has such a row."""
-    memory(m).corrector = number
+    kept, row = memory(m), m.tables.tools.get(number)
+    kept.corrector, kept.without_radius = number, row is None
     m.log("corrector", number)
-    row = m.tables.tools.get(number)
-    if number and row is not None:
+    if row is not None:
         m.change("tool", m.tables.tools[m.tool.number].of_radius(row.radius, row.dr))
     want(m, word)
 
 
 def want(m: Machine, word: Word | None) -> None:
-    """Work out the offsets that G43 and D ask for."""
-    sign = memory(m).sign
-    x, y, z = offsets(m, memory(m).corrector, word) if sign else NONE
-    memory(m).wanted_offsets = (sign * x, sign * y, sign * z)
+    """Work out the offsets that G43 and H or D ask for."""
+    kept = memory(m)
+    address, number = ("D", kept.corrector) if kept.length_corrector is None else ("H", kept.length_corrector)
+    x, y, z = offsets(m, address, number, word) if kept.sign else NONE
+    set_wanted(m, (kept.sign * x, kept.sign * y, kept.sign * z))
 
 
-def offsets(m: Machine, number: int, word: Word | None) -> Offsets:
-    """The offsets of a corrector: its row, or else the length of the tool of that number; D0 has none."""
+def set_wanted(m: Machine, wanted: Offsets) -> None:
+    kept = memory(m)
+    kept.wanted_offsets = wanted
+    if m.settings["length_acts"] == "at_once" and wanted != kept.active_offsets:
+        kept.active_offsets = wanted
+        place(m, "tip")
+
+
+def offsets(m: Machine, address: str, number: int, word: Word | None) -> Offsets:
+    """The offsets of a corrector: its row, or else the length of the tool of that number; number 0 has none."""
     if number == 0:
         return NONE
     if number in m.tables.correctors:
         return m.tables.correctors[number][:3]
     if number in m.tables.tools:
         return 0.0, 0.0, m.tables.tools[number].effective_length
-    if number not in (told := memory(m).empty_correctors):
-        told.add(number)
-        m.warn(f"D{number} (corrector) has no offsets: they count as 0", word, hint="Setup(correctors={…}) gives them")
+    if (name := f"{address}{number}") not in (told := memory(m).empty_correctors):
+        told.add(name)
+        m.warn(f"{name} (corrector) has no offsets: they count as 0", word, hint="Setup(correctors={…}) gives them")
     return NONE
 
 
@@ -90,14 +121,3 @@ def place(m: Machine, keep: str) -> None:
     x, y, z = memory(m).active_offsets
     shift = (x, y, z - m.tool.effective_length)
     m.set_frame("length", frames.shift(*shift) if any(shift) else None, keep)
-
-
-FUNCTIONS("T", "Tool", phase="tool", source="7.1")(motion.choose_tool)
-
-
-@FUNCTIONS("M6", "Tool change", phase="change", modal=False, source="7.1")
-def tool_change(m: Machine, words: Words) -> None:
-    """The tool of T comes into the spindle and D becomes its number; no axis moves."""
-    motion.change_tool(m, words)
-    place(m, "tip")
-    choose(m, m.tool.number, first_word(words))

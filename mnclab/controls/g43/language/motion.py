@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from mnclab.controls.g43.language.lengths import activate
-from mnclab.controls.g43.remarks import ISO, remark, undescribed
+from mnclab.controls.g43.language import polar, rotary
+from mnclab.controls.g43.language.lengths import activate, pending
+from mnclab.controls.g43.language.numbers import seconds_of_p, whole
+from mnclab.controls.g43.language.transformations import settle_doubt
+from mnclab.controls.g43.remarks import ISO, silent, undescribed
 from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address import motion
-from mnclab.controls.word_address.functions import ARCS, SPINDLE, functions
-from mnclab.controls.word_address.motion import AXES, first_word
+from mnclab.controls.word_address.functions import ARCS, SPINDLE
+from mnclab.controls.word_address.motion import AXES, CENTRE, first_word
 from mnclab.machine.control import Control, FunctionTable, Modal, Words
 from mnclab.machine.machine import Machine
 from mnclab.text.alarm import Alarm
@@ -15,6 +18,8 @@ from mnclab.text.program import Word, digits
 
 FUNCTIONS = FunctionTable()
 LENGTHS = ("G43", "G44", "G49")
+AXIS_WORDS = "X Y Z A B C"
+MOST_TURNS = 10_000
 
 
 def together(control: Control, modal: Modal, keyword: str, words: list[Word]) -> None:
@@ -30,46 +35,52 @@ def together(control: Control, modal: Modal, keyword: str, words: list[Word]) ->
 
 def targets(m: Machine, words: Words) -> dict[str, float]:
     """Where the axes that are written go; their offsets count from now on."""
-    to = motion.coordinates(m, words, m.modal["dimension"] == "G90")
-    if to and not memory(m).machine_coordinates:
+    kept = memory(m)
+    if kept.polar is not None and not kept.machine_coordinates:
+        to = polar.targets(m, words)
+    else:
+        to = motion.coordinates(m, words, m.modal["dimension"] == "G90" or kept.machine_coordinates)
+    if to and not kept.machine_coordinates:
         activate(m, "".join(to).upper())
+        if kept.doubt is not None:
+            settle_doubt(m, words, to)
     return to
 
 
-@FUNCTIONS("G0", "Rapid positioning", group="motion", takes="X Y Z", power_on="G0", moves=True, source="7.1, example")
+def is_plain(m: Machine) -> bool:
+    """Whether plain words mean plain motion."""
+    kept = memory(m)
+    special = kept.polar is not None or kept.doubt is not None or kept.absolute_centres or m.per_time
+    return not (special or pending(m)) and silent(m, "G2", "G3")
+
+
+@FUNCTIONS("G0", "Rapid positioning", group="motion", takes=AXIS_WORDS, power_on="G0", moves=True, source="7.1, example")
 def rapid(m: Machine, words: Words) -> None:
     """All axes at their greatest speed."""
-    if to := targets(m, words):
-        m.rapid(**to)
+    rotary.go(m, targets(m, words), rotary.angles_of(m, words), rapid=True)
 
 
-@FUNCTIONS("G1", "Linear interpolation", group="motion", takes="X Y Z", moves=True, source="7.1, example")
+@FUNCTIONS("G1", "Linear interpolation", group="motion", takes=AXIS_WORDS, moves=True, source="7.1, example")
 def line(m: Machine, words: Words) -> None:
-    """A straight line at feed F."""
-    if to := targets(m, words):
-        m.line(**to, word=first_word(words))
+    """A straight line at feed F; in machine coordinates (G53) at rapid, unless the setting g53_motion says otherwise."""
+    at_rapid = memory(m).machine_coordinates and m.settings["g53_motion"] == "rapid"
+    rotary.go(m, targets(m, words), rotary.angles_of(m, words), at_rapid, first_word(words))
 
 
-@FUNCTIONS("G2 G3", ARCS, group="motion", takes="X Y Z I J K R", moves=True, source=ISO)
+@FUNCTIONS("G2 G3", ARCS, group="motion", takes="X Y Z I J K R P", moves=True, source=ISO)
 def arc(m: Machine, words: Words) -> None:
-    """An arc by R (negative: above 180 degrees) or by I J K from the start."""
+    """An arc by R (negative: above 180 degrees) or by I J K from the start (after G90.1 from the origin); P counts turns."""
     undescribed(m, words)
-    targets(m, words)
-    motion.arc(m, words, -1 if words.code == "G2" else 1, m.modal["dimension"] == "G90")
-
-
-def seconds_of_p(m: Machine, word: Word) -> float:
-    """What 1 of a P that is a dwell stands for, s."""
-    in_seconds = m.settings["dwell_p"]
-    if in_seconds == "point":
-        in_seconds = "seconds" if "." in written(m, word) else "milliseconds"
-    return 1.0 if in_seconds == "seconds" else 0.001
-
-
-def written(m: Machine, word: Word) -> str:
-    """A word of the running program as it stands in the text."""
-    line, column, length, _ = word.span
-    return m.flow.program.line_text(line)[column - 1 : column - 1 + length]
+    kept = memory(m)
+    if kept.machine_coordinates:
+        m.alarm(f"{words.code} and G53 stand in one block: an arc counts from the workpiece", first_word(words))
+    to = targets(m, words)
+    centre = next((words[c] for c in CENTRE if c in words), None)
+    if kept.polar is not None and centre is not None:
+        m.alarm(f"{centre} stands under polar coordinates: an arc needs R there", centre)
+    turns = whole(m, words, "P", 1, MOST_TURNS) if "P" in words else 1
+    sense = -1 if words.code == "G2" else 1
+    motion.arc_to(m, words, to, sense, absolute_centre=kept.absolute_centres, turns=turns)
 
 
 @FUNCTIONS("G4", "Dwell", phase="dwell", takes="P X", still=True, modal=False, source=ISO)
@@ -85,7 +96,18 @@ def dwell(m: Machine, words: Words) -> None:
     m.dwell(value if word.address == "X" else value * seconds_of_p(m, word))
 
 
-FUNCTIONS("F", "Feed", phase="feed", source="7.1, example")(motion.feed)
+@FUNCTIONS("F", "Feed", phase="feed", source="7.1, example")
+def feed(m: Machine, words: Words) -> None:
+    """F: the feed along the path; under G93 how many times a minute the move of this block could be made."""
+    if not m.per_time:
+        motion.feed(m, words)
+        return
+    value = m.value(words["F"])
+    if value <= 0:
+        m.alarm(f"F (moves a minute) must be greater than 0, got {value:g}", words["F"])
+    m.change("feed", 60 / value)
+    m.at_block_end(lambda: m.change("feed", None))
+
+
 FUNCTIONS("S", "Spindle speed", phase="spindle", source=ISO)(motion.spindle_speed)
 FUNCTIONS("M3 M4 M5", SPINDLE, group="spindle", phase="auxiliary", power_on="M5", source=ISO)(motion.spindle)
-FUNCTIONS |= functions(remark, ISO, plane="7.1, example")

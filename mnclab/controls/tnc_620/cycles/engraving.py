@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from datetime import UTC, datetime
+from datetime import datetime
 
 from mnclab.controls.tnc_620 import engraved_text
+from mnclab.controls.tnc_620.clock import time_of_day
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, ratio
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, not_zero
@@ -85,11 +86,7 @@ class Engraving(AtSurface):
             yield "maximum_text_length", f"is {most:g}, the text is {long:.3f} long"
 
     def tokens(self, m: Machine) -> list[str]:
-        clock = m.settings["clock"]
-        try:
-            now = datetime.fromtimestamp(clock, UTC) if clock else datetime.now()
-        except (ValueError, OverflowError, OSError):
-            m.alarm(f"setting clock: {clock:g} seconds from 1970 are no time that can be written")
+        now = time_of_day(m) or datetime.now()
         text = self.text if isinstance(self.text, str) else self.text.evaluate(m.variables)
         return engraved_text.tokens(text, now, int(m.settings["counter"]))
 

@@ -163,13 +163,16 @@ class DatumShift(Cycle):
 
 @CYCLES("CYCL DEF 247", "Presetting", runs="definition", source="11.4")
 class Presetting(Cycle):
-    """Makes a row of the preset table the datum of the program; cycles 7, 8, 10, 11 and 26 are over, a tilt stays."""
+    """Makes a row of the preset table the datum of the program; cycles 7, 8, 10, 11 and 26 are over, a tilt stays.
+
+    A setup without presets is a machine whose presets are all zero.
+    """
 
     preset_number: float = count("Q339", "number of the preset", at_most=65535, note="0: the one set by hand", example=0)
 
     def check(self, m: Machine) -> Iterator[Fault]:
         row = int(self.preset_number)
-        if row and row not in m.tables.presets:
+        if row and m.setup.presets and row not in m.tables.presets:
             known = ", ".join(map(str, sorted(m.tables.presets))) or "none but 0"
             yield "preset_number", f"names row {row}, which the preset table does not have (rows: {known})"
         preset = m.tables.presets.get(row, Datum())

@@ -107,13 +107,13 @@ def begin_side(m: Machine, words: Words) -> None:
     side(m, words, begins=True)
 
 
-@FUNCTIONS("DEP LT,", "Departure on a tangent line", takes="Z LEN F FAUTO FU FZ", source="8.10")
-@FUNCTIONS("DEP LN,", "Departure on a line square to the contour", takes="Z LEN F FAUTO FU FZ", source="8.10")
-@FUNCTIONS("DEP CT,", "Departure on a tangent arc", takes="Z CCA R F FAUTO FU FZ", source="8.10")
-@FUNCTIONS("DEP LCT,", "Departure on a tangent arc and a line", takes="X Y Z R F FAUTO FU FZ G00", source="8.10")
-@FUNCTIONS("DEP PLCT,", "Departure on a tangent arc and a line, polar", takes="PR PA Z R F FAUTO FU FZ", source="8.10")
+@FUNCTIONS("DEP LT,", "Departure on a tangent line", takes="Z LEN R0 F FAUTO FU FZ", source="8.10")
+@FUNCTIONS("DEP LN,", "Departure on a line square to the contour", takes="Z LEN R0 F FAUTO FU FZ", source="8.10")
+@FUNCTIONS("DEP CT,", "Departure on a tangent arc", takes="Z CCA R R0 F FAUTO FU FZ", source="8.10")
+@FUNCTIONS("DEP LCT,", "Departure on a tangent arc and a line", takes="X Y Z R R0 F FAUTO FU FZ G00", source="8.10")
+@FUNCTIONS("DEP PLCT,", "Departure on a tangent arc and a line, polar", takes="PR PA Z R R0 F FAUTO FU FZ", source="8.10")
 def departure(m: Machine, words: Words) -> None:
-    """From the last contour point; at its end the compensation is off, and the register is where the tool stands.
+    """From the last contour point; at its end the compensation is off (R0 may say so), and the tool stands at the register.
 
     G00 of DIN/ISO programs: the line behind the arc is at rapid.
     """

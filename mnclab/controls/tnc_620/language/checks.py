@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import Words
 from mnclab.machine.machine import INF, Machine
 from mnclab.text.program import Word
@@ -18,7 +19,8 @@ def one_of(m: Machine, words: Words, addresses: Iterable[str], allowed: str) -> 
     """The word that is written of several that exclude each other."""
     given = [words[address] for address in addresses if address in words]
     if len(given) > 1:
-        m.alarm(f"{given[0]} and {given[1]} stand in one block: {allowed} is allowed", given[1])
+        one, other = (str(word).rpartition(":")[2] for word in given[:2])
+        m.alarm(f"{one} and {other} stand in one block: {allowed} is allowed", given[1])
     return given[0] if given else None
 
 
@@ -48,3 +50,10 @@ def whole(m: Machine, word: Word, name: str, least: int, most: int) -> int:
     if value != int(value) or not least <= value <= most:
         m.alarm(f"{name} must be a whole number from {least} to {most}, got {value:g}", word)
     return int(value)
+
+
+def warn_once(m: Machine, message: str, word: Word | None = None, hint: str = "") -> None:
+    """A warning at the first of its places alone: what a program says in every block is not told for every block."""
+    if message not in memory(m).told:
+        memory(m).told |= {message}
+        m.warn(message, word, hint)

@@ -27,13 +27,18 @@ def machine_datum(m: Machine, words: Words) -> None:
     m.at_block_end(lambda: setattr(memory(m), "machine_datum", None))
 
 
+def above_tip(m: Machine) -> Place:
+    """From the tip to where X, Y and Z of the machine stand: the length of the tool, less what U, V and W carry."""
+    u, v, w = memory(m).secondary
+    return 0.0 - u, 0.0 - v, m.tool.effective_length - w
+
+
 def machine_target(m: Machine, active: tuple[Word, Place], written: dict[int, Word]) -> dict[str, Any]:
     """The point of the program that the words of these axes mean under M91 or M92 (`active`)."""
-    (word, datum), target = active, list(m.tip)
+    (word, datum), target, above = active, list(m.tip), above_tip(m)
     for axis, coordinate in written.items():
-        length = m.tool.effective_length if axis == 2 else 0.0  # Z is the spindle reference, above the tip
         value = m.value(coordinate)
-        target[axis] = target[axis] + value if coordinate.incremental else datum[axis] + value - length
+        target[axis] = target[axis] + value if coordinate.incremental else datum[axis] + value - above[axis]
     if m.side:
         m.alarm(f"{word} cannot begin radius compensation", word, "write RL or RR in the block after")
     point = m.to_program(target)

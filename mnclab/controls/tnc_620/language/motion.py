@@ -6,10 +6,12 @@ import math
 from typing import Any
 
 from mnclab.controls.tnc_620.cycles.chain import to_angle, to_rotary
+from mnclab.controls.tnc_620.language import secondary_axes
 from mnclab.controls.tnc_620.language.checks import counted, one_of
 from mnclab.controls.tnc_620.language.feeds import FEED_WORDS, feed
 from mnclab.controls.tnc_620.language.machine_datum import machine_target
 from mnclab.controls.tnc_620.language.pole import angle_here, plane_of, polar_point, pole, within_plane
+from mnclab.controls.tnc_620.language.rotary_rules import refuse_rotary
 from mnclab.controls.tnc_620.state import Place, memory
 from mnclab.geometry.arcs import tangent_arc_of_one
 from mnclab.machine.control import Function, FunctionTable, Words
@@ -50,24 +52,26 @@ def side(m: Machine, words: Words, begins: bool) -> None:
     m.change("side", wanted)
 
 
-@FUNCTIONS("L", "Straight line", takes=f"X Y Z A B C PR PA {SIDED}", source="4.11, example")
+@FUNCTIONS("L", "Straight line", takes=f"X Y Z U V W A B C PR PA {SIDED}", source="4.11, example")
 def line(m: Machine, words: Words) -> None:
     """From the present position to the programmed point at feed, or with FMAX at rapid; axes not written keep their value."""
     f = feed(m, words)
     side(m, words, begins=True)
-    to = coordinates(m, words)
+    carried, to = secondary_axes.move(m, words), coordinates(m, words)
     if polar := [words[name] for name in ("PR", "PA") if name in words]:  # a block of the manual is printed so
         if to:
             m.alarm(f"{polar[0].address} and coordinates of axes stand in one block", polar[0], hint="write LP PR… PA…")
         m.warn("L with polar coordinates is read as LP", polar[0])
         to |= polar_point(m, words)
-    if any(axis in words for axis in AXES_OF_ROTATION) and (turned := rotary_angles(m, words)) != angles(m):
+    turns = [words[axis] for axis in AXES_OF_ROTATION if axis in words]
+    if turns and (turned := rotary_angles(m, words)) != angles(m):
+        refuse_rotary(m, turns[0])
         target = m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z")))
         if math.dist(target, m.tip) <= 1e-9:  # a frame rounds
             turn_axes(m, turned, f)
             return
         set_angles(m, turned)
-    if to:
+    if to or carried:
         if f is None and m.feed is None:
             if m.settings["feed_needed"]:
                 m.alarm("no feed rate was programmed before this move", hint=FEED_NEEDED)

@@ -14,7 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mnclab.controls.tnc_620.clock import time_of_day
 from mnclab.controls.tnc_620.cycles import chain
+from mnclab.controls.tnc_620.language.machine_datum import above_tip
 from mnclab.controls.tnc_620.language.parameters import PREASSIGNED
 from mnclab.controls.tnc_620.state import active_preset, memory
 from mnclab.controls.tnc_620.tables.datum_tables import row_of
@@ -182,8 +184,8 @@ def along_the_contour(m: Machine) -> None:
 def on_the_machine(m: Machine, asked: Asked) -> float:
     """As M91 counts: the spindle reference, above the tip."""
     along_the_contour(m)
-    x, y, z = m.tip
-    return (x, y, z + m.tool.effective_length, *map(math.degrees, m.rotary))[int(asked.index) - 1]
+    spindle = (tip + above for tip, above in zip(m.tip, above_tip(m), strict=True))
+    return (*spindle, *map(math.degrees, m.rotary))[int(asked.index) - 1]
 
 
 def in_the_program(m: Machine, asked: Asked) -> float:
@@ -208,9 +210,13 @@ def preset(m: Machine, asked: Asked) -> float:
 
 
 def clock(m: Machine, asked: Asked) -> float:
-    if not (seconds := float(m.settings["clock"])):
+    if (now := time_of_day(m)) is None:
         raise Missing("a run has no time of day: the setting clock gives it one")
-    return seconds
+    return now.timestamp()
+
+
+def holds(m: Machine, code: str) -> float:
+    return -1.0 if code in m.modal.values() else 0.0
 
 
 def never(m: Machine, asked: Asked) -> float:
@@ -265,9 +271,9 @@ ROWS: dict[tuple[float, float], Row] = {
     (240, 1): Row("nominal position in the REF system", on_the_machine, AXES),
     (240, 8): Row("actual position in the REF system", on_the_machine, AXES),
     (270, 1): Row("position in the active coordinate system", in_the_program, AXES),
-    (280, 1): Row("M128 is active", never),
-    (310, 116): Row("M116 is active", never),
-    (310, 128): Row("M128 is active", never),
+    (280, 1): Row("M128 is active", lambda m, asked: holds(m, "M128")),
+    (310, 116): Row("M116 is active", lambda m, asked: holds(m, "M116")),
+    (310, 128): Row("M128 is active", lambda m, asked: holds(m, "M128")),
     (310, 144): Row("M144 is active", never),
     (320, 1): Row("system time, seconds from 1970", clock, (0,), 0),
     (505, 1): Row("a datum table is selected", lambda m, a: float(bool(memory(m).datum_table or m.tables.datums))),

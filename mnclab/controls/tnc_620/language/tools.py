@@ -9,10 +9,18 @@ from mnclab.controls.tnc_620.language.feeds import set_feed, with_another_tool
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
+from mnclab.machine.settings import Setting
 from mnclab.path.tool import Tool
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
+OTHERWISE = 'with the setting tool_def = "block" the block counts'
+SETTINGS = (
+    Setting(
+        "tool_def", "table", "which dimensions count where TOOL DEF defines a tool that has a row in the tool table", "11.9",
+        {"table": "those of the table, with a warning", "block": "those of the block"},
+    ),
+)  # fmt: skip
 LAST = 32767  # number of a tool
 DELTAS = {"DL": "dl", "DR": "dr", "DR2": "corner"}  # words and the dimensions that they are added to
 
@@ -72,18 +80,25 @@ def find(m: Machine, word: Word, code: str) -> Tool:
 
 @FUNCTIONS("TOOL DEF,", "Tool definition", takes="tool text L R", source="11.9")
 def tool_def(m: Machine, words: Words) -> None:
-    """With a tool table it only names the next tool; without one it defines length and radius. Nothing moves."""
+    """Without L and R it only names the next tool; else it defines one, as the setting `tool_def` says. Nothing moves."""
     word = words.get("tool", words.get("text"))
     if word is None:
         m.alarm("TOOL DEF needs the number of the tool", hint="for example TOOL DEF 5 L+100 R+4")
-    if m.setup.tools:
-        for given in (words[address] for address in ("L", "R") if address in words):
-            m.alarm(f"TOOL DEF {given.address}: the tool table is active, it holds the dimensions of the tools", given)
+    given = [words[address] for address in ("L", "R") if address in words]
+    if not given and m.setup.tools:
         find(m, word, "TOOL DEF")
         return
     number = word.value if isinstance(word.value, str) else m.value(word)
     if isinstance(number, str) or number != int(number) or not 0 < number <= LAST:
         m.alarm(f"TOOL DEF: the tool must be a whole number from 1 to {LAST}", word)
+    if table_counts(m, int(number)):
+        m.warn(f"TOOL DEF {number:g} is passed over: the row of the tool table counts", given[0], OTHERWISE)
+        return
     length = m.value(words["L"]) if "L" in words else 0.0
     radius = not_negative(m, words["R"], "TOOL DEF R (radius)") if "R" in words else 0.0
     m.write_table("tools", int(number), Tool(radius=radius, length=length, number=int(number)))
+
+
+def table_counts(m: Machine, number: int) -> bool:
+    """Whether a tool is that of the table, though a block defines it; the magazine of a setup without tools is no table."""
+    return m.settings["tool_def"] == "table" and m.setup.tools != m.control.magazine and number in (m.setup.tools or {})

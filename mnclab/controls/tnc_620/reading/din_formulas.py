@@ -9,11 +9,11 @@ from __future__ import annotations
 import re
 
 from mnclab.controls.tnc_620.reading import labels
+from mnclab.controls.tnc_620.reading.file_functions import FILES
 from mnclab.controls.tnc_620.reading.formulas import (
     FN,
     OPERAND,
     add_target,
-    numeric_target,
     system_data,
 )
 from mnclab.controls.tnc_620.reading.words import FLAGS, Cursor, Fault
@@ -22,7 +22,8 @@ from mnclab.text.expression import Expression
 from mnclab.text.precedence import Token
 
 FUNCTION = re.compile(r"D[ \t]*(\d{1,3})(?![\d.,])[ \t]*:?", FLAGS)
-_P = {number: re.compile(rf"[ \t]*P[ \t]*0?{number}(?![\d.,])", FLAGS) for number in (1, 2, 3)}
+_P = {number: re.compile(rf"[ \t]*P[ \t]*(?:0{number}|{number}(?![\d.,]))", FLAGS) for number in (1, 2, 3)}
+_Q = re.compile(r"Q([LR]?)[ \t]?(\d{1,6})(?!\d)", FLAGS)
 _EQUALS = re.compile(r"[ \t]*=", FLAGS)
 _CONVERSATIONAL = re.compile(r"SYSREAD|SYSWRITE|ERROR|IF(?![A-Z])", FLAGS)
 
@@ -46,8 +47,11 @@ def function(cursor: Cursor, number: int, begin: int) -> None:
         _operand(cursor, number, 1, "number")
     elif number in (17, 18):
         _system(cursor, number)
+    elif read := FN.get(number) or FILES.get(number):
+        cursor.match(_P[1])
+        read(cursor)
     else:
-        cursor.at = cursor.stop  # refused by its name
+        cursor.at = cursor.stop  # to the PLC, or refused by its name
 
 
 def _parameter(cursor: Cursor, number: int, which: int) -> int:
@@ -73,8 +77,7 @@ def _operand(cursor: Cursor, number: int, which: int, address: str) -> None:
 
 def _calculation(cursor: Cursor, number: int) -> None:
     """D00 to D08 and D13: a parameter takes a value."""
-    name, begin = numeric_target(cursor, number, example(number))
-    add_target(cursor, name, begin)
+    _target(cursor, number)
     if number in TWO:
         for which, address in enumerate(TWO[number], start=1):
             _operand(cursor, number, which, address)
@@ -84,8 +87,8 @@ def _calculation(cursor: Cursor, number: int) -> None:
         second, _ = _expression(cursor, number, 2)
         value = _joined(first, OPERATORS[number], second, cursor.builder.span(at))
     elif number in NAMES:
-        name, span = NAMES[number], cursor.builder.span(at)
-        value = Expression(first.tokens, f"{name} {first.text}", steps=(*first.steps, Token("name", name, span)))
+        token = Token("name", NAMES[number], cursor.builder.span(at))
+        value = Expression(first.tokens, f"{token.text} {first.text}", steps=(*first.steps, token))
     else:
         value = first
     cursor.add("value", value, at)
@@ -96,6 +99,16 @@ def _joined(first: Expression, operator: str, second: Expression, span: Span) ->
     tokens = (*first.tokens, *second.tokens)
     steps = (*first.steps, *second.steps, Token("mark", operator, span))
     return Expression(tokens, f"{first.text} {operator} {second.text}", steps=steps)
+
+
+def _target(cursor: Cursor, number: int) -> None:
+    """The parameter that gets the value."""
+    begin = cursor.blanks()
+    found = cursor.match(_Q)
+    if found is None:
+        where = min(begin, cursor.stop - 1)
+        raise Fault(f"D{number:02} needs a Q parameter", where, hint=f"for example {example(number)}")
+    add_target(cursor, f"Q{found.group(1).upper()}{int(found.group(2))}", begin)
 
 
 def _jump(cursor: Cursor, number: int) -> None:
@@ -118,9 +131,8 @@ def _system(cursor: Cursor, number: int) -> None:
             raise Fault("a number or a Q parameter was expected", min(begin, cursor.stop - 1), hint=f"for example {example(17)}")
         cursor.add("value", cursor.expression(found.start(), found.end()), begin)
         return
-    name, begin = numeric_target(cursor, number, example(number))
+    _target(cursor, number)
     cursor.match(_EQUALS)
-    add_target(cursor, name, begin)
     system_data(cursor, example(number))
 
 

@@ -119,11 +119,12 @@ class Motion:
         if self.leaves:
             self.depart(self.leaves, code, path, side, rest, auxiliary)
             return
-        if code in RAPID and any(word.letter[0] == "F" for word in rest):
-            feed = [word for word in rest if word.letter[0] == "F"]
-            rest = [word for word in rest if word not in feed]
-            self.begin("L", feed)
-            self.put_all(feed)
+        if code in RAPID:
+            feed = [word for word in rest if word.letter[0] == "F" and word.letter != "FMAX"]
+            rest = [word for word in rest if word.letter[0] != "F"]
+            if feed:
+                self.begin("L", feed)
+                self.put_all(feed)
         words = [*([path] if path else []), *([side] if side else []), *rest, *auxiliary]
         if code == 7 and sum(word.letter in AXES for word in rest) > 1:
             assert path is not None or first is not None

@@ -7,7 +7,8 @@ language knows. Cycles that a machine tool builder or an obsolete control has ar
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import NamedTuple
 
 from mnclab.controls.tnc_620.reading import labels
@@ -61,8 +62,9 @@ REFUSED = {
     70: "the unit, which stands in the first block: %NAME G70", 71: "the unit, which stands in the first block: %NAME G71",
 }  # fmt: skip
 _L = re.compile(r"[ \t]*L", FLAGS)
-_CALLED = re.compile(r"(\d{1,9})(?![\d.])(?:[ \t]*,[ \t]*(\d{1,9}))?", FLAGS)
-_AT_PATTERN = re.compile(r"[ \t]*PAT(?![A-Z])", FLAGS)
+_CALLED = re.compile(r"(\d{1,9})(?![\d.])", FLAGS)
+_REPEATS = re.compile(r"[ \t]*,[ \t]*(\d{1,9})(?![\d.])", FLAGS)
+_AT_PATTERN = re.compile(r"[ \t]*PAT", FLAGS)
 _NAME_OF_PROGRAM = re.compile(r"[ \t]*(?:P[ \t]*0?1(?!\d)|PGM(?![A-Z]))?[ \t]*:?[ \t]*%?", FLAGS)
 
 
@@ -104,7 +106,16 @@ def set_label(cursor: Cursor, head: Given) -> None:
     """G98 L1: a jump target."""
     if cursor.match(_L) is None:
         raise Fault("G98 needs L and the label", head.at, head.length, "for example G98 L1")
-    labels.set_label(cursor)
+    named(cursor, labels.set_label)
+
+
+def named(cursor: Cursor, read: Callable[[Cursor], object]) -> None:
+    """What reads a label; its faults are told in the words of these programs."""
+    try:
+        read(cursor)
+    except Fault as fault:
+        message, hint = (part.replace("LBL ", "G98 L") for part in (fault.message, fault.hint))
+        raise Fault(message, fault.offset, fault.length, hint) from None
 
 
 def call_label(cursor: Cursor) -> None:
@@ -115,10 +126,10 @@ def call_label(cursor: Cursor) -> None:
             got = found.group(1)
             raise Fault(f"a label must be a number from 0 to 65535, got {got}", begin, len(got))
         cursor.builder.word("label", float(found.group(1)), begin, len(found.group(1)))
-        if found.group(2) and int(found.group(2)):
-            cursor.builder.word("REP", float(found.group(2)), found.start(2), len(found.group(2)))
     else:
-        labels.label(cursor, parameter=True)
+        named(cursor, partial(labels.label, parameter=True))
+    if (found := cursor.match(_REPEATS)) and int(found.group(1)):
+        cursor.builder.word("REP", float(found.group(1)), found.start(1), len(found.group(1)))
 
 
 def called(cursor: Cursor) -> str:

@@ -19,8 +19,8 @@ from mnclab.text.program_builder import ProgramBuilder
 MEASURED = frozenset("XYZUVWABCIJKRH")
 
 _G = re.compile(r"G[ \t]*(\d{1,4})(?![\d.,])[ \t]*:?", FLAGS)
-_FEED = re.compile(r"F[ \t]*(MAX|AUTO)(?![A-Z])", FLAGS)
-_P = re.compile(r"P[ \t]*(\d{1,2})(?![\d.,])", FLAGS)
+_FEED = re.compile(r"F[ \t]*(MAX|AUTO)", FLAGS)
+_P = re.compile(r"P[ \t]*(\d\d(?=[ \t]*[-+\dQ])|\d(?=[ \t]+[-+\dQ]|[-+Q]))", FLAGS)
 _LETTERS = re.compile(r"DR2(?=[ \t]*[+-])|DL|DR|FU|FZ|[A-Z]", FLAGS)
 _TEXT_PARAMETER = re.compile(r"[ \t]*QS[ \t]?(\d{1,4})(?!\d)", FLAGS)
 _KNOWN = MEASURED | set("FSTLM") | {"DL", "DR", "DR2", "FU", "FZ"}
@@ -95,6 +95,8 @@ def _word(cursor: Cursor, begin: int) -> tuple[str, Any]:
 
 def _strange(cursor: Cursor, letter: str) -> Fault:
     """The fault at what is no word of these programs."""
+    if cursor.text[cursor.at] == "*":
+        return Fault("* ends a block: no words may stand behind it", cursor.at, hint="the next block begins with N")
     if letter in _KNOWN:
         return Fault(f"{letter} needs a number", cursor.at, len(letter))
     if not letter:

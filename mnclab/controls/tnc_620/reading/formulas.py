@@ -20,13 +20,13 @@ GREATEST = {"": 1999, "L": 499, "R": 499, "S": 1999}
 
 OPERAND = re.compile(rf"[ \t]*(?:[+-][ \t]*)?(?:{NUMBER}|Q[LR]?\d+)", FLAGS)
 _OPERAND = rf"(?:[+-]\s*)?(?:{NUMBER}|Q[LR]?\d+)"
-_TARGET = re.compile(r"Q([LRSC]?)[ \t]?(\d{1,6})(?!\d)[ \t]*", FLAGS)
-_EQUALS = re.compile(r"=[ \t]*", FLAGS)
+TARGET = re.compile(r"Q([LRSC]?)[ \t]?(\d{1,6})(?!\d)[ \t]*", FLAGS)
+EQUALS = re.compile(r"=[ \t]*", FLAGS)
 _UNDEFINED = re.compile(r"SET[ \t]+UNDEFINED", FLAGS)
 _ERROR = re.compile(r"[ \t]*ERROR[ \t]*=", FLAGS)
 _WRITE, _READ = re.compile(r"[ \t]*SYSWRITE(?![A-Z])", FLAGS), re.compile(r"[ \t]*SYSREAD(?![A-Z])", FLAGS)
 _CDATA = re.compile(r"CDATA(?![A-Z])", FLAGS)
-_PRESET, _AXIS, _SLASH = re.compile(r"PRESET[ \t]*=", FLAGS), re.compile("[A-CU-Z]", FLAGS), re.compile("/")
+_PRESET, _AXIS, SLASH = re.compile(r"PRESET[ \t]*=", FLAGS), re.compile("[A-CU-Z]", FLAGS), re.compile("/")
 _SYSTEM = [(name, re.compile(rf"[ \t]*{name}", FLAGS)) for name in ("ID", "NR", "IDX")]
 
 
@@ -98,8 +98,8 @@ def text_formula(cursor: Cursor, begin: int, end: int) -> strings.TextFormula:
 def declared_text(cursor: Cursor) -> None:
     """DECLARE STRING QS1 = …"""
     begin = cursor.blanks()
-    found = cursor.match(_TARGET)
-    if found is None or found.group(1).upper() != "S" or not cursor.match(_EQUALS):
+    found = cursor.match(TARGET)
+    if found is None or found.group(1).upper() != "S" or not cursor.match(EQUALS):
         raise Fault("DECLARE STRING needs a QS parameter and =", begin, hint='for example DECLARE STRING QS1 = "A"')
     text_assignment(f"QS{int(found.group(2))}", begin)(cursor)
 
@@ -133,7 +133,7 @@ def span(cursor: Cursor, offset: int) -> Span:
 def numeric_target(cursor: Cursor, number: int, example: str) -> tuple[str, int]:
     """The parameter that FN gives a value, and where it stands."""
     begin = cursor.blanks()
-    found = cursor.match(_TARGET)
+    found = cursor.match(TARGET)
     if found is None:
         raise Fault(f"FN {number} needs a Q parameter and =", begin, hint=example)
     name = f"Q{found.group(1).upper()}{int(found.group(2))}"
@@ -146,7 +146,7 @@ def numeric_target(cursor: Cursor, number: int, example: str) -> tuple[str, int]
 
 def needs_equals(cursor: Cursor, number: int, example: str) -> None:
     """The = after the parameter."""
-    if not cursor.match(_EQUALS):
+    if not cursor.match(EQUALS):
         raise Fault(f"FN {number} needs a Q parameter and =", cursor.blanks(), hint=example)
 
 
@@ -222,7 +222,7 @@ def preset(cursor: Cursor) -> None:
     axis = cursor.expect(_AXIS, "FN 25 needs an axis", hint)
     cursor.add("axis", axis.group().upper(), axis.start())
     for address in ("first", "second"):
-        cursor.expect(_SLASH, "/ is missing", hint)
+        cursor.expect(SLASH, "/ is missing", hint)
         operand(cursor, address, example)
 
 
@@ -247,7 +247,7 @@ def system_write(cursor: Cursor) -> None:
         raise Fault("FN 17 needs SYSWRITE", cursor.blanks(), hint=f"for example {example}")
     system_data(cursor, example)
     needs = cursor.blanks()
-    if not cursor.match(_EQUALS):
+    if not cursor.match(EQUALS):
         raise Fault("= and a value are missing", needs, hint=f"for example {example}")
     operand(cursor, "value", example)
 

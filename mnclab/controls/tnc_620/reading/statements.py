@@ -11,6 +11,7 @@ from functools import partial
 from typing import NamedTuple
 
 from mnclab.controls.tnc_620.reading import labels
+from mnclab.controls.tnc_620.reading.file_functions import FILES
 from mnclab.controls.tnc_620.reading.formulas import FN, assignment, declared_text, text_assignment, text_formula
 from mnclab.controls.tnc_620.reading.pattern_words import PatternWords
 from mnclab.controls.tnc_620.reading.sub_blocks import READERS
@@ -103,7 +104,7 @@ def cycle_parameters(cursor: Cursor) -> None:
     names = list(builder.addresses)
     if not any(names[word[0]].startswith("Q") for word in builder.block_words):
         first = _PARAMETER_HEAD.search(cursor.text, cursor.at, cursor.stop)
-        name_of_cycle(cursor, first.start() if first else cursor.stop)
+        passed_over(cursor, first.start() if first else cursor.stop)
     while not cursor.done:
         begin = cursor.at
         found = cursor.match(_PARAMETER_HEAD)
@@ -117,18 +118,41 @@ def cycle_parameters(cursor: Cursor) -> None:
             value = text_formula(cursor, named.start(), named.end())
         elif word := cursor.match(_FEED_WORD):
             value = re.sub(r"[ \t]", "", word.group()).upper().replace(",", ".")
+            value = f"F{value}" if value in ("AUTO", "MAX") else value
         else:
             value = cursor.needed(f"{name} needs a number", begin, found.end() - begin)
         builder.word(name, value, begin, cursor.at - begin)
 
 
-def name_of_cycle(cursor: Cursor, stop: int | None = None) -> None:
-    """The name is free; what looks like a word in it would be lost, which is said."""
+def passed_over(cursor: Cursor, stop: int | None = None, what: str = "the cycle's name") -> None:
+    """A name or a remark is free; what looks like a word in it would be lost, which is said."""
     stop = cursor.stop if stop is None else stop
     for found in _LIKE_A_WORD.finditer(cursor.text, cursor.at, stop):
-        message = f"{found.group()} is read as part of the cycle's name and not obeyed"
+        message = f"{found.group()} is read as part of {what} and not obeyed"
         cursor.builder.alarm(message, found.start(), len(found.group()), severity="warning")
     cursor.at = stop
+
+
+def waiting(cursor: Cursor) -> None:
+    """FUNCTION DWELL: TIME in seconds or REV in turns of the spindle."""
+    begin = cursor.blanks()
+    found = cursor.expect(_WAIT, "FUNCTION DWELL needs TIME or REV", "for example FUNCTION DWELL TIME10")
+    name = found.group().strip().upper()
+    cursor.add(name, cursor.needed(f"{name} needs a number", begin, len(name)), begin)
+
+
+def plane_reset(cursor: Cursor) -> None:
+    """PLANE RESET: how the rotary axes behave, in the words of the other forms of PLANE."""
+    while not cursor.done:
+        begin = cursor.at
+        if found := cursor.match(_BEHAVIOUR):
+            cursor.match(_FAR)
+            cursor.add(found.group().upper(), cursor.value(), begin)
+        elif found := cursor.match(_MEASURE):
+            name = found.group().strip().upper()
+            cursor.add(name, cursor.needed(f"{name} needs a number", begin, len(name)), begin)
+        else:
+            cursor.word()
 
 
 _FORMS = "LT LN CT LCT PLT PLN PCT PLCT".split()
@@ -142,6 +166,7 @@ WORDS: dict[str, Read] = {
     "DECLARE STRING": declared_text, "SEL PATTERN": file_name, "SEL TABLE": file_name,
     "PATTERN DEF": plain,  # whose lines PatternWords reads
     "BEGIN PGM": program_name, "END PGM": program_name, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
+    "PLANE RESET": plane_reset, "FUNCTION RESET TCPM": plain, "FUNCTION DWELL": waiting,
     "BLK FORM CYLINDER": with_axis, "BLK FORM ROTATION": turned_blank,
     **{f"{way} {form}": plain for way in ("APPR", "DEP") for form in _FORMS},
 }  # fmt: skip
@@ -155,13 +180,13 @@ KEYWORDS_ONLY = {
 _ALL = sorted([*WORDS, *KEYWORDS_ONLY], key=len, reverse=True)
 _KEYWORD = re.compile(f"(?:{'|'.join(re.escape(k) for k in _ALL)})(?![A-Z_])".replace(r"\ ", r"[ \t]+"), FLAGS)
 _CYCLE = re.compile(
-    r"(CYCL[ \t]+DEF|TCH[ \t]+PROBE|GLOBAL[ \t]+DEF)[ \t]*(?:(\d{1,5})(?:\.(\d{1,2}))?(?![.\d]))?", FLAGS
+    r"(CYCL[ \t]+DEF|TCH[ \t]+PROBE|GLOBAL[ \t]+DEF)[ \t]*(?:(\d{1,5})(?:[ \t]*\.(\d{1,2}))?(?![.\d]))?", FLAGS
 )
 _FN = re.compile(r"FN[ \t]*(\d{1,3})[ \t]*:?", FLAGS)
 _TARGET = re.compile(r"Q([LRSC]?)[ \t]?(\d{1,6})[ \t]*=", FLAGS)
 _M = re.compile(r"M[ \t]*\d", FLAGS)
 _PARAMETER_HEAD = re.compile(r"\bQ([LRS]?)[ \t]*(\d{1,4})[ \t]*=[ \t]*", FLAGS)
-_FEED_WORD = re.compile(rf"[ \t]*(?:F[ \t]*(?:AUTO|MAX)|F[UZ][ \t]*{NUMBER}|PREDEF)(?![A-Z])", FLAGS)
+_FEED_WORD = re.compile(rf"[ \t]*(?:(?:F[ \t]*)?(?:AUTO|MAX)|F[UZ][ \t]*{NUMBER}|PREDEF)(?![A-Z])", FLAGS)
 _AXIS = re.compile(r"[A-Z](?![A-Z])", FLAGS)
 _DIM = re.compile(r"DIM_([RD])(?![A-Z])", FLAGS)
 _LBL = re.compile(r"[ \t]*LBL(?![A-Z])", FLAGS)
@@ -170,6 +195,10 @@ _STRING = re.compile(r"[ \t]*QS[ \t]*\d{1,4}", FLAGS)
 _LIKE_A_WORD = re.compile(
     r"(?<![\w.-])(?:I?[XYZUVWABC][+-]?\d|[A-Z]{1,4}[+-]\d|[MFS]\d|FMAX|R[0LR]\b)(?:[\d.,]*\d)?", FLAGS
 )
+_WAIT = re.compile(r"(?:TIME|REV)[ \t]*(?![A-PR-Z])", FLAGS)
+_BEHAVIOUR = re.compile(r"(?:STAY|MOVE|TURN|MB)(?![A-Z])", FLAGS)
+_FAR = re.compile(r"(?<=MB)[ \t]*MAX(?![A-Z])", FLAGS)
+_MEASURE = re.compile(r"(?:ABST|DIST)[ \t]*(?![A-Z])", FLAGS)
 _TEXT_PARAMETER = re.compile(r"QS[ \t]?(\d{1,4})(?!\d)", FLAGS)
 
 
@@ -187,7 +216,7 @@ def recognize(cursor: Cursor) -> Statement | None:
         return Statement(keyword, WORDS[keyword])
     if found := cursor.match(_FN):
         number = int(found.group(1))
-        return Statement(f"FN {number}", FN.get(number) or labels.JUMPS.get(number) or ignored)
+        return Statement(f"FN {number}", FN.get(number) or labels.JUMPS.get(number) or FILES.get(number) or ignored)
     begin = cursor.at
     if found := cursor.match(_TARGET):
         kind = found.group(1).upper()
@@ -221,6 +250,6 @@ def _cycle(cursor: Cursor, found: re.Match[str]) -> Statement:
         return Statement(keyword, cycle_parameters, cycle_parameters)
     part = int(found.group(3))
     if part == 0:
-        return Statement(keyword, ignored if word == "TCH PROBE" else name_of_cycle, None, 0)
+        return Statement(keyword, ignored if word == "TCH PROBE" else passed_over, None, 0)
     read = READERS.get(f"{keyword}.{part}", READERS.get(keyword, ignored))
     return Statement(keyword, read, read, part)

@@ -10,15 +10,15 @@ import re
 from functools import partial
 
 from mnclab.controls.tnc_620.reading import obsolete_blocks
+from mnclab.controls.tnc_620.reading.dialog import dialog
 from mnclab.controls.tnc_620.reading.labels import program_of_cycle
 from mnclab.controls.tnc_620.reading.words import FLAGS, WHOLE, Cursor, Read, from_inches
 
 _LABELS, _SLASH = re.compile(r"[^\d;~]*"), re.compile(r"[ \t]*/")
 _ROW = re.compile(r"#")
 _LETTER = re.compile(r"[ \t]*([XYZUVWABC])(?![A-Z\d])", FLAGS)
-_DIALOG = re.compile(r"(?:(?!Q[LR]?\d)[^\d\s;~+.,=-])*(?:[ \t]+(?:(?!Q[LR]?\d)[^\d\s;~+.,=-])+)*", FLAGS)
-_EQUALS = re.compile(r"[ \t]*=", FLAGS)
 _TOLERANCE = re.compile(r"T(?![A-Z])", FLAGS)
+_DISTANCE = re.compile(r"(?!FMAX|FAUTO)[A-Z]{3,}[ \t]*", FLAGS)
 _FILTER = re.compile(r"HSC[ \t]*(?:-[ \t]*)?MODE[ \t]*:?|TA", FLAGS)
 
 
@@ -60,15 +60,27 @@ def of_two_units(cursor: Cursor, lengths: re.Pattern[str]) -> None:
 
 #: 26.1: a factor for each axis, which has no unit, and the coordinates of the centre.
 factors = partial(of_two_units, lengths=re.compile(r"I?CC", FLAGS))
-#: 19.1: angles, the feed of the rotary axes in degrees a minute, and a length.
-tilting = partial(of_two_units, lengths=re.compile(r"[^F]", FLAGS))
+
+
+def tilting(cursor: Cursor) -> None:
+    """19.1: angles, the feed of the rotary axes in degrees a minute, and a length behind a word (`ABST`, `DIST`, …)."""
+    while not cursor.done:
+        begin = cursor.at
+        if found := cursor.match(_DISTANCE):
+            name = found.group().rstrip()
+            cursor.add("ABST", cursor.needed(f"{name} needs a number", begin, len(name)), begin)
+        else:
+            inch, cursor.inch = cursor.inch, False
+            try:
+                cursor.word()
+            finally:
+                cursor.inch = inch
 
 
 def after_dialog(cursor: Cursor, address: str, meaning: str) -> None:
     """One number behind the words of the dialog and perhaps `=`."""
     begin = cursor.blanks()
-    cursor.match(_DIALOG)
-    cursor.match(_EQUALS)
+    dialog(cursor)
     value = cursor.needed(f"a number is missing: the {meaning}", begin, max(1, cursor.at - begin))
     cursor.add(address, value, begin)
     if not cursor.done:

@@ -48,15 +48,15 @@ _NAMED = re.compile(rf"(I?)(DR2(?=[ \t]*[+-])|{'|'.join(sorted(_ADDRESSES, key=l
 #: Addresses of lengths and of feeds along a path: inches in a program that begins with INCH.
 LENGTHS = frozenset(
     "X Y Z U V W R RI DI DIST LEN PR F FU FZ DL DR DR2 L CCX CCY CCZ CCPR ABST D P1X P1Y P2X P2Y P3X P3Y PDX PDY DX DY "
-    "DP DEPTH PITCH SETUP PECKG PECKG:F RADIUS length".split()
+    "DP DEPTH PITCH SETUP PECKG PECKG:F RADIUS length M140:MB M140:F M128:F".split()
 )
 
 #: Addresses that belong to an M function when they stand directly behind it: `M103 F20` beside a feed F of the block.
-OWN = {
-    103: re.compile(r"F(?![A-Z])", FLAGS), 118: re.compile(r"[XYZABC](?![A-Z])", FLAGS), 120: re.compile(r"LA", FLAGS),
-    128: re.compile(r"F(?![A-Z])", FLAGS), 140: re.compile(r"MB[ \t]*(?:MAX)?|F[ \t]*(?:MAX|(?![A-Z]))", FLAGS),
-    94: re.compile(r"[ABC](?![A-Z])", FLAGS), 138: re.compile(r"[ABC](?![A-Z])", FLAGS),
+_OWN = {
+    94: "[ABC]", 101: "BT", 103: "F", 118: "[XYZABC]", 120: "LA", 128: "F[ \t]*MAX|F", 138: "[ABC]",
+    140: "MB[ \t]*MAX|MB|F[ \t]*MAX|F", 200: "V", 201: "V", 202: "FNR", 203: "V|TIME", 204: "V|TIME",
 }  # fmt: skip
+OWN = {code: re.compile(rf"(?:{words})(?![A-PR-Z])", FLAGS) for code, words in _OWN.items()}
 
 LETTER_O = "the letter O stands where the digit 0 was meant"
 _G_NAME = re.compile(r"G[ \t]*(\d{1,4})(?!\d)", FLAGS)

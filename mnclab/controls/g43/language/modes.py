@@ -1,0 +1,92 @@
+"""Modes that most blocks only stand under: what F means, exact stops, arc centres, the plane, and modes that move nothing."""
+
+from __future__ import annotations
+
+from mnclab.controls.g43.language.transformations import refuse_transformed
+from mnclab.controls.g43.remarks import ISO, remark
+from mnclab.controls.g43.state import memory
+from mnclab.controls.word_address.functions import FEEDS, PLANES, STOPS, functions
+from mnclab.controls.word_address.motion import first_word
+from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.machine import Machine
+
+CENTRES = {"G90.1": "Arc centres from the origin", "G91.1": "Arc centres from the start"}
+CONTOURS = {"G5": "High-speed machining", "G5.1": "Contour control", "G8": "Look-ahead", "G187": "Smoothness"}
+
+SHARED = functions(remark, ISO, plane="7.1, example")
+FUNCTIONS = FunctionTable()
+FUNCTIONS |= SHARED
+
+
+@FUNCTIONS("G17 G18 G19", PLANES, group="plane", phase="plane", power_on="G17", source="7.1, example")
+def plane(m: Machine, words: Words) -> None:
+    """The plane of arcs, radius compensation, polar coordinates and rotation."""
+    if PLANES[words.code].split()[-1] != m.plane:
+        refuse_transformed(m, words, "rotation")
+        if memory(m).polar is not None:
+            m.alarm("the plane cannot change while polar coordinates are on", first_word(words), hint="write G15 first")
+    SHARED[words.code].obey(m, words)
+
+
+@FUNCTIONS("G93", "Inverse time feed", group="feed mode", phase="plane", source="LinuxCNC, Haas, Fanuc")
+def inverse_time(m: Machine, words: Words) -> None:
+    """Every move at feed takes 1/F minutes; its block needs F."""
+    m.change("feed", None)
+    m.change("per_rev", False)
+    m.change("per_time", True)
+
+
+@FUNCTIONS("G94 G95", FEEDS, group="feed mode", phase="plane", power_on="G94", source=ISO)
+def feed_mode(m: Machine, words: Words) -> None:
+    """What F means, mm/min or mm/rev; a new F must follow."""
+    if m.per_time:
+        m.change("feed", None)
+        m.change("per_time", False)
+    SHARED[words.code].obey(m, words)
+
+
+@FUNCTIONS("G64", STOPS, group="blending", phase="plane", takes="P Q", power_on="G64", source=ISO)
+def blending(m: Machine, words: Words) -> None:
+    """No exact stops; P is how far a corner may be cut (LinuxCNC). Short moves are not joined, whatever Q allows."""
+    SHARED["G64"].obey(m, words)
+    if "P" in words:
+        if (reach := m.length(words["P"])) < 0:
+            m.alarm(f"G64 P (how far a corner may be cut) must be at least 0, got {reach:g}", words["P"])
+        m.change("tolerance", reach)
+    if "Q" in words:
+        m.warn("G64 Q allows that short moves are joined: they are left as they are", words["Q"])
+
+
+@FUNCTIONS("G61.1", "Exact stop between blocks", group="blending", phase="plane", source="LinuxCNC")
+def exact_stop(m: Machine, words: Words) -> None:
+    """As G61."""
+    m.change("exact", True)
+
+
+@FUNCTIONS("G9", "Exact stop in this block", phase="plane", modal=False, source=ISO)
+def exact_here(m: Machine, words: Words) -> None:
+    """The motion of this block ends with exact positioning."""
+    m.exact_here = True
+
+
+@FUNCTIONS("G90.1 G91.1", CENTRES, group="arc centre", phase="plane", power_on="G91.1", source="LinuxCNC")
+def centres(m: Machine, words: Words) -> None:
+    """What I J K of arcs count from; also of Mach and other controls for routers."""
+    memory(m).absolute_centres = words.code == "G90.1"
+
+
+@FUNCTIONS("G97", "Spindle speed in rev/min", group="speed mode", phase="plane", power_on="G97", source=ISO)
+def revolutions(m: Machine, words: Words) -> None:
+    """S is the speed itself, as always on this mill."""
+
+
+@FUNCTIONS("G40.1", "Normal direction off", phase="plane", modal=False, source="Fanuc")
+def normal_direction_off(m: Machine, words: Words) -> None:
+    """There is none on this mill; it stands in the first lines of many programs."""
+
+
+@FUNCTIONS("G5 G5.1 G8 G187", CONTOURS, phase="plane", takes="P Q R E", still=True, modal=False, source="Fanuc, Haas")
+def contour_control(m: Machine, words: Words) -> None:
+    """How fast and exactly the machine follows the path; the path is the same. On LinuxCNC these are other functions."""
+    if m.settings["dialect"] == "linuxcnc":
+        m.alarm(f"{words.code} is refused: not built as LinuxCNC has it", first_word(words))

@@ -1,0 +1,97 @@
+"""Retraction along the tool axis (M140), and the tilted plane switched off (PLANE RESET)."""
+
+from __future__ import annotations
+
+import math
+
+from mnclab.controls.tnc_620.cycles.chain import TILT
+from mnclab.controls.tnc_620.cycles.tilting import WorkingPlane
+from mnclab.controls.tnc_620.language.checks import above_zero, not_negative, one_of, warn_once
+from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.coordinates import PLANES
+from mnclab.machine.machine import INF, Machine
+from mnclab.machine.settings import Setting
+from mnclab.running.performing import perform
+from mnclab.text.program import Word
+
+FUNCTIONS = FunctionTable()
+SETTINGS = (
+    Setting(
+        "retract_to", 500.0, "where M140 MB MAX leads the spindle along the tool axis, if the limits name no travel",
+        "Klartext, not described", unit="mm",
+    ),
+)  # fmt: skip
+DISTANCE, FAR = "M140:MB", "M140:MBMAX"
+WORDS = {
+    DISTANCE: "distance of the retraction", FAR: "to the end of the travel", "M140:F": "feed rate of the retraction",
+    "M140:FMAX": "rapid traverse",
+}  # fmt: skip
+PLANE = {
+    "STAY": "the rotary axes stay", "MOVE": "they move, and the tip stays where it is", "TURN": "they move alone",
+    "ABST": "how far below the tip the point is that stands still", "DIST": "the same", "MB": "retraction",
+}  # fmt: skip
+
+
+@FUNCTIONS(
+    "M140", "Retraction along the tool axis", takes=" ".join(WORDS), phase="start", modal=False, source="Klartext, not described"
+)
+def retraction(m: Machine, words: Words) -> None:
+    """Before the motion of the block: by MB, or with MB MAX to the end of the travel; at rapid, or at the F behind it."""
+    word = one_of(m, words, (DISTANCE, FAR), "one distance")
+    if word is None:
+        m.alarm("M140 needs MB and a distance, or MB MAX", words.words[0], "for example M140 MB MAX or M140 MB 50")
+    if TILT in m.frames:
+        m.alarm("M140 in a tilted plane is not built yet", words.words[0])
+    k, target = PLANES[m.plane][2], list(m.tip)
+    if word.address == DISTANCE:
+        if word.value is None:
+            m.alarm("M140 MB needs a number, or MAX", word)
+        target[k] += not_negative(m, word, "M140 MB (distance of the retraction)")
+    else:
+        if word.value is not None:
+            m.alarm("M140 MB MAX takes no number", word)
+        target[k] = end_of_travel(m, k, word) - m.tool.effective_length
+        if target[k] < m.tip[k] - 1e-6:
+            m.alarm(f"M140 MB MAX leads up alone: the tool stands {m.tip[k] - target[k]:g} mm above the end already", word)
+    x, y, z = m.to_program(target)
+    m.line(x, y, z, f=own_feed(m, words))
+
+
+def end_of_travel(m: Machine, axis: int, word: Word) -> float:
+    """The machine coordinate of the spindle reference where an axis ends: of the limits, else that of the setting."""
+    travel = m.setup.limits.travel
+    if travel is not None and math.isfinite(travel[axis][1]):
+        return travel[axis][1]
+    end: float = m.settings["retract_to"]
+    if "retract_to" not in m.setup.settings:
+        hint = "Setup(limits=mnclab.Limits(travel=…)) or the setting retract_to says where the axis ends"
+        warn_once(m, f"M140 MB MAX leads to {'XYZ'[axis]}{end:g} of the machine", word, hint)
+    return end
+
+
+def own_feed(m: Machine, words: Words) -> float:
+    word = one_of(m, words, ("M140:F", "M140:FMAX"), "one feed")
+    if word is None or word.address == "M140:FMAX":
+        return INF
+    if word.value is None:
+        m.alarm("M140 F needs a number", word, "for example M140 MB 50 F750")
+    return above_zero(m, word, "M140 F (feed rate of the retraction)")
+
+
+@FUNCTIONS(
+    "PLANE RESET,", "End of a tilted plane", takes="STAY MOVE TURN MB ABST DIST F FMAX FAUTO", source="Klartext, not described"
+)
+def plane_reset(m: Machine, words: Words) -> None:
+    """Cycle 19 is over; with STAY the rotary axes stay, MOVE and TURN have nothing to do where they stand at 0."""
+    how = one_of(m, words, ("STAY", "MOVE", "TURN"), "one of STAY, MOVE, TURN")
+    if how is None:
+        m.alarm("PLANE RESET needs STAY, MOVE or TURN", hint="with STAY no axis moves")
+    if how.value is not None:
+        m.alarm(f"PLANE RESET {how.address} takes no number", how)
+    if "MB" in words:
+        m.alarm("PLANE RESET MB (retraction before the axes turn) is not built yet", words["MB"])
+    if how.address != "STAY" and any(m.rotary):
+        m.alarm(f"PLANE RESET {how.address} is not built yet where rotary axes have turned", how, "PLANE RESET STAY is")
+    if m.side:
+        m.alarm("PLANE RESET cannot change the plane under radius compensation", how, "write R0 before")
+    perform(m, "PLANE RESET", WorkingPlane().moves(m))

@@ -1,0 +1,55 @@
+"""The command `check`: the alarms of files, or what became of all programs of a folder."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from typing import Any
+
+from mnclab.controls.choice import run
+from mnclab.controls.survey import Survey
+from mnclab.controls.survey import check as survey
+from mnclab.machine.setup import Setup
+from mnclab.machine.setup_file import load
+from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, describe, program, say, sensible, with_blank
+from mnclab.text.alarm import ALARM, Alarm
+from mnclab.workpiece.collision import Collision
+
+
+def check(chosen: argparse.Namespace) -> int:
+    """Report the alarms of several programs, or what became of those of a folder."""
+    status, report = CLEAN, []
+    setup = None if chosen.setup is None else sensible(load, chosen.setup)
+    if chosen.csv or chosen.suffixes or any(map(os.path.isdir, filter(None, chosen.files))):
+        found = sensible(survey_of, chosen, setup)
+        print(json.dumps(found.as_dict(), indent=1) if chosen.json else found.csv() if chosen.csv else f"{found}\n", end="")
+        return INTERRUPTED if found.interrupted else CLEAN if found.ok else ALARMS
+    for file in chosen.files:
+        alarms: tuple[Alarm, ...] = ()
+        collisions: tuple[Collision, ...] = ()
+        try:
+            result = run(program(file), chosen.control, setup)
+            alarms = result.alarms
+            collisions = with_blank(result).collisions() if chosen.material else ()
+        except Alarm as fault:  # no program, or no blank
+            alarms = (*alarms, fault)
+        if collisions or any(alarm.severity == ALARM for alarm in alarms):
+            status = ALARMS
+        said: dict[str, Any] = {"file": file, "alarms": [describe(alarm, file) for alarm in alarms]}
+        report.append(said | ({"collisions": [each.as_dict() for each in collisions]} if chosen.material else {}))
+        for alarm in () if chosen.json else alarms:
+            say(alarm, file)
+        for collision in () if chosen.json else collisions:
+            print(collision, file=sys.stderr)
+    if chosen.json:
+        print(json.dumps(report, indent=1))
+    return status
+
+
+def survey_of(chosen: argparse.Namespace, setup: Setup | None) -> Survey:
+    """What became of the programs of folders; an Alarm where that was not meant."""
+    if chosen.material:
+        raise Alarm("--material is for files, not for folders and tables")
+    return survey(map(program, chosen.files), chosen.control, setup, suffixes=chosen.suffixes)

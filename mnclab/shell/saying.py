@@ -1,0 +1,51 @@
+"""How a command ends and what it says on stderr: statuses, alarms in one line each, wrong command lines."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+from mnclab.runs.run import Run
+from mnclab.text.alarm import Alarm
+
+Result = TypeVar("Result")
+CLEAN, ALARMS, USAGE, INTERRUPTED = 0, 1, 2, 130
+
+
+def say(alarm: Alarm, file: str = "") -> None:
+    """One line for an alarm; `file` is what it is about when it stands in no program."""
+    line = alarm.headline
+    if alarm.source is None and alarm.span is None:
+        hint = f" ({alarm.hint})" if alarm.hint else ""
+        line = f"{file or 'mnclab'}: {alarm.severity}: {alarm.message.removeprefix(f'{file} ')}{hint}"
+    print(" ".join(line.split("\n")), file=sys.stderr)
+
+
+def describe(alarm: Alarm, file: str) -> dict[str, Any]:
+    """An alarm for programs that read JSON."""
+    return alarm.as_dict() if alarm.source else alarm.as_dict() | {"file": file}
+
+
+def program(file: str) -> Path:
+    """The path of a program; an Alarm for an empty name, which would be the folder."""
+    if not file:
+        raise Alarm("the name of the program is empty")
+    return Path(file)
+
+
+def sensible(do: Callable[..., Result], *arguments: Any) -> Result:
+    """The result of what a command line asks for beside its programs; a fault in that is a wrong command line."""
+    try:
+        return do(*arguments)
+    except Alarm as alarm:
+        say(alarm)
+        sys.exit(USAGE)
+
+
+def with_blank(result: Run) -> Run:
+    """The same run; an Alarm if there is no blank to cut."""
+    if result.stock is None:
+        raise Alarm("there is no blank to cut", hint="give one: a [stock] in the file of --setup (mnclab --help shows one)")
+    return result

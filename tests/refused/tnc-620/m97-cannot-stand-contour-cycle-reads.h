@@ -1,0 +1,30 @@
+; 27:11 alarm: M97 cannot stand in a contour that a cycle reads
+0 BEGIN PGM A MM
+1 TOOL CALL 1 Z S1000 F100
+2 CYCL DEF 14.0 X
+3 CYCL DEF 14.1 1
+4 CYCL DEF 20 X
+Q1=-5
+Q2=1
+Q3=0
+Q4=0
+Q5=0
+Q6=2
+Q7=9
+Q8=0
+Q9=1
+5 CYCL DEF 22 X
+Q10=5
+Q11=9
+Q12=9
+Q18=0
+Q19=0
+Q208=99
+6 CYCL CALL M3
+7 M2
+8 LBL 1
+9 L X+0 Y+0 RR
+10 L X+50 M97
+11 L Y+50
+12 L X+0 Y+0
+13 LBL 0

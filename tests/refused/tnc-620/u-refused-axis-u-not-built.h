@@ -1,4 +1,0 @@
-; 4:9 alarm: U is refused: the axis U is not built yet
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 L X+5 U+5
