@@ -46,7 +46,6 @@ PHASES = (
 )
 
 
-
 def start(m: Machine) -> None:
     """G54 is active at the start; the tip hangs below the spindle by the length of the tool."""
     offsets.start(m)
