@@ -62,6 +62,7 @@ class Board {
     this.find = find;
     this.step = -2;
     find("angles").hidden = !run.rotary;
+    find("position-unit").textContent = find("feed-unit").textContent = run.unit.short;
     const axes = run.lathe ? ["⌀ X", "Z"] : ["X", "Y", "Z"];
     this.axes = run.lathe ? [0, 2] : [0, 1, 2];
     find("axes").replaceChildren(...axes.map((name, row) => {
@@ -78,7 +79,8 @@ class Board {
   }
   // A coordinate as the operator reads it: a lathe's X is a diameter.
   shown(point, axis) {
-    return number(point[axis] * (this.run.lathe && axis === 0 ? 2 : 1), 3);
+    const {unit, lathe} = this.run;
+    return number(point[axis] / unit.length * (lathe && axis === 0 ? 2 : 1), unit.decimals);
   }
   positions(column, point) {
     for (const axis of this.axes) this.find(`${column}-${"XYZ"[axis]}`).textContent = point ? this.shown(point, axis) : "–";
@@ -91,13 +93,13 @@ class Board {
     return Math.sign(told) * Math.min(speed, typeof limit === "number" ? limit : Infinity);
   }
   show({step, row, point, speed, item, angles}) {
-    const {run, find} = this, at = Math.max(row, 0);
+    const {run, find} = this, {unit} = run, at = Math.max(row, 0);
     this.positions("tool", point);
     this.positions("machine", point.map((value, k) => value + run.origin[k]));
     const feed = run.row.feed.value(at), perRev = run.row.per_rev.value(at), spindle = this.turning(at, point);
     const kind = row >= 0 ? run.path.kind[row] : -1, own = item >= 0 && run.itemRow[item] === row;
-    const programmed = perRev ? `${short(perRev)} mm/rev` : kind === RAPID ? "rapid" : typeof feed === "number" ? `F ${short(feed)}` : "";
-    find("feed").textContent = number(speed * 60, 0);
+    const programmed = perRev ? `${short(perRev / unit.length)} ${unit.short}/rev` : kind === RAPID ? "rapid" : typeof feed === "number" ? `F ${short(feed / unit.length)}` : "";
+    find("feed").textContent = number(speed * 60 / unit.length, unit.length > 1 ? 1 : 0);
     find("feed-programmed").textContent = own && kind <= PROBE ? programmed : "";
     find("spindle").textContent = number(Math.abs(spindle), 0);
     find("turning").textContent = spindle > 0 ? "clockwise" : spindle < 0 ? "counter-clockwise" : "stopped";
