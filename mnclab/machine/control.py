@@ -20,7 +20,9 @@ from mnclab.text.signs import Sign
 from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
-    from mnclab.machine.cycle import Cycle, CycleTable, Parameter
+    from contextlib import AbstractContextManager
+
+    from mnclab.machine.cycle import Cycle, CycleTable, Definition, Parameter
     from mnclab.machine.machine import Machine
     from mnclab.path.compensation import Compensation
 
@@ -142,8 +144,9 @@ class Control:
     `to_turn` is the hint what makes the spindle turn. `names` leads from other names of cycles (DIN/ISO) to their codes.
     `named` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself; `predefined`
     what PREDEF stands for in a parameter of a cycle of a code; `calls_again` whether a modal call of a cycle (a modal
-    function of the group "call") calls it in a block with a keyword and words. `memory` makes what the control keeps
-    beside the common state of a machine, a dataclass. `computed` works the formulas of a block without a keyword out before
+    function of the group "call") calls it in a block with a keyword and words; `turned` makes what a cycle runs in, where
+    the tool axis is another than Z. `memory` makes what the control keeps beside the common state of a machine, a dataclass.
+    `computed` works the formulas of a block without a keyword out before
     its words are handed out: one of them may be a code, or leave its word out. `preassigned` are variables that the control
     keeps itself; names that begin with `local_variables` belong to one program. `modern` writes a program in the notation
     of today, where the control's own is another. `trial` writes a short program around a cycle and its words (address and
@@ -184,6 +187,7 @@ class Control:
     named: Callable[[Machine, Word], float | str] | None = None
     predefined: Callable[[Machine, str, Parameter, Word], float | str] | None = None
     calls_again: Callable[[str, list[Word]], bool] | None = None
+    turned: Callable[[Machine, Definition], AbstractContextManager[None]] | None = None
     lathe: bool = False
     to_turn: str = "write S and M3 before the move"
     computed: Callable[[Machine, list[Word]], list[Word]] | None = None
