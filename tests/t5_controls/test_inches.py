@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 import mnclab
 from mnclab import Setup, Tool
+from mnclab.show.report import report
 
 ISO = "G20\nT1 M6\nG0 X1.23456 Y-.5 S500 M3\nG1 Z-.1001 F12.5\nG2 X2.23456 I.5 J0\nG81 X.123 Y1 Z-.5 R.1 F5\nG80\n"
 TNC = "BEGIN PGM A INCH\nTOOL CALL 1 Z S500\nL X+1.23456 Y-.5 R0 FMAX M3\nL Z-.1001 F12.5\nEND PGM A INCH\n"
@@ -56,7 +57,7 @@ def test_cards_and_reports_are_in_inches():
     setup = Setup(tools={1: Tool(radius=12.7)}, stock=((0, 0, -25.4), (50.8, 25.4, 0)))
     run = mnclab.run("G20\nT1 M6\nS500 M3\nG1 X3 F10\n", "g43", setup)
     assert "cutting 3.000 in" in repr(run) and "3.000 in" in run._repr_html_()
-    page = mnclab.show.report.report(run)
+    page = report(run)
     facts = dict(page.facts)
     assert facts["cutting length"] == "3 in" and facts["X from, to"] == "0, 3 in" and facts["blank"] == "2 x 1 x 1 in"
     assert page.tool_head[3] == "radius, in" and page.tools[0][3] == "0.5"

@@ -78,7 +78,7 @@ def test_oriented_stop(text, angle):
 
 
 def test_functions_of_makers_move_nothing_and_say_so():
-    found = run(lines("M88|X1|M21|M48|M52 P1|M66 P0 L3 Q5"))
+    found = run(lines("M88|X1|M21|M48|M29 S100|M52 P1|M66 P0 L3 Q5"))
     assert len(found.toolpath) == 1 and [alarm.message.partition(":")[0] for alarm in found.alarms] == [
         f"{code} is a function of the machine's maker" for code in ("M88", "M21", "M66")
     ]
@@ -121,3 +121,8 @@ def test_help_says_what_a_dialect_chooses():
 def test_what_stands_in_no_chapter_is_marked_in_help():
     functions = mnclab.controls["g43"].functions
     assert functions["G68"].source == "ISO meaning" and functions["G43"].source == "7.1"
+
+
+def test_a_machine_may_begin_in_inches():
+    found = run("X1\nG21 X1\n", units="inch")
+    assert found.toolpath.end[:, 0].tolist() == [25.4, 1] and found.history["unit"][0] == "G20"
