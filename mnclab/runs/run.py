@@ -36,6 +36,7 @@ from mnclab.runs.explanation import Explanation
 from mnclab.runs.history import History
 from mnclab.runs.moment import Moment
 from mnclab.runs.moments import Moments, when
+from mnclab.runs.start import MissedOnes, start_at
 from mnclab.text.alarm import ALARM, Alarm, by_place, card_html, first_of, quoted, several
 from mnclab.text.columns import fixed
 from mnclab.text.given import shown, whole
@@ -90,6 +91,8 @@ class Run:
         self.stopped: Stopped | None = machine.stopped
         self.settings = dict(machine.settings)
         self.made: dict[Any, Any] = {}  # the last parts and collisions that were asked for
+        self.nesting = flow.nesting
+        self.missed, self.started = MissedOnes(), (0, 0, 0)  # what a start at a block skips; its line, pass, program
 
     def _as_of_end(self, prefix: str, values: dict[str, Any]) -> dict[str, Any]:
         """Values as the history has them after the last step that counts."""
@@ -119,7 +122,7 @@ class Run:
             if line is None:
                 raise Alarm("at() needs a line or a step", hint="run.at(line=5)")
             line, pass_ = whole(line, "the line"), whole(pass_, "pass_")
-            found = self._executions(line, whole(program, "the number of the program"))
+            found = self.executions(line, whole(program, "the number of the program"))
             if not 1 <= pass_ <= len(found):
                 raise Alarm(f"line {line} was executed {len(found)} times, pass_ {pass_} does not exist")
             step = int(found[pass_ - 1])
@@ -142,7 +145,7 @@ class Run:
         """The blank in the coordinates of the toolpath: that of the setup, else the last one that the program gives."""
         return stock_of(self.setup.stock, self.history.changed("stock"), np.array(self.toolpath.origin))
 
-    def _executions(self, line: int, program: int) -> NDArray[np.intp]:
+    def executions(self, line: int, program: int) -> NDArray[np.intp]:
         """The steps that executed the block of a line."""
         if not 0 <= program < len(self.programs):
             return np.empty(0, dtype=np.intp)
@@ -247,7 +250,14 @@ class Run:
         """The same program on the same control, with another setup."""
         if not isinstance(setup, Setup):
             raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
-        return run_program(self.program, self.control, setup)
+        run = run_program(self.program, self.control, setup)
+        return run.start_at(*self.started) if self.started[0] else run
+
+    def start_at(self, line: int, pass_: int = 1, program: int = 0) -> Run:
+        """The run from a block on, as after the block search of a control: everything before the `pass_`-th execution of
+        the line is computed and nothing of it moves. `.missed` tells what is to be done first, and what reaches over.
+        """
+        return start_at(self, line, pass_, program)
 
     # --- doors -------------------------------------------------------------------------------------------------------
 

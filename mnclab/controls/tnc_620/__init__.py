@@ -66,7 +66,7 @@ from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
 from mnclab.controls.tnc_620.signs import SIGNS
 from mnclab.controls.tnc_620.state import Memory
-from mnclab.controls.tnc_620.tables import datum_tables
+from mnclab.controls.tnc_620.tables import datum_tables, free_tables
 from mnclab.controls.tnc_620.trial import trial_program
 from mnclab.machine.control import Control
 from mnclab.machine.cycle import CycleTable
@@ -111,7 +111,7 @@ FUNCTIONS = (
     | machine_datum.FUNCTIONS | feeds.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
     | no_effect.FUNCTIONS | rotary_rules.FUNCTIONS | retraction.FUNCTIONS
     | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS | system_access.FUNCTIONS
-    | circle_data.FUNCTIONS | plc.FUNCTIONS | preset.FUNCTIONS | output.FUNCTIONS
+    | circle_data.FUNCTIONS | plc.FUNCTIONS | preset.FUNCTIONS | output.FUNCTIONS | free_tables.FUNCTIONS
 )  # fmt: skip
 CHAPTERS = (
     defaults, drilling, boring, pecking, tapping, threads, point_patterns, pockets, slots, studs, walled_faces,
@@ -135,6 +135,7 @@ MEANINGS = {
     "first": "the first operand", "second": "the second operand", "parameter": "the parameter that is asked about",
     "state": "whether it has a value", "undefined": "it has no value any more", "FN 14 number": "error number",
     "mask": "file with the mask", "output": "file that is written", "item": "what is put out",
+    "row": "row of the table", "columns": "columns of the table", "source": "the first parameter that is written",
     "points": "the first parameter of the points", "FN 25 axis": "axis of the datum",
     "FN 25 first": "coordinate that a point has", "FN 25 second": "coordinate that it gets",
     "ID": "group of system data", "NR": "number in its group", "IDX": "index", "FN 17 value": "the value to write",
@@ -147,7 +148,7 @@ MEANINGS = {
     **{f"M94:{axis}": f"the rotary axis {axis}" for axis in "ABC"},
     **{f"M118:{axis}": f"greatest way of the handwheel along {axis}" for axis in "XYZ"},
     **{f"M118:{axis}": f"greatest turn of the handwheel around {axis}" for axis in "ABC"},
-    **no_effect.WORDS, **rotary_rules.WORDS, **retraction.WORDS,
+    "TIME": "seconds", "REV": "turns of the spindle", **no_effect.WORDS, **rotary_rules.WORDS, **retraction.WORDS,
     **{f"PLANE RESET {address}": meaning for address, meaning in retraction.PLANE.items()},
     "FSELECT number": "number of the solution, as the control shows them", **free_words.WORDS,
     **{f"PATTERN DEF {address}": meaning for address, meaning in pattern_definitions.MEANINGS.items()},

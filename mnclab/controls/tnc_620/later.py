@@ -43,11 +43,9 @@ STATEMENTS = {
     "SEL CONTOUR": "contour definition", "DECLARE CONTOUR": "contour designator", "CONTOUR DEF": "simple contour formula",
     "TRANS DATUM": "datum shift", "QC": "contour formula",
     **{f"PLANE {form}": "tilted plane" for form in "SPATIAL PROJECTED EULER VECTOR POINTS RELATIV AXIAL".split()},
-    **{f"FUNCTION {form}": "special function" for form in "TCPM PARAXMODE PARAXCOMP RESET MODE DWELL FEED".split()},
+    **{f"FUNCTION {form}": "special function" for form in "TCPM PARAXMODE PARAXCOMP RESET MODE FEED".split()},
     "BLK FORM FILE": "blank from a file",
 }  # fmt: skip
-
-FN = {26: "opening a table", 27: "writing to a table", 28: "reading from a table"}
 
 M = {
     136: "feed per revolution", 138: "choice of tilting axes",
@@ -77,7 +75,6 @@ WAITING = {
     **{f"CYCL DEF {n}": title for n, title in CYCLES.items()},
     **{f"TCH PROBE {n}": title for n, title in PROBING.items()},
     **STATEMENTS,
-    **{f"FN {n}": title for n, title in FN.items()},
     **{f"M{n}": title for n, title in M.items()},
 }
 #: Codes and addresses that are not built, with the sentence that says so.

@@ -167,3 +167,15 @@ def test_a_loop_that_writes_for_ever_ends(inside) -> None:
     run = printed(inside, mask * 10, f"2 LBL 1\n3 Q1 = {math.pi}\n4 {PRINT}\n5 CALL LBL 1 REP 99999")
     (alarm,) = run.alarms
     assert "as much work as" in alarm.message and len(run.files["TNC:\\OUT.TXT"]) < 2e8
+
+
+def test_the_functions_under_their_names_of_din_iso(tnc) -> None:
+    """D15, D16, D19, D20 and D23 are the same functions; a P01 stands before what they take."""
+    text = (
+        "%A G71 *\nN10 Q30 = 3 *\nN11 Q31 = 0 *\nN12 Q32 = -3 *\nN13 Q33 = 0 *\nN14 Q34 = 0 *\nN15 Q35 = 3 *\n"
+        "N20 D23 P01 Q20 = CDATA Q30 *\nN30 D16 P01 F-PRINT LOG.A / OUT.TXT *\nN40 D19 P01 +10 P02 +Q20 *\nN50 D20 *\n"
+        "N60 D15 P01 PRINT Q22 *\nN99 %A G71 *\n"
+    )
+    run = tnc(text, mnc.Setup(files={"LOG.A": '"R%7.2f",Q22;'}))
+    assert run.ok and [alarm.span.line for alarm in run.alarms] == [10, 11, 12]
+    assert run.files == {"OUT.TXT": "R   3.00\n", "%FN15RUN.A": "Q22 = 3\n"}

@@ -60,7 +60,9 @@ def machine_coordinates(m: Machine, words: Words) -> None:
     """In this block, coordinates are those of the spindle reference: no offset counts."""
     undescribed(m, words)
     motion.uncompensated(m, words)
-    if m.modal["dimension"] == "G91" and m.settings["g53_increment"] == "ignored":
+    if m.modal["dimension"] == "G91" and (choice := m.settings["g53_increment"]) != "absolute":
+        if choice == "refuse":
+            m.alarm("G53 cannot stand under G91", first_word(words), hint="setting g53_increment")
         m.warn("G53 counts for nothing under G91: the block moves by its increments", first_word(words))
         return
     motion.leave_frames(m, [name for name, _ in m.frames])

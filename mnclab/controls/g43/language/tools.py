@@ -68,7 +68,7 @@ def compensation_by_block(m: Machine, words: Words) -> None:
     head = first_word(words)
     if m.settings["dialect"] != "linuxcnc":
         hint = "setting dialect: linuxcnc"
-        m.alarm(f"{words.code} is refused: it turns the tool normal to the path there, which is not built", head, hint)
+        m.alarm(f"{words.code} is refused: outside LinuxCNC it turns the tool normal to the path, which is not built", head, hint)
     motion.uncompensated(m, words)
     if "D" not in words:
         m.alarm(f"{words.code} D (diameter) is missing", head)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import operator
 
+from mnclab.controls.tnc_620.language.checks import whole
 from mnclab.controls.tnc_620.language.parameters import PREASSIGNED, text
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
@@ -40,7 +41,8 @@ def call_label(m: Machine, words: Words) -> None:
     first, here = m.flow.index_of(name, m.span_of(word)), m.flow.current
     if first >= here:
         m.alarm(f"CALL LBL {name} REP: the section must begin before this block", word, "REP repeats what stands above")
-    m.flow.repeat(m, first, here, int(m.value(words["REP"])), m.span_of(word))
+    times = whole(m, words["REP"], "CALL LBL REP (repeats)", 0, 999_999_999)
+    m.flow.repeat(m, first, here, times, m.span_of(word))
 
 
 CONDITIONS = {"FN 9": operator.eq, "FN 10": operator.ne, "FN 11": operator.gt, "FN 12": operator.lt}

@@ -5,8 +5,10 @@ from __future__ import annotations
 from mnclab.controls.tnc_620.cycles.chain import cancel
 from mnclab.controls.tnc_620.language import parameters
 from mnclab.controls.tnc_620.language.blank import half_given
+from mnclab.controls.tnc_620.language.checks import not_negative
 from mnclab.controls.tnc_620.reading.words import INCH
 from mnclab.controls.tnc_620.state import memory
+from mnclab.controls.tnc_620.tables.free_tables import put_out_tables
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
@@ -58,7 +60,20 @@ def finish(m: Machine) -> None:
         m.set_modal("coolant", "M9")
         m.coolant()
     perform(m, "END PGM", cancel(m))
+    put_out_tables(m)
     m.ended = True
+
+
+@FUNCTIONS("FUNCTION DWELL,", "Dwell", takes="TIME REV", source="Klartext, not described")
+def dwell(m: Machine, words: Words) -> None:
+    """Waits for a time, or for turns of the spindle."""
+    if "TIME" in words:
+        m.dwell(not_negative(m, words["TIME"], "FUNCTION DWELL TIME (seconds)"))
+        return
+    turns = not_negative(m, words["REV"], "FUNCTION DWELL REV (turns of the spindle)")
+    if not m.spindle_speed:
+        m.alarm("FUNCTION DWELL REV needs a turning spindle", words["REV"], m.control.to_turn)
+    m.dwell(turns * 60 / abs(m.spindle_speed))
 
 
 @FUNCTIONS("FUNCTION RESET TCPM,", "End of TCPM", source="Klartext, not described")

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 
 from mnclab.controls.tnc_620.reading import labels
+from mnclab.controls.tnc_620.reading.file_functions import FILES
 from mnclab.controls.tnc_620.reading.formulas import (
     FN,
     OPERAND,
@@ -34,7 +35,7 @@ TWO = {8: ("first", "second"), 13: ("first", "second")}
 
 def function(cursor: Cursor, number: int, begin: int) -> None:
     """The words of a function; its number was read already, at `begin`."""
-    if number == 16:
+    if number in FILES and number != 15:
         cursor.match(_P[1])  # before the words of the dialog
     if _CONVERSATIONAL.match(cursor.text, cursor.at, cursor.stop):
         _as_conversational(cursor, number)
@@ -54,15 +55,15 @@ def function(cursor: Cursor, number: int, begin: int) -> None:
         begin = _parameter(cursor, number, 1)
         found = cursor.expect(_POINTS, "P01 needs the Q parameter with the first point", f"for example {example(number)}")
         cursor.add("points", f"Q{int(found.group(1))}", begin)
-    elif number in FN:
+    elif number in FN or number in FILES:
         _as_conversational(cursor, number)
     else:
-        cursor.at = cursor.stop  # refused by its name
+        cursor.at = cursor.stop  # to the PLC, or refused by its name
 
 
 def _as_conversational(cursor: Cursor, number: int) -> None:
     """A function in the words of the dialog; its faults are told under the name that stands here."""
-    read = FN.get(number) or labels.JUMPS.get(number)
+    read = FN.get(number) or FILES.get(number) or labels.JUMPS.get(number)
     if read is None:
         raise cursor.unexpected()
     try:

@@ -1,8 +1,9 @@
 """Reading conversational programs: lines into blocks.
 
 A block is a number, a statement and its words; `/` before or after the number marks a block that may be passed over,
-`;` begins a comment, `*` a structure block. A block goes on over several lines when a line ends in `~`, in a
-definition whose further lines carry no number, and in the sub-blocks n.0, n.1, … of older cycles, which become one block.
+`;` begins a comment, which goes on behind a `~` at its end, `*` a structure block. A block goes on over several lines when
+a line ends in `~`, in a definition whose further lines carry no number, and in the sub-blocks n.0, n.1, … of older cycles,
+which become one block.
 So `Q200=5` without a number below a definition is a parameter of it; with a number it is an assignment, and so it is
 where the lines of the definition were joined by ~ and the last one has none. `Q1 = -5`, the way an assignment is
 written, below parameters that are written `Q200=5`: a parameter too, for the manual numbers assignments, with a warning.
@@ -22,15 +23,22 @@ from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.reading import din_reader
 from mnclab.controls.tnc_620.reading.lines import bounds
-from mnclab.controls.tnc_620.reading.statements import KEYWORDS_ONLY, WORDS, Statement, cycle_parameters, recognize
+from mnclab.controls.tnc_620.reading.statements import (
+    KEYWORDS_ONLY,
+    WORDS,
+    Statement,
+    cycle_parameters,
+    passed_over,
+    recognize,
+)
 from mnclab.controls.tnc_620.reading.words import FLAGS, INCH, LARGEST, Cursor, Fault
 from mnclab.text.alarm import KEPT, Alarm
 from mnclab.text.program import NONE, Program
 from mnclab.text.program_builder import BulkBlocks, ProgramBuilder, first_words
 from mnclab.text.words import Scan, characters, scan
 
-_UNIT = re.compile(r"(?<![^\r\n])[ \t\ufeff]*(?:/[ \t]*)?(?:\d+[ \t]*)?BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)
-_HEAD = re.compile(r"[ \t]*(/?)[ \t]*(\d*)[ \t]*(/?)[ \t]*")
+_UNIT = re.compile(r"(?<![^\r\n])[ \t\ufeff]*(?:/[ \t]*)?(?:N?\d+[ \t]*)?BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)
+_HEAD = re.compile(r"[ \t]*(/?)[ \t]*(?:N(?=\d))?(\d*)[ \t]*(/?)[ \t]*", FLAGS)
 _SPACED = re.compile(r"Q(\d+)[ \t]+=", FLAGS)
 _WORD = re.compile(r"[A-Z]+|\S", re.IGNORECASE)
 _PLAIN = "FRXYZ"  # letters of plain lines
@@ -49,11 +57,11 @@ _FORM_OF_LETTER[ord("R")] = NONE
 
 def read(text: str, name: str = "program") -> Program:
     """The blocks of a program: DIN/ISO where its first block says so, or the type of its file, else conversational."""
-    if din_reader.begins(text) or (name.lower().endswith(".i") and _UNIT.search(text) is None):
+    unit = _UNIT.search(text)
+    if unit is None and (din_reader.begins(text) or name.lower().endswith(".i")):
         return din_reader.read(text, name)
     found = scan(text, leading_number=True, bare="L")
     builder = ProgramBuilder(text, name, "tnc-620", found.starts, ";")
-    unit = _UNIT.search(text)
     inch = unit is not None and unit.group(1).upper().split()[-1:] == ["INCH"]
     plain, bulk = _plain_lines(found, text, inch)
     lines = _Lines(builder, inch)
@@ -75,18 +83,20 @@ class _Lines:
         self.last = -1  # the line read last
         self.statement: Statement | None = None  # of the block that may go on
         self.tilde = False  # the line before ended in ~
+        self.remark = False  # and stood in a comment, which goes on
         self.over = False  # the last line of a block was joined by a ~ and has none itself
-        self.skip = self.faulty = self.begun = False
+        self.skip = self.faulty = self.begun = self.bracketed = False
         self.tight = False  # a parameter of the block is written without blanks
         self.end: int | None = None  # place of END PGM
 
     def read(self, line: int) -> None:
         """One line: a block, a part of the block before it, a comment, or nothing."""
         if line != self.last + 1:
-            self.statement, self.tilde, self.over = None, False, False  # plain lines stand between
+            self.statement, self.tilde, self.over, self.remark = None, False, False, False  # plain lines stand between
         self.last = line
         begin, stop, comment, tilde = bounds(self.builder, line)
         joined, self.tilde = self.tilde, tilde
+        remark, self.remark = self.remark, tilde and comment >= 0
         head = _HEAD.match(self.text, begin, stop)
         assert head is not None
         if head.end() >= stop and not head.group(2):
@@ -95,6 +105,14 @@ class _Lines:
                 self.builder.block(comment)
             return
         at = begin if joined else head.end()
+        if joined and remark and (self.statement is None or self.statement.more is None):
+            self.remark = tilde
+            passed_over(Cursor(self.builder, at, stop, self.inch), what="the comment above")
+            return
+        goes_on = self.statement is not None and self.statement.keyword == "PATTERN DEF" and not head.group(2)
+        if at < stop and self.text[at] == "(" and not joined and not goes_on:
+            self.bracket(at, stop)
+            return
         try:
             if joined or (not head.group(2) and self.goes_on(at, stop)):
                 self.over = joined and not tilde
@@ -109,6 +127,15 @@ class _Lines:
         except Alarm as alarm:  # from the reader of formulas, which knows its place
             self.faulty = True
             self.builder.alarms.append(alarm)
+
+    def bracket(self, at: int, stop: int) -> None:
+        """A line in brackets is a comment of other controls; it ends what goes on over several lines."""
+        self.builder.block(at)
+        self.statement = None
+        if not self.bracketed:
+            message, hint = "lines that begin with a bracket are read as comments", "a comment of this control begins with ;"
+            self.builder.alarm(message, at, stop - at, hint, "warning")
+        self.bracketed = True
 
     def goes_on(self, at: int, stop: int) -> bool:
         if self.statement is None or self.statement.more is None or self.over or self.text[at] == "*":

@@ -11,6 +11,7 @@ from functools import partial
 from typing import NamedTuple
 
 from mnclab.controls.tnc_620.reading import labels
+from mnclab.controls.tnc_620.reading.file_functions import FILES
 from mnclab.controls.tnc_620.reading.formulas import FN, assignment, declared_text, text_assignment, text_formula
 from mnclab.controls.tnc_620.reading.pattern_words import PatternWords
 from mnclab.controls.tnc_620.reading.sub_blocks import READERS
@@ -103,7 +104,7 @@ def cycle_parameters(cursor: Cursor) -> None:
     names = list(builder.addresses)
     if not any(names[word[0]].startswith("Q") for word in builder.block_words):
         first = _PARAMETER_HEAD.search(cursor.text, cursor.at, cursor.stop)
-        name_of_cycle(cursor, first.start() if first else cursor.stop)
+        passed_over(cursor, first.start() if first else cursor.stop)
     while not cursor.done:
         begin = cursor.at
         found = cursor.match(_PARAMETER_HEAD)
@@ -123,13 +124,21 @@ def cycle_parameters(cursor: Cursor) -> None:
         builder.word(name, value, begin, cursor.at - begin)
 
 
-def name_of_cycle(cursor: Cursor, stop: int | None = None) -> None:
-    """The name is free; what looks like a word in it would be lost, which is said."""
+def passed_over(cursor: Cursor, stop: int | None = None, what: str = "the cycle's name") -> None:
+    """A name or a remark is free; what looks like a word in it would be lost, which is said."""
     stop = cursor.stop if stop is None else stop
     for found in _LIKE_A_WORD.finditer(cursor.text, cursor.at, stop):
-        message = f"{found.group()} is read as part of the cycle's name and not obeyed"
+        message = f"{found.group()} is read as part of {what} and not obeyed"
         cursor.builder.alarm(message, found.start(), len(found.group()), severity="warning")
     cursor.at = stop
+
+
+def waiting(cursor: Cursor) -> None:
+    """FUNCTION DWELL: TIME in seconds or REV in turns of the spindle."""
+    begin = cursor.blanks()
+    found = cursor.expect(_WAIT, "FUNCTION DWELL needs TIME or REV", "for example FUNCTION DWELL TIME10")
+    name = found.group().strip().upper()
+    cursor.add(name, cursor.needed(f"{name} needs a number", begin, len(name)), begin)
 
 
 def plane_reset(cursor: Cursor) -> None:
@@ -157,7 +166,7 @@ WORDS: dict[str, Read] = {
     "DECLARE STRING": declared_text, "SEL PATTERN": file_name, "SEL TABLE": file_name,
     "PATTERN DEF": plain,  # whose lines PatternWords reads
     "BEGIN PGM": program_name, "END PGM": program_name, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
-    "PLANE RESET": plane_reset, "FUNCTION RESET TCPM": plain,
+    "PLANE RESET": plane_reset, "FUNCTION RESET TCPM": plain, "FUNCTION DWELL": waiting,
     "BLK FORM CYLINDER": with_axis, "BLK FORM ROTATION": turned_blank,
     **{f"{way} {form}": plain for way in ("APPR", "DEP") for form in _FORMS},
 }  # fmt: skip
@@ -186,6 +195,7 @@ _STRING = re.compile(r"[ \t]*QS[ \t]*\d{1,4}", FLAGS)
 _LIKE_A_WORD = re.compile(
     r"(?<![\w.-])(?:I?[XYZUVWABC][+-]?\d|[A-Z]{1,4}[+-]\d|[MFS]\d|FMAX|R[0LR]\b)(?:[\d.,]*\d)?", FLAGS
 )
+_WAIT = re.compile(r"(?:TIME|REV)[ \t]*(?![A-PR-Z])", FLAGS)
 _BEHAVIOUR = re.compile(r"(?:STAY|MOVE|TURN|MB)(?![A-Z])", FLAGS)
 _FAR = re.compile(r"(?<=MB)[ \t]*MAX(?![A-Z])", FLAGS)
 _MEASURE = re.compile(r"(?:ABST|DIST)[ \t]*(?![A-Z])", FLAGS)
@@ -206,7 +216,7 @@ def recognize(cursor: Cursor) -> Statement | None:
         return Statement(keyword, WORDS[keyword])
     if found := cursor.match(_FN):
         number = int(found.group(1))
-        return Statement(f"FN {number}", FN.get(number) or labels.JUMPS.get(number) or ignored)
+        return Statement(f"FN {number}", FN.get(number) or labels.JUMPS.get(number) or FILES.get(number) or ignored)
     begin = cursor.at
     if found := cursor.match(_TARGET):
         kind = found.group(1).upper()
@@ -240,6 +250,6 @@ def _cycle(cursor: Cursor, found: re.Match[str]) -> Statement:
         return Statement(keyword, cycle_parameters, cycle_parameters)
     part = int(found.group(3))
     if part == 0:
-        return Statement(keyword, ignored if word == "TCH PROBE" else name_of_cycle, None, 0)
+        return Statement(keyword, ignored if word == "TCH PROBE" else passed_over, None, 0)
     read = READERS.get(f"{keyword}.{part}", READERS.get(keyword, ignored))
     return Statement(keyword, read, read, part)

@@ -10,16 +10,13 @@ import re
 from functools import partial
 
 from mnclab.controls.tnc_620.reading import obsolete_blocks
+from mnclab.controls.tnc_620.reading.dialog import dialog
 from mnclab.controls.tnc_620.reading.labels import program_of_cycle
-from mnclab.controls.tnc_620.reading.words import FLAGS, WHOLE, Cursor, Fault, Read, from_inches
+from mnclab.controls.tnc_620.reading.words import FLAGS, WHOLE, Cursor, Read, from_inches
 
 _LABELS, _SLASH = re.compile(r"[^\d;~]*"), re.compile(r"[ \t]*/")
 _ROW = re.compile(r"#")
 _LETTER = re.compile(r"[ \t]*([XYZUVWABC])(?![A-Z\d])", FLAGS)
-_LETTERS = r"(?:(?!Q[LR]?\d)[^\d\s;~+.,=-]|(?<![\s\d])\.)"  # `V.ZEIT`, `ZWL.`; a point behind a blank begins a number
-_DIALOG = re.compile(rf"{_LETTERS}*(?:[ \t]+{_LETTERS}+)*", FLAGS)
-_POINT = re.compile(r"(?<=\.)\d+(?![\d.,])")
-_EQUALS = re.compile(r"[ \t]*=", FLAGS)
 _TOLERANCE = re.compile(r"T(?![A-Z])", FLAGS)
 _DISTANCE = re.compile(r"(?!FMAX|FAUTO)[A-Z]{3,}[ \t]*", FLAGS)
 _FILTER = re.compile(r"HSC[ \t]*(?:-[ \t]*)?MODE[ \t]*:?|TA", FLAGS)
@@ -83,11 +80,7 @@ def tilting(cursor: Cursor) -> None:
 def after_dialog(cursor: Cursor, address: str, meaning: str) -> None:
     """One number behind the words of the dialog and perhaps `=`."""
     begin = cursor.blanks()
-    cursor.match(_DIALOG)
-    if found := _POINT.match(cursor.text, cursor.at, cursor.stop):
-        what = f".{found.group()} may be 0.{found.group()} or {found.group()}"
-        raise Fault(what, cursor.at - 1, len(found.group()) + 1, "write a blank before the number, and a digit before its point")
-    cursor.match(_EQUALS)
+    dialog(cursor)
     value = cursor.needed(f"a number is missing: the {meaning}", begin, max(1, cursor.at - begin))
     cursor.add(address, value, begin)
     if not cursor.done:
