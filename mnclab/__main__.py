@@ -17,6 +17,8 @@ from pathlib import Path
 from typing import Any
 
 import mnclab
+from mnclab.controls import ALSO
+from mnclab.controls.renumber import renumber_file
 from mnclab.machine.machine_file import load as load_machine
 from mnclab.machine.setup_file import FORMAT, load
 from mnclab.shell.checking import check
@@ -115,12 +117,15 @@ def parser() -> argparse.ArgumentParser:
     def output(sub: argparse.ArgumentParser, says: str) -> None:
         sub.add_argument("-o", "--output", required=True, metavar="OUT", help=says)
 
-    def options(sub: argparse.ArgumentParser, json_says: str = "") -> None:
-        sub.add_argument("--control", choices=list(mnclab.controls), help="default: from the file's suffix or its text")
+    def options(sub: argparse.ArgumentParser, json_says: str = "", starts: bool = False) -> None:
+        sub.add_argument("--control", choices=[*mnclab.controls, *ALSO], help="default: from the file's suffix or its text")
         says = "tools, datums, blank, start, settings (mnclab --help shows one)"
         sub.add_argument("--setup", metavar="S.toml", help=says)
         if json_says:
             sub.add_argument("--json", action="store_true", help=json_says)
+        if starts:
+            says = "begin at line N, as a block search does: what comes before is computed and does not move"
+            sub.add_argument("--start-at", type=int, metavar="N", help=says)
 
     does = "run programs and report their alarms; of a folder, a table of what ran, what was refused, and why"
     sub = command("check", check, does, "files", nargs="+")
@@ -131,7 +136,13 @@ def parser() -> argparse.ArgumentParser:
     says = "find the collisions with the blank too (of the setup, or of the program); status 1 if there is one"
     sub.add_argument("--material", action="store_true", help=says)
     sub = command("run", run, "run a program and print its moves, one a line")
-    options(sub, "summary, alarms and columns of the path on stdout instead")
+    options(sub, "summary, alarms and columns of the path on stdout instead", starts=True)
+    does = "write the numbers of blocks anew, and the jumps that name them, and print the program"
+    sub = command("renumber", renumber, does)
+    sub.add_argument("-o", "--output", metavar="OUT", help="write it to this file instead, in the bytes of the old one")
+    sub.add_argument("--start", type=int, metavar="N", help="the first number (default: 10; Klartext 0, NC-31 1)")
+    sub.add_argument("--step", type=int, metavar="N", help="what is added each time (default: 10; Klartext and NC-31 1)")
+    sub.add_argument("--control", choices=[*mnclab.controls, *ALSO], help="default: from the file's suffix or its text")
     kinds = "a picture, a page to play it, a file for other programs"
     sub = command("plot", plot, f"run a program and save what it does: {kinds}")
     output(sub, f"the suffix says what: {SUFFIXES}")
@@ -139,7 +150,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--compensation", action="store_true", help=says)
     sub.add_argument("--rules", type=words, metavar="G160,G161", help="with --compensation: a picture for each rule")
     sub.add_argument("--radii", type=numbers, metavar="2,5", help="with --compensation: a picture for each radius, mm")
-    options(sub)
+    options(sub, starts=True)
     sub = command("part", part, "run a program and save what it leaves of the blank (of the setup, or of the program)")
     output(sub, f"the suffix says what: {PARTS}")
     sub.add_argument("--line", type=int, metavar="N", help="as it is after line N (default: at the end)")
@@ -157,15 +168,15 @@ def parser() -> argparse.ArgumentParser:
     sub = command("report", report, "run a program and write a report: figures, tools, times, picture, alarms, listing")
     output(sub, "an .html or a .pdf file")
     sub.add_argument("--title", help="default: the name of the file")
-    options(sub)
+    options(sub, starts=True)
     sub = command("time", time, "say how long a program takes on a machine, and where the time goes")
-    options(sub, "the times on stdout as one object instead")
+    options(sub, "the times on stdout as one object instead", starts=True)
     sub.add_argument("--machine", metavar="M", help="a named machine, or a .toml file (default: limits of the setup)")
     sub.add_argument("--override", type=float, default=100.0, metavar="PERCENT", help="feed override (default: 100)")
     sub = command("help", explain, "show the parameters of a cycle or the meaning of a function", "")
     codes = "such as G83 or CYCL DEF 200; the name of a control: all its codes; design: the file of a design"
     sub.add_argument("code", nargs="+", metavar="CODE", help=codes)
-    sub.add_argument("--control", choices=list(mnclab.controls), help="default: the only one that has the code")
+    sub.add_argument("--control", choices=[*mnclab.controls, *ALSO], help="default: the only one that has the code")
     command("lab", lab, "open the lessons in JupyterLab, which gets all options that follow", "")
     return top
 
@@ -173,7 +184,8 @@ def parser() -> argparse.ArgumentParser:
 def obey(chosen: argparse.Namespace) -> mnclab.Run:
     """Run a file as the command line says; an Alarm if there is no program in it."""
     setup = None if chosen.setup is None else sensible(load, chosen.setup)
-    return mnclab.run(program(chosen.file), chosen.control, setup)
+    result = mnclab.run(program(chosen.file), chosen.control, setup)
+    return result if getattr(chosen, "start_at", None) is None else sensible(result.start_at, chosen.start_at)
 
 
 def run(chosen: argparse.Namespace) -> int:
@@ -186,6 +198,15 @@ def run(chosen: argparse.Namespace) -> int:
     elif len(result.toolpath):
         print(result.toolpath)
     return verdict(result, quiet=chosen.json)
+
+
+def renumber(chosen: argparse.Namespace) -> int:
+    """Print a program with new block numbers, or write it."""
+    out = Path(chosen.output) if chosen.output else None
+    text = renumber_file(program(chosen.file), chosen.control, start=chosen.start, step=chosen.step, out=out)
+    if out is None:
+        sys.stdout.write(text)
+    return CLEAN
 
 
 def plot(chosen: argparse.Namespace) -> int:

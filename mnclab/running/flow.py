@@ -7,6 +7,7 @@ methods `call`, `call_program`, `jump`, `repeat` and `leave`.
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 DEEPEST = 20  # nested calls
 LONGEST = 500_000  # blocks that repeats and calls may add, one by one
 CERTAIN = 4  # times the limit of blocks: more than what passes along the same way may differ by
+LEFT, RECORDED = -1, -1  # in the log of what is entered: the block that means leaving, the times of a recorded contour
 ROWS_A_BLOCK = 20  # of the text, beside the rows that the setting most_rows allows
 
 
@@ -75,6 +77,7 @@ class Course:
         self.running = [0]  # the main program and those called, the innermost last
         self.current = 0  # block being obeyed
         self.loops = Loops()
+        self.nesting = array("q")  # what was entered and left: step, program and block that entered it (-1: left), times
         self._chunks: list[tuple[int, NDArray[np.int64] | range]] = []  # program, blocks
         self._blocks: list[int] = []
         self._counted = 0
@@ -132,7 +135,10 @@ class Course:
         self.go_back(here)
 
     def record(self, m: Machine, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
-        return record(m, self, label, span, after)
+        self.nesting.extend((self.begun, self.running[-1] << 32 | self.current, RECORDED))
+        found = record(m, self, label, span, after)
+        self.nesting.extend((self.begun, LEFT, 0))
+        return found
 
     @contextmanager
     def inside(self, m: Machine, index: int) -> Iterator[None]:
@@ -212,11 +218,13 @@ class Course:
             raise Alarm(f"calls are nested deeper than {DEEPEST}", span or self.span_of_step(self.begun - 1))
         self.depth += 1
         self.loops.running.append(Loop(self.running[-1], self.current, times, self.begun - 1))
+        self.nesting.extend((self.begun, self.running[-1] << 32 | self.current, times))
         return self.loops.running[-1]
 
     def go_back(self, block: int) -> None:
         """Be again where the last call or repeat was entered."""
         self.loops.running.pop()
+        self.nesting.extend((self.begun, LEFT, 0))
         self.depth, self.current = self.depth - 1, block
 
     def leave(self) -> None:

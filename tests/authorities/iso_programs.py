@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import random
 
+import iso_macros
 from spelling import spelled
 
 TICKS = 10_000
@@ -31,11 +32,19 @@ class Writer:
         self.absolute = True
         self.numbers = self.rng.random() < 0.3
         self.shifted = False
+        self.system = 0
+        self.turned: set[int] = set()  # systems
+        self.number = 0  # of the loop, jump or sub-program written last
 
     def both(self, *words: str, ours: str | None = None) -> None:
         """A line; `ours` where the ISO mill says it otherwise."""
         theirs = " ".join(words)
         self.say(theirs if ours is None else ours, theirs)
+
+    def plain(self, ours: str, theirs: str) -> None:
+        """A line as it is."""
+        self.ours.append(ours)
+        self.theirs.append(theirs)
 
     def say(self, ours: str, theirs: str) -> None:
         number = f"N{10 * len(self.ours) + 10} " if self.numbers else ""
@@ -189,8 +198,10 @@ def systems(w: Writer) -> None:
     if w.rng.random() < 0.6:
         shift = [f"{axis}{number(w.length(-50, 50))}" for axis in w.rng.sample("XYZ", w.rng.randint(1, 3))]
         turn = [f"R{number(w.rng.randint(-1_800_000, 1_800_000))}"] if w.rng.random() < 0.4 else []
+        w.turned |= {system} if turn else set()
         w.both("G90", "G10", "L2", f"P{system + 1}", *shift, *turn)
     w.both(SYSTEMS[system])
+    w.system = system
 
 
 def shifts(w: Writer) -> None:
@@ -229,14 +240,19 @@ def machine(w: Writer) -> None:
 
 
 def reference(w: Writer) -> None:
-    """Home, over a place or at once."""
+    """Home, over a place or at once; a turned axis has no home of its own."""
+    if w.system in w.turned:
+        return
     axes = w.rng.sample("XYZ", w.rng.randint(0, 3))
     w.absolute = w.rng.random() < 0.5
     words = [f"{axis}{number(w.length(-30, 30))}" if w.absolute else f"{axis}0" for axis in axes]
     w.both("G90" if w.absolute else "G91", w.rng.choice(("G28", "G30")), *words)
 
 
-PARTS = (lines, arcs, arcs, holes, holes, systems, shifts, local, unit, machine, reference)
+PARTS = (
+    *(lines, arcs, arcs, holes, holes, systems, shifts, local, unit, machine, reference),
+    *iso_macros.PARTS,
+)  # fmt: skip
 
 
 def program(seed: int, parts: tuple = PARTS) -> tuple[str, str]:
@@ -250,5 +266,5 @@ def program(seed: int, parts: tuple = PARTS) -> tuple[str, str]:
     w.begin()
     w.both("M2" if w.subs else w.rng.choice(("M2", "M30")))
     for ours, theirs in w.subs:
-        w.say(ours, theirs)
+        w.plain(ours, theirs)
     return "\n".join(w.ours) + "\n", "\n".join(w.theirs) + "\n"

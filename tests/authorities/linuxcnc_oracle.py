@@ -7,7 +7,8 @@ one JSON object a line for each program: `ok`, `error` and `line` of a refused p
 
     kind     "rapid", "feed" or "arc"
     line     line of PROGRAM.ngc, 1-based
-    to       [x, y, z], the end point in mm, machine coordinates: G5x, G92 and the rotation of G10 are applied
+    to       [x, y, z], the end point in mm, machine coordinates: G5x, G92, the rotation of G10 and the tool offset
+             of G43.1 are applied
     feed     mm/min (not for rapids)
     centre   [x, y, z] of arcs; along the normal of the plane it has the end point's coordinate
     turns    of arcs: + counter-clockwise, - clockwise, 1 up to one full turn, 2 up to two turns ...
@@ -42,7 +43,7 @@ class Canon:
         self.line = 0
         self.feed = 0.0
         self.plane = "XY"
-        self.g5x = self.g92 = (0.0, 0.0, 0.0)
+        self.g5x = self.g92 = self.offset = (0.0, 0.0, 0.0)
         self.rotation = 0.0
 
     def __getattr__(self, name):
@@ -85,6 +86,9 @@ class Canon:
     def set_g92_offset(self, x, y, z, *rotary):
         self.g92 = (x, y, z)
 
+    def tool_offset(self, x, y, z, *rotary):
+        self.offset = (x, y, z)
+
     def set_xy_rotation(self, degrees):
         self.rotation = math.radians(degrees)
 
@@ -115,7 +119,8 @@ class Canon:
         x, y, z = x + self.g92[0], y + self.g92[1], z + self.g92[2]
         cos, sin = math.cos(self.rotation), math.sin(self.rotation)
         x, y = x * cos - y * sin, x * sin + y * cos
-        return [MM * (x + self.g5x[0]), MM * (y + self.g5x[1]), MM * (z + self.g5x[2])]
+        place = zip((x, y, z), self.g5x, self.offset, strict=True)
+        return [MM * (value + shift + offset) for value, shift, offset in place]
 
     def add(self, kind, **more):
         self.motion.append({"line": self.line, "kind": kind, **more})

@@ -15,7 +15,7 @@ from mnclab.machine import trial
 pytestmark = pytest.mark.deep
 
 #: Cycles of the TNC 620 that are varied too, by the numbers of CYCL DEF.
-TNC = (200, 201, 202, 203, 204, 205, 208, 240, 241)
+TNC = (200, 201, 202, 203, 204, 205, 208, 240, 241, 1, 2, 3, 4, 5, 17, *range(210, 216), 230, 231)
 CYCLES = {code: cycle for code, cycle in mnclab.controls["mnc"].cycles.items() if code == cycle.code} | {
     f"CYCL DEF {number}": mnclab.controls["tnc-620"].cycles[f"CYCL DEF {number}"] for number in TNC
 }
@@ -48,10 +48,19 @@ OTHER = {
     ("CYCL DEF 241", "entry_speed"): 30,
     ("CYCL DEF 241", "coolant_on"): 9,
     ("CYCL DEF 241", "coolant_off"): 8,
+    ("CYCL DEF 3", "y"): 10,
+    ("CYCL DEF 4", "y"): 50,
+    ("CYCL DEF 4", "corner_radius"): 5,
+    ("CYCL DEF 210", "slot_width"): 14,
+    ("CYCL DEF 211", "slot_width"): 14,
+    ("CYCL DEF 212", "corner_radius"): 12,
+    ("CYCL DEF 214", "finished_diameter"): 78,
+    ("CYCL DEF 215", "blank_diameter"): 90,
 }
 #: Parameters that act beside the path, or not at all: what they do change.
 SPINDLE_ONLY = {("G307", "spindle_direction"), ("CYCL DEF 241", "spindle_direction")}
 LABELS_ONLY = {("CYCL DEF 241", "coolant_on"), ("CYCL DEF 241", "coolant_off")}  # rows say which M function it is
+ANGLES = ("rotation_angle", "starting_angle", "angular_length")  # of slots, not of the spindle
 NOTHING = {  # it only allows wider holes (MNC-G306-C; TNC 620, 4.9); refusals are tested as such
     ("G306", "predrilled_diameter"), ("CYCL DEF 208", "roughing_diameter"),
 }  # fmt: skip
@@ -113,10 +122,11 @@ def test_a_parameter_changes_what_it_means(code, parameter):
     if (code, parameter.name) in LABELS_ONLY:
         assert changed == {"labels"}
         return
-    if parameter.unit == "mm/rev" or (code, parameter.name) == ("G84", "feed"):
+    if parameter.unit == "mm/rev" or parameter.address == "PITCH" or (code, parameter.name) == ("G84", "feed"):
         assert changed == {"feeds"}
         return
-    kind = {"rotation": "path", "factor": "feeds"}.get(parameter.name) or CHANGES.get(parameter.unit, "path")
+    named = {"rotation": "path", "factor": "feeds", **dict.fromkeys(ANGLES, "path")}
+    kind = named.get(parameter.name) or CHANGES.get(parameter.unit, "path")
     assert kind in changed
     if kind in ("dwells", "feeds", "spindle", "labels"):
         assert changed == {kind}

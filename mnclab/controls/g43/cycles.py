@@ -14,7 +14,9 @@ from functools import partial
 
 import numpy as np
 
+from mnclab.controls.g43.language import polar
 from mnclab.controls.g43.language.lengths import activate
+from mnclab.controls.g43.language.numbers import seconds_of_p
 from mnclab.controls.g43.remarks import ISO, undescribed
 from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address import holes
@@ -58,13 +60,19 @@ class HoleCycle(holes.AtHole, Cycle):
             activate(m, "XYZ")
         kept.setdefault("initial", m.to_machine(m.programmed)[2])
         kept["step"] = (0.0, 0.0)
+        kept["points"] = None
         if given.keys().isdisjoint(("x", "y", "bottom", "r_level")):
             values["repeats"] = 0
+        if "dwell" in given:
+            values["dwell"] *= 1000 * seconds_of_p(m, given["dwell"])
+        if memory(m).polar is not None:
+            polar.holes(m, values, given, kept)
         if m.modal["dimension"] == "G91":
-            kept["step"] = values.get("x", 0.0), values.get("y", 0.0)
-            for k, name in enumerate("xy"):
-                if name in given:
-                    values[name] += m.programmed[k]
+            if memory(m).polar is None:
+                kept["step"] = values.get("x", 0.0), values.get("y", 0.0)
+                for k, name in enumerate("xy"):
+                    if name in given:
+                        values[name] += m.programmed[k]
             if "r_level" in given:
                 values["r_level"] += holes.initial_level(m, kept)
             if "bottom" in given:
@@ -84,7 +92,9 @@ class HoleCycle(holes.AtHole, Cycle):
             return self.hole(m)
         assert m.position_cycle is not None
         first, step = np.array(super().about(m)), np.array(m.position_cycle.extra["step"])
-        points = first + np.arange(self.repeats)[:, None] * step
+        points = m.position_cycle.extra["points"]
+        if points is None:
+            points = first + np.arange(self.repeats)[:, None] * step
         return iter([Each(points, lambda x, y: moved(self.hole(m), x, y))])
 
     def hole(self, m: Machine) -> Iterator[Step]:

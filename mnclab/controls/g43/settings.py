@@ -22,9 +22,9 @@ DIALECTS: dict[str, dict[str, Any]] = {
         "g53_motion": "modal", "g53_increment": "absolute",
     },
     "linuxcnc": {
-        "macros": "linuxcnc", "main_m99": "repeat", "dwell_p": "seconds", "peck_clearance": 0.254, "below_r": "straight",
-        "arc_by_both": "refuse",
-        "length_acts": "at_once", "g52_g92": "one", "g53_motion": "modal", "g53_increment": "absolute",
+        "macros": "linuxcnc", "main_m99": "repeat",
+        "dwell_p": "seconds", "peck_clearance": 0.254, "below_r": "straight", "arc_by_both": "refuse",
+        "length_acts": "at_once", "g52_g92": "one", "g53_motion": "modal", "g53_increment": "refuse",
         "g10_p0": "active", "g10_l20": "position", "g10_increment": "replaces", "g51_factor": "as_written",
     },
 }  # fmt: skip
@@ -33,6 +33,7 @@ PROGRAM = (
     one_of("dialect", "whose meaning words have where makers differ", "the maker's public manual",
            fanuc="Fanuc's, which is that of most", haas="that of Haas mills", linuxcnc="that of LinuxCNC")._replace(
            chooses=DIALECTS),
+    one_of("units", "what lengths count in before G20 or G21", ALL, mm="millimetres", inch="inches"),
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "ISO 6983"),
     one_of("undescribed", "codes of chapters that the one manual of this control does not have", "other chapters",
            accept="their ISO meaning, without a word", warn="their ISO meaning, with a warning", refuse="an alarm"),
@@ -65,7 +66,8 @@ COORDINATES = (
     one_of("g53_motion", "G53 while G1 is active", FANUC,
            rapid="at rapid", modal="at feed (Haas, LinuxCNC)"),
     one_of("g53_increment", "G53 under G91", FANUC,
-           ignored="counts for nothing, with a warning", absolute="its coordinates are absolute (Haas, LinuxCNC)"),
+           ignored="counts for nothing, with a warning", absolute="its coordinates are absolute (Haas)",
+           refuse="an alarm (LinuxCNC)"),
     one_of("g68_increment", "R of G68 under G91", FANUC,
            adds="adds to the angle that is active", replaces="is the angle"),
     one_of("g51_factor", "factors of G51 without a decimal point", FANUC,

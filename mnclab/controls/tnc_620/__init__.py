@@ -60,15 +60,17 @@ from mnclab.controls.tnc_620.language import (
     system_access,
     system_data,
     system_texts,
+    tool_axis,
     tools,
 )
 from mnclab.controls.tnc_620.printing import output
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
+from mnclab.controls.tnc_620.reading.numbers import numbers
 from mnclab.controls.tnc_620.signs import SIGNS
 from mnclab.controls.tnc_620.state import Memory
-from mnclab.controls.tnc_620.tables import datum_tables
+from mnclab.controls.tnc_620.tables import datum_tables, free_tables
 from mnclab.controls.tnc_620.trial import trial_program
 from mnclab.machine.control import Control
 from mnclab.machine.cycle import CycleTable
@@ -113,7 +115,7 @@ FUNCTIONS = (
     | machine_datum.FUNCTIONS | feeds.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
     | no_effect.FUNCTIONS | rotary_rules.FUNCTIONS | retraction.FUNCTIONS | plane.FUNCTIONS | datum_shift.FUNCTIONS
     | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS | system_access.FUNCTIONS
-    | circle_data.FUNCTIONS | plc.FUNCTIONS | preset.FUNCTIONS | output.FUNCTIONS
+    | circle_data.FUNCTIONS | plc.FUNCTIONS | preset.FUNCTIONS | output.FUNCTIONS | free_tables.FUNCTIONS
 )  # fmt: skip
 CHAPTERS = (
     defaults, drilling, boring, pecking, tapping, threads, point_patterns, pockets, slots, studs, walled_faces,
@@ -137,6 +139,7 @@ MEANINGS = {
     "first": "the first operand", "second": "the second operand", "parameter": "the parameter that is asked about",
     "state": "whether it has a value", "undefined": "it has no value any more", "FN 14 number": "error number",
     "mask": "file with the mask", "output": "file that is written", "item": "what is put out",
+    "row": "row of the table", "columns": "columns of the table", "source": "the first parameter that is written",
     "points": "the first parameter of the points", "FN 25 axis": "axis of the datum",
     "FN 25 first": "coordinate that a point has", "FN 25 second": "coordinate that it gets",
     "ID": "group of system data", "NR": "number in its group", "IDX": "index", "FN 17 value": "the value to write",
@@ -157,12 +160,12 @@ MEANINGS = {
 
 CONTROL = Control(
     name="tnc-620", title="HEIDENHAIN TNC 620 (2018)", suffixes=(".h", ".i"),
-    read=reader.read, signs=SIGNS,
+    read=reader.read, signs=SIGNS, numbers=numbers,
     functions=FUNCTIONS, cycles=CYCLES, names=ISO_NAMES, refused=later.REFUSED, together=later.strange_parameters(CYCLES),
     phases=PHASES, codes=("M",), word_functions=False, meanings=MEANINGS, told=motion.turning_sense, trial=trial_program,
     settings=SETTINGS, memory=Memory, start=program.start, frames=(secondary_axes.FRAME, "preset"),
     storage="variables", preassigned={**parameters.PREASSIGNED, **system_texts.TEXTS}, local_variables="QL",
-    named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again,
+    named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again, turned=tool_axis.turned,
     compensation=Compensation(approach="perpendicular", rapid=True),
     bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call")),
 )  # fmt: skip

@@ -47,8 +47,6 @@ STATEMENTS = {
     "BLK FORM FILE": "blank from a file",
 }  # fmt: skip
 
-FN = {26: "opening a table", 27: "writing to a table", 28: "reading from a table"}
-
 M = {
     136: "feed per revolution", 138: "choice of tilting axes",
     144: "kinematics in actual positions", 197: "rounding of corners",
@@ -77,7 +75,6 @@ WAITING = {
     **{f"CYCL DEF {n}": title for n, title in CYCLES.items()},
     **{f"TCH PROBE {n}": title for n, title in PROBING.items()},
     **STATEMENTS,
-    **{f"FN {n}": title for n, title in FN.items()},
     **{f"M{n}": title for n, title in M.items()},
 }
 #: Codes and addresses that are not built, with the sentence that says so.

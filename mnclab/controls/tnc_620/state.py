@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from mnclab.controls.tnc_620.language.free_contours import Earlier
     from mnclab.controls.tnc_620.language.pattern_definitions import Pattern
     from mnclab.controls.tnc_620.tables.datum_tables import DatumTable
+    from mnclab.controls.tnc_620.tables.free_tables import FreeTable
     from mnclab.geometry.free_contour import Pair
     from mnclab.workpiece.blank import Blank as Body
 
@@ -31,6 +32,9 @@ class Memory:
     main_unit: str | None = None
     selected_program: str | None = None
     stock: Blank | Body | None = None
+    free_tables: dict[str, FreeTable] = field(default_factory=dict)  # by name in small letters, as they were opened
+    free_table: str | None = None  # the open one
+    table_fields: dict[str, dict[tuple[int, str], str]] = field(default_factory=dict)  # written to: by table, row and column
     told: frozenset[str] = frozenset()  # warnings that are given once a program
     closed_files: frozenset[str] = frozenset()  # in small letters: what is written to them next begins anew
 

@@ -111,11 +111,10 @@ def further_offset(m: Machine, words: Words) -> None:
         without(m, words, "R", "G10 L20")
         write(m, FURTHER + whole(m, words, "P", 1, MOST), words)
         return
+    without(m, words, "R", "G10 L20")
     row = whole(m, words, "P", 0, 9) or memory(m).row
     old = m.tables.datums.get(row, Datum())
-    turn = m.value(words["R"]) if "R" in words else old.rotation
-    datum = old._replace(rotation=turn)
-    m.select_datum(datum)
+    m.select_datum(old)
     here, wanted = m.programmed, list(m.programmed)
     for k, axis in enumerate(AXES):
         if axis in words:
@@ -123,7 +122,7 @@ def further_offset(m: Machine, words: Words) -> None:
     off = m.frames["datum"][:3, :3] @ [now - then for now, then in zip(here, wanted, strict=True)]
     x, y, z = (old[k] + float(off[k]) for k in range(3))
     active = memory(m).row
-    m.write_table("datums", row, datum._replace(x=x, y=y, z=z))
+    m.write_table("datums", row, old._replace(x=x, y=y, z=z))
     offsets.select(m, active)
 
 

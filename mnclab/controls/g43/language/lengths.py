@@ -39,7 +39,7 @@ def offsets_of_block(m: Machine, words: Words) -> None:
     """X Y Z are the offsets themselves, and count as those of G43 do; an axis that is not written keeps its own."""
     motion.uncompensated(m, words)
     if m.settings["dialect"] != "linuxcnc":
-        m.alarm("G43.1 is refused: it follows a tilted tool axis there, which is not built", first_word(words),
+        m.alarm("G43.1 is refused: outside LinuxCNC it follows a tilted tool axis, which is not built", first_word(words),
                 hint="setting dialect: linuxcnc")  # fmt: skip
     kept = memory(m)
     x, y, z = (m.length(words[axis]) if axis in words else kept.wanted_offsets[k] for k, axis in enumerate(AXES))

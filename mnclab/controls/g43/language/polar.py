@@ -8,12 +8,15 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from mnclab.controls.g43.remarks import ISO
 from mnclab.controls.g43.state import Polar, memory
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import AXES
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
+from mnclab.machine.cycle import Given, Values
 from mnclab.machine.machine import Machine
 
 FUNCTIONS = FunctionTable()
@@ -60,3 +63,17 @@ def targets(m: Machine, words: Words) -> dict[str, float]:
         value, axis = m.length(words[normal]), AXES.index(normal)
         to[normal.lower()] = value if m.modal["dimension"] == "G90" else m.programmed[axis] + value
     return to
+
+
+def holes(m: Machine, values: Values, given: Given, kept: Values) -> None:
+    """The places of a cycle and of its repeats: X and Y of its values, and more of them in `kept`, if there are."""
+    if m.plane != "XY":
+        m.alarm(f"a cycle under polar coordinates needs the plane XY, got {m.plane}", hint="write G17 before G16")
+    if given.keys().isdisjoint(("x", "y")):
+        return
+    radius = values["x"] if "x" in given else None
+    angle = values["y"] / m.variable_unit if "y" in given else None  # which is no length
+    count = int(values.get("repeats", 1))
+    places = [tuple(point(m, radius, angle).values()) for _ in range(min(max(count, 1), 9999))]
+    values["x"], values["y"] = places[0]
+    kept["points"] = np.array(places) if count > 1 else None

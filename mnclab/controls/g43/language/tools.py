@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mnclab.controls.g43.language.lengths import MOST, choose, place
-from mnclab.controls.g43.language.numbers import whole
+from mnclab.controls.g43.language.numbers import whole, written
 from mnclab.controls.g43.remarks import ISO, undescribed
 from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address import motion
@@ -24,6 +24,8 @@ def tool(m: Machine, words: Words) -> None:
     word, known = words["T"], m.tables.tools
     number = whole(m, words, "T", 0, MOST)
     if number not in known:
+        if (text := written(m, word)).startswith("0") and len(text) == 4:
+            m.alarm(f"T{text} is the way of lathes to write tool and corrector in one", word, hint=f"write T{text[:2]} M6")
         if m.setup.tools != m.control.magazine:
             listed = ", ".join(f"T{n}" for n in sorted(known))
             m.alarm(f"T{number} has no row in the tool table", word, hint=f"tools: {listed}")
@@ -68,7 +70,7 @@ def compensation_by_block(m: Machine, words: Words) -> None:
     head = first_word(words)
     if m.settings["dialect"] != "linuxcnc":
         hint = "setting dialect: linuxcnc"
-        m.alarm(f"{words.code} is refused: it turns the tool normal to the path there, which is not built", head, hint)
+        m.alarm(f"{words.code} is refused: outside LinuxCNC it turns the tool normal to the path, which is not built", head, hint)
     motion.uncompensated(m, words)
     if "D" not in words:
         m.alarm(f"{words.code} D (diameter) is missing", head)

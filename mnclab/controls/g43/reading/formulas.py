@@ -77,10 +77,13 @@ FUNCTIONS: dict[str, Callable[[float], float]] = {
 #: Those that they have differently: Fanuc cuts off, LinuxCNC rounds down and up; angles from 0 or from -180 degrees.
 OWN: dict[str, dict[str, Callable[[float], float]]] = {
     FANUC: {
-        "FIX": math.trunc, "FUP": lambda a: math.copysign(math.ceil(abs(a)), a),
+        "FIX": lambda a: float(math.trunc(a)), "FUP": lambda a: math.copysign(math.ceil(abs(a)), a),
         "ASIN": lambda a: math.degrees(math.asin(a)) % 360, "ATAN": lambda a: math.degrees(math.atan(a)),
     },
-    LINUXCNC: {"FIX": math.floor, "FUP": math.ceil, "ASIN": lambda a: math.degrees(math.asin(a))},
+    LINUXCNC: {
+        "FIX": lambda a: math.copysign(math.floor(a), a), "FUP": lambda a: math.copysign(math.ceil(a), a),
+        "ASIN": lambda a: math.degrees(math.asin(a)),
+    },
 }  # fmt: skip
 ROUNDING = ("ROUND", "RND")
 NAMES = {*FUNCTIONS, *OWN[FANUC], *ROUNDING, "POW"}
@@ -358,7 +361,7 @@ def _index(value: float, token: Token) -> int:
 def _finite(value: float, token: Token) -> float:
     if not math.isfinite(value):
         _refuse("the result is out of range at", token)
-    return value
+    return float(value)
 
 
 def _refuse(what: str, token: Token) -> NoReturn:

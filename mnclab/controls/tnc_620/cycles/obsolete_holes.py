@@ -33,7 +33,10 @@ def advanced_stop(depth: float) -> float:
 
 @CYCLES("CYCL DEF 1", "Pecking", source="1.2")
 class Pecking(AtClearance):
-    """Drills in infeeds with full retraction to where the tool stood, and waits at the bottom."""
+    """Drills in infeeds with full retraction to where the tool stood, and waits at the bottom.
+
+    Written as 1.1 SET UP, 1.2 DEPTH, 1.3 PECKG, 1.4 DWELL, 1.5 F.
+    """
 
     clearance: float = at_clearance.clearance()
     depth: float = at_clearance.depth()
@@ -56,7 +59,10 @@ class Pecking(AtClearance):
 
 @CYCLES("CYCL DEF 2", "Tapping with a floating holder", source="1.2")
 class FloatingTapping(AtClearance):
-    """Taps at a feed in one pass with the spindle as it turns, reversed at the bottom and where the tool stood."""
+    """Taps at a feed in one pass with the spindle as it turns, reversed at the bottom and where the tool stood.
+
+    Written as 2.1 SET UP, 2.2 DEPTH, 2.3 DWELL, 2.4 F.
+    """
 
     does = TAPS
     clearance: float = at_clearance.clearance(note="about four pitches")
@@ -82,7 +88,10 @@ class FloatingTapping(AtClearance):
 
 @CYCLES("CYCL DEF 17", "Rigid tapping", source="1.2")
 class RigidTapping(AtClearance):
-    """Taps with the spindle locked to the feed; it stops at the end, and M3 or M4 starts it again."""
+    """Taps with the spindle locked to the feed; it stops at the end, and M3 or M4 starts it again.
+
+    Written as 17.1 SET UP, 17.2 DEPTH, 17.3 PITCH.
+    """
 
     does, own_spindle = TAPS, True
     clearance: float = at_clearance.clearance()

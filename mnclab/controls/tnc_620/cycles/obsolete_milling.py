@@ -39,6 +39,8 @@ class SlotMilling(AtClearance):
     """Mills a slot along X or Y: along its middle with an infeed at each end, then once round its wall in climb milling.
 
     The tool stands a tool radius within the end of the slot. A slot as wide as the tool has no wall to finish.
+
+    Written as 3.1 SET UP, 3.2 DEPTH, 3.3 PECKG and F, 3.4 X, 3.5 Y, 3.6 F.
     """
 
     does = MILLS
@@ -106,6 +108,8 @@ class PocketMilling(AtClearance):
     """Roughs a rectangular pocket about the tool in layers, outwards on rectangles, from the middle and back to it.
 
     Each layer begins in the positive direction of the longer side, of two equal ones in that of Y.
+
+    Written as 4.1 SET UP, 4.2 DEPTH, 4.3 PECKG and F, 4.4 X, 4.5 Y, 4.6 F, DR and RADIUS.
     """
 
     does = MILLS
@@ -142,7 +146,10 @@ class PocketMilling(AtClearance):
 
 @CYCLES("CYCL DEF 5", "Circular pocket", source="1.2")
 class CircularPocket(AtClearance):
-    """Roughs a circular pocket about the tool in layers, each on a spiral from the middle to the wall."""
+    """Roughs a circular pocket about the tool in layers, each on a spiral from the middle to the wall.
+
+    Written as 5.1 SET UP, 5.2 DEPTH, 5.3 PECKG and F, 5.4 RADIUS, 5.5 F and DR.
+    """
 
     does = MILLS
     clearance: float = at_clearance.clearance()

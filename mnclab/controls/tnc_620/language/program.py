@@ -8,6 +8,7 @@ from mnclab.controls.tnc_620.language.blank import half_given
 from mnclab.controls.tnc_620.language.checks import not_negative
 from mnclab.controls.tnc_620.reading.words import INCH
 from mnclab.controls.tnc_620.state import memory
+from mnclab.controls.tnc_620.tables.free_tables import put_out_tables
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
@@ -32,7 +33,9 @@ def begin(m: Machine, words: Words) -> None:
     kept, unit = memory(m), str(words["unit"].value)
     kept.name, kept.unit = str(words["name"].value) if "name" in words else "", unit
     kept.main_unit = kept.main_unit or unit  # the first one is that of the main program
-    m.variable_unit = INCH if unit == "INCH" else 1.0
+    if (length := INCH if unit == "INCH" else 1.0) != m.variable_unit:
+        m.variable_unit = length
+        m.log("unit", unit)
 
 
 @FUNCTIONS("END PGM,", "Program end", takes="name unit", phase="last", source="4.11, example")
@@ -59,6 +62,7 @@ def finish(m: Machine) -> None:
         m.set_modal("coolant", "M9")
         m.coolant()
     perform(m, "END PGM", cancel(m))
+    put_out_tables(m)
     m.ended = True
 
 

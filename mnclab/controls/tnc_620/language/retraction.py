@@ -6,6 +6,7 @@ import math
 
 from mnclab.controls.tnc_620.cycles.chain import TILT
 from mnclab.controls.tnc_620.language.checks import above_zero, not_negative, one_of, warn_once
+from mnclab.controls.tnc_620.language.machine_datum import above_tip
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import INF, Machine
@@ -44,7 +45,7 @@ def retraction(m: Machine, words: Words) -> None:
     else:
         if word.value is not None:
             m.alarm("M140 MB MAX takes no number", word)
-        target[k] = end_of_travel(m, k, word) - m.tool.effective_length
+        target[k] = end_of_travel(m, k, word) - above_tip(m)[k]
         if target[k] < m.tip[k] - 1e-6:
             m.alarm(f"M140 MB MAX leads up alone: the tool stands {m.tip[k] - target[k]:g} mm above the end already", word)
     x, y, z = m.to_program(target)

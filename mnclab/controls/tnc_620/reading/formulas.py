@@ -20,15 +20,13 @@ GREATEST = {"": 1999, "L": 499, "R": 499, "S": 1999}
 
 OPERAND = re.compile(rf"[ \t]*(?:[+-][ \t]*)?(?:{NUMBER}|Q[LR]?\d+)", FLAGS)
 _OPERAND = rf"(?:[+-]\s*)?(?:{NUMBER}|Q[LR]?\d+)"
-_TARGET = re.compile(r"Q([LRSC]?)[ \t]?(\d{1,6})(?!\d)[ \t]*", FLAGS)
-_EQUALS = re.compile(r"=[ \t]*", FLAGS)
+TARGET = re.compile(r"Q([LRSC]?)[ \t]?(\d{1,6})(?!\d)[ \t]*", FLAGS)
+EQUALS = re.compile(r"=[ \t]*", FLAGS)
 _UNDEFINED = re.compile(r"SET[ \t]+UNDEFINED", FLAGS)
 _ERROR = re.compile(r"[ \t]*ERROR[ \t]*=", FLAGS)
 _WRITE, _READ = re.compile(r"[ \t]*SYSWRITE(?![A-Z])", FLAGS), re.compile(r"[ \t]*SYSREAD(?![A-Z])", FLAGS)
-_PRINT, _F_PRINT = re.compile(r"[ \t]*PRINT(?![A-Z])", FLAGS), re.compile(r"[ \t]*F[ \t]*-[ \t]*PRINT(?![A-Z])", FLAGS)
-_FILE = re.compile("[^/]+")
 _CDATA = re.compile(r"CDATA(?![A-Z])", FLAGS)
-_PRESET, _AXIS, _SLASH = re.compile(r"PRESET[ \t]*=", FLAGS), re.compile("[A-CU-Z]", FLAGS), re.compile("/")
+_PRESET, _AXIS, SLASH = re.compile(r"PRESET[ \t]*=", FLAGS), re.compile("[A-CU-Z]", FLAGS), re.compile("/")
 _SYSTEM = [(name, re.compile(rf"[ \t]*{name}", FLAGS)) for name in ("ID", "NR", "IDX")]
 
 
@@ -100,8 +98,8 @@ def text_formula(cursor: Cursor, begin: int, end: int) -> strings.TextFormula:
 def declared_text(cursor: Cursor) -> None:
     """DECLARE STRING QS1 = …"""
     begin = cursor.blanks()
-    found = cursor.match(_TARGET)
-    if found is None or found.group(1).upper() != "S" or not cursor.match(_EQUALS):
+    found = cursor.match(TARGET)
+    if found is None or found.group(1).upper() != "S" or not cursor.match(EQUALS):
         raise Fault("DECLARE STRING needs a QS parameter and =", begin, hint='for example DECLARE STRING QS1 = "A"')
     text_assignment(f"QS{int(found.group(2))}", begin)(cursor)
 
@@ -135,7 +133,7 @@ def span(cursor: Cursor, offset: int) -> Span:
 def numeric_target(cursor: Cursor, number: int, example: str) -> tuple[str, int]:
     """The parameter that FN gives a value, and where it stands."""
     begin = cursor.blanks()
-    found = cursor.match(_TARGET)
+    found = cursor.match(TARGET)
     if found is None:
         raise Fault(f"FN {number} needs a Q parameter and =", begin, hint=example)
     name = f"Q{found.group(1).upper()}{int(found.group(2))}"
@@ -148,7 +146,7 @@ def numeric_target(cursor: Cursor, number: int, example: str) -> tuple[str, int]
 
 def needs_equals(cursor: Cursor, number: int, example: str) -> None:
     """The = after the parameter."""
-    if not cursor.match(_EQUALS):
+    if not cursor.match(EQUALS):
         raise Fault(f"FN {number} needs a Q parameter and =", cursor.blanks(), hint=example)
 
 
@@ -201,34 +199,6 @@ def error(cursor: Cursor) -> None:
     operand(cursor, "number", "FN 14: ERROR = 1000")
 
 
-def print_values(cursor: Cursor) -> None:
-    """FN 15: PRINT numbers and parameters, with / between them."""
-    example = "FN 15: PRINT 1/Q1/Q2"
-    cursor.expect(_PRINT, "FN 15 needs PRINT", f"for example {example}")
-    while True:
-        begin = cursor.blanks()
-        value = cursor.value()
-        if value is None:
-            raise Fault("a number or a Q parameter was expected", begin, hint=f"for example {example}")
-        cursor.add("item", value, begin)
-        if cursor.done:
-            return
-        cursor.expect(_SLASH, "/ was expected between what is put out", f"for example {example}")
-
-
-def print_formatted(cursor: Cursor) -> None:
-    """FN 16: F-PRINT mask / file."""
-    hint = "for example FN 16: F-PRINT TNC:\\MASK.A / TNC:\\LOG.TXT"
-    cursor.expect(_F_PRINT, "FN 16 needs F-PRINT", hint)
-    for address, what in (("mask", "the file with the mask"), ("output", "the file that is written")):
-        begin = cursor.blanks()
-        found = cursor.expect(_FILE, f"{what} is missing", hint)
-        cursor.at = begin + len(found.group().rstrip())
-        cursor.add(address, found.group().strip().strip('"').strip(), begin)
-        if address == "mask":
-            cursor.expect(_SLASH, "/ and the file that is written are missing", hint)
-
-
 def circle_data(number: int) -> Read:
     """FN 23 and FN 24: the parameter that gets the centre, and the first of those with the points."""
 
@@ -252,7 +222,7 @@ def preset(cursor: Cursor) -> None:
     axis = cursor.expect(_AXIS, "FN 25 needs an axis", hint)
     cursor.add("axis", axis.group().upper(), axis.start())
     for address in ("first", "second"):
-        cursor.expect(_SLASH, "/ is missing", hint)
+        cursor.expect(SLASH, "/ is missing", hint)
         operand(cursor, address, example)
 
 
@@ -277,7 +247,7 @@ def system_write(cursor: Cursor) -> None:
         raise Fault("FN 17 needs SYSWRITE", cursor.blanks(), hint=f"for example {example}")
     system_data(cursor, example)
     needs = cursor.blanks()
-    if not cursor.match(_EQUALS):
+    if not cursor.match(EQUALS):
         raise Fault("= and a value are missing", needs, hint=f"for example {example}")
     operand(cursor, "value", example)
 
@@ -297,8 +267,6 @@ FN: dict[int, Read] = {
     **{number: arithmetic(number) for number in FORMS},
     **{number: pair(number) for number in PAIRS},
     14: error,
-    15: print_values,
-    16: print_formatted,
     17: system_write,
     18: system_read,
     23: circle_data(23),

@@ -1,7 +1,7 @@
 """The sub-blocks of the cycles 1 to 5 and 17: which value stands where, each behind a word of the dialog.
 
 The words are those of the control's language (`DEPTH`, `TIEFE` …): what a number means follows from its place. A word that
-is known and means the value of another place is refused, for then one of the two is wrong.
+is known and belongs to another place is refused, for then one of the two is wrong.
 """
 
 from __future__ import annotations
@@ -30,31 +30,39 @@ NAMES: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 _MEANT = {word.replace(" ", ""): address for address, (_, *words) in NAMES.items() for word in words}
 
+_AUTO = re.compile(r"F[ \t]*AUTO(?![A-Z])", FLAGS)
 _SENSE = re.compile(r"[ \t]*([+-])(?![ \t]*[\dQ.,])", FLAGS)
 
 
 def values(cursor: Cursor, addresses: str) -> None:
-    """The values of one sub-block in their order; those behind the first may be missing."""
-    for number, address in enumerate(addresses.split()):
-        if number and cursor.done:
-            return
-        _value(cursor, address, address.rpartition(":")[2])
+    """The values of one sub-block, in any order where words tell them apart; those behind the first may be missing."""
+    left = addresses.split()
+    _value(cursor, left)
+    while left and not cursor.done:
+        _value(cursor, left)
+    begin = cursor.blanks()
+    if _MEANT.get(again := dialog(cursor), "-") in addresses:
+        raise Fault(f"{again} stands twice", begin, len(again))
+    cursor.at = begin
 
 
-def _value(cursor: Cursor, address: str, kind: str) -> None:
-    begin, meaning = cursor.blanks(), NAMES[kind][0]
-    word = dialog(cursor)
-    meant = _MEANT.get(word)
-    if kind == "F" and word == "FAUTO":
-        cursor.add(address, word, begin)
+def _value(cursor: Cursor, left: list[str]) -> None:
+    """One of the values that are `left`: that of a word that is known, else the next one."""
+    begin, kinds = cursor.blanks(), [address.rpartition(":")[2] for address in left]
+    if "F" in kinds and cursor.match(_AUTO):
+        cursor.add(left.pop(kinds.index("F")), "FAUTO", begin)
         return
-    if (meant not in (None, kind)) or (kind in ("F", "DR") and word not in ("", kind)):
-        raise Fault(f"{word} stands where the {meaning} belongs", begin, max(1, len(word)))
+    word = dialog(cursor)
+    kind = _MEANT.get(word, kinds[0])
+    if kind not in kinds or (kind in ("F", "DR") and word not in ("", kind)):
+        raise Fault(f"{word} stands where the {NAMES[kinds[0]][0]} belongs", begin, max(1, len(word)))
+    address = left.pop(kinds.index(kind))
     if kind == "DR":
         sense = cursor.expect(_SENSE, "DR needs + or -")
-        cursor.add(address, 1.0 if sense.group(1) == "+" else -1.0, begin)
+        turning = 1.0 if sense.group(1) == "+" else -1.0  # no length, as DR is elsewhere
+        cursor.builder.word(address, turning, begin, cursor.at - begin)
         return
-    value = cursor.needed(f"a number is missing: the {meaning}", begin, max(1, cursor.at - begin))
+    value = cursor.needed(f"a number is missing: the {NAMES[kind][0]}", begin, max(1, cursor.at - begin))
     cursor.add(address, value, begin)
 
 

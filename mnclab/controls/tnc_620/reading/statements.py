@@ -11,6 +11,7 @@ from functools import partial
 from typing import NamedTuple
 
 from mnclab.controls.tnc_620.reading import labels
+from mnclab.controls.tnc_620.reading.file_functions import FILES
 from mnclab.controls.tnc_620.reading.formulas import FN, assignment, declared_text, text_assignment, text_formula
 from mnclab.controls.tnc_620.reading.pattern_words import PatternWords
 from mnclab.controls.tnc_620.reading.sub_blocks import READERS
@@ -219,7 +220,7 @@ def recognize(cursor: Cursor) -> Statement | None:
         return Statement(keyword, WORDS[keyword])
     if found := cursor.match(_FN):
         number = int(found.group(1))
-        return Statement(f"FN {number}", FN.get(number) or labels.JUMPS.get(number) or ignored)
+        return Statement(f"FN {number}", FN.get(number) or labels.JUMPS.get(number) or FILES.get(number) or ignored)
     begin = cursor.at
     if found := cursor.match(_TARGET):
         kind = found.group(1).upper()

@@ -1,0 +1,12 @@
+; 10:14 alarm: CYCL DEF 1 F (feed rate for drilling) must be greater than 0 to drill with, got 0
+BEGIN PGM A MM
+TOOL CALL 1 Z S1000
+L X+20 Y+10 Z+2 R0 FMAX M3
+CYCL DEF 1.0 X
+CYCL DEF 1.1 SET UP 2
+CYCL DEF 1.2 DEPTH -20
+CYCL DEF 1.3 PECKG 5
+CYCL DEF 1.4 DWELL 0
+CYCL DEF 1.5 F0
+CYCL CALL
+END PGM A MM

@@ -1,0 +1,20 @@
+; 15:1 alarm: CYCL DEF 210 Q218 (slot length) must be greater than twice the tool diameter and Q219, 20, got 20
+BEGIN PGM A MM
+TOOL CALL 1 Z S1000
+L X+20 Y+10 Z+2 R0 FMAX M3
+CYCL DEF 210 X
+Q200=2
+Q201=-20
+Q207=500
+Q202=5
+Q215=0
+Q203=0
+Q204=50
+Q216=50
+Q217=40
+Q218=20
+Q219=12
+Q224=0
+Q338=0
+CYCL CALL
+END PGM A MM

@@ -1,0 +1,21 @@
+; 18:1 alarm: CYCL DEF 211 Q248 (angular length of the slot) must make a way for the plunge, got 0 mm
+BEGIN PGM A MM
+TOOL CALL 1 Z S1000
+L X+20 Y+10 Z+2 R0 FMAX M3
+CYCL DEF 211 X
+Q200=2
+Q201=-20
+Q207=500
+Q202=5
+Q215=0
+Q203=0
+Q204=50
+Q216=50
+Q217=40
+Q244=80
+Q219=12
+Q245=0
+Q248=0
+Q338=0
+CYCL CALL
+END PGM A MM

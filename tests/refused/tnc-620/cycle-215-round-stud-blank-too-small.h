@@ -1,0 +1,18 @@
+; 15:1 alarm: CYCL DEF 215 Q222 (diameter of the blank) must be greater than the diameter of the finished stud Q223, 80, got 79
+BEGIN PGM A MM
+TOOL CALL 1 Z S1000
+L X+20 Y+10 Z+2 R0 FMAX M3
+CYCL DEF 215 X
+Q200=2
+Q201=-20
+Q206=150
+Q202=8
+Q207=500
+Q203=0
+Q204=50
+Q216=50
+Q217=40
+Q222=79
+Q223=80
+CYCL CALL
+END PGM A MM

@@ -1,0 +1,17 @@
+; 11:1 alarm: CYCL DEF 230 Q240 (number of cuts) must be a whole number and at least 1 and at most 99999, got 0
+BEGIN PGM A MM
+TOOL CALL 1 Z S1000
+L X+20 Y+10 Z+2 R0 FMAX M3
+CYCL DEF 230 X
+Q225=10
+Q226=12
+Q227=0
+Q218=150
+Q219=75
+Q240=0
+Q206=150
+Q207=500
+Q209=200
+Q200=2
+CYCL CALL
+END PGM A MM

@@ -1,0 +1,21 @@
+; 19:1 alarm: CYCL DEF 231 Q207 (feed rate for milling) must be greater than 0 to mill with, got 0
+BEGIN PGM A MM
+TOOL CALL 1 Z S1000
+L X+20 Y+10 Z+2 R0 FMAX M3
+CYCL DEF 231 X
+Q225=0
+Q226=1
+Q227=2
+Q228=3
+Q229=4
+Q230=5
+Q231=6
+Q232=7
+Q233=8
+Q234=9
+Q235=10
+Q236=11
+Q240=10
+Q207=0
+CYCL CALL
+END PGM A MM

@@ -1,0 +1,21 @@
+; 18:1 alarm: CYCL DEF 231 Q240 (number of cuts) must be a whole number and at least 1 and at most 99999, got 2.5
+BEGIN PGM A MM
+TOOL CALL 1 Z S1000
+L X+20 Y+10 Z+2 R0 FMAX M3
+CYCL DEF 231 X
+Q225=0
+Q226=1
+Q227=2
+Q228=3
+Q229=4
+Q230=5
+Q231=6
+Q232=7
+Q233=8
+Q234=9
+Q235=10
+Q236=11
+Q240=2.5
+Q207=500
+CYCL CALL
+END PGM A MM

@@ -1,0 +1,13 @@
+; 9:14 alarm: CYCL DEF 4 X (side along X) must be at least twice the radius of tool and corner, 10, got 9
+BEGIN PGM A MM
+TOOL CALL 1 Z S1000
+L X+20 Y+10 Z+2 R0 FMAX M3
+CYCL DEF 4.0 X
+CYCL DEF 4.1 SET UP 2
+CYCL DEF 4.2 DEPTH -15
+CYCL DEF 4.3 PECKG 5 F80
+CYCL DEF 4.4 X9
+CYCL DEF 4.5 Y24
+CYCL DEF 4.6 F120 DR+ RADIUS 0
+CYCL CALL
+END PGM A MM
