@@ -46,11 +46,11 @@ PHASES = (
 )
 
 
-
 def start(m: Machine) -> None:
-    """G54 is active at the start; the tip hangs below the spindle by the length of the tool."""
+    """G54 and a unit are active at the start; the tip hangs below the spindle by the length of the tool."""
     offsets.start(m)
     lengths.place(m, "tip")
+    units.start(m)
     variables.start(m)
 
 
