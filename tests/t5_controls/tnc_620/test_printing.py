@@ -174,7 +174,7 @@ def test_the_functions_under_their_names_of_din_iso(tnc) -> None:
     text = (
         "%A G71 *\nN10 Q30 = 3 *\nN11 Q31 = 0 *\nN12 Q32 = -3 *\nN13 Q33 = 0 *\nN14 Q34 = 0 *\nN15 Q35 = 3 *\n"
         "N20 D23 Q20 P01 Q30 *\nN30 D16 P01 F-PRINT LOG.A / OUT.TXT *\nN40 D19 P01 +10 P02 +Q20 *\nN50 D20 *\n"
-        "N60 D15 P01 PRINT Q22 *\nN99 %A G71 *\n"
+        "N60 D15 P01 +Q22 *\nN99 %A G71 *\n"
     )
     run = tnc(text, mnc.Setup(files={"LOG.A": '"R%7.2f",Q22;'}))
     assert run.ok and [alarm.span.line for alarm in run.alarms] == [10, 11, 12]
