@@ -1,4 +1,4 @@
-"""mnclab from a shell: check, run, plot, part, compare, drawing, report, time, help, lab; `python -m mnclab` is the same.
+"""mnclab from a shell: check, run, renumber, plot, part, compare, drawing, report, time, help, lab; `python -m mnclab` too.
 
 Exit status: 0 clean, 1 alarms or a part that is not as drawn, 2 a command line that makes no sense, 130 stopped by
 Ctrl-C. Alarms go to stderr, one line each, in the form that editors understand: `FILE:LINE:COLUMN: alarm: message (hint)`.

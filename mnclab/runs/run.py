@@ -374,8 +374,7 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
     """Run a program that was read; with `strict` the first alarm is raised instead of collected."""
     if not isinstance(setup, Setup | None):
         raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
-    # somebody may have written into its tables, and may again
-    setup = (Setup() if setup is None else setup).kept(control.magazine)
+    setup = (setup or Setup()).kept(control.magazine)  # somebody may have written into its tables, and may again
     interpreter = Interpreter(control, setup, program)
     machine, alarms = interpreter.machine, list[Alarm]()
     broken, collecting = False, gc.isenabled()

@@ -38,6 +38,7 @@ from mnclab.controls.tnc_620.language import (
     blank,
     calls,
     circle_data,
+    datum_shift,
     feeds,
     flow,
     free_contours,
@@ -48,6 +49,7 @@ from mnclab.controls.tnc_620.language import (
     no_effect,
     parameters,
     pattern_definitions,
+    plane,
     plc,
     pole,
     preset,
@@ -111,7 +113,7 @@ FUNCTIONS = (
     pole.FUNCTIONS | motion.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
     | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS | blank.FUNCTIONS
     | machine_datum.FUNCTIONS | feeds.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
-    | no_effect.FUNCTIONS | rotary_rules.FUNCTIONS | retraction.FUNCTIONS
+    | no_effect.FUNCTIONS | rotary_rules.FUNCTIONS | retraction.FUNCTIONS | plane.FUNCTIONS | datum_shift.FUNCTIONS
     | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS | system_access.FUNCTIONS
     | circle_data.FUNCTIONS | plc.FUNCTIONS | preset.FUNCTIONS | output.FUNCTIONS | free_tables.FUNCTIONS
 )  # fmt: skip
@@ -151,7 +153,7 @@ MEANINGS = {
     **{f"M118:{axis}": f"greatest way of the handwheel along {axis}" for axis in "XYZ"},
     **{f"M118:{axis}": f"greatest turn of the handwheel around {axis}" for axis in "ABC"},
     "TIME": "seconds", "REV": "turns of the spindle", **no_effect.WORDS, **rotary_rules.WORDS, **retraction.WORDS,
-    **{f"PLANE RESET {address}": meaning for address, meaning in retraction.PLANE.items()},
+    **{f"{code} {word}": plane.WORDS[word] for code, one in plane.FUNCTIONS.items() for word in one.takes if word in plane.WORDS},
     "FSELECT number": "number of the solution, as the control shows them", **free_words.WORDS,
     **{f"PATTERN DEF {address}": meaning for address, meaning in pattern_definitions.MEANINGS.items()},
 }  # fmt: skip
