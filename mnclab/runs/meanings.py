@@ -9,6 +9,7 @@ from mnclab.machine.control import Function, Modal
 from mnclab.machine.cycle import Cycle
 from mnclab.path.listing import figure
 from mnclab.running.handing_out import Action, Plan, Planner
+from mnclab.runs.values import unit_of
 from mnclab.text.alarm import Alarm
 from mnclab.text.expression import Expression
 from mnclab.text.program import Program, Word, digits
@@ -62,7 +63,8 @@ def meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> l
                 assert word is not None
                 says = _parameter(here, what, action.code, word, before(action, index))
             kept = word is None and action.code != block.keyword  # modal, not written in this block
-            shown = _written(program, word) if word is not None else f"({action.code})" if kept else block.keyword
+            unwritten = kept or program.said  # which has other names
+            shown = _written(program, word) if word is not None else f"({action.code})" if unwritten else block.keyword
             value = _value(run, moment, word)
             says += (", active from before" if kept else "") + (f" = {value}" if value else "")
             name, happened = _changes(what), ""  # in the history
@@ -100,7 +102,12 @@ class _Here:
     def feed(self) -> str:
         if self.active("per_time"):
             return "time of the move, s"
-        return "feed, mm/rev" if self.active("per_rev") else "feed, mm/min"
+        return f"feed, {self.length}/{'rev' if self.active('per_rev') else 'min'}"
+
+    @property
+    def length(self) -> str:
+        """The unit of lengths."""
+        return unit_of({"unit": self.active("unit")}).short
 
     @property
     def speed(self) -> str:
@@ -165,6 +172,7 @@ def _parameter(here: _Here, cycle: type[Cycle], code: str, word: Word, which: in
     if relative != parameter.note:
         meaning = f"{parameter.meaning}, {relative}"
     unit = "mm/rev" if parameter.unit == "mm/min" and here.active("per_rev") else parameter.unit
+    unit = unit.replace("mm", here.length) if parameter.in_units else unit
     return f"{meaning}{f', {unit}' if unit else ''} ({code})"
 
 

@@ -23,7 +23,7 @@ MEANINGS = {
     "R": "radius", "G4 P": "the time, counted as the setting dwell_p says", "G4 X": "seconds",
     "G2 P": "number of turns", "G3 P": "number of turns", "G68 R": "angle, degrees", "G51 P": "factor of all axes",
     "G10 L": "which table", "G10 P": "row of the table", "G10 R": "of L2 the angle of the system, degrees, else the value",
-    "G54.1 P": "number of the work offset", "G30 P": "number of the reference point",
+    "G54.1 P": "number of the work offset", "G154 P": "number of the work offset", "G30 P": "number of the reference point",
     "G64 P": "how far a corner may be cut", "G64 Q": "how far short moves may be joined",
     "G41.1 D": "diameter of the tool", "G42.1 D": "diameter of the tool", "M19 R": "angle, degrees", "M19 P": "angle, degrees",
     "M19 Q": "how long the machine waits for it, s", "P": "choice of the function", "Q": "choice of the function",

@@ -33,6 +33,7 @@ PROGRAM = (
     one_of("dialect", "whose meaning words have where makers differ", "the maker's public manual",
            fanuc="Fanuc's, which is that of most", haas="that of Haas mills", linuxcnc="that of LinuxCNC")._replace(
            chooses=DIALECTS),
+    one_of("units", "what lengths count in before G20 or G21", ALL, mm="millimetres", inch="inches"),
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "ISO 6983"),
     one_of("undescribed", "codes of chapters that the one manual of this control does not have", "other chapters",
            accept="their ISO meaning, without a word", warn="their ISO meaning, with a warning", refuse="an alarm"),

@@ -23,7 +23,7 @@ SIGNS = (
     sign(_BLOCK + r"Q[LRS]?\d+[ \t]*=", 3, "a Q parameter", 2),
     sign(r"\bFMAX\b|\bR[0LR][ \t]+F", 5, "rapid traverse or a compensation"),
     sign(r"^[ \t]*Q\d+=[^;\n]*;", 5, "a parameter of a cycle"),
-    sign(r"^%[^\s*]+[ \t]+G7[01]\b", 20, "the head of a DIN/ISO program"),
+    sign(r"^[ \t]*%[^\n;*]*[ \t]G7[01]\b", 20, "the head of a DIN/ISO program"),
     sign(
         r"^[ \t]*+N\d++[^\n*;A-Z]*+[A-Z]++[-+\d.]++[ \t]*+[A-Z][^\n*;]*+\*[ \t]*+(?:;[^\n]*)?$",
         7, "a block that ends with *", 2,

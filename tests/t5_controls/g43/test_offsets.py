@@ -25,6 +25,7 @@ def test_further_work_offsets_are_rows_from_101_on():
     datums = {1: (1, 2, 3), 7: (5, 5, 5), 101: (10, 20, 30), 148: (100, 0, 0)}
     found = run(lines("X1 Y1 Z1|G54.1 P1 X1 Y1 Z1|G54.1 P48 X1|G59.1 X0 Y0 Z0"), datums=datums)
     assert places(found) == [[2, 3, 4], [11, 21, 31], [101, 21, 31], [5, 5, 5]]
+    assert last("G154 P1 X1", datums=datums) == last("G110 X1", datums=datums) == [11, 0, 0]
 
 
 def test_a_work_offset_may_be_turned():

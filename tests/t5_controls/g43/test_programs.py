@@ -56,8 +56,8 @@ def test_a_program_ends_where_the_next_one_begins():
 
 def test_blocks_belong_to_their_program():
     """N10 stands in both."""
-    text = "O1\nN10 #1=#1+1\nG0 X#1\nM98 P2\nIF [#1 LT 2] GOTO 10\nM30\nO2\nGOTO 10\nG0 X9\nN10 G0 X-#1\nM99\n"
-    assert xs(text) == [1, -1, 2, -2]
+    first = "O1\nN10 #1=#1+1\nG0 X#1\nM98 P2\nIF [#1 LT 2] GOTO 10\nM30\n"
+    assert xs(f"{first}O2\nGOTO 10\nG0 X9\nN10 G0 X-#1\nM99\n") == [1, -1, 2, -2]
 
 
 def test_arguments_of_a_macro():

@@ -103,8 +103,27 @@ PAIRS = {
         "CYCL DEF 22 Q10=-3 Q11=100 Q12=350 Q18=0 Q19=0 Q208=FMAX Q401=100 Q404=0\nCYCL CALL\nL Z+100 FMAX M2\n"
         "LBL 11\nL X+0 Y+0 RR\nL Y+60\nL X+80\nL Y+0\nL X+0\nLBL 0\n"
         "LBL 12\nL X+30 Y+20 RL\nL Y+40\nL X+50\nL Y+20\nL X+30\nLBL 0"),
+    "pecking": ("G00 X+0 Y+0 Z+2 M3*\nG83 P01 -2 P02 -20 P03 -5 P04 0.5 P05 150*\nG79*",
+                "L X+0 Y+0 Z+2 FMAX M3\nCYCL DEF 1.0 PECKING\nCYCL DEF 1.1 SET UP-2\nCYCL DEF 1.2 DEPTH-20\n"
+                "CYCL DEF 1.3 PECKG-5\nCYCL DEF 1.4 DWELL 0.5\nCYCL DEF 1.5 F150\nCYCL CALL"),
+    "old tapping": ("G00 Z+2 M3*\nG84 P01 -2 P02 -20 P03 0 P04 150*\nG79 M5*\nG85 P01 -2 P02 -20 P03 +1.5*\nG79*",
+                    "L Z+2 FMAX M3\nCYCL DEF 2.0\nCYCL DEF 2.1 SET UP-2\nCYCL DEF 2.2 DEPTH-20\nCYCL DEF 2.3 DWELL 0\n"
+                    "CYCL DEF 2.4 F150\nCYCL CALL M5\nCYCL DEF 17.0\nCYCL DEF 17.1 SET UP-2\nCYCL DEF 17.2 DEPTH-20\n"
+                    "CYCL DEF 17.3 PITCH +1.5\nCYCL CALL"),
+    "old slot and pockets": (
+        "G00 X+0 Y+0 Z+2 M3*\nG74 P01 -2 P02 -20 P03 -20 P04 100 P05 X+30 P06 Y+12 P07 250*\nG79*\n"
+        "G76 P01 -2 P02 -20 P03 -20 P04 100 P05 X+30 P06 Y+20 P07 250 P08 6*\nG79*\n"
+        "G77 P01 -2 P02 -20 P03 -20 P04 100 P05 15 P06 250*\nG79*",
+        "L X+0 Y+0 Z+2 FMAX M3\nCYCL DEF 3.0\nCYCL DEF 3.1 SET UP-2\nCYCL DEF 3.2 DEPTH-20\nCYCL DEF 3.3 PECKG-20 F100\n"
+        "CYCL DEF 3.4 X+30\nCYCL DEF 3.5 Y+12\nCYCL DEF 3.6 F250\nCYCL CALL\nCYCL DEF 4.0\nCYCL DEF 4.1 SET UP-2\n"
+        "CYCL DEF 4.2 DEPTH-20\nCYCL DEF 4.3 PECKG-20 F100\nCYCL DEF 4.4 X+30\nCYCL DEF 4.5 Y+20\n"
+        "CYCL DEF 4.6 F250 DR+ RADIUS6\nCYCL CALL\nCYCL DEF 5.0\nCYCL DEF 5.1 SET UP-2\nCYCL DEF 5.2 DEPTH-20\n"
+        "CYCL DEF 5.3 PECKG-20 F100\nCYCL DEF 5.4 RADIUS15\nCYCL DEF 5.5 F250 DR-\nCYCL CALL"),
     "M functions": ("M3*\nG01 X+10 F300 M103 F20*\nZ-5 M8*\nX+20 M109*", "M3\nL X+10 F300 M103 F20\nL Z-5 M8\nL X+20 M109"),
 }  # fmt: skip
+
+
+BY_TOOLS = ("contours", "old slot and pockets")  # of millimetres, for pockets of millimetres
 
 
 def din(text: str, unit: str = "G71") -> str:
@@ -133,7 +152,7 @@ def test_the_same_path(tnc, name: str) -> None:
     assert_same(tnc(din(one)), tnc(klartext(other)))
 
 
-@pytest.mark.parametrize("name", [name for name in PAIRS if name != "contours"])  # a pocket of two metres
+@pytest.mark.parametrize("name", [name for name in PAIRS if name not in BY_TOOLS])
 def test_the_same_path_in_inches(tnc, name: str) -> None:
     one, other = PAIRS[name]
     assert_same(tnc(din(one, "G70")), tnc(klartext(other, "INCH")))

@@ -173,8 +173,8 @@ def own_level(m: Machine, local: Callable[[str], bool], values: Mapping[str, flo
     kept = {name: value for name, value in m.variables.items() if local(name)}
     for name in kept:
         m.variables.forget(name)
-    for name, number in values.items():
-        m.variables[name] = number
+    for name, given in values.items():
+        m.variables[name] = given
     yield
     for name in [name for name in m.variables if local(name)]:
         m.variables.forget(name)

@@ -25,7 +25,8 @@ FUNCTION = re.compile(r"D[ \t]*(\d{1,3})(?![\d.,])[ \t]*:?", FLAGS)
 _P = {number: re.compile(rf"[ \t]*P[ \t]*(?:0{number}|{number}(?![\d.,]))", FLAGS) for number in (1, 2, 3)}
 _Q = re.compile(r"Q([LR]?)[ \t]?(\d{1,6})(?!\d)", FLAGS)
 _EQUALS = re.compile(r"[ \t]*=", FLAGS)
-_CONVERSATIONAL = re.compile(r"SYSREAD|SYSWRITE|ERROR|IF(?![A-Z])", FLAGS)
+_ANY_P, _POINTS = re.compile(r"[ \t]*P[ \t]*\d\d?(?![\d.,])", FLAGS), re.compile(r"[ \t]*Q[ \t]?(\d{1,6})(?!\d)", FLAGS)
+_CONVERSATIONAL = re.compile(r"SYSREAD|SYSWRITE|ERROR|PRESET|(?:F-)?PRINT|IF(?![A-Z])", FLAGS)
 
 OPERATORS = {1: "+", 2: "-", 3: "*", 4: "DIV"}
 NAMES = {5: "SQRT", 6: "SIN", 7: "COS"}
@@ -34,11 +35,10 @@ TWO = {8: ("first", "second"), 13: ("first", "second")}
 
 def function(cursor: Cursor, number: int, begin: int) -> None:
     """The words of a function; its number was read already, at `begin`."""
+    if number in FILES and number != 15:
+        cursor.match(_P[1])  # before the words of the dialog
     if _CONVERSATIONAL.match(cursor.text, cursor.at, cursor.stop):
-        read = FN.get(number) or labels.JUMPS.get(number)
-        if read is None:
-            raise cursor.unexpected()
-        read(cursor)
+        _as_conversational(cursor, number)
     elif number in (*range(9), 13):
         _calculation(cursor, number)
     elif number in labels.JUMPS:
@@ -47,11 +47,30 @@ def function(cursor: Cursor, number: int, begin: int) -> None:
         _operand(cursor, number, 1, "number")
     elif number in (17, 18):
         _system(cursor, number)
-    elif read := FN.get(number) or FILES.get(number):
-        cursor.match(_P[1])
-        read(cursor)
+    elif number == 15 and not cursor.done:
+        while cursor.match(_ANY_P):
+            _item(cursor, number, "item")
+    elif number in (23, 24):
+        _target(cursor, number)
+        begin = _parameter(cursor, number, 1)
+        found = cursor.expect(_POINTS, "P01 needs the Q parameter with the first point", f"for example {example(number)}")
+        cursor.add("points", f"Q{int(found.group(1))}", begin)
+    elif number in FN or number in FILES:
+        _as_conversational(cursor, number)
     else:
         cursor.at = cursor.stop  # to the PLC, or refused by its name
+
+
+def _as_conversational(cursor: Cursor, number: int) -> None:
+    """A function in the words of the dialog; its faults are told under the name that stands here."""
+    read = FN.get(number) or FILES.get(number) or labels.JUMPS.get(number)
+    if read is None:
+        raise cursor.unexpected()
+    try:
+        read(cursor)
+    except Fault as fault:
+        message, hint = (part.replace(f"FN {number}", f"D{number:02}") for part in (fault.message, fault.hint))
+        raise Fault(message, fault.offset, fault.length, hint) from None
 
 
 def _parameter(cursor: Cursor, number: int, which: int) -> int:
@@ -64,10 +83,20 @@ def _parameter(cursor: Cursor, number: int, which: int) -> int:
 
 def _expression(cursor: Cursor, number: int, which: int) -> tuple[Expression, int]:
     begin = _parameter(cursor, number, which)
+    return _value(cursor, number), begin
+
+
+def _value(cursor: Cursor, number: int) -> Expression:
+    begin = min(cursor.blanks(), cursor.stop - 1)
     found = cursor.match(OPERAND)
     if found is None:
-        raise Fault(f"P{which:02} needs a number or a Q parameter", begin, cursor.at - begin, f"for example {example(number)}")
-    return cursor.expression(found.start(), found.end()), begin
+        raise Fault("a number or a Q parameter was expected", begin, hint=f"for example {example(number)}")
+    return cursor.expression(found.start(), found.end())
+
+
+def _item(cursor: Cursor, number: int, address: str) -> None:
+    begin = cursor.blanks()
+    cursor.add(address, _value(cursor, number), begin)
 
 
 def _operand(cursor: Cursor, number: int, which: int, address: str) -> None:
@@ -125,11 +154,7 @@ def _system(cursor: Cursor, number: int) -> None:
         system_data(cursor, example(number))
         if cursor.match(_EQUALS) is None:
             raise Fault("= and a value are missing", min(cursor.blanks(), cursor.stop - 1), hint=f"for example {example(17)}")
-        begin = cursor.blanks()
-        found = cursor.match(OPERAND)
-        if found is None:
-            raise Fault("a number or a Q parameter was expected", min(begin, cursor.stop - 1), hint=f"for example {example(17)}")
-        cursor.add("value", cursor.expression(found.start(), found.end()), begin)
+        _item(cursor, number, "value")
         return
     _target(cursor, number)
     cursor.match(_EQUALS)
@@ -140,6 +165,9 @@ def example(number: int) -> str:
     """How a function is written."""
     if number in labels.JUMPS:
         return f"D{number:02} P01 +Q1 P02 +Q3 P03 5"
-    special = {0: "D00 Q1 P01 +60", 14: "D14 P01 1000", 17: "D17 ID 990 NR 6 = +1", 18: "D18 Q25 ID210 NR4 IDX3"}
+    special = {
+        0: "D00 Q1 P01 +60", 14: "D14 P01 1000", 15: "D15 P01 +Q1 P02 +Q2", 17: "D17 ID 990 NR 6 = +1",
+        18: "D18 Q25 ID210 NR4 IDX3", 23: "D23 Q20 P01 Q30", 24: "D24 Q20 P01 Q30",
+    }  # fmt: skip
     two = number in OPERATORS or number in TWO
     return special.get(number) or f"D{number:02} Q1 P01 +2{' P02 +3' * two}"

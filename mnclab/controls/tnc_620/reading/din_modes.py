@@ -25,7 +25,7 @@ _CODE = re.compile(r"(?<![A-Z])G[ \t]*(\d{1,4})(?!\d)", FLAGS)
 _NAME = r'(\d{1,9}|"[^"]*"|QS[ \t]?\d{1,6})'
 _LABEL = rf"L[ \t]*{_NAME}"
 _SET, _CALL = re.compile(rf"G[ \t]*98[ \t]*{_LABEL}", FLAGS), re.compile(rf"{_LABEL}[ \t]*(,[ \t]*0*[1-9])?", FLAGS)
-_JUMP = re.compile(rf"D[ \t]*(?:09|9|10|11|12)\b[^*]*?P[ \t]*03[ \t]*{_NAME}", FLAGS)
+_JUMP = re.compile(rf"D[ \t]*(?:09|9|10|11|12)\b[^*]*?(?:P[ \t]*03|LBL)[ \t]*{_NAME}", FLAGS)
 _END = re.compile(r"(?<![A-Z])M[ \t]*(?:0*2|30)(?!\d)", FLAGS)
 _STRANGE = re.compile(r'"[^"]*"|Q[LRS]?\d+[ \t]*=.*', FLAGS)  # names, and the parameters of a definition
 
@@ -70,8 +70,8 @@ class _Turn(NamedTuple):
         return new.joined(modes) if self.skip else new
 
 
-def modes_before(text: str, raw: Sequence[Raw]) -> list[Modes]:
-    """The modes where each block begins; where no way leads to a block, those of the block above it."""
+def modes_before(text: str, raw: Sequence[Raw]) -> list[tuple[Modes, Modes]]:
+    """The modes where each block begins, and those that the text above it says; where no way leads to a block, these."""
     turns = {k: turn for k, one in enumerate(raw) if (turn := _turn(text, one))}
     ways = _Ways(turns)
     for _ in range(MOST_ROUNDS):
@@ -81,12 +81,12 @@ def modes_before(text: str, raw: Sequence[Raw]) -> list[Modes]:
         ways.entry = dict.fromkeys(ways.labels, UNKNOWN)
         ways.exit = dict.fromkeys(ways.labels, UNKNOWN)
         ways.follow()
-    found, above = [], Modes()
+    found, now, above = [], Modes(), Modes()
     for k in range(len(raw)):
-        above = ways.before.get(k) or above
-        found.append(above)
+        now = ways.before.get(k) or now
+        found.append((now, above))
         if turn := turns.get(k):
-            above = ways.behind.get(k) or turn.after(above)
+            now, above = ways.behind.get(k) or turn.after(now), turn.after(above)
     return found
 
 

@@ -9,14 +9,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from itertools import takewhile
 
 from mnclab.controls.tnc_620.reading import din_formulas, din_statements
 from mnclab.controls.tnc_620.reading.din_blocks import Raw, blocks
-from mnclab.controls.tnc_620.reading.din_modes import PATHS, Modes, modes_before
+from mnclab.controls.tnc_620.reading.din_modes import MIXED, PATHS, Modes, modes_before
 from mnclab.controls.tnc_620.reading.din_motion import Departure, Motion, approach
 from mnclab.controls.tnc_620.reading.din_said import said
 from mnclab.controls.tnc_620.reading.din_statements import REFUSED, STATEMENTS
-from mnclab.controls.tnc_620.reading.din_words import Given, has_tail, put, read_words
+from mnclab.controls.tnc_620.reading.din_words import MEASURED, Given, has_tail, put, read_words
 from mnclab.controls.tnc_620.reading.labels import name_of_program
 from mnclab.controls.tnc_620.reading.statements import cycle_parameters, ignored, recognize
 from mnclab.controls.tnc_620.reading.words import FLAGS, Cursor, Fault
@@ -50,7 +51,8 @@ def read(text: str, name: str = "program") -> Program:
     builder = ProgramBuilder(text, name, "tnc-620", line_starts(characters(text)), ";")
     raw = list(blocks(builder))
     reader = _Reader(builder, _INCH.match(text) is not None)
-    for one, modes in zip(raw, modes_before(text, raw), strict=True):
+    for one, (modes, above) in zip(raw, modes_before(text, raw), strict=True):
+        reader.above = above
         reader.read(one, modes)
     reader.finish()
     program = builder.build()
@@ -65,6 +67,8 @@ class _Reader:
         self.builder, self.text, self.inch = builder, builder.text, inch
         self.begun = self.ended = False
         self.axis = "Z"  # of the tool
+        self.above = Modes()  # what the text above the block says, whatever way leads there
+        self.called = ""  # the program called last, while it is not known what holds behind it
         self.leaves: Departure | None = None  # G27, which the next block needs
 
     def read(self, raw: Raw, modes: Modes) -> None:
@@ -74,33 +78,36 @@ class _Reader:
         at, stop = raw.parts[0] if raw.parts else (raw.start, raw.start)
         try:
             if at >= stop or self.text[at] == "*":
-                self.builder.block(raw.start, skip=raw.skip)
                 self.leaves = leaves
+                if leaves is None:
+                    self.builder.block(raw.start, skip=raw.skip)
             else:
                 if self.ended:
                     self.builder.alarm("nothing after the last block is obeyed", at, severity="warning")
                     self.ended = False
                 self.block(raw, Cursor(self.builder, at, stop, self.inch), modes, leaves)
         except Fault as fault:
-            self.hold(raw, before)
+            self.hold(leaves or raw, before)
             self.builder.alarm(fault.message, fault.offset, fault.length, fault.hint)
         except Alarm as alarm:  # from the reader of formulas, which knows its place
-            self.hold(raw, before)
+            self.hold(leaves or raw, before)
             self.builder.alarms.append(alarm)
 
-    def hold(self, raw: Raw, before: tuple[int, int]) -> None:
+    def hold(self, raw: Raw | Departure, before: tuple[int, int]) -> None:
         """A block for a fault to stand in, where none was begun."""
         if (len(self.builder.blocks), self.builder.before) == before:
             self.builder.block(raw.start, skip=raw.skip)
 
     def finish(self) -> None:
         if self.leaves:
-            self.builder.alarm("G27 needs a straight line with G40 after it", self.leaves.head.at, self.leaves.head.length)
+            self.builder.block(self.leaves.start, skip=self.leaves.skip)
+            fault = self.leaves.fault()
+            self.builder.alarm(fault.message, fault.offset, fault.length)
 
     def block(self, raw: Raw, cursor: Cursor, modes: Modes, leaves: Departure | None) -> None:
         begin = cursor.at
         if leaves and self.text[begin] not in "GgXxYyZz":
-            raise Fault("G27 needs a straight line with G40 after it", leaves.head.at, leaves.head.length)
+            raise leaves.fault()
         if self.text[begin] == "%":
             self.percent(raw, cursor)
         elif _CONVERSATIONAL.match(self.text, begin, cursor.stop):
@@ -129,6 +136,8 @@ class _Reader:
             cursor.at = begin + 1
             self.builder.block(raw.start, "CALL PGM", raw.skip)
             name_of_program(cursor, what="%")
+            name = self.text[begin + 1 : cursor.at].strip()
+            self.called = "" if name.upper().endswith(".H") else name
             return
         self.builder.block(raw.start, "END PGM" if self.begun else "BEGIN PGM", raw.skip)
         self.begun, self.ended = True, self.begun
@@ -172,13 +181,35 @@ class _Reader:
             raise Fault(what, heads[1].at, heads[1].length)
         tool = next((word for word in given if word.letter in ("T", "text")), None)
         if leaves and (heads or tool):
-            raise Fault("G27 needs a straight line with G40 after it", leaves.head.at, leaves.head.length)
+            raise leaves.fault()
         if not heads and tool is None:
+            self.warn_of_ways(given, modes)
             Motion(cursor, raw.start, raw.skip, modes, self.axis, leaves).write(given)
         elif not heads:
             self.tool_call(raw, cursor, given)
         else:
             self.statement(raw, cursor, heads[0], given, rest, modes)
+
+    def warn_of_ways(self, given: Sequence[Given], modes: Modes) -> None:
+        """Where a mode comes from a call or a repeat, and another one stands above in the text."""
+        inherited = list(takewhile(lambda word: word.letter != "G" or word.code not in (90, 91), given))
+        word = next((word for word in inherited if word.letter in MEASURED), None)
+        if word and self.called:
+            what = f"{word.shown(self.builder)} is read with G9{modes.incremental} as before %{self.called}"
+            self.builder.alarm(what, word.at, word.length, "write G90 or G91 in this block", "warning")
+        if word or len(inherited) < len(given):
+            self.called = ""
+        if word and MIXED != modes.incremental != self.above.incremental:
+            self.warn(word, f"G9{modes.incremental}", f"G9{self.above.incremental}")
+        word = next((word for word in given if word.letter in MEASURED), None)
+        written = any(one.letter == "G" and one.code in PATHS for one in given)
+        if word and not written and MIXED != modes.path != self.above.path and None not in (modes.path, self.above.path):
+            self.warn(word, f"G{modes.path:02}", f"G{self.above.path:02}")
+
+    def warn(self, word: Given, active: str, above: str) -> None:
+        left = f"{active}, which the call or repeat before it leaves, although {above} stands above"
+        what = f"{word.shown(self.builder)} is read with {left}"
+        self.builder.alarm(what, word.at, word.length, f"write {active} in this block", "warning")
 
     def known(self, word: Given) -> bool:
         return word.code in _OTHERS or bool(word.code not in _MODAL and din_statements.cycle_of(word.code))
@@ -217,8 +248,7 @@ class _Reader:
             return
         if code == 27:
             self.lead(code, words, head)
-            self.builder.block(raw.start, skip=raw.skip)
-            self.leaves = Departure(head, words[0])
+            self.leaves = Departure(raw.start, raw.skip, head, words[0])
             return
         if code in STATEMENTS:
             keyword, plain = STATEMENTS[code].keyword, [w for w in words if w.letter != "G" or w.code not in (90, 91)]
@@ -227,6 +257,8 @@ class _Reader:
                 self.plane(cursor, plain)
             plain = [w for w in plain if not (w.letter == "G" and w.code in din_statements.PLANES)]
             din_statements.renamed(cursor, code, STATEMENTS[code], plain)
+            if code in din_statements.SENSES:
+                put(cursor, "DR", head, din_statements.SENSES[code], inches=False)
             return
         self.with_tail(raw, cursor, head, words, rest, modes)
 
@@ -260,7 +292,7 @@ class _Reader:
         else:
             keyword = din_statements.cycle_of(code)
             self.builder.block(raw.start, keyword, raw.skip)
-            read = ignored if code == 55 or code in din_statements.OBSOLETE else cycle_parameters
+            read = ignored if code == 55 else cycle_parameters
             read(cursor)
             for at, stop in rest:
                 if not cursor.done:

@@ -13,7 +13,9 @@ from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Block, Program
 
-_CYCLES = {code: name for name, code in ISO_NAMES.items() if name != "G53"} | {"CYCL DEF 9": "G04", "CYCL DEF 18": "G86"}
+_CYCLES = {code: name for name, code in ISO_NAMES.items()} | {
+    statement.keyword: f"G{code:02}" for code, statement in STATEMENTS.items() if code not in (53, 76, 78)
+}
 #: Statements that have one name only.
 _NAMES = {
     "CTP": "G16", "CT": "G06", "CHF": "G24", "RND": "G25", "APPR LCT": "G26", "DEP LCT": "G27", "BLK FORM 0.1": "G30",
@@ -26,11 +28,11 @@ _BY_FEED = {"L": ("G00", "G01"), "LP": ("G10", "G11")}
 _LETTERS = {keyword: {"IPA": "G91 H", "IPR": "G91 R", "PA": "H", "PR": "R"} for keyword in ("LP", "CP", "CTP")}
 for _statement in STATEMENTS.values():
     for _letter, _address in _statement.words.items():
-        if _address != _letter and not _address.islower():
+        if _address != _letter and _address not in "XY" and not _address.islower():
             _LETTERS.setdefault(_statement.keyword, {}).setdefault(_address, _letter)
 #: What alarms say of other blocks.
 _ELSEWHERE = {keyword: name for keyword, name in _NAMES.items() if " " in keyword} | {
-    "R0": "G40", "RL": "G41", "RR": "G42", "CC X… Y…": "I… J…", "no CC": "no I J",
+    "R0": "G40", "RL": "G41", "RR": "G42", "CC X… Y…": "I… J…", "no CC": "no I J", "FMAX is": "G00 is",
 }  # fmt: skip
 _FN, _CYCLE = re.compile(r"FN (\d+)"), re.compile(r"CYCL DEF (\d+)(?:\.\d)?")
 

@@ -12,9 +12,10 @@ from functools import partial
 from typing import NamedTuple
 
 from mnclab.controls.tnc_620.reading import labels
-from mnclab.controls.tnc_620.reading.din_motion import PLANES
+from mnclab.controls.tnc_620.reading.din_motion import AXES, PLANES
 from mnclab.controls.tnc_620.reading.din_words import Given, put, unmixed
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
+from mnclab.controls.tnc_620.reading.obsolete_blocks import PLACES
 from mnclab.controls.tnc_620.reading.sub_blocks import mirrored
 from mnclab.controls.tnc_620.reading.words import FLAGS, Cursor, Fault
 
@@ -24,6 +25,12 @@ class Renamed(NamedTuple):
 
     keyword: str
     words: Mapping[str, str]
+
+
+def _obsolete(cycle: int) -> Renamed:
+    """An obsolete cycle: P01, P02 … are the values of its dialog in their order; the sense of milling is in the G function."""
+    addresses = [address for place in PLACES[cycle] for address in place.split() if address != "DR"]
+    return Renamed(f"CYCL DEF {cycle}", {f"P{k:02}": address for k, address in enumerate(addresses, 1)})
 
 
 _SHIFT = {letter: letter for letter in "XYZUVWABC"}
@@ -45,14 +52,15 @@ STATEMENTS: dict[int, Renamed] = {
     72: Renamed("CYCL DEF 11", {"F": "SCL"}),
     73: Renamed("CYCL DEF 10", {"H": "ROT"}),
     80: Renamed("CYCL DEF 19", {"A": "A", "B": "B", "C": "C", "F": "F"}),
+    **{code: _obsolete(cycle) for code, cycle in {83: 1, 84: 2, 85: 17, 74: 3, 75: 4, 76: 4, 77: 5, 78: 5}.items()},
     86: Renamed("CYCL DEF 18", {"P01": "DEPTH", "P02": "PITCH"}),
     99: Renamed("TOOL DEF", {"T": "tool", "text": "text", "L": "L", "R": "R"}),
 }
 CALL = Renamed("TOOL CALL", {"T": "tool", "text": "text", **{name: name for name in ("S", "F", "DL", "DR", "DR2")}})
 #: Words whose unit is another than their address says: a feed in degrees, a tolerance in the unit of the program.
 UNITS = {(80, "F"): False, (62, "T"): True}
-#: Cycles of older controls with numbers of their own.
-OBSOLETE = {83: 1, 84: 2, 85: 17, 74: 3, 75: 4, 76: 4, 77: 5, 78: 5}
+#: Pockets, and whether they are milled clockwise (-1) or counter-clockwise.
+SENSES = {75: -1.0, 76: 1.0, 77: -1.0, 78: 1.0}
 REFUSED = {
     43: "compensation of single axes, not built yet", 44: "compensation of single axes, not built yet",
     50: "a protection of the program, which these manuals do not describe",
@@ -80,7 +88,10 @@ def renamed(cursor: Cursor, code: int, statement: Renamed, words: Sequence[Given
     for word in words:
         if word.letter == "G" and word.code in PLANES and "axis" not in statement.words:
             continue
-        address = statement.words.get(word.letter)
+        letter, _, axis = word.letter.partition(":")
+        address = statement.words.get(letter if axis in AXES else word.letter)
+        if address and axis:  # P05 X+80: a side along an axis
+            address = axis if address in AXES else None
         if address is None and word.letter[0] != "M":
             takes = f"it takes {' '.join(statement.words)}" if statement.words else "it stands alone"
             head = f"G{code:02}" if code >= 0 else "T"
@@ -139,8 +150,6 @@ def called(cursor: Cursor) -> str:
 
 def cycle_of(code: int) -> str:
     """The keyword of a cycle by its G function; empty if there is none."""
-    if code in OBSOLETE:
-        return f"CYCL DEF {OBSOLETE[code]}"
     if named := ISO_NAMES.get(f"G{code}"):
         return named
     if 200 <= code < 400:

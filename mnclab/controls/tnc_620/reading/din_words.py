@@ -20,7 +20,8 @@ MEASURED = frozenset("XYZUVWABCIJKRH")
 
 _G = re.compile(r"G[ \t]*(\d{1,4})(?![\d.,])[ \t]*:?", FLAGS)
 _FEED = re.compile(r"F[ \t]*(MAX|AUTO)", FLAGS)
-_P = re.compile(r"P[ \t]*(\d\d(?=[ \t]*[-+\dQ])|\d(?=[ \t]+[-+\dQ]|[-+Q]))", FLAGS)
+_P = re.compile(r"P[ \t]*(\d\d(?=[ \t]*[-+\dQXYZ])|\d(?=[ \t]+[-+\dQXYZ]|[-+Q]))", FLAGS)
+_SIDE = re.compile(r"[ \t]*([XYZ])(?=[ \t]*[-+\dQ.])", FLAGS)
 _LETTERS = re.compile(r"DR2(?=[ \t]*[+-])|DL|DR|FU|FZ|[A-Z]", FLAGS)
 _TEXT_PARAMETER = re.compile(r"[ \t]*QS[ \t]?(\d{1,4})(?!\d)", FLAGS)
 _KNOWN = MEASURED | set("FSTLM") | {"DL", "DR", "DR2", "FU", "FZ"}
@@ -50,8 +51,11 @@ class Given(NamedTuple):
 
     def fault(self, builder: ProgramBuilder, what: str, hint: str = "") -> Fault:
         """A fault at this word, which is named as it stands in the text."""
-        shown = " ".join(builder.text[self.at : self.at + self.length].split())
-        return Fault(f"{shown} {what}", self.at, self.length, hint)
+        return Fault(f"{self.shown(builder)} {what}", self.at, self.length, hint)
+
+    def shown(self, builder: ProgramBuilder) -> str:
+        """The word as it stands in the text."""
+        return " ".join(builder.text[self.at : self.at + self.length].split())
 
 
 def read_words(cursor: Cursor, incremental: int) -> tuple[list[Given], int]:
@@ -79,6 +83,8 @@ def _word(cursor: Cursor, begin: int) -> tuple[str, Any]:
         return f"F{found.group(1).upper()}", None
     if found := cursor.match(_P):
         letter = f"P{int(found.group(1)):02}"
+        if side := cursor.match(_SIDE):
+            letter += f":{side.group(1).upper()}"
         return letter, cursor.needed(f"{letter} needs a number", begin, cursor.at - begin)
     found = cursor.match(_LETTERS)
     letter = found.group().upper() if found else ""

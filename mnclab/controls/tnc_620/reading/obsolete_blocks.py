@@ -59,7 +59,8 @@ def _value(cursor: Cursor, left: list[str]) -> None:
     address = left.pop(kinds.index(kind))
     if kind == "DR":
         sense = cursor.expect(_SENSE, "DR needs + or -")
-        cursor.add(address, 1.0 if sense.group(1) == "+" else -1.0, begin)
+        turning = 1.0 if sense.group(1) == "+" else -1.0  # no length, as DR is elsewhere
+        cursor.builder.word(address, turning, begin, cursor.at - begin)
         return
     value = cursor.needed(f"a number is missing: the {NAMES[kind][0]}", begin, max(1, cursor.at - begin))
     cursor.add(address, value, begin)

@@ -1,0 +1,40 @@
+%COVER G71 * ; A cover in DIN/ISO: rim with tangential approach, four holes by a subprogram. Made for this project.
+N10 G30 G17 X+0 Y+0 Z-20 *
+N20 G31 G90 X+100 Y+80 Z+0 *
+N30 T1 G17 S2500 F400 * ; end mill 10
+N40 G00 G40 G90 Z+50 M3 *
+N50 X-30 Y+40 *
+N60 Z-5 M8 *
+N70 G01 G41 X+10 Y+40 * ; first point of the contour
+N80 G26 R8 * ; on an arc
+N90 Y+70 *
+N100 G25 R10 *
+N110 X+90 *
+N120 G24 R8 *
+N130 Y+10 *
+N140 X+10 *
+N150 G25 R10 *
+N160 Y+40 *
+N170 G27 R8 * ; off on an arc
+N180 G00 G40 X-30 Y+40 *
+N190 Z+50 M9 *
+N200 T2 G17 S1200 F180 * ; drill 8
+N210 G200 Q200=2 ;SET-UP CLEARANCE
+  Q201=-15 ;DEPTH
+  Q206=FAUTO ;FEED RATE
+  Q202=7.5 ;INFEED
+  Q210=0 ;DWELL AT TOP
+  Q203=+0 ;SURFACE
+  Q204=20 ;2ND SET-UP CLEARANCE
+  Q211=0.2 ;DWELL AT DEPTH
+N220 G00 X+25 Y+25 Z+20 M3 *
+N230 L1 *
+N240 X+75 Y+25 *
+N250 L1 *
+N260 Z+50 M2 *
+N270 G98 L1 * ; a hole here and one 30 above it
+N280 G79 *
+N290 G91 Y+30 M99 *
+N300 G90 *
+N310 G98 L0 *
+N99999999 %COVER G71 *

@@ -1,0 +1,24 @@
+%OVAL G71 * ; A groove along an ellipse, worked out by the D functions of DIN/ISO. Made for this project.
+N10 G30 G17 X+0 Y+0 Z-20 *
+N20 G31 G90 X+100 Y+80 Z+0 *
+N30 D00 Q1 P01 +35 * ; half axis along X
+N40 D00 Q2 P01 +20 * ; half axis along Y
+N50 D00 Q3 P01 +72 * ; lines
+N60 D04 Q4 P01 +360 P02 +Q3 * ; angle of each
+N70 D00 Q5 P01 +0 * ; angle
+N80 T1 G17 S2500 F300 * ; end mill 10
+N90 G54 X+50 Y+40 *
+N100 G00 G40 G90 X+Q1 Y+0 Z+5 M3 *
+N110 G01 Z-2 F100 *
+N120 G98 L1 *
+N130 D01 Q5 P01 +Q5 P02 +Q4 *
+N140 D07 Q10 P01 +Q5 *
+N150 D03 Q10 P01 +Q10 P02 +Q1 *
+N160 D06 Q11 P01 +Q5 *
+N170 D03 Q11 P01 +Q11 P02 +Q2 *
+N180 G01 X+Q10 Y+Q11 F300 *
+N190 D12 P01 +Q5 P02 +360 P03 1 *
+N200 G00 Z+50 *
+N210 G54 X+0 Y+0 *
+N220 M2 *
+N99999999 %OVAL G71 *
