@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 from mnclab.machine.magazine import MILLS, Magazine
 from mnclab.machine.settings import Setting, settings_html, with_every
 from mnclab.text.notation import Notation
+from mnclab.text.numbering import Numbers
 from mnclab.text.program import Program, Word
 from mnclab.text.signs import Sign
 from mnclab.text.tables import html_table
@@ -152,7 +153,7 @@ class Control:
     of today, where the control's own is another. `trial` writes a short program around a cycle and its words (address and
     value), for its form; None where it cannot. `magazine` are the tools of a setup that was given none; of a
     control without tool words `cycle_tools` says which of them cut, by the code of a cycle (`mnclab.runs.cycle_tools`).
-    `signs` tell its programs from those of others.
+    `signs` tell its programs from those of others; `numbers` finds the numbers of blocks, and what names them.
     """
 
     name: str
@@ -174,6 +175,7 @@ class Control:
     start: Callable[[Machine], None] | None = None
     finish: Callable[[Machine], None] | None = None
     signs: tuple[Sign, ...] = ()
+    numbers: Callable[[Program], Numbers] | None = None
     refused: Mapping[str, str] = field(default_factory=dict)
     meanings: Mapping[str, str] = field(default_factory=dict)
     relative: tuple[str, ...] = ()

@@ -63,7 +63,8 @@ def meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> l
                 assert word is not None
                 says = _parameter(here, what, action.code, word, before(action, index))
             kept = word is None and action.code != block.keyword  # modal, not written in this block
-            shown = _written(program, word) if word is not None else f"({action.code})" if kept else block.keyword
+            unwritten = kept or program.said  # which has other names
+            shown = _written(program, word) if word is not None else f"({action.code})" if unwritten else block.keyword
             value = _value(run, moment, word)
             says += (", active from before" if kept else "") + (f" = {value}" if value else "")
             name, happened = _changes(what), ""  # in the history

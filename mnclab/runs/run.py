@@ -63,7 +63,7 @@ EXAMPLE = "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
 
 
 class Run:
-    """The result of running a program: both paths, alarms, history, and where the machine stands.
+    """The result of running a program: both paths, alarms, history, the `files` it wrote, and where the machine stands.
 
     `gouges` are the places where a compensated tool does not fit: the one that was refused, or with the setting
     `gouge = "mark"` all of them. `stopped` is where an axis would have left its travel, machine coordinates.
@@ -91,7 +91,7 @@ class Run:
         self.stopped: Stopped | None = machine.stopped
         self.settings = dict(machine.settings)
         self.made: dict[Any, Any] = {}  # the last parts and collisions that were asked for
-        self.nesting = flow.nesting
+        self._nesting = flow.nesting
         self.missed, self.started = MissedOnes(), (0, 0, 0)  # what a start at a block skips; its line, pass, program
 
     def _as_of_end(self, prefix: str, values: dict[str, Any]) -> dict[str, Any]:
@@ -253,11 +253,7 @@ class Run:
         run = run_program(self.program, self.control, setup)
         return run.start_at(*self.started) if self.started[0] else run
 
-    def start_at(self, line: int, pass_: int = 1, program: int = 0) -> Run:
-        """The run from a block on, as after the block search of a control: everything before the `pass_`-th execution of
-        the line is computed and nothing of it moves. `.missed` tells what is to be done first, and what reaches over.
-        """
-        return start_at(self, line, pass_, program)
+    start_at = start_at
 
     # --- doors -------------------------------------------------------------------------------------------------------
 
@@ -379,9 +375,7 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
     """Run a program that was read; with `strict` the first alarm is raised instead of collected."""
     if not isinstance(setup, Setup | None):
         raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
-    setup = (Setup() if setup is None else setup).kept(
-        control.magazine
-    )  # somebody may have written into its tables, and may again
+    setup = (setup or Setup()).kept(control.magazine)  # somebody may have written into its tables, and may again
     interpreter = Interpreter(control, setup, program)
     machine, alarms = interpreter.machine, list[Alarm]()
     broken, collecting = False, gc.isenabled()

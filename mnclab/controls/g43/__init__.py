@@ -25,6 +25,7 @@ from mnclab.controls.g43.language import (
     variables,
 )  # fmt: skip
 from mnclab.controls.g43.meanings import MEANINGS
+from mnclab.controls.g43.reading.numbers import numbers
 from mnclab.controls.g43.reading.reader import read
 from mnclab.controls.g43.refused import REFUSED
 from mnclab.controls.g43.settings import SETTINGS
@@ -43,7 +44,6 @@ PHASES = (
     *("plane", "feed", "spindle", "tool", "change", "data", "corrector", "length", "auxiliary", "frames", "local"),
     *("transformation", "compensation", "dwell", "motion", "call", "end"),
 )
-
 
 
 def start(m: Machine) -> None:
@@ -83,6 +83,7 @@ CONTROL = Control(
     compensation=Compensation(approach="corner", change=True, look_ahead=True, rapid=True),
     start=start,
     signs=SIGNS,
+    numbers=numbers,
     refused=REFUSED,
     meanings=MEANINGS,
     together=motion.together,

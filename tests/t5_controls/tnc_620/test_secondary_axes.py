@@ -59,5 +59,6 @@ def test_their_travel_is_not_known(inside) -> None:
 
 def test_the_end_of_the_travel_is_that_of_z_alone(inside) -> None:
     """M140 MB MAX leads Z to 200; W stands at 7, the tool is 50 long."""
-    run = inside("2 L W+7 R0 FMAX M3\n3 L M140 MB MAX", mnc.Setup(tools={1: mnc.Tool(length=50)}), retract_to=200)
+    setup = mnc.Setup(tools={1: mnc.Tool(length=50)}, settings={"retract_to": 200})
+    run = inside("2 L W+7 R0 FMAX M3\n3 L M140 MB MAX", setup)
     assert ends(run)[-1] == (0, 0, 157)

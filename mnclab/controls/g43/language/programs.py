@@ -31,6 +31,13 @@ MOST = 9999  # calls by one word
 #: The variables of arguments; I, J and K of the second to tenth time have #7 to #33.
 ARGUMENTS = dict(zip("ABCIJKDEFHMQRSTUVWXYZ", (*range(1, 10), 11, 13, *range(17, 27)), strict=True))
 TAKES = " ".join(["P", "L", *(f"{letter}*" for letter in ARGUMENTS if letter != "M"), "argument*"])
+_WRITTEN = {("argument" if letter == "M" else letter): number for letter, number in ARGUMENTS.items()}
+MEANINGS = {
+    "M99 P": "the block to go on at",
+    **{f"{code} P": "the number of a program" for code in ("M98", "G65", "G66")},
+    **{f"{code} L": "how often" for code in ("M98", "G65", "G66")},
+    **{f"{code} {word}": f"argument #{number}" for code in ("G65", "G66") for word, number in _WRITTEN.items()},
+}
 #: In whose blocks X, Y and Z are no way.
 STANDING = {4.0, 10.0, 52.0, 92.0, 50.0, 51.0, 68.0}
 

@@ -361,7 +361,7 @@ def _index(value: float, token: Token) -> int:
 def _finite(value: float, token: Token) -> float:
     if not math.isfinite(value):
         _refuse("the result is out of range at", token)
-    return value
+    return float(value)
 
 
 def _refuse(what: str, token: Token) -> NoReturn:

@@ -35,10 +35,8 @@ TWO = {8: ("first", "second"), 13: ("first", "second")}
 
 def function(cursor: Cursor, number: int, begin: int) -> None:
     """The words of a function; its number was read already, at `begin`."""
-    at = cursor.at
-    if number in (15, 16) and cursor.match(_P[1]):
-        if not _CONVERSATIONAL.match(cursor.text, cursor.blanks(), cursor.stop):
-            cursor.at = at  # P01 stands before a number, not before the words of the dialog
+    if number in FILES and number != 15:
+        cursor.match(_P[1])  # before the words of the dialog
     if _CONVERSATIONAL.match(cursor.text, cursor.at, cursor.stop):
         _as_conversational(cursor, number)
     elif number in (*range(9), 13):
@@ -58,7 +56,6 @@ def function(cursor: Cursor, number: int, begin: int) -> None:
         found = cursor.expect(_POINTS, "P01 needs the Q parameter with the first point", f"for example {example(number)}")
         cursor.add("points", f"Q{int(found.group(1))}", begin)
     elif number in FN or number in FILES:
-        cursor.match(_P[1])
         _as_conversational(cursor, number)
     else:
         cursor.at = cursor.stop  # to the PLC, or refused by its name

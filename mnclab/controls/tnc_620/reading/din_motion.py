@@ -28,10 +28,16 @@ PARAXIAL = "G43 and G44, radius compensation of single axes, are not built yet"
 
 
 class Departure(NamedTuple):
-    """G27 with its radius, which the next block needs."""
+    """G27 with its radius, which the next block needs: the two become one, that begins where G27 does."""
 
+    start: int
+    skip: bool
     head: Given
     radius: Given
+
+    def fault(self, more: str = "") -> Fault:
+        """The fault where the next block is another one."""
+        return Fault(f"G27 needs a straight line with G40 after it{more}", self.head.at, self.head.length)
 
 
 class Motion:
@@ -168,9 +174,11 @@ class Motion:
         auxiliary: Sequence[Given],
     ) -> None:  # fmt: skip
         """The block behind G27: DEP LCT to its end; the compensation ends there."""
-        if code not in (0, 1) or side is None or side.code != 40:
-            what = "G27 needs a straight line with G40 after it, to the end of the departure"
-            raise Fault(what, leaves.head.at, leaves.head.length)
+        if code not in (0, 1) or side is None or side.code != 40 or self.begun:
+            raise leaves.fault(", to the end of the departure")
+        if self.skip != leaves.skip:
+            raise leaves.fault(": both or none are marked with /")
+        self.start = leaves.start
         self.begin("DEP LCT", [leaves.radius])
         put(self.cursor, "R", leaves.radius._replace(incremental=0))
         self.put_all(rest)

@@ -78,33 +78,36 @@ class _Reader:
         at, stop = raw.parts[0] if raw.parts else (raw.start, raw.start)
         try:
             if at >= stop or self.text[at] == "*":
-                self.builder.block(raw.start, skip=raw.skip)
                 self.leaves = leaves
+                if leaves is None:
+                    self.builder.block(raw.start, skip=raw.skip)
             else:
                 if self.ended:
                     self.builder.alarm("nothing after the last block is obeyed", at, severity="warning")
                     self.ended = False
                 self.block(raw, Cursor(self.builder, at, stop, self.inch), modes, leaves)
         except Fault as fault:
-            self.hold(raw, before)
+            self.hold(leaves or raw, before)
             self.builder.alarm(fault.message, fault.offset, fault.length, fault.hint)
         except Alarm as alarm:  # from the reader of formulas, which knows its place
-            self.hold(raw, before)
+            self.hold(leaves or raw, before)
             self.builder.alarms.append(alarm)
 
-    def hold(self, raw: Raw, before: tuple[int, int]) -> None:
+    def hold(self, raw: Raw | Departure, before: tuple[int, int]) -> None:
         """A block for a fault to stand in, where none was begun."""
         if (len(self.builder.blocks), self.builder.before) == before:
             self.builder.block(raw.start, skip=raw.skip)
 
     def finish(self) -> None:
         if self.leaves:
-            self.builder.alarm("G27 needs a straight line with G40 after it", self.leaves.head.at, self.leaves.head.length)
+            self.builder.block(self.leaves.start, skip=self.leaves.skip)
+            fault = self.leaves.fault()
+            self.builder.alarm(fault.message, fault.offset, fault.length)
 
     def block(self, raw: Raw, cursor: Cursor, modes: Modes, leaves: Departure | None) -> None:
         begin = cursor.at
         if leaves and self.text[begin] not in "GgXxYyZz":
-            raise Fault("G27 needs a straight line with G40 after it", leaves.head.at, leaves.head.length)
+            raise leaves.fault()
         if self.text[begin] == "%":
             self.percent(raw, cursor)
         elif _CONVERSATIONAL.match(self.text, begin, cursor.stop):
@@ -178,7 +181,7 @@ class _Reader:
             raise Fault(what, heads[1].at, heads[1].length)
         tool = next((word for word in given if word.letter in ("T", "text")), None)
         if leaves and (heads or tool):
-            raise Fault("G27 needs a straight line with G40 after it", leaves.head.at, leaves.head.length)
+            raise leaves.fault()
         if not heads and tool is None:
             self.warn_of_ways(given, modes)
             Motion(cursor, raw.start, raw.skip, modes, self.axis, leaves).write(given)
@@ -245,8 +248,7 @@ class _Reader:
             return
         if code == 27:
             self.lead(code, words, head)
-            self.builder.block(raw.start, skip=raw.skip)
-            self.leaves = Departure(head, words[0])
+            self.leaves = Departure(raw.start, raw.skip, head, words[0])
             return
         if code in STATEMENTS:
             keyword, plain = STATEMENTS[code].keyword, [w for w in words if w.letter != "G" or w.code not in (90, 91)]
