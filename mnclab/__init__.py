@@ -28,6 +28,7 @@ from typing import TYPE_CHECKING, Any
 from mnclab.controls import CONTROLS as controls
 from mnclab.controls.choice import Help, modern, read, run
 from mnclab.controls.choice import help as help
+from mnclab.controls.renumber import renumber
 from mnclab.controls.survey import check
 from mnclab.machine.setup import Datum, Probe, Setup
 from mnclab.path.kinds import RULE_NAMES, Kind
@@ -152,6 +153,7 @@ __all__ = [
     "part",
     "profile_panel",
     "read",
+    "renumber",
     "run",
     "schemes",
     "steps",

@@ -1,4 +1,4 @@
-"""mnclab from a shell: check, run, plot, part, compare, drawing, report, time, help, lab; `python -m mnclab` is the same.
+"""mnclab from a shell: check, run, renumber, plot, part, compare, drawing, report, time, help, lab; `python -m mnclab` too.
 
 Exit status: 0 clean, 1 alarms or a part that is not as drawn, 2 a command line that makes no sense, 130 stopped by
 Ctrl-C. Alarms go to stderr, one line each, in the form that editors understand: `FILE:LINE:COLUMN: alarm: message (hint)`.
@@ -18,6 +18,7 @@ from typing import Any
 
 import mnclab
 from mnclab.controls import ALSO
+from mnclab.controls.renumber import renumber_file
 from mnclab.machine.machine_file import load as load_machine
 from mnclab.machine.setup_file import FORMAT, load
 from mnclab.shell.checking import check
@@ -136,6 +137,12 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--material", action="store_true", help=says)
     sub = command("run", run, "run a program and print its moves, one a line")
     options(sub, "summary, alarms and columns of the path on stdout instead", starts=True)
+    does = "write the numbers of blocks anew, and the jumps that name them, and print the program"
+    sub = command("renumber", renumber, does)
+    sub.add_argument("-o", "--output", metavar="OUT", help="write it to this file instead, in the bytes of the old one")
+    sub.add_argument("--start", type=int, metavar="N", help="the first number (default: 10; Klartext 0, NC-31 1)")
+    sub.add_argument("--step", type=int, metavar="N", help="what is added each time (default: 10; Klartext and NC-31 1)")
+    sub.add_argument("--control", choices=[*mnclab.controls, *ALSO], help="default: from the file's suffix or its text")
     kinds = "a picture, a page to play it, a file for other programs"
     sub = command("plot", plot, f"run a program and save what it does: {kinds}")
     output(sub, f"the suffix says what: {SUFFIXES}")
@@ -191,6 +198,15 @@ def run(chosen: argparse.Namespace) -> int:
     elif len(result.toolpath):
         print(result.toolpath)
     return verdict(result, quiet=chosen.json)
+
+
+def renumber(chosen: argparse.Namespace) -> int:
+    """Print a program with new block numbers, or write it."""
+    out = Path(chosen.output) if chosen.output else None
+    text = renumber_file(program(chosen.file), chosen.control, start=chosen.start, step=chosen.step, out=out)
+    if out is None:
+        sys.stdout.write(text)
+    return CLEAN
 
 
 def plot(chosen: argparse.Namespace) -> int:

@@ -133,6 +133,8 @@ def define(m: Machine, cycle: type[Cycle], given: dict[str, Any]) -> Definition:
     definition.values = cycle.prepare(values, words, m, definition.extra)
     if m.control.storage == "variables" and cycle.in_variables:
         store(m, definition)
+    if cycle.runs == "position":
+        m.position_cycle = definition
     return definition
 
 

@@ -108,6 +108,7 @@ FOREIGN: dict[str, tuple[Sign, ...]] = {
             r"^(?-i:import|from|def|class|module|function|package|using|public)[ \t][^\n]*[({:;.\w]$",
             12, "a line of source code", 2, whole=True,
         ),
+        sign(r"^[ \t]*(?-i:const|static|void|int|char|struct|let|var) [^\n]*[=;({\[]", 20, "a declaration", 2, whole=True),
         sign(r"^[^\n;(]*[{}][ \t;]*$", 4, "a brace", 3, whole=True),
         sign(r"\A\s*<[?!A-Z]", 25, "a tag", whole=True),
         sign(r"\A\s*[{\[]\s*[\"\[{]", 20, "JSON", whole=True),

@@ -114,13 +114,13 @@ class Survey:
         return "\n".join([files, "", *reasons, self.summary])
 
     def _repr_html_(self) -> str:
-        title = f"<h4>{escape(self.folder)}</h4><p>{escape(self.summary)}</p>"
+        title = f"<h4>{escape(self.folder)}</h4>" * bool(self.folder) + f"<p>{escape(self.summary)}</p>"
         why = [(str(one.files), one.reason, one.example) for one in self.reasons[:SHOWN]]
-        reasons = html_table(("files", "reason", "for example"), why, numbers=(0,)) if why else ""
+        reasons = "<h5>Why</h5>" + html_table(("files", "reason", "for example"), why, numbers=(0,)) if why else ""
         head = ("file", "control", "blocks", "alarms", "warnings", "result")
         files = html_table(head, map(_cells, self.rows[:SHOWN]), numbers=(2, 3, 4))
         left = len(self.rows) - SHOWN
-        return f"{title}{reasons}{files}{f'<p>… {left} more files</p>' if left > 0 else ''}"
+        return f"{title}{reasons}<h5>Files</h5>{files}{f'<p>… {left} more files</p>' if left > 0 else ''}"
 
     def as_dict(self) -> dict[str, Any]:
         """Everything for programs that read JSON."""

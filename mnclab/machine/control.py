@@ -15,12 +15,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 from mnclab.machine.magazine import MILLS, Magazine
 from mnclab.machine.settings import Setting, settings_html, with_every
 from mnclab.text.notation import Notation
+from mnclab.text.numbering import Numbers
 from mnclab.text.program import Program, Word
 from mnclab.text.signs import Sign
 from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
-    from mnclab.machine.cycle import Cycle, CycleTable, Parameter
+    from contextlib import AbstractContextManager
+
+    from mnclab.machine.cycle import Cycle, CycleTable, Definition, Parameter
     from mnclab.machine.machine import Machine
     from mnclab.path.compensation import Compensation
 
@@ -142,14 +145,15 @@ class Control:
     `to_turn` is the hint what makes the spindle turn. `names` leads from other names of cycles (DIN/ISO) to their codes.
     `named` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself; `predefined`
     what PREDEF stands for in a parameter of a cycle of a code; `calls_again` whether a modal call of a cycle (a modal
-    function of the group "call") calls it in a block with a keyword and words. `memory` makes what the control keeps
-    beside the common state of a machine, a dataclass. `computed` works the formulas of a block without a keyword out before
+    function of the group "call") calls it in a block with a keyword and words; `turned` makes what a cycle runs in, where
+    the tool axis is another than Z. `memory` makes what the control keeps beside the common state of a machine, a dataclass.
+    `computed` works the formulas of a block without a keyword out before
     its words are handed out: one of them may be a code, or leave its word out. `preassigned` are variables that the control
     keeps itself; names that begin with `local_variables` belong to one program. `modern` writes a program in the notation
     of today, where the control's own is another. `trial` writes a short program around a cycle and its words (address and
     value), for its form; None where it cannot. `magazine` are the tools of a setup that was given none; of a
     control without tool words `cycle_tools` says which of them cut, by the code of a cycle (`mnclab.runs.cycle_tools`).
-    `signs` tell its programs from those of others.
+    `signs` tell its programs from those of others; `numbers` finds the numbers of blocks, and what names them.
     """
 
     name: str
@@ -171,6 +175,7 @@ class Control:
     start: Callable[[Machine], None] | None = None
     finish: Callable[[Machine], None] | None = None
     signs: tuple[Sign, ...] = ()
+    numbers: Callable[[Program], Numbers] | None = None
     refused: Mapping[str, str] = field(default_factory=dict)
     meanings: Mapping[str, str] = field(default_factory=dict)
     relative: tuple[str, ...] = ()
@@ -184,6 +189,7 @@ class Control:
     named: Callable[[Machine, Word], float | str] | None = None
     predefined: Callable[[Machine, str, Parameter, Word], float | str] | None = None
     calls_again: Callable[[str, list[Word]], bool] | None = None
+    turned: Callable[[Machine, Definition], AbstractContextManager[None]] | None = None
     lathe: bool = False
     to_turn: str = "write S and M3 before the move"
     computed: Callable[[Machine, list[Word]], list[Word]] | None = None

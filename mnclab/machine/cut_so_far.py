@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mnclab.machine.cutting_rows import TILT, lifted, start_known, stock_of, tilted_rows, tools_of_rows
+from mnclab.machine.tool_axis import LOG
 from mnclab.path.recorder import join
 from mnclab.path.toolpath import concatenate
 from mnclab.text.program import Word
@@ -61,7 +62,7 @@ def _grown(m: Machine, before: CutSoFar | None, stock: Blank) -> CutSoFar:
     path = concatenate(pieces) if pieces else join([], m.recorder)
     tools, which, lift = tools_of_rows(path.step, m.logs.changed("tool", m.step), m.setup.tools, m.logs.value)
     arrived, known = (0, 0) if before else start_known(path, m.setup.start)
-    tilted = tilted_rows(path.step, m.logs.changed(TILT, m.step))
+    tilted = tilted_rows(path.step, *(m.logs.changed(name, m.step) for name in (TILT, LOG)))
     more = moves_of(Cutting(lifted(path, lift), tools, which, stock, arrived, known, tilted))
     both = [before.moves, more] if before else [more]
     moves = Moves(**{name: np.concatenate([getattr(each, name) for each in both]) for name in vars(more)})

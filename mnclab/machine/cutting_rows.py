@@ -58,13 +58,19 @@ def lifted(path: Toolpath, lift: Array) -> Toolpath:
     return path.replace(**columns, start=path.start + up, end=path.end + up)
 
 
-def tilted_rows(step: Steps, changes: Changes) -> Mask | None:
-    """Rows of some steps that are made with a tilted tool (n,); `changes` are those of the frame `TILT`."""
-    turned = [(when, frame is not None and not np.asarray(frame)[2, 2] > UPRIGHT) for when, frame in changes]
-    if not any(on for _, on in turned):
-        return None
-    at, on = zip(*turned, strict=True)
-    return np.asarray(np.array([False, *on])[np.searchsorted(np.array(at), step, "right")])
+def tilted_rows(step: Steps, tilts: Changes, axes: Changes = ()) -> Mask | None:
+    """Rows of some steps that are made with a tool that does not stand along Z (n,).
+
+    `tilts` are the changes of the frame `TILT`, `axes` those of the tool axis.
+    """
+    found = None
+    leaning = [(when, frame is not None and not np.asarray(frame)[2, 2] > UPRIGHT) for when, frame in tilts]
+    for turned in (leaning, [(when, axis != "Z") for when, axis in axes]):
+        if any(on for _, on in turned):
+            at, on = zip(*turned, strict=True)
+            rows = np.asarray(np.array([False, *on])[np.searchsorted(np.array(at), step, "right")])
+            found = rows if found is None else found | rows
+    return found
 
 
 def start_known(

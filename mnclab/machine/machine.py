@@ -214,10 +214,17 @@ class Machine(Placed):
         self.log("spindle angle", self.spindle_angle)
         self.add_row(Kind.SPINDLE, self.tip)
 
-    def change_tool(self, tool: Tool, frame_axis: int = 2) -> None:
-        """Put a tool into the spindle: the machine stands still, the tip jumps by the difference of the lengths."""
+    def change_tool(self, tool: Tool, axis: int = 2, before: int = 2) -> None:
+        """Put a tool into the spindle: the machine stands still, the tip jumps by the difference of the lengths.
+
+        The tool lies along an `axis` of the machine, the one that was there along the axis `before`.
+        """
         tip = list(self.tip)
-        tip[frame_axis] += self.tool.effective_length - tool.effective_length
+        if axis == before:
+            tip[axis] += self.tool.effective_length - tool.effective_length
+        else:
+            tip[before] += self.tool.effective_length
+            tip[axis] -= tool.effective_length
         self.change("tool", tool)
         self.tip = tuple(tip)  # type: ignore[assignment]
         self.add_row(Kind.TOOL, self.tip)

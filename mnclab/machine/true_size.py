@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mnclab.geometry.frames import IDENTITY, Matrix
+from mnclab.machine.tool_axis import tool_axis
 from mnclab.machining.steps import Go, Step
 from mnclab.path.tool import Tool
 
@@ -53,9 +54,9 @@ def is_round(m: Machine) -> bool:
 
 
 def is_upside_down(m: Machine) -> bool:
-    """Whether one of the frames mirrors Z; a tilt turns it."""
-    linear = (frame[:3, :3] for _, frame in m.frames)
-    return any(part[2, 2] < 0 and not (part - np.diag(part.diagonal())).any() for part in linear)
+    """Whether one of the frames mirrors the tool axis; a tilt turns it."""
+    linear, k = (frame[:3, :3] for _, frame in m.frames), tool_axis(m)
+    return any(part[k, k] < 0 and not (part - np.diag(part.diagonal())).any() for part in linear)
 
 
 def plane_scale(m: Machine) -> float:

@@ -1,12 +1,13 @@
 """A path as text, one row a line, for tests and people; and as a table for notebooks.
 
 Positions have four decimals (a tenth of a micrometre), angles are in degrees; a listing shows what the columns hold, so
-the X of a lathe is a radius.
+the X of a lathe is a radius. The path of a program in inches is told in inches, with six decimals, so that the numbers of
+the program come back; its columns are in mm all the same.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -22,6 +23,22 @@ HEAD, TAIL = 12, 6
 NUMBERS = (0, 1, 3, 4, 5, 6, 7, 8)
 
 
+class Unit(NamedTuple):
+    """In what lengths are told: its name in a text and behind a number, how many mm it has, and decimals of a position."""
+
+    name: str
+    short: str
+    length: float
+    decimals: int
+
+    def figure(self, length: float, fewer: int = 0) -> str:
+        """A length in mm as a number of this unit, with so many decimals fewer."""
+        return figure(length / self.length, self.decimals - fewer)
+
+
+MM, INCHES = Unit("mm", "mm", 1.0, 4), Unit("inches", "in", 25.4, 6)
+
+
 def figure(value: float, decimals: int = 4) -> str:
     """A number without trailing zeros and without a negative zero."""
     text = f"{value:.{decimals}f}"
@@ -29,49 +46,50 @@ def figure(value: float, decimals: int = 4) -> str:
     return "0" if text in ("-0", "") else text
 
 
-def point(xyz: np.ndarray | tuple[float, ...]) -> str:
+def point(xyz: np.ndarray | tuple[float, ...], unit: Unit = MM) -> str:
     """`X1 Y2 Z3`."""
-    return " ".join(f"{axis}{figure(value)}" for axis, value in zip("XYZ", xyz, strict=True))
+    return " ".join(f"{axis}{unit.figure(value)}" for axis, value in zip("XYZ", xyz, strict=True))
 
 
-def words(move: Move) -> str:
+def words(move: Move, unit: Unit = MM) -> str:
     """The part of a row that says what happens."""
     match move.kind:
         case Kind.RAPID | Kind.LINE | Kind.PROBE:
             axes = zip("ABC", move.rotary, strict=True)
             rotary = "".join(f" {axis}{figure(np.degrees(value))}" for axis, value in axes if value)
-            return f"{point(move.end)}{rotary}{'' if move.kind == Kind.RAPID else _feed(move)}"
+            return f"{point(move.end, unit)}{rotary}{'' if move.kind == Kind.RAPID else _feed(move, unit)}"
         case Kind.ARC:
-            return f"{point(move.end)} centre {point(move.centre)} sweep {figure(np.degrees(move.sweep))}{_feed(move)}"
+            ends = f"{point(move.end, unit)} centre {point(move.centre, unit)}"
+            return f"{ends} sweep {figure(np.degrees(move.sweep))}{_feed(move, unit)}"
         case Kind.DWELL:
             return f"{figure(move.time)} s"
         case Kind.TOOL:
-            return f"T{move.tool} radius {figure(move.radius)} tip {point(move.end)}"
+            return f"T{move.tool} radius {unit.figure(move.radius)} tip {point(move.end, unit)}"
     return f"S{figure(move.spindle)}" if move.kind == Kind.SPINDLE else ""
 
 
-def _feed(move: Move) -> str:
+def _feed(move: Move, unit: Unit) -> str:
     if move.kind == Kind.LINE and np.isfinite(move.time) and np.array_equal(move.start, move.end):
         return f" F{figure(np.degrees(move.feed))} degrees/min"
-    return f" F{feed}" if (feed := _rate(move)) else ""
+    return f" F{feed}" if (feed := _rate(move, unit)) else ""
 
 
-def _rate(move: Move) -> str:
+def _rate(move: Move, unit: Unit) -> str:
     if np.isfinite(move.per_rev):
-        return f"{figure(move.per_rev)}/rev"
-    return figure(move.feed) if np.isfinite(move.feed) else ""
+        return f"{unit.figure(move.per_rev)}/rev"
+    return unit.figure(move.feed) if np.isfinite(move.feed) else ""
 
 
 def listing(path: Toolpath) -> str:
     """Every row of a path as text: line, kind, where to, and the label."""
-    return "\n".join(row(move) for move in path)
+    return "\n".join(row(move, path.unit) for move in path)
 
 
-def row(move: Move) -> str:
+def row(move: Move, unit: Unit = MM) -> str:
     """One row as text."""
     side = {1: " left", -1: " right"}.get(move.side, "") if move.kind in (Kind.LINE, Kind.ARC) else ""
     label = f"  ; {move.label}" if move.label else ""
-    return f"{line(move):>4s} {Kind(move.kind).name.lower():7s} {words(move)}{side}{label}"
+    return f"{line(move):>4s} {Kind(move.kind).name.lower():7s} {words(move, unit)}{side}{label}"
 
 
 def line(move: Move) -> str:
@@ -82,14 +100,14 @@ def line(move: Move) -> str:
 def table(path: Toolpath) -> str:
     """Head and tail of a path as an HTML table."""
     n = len(path)
-    rows = [_cells(i, path[i]) for i in range(n) if n <= HEAD + TAIL or not HEAD <= i < n - TAIL]
+    rows = [_cells(i, path[i], path.unit) for i in range(n) if n <= HEAD + TAIL or not HEAD <= i < n - TAIL]
     if n > HEAD + TAIL:
         rows.insert(HEAD, (f"… {n - HEAD - TAIL} rows …",))
     head = ("row", "line", "kind", "x", "y", "z", "feed", "spindle", "tool", "label")
-    return f"{html_table(head, rows, numbers=NUMBERS)}<p>{several(n, 'row')}, positions in mm</p>"
+    return f"{html_table(head, rows, numbers=NUMBERS)}<p>{several(n, 'row')}, positions in {path.unit.name}</p>"
 
 
-def _cells(i: int, move: Move) -> tuple[str, ...]:
-    told = move.label if move.kind <= Kind.PROBE else f"{words(move)} {move.label}".strip()
-    kind, place = Kind(move.kind).name.lower(), map(figure, move.end)
-    return str(i), line(move), kind, *place, _rate(move), figure(move.spindle), str(move.tool), told
+def _cells(i: int, move: Move, unit: Unit) -> tuple[str, ...]:
+    told = move.label if move.kind <= Kind.PROBE else f"{words(move, unit)} {move.label}".strip()
+    kind, place = Kind(move.kind).name.lower(), map(unit.figure, move.end)
+    return str(i), line(move), kind, *place, _rate(move, unit), figure(move.spindle), str(move.tool), told

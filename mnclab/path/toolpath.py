@@ -26,17 +26,20 @@ from mnclab.text.columns import fixed
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from mnclab.path.listing import Unit
+
 
 class Toolpath(Columns):
     """Moves and events in columns of n rows; the names and meanings are in `COLUMNS`.
 
     `labels` and `joints` are what the columns of these names index; `origin` (3,) is the machine position, mm,
-    that all positions are relative to; `lathe` says that pictures and listings show X (a radius) and Z.
+    that all positions are relative to; `lathe` says that pictures and listings show X (a radius) and Z, `inches` that
+    listings and tables are in inches. The columns are always in mm.
     """
 
     def __init__(
         self, columns: dict[str, NDArray[Any]], labels: Sequence[str] = ("",), joints: Sequence[Any] = (),
-        origin: Iterable[float] = (0.0, 0.0, 0.0), lathe: bool = False,
+        origin: Iterable[float] = (0.0, 0.0, 0.0), lathe: bool = False, inches: bool = False,
     ) -> None:  # fmt: skip
         self._n = len(columns["kind"])
         for name, each in COLUMNS.items():
@@ -48,7 +51,7 @@ class Toolpath(Columns):
             setattr(self, name, fixed(np.asarray(column, dtype=each.dtype)))
         self.labels, self.joints = tuple(labels), tuple(joints)
         self.origin = fixed(np.asarray(tuple(origin), dtype=np.float64))
-        self.lathe = lathe
+        self.lathe, self.inches = lathe, inches
 
     @classmethod
     def chain(cls, vertices: Array, columns: dict[str, NDArray[Any]], **more: Any) -> Toolpath:
@@ -57,8 +60,19 @@ class Toolpath(Columns):
 
     def through(self, vertices: Array, columns: dict[str, NDArray[Any]], *labels: str) -> Toolpath:
         """What this path becomes: a chain with its joints, origin and labels, and more `labels`."""
-        more = {"joints": self.joints, "origin": self.origin, "lathe": self.lathe}
+        more = {"joints": self.joints, **self.notes()}
         return Toolpath.chain(vertices, columns, labels=tuple(dict.fromkeys((*self.labels, *labels))), **more)
+
+    def notes(self) -> dict[str, Any]:
+        """What is known of the path as a whole."""
+        return {"origin": self.origin, "lathe": self.lathe, "inches": self.inches}
+
+    @property
+    def unit(self) -> Unit:
+        """In what it is told."""
+        from mnclab.path.listing import INCHES, MM
+
+        return INCHES if self.inches else MM
 
     def all_but_ends(self) -> dict[str, NDArray[Any]]:
         """The columns by their names, without those that `chain` makes."""
@@ -87,18 +101,18 @@ class Toolpath(Columns):
     def replace(self, **columns: NDArray[Any]) -> Toolpath:
         """The same path with other columns; if `kind` is given, all of them must be."""
         whole = {name: columns.get(name, getattr(self, name)) for name in COLUMNS}
-        return Toolpath(whole, self.labels, self.joints, self.origin, self.lathe)
+        return Toolpath(whole, self.labels, self.joints, **self.notes())
 
     def annotated(self, **more: Any) -> Toolpath:
-        """The same columns with other `labels`, `joints`, `origin` or `lathe`."""
-        kept = {"labels": self.labels, "joints": self.joints, "origin": self.origin, "lathe": self.lathe}
+        """The same columns with other `labels`, `joints`, `origin`, `lathe` or `inches`."""
+        kept = {"labels": self.labels, "joints": self.joints, **self.notes()}
         return Toolpath({name: getattr(self, name) for name in COLUMNS}, **{**kept, **more})
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copies and pickles: a constant column stays one row."""
         columns = {name: getattr(self, name) for name in COLUMNS}
         kept = {name: each[:1] if self._n and each.strides[0] == 0 else each for name, each in columns.items()}
-        return _unpacked, (self._n, kept, self.labels, self.joints, self.origin, self.lathe)
+        return _unpacked, (self._n, kept, self.labels, self.joints, self.origin, self.lathe, self.inches)
 
     @property
     def is_motion(self) -> Mask:
@@ -190,4 +204,4 @@ def concatenate(pieces: Sequence[Toolpath]) -> Toolpath:
     if len(joined["kind"]):
         vertices = np.concatenate([joined["start"][:1], joined["end"]])
         joined |= {"start": vertices[:-1], "end": vertices[1:]}
-    return Toolpath(joined, last.labels, last.joints, last.origin, last.lathe)
+    return Toolpath(joined, last.labels, last.joints, **last.notes())

@@ -60,7 +60,7 @@ def found(m: Machine, name: str, what: str, span: Span | None, kind: str = "prog
                 if isinstance(source, str):
                     return Found(known, source, caller.folder)
                 return Found(str(source), _text(source, what, span), str(source.parent))
-    file = next(filter(None, (_beside(caller, _last(_spelt(name, suffix))) for suffix in types)), None)
+    file = next(filter(None, (_beside(caller, _last(_spelt(name, suffix))) for suffix in (*types, ""))), None)
     if file is not None and not Path(os.path.realpath(file)).is_relative_to(os.path.realpath(caller.folder)):
         elsewhere = "it is a symbolic link to another folder, and files are taken from the folder of the program alone"
         raise Alarm(f"{what} {name}: {elsewhere}", span, hint="Setup(files=…) names files that lie elsewhere")

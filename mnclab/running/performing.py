@@ -1,11 +1,12 @@
 """Cycles carried out: a cycle is bound, and each of its steps becomes a verb of the machine.
 
-Rows are labelled with the code of the cycle and the label of the step. The holes of every control lie along Z.
+Rows are labelled with the code of the cycle and the label of the step. The holes of every control lie along Z of its frame.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import nullcontext
 from dataclasses import replace
 from types import GeneratorType
 from typing import Any
@@ -35,6 +36,11 @@ def run_cycle(m: Machine, definition: Definition, through: Through | None = None
     `instead` are values by name that count for this call in place of its own, where the cycle has such parameters.
     `through` is what the steps go through on their way, with the place that they count from.
     """
+    with m.control.turned(m, definition) if m.control.turned else nullcontext():
+        _run(m, definition, through, instead)
+
+
+def _run(m: Machine, definition: Definition, through: Through | None, instead: Mapping[str, float]) -> None:
     definition = as_it_stands(m, definition)
     elsewhere = definition.cycle.does == MILLS and m.plane != "XY"  # than where m.radius and m.scale count
     try:

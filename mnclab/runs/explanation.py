@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mnclab.machine.settings import switches
-from mnclab.path.listing import figure, point, words
+from mnclab.path.listing import MM, point, words
 from mnclab.runs.meanings import meanings
 from mnclab.runs.stages import stages
-from mnclab.runs.values import said
+from mnclab.runs.values import said, unit_of
 from mnclab.text.alarm import Alarm, quoted
 from mnclab.text.program import Program
 from mnclab.text.tables import html_table
@@ -35,17 +35,19 @@ class Explanation:
         self.program = run.programs[run.steps.program[moment.step]]
         last = int(self.program.lines()[1][run.steps.block[moment.step]])
         self.alarms = tuple(_alarms(run, self.program, span.line, last))
+        self.unit = unit_of(moment.state)
         self.changed = []
         for name, value in moment.changed.items():
-            old = said(name, run.history.value(name, moment.step - 1)) if moment.step else ""
-            if (new := said(name, value)) != old:
+            unit = MM if name == "feed" and moment.state.get("per_time") else self.unit
+            old = said(name, run.history.value(name, moment.step - 1), unit) if moment.step else ""
+            if (new := said(name, value, unit)) != old:
                 self.changed.append((name, old, new))
         self.skipped = moment.block.skip in switches(run.settings)
         self.meanings = tuple(meanings(run, moment, {name: (old, new) for name, old, new in self.changed}))
         self.stages = tuple(stages(run, moment))
         path = run.toolpath[moment.rows]
         shown = len(path) if len(path) <= SHOWN + 1 else SHOWN  # a line that says "1 more" is no shorter
-        self.moves = tuple(f"{move.kind.name.lower()} {words(move)}".strip() for move in path[:shown])
+        self.moves = tuple(f"{move.kind.name.lower()} {words(move, self.unit)}".strip() for move in path[:shown])
         self.more_moves = len(path) - shown
 
     @property
@@ -75,7 +77,7 @@ class Explanation:
                 f"{name}: {before} -> {now}" if before else f"{name}: {now}" for name, before, now in self.changed
             ],
             "from the program to the tool": [
-                f"{s.name.ljust(wide)}  {point(np.array(s.point))}  {s.note}".rstrip() for s in self.stages
+                f"{s.name.ljust(wide)}  {point(np.array(s.point), self.unit)}  {s.note}".rstrip() for s in self.stages
             ],
         }
         for title, told in parts.items():
@@ -87,7 +89,7 @@ class Explanation:
     def _repr_html_(self) -> str:
         moves = "\n".join(self._moves_told())
         words = [(m.word, m.says, m.changed, m.source) for m in self.meanings]
-        stages = [(s.name, *map(figure, s.point), s.note) for s in self.stages]
+        stages = [(s.name, *map(self.unit.figure, s.point), s.note) for s in self.stages]
         parts = [
             f"<h4>{escape(self.title)}</h4>",
             "<p>passed over: block skip is on</p>" if self.skipped else "",

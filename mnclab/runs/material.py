@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from mnclab.machine.cutting_rows import TILT, lifted, start_known, tilted_rows, tools_of_rows
+from mnclab.machine.tool_axis import LOG
 from mnclab.path.columns import Index, Mask
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
@@ -43,7 +44,8 @@ def cutting_of(run: Run, stock: Any = None) -> Cutting:
         raise Alarm(f"there is nothing to cut: the blank is {shown(body)}")
     body = body if stock is None else body.moved(-origin)
     tools, which, lift = _held(run)
-    start, tilted = run.setup.start, tilted_rows(path.step, run.history.changed(TILT))
+    start, changed = run.setup.start, run.history.changed
+    tilted = tilted_rows(path.step, changed(TILT), changed(LOG))
     known = start_known(path, start, *(() if any(start) else _named(run)))
     fixtures = tuple(_placed(run, each) for each in run.setup.fixtures)
     return Cutting(lifted(path, lift), tools, which, body, *known, tilted, fixtures, run.place_of_line, tuple(origin.tolist()))

@@ -9,6 +9,7 @@ from mnclab.machine.control import Function, Modal
 from mnclab.machine.cycle import Cycle
 from mnclab.path.listing import figure
 from mnclab.running.handing_out import Action, Plan, Planner
+from mnclab.runs.values import unit_of
 from mnclab.text.alarm import Alarm
 from mnclab.text.expression import Expression
 from mnclab.text.program import Program, Word, digits
@@ -101,7 +102,12 @@ class _Here:
     def feed(self) -> str:
         if self.active("per_time"):
             return "time of the move, s"
-        return "feed, mm/rev" if self.active("per_rev") else "feed, mm/min"
+        return f"feed, {self.length}/{'rev' if self.active('per_rev') else 'min'}"
+
+    @property
+    def length(self) -> str:
+        """The unit of lengths."""
+        return unit_of({"unit": self.active("unit")}).short
 
     @property
     def speed(self) -> str:
@@ -166,6 +172,7 @@ def _parameter(here: _Here, cycle: type[Cycle], code: str, word: Word, which: in
     if relative != parameter.note:
         meaning = f"{parameter.meaning}, {relative}"
     unit = "mm/rev" if parameter.unit == "mm/min" and here.active("per_rev") else parameter.unit
+    unit = unit.replace("mm", here.length) if parameter.in_units else unit
     return f"{meaning}{f', {unit}' if unit else ''} ({code})"
 
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mnclab.path.listing import point
-from mnclab.runs.values import does_nothing, told, with_feed
+from mnclab.runs.values import does_nothing, told, unit_of, with_feed
 from mnclab.text.program import Block
 from mnclab.text.tables import html_table
 
@@ -49,8 +49,8 @@ class Moment(NamedTuple):
         rows = "none" if first == stop else f"{first}" if stop == first + 1 else f"{first} to {stop - 1}"
         inside = f", {100 * self.share:.4g} % of row {self.row}" if self.share != 1 else ""
         return [
-            ("programmed point", point(np.array(self.position))),
-            ("tool tip", point(np.array(self.point))),
+            ("programmed point", point(np.array(self.position), unit_of(self.state))),
+            ("tool tip", point(np.array(self.point), unit_of(self.state))),
             ("rows of the path", rows + inside),
             ("changed", _listed(told(changed, self.state))),
             ("active", _listed(told(active, self.state))),

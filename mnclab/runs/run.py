@@ -63,7 +63,7 @@ EXAMPLE = "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
 
 
 class Run:
-    """The result of running a program: both paths, alarms, history, and where the machine stands.
+    """The result of running a program: both paths, alarms, history, the `files` it wrote, and where the machine stands.
 
     `gouges` are the places where a compensated tool does not fit: the one that was refused, or with the setting
     `gouge = "mark"` all of them. `stopped` is where an axis would have left its travel, machine coordinates.
@@ -91,7 +91,7 @@ class Run:
         self.stopped: Stopped | None = machine.stopped
         self.settings = dict(machine.settings)
         self.made: dict[Any, Any] = {}  # the last parts and collisions that were asked for
-        self.nesting = flow.nesting
+        self._nesting = flow.nesting
         self.missed, self.started = MissedOnes(), (0, 0, 0)  # what a start at a block skips; its line, pass, program
 
     def _as_of_end(self, prefix: str, values: dict[str, Any]) -> dict[str, Any]:
@@ -105,7 +105,7 @@ class Run:
         tables, last = Tables(self.setup, self.control.magazine), len(self.steps.block) - 1
         for name in self.history:
             table, _, row = name.partition(" ")
-            if table in ("tools", "datums", "presets"):
+            if table in ("tools", "datums", "presets", "correctors"):
                 getattr(tables, table)[int(row)] = self.history.value(name, last)
         return tables
 
@@ -242,8 +242,7 @@ class Run:
         return Removal(self.workpiece(step=step), self.profile(limits))
 
     def outcome(self) -> Outcome | None:
-        """What became of the blank, for a report: removal and collisions, or why they were not worked out; None without
-        one."""
+        """What became of the blank, for a report: removal and collisions, or why they are not known; None without one."""
         return outcome.outcome(self, outcome.REPORT)
 
     def again(self, setup: Setup) -> Run:
@@ -253,11 +252,7 @@ class Run:
         run = run_program(self.program, self.control, setup)
         return run.start_at(*self.started) if self.started[0] else run
 
-    def start_at(self, line: int, pass_: int = 1, program: int = 0) -> Run:
-        """The run from a block on, as after the block search of a control: everything before the `pass_`-th execution of
-        the line is computed and nothing of it moves. `.missed` tells what is to be done first, and what reaches over.
-        """
-        return start_at(self, line, pass_, program)
+    start_at = start_at
 
     # --- doors -------------------------------------------------------------------------------------------------------
 
@@ -352,18 +347,23 @@ class Run:
             "warnings": sum(alarm.count for alarm in self.alarms if alarm.severity != ALARM),
         }
 
+    def _lengths(self, summary: dict[str, Any]) -> list[str]:
+        """How long the moves at feed and at rapid are, in the unit of the program."""
+        unit = self.toolpath.unit
+        return [f"{summary[name] / unit.length:.3f} {unit.short}" for name in ("cutting length", "rapid length")]
+
     def __repr__(self) -> str:
         s = self.summary()
         counts = f"{several(s['blocks'], 'block')}, {several(s['moves'], 'move')}"
-        lengths = f"cutting {s['cutting length']:.3f} mm, rapid {s['rapid length']:.3f} mm"
+        cutting, rapid = self._lengths(s)
+        lengths = f"cutting {cutting}, rapid {rapid}"
         head = f"<Run {s['program']} on {self.control.name}: {counts}, {lengths}, {s['time at feed']:.1f} s at feed>"
         shown, more = first_of(self.alarms)
         return "\n".join([head, *map(str, shown), *filter(None, [more])])
 
     def _repr_html_(self) -> str:
         s = self.summary()
-        lengths = f"{s['cutting length']:.3f} mm", f"{s['rapid length']:.3f} mm"
-        cells = str(s["blocks"]), str(s["moves"]), *lengths, f"{s['time at feed']:.1f} s"
+        cells = str(s["blocks"]), str(s["moves"]), *self._lengths(s), f"{s['time at feed']:.1f} s"
         table = html_table(("blocks", "moves", "cutting", "rapid", "time at feed"), [cells], numbers=range(len(cells)))
         title = f"<strong>{escape(s['program'])}</strong> on {escape(s['control'])}"
         verdict = "" if self.alarms else "<p>no alarms</p>"
@@ -374,9 +374,7 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
     """Run a program that was read; with `strict` the first alarm is raised instead of collected."""
     if not isinstance(setup, Setup | None):
         raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
-    setup = (Setup() if setup is None else setup).kept(
-        control.magazine
-    )  # somebody may have written into its tables, and may again
+    setup = (setup or Setup()).kept(control.magazine)  # somebody may have written into its tables, and may again
     interpreter = Interpreter(control, setup, program)
     machine, alarms = interpreter.machine, list[Alarm]()
     broken, collecting = False, gc.isenabled()

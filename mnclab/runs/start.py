@@ -54,7 +54,12 @@ class MissedOnes(tuple[Missed, ...]):
 
 
 def start_at(run: Run, line: int, pass_: int = 1, program: int = 0) -> Run:
-    """The same run from the `pass_`-th execution of a line on; an Alarm where it cannot start there."""
+    """The run from a block on, as after the block search of a control: everything before the `pass_`-th execution of the
+    line (of one of `programs`) is computed, and nothing of it moves.
+
+    `.missed` of the result tells what is to be done first, and what reaches over the start; the blank is the whole one. An
+    Alarm where no program can start.
+    """
     line, pass_, program = whole(line, "the line"), whole(pass_, "pass_"), whole(program, "the number of the program")
     step = _step(run, line, pass_, program)
     span = run.programs[program].span_of_block(int(run.steps.block[step]))._replace(program=program)
@@ -95,7 +100,7 @@ def _step(run: Run, line: int, pass_: int, program: int) -> int:
 def _inside(run: Run, step: int) -> list[tuple[int, int]]:
     """The calls and repeats that a step stands in, outside first: program and block that entered it, and the times."""
     open_: list[tuple[int, int]] = []
-    events = np.array(run.nesting, dtype=np.int64).reshape(-1, 3)
+    events = np.array(run._nesting, dtype=np.int64).reshape(-1, 3)
     for _, place, times in events[events[:, 0] <= step].tolist():
         if place == LEFT:
             open_.pop()

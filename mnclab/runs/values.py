@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import frames
-from mnclab.path.listing import figure, point
+from mnclab.path.listing import INCHES, MM, Unit, figure, point
 
 Matrix = NDArray[np.float64]
 
@@ -24,7 +24,13 @@ WORDS = {
     "turning": ("spindle", {1: "clockwise", -1: "counter-clockwise", 0: "stopped"}),
     "side": ("compensation", {1: "left", -1: "right", 0: "off"}),
 }
+IN_INCHES = ("G20", "G70", "INCH")  # values of the unit of a program
 UNTOLD = ("position", "per_rev", "per_time")  # the place is told anyway, how the feed counts is told by its unit
+
+
+def unit_of(state: Mapping[str, Any]) -> Unit:
+    """What lengths of the program counted in then."""
+    return INCHES if state.get("unit") in IN_INCHES else MM
 
 
 def told(values: Mapping[str, Any], state: Mapping[str, Any]) -> list[str]:
@@ -44,12 +50,14 @@ def _told(name: str, value: Any, state: Mapping[str, Any]) -> str:
         return f"{title} {words[int(value)]}"
     title, unit = MEASURED.get(name, (name, ""))
     if name == "feed":
-        unit = "s" if state.get("per_time") else "mm/rev" if state.get("per_rev") else "mm/min"
+        own = unit_of(state)
+        value = value if value is None or state.get("per_time") else value / own.length
+        unit = "s" if state.get("per_time") else f"{own.short}/{'rev' if state.get('per_rev') else 'min'}"
     if value is None or does_nothing(name, value):
         return f"{title} none"
     if isinstance(value, int | float):
         return f"{title} {short(value)} {unit}".rstrip()
-    return f"{title} {said(name, value)}".rstrip()
+    return f"{title} {said(name, value, unit_of(state))}".rstrip()
 
 
 def does_nothing(name: str, value: Any) -> bool:
@@ -63,14 +71,16 @@ def short(value: float) -> str:
     return figure(value, 3) if abs(value) >= 5e-4 or not value else f"{value:.3g}"
 
 
-def said(name: str, value: Any) -> str:
+def said(name: str, value: Any, unit: Unit = MM) -> str:
     """A value of the history in words: angles of the rotary axes in degrees."""
+    if name == "feed" and value is not None:
+        value /= unit.length
     if name == "rotary" and value is not None:
         return " ".join(f"{axis}{figure(np.degrees(angle), 6)}" for axis, angle in zip("ABC", value, strict=True))
-    return _plain(value)
+    return _plain(value, unit if name in ("position", "pole") or name.startswith("frame ") else MM)
 
 
-def _plain(value: Any) -> str:
+def _plain(value: Any, unit: Unit) -> str:
     if value is None:
         return ""
     if isinstance(value, int | float):
@@ -78,21 +88,21 @@ def _plain(value: Any) -> str:
     if isinstance(value, str):
         return value
     if isinstance(value, tuple) and len(value) == 4 and np.shape(value[-1]) == (4,):
-        return described(np.array(value)) or "none"
+        return described(np.array(value), unit) or "none"
     if hasattr(type(value), "faces"):  # a blank
         return " to ".join(point(corner) for corner in value.bounds)
     if isinstance(value, tuple) and type(value).__str__ is not tuple.__str__:  # it says itself what it is
         return str(value)
     if isinstance(value, tuple):
-        return " ".join(figure(each, 4) if isinstance(each, int | float) else _plain(each) for each in value)
+        return " ".join(unit.figure(each) if isinstance(each, int | float) else _plain(each, unit) for each in value)
     number = getattr(value, "number", None)
     return f"T{number} {value.name}".strip() if number is not None else str(value)
 
 
-def described(matrix: Matrix) -> str:
+def described(matrix: Matrix, unit: Unit = MM) -> str:
     """A frame in words."""
     if frames.is_shift(matrix):
-        return f"shift {point(matrix[:3, 3])}"
+        return f"shift {point(matrix[:3, 3], unit)}"
     linear = matrix[:3, :3]
     scales = np.linalg.norm(linear, axis=0)
     if np.allclose(np.abs(linear), np.diag(scales)):

@@ -14,7 +14,7 @@ import numpy as np
 
 from mnclab.path.columns import Index
 from mnclab.path.kinds import Kind
-from mnclab.path.listing import figure
+from mnclab.path.listing import INCHES, Unit, figure
 from mnclab.path.tool import Tool
 from mnclab.show.given_away import named
 from mnclab.show.times import clock
@@ -30,6 +30,7 @@ Table = list[tuple[str, ...]]
 Listing = list[tuple[int, str, str]]
 QUOTED = 84  # characters of a line that stand in the column of the page
 TOOL_HEAD = ("tool", "name", "kind", "radius", "corner", "length", "teeth", "time")
+SIZES = ("radius", "corner", "length")  # of them the lengths
 
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
 
@@ -65,31 +66,35 @@ def report(run: Any, title: str | None = None) -> Report:
     summary, profile = run.summary(), run.profile()
     low, high = run.toolpath.bounds
     facts: Table = [(name, str(summary[name])) for name in ("blocks", "moves")]
-    facts += [(name, f"{figure(summary[name], 3)} mm") for name in ("cutting length", "rapid length")]
+    lengths = run.toolpath.unit
+    facts += [(name, f"{lengths.figure(summary[name], 1)} {lengths.short}") for name in ("cutting length", "rapid length")]
     facts.append(("time", clock(profile.time)))
     turned = zip("ABC", np.degrees(run.toolpath.rotary).T)
-    ranges = [*zip("XYZ", low, high, ["mm"] * 3)] if np.isfinite(low).all() else []
-    ranges += [(axis, angles.min(), angles.max(), "degrees") for axis, angles in turned if angles.any()]
-    for axis, least, most, unit in ranges:
+    for axis, least, most in zip("XYZ", low, high) if np.isfinite(low).all() else ():
         if not (run.toolpath.lathe and axis == "Y"):
-            facts.append((f"{axis} from, to", f"{figure(least, 3)}, {figure(most, 3)} {unit}"))
+            facts.append((f"{axis} from, to", f"{lengths.figure(least, 1)}, {lengths.figure(most, 1)} {lengths.short}"))
+    for axis, angles in turned:
+        if angles.any():
+            facts.append((f"{axis} from, to", f"{figure(angles.min(), 3)}, {figure(angles.max(), 3)} degrees"))
     if run.stock:
         size = np.diff(run.stock.bounds, axis=0)[0]
-        facts.append(("blank", " x ".join(figure(length, 3) for length in size) + " mm"))
+        facts.append(("blank", " x ".join(lengths.figure(length, 1) for length in size) + f" {lengths.short}"))
     became = run.outcome()
     facts += became.facts() if became else []
     removal = became.removal.rows() if became and became.removal else []
     collisions = became.collisions if became else None
     table, numbers = run.tools_that_cut
     seconds = profile.seconds
-    tools = [_tool(n, table.get(n, Tool()), float(seconds[numbers == n].sum())) for n in _used(run, numbers)]
+    tools = [_tool(n, table.get(n, Tool()), float(seconds[numbers == n].sum()), lengths) for n in _used(run, numbers)]
+    tool_head = tuple(f"{name}, in" if lengths is INCHES and name in SIZES else name for name in TOOL_HEAD)
     causes = sorted(profile.time_by("cause").items(), key=lambda item: -item[1])
     times: Table = [(str(name), clock(s), f"{100 * s / profile.time:.1f} %") for name, s in causes if s > 0]
     (_, main), *called = ((program.title, _numbered(run, index)) for index, program in enumerate(run.programs))
     texts = title or run.program.title, run.control.title
     alarms = tuple(map(named, run.alarms))
     return Report(
-        *texts, facts, tools, times, alarms, main, removal=removal, collisions=collisions or Collisions(), called=tuple(called)
+        *texts, facts, tools, times, alarms, main, tool_head,
+        removal=removal, collisions=collisions or Collisions(), called=tuple(called),
     )  # fmt: skip
 
 
@@ -108,8 +113,8 @@ def _used(run: Any, numbers: Index) -> list[int]:
     return [number for number in dict.fromkeys(rows.tolist()) if number]
 
 
-def _tool(number: int, tool: Tool, seconds: float) -> tuple[str, ...]:
-    sizes = (figure(size) if size else "" for size in (tool.effective_radius, tool.corner, tool.effective_length))
+def _tool(number: int, tool: Tool, seconds: float, unit: Unit) -> tuple[str, ...]:
+    sizes = (unit.figure(size) if size else "" for size in (tool.effective_radius, tool.corner, tool.effective_length))
     return (f"T{number}", tool.name, tool.kind, *sizes, str(tool.teeth or ""), clock(seconds))
 
 
@@ -147,7 +152,7 @@ def html(found: Report, picture: Any) -> str:
     alarms = card_html(found.alarms, QUOTED) or "<p>none</p>"
     parts = [
         f"<h1>{escape(found.title)}</h1><p>{escape(found.subtitle)}</p>{html_table((), found.facts, numbers=(1,))}",
-        f"<h2>Tools</h2>{html_table(TOOL_HEAD, found.tools, numbers=range(3, 8)) if found.tools else '<p>none</p>'}",
+        f"<h2>Tools</h2>{html_table(found.tool_head, found.tools, numbers=range(3, 8)) if found.tools else '<p>none</p>'}",
         f"<h2>Path</h2><figure>{picture.html(2.0)}</figure>",
         f"<h2>Time</h2>{html_table((), found.times, numbers=(1, 2)) if found.times else '<p>none</p>'}",
         f"<h2>Alarms</h2>{alarms}",

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import codecs
 import re
+
+from mnclab.text.alarm import Alarm
 
 _BY_FREQUENCY = "ъёфэщцюшжхйчбзгьыяупдмклврстниаео"  # Russian letters, the rarest first
 _LIKE_LATIN = "АВЕЗКМНОРСТХУ"
@@ -22,6 +25,16 @@ def decode(data: bytes) -> tuple[str, str]:
         windows, koi = (_russian(data.decode(page, errors="replace")) for page in ("cp1251", "koi8-r"))
         page = "koi8-r" if koi > windows + 20 else "cp1251"
         return data.decode(page, errors="replace"), page
+
+
+def encode_like(text: str, before: str, data: bytes, page: str) -> bytes:
+    """The bytes of a text that was made of `before`, which was read from `data`; an Alarm where that cannot be exact."""
+    marks = {codecs.BOM_UTF8: "utf-8", codecs.BOM_UTF16_LE: "utf-16-le", codecs.BOM_UTF16_BE: "utf-16-be"}
+    mark = next((mark for mark in marks if data.startswith(mark)), b"")
+    page = marks.get(mark, page)
+    if mark + before.encode(page, "replace") != data:
+        raise Alarm(f"the file holds bytes that are no letters of {page}, and cannot be written back as they are")
+    return mark + text.encode(page)
 
 
 def _russian(text: str) -> int:

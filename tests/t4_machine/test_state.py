@@ -22,8 +22,8 @@ OTHER = {
     "tip": (1.0, 2.0, 3.0), "programmed": (1.0, 2.0, 3.0), "pole": (1.0, 2.0), "rotary": (0.1, 0.2, 0.3), "pending": "free",
     "variable_unit": 25.4, "cycle": "another", "position_cycle": "another", "plane": "YZ", "feed": 99.0, "per_rev": True,
     "per_time": True, "speed": 99.0, "turning": -1, "spindle_angle": 30.0, "surface": 200.0, "speed_limit": 3000.0,
-    "tool": Tool(radius=7), "side": 1, "corner_rule": 2, "exact": True, "exact_here": True, "synchronous": True,
-    "tolerance": 0.1, "label": "G83 peck", "cut_so_far": "less than it was", "stopped": "somewhere",
+    "tool": Tool(radius=7), "side": 1, "corner_rule": 2, "look_ahead": True, "exact": True, "exact_here": True,
+    "synchronous": True, "tolerance": 0.1, "label": "G83 peck", "cut_so_far": "less than it was", "stopped": "somewhere",
 }  # fmt: skip
 #: What is altered in its place.
 WITHIN = {

@@ -25,6 +25,7 @@ from mnclab.controls.g43.language import (
     variables,
 )  # fmt: skip
 from mnclab.controls.g43.meanings import MEANINGS
+from mnclab.controls.g43.reading.numbers import numbers
 from mnclab.controls.g43.reading.reader import read
 from mnclab.controls.g43.refused import REFUSED
 from mnclab.controls.g43.settings import SETTINGS
@@ -45,11 +46,12 @@ PHASES = (
 )
 
 
-
 def start(m: Machine) -> None:
-    """G54 is active at the start; the tip hangs below the spindle by the length of the tool."""
+    """G54 and a unit are active at the start; the tip hangs below the spindle by the length of the tool."""
     offsets.start(m)
     lengths.place(m, "tip")
+    units.start(m)
+    modes.start(m)
     variables.start(m)
 
 
@@ -81,6 +83,7 @@ CONTROL = Control(
     compensation=Compensation(approach="corner", change=True, look_ahead=True, rapid=True),
     start=start,
     signs=SIGNS,
+    numbers=numbers,
     refused=REFUSED,
     meanings=MEANINGS,
     together=motion.together,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from mnclab.controls.g43.language import macros, programs
+
 _CENTRES = {f"G{n} {letter}": f"centre along {axis}, from the start or, after G90.1, the origin"
             for n in (2, 3) for letter, axis in zip("IJK", "XYZ")}  # fmt: skip
 
@@ -21,12 +23,11 @@ MEANINGS = {
     "R": "radius", "G4 P": "the time, counted as the setting dwell_p says", "G4 X": "seconds",
     "G2 P": "number of turns", "G3 P": "number of turns", "G68 R": "angle, degrees", "G51 P": "factor of all axes",
     "G10 L": "which table", "G10 P": "row of the table", "G10 R": "of L2 the angle of the system, degrees, else the value",
-    "G54.1 P": "number of the work offset", "G30 P": "number of the reference point",
+    "G54.1 P": "number of the work offset", "G154 P": "number of the work offset", "G30 P": "number of the reference point",
     "G64 P": "how far a corner may be cut", "G64 Q": "how far short moves may be joined",
     "G41.1 D": "diameter of the tool", "G42.1 D": "diameter of the tool", "M19 R": "angle, degrees", "M19 P": "angle, degrees",
     "M19 Q": "how long the machine waits for it, s", "P": "choice of the function", "Q": "choice of the function",
     "E": "number of the signal", "L": "what to wait for", "G187 E": "how exact corners are",
-    **{f"{code} P": "number of a program" for code in ("M98", "G65", "G66")},
-    **{f"{code} L": "how often" for code in ("M98", "G65", "G66")}, "M99 P": "the block to go on at",
+    **macros.MEANINGS, **programs.MEANINGS,
     **{f"{code} R": "choice of the function" for code in ("G5", "G5.1", "G8", "G187")},
 }  # fmt: skip

@@ -13,6 +13,7 @@ from mnclab.controls.mnc.settings import SETTINGS
 from mnclab.controls.mnc.signs import SIGNS
 from mnclab.controls.mnc.state import Memory
 from mnclab.controls.word_address.motion import more_helices
+from mnclab.controls.word_address.numbers import numbers
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.control import Control, FunctionTable
 from mnclab.machine.cycle import Cycle
@@ -77,6 +78,7 @@ CONTROL = Control(
     compensation=Compensation(approach="corner", change=True, look_ahead=True),
     start=language.power_on,
     signs=SIGNS,
+    numbers=numbers,
     refused=REFUSED,
     meanings=MEANINGS,
     relative=tuple(f"G{n} {letter}" for n in range(10, 14) for letter in "RA"),

@@ -8,6 +8,7 @@ radius everywhere else.
 from __future__ import annotations
 
 from mnclab.controls.nc_31 import drilling, functions, grooving, notation, stock_removal, threads
+from mnclab.controls.nc_31.numbers import numbers
 from mnclab.controls.nc_31.reader import read
 from mnclab.controls.nc_31.signs import SIGNS
 from mnclab.controls.nc_31.state import Memory
@@ -69,6 +70,7 @@ CONTROL = Control(
     settings=SETTINGS,
     start=functions.power_on,
     signs=SIGNS,
+    numbers=numbers,
     refused=REFUSED,
     meanings=MEANINGS,
     told=notation.told,

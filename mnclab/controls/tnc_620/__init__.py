@@ -38,6 +38,7 @@ from mnclab.controls.tnc_620.language import (
     blank,
     calls,
     circle_data,
+    datum_shift,
     feeds,
     flow,
     free_contours,
@@ -48,6 +49,7 @@ from mnclab.controls.tnc_620.language import (
     no_effect,
     parameters,
     pattern_definitions,
+    plane,
     plc,
     pole,
     preset,
@@ -58,12 +60,14 @@ from mnclab.controls.tnc_620.language import (
     system_access,
     system_data,
     system_texts,
+    tool_axis,
     tools,
 )
 from mnclab.controls.tnc_620.printing import output
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
+from mnclab.controls.tnc_620.reading.numbers import numbers
 from mnclab.controls.tnc_620.signs import SIGNS
 from mnclab.controls.tnc_620.state import Memory
 from mnclab.controls.tnc_620.tables import datum_tables, free_tables
@@ -109,7 +113,7 @@ FUNCTIONS = (
     pole.FUNCTIONS | motion.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
     | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS | blank.FUNCTIONS
     | machine_datum.FUNCTIONS | feeds.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
-    | no_effect.FUNCTIONS | rotary_rules.FUNCTIONS | retraction.FUNCTIONS
+    | no_effect.FUNCTIONS | rotary_rules.FUNCTIONS | retraction.FUNCTIONS | plane.FUNCTIONS | datum_shift.FUNCTIONS
     | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS | system_access.FUNCTIONS
     | circle_data.FUNCTIONS | plc.FUNCTIONS | preset.FUNCTIONS | output.FUNCTIONS | free_tables.FUNCTIONS
 )  # fmt: skip
@@ -149,19 +153,19 @@ MEANINGS = {
     **{f"M118:{axis}": f"greatest way of the handwheel along {axis}" for axis in "XYZ"},
     **{f"M118:{axis}": f"greatest turn of the handwheel around {axis}" for axis in "ABC"},
     "TIME": "seconds", "REV": "turns of the spindle", **no_effect.WORDS, **rotary_rules.WORDS, **retraction.WORDS,
-    **{f"PLANE RESET {address}": meaning for address, meaning in retraction.PLANE.items()},
+    **{f"{code} {word}": plane.WORDS[word] for code, one in plane.FUNCTIONS.items() for word in one.takes if word in plane.WORDS},
     "FSELECT number": "number of the solution, as the control shows them", **free_words.WORDS,
     **{f"PATTERN DEF {address}": meaning for address, meaning in pattern_definitions.MEANINGS.items()},
 }  # fmt: skip
 
 CONTROL = Control(
     name="tnc-620", title="HEIDENHAIN TNC 620 (2018)", suffixes=(".h", ".i"),
-    read=reader.read, signs=SIGNS,
+    read=reader.read, signs=SIGNS, numbers=numbers,
     functions=FUNCTIONS, cycles=CYCLES, names=ISO_NAMES, refused=later.REFUSED, together=later.strange_parameters(CYCLES),
     phases=PHASES, codes=("M",), word_functions=False, meanings=MEANINGS, told=motion.turning_sense, trial=trial_program,
     settings=SETTINGS, memory=Memory, start=program.start, frames=(secondary_axes.FRAME, "preset"),
     storage="variables", preassigned={**parameters.PREASSIGNED, **system_texts.TEXTS}, local_variables="QL",
-    named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again,
+    named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again, turned=tool_axis.turned,
     compensation=Compensation(approach="perpendicular", rapid=True),
     bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call")),
 )  # fmt: skip

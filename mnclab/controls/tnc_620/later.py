@@ -41,8 +41,8 @@ PROBING = {
 
 STATEMENTS = {
     "SEL CONTOUR": "contour definition", "DECLARE CONTOUR": "contour designator", "CONTOUR DEF": "simple contour formula",
-    "TRANS DATUM": "datum shift", "QC": "contour formula",
-    **{f"PLANE {form}": "tilted plane" for form in "SPATIAL PROJECTED EULER VECTOR POINTS RELATIV AXIAL".split()},
+    "TRANS DATUM": "datum shift of a table", "QC": "contour formula",
+    **{f"PLANE {form}": "tilted plane" for form in "PROJECTED EULER VECTOR POINTS RELATIV AXIAL".split()},
     **{f"FUNCTION {form}": "special function" for form in "TCPM PARAXMODE PARAXCOMP RESET MODE FEED".split()},
     "BLK FORM FILE": "blank from a file",
 }  # fmt: skip

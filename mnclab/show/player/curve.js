@@ -62,7 +62,7 @@ class Curve {
     if (!this.moves) return;  // no scale of nothing
     pen.font = "10px system-ui, sans-serif";
     pen.textBaseline = "top";
-    const text = `${number(this.most / 1.08 * 60, 0)} mm/min${this.clipped ? ", rapids go beyond" : ""}`;
+    const text = `${number(this.most / 1.08 * 60 / this.run.unit.length, this.run.unit.length > 1 ? 1 : 0)} ${this.run.unit.short}/min${this.clipped ? ", rapids go beyond" : ""}`;
     pen.fillStyle = colours.paper;
     pen.globalAlpha = 0.8;
     pen.fillRect(3, 6, pen.measureText(text).width + 6, 14);

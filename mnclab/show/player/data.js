@@ -130,6 +130,7 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
     const {columns, scale} = header;
     this.header = header;
     this.lathe = header.lathe;
+    this.unit = header.unit;  // in what the program counts: its name, how many mm it has, decimals of a position
     this.origin = header.origin;
     this.path = new Path(columns, header.path, scale, header.angles);
     this.programmed = header.programmed && new Path(columns, header.programmed, scale, header.angles);

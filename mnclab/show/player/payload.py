@@ -53,6 +53,7 @@ def payload(run: Any, profile: Profile, cutting: Cutting | None = None, collisio
         "title": run.program.title,
         "control": run.control.title,
         "lathe": path.lathe,
+        "unit": {"short": path.unit.short, "length": path.unit.length, "decimals": path.unit.decimals - 1},
         "alarms": [
             alarm.as_dict()
             | {"text": str(alarm), "program": alarm.span.program if alarm.span else 0}

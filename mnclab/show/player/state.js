@@ -2,10 +2,10 @@
 
 const APART = ["position", "feed", "per_rev", "speed", "turning", "tool"];  // said by the read-outs
 
-function frameText(rows) {
+function frameText(rows, mm) {
   const at = rows.slice(0, 3).map(row => row[3]), parts = [], m = rows.map(row => row.slice(0, 3));
   const near = (a, b) => Math.abs(a - b) < 1e-9;
-  at.forEach((value, k) => { if (!near(value, 0)) parts.push("XYZ"[k] + short(value)); });
+  at.forEach((value, k) => { if (!near(value, 0)) parts.push("XYZ"[k] + short(value / mm)); });
   const scale = [0, 1, 2].map(k => Math.hypot(m[0][k], m[1][k], m[2][k]));
   const determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
     + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
@@ -36,23 +36,25 @@ function stockText([axis, low, high]) {
   return typeof axis === "string" && low ? `${corner(low)}${high ? " to " + corner(high) : ""}` : "turned body";
 }
 
-function toolText(tool) {
+function toolText(tool, mm) {
   if (!tool || (!tool.number && !tool.radius)) return "none";
-  const size = tool.radius ? `R${short(tool.radius + (tool.dr || 0))}` : "";
+  const size = tool.radius ? `R${short((tool.radius + (tool.dr || 0)) / mm)}` : "";
   return [`T${tool.number}`, tool.name, size].filter(Boolean).join(" ");
 }
 
-function valueText(name, value) {
+// A value in words; `mm` is what a length of 1 in it stands for.
+function valueText(name, value, mm) {
   if (value === null || value === undefined) return "none";
-  if (name.startsWith("frame ")) return frameText(value);
-  if (value && value.radius !== undefined) return toolText(value);
+  if (name.startsWith("frame ")) return frameText(value, mm);
+  if (value && value.radius !== undefined) return toolText(value, mm);
   if (name === "rotary") return anglesText(value.map(angle => angle * 180 / Math.PI), value.map(angle => angle !== 0)) || "0°";
+  if (name === "feed") return short(value / mm);
   if (name === "stock") return stockText(value);
   if (name === "side") return ["right", "none", "left"][value + 1];
   if (typeof value === "number") return short(value);
   if (typeof value === "boolean") return value ? "on" : "off";
-  if (Array.isArray(value)) return value.map(each => valueText("", each)).join(" ");
-  if (typeof value === "object") return Object.entries(value).filter(([, v]) => v).map(([k, v]) => `${k} ${valueText("", v)}`).join(" ");
+  if (Array.isArray(value)) return value.map(each => valueText("", each, 1)).join(" ");
+  if (typeof value === "object") return Object.entries(value).filter(([, v]) => v).map(([k, v]) => `${k} ${valueText("", v, 1)}`).join(" ");
   return String(value);
 }
 
@@ -62,6 +64,7 @@ class Board {
     this.find = find;
     this.step = -2;
     find("angles").hidden = !run.rotary;
+    find("position-unit").textContent = find("feed-unit").textContent = run.unit.short;
     const axes = run.lathe ? ["⌀ X", "Z"] : ["X", "Y", "Z"];
     this.axes = run.lathe ? [0, 2] : [0, 1, 2];
     find("axes").replaceChildren(...axes.map((name, row) => {
@@ -78,7 +81,8 @@ class Board {
   }
   // A coordinate as the operator reads it: a lathe's X is a diameter.
   shown(point, axis) {
-    return number(point[axis] * (this.run.lathe && axis === 0 ? 2 : 1), 3);
+    const {unit, lathe} = this.run;
+    return number(point[axis] / unit.length * (lathe && axis === 0 ? 2 : 1), unit.decimals);
   }
   positions(column, point) {
     for (const axis of this.axes) this.find(`${column}-${"XYZ"[axis]}`).textContent = point ? this.shown(point, axis) : "–";
@@ -91,13 +95,13 @@ class Board {
     return Math.sign(told) * Math.min(speed, typeof limit === "number" ? limit : Infinity);
   }
   show({step, row, point, speed, item, angles}) {
-    const {run, find} = this, at = Math.max(row, 0);
+    const {run, find} = this, {unit} = run, at = Math.max(row, 0);
     this.positions("tool", point);
     this.positions("machine", point.map((value, k) => value + run.origin[k]));
     const feed = run.row.feed.value(at), perRev = run.row.per_rev.value(at), spindle = this.turning(at, point);
     const kind = row >= 0 ? run.path.kind[row] : -1, own = item >= 0 && run.itemRow[item] === row;
-    const programmed = perRev ? `${short(perRev)} mm/rev` : kind === RAPID ? "rapid" : typeof feed === "number" ? `F ${short(feed)}` : "";
-    find("feed").textContent = number(speed * 60, 0);
+    const programmed = perRev ? `${short(perRev / unit.length)} ${unit.short}/rev` : kind === RAPID ? "rapid" : typeof feed === "number" ? `F ${short(feed / unit.length)}` : "";
+    find("feed").textContent = number(speed * 60 / unit.length, unit.length > 1 ? 1 : 0);
     find("feed-programmed").textContent = own && kind <= PROBE ? programmed : "";
     find("spindle").textContent = number(Math.abs(spindle), 0);
     find("turning").textContent = spindle > 0 ? "clockwise" : spindle < 0 ? "counter-clockwise" : "stopped";
@@ -108,7 +112,7 @@ class Board {
     this.step = step;
     this.positions("program", step >= 0 ? run.position(step) : null);
     const state = step >= 0 ? run.state(step) : {};
-    find("tool").textContent = toolText(state.tool);
+    find("tool").textContent = toolText(state.tool, run.unit.length);
     this.modal(step, state);
   }
   modal(step, state) {
@@ -116,7 +120,8 @@ class Board {
     const changed = new Set(step >= 0 ? run.changed(step) : []);
     const names = [...new Set([...Object.keys(state), ...[...changed].filter(name => before[name] !== undefined)])];
     const cells = names.filter(name => !APART.includes(name) || (changed.has(name) && name !== "position" && step > 0)).map(name => {
-      const now = valueText(name, state[name]), old = before[name] === undefined ? "" : valueText(name, before[name]);
+      const mm = name === "feed" && state.per_time ? 1 : run.unit.length;
+      const now = valueText(name, state[name], mm), old = before[name] === undefined ? "" : valueText(name, before[name], mm);
       // the first step also sets what is active at power-on: there only what stands in the block is its doing
       const mark = step > 0 ? changed.has(name) && now !== old : text.includes(now) && changed.has(name);
       if (!mark && (now === "none" || APART.includes(name))) return null;

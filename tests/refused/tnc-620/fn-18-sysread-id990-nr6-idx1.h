@@ -1,4 +1,4 @@
-; 4:23 alarm: FN 18: SYSREAD ID990 NR6 is not built yet
+; 4:23 alarm: FN 18: SYSREAD ID990 NR6 is not built yet (of ID990: NR10)
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
 2 FN 18: SYSREAD Q1 = ID990 NR6

@@ -1,4 +1,4 @@
-; 4:9 alarm: M needs a number
+; 4:5 alarm: M needs a number, found 'X'
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
-2 L X+5 M
+2 L M X+5

@@ -78,14 +78,15 @@ def test_oriented_stop(text, angle):
 
 
 def test_functions_of_makers_move_nothing_and_say_so():
-    found = run(lines("M88|X1|M21|M48|M52 P1|M66 P0 L3 Q5"))
+    found = run(lines("M88|X1|M21|M48|M29 S100|M52 P1|M66 P0 L3 Q5"))
     assert len(found.toolpath) == 1 and [alarm.message.partition(":")[0] for alarm in found.alarms] == [
         f"{code} is a function of the machine's maker" for code in ("M88", "M21", "M66")
     ]
 
 
 def test_lines_that_begin_most_programs_say_nothing():
-    found = run(lines("G21 G90 G94 G17|G40 G49 G80 G50 G69 G50.1 G15|G40.1 G97 G64|G5.1 Q1|G5 P10000|G8 P1|G187 P3 E0.1|X1"))
+    first = "G21 G90 G94 G17|G40 G49 G80 G50 G69 G50.1 G15|G40.1 G97 G64|G5.1 Q1|G5 P10000|G8 P1|G187 P3 E0.1|X1"
+    found = run(lines(first))
     assert not found.alarms and found.toolpath.end.tolist() == [[1, 0, 0]]
 
 
@@ -93,7 +94,8 @@ def test_lines_that_begin_most_programs_say_nothing():
 
 
 @pytest.mark.parametrize(("dialect", "text", "seconds"), [
-    ("fanuc", "G4 P500", 0.5), ("linuxcnc", "G4 P2.5", 2.5), ("haas", "G4 P500", 0.5), ("haas", "G4 P2.", 2), ("fanuc", "G4 X3", 3),
+    ("fanuc", "G4 P500", 0.5), ("linuxcnc", "G4 P2.5", 2.5), ("haas", "G4 P500", 0.5), ("haas", "G4 P2.", 2),
+    ("fanuc", "G4 X3", 3),
     ("linuxcnc", "F100 G82 Z-5 R2 X1 P1.5", 1.5), ("fanuc", "F100 G82 Z-5 R2 X1 P1500", 1.5),
 ])  # fmt: skip
 def test_dwells(dialect, text, seconds):
@@ -113,9 +115,14 @@ def test_an_unknown_dialect_is_named():
 
 def test_help_says_what_a_dialect_chooses():
     page = str(mnclab.help("settings", "g43"))
-    assert "dwell_p seconds" in page and "that of Haas mills" in page
+    assert "dwell_p=seconds" in page and "that of Haas mills" in page
 
 
 def test_what_stands_in_no_chapter_is_marked_in_help():
     functions = mnclab.controls["g43"].functions
     assert functions["G68"].source == "ISO meaning" and functions["G43"].source == "7.1"
+
+
+def test_a_machine_may_begin_in_inches():
+    found = run("X1\nG21 X1\n", units="inch")
+    assert found.toolpath.end[:, 0].tolist() == [25.4, 1] and found.history["unit"][0] == "G20"

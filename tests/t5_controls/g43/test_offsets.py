@@ -25,6 +25,7 @@ def test_further_work_offsets_are_rows_from_101_on():
     datums = {1: (1, 2, 3), 7: (5, 5, 5), 101: (10, 20, 30), 148: (100, 0, 0)}
     found = run(lines("X1 Y1 Z1|G54.1 P1 X1 Y1 Z1|G54.1 P48 X1|G59.1 X0 Y0 Z0"), datums=datums)
     assert places(found) == [[2, 3, 4], [11, 21, 31], [101, 21, 31], [5, 5, 5]]
+    assert last("G154 P1 X1", datums=datums) == last("G110 X1", datums=datums) == [11, 0, 0]
 
 
 def test_a_work_offset_may_be_turned():
@@ -85,6 +86,15 @@ def test_g53_under_g91():
     assert places(fanuc)[-1] == [18, 0, 0] and "counts for nothing" in fanuc.alarms[0].message
     assert places(run(text, datums={1: (10, 0, 0)}, dialect="haas"))[-1] == [3, 0, 0]
     assert "cannot stand under G91" in run(text, ok=False, dialect="linuxcnc").alarms[0].message
+
+
+def test_settings_of_the_start():
+    datums = {1: (10, 0, 0), 2: (100, 0, 0)}
+    assert last("X1", datums=datums, start_datum="none") == [1, 0, 0]
+    assert last("X1|G55 X1", datums=datums, start_datum="none") == [101, 0, 0]
+    assert last("X5|G92 X0|G55 X1", datums={2: (100, 0, 0)}, g92_lasts="ends") == [101, 0, 0]
+    arc = run("F100\nG1 X10\nG2 X20 I15 J0\n", arc_centres="origin", stopped_spindle="accept")
+    assert arc.toolpath.centre[-1].tolist() == [15, 0, 0]
 
 
 # --- reference points -------------------------------------------------------------------------------------------------

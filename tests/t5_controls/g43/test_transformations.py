@@ -87,7 +87,8 @@ def test_a_mirror_image_turns_arcs_and_sides_over():
     found = run(lines("T1 M6|G51.1 X0|G0 X-30 Y0|G41 D1 G1 X0 F100|G2 X20 Y-20 R20|G40 G1 Y-60"))
     plain = run(lines("T1 M6|G0 X30 Y0|G42 D1 G1 X0 F100|G3 X-20 Y-20 R20|G40 G1 Y-60"))
     assert found.toolpath.end[1:].round(9).tolist() == plain.toolpath.end[1:].round(9).tolist()
-    assert np.allclose(found.toolpath.sweep, plain.toolpath.sweep) and found.toolpath.side.tolist() == plain.toolpath.side.tolist()
+    assert np.allclose(found.toolpath.sweep, plain.toolpath.sweep)
+    assert found.toolpath.side.tolist() == plain.toolpath.side.tolist()
 
 
 def test_arcs_and_the_tool_under_an_equal_scale():

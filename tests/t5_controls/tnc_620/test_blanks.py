@@ -103,6 +103,7 @@ def test_the_blank_chooses_among_free_contours(tnc) -> None:
     assert [alarm.message for alarm in both.alarms] == ["FL: the free contour has 2 solutions here"]
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("blank", [program("BLK FORM CYLINDER Z R50 L105 DIST+5 RI10"), turned(STEPPED)])
 def test_everything_that_shows_a_blank_shows_it(blank, tnc, tmp_path) -> None:
     move = "TOOL CALL 1 Z S1000 F100\nL X+60 Y+0 Z+50 R0 FMAX M3\nL Z-30 F100\nL X+40\nL Z+50 R0 FMAX\nM30\n"

@@ -69,3 +69,25 @@ def test_function_dwell(words: str, seconds: float, inside) -> None:
     """Turns at 1000 rev/min last 60 / 1000 s each."""
     run = inside(f"2 Q1 = 4\n3 M3\n4 FUNCTION DWELL {words}")
     assert run.ok and run.toolpath.time[run.toolpath.kind == mnc.Kind.DWELL] == pytest.approx([seconds])
+
+
+@pytest.mark.parametrize("end", ["R F M", "F M", "M", "r f m", "R  F M ;"])
+def test_empty_words_of_older_controls_change_nothing(end: str, inside) -> None:
+    """Compensation and feed hold on: 5 mm beside the second line, at 77."""
+    run = inside(f"2 L X+0 Y-20 R0 F MAX M3\n3 L X+10 Y+0 RL F77 M\n4 L X+50 {end}\n5 L Y-20 R0 F M")
+    assert ends(run)[1:3] == [(10, 5, 0), (50, 5, 0)] and not run.alarms
+    assert run.toolpath.motion.feed.tolist()[1:] == [77] * 3 and run.toolpath.motion.side.tolist() == [0, 1, 1, 0]
+
+
+def test_an_empty_rep_calls_the_subprogram(inside) -> None:
+    run = inside("2 CALL LBL 1 REP\n3 L Y+1 FMAX\n4 M30\n5 LBL 1\n6 L IX+3 FMAX\n7 LBL 0")
+    (warning,) = run.alarms
+    assert ends(run) == [(3, 0, 0), (3, 1, 0)] and (warning.severity, warning.span[:2]) == ("warning", (3, 14))
+
+
+def test_trans_datum_shifts_as_cycle_7_does(inside) -> None:
+    """X 10, then 10 + 5; Y stays at 20; the reset takes both away, and the shift of cycle 7."""
+    shifts = ["TRANS DATUM AXIS X+10 Y+20", "TRANS DATUM AXIS IX+5", "TRANS DATUM RESET"]
+    run = inside("\n".join(f"{number} {each}\n{number} L X+1 Y+1 FMAX" for number, each in enumerate(shifts, 2)))
+    assert ends(run) == [(11, 21, 0), (16, 21, 0), (1, 1, 0)]
+    assert ends(inside("2 CYCL DEF 7.0 X\n3 CYCL DEF 7.1 Z+9\n4 TRANS DATUM RESET\n5 L Z+1 FMAX")) == [(0, 0, 1)]

@@ -170,12 +170,24 @@ def test_a_loop_that_writes_for_ever_ends(inside) -> None:
 
 
 def test_the_functions_under_their_names_of_din_iso(tnc) -> None:
-    """D15, D16, D19, D20 and D23 are the same functions; a P01 stands before what they take."""
+    """D15, D16, D19, D20 and D23 are the same functions."""
     text = (
         "%A G71 *\nN10 Q30 = 3 *\nN11 Q31 = 0 *\nN12 Q32 = -3 *\nN13 Q33 = 0 *\nN14 Q34 = 0 *\nN15 Q35 = 3 *\n"
-        "N20 D23 P01 Q20 = CDATA Q30 *\nN30 D16 P01 F-PRINT LOG.A / OUT.TXT *\nN40 D19 P01 +10 P02 +Q20 *\nN50 D20 *\n"
-        "N60 D15 P01 PRINT Q22 *\nN99 %A G71 *\n"
+        "N20 D23 Q20 P01 Q30 *\nN30 D16 P01 F-PRINT LOG.A / OUT.TXT *\nN40 D19 P01 +10 P02 +Q20 *\nN50 D20 *\n"
+        "N60 D15 P01 +Q22 *\nN99 %A G71 *\n"
     )
     run = tnc(text, mnc.Setup(files={"LOG.A": '"R%7.2f",Q22;'}))
     assert run.ok and [alarm.span.line for alarm in run.alarms] == [10, 11, 12]
     assert run.files == {"OUT.TXT": "R   3.00\n", "%FN15RUN.A": "Q22 = 3\n"}
+
+
+def test_a_contour_that_is_read_writes_nothing_and_says_so(inside) -> None:
+    blocks = (
+        "2 CYCL DEF 14.0 CONTOUR\n3 CYCL DEF 14.1 LABEL1\n4 CYCL DEF 20 CONTOUR DATA\nQ1=-5\nQ2=1\nQ3=0\nQ4=0\nQ5=0\nQ6=2\n"
+        "Q7=50\nQ8=0\nQ9=-1\n5 CYCL DEF 22 ROUGH-OUT\nQ10=-5\nQ11=100\nQ12=200\nQ18=0\nQ19=0\nQ208=9999\nQ401=100\nQ404=0\n"
+        f"6 L Z+50 FMAX M3\n7 CYCL CALL\n8 M30\n9 LBL 1\n10 {PRINT}\n11 L X+0 Y+0 RL\n12 L X+40\n13 L Y+40\n14 L X+0\n15 L Y+0\n"
+        "16 LBL 0"
+    )
+    run = printed(inside, '"x";', blocks)
+    assert run.ok and run.files == {}
+    assert "FN 16 writes nothing while a contour is read" in {alarm.message for alarm in run.alarms}

@@ -1,4 +1,4 @@
-"""M140 and PLANE RESET: away along the tool axis (HEIDENHAIN TNC 620, Klartext manual: M140 acts at the start of its block)."""
+"""M140, away along the tool axis at the start of its block, and PLANE where it tilts nothing (HEIDENHAIN, Klartext manuals)."""
 
 from __future__ import annotations
 
@@ -58,6 +58,13 @@ def test_under_radius_compensation_and_a_rotation_only_the_height_changes(inside
     assert path[1] == ("LINE", -5, 10, 20, 50) and path[2][:4] == ("LINE", -5, 30, 20) and {end[3] for end in path[1:]} == {20}
 
 
+def test_along_another_tool_axis(tnc) -> None:
+    """TOOL CALL 1 Y: 50 along Y, and to Y500 of the machine, the spindle 80 above the tip."""
+    setup = mnc.Setup(tools=TOOLS, start=(0, 80, 0))
+    run = tnc("1 TOOL CALL 1 Y S1 F9\n2 L X+5 Y-3 Z+7 FMAX\n3 M140 MB50\n4 M140 MB MAX\n", setup)
+    assert [end[1:4] for end in ends(run)] == [(5, -3, 7), (5, 47, 7), (5, 420, 7)]
+
+
 def test_in_a_recorded_pass_and_a_loop(inside) -> None:
     """A section that is repeated twice retracts three times."""
     run = inside("2 LBL 1\n3 L IZ-1 F9 M3\n4 M140 MB 3 FMAX\n5 CALL LBL 1 REP2")
@@ -75,3 +82,13 @@ def test_plane_reset_ends_cycle_19(inside) -> None:
     """Under A+90 the Y of the program is the Z of the machine; behind PLANE RESET it is Y again, and nothing moved."""
     run = inside("2 CYCL DEF 19.0 X\n3 CYCL DEF 19.1 A+90\n4 L Y+10 FMAX\n5 PLANE RESET STAY\n6 L Y+3 FMAX")
     assert [end[1:4] for end in ends(run)] == [(0, 0, 10), (0, 3, 10)]
+
+
+@pytest.mark.parametrize("how", ["STAY SEQ+ TABLE ROT", "TURN FMAX SEQ -", "MOVE ABST50 F500 COORD ROT"])
+def test_a_plane_of_no_angles_tilts_nothing(how: str, inside) -> None:
+    """It ends a tilt, and writes 0 into Q120 to Q122, to which the program then turns its axes."""
+    tilt = "2 CYCL DEF 19.0 X\n3 CYCL DEF 19.1 A+90\n4 L Y+10 FMAX"
+    turn = "6 L A+Q120 C+Q122 FMAX M126\n7 L Y+3 FMAX"
+    run = inside(f"{tilt}\n5 PLANE SPATIAL SPA0 SPB+0 SPCQ1 {how}\n{turn}", mnc.Setup(variables={"Q1": 0}))
+    assert [end[1:4] for end in ends(run)] == [(0, 0, 10), (0, 3, 10)]
+    assert [run.variables[name] for name in ("Q120", "Q121", "Q122")] == [0, 0, 0]

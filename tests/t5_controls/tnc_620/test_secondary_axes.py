@@ -55,3 +55,10 @@ def test_their_travel_is_not_known(inside) -> None:
     limits = mnc.Limits(travel=((-100, 100), (-100, 100), (-100, 100)))
     (warning,) = inside("2 L X+5 U+5 FMAX", mnc.Setup(limits=limits)).alarms
     assert "the travel of U is not known" in warning.message and warning.severity == "warning"
+
+
+def test_the_end_of_the_travel_is_that_of_z_alone(inside) -> None:
+    """M140 MB MAX leads Z to 200; W stands at 7, the tool is 50 long."""
+    setup = mnc.Setup(tools={1: mnc.Tool(length=50)}, settings={"retract_to": 200})
+    run = inside("2 L W+7 R0 FMAX M3\n3 L M140 MB MAX", setup)
+    assert ends(run)[-1] == (0, 0, 157)

@@ -62,7 +62,8 @@ BEFORE = {
         ("shifted", "ID240 NR1 IDX2", -4), ("shifted", "ID270 NR1 IDX6", -30), ("shifted", "ID240 NR1 IDX6", 0),
         ("", "ID280 NR1", 0), ("", "ID310 NR116", 0), ("", "ID320 NR1 IDX0", 1.5e9),
         ("", "ID500 NR4 IDX2", 8), ("", "ID505 NR1", 1), ("", "ID503 NR3 IDX1", 100), ("", "ID507 NR3 IDX3", -200),
-        ("", "ID530 NR1", 0), ("moved", "ID530 NR1", 3), ("", "ID992 NR16", 1),
+        ("", "ID530 NR1", 0), ("moved", "ID530 NR1", 3), ("", "ID992 NR16", 1), ("", "ID990 NR10 IDX0", 0),
+        ("", "ID992 NR10", 0),
     ],
 )  # fmt: skip
 def test_what_is_read(before: str, asked: str, expected: float, inside) -> None:
@@ -98,6 +99,15 @@ def test_the_travel_leads_to_the_end_of_the_axis(inside) -> None:
     run = inside("2 FN 18: SYSREAD Q30 = ID230 NR3 IDX3\n3 L Z+Q30 R0 FMAX M91", setup)
     assert run.ok, run.alarms
     assert run.toolpath.motion.end[-1, 2] == pytest.approx(0 - 80.2)
+
+
+def test_the_reference_lies_above_the_tip_along_the_tool_axis(inside) -> None:
+    """The tool axis X: its length lies along X, and Z is that of the tip."""
+    run = inside(
+        "2 TOOL CALL 2 X S100\n3 L X+1 Y+2 Z+3 FMAX\n4 FN 18: SYSREAD Q1 = ID240 NR1 IDX1\n"
+        "5 FN 18: SYSREAD Q3 = ID240 NR1 IDX3\n6 FN 18: SYSREAD Q4 = ID20 NR3", SETUP,
+    )  # fmt: skip
+    assert run.ok and [run.variables[name] for name in ("Q1", "Q3", "Q4")] == [61, 3, 0], run.alarms
 
 
 def test_the_spindle_of_a_feed_a_revolution(inside) -> None:
@@ -158,3 +168,39 @@ def test_the_time_as_a_text(number: int, expected: str, inside) -> None:
 def test_the_name_of_the_tool_as_a_text(inside) -> None:
     run = inside("2 QS1 = SYSSTR(ID 10950 NR 1)\n3 TOOL CALL 2 Z\n4 QS2 = SYSSTR( NR1 ID10950 )\n5 Q1 = STRLEN ( SRC_QS2 )")
     assert run.ok and [run.variables[name] for name in ("QS1", "QS2", "Q1")] == ["end mill 10", "drill 8", 7]
+
+
+def test_a_program_that_asks_whether_it_is_simulated(inside) -> None:
+    """Programs jump over probing where ID992 NR16 is 0; the setting says what they are told."""
+    blocks = "2 FN 18: SYSREAD Q1 = ID992 NR16\n3 FN 9: IF +Q1 EQU +0 GOTO LBL 9\n4 L X+5\n5 LBL 9\n6 L Y+5"
+    assert len(inside(blocks).toolpath.motion) == 2 and len(inside(blocks, execution=False).toolpath.motion) == 1
+
+
+def test_a_warm_up_goes_ten_millimetres_inside_its_limits(tnc) -> None:
+    """In the manner of warm-up programs: limits into QL parameters, targets from them, moves with M91."""
+    limits = [(-500, 1000), (-250, 300), (-400, 0)]
+    reads = "".join(
+        f"FN 18: SYSREAD QL{2 * k + side} = ID230 NR{2 + side} IDX{k + 1}\nQL{10 + 2 * k + side} = QL{2 * k + side} {sign} 10\n"
+        for k in range(3) for side, sign in enumerate("+-")
+    )  # fmt: skip
+    text = (
+        f"0 BEGIN PGM W MM\nTOOL CALL 2 Z S500\n{reads}FN 12: IF +QL0 LT -9999 GOTO LBL 9\n"
+        "L Z+QL15 R0 FMAX M91\nL X+QL10 Y+QL12 R0 FMAX M91\nLBL 1\nL X+QL11 Y+QL13 R0 F2000 M91\nL X+QL10 Y+QL12 R0 F2000 M91\n"
+        "CALL LBL 1 REP 1\nLBL 9\nEND PGM W MM\n"
+    )
+    run = tnc(text, mnc.Setup(tools=TOOLS, limits=mnc.Limits(travel=tuple(limits)), start=(0, 0, -100)))
+    assert run.ok, run.alarms
+    low, high = [-490, -240, -10 - 60], [990, 290, -10 - 60]  # the tip is 60 below the spindle
+    assert run.toolpath.motion.end[1:].tolist() == [low, high, low, high, low]
+
+
+@pytest.mark.parametrize(("length", "error"), [(60.5, False), (60, True)])
+def test_a_tool_without_a_measured_length_is_found(length: float, error: bool, tnc) -> None:
+    """In the manner of tool checks: a length that is a whole number was never measured."""
+    text = (
+        "0 BEGIN PGM T MM\n1 TOOL CALL 2 Z S500\n2 FN 18: SYSREAD Q1 = ID20 NR1\n3 FN 18: SYSREAD Q4 = ID50 NR1 IDXQ1\n"
+        "4 Q5 = INT Q4\n5 FN 10: IF +Q4 NE +Q5 GOTO LBL 1\n6 FN 14: ERROR = 45\n7 LBL 1\n8 L Z+50 FMAX\n9 END PGM T MM\n"
+    )
+    run = tnc(text, mnc.Setup(tools={2: mnc.Tool(radius=4, length=length)}))
+    assert run.ok is not error
+    assert [alarm.message for alarm in run.alarms] == ["FN 14: the program stops with error 45"] * error

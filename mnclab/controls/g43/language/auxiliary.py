@@ -10,6 +10,7 @@ from mnclab.machine.machine import Machine
 FUNCTIONS = FunctionTable()
 BOTH = {"M13": "Spindle on clockwise, coolant on", "M14": "Spindle on counter-clockwise, coolant on"}
 OVERRIDES = {
+    "M29": "Rigid tapping, as G84 always is here",
     "M48": "Overrides on", "M49": "Overrides off", "M50": "Feed override", "M51": "Spindle override",
     "M52": "Adaptive feed", "M53": "Feed stop",
 }  # fmt: skip
@@ -38,9 +39,9 @@ def pallet(m: Machine, words: Words) -> None:
     m.stop()
 
 
-@FUNCTIONS(" ".join(OVERRIDES), OVERRIDES, phase="auxiliary", takes="P", modal=False, source="LinuxCNC, Haas")
+@FUNCTIONS(" ".join(OVERRIDES), OVERRIDES, phase="auxiliary", takes="P", modal=False, source="Fanuc, Haas, LinuxCNC")
 def overrides(m: Machine, words: Words) -> None:
-    """What the operator may turn at; the program goes as it is written."""
+    """The path is the same: what the operator may turn at, and how a tap is held."""
 
 
 @FUNCTIONS(SIGNALS, "Signals of the machine", phase="auxiliary", takes="P E L Q", modal=False, source="LinuxCNC")

@@ -19,10 +19,15 @@ def whole(m: Machine, words: Words, address: str, least: int, most: int) -> int:
     return int(number)
 
 
+def written(m: Machine, word: Word) -> str:
+    """A word of the running program as it stands there, without its address."""
+    line, column, length, _ = word.span
+    return m.flow.program.line_text(line)[column - 1 : column - 1 + length][len(word.address) :].strip()
+
+
 def has_point(m: Machine, word: Word) -> bool:
     """Whether a word of the running program is written with a decimal point."""
-    line, column, length, _ = word.span
-    return "." in m.flow.program.line_text(line)[column - 1 : column - 1 + length]
+    return "." in written(m, word)
 
 
 def seconds_of_p(m: Machine, word: Word) -> float:

@@ -19,12 +19,17 @@ from mnclab.machine.setup import Datum
 
 FUNCTIONS = FunctionTable()
 FURTHER, MOST = 100, 300  # G54.1 P1 is row 101; so many of them
+HAAS = {f"G{n}": n - 109 for n in range(110, 130)}  # codes of the first twenty of them on a Haas
 ROWS = {f"G{n}": n - 53 for n in range(54, 60)} | {f"G59.{n}": 6 + n for n in (1, 2, 3)}
 
 
 def start(m: Machine) -> None:
-    """G54 is active at the start."""
-    select(m, 1)
+    """G54 is active at the start, unless the setting start_datum wants none."""
+    if m.settings["start_datum"] == "G54":
+        select(m, 1)
+    else:
+        m.set_modal("datum", "")
+        memory(m).row = 0
 
 
 def select(m: Machine, row: int) -> None:
@@ -39,6 +44,8 @@ def change(m: Machine, words: Words, row: int) -> None:
         m.alarm("a work offset cannot change under radius compensation", first_word(words), hint="write G40 first")
     if on := transformed(m):
         m.warn(f"the work offset changes while {on} is active, which now counts from the new one", first_word(words))
+    if m.settings["g92_lasts"] == "ends":
+        set_shift(m, registers(m)[0], NONE)
     select(m, row)
 
 
@@ -49,10 +56,17 @@ def work_offset(m: Machine, words: Words) -> None:
     change(m, words, ROWS[words.code])
 
 
-@FUNCTIONS("G54.1", "Further work offset", group="datum", phase="frames", takes="P", source="Fanuc, Haas")
+@FUNCTIONS("G54.1 G154", "Further work offset", group="datum", phase="frames", takes="P", source="Fanuc, Haas")
 def further_offset(m: Machine, words: Words) -> None:
     """P1 to P300: rows 101 to 400 of the datum table."""
     change(m, words, FURTHER + whole(m, words, "P", 1, MOST))
+
+
+@FUNCTIONS(" ".join(HAAS), {code: f"Further work offset, G154 P{number}" for code, number in HAAS.items()}, group="datum",
+           phase="frames", source="Haas")  # fmt: skip
+def numbered_offset(m: Machine, words: Words) -> None:
+    """Rows 101 to 120 of the datum table."""
+    change(m, words, FURTHER + HAAS[words.code])
 
 
 @FUNCTIONS("G53", "Machine coordinates", phase="frames", modal=False, source=ISO)

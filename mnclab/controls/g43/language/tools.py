@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mnclab.controls.g43.language.lengths import MOST, choose, place
-from mnclab.controls.g43.language.numbers import whole
+from mnclab.controls.g43.language.numbers import whole, written
 from mnclab.controls.g43.remarks import ISO, undescribed
 from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address import motion
@@ -24,6 +24,8 @@ def tool(m: Machine, words: Words) -> None:
     word, known = words["T"], m.tables.tools
     number = whole(m, words, "T", 0, MOST)
     if number not in known:
+        if (text := written(m, word)).startswith("0") and len(text) == 4:
+            m.alarm(f"T{text} is the way of lathes to write tool and corrector in one", word, hint=f"write T{text[:2]} M6")
         if m.setup.tools != m.control.magazine:
             listed = ", ".join(f"T{n}" for n in sorted(known))
             m.alarm(f"T{number} has no row in the tool table", word, hint=f"tools: {listed}")
@@ -37,7 +39,9 @@ def tool(m: Machine, words: Words) -> None:
 @FUNCTIONS("M6", "Tool change", phase="change", modal=False, source="7.1")
 def tool_change(m: Machine, words: Words) -> None:
     """The tool of T comes into the spindle and D becomes its number; no axis moves."""
+    kept, before = memory(m), m.tool.number
     motion.change_tool(m, words)
+    kept.outlived |= bool(kept.sign and kept.length_corrector and m.tool.number != before)
     place(m, "tip")
     choose(m, m.tool.number, first_word(words))
 

@@ -13,6 +13,13 @@ UNITS = {"G20": INCH, "G70": INCH, "G21": 1.0, "G71": 1.0}
 NAMES = {code: "Inches" if factor == INCH else "Millimetres" for code, factor in UNITS.items()}
 
 
+def start(m: Machine) -> None:
+    """The unit that is active before the program says one."""
+    if m.settings["units"] == "inch":
+        m.set_modal("unit", "G20")
+        m.variable_unit = INCH
+
+
 @FUNCTIONS(" ".join(UNITS), NAMES, group="unit", phase="plane", power_on="G21", source=ISO)
 def unit(m: Machine, words: Words) -> None:
     """What lengths and feeds of the program count in from this block on; the feed keeps its speed."""

@@ -12,16 +12,22 @@ import re
 from collections.abc import Callable
 from functools import partial
 
+from mnclab.controls.g43.language.data_setting import put
+from mnclab.controls.g43.language.offsets import FURTHER
+from mnclab.controls.g43.language.transformations import refuse_transformed
 from mnclab.controls.g43.reading.formulas import LINUXCNC, ORDINARY
 from mnclab.controls.g43.state import memory
+from mnclab.geometry import frames
+from mnclab.machine.control import Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
 from mnclab.text.program import Word
 
 Reading = Callable[[Machine], float | None]
-LOCAL = tuple(f"#{n}" for n in range(1, 34))
 NAMES = re.compile(r"#(?:[1-9]\d{0,2}|<[a-z0-9_.]{1,80}>)")
-OFFSETS = {f"#{5221 + 20 * row + k}": (row + 1, "xyz"[k]) for row in range(6) for k in range(3)}
+ROWS = {5221 + 20 * k: k + 1 for k in range(9)} | {7001 + 20 * k: FURTHER + k + 1 for k in range(48)}
+OFFSETS = {f"#{first + k}": (row, k) for first, row in ROWS.items() for k in range(3)}
+EXTERNAL = {f"#{5201 + k}": k for k in range(3)}  # the offset before all others
 GROUPS = {
     "#4001": "motion", "#4002": "plane", "#4003": "dimension", "#4005": "feed mode", "#4007": "compensation",
     "#4008": "length compensation", "#4010": "return", "#4014": "datum", "#4015": "blending",
@@ -58,33 +64,45 @@ def give(m: Machine, word: Word, name: str, value: float | None, message: str) -
         m.message(f"#3006 = {value or 0:g}: the program waits for the operator: {said}")
     elif name in WITHOUT_EFFECT:
         m.warn(f"{name} ({WITHOUT_EFFECT[name]}) changes nothing here", word)
-    elif name in OFFSETS:
+    elif name in OFFSETS or name in EXTERNAL:
         if value is None:
             m.alarm(f"{name} needs a number: a work offset is never vacant", word)
-        write_offset(m, *OFFSETS[name], value * m.variable_unit, word)
+        if m.side:
+            m.alarm("a work offset cannot change under radius compensation", word, hint="write G40 first")
+        write_offset(m, name, value * m.variable_unit, Words((word,), name))
     elif name in PREASSIGNED:
         m.alarm(f"{name} is kept by the control and cannot be written", word)
     else:
         m.alarm(f"{name} is a variable of the control that is not built", word, "#1 to #999 are free")
 
 
-def write_offset(m: Machine, row: int, axis: str, value: float, word: Word) -> None:
-    """One axis of a work offset, mm; where it is active, coordinates count from there at once."""
-    active = m.modal.get("datum") == f"G{53 + row}"
-    if active and m.side:
-        m.alarm("a work offset cannot change under radius compensation", word, hint="write G40 first")
-    datum = m.tables.datums.get(row, Datum())._replace(**{axis: value})
-    m.write_table("datums", row, datum)
-    if active:
-        m.select_datum(datum)
+def write_offset(m: Machine, name: str, value: float, words: Words) -> None:
+    """One axis of an offset, mm; where it is active, coordinates count from there at once."""
+    if name in EXTERNAL:
+        refuse_transformed(m, words)
+        place = m.frames["external"][:3, 3].tolist()
+        place[EXTERNAL[name]] = value
+        m.set_frame("external", frames.shift(*place))
+        return
+    row, k = OFFSETS[name]
+    put(m, row, m.tables.datums.get(row, Datum())._replace(**{"xyz"[k]: value}), words)
 
 
-def read_offset(m: Machine, row: int, axis: str) -> float:
-    return float(getattr(m.tables.datums.get(row, Datum()), axis)) / m.variable_unit
+def read_offset(m: Machine, row: int, k: int) -> float:
+    return float(m.tables.datums.get(row, Datum())[k]) / m.variable_unit
 
 
-def end_of_block(m: Machine, k: int) -> float:
+def external(m: Machine, k: int) -> float:
+    return float(m.frames["external"][k, 3]) / m.variable_unit
+
+
+def here(m: Machine, k: int) -> float:
     return m.programmed[k] / m.variable_unit
+
+
+def end_of_block(m: Machine, k: int) -> float | None:
+    """Where the last block ended; not known in a turned or scaled system."""
+    return None if m.shift is None else here(m, k)
 
 
 def on_machine(m: Machine, k: int) -> float | None:
@@ -120,21 +138,24 @@ def length_offset(m: Machine, k: int) -> float:
     return memory(m).active_offsets[k] / m.variable_unit
 
 
-def active_offset(m: Machine) -> float | None:
-    code = active_code(m, "datum")
-    return None if code is None or code != int(code) else code - 53
+def active_row(m: Machine) -> float | None:
+    """1 to 6 for G54 to G59, 7 to 9 for G59.1 to G59.3."""
+    row = memory(m).row
+    return float(row) if row < FURTHER else None
 
 
 PREASSIGNED: dict[str, Reading] = (
     {f"#{5001 + k}": partial(end_of_block, k=k) for k in range(3)}
     | {f"#{5021 + k}": partial(on_machine, k=k) for k in range(3)}
     | {f"#{5041 + k}": partial(in_program, k=k) for k in range(3)}
-    | {name: partial(read_offset, row=row, axis=axis) for name, (row, axis) in OFFSETS.items()}
+    | {name: partial(read_offset, row=row, k=k) for name, (row, k) in OFFSETS.items()}
+    | {name: partial(external, k=k) for name, k in EXTERNAL.items()}
     | {name: partial(active_code, group=group) for name, group in GROUPS.items()}
     | {"#4006": lambda m: 21.0 if m.variable_unit == 1 else 20.0, "#4009": active_cycle, "#4120": chosen_tool}
     | {"#4109": lambda m: (m.feed or 0.0) / m.variable_unit, "#4119": lambda m: m.speed}
     | {"#5400": lambda m: float(m.tool.number), "#5410": lambda m: 2 * m.tool.radius / m.variable_unit}
     | {f"#{5401 + k}": partial(length_offset, k=k) for k in range(3)}
-    | {f"#{5420 + k}": partial(end_of_block, k=k) for k in range(3)}
-    | {"#5220": active_offset}
+    | {f"#{5420 + k}": partial(here, k=k) for k in range(3)}
+    | {"#5220": active_row, "#4107": lambda m: float(memory(m).corrector)}
+    | {"#4111": lambda m: float(memory(m).length_corrector or 0)}
 )

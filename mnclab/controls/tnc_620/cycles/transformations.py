@@ -19,6 +19,7 @@ from mnclab.geometry import frames
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
+from mnclab.machine.tool_axis import tool_axis
 from mnclab.machining.steps import Step, Write
 
 CYCLES = CycleTable()
@@ -45,8 +46,8 @@ class Mirroring(Cycle):
             yield "mirrored_axes", f"must be at most three, got {' '.join(named)}"
         if twice := next((axis for axis in named if named.count(axis) > 1), None):
             yield "mirrored_axes", f"names {twice} twice"
-        if "Z" in named and m.tool.number:
-            yield "mirrored_axes", "cannot be the tool axis Z"
+        if (axis := "XYZ"[tool_axis(m)]) in named and m.tool.number:
+            yield "mirrored_axes", f"cannot be the tool axis {axis}"
         if absent := next((axis for axis in named if axis in NOT_BUILT), None):
             yield "mirrored_axes", f"cannot be {absent}: this axis is not built yet"
 
@@ -73,7 +74,8 @@ class Rotation(Cycle):
     def moves(self, m: Machine) -> Iterator[Step]:
         yield Write("side", 0)
         yield from chain.remember_angle(m, self.angle)
-        yield from chain.define(m, chain.ROTATION, frames.turn(math.radians(self.angle)) if self.angle % 360 else None)
+        matrix = frames.turn(math.radians(self.angle), "xyz"[tool_axis(m)]) if self.angle % 360 else None
+        yield from chain.define(m, chain.ROTATION, matrix)
 
 
 @CYCLES("CYCL DEF 11", "Scaling", runs="definition", source="11.7")

@@ -9,11 +9,22 @@ auxiliary point, and along a departure.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
 from mnclab.controls.tnc_620.language.checks import above_zero
-from mnclab.controls.tnc_620.language.motion import SIDED, SIDES, coordinates, feed, heading, refuse_rapid, scaled, side
+from mnclab.controls.tnc_620.language.motion import (
+    SIDED,
+    SIDES,
+    coordinates,
+    end,
+    feed,
+    heading,
+    refuse_rapid,
+    scaled,
+    side,
+)
 from mnclab.controls.tnc_620.language.pole import polar_point, pole
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
@@ -56,10 +67,10 @@ def shape(m: Machine, words: Words) -> Lead:
 @FUNCTIONS("APPR LN,", "Approach on a line square to the contour", takes=f"X Y Z LEN {SIDED}", source="8.12")
 @FUNCTIONS("APPR CT,", "Approach on a tangent arc", takes=f"X Y Z CCA R {SIDED}", source="8.12")
 @FUNCTIONS("APPR LCT,", "Approach on a line and a tangent arc", takes=f"X Y Z R {SIDED}", source="8.12")
-@FUNCTIONS("APPR PLT,", "Approach on a tangent line, polar", takes=f"PR PA Z LEN {SIDED}", source="8.12")
-@FUNCTIONS("APPR PLN,", "Approach on a square line, polar", takes=f"PR PA Z LEN {SIDED}", source="8.12")
-@FUNCTIONS("APPR PCT,", "Approach on a tangent arc, polar", takes=f"PR PA Z CCA R {SIDED}", source="8.12")
-@FUNCTIONS("APPR PLCT,", "Approach on a line and a tangent arc, polar", takes=f"PR PA Z R {SIDED}", source="8.12")
+@FUNCTIONS("APPR PLT,", "Approach on a tangent line, polar", takes=f"PR PA X Y Z LEN {SIDED}", source="8.12")
+@FUNCTIONS("APPR PLN,", "Approach on a square line, polar", takes=f"PR PA X Y Z LEN {SIDED}", source="8.12")
+@FUNCTIONS("APPR PCT,", "Approach on a tangent arc, polar", takes=f"PR PA X Y Z CCA R {SIDED}", source="8.12")
+@FUNCTIONS("APPR PLCT,", "Approach on a line and a tangent arc, polar", takes=f"PR PA X Y Z R {SIDED}", source="8.12")
 def approach(m: Machine, words: Words) -> None:
     """To the first contour point, compensated from there on; the line to the auxiliary point keeps the feed before."""
     refuse_rapid(m, words)
@@ -68,7 +79,7 @@ def approach(m: Machine, words: Words) -> None:
     begin_side(m, words)
     lead = shape(m, words)
     lead = lead._replace(feed=m.feed_of(f) if lead.form == "LCT" else before)
-    m.line(to["x"], to["y"], to.get("z"), f=f, joint=lead)
+    m.line(**to, f=f, joint=lead)
 
 
 def lead_feed(m: Machine) -> float:
@@ -82,16 +93,18 @@ def lead_feed(m: Machine) -> float:
     return INF if kind == Kind.RAPID else m.feed_of(None)
 
 
-def point(m: Machine, words: Words, meaning: str) -> dict[str, float]:
-    """Where an approach ends, or a departure of the form LCT; z where it is written."""
+def point(m: Machine, words: Words, meaning: str) -> dict[str, Any]:
+    """Where an approach ends, or a departure of the form LCT; the height where it is written."""
     to = coordinates(m, words)
     if words.code.split()[1].startswith("P"):
         plane, _ = pole(m, words)
         if plane != m.plane:
             m.alarm(f"{words.code}: the pole CC lies in {plane}, approaches and departures in {m.plane}")
+        if inside := next((words[axis] for axis in m.plane if axis in words), None):
+            m.alarm(f"{inside} has no meaning in this block ({words.code} does not take {inside.address})", inside)
         to |= polar_point(m, words)
-    elif "x" not in to or "y" not in to:
-        m.alarm(f"{words.code} needs X and Y of {meaning}")
+    elif not {*m.plane.lower()} <= to.keys():
+        m.alarm(f"{words.code} needs {' and '.join(m.plane)} of {meaning}")
     return to
 
 
@@ -107,11 +120,11 @@ def begin_side(m: Machine, words: Words) -> None:
     side(m, words, begins=True)
 
 
-@FUNCTIONS("DEP LT,", "Departure on a tangent line", takes="Z LEN R0 F FAUTO FU FZ", source="8.10")
-@FUNCTIONS("DEP LN,", "Departure on a line square to the contour", takes="Z LEN R0 F FAUTO FU FZ", source="8.10")
-@FUNCTIONS("DEP CT,", "Departure on a tangent arc", takes="Z CCA R R0 F FAUTO FU FZ", source="8.10")
+@FUNCTIONS("DEP LT,", "Departure on a tangent line", takes="X Y Z LEN R0 F FAUTO FU FZ", source="8.10")
+@FUNCTIONS("DEP LN,", "Departure on a line square to the contour", takes="X Y Z LEN R0 F FAUTO FU FZ", source="8.10")
+@FUNCTIONS("DEP CT,", "Departure on a tangent arc", takes="X Y Z CCA R R0 F FAUTO FU FZ", source="8.10")
 @FUNCTIONS("DEP LCT,", "Departure on a tangent arc and a line", takes="X Y Z R R0 F FAUTO FU FZ G00", source="8.10")
-@FUNCTIONS("DEP PLCT,", "Departure on a tangent arc and a line, polar", takes="PR PA Z R R0 F FAUTO FU FZ", source="8.10")
+@FUNCTIONS("DEP PLCT,", "Departure on a tangent arc and a line, polar", takes="PR PA X Y Z R R0 F FAUTO FU FZ", source="8.10")
 def departure(m: Machine, words: Words) -> None:
     """From the last contour point; at its end the compensation is off (R0 may say so), and the tool stands at the register.
 
@@ -122,24 +135,26 @@ def departure(m: Machine, words: Words) -> None:
         lead = lead._replace(feed=INF)
     if form(words) in ("LN", "CT") and not m.side:
         m.alarm(f"{words.code} needs radius compensation: without a side it has no direction")
-    travel = heading(m, words)
+    heading(m, words)
     if m.recorded_only:  # a recorded contour ends at its last point
         m.change("side", 0)
         return
-    x, y, z = last_point(m, words, lead, travel)
+    to = last_point(m, words, lead)
     m.change("side", 0)
-    m.line(x, y, z, f=f, joint=lead)
+    m.line(*to, f=f, joint=lead)
 
 
-def last_point(m: Machine, words: Words, lead: Lead, travel: tuple[float, float]) -> tuple[float, float, float]:
+def last_point(m: Machine, words: Words, lead: Lead) -> tuple[float, float, float]:
     """Where a departure ends: written for LCT, else where the form leads the tool that touches the contour."""
     if lead.form == "LCT":
-        to = point(m, words, "its end")
-        return to["x"], to["y"], to.get("z", m.programmed[2])
-    first, second, _ = PLANES[m.plane]
+        return end(m, point(m, words, "its end"))
+    first, second, across = PLANES[m.plane]
+    if inside := next((words[axis] for axis in m.plane if axis in words), None):
+        m.alarm(f"{inside} has no meaning in this block ({words.code} does not take {inside.address})", inside)
     here, along = np.array(m.tip), np.array(m.heading())
     normal = np.array([-along[second], along[first]]) * lead.side
     place, t = here[[first, second]] + m.radius * normal, along[[first, second]]
     here[[first, second]] = way(lead._replace(side=-lead.side), place, place, -t).by
-    x, y, _ = m.to_program(here)
-    return x, y, coordinates(m, words, "Z").get("z", m.programmed[2])
+    to = list(m.to_program(here))
+    to[across] = end(m, coordinates(m, words))[across]
+    return to[0], to[1], to[2]

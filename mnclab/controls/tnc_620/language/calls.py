@@ -18,9 +18,11 @@ from mnclab.controls.tnc_620.language.checks import first
 from mnclab.controls.tnc_620.language.feeds import FEED_WORDS, feed
 from mnclab.controls.tnc_620.language.motion import coordinates
 from mnclab.controls.tnc_620.language.pattern_definitions import Pattern
+from mnclab.controls.tnc_620.language.tool_axis import check_cycle, turned
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.coordinates import PLANES
 from mnclab.machine.cycle import Definition
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Call, Each, Go, Step, Write
@@ -86,7 +88,9 @@ def ready(m: Machine, code: str, word: Word | None = None) -> Definition:
         m.warn(f"{code}: no tool was called", word)
     if not m.turning and not m.cycle.cycle.own_spindle:
         m.warn(f"{code}: the spindle does not turn", word, hint="write M3 or M4 before the call")
-    refuse_frame(m.cycle, m)
+    check_cycle(m, m.cycle.cycle)
+    if m.plane == "XY":  # else its frame is turned first
+        refuse_frame(m.cycle, m)
     return m.cycle
 
 
@@ -101,19 +105,20 @@ def cycle_call_at(m: Machine, words: Words) -> None:
         if axis not in words:
             m.alarm(f"CYCL CALL POS {axis} is missing: all three coordinates are programmed")
     to = coordinates(m, words)
-    x, y, z = to["x"], to["y"], to["z"]
+    x, y, z = (to["xyz"[axis]] for axis in PLANES[m.plane])
     kept = m.feed, m.per_rev
     f = feed(m, words)
     surface, clearance, second = planes(m, definition)
-    over, label = m.programmed[2] > surface + z, "to the position"
-    across, down = (
-        Go(label, x=x, y=y, feed=f),
-        Go(label, surface + z + (clearance if over else max(clearance, second)), f),
-    )
-    perform(m, "CYCL CALL POS", (across, down) if over else (down, across), about=(0.0, 0.0))
-    m.change("feed", kept[0])
-    m.change("per_rev", kept[1])
-    perform(m, "CYCL CALL POS", call_at(definition, x, y, z))
+    with turned(m, definition):
+        over, label = m.programmed[2] > surface + z, "to the position"
+        across, down = (
+            Go(label, x=x, y=y, feed=f),
+            Go(label, surface + z + (clearance if over else max(clearance, second)), f),
+        )
+        perform(m, "CYCL CALL POS", (across, down) if over else (down, across), about=(0.0, 0.0))
+        m.change("feed", kept[0])
+        m.change("per_rev", kept[1])
+        perform(m, "CYCL CALL POS", call_at(definition, x, y, z))
 
 
 def planes(m: Machine, definition: Definition) -> tuple[float, float, float]:

@@ -81,8 +81,10 @@ def call_program(m: Machine, name: str, what: str, word: Word | None = None) -> 
     memory(m).name = memory(m).unit = None
     with m.variables.own_level():
         m.flow.call_program(m, index, place)
-    m.variable_unit = length
     memory(m).name, memory(m).unit = kept
+    if length != m.variable_unit:
+        m.variable_unit = length
+        m.log("unit", memory(m).unit)
 
 
 @FUNCTIONS("CALL PGM,", "Program call", takes="name", source="3.4")

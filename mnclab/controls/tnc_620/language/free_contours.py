@@ -20,6 +20,7 @@ from mnclab.controls.tnc_620.language.blank import body
 from mnclab.controls.tnc_620.language.checks import counted, first
 from mnclab.controls.tnc_620.language.free_words import describe
 from mnclab.controls.tnc_620.language.motion import SIDED, TOLERANCE, feed, refuse_rapid, side
+from mnclab.controls.tnc_620.language.tool_axis import refuse_other
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import free_choice
 from mnclab.geometry.free_contour import Element, FreeContour, Pair, Piece, known
@@ -230,6 +231,7 @@ def _heading(m: Machine) -> float | None:
 @FUNCTIONS("FL FLT", LINES, takes=LINE, collects=True, source="8.13, example")
 def free_element(m: Machine, words: Words) -> None:
     """A line or an arc told by what is known of it; FLT and FCT join the element before tangentially."""
+    refuse_other(m, words.code)
     own = feed(m, words)
     if words.code in ("FC", "FCT"):
         refuse_rapid(m, words)
@@ -243,6 +245,7 @@ def free_element(m: Machine, words: Words) -> None:
 @FUNCTIONS("FPOL", "Pole of free contours", takes="X Y", collects=True, source="8.13, example")
 def free_pole(m: Machine, words: Words) -> None:
     """The pole of polar data of free elements, until the next one; no motion."""
+    refuse_other(m, "FPOL")
     for axis in "XY":
         if axis not in words:
             m.alarm(f"FPOL needs {axis}, the coordinate of the pole", first(words))

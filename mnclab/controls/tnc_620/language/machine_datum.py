@@ -8,6 +8,7 @@ from typing import Any
 from mnclab.controls.tnc_620.state import Place, memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
+from mnclab.machine.tool_axis import tool_axis
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
@@ -30,7 +31,9 @@ def machine_datum(m: Machine, words: Words) -> None:
 def above_tip(m: Machine) -> Place:
     """From the tip to where X, Y and Z of the machine stand: the length of the tool, less what U, V and W carry."""
     u, v, w = memory(m).secondary
-    return 0.0 - u, 0.0 - v, m.tool.effective_length - w
+    above = [0.0 - u, 0.0 - v, 0.0 - w]
+    above[tool_axis(m)] += m.tool.effective_length
+    return above[0], above[1], above[2]
 
 
 def machine_target(m: Machine, active: tuple[Word, Place], written: dict[int, Word]) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from mnclab.controls.tnc_620.language.checks import whole
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
+from mnclab.machine.tool_axis import tool_axis
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 from mnclab.text.strings import TextFormula
@@ -93,7 +94,7 @@ def spindle_status(m: Machine) -> float:
 
 KEPT: dict[str, tuple[str, Callable[[Machine], float | None]]] = {
     "Q108": ("radius of the active tool with its deltas", lambda m: m.tool.effective_radius / m.variable_unit),
-    "Q109": ("tool axis", lambda m: 2.0 if m.tool.number else -1.0),  # 2 is Z, -1 while no tool was called
+    "Q109": ("tool axis", lambda m: float(tool_axis(m)) if m.tool.number else -1.0),  # X Y Z: 0 1 2; -1 while no tool was called
     "Q110": ("spindle status", spindle_status),
     "Q111": ("coolant", lambda m: 0.0 if m.modal.get("coolant", "M9") == "M9" else 1.0),
     "Q112": ("overlap factor of pockets", lambda m: float(m.settings["overlap"])),

@@ -33,7 +33,9 @@ def begin(m: Machine, words: Words) -> None:
     kept, unit = memory(m), str(words["unit"].value)
     kept.name, kept.unit = str(words["name"].value) if "name" in words else "", unit
     kept.main_unit = kept.main_unit or unit  # the first one is that of the main program
-    m.variable_unit = INCH if unit == "INCH" else 1.0
+    if (length := INCH if unit == "INCH" else 1.0) != m.variable_unit:
+        m.variable_unit = length
+        m.log("unit", unit)
 
 
 @FUNCTIONS("END PGM,", "Program end", takes="name unit", phase="last", source="4.11, example")

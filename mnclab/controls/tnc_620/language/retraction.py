@@ -1,17 +1,16 @@
-"""Retraction along the tool axis (M140), and the tilted plane switched off (PLANE RESET)."""
+"""Retraction along the tool axis (M140)."""
 
 from __future__ import annotations
 
 import math
 
 from mnclab.controls.tnc_620.cycles.chain import TILT
-from mnclab.controls.tnc_620.cycles.tilting import WorkingPlane
 from mnclab.controls.tnc_620.language.checks import above_zero, not_negative, one_of, warn_once
+from mnclab.controls.tnc_620.language.machine_datum import above_tip
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import INF, Machine
 from mnclab.machine.settings import Setting
-from mnclab.running.performing import perform
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
@@ -25,10 +24,6 @@ DISTANCE, FAR = "M140:MB", "M140:MBMAX"
 WORDS = {
     DISTANCE: "distance of the retraction", FAR: "to the end of the travel", "M140:F": "feed rate of the retraction",
     "M140:FMAX": "rapid traverse",
-}  # fmt: skip
-PLANE = {
-    "STAY": "the rotary axes stay", "MOVE": "they move, and the tip stays where it is", "TURN": "they move alone",
-    "ABST": "how far below the tip the point is that stands still", "DIST": "the same", "MB": "retraction",
 }  # fmt: skip
 
 
@@ -50,7 +45,7 @@ def retraction(m: Machine, words: Words) -> None:
     else:
         if word.value is not None:
             m.alarm("M140 MB MAX takes no number", word)
-        target[k] = end_of_travel(m, k, word) - m.tool.effective_length
+        target[k] = end_of_travel(m, k, word) - above_tip(m)[k]
         if target[k] < m.tip[k] - 1e-6:
             m.alarm(f"M140 MB MAX leads up alone: the tool stands {m.tip[k] - target[k]:g} mm above the end already", word)
     x, y, z = m.to_program(target)
@@ -76,22 +71,3 @@ def own_feed(m: Machine, words: Words) -> float:
     if word.value is None:
         m.alarm("M140 F needs a number", word, "for example M140 MB 50 F750")
     return above_zero(m, word, "M140 F (feed rate of the retraction)")
-
-
-@FUNCTIONS(
-    "PLANE RESET,", "End of a tilted plane", takes="STAY MOVE TURN MB ABST DIST F FMAX FAUTO", source="Klartext, not described"
-)
-def plane_reset(m: Machine, words: Words) -> None:
-    """Cycle 19 is over; with STAY the rotary axes stay, MOVE and TURN have nothing to do where they stand at 0."""
-    how = one_of(m, words, ("STAY", "MOVE", "TURN"), "one of STAY, MOVE, TURN")
-    if how is None:
-        m.alarm("PLANE RESET needs STAY, MOVE or TURN", hint="with STAY no axis moves")
-    if how.value is not None:
-        m.alarm(f"PLANE RESET {how.address} takes no number", how)
-    if "MB" in words:
-        m.alarm("PLANE RESET MB (retraction before the axes turn) is not built yet", words["MB"])
-    if how.address != "STAY" and any(m.rotary):
-        m.alarm(f"PLANE RESET {how.address} is not built yet where rotary axes have turned", how, "PLANE RESET STAY is")
-    if m.side:
-        m.alarm("PLANE RESET cannot change the plane under radius compensation", how, "write R0 before")
-    perform(m, "PLANE RESET", WorkingPlane().moves(m))

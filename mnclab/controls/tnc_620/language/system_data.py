@@ -220,7 +220,7 @@ def holds(m: Machine, code: str) -> float:
 
 
 def never(m: Machine, asked: Asked) -> float:
-    """Of M functions that are refused."""
+    """Of M functions that are refused, and of a block scan, which a run is not."""
     return 0.0
 
 
@@ -278,6 +278,8 @@ ROWS: dict[tuple[float, float], Row] = {
     (320, 1): Row("system time, seconds from 1970", clock, (0,), 0),
     (505, 1): Row("a datum table is selected", lambda m, a: float(bool(memory(m).datum_table or m.tables.datums))),
     (530, 1): Row("number of the active preset", lambda m, a: float(active_preset(m))),
+    (990, 10): Row("block scan is active", never),
+    (992, 10): Row("block scan is active", never),
     (992, 16): Row("really executed, 1 or 0", lambda m, a: float(m.settings["execution"])),
 }  # fmt: skip
 #: Groups whose number is the row of a table.

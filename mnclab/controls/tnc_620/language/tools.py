@@ -6,10 +6,12 @@ from dataclasses import replace
 
 from mnclab.controls.tnc_620.language.checks import above_zero, first, not_negative
 from mnclab.controls.tnc_620.language.feeds import set_feed, with_another_tool
+from mnclab.controls.tnc_620.language.tool_axis import change_axis
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.settings import Setting
+from mnclab.machine.tool_axis import tool_axis
 from mnclab.path.tool import Tool
 from mnclab.text.program import Word
 
@@ -30,14 +32,13 @@ def tool_call(m: Machine, words: Words) -> None:
     """Puts the tool into the spindle with its deltas; without a tool only speed, feed and deltas change."""
     if m.side:
         m.alarm("TOOL CALL cannot change the tool under radius compensation", first(words), "write R0 first")
-    if "axis" in words and words["axis"].value != "Z":
-        m.alarm(f"TOOL CALL: the tool axis {words['axis'].value} is not built yet, Z is", words["axis"])
     speed = not_negative(m, words["S"], "TOOL CALL S (spindle speed)") if "S" in words else None
     feed = above_zero(m, words["F"], "TOOL CALL F (feed rate)") if "F" in words else None
     deltas = {DELTAS[name]: m.value(words[name]) for name in DELTAS if name in words}
     word = words.get("tool", words.get("text"))
-    if word or deltas:
-        put_in(m, find(m, word, "TOOL CALL") if word else None, deltas, words)
+    tool, before = find(m, word, "TOOL CALL") if word else None, change_axis(m, words)
+    if tool or deltas or before != tool_axis(m):
+        put_in(m, tool, deltas, words, before)
     if speed is not None:
         m.spindle(speed=speed)
     if feed is not None:
@@ -46,15 +47,18 @@ def tool_call(m: Machine, words: Words) -> None:
         set_feed(m, feed)
 
 
-def put_in(m: Machine, tool: Tool | None, deltas: dict[str, float], words: Words) -> None:
-    """Change to a tool with its deltas, or give the present one other deltas; those not written are 0, or stay."""
+def put_in(m: Machine, tool: Tool | None, deltas: dict[str, float], words: Words, before: int) -> None:
+    """Change to a tool with its deltas, or give the present one other deltas; those not written are 0, or stay.
+
+    `before` is the axis that the tool before lies along.
+    """
     base = m.tables.tools.get(m.tool.number, m.tool) if tool is None else tool
     kept = {} if tool else {name: getattr(m.tool, name) - getattr(base, name) for name in DELTAS.values()}
     changed = {name: getattr(base, name) + value for name, value in (kept | deltas).items()}
     if changed.get("corner", 0) < 0:
         least = f"{0 - base.corner:g}, got {m.value(words['DR2']):g}: the corner radius is {base.corner:g}"
         m.alarm(f"TOOL CALL DR2 (delta corner radius) must be at least {least}", words["DR2"])
-    m.change_tool(replace(base, **changed))
+    m.change_tool(replace(base, **changed), tool_axis(m), before)
     with_another_tool(m)
 
 

@@ -27,6 +27,7 @@ REFUSED = ("M_APPEND_MAX", "STR_MONTH")
 SPOKEN = {"L_ALL": "", **{f"L_{language.upper()}": language for language in LANGUAGES}}
 WIDEST = 255  # characters of a field
 
+_BLANKS = re.compile(r"\s*+")
 _STATEMENT = re.compile(r'(?:%"|[^";]|"(?:%"|[^"])*+")*+')
 _FORMAT = re.compile(r'"((?:%"|[^"])*+)"')
 _PLACE = re.compile(r"%(%|\"|([+-]?)(0?)(\d{0,3})(?:\.(\d{1,2}))?(L?F|L?D|I|R?S))|\\([\\n])|([%\\])", re.IGNORECASE | re.ASCII)
@@ -76,9 +77,9 @@ def parse(text: str) -> tuple[Statement, ...]:
 
 def _statements(text: str) -> Iterator[Statement]:
     at, line = 0, 1
-    while rest := text[at:].lstrip():
-        line += text.count("\n", at, len(text) - len(rest))
-        at = len(text) - len(rest)
+    while (begin := _BLANKS.match(text, at).end()) < len(text):  # type: ignore[union-attr]
+        line += text.count("\n", at, begin)
+        at = begin
         if text[at] == "*":
             end = text.find("\n", at)
             at = len(text) if end < 0 else end

@@ -130,6 +130,6 @@ def print_values(m: Machine, words: Words) -> None:
     m.warn(f"FN 15: how the control sets out its values is not known, a line each in {PRINTED} is our own way")
     lines = []
     for word in words.all("item"):
-        name = word.value.text.strip() if isinstance(word.value, Expression) else "text"
+        name = word.value.text.strip(" \t+") if isinstance(word.value, Expression) else "text"
         lines.append(f"{name} {'= ' if name != 'text' else ''}{digits(m.value(word))}\n")
     put_out(m, PRINTED, "".join(lines))

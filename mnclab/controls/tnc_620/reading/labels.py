@@ -11,6 +11,7 @@ from mnclab.text import strings
 
 _TEXT_PARAMETER = re.compile(r"[ \t]*QS[ \t]?\d{1,6}(?!\d)", FLAGS)
 _REPEAT = re.compile(r"REP[ \t]*(?:(\d{1,9})(?:[ \t]*/[ \t]*\d{1,9})?|(?=[+]?[ \t]*Q[LR]?\d))", FLAGS)
+_EMPTY = re.compile(r"REP[ \t]*$", FLAGS)
 _IF = re.compile(r"[ \t]*IF(?![A-Z])", FLAGS)
 _DEFINED = re.compile(r"[ \t]*(?:[+][ \t]*)?(Q[LRS]?\d{1,6})[ \t]+IS[ \t]+(UNDEFINED|DEFINED)(?![A-Z])", FLAGS)
 _GOTO = re.compile(r"[ \t]*GOTO[ \t]+LBL(?![A-Z])", FLAGS)
@@ -53,7 +54,10 @@ def call_label(cursor: Cursor) -> None:
     """CALL LBL: the label, and how often a section is repeated; of n/n the second counts down while it runs; or a Q parameter."""
     label(cursor, parameter=True)
     begin = cursor.blanks()
-    if found := cursor.match(_REPEAT):
+    if cursor.match(_EMPTY):
+        message, hint = "REP without a number repeats nothing: this calls the subprogram", "REP 2 repeats a section twice"
+        cursor.builder.alarm(message, begin, 3, hint, "warning")
+    elif found := cursor.match(_REPEAT):
         cursor.add("REP", float(found.group(1)) if found.group(1) else cursor.needed("REP needs a number", begin, 3), begin)
 
 

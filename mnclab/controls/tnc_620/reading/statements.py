@@ -141,13 +141,15 @@ def waiting(cursor: Cursor) -> None:
     cursor.add(name, cursor.needed(f"{name} needs a number", begin, len(name)), begin)
 
 
-def plane_reset(cursor: Cursor) -> None:
-    """PLANE RESET: how the rotary axes behave, in the words of the other forms of PLANE."""
+def plane(cursor: Cursor) -> None:
+    """PLANE RESET and PLANE SPATIAL: angles, and how the rotary axes behave."""
     while not cursor.done:
         begin = cursor.at
         if found := cursor.match(_BEHAVIOUR):
             cursor.match(_FAR)
             cursor.add(found.group().upper(), cursor.value(), begin)
+        elif found := cursor.match(_CHOICE):
+            cursor.add(found.group().upper().split()[0].rstrip("+-"), None, begin)
         elif found := cursor.match(_MEASURE):
             name = found.group().strip().upper()
             cursor.add(name, cursor.needed(f"{name} needs a number", begin, len(name)), begin)
@@ -166,7 +168,8 @@ WORDS: dict[str, Read] = {
     "DECLARE STRING": declared_text, "SEL PATTERN": file_name, "SEL TABLE": file_name,
     "PATTERN DEF": plain,  # whose lines PatternWords reads
     "BEGIN PGM": program_name, "END PGM": program_name, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
-    "PLANE RESET": plane_reset, "FUNCTION RESET TCPM": plain, "FUNCTION DWELL": waiting,
+    "PLANE RESET": plane, "PLANE SPATIAL": plane, "TRANS DATUM AXIS": plain, "TRANS DATUM RESET": plain,
+    "FUNCTION RESET TCPM": plain, "FUNCTION DWELL": waiting,
     "BLK FORM CYLINDER": with_axis, "BLK FORM ROTATION": turned_blank,
     **{f"{way} {form}": plain for way in ("APPR", "DEP") for form in _FORMS},
 }  # fmt: skip
@@ -198,7 +201,8 @@ _LIKE_A_WORD = re.compile(
 _WAIT = re.compile(r"(?:TIME|REV)[ \t]*(?![A-PR-Z])", FLAGS)
 _BEHAVIOUR = re.compile(r"(?:STAY|MOVE|TURN|MB)(?![A-Z])", FLAGS)
 _FAR = re.compile(r"(?<=MB)[ \t]*MAX(?![A-Z])", FLAGS)
-_MEASURE = re.compile(r"(?:ABST|DIST)[ \t]*(?![A-Z])", FLAGS)
+_CHOICE = re.compile(r"SEQ[ \t]*[+-]|(?:TABLE|COORD)[ \t]+ROT(?![A-Z])", FLAGS)
+_MEASURE = re.compile(r"(?:ABST|DIST|SP[ABC])[ \t]*(?![A-PR-Z])", FLAGS)
 _TEXT_PARAMETER = re.compile(r"QS[ \t]?(\d{1,4})(?!\d)", FLAGS)
 
 

@@ -1,0 +1,16 @@
+; 16:1 alarm: CYCL DEF 202 with the tool axis X: not built yet (with the tool axis Z it is)
+0 BEGIN PGM A MM
+1 TOOL CALL 1 Z S1000 F100
+2 TOOL CALL 1 X S100
+3 L X+50 FMAX M3
+4 CYCL DEF 202 B
+Q200=2
+Q201=-5
+Q206=100
+Q211=0
+Q208=0
+Q203=+0
+Q204=20
+Q214=1
+Q336=0
+5 CYCL CALL

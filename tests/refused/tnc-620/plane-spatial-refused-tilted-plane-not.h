@@ -1,4 +1,0 @@
-; 4:1 alarm: PLANE SPATIAL is refused: tilted plane, not built yet
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 PLANE SPATIAL SPA+0 SPB+90 SPC+0 TURN MBMAX FMAX

@@ -1,5 +1,0 @@
-; 4:14 alarm: REP needs a number
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 CALL LBL 1 REP
-3 LBL 1
