@@ -241,8 +241,7 @@ class Run:
         return Removal(self.workpiece(step=step), self.profile(limits))
 
     def outcome(self) -> Outcome | None:
-        """What became of the blank, for a report: removal and collisions, or why they were not worked out; None without
-        one."""
+        """What became of the blank, for a report: removal and collisions, or why they are not known; None without one."""
         return outcome.outcome(self, outcome.REPORT)
 
     def again(self, setup: Setup) -> Run:
