@@ -69,6 +69,24 @@ def pecks_scaled(m: Machine) -> Iterator[tuple[str, str]]:
         yield "", "cannot run under G51: whether Q is scaled is a matter of the maker"
 
 
+def levels(m: Machine, values: Values, given: Given, kept: Values) -> None:
+    """Z and R become coordinates: those of the block, or as `hole_data` may have it the last numbers counted anew."""
+    numbers = kept.setdefault("numbers", {})
+    numbers |= {name: values[name] for name in ("bottom", "r_level") if name in given}
+    if m.settings["hole_data"] == "numbers":
+        values |= numbers
+        given = numbers
+    if m.modal["dimension"] == "G91":
+        if "r_level" in given:
+            values["r_level"] += holes.initial_level(m, kept)
+        if "bottom" in given:
+            kept["depth"] = values["bottom"]
+        if values.get("r_level") is not None and "depth" in kept:
+            values["bottom"] = values["r_level"] + kept["depth"]
+    elif "bottom" in given:
+        kept.pop("depth", None)
+
+
 class HoleCycle(holes.AtHole, Cycle):
     """A cycle at a hole whose data hold from one cycle to the next."""
 
@@ -92,20 +110,12 @@ class HoleCycle(holes.AtHole, Cycle):
             values[name] *= 1000 * seconds_of_p(m, given[name])
         if memory(m).polar is not None:
             polar.holes(m, values, given, kept)
-        if m.modal["dimension"] == "G91":
-            if memory(m).polar is None:
-                kept["step"] = values.get("x", 0.0), values.get("y", 0.0)
-                for k, name in enumerate("xy"):
-                    if name in given:
-                        values[name] += m.programmed[k]
-            if "r_level" in given:
-                values["r_level"] += holes.initial_level(m, kept)
-            if "bottom" in given:
-                kept["depth"] = values["bottom"]
-            if values.get("r_level") is not None and "depth" in kept:
-                values["bottom"] = values["r_level"] + kept["depth"]
-        elif "bottom" in given:
-            kept.pop("depth", None)
+        if m.modal["dimension"] == "G91" and memory(m).polar is None:
+            kept["step"] = values.get("x", 0.0), values.get("y", 0.0)
+            for k, name in enumerate("xy"):
+                if name in given:
+                    values[name] += m.programmed[k]
+        levels(m, values, given, kept)
         holes.take_feed(m, values, given)
         return values
 
@@ -129,10 +139,13 @@ class HoleCycle(holes.AtHole, Cycle):
     def approach(self, m: Machine) -> Iterator[Step]:
         assert m.position_cycle is not None
         way, level = m.settings["below_r"], m.programmed[2]
-        straight = way == "straight"
-        if straight and holes.initial_level(m, m.position_cycle.extra) < self.r_level:
+        straight, initial = way == "straight", holes.initial_level(m, m.position_cycle.extra)
+        if straight and initial < self.r_level:
             yield Go("to level R", self.r_level)
             yield self.across()
+        elif straight and level < initial and m.modal["return"] == "G98":  # after holes under G99
+            yield self.across()._replace(z=initial)
+            yield Go("to level R", self.r_level)
         elif level < self.r_level and way != "up":
             yield self.across()._replace(z=self.r_level if straight else None)
             yield Go("to level R", self.r_level)
