@@ -30,6 +30,7 @@ from mnclab.machining.steps import Each, Go, Step, moved
 
 CYCLES = CycleTable()
 MOST_HOLES = 9999  # of one block
+SAME = 1e-9  # mm, between two levels that are one
 
 POSITION = "X Y Z R"
 
@@ -143,7 +144,7 @@ class HoleCycle(holes.AtHole, Cycle):
         if straight and initial < self.r_level:
             yield Go("to level R", self.r_level)
             yield self.across()
-        elif straight and level < initial and m.modal["return"] == "G98":  # after holes under G99
+        elif straight and level < self.r_level + SAME < initial and m.modal["return"] == "G98":  # after holes under G99
             yield self.across()._replace(z=initial)
             yield Go("to level R", self.r_level)
         elif level < self.r_level and way != "up":
