@@ -51,6 +51,7 @@ def start(m: Machine) -> None:
     offsets.start(m)
     lengths.place(m, "tip")
     units.start(m)
+    modes.start(m)
     variables.start(m)
 
 

@@ -61,6 +61,12 @@ TECHNOLOGY = (
 )  # fmt: skip
 
 COORDINATES = (
+    one_of("start_datum", "what coordinates count from before a work offset is selected", ALL,
+           G54="G54", none="machine zero"),
+    one_of("g92_lasts", "the shift of G92 where a work offset is selected", ALL,
+           stays="stays: it shifts all of them", ends="is over"),
+    one_of("arc_centres", "I J K of arcs before G90.1 or G91.1", ALL,
+           start="from the start of the arc", origin="from the origin (routers)"),
     one_of("length_acts", "when the offsets of G43, G44 and G49 count; the block itself moves nothing", "7.1",
            axis="along an axis with its next word", at_once="at once: the coordinates are read anew (LinuxCNC)"),
     one_of("g52_g92", "the shifts of G52 and G92", FANUC,
