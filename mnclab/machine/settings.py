@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from numbers import Real
+from textwrap import wrap
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -122,8 +123,9 @@ def rows(settings: Iterable[Setting]) -> list[tuple[str, str, str, str, str]]:
         unit = f" {one.unit}" if one.unit else ""
         table.append((one.name, default + unit, "" if one.choices else one.allowed, one.meaning, one.source))
         for choice, meaning in one.choices.items():
-            others = ", ".join(f"{name} {value}" for name, value in one.chooses.get(choice, {}).items())
-            table.append(("", "", choice, f"{meaning}: {others}" if others else meaning, ""))
+            others = ", ".join(f"{name}={value}" for name, value in one.chooses.get(choice, {}).items())
+            table.append(("", "", choice, f"{meaning}:" if others else meaning, ""))
+            table += [("", "", "", line, "") for line in wrap(others, WIDE)]
     return table
 
 
@@ -133,6 +135,7 @@ def switches(settings: Mapping[str, Any]) -> frozenset[int]:
     return frozenset(map(int, on or ""))
 
 
+WIDE = 70  # characters of a line of what a choice makes of other settings
 HEAD = ("setting", "default", "allowed", "meaning", "source")
 
 

@@ -35,6 +35,7 @@ class Memory(state.Memory):
     sign: int = 0  # of G43, G44, G49
     corrector: int = 0  # of D, or of M6
     length_corrector: int | None = None  # of H; None: the length is that of D
+    outlived: bool = False  # H, by the tool for which it was written
     without_radius: bool = False  # D names a row that the tool table does not have
     wanted_offsets: Offsets = NONE
     active_offsets: Offsets = NONE

@@ -115,7 +115,7 @@ def test_an_unknown_dialect_is_named():
 
 def test_help_says_what_a_dialect_chooses():
     page = str(mnclab.help("settings", "g43"))
-    assert "dwell_p seconds" in page and "that of Haas mills" in page
+    assert "dwell_p=seconds" in page and "that of Haas mills" in page
 
 
 def test_what_stands_in_no_chapter_is_marked_in_help():

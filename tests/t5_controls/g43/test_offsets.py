@@ -88,6 +88,15 @@ def test_g53_under_g91():
     assert "cannot stand under G91" in run(text, ok=False, dialect="linuxcnc").alarms[0].message
 
 
+def test_settings_of_the_start():
+    datums = {1: (10, 0, 0), 2: (100, 0, 0)}
+    assert last("X1", datums=datums, start_datum="none") == [1, 0, 0]
+    assert last("X1|G55 X1", datums=datums, start_datum="none") == [101, 0, 0]
+    assert last("X5|G92 X0|G55 X1", datums={2: (100, 0, 0)}, g92_lasts="ends") == [101, 0, 0]
+    arc = run("F100\nG1 X10\nG2 X20 I15 J0\n", arc_centres="origin", stopped_spindle="accept")
+    assert arc.toolpath.centre[-1].tolist() == [15, 0, 0]
+
+
 # --- reference points -------------------------------------------------------------------------------------------------
 
 

@@ -39,6 +39,15 @@ def test_lengths(text, z):
     assert heights(text)[-1] == z
 
 
+def test_a_length_of_the_tool_before_is_named():
+    """Also by G43 alone; not where H or G49 stands before the next motion along Z."""
+    text = lines("T1 M6|G43 H1 Z50|T2 M6|{}|Z9")
+    said = "H1 is from before the change to T2: its length still counts"
+    for between, told in (("X1", 1), ("G43", 1), ("G43 H2", 0), ("G49", 0), ("G91 G28 Z0", 1), ("G53 Z0", 1)):
+        found = run(text.format(between), tools=TOOLS, start=(0, 0, 200)).alarms
+        assert [alarm.message for alarm in found] == [said] * told, between
+
+
 def test_on_linuxcnc_the_length_counts_at_once():
     """The coordinates are read anew, so that an increment is no longer than it says."""
     assert heights("T1 M6|G43 H1|G91 Z-10", dialect="linuxcnc")[-1] == 120 - 10

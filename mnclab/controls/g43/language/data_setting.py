@@ -67,8 +67,15 @@ def work_offset(m: Machine, words: Words) -> None:
         if choice == "external":
             external(m, words)
             return
-        row = memory(m).row
+        row = active_row(m, words)
     write(m, row, words)
+
+
+def active_row(m: Machine, words: Words) -> int:
+    """The row of the work offset that is active."""
+    if not memory(m).row:
+        m.alarm("no work offset is active", words["P"], hint="select one first, as G54 does")
+    return memory(m).row
 
 
 def external(m: Machine, words: Words) -> None:
@@ -112,7 +119,7 @@ def further_offset(m: Machine, words: Words) -> None:
         write(m, FURTHER + whole(m, words, "P", 1, MOST), words)
         return
     without(m, words, "R", "G10 L20")
-    row = whole(m, words, "P", 0, 9) or memory(m).row
+    row = whole(m, words, "P", 0, 9) or active_row(m, words)
     old = m.tables.datums.get(row, Datum())
     m.select_datum(old)
     here, wanted = m.programmed, list(m.programmed)

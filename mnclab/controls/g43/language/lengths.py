@@ -30,6 +30,7 @@ def compensation(m: Machine, words: Words) -> None:
     """The offsets of corrector D count from the next motion along each axis on; without D the corrector stays."""
     motion.uncompensated(m, words)
     memory(m).sign = SIGNS[words.code]
+    memory(m).outlived &= words.code != "G49"
     want(m, first_word(words))
 
 
@@ -58,6 +59,7 @@ def corrector(m: Machine, words: Words) -> None:
 def length_corrector(m: Machine, words: Words) -> None:
     """The offsets for G43 and G44 from now on; H0 has none. No axis moves."""
     memory(m).length_corrector = number = whole(m, words, "H", 0, MOST)
+    memory(m).outlived = False
     m.log("length corrector", number)
     want(m, words["H"])
 
@@ -109,6 +111,10 @@ def pending(m: Machine) -> bool:
 
 def activate(m: Machine, axes: str) -> None:
     """The offsets along axes that move now count: programmed coordinates stay, and the next motion takes them up."""
+    if memory(m).outlived and "Z" in axes:
+        memory(m).outlived = False
+        m.warn(f"H{memory(m).length_corrector} is from before the change to T{m.tool.number}: its length still counts",
+               hint=f"write G43 H{m.tool.number} after the change")  # fmt: skip
     wanted, active = memory(m).wanted_offsets, memory(m).active_offsets
     x, y, z = (wanted[k] if axis in axes else active[k] for k, axis in enumerate(AXES))
     if (x, y, z) != active:

@@ -69,6 +69,13 @@ def exact_here(m: Machine, words: Words) -> None:
     m.exact_here = True
 
 
+def start(m: Machine) -> None:
+    """Arc centres count from the start of the arc, unless the setting arc_centres wants them from the origin."""
+    if m.settings["arc_centres"] == "origin":
+        m.set_modal("arc centre", "G90.1")
+        memory(m).absolute_centres = True
+
+
 @FUNCTIONS("G90.1 G91.1", CENTRES, group="arc centre", phase="plane", power_on="G91.1", source="LinuxCNC")
 def centres(m: Machine, words: Words) -> None:
     """What I J K of arcs count from; also of Mach and other controls for routers."""

@@ -50,7 +50,7 @@ def targets(m: Machine, words: Words) -> dict[str, float]:
 def is_plain(m: Machine) -> bool:
     """Whether plain words mean plain motion."""
     kept = memory(m)
-    special = kept.polar is not None or kept.doubt is not None or kept.absolute_centres or m.per_time
+    special = kept.polar is not None or kept.doubt is not None or kept.absolute_centres or kept.outlived or m.per_time
     return not (special or pending(m)) and silent(m, "G2", "G3")
 
 

@@ -24,8 +24,12 @@ ROWS = {f"G{n}": n - 53 for n in range(54, 60)} | {f"G59.{n}": 6 + n for n in (1
 
 
 def start(m: Machine) -> None:
-    """G54 is active at the start."""
-    select(m, 1)
+    """G54 is active at the start, unless the setting start_datum wants none."""
+    if m.settings["start_datum"] == "G54":
+        select(m, 1)
+    else:
+        m.set_modal("datum", "")
+        memory(m).row = 0
 
 
 def select(m: Machine, row: int) -> None:
@@ -40,6 +44,8 @@ def change(m: Machine, words: Words, row: int) -> None:
         m.alarm("a work offset cannot change under radius compensation", first_word(words), hint="write G40 first")
     if on := transformed(m):
         m.warn(f"the work offset changes while {on} is active, which now counts from the new one", first_word(words))
+    if m.settings["g92_lasts"] == "ends":
+        set_shift(m, registers(m)[0], NONE)
     select(m, row)
 
 

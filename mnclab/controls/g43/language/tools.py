@@ -39,7 +39,9 @@ def tool(m: Machine, words: Words) -> None:
 @FUNCTIONS("M6", "Tool change", phase="change", modal=False, source="7.1")
 def tool_change(m: Machine, words: Words) -> None:
     """The tool of T comes into the spindle and D becomes its number; no axis moves."""
+    kept, before = memory(m), m.tool.number
     motion.change_tool(m, words)
+    kept.outlived |= bool(kept.sign and kept.length_corrector and m.tool.number != before)
     place(m, "tip")
     choose(m, m.tool.number, first_word(words))
 

@@ -27,6 +27,7 @@ ROTATION = {"G68": "Rotation on", "G69": "Rotation off"}
 SCALING = {"G51": "Scaling on", "G50": "Scaling off"}
 MIRROR = {"G51.1": "Mirror image on", "G50.1": "Mirror image off"}
 SAME = 1e-9
+MOST = 1e6  # the greatest factor; its inverse is the least
 
 
 def transformed(m: Machine) -> str:
@@ -109,9 +110,10 @@ def factor(m: Machine, word: Word) -> float:
     value = m.value(word)
     if m.settings["g51_factor"] == "thousandths" and not has_point(m, word):
         value /= 1000
-    if value == 0 or (value < 0 and word.address == "P"):
-        limit = "not be 0" if value == 0 else "be greater than 0"
-        m.alarm(f"G51 {word.address} (scale factor) must {limit}, got {value:g}", word)
+    if value < 0 and word.address == "P":
+        m.alarm(f"G51 P (scale factor) must be greater than 0, got {value:g}", word)
+    if not 1 / MOST <= abs(value) <= MOST:
+        m.alarm(f"G51 {word.address} (scale factor) must be from {1 / MOST:g} to {MOST:g}, got {value:g}", word)
     return value
 
 
