@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import frames
+from mnclab.machine.tool_axis import LOG
 from mnclab.path.listing import point
 from mnclab.runs.values import Matrix, described, unit_of
 
@@ -48,7 +49,8 @@ def stages(run: Run, moment: Moment) -> list[Stage]:
     found.append(Stage("tool tip", _tuple(tip), note))
     tool = run.tables.tools.get(int(path.tool[last])) if last >= 0 else None
     if tool is not None and not path.lathe:
-        spindle = tip + path.origin + [0.0, 0.0, tool.effective_length]
+        spindle = tip + path.origin
+        spindle["XYZ".index(run.history.value(LOG, moment.step) or "Z")] += tool.effective_length
         note = f"tool length {unit.figure(tool.effective_length)}"
         found.append(Stage("spindle, machine coordinates", _tuple(spindle), note))
     return found

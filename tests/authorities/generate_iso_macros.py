@@ -45,7 +45,7 @@ class Writer:
         """A function of something that it has a value for."""
         name, inside = self.rng.choice(FUNCTIONS), self.bracketed(depth)
         if name in ("ASIN", "ACOS", "EXP", "TAN"):
-            return f"{name}[SIN{inside}]"
+            return f"{name}[.9*SIN{inside}]"
         return f"{name}[ABS{inside}+.5]" if name in ("SQRT", "LN") else name + inside
 
     def bracketed(self, depth):
@@ -55,12 +55,13 @@ class Writer:
         parts = [self.operand(depth)]
         for _ in range(self.rng.choice((0, 1, 1, 2))):
             operator = self.rng.choices(OPERATORS, WEIGHTS)[0]
-            parts += [operator, str(self.rng.randint(2, 9)) if operator in ("**", "/", "MOD") else self.operand(depth)]
+            small = str(self.rng.randint(2, 3 if operator == "**" else 9))  # no zero, and no angle of many turns
+            parts += [operator, small if operator in ("**", "/", "MOD") else self.operand(depth)]
         text = self.rng.choice(("", " ")).join(parts)
         return text.lower() if self.rng.random() < 0.2 else text
 
-    def assignment(self, among):
-        name = self.rng.choice((*among, *NAMES))
+    def assignment(self, among, names=NAMES):
+        name = self.rng.choice((*among, *names))
         line = f"{name}={self.bracketed(2)}"
         if name not in self.known:
             self.known.append(name)
@@ -85,8 +86,9 @@ class Writer:
             lines.append(f"M98 P{number}" + (f" L{rng.randint(0, 3)}" if rng.random() < 0.6 else ""))
             lines.append(self.move())
         lines.append("M2")
+        self.known = [name for name in self.known if name[1] != "<" or name[2] == "_"]  # names belong to one program
         for k, number in enumerate(subprograms):
-            lines += [f"O{number}", "#101=[#101+1]", self.assignment(variables), self.move()]
+            lines += [f"O{number}", "#101=[#101+1]", self.assignment(variables, ()), self.move()]
             if k + 1 < len(subprograms) and rng.random() < 0.4:
                 lines.append(f"M98 P{subprograms[k + 1]}")
             lines.append("M99")

@@ -59,7 +59,8 @@ def programs(control):
         if of == control or (of == "mnc" and control == "g43"):
             found += [entry["program"] for entry in entries if isinstance(entry, dict) and entry.get("program")]
     for folder in (TESTS / "programs", TESTS / "refused"):
-        found += [file.read_text("utf-8") for file in sorted(folder.glob(f"{control}/*.{control}"))]
+        files = [*folder.glob(f"{control}/*.{control}"), *folder.glob(f"{control}/*.i")]  # DIN/ISO, of the TNC
+        found += [file.read_text("utf-8") for file in sorted(files)]
     return found
 
 

@@ -29,6 +29,12 @@ def test_subprograms_share_the_variables_of_their_caller():
     assert xs("#1=5\nM98 P2\nG0 X#1\nM2\nO2\nG0 X#1\n#1=7\nM99\n") == [5, 7]
 
 
+def test_named_variables_belong_to_one_program():
+    """As LinuxCNC does it, but for those that begin with an underscore."""
+    assert xs("#<a>=1\nM98 P2\nG0 X#<a>\nM2\nO2\n#<a>=5\nG0 X#<a>\nM99\n") == [5, 1]
+    assert xs("#<_a>=1\nM98 P2\nG0 X#<_a>\nM2\nO2\n#<_a>=#<_a>+4\nM99\n") == [5]
+
+
 def test_the_return_to_a_block():
     assert xs("O1\nM98 P2 L5\nG0 X1\nN50 G0 X5\nM30\nO2\nG0 X2\nM99 P50\nN50 G0 X9\n") == [2, 5]
     assert xs("G0 X1\nM99 P20\nG0 X2\nN20 G0 X3\n") == [1, 3]

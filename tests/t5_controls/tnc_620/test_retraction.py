@@ -58,6 +58,13 @@ def test_under_radius_compensation_and_a_rotation_only_the_height_changes(inside
     assert path[1] == ("LINE", -5, 10, 20, 50) and path[2][:4] == ("LINE", -5, 30, 20) and {end[3] for end in path[1:]} == {20}
 
 
+def test_along_another_tool_axis(tnc) -> None:
+    """TOOL CALL 1 Y: 50 along Y, and to Y500 of the machine, the spindle 80 above the tip."""
+    setup = mnc.Setup(tools=TOOLS, start=(0, 80, 0))
+    run = tnc("1 TOOL CALL 1 Y S1 F9\n2 L X+5 Y-3 Z+7 FMAX\n3 M140 MB50\n4 M140 MB MAX\n", setup)
+    assert [end[1:4] for end in ends(run)] == [(5, -3, 7), (5, 47, 7), (5, 420, 7)]
+
+
 def test_in_a_recorded_pass_and_a_loop(inside) -> None:
     """A section that is repeated twice retracts three times."""
     run = inside("2 LBL 1\n3 L IZ-1 F9 M3\n4 M140 MB 3 FMAX\n5 CALL LBL 1 REP2")

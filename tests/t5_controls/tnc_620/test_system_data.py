@@ -101,6 +101,15 @@ def test_the_travel_leads_to_the_end_of_the_axis(inside) -> None:
     assert run.toolpath.motion.end[-1, 2] == pytest.approx(0 - 80.2)
 
 
+def test_the_reference_lies_above_the_tip_along_the_tool_axis(inside) -> None:
+    """The tool axis X: its length lies along X, and Z is that of the tip."""
+    run = inside(
+        "2 TOOL CALL 2 X S100\n3 L X+1 Y+2 Z+3 FMAX\n4 FN 18: SYSREAD Q1 = ID240 NR1 IDX1\n"
+        "5 FN 18: SYSREAD Q3 = ID240 NR1 IDX3\n6 FN 18: SYSREAD Q4 = ID20 NR3", SETUP,
+    )  # fmt: skip
+    assert run.ok and [run.variables[name] for name in ("Q1", "Q3", "Q4")] == [61, 3, 0], run.alarms
+
+
 def test_the_spindle_of_a_feed_a_revolution(inside) -> None:
     run = inside("2 L X+5 FU0.2 M3\n3 FN 18: SYSREAD Q1 = ID20 NR9")
     assert run.ok and run.variables["Q1"] == pytest.approx(200)

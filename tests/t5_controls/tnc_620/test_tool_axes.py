@@ -154,6 +154,8 @@ def test_the_length_lies_along_the_tool_axis(tnc) -> None:
     run = tnc(f"BEGIN PGM A MM\n{calls}END PGM A MM\n", mnc.Setup(**MACHINE))
     tips = run.toolpath.end[run.toolpath.kind == mnc.Kind.TOOL]
     assert run.ok and tips.tolist() == [[0, 0, -50], [-30, 0, 0], [0, -30, 0], [0, -52, 0], [0, 0, -30]]
+    stood = [str(run.explain(line=line)).splitlines()[-1].split() for line in (2, 3, 4, 6)]
+    assert [words[3:6] for words in stood] == [["X0", "Y0", "Z0"]] * 4
 
 
 @pytest.mark.parametrize(("axis", "number"), [("X", 0), ("Y", 1), ("Z", 2)])

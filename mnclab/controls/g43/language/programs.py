@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import NamedTuple
 
-from mnclab.controls.g43.language import sections, variables
+from mnclab.controls.g43.language import sections
 from mnclab.controls.g43.language.macros import number
 from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address.motion import first_word
@@ -28,6 +28,7 @@ FUNCTIONS = FunctionTable()
 SOURCE = "Fanuc, LinuxCNC"
 MACRO = "Macro B"
 MOST = 9999  # calls by one word
+LOCAL = frozenset(f"#{n}" for n in range(1, 34))
 #: The variables of arguments; I, J and K of the second to tenth time have #7 to #33.
 ARGUMENTS = dict(zip("ABCIJKDEFHMQRSTUVWXYZ", (*range(1, 10), 11, 13, *range(17, 27)), strict=True))
 TAKES = " ".join(["P", "L", *(f"{letter}*" for letter in ARGUMENTS if letter != "M"), "argument*"])
@@ -160,25 +161,35 @@ def macro(m: Machine, words: Words, code: str) -> Macro:
 
 def run_macro(m: Machine, called: Macro, code: str, word: Word | None) -> None:
     for _ in range(called.times):
-        with own_level(m, called.arguments):
+        with own_level(m, is_local, called.arguments):
             run(m, called.program, 1, code, word)
-        if m.ended or m.flow.program is None or course(m).target >= 0:
+        if m.ended or course(m).target >= 0:
             return
 
 
 @contextmanager
-def own_level(m: Machine, arguments: dict[str, float]) -> Iterator[None]:
-    """Inside, #1 to #33 are those of a macro; afterwards those of before."""
-    kept = {name: m.variables[name] for name in variables.LOCAL if name in m.variables}
+def own_level(m: Machine, local: Callable[[str], bool], values: Mapping[str, float]) -> Iterator[None]:
+    """Inside, variables that are local are others, with some values; afterwards those of before."""
+    kept = {name: value for name, value in m.variables.items() if local(name)}
     for name in kept:
         m.variables.forget(name)
-    for name, value in arguments.items():
-        m.variables[name] = value
+    for name, given in values.items():
+        m.variables[name] = given
     yield
-    for name in variables.LOCAL:
+    for name in [name for name in m.variables if local(name)]:
         m.variables.forget(name)
     for name, value in kept.items():
         m.variables[name] = value
+
+
+def is_local(name: str) -> bool:
+    """Of #1 to #33."""
+    return name in LOCAL
+
+
+def is_named(name: str) -> bool:
+    """Of those with names, which belong to one program; #<_a> does not (LinuxCNC, also for M98)."""
+    return name[1] == "<" and name[2] != "_"
 
 
 def run(m: Machine, program: int, times: int, code: str, word: Word | None) -> None:
@@ -186,11 +197,12 @@ def run(m: Machine, program: int, times: int, code: str, word: Word | None) -> N
     for _ in range(times):
         index, label = found(m, program, code, word)
         flow = course(m)
-        if label:
-            with flow.inside(m, index):
-                flow.call(m, label, m.span_of(word))
-        else:
-            flow.call_program(m, index, m.span_of(word))
+        with own_level(m, is_named, {}):
+            if label:
+                with flow.inside(m, index):
+                    flow.call(m, label, m.span_of(word))
+            else:
+                flow.call_program(m, index, m.span_of(word))
         if m.ended:
             return
         if (place := memory(m).return_to) is not None:

@@ -24,7 +24,6 @@ from mnclab.machine.setup import Datum
 from mnclab.text.program import Word
 
 Reading = Callable[[Machine], float | None]
-LOCAL = tuple(f"#{n}" for n in range(1, 34))
 NAMES = re.compile(r"#(?:[1-9]\d{0,2}|<[a-z0-9_.]{1,80}>)")
 ROWS = {5221 + 20 * k: k + 1 for k in range(9)} | {7001 + 20 * k: FURTHER + k + 1 for k in range(48)}
 OFFSETS = {f"#{first + k}": (row, k) for first, row in ROWS.items() for k in range(3)}

@@ -148,7 +148,7 @@ class Formula(Expression):
                 right = values.pop()
                 values[-1] = _joined(values[-1], token, right, dialect)
             else:
-                values[-1] = _finite(_function(token, values[-1] or 0.0, dialect, unit), token)
+                values[-1] = _finite(_function(token, _plain(values[-1]), dialect, unit), token)
         return values
 
 
@@ -297,7 +297,7 @@ def _joined(left: float | None, operator: Token, right: float | None, dialect: s
     text = operator.text
     if text in ("EQ", "NE") and (left is None or right is None):
         return float((left is right) == (text == "EQ"))
-    a, b = left or 0.0, right or 0.0
+    a, b = _plain(left), _plain(right)
     if text in COMPARISONS:
         if dialect == LINUXCNC and text in ("EQ", "NE"):
             return float((abs(a - b) < EQUAL) == (text == "EQ"))
@@ -323,6 +323,11 @@ def _joined(left: float | None, operator: Token, right: float | None, dialect: s
     return _finite(a + b if text == "+" else a - b if text == "-" else a * b if text == "*" else a / b, operator)
 
 
+def _plain(value: float | None) -> float:
+    """A number in arithmetic, where a vacant one is 0; -0 stays, for an angle depends on it."""
+    return 0.0 if value is None else value
+
+
 def _remainder(a: float, b: float, operator: Token, dialect: str) -> float:
     """The sign is that of the first number, LinuxCNC never has a minus; Fanuc divides whole numbers."""
     if dialect == FANUC:
@@ -341,7 +346,7 @@ def _bits(value: float, operator: Token) -> int:
 
 def _function(name: Token, argument: float, dialect: str, unit: float) -> float:
     if name.text in ROUNDING:
-        return _away(argument / unit) * unit
+        return _away(argument / unit) * unit + 0.0  # never -0
     function = FUNCTIONS.get(name.text) or OWN[dialect].get(name.text)
     if function is None:
         raise Alarm(f"{name.text} of one number is not known to LinuxCNC", name.span, hint="write ATAN[y]/[x]")

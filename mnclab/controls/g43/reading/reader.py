@@ -27,7 +27,7 @@ from mnclab.text.words import Scan, scan
 COMMENT = r"[(;]"
 AXES, GOING = "XYZ", {1.0, 2.0, 3.0, 90.0, 91.0}
 CALLS = (65.0, 66.0)  # G words with arguments
-_TAPE = re.compile(r"^[ \t\ufeff]*%([^\r\n]*)", re.MULTILINE)
+_SAID = re.compile(r"[^\s\0%]")
 _SKIP = re.compile(r"/[ \t]*([1-9])?(?!\d)")
 _LABEL = re.compile(r"N[ \t]*(\d{1,9})(?![\d.])[ \t]*", re.IGNORECASE)
 _NUMBER = re.compile(r"(?:O|:)[ \t]*(\d{1,8})(?![\d.])", re.IGNORECASE)
@@ -89,24 +89,32 @@ class _Reader:
 
     def tape(self, found: Scan) -> tuple[int, int]:
         """The lines of the program: from the first % on, if nothing but comments stands above it, to the next one."""
-        if "%" not in self.text:
-            return 0, len(found.starts)
-        first, stop = 0, len(found.starts)
-        for mark in _TAPE.finditer(self.text):
-            line = int(np.searchsorted(found.starts, mark.start(), "right")) - 1
-            if not first and nothing_said(self.text[: mark.start()]):
+        first, stop, text = 0, len(found.starts), self.text
+        at = text.find("%")
+        while at >= 0:
+            line = int(np.searchsorted(found.starts, at, "right")) - 1
+            begin = int(found.starts[line])
+            if text[begin:at].strip(" \t\ufeff"):  # inside a line
+                at = text.find("%", at + 1)
+            elif not first and nothing_said(text[:begin]):
                 first = line + 1
-                self.builder.block(mark.start())
-                continue
-            if mark.group(1).strip() and not mark.group(1).lstrip().startswith(("(", ";")):
-                self.another = mark.end() - len(mark.group(1)) - 1
-            rest = self.text[mark.end() :]
-            if begun := re.search(r"[^\s\0%]", rest):
-                at = mark.end() + begun.start()
-                self.builder.alarm("what stands after the last % is not obeyed", at, severity="warning")
-            stop = line
-            break
+                self.builder.block(at)
+                at = text.find("%", int(found.starts[first]) if first < len(found.starts) else len(text))
+            else:
+                self.end_tape(at)
+                return first, line
         return first, stop
+
+    def end_tape(self, at: int) -> None:
+        """What stands after the last % is named."""
+        text, end = self.text, at + 1
+        while end < len(text) and text[end] not in "\r\n":
+            end += 1
+        said = text[at + 1 : end].strip()
+        if said and said[0] not in "(;":
+            self.another = at
+        if begun := _SAID.search(text, end):
+            self.builder.alarm("what stands after the last % is not obeyed", begun.start(), severity="warning")
 
     @staticmethod
     def goes_to(found: Scan) -> bool:

@@ -56,7 +56,7 @@ def untilt(m: Machine, words: Words) -> None:
     if "MB" in words:
         m.alarm(f"{words.code} MB (retraction before the axes turn) is not built yet", words["MB"])
     if how.address != "STAY" and any(m.rotary):
-        m.alarm(f"{words.code} {how.address} is not built yet where rotary axes have turned", how, "STAY is")
+        m.alarm(f"{words.code} {how.address} is not built yet where rotary axes have turned", how, f"{words.code} STAY is")
     if m.side:
         m.alarm(f"{words.code} cannot change the plane under radius compensation", how, "write R0 before")
     perform(m, words.code, WorkingPlane().moves(m))

@@ -81,7 +81,7 @@ class Motion:
         start = self.start
         if self.begun:
             builder = self.cursor.builder
-            start = max([builder.blocks[-1][0] + 1, *(min(word.at for word in words),)])
+            start = max(builder.blocks[-1][0] + 1, min(word.at for word in words))
         self.begun = True
         self.cursor.builder.block(start, keyword, self.skip, plain)
 
@@ -131,6 +131,11 @@ class Motion:
             if feed:
                 self.begin("L", feed)
                 self.put_all(feed)
+            if not (path or side or rest):
+                if auxiliary or not self.begun:
+                    self.begin("", auxiliary)
+                    self.put_all(auxiliary)
+                return
         words = [*([path] if path else []), *([side] if side else []), *rest, *auxiliary]
         if code == 7 and sum(word.letter in AXES for word in rest) > 1:
             assert path is not None or first is not None

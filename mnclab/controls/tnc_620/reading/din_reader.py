@@ -26,7 +26,7 @@ from mnclab.text.program import Program
 from mnclab.text.program_builder import ProgramBuilder
 from mnclab.text.words import characters, line_starts
 
-_HEAD = re.compile(r"%[ \t]*([^\r\n;*]*?)[ \t]*\b(G[ \t]*7[01])(?!\d)", FLAGS)
+_HEAD = re.compile(r"%([^\r\n;*]*?)\b(G[ \t]*7[01])(?!\d)", FLAGS)
 _FIRST = re.compile(
     r"(?:[\s\ufeff]++|;[^\r\n]*+)*+(?:/[ \t]*)?(?:%[^\r\n;]*?G[ \t]*7[01](?!\d)|(?:%[^\r\n]*+\s*+)?N[ \t]*\d)", FLAGS
 )
@@ -141,8 +141,8 @@ class _Reader:
             return
         self.builder.block(raw.start, "END PGM" if self.begun else "BEGIN PGM", raw.skip)
         self.begun, self.ended = True, self.begun
-        if found.group(1):
-            self.builder.word("name", found.group(1), found.start(1), len(found.group(1)))
+        if name := found.group(1).strip():
+            self.builder.word("name", name, self.text.index(name, begin), len(name))
         unit = "INCH" if found.group(2).endswith("0") else "MM"
         self.builder.word("unit", unit, found.start(2), len(found.group(2)))
 

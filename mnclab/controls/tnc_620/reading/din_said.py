@@ -10,7 +10,7 @@ import re
 
 from mnclab.controls.tnc_620.reading.din_statements import STATEMENTS
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
-from mnclab.text.alarm import Alarm
+from mnclab.text.alarm import ALARM, Alarm
 from mnclab.text.program import Block, Program
 
 _CYCLES = {code: name for name, code in ISO_NAMES.items()} | {
@@ -50,7 +50,7 @@ def said(alarm: Alarm, program: Program) -> Alarm:
     message, hint = (_CYCLE.sub(_cycle, part) for part in (message, alarm.hint))
     for keyword, other in _ELSEWHERE.items():
         message, hint = (_renamed(part, keyword, other) for part in (message, hint))
-    if not re.fullmatch(r"G\d{3,}", name):  # whose words have the same letters
+    if alarm.severity == ALARM and not re.fullmatch(r"G\d{3,}", name):  # whose words have the same letters
         read = f"the block is read as {' '.join([block.keyword, *map(str, block.words)])}"
         hint = f"{hint}; {read}" if hint else read
     return alarm.changed(message=message, hint=hint, args=(message,))

@@ -93,7 +93,8 @@ def renamed(cursor: Cursor, code: int, statement: Renamed, words: Sequence[Given
         if address and axis:  # P05 X+80: a side along an axis
             address = axis if address in AXES else None
         if address is None and word.letter[0] != "M":
-            takes = f"it takes {' '.join(statement.words)}" if statement.words else "it stands alone"
+            taken = [letter for letter in statement.words if letter.isupper()]
+            takes = f"it takes {' '.join(taken)}" if taken else "it stands alone"
             head = f"G{code:02}" if code >= 0 else "T"
             raise word.fault(cursor.builder, f"does not belong to {head}", takes)
         if word.letter == "R":
