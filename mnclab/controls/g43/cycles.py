@@ -17,6 +17,7 @@ import numpy as np
 from mnclab.controls.g43.language import polar
 from mnclab.controls.g43.language.lengths import activate
 from mnclab.controls.g43.language.numbers import seconds_of_p
+from mnclab.controls.g43.language.transformations import settle_doubt
 from mnclab.controls.g43.remarks import ISO, undescribed
 from mnclab.controls.g43.settings import DIALECT_NAMES
 from mnclab.controls.g43.state import memory
@@ -96,6 +97,7 @@ class HoleCycle(holes.AtHole, Cycle):
         along_z(m, cls.code, given)
         if not memory(m).machine_coordinates:
             activate(m, "XYZ")
+            settle_doubt(m, Words(tuple(given.values()), cls.code), given.keys() & {"x", "y"})
         kept.setdefault("initial", m.to_machine(m.programmed)[2])
         kept["step"] = (0.0, 0.0)
         kept["points"] = None
