@@ -65,12 +65,6 @@ def along_z(m: Machine, code: str, given: Given) -> None:
         m.alarm(f"{code} K is not the number of holes as {maker} has it", count, hint="write L for the number of holes")
 
 
-def pecks_scaled(m: Machine) -> Iterator[tuple[str, str]]:
-    """A fault where it is not known whether Q is scaled."""
-    if "scaling" in m.frames:
-        yield "", "cannot run under G51: whether Q is scaled is a matter of the maker"
-
-
 def levels(m: Machine, values: Values, given: Given, kept: Values) -> None:
     """Z and R become coordinates: those of the block, or as `hole_data` may have it the last numbers counted anew."""
     numbers = kept.setdefault("numbers", {})
@@ -121,6 +115,11 @@ class HoleCycle(holes.AtHole, Cycle):
         levels(m, values, given, kept)
         holes.take_feed(m, values, given)
         return values
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        yield from super().check(m)
+        if getattr(self, self.pecks, None) and "scaling" in m.frames:
+            yield "", "cannot run under G51: whether Q is scaled is a matter of the maker"
 
     def about(self, m: Machine) -> tuple[float, float]:
         return super().about(m) if self.repeats == 1 else (0.0, 0.0)
@@ -203,7 +202,6 @@ class DeepHoleDrilling(HoleCycle):
     pause: float = pause()
     feed: float | None = holes.feed()
     repeats: float = repeats()
-    needs = (pecks_scaled,)
 
     def work(self, m: Machine) -> Iterator[Step]:
         return drill(self.levels(), above=self.r_level, feed=None, reenter=m.settings["peck_clearance"],
@@ -222,7 +220,6 @@ class ChipBreaking(HoleCycle):
     pause: float = pause()
     feed: float | None = holes.feed()
     repeats: float = repeats()
-    needs = (pecks_scaled,)
 
     def work(self, m: Machine) -> Iterator[Step]:
         levels, back = self.levels(), m.settings["peck_clearance"]

@@ -78,7 +78,7 @@ def centre(m: Machine, words: Words, name: str) -> list[float]:
     return found
 
 
-@FUNCTIONS("G68", ROTATION, group="rotation", phase="transformation", takes="X Y Z R", still=True, source=ISO)
+@FUNCTIONS("G68", ROTATION, group="rotation", phase="transformation", takes="X Y Z R", still=True, owns=True, source=ISO)
 def rotation(m: Machine, words: Words) -> None:
     """Turns the plane by R degrees about a point, by default where the tool stands; R adds under G91 (setting g68_increment)."""
     if "R" not in words:
@@ -118,7 +118,7 @@ def factor(m: Machine, word: Word) -> float:
     return value
 
 
-@FUNCTIONS("G51", SCALING, group="scaling", phase="transformation", takes="X Y Z P I J K", still=True, source=ISO)
+@FUNCTIONS("G51", SCALING, group="scaling", phase="transformation", takes="X Y Z P I J K", still=True, owns=True, source=ISO)
 def scaling(m: Machine, words: Words) -> None:
     """Scales by P, or by I J K along X Y Z, about a point, by default where the tool stands; a negative factor mirrors."""
     refuse_transformed(m, words, "rotation")
