@@ -1,0 +1,30 @@
+; manner: TNC 426: multipass milling 230
+; 5 cuts over 40 mm from (0, 0): 10 apart; the tool radius is 5, each way longer by it on both sides
+; at 12: 0, 0, 50
+; at 24: -5, 0, 50
+; at 27: 0, 0, 50
+; at 28: 10, 0, 50
+; at 29: 10, 0, 100
+0 BEGIN PGM ZEILEN MM
+1 BLK FORM 0.1 Z X+0 Y+0 Z-20
+2 BLK FORM 0.2 X+80 Y+40 Z+2
+3 TOOL CALL 1 Z S2000
+4 L Z+50 R0 FMAX M3
+5 CYCL DEF 230 ABZEILEN ~
+    Q225=+0 ;STARTPUNKT 1. ACHSE ~
+    Q226=+0 ;STARTPUNKT 2. ACHSE ~
+    Q227=+0 ;STARTPUNKT 3. ACHSE ~
+    Q218=80 ;1. SEITEN-LAENGE ~
+    Q219=40 ;2. SEITEN-LAENGE ~
+    Q240=5 ;ANZAHL SCHNITTE ~
+    Q206=150 ;VORSCHUB TIEFENZ. ~
+    Q207=500 ;VORSCHUB FRAESEN ~
+    Q209=200 ;VORSCHUB QUER ~
+    Q200=2 ;SICHERHEITS-ABST.
+6 L X-5 Y+0 R0 FMAX
+7 CYCL CALL
+8 L Z+50 R0 FMAX
+9 L X+0 Y+0 FMAX
+10 L X+10
+11 L Z+100 M30
+12 END PGM ZEILEN MM
