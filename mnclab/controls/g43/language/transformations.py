@@ -8,6 +8,7 @@ has both. Switching moves nothing: the tip stays, and the coordinates of the too
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 
 from mnclab.controls.g43.language.numbers import has_point
 from mnclab.controls.g43.remarks import ISO
@@ -52,8 +53,8 @@ def switch(m: Machine, name: str, frame: frames.Matrix | None, words: Words) -> 
     memory(m).doubt = Doubt(other, words.code, m.tip) if other else None
 
 
-def settle_doubt(m: Machine, words: Words, to: dict[str, float]) -> None:
-    """Warn where the first motion after a switch names one of the axes concerned and not the others: makers differ there."""
+def settle_doubt(m: Machine, words: Words, to: Collection[str]) -> None:
+    """Warn where the first motion after a switch goes `to` one of the axes concerned and not to others: makers differ there."""
     doubt = memory(m).doubt
     if doubt is None or not to:
         return
