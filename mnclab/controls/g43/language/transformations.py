@@ -103,6 +103,7 @@ def rotation_off(m: Machine, words: Words) -> None:
     """No motion."""
     memory(m).angle = 0.0
     if "rotation" in m.frames:
+        m.log("rotation angle", 0.0)
         switch(m, "rotation", None, words)
 
 
