@@ -8,6 +8,7 @@ has both. Switching moves nothing: the tip stays, and the coordinates of the too
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 
 from mnclab.controls.g43.language.numbers import has_point
 from mnclab.controls.g43.remarks import ISO
@@ -27,6 +28,7 @@ ROTATION = {"G68": "Rotation on", "G69": "Rotation off"}
 SCALING = {"G51": "Scaling on", "G50": "Scaling off"}
 MIRROR = {"G51.1": "Mirror image on", "G50.1": "Mirror image off"}
 SAME = 1e-9
+DOUBTFUL = 0.05  # a scale of fewer thousandths is more likely a factor as other makers have it
 MOST = 1e6  # the greatest factor; its inverse is the least
 
 
@@ -52,7 +54,7 @@ def switch(m: Machine, name: str, frame: frames.Matrix | None, words: Words) -> 
     memory(m).doubt = Doubt(other, words.code, m.tip) if other else None
 
 
-def settle_doubt(m: Machine, words: Words, to: dict[str, float]) -> None:
+def settle_doubt(m: Machine, words: Words, to: Collection[str]) -> None:
     """Warn where the first motion after a switch names one of the axes concerned and not the others: makers differ there."""
     doubt = memory(m).doubt
     if doubt is None or not to:
@@ -110,6 +112,9 @@ def factor(m: Machine, word: Word) -> float:
     value = m.value(word)
     if m.settings["g51_factor"] == "thousandths" and not has_point(m, word):
         value /= 1000
+        if abs(value) < DOUBTFUL:
+            m.warn(f"G51 {word} counts thousandths: the scale is {value:g}", word,
+                   hint=f"write {word}. for {1000 * value:g}, or choose the setting g51_factor")  # fmt: skip
     if value < 0 and word.address == "P":
         m.alarm(f"G51 P (scale factor) must be greater than 0, got {value:g}", word)
     if not 1 / MOST <= abs(value) <= MOST:
