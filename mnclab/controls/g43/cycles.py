@@ -17,6 +17,7 @@ import numpy as np
 from mnclab.controls.g43.language import polar
 from mnclab.controls.g43.language.lengths import activate
 from mnclab.controls.g43.language.numbers import seconds_of_p
+from mnclab.controls.g43.language.transformations import settle_doubt
 from mnclab.controls.g43.remarks import ISO, undescribed
 from mnclab.controls.g43.settings import DIALECT_NAMES
 from mnclab.controls.g43.state import memory
@@ -30,8 +31,11 @@ from mnclab.machining.steps import Each, Go, Step, moved
 
 CYCLES = CycleTable()
 MOST_HOLES = 9999  # of one block
+SAME = 1e-9  # mm, between two levels that are one
 
 POSITION = "X Y Z R"
+AXES_OF = {"x": "x", "y": "y", "bottom": "z"}  # parameters that say where an axis goes
+SAME = 1e-9  # mm
 
 dwell = partial(param, "P", "dwell at the bottom, milliseconds", "ms", default=0, at_least=0, modal=True, example=500)
 repeats = partial(
@@ -63,10 +67,45 @@ def along_z(m: Machine, code: str, given: Given) -> None:
         m.alarm(f"{code} K is not the number of holes as {maker} has it", count, hint="write L for the number of holes")
 
 
-def pecks_scaled(m: Machine) -> Iterator[tuple[str, str]]:
-    """A fault where it is not known whether Q is scaled."""
-    if "scaling" in m.frames:
-        yield "", "cannot run under G51: whether Q is scaled is a matter of the maker"
+def levels(m: Machine, values: Values, given: Given, kept: Values) -> None:
+    """Z and R become coordinates: those of the block, or as `hole_data` may have it the last numbers counted anew."""
+    numbers = kept.setdefault("numbers", {})
+    numbers |= {name: values[name] for name in ("bottom", "r_level") if name in given}
+    if m.settings["hole_data"] == "numbers":
+        values |= numbers
+        given = numbers
+    if m.modal["dimension"] == "G91":
+        if "r_level" in given:
+            values["r_level"] += holes.initial_level(m, kept)
+        if "bottom" in given:
+            kept["depth"] = values["bottom"]
+        if values.get("r_level") is not None and "depth" in kept:
+            values["bottom"] = values["r_level"] + kept["depth"]
+    elif "bottom" in given:
+        kept.pop("depth", None)
+
+
+def warn_of_change(m: Machine, code: str, given: Given, kept: Values) -> None:
+    """Say that a cycle goes on after something has changed that its levels hang on: makers differ in what they are then."""
+    now = m.modal["dimension"], m.variable_unit, m.to_machine((0.0, 0.0, 0.0))[2]
+    before = kept.get("read", now)
+    kept["read"] = now
+    written = {"r_level", "bottom"} <= given.keys()
+    word = next(iter(given.values()), None)
+    changed = [*["the unit"] * (now[1] != before[1]), *["G90 or G91"] * (now[0] != before[0] and rereads(m))]
+    if changed and not written:
+        what = " and ".join(changed)
+        m.warn(f"{code} goes on after a change of {what}: level R and the bottom stay where they were", word,
+               hint="makers differ: write Z and R again")  # fmt: skip
+    if abs(now[2] - before[2]) > SAME:
+        stays = "" if written else "level R and the bottom count from there, "
+        m.warn(f"{code} goes on after the origin of Z has moved: {stays}the initial level stays where it was", word,
+               hint="makers differ: write G80 before it")  # fmt: skip
+
+
+def rereads(m: Machine) -> bool:
+    """Whether Z and R of an earlier block are read anew under G90 and G91, as LinuxCNC does; others keep the levels."""
+    return bool(m.settings["dialect"] == "linuxcnc")
 
 
 class HoleCycle(holes.AtHole, Cycle):
@@ -83,7 +122,10 @@ class HoleCycle(holes.AtHole, Cycle):
         along_z(m, cls.code, given)
         if not memory(m).machine_coordinates:
             activate(m, "XYZ")
+            settle_doubt(m, Words(tuple(given.values()), cls.code), given.keys() & {"x", "y"})
         kept.setdefault("initial", m.to_machine(m.programmed)[2])
+        warn_of_change(m, cls.code, given, kept)
+        settle_doubt(m, Words(tuple(given.values()), cls.code), {axis for name, axis in AXES_OF.items() if name in given})
         kept["step"] = (0.0, 0.0)
         kept["points"] = None
         if given.keys().isdisjoint(("x", "y", "bottom", "r_level")):
@@ -92,22 +134,19 @@ class HoleCycle(holes.AtHole, Cycle):
             values[name] *= 1000 * seconds_of_p(m, given[name])
         if memory(m).polar is not None:
             polar.holes(m, values, given, kept)
-        if m.modal["dimension"] == "G91":
-            if memory(m).polar is None:
-                kept["step"] = values.get("x", 0.0), values.get("y", 0.0)
-                for k, name in enumerate("xy"):
-                    if name in given:
-                        values[name] += m.programmed[k]
-            if "r_level" in given:
-                values["r_level"] += holes.initial_level(m, kept)
-            if "bottom" in given:
-                kept["depth"] = values["bottom"]
-            if values.get("r_level") is not None and "depth" in kept:
-                values["bottom"] = values["r_level"] + kept["depth"]
-        elif "bottom" in given:
-            kept.pop("depth", None)
+        if m.modal["dimension"] == "G91" and memory(m).polar is None:
+            kept["step"] = values.get("x", 0.0), values.get("y", 0.0)
+            for k, name in enumerate("xy"):
+                if name in given:
+                    values[name] += m.programmed[k]
+        levels(m, values, given, kept)
         holes.take_feed(m, values, given)
         return values
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        yield from super().check(m)
+        if getattr(self, self.pecks, None) and "scaling" in m.frames:
+            yield "", "cannot run under G51: whether Q is scaled is a matter of the maker"
 
     def about(self, m: Machine) -> tuple[float, float]:
         return super().about(m) if self.repeats == 1 else (0.0, 0.0)
@@ -129,10 +168,13 @@ class HoleCycle(holes.AtHole, Cycle):
     def approach(self, m: Machine) -> Iterator[Step]:
         assert m.position_cycle is not None
         way, level = m.settings["below_r"], m.programmed[2]
-        straight = way == "straight"
-        if straight and holes.initial_level(m, m.position_cycle.extra) < self.r_level:
+        straight, initial = way == "straight", holes.initial_level(m, m.position_cycle.extra)
+        if straight and initial < self.r_level:
             yield Go("to level R", self.r_level)
             yield self.across()
+        elif straight and level < self.r_level + SAME < initial and m.modal["return"] == "G98":  # after holes under G99
+            yield self.across()._replace(z=initial)
+            yield Go("to level R", self.r_level)
         elif level < self.r_level and way != "up":
             yield self.across()._replace(z=self.r_level if straight else None)
             yield Go("to level R", self.r_level)
@@ -187,7 +229,6 @@ class DeepHoleDrilling(HoleCycle):
     pause: float = pause()
     feed: float | None = holes.feed()
     repeats: float = repeats()
-    needs = (pecks_scaled,)
 
     def work(self, m: Machine) -> Iterator[Step]:
         return drill(self.levels(), above=self.r_level, feed=None, reenter=m.settings["peck_clearance"],
@@ -206,7 +247,6 @@ class ChipBreaking(HoleCycle):
     pause: float = pause()
     feed: float | None = holes.feed()
     repeats: float = repeats()
-    needs = (pecks_scaled,)
 
     def work(self, m: Machine) -> Iterator[Step]:
         levels, back = self.levels(), m.settings["peck_clearance"]
