@@ -28,6 +28,7 @@ ROTATION = {"G68": "Rotation on", "G69": "Rotation off"}
 SCALING = {"G51": "Scaling on", "G50": "Scaling off"}
 MIRROR = {"G51.1": "Mirror image on", "G50.1": "Mirror image off"}
 SAME = 1e-9
+DOUBTFUL = 0.05  # a scale of fewer thousandths is more likely a factor as other makers have it
 MOST = 1e6  # the greatest factor; its inverse is the least
 
 
@@ -103,6 +104,7 @@ def rotation_off(m: Machine, words: Words) -> None:
     """No motion."""
     memory(m).angle = 0.0
     if "rotation" in m.frames:
+        m.log("rotation angle", 0.0)
         switch(m, "rotation", None, words)
 
 
@@ -111,6 +113,9 @@ def factor(m: Machine, word: Word) -> float:
     value = m.value(word)
     if m.settings["g51_factor"] == "thousandths" and not has_point(m, word):
         value /= 1000
+        if abs(value) < DOUBTFUL:
+            m.warn(f"G51 {word} counts thousandths: the scale is {value:g}", word,
+                   hint=f"write {word}. for {1000 * value:g}, or choose the setting g51_factor")  # fmt: skip
     if value < 0 and word.address == "P":
         m.alarm(f"G51 P (scale factor) must be greater than 0, got {value:g}", word)
     if not 1 / MOST <= abs(value) <= MOST:
