@@ -23,7 +23,8 @@ MARK = re.compile(r"^(?:;|(\()) *(at|through) (\d+): (.+)(?(1)\))$", re.M)
 NAMES = {
     "pi": math.pi,
     "sqrt": math.sqrt,
-    **{name: lambda angle, f=getattr(math, name): f(math.radians(angle)) for name in ("sin", "cos", "tan")},
+    "sin": lambda angle: math.sin(math.radians(angle)),
+    "cos": lambda angle: math.cos(math.radians(angle)),
 }
 
 
