@@ -91,8 +91,7 @@ class Run:
         self.stopped: Stopped | None = machine.stopped
         self.settings = dict(machine.settings)
         self.made: dict[Any, Any] = {}  # the last parts and collisions that were asked for
-        self._nesting = flow.nesting
-        self.missed, self.started = MissedOnes(), (0, 0, 0)  # what a start at a block skips; its line, pass, program
+        self._nesting, self.missed, self.started = flow.nesting, MissedOnes(), (0, 0, 0)  # see `start_at`: what it skips, where
 
     def _as_of_end(self, prefix: str, values: dict[str, Any]) -> dict[str, Any]:
         """Values as the history has them after the last step that counts."""
@@ -150,7 +149,8 @@ class Run:
         if not 0 <= program < len(self.programs):
             return np.empty(0, dtype=np.intp)
         first, last = self.programs[program].lines()
-        blocks = np.flatnonzero((first <= line) & (line <= last))
+        begun = np.flatnonzero(first == line)  # before one that ends in the line in which another begins
+        blocks = begun if len(begun) else np.flatnonzero((first <= line) & (line <= last))
         return np.flatnonzero(np.isin(self.steps.block, blocks) & (self.steps.program == program))
 
     def lines(self) -> NDArray[np.integer[Any]]:

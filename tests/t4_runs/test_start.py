@@ -141,6 +141,11 @@ def test_a_contour_of_a_cycle_is_no_place_to_start():
     assert len(run.start_at(10).toolpath)
 
 
+def test_an_inch_program_tells_its_place_in_inches():
+    run = mnclab.run("G20 G90 G54\nS500 M3\nG0 X1.5 Y0 Z2\nG1 Z-.25 F5\nX3\n", "iso")
+    assert about(run.start_at(5))["position"] == "go to X1.5 Y0 Z-0.25"
+
+
 def test_another_setup_starts_at_the_same_block():
     again = mnclab.run(HEAD + REST, "mnc").start_at(7).again(mnclab.Setup(datums={1: (100, 0, 0)}))
     assert again.toolpath.line[0] == 7 and again.missed

@@ -26,9 +26,11 @@ SOURCE = Path(mnclab.__file__).parent
 SEEKS = ("search", "finditer", "findall", "sub", "subn", "split")
 #: Patterns that are put together where they are used, as a use makes them, and how they are used.
 PUT_TOGETHER = {
+    "din_said.py": (r"(?<![\w.])CP(?![A-Za-z_.])", "search"),
     "labels.py": (r"GT(?![A-Z])", "match"),
     "formulas.py": (r"[ \t]*LEN(?![A-Z])", "match"),
     "feature_file.py": (r"\bdepth", "search"),
+    "programs.py": (r"O?0*1000(\.\w{1,8})?", "fullmatch"),
     "reader.py": (r"/[ \t]?/|;", "search"),
     "program.py": (r"/[ \t]?/", "search"),
     "toml_file.py": (r"""(?:^|[\s.{,])(["']?start["']?)\s*=""", "search"),

@@ -6,7 +6,7 @@ So it is the ISO mill that its users take it for: `language.lengths` holds what 
 
 from __future__ import annotations
 
-from mnclab.controls.g43 import cycles
+from mnclab.controls.g43 import boring, cycles
 from mnclab.controls.g43.language import (
     auxiliary,
     corners,
@@ -75,7 +75,7 @@ CONTROL = Control(
     suffixes=(".g43", ".iso"),
     read=read,
     functions=FUNCTIONS,
-    cycles=cycles.CYCLES,
+    cycles=cycles.CYCLES | boring.CYCLES,
     phases=PHASES,
     settings=SETTINGS,
     frames=("length", "external", "datum", "set", "local", "mirror", "rotation", "scaling"),

@@ -1,4 +1,4 @@
-"""Drilling and boring cycles: G73, G74, G76, G81 to G89, until G80.
+"""Fixed cycles until G80: what they share, drilling (G73, G81, G82, G83) and tapping (G74, G84); `boring` has the others.
 
 Of this chapter the source has only the title. The cycles are those that ISO controls have under these codes: over the
 hole, at rapid to level R, the work down to Z, and back to the initial level (G98) or to level R (G99). Under G91, R counts
@@ -17,32 +17,95 @@ import numpy as np
 from mnclab.controls.g43.language import polar
 from mnclab.controls.g43.language.lengths import activate
 from mnclab.controls.g43.language.numbers import seconds_of_p
+from mnclab.controls.g43.language.transformations import settle_doubt
 from mnclab.controls.g43.remarks import ISO, undescribed
+from mnclab.controls.g43.settings import DIALECT_NAMES
 from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address import holes
 from mnclab.machine.control import Words
 from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param
 from mnclab.machine.machine import Machine
-from mnclab.machining.holes.drilling import back_bore, back_to_axis, bore_and_stop, drill, ream
+from mnclab.machining.holes.drilling import drill
 from mnclab.machining.holes.tapping import tap
-from mnclab.machining.steps import RAPID, Each, Go, Step, moved
+from mnclab.machining.steps import Each, Go, Step, moved
 
 CYCLES = CycleTable()
 MOST_HOLES = 9999  # of one block
+SAME = 1e-9  # mm, between two levels that are one
 
 POSITION = "X Y Z R"
+AXES_OF = {"x": "x", "y": "y", "bottom": "z"}  # parameters that say where an axis goes
+SAME = 1e-9  # mm
 
 dwell = partial(param, "P", "dwell at the bottom, milliseconds", "ms", default=0, at_least=0, modal=True, example=500)
 repeats = partial(
     param, ("K", "L"), "number of holes", "", default=1, type="integer", at_least=0, at_most=MOST_HOLES, example=1
 )
 peck = partial(param, "Q", "depth of one peck", above=0, incremental=True, modal=True, example=5)
+pause = partial(
+    param, "P", "dwell at the bottom, milliseconds", "ms", default=0, at_least=0, modal=True, example=500,
+    note="of Haas; other makers' G73 and G83 have no dwell",
+)  # fmt: skip
+tapping_peck = partial(
+    param, "Q", "depth of one peck", default=None, default_means="the whole thread at once", above=0, incremental=True,
+    modal=True, example=5, note="rigid tapping; what happens between two: setting peck_tapping",
+)  # fmt: skip
+times_out = partial(
+    param, "J", "how many times faster the tap comes out", "", default=1, above=0, at_most=9, modal=True, example=1,
+    note="of Haas",
+)  # fmt: skip
 
 
-def initial_level_alone(m: Machine) -> Iterator[tuple[str, str]]:
-    """A fault where a cycle that cannot stay at level R is to do so."""
-    if m.modal["return"] == "G99":
-        yield "", "always comes back to the initial level: write G98"
+def along_z(m: Machine, code: str, given: Given) -> None:
+    """Refuse what another maker drills elsewhere, or counts otherwise."""
+    if m.plane != "XY" and m.settings["hole_axis"] == "normal":
+        axis, hint = {"ZX": "Y", "YZ": "X"}[m.plane], "write G17, or choose the setting hole_axis"
+        m.alarm(f"{code} drills along {axis} in the plane {m.plane}: not built", given.get("bottom"), hint=hint)
+    dialect, count = m.settings["dialect"], given.get("repeats")
+    if count and count.address == "K" and dialect != "fanuc":
+        maker = DIALECT_NAMES[dialect]
+        m.alarm(f"{code} K is not the number of holes as {maker} has it", count, hint="write L for the number of holes")
+
+
+def levels(m: Machine, values: Values, given: Given, kept: Values) -> None:
+    """Z and R become coordinates: those of the block, or as `hole_data` may have it the last numbers counted anew."""
+    numbers = kept.setdefault("numbers", {})
+    numbers |= {name: values[name] for name in ("bottom", "r_level") if name in given}
+    if m.settings["hole_data"] == "numbers":
+        values |= numbers
+        given = numbers
+    if m.modal["dimension"] == "G91":
+        if "r_level" in given:
+            values["r_level"] += holes.initial_level(m, kept)
+        if "bottom" in given:
+            kept["depth"] = values["bottom"]
+        if values.get("r_level") is not None and "depth" in kept:
+            values["bottom"] = values["r_level"] + kept["depth"]
+    elif "bottom" in given:
+        kept.pop("depth", None)
+
+
+def warn_of_change(m: Machine, code: str, given: Given, kept: Values) -> None:
+    """Say that a cycle goes on after something has changed that its levels hang on: makers differ in what they are then."""
+    now = m.modal["dimension"], m.variable_unit, m.to_machine((0.0, 0.0, 0.0))[2]
+    before = kept.get("read", now)
+    kept["read"] = now
+    written = {"r_level", "bottom"} <= given.keys()
+    word = next(iter(given.values()), None)
+    changed = [*["the unit"] * (now[1] != before[1]), *["G90 or G91"] * (now[0] != before[0] and rereads(m))]
+    if changed and not written:
+        what = " and ".join(changed)
+        m.warn(f"{code} goes on after a change of {what}: level R and the bottom stay where they were", word,
+               hint="makers differ: write Z and R again")  # fmt: skip
+    if abs(now[2] - before[2]) > SAME:
+        stays = "" if written else "level R and the bottom count from there, "
+        m.warn(f"{code} goes on after the origin of Z has moved: {stays}the initial level stays where it was", word,
+               hint="makers differ: write G80 before it")  # fmt: skip
+
+
+def rereads(m: Machine) -> bool:
+    """Whether Z and R of an earlier block are read anew under G90 and G91, as LinuxCNC does; others keep the levels."""
+    return bool(m.settings["dialect"] == "linuxcnc")
 
 
 class HoleCycle(holes.AtHole, Cycle):
@@ -56,33 +119,34 @@ class HoleCycle(holes.AtHole, Cycle):
     def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
         """Increments become coordinates where they are programmed; offsets of the length compensation count from here on."""
         undescribed(m, Words((), cls.code))
+        along_z(m, cls.code, given)
         if not memory(m).machine_coordinates:
             activate(m, "XYZ")
+            settle_doubt(m, Words(tuple(given.values()), cls.code), given.keys() & {"x", "y"})
         kept.setdefault("initial", m.to_machine(m.programmed)[2])
+        warn_of_change(m, cls.code, given, kept)
+        settle_doubt(m, Words(tuple(given.values()), cls.code), {axis for name, axis in AXES_OF.items() if name in given})
         kept["step"] = (0.0, 0.0)
         kept["points"] = None
         if given.keys().isdisjoint(("x", "y", "bottom", "r_level")):
             values["repeats"] = 0
-        if "dwell" in given:
-            values["dwell"] *= 1000 * seconds_of_p(m, given["dwell"])
+        for name in {"dwell", "pause"} & given.keys():
+            values[name] *= 1000 * seconds_of_p(m, given[name])
         if memory(m).polar is not None:
             polar.holes(m, values, given, kept)
-        if m.modal["dimension"] == "G91":
-            if memory(m).polar is None:
-                kept["step"] = values.get("x", 0.0), values.get("y", 0.0)
-                for k, name in enumerate("xy"):
-                    if name in given:
-                        values[name] += m.programmed[k]
-            if "r_level" in given:
-                values["r_level"] += holes.initial_level(m, kept)
-            if "bottom" in given:
-                kept["depth"] = values["bottom"]
-            if values.get("r_level") is not None and "depth" in kept:
-                values["bottom"] = values["r_level"] + kept["depth"]
-        elif "bottom" in given:
-            kept.pop("depth", None)
+        if m.modal["dimension"] == "G91" and memory(m).polar is None:
+            kept["step"] = values.get("x", 0.0), values.get("y", 0.0)
+            for k, name in enumerate("xy"):
+                if name in given:
+                    values[name] += m.programmed[k]
+        levels(m, values, given, kept)
         holes.take_feed(m, values, given)
         return values
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        yield from super().check(m)
+        if getattr(self, self.pecks, None) and "scaling" in m.frames:
+            yield "", "cannot run under G51: whether Q is scaled is a matter of the maker"
 
     def about(self, m: Machine) -> tuple[float, float]:
         return super().about(m) if self.repeats == 1 else (0.0, 0.0)
@@ -104,10 +168,13 @@ class HoleCycle(holes.AtHole, Cycle):
     def approach(self, m: Machine) -> Iterator[Step]:
         assert m.position_cycle is not None
         way, level = m.settings["below_r"], m.programmed[2]
-        straight = way == "straight"
-        if straight and holes.initial_level(m, m.position_cycle.extra) < self.r_level:
+        straight, initial = way == "straight", holes.initial_level(m, m.position_cycle.extra)
+        if straight and initial < self.r_level:
             yield Go("to level R", self.r_level)
             yield self.across()
+        elif straight and level < self.r_level + SAME < initial and m.modal["return"] == "G98":  # after holes under G99
+            yield self.across()._replace(z=initial)
+            yield Go("to level R", self.r_level)
         elif level < self.r_level and way != "up":
             yield self.across()._replace(z=self.r_level if straight else None)
             yield Go("to level R", self.r_level)
@@ -159,11 +226,13 @@ class DeepHoleDrilling(HoleCycle):
     bottom: float = holes.bottom()
     r_level: float = holes.r_level()
     peck: float = peck()
+    pause: float = pause()
     feed: float | None = holes.feed()
     repeats: float = repeats()
 
     def work(self, m: Machine) -> Iterator[Step]:
-        return drill(self.levels(), above=self.r_level, feed=None, reenter=m.settings["peck_clearance"])
+        return drill(self.levels(), above=self.r_level, feed=None, reenter=m.settings["peck_clearance"],
+                     dwell_bottom=self.pause / 1000)  # fmt: skip
 
 
 @CYCLES("G73", "Drilling with chip breaking", runs="position", source=ISO, triggers=POSITION)
@@ -175,12 +244,14 @@ class ChipBreaking(HoleCycle):
     bottom: float = holes.bottom()
     r_level: float = holes.r_level()
     peck: float = peck()
+    pause: float = pause()
     feed: float | None = holes.feed()
     repeats: float = repeats()
 
     def work(self, m: Machine) -> Iterator[Step]:
         levels, back = self.levels(), m.settings["peck_clearance"]
-        return drill(levels, above=self.r_level, feed=None, reenter=0, breaks=len(levels), back=back)
+        return drill(levels, above=self.r_level, feed=None, reenter=0, breaks=len(levels), back=back,
+                     dwell_bottom=self.pause / 1000)  # fmt: skip
 
 
 @CYCLES("G84", "Tapping, right-hand", runs="position", source=ISO, triggers=POSITION)
@@ -191,10 +262,13 @@ class RightTapping(HoleCycle):
     y: float | None = holes.position("Y", 10)
     bottom: float = holes.bottom()
     r_level: float = holes.r_level()
+    tapping_peck: float | None = tapping_peck()
     dwell: float = dwell()
+    times_out: float = times_out()
     feed: float | None = holes.feed()
     repeats: float = repeats()
     needs = (holes.no_pitch,)
+    pecks = "tapping_peck"
 
     def work(self, m: Machine) -> Iterator[Step]:
         return thread(m, self, sense=1)
@@ -208,134 +282,23 @@ class LeftTapping(HoleCycle):
     y: float | None = holes.position("Y", 10)
     bottom: float = holes.bottom()
     r_level: float = holes.r_level()
+    tapping_peck: float | None = tapping_peck()
     dwell: float = dwell()
+    times_out: float = times_out()
     feed: float | None = holes.feed()
     repeats: float = repeats()
     needs = (holes.no_pitch,)
+    pecks = "tapping_peck"
 
     def work(self, m: Machine) -> Iterator[Step]:
         return thread(m, self, sense=-1)
 
 
-def thread(m: Machine, cycle: HoleCycle, sense: int) -> Iterator[Step]:
+def thread(m: Machine, cycle: RightTapping | LeftTapping, sense: int) -> Iterator[Step]:
     """Cut with the spindle turning one way, back with the other."""
-    pitch = m.feed_of(None) / abs(m.speed)
-    return tap([cycle.bottom], above=cycle.r_level, pitch=pitch, sense=sense, end=sense, dwell=cycle.seconds)
-
-
-@CYCLES("G85", "Boring, feed out", runs="position", source=ISO, triggers=POSITION)
-class Reaming(HoleCycle):
-    """In and out at feed."""
-
-    x: float | None = holes.position("X", 20)
-    y: float | None = holes.position("Y", 10)
-    bottom: float = holes.bottom()
-    r_level: float = holes.r_level()
-    feed: float | None = holes.feed()
-    repeats: float = repeats()
-
-    def work(self, m: Machine) -> Iterator[Step]:
-        return ream(self.bottom, above=self.r_level, feed=None, retract=None)
-
-
-@CYCLES("G89", "Boring, dwell, feed out", runs="position", source=ISO, triggers=POSITION)
-class DwellReaming(HoleCycle):
-    """In at feed, a dwell, out at feed."""
-
-    x: float | None = holes.position("X", 20)
-    y: float | None = holes.position("Y", 10)
-    bottom: float = holes.bottom()
-    r_level: float = holes.r_level()
-    dwell: float = dwell()
-    feed: float | None = holes.feed()
-    repeats: float = repeats()
-
-    def work(self, m: Machine) -> Iterator[Step]:
-        return ream(self.bottom, above=self.r_level, feed=None, retract=None, dwell=self.seconds)
-
-
-@CYCLES("G86", "Boring, spindle stop, rapid out", runs="position", source=ISO, triggers=POSITION)
-class StoppedBoring(HoleCycle):
-    """In at feed, spindle stop, out at rapid."""
-
-    x: float | None = holes.position("X", 20)
-    y: float | None = holes.position("Y", 10)
-    bottom: float = holes.bottom()
-    r_level: float = holes.r_level()
-    dwell: float = dwell()
-    feed: float | None = holes.feed()
-    repeats: float = repeats()
-    needs = (holes.spindle_stands,)
-
-    def work(self, m: Machine) -> Iterator[Step]:
-        return bore_and_stop(self.bottom, above=self.r_level, dwell=self.seconds, turning=m.turning)
-
-
-@CYCLES("G76", "Fine boring", runs="position", source=ISO, triggers=POSITION)
-class FineBoring(HoleCycle):
-    """In at feed, oriented spindle stop, away from the wall by Q along -X, out at rapid, back to the axis."""
-
-    x: float | None = holes.position("X", 20)
-    y: float | None = holes.position("Y", 10)
-    bottom: float = holes.bottom()
-    r_level: float = holes.r_level()
-    shift: float = param("Q", "shift off the wall", above=0, incremental=True, modal=True, example=0.2)
-    dwell: float = dwell()
-    feed: float | None = holes.feed()
-    repeats: float = repeats()
-    needs = (holes.spindle_stands,)
-
-    def work(self, m: Machine) -> Iterator[Step]:
-        shift, turning = self.shift, m.turning
-        return bore_and_stop(self.bottom, above=self.r_level, dwell=self.seconds, turning=turning, shift=shift)
-
-
-@CYCLES("G87", "Back boring", runs="position", source=f"{ISO}; FANUC", triggers=POSITION)
-class BackBoring(HoleCycle):
-    """Off the axis by Q along -X with the spindle oriented, at rapid through the hole to level R, on the axis again up to Z.
-
-    R lies below Z. The tool always comes back to the initial level, the way it came.
-    """
-
-    x: float | None = holes.position("X", 20)
-    y: float | None = holes.position("Y", 10)
-    bottom: float = param("Z", "depth of the counterbore from below", modal=True, example=-10)
-    r_level: float = param("R", "level R, below the workpiece", modal=True, example=-25)
-    shift: float = param("Q", "shift off the axis", above=0, incremental=True, modal=True, example=0.2)
-    dwell: float = dwell()
-    feed: float | None = holes.feed()
-    repeats: float = repeats()
-    needs = (holes.spindle_stands, initial_level_alone)
-
-    def contradictions(self) -> Iterator[tuple[str, str]]:
-        if not self.bottom > self.r_level:
-            yield "bottom", f"must lie above level R, got Z {self.bottom:g} and R {self.r_level:g}"
-
-    def hole(self, m: Machine) -> Iterator[Step]:
-        yield Go("to the hole", x=0.0, y=0.0)
-        yield from self.work(m)
-
-    def work(self, m: Machine) -> Iterator[Step]:
-        above, turning = m.programmed[2], m.turning
-        yield from back_bore(
-            above=above, below=self.r_level, bottom=self.bottom, eccentricity=self.shift, direction=1, angle=0.0,
-            feed=None, travel=RAPID, dwell=self.seconds, turning=turning, leave=False,
-        )  # fmt: skip
-        yield from back_to_axis(above, turning)
-
-
-@CYCLES("G88", "Boring, spindle stop, out by hand", runs="position", source=f"{ISO}; FANUC", triggers=POSITION)
-class HandBoring(HoleCycle):
-    """In at feed, spindle stop, program stop: the operator draws the tool out, and the program goes on above the hole."""
-
-    x: float | None = holes.position("X", 20)
-    y: float | None = holes.position("Y", 10)
-    bottom: float = holes.bottom()
-    r_level: float = holes.r_level()
-    dwell: float = dwell()
-    feed: float | None = holes.feed()
-    repeats: float = repeats()
-    needs = (holes.spindle_stands,)
-
-    def work(self, m: Machine) -> Iterator[Step]:
-        return bore_and_stop(self.bottom, above=self.r_level, dwell=self.seconds, turning=m.turning, by_hand=True)
+    pitch, speed = m.feed_of(None) / m.speed, m.speed
+    back = m.settings["peck_clearance"] if m.settings["peck_tapping"] == "lifts" else 0.0
+    return tap(
+        cycle.levels(), above=cycle.r_level, pitch=pitch, sense=sense, end=sense, dwell=cycle.seconds, back=back,
+        speed=speed, out_speed=cycle.times_out * speed,
+    )  # fmt: skip

@@ -16,6 +16,8 @@ REFUSED = (
                     "not built: the kinematics of the machine are not known")
     | {"M97": "not built: a subprogram from a block of this program on (Haas); M98 calls programs with O numbers",
        "G66.1": "not built: a macro call in every block"}
+    | {"G72": "not built: holes along a line (Haas)", "G84.2": "not built in this format: write M29 and G84",
+       "G84.3": "not built in this format: write M29 and G74"}
     | {"G7.1": "not built: the surface of a cylinder", "G12.1": _LATHE, "G13.1": _LATHE,
        "G45": _WRITTEN, "G46": _WRITTEN, "G48": _WRITTEN, "G62": "not built: slower inside corners",
        "G63": "not built: feed and override locked for tapping", "G11": "there is no data mode: G10 ends with its block",

@@ -104,10 +104,10 @@ def bore(
 
 
 def bore_and_stop(
-    bottom: float, *, above: float, turning: int, dwell: float = 0.0, shift: float = 0.0, feed: float | None = None,
-    by_hand: bool = False,
+    bottom: float, *, above: float, turning: int, dwell: float = 0.0, shift: tuple[float, float] | None = None,
+    feed: float | None = None, by_hand: bool = False,
 ) -> Iterator[Step]:  # fmt: skip
-    """Bore, stop the spindle, retract, spindle on; with a `shift` it stops oriented and the tool leaves the wall along -x.
+    """Bore, stop the spindle, retract, spindle on; with a `shift` it stops oriented and the tool leaves the wall.
 
     `by_hand`: the program stops before it retracts.
     """
@@ -115,7 +115,7 @@ def bore_and_stop(
     yield Wait("dwell at the bottom", dwell)
     if shift:
         yield Orient("orient the spindle to 0 degrees", 0.0)
-        yield Go("leave the wall", x=-shift, y=0.0)
+        yield Go("leave the wall", x=shift[0], y=shift[1])
     else:
         yield Spin("stop the spindle", 0)
     if by_hand:

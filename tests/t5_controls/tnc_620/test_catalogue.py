@@ -122,6 +122,7 @@ def test_a_function_stays_and_is_on_as_the_manual_says(entry: dict) -> None:
 
 
 #: Examples with checks that no test has, since what they show is refused by name.
+PARTLY = {"PLANE SPATIAL"}  # built for no angles alone
 WAITING = {("klartext", "contour formula"), ("klartext", "CONTOUR DEF"), ("klartext", "PLANE SPATIAL")}
 
 
@@ -132,7 +133,8 @@ def test_every_example_with_a_check_is_a_test() -> None:
         found = [e for e in records(f"tnc620-{entry['file']}") if e["code"] == entry["code"] and e["check"]]
         if len(found) != entry["checked"]:
             waiting.add((entry["file"], entry["code"]))
-            assert place(entry["code"]) == "refused" or READ_AS[entry["code"]][0] == "refused"
+            refused = place(entry["code"]) == "refused" or READ_AS.get(entry["code"], ("",))[0] == "refused"
+            assert refused or entry["code"] in PARTLY
     assert waiting == WAITING
 
 

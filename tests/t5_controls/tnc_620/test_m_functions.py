@@ -42,12 +42,13 @@ def test_every_m_function_of_the_manual_acts_or_is_refused(number: int) -> None:
 
 @pytest.mark.deep
 def test_every_number_is_obeyed_or_named() -> None:
-    """M0 to M250: obeyed, refused by name, or no function of this control."""
+    """M0 to M250: obeyed, refused by name, or a function of the machine tool builder."""
     for number in range(251):
         run = mnc.run(f"1 TOOL CALL 1 Z S100 F100\n2 L X+1 M{number}\n", "tnc-620")
         if f"M{number}" not in CONTROL.functions:
             (alarm,) = run.alarms
-            assert re.match(rf"M{number} is (refused: \w|not a function of this control)", alarm.message)
+            assert re.match(rf"M{number} is (refused: \w|no function of the control, but of the machine)", alarm.message)
+            assert alarm.severity == ("alarm" if f"M{number}" in CONTROL.refused else "warning")
             assert alarm.span[:2] == (2, 9)
 
 

@@ -56,7 +56,7 @@ def test_one_pocket(spelling: str) -> None:
         ("1.5 FU0.2", 14, "FU stands where the feed rate belongs"),
         ("1.5 VORSCHUB 2", 14, "VORSCHUB stands where the feed rate belongs"),
         ("1.4 DWELL", 14, "a number is missing: the dwell in seconds"),
-        ("1.4 V.ZEIT.5", 20, "a point between V.ZEIT and a digit may belong to either"),
+        ("1.4 V.ZEIT.5", 20, ".5 may be 0.5 or 5"),
         ("1.4 DWELL 1 2", 22, "'2' needs an address before it"),
         ("1.5 F100 M8", 19, "M8 has no meaning in this block"),
     ],
