@@ -34,6 +34,8 @@ MOST_HOLES = 9999  # of one block
 SAME = 1e-9  # mm, between two levels that are one
 
 POSITION = "X Y Z R"
+AXES_OF = {"x": "x", "y": "y", "bottom": "z"}  # parameters that say where an axis goes
+SAME = 1e-9  # mm
 
 dwell = partial(param, "P", "dwell at the bottom, milliseconds", "ms", default=0, at_least=0, modal=True, example=500)
 repeats = partial(
@@ -65,12 +67,6 @@ def along_z(m: Machine, code: str, given: Given) -> None:
         m.alarm(f"{code} K is not the number of holes as {maker} has it", count, hint="write L for the number of holes")
 
 
-def pecks_scaled(m: Machine) -> Iterator[tuple[str, str]]:
-    """A fault where it is not known whether Q is scaled."""
-    if "scaling" in m.frames:
-        yield "", "cannot run under G51: whether Q is scaled is a matter of the maker"
-
-
 def levels(m: Machine, values: Values, given: Given, kept: Values) -> None:
     """Z and R become coordinates: those of the block, or as `hole_data` may have it the last numbers counted anew."""
     numbers = kept.setdefault("numbers", {})
@@ -89,6 +85,29 @@ def levels(m: Machine, values: Values, given: Given, kept: Values) -> None:
         kept.pop("depth", None)
 
 
+def warn_of_change(m: Machine, code: str, given: Given, kept: Values) -> None:
+    """Say that a cycle goes on after something has changed that its levels hang on: makers differ in what they are then."""
+    now = m.modal["dimension"], m.variable_unit, m.to_machine((0.0, 0.0, 0.0))[2]
+    before = kept.get("read", now)
+    kept["read"] = now
+    written = {"r_level", "bottom"} <= given.keys()
+    word = next(iter(given.values()), None)
+    changed = [*["the unit"] * (now[1] != before[1]), *["G90 or G91"] * (now[0] != before[0] and rereads(m))]
+    if changed and not written:
+        what = " and ".join(changed)
+        m.warn(f"{code} goes on after a change of {what}: level R and the bottom stay where they were", word,
+               hint="makers differ: write Z and R again")  # fmt: skip
+    if abs(now[2] - before[2]) > SAME:
+        stays = "" if written else "level R and the bottom count from there, "
+        m.warn(f"{code} goes on after the origin of Z has moved: {stays}the initial level stays where it was", word,
+               hint="makers differ: write G80 before it")  # fmt: skip
+
+
+def rereads(m: Machine) -> bool:
+    """Whether Z and R of an earlier block are read anew under G90 and G91, as LinuxCNC does; others keep the levels."""
+    return bool(m.settings["dialect"] == "linuxcnc")
+
+
 class HoleCycle(holes.AtHole, Cycle):
     """A cycle at a hole whose data hold from one cycle to the next."""
 
@@ -105,6 +124,8 @@ class HoleCycle(holes.AtHole, Cycle):
             activate(m, "XYZ")
             settle_doubt(m, Words(tuple(given.values()), cls.code), given.keys() & {"x", "y"})
         kept.setdefault("initial", m.to_machine(m.programmed)[2])
+        warn_of_change(m, cls.code, given, kept)
+        settle_doubt(m, Words(tuple(given.values()), cls.code), {axis for name, axis in AXES_OF.items() if name in given})
         kept["step"] = (0.0, 0.0)
         kept["points"] = None
         if given.keys().isdisjoint(("x", "y", "bottom", "r_level")):
@@ -121,6 +142,11 @@ class HoleCycle(holes.AtHole, Cycle):
         levels(m, values, given, kept)
         holes.take_feed(m, values, given)
         return values
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        yield from super().check(m)
+        if getattr(self, self.pecks, None) and "scaling" in m.frames:
+            yield "", "cannot run under G51: whether Q is scaled is a matter of the maker"
 
     def about(self, m: Machine) -> tuple[float, float]:
         return super().about(m) if self.repeats == 1 else (0.0, 0.0)
@@ -203,7 +229,6 @@ class DeepHoleDrilling(HoleCycle):
     pause: float = pause()
     feed: float | None = holes.feed()
     repeats: float = repeats()
-    needs = (pecks_scaled,)
 
     def work(self, m: Machine) -> Iterator[Step]:
         return drill(self.levels(), above=self.r_level, feed=None, reenter=m.settings["peck_clearance"],
@@ -222,7 +247,6 @@ class ChipBreaking(HoleCycle):
     pause: float = pause()
     feed: float | None = holes.feed()
     repeats: float = repeats()
-    needs = (pecks_scaled,)
 
     def work(self, m: Machine) -> Iterator[Step]:
         levels, back = self.levels(), m.settings["peck_clearance"]

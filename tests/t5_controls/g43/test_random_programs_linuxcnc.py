@@ -1,5 +1,6 @@
 """Five thousand random programs against LinuxCNC's recorded motion: planes, units, arcs, offsets, turned systems, cycles,
-sub-programs, formulas, loops; and five hundred of cycles within which everything changes; see `tests/authorities/iso_programs.py`."""
+sub-programs, formulas, loops; and five hundred of cycles within which everything changes; see
+`tests/authorities/iso_programs.py`."""
 
 import gzip
 import json

@@ -18,6 +18,7 @@ def test_spellings_of_the_same_two_moves():
         ":1 (plate)\nN10 G00 X+1.\nN20 G01 Y-02.50 F100.\n", "%\r\nO1\r\nG0X1;\r\nG1Y-2.5F100;\r\nM30;\r\n%",
         "(a comment) G0 (in the middle) X1 (and after)\nG1 Y-2.5 (feed) F100\n", "G0 X1 ; far\n;\n( )\n()\nG1 Y-2.5 F100\n",
         "#1=1\nG0 X#1\nG#1 Y-[#1*2.5] F[200/2]\n", "N1 #1=-2.5\nN2 G0 X1\nN3 IF [#1 LT 0] THEN #2=#1\nG1 Y#2 F100\n",
+        "\0\0\0%\nG0 X1\nG1 Y-2.5 F100\n%\0\0", "G0 X1\r\nG1 Y-2.5 F100\r\n\x1a", "G0 X1\nG1 Y-2.5 F100\x1a\x1a\0",
         "\ufeff%\nG0X 1\nG1Y- 2.5F100\n".replace("- 2", "-2"), "N0 G0 X1\nN0 G1 Y-2.5 F100\n",
     ]  # fmt: skip
     for text in spellings:
@@ -34,6 +35,10 @@ def test_what_stands_after_the_tape_is_named():
     assert found.toolpath.end.tolist() == [[1, 0, 0]]
     assert [(alarm.message, alarm.span[:2]) for alarm in found.alarms] == [("what stands after the last % is not obeyed", (5, 2))]
     assert not run("(made by hand)\n%\nG0 X1\n%\n\n\0\0").alarms
+
+
+def test_an_end_of_text_in_the_middle_is_a_fault():
+    assert run("G0 X1\x1a\nG1 Y2 F100\n", ok=None).alarms[0].span[:2] == (1, 6)
 
 
 def test_words_after_a_semicolon_are_named():

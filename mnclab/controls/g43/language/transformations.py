@@ -28,6 +28,7 @@ ROTATION = {"G68": "Rotation on", "G69": "Rotation off"}
 SCALING = {"G51": "Scaling on", "G50": "Scaling off"}
 MIRROR = {"G51.1": "Mirror image on", "G50.1": "Mirror image off"}
 SAME = 1e-9
+DOUBTFUL = 0.05  # a scale of fewer thousandths is more likely a factor as other makers have it
 MOST = 1e6  # the greatest factor; its inverse is the least
 
 
@@ -78,7 +79,7 @@ def centre(m: Machine, words: Words, name: str) -> list[float]:
     return found
 
 
-@FUNCTIONS("G68", ROTATION, group="rotation", phase="transformation", takes="X Y Z R", still=True, source=ISO)
+@FUNCTIONS("G68", ROTATION, group="rotation", phase="transformation", takes="X Y Z R", still=True, owns=True, source=ISO)
 def rotation(m: Machine, words: Words) -> None:
     """Turns the plane by R degrees about a point, by default where the tool stands; R adds under G91 (setting g68_increment)."""
     if "R" not in words:
@@ -112,6 +113,9 @@ def factor(m: Machine, word: Word) -> float:
     value = m.value(word)
     if m.settings["g51_factor"] == "thousandths" and not has_point(m, word):
         value /= 1000
+        if abs(value) < DOUBTFUL:
+            m.warn(f"G51 {word} counts thousandths: the scale is {value:g}", word,
+                   hint=f"write {word}. for {1000 * value:g}, or choose the setting g51_factor")  # fmt: skip
     if value < 0 and word.address == "P":
         m.alarm(f"G51 P (scale factor) must be greater than 0, got {value:g}", word)
     if not 1 / MOST <= abs(value) <= MOST:
@@ -119,7 +123,7 @@ def factor(m: Machine, word: Word) -> float:
     return value
 
 
-@FUNCTIONS("G51", SCALING, group="scaling", phase="transformation", takes="X Y Z P I J K", still=True, source=ISO)
+@FUNCTIONS("G51", SCALING, group="scaling", phase="transformation", takes="X Y Z P I J K", still=True, owns=True, source=ISO)
 def scaling(m: Machine, words: Words) -> None:
     """Scales by P, or by I J K along X Y Z, about a point, by default where the tool stands; a negative factor mirrors."""
     refuse_transformed(m, words, "rotation")

@@ -25,9 +25,12 @@ from mnclab.text.program_builder import MOST_WORDS, ProgramBuilder
 from mnclab.text.words import Scan, scan
 
 COMMENT = r"[(;]"
+BEFORE = " \t\ufeff\0"  # what may stand before a line: punched tapes begin with NUL
+END = "\r\n\0"
+END_OF_TEXT = "\x1a"  # of old disks
 AXES, GOING = "XYZ", {1.0, 2.0, 3.0, 90.0, 91.0}
 CALLS = (65.0, 66.0)  # G words with arguments
-_SAID = re.compile(r"[^\s\0%]")
+_SAID = re.compile(r"[^\s\0\x1a%]")
 _SKIP = re.compile(r"/[ \t]*([1-9])?(?!\d)")
 _LABEL = re.compile(r"N[ \t]*(\d{1,9})(?![\d.])[ \t]*", re.IGNORECASE)
 _NUMBER = re.compile(r"(?:O|:)[ \t]*(\d{1,8})(?![\d.])", re.IGNORECASE)
@@ -35,7 +38,8 @@ _FLOW_WORD = re.compile(r"O[ \t]*(?:\d+|<[^<>]{0,80}>|\[[^]]{0,80}\]|#\d+)[ \t]*
 _CORNER = re.compile(r",[ \t]*([CR])[ \t]*(?=[-+.\d#\[])", re.IGNORECASE)
 _PLAIN = re.compile(r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)")
 _CALL = re.compile(r"G[ \t]*0*6[56](?![\d.])", re.IGNORECASE)
-_WORDS = re.compile(r"[ \t]*(?:[A-Z][ \t]*[-+]?[\d.]+[ \t]*){2,}", re.IGNORECASE)
+_PRINTED = re.compile(r"(?:POPEN|PCLOS|DPRNT|BPRNT)(?![A-Z])", re.IGNORECASE)
+_GOOD_WORDS = re.compile(r"[ \t]*+(?:[A-Z][ \t]*+[-+]?[\d.]++[ \t]*+){2,}+", re.IGNORECASE)
 
 
 def read(text: str, name: str = "program") -> Program:
@@ -94,7 +98,7 @@ class _Reader:
         while at >= 0:
             line = int(np.searchsorted(found.starts, at, "right")) - 1
             begin = int(found.starts[line])
-            if text[begin:at].strip(" \t\ufeff"):  # inside a line
+            if text[begin:at].strip(BEFORE):  # inside a line
                 at = text.find("%", at + 1)
             elif not first and nothing_said(text[:begin]):
                 first = line + 1
@@ -110,7 +114,7 @@ class _Reader:
         text, end = self.text, at + 1
         while end < len(text) and text[end] not in "\r\n":
             end += 1
-        said = text[at + 1 : end].strip()
+        said = text[at + 1 : end].strip(BEFORE + END_OF_TEXT)
         if said and said[0] not in "(;":
             self.another = at
         if begun := _SAID.search(text, end):
@@ -149,17 +153,19 @@ class _Reader:
         builder, text = self.builder, self.text
         begin = int(builder.line_starts[index])
         end = int(builder.line_starts[index + 1]) if index + 1 < len(builder.line_starts) else len(text)
-        line = text[begin:end].rstrip("\r\n\0")
+        line = text[begin:end].rstrip(END)
+        if line.endswith(END_OF_TEXT) and not text[end:].strip(END):
+            line = line.rstrip(END_OF_TEXT + END)
         try:
             parts = list(without_comments(line))
         except Fault as fault:
             self.fault(fault, begin, begin)
             return
         code = "".join(parts)[: len(line)]
-        at = len(code) - len(code.lstrip(" \t\ufeff"))
+        at = len(code) - len(code.lstrip(BEFORE))
         if at == len(code):
-            if line.strip(" \t\ufeff"):
-                builder.block(begin + len(line) - len(line.lstrip(" \t\ufeff")), plain=True)
+            if line.strip(BEFORE):
+                builder.block(begin + len(line) - len(line.lstrip(BEFORE)), plain=True)
             return
         self.warn_of_words(line, code, begin)
         try:
@@ -178,7 +184,7 @@ class _Reader:
         """A semicolon is the end of a block, and on paper the next one may stand behind it."""
         at = len(code.rstrip(" \t"))
         mark = line.find(";", at)
-        if mark >= 0 and _WORDS.fullmatch(line, mark + 1):
+        if mark >= 0 and _GOOD_WORDS.fullmatch(line, mark + 1):
             self.builder.alarm(
                 "what stands after ';' is taken for a comment", begin + mark, 1, "write a line for each block", "warning"
             )
@@ -207,6 +213,9 @@ class _Reader:
         if head:
             self.statements.read(code, begin, at, message_of(line))
             self.jumps |= self.statements.jumps
+            return
+        if word := _PRINTED.match(code, at):
+            builder.alarm(f"{word.group().upper()} prints nothing here", begin + at, len(word.group()), severity="warning")
             return
         number = _NUMBER.match(code, at)
         if word := _FLOW_WORD.match(code, at):
@@ -284,7 +293,7 @@ def lonely_corners(program: Program) -> list[Alarm]:
 
 def nothing_said(text: str) -> bool:
     """Whether lines hold nothing but comments."""
-    lines = (line.strip(" \t\ufeff\0") for line in text.splitlines())
+    lines = (line.strip(BEFORE) for line in text.splitlines())
     return all(not line or line[0] in "(;" for line in lines)
 
 
