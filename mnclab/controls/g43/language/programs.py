@@ -55,9 +55,13 @@ class Macro(NamedTuple):
 def program_number(m: Machine, words: Words) -> None:
     """Where a program begins; one that runs into the next one ends there."""
     found, word = sections.sections(m), words["O"]
-    if m.flow.current == found[0][0]:
+    blocks = [block for block, _ in found]
+    if m.flow.current not in blocks:
+        m.alarm(f"{word} is no program number: it stands first in its block, a whole number of at most 8 digits", word)
+    place = blocks.index(m.flow.current)
+    if place == 0:
         return
-    flow, before = course(m), found[[block for block, _ in found].index(m.flow.current) - 1][1]
+    flow, before = course(m), found[place - 1][1]
     ends = "M99" if flow.calls or flow.called else "M2 or M30"
     m.warn(f"{before} ends where O{word.value:g} begins", word, f"write {ends} before it")
     back(m)
