@@ -63,8 +63,9 @@ def other_word(builder: ProgramBuilder, text: str, at: int, stop: int) -> int:
     end = end_of_operand(text[value:stop], 0)
     if end < 0:
         return -1
-    if address == "N":
-        raise Alarm("the N of a block is a number, no formula", builder.span(at))
+    if address in "NO":
+        what = "N of a block" if address == "N" else "O of a program"
+        raise Alarm(f"the {what} is a number, no formula", builder.span(at))
     builder.word(address, formulas.parse(text[value : value + end], builder.span(value)), at, value + end - at)
     return value + end
 
