@@ -91,10 +91,12 @@ def repeat_hole(bulk: Bulk, first: int, end: int, least: int) -> int:
 
 
 def _position_alone(bulk: Bulk, block: int) -> bool:
-    """Whether a block holds nothing but coordinates: another motion, or a count of holes, is for the other tier."""
-    program = bulk.program
+    """Whether a block says one hole: another motion, or a count of holes, is for the other tier."""
+    program, definition = bulk.program, bulk.machine.position_cycle
+    assert definition is not None
+    counts = {a for p in definition.cycle.parameters() if p.name == "repeats" for a in (p.address, *p.aliases)}
     words = program.address[program.first[block] : program.first[block + 1]]
-    return all(program.addresses[k] in "XYZRF" for k in words)
+    return all(program.addresses[k] != "G" and program.addresses[k] not in counts for k in words)
 
 
 def _obey(flow: Course, block: int) -> None:

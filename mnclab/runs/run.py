@@ -149,7 +149,8 @@ class Run:
         if not 0 <= program < len(self.programs):
             return np.empty(0, dtype=np.intp)
         first, last = self.programs[program].lines()
-        blocks = np.flatnonzero((first <= line) & (line <= last))
+        begun = np.flatnonzero(first == line)  # before one that ends in the line in which another begins
+        blocks = begun if len(begun) else np.flatnonzero((first <= line) & (line <= last))
         return np.flatnonzero(np.isin(self.steps.block, blocks) & (self.steps.program == program))
 
     def lines(self) -> NDArray[np.integer[Any]]:

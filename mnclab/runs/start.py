@@ -122,7 +122,7 @@ def _missed(run: Run, step: int) -> Iterator[Missed]:
         yield Missed("tool", f"put in {told({'tool': before['tool']}, before)[0].removeprefix('tool ')}", line_of("tool"))
     if before.get("turning") and before.get("speed"):
         sense = "clockwise" if before["turning"] > 0 else "counter-clockwise"
-        yield Missed("spindle", f"turn it {sense} at {before['speed']:g} rev/min", line_of("turning"))
+        yield Missed("spindle", f"turn it {sense} at {before['speed']:g} rev/min", max(line_of("turning"), line_of("speed")))
     if before.get("coolant", power_on.get("coolant")) != power_on.get("coolant"):
         yield Missed("coolant", f"{before['coolant']} is on", line_of("coolant"))
     if step:

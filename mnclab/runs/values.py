@@ -62,7 +62,7 @@ def _told(name: str, value: Any, state: Mapping[str, Any]) -> str:
 
 def does_nothing(name: str, value: Any) -> bool:
     """Whether a value is that of something switched off, which need not be told of a machine at rest."""
-    still = name == "side" and value == 0 or name == "speed_limit" and value == np.inf
+    still = name in ("side", "rotation angle") and value == 0 or name == "speed_limit" and value == np.inf
     return still or (name.startswith("frame ") and value is not None and np.array_equal(value, frames.IDENTITY))
 
 

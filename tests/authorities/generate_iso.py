@@ -1,4 +1,4 @@
-"""What LinuxCNC makes of the random programs of `iso_programs`: writes iso.json.gz.
+"""What LinuxCNC makes of the random programs of `iso_programs`: writes iso.json.gz and iso_holes.json.gz.
 
     python3 tests/authorities/generate_iso.py
 
@@ -14,19 +14,20 @@ import tempfile
 from pathlib import Path
 
 from generate_contours import write
-from iso_programs import program
+from iso_programs import PARTS, changing_holes, program, systems, unit
 from recording import DEBIAN_PYTHON, HERE, KINDS, motion
 
-COUNT, BATCH = 5000, 250
+BATCH = 250
+FILES = {"iso.json.gz": (5000, PARTS), "iso_holes.json.gz": (500, (changing_holes, changing_holes, systems, unit))}
 NANO = 1e9
 
 
-def answers(seeds):
+def answers(seeds, parts):
     """LinuxCNC's answers to programs, in their order."""
     with tempfile.TemporaryDirectory() as home:
         paths = [Path(home, f"{seed}.ngc") for seed in seeds]
         for seed, path in zip(seeds, paths):
-            path.write_text(program(seed)[1])
+            path.write_text(program(seed, parts)[1])
         command = [DEBIAN_PYTHON, str(HERE / "linuxcnc_oracle.py"), *map(str, paths)]
         done = subprocess.run(command, check=True, capture_output=True, text=True, env={"HOME": home, "PATH": "/usr/bin"})
         return [json.loads(line) for line in done.stdout.splitlines()]
@@ -49,13 +50,14 @@ def rows(answer):
 
 
 def main():
-    records = []
-    for first in range(0, 2 * COUNT, BATCH):
-        seeds = range(first, first + BATCH)
-        records += [{"seed": s, "rows": rows(a)} for s, a in zip(seeds, answers(seeds)) if a["ok"]]
-        if len(records) >= COUNT:
-            break
-    write("iso.json.gz", 0, records[:COUNT])
+    for name, (count, parts) in FILES.items():
+        records = []
+        for first in range(0, 20 * count, BATCH):
+            seeds = range(first, first + BATCH)
+            records += [{"seed": s, "rows": rows(a)} for s, a in zip(seeds, answers(seeds, parts)) if a["ok"]]
+            if len(records) >= count:
+                break
+        write(name, 0, records[:count])
 
 
 if __name__ == "__main__":

@@ -192,6 +192,26 @@ def repeats(w: Writer) -> list[str]:
     return [f"L{w.rng.randint(1, 4)}"] if w.rng.random() < 0.25 else []
 
 
+def changing_holes(w: Writer) -> None:
+    """Fixed cycles within which coordinates, return level, R, Z, unit of place and system change."""
+    for code in w.rng.sample(HOLES, 2):
+        w.absolute = w.rng.random() < 0.5
+        hole(w, code, w.rng.choice(("G98", "G99")))
+        for _ in range(w.rng.randint(1, 5)):
+            words = [*w.dimension(), *w.rng.choice(((), (), ("G98",), ("G99",)))]
+            axes = w.rng.choice(("X", "Y", "XY"))
+            words += [f"{axis}{number(w.length(-30, 30))}" for axis in axes]
+            if w.rng.random() < 0.25:
+                r_level = w.length(2, 20)
+                if w.absolute:
+                    words += [f"Z{number(r_level - w.length(21, 40))}", f"R{number(r_level)}"]
+                else:
+                    words += [f"Z{number(-w.length(5, 20))}", f"R{number(w.length(-8, 8))}"]
+            w.both(*words, *w.feed(), *repeats(w))
+        w.both("G80")
+        w.begin()
+
+
 def systems(w: Writer) -> None:
     """Another work offset, written anew or not, and turned."""
     system = w.rng.randrange(9)

@@ -63,7 +63,7 @@ L Z-2 F500
 """
     left = run(text, "tnc-620", tools={1: MILL}, stock=BLOCK).workpiece()
     (note,) = left.notes
-    assert note == "3 rows of a tilted tool are left out (program:6, program:8, program:9)"  # with the row that swivels
+    assert note == "3 rows of a tool not along Z are left out (program:6, program:8, program:9)"  # with the row that swivels
     assert left.at(30, 20) == -2 and left.removed == pytest.approx((10 * 40 + 25 * 3.14159265) * 2, rel=1e-3)
 
 
@@ -72,4 +72,4 @@ def test_one_row_of_a_tilted_tool_is_one_row():
     cutting = run(text, "tnc-620", tools={1: MILL}, stock=BLOCK).workpiece().cutting
     tilted = np.arange(len(cutting)) == len(cutting) - 1
     (note,) = Milled(replace(cutting, tilted=tilted)).notes
-    assert note == "1 row of a tilted tool is left out (program:4)"
+    assert note == "1 row of a tool not along Z is left out (program:4)"

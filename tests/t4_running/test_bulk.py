@@ -128,7 +128,7 @@ def test_helices_go_on_in_bulk_and_are_one_warning(both, assert_equal, control, 
     """Threads turned by the hundred, each of half a turn between X0 and X20: radius 10, pitch 1."""
     turns = [f"G{2 + k % 2} X{20 * (1 - k % 2)} Y0 Z{-(k + 1) / 2} R10" for k in range(2000)]
     text = HEAD.replace("G92 X3 Y-2.5\n", "") + before + "\n".join(turns) + "\n"
-    bulk, single = both(text, control)
+    bulk, single = both(text, control, helix="warn")
     assert [str(a) for a in bulk.alarms] == [str(a) for a in single.alarms] and bulk.ok
     told = [alarm for alarm in bulk.alarms if "helix" in alarm.message]
     first = 3 + before.count("\n")
@@ -137,7 +137,7 @@ def test_helices_go_on_in_bulk_and_are_one_warning(both, assert_equal, control, 
     assert f"1999 more like it (lines {first + 1}, {first + 2}" in str(told[0])
     assert np.array_equal(bulk.toolpath.end, single.toolpath.end) and len(bulk.toolpath) >= 2000
     program = mnclab.read(text, control)
-    interpreter = Interpreter(mnclab.controls[control], mnclab.Setup(), program)
+    interpreter = Interpreter(mnclab.controls[control], mnclab.Setup(settings={"helix": "warn"}), program)
     interpreter.run()
     assert len(interpreter.flow.steps().block) - interpreter.flow.in_bulk < 300
 

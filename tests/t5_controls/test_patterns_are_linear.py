@@ -30,6 +30,7 @@ PUT_TOGETHER = {
     "labels.py": (r"GT(?![A-Z])", "match"),
     "formulas.py": (r"[ \t]*LEN(?![A-Z])", "match"),
     "feature_file.py": (r"\bdepth", "search"),
+    "programs.py": (r"O?0*1000(\.\w{1,8})?", "fullmatch"),
     "reader.py": (r"/[ \t]?/|;", "search"),
     "program.py": (r"/[ \t]?/", "search"),
     "toml_file.py": (r"""(?:^|[\s.{,])(["']?start["']?)\s*=""", "search"),

@@ -18,8 +18,8 @@ def test_a_sample_runs_clean(path):
 
 @pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: "/".join(path.parts[-2:]))
 def test_a_sample_names_its_origin_in_its_first_line(path):
-    first = path.read_text("utf-8").splitlines()[0]
-    assert first.rstrip().endswith("Made for this project.") or "Source:" in first
+    first = path.read_text("utf-8").removeprefix("%\n").splitlines()[0]
+    assert first.rstrip(" )").endswith("Made for this project.") or "Source:" in first
 
 
 LATHES = [path for path in PROGRAMS if path.parent.name in ("jnc-t01", "nc-31")]

@@ -31,6 +31,7 @@ from mnclab.machining.steps import Each, Go, Step, moved
 
 CYCLES = CycleTable()
 MOST_HOLES = 9999  # of one block
+SAME = 1e-9  # mm, between two levels that are one
 
 POSITION = "X Y Z R"
 AXES_OF = {"x": "x", "y": "y", "bottom": "z"}  # parameters that say where an axis goes
@@ -47,7 +48,7 @@ pause = partial(
 )  # fmt: skip
 tapping_peck = partial(
     param, "Q", "depth of one peck", default=None, default_means="the whole thread at once", above=0, incremental=True,
-    modal=True, example=5, note="rigid tapping; what happens between two: setting peck_tapping",
+    modal=True, note="rigid tapping; what happens between two: setting peck_tapping",
 )  # fmt: skip
 times_out = partial(
     param, "J", "how many times faster the tap comes out", "", default=1, above=0, at_most=9, modal=True, example=1,
@@ -66,10 +67,22 @@ def along_z(m: Machine, code: str, given: Given) -> None:
         m.alarm(f"{code} K is not the number of holes as {maker} has it", count, hint="write L for the number of holes")
 
 
-def pecks_scaled(m: Machine) -> Iterator[tuple[str, str]]:
-    """A fault where it is not known whether Q is scaled."""
-    if "scaling" in m.frames:
-        yield "", "cannot run under G51: whether Q is scaled is a matter of the maker"
+def levels(m: Machine, values: Values, given: Given, kept: Values) -> None:
+    """Z and R become coordinates: those of the block, or as `hole_data` may have it the last numbers counted anew."""
+    numbers = kept.setdefault("numbers", {})
+    numbers |= {name: values[name] for name in ("bottom", "r_level") if name in given}
+    if m.settings["hole_data"] == "numbers":
+        values |= numbers
+        given = numbers
+    if m.modal["dimension"] == "G91":
+        if "r_level" in given:
+            values["r_level"] += holes.initial_level(m, kept)
+        if "bottom" in given:
+            kept["depth"] = values["bottom"]
+        if values.get("r_level") is not None and "depth" in kept:
+            values["bottom"] = values["r_level"] + kept["depth"]
+    elif "bottom" in given:
+        kept.pop("depth", None)
 
 
 def warn_of_change(m: Machine, code: str, given: Given, kept: Values) -> None:
@@ -109,6 +122,7 @@ class HoleCycle(holes.AtHole, Cycle):
         along_z(m, cls.code, given)
         if not memory(m).machine_coordinates:
             activate(m, "XYZ")
+            settle_doubt(m, Words(tuple(given.values()), cls.code), given.keys() & {"x", "y"})
         kept.setdefault("initial", m.to_machine(m.programmed)[2])
         warn_of_change(m, cls.code, given, kept)
         settle_doubt(m, Words(tuple(given.values()), cls.code), {axis for name, axis in AXES_OF.items() if name in given})
@@ -120,22 +134,19 @@ class HoleCycle(holes.AtHole, Cycle):
             values[name] *= 1000 * seconds_of_p(m, given[name])
         if memory(m).polar is not None:
             polar.holes(m, values, given, kept)
-        if m.modal["dimension"] == "G91":
-            if memory(m).polar is None:
-                kept["step"] = values.get("x", 0.0), values.get("y", 0.0)
-                for k, name in enumerate("xy"):
-                    if name in given:
-                        values[name] += m.programmed[k]
-            if "r_level" in given:
-                values["r_level"] += holes.initial_level(m, kept)
-            if "bottom" in given:
-                kept["depth"] = values["bottom"]
-            if values.get("r_level") is not None and "depth" in kept:
-                values["bottom"] = values["r_level"] + kept["depth"]
-        elif "bottom" in given:
-            kept.pop("depth", None)
+        if m.modal["dimension"] == "G91" and memory(m).polar is None:
+            kept["step"] = values.get("x", 0.0), values.get("y", 0.0)
+            for k, name in enumerate("xy"):
+                if name in given:
+                    values[name] += m.programmed[k]
+        levels(m, values, given, kept)
         holes.take_feed(m, values, given)
         return values
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        yield from super().check(m)
+        if getattr(self, self.pecks, None) and "scaling" in m.frames:
+            yield "", "cannot run under G51: whether Q is scaled is a matter of the maker"
 
     def about(self, m: Machine) -> tuple[float, float]:
         return super().about(m) if self.repeats == 1 else (0.0, 0.0)
@@ -157,10 +168,13 @@ class HoleCycle(holes.AtHole, Cycle):
     def approach(self, m: Machine) -> Iterator[Step]:
         assert m.position_cycle is not None
         way, level = m.settings["below_r"], m.programmed[2]
-        straight = way == "straight"
-        if straight and holes.initial_level(m, m.position_cycle.extra) < self.r_level:
+        straight, initial = way == "straight", holes.initial_level(m, m.position_cycle.extra)
+        if straight and initial < self.r_level:
             yield Go("to level R", self.r_level)
             yield self.across()
+        elif straight and level < self.r_level + SAME < initial and m.modal["return"] == "G98":  # after holes under G99
+            yield self.across()._replace(z=initial)
+            yield Go("to level R", self.r_level)
         elif level < self.r_level and way != "up":
             yield self.across()._replace(z=self.r_level if straight else None)
             yield Go("to level R", self.r_level)
@@ -215,7 +229,6 @@ class DeepHoleDrilling(HoleCycle):
     pause: float = pause()
     feed: float | None = holes.feed()
     repeats: float = repeats()
-    needs = (pecks_scaled,)
 
     def work(self, m: Machine) -> Iterator[Step]:
         return drill(self.levels(), above=self.r_level, feed=None, reenter=m.settings["peck_clearance"],
@@ -234,7 +247,6 @@ class ChipBreaking(HoleCycle):
     pause: float = pause()
     feed: float | None = holes.feed()
     repeats: float = repeats()
-    needs = (pecks_scaled,)
 
     def work(self, m: Machine) -> Iterator[Step]:
         levels, back = self.levels(), m.settings["peck_clearance"]

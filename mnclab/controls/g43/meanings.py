@@ -29,5 +29,5 @@ MEANINGS = {
     "M19 Q": "how long the machine waits for it, s", "P": "choice of the function", "Q": "choice of the function",
     "E": "number of the signal", "L": "what to wait for", "G187 E": "how exact corners are",
     **macros.MEANINGS, **programs.MEANINGS,
-    **{f"{code} R": "choice of the function" for code in ("G5", "G5.1", "G8", "G187")},
+    **{f"{code} R": "choice of the function" for code in ("G5", "G5.1", "G8", "G103", "G187")},
 }  # fmt: skip

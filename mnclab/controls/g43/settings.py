@@ -27,7 +27,7 @@ DIALECTS: dict[str, dict[str, Any]] = {
         "dwell_p": "seconds", "peck_clearance": 0.254, "below_r": "straight", "arc_by_both": "refuse",
         "length_acts": "at_once", "g52_g92": "one", "g53_motion": "modal", "g53_increment": "refuse",
         "g10_p0": "active", "g10_l20": "position", "g10_increment": "replaces", "g51_factor": "as_written",
-        "hole_axis": "normal",
+        "hole_axis": "normal", "hole_data": "numbers",
     },
 }  # fmt: skip
 
@@ -100,6 +100,8 @@ HOLES = (
            straight="to level R first if the initial level is below it, else straight to R over the hole (LinuxCNC)"),
     one_of("hole_axis", "along which axis a cycle works under G18 and G19", FANUC,
            z="along Z, whatever the plane", normal="along the normal of the plane (LinuxCNC): refused, it is not built"),
+    one_of("hole_data", "Z and R of former blocks where G90 and G91 change within a cycle",
+           places="stay where they are", numbers="their numbers count anew, as coordinates or increments (LinuxCNC)"),
     one_of("peck_tapping", "what G74 and G84 do between two pecks of Q", FANUC,
            lifts="they go back by peck_clearance", withdraws="they go back to level R"),
 )  # fmt: skip

@@ -10,13 +10,13 @@ from mnclab.text.program import Program
 _NUMBER = re.compile(
     r"[ \t\ufeff]*+(?:\([^()\r\n]*+\)[ \t]*+)*+(?:/[ \t]*+[1-9]?[ \t]*+)?N[ \t]*+\+?(\d++)(?!\.)", re.IGNORECASE
 )
-_END = re.compile(r"[ \t]*%")  # N99999999 %NAME, the end of a DIN/ISO program
+_LAST_OF_DIN = re.compile(r"[ \t]*%")  # N99999999 %NAME, the end of a DIN/ISO program
 
 
 def numbered(program: Program) -> list[Numbered]:
     """The numbers of all lines, in their order."""
     matches = (_NUMBER.match(program.text, int(begin)) for begin in program.line_starts)
-    found = [match for match in matches if match and not _END.match(program.text, match.end())]
+    found = [match for match in matches if match and not _LAST_OF_DIN.match(program.text, match.end())]
     return [Numbered(match.start(1), match.end(1) - match.start(1), match[1]) for match in found]
 
 

@@ -50,4 +50,4 @@ def part(pack: Packer, cutting: Cutting, path: Toolpath) -> dict[str, Any]:
 
 
 def _note(tilted: int) -> str:
-    return f"{several(tilted, 'move')} of a tilted tool: not cut here" if tilted else ""
+    return f"{several(tilted, 'move')} of a tool not along Z: not cut here" if tilted else ""

@@ -130,7 +130,7 @@ class Picture {
     }
   }
 
-  moment(pen, {row, tip, tool, side, at}) {
+  moment(pen, {row, tip, tool, along, side, at}) {
     const {camera, colours, strokes, run} = this, project = point => camera.project(point);
     if (row >= 0 && run.path.isMotion(row)) {
       pen.strokeStyle = colours.now;
@@ -139,7 +139,7 @@ class Picture {
     }
     if (run.lathe && this.part) this.part.insert(pen, row < 0 ? at : row, tip);
     else if (run.lathe) drawInsert(pen, tool || {}, tip, side, project, colours, this.extent);
-    else if (tool && (tool.number || tool.radius)) drawTool(pen, tool, tip, project, colours, this.extent);
+    else if (tool && (tool.number || tool.radius)) drawTool(pen, tool, tip, along, project, colours, this.extent);
     const [x, y] = project(tip);
     pen.beginPath();
     pen.arc(x, y, 3.2, 0, 7);
@@ -183,9 +183,9 @@ class Picture {
     pen.font = "11px system-ui, sans-serif";
     pen.lineWidth = 1;
     if (!across || !upwards) return over => this.bar(over);
-    const words = [], names = "XYZ", diameter = k => run.lathe && k === 0 ? 2 : 1;
+    const words = [], names = "XYZ", {length, short: unit} = run.unit, diameter = k => run.lathe && k === 0 ? 2 : 1;
     for (const [[axis], flat] of [[across, true], [upwards, false]]) {
-      const parts = diameter(axis), step = round(58 / camera.zoom * parts) / parts;
+      const parts = diameter(axis) / length, step = round(58 / camera.zoom * parts) / parts;
       const digits = Math.max(0, -Math.floor(Math.log10(step * parts) + 1e-9));
       const middle = camera.target[axis], half = (flat ? w : h) / 2 / camera.zoom;
       for (let k = Math.ceil((middle - half) / step); k <= (middle + half) / step; k++) {
@@ -202,7 +202,7 @@ class Picture {
         if (flat ? x > 46 && x < w - 48 : y > 26 && y < h - 26) words.push([text, flat ? x : 5, flat ? h - 5 : y, flat ? "center" : "left", flat ? "bottom" : "middle"]);
       }
       pen.setLineDash([]);
-      const name = (diameter(axis) > 1 ? "⌀ X" : names[axis]) + " mm";
+      const name = (diameter(axis) > 1 ? "⌀ X " : names[axis] + " ") + unit;
       words.push([name, flat ? w - 6 : 5, flat ? h - 5 : 6, flat ? "right" : "left", flat ? "bottom" : "top"]);
     }
     return over => {
@@ -224,7 +224,7 @@ class Picture {
     pen.fillText(text, x, y);
   }
   bar(pen) {
-    const {camera, colours} = this, [, h] = camera.size, length = round(60 / camera.zoom), wide = length * camera.zoom;
+    const {camera, colours} = this, [, h] = camera.size, {unit} = this.run, length = round(60 / camera.zoom / unit.length), wide = length * unit.length * camera.zoom;
     pen.font = "11px system-ui, sans-serif";
     pen.lineWidth = 1;
     pen.strokeStyle = pen.fillStyle = colours.quiet;
@@ -233,7 +233,7 @@ class Picture {
     pen.stroke();
     pen.textAlign = "left";
     pen.textBaseline = "bottom";
-    pen.fillText(number(length, Math.max(0, -Math.floor(Math.log10(length) + 1e-9))) + " mm", 14, h - 15);
+    pen.fillText(number(length, Math.max(0, -Math.floor(Math.log10(length) + 1e-9))) + ` ${unit.short}`, 14, h - 15);
   }
 }
 

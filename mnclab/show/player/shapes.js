@@ -49,11 +49,15 @@ function hull(points) {
   return sorted.length < 3 ? sorted : [...half(sorted), ...half(sorted.reverse())];
 }
 
-function ring([radius, height], tip, project) {
+// A circle of a tool along X, Y or Z (0, 1, 2).
+function ring([radius, height], tip, along, project) {
   const found = [];
   for (let k = 0; k < FACETS; k++) {
-    const a = 2 * Math.PI * k / FACETS;
-    found.push(project([tip[0] + radius * Math.cos(a), tip[1] + radius * Math.sin(a), tip[2] + height]));
+    const a = 2 * Math.PI * k / FACETS, at = tip.slice();
+    at[(along + 1) % 3] += radius * Math.cos(a);
+    at[(along + 2) % 3] += radius * Math.sin(a);
+    at[along] += height;
+    found.push(project(at));
   }
   return found;
 }
@@ -64,10 +68,10 @@ function trace(pen, points) {
   pen.closePath();
 }
 
-// A mill, drill or probe with its tip at a point.
-function drawTool(pen, tool, tip, project, colours, extent) {
+// A mill, drill or probe with its tip at a point, and its shank along X, Y or Z (0, 1, 2).
+function drawTool(pen, tool, tip, along, project, colours, extent) {
   for (const [part, colour] of parts(tool, extent)) {
-    const all = part.map(each => ring(each, tip, project));
+    const all = part.map(each => ring(each, tip, along, project));
     trace(pen, hull(all.flat()));
     pen.fillStyle = colours[colour];
     pen.strokeStyle = colours.edge;

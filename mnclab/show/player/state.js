@@ -31,8 +31,8 @@ function anglesText(angles, turned) {
   return angles.map((angle, k) => turned[k] ? `${"ABC"[k]} ${short(angle)}°` : "").filter(Boolean).join("  ");
 }
 
-function stockText([axis, low, high]) {
-  const corner = point => point.map((value, k) => "XYZ"[k] + short(value)).join(" ");
+function stockText([axis, low, high], mm) {
+  const corner = point => point.map((value, k) => "XYZ"[k] + short(value / mm)).join(" ");
   return typeof axis === "string" && low ? `${corner(low)}${high ? " to " + corner(high) : ""}` : "turned body";
 }
 
@@ -49,7 +49,8 @@ function valueText(name, value, mm) {
   if (value && value.radius !== undefined) return toolText(value, mm);
   if (name === "rotary") return anglesText(value.map(angle => angle * 180 / Math.PI), value.map(angle => angle !== 0)) || "0°";
   if (name === "feed") return short(value / mm);
-  if (name === "stock") return stockText(value);
+  if (name === "stock") return stockText(value, mm);
+  if (name === "pole") return value.map(each => short(each / mm)).join(" ");
   if (name === "side") return ["right", "none", "left"][value + 1];
   if (typeof value === "number") return short(value);
   if (typeof value === "boolean") return value ? "on" : "off";
@@ -123,7 +124,7 @@ class Board {
       const mm = name === "feed" && state.per_time ? 1 : run.unit.length;
       const now = valueText(name, state[name], mm), old = before[name] === undefined ? "" : valueText(name, before[name], mm);
       // the first step also sets what is active at power-on: there only what stands in the block is its doing
-      const mark = step > 0 ? changed.has(name) && now !== old : text.includes(now) && changed.has(name);
+      const mark = step > 0 ? changed.has(name) && now !== (old || "none") : text.includes(now) && changed.has(name);
       if (!mark && (now === "none" || APART.includes(name))) return null;
       const cell = document.createElement("div"), head = document.createElement("dt"), value = document.createElement("dd");
       if (mark) cell.className = "changed";

@@ -26,8 +26,9 @@ from mnclab.text.given import choice
 COLOURS = ("kind", "feed", "speed", "tool", "line", "z")
 FEW, TOOLS, BINS = 6, 10, 14  # classes that the legend names one by one, tools likewise; bins of a scale at most
 LIGHTEST = 0.58  # of the map: beyond it the contrast on white falls below 3 to 1
-TITLES = {"feed": "feed, mm/min", "speed": "spindle, rev/min", "tool": "tool", "line": "line", "z": "Z, mm"}
-NAMES = {"feed": "{} mm/min", "speed": "{} rev/min", "tool": "tool {}", "line": "line {}", "z": "Z {} mm"}
+TITLES = {"feed": "feed, {unit}/min", "speed": "spindle, rev/min", "tool": "tool", "line": "line", "z": "Z, {unit}"}
+NAMES = {"feed": "{} {unit}/min", "speed": "{} rev/min", "tool": "tool {}", "line": "line {}", "z": "Z {} {unit}"}
+LENGTHS = ("feed", "z")  # what counts in the unit of the program
 
 Values = NDArray[Any]
 
@@ -68,8 +69,10 @@ def classes(path: Toolpath, drawn: Strokes, colour: str) -> Classes:
     if colour == "kind" or not cuts.any():
         return Classes(fixed, group)
     values = _values(path, drawn, colour)
+    if colour in LENGTHS and path.inches:
+        values = np.round(values / path.unit.length, 9)
     every = bool(cuts.all())
-    divided, looks, scale = _divide(values if every else values[cuts], colour)
+    divided, looks, scale = _divide(values if every else values[cuts], colour, path.unit.short)
     if every:
         group = divided + np.int16(2)
     else:
@@ -109,13 +112,13 @@ def _values(path: Toolpath, drawn: Strokes, colour: str) -> Values:
     return columns[colour][drawn.row]
 
 
-def _divide(values: Values, colour: str) -> tuple[NDArray[np.int16], list[Line], Scale | None]:
+def _divide(values: Values, colour: str, unit: str) -> tuple[NDArray[np.int16], list[Line], Scale | None]:
     """The class of each value, how the classes look, and a scale if they are bins."""
     few = _few(values, TOOLS if colour == "tool" else FEW)
     without = colours.FEED._replace(name=f"no {colour}", colour=colours.PROGRAMMED.colour)
     if few is not None:
         known = few[np.isfinite(few)]
-        looks = _looks([number(value) for value in known], colour)
+        looks = _looks([number(value) for value in known], colour, unit)
         if len(known) < len(few):
             looks.append(without)
         group = np.zeros(len(values), np.int16)
@@ -132,13 +135,13 @@ def _divide(values: Values, colour: str) -> tuple[NDArray[np.int16], list[Line],
     limits = np.round(limits, 9)
     single = colour in ("tool", "line") and limits[1] - limits[0] == 1
     bins = [number(a) if single else f"{number(a)} to {number(b)}" for a, b in zip(limits[:-1], limits[1:])]
-    looks = _looks(bins, colour)
+    looks = _looks(bins, colour, unit)
     shades = tuple(look.colour for look in looks)
     looks.append(without)
     share = (np.where(missing, limits[0], values) - limits[0]) / (limits[1] - limits[0])
     group = np.clip(share, 0, len(shades) - 1).astype(np.int16)
     group[missing] = len(shades)
-    return group, looks, Scale(TITLES[colour], tuple(limits.tolist()), shades, single)
+    return group, looks, Scale(TITLES[colour].format(unit=unit), tuple(limits.tolist()), shades, single)
 
 
 def _few(values: Values, most: int) -> Values | None:
@@ -149,12 +152,12 @@ def _few(values: Values, most: int) -> Values | None:
     return found if len(found) <= most else None
 
 
-def _looks(values: list[str], colour: str) -> list[Line]:
+def _looks(values: list[str], colour: str, unit: str) -> list[Line]:
     """Cuts of rising values: the greater are drawn later, but the deeper where the colour shows Z."""
     count, base, name = len(values), colours.FEED, NAMES[colour]
     order = range(count, 0, -1) if colour == "z" else range(count)
     return [
-        base._replace(name=name.format(value), colour=shade, order=base.order + 0.01 * k)
+        base._replace(name=name.format(value, unit=unit), colour=shade, order=base.order + 0.01 * k)
         for value, shade, k in zip(values, ramp(count), order)
     ]
 

@@ -22,7 +22,9 @@ from mnclab.show.plot.colours import Mark
 from mnclab.show.plot.picture import SMALL, View
 from mnclab.show.plot.strokes import Array
 
-ORIGINS = {"datum": "", "preset": "preset", "local": "G92", "shift": "datum shift"}  # frames that set a zero point
+#: Frames that set a zero point; a control that keeps the shifts of G52 and G92 apart has `local` and `set`.
+ORIGINS = {"datum": "", "preset": "preset", "local": "G92", "set": "G92", "shift": "datum shift"}
+SHIFTS = ("local", "set", "shift")
 NEAR = 1.5  # places that would make the box longer than this many times are not shown
 MANY = 8  # places beyond which only zero points have names
 LOOKED_AT = 20_000  # strokes that a name avoids
@@ -45,6 +47,7 @@ def places_of(run: Any) -> list[Place]:
     log = [(step, name == "pole", name, value) for name in names for step, value in history.changed(name)]
     chain = FrameChain(run.frames.slots)
     found: dict[tuple[Mark, tuple[float | None, ...]], list[str]] = {}
+    apart = "set" in run.frames.slots
     nested = run.settings.get("transformation_order") == "nested"
 
     def add(mark: Mark, name: str, xyz: Array) -> None:
@@ -67,11 +70,13 @@ def places_of(run: Any) -> list[Place]:
             if nested and frame not in ORIGINS and not np.array_equal(matrix, chain[frame]):
                 chain.innermost(frame)
             chain.set(frame, None if neutral else matrix)
-            if frame in ORIGINS and not (neutral and frame in ("local", "shift")):
-                selected.append((frame, matrix))
-        for frame, matrix in selected:
-            origin = (chain.before(frame) @ matrix)[:3, 3] - path.origin
-            add(colours.DATUM, ORIGINS[frame] or _code(history, step), origin)
+            if frame in ORIGINS and not (neutral and frame in SHIFTS):
+                selected.append(frame)
+        for frame in selected:
+            inner = "local" if frame == "set" else frame  # G52 counts inside G92, which may end a part of it
+            said = "G52" if frame == "local" and apart else ORIGINS[frame] or _code(history, step)
+            if frame != "local" or "set" not in selected:
+                add(colours.DATUM, said, (chain.before(inner) @ chain[inner])[:3, 3] - path.origin)
     return [
         Place(mark, ", ".join(names), tuple(np.nan if v is None else v for v in place))  # type: ignore[arg-type]
         for (mark, place), names in found.items()

@@ -37,6 +37,7 @@ MARKS = {Kind.DWELL: colours.DWELL, Kind.TOOL: colours.TOOL, Kind.STOP: colours.
 UNSCALED = (colours.PROGRAMMED, colours.RAPID, colours.PROBING)  # look the same whatever the colour shows
 INSERT = 0.09  # edges of an insert, of the greatest side of the picture
 MOST = 2000  # rows of a lathe's path whose part is shown unasked
+MOSTLY = 0.9  # the cosine between two directions from which on they are taken for the same
 FAR = 5  # a box of all moves this many times that of the cuts is not shown whole
 
 
@@ -78,11 +79,14 @@ def plot_path(
 ) -> Figure:
     """Views of a path: rapids dashed red, cuts solid; start and end marked. Returns the figure, which Jupyter shows.
 
+    Its data are mm; what is written counts in the unit of the program, mm or inches.
+
     - `ax`: draw one view into these axes of one's own, without legend and scale.
-    - `view`: "XY" from above, "XZ" or "YZ" from the side, "ZX" of a lathe; "auto" takes what the path needs.
-    - `colour`: what the colour of the cuts shows: "kind" (all blue), "feed" (mm/min), "speed" (of the spindle, rev/min;
+    - `view`: "XY" from above, "XZ" or "YZ" from the side, "ZX" of a lathe; "auto" takes what the path needs: the plane
+      that it works in, how deep it goes, and each plane that has arcs.
+    - `colour`: what the colour of the cuts shows: "kind" (all blue), "feed" (a minute), "speed" (of the spindle, rev/min;
       it follows X at constant cutting speed), "tool" (its number), "line" (of the source) or "z" (lower end of each
-      stroke, mm). Few values are named in the legend, many are put into at most 14 steps of a scale, dark to light.
+      stroke). Few values are named in the legend, many are put into at most 14 steps of a scale, dark to light.
       Rapids and probing look the same in all of them.
     - `arrows`: arrowheads on a few long moves; none on a path of more than 300 moves.
     - `marks`: crosses at zero points that the program selects and at poles, with their names, unless far from the
@@ -121,7 +125,7 @@ def plot_path(
     plunge = colours.PLUNGE if colour == "kind" else colours.PLUNGE._replace(colour=colours.INK)
     plunges = {each: _plunges(path, each) for each in views}
     arrows = arrows and int(path.is_motion.sum()) <= heads.MANY
-    beside = lathe(path, stock, tools, insert) if path.lathe and views == [VIEWS["ZX"]] else None
+    beside = lathe(path, stock, tools, insert) if path.lathe and views[0].diameter else None
     found_marks, outline = _marks(path, stop is not None, home), None if beside else stock
     drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, beside, part, home)
     if ax is not None:
@@ -231,14 +235,24 @@ def _foot(stop: Alarm | None, beyond: bool) -> Foot | None:
 
 def _views(view: str, path: Toolpath, low: Array, high: Array, single: bool) -> list[View]:
     view = choice(view, "view", ("auto", *VIEWS))
-    if view != "auto":
-        return [VIEWS[view]]
-    if path.lathe:
-        return [VIEWS["ZX"]]
-    span = high - low
-    if single or not span[2] > 0:
-        return [VIEWS["XY"]]
-    return [VIEWS["XY"], VIEWS["YZ"] if span[0] == 0 and span[1] > 0 else VIEWS["XZ"]]
+    names = [view] if view != "auto" else ["ZX"] if path.lathe else _needed(path, high - low)
+    return [VIEWS[name]._replace(unit=path.unit) for name in names[: 1 if single else None]]
+
+
+def _needed(path: Toolpath, span: Array) -> list[str]:
+    """The views of a mill's path: along the tool, from the side, and on each plane that has arcs."""
+    cuts = np.flatnonzero((path.kind == Kind.LINE) | (path.kind == Kind.ARC))
+    arcs = cuts[path.kind[cuts] == Kind.ARC]
+    on_x, on_y = (bool((np.abs(path.axis[arcs][:, k]) > MOSTLY).any()) for k in (0, 1))
+    if len(cuts) and abs(path.axis[cuts[0], 2]) < 1 - MOSTLY:
+        for k, names in ((0, ["YZ", "XZ"]), (1, ["XZ", "XY"])):
+            if (np.abs(path.axis[cuts][:, k]) > MOSTLY).all():
+                return names if span[k] > 0 else names[:1]
+    if not span[2] > 0:
+        return ["XY"]
+    if on_x != on_y:
+        return ["XY", "YZ" if on_x else "XZ"]
+    return ["XY", "XZ", "YZ"] if on_x else ["XY", "YZ" if span[0] == 0 and span[1] > 0 else "XZ"]
 
 
 def _draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
@@ -281,6 +295,7 @@ def _in_words(path: Toolpath, low: Array, high: Array, stop: Alarm | None) -> st
     """What a person who cannot see the picture is told."""
     moves, factors = int(path.is_motion.sum()), (2 if path.lathe else 1, 1, 1)
     said = several(moves, "move") if moves else "no moves"
-    ranges = [f"{axis} {f * a:.4g} to {f * b:.4g}" for axis, f, a, b in zip("XYZ", factors, low, high) if b > a]
-    said += f", {', '.join(ranges)} mm" if ranges and moves else ""
+    ends = zip("XYZ", factors, low / path.unit.length, high / path.unit.length)
+    ranges = [f"{axis} {f * a:.4g} to {f * b:.4g}" for axis, f, a, b in ends if b > a]
+    said += f", {', '.join(ranges)} {path.unit.short}" if ranges and moves else ""
     return f"tool path: {said}{f'; stopped in line {stop.span.line}' if stop and stop.span else ''}"

@@ -9,6 +9,7 @@ from __future__ import annotations
 import base64
 import math
 from collections.abc import Sequence
+from functools import partial
 from html import escape
 from io import BytesIO
 from itertools import pairwise
@@ -22,6 +23,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
+from mnclab.path.listing import MM, Unit
 from mnclab.show.plot import colours
 from mnclab.show.plot.strokes import Array
 from mnclab.text.alarm import Alarm
@@ -34,16 +36,18 @@ GAP, BELOW, RIGHT, ROW, LINE, SCALE, NARROW = 0.14, 0.52, 0.18, 0.22, 0.15, 0.34
 
 class View(NamedTuple):
     """Which coordinates (0 X, 1 Y, 2 Z) go to the right and up; `diameter` shows the upward one doubled, `head` inches are
-    kept free above for a title."""
+    kept free above for a title; numbers at the axes count in `unit`."""
 
     right: int
     up: int
     diameter: bool = False
     head: float = 0.0
+    unit: Unit = MM
 
     @property
     def labels(self) -> tuple[str, str]:
-        return f"{'XYZ'[self.right]}, mm", f"{'XYZ'[self.up]}{' (diameter)' if self.diameter else ''}, mm"
+        unit = self.unit.short
+        return f"{'XYZ'[self.right]}, {unit}", f"{'XYZ'[self.up]}{' (diameter)' if self.diameter else ''}, {unit}"
 
 
 class Foot(NamedTuple):
@@ -128,8 +132,9 @@ def arrange(
     and `scale_above` keeps room for a scale of colours above that; `foot` is text below.
     """
     low, high = roomy(low, high)
-    span = high - low
-    digits = max(len(f"{value:.{_decimals(side)}f}") for value, side in zip((*low, *high), (*span, *span)))
+    span, length = high - low, views[0].unit.length
+    sides = [(value / length, side / length) for value, side in zip((*low, *high), (*span, *span))]
+    digits = max(len(f"{value:.{_decimals(side)}f}") for value, side in sides)
     left = 0.42 + 0.068 * digits
     bottom, (most_wide, most_high) = BELOW + (ROW + LINE * (len(foot.lines) - 1) if foot else 0), size
 
@@ -138,13 +143,13 @@ def arrange(
 
     free = most_high - bottom - top(most_wide)
     layout, scale = _layout(views, span, most_wide, left + RIGHT, free)
-    sides = len(layout) * (left + RIGHT)
+    beside = len(layout) * (left + RIGHT)
 
     # boxes in inches, from the upper left corner of the views; what a box has beyond its data widens the view
     widths = [scale * max(float(span[views[k].right]) for k in column) for column in layout]
     widths = [max(each, NARROW) for each in widths] if len(layout) > 1 else widths
-    width = min(most_wide, max(LEAST[0], sides + sum(widths)))
-    widths = [each * (width - sides) / sum(widths) for each in widths]
+    width = min(most_wide, max(LEAST[0], beside + sum(widths)))
+    widths = [each * (width - beside) / sum(widths) for each in widths]
     row = scale * max(float(span[each.up]) for each in views) if len(layout) == len(views) else 0.0
     boxes: dict[int, tuple[float, float, float, float]] = {}
     for place, column in enumerate(layout):
@@ -230,9 +235,12 @@ def dress(ax: Axes, view: View, box: tuple[float, float] | None = None, digits: 
         (ax.yaxis, view.labels[1], view.diameter, box and box[1], 0.32),
     ):
         axis.set_label_text(label, fontsize=SMALL + 1)
-        axis.set_major_formatter(FuncFormatter(_doubled if doubled else _plain))
+        counts = view.unit.length / (2 if doubled else 1)  # mm of the path to 1 at the axis
+        axis.set_major_formatter(FuncFormatter(partial(_plain, counts=counts)))
         if length:
-            axis.set_major_locator(MaxNLocator(nbins=max(1, min(9, int(length / room))), steps=[1, 2, 5, 10]))
+            axis.set_major_locator(Round(max(1, min(9, int(length / room))), view.unit.length))
+        elif view.unit is not MM:
+            axis.set_major_locator(Round(9, view.unit.length))
     calm(ax)
 
 
@@ -244,12 +252,19 @@ def calm(ax: Axes) -> None:
     ax.spines[:].set_color("#9a9a9a")
 
 
-def _plain(value: float, _: int | None = None) -> str:
-    return f"{round(value, 9) + 0.0:.10g}".replace("-", "\N{MINUS SIGN}")
+class Round(MaxNLocator):
+    """At most `most` steps between round numbers of a unit of `length` mm."""
+
+    def __init__(self, most: int, length: float) -> None:
+        super().__init__(nbins=most, steps=[1, 2, 5, 10])
+        self.length = length
+
+    def tick_values(self, vmin: float, vmax: float) -> Any:
+        return self.length * np.asarray(super().tick_values(vmin / self.length, vmax / self.length))
 
 
-def _doubled(value: float, _: int | None = None) -> str:
-    return _plain(2 * value)
+def _plain(value: float, _: int | None = None, counts: float = 1.0) -> str:
+    return f"{round(value / counts, 9) + 0.0:.10g}".replace("-", "\N{MINUS SIGN}")
 
 
 def columns(names: Sequence[str], width: float) -> int:

@@ -26,7 +26,7 @@ def notes_of(cutting: Cutting, sweep: Sweep) -> Iterator[str]:
     if cutting.tilted is not None and (out := cutting.cuts & cutting.tilted).any():
         number = int(out.sum())
         left = "is" if number == 1 else "are"
-        yield f"{several(number, 'row')} of a tilted tool {left} left out ({cutting.lines(out)})"
+        yield f"{several(number, 'row')} of a tool not along Z {left} left out ({cutting.lines(out)})"
     cuts = cutting.cuts
     for kind in THREADS:
         numbers = [number for number, tool in enumerate(cutting.tools) if tool.kind == kind]

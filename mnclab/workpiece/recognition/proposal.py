@@ -49,7 +49,7 @@ def proposed(cutting: Cutting) -> Proposal:
 def _notes(cutting: Cutting, cornered: dict[float, list[int]], left: dict[str, list[int]]) -> Iterator[str]:
     yield from cutting.notes()
     if cutting.tilted is not None and (out := cutting.cuts & cutting.tilted).any():
-        yield f"rows of a tilted tool are left out ({cutting.lines(out)})"
+        yield f"rows of a tool not along Z are left out ({cutting.lines(out)})"
     for corner, rows in sorted(cornered.items()):
         yield f"floors have round corners of {corner:g} mm that the design has not ({lines(cutting, rows)})"
     for what, rows in left.items():

@@ -85,7 +85,7 @@ def test_functions_of_makers_move_nothing_and_say_so():
 
 
 def test_lines_that_begin_most_programs_say_nothing():
-    first = "G21 G90 G94 G17|G40 G49 G80 G50 G69 G50.1 G15|G40.1 G97 G64|G5.1 Q1|G5 P10000|G8 P1|G187 P3 E0.1|X1"
+    first = "G21 G90 G94 G17|G40 G49 G80 G50 G69 G50.1 G15|G40.1 G97 G64|G5.1 Q1|G5 P10000|G8 P1|G103 P1|G103|G187 P3 E0.1|X1"
     found = run(lines(first))
     assert not found.alarms and found.toolpath.end.tolist() == [[1, 0, 0]]
 

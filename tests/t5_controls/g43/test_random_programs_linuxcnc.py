@@ -1,5 +1,6 @@
 """Five thousand random programs against LinuxCNC's recorded motion: planes, units, arcs, offsets, turned systems, cycles,
-sub-programs, formulas, loops; see `tests/authorities/iso_programs.py`."""
+sub-programs, formulas, loops; and five hundred of cycles within which everything changes; see
+`tests/authorities/iso_programs.py`."""
 
 import gzip
 import json
@@ -17,15 +18,17 @@ sys.path.insert(0, str(AUTHORITIES))
 import iso_programs  # noqa: E402
 
 RECORDS = json.loads(gzip.decompress((AUTHORITIES / "iso.json.gz").read_bytes()))["records"]
+HOLES = json.loads(gzip.decompress((AUTHORITIES / "iso_holes.json.gz").read_bytes()))["records"]
+HOLE_PARTS = iso_programs.changing_holes, iso_programs.changing_holes, iso_programs.systems, iso_programs.unit
 KINDS = {"r": Kind.RAPID, "f": Kind.LINE, "a": Kind.ARC}
 FEW = 25  # programs a test; the first of every such lot are tried each time, all of them in the deep tests
 
 
 def joined(rows):
-    """Rows (line, kind, end, …); two rapids one after the other along Z, the same way, are one."""
+    """Rows (line, kind, end, …); two of a kind one after the other along Z, the same way, are one (feeds: of a line)."""
     found = []
     for row in rows:
-        if len(found) > 1 and row[1] == found[-1][1] == Kind.RAPID:
+        if len(found) > 1 and row[1] == found[-1][1] and (row[1] == Kind.RAPID or row[:2] == found[-1][:2]):
             a, b, c = (np.array(one[2]) for one in (found[-2], found[-1], row))
             if max(abs(a - b)[:2].max(), abs(b - c)[:2].max()) < 1e-9 and (b - a)[2] * (c - b)[2] > 0:
                 found.pop()
@@ -33,9 +36,9 @@ def joined(rows):
     return found
 
 
-def agree(record):
+def agree(record, parts=iso_programs.PARTS):
     """Run one and compare every row."""
-    run = mnclab.run(iso_programs.program(record["seed"])[0], "iso", Setup(settings={"dialect": "linuxcnc"}))
+    run = mnclab.run(iso_programs.program(record["seed"], parts)[0], "iso", Setup(settings={"dialect": "linuxcnc"}))
     assert run.ok, run.alarms
     ours = joined((m.line, m.kind, m.end, m) for m in run.toolpath.motion)
     theirs = joined((row[0], KINDS[row[1]], np.array(row[2:5]) * 1e-9, row[5:]) for row in record["rows"])
@@ -54,6 +57,18 @@ def agree(record):
 @pytest.mark.parametrize("record", RECORDS[::FEW], ids=lambda record: str(record["seed"]))
 def test_some(record):
     agree(record)
+
+
+@pytest.mark.parametrize("record", HOLES[::10], ids=lambda record: str(record["seed"]))
+def test_some_of_changing_holes(record):
+    agree(record, HOLE_PARTS)
+
+
+@pytest.mark.deep
+def test_all_of_changing_holes():
+    assert len(HOLES) == 500
+    for record in HOLES:
+        agree(record, HOLE_PARTS)
 
 
 @pytest.mark.deep

@@ -103,7 +103,8 @@ def test_an_axis_that_the_first_motion_leaves_out_is_named():
     told = run(lines(text.format("X5")))
     assert "Y is not written in the first motion after G68" in told.alarms[0].message
     assert places(told)[-1] == [10, 5, 0]  # along the turned X, from where the tool stands: its Y is -10
-    for first in ("X5 Y0", "G91 X5", "Z5", "Z5|X5 Y0"):
+    assert "Y is not written" in run(lines(text.format("F100|G81 X5 Z-5 R2"))).alarms[0].message
+    for first in ("F100 G81 X5 Y0 Z-5 R2", "X5 Y0", "G91 X5", "Z5", "Z5|X5 Y0"):
         assert not run(lines(text.format(first))).alarms
 
 

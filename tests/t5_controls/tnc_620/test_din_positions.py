@@ -143,6 +143,11 @@ def test_a_block_over_several_lines(din) -> None:
     assert ends(run) == [[1, 2, 3], [5, 2, 3]] and run.toolpath.motion.line.tolist() == [3, 6]
 
 
+def test_a_line_in_which_one_block_ends_and_another_begins(din) -> None:
+    run = din("N20 G00 X+1*\nN30 G201\n Q200=2 Q201=-5 Q206=100\n Q211=0 Q208=100 Q203=0 Q204=9* N40 G00 X+5*")
+    assert run.at(line=6).line == 6 and run.at(line=5).block.keyword == "CYCL DEF 201"
+
+
 def test_inches(tnc) -> None:
     run = tnc("%A G70 *\nT1 G17 S1000 F10*\nG01 X+1 Y+0.5 M3*\nG91 X+1*\nN9 %A G70*\n")
     assert run.toolpath.motion.end.tolist() == [[25.4, 12.7, 0], [50.8, 12.7, 0]]

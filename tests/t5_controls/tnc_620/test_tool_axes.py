@@ -170,7 +170,7 @@ def test_what_a_lying_tool_would_cut_is_left_out_and_said(tnc) -> None:
     text = "BEGIN PGM A MM\nBLK FORM 0.1 Y X+0 Y+0 Z-20\nBLK FORM 0.2 X+60 Y+40 Z+0\nTOOL CALL 1 {} S1000 F100\n"
     text += "L X+30 Y-20 Z-10 R0 FMAX M3\nL Y+30\nL Y-20 FMAX\nEND PGM A MM\n"
     lying = tnc(text.format("Y")).workpiece()
-    assert lying.volume == 60 * 40 * 20 and any("tilted tool" in note for note in lying.notes)
+    assert lying.volume == 60 * 40 * 20 and any("a tool not along Z" in note for note in lying.notes)
     assert tnc(text.format("Z")).workpiece().volume < 60 * 40 * 20
 
 

@@ -11,7 +11,10 @@ from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 
 CENTRES = {"G90.1": "Arc centres from the origin", "G91.1": "Arc centres from the start"}
-CONTOURS = {"G5": "High-speed machining", "G5.1": "Contour control", "G8": "Look-ahead", "G187": "Smoothness"}
+CONTOURS = {
+    "G5": "High-speed machining", "G5.1": "Contour control", "G8": "Look-ahead", "G103": "Look-ahead limited",
+    "G187": "Smoothness",
+}  # fmt: skip
 
 SHARED = functions(remark, ISO, plane="7.1, example")
 FUNCTIONS = FunctionTable()
@@ -92,7 +95,7 @@ def normal_direction_off(m: Machine, words: Words) -> None:
     """There is none on this mill; it stands in the first lines of many programs."""
 
 
-@FUNCTIONS("G5 G5.1 G8 G187", CONTOURS, phase="plane", takes="P Q R E", still=True, modal=False, source="Fanuc, Haas")
+@FUNCTIONS("G5 G5.1 G8 G103 G187", CONTOURS, phase="plane", takes="P Q R E", still=True, modal=False, source="Fanuc, Haas")
 def contour_control(m: Machine, words: Words) -> None:
     """How fast and exactly the machine follows the path; the path is the same. On LinuxCNC these are other functions."""
     if m.settings["dialect"] == "linuxcnc":

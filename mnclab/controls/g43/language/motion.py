@@ -12,6 +12,7 @@ from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.functions import ARCS, SPINDLE
 from mnclab.controls.word_address.motion import AXES, CENTRE, first_word
 from mnclab.machine.control import Control, FunctionTable, Modal, Words
+from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import Machine
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word, digits
@@ -69,8 +70,14 @@ def line(m: Machine, words: Words) -> None:
 
 @FUNCTIONS("G2 G3", ARCS, group="motion", takes="X Y Z I J K R P", moves=True, source=ISO)
 def arc(m: Machine, words: Words) -> None:
-    """An arc by R (negative: above 180 degrees) or by I J K from the start (after G90.1 from the origin); P counts turns."""
+    """An arc by R (negative: above 180 degrees) or by I J K from the start (after G90.1 from the origin); P counts turns.
+
+    A 0 along the axis of the arc, which some post-processors write, changes nothing.
+    """
     undescribed(m, words)
+    along = CENTRE[PLANES[m.plane][2]]
+    if along in words and m.value(words[along]) == 0:
+        words = Words(tuple(word for word in words.words if word.address != along), words.code)
     kept = memory(m)
     if kept.machine_coordinates:
         m.alarm(f"{words.code} and G53 stand in one block: an arc counts from the workpiece", first_word(words))

@@ -100,7 +100,7 @@ def registers(m: Machine) -> tuple[str, str]:
     return ("set", "local") if m.settings["g52_g92"] == "apart" else ("set", "set")
 
 
-@FUNCTIONS("G52", "Local shift", phase="local", takes="X Y Z", still=True, modal=False, source=ISO)
+@FUNCTIONS("G52", "Local shift", phase="local", takes="X Y Z", still=True, owns=True, modal=False, source=ISO)
 def local_shift(m: Machine, words: Words) -> None:
     """The origin moves so far from that of the work offset; an axis that is not written keeps its shift. No motion."""
     undescribed(m, words)
@@ -114,7 +114,7 @@ def local_shift(m: Machine, words: Words) -> None:
     set_shift(m, name, place)
 
 
-@FUNCTIONS("G92", "Set position", phase="local", takes="X Y Z", still=True, modal=False, source=ISO)
+@FUNCTIONS("G92", "Set position", phase="local", takes="X Y Z", still=True, owns=True, modal=False, source=ISO)
 def set_position(m: Machine, words: Words) -> None:
     """The present point has these coordinates, in all work offsets; the local shift of these axes is over. No motion."""
     undescribed(m, words)

@@ -54,14 +54,13 @@ class Macro(NamedTuple):
 @FUNCTIONS("O", "Program number", phase="plane", source="ISO 6983")
 def program_number(m: Machine, words: Words) -> None:
     """Where a program begins; one that runs into the next one ends there."""
-    found, word = sections.sections(m), words["O"]
-    blocks = [block for block, _ in found]
-    if m.flow.current not in blocks:
-        m.alarm(f"{word} is no program number: it stands first in its block, a whole number of at most 8 digits", word)
-    place = blocks.index(m.flow.current)
+    blocks, word, flow = sections.sections(m), words["O"], course(m)
+    place = next((k for k, (block, _) in enumerate(blocks) if block == flow.current), -1)
+    if place < 0:
+        m.alarm("O, a whole number of up to eight digits, is the first word of its block", word)
     if place == 0:
         return
-    flow, before = course(m), found[place - 1][1]
+    before = blocks[place - 1][1]
     ends = "M99" if flow.calls or flow.called else "M2 or M30"
     m.warn(f"{before} ends where O{word.value:g} begins", word, f"write {ends} before it")
     back(m)

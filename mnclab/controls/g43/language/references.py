@@ -31,8 +31,8 @@ def tip_at(m: Machine, number: int) -> Offsets:
     return x, y, z - m.tool.effective_length
 
 
-@FUNCTIONS("G28", TITLES, takes="X Y Z A B C", still=True, modal=False, source=ISO)
-@FUNCTIONS("G30", TITLES, takes="X Y Z A B C P", still=True, modal=False, source=ISO)
+@FUNCTIONS("G28", TITLES, takes="X Y Z A B C", still=True, owns=True, modal=False, source=ISO)
+@FUNCTIONS("G30", TITLES, takes="X Y Z A B C P", still=True, owns=True, modal=False, source=ISO)
 def reference(m: Machine, words: Words) -> None:
     """The axes written go to their points at rapid, then to the reference point (G30: of number P); without axes all go."""
     undescribed(m, words)

@@ -55,7 +55,7 @@ def switch(m: Machine, name: str, frame: frames.Matrix | None, words: Words) -> 
 
 
 def settle_doubt(m: Machine, words: Words, to: Collection[str]) -> None:
-    """Warn where the first motion after a switch names one of the axes concerned and not the others: makers differ there."""
+    """Warn where the first motion after a switch goes `to` one of the axes concerned and not to others: makers differ there."""
     doubt = memory(m).doubt
     if doubt is None or not to:
         return
@@ -79,7 +79,7 @@ def centre(m: Machine, words: Words, name: str) -> list[float]:
     return found
 
 
-@FUNCTIONS("G68", ROTATION, group="rotation", phase="transformation", takes="X Y Z R", still=True, source=ISO)
+@FUNCTIONS("G68", ROTATION, group="rotation", phase="transformation", takes="X Y Z R", still=True, owns=True, source=ISO)
 def rotation(m: Machine, words: Words) -> None:
     """Turns the plane by R degrees about a point, by default where the tool stands; R adds under G91 (setting g68_increment)."""
     if "R" not in words:
@@ -104,6 +104,7 @@ def rotation_off(m: Machine, words: Words) -> None:
     """No motion."""
     memory(m).angle = 0.0
     if "rotation" in m.frames:
+        m.log("rotation angle", 0.0)
         switch(m, "rotation", None, words)
 
 
@@ -122,7 +123,7 @@ def factor(m: Machine, word: Word) -> float:
     return value
 
 
-@FUNCTIONS("G51", SCALING, group="scaling", phase="transformation", takes="X Y Z P I J K", still=True, source=ISO)
+@FUNCTIONS("G51", SCALING, group="scaling", phase="transformation", takes="X Y Z P I J K", still=True, owns=True, source=ISO)
 def scaling(m: Machine, words: Words) -> None:
     """Scales by P, or by I J K along X Y Z, about a point, by default where the tool stands; a negative factor mirrors."""
     refuse_transformed(m, words, "rotation")

@@ -39,7 +39,7 @@ _CORNER = re.compile(r",[ \t]*([CR])[ \t]*(?=[-+.\d#\[])", re.IGNORECASE)
 _PLAIN = re.compile(r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)")
 _CALL = re.compile(r"G[ \t]*0*6[56](?![\d.])", re.IGNORECASE)
 _PRINTED = re.compile(r"(?:POPEN|PCLOS|DPRNT|BPRNT)(?![A-Z])", re.IGNORECASE)
-_WORDS = re.compile(r"[ \t]*(?:[A-Z][ \t]*[-+]?[\d.]+[ \t]*){2,}", re.IGNORECASE)
+_GOOD_WORDS = re.compile(r"[ \t]*+(?:[A-Z][ \t]*+[-+]?[\d.]++[ \t]*+){2,}+", re.IGNORECASE)
 
 
 def read(text: str, name: str = "program") -> Program:
@@ -185,7 +185,7 @@ class _Reader:
         """A semicolon is the end of a block, and on paper the next one may stand behind it."""
         at = len(code.rstrip(" \t"))
         mark = line.find(";", at)
-        if mark >= 0 and _WORDS.fullmatch(line, mark + 1):
+        if mark >= 0 and _GOOD_WORDS.fullmatch(line, mark + 1):
             self.builder.alarm(
                 "what stands after ';' is taken for a comment", begin + mark, 1, "write a line for each block", "warning"
             )

@@ -53,7 +53,7 @@ class StraightSlot(AtSurface):
     slot_length: float = length("Q218", "slot length", note="over all", example=80)
     slot_width: float = addresses.slot_width()
     rotation_angle: float = addresses.angle("Q224", "angle of rotation", note="about the centre of the slot", example=15)
-    finishing_infeed: float = addresses.finishing_infeed()
+    finishing_infeed: float = addresses.finishing_infeed(default=0)
     plunging_feed: float = addresses.plunge_feed(default=0, note="of finishing; 0: as Q207")
 
     def contradictions(self) -> Iterator[Fault]:
@@ -92,7 +92,7 @@ class CircularSlot(AtSurface):
     slot_width: float = addresses.slot_width()
     starting_angle: float = addresses.angle("Q245", "starting angle", example=45)
     angular_length: float = addresses.angle("Q248", "angular length of the slot", incremental=True, at_least=0, example=90)
-    finishing_infeed: float = addresses.finishing_infeed()
+    finishing_infeed: float = addresses.finishing_infeed(default=0)
     plunging_feed: float = addresses.plunge_feed(default=0, note="of finishing; 0: as Q207")
 
     def contradictions(self) -> Iterator[Fault]:

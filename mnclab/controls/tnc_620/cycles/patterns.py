@@ -123,7 +123,7 @@ class PolarPattern(PointPattern):
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance()
     move_to_clearance: float = choice("Q301", "level between the points", TRAVERSE)
-    type_of_traverse: float = choice("Q365", "way between the points", WAY)
+    type_of_traverse: float = choice("Q365", "way between the points", WAY, default=0)  # older programs lack it: lines
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)

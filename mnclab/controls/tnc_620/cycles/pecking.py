@@ -15,7 +15,7 @@ from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import advanced_stops, infeeds
 from mnclab.machining.holes.drilling import Guided, drill, guided, gun_drill
-from mnclab.machining.steps import Go, Step, Write
+from mnclab.machining.steps import RAPID, Go, Step, Write
 
 CYCLES = CycleTable()
 ENTRY: dict[float, str] = {3: "clockwise (M3)", 4: "counter-clockwise (M4)", 5: "stopped (M5)"}
@@ -49,7 +49,8 @@ class UniversalPecking(AtSurface):
     dwell_bottom: float = addresses.dwell_bottom()
     start_depth: float = addresses.start_depth()
     positioning_feed: float | str = addresses.positioning_feed()
-    retract_feed: float | str = addresses.retract_feed(at_most=addresses.FAR)
+    #: The cycle of the iTNC 530 had no Q208 at first and retracted at rapid: its programs still do.
+    retract_feed: float | str | None = addresses.retract_feed(at_most=addresses.FAR, default=None, default_means="FMAX")
     reference: float = addresses.reference()
 
     def check(self, m: Machine) -> Iterator[Fault]:
@@ -59,7 +60,8 @@ class UniversalPecking(AtSurface):
         yield from too_many("break_every", lambda: infeeds(self.begin, self.bottom(m), self.break_every))
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        levels, way, out = self.pecks(m), guide(self), rate(self.retract_feed, self.feed)
+        levels, way = self.pecks(m), guide(self)
+        out = RAPID if self.retract_feed is None else rate(self.retract_feed, self.feed)
         yield Go("to the start of the drilling", way.start, rate(self.positioning_feed))
         yield from drill(
             levels, above=way.clear, start=self.begin, feed=self.feed, dwell_bottom=self.dwell_bottom,

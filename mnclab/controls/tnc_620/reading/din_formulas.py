@@ -22,7 +22,7 @@ from mnclab.text.expression import Expression
 from mnclab.text.precedence import Token
 
 FUNCTION = re.compile(r"D[ \t]*(\d{1,3})(?![\d.,])[ \t]*:?", FLAGS)
-_P = {number: re.compile(rf"[ \t]*P[ \t]*(?:0{number}|{number}(?![\d.,]))", FLAGS) for number in (1, 2, 3)}
+_OPERAND_MARKS = {number: re.compile(rf"[ \t]*P[ \t]*(?:0{number}|{number}(?![\d.,]))", FLAGS) for number in (1, 2, 3)}
 _Q = re.compile(r"Q([LR]?)[ \t]?(\d{1,6})(?!\d)", FLAGS)
 _EQUALS = re.compile(r"[ \t]*=", FLAGS)
 _ANY_P, _POINTS = re.compile(r"[ \t]*P[ \t]*\d\d?(?![\d.,])", FLAGS), re.compile(r"[ \t]*Q[ \t]?(\d{1,6})(?!\d)", FLAGS)
@@ -36,7 +36,7 @@ TWO = {8: ("first", "second"), 13: ("first", "second")}
 def function(cursor: Cursor, number: int, begin: int) -> None:
     """The words of a function; its number was read already, at `begin`."""
     if number in FILES and number != 15:
-        cursor.match(_P[1])  # before the words of the dialog
+        cursor.match(_OPERAND_MARKS[1])  # before the words of the dialog
     if _CONVERSATIONAL.match(cursor.text, cursor.at, cursor.stop):
         _as_conversational(cursor, number)
     elif number in (*range(9), 13):
@@ -76,7 +76,7 @@ def _as_conversational(cursor: Cursor, number: int) -> None:
 def _parameter(cursor: Cursor, number: int, which: int) -> int:
     """Pass over P01, P02 or P03; the place where it stands."""
     begin = cursor.blanks()
-    if cursor.match(_P[which]) is None:
+    if cursor.match(_OPERAND_MARKS[which]) is None:
         raise Fault(f"D{number:02} needs P{which:02}", min(begin, cursor.stop - 1), hint=f"for example {example(number)}")
     return begin
 

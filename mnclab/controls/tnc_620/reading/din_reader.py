@@ -20,7 +20,7 @@ from mnclab.controls.tnc_620.reading.din_statements import REFUSED, STATEMENTS
 from mnclab.controls.tnc_620.reading.din_words import MEASURED, Given, has_tail, put, read_words
 from mnclab.controls.tnc_620.reading.labels import name_of_program
 from mnclab.controls.tnc_620.reading.statements import cycle_parameters, ignored, recognize
-from mnclab.controls.tnc_620.reading.words import FLAGS, Cursor, Fault
+from mnclab.controls.tnc_620.reading.words import FLAGS, INCH, Cursor, Fault
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Program
 from mnclab.text.program_builder import ProgramBuilder
@@ -31,6 +31,9 @@ _FIRST = re.compile(
     r"(?:[\s\ufeff]++|;[^\r\n]*+)*+(?:/[ \t]*)?(?:%[^\r\n;]*?G[ \t]*7[01](?!\d)|(?:%[^\r\n]*+\s*+)?N[ \t]*\d)", FLAGS
 )
 _INCH = re.compile(r"(?:[\s\ufeff]++|;[^\r\n]*+)*+(?:N[ \t]*\d+[ \t]*)?%[^\r\n;*]*?\bG[ \t]*70(?!\d)", FLAGS)
+_NUMBER = r"[+-]?(?:\d{1,8}(?:\.\d*)?|\.\d+)"
+_PLAIN = re.compile(rf"(?:[XYZF][ \t]*+{_NUMBER}[ \t]*+)+", FLAGS)
+_PLAIN_WORD = re.compile(rf"([XYZF])[ \t]*+({_NUMBER})", FLAGS)
 _CALL = re.compile(r"L[ \t]*(?=[\d\"]|QS)", FLAGS)
 #: Statements that these programs write as the others do.
 _CONVERSATIONAL = re.compile(
@@ -106,6 +109,8 @@ class _Reader:
 
     def block(self, raw: Raw, cursor: Cursor, modes: Modes, leaves: Departure | None) -> None:
         begin = cursor.at
+        if leaves is None and self.plain_line(raw, cursor, modes):
+            return
         if leaves and self.text[begin] not in "GgXxYyZz":
             raise leaves.fault()
         if self.text[begin] == "%":
@@ -124,6 +129,21 @@ class _Reader:
             return
         if not cursor.done:
             raise cursor.unexpected()
+
+    def plain_line(self, raw: Raw, cursor: Cursor, modes: Modes) -> bool:
+        """A straight line of numbers alone under G01 and G90, of which long programs consist: read at once."""
+        if self.called or not (modes[:2] == self.above[:2] == (1, 0)) or len(raw.parts) > 1:
+            return False
+        if not _PLAIN.fullmatch(self.text, cursor.at, cursor.stop):
+            return False
+        words = list(_PLAIN_WORD.finditer(self.text, cursor.at, cursor.stop))
+        if len({word[1].upper() for word in words}) < len(words):
+            return False
+        self.builder.block(raw.start, "L", raw.skip, True)
+        for word in words:
+            value = float(word[2]) * (INCH if self.inch else 1.0)
+            self.builder.word(word[1].upper(), value, word.start(), word.end() - word.start())
+        return True
 
     def percent(self, raw: Raw, cursor: Cursor) -> None:
         """%NAME G71 begins and ends the program, %NAME calls another one."""

@@ -10,11 +10,11 @@ from mnclab.controls.tnc_620.reading.words import FLAGS, TEXT, WHOLE, Cursor, Fa
 from mnclab.text import strings
 
 _TEXT_PARAMETER = re.compile(r"[ \t]*QS[ \t]?\d{1,6}(?!\d)", FLAGS)
-_REPEAT = re.compile(r"REP[ \t]*(?:(\d{1,9})(?:[ \t]*/[ \t]*\d{1,9})?|(?=[+]?[ \t]*Q[LR]?\d))", FLAGS)
+_REPEAT = re.compile(r"REP[ \t]*+(?:(\d{1,9})(?:[ \t]*/[ \t]*\d{1,9})?|(?=[+]?[ \t]*Q[LR]?\d))", FLAGS)
 _EMPTY = re.compile(r"REP[ \t]*$", FLAGS)
 _IF = re.compile(r"[ \t]*IF(?![A-Z])", FLAGS)
 _DEFINED = re.compile(r"[ \t]*(?:[+][ \t]*)?(Q[LRS]?\d{1,6})[ \t]+IS[ \t]+(UNDEFINED|DEFINED)(?![A-Z])", FLAGS)
-_GOTO = re.compile(r"[ \t]*GOTO[ \t]+LBL(?![A-Z])", FLAGS)
+_GO_TO_LABEL = re.compile(r"[ \t]*GOTO[ \t]+LBL(?![A-Z])", FLAGS)
 _PGM = re.compile(r"[ \t]*PGM(?![A-Z])", FLAGS)
 
 COMPARISONS = {9: "EQU", 10: "NE", 11: "GT", 12: "LT"}
@@ -74,7 +74,7 @@ def jump(cursor: Cursor, number: int) -> None:
         operand(cursor, "first", example)
         cursor.expect(re.compile(rf"{word}(?![A-Z])", FLAGS), f"FN {number} compares with {word}", hint)
         operand(cursor, "second", example)
-    cursor.expect(_GOTO, "GOTO LBL is missing", hint)
+    cursor.expect(_GO_TO_LABEL, "GOTO LBL is missing", hint)
     label(cursor, parameter=True)
 
 

@@ -1,0 +1,22 @@
+( Made using CamBam - http://www.cambam.co.uk )
+( Profile 1/1/2020 12:00:00 )
+( T1 : 3.0 )
+G21 G90 G64 G40
+G0 Z3.0
+( T1 : 3.0 )
+T1 M6
+( Profile1 )
+G17
+M3 S1000
+G0 X-1.5 Y0.0
+G0 Z1.0
+G1 F300.0 Z-0.5
+G1 F800.0 Y20.0
+G2 X0.0 Y21.5 I1.5 J0.0
+G1 X30.0
+G2 X31.5 Y20.0 I0.0 J-1.5
+G1 Y0.0
+G2 X30.0 Y-1.5 I-1.5 J0.0
+G0 Z3.0
+M5
+M30

@@ -1,0 +1,19 @@
+(Project)
+(Created by Estlcam version 11 build 11.245)
+(Machining time about 00:05:00 hours)
+(Required tools:)
+(End mill 3 mm)
+G21
+G90
+G94
+M03 S18000
+G00 Z5.0000
+G00 X12.5000 Y7.5000
+G00 Z0.5000
+G01 Z-1.0000 F240 S18000
+G01 X37.5000 Y7.5000 F900
+G03 X42.5000 Y12.5000 I0.0000 J5.0000
+G01 X42.5000 Y32.5000
+G00 Z5.0000
+M05
+M30

@@ -1,0 +1,22 @@
+(Exported by FreeCAD)
+(Post Processor: grbl_post)
+(Begin preamble)
+G17 G90
+G21
+(Begin operation: TC)
+( M6 T1 )
+M3 S12000
+(Begin operation: Pocket)
+G0 Z6.000
+G0 X12.000 Y8.000
+G1 X12.000 Y8.000 Z-1.500 F120.000
+G1 X28.000 Y8.000 Z-1.500 F480.000
+G1 X28.000 Y18.000 Z-1.500
+G1 X12.000 Y18.000 Z-1.500
+G1 X12.000 Y8.000 Z-1.500
+G2 X16.000 Y12.000 Z-1.500 I4.000 J0.000 K0.000
+G0 Z6.000
+(Begin postamble)
+M5
+G17 G90
+M2

@@ -1,0 +1,20 @@
+; manner: DIN/ISO with comments, a skipped block and a stop
+; at 12: 0, 0, 50
+; at 13: 10, 0, 50
+; at 15: 10, 0, -1
+; at 16: 10, 20, -1
+; at 18: 10, 20, 50
+%NOTIZ G71 *
+; AUFSPANNUNG 1
+N10 G30 G17 X+0 Y+0 Z-10 *
+N20 G31 G90 X+100 Y+60 Z+0 *
+N30 T3 G17 S3000 F300 * ; FRAESER 6
+N40 G00 G40 G90 Z+50 M3 *
+/N50 X+10 *
+N60 G38 *
+N70 G01 Z-1 F100 M3 *
+N80 Y+20 F300 *
+N90 G04 F1 *
+N100 G00 Z+50 *
+N110 M30 *
+N99999999 %NOTIZ G71 *

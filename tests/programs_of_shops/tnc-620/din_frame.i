@@ -1,0 +1,29 @@
+; manner: DIN/ISO of the TNC 426, outline with G41, G24, G25, approach G26
+; G41 up along X10 stands at X5
+; at 13: 0, 0, 50
+; at 14: -30, 40, 50
+; at 15: -30, 40, -5
+; at 25: 5, 40, -5
+; at 26: -30, 40, -5
+; at 28: -30, 40, 50
+%RAHMEN G71 *
+N10 G30 G17 X+0 Y+0 Z-20 *
+N20 G31 G90 X+100 Y+80 Z+0 *
+N30 T1 G17 S2500 F400 *
+N40 G00 G40 G90 Z+50 M3 *
+N50 X-30 Y+40 *
+N60 G01 Z-5 F500 M8 *
+N70 G01 G41 X+10 Y+40 *
+N80 G26 R8 *
+N90 Y+70 *
+N100 G25 R10 *
+N110 X+90 *
+N120 G24 R8 *
+N130 Y+10 *
+N140 X+10 *
+N150 G25 R10 *
+N160 Y+40 *
+N170 G27 R8 *
+N180 G00 G40 X-30 Y+40 *
+N190 Z+50 M2 *
+N99999999 %RAHMEN G71 *

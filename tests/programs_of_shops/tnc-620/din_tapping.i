@@ -1,0 +1,16 @@
+; manner: DIN/ISO: rigid tapping G207 at three places
+; through 12: 20, 10, -14 | 20, 10, 25
+; at 13: 50, 10, 25
+; at 14: 80, 10, 25
+; at 15: 80, 10, 100
+%GEWINDE G71 *
+N10 G30 G17 X+0 Y+0 Z-20 *
+N20 G31 G90 X+100 Y+60 Z+0 *
+N30 T2 G17 S300 *
+N40 G00 G40 G90 Z+50 M3 *
+N50 G207 Q200=5 Q201=-14 Q239=+1.25 Q203=+0 Q204=25 *
+N60 G00 X+20 Y+10 M99 *
+N70 X+50 M99 *
+N80 X+80 M99 *
+N90 Z+100 M2 *
+N99999999 %GEWINDE G71 *

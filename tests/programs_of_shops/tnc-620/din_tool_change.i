@@ -1,0 +1,24 @@
+; manner: DIN/ISO: two tools, G99 defines one, G51 names the next
+; at 14: -20, 0, 10
+; at 17: 4, 50, -2
+; at 18: -20, 80, -2
+; at 19: -20, 80, 100
+; at 21: 50, 30, 100
+; at 22: 50, 30, -10
+%WECHSEL G71 *
+N10 G30 G17 X+0 Y+0 Z-20 *
+N20 G31 G90 X+100 Y+60 Z+0 *
+N30 G99 T21 L+0 R+6 *
+N40 T21 G17 S1500 F200 *
+N50 G51 T2 *
+N60 G00 G40 G90 X-20 Y+0 Z+10 M3 *
+N70 G01 Z-2 F500 *
+N80 G41 X+10 Y+10 F200 *
+N90 Y+50 *
+N100 G00 G40 X-20 Y+80 *
+N110 Z+100 *
+N120 T2 G17 S1000 M3 *
+N130 X+50 Y+30 *
+N140 G01 Z-10 F100 *
+N150 G00 Z+100 M2 *
+N99999999 %WECHSEL G71 *

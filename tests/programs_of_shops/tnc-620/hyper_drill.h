@@ -1,0 +1,42 @@
+; manner: post of hyperMILL for an iTNC 530, tool by number, feeds in Q, Z0 of the machine by M92
+; at 23: 0, 35, 300
+; at 24: 0, 35, 50
+; at 35: 0, 35, 25
+; through 36: -62.5, 0, -4 | -62.5, 0, -16
+; at 37: 62.5, 0, 25
+; at 40: 62.5, 0, 300
+1 BEGIN PGM W5246NS01 MM
+2 ; ----------------------------------
+3 ; PROJECT     :
+4 ; DRAWING NUMBER:
+5 ; ----------------------------------
+6 BLK FORM 0.1 Z X-95 Y-58 Z-22.25
+7 BLK FORM 0.2 X95 Y58 Z0.25
+8 ; ----------------------------------
+9 L Z+300 R0 FMAX M92
+10 * - T2 | BOHRER / DM=8 CR=0 TL=127
+11 TOOL CALL 2 Z S900 DL+0 DR+0
+12 ; ----------------------------------
+13 *   - JOB: 1: BOHREN_01
+14 FN 0:Q2=105 ; XY FEED RATE
+15 FN 0:Q3=105 ; Z FEED RATE
+16 L X0 Y35 R0 F MAX M3
+17 L Z50 R0 F MAX
+18 M8
+19 CYCL DEF 200 DRILLING~
+  Q200=5 ;SET-UP CLEARANCE~
+  Q201=-16 ;DEPTH~
+  Q206=Q3 ;FEED RATE FOR PLUNGING~
+  Q202=4 ;PLUNGING DEPTH~
+  Q210=0 ;DWELL TIME AT TOP~
+  Q203=0 ;SURFACE COORDINATE~
+  Q204=25 ;2ND SET-UP CLEARANCE~
+  Q211=0 ;DWELL TIME AT DEPTH
+20 L X0 Y35 R0 F MAX M99
+21 L X-62.5 Y0 R0 F MAX M99
+22 L X62.5 R0 F MAX M99
+23 M9
+24 M5
+25 L Z+300 R0 FMAX M92
+/26 M30
+27 END PGM W5246NS01 MM

@@ -1,0 +1,20 @@
+; manner: TNC 360 / 410: M90 for constant speed at corners, R0 in every block
+; at 12: 0, 0, 20
+; at 15: 20, 12, -1
+; at 16: 30, 16, -1
+; at 17: 40, 22, -1
+; at 18: 50, 30, -1
+; at 19: 50, 30, 20
+0 BEGIN PGM 13 MM
+1 BLK FORM 0.1 Z X+0 Y+0 Z-20
+2 BLK FORM 0.2 X+100 Y+100 Z+0
+3 TOOL CALL 4 Z S2000
+4 L Z+20 R0 F9999 M3
+5 L X+10 Y+10 R0 F9999
+6 L Z-1 R0 F100
+7 L X+20 Y+12 R0 F500 M90
+8 L X+30 Y+16 R0 F500 M90
+9 L X+40 Y+22 R0 M90
+10 L X+50 IY+8 R0 M90
+11 L Z+20 R0 F9999 M2
+12 END PGM 13 MM

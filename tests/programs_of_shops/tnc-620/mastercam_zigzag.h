@@ -1,0 +1,33 @@
+; manner: post of Mastercam, zigzag without repeated words, numbers with all places
+; at 20: 86, 4, -0.5
+; at 21: 86, 12, -0.5
+; at 24: 86, 20, -0.5
+; at 26: -6, 28, -0.5
+; at 28: -6, 28, 25
+; at 31: -6, 28, -1
+0 BEGIN PGM T1 MM
+1 ; MASTERCAM - X9
+2 ; MATERIAL - ALUMINUM MM - 2024
+3 BLK FORM 0.1 Z X+0. Y+0. Z-10.
+4 BLK FORM 0.2 X+80. Y+40. Z+0.
+5 TOOL CALL 1 Z S3819
+6 ; 10. FLAT ENDMILL
+7 L X-6.000 Y+4.000 R0 FMAX M3
+8 L Z+25.000 R0 FMAX
+9 M8
+10 L Z+2.000 FMAX
+11 L Z-0.500 F190.9
+12 L X+86.000 F763.8
+13 L Y+12.000
+14 L X-6.000
+15 L Y+20.000
+16 L X+86.000
+17 L Y+28.000
+18 L X-6.000
+19 L Z+1.500
+20 L Z+25.000 FMAX
+21 M5
+22 M9
+23 L Z-1. R0 FMAX M91
+24 M2
+25 END PGM T1 MM

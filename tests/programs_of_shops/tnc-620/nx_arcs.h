@@ -1,0 +1,25 @@
+; manner: post of NX, full circles by CC and C, helix by CP
+; at 17: 30, 0, -1
+; at 18: 0, 30, -1
+; at 19: -30, 0, -1
+; at 20: -20, 0, -1
+; at 22: 0, -20, -2
+; at 23: 0, -15, 0
+; at 24: 0, -15, 100
+0 BEGIN PGM OP20 MM
+1 BLK FORM 0.1 Z X-40 Y-40 Z-20
+2 BLK FORM 0.2 X+40 Y+40 Z+0
+3 TOOL CALL 4 Z S8000 F900
+4 L X+30 Y+0 R0 FMAX M3
+5 L Z+2 R0 FMAX M8
+6 L Z-1 F300
+7 CC X+0 Y+0
+8 C X+30 Y+0 DR+ F900
+9 C X+0 Y+30 DR+
+10 C X-30 Y+0 DR+ F450
+11 L X-20
+12 CC IX+20 IY+0
+13 CP PA+270 DR+ IZ-1
+14 L IX+0 IY+5 IZ+2
+15 L Z+100 R0 FMAX M9 M30
+16 END PGM OP20 MM

@@ -1,0 +1,38 @@
+; manner: post of NX for a TNC 640, block of comments, L with all words, CR arcs, M13
+; at 20: -45, 0, 0
+; at 23: -35, 0, -3
+; at 25: -25, 25, -3
+; at 27: 35, 15, -3
+; at 31: -35, -15, -3
+; at 33: -35, 0, 50
+0 BEGIN PGM OP10 MM
+1 ;=======================================
+2 ; NX POST - HEIDENHAIN TNC 640
+3 ; OPERATION : FLOOR_WALL_1
+4 ; TOOL      : EM10
+5 ;=======================================
+6 BLK FORM 0.1 Z X-40.000 Y-30.000 Z-20.000
+7 BLK FORM 0.2 X+40.000 Y+30.000 Z+0.000
+8 CYCL DEF 247 PRESETTING ~
+    Q339=+1 ;PRESET NUMBER
+9 TOOL CALL 1 Z S3500 F700 DL+0.0 DR+0.0
+10 TOOL DEF 3
+11 L X-45.000 Y+0.000 FMAX M13
+12 L Z+10.000 FMAX
+13 L Z-3.000 F250
+14 L X-35.000 F700
+15 L Y+15.000
+16 CR X-25.000 Y+25.000 R+10.000 DR-
+17 L X+25.000
+18 CR X+35.000 Y+15.000 R+10.000 DR-
+19 L Y-15.000
+20 CR X+25.000 Y-25.000 R+10.000 DR-
+21 L X-25.000
+22 CR X-35.000 Y-15.000 R+10.000 DR-
+23 L Y+0.000
+24 L Z+50.000 FMAX
+25 M9
+26 M5
+27 L Z+0 R0 FMAX M91
+28 M30
+29 END PGM OP10 MM

@@ -1,0 +1,29 @@
+; manner: post of PowerMILL, points with few words, M3 in the tool block, FQ feeds
+; at 20: 5.25, 0, -0.75
+; at 21: 10.5, 0, -1.125
+; at 23: 10.5, 0.5, -1.125
+; at 25: 0, 0.5, -0.5
+; at 26: 0, 0.5, 5
+; at 28: 0, 0.5, 200
+0 BEGIN PGM RASTER MM
+1 ; TOOLPATH : finish_raster
+2 ; TOLERANCE: 0.010
+3 BLK FORM 0.1 Z X0 Y0 Z-20
+4 BLK FORM 0.2 X30 Y30 Z0
+5 FN 0: Q50 =1200 ; CUTTING FEED
+6 FN 0: Q51 =300 ; PLUNGE FEED
+7 TOOL CALL 4 Z S9000 M3
+8 M8
+9 L X0 Y0 R0 FMAX
+10 L Z5 FMAX
+11 L Z-0.5 FQ51
+12 L X5.25 Z-.75 FQ50
+13 L X10.5 Z-1.125
+14 L X15 Y.5 Z-1.25
+15 L X10.5 Z-1.125
+16 L X5.25 Z-.75
+17 L X0 Z-.5
+18 L Z5 FMAX
+19 M9 M5
+20 L Z200 R0 FMAX M2
+21 END PGM RASTER MM

@@ -1,0 +1,27 @@
+; manner: German school, holes of cycle 200 called by M99, names of parameters as the control writes them
+; through 21: 15, 15, -6 | 15, 15, -12 | 15, 15, -18 | 15, 15, 50
+; at 22: 50, 15, 50
+; at 23: 85, 15, 50
+; at 24: 85, 45, 50
+; at 25: 15, 45, 50
+0  BEGIN PGM BOHRBILD MM 
+1  BLK FORM 0.1 Z  X+0  Y+0  Z-15
+2  BLK FORM 0.2  X+100  Y+60  Z+0
+3  TOOL CALL 2 Z S1600 F200
+4  L  Z+100 R0 FMAX M13
+5  CYCL DEF 200 BOHREN ~
+    Q200=+2    ;SICHERHEITS-ABST. ~
+    Q201=-18   ;TIEFE ~
+    Q206= AUTO ;VORSCHUB TIEFENZ. ~
+    Q202=+6    ;ZUSTELL-TIEFE ~
+    Q210=+0    ;VERWEILZEIT OBEN ~
+    Q203=+0    ;KOOR. OBERFLAECHE ~
+    Q204=+50   ;2. SICHERHEITS-ABST. ~
+    Q211=+0    ;VERWEILZEIT UNTEN
+6  L  X+15 Y+15 R0 FMAX M99
+7  L  IX+35 R0 FMAX M99
+8  L  IX+35 R0 FMAX M99
+9  L  IY+30 R0 FMAX M99
+10 L  IX-70 R0 FMAX M99
+11 L  Z+100 R0 FMAX M30
+12 END PGM BOHRBILD MM 

@@ -1,0 +1,28 @@
+; manner: German school, cycle 10 in a repeat, the angle incremental
+; the datum is at (50, 50), the point (30, 0) turns 45 degrees each time
+; at 15: 60, 50, 20 | 50+10*cos(45), 50+10*sin(45), 2 | 50, 60, 2
+; at 17: 80, 50, -1 | 50+30*cos(45), 50+30*sin(45), -1 | 50, 80, -1
+; at 27: 0, 0, 100
+0 BEGIN PGM STERN MM
+1 BLK FORM 0.1 Z X+0 Y+0 Z-10
+2 BLK FORM 0.2 X+100 Y+100 Z+0
+3 TOOL CALL 4 Z S4000 F300
+4 L Z+20 R0 FMAX M3
+5 CYCL DEF 7.0 NULLPUNKT
+6 CYCL DEF 7.1 X+50
+7 CYCL DEF 7.2 Y+50
+8 LBL 2
+9 L X+10 Y+0 R0 FMAX
+10 L Z-1 F100
+11 L X+30 F300
+12 L Z+2 FMAX
+13 CYCL DEF 10.0 DREHUNG
+14 CYCL DEF 10.1 IROT+45
+15 CALL LBL 2 REP 2/2
+16 CYCL DEF 10.0 DREHUNG
+17 CYCL DEF 10.1 ROT+0
+18 CYCL DEF 7.0 NULLPUNKT
+19 CYCL DEF 7.1 X+0
+20 CYCL DEF 7.2 Y+0
+21 L X+0 Y+0 Z+100 R0 FMAX M30
+22 END PGM STERN MM

@@ -1,0 +1,13 @@
+; manner: German school, hole circle 220 below a drilling cycle
+; six holes from 30 degrees, 60 degrees apart, on the circle of 60 about (50, 50)
+; through 11: 50+30*cos(30), 50+30*sin(30), -15 | 50+30*cos(90), 80, -15 | 50+30*cos(150), 65, -15 | 50+30*cos(210), 35, -15 | 50, 20, -15 | 50+30*cos(330), 35, -15
+; at 12: 50+30*cos(330), 35, 100
+0 BEGIN PGM LOCHKREIS MM
+1 BLK FORM 0.1 Z X+0 Y+0 Z-20
+2 BLK FORM 0.2 X+100 Y+100 Z+0
+3 TOOL CALL 2 Z S1200
+4 L Z+50 R0 FMAX M3
+5 CYCL DEF 200 BOHREN Q200=2 Q201=-15 Q206=150 Q202=15 Q210=0 Q203=0 Q204=20 Q211=0
+6 CYCL DEF 220 KREISMUSTER Q216=+50 Q217=+50 Q244=60 Q245=+30 Q246=+360 Q247=+60 Q241=6 Q200=2 Q203=+0 Q204=20 Q301=1 Q365=0
+7 L Z+100 R0 FMAX M30
+8 END PGM LOCHKREIS MM

@@ -1,0 +1,28 @@
+; manner: German school, scaling by cycle 11, the same contour smaller inside
+; at 19: -20, 0, 50
+; at 21: -40, 0, 20 | -20, 0, 10
+; at 22: -40, 0, -2 | -20, 0, -1
+; at 24: 40, 0, -2 | 20, 0, -1
+; at 25: -40, 0, -2 | -20, 0, -1
+; at 26: -40, 0, 10 | -20, 0, 5
+0 BEGIN PGM MASSFAKTOR MM
+1 BLK FORM 0.1 Z X-50 Y-50 Z-10
+2 BLK FORM 0.2 X+50 Y+50 Z+0
+3 TOOL CALL 4 Z S4000 F300
+4 L Z+20 R0 FMAX M3
+5 CALL LBL 1
+6 CYCL DEF 11.0 MASSFAKTOR
+7 CYCL DEF 11.1 SCL 0.5
+8 CALL LBL 1
+9 CYCL DEF 11.0 MASSFAKTOR
+10 CYCL DEF 11.1 SCL 1
+11 L Z+50 R0 FMAX M30
+12 LBL 1
+13 L X-40 Y+0 R0 FMAX
+14 L Z-2 F100
+15 CC X+0 Y+0
+16 C X+40 Y+0 DR+ F300
+17 L X-40
+18 L Z+10 FMAX
+19 LBL 0
+20 END PGM MASSFAKTOR MM

@@ -1,0 +1,41 @@
+; manner: vendor's training, SL cycles 14, 20, 22 over one square pocket, old parameters
+; tool radius 5; Q8 rounds the inside corners of its path by 0.1
+; at 11: 0, 0, 100
+; through 30: 5, 5.1, -3 | 94.9, 5, -3 | 95, 94.9, -6 | 5.1, 95, -6
+; at 31: 0, 0, 50
+; at 32: 0, 0, 100
+0 BEGIN PGM SLI MM
+1 BLK FORM 0.1 Z X-10 Y-10 Z-20
+2 BLK FORM 0.2 X+110 Y+110 Z+0
+3 TOOL CALL 1 Z S1000 F500
+4 L Z+100 R0 FMAX M3
+5 CYCL DEF 14.0 KONTUR
+6 CYCL DEF 14.1 KONTURLABEL1
+7 CYCL DEF 20 KONTUR-DATEN ~
+    Q1=-6    ;FRAESTIEFE ~
+    Q2=+1    ;BAHN-UEBERLAPPUNG ~
+    Q3=+0    ;AUFMASS SEITE ~
+    Q4=+0    ;AUFMASS TIEFE ~
+    Q5=+0    ;KOOR. OBERFLAECHE ~
+    Q6=+2    ;SICHERHEITS-ABST. ~
+    Q7=+50   ;SICHERE HOEHE ~
+    Q8=+0.1  ;RUNDUNGSRADIUS ~
+    Q9=+1    ;DREHSINN
+8 CYCL DEF 22 AUSRAEUMEN ~
+    Q10=-3    ;ZUSTELL-TIEFE ~
+    Q11=+150  ;VORSCHUB TIEFENZ. ~
+    Q12=+500  ;VORSCHUB RAEUMEN ~
+    Q18=+0    ;VORRAEUM-WERKZEUG ~
+    Q19=+0    ;VORSCHUB PENDELN
+9 CYCL CALL M8
+10 L X+0 Y+0 R0 FMAX
+11 L Z+100 R0 FMAX M2
+12 LBL 1
+13 L X+0 Y+50 RR
+14 L Y+100
+15 L X+100
+16 L Y+0
+17 L X+0
+18 L Y+50
+19 LBL 0
+20 END PGM SLI MM

@@ -1,0 +1,43 @@
+"""Programs in the manner of CAM systems, schools and hobby workshops: where the tool stands, worked out by hand.
+
+`tests/programs_of_iso_shops`: each program, and in `places.toml` the places after its lines (`LINE: X Y Z`, or `LINE pass: …`
+for the pass of a line that runs often), in the unit of the program; `*` is not asserted.
+"""
+
+import math
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import mnclab
+from mnclab import Setup
+
+FOLDER = Path(__file__).parents[2] / "programs_of_iso_shops"
+PROGRAMS = tomllib.loads((FOLDER / "places.toml").read_text("utf-8"))
+NAMES = {"cos": lambda a: math.cos(math.radians(a)), "sin": lambda a: math.sin(math.radians(a)), "sqrt": math.sqrt}
+
+
+def value(formula):
+    return eval(formula, {"__builtins__": {}}, NAMES)
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_where_the_tool_stands(name):
+    given = PROGRAMS[name]
+    dialect = {"dialect": given["dialect"]} if "dialect" in given else {}
+    run = mnclab.run(FOLDER / f"{name}.nc", "iso", Setup(settings=dialect))
+    assert run.ok, run.alarms
+    unit = 25.4 if given.get("inches") else 1.0
+    assert len(given["places"]) >= 5
+    for place in given["places"]:
+        where, _, coordinates = place.partition(": ")
+        line, *passes = map(int, where.split())
+        point = run.at(line, *passes).point
+        for found, formula in zip(point, coordinates.split(), strict=True):
+            if formula != "*":
+                assert found == pytest.approx(unit * value(formula), abs=1e-9), place
+
+
+def test_there_are_sixty_and_each_has_its_places():
+    assert len(PROGRAMS) >= 60 and PROGRAMS.keys() == {file.stem for file in FOLDER.glob("*.nc")}
