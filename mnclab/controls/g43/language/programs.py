@@ -62,7 +62,9 @@ def program_number(m: Machine, words: Words) -> None:
         return
     before = blocks[place - 1][1]
     ends = "M99" if flow.calls or flow.called else "M2 or M30"
-    m.warn(f"{before} ends where O{word.value:g} begins", word, f"write {ends} before it")
+    if len(flow.program[flow.current].words) > 1:
+        m.alarm(f"{before} ends in a block with other words, which belong to {word}", word, f"write {ends} before it")
+    m.warn(f"{before} ends where {word} begins", word, f"write {ends} before it")
     back(m)
     m.ended = m.ended or not (flow.returning or flow.over)
 
