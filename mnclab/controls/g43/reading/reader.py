@@ -123,8 +123,8 @@ class _Reader:
 
     @staticmethod
     def goes_to(found: Scan) -> bool:
-        """Whether a clean line goes to a block: M97, or M99 with P."""
-        codes = (found.letter == ord("M")) & np.isin(found.value, (97.0, 99.0))
+        """Whether a clean line goes to a block: M97, M99 with P, or M98, whose program may name a block to come back to."""
+        codes = (found.letter == ord("M")) & np.isin(found.value, (97.0, 98.0, 99.0))
         if not codes.any():
             return False
         lines: NDArray[np.int64] = found.line
@@ -236,7 +236,7 @@ class _Reader:
             first = False
         if call:
             self.arguments()
-        self.jumps = self.jumps or {"M", "P"} <= set(code.upper())
+        self.jumps = self.jumps or bool(call) or {"M", "P"} <= set(code.upper())
 
     def arguments(self) -> None:
         """M is an argument like others, G is none."""
