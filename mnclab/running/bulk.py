@@ -49,7 +49,8 @@ class PlainWords:
     a plain block (R0 of Klartext): its reader calls no other block plain. `helices` says whether arcs with a third
     coordinate need no word of their own now, and hears how many more were made. `letters` are the addresses that the
     control has; `straight_arcs`: an arc without R and centre is a straight line, `whole_circles`: one without
-    coordinates is a circle; where they are not, that is a fault. `unit` is what its lengths and feeds are multiplied with.
+    coordinates is a circle; where they are not, that is a fault. `zero_along`: a centre may be 0 along the axis of the arc.
+    `unit` is what its lengths and feeds are multiplied with.
     """
 
     motions: Mapping[float | None, tuple[str, int]]
@@ -58,6 +59,7 @@ class PlainWords:
     keyword: str = ""
     tolerance: Callable[[Machine], float] = lambda m: float(m.settings.get("arc_tolerance", 0.01))
     helices: Callable[[Machine, int], bool] = lambda m, count: False
+    zero_along: bool = False
     letters: str = LETTERS
     straight_arcs: bool = False
     whole_circles: bool = True
@@ -247,7 +249,9 @@ class Bulk:
         radii = words["R"][k] if "R" in words else nothing
         c = s + np.nan_to_num(to_centre[:, [first, second]])
         at_start, at_end = np.hypot(*(s - c).T), np.hypot(*(e - c).T)
-        fault = (at_start < 1e-9) | (np.abs(at_start - at_end) > tolerance) | ~np.isnan(to_centre[:, normal])
+        along = to_centre[:, normal]
+        fault = (at_start < 1e-9) | (np.abs(at_start - at_end) > tolerance)
+        fault |= ~(np.isnan(along) | (along == 0) & rule.zero_along)
         if (by := np.flatnonzero(~np.isnan(radii))).size:
             radius, chord = radii[by], np.hypot(*(e - s)[by].T)
             c[by], shortage = centre_from_radius(s[by], e[by], radius, sense[by])

@@ -47,6 +47,13 @@ def test_what_is_missed_is_named_in_order_and_with_its_line():
     assert started.ok and "put in T2" in repr(started.missed) and "<table>" in started.missed._repr_html_()
 
 
+def test_a_speed_is_told_with_its_own_line_and_a_rotation_only_while_it_is_active():
+    program = "G54 S900 M3\nG68 X0 Y0 R30\nG0 X10 Y0\nG69\nS1200\nG0 X20 Y0\n"
+    turned, ended = (mnclab.run(program, "g43").start_at(line) for line in (3, 6))
+    assert [one.line for one in ended.missed if one.about == "spindle"] == [5]
+    assert "rotation angle 30" in about(turned)["active"] and "rotation" not in about(ended).get("active", "")
+
+
 @pytest.mark.parametrize("file", SAMPLES, ids=lambda file: file.name)
 def test_the_path_is_the_end_of_the_whole_one(file):
     run = mnclab.run(file)

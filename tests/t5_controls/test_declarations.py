@@ -135,10 +135,14 @@ EXPLAINED = {
     ("mnc", "G309", "P", "limits"): ({}, "not 0: a check"),
     ("tnc-620", "CYCL DEF 22", "Q208", "limits"): ({">=": 0}, "FMAX is infinite; the upper limit is a check"),
     ("tnc-620", "CYCL DEF 22", "Q208", "default"): (math.inf, "FMAX"),
+    **{
+        ("tnc-620", f"CYCL DEF {code}", "Q385", "required"): (False, "it came later than the cycle: then Q207 counts")
+        for code in (251, 252, 253, 254)
+    },
     ("tnc-620", "CYCL DEF 205", "Q208", "required"): (False, "it came later than the cycle, whose way out was at rapid"),
     **{
         ("tnc-620", f"CYCL DEF {code}", address, key): (value, "it came later than the cycle: older programs lack it")
-        for code, address in ((210, "Q338"), (211, "Q338"), (220, "Q365"))
+        for code, address in ((200, "Q211"), (210, "Q338"), (211, "Q338"), (220, "Q365"))
         for key, value in (("required", False), ("default", 0))
     },
     ("tnc-620", "CYCL DEF 22", "Q18", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),

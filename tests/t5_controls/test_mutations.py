@@ -25,6 +25,9 @@ import pytest
 import mnclab
 from mnclab import Alarm
 
+sys.path.insert(0, str(Path(__file__).parents[1] / "authorities"))
+import iso_programs
+
 pytestmark = pytest.mark.deep
 
 TESTS = Path(__file__).resolve().parents[1]
@@ -44,6 +47,9 @@ PIECES = [
     "\ufeff", "\0", "\ud800", "\udfff", "\u0425", "\u041e", "\u2028", "\x85", "\xa0", "\x1c", "\U0001f6e0", "\t", " ", "\r",
     "\r\n", "\n", "\n\n", ";", "~", "/", "//", "%", "'", '"', "(", ")", "[", "]", "=", "#", "*", "@", "^", "+", "-", ".", ",",
     "\\", "Q1", "QS1", "QL1", "Q0", "Q1999", "{x}", "a" * 300, " " * 300, "(" * 60, "X", "Z", "G", "M", "N", "L ", "I",
+    "#1", "#[#1]", "#[#[#1]]", "#0", "[#1 EQ 1]", "\nWHILE[#1 LT 9]DO1\n", "\nEND1\n", "\nIF[#1 GT 2]GOTO 10\n", "\nM98 P1\n",
+    "\nG65 P1 A#1\n", "\nM99\n", "\nO1\n", "\nG66 P1\n", "SIN[", "**", "\nG68 X0 Y0 R30\n", "\nG51 P2.\n", "\nG92 X0\n",
+    "*\nG98 L1*\n", "*\nL1,3*\n", "*\nD00 Q1 P01 +Q1*\n", "*\nG79*\n", "G91 ", "I+5 J+5 ", "*",
 ]  # fmt: skip
 WORD = re.compile(r"[^\s]+")
 NUMBER = re.compile(r"[+-]?\d+(?:[.,]\d+)?")
@@ -58,10 +64,17 @@ def programs(control):
         entries = json.loads(file.read_text("utf-8"))
         if of == control or (of == "mnc" and control == "g43"):
             found += [entry["program"] for entry in entries if isinstance(entry, dict) and entry.get("program")]
-    for folder in (TESTS / "programs", TESTS / "refused"):
-        files = [*folder.glob(f"{control}/*.{control}"), *folder.glob(f"{control}/*.i")]  # DIN/ISO, of the TNC
-        found += [file.read_text("utf-8") for file in sorted(files)]
+    for folder in (TESTS / "programs", TESTS / "refused", TESTS / "recognition"):
+        files = [file for file in sorted(folder.glob(f"{control}/*")) if file.suffix != ".expected"]
+        found += [text_of(file) for file in files]
+    if control == "g43":  # variables, loops and sub-programs
+        found += [iso_programs.program(seed)[0] for seed in range(60)]
     return found
+
+
+def text_of(file):
+    """What stands in a file, whatever code page."""
+    return mnclab.read(file, file.parent.name).text
 
 
 @cache

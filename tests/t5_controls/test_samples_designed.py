@@ -27,6 +27,7 @@ def holes(depth, *places, **more):
 
 #: The numbers are those of the programs. Depths of drilled holes are to the shoulder: that of the tip less the point.
 FEATURES = {
+    "g43/bolt_circle": holes(15 - POINT, *((30 * np.cos(a), 30 * np.sin(a)) for a in np.radians(22.5 + 45 * np.arange(8)))),
     "g43/two_lengths": [*holes(15 - POINT, (20, 20)), Slot((60, 20), (90, 20), 16, 5)],
     "mnc/drilling_two_ways": holes(18 - POINT, (10, 10), (40, 10)),
     "mnc/row_of_holes": holes(18 - POINT, *((x, 10) for x in (10, 30, 70, 90))),

@@ -94,6 +94,7 @@ CONTROL = Control(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
         ready=lambda m: motion.is_plain(m) and not m.modal.get("call"),
         helices=more_helices,
+        zero_along=True,
         unit=lambda m: m.variable_unit,
     ),
     trial=trial_program,

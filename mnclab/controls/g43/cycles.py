@@ -48,7 +48,7 @@ pause = partial(
 )  # fmt: skip
 tapping_peck = partial(
     param, "Q", "depth of one peck", default=None, default_means="the whole thread at once", above=0, incremental=True,
-    modal=True, example=5, note="rigid tapping; what happens between two: setting peck_tapping",
+    modal=True, note="rigid tapping; what happens between two: setting peck_tapping",
 )  # fmt: skip
 times_out = partial(
     param, "J", "how many times faster the tap comes out", "", default=1, above=0, at_most=9, modal=True, example=1,

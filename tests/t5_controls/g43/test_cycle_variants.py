@@ -138,3 +138,16 @@ def test_g28_beside_a_motion_code_goes_home(motion):
 def test_a_zero_along_the_axis_of_an_arc_changes_nothing():
     arc = run("G2 X10 Y10 I10 J0 K0.000").toolpath
     assert arc.end[-1].tolist() == [10, 10, 20] and arc.sweep[-1] == pytest.approx(-math.pi / 2)
+
+
+def test_many_such_arcs_are_made_at_once():
+    """A helix of 80 arcs of 0.1 rad each: as one by one, and as without the zeros."""
+    arc = "G3 X{:.6f} Y{:.6f} I{:.6f} J{:.6f}"
+    turn = [(10 * math.cos(k / 10), 10 * math.sin(k / 10)) for k in range(81)]
+    rows = [arc.format(*turn[k + 1], -turn[k][0], -turn[k][1]) for k in range(80)]
+    with_zero = "G0 X10\n" + "".join(f"{row} K0.000\n" for row in rows)
+    bulk, alone, without = run(with_zero), run(with_zero, bulk=False), run(with_zero.replace(" K0.000", ""))
+    assert list(map(str, bulk.toolpath)) == list(map(str, alone.toolpath)) == list(map(str, without.toolpath))
+    assert bulk.toolpath.sweep[-80:] == pytest.approx([0.1] * 80, abs=1e-6)
+    found = run(with_zero.replace("K0.000", "K1.000"), ok=False)
+    assert "K stands along the axis of the arc" in found.alarms[-1].message

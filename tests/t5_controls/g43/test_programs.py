@@ -106,6 +106,31 @@ def test_programs_in_other_files(tmp_path):
     assert len(again.programs) == 4
 
 
+def test_another_file_names_the_block_to_come_back_to():
+    """N30 of the main program, in which nothing else goes to a block."""
+    for begin in ("M98 P5", "G65 P5 A1"):
+        found = mnclab.run(f"{begin}\nG0 X9\nN30 G0 X8\nM30\n", "g43", Setup(files={"O5.nc": "O5\nG0 X1\nM99 P30\n"}))
+        assert found.ok and found.toolpath.end[:, 0].tolist() == [1, 8]
+
+
+def test_a_copy_beside_a_program_is_not_taken_for_it(tmp_path):
+    """Of O2.bak, O2.nc and O0002.txt the one counts that ends as the running file does; without one it is an alarm."""
+    for name, x in {"O2.bak": 1, "O2.nc": 2, "O0002.txt": 3}.items():
+        (tmp_path / name).write_text(f"O2\nG0 X{x}\nM99\n")
+    for name, end in {"main.nc": 2, "main.TXT": 3}.items():
+        (tmp_path / name).write_text("M98 P2\nM30\n")
+        assert mnclab.run(tmp_path / name, "g43").toolpath.end[:, 0].tolist() == [end]
+    (tmp_path / "main.tap").write_text("M98 P2\nM30\n")
+    (alarm,) = mnclab.run(tmp_path / "main.tap", "g43").alarms
+    assert alarm.span[:2] == (1, 5) and alarm.message == "M98 P2: 3 files are O2: O0002.txt, O2.bak, O2.nc"
+
+
+def test_a_file_with_another_number_inside_is_named():
+    found = mnclab.run("M98 P5\nM30\n", "g43", Setup(files={"O5.nc": "O7\nG0 X1\nM99\n"}))
+    assert found.ok and found.toolpath.end[:, 0].tolist() == [1]
+    assert [a.message for a in found.alarms] == ["M98 P5: the file O5.nc holds O7, and no O5: it runs from its beginning"]
+
+
 def test_an_alarm_in_another_file_has_its_place_there():
     found = mnclab.run("M98 P5\n", "g43", Setup(files={"O5.nc": "O5\nG0 X[1/#1]\nM99\n"}))
     (alarm,) = found.alarms

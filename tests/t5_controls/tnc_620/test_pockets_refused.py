@@ -120,7 +120,7 @@ def test_a_tool_without_radius(number):
 def test_a_parameter_that_is_missing(number):
     text, line = definition(number, "")
     for address in line:
-        if address != "Q439":
+        if address not in ("Q385", "Q439"):  # they came later than the cycles
             lines = [row for row in text.splitlines() if not row.startswith(address + "=")]
             found = mnclab.run(
                 "TOOL CALL 1 Z S1000\n" + "\n".join(lines) + "\nCYCL CALL M3\n", "tnc-620", Setup(tools=TOOLS)

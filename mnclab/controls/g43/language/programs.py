@@ -62,7 +62,9 @@ def program_number(m: Machine, words: Words) -> None:
         return
     before = blocks[place - 1][1]
     ends = "M99" if flow.calls or flow.called else "M2 or M30"
-    m.warn(f"{before} ends where O{word.value:g} begins", word, f"write {ends} before it")
+    if len(flow.program[flow.current].words) > 1:
+        m.alarm(f"{before} ends in a block with other words, which belong to {word}", word, f"write {ends} before it")
+    m.warn(f"{before} ends where {word} begins", word, f"write {ends} before it")
     back(m)
     m.ended = m.ended or not (flow.returning or flow.over)
 
@@ -226,13 +228,17 @@ def found(m: Machine, program: int, code: str, word: Word | None) -> tuple[int, 
     if (place := known(m, program)) is not None:
         return place
     what, label = f"{code} P{program}", f"O{program}"
-    name = file_of(m, program)
+    name = file_of(m, program, what, word)
     if name is None:
         there = ", ".join(name for _, name in sections.sections(m)[:8]) or "no program with a number"
         hint = f"this file has {there}; Setup(files=…) and the folder have no file {label}"
         m.alarm(f"{what}: there is no program {label}", word, hint)
     index = files.called(m, name, code, m.span_of(word))
-    return index, label if label in course(m).programs[index].labels else ""
+    labels = course(m).programs[index].labels
+    other = next((held for held in labels if held[0] == "O"), "")
+    if label not in labels and other:
+        m.warn(f"{what}: the file {last(name)} holds {other}, and no {label}: it runs from its beginning", word)
+    return index, label if label in labels else ""
 
 
 def known(m: Machine, program: int) -> tuple[int, str] | None:
@@ -242,13 +248,23 @@ def known(m: Machine, program: int) -> tuple[int, str] | None:
     return next(((index, label) for index in indices if label in flow.programs[index].labels), None)
 
 
-def file_of(m: Machine, program: int) -> str | None:
-    """The name of the file that a program has of its own."""
+def file_of(m: Machine, program: int, what: str, word: Word | None) -> str | None:
+    """The name of the file that a program has of its own; of several the one with the ending of the running file."""
     pattern = re.compile(rf"O?0*{program}(\.\w{{1,8}})?", re.IGNORECASE)
-    names, folder = list(m.setup.files), m.flow.program.folder
-    if folder:
+    names, running = [name for name in m.setup.files if pattern.fullmatch(last(name))], m.flow.program
+    if not names and running.folder:
         try:
-            names += sorted(os.listdir(folder))
+            names = sorted(name for name in os.listdir(running.folder) if pattern.fullmatch(name))
         except OSError as fault:
             raise Alarm(f"the folder of the program cannot be read: {fault.strerror}") from None
-    return next((name for name in names if pattern.fullmatch(re.split(r"[/\\:]", name)[-1])), None)
+    ending = os.path.splitext(running.name)[1].lower()
+    if len(names) > 1 and len(chosen := [name for name in names if name.lower().endswith(ending)]) == 1:
+        return chosen[0]
+    if len(names) > 1:
+        m.alarm(f"{what}: {len(names)} files are O{program}: {', '.join(names[:8])}", word, "keep one of them there")
+    return names[0] if names else None
+
+
+def last(name: str) -> str:
+    """The name of a file without its folders."""
+    return re.split(r"[/\\:]", name)[-1]

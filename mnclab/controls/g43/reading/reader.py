@@ -63,8 +63,9 @@ def other_word(builder: ProgramBuilder, text: str, at: int, stop: int) -> int:
     end = end_of_operand(text[value:stop], 0)
     if end < 0:
         return -1
-    if address == "N":
-        raise Alarm("the N of a block is a number, no formula", builder.span(at))
+    if address in "NO":
+        what = "N of a block" if address == "N" else "O of a program"
+        raise Alarm(f"the {what} is a number, no formula", builder.span(at))
     builder.word(address, formulas.parse(text[value : value + end], builder.span(value)), at, value + end - at)
     return value + end
 
@@ -122,8 +123,8 @@ class _Reader:
 
     @staticmethod
     def goes_to(found: Scan) -> bool:
-        """Whether a clean line goes to a block: M97, or M99 with P."""
-        codes = (found.letter == ord("M")) & np.isin(found.value, (97.0, 99.0))
+        """Whether a clean line goes to a block: M97, M99 with P, or M98, whose program may name a block to come back to."""
+        codes = (found.letter == ord("M")) & np.isin(found.value, (97.0, 98.0, 99.0))
         if not codes.any():
             return False
         lines: NDArray[np.int64] = found.line
@@ -235,7 +236,7 @@ class _Reader:
             first = False
         if call:
             self.arguments()
-        self.jumps = self.jumps or {"M", "P"} <= set(code.upper())
+        self.jumps = self.jumps or bool(call) or {"M", "P"} <= set(code.upper())
 
     def arguments(self) -> None:
         """M is an argument like others, G is none."""

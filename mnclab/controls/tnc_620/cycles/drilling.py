@@ -72,7 +72,7 @@ class Drilling(AtSurface):
     dwell_top: float = addresses.dwell_top()
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance()
-    dwell_bottom: float = addresses.dwell_bottom()
+    dwell_bottom: float = addresses.dwell_bottom(default=0)  # older programs lack it
     reference: float = addresses.reference()
 
     def steps(self, m: Machine) -> Iterator[Step]:

@@ -81,7 +81,9 @@ def contradictions(c: AnyFigure) -> Iterator[Fault]:
 
 
 def finishing_feed(c: AnyFigure) -> float:
-    """Q385, which came later than the studs: 0 is the milling feed there."""
+    """Q385, which came later than the cycles: without it the milling feed counts, for studs with 0 too."""
+    if c.finishing_feed is None:
+        return c.milling_feed
     return float(c.finishing_feed or (c.milling_feed if c.code in STUDS else 0.0))
 
 
@@ -93,7 +95,8 @@ def check(c: AnyFigure, m: Machine) -> Iterator[Fault]:
     yield from with_radius(m)
     finishes = c.machining_operation != 1 and (c.side_allowance > 0 or c.floor_allowance > 0)
     used = {
-        "milling_feed": c.machining_operation != 2, "plunging_feed": True, "finishing_feed": finishes and not finishing_feed(c),
+        "milling_feed": c.machining_operation != 2 or (finishes and c.finishing_feed is None), "plunging_feed": True,
+        "finishing_feed": finishes and not finishing_feed(c),
     }  # fmt: skip
     yield from not_zero(c, *(name for name, needed in used.items() if needed), purpose="to mill with")
     yield from too_many("infeed", lambda: levels(c, m))

@@ -63,7 +63,7 @@ class RectangularPocket(AtSurface):
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
     overlap: float = addresses.overlap(at_least=0.0001)
     plunging_strategy: float = addresses.plunging(addresses.PLUNGE)
-    finishing_feed: float = addresses.finishing_feed(example=500)
+    finishing_feed: float | None = addresses.finishing_feed(default=None, default_means="as Q207", example=500)
     feed_reference: float = addresses.feed_reference()
 
     def contradictions(self) -> Iterator[Fault]:
@@ -118,7 +118,7 @@ class CircularPocket(AtSurface):
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
     overlap: float = addresses.overlap(at_least=0.1)
     plunging_strategy: float = addresses.plunging({0: "vertical", 1: "helical"})
-    finishing_feed: float = addresses.finishing_feed(example=500)
+    finishing_feed: float | None = addresses.finishing_feed(default=None, default_means="as Q207", example=500)
     feed_reference: float = addresses.feed_reference()
 
     def fits(self, m: Machine) -> Iterator[Fault]:
@@ -183,7 +183,7 @@ def way_in(c: AnyPocket, m: Machine, room: Room) -> Down:
 def feeds(c: AnyPocket | AnySlot, m: Machine) -> tuple[Feeds, Feeds, Feeds]:
     """Of roughing, the side and the floor: from which Q439 on they count at the cutting edge; ways down never do."""
     first, second, third = (m.radius if c.feed_reference >= least else 0.0 for least in (3, 1, 2))
-    plunge, finish = c.plunging_feed, c.finishing_feed
+    plunge, finish = c.plunging_feed, milling.finishing_feed(c)
     return Feeds(c.milling_feed, plunge, first), Feeds(finish, plunge, second), Feeds(finish, plunge, third)
 
 

@@ -67,7 +67,7 @@ class StraightSlot(AtSurface):
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
     plunging_strategy: float = addresses.plunging(PLUNGE)
-    finishing_feed: float = addresses.finishing_feed(example=500)
+    finishing_feed: float | None = addresses.finishing_feed(default=None, default_means="as Q207", example=500)
     feed_reference: float = addresses.feed_reference()
 
     def fits(self, m: Machine) -> Iterator[Fault]:
@@ -125,7 +125,7 @@ class CircularSlot(AtSurface):
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance(example=50)
     plunging_strategy: float = addresses.plunging(PLUNGE)
-    finishing_feed: float = addresses.finishing_feed(example=500)
+    finishing_feed: float | None = addresses.finishing_feed(default=None, default_means="as Q207", example=500)
     feed_reference: float = addresses.feed_reference()
 
     def fits(self, m: Machine) -> Iterator[Fault]:

@@ -1,4 +1,4 @@
-"""Programs written in the manner of shops, schools and CAM posts run and go where their arithmetic says.
+"""Programs written in the manner of shops, schools and CAM posts: they run and go where their arithmetic says.
 
 The first line of a file says whose manner it is. Then stands what the arithmetic needs to be followed, and `at 12: x, y, z`:
 where the tool stands when line 12 is done, one point for each time that it is done, with `|` between. `through 12: x, y, z`
@@ -17,13 +17,13 @@ import pytest
 
 import mnclab as mnc
 
-FOLDER = Path(__file__).parents[1] / "programs_of_shops"
-FILES = sorted(path for path in FOLDER.rglob("*") if path.is_file())
-MARK = re.compile(r"^(?:;|(\()) *(at|through) (\d+): (.+)(?(1)\))$", re.M)
+FILES = sorted((Path(__file__).parents[2] / "programs_of_shops" / "tnc-620").iterdir())
+MARK = re.compile(r"^; (at|through) (\d+): (.+)$", re.M)
 NAMES = {
     "pi": math.pi,
     "sqrt": math.sqrt,
-    **{name: lambda angle, f=getattr(math, name): f(math.radians(angle)) for name in ("sin", "cos", "tan")},
+    "sin": lambda angle: math.sin(math.radians(angle)),
+    "cos": lambda angle: math.cos(math.radians(angle)),
 }
 
 
@@ -32,14 +32,14 @@ def points(text: str) -> np.ndarray:
     return np.array([[eval(form, {"__builtins__": {}}, NAMES) for form in point.split(",")] for point in text.split("|")], float)
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: f"{path.parent.name}/{path.name}")
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
 def test_the_tool_goes_where_the_arithmetic_says(path: Path) -> None:
     marks = MARK.findall(path.read_text(encoding="utf-8"))
-    assert sum(len(points(text)) for *_, text in marks) >= 5
-    run = mnc.run(path, control=path.parent.name)
+    assert sum(len(points(text)) for _, _, text in marks) >= 5
+    run = mnc.run(path, control="tnc-620")
     assert run.ok, [str(alarm) for alarm in run.alarms]
     moves = run.toolpath.motion
-    for _, kind, line, text in marks:
+    for kind, line, text in marks:
         mine = moves[(moves.line == int(line)) & (moves.program == 0)]
         expected = points(text)
         if kind == "at":
@@ -48,3 +48,8 @@ def test_the_tool_goes_where_the_arithmetic_says(path: Path) -> None:
         else:
             apart = np.linalg.norm(mine.end[:, None] - expected, axis=2).min(axis=0, initial=np.inf)
             assert apart == pytest.approx(0, abs=1e-6), f"line {line}"
+
+
+def test_there_are_sixty_in_klartext_and_twenty_in_din_iso() -> None:
+    suffixes = [path.suffix for path in FILES]
+    assert suffixes.count(".h") >= 60 and suffixes.count(".i") >= 20
