@@ -29,6 +29,7 @@ SHARED = (
 ).split()
 SHOWN = 200  # rows of a table in a notebook
 WIDE = 90  # characters of a sentence in a table
+COUNTED = 110  # letters of a row from which on counts have room in it
 _VALUES = re.compile(
     r"'[^']{2,}'|\"[^\"]*\"|(?<![\w.])(?<!DEF )(?<!PROBE )(?<!FN )(?:[-+]|\b)\d++(?:\.\d++)?(?!\w)", re.ASCII
 )
@@ -108,10 +109,23 @@ class Survey:
         return f"{several(len(self.rows), 'file')}: {', '.join(parts) or 'none checked'}{f' ({whose})' if whose else ''}{stop}"
 
     def __repr__(self) -> str:
-        files = text_table(("file", "control", "blocks", "alarms", "warnings", "result"), map(_cells, self.rows))
+        return self.text()
+
+    def text(self, width: int | None = None) -> str:
+        """Both tables and the summary; a `width` in letters cuts names and sentences so that no row is longer, and leaves
+        out the counts where sentences would have no room beside them."""
+        narrow = width is not None and width < COUNTED
+        head = ("file", "control", *(() if narrow else ("blocks", "alarms", "warnings")), "result")
+        cells = map(_cells, self.rows)
+        rows = [(name, control, *(() if narrow else counts), _short(said)) for name, control, *counts, said in cells]
         why = [(str(one.files), _short(one.reason), one.example) for one in self.reasons]
+        if width is not None:
+            free = width - sum(2 + max(map(len, column)) for column in list(zip(head, *rows))[1:-1])
+            rows = [(_tail(row[0], free // 3), *row[1:-1], _short(row[-1], free - 2 - free // 3)) for row in rows]
+            third = (width - 9) // 3
+            why = [(files, _short(said, width - 9 - third), _tail(example, third)) for files, said, example in why]
         reasons = [text_table(("files", "reason", "for example"), why), ""] if why else []
-        return "\n".join([files, "", *reasons, self.summary])
+        return "\n".join([text_table(head, rows), "", *reasons, self.summary])
 
     def _repr_html_(self) -> str:
         title = f"<h4>{escape(self.folder)}</h4>" * bool(self.folder) + f"<p>{escape(self.summary)}</p>"
@@ -151,15 +165,20 @@ def place_of(row: Checked) -> str:
     return f"{row.file}:{row.line}" if row.line else row.file
 
 
-def _short(text: str) -> str:
+def _short(text: str, wide: int = WIDE) -> str:
     text = " ".join(text.split())
-    return text if len(text) <= WIDE else f"{text[: WIDE - 1]}…"
+    return text if len(text) <= wide else f"{text[: max(wide - 1, 0)]}…"
+
+
+def _tail(name: str, wide: int) -> str:
+    """The end of a long name: there names of one folder differ, and places have their line."""
+    return name if len(name) <= wide else f"…{name[len(name) - max(wide - 1, 1) :]}"
 
 
 def _cells(row: Checked) -> tuple[str, ...]:
     said = f"{row.status}: {f'line {row.line}: ' if row.line else ''}{row.first.message}" if row.first else row.status
     counts = (str(n) if row.control else "" for n in (row.blocks, row.alarms, row.warnings))
-    return row.file, row.control, *counts, _short(said)
+    return row.file, row.control, *counts, " ".join(said.split())
 
 
 def check(

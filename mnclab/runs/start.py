@@ -124,7 +124,7 @@ def _missed(run: Run, step: int) -> Iterator[Missed]:
         sense = "clockwise" if before["turning"] > 0 else "counter-clockwise"
         yield Missed("spindle", f"turn it {sense} at {before['speed']:g} rev/min", max(line_of("turning"), line_of("speed")))
     if before.get("coolant", power_on.get("coolant")) != power_on.get("coolant"):
-        yield Missed("coolant", f"{before['coolant']} is on", line_of("coolant"))
+        yield Missed("coolant", f"switch on {before['coolant']}", line_of("coolant"))
     if step:
         yield Missed("position", f"go to {point(position, run.toolpath.unit)}", line_of("position"))
     active = {

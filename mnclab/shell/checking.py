@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import shutil
 import sys
 from typing import Any
 
@@ -17,6 +18,8 @@ from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, describe, program, s
 from mnclab.text.alarm import ALARM, Alarm
 from mnclab.workpiece.collision import Collision
 
+NARROWEST = 60  # letters of a row that a terminal is given in any case
+
 
 def check(chosen: argparse.Namespace) -> int:
     """Report the alarms of several programs, or what became of those of a folder."""
@@ -24,7 +27,9 @@ def check(chosen: argparse.Namespace) -> int:
     setup = None if chosen.setup is None else sensible(load, chosen.setup)
     if chosen.csv or chosen.suffixes or any(map(os.path.isdir, filter(None, chosen.files))):
         found = sensible(survey_of, chosen, setup)
-        print(json.dumps(found.as_dict(), indent=1) if chosen.json else found.csv() if chosen.csv else f"{found}\n", end="")
+        width = max(shutil.get_terminal_size().columns, NARROWEST) if sys.stdout.isatty() else None  # a pipe gets all of it
+        told = json.dumps(found.as_dict(), indent=1) if chosen.json else found.csv() if chosen.csv else f"{found.text(width)}\n"
+        print(told, end="")
         return INTERRUPTED if found.interrupted else CLEAN if found.ok else ALARMS
     for file in chosen.files:
         alarms: tuple[Alarm, ...] = ()

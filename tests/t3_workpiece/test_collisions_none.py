@@ -82,6 +82,8 @@ def variants(name, code):
                 factor = chance.choice((0.3, 0.5, 0.7, 1.3, 1.7, 2.5))
                 choices = [float(one) for one in each.choices or () if one != 2 or "scope" not in each.meaning.lower()]
                 values[each.name] = chance.choice(choices) if choices else values[each.name] * factor
+                if each.name == "repeats":  # a whole number
+                    values[each.name] = 2
         text = trial.program(mnclab.controls[name], cycle, values)
         if "Q215=+2" not in text:  # finishing alone
             yield text

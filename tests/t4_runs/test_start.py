@@ -40,7 +40,7 @@ def test_what_is_missed_is_named_in_order_and_with_its_line():
     assert [one.line for one in started.missed] == [2, 2, 3, 8, 0]
     says = about(started)
     assert says["tool"].startswith("put in T2") and says["spindle"] == "turn it clockwise at 900 rev/min"
-    assert says["position"] == "go to X15 Y25 Z-2" and says["coolant"] == "M8 is on"
+    assert says["position"] == "go to X15 Y25 Z-2" and says["coolant"] == "switch on M8"
     assert "G91" in says["active"] and "feed 120 mm/min" in says["active"] and "G17" not in says["active"]
     (warning,) = [alarm for alarm in started.alarms if "the program starts here" in alarm.message]
     assert (warning.span.line, warning.severity) == (9, "warning") and "first put in T2" in warning.message

@@ -167,3 +167,26 @@ def test_material_is_no_matter_of_a_folder(folder, capsys):
     with pytest.raises(SystemExit) as end:
         shell.main(["check", "--material", str(folder)])
     assert end.value.code == 2 and "--material is for files" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("width", [60, 80, 109, 110, 160])
+def test_a_table_for_a_terminal_is_no_wider_than_that(tmp_path, width):
+    folder = tmp_path / "programs"
+    folder.mkdir()
+    long = folder / "a_name_as_long_as_programs_of_cam_systems_have_them_final.nc"
+    long.write_text("%\nO1\nG21 G90\nG150 X1 (POCKET)\n%\n")
+    folder.joinpath("short.nc").write_text("%\nO1\nG21 G90\nG0 X1 Y1\n%\n")
+    found = mnclab.check(folder)
+    lines = found.text(width).split("\n")
+    assert max(map(len, lines)) <= width
+    assert any(line.startswith("short.nc ") and line.endswith(" ran") for line in lines)
+    assert "them_final.nc " in lines[2] and "refused: line 4: G150" in lines[2]
+    assert ("blocks" in lines[0]) == (width >= 110)
+    assert long.name in repr(found)
+
+
+def test_a_notebook_shows_whole_sentences(tmp_path):
+    said = "this looks like a lathe program of the FANUC kind, which is none of mnclab's controls"
+    turned = "%\nO5\nG50 S2000\nG96 S150 M3\nG0 X50. Z2.\nG71 U2. R1.\nN10 G0 X20.\nN20 G1 Z-20.\n%\n"
+    tmp_path.joinpath("turned.nc").write_text(turned)
+    assert f"not read: {said}".replace("'", "&#x27;") in mnclab.check(tmp_path)._repr_html_()

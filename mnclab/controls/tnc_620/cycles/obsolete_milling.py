@@ -45,7 +45,7 @@ class SlotMilling(AtClearance):
 
     does = MILLS
     clearance: float = at_clearance.clearance()
-    depth: float = at_clearance.depth()
+    depth: float = at_clearance.depth(example=-12)
     infeed: float = at_clearance.infeed()
     plunge_feed: float = at_clearance.plunge_feed()
     x: float = coordinate("X", "side along X", note="the longer side is the length, its sign the first direction", example=50)
@@ -114,7 +114,7 @@ class PocketMilling(AtClearance):
 
     does = MILLS
     clearance: float = at_clearance.clearance()
-    depth: float = at_clearance.depth()
+    depth: float = at_clearance.depth(example=-12)
     infeed: float = at_clearance.infeed()
     plunge_feed: float = at_clearance.plunge_feed()
     x: float = length("X", "side along X", example=80)
@@ -153,7 +153,7 @@ class CircularPocket(AtClearance):
 
     does = MILLS
     clearance: float = at_clearance.clearance()
-    depth: float = at_clearance.depth()
+    depth: float = at_clearance.depth(example=-12)
     infeed: float = at_clearance.infeed()
     plunge_feed: float = at_clearance.plunge_feed()
     radius: float = length("RADIUS", "radius of the pocket", example=30)

@@ -63,7 +63,10 @@ def put_in(m: Machine, tool: Tool | None, deltas: dict[str, float], words: Words
 
 
 def find(m: Machine, word: Word, code: str) -> Tool:
-    """The tool of a number, of a name, or of the name in a text parameter."""
+    """The tool of a number, of a name, or of the name in a text parameter.
+
+    Where the setup has no tools of its own, a number that is not there is stood in for: a folder can be gone over without them.
+    """
     tools, name = m.tables.tools, word.value
     if word.address == "text":
         name = dict(m.variables).get(str(word.value))
@@ -76,10 +79,14 @@ def find(m: Machine, word: Word, code: str) -> Tool:
         known = ", ".join(f'"{tool.name}"' for tool in tools.values() if tool.name)
         m.alarm(f'{code} "{name}" has no row in the tool table', word, hint=f"names: {known}")
     number = m.value(word)
-    if number not in tools:
+    if number not in tools and m.setup.tools == m.control.magazine and number == int(number) and 0 < number <= LAST:
+        m.warn(f"{code} {number:g} has no row in the tool table: it counts as a tool without radius and length", word,
+               hint="Setup(tools={…}) gives them")  # fmt: skip
+        m.write_table("tools", int(number), Tool(number=int(number)))
+    elif number not in tools:
         known = ", ".join(map(str, sorted(tools)))
         m.alarm(f"{code} {number:g} has no row in the tool table", word, f"tools: {known}")
-    return tools[number]  # type: ignore[index]  # an index such as 5.2 is a row of its own
+    return m.tables.tools[number]  # type: ignore[index]  # an index such as 5.2 is a row of its own
 
 
 @FUNCTIONS("TOOL DEF,", "Tool definition", takes="tool text L R", source="11.9")
