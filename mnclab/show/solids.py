@@ -157,4 +157,6 @@ def tool_of(run: Any, row: int = -1) -> Body | None:
     if path.lathe:
         points, triangles = tool_body(Tool(), size_of(path))
         return Body(points[:, [2, 1, 0]], triangles[:, ::-1]).at(path.end[row])
-    return tool_body(run.tables.tools.get(int(path.tool[row]), Tool()), size_of(path)).at(path.end[row])
+    body = tool_body(run.tables.tools.get(int(path.tool[row]), Tool()), size_of(path))
+    lies = run.history.value("tool axis", int(path.step[row])) or "Z"
+    return Body(np.roll(body.points, "XYZ".index(lies) - 2, axis=1), body.triangles).at(path.end[row])

@@ -1,5 +1,6 @@
 """The player of runs that call other programs, turn rotary axes, change parameters, and of tools of every kind."""
 
+import math
 import re
 
 import pytest
@@ -194,3 +195,33 @@ def test_what_is_written_follows_every_key_of_a_frame(opened):
     for _ in range(3):
         page.keyboard.press("ArrowRight")
     assert marked(page).all_inner_texts() == ["2 BLK FORM 0.2 X+50 Y+40 Z+0"]
+
+
+@pytest.mark.parametrize(("axis", "along"), [("X", 0), ("Y", 1), ("Z", 2)])
+def test_a_tool_lies_along_its_axis(opened, axis, along):
+    page = opened(mnclab.run(f"BEGIN PGM A MM\nTOOL CALL 1 {axis} S1000\nL X+1 Y+2 Z+3 FMAX M3\nEND PGM A MM\n", "tnc-620"))
+    page.keyboard.press("End")
+    drawn = page.evaluate("""() => {
+      const found = [];
+      window.drawTool = (pen, tool, tip, along) => found.push(...ring([2, 5], tip, along, point => point));
+      window.player.draw();
+      return found;
+    }""")
+    tip = [1, 2, 3]
+    assert {round(point[along] - tip[along], 9) for point in drawn} == {5}
+    assert {round(math.dist(point, tip) ** 2, 9) for point in drawn} == {29}
+
+
+def test_the_rulers_of_an_inch_program_count_in_inches(opened):
+    page = opened(mnclab.run("G20 G90 G54\nG0 X0 Y0 Z0.1\nG1 Z-0.1 F10\nX3\nY2\n", "iso"))
+    for view, wanted in (("Top", {"X in", "Y in", "1.0", "2.0"}), ("3D", {"0.5 in"})):
+        page.get_by_role("button", name=view, exact=True).click()
+        said = page.evaluate("""() => {
+          const said = [], write = CanvasRenderingContext2D.prototype.fillText;
+          CanvasRenderingContext2D.prototype.fillText = text => said.push(text);
+          window.player.picture.stale = true;
+          window.player.draw();
+          CanvasRenderingContext2D.prototype.fillText = write;
+          return said;
+        }""")
+        assert wanted <= set(said), said
