@@ -203,7 +203,8 @@ def check(
         with progress("checking", len(files), "files") as at:
             for file in files:
                 at(len(rows))
-                rows.append(checked(file, str(file.relative_to(below) if below else file), control, setup))
+                name = str(file.relative_to(below) if below else file)
+                rows.append(checked(file, "".join(c if c.isprintable() else "?" for c in name), control, setup))
     except KeyboardInterrupt:
         interrupted = True
     return Survey(tuple(rows), below, interrupted)

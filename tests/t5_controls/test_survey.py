@@ -4,6 +4,8 @@ import csv
 import io
 import json
 import os
+import sys
+from pathlib import Path
 
 import pytest
 
@@ -118,6 +120,16 @@ def test_a_fault_of_the_library_does_not_end_the_others(folder, monkeypatch):
     found = rows(mnclab.check(folder))
     assert found["good.mnc"].status == NOT_READ and "mnclab itself failed: ZeroDivisionError" in found["good.mnc"].reason
     assert found["klartext.h"].status == RAN
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names of files are bytes only there")
+def test_names_that_cannot_be_shown_keep_their_rows(tmp_path):
+    """A line end, an escape and a byte that is no letter in the names; each stays in one line of the tables."""
+    for name in (b"a\nb.mnc", b"\x1b[31m.mnc", b"\xff.mnc"):
+        Path(os.fsdecode(bytes(tmp_path) + b"/" + name)).write_text("G0 X1\n")
+    found = mnclab.check(tmp_path)
+    assert found.ok and [row.file for row in found.rows] == ["?[31m.mnc", "a?b.mnc", "?.mnc"]
+    assert all(line.isprintable() for line in str(found).encode().decode().split("\n"))
 
 
 def test_a_file_that_cannot_be_read_is_a_row(tmp_path):

@@ -34,8 +34,6 @@ MOST_HOLES = 9999  # of one block
 SAME = 1e-9  # mm, between two levels that are one
 
 POSITION = "X Y Z R"
-AXES_OF = {"x": "x", "y": "y", "bottom": "z"}  # parameters that say where an axis goes
-SAME = 1e-9  # mm
 
 dwell = partial(param, "P", "dwell at the bottom, milliseconds", "ms", default=0, at_least=0, modal=True, example=500)
 repeats = partial(
@@ -87,25 +85,18 @@ def levels(m: Machine, values: Values, given: Given, kept: Values) -> None:
 
 def warn_of_change(m: Machine, code: str, given: Given, kept: Values) -> None:
     """Say that a cycle goes on after something has changed that its levels hang on: makers differ in what they are then."""
-    now = m.modal["dimension"], m.variable_unit, m.to_machine((0.0, 0.0, 0.0))[2]
+    now = m.variable_unit, m.to_machine((0.0, 0.0, 0.0))[2]
     before = kept.get("read", now)
     kept["read"] = now
     written = {"r_level", "bottom"} <= given.keys()
     word = next(iter(given.values()), None)
-    changed = [*["the unit"] * (now[1] != before[1]), *["G90 or G91"] * (now[0] != before[0] and rereads(m))]
-    if changed and not written:
-        what = " and ".join(changed)
-        m.warn(f"{code} goes on after a change of {what}: level R and the bottom stay where they were", word,
+    if now[0] != before[0] and not written:
+        m.warn(f"{code} goes on after a change of the unit: level R and the bottom stay where they were", word,
                hint="makers differ: write Z and R again")  # fmt: skip
-    if abs(now[2] - before[2]) > SAME:
+    if abs(now[1] - before[1]) > SAME:
         stays = "" if written else "level R and the bottom count from there, "
         m.warn(f"{code} goes on after the origin of Z has moved: {stays}the initial level stays where it was", word,
                hint="makers differ: write G80 before it")  # fmt: skip
-
-
-def rereads(m: Machine) -> bool:
-    """Whether Z and R of an earlier block are read anew under G90 and G91, as LinuxCNC does; others keep the levels."""
-    return bool(m.settings["dialect"] == "linuxcnc")
 
 
 class HoleCycle(holes.AtHole, Cycle):
@@ -125,7 +116,6 @@ class HoleCycle(holes.AtHole, Cycle):
             settle_doubt(m, Words(tuple(given.values()), cls.code), given.keys() & {"x", "y"})
         kept.setdefault("initial", m.to_machine(m.programmed)[2])
         warn_of_change(m, cls.code, given, kept)
-        settle_doubt(m, Words(tuple(given.values()), cls.code), {axis for name, axis in AXES_OF.items() if name in given})
         kept["step"] = (0.0, 0.0)
         kept["points"] = None
         if given.keys().isdisjoint(("x", "y", "bottom", "r_level")):

@@ -18,7 +18,6 @@ def warned(text, **settings):
     ("between", "settings", "said"),
     [
         ("G20", {}, "a change of the unit: level R and the bottom stay where they were"),
-        ("G91", {"dialect": "linuxcnc"}, "a change of G90 or G91: level R and the bottom stay where they were"),
         ("G52 Z5", {}, "the origin of Z has moved: level R and the bottom count from there, the initial level stays"),
         ("G92 Z0", {}, "the origin of Z has moved"), ("G10 L2 P1 Z-3", {}, "the origin of Z has moved"),
     ],
