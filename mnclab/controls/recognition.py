@@ -91,8 +91,8 @@ def recognise(name: str, text: str, controls: Mapping[str, Control]) -> Control:
         raise Alarm("this is a binary file, and no part program in letters and numbers", hint=hint)
     fitting = leading(candidates(name, text, controls))
     if not fitting:
-        what = "nothing in the text or the file's name" if text.strip() else "the text is empty, and no file's name"
-        raise Alarm(f"{what} says which control it is for: name it", hint=choose)
+        hint = choose if text.strip() else f"the text is empty; {choose}"
+        raise Alarm("nothing in the text or the file's name says which control it is for: name it", hint=hint)
     if all(one.foreign for one in fitting):
         kinds = " or ".join(one.name for one in fitting)
         why = "; ".join(one.reasons() for one in fitting)
