@@ -1,6 +1,6 @@
 """Programs in the manner of CAM systems, schools and hobby workshops: where the tool stands, worked out by hand.
 
-`tests/programs_of_iso_shops`: each program, and in `places.toml` the places after its lines (`LINE: X Y Z`, or `LINE pass: …`
+`tests/programs_of_shops/g43`: each program, and in `places.toml` the places after its lines (`LINE: X Y Z`, or `LINE pass: …`
 for the pass of a line that runs often), in the unit of the program; `*` is not asserted.
 """
 
@@ -13,7 +13,7 @@ import pytest
 import mnclab
 from mnclab import Setup
 
-FOLDER = Path(__file__).parents[2] / "programs_of_iso_shops"
+FOLDER = Path(__file__).parents[2] / "programs_of_shops" / "g43"
 PROGRAMS = tomllib.loads((FOLDER / "places.toml").read_text("utf-8"))
 NAMES = {"cos": lambda a: math.cos(math.radians(a)), "sin": lambda a: math.sin(math.radians(a)), "sqrt": math.sqrt}
 
