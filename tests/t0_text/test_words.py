@@ -73,7 +73,7 @@ odd = st.sampled_from(
 )
 
 
-LOOKS = re.compile(r"this looks like a program of [^;]*(; |$)")
+LOOKS = re.compile(r"this looks like [^;]*(; |$)")
 
 
 def as_read(program):
