@@ -189,8 +189,8 @@ def _changes(what: Function | type[Cycle]) -> str:
 
 
 def _value(run: Run, moment: Moment, word: Word | None) -> str:
-    """The number or the text that a formula had."""
-    if word is None or not isinstance(word.value, Expression | TextFormula | NumberFromText):
+    """The number or the text that a formula had; the variable that takes a value is no formula."""
+    if word is None or word.address == "target" or not isinstance(word.value, Expression | TextFormula | NumberFromText):
         return ""
     known = {name: run.history.value(name, moment.step - 1) for name in run.history}
     try:
