@@ -36,7 +36,7 @@ def expression(rng, values, depth=0):
             return f"ATAN[{y}]/[{x}]", math.degrees(math.atan2(up, along))
     inside, value = expression(rng, values, depth + 1)
     name, function = rng.choice(FUNCTIONS)
-    if name == "SQRT" and value < 0 or name in ("ACOS", "ASIN") and abs(value) > 1 or name == "TAN" and near(value):
+    if ill(name, value):
         name, function = "ABS", abs
     if name in ("ROUND", "FIX", "FUP") and abs(2 * value - round(2 * value)) < 1e-6:
         name, function = "ABS", abs
@@ -78,9 +78,18 @@ def joined(a, sign, b):
     return a - b
 
 
-def near(angle):
-    """Whether a tangent is large."""
-    return abs(math.cos(math.radians(angle))) < 0.05
+def ill(name, value):
+    """Whether a function has no value there, or one that the last digits of its argument decide."""
+    match name:
+        case "SQRT":
+            return value < 1e-6
+        case "ASIN" | "ACOS":
+            return abs(value) > 1 - 1e-6
+        case "SIN" | "COS":
+            return abs(value) > 1e4
+        case "TAN":
+            return abs(value) > 1e4 or abs(math.cos(math.radians(value))) < 0.05
+    return False
 
 
 FUNCTIONS = (
