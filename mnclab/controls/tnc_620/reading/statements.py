@@ -199,7 +199,7 @@ _LIKE_A_WORD = re.compile(
     r"(?<![\w.-])(?:I?[XYZUVWABC][+-]?\d|[A-Z]{1,4}[+-]\d|[MFS]\d|FMAX|R[0LR]\b)(?:[\d.,]*\d)?", FLAGS
 )
 _WAIT = re.compile(r"(?:TIME|REV)[ \t]*(?![A-PR-Z])", FLAGS)
-_BEHAVIOUR = re.compile(r"(?:STAY|MOVE|TURN|MB)(?![A-Z])", FLAGS)
+_BEHAVIOUR = re.compile(r"(?:STAY|MOVE|TURN)(?![A-Z])|MB(?=[ \t]*MAX(?![A-Z])|(?![A-Z]))", FLAGS)
 _FAR = re.compile(r"(?<=MB)[ \t]*MAX(?![A-Z])", FLAGS)
 _CHOICE = re.compile(r"SEQ[ \t]*[+-]|(?:TABLE|COORD)[ \t]+ROT(?![A-Z])", FLAGS)
 _MEASURE = re.compile(r"(?:ABST|DIST|SP[ABC])[ \t]*(?![A-PR-Z])", FLAGS)
