@@ -18,7 +18,7 @@ from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
-from mnclab.workpiece.blank import Blank, Box, blank
+from mnclab.workpiece.blank import Blank, Box, blank, is_blank
 
 UPRIGHT = 1 - 1e-12  # the cosine between the axes of a tool and of the machine from which on it is not tilted
 TILT = "frame tilt"  # the frame of a tilted working plane: the tool stands along its Z
@@ -107,7 +107,7 @@ def stock_of(given: Any, changes: Changes, origin: Array) -> Blank | None:
         found = blank(given)
         return found and found.moved(-origin)
     last = changes[-1][1] if len(changes) else None
-    if last is None or hasattr(type(last), "faces"):
+    if last is None or is_blank(last):
         found = last
     else:
         found = None if last.maximum is None else Box(last.minimum, last.maximum)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from mnclab.geometry import frames
 from mnclab.path.listing import INCHES, MM, Unit, figure, point
+from mnclab.workpiece.blank import is_blank
 
 Matrix = NDArray[np.float64]
 
@@ -89,7 +90,7 @@ def _plain(value: Any, unit: Unit) -> str:
         return value
     if isinstance(value, tuple) and len(value) == 4 and np.shape(value[-1]) == (4,):
         return described(np.array(value), unit) or "none"
-    if hasattr(type(value), "faces"):  # a blank
+    if is_blank(value):
         return " to ".join(point(corner) for corner in value.bounds)
     if isinstance(value, tuple) and type(value).__str__ is not tuple.__str__:  # it says itself what it is
         return str(value)

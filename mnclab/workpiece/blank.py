@@ -5,7 +5,7 @@ A blank is for pictures; it stands in the coordinates of whoever gives it (machi
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, TypeGuard
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -207,6 +207,11 @@ def chuck(radius: float, back: float, grip: float = 20.0, jaws: float = 25.0, bo
     return Revolved(outside, bore=radius)
 
 
+def is_blank(body: Any) -> TypeGuard[Blank]:
+    """Whether something is a blank of any kind."""
+    return hasattr(type(body), "faces")
+
+
 def blank(given: Any) -> Blank | None:
     """What a Setup calls its stock: two corners (3,), a blank, or what has one, a workpiece or a design (`as_blank`).
 
@@ -214,7 +219,7 @@ def blank(given: Any) -> Blank | None:
     """
     try:
         body = given.as_blank() if hasattr(given, "as_blank") else given
-        if not hasattr(type(body), "faces"):
+        if not is_blank(body):
             if not isinstance(given, tuple | list | np.ndarray) or np.shape(given) != (2, 3):
                 return None
             low, high = np.asarray(given, dtype=np.float64).tolist()
