@@ -7,9 +7,11 @@ functions, `cycles` holds the fixed cycles by chapter of the manual, `later` nam
 from __future__ import annotations
 
 from mnclab.controls.tnc_620 import later
+from mnclab.controls.tnc_620.contours import data as contour_data
+from mnclab.controls.tnc_620.contours import labels as contour_labels
+from mnclab.controls.tnc_620.contours import leaving, rough_out
 from mnclab.controls.tnc_620.cycles import (
     boring,
-    contours,
     defaults,
     drilling,
     engraving,
@@ -105,7 +107,7 @@ SETTINGS = (
         unit="s", at_least=0,
     ),
     *tools.SETTINGS, *no_effect.SETTINGS, *retraction.SETTINGS, *tilting.SETTINGS, *engraving.SETTINGS,
-    *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS, *output.SETTINGS,
+    *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS, *output.SETTINGS, *leaving.SETTINGS,
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
@@ -119,7 +121,7 @@ FUNCTIONS = (
 )  # fmt: skip
 CHAPTERS = (
     defaults, drilling, boring, pecking, tapping, threads, point_patterns, pockets, slots, studs, walled_faces,
-    contours, transformations, tilting, special, engraving, face_milling, presets, program_call,
+    contour_labels, contour_data, rough_out, transformations, tilting, special, engraving, face_milling, presets, program_call,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()

@@ -10,13 +10,15 @@ from mnclab.machine.machine import Machine
 from mnclab.text.program import Word
 
 if TYPE_CHECKING:
-    from mnclab.controls.tnc_620.cycles.contours import ContourData, Labels
+    from mnclab.controls.tnc_620.contours.data import ContourData
+    from mnclab.controls.tnc_620.contours.labels import Labels
     from mnclab.controls.tnc_620.language.blank import Blank
     from mnclab.controls.tnc_620.language.free_contours import Earlier
     from mnclab.controls.tnc_620.language.pattern_definitions import Pattern
     from mnclab.controls.tnc_620.tables.datum_tables import DatumTable
     from mnclab.controls.tnc_620.tables.free_tables import FreeTable
     from mnclab.geometry.free_contour import Pair
+    from mnclab.machining.milling.terraces import Formula
     from mnclab.workpiece.blank import Blank as Body
 
 Place = tuple[float, float, float]
@@ -58,7 +60,7 @@ class Memory:
     # cycles
     defaults: dict[str, float | str] = field(default_factory=dict)  # of GLOBAL DEF, by Q parameter
     pattern: Pattern | None = None
-    contour_labels: Labels | None = None
+    contour: Labels | Formula | None = None  # which one the next cycle machines
     contour_data: ContourData | None = None
 
     # free contours

@@ -2,8 +2,8 @@
 ; tool radius 5; Q8 rounds the inside corners of its path by 0.1
 ; at 11: 0, 0, 100
 ; through 30: 5, 5.1, -3 | 94.9, 5, -3 | 95, 94.9, -6 | 5.1, 95, -6
-; at 31: 0, 0, 50
-; at 32: 0, 0, 100
+; at 30: 0, 0, 100
+; through 30: 0, 0, 50
 0 BEGIN PGM SLI MM
 1 BLK FORM 0.1 Z X-10 Y-10 Z-20
 2 BLK FORM 0.2 X+110 Y+110 Z+0

@@ -1,0 +1,79 @@
+"""Cycle 20: depths, allowances and clearances of the cycles 21 to 24 (8.4)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, distance, increment, length, ratio
+from mnclab.controls.tnc_620.cycles.faults import Fault
+from mnclab.controls.tnc_620.state import memory
+from mnclab.machine.cycle import Cycle, CycleTable
+from mnclab.machine.machine import Machine
+from mnclab.machining.steps import Step, Write
+from mnclab.running.binding import unit_of
+
+CYCLES = CycleTable()
+
+
+@CYCLES("CYCL DEF 20", "Contour data", runs="definition", source="8.4")
+class ContourData(Cycle):
+    """Depths, allowances and the sense of milling for the cycles that follow; no motion."""
+
+    depth: float = increment("Q1", "milling depth from the surface to the floor", example=-20)
+    overlap: float = ratio("Q2", "path overlap factor", at_most=1.9999, example=1)
+    side_allowance: float = increment("Q3", "finishing allowance for side", example=0.2)
+    floor_allowance: float = increment("Q4", "finishing allowance for floor", example=0.1)
+    surface: float = coordinate("Q5", "coordinate of the workpiece surface", example=0)
+    clearance: float = distance("Q6", "set-up clearance", example=2)
+    height: float = coordinate("Q7", "clearance height", example=50)
+    corner: float = length("Q8", "radius at inside corners", example=0.5)
+    sense: float = choice("Q9", "direction of machining", {-1: "up-cut milling", 1: "climb milling"})
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        if abs(self.depth) < self.floor_allowance:
+            yield "depth", f"must be at least Q4 = {self.floor_allowance:g} deep, got {self.depth:g}"
+        if self.height < self.surface + self.clearance:
+            yield "height", f"must not lie below Q5 + Q6 = {self.surface + self.clearance:g}, got {self.height:g}"
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        """Keep the data; they are read again when a cycle is called, since Q parameters may have changed."""
+        yield Write("memory", self, "contour_data")
+
+    @property
+    def down(self) -> int:
+        """-1 where the cycles work downwards, +1 upwards."""
+        return -1 if self.depth < 0 else 1
+
+    @property
+    def above(self) -> float:
+        """The set-up clearance as a height."""
+        return self.surface + self.clearance
+
+    @property
+    def floor(self) -> float:
+        """The floor after finishing."""
+        return self.surface + self.depth
+
+    def climb(self, m: Machine) -> bool:
+        """Whether walls are climbed on the machine: no mirror image changes the sense of milling (8.3)."""
+        return self.sense * m.orientation > 0
+
+
+def contour_data(m: Machine) -> ContourData:
+    """The data of cycle 20 with the Q parameters as they stand now."""
+    data = memory(m).contour_data
+    assert data is not None
+    now: dict[str, Any] = {
+        p.name: m.variables[p.address] * unit_of(m, p) for p in data.parameters() if p.address in m.variables
+    }
+    return replace(data, **now)
+
+
+def prepared(m: Machine) -> Iterator[Fault]:
+    """What the cycles 21 to 24 need before them: a contour and its data."""
+    if memory(m).contour is None:
+        yield "", "needs a contour: CYCL DEF 14 comes before it"
+    if memory(m).contour_data is None:
+        yield "", "needs its contour data: CYCL DEF 20 comes before it"
