@@ -62,6 +62,7 @@ class Memory:
     pattern: Pattern | None = None
     contour: Labels | Formula | None = None  # which one the next cycle machines
     contour_data: ContourData | None = None
+    developed: float | None = None  # mm that 1 of X is, while the contour of a cylinder is read
 
     # free contours
     free_pole: tuple[float, float] | None = None
