@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from mnclab.comparison.engagement import Engagement, engagement
+from mnclab.machining.milling.engagement import Engagement, engagement
 from mnclab.comparison.table import Table, Titles, Tried
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
