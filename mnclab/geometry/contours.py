@@ -245,7 +245,7 @@ class Contour:
         return Contour(points, bulge)
 
     def between(self, first: float, last: float) -> Contour:
-        """The open piece from one way along the contour to a later one; a closed one goes on past its begin, once round at most."""
+        """The open piece from one way along the contour to a later one; past the begin of a closed one, once round at most."""
         upto = np.concatenate([[0.0], np.cumsum(self.lengths)])
         if self.closed:
             start = float(np.mod(first, upto[-1]))
