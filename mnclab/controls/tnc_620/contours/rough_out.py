@@ -19,7 +19,7 @@ from mnclab.machining.milling.clearing import Clearing, numbered
 from mnclab.machining.milling.residue import left_by
 from mnclab.machining.milling.rings import rings
 from mnclab.machining.milling.terraces import levels
-from mnclab.machining.steps import Along, Go, Say, Step
+from mnclab.machining.steps import Along, Go, Say, Step, Write
 
 CYCLES = CycleTable()
 STRATEGIES: dict[float, str] = {0: "along the contour at depth", 1: "retract between the areas"}
@@ -58,6 +58,7 @@ class RoughOut(Cycle):
 
     def moves(self, m: Machine) -> Iterator[Step]:
         data, before = contour_data(m), m.programmed
+        yield Write("memory", m.tool, "rough_out_tool")
         found = yield from contour_terraces(m, data)
         clearings = [clearing(self, m, data, terrace.region) for terrace in found]
         if data.overlap > 1:
