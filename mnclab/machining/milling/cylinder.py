@@ -18,7 +18,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.shapes import QUARTER
@@ -31,6 +31,7 @@ from mnclab.path.toolpath import Toolpath
 
 CHORD = 1e-4  # mm, between an arc on the developed surface and the rows along it
 LEAST = 1e-9  # mm: an offset or a radius below is none
+Steps = Sequence[int] | NDArray[np.int64]
 
 
 class Way(NamedTuple):
@@ -51,7 +52,7 @@ class Way(NamedTuple):
         return self.feet + self.shifts
 
 
-def beside(contour: Contour, distance: float, steps: Sequence[int] = ()) -> Contour:
+def beside(contour: Contour, distance: float, steps: Steps = ()) -> Contour:
     """The way of a tool centre beside a contour, `distance` to its left (or with a minus right), from end to end.
 
     Inside corners are cut off where the offsets meet, outside corners closed by arcs. A closed contour begins and ends square
@@ -87,7 +88,8 @@ def beside(contour: Contour, distance: float, steps: Sequence[int] = ()) -> Cont
     if around and len(found) and found.rule[0] == Rule.OUTSIDE_ARC:
         found = found[1:]
     if not len(found):
-        raise PathFault(f"a tool {abs(distance):.7g} mm beside the contour has no way along it", int(steps[0]) if len(steps) else 0)
+        what = f"a tool {abs(distance):.7g} mm beside the contour has no way along it"
+        raise PathFault(what, int(steps[0]) if len(steps) else 0)
     bulge = np.append(np.tan(np.where(found.kind == Kind.ARC, found.sweep, 0.0) / 4), 0.0)
     return Contour(np.vstack([found.start[:1, :2], found.end[:, :2]]), bulge, closed=False)
 
@@ -99,7 +101,7 @@ def opened(contour: Contour) -> Contour:
     return Contour(np.vstack([contour.points, contour.points[:1]]), np.append(contour.bulge, 0.0), closed=False)
 
 
-def round_about(contour: Contour, distance: float, steps: Sequence[int] = ()) -> Contour:
+def round_about(contour: Contour, distance: float, steps: Steps = ()) -> Contour:
     """The closed loop round an open contour at a `distance` to its left (or with a minus right): along it on this side, round
     its end, back on the other side and round its begin. The ends are half circles about its own ends."""
     there = beside(contour, distance, steps)
@@ -156,14 +158,16 @@ def _way(feet: Floats, shifts: Floats) -> Way:
     return Way(feet[keep], shifts[keep], ways[keep])
 
 
-def slot_round(contour: Contour, distance: float, straight: bool = False, about: float = 1.0) -> list[tuple[str, Way]]:
+def slot_round(
+    contour: Contour, distance: float, straight: bool = False, about: float = 1.0, steps: Steps = ()
+) -> list[tuple[str, Way]]:
     """Once round inside a slot, from the begin of its midpoint path and back there: along the wall `distance` to its left (or
     with a minus right), across at its end, back along the other wall. On to the walls and off them the tool goes on half
     circles, or `straight`.
     """
     if abs(distance) < LEAST:
         return [("slot", way_along(opened(contour), 0.0, about)), ("back", way_along(opened(contour.reversed()), 0.0, about))]
-    there, back = beside(contour, distance), beside(contour.reversed(), distance)
+    there, back = beside(contour, distance, steps), beside(contour.reversed(), distance, steps[::-1])
     begin, end = contour.points[0], contour.ends[-1]
     bend = 0.0 if straight else -math.copysign(1.0, distance)
     on = Contour([begin, there.points[0]], [bend, 0.0], closed=False)
