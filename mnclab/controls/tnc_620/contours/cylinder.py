@@ -168,7 +168,7 @@ class CylinderSlot(OnCylinder):
     cylinder_radius: float = radius()
     dimension_type: float = dimension()
     slot_width: float = width("slot width")
-    tolerance: float = distance("Q21", "tolerance", at_most=9.9999, default=0, note="0: no remachining", example=0.02)
+    tolerance: float = length("Q21", "tolerance", at_most=9.9999, default=0, note="0: no remachining", example=0.02)
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)

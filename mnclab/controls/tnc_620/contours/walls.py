@@ -73,7 +73,8 @@ def along_slot(
 
 
 def round_ridge(c: Depths, on: Surface, line: Line, half: float, radius: float, height: float) -> Iterator[Step]:
-    """29: round the ridge, `half` as wide as it is, from a place one tool diameter beside it: with RL from the left, with RR from the right."""
+    """29: round the ridge, `half` as wide as it is, from a place one tool diameter beside it: with RL on the left, with RR on
+    the right."""
     distance = line.side * (half + c.side_allowance + radius)
     loop = round_about(line.contour, distance, line.steps)
     gap = line.side * (radius - c.side_allowance)
