@@ -257,8 +257,8 @@ class Contour:
             return Contour(self.point_at([first, last])[0], closed=False)
         element, span = some % len(self.lengths), np.diff(upto)[some]
         shares = np.where(high == upto[1:], np.inf, high - upto[:-1])[some] / span
-        begin = self._at((low - upto[:-1])[some[:1]] / span[:1], element[:1])[0]
-        points = np.vstack([begin, self._at(np.minimum(shares, 1.0), element)[0]])
+        begin = self.at((low - upto[:-1])[some[:1]] / span[:1], element[:1])[0]
+        points = np.vstack([begin, self.at(np.minimum(shares, 1.0), element)[0]])
         bulge = np.tan(self.sweeps[element] * (high - low)[some] / span / 4)
         return Contour(points, np.append(bulge, 0.0), closed=False)
 
