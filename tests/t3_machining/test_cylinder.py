@@ -34,10 +34,10 @@ def test_inside_of_a_square_that_begins_at_a_corner():
 
 
 def test_outside_of_a_square():
-    """Three corners are arcs of a quarter circle about them; the path begins and ends square to the fourth."""
+    """Its corners are arcs of a quarter circle about them; the path begins and ends where the first side does."""
     found = beside(SQUARE, -5.0)
-    assert found.points[0].tolist() == [0, -5] and found.points[-1].tolist() == [-5, 0]
-    assert found.length == pytest.approx(4 * 50 + 3 * math.pi / 2 * 5)
+    assert found.points[0].tolist() == [0, -5] == found.points[-1].tolist()
+    assert found.length == pytest.approx(4 * 50 + 2 * math.pi * 5)
 
 
 def test_a_distance_of_nothing_is_the_contour_itself():
@@ -45,11 +45,24 @@ def test_a_distance_of_nothing_is_the_contour_itself():
 
 
 def test_the_place_that_is_too_narrow_is_named():
-    """A slot 6 mm wide for an offset of 5: the short side is element 1, whose step is told."""
+    """An offset of 5 between walls 6 mm apart, and inside of an arc of 3: the largest one is 3 mm."""
     narrow = Contour([(0, 0), (50, 0), (50, 6), (0, 6)], closed=False)
-    with pytest.raises(PathFault) as caught:
-        beside(narrow, 5.0, steps=[70, 71, 72])
-    assert caught.value.step == 71 and "3 mm" in caught.value.message
+    arc = Contour([(0, 0), (50, 0), (53, 3), (53, 50)], [0, math.tan(math.pi / 8), 0, 0], closed=False)
+    for contour, step in ((narrow, 70), (arc, 71)):
+        with pytest.raises(PathFault) as caught:
+            beside(contour, 5.0, steps=[70, 71, 72])
+        assert caught.value.step == step and "the largest distance for the whole contour is 3 mm" in caught.value.message
+
+
+@pytest.mark.parametrize("turned", range(3))
+def test_a_closed_contour_that_begins_at_any_corner(turned):
+    """The same way, begun elsewhere; its area is that of shapely, with fine arcs."""
+    points = np.roll([(0, 0), (50, 0), (20, 40)], turned, axis=0)
+    for distance in (4.0, -4.0):
+        way = beside(Contour(points), distance)
+        assert way.points[0] == pytest.approx(way.points[-1])
+        area = abs(Contour(way.points[:-1], way.bulge[:-1]).area)
+        assert area == pytest.approx(shapely.Polygon(points).buffer(-distance, quad_segs=2000, join_style=1).area, abs=1e-3)
 
 
 def test_a_loop_round_a_straight_ridge():

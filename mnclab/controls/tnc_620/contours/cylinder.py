@@ -6,6 +6,7 @@ from the axis of the cylinder. Before them and after them the tool is at the hei
 
 from __future__ import annotations
 
+import math
 from collections.abc import Generator, Iterator
 from typing import Any
 
@@ -150,7 +151,8 @@ class CylinderSurface(OnCylinder):
 
     def machine(self, m: Machine, on: Surface, line: Line, height: float) -> Iterator[Step]:
         if self.side_allowance and not line.side:
-            m.alarm(f"{self.code} Q3 (finishing allowance for side) needs RL or RR in the contour, got {self.side_allowance:g}")
+            what = f"Q3={self.side_allowance:g} (finishing allowance for side) needs RL or RR in the contour"
+            raise PathFault(what, int(line.steps[0]), "with R0 the tool is on the contour")
         return over_contour(self, on, line, m.radius, height)
 
 
@@ -202,9 +204,12 @@ class CylinderRidge(OnCylinder):
         yield from room_for_approach(self, m)
 
     def machine(self, m: Machine, on: Surface, line: Line, height: float) -> Iterator[Step]:
-        if line.contour.closed:
-            m.alarm(f"{self.code}: the midpoint path is closed, and a ridge has two ends")
-        return round_ridge(self, on, line, self.ridge_width / 2, m.radius, height)
+        half = self.ridge_width / 2
+        du, dy = line.contour.ends[-1] - line.contour.points[0]
+        if math.hypot(math.remainder(du, math.tau * self.cylinder_radius), dy) < half:
+            what = "the midpoint path closes: a ridge has two ends, whose half circles would cut it"
+            raise PathFault(what, int(line.steps[-1]), "let it end at least half the ridge width before its begin")
+        return round_ridge(self, on, line, half, m.radius, height)
 
 
 @CYCLES("CYCL DEF 39", "Cylinder surface contour", runs="call", source="9.5")
