@@ -145,6 +145,7 @@ EXPLAINED = {
         for code, address in ((200, "Q211"), (210, "Q338"), (211, "Q338"), (220, "Q365"))
         for key, value in (("required", False), ("default", 0))
     },
+    ("tnc-620", "CYCL DEF 21", "Q13", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
     ("tnc-620", "CYCL DEF 22", "Q18", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
     ("tnc-620", "CYCL DEF 8", "axes", "limits"): ({}, "at most three, and which ones, are a check"),
     **{("tnc-620", "CYCL DEF 7", axis, "unit"): ("deg", "one row for all axes; these turn") for axis in "ABC"},

@@ -121,8 +121,8 @@ FUNCTIONS = (
 )  # fmt: skip
 CHAPTERS = (
     defaults, drilling, boring, pecking, tapping, threads, point_patterns, pockets, slots, studs, walled_faces,
-    contour_labels, contour_data, pilot, rough_out, transformations, tilting, special, engraving, face_milling, presets, program_call,
-    obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
+    contour_labels, contour_data, pilot, rough_out, transformations, tilting, special, engraving, face_milling, presets,
+    program_call, obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()
 for chapter in CHAPTERS:
