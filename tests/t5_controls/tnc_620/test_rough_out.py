@@ -46,7 +46,7 @@ def of(run, code):
 def at_depth(path, level, radius):
     """What discs of the tool cover at feed at a level."""
     flat = np.flatnonzero((abs(path.end[:, 2] - level) < 1e-9) & (abs(path.start[:, 2] - level) < 1e-9) & (path.kind != Kind.RAPID))
-    return union_all([LineString(path[k : k + 1].points(1e-3)[0][:, :2]).buffer(radius, 128) for k in flat])
+    return union_all([LineString(path[k : k + 1].points(2e-5)[0][:, :2]).buffer(radius, 256) for k in flat])
 
 
 # --- the example of the manual ----------------------------------------------------------------------------------------
@@ -114,14 +114,14 @@ def test_coarse_roughing_of_the_example():
     down = path[(path.end[:, 2] < path.start[:, 2]) & (path.feed == 150)]
     assert sorted(set(down.end[:, 2].round(9))) == [-20, -15, -10, -5] and len(down) == 8
     assert not run.collisions()
-    whole = Point(30, 30).buffer(30, 512).union(Point(57.5, 77.631397).buffer(20, 512))
+    whole = Point(30, 30).buffer(30, 4096).union(Point(57.5, 77.631397).buffer(20, 4096))
     along = np.array([np.cos(np.pi / 3), np.sin(np.pi / 3)])
     across = 10 * np.array([-along[1], along[0]])
     ends = [np.array([30, 30]) + t * along for t in (20, 45)]
     neck = Polygon([ends[0] - across, ends[1] - across, ends[1] + across, ends[0] + across])
     whole = whole.union(neck)
-    assert whole.area == pytest.approx(4212.730, abs=0.1)
-    assert whole.difference(at_depth(path, -5, 15)).area == pytest.approx(83.134, abs=0.1)
+    assert whole.area == pytest.approx(4212.730, abs=0.01)
+    assert whole.difference(at_depth(path, -5, 15)).area == pytest.approx(83.134, abs=0.02)
 
 
 # --- the way down -------------------------------------------------------------------------------------------------------

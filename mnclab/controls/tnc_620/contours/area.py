@@ -31,7 +31,8 @@ def contour_terraces(m: Machine, data: ContourData) -> Generator[Step, Any, tupl
     assert source is not None
     formula = Part((yield from labelled_region(m, source))) if isinstance(source, Labels) else source
     try:
-        return terraces(formula, abs(data.depth) or 1.0)
+        found = terraces(formula, abs(data.depth) or 1.0)
+        return found if data.depth else (found[0]._replace(bottom=0.0),)
     except ValueError as error:
         m.alarm(f"the contour is no area: {error}")
 
