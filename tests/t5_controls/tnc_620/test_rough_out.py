@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from shapely import LineString, Point, Polygon, box, union_all
+from shapely import LineString, Point, Polygon, union_all
 
 import mnclab
 from mnclab import Kind, Setup, Tool
@@ -16,6 +16,7 @@ from mnclab import Kind, Setup, Tool
 CATALOGUE = Path(__file__).parents[2] / "authorities" / "catalogue" / "programs-tnc-620.json"
 PROGRAMS = [entry["program"] for entry in json.loads(CATALOGUE.read_text(encoding="utf-8"))]
 (C21,), (C20,) = ([text for text in PROGRAMS if f"BEGIN PGM {name} " in text] for name in ("C21", "C20"))
+PLAIN = Tool(radius=5)
 DRILL = Tool(radius=6, angle=118, kind="drill")
 MILL = Tool(radius=6, plunge_angle=5, cutting_length=25, kind="mill", centre_cutting=False)
 
@@ -45,7 +46,8 @@ def of(run, code):
 
 def at_depth(path, level, radius):
     """What discs of the tool cover at feed at a level."""
-    flat = np.flatnonzero((abs(path.end[:, 2] - level) < 1e-9) & (abs(path.start[:, 2] - level) < 1e-9) & (path.kind != Kind.RAPID))
+    flat = (abs(path.end[:, 2] - level) < 1e-9) & (abs(path.start[:, 2] - level) < 1e-9) & (path.kind != Kind.RAPID)
+    flat = np.flatnonzero(flat)
     return union_all([LineString(path[k : k + 1].points(2e-5)[0][:, :2]).buffer(radius, 256) for k in flat])
 
 
@@ -148,7 +150,7 @@ def polygon_program(corners, islands=(), blank=None, **given):
     )
 
 
-def rough(corners, tool=Tool(radius=5), islands=(), **given):  # noqa: B008: a frozen value
+def rough(corners, tool=PLAIN, islands=(), **given):
     run = mnclab.run(polygon_program(corners, islands, **given), "tnc-620", Setup(tools={1: tool}))
     return run, of(run, "CYCL DEF 22")
 
@@ -238,7 +240,8 @@ def test_the_feed_out(given, feed):
 
 @pytest.mark.parametrize(("setting", "last"), [("before", [0, 0, 100]), ("height", None)])
 def test_where_it_ends(setting, last):
-    run = mnclab.run(polygon_program(BOX), "tnc-620", Setup(tools={1: Tool(radius=5)}, settings={"position_after_contour": setting}))
+    setup = Setup(tools={1: PLAIN}, settings={"position_after_contour": setting})
+    run = mnclab.run(polygon_program(BOX), "tnc-620", setup)
     end = of(run, "CYCL DEF 22").end
     assert end[-1].tolist() == (last or [*end[-2, :2], 50])
 
@@ -303,21 +306,15 @@ def test_in_any_frame_the_area_is_cleared(frame, matrix):
     assert deepest == (-5 if "SCL" in frame else -10)
     assert cut.difference(contour.buffer(1e-3)).area < 1e-6
     assert contour.buffer(-3, 128).buffer(3, 128).difference(cut.buffer(1e-3)).area < 1e-3
-    walls = path[(path.kind == Kind.LINE) & (path.end[:, 2] == deepest)]
-    walls = walls[[contour.exterior.distance(LineString([a, b])) > 2.99 for a, b in zip(walls.start[:, :2], walls.end[:, :2], strict=True)]]
-    bounds = box(*contour.bounds)
-    outer = [row for row in range(len(walls)) if bounds.exterior.distance(Point(*walls.end[row, :2])) < 3 + 1e-6
-             and bounds.exterior.distance(Point(*walls.start[row, :2])) < 3 + 1e-6 and walls.length > 5]
-    middle = np.array(bounds.centroid.coords[0])
-    for row in outer:  # counter-clockwise along the outer walls: climb milling
-        a, b = walls.start[row, :2] - middle, walls.end[row, :2] - middle
-        assert a[0] * b[1] - a[1] * b[0] > 0
+    low = corners.min(axis=0)[0] + 3  # along the left wall it goes down: climb milling, the spindle turning clockwise
+    left = path[(abs(path.start[:, 0] - low) < 1e-6) & (abs(path.end[:, 0] - low) < 1e-6) & (path.end[:, 2] == deepest)]
+    assert len(left) and (left.end[:, 1] < left.start[:, 1]).all()
 
 
 # --- holes ----------------------------------------------------------------------------------------------------------
 
 
-def pilot(corners, drill=Tool(radius=4, kind="drill"), **given):  # noqa: B008: a frozen value
+def pilot(corners, drill=DRILL, **given):
     text = polygon_program(corners, **given)
     first, last = text.index("CYCL DEF 22"), text.index("CYCL CALL")
     cycle = f"CYCL DEF 21 P\nQ10={given.get('Q10', 5):+g}\nQ11=+90\nQ13=+2\n"
@@ -346,7 +343,7 @@ def test_one_hole_in_each_part():
 
 
 def test_a_drill_that_has_no_room_is_refused():
-    run, _ = pilot(FLUTE, Tool(radius=6))
+    run, _ = pilot(FLUTE)
     (alarm,) = run.alarms
     assert alarm.message == (
         "CYCL DEF 21: the drill has at (40.000, 5.100) only 5.100 of room: with the allowance for side it needs 6"
