@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry.contours import Contour, Floats
-from mnclab.geometry.vectors import left, length_of
-from mnclab.machining.milling.trains import Way
+from mnclab.geometry.vectors import left
+from mnclab.machining.milling.trains import Way, part
 
 Bools: TypeAlias = NDArray[np.bool_]
 
@@ -39,7 +39,7 @@ def rests(
     places = _places(along.contour, radius)
     thick = _thickness(along.contour, places, radius, side, coarse, coarse_radius) > accepted
     if thick.all():
-        return (_cut(along, -extended, length + extended),) if not along.closes else (along,)
+        return (part(along, -extended, length + extended),) if not along.closes else (along,)
 
     def still(way: Floats) -> Bools:
         return _thickness(along.contour, way, radius, side, coarse, coarse_radius) > accepted
@@ -47,7 +47,7 @@ def rests(
     edges = np.flatnonzero(thick[1:] != thick[:-1])
     found = _edges(still, places[edges], places[edges + 1], thick[edges])
     ends = np.concatenate([[0.0] * bool(thick[0]), found, [length] * bool(thick[-1])]).reshape(-1, 2)
-    return tuple(_cut(along, a, b) for a, b in _joined(ends, length, along.closes, connected, extended))
+    return tuple(part(along, a, b) for a, b in _joined(ends, length, along.closes, connected, extended))
 
 
 def _places(contour: Contour, radius: float) -> Floats:
@@ -97,32 +97,3 @@ def _joined(ends: Floats, length: float, closes: bool, connected: float, extende
     if closes and len(joined) == 1 and joined[0][0] + length - joined[0][1] <= max(connected, 2 * extended):
         return [(0.0, length)]
     return [(a - extended, b + extended) for a, b in joined]
-
-
-def _cut(along: Way, first: float, last: float) -> Way:
-    """The part of a way between two ways along it; beyond the ends straight on, or round where the way closes."""
-    contour, heights = along
-    length = contour.length
-    if along.closes and (first < 0 or last > length):
-        whole = Contour(
-            np.vstack([contour.points[:-1], contour.points]), np.append(contour.bulge[:-1], contour.bulge), closed=False
-        )
-        shift = length if first < 0 else 0.0
-        return _cut(Way(whole, np.append(heights[:-1], heights)), first + shift, last + shift)
-    upto = np.append(0.0, np.cumsum(contour.lengths))
-    a, b = max(first, 0.0), min(last, length)
-    inner = np.flatnonzero((upto > a + SAME) & (upto < b - SAME))
-    points = np.vstack([contour.point_at(a)[0], contour.points[inner], contour.point_at(b)[0]])
-    cuts = np.concatenate([[a], upto[inner], [b]])
-    element = np.clip(np.searchsorted(upto, (cuts[1:] + cuts[:-1]) / 2, side="right") - 1, 0, len(contour.starts) - 1)
-    bulge = np.tan(contour.sweeps[element] * np.diff(cuts) / contour.lengths[element] / 4)
-    z = np.interp(cuts, upto, heights)
-    begin, end = contour.tangents()
-    for beyond, at_end in ((a - first, False), (last - b, True)):
-        if beyond > SAME:
-            corner, t = (points[-1], end[-1]) if at_end else (points[0], -begin[0])
-            more = corner + beyond * t / length_of(t)
-            points = np.vstack([points, more]) if at_end else np.vstack([more, points])
-            bulge = np.append(bulge, 0.0) if at_end else np.append(0.0, bulge)
-            z = np.append(z, z[-1]) if at_end else np.append(z[0], z)
-    return Way(Contour(points, np.append(bulge, 0.0), closed=False), z)

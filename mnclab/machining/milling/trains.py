@@ -17,12 +17,12 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region, bands_beside
-from mnclab.geometry.vectors import left
-from mnclab.machining.milling.lines import stretch
+from mnclab.geometry.vectors import left, length_of
 from mnclab.path import compensation
 from mnclab.path.compensation.rules import CORNER, Compensation
 from mnclab.path.fault import PathFault
@@ -31,6 +31,7 @@ from mnclab.path.outline import chain
 from mnclab.path.toolpath import Toolpath
 
 SAME = 1e-6  # mm
+DRIFT = 1e-9  # mm
 CHORD_ERROR = 1e-3  # mm, of what is only measured
 RULES = Compensation(approach="perpendicular", rapid=True, look_ahead=True)
 
@@ -59,6 +60,35 @@ class Way(NamedTuple):
         return Way(self.contour.reversed(), self.heights[::-1])
 
 
+def part(along: Way, first: float, last: float) -> Way:
+    """The part of a way between two ways along it; beyond the ends straight on, or round where the way closes."""
+    contour, heights = along
+    length = contour.length
+    if along.closes and (first < 0 or last > length):
+        twice = Contour(
+            np.vstack([contour.points[:-1], contour.points]), np.append(contour.bulge[:-1], contour.bulge), closed=False
+        )
+        shift = length if first < 0 else 0.0
+        return part(Way(twice, np.append(heights[:-1], heights)), first + shift, last + shift)
+    upto = np.append(0.0, np.cumsum(contour.lengths))
+    a, b = max(first, 0.0), min(last, length)
+    inner = np.flatnonzero((upto > a + DRIFT) & (upto < b - DRIFT))
+    points = np.vstack([contour.point_at(a)[0], contour.points[inner], contour.point_at(b)[0]])
+    cuts = np.concatenate([[a], upto[inner], [b]])
+    element = np.clip(np.searchsorted(upto, (cuts[1:] + cuts[:-1]) / 2, side="right") - 1, 0, len(contour.starts) - 1)
+    bulge = np.tan(contour.sweeps[element] * np.diff(cuts) / contour.lengths[element] / 4)
+    z = np.interp(cuts, upto, heights)
+    begin, end = contour.tangents()
+    for beyond, at_end in ((a - first, False), (last - b, True)):
+        if beyond > DRIFT:
+            corner, t = (points[-1], end[-1]) if at_end else (points[0], -begin[0])
+            more = corner + beyond * t / length_of(t)
+            points = np.vstack([points, more]) if at_end else np.vstack([more, points])
+            bulge = np.append(bulge, 0.0) if at_end else np.append(0.0, bulge)
+            z = np.append(z, z[-1]) if at_end else np.append(z[0], z)
+    return Way(Contour(points, np.append(bulge, 0.0), closed=False), z)
+
+
 class Beside(NamedTuple):
     """The ways beside a contour, and where the tool has no room, why, and how thick what is left is at which place (x, y)."""
 
@@ -70,7 +100,7 @@ class Beside(NamedTuple):
 
 def beside(
     contour: Contour, distance: float, side: int, heights: Sequence[float] | Floats | None = None,
-    lines: Sequence[int] | None = None,
+    lines: Sequence[int] | NDArray[np.int64] | None = None,
 ) -> Beside:  # fmt: skip
     """The ways of the tool centre at a `distance` to the left (`side` 1) or right (-1); a negative one is the other side.
 
@@ -171,7 +201,8 @@ def _rooms(contour: Contour, distance: float, side: int, fault: PathFault) -> li
     loops = [loop if contour.area > 0 else loop.reversed() for loop in free.loops]
     start = contour.points[0] + distance * side * left(contour.tangents()[0][0])
     loops.sort(key=lambda loop: float(loop.distance(start[None])[0]))
-    return [_opened(loop.started_at(loop.nearest(start)), np.zeros(len(loop.points) + 1)).contour for loop in loops]
+    begun = [loop.started_at(loop.nearest(start)) for loop in loops]
+    return [_opened(loop, np.zeros(len(loop.points))).contour for loop in begun]
 
 
 def _room(contour: Contour, distance: float, side: int, fault: PathFault) -> list[Contour]:
@@ -192,8 +223,9 @@ def _room(contour: Contour, distance: float, side: int, fault: PathFault) -> lis
     if loop is None:
         raise fault
     ring = loop.reversed() if side > 0 else loop
-    begin_at, end_at = ring.nearest(first), ring.nearest(last)
-    return [stretch(ring, begin_at, (end_at - begin_at) % ring.length)]
+    start = ring.started_at(ring.nearest(first))
+    whole = _opened(start, np.zeros(len(start.points)))
+    return [part(whole, 0.0, start.nearest(last)).contour]
 
 
 def _left(contour: Contour, distance: float, ways: Sequence[Contour]) -> tuple[float, tuple[float, float]]:
