@@ -108,9 +108,9 @@ class ContourTrain(Train):
         if not self.depth:
             yield Say("Q1 makes a depth of 0: the cycle is not executed")
             return
-        before = m.programmed
+        before, place = m.programmed, m.flow.span_of_step(m.step)
         line = yield from contour_line(m)
-        found = yield from trains(m, self, line, self.coarse_radius(m))
+        found = yield from trains(m, self, line, self.coarse_radius(m), place)
         yield from mill(found, self.levels(self.surface), self.feeds(self.surface), not self.sense)
         yield from leave(m, before, self.height)
 
@@ -138,11 +138,11 @@ class SpaceTrain(Train):
             yield "height", f"lies above the tool, which stands at Z{m.programmed[2]:.10g}, got {self.height:g}"
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        before = m.programmed
+        before, place = m.programmed, m.flow.span_of_step(m.step)
         line = yield from contour_line(m, in_space=True)
         top = float(line.heights.max())
         if top + max(self.depth, 0) > self.height:
             m.alarm(f"{self.code}: the contour reaches up to Z{top:.10g}, above the clearance height {self.height:.10g}")
-        found = yield from trains(m, self, line, self.coarse_radius(m))
+        found = yield from trains(m, self, line, self.coarse_radius(m), place)
         yield from mill(found, self.levels(0.0) if self.depth else (0.0,), self.feeds(top), not self.sense)
         yield from leave(m, before, self.height)

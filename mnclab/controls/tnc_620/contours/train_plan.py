@@ -6,7 +6,7 @@ Cycle 270 says side and approach; without it the contour does, by RL and RR, by 
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator
-from typing import Any, NoReturn, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from mnclab.machining.milling.train_rests import rests
 from mnclab.machining.milling.trains import Beside, Way, beside
 from mnclab.machining.steps import Say, Step
 from mnclab.path.fault import PathFault
-from mnclab.text.alarm import Alarm
+from mnclab.text.alarm import Alarm, Span
 
 SAME = 1e-6  # mm
 
@@ -36,38 +36,44 @@ class Wanted(Protocol):
     extended: float
 
 
-def trains(m: Machine, c: Wanted, line: Line, coarse_radius: float | None) -> Generator[Step, Any, tuple[Train, ...]]:
-    """The trains along a line in the sense of the cycle; with a coarse tool only where that has left something."""
+def trains(
+    m: Machine, c: Wanted, line: Line, coarse_radius: float | None, place: Span | None
+) -> Generator[Step, Any, tuple[Train, ...]]:
+    """The trains along a line in the sense of the cycle; with a coarse tool only where that has left something.
+
+    `place` is where the cycle was called.
+    """
     kept = memory(m).train_data
     data = None if kept is None else as_they_stand(m, kept)
     side = line.side if data is None else data.side
-    yield from _remarks(c, line, data, side)
+    for text in _remarks(c, line, data, side):
+        yield Say(text, word=place)
     found = _beside(m, c, line, m.radius, side)
     if found.fault is not None:
-        yield _left_standing(m, found, found.fault)
+        yield _left_standing(found, found.fault, place)
     outwards = side if m.radius + c.side_allowance >= 0 else -side
     pieces = found.ways
     if coarse_radius is not None:
         pieces = _after(m, c, line, found.ways, side, coarse_radius)
         if not pieces:
-            yield Say(f"finds nothing thicker than Q446 = {c.accepted:g} after the tool of Q18: nothing is machined")
+            yield Say(f"finds nothing thicker than Q446 = {c.accepted:g} after the tool of Q18: nothing is machined", word=place)
     planned = [_with_leads(m, line, data, piece, found.ways[0], outwards) for piece in pieces]
     for train in planned:
-        _refuse_damage(m, line, train, abs(m.radius + c.side_allowance) if side else 0.0)
+        _refuse_damage(m, line, train, abs(m.radius + c.side_allowance) if side else 0.0, place)
     ahead = not c.sense or not side or c.sense * outwards * m.orientation > 0
     return tuple(train if ahead else train.reversed() for train in planned)
 
 
-def _remarks(c: Wanted, line: Line, data: TrainData | None, side: int) -> Iterator[Say]:
+def _remarks(c: Wanted, line: Line, data: TrainData | None, side: int) -> Iterator[str]:
     """What of the program does not count."""
     if data is not None and line.side and line.side != side:
-        yield Say("takes the radius compensation from Q391 of cycle 270: RL or RR of the contour does not count")
+        yield "takes the radius compensation from Q391 of cycle 270: RL or RR of the contour does not count"
     if data is not None and (line.approach or line.departure):
-        yield Say("takes approach and departure from cycle 270: APPR and DEP of the contour do not count")
+        yield "takes approach and departure from cycle 270: APPR and DEP of the contour do not count"
     if not side and c.side_allowance:
-        yield Say(f"runs on the contour without radius compensation: Q3 = {c.side_allowance:g} does not count")
+        yield f"runs on the contour without radius compensation: Q3 = {c.side_allowance:g} does not count"
     if not side and c.sense:
-        yield Say("runs on the contour without radius compensation, in its own sense: it is neither climb nor up-cut")
+        yield "runs on the contour without radius compensation, in its own sense: it is neither climb nor up-cut"
 
 
 def _beside(m: Machine, c: Wanted, line: Line, radius: float, side: int) -> Beside:
@@ -88,11 +94,11 @@ def _span(m: Machine, line: Line, fault: PathFault) -> Any:
     return m.flow.span_of_step(int(line.steps[min(max(fault.step, 0), len(line.steps) - 1)]))
 
 
-def _left_standing(m: Machine, found: Beside, fault: PathFault) -> Say:
+def _left_standing(found: Beside, fault: PathFault, place: Span | None) -> Say:
     """A warning where the tool does not get everywhere."""
     x, y = found.place
     rest = f"leaves material up to {found.left:.3f} mm thick at X{x:.3f} Y{y:.3f}, where the tool has no room"
-    return Say(f"{rest}: {fault.message}", fault.hint)
+    return Say(f"{rest}: {fault.message}", fault.hint, place)
 
 
 def _after(m: Machine, c: Wanted, line: Line, ways: tuple[Way, ...], side: int, radius: float) -> tuple[Way, ...]:
@@ -139,18 +145,14 @@ def _recorded(m: Machine, recorded: RecordedLead, piece: Way) -> Way:
         raise Alarm(fault.message, span, hint=fault.hint) from None
 
 
-def _refuse_damage(m: Machine, line: Line, train: Train, distance: float) -> None:
+def _refuse_damage(m: Machine, line: Line, train: Train, distance: float, place: Span | None) -> None:
     """An Alarm where the ways to the contour or off it, or what is put on at its ends, lead the tool into the contour."""
     for way, recorded, name in (
         (train.to, line.approach, "the approach"), (train.off, line.departure, "the departure"),
         (train.along, None, "the extended path"),
     ):  # fmt: skip
-        place = cuts_into(line.contour, way, distance) if way is not None and distance else None
-        if place is not None:
-            message = f"{name} leads the tool into the contour at X{place[0]:.3f} Y{place[1]:.3f}"
-            _damaged(m, message, recorded)
-
-
-def _damaged(m: Machine, message: str, recorded: RecordedLead | None) -> NoReturn:
-    span = m.flow.span_of_step(m.step if recorded is None else recorded.lead.step)
-    raise Alarm(message, span, hint="take another approach, a smaller radius or a shorter distance")
+        spot = cuts_into(line.contour, way, distance) if way is not None and distance else None
+        if spot is not None:
+            span = place if recorded is None else m.flow.span_of_step(recorded.lead.step)
+            message = f"{name} leads the tool into the contour at X{spot[0]:.3f} Y{spot[1]:.3f}"
+            raise Alarm(message, span, hint="take another approach, a smaller radius or a shorter distance")
