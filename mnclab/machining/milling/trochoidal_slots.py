@@ -24,7 +24,6 @@ from mnclab.geometry.vectors import cross, left, length_of, turned
 from mnclab.machining.depths import TooMany
 from mnclab.machining.milling.clearing import Clearing, joined
 from mnclab.machining.milling.finishing import half_circles
-from mnclab.machining.milling.lines import stretch
 from mnclab.machining.milling.spirals import half_circles as opening
 
 SAME = 1e-9  # mm and rad
@@ -96,7 +95,7 @@ def _wall(way: Contour, line: Contour, reach: float, side: int, begins_outside: 
         whole = way.length - np.pi * reach
         end = way.point_at(whole)[0]
         if length_of(end + way.points[0] - 2 * line.points[0]) <= NOTHING:
-            return Wall(line.points[0], stretch(way, 0.0, whole), ())
+            return Wall(line.points[0], way.between(0.0, whole), ())
     place = way.points[0] + side * reach * left(way.tangents()[0])[0]
     return Wall(place, way, half_circles(way, reach, side))
 
@@ -110,6 +109,11 @@ def _smooth(loop: Contour, way: float) -> float:
         return way
     longest = int(loop.lengths.argmax())
     return float(upto[longest] + loop.lengths[longest] / 2)
+
+
+def circle_count(line: Contour, width: float, step: float) -> int:
+    """How many circles rough a slot."""
+    return int(_ways(line, width / 2, step)[1].sum())
 
 
 def _ways(line: Contour, half: float, step: float) -> tuple[Floats, NDArray[np.bool_]]:
