@@ -55,6 +55,7 @@ NAMES = {
     "plunging_depth": "infeed",
     "feed_rate_for_roughing": ("feed", "roughing_feed"),
     "coarse_roughing_tool": "coarse_tool",
+    "number_name_of_rough_out_tool": "rough_out_tool",
     "feed_rate_for_reciprocation": "swing_feed",
     "retraction_feed_rate": "retract_feed",
     "feed_rate_factor": "factor",
@@ -134,8 +135,11 @@ EXPLAINED = {
     ("mnc", "G306", "L", "choices"): ({1, -1, 0}, "L0 is L1 (MNC-G306-L)"),
     ("mnc", "G307", "K", "limits"): ({">=": 0}, "its other limit is H: a check"),
     ("mnc", "G309", "P", "limits"): ({}, "not 0: a check"),
-    ("tnc-620", "CYCL DEF 22", "Q208", "limits"): ({">=": 0}, "FMAX is infinite; the upper limit is a check"),
-    ("tnc-620", "CYCL DEF 22", "Q208", "default"): (math.inf, "FMAX"),
+    **{
+        ("tnc-620", f"CYCL DEF {n}", "Q208", "limits"): ({">=": 0}, "FMAX is infinite; the upper limit is a check")
+        for n in (22, 23)
+    },
+    **{("tnc-620", f"CYCL DEF {n}", "Q208", "default"): (math.inf, "FMAX") for n in (22, 23)},
     **{
         ("tnc-620", f"CYCL DEF {code}", "Q385", "required"): (False, "it came later than the cycle: then Q207 counts")
         for code in (251, 252, 253, 254)
@@ -146,6 +150,7 @@ EXPLAINED = {
         for code, address in ((200, "Q211"), (210, "Q338"), (211, "Q338"), (220, "Q365"))
         for key, value in (("required", False), ("default", 0))
     },
+    ("tnc-620", "CYCL DEF 24", "Q438", "default"): (-1, "in a sentence there"),
     ("tnc-620", "CYCL DEF 22", "Q18", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
     ("tnc-620", "CYCL DEF 8", "axes", "limits"): ({}, "at most three, and which ones, are a check"),
     **{("tnc-620", "CYCL DEF 7", axis, "unit"): ("deg", "one row for all axes; these turn") for axis in "ABC"},

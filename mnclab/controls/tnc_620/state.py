@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from mnclab.controls.tnc_620.tables.free_tables import FreeTable
     from mnclab.geometry.free_contour import Pair
     from mnclab.machining.milling.terraces import Formula
+    from mnclab.path.tool import Tool
     from mnclab.workpiece.blank import Blank as Body
 
 Place = tuple[float, float, float]
@@ -62,6 +63,8 @@ class Memory:
     pattern: Pattern | None = None
     contour: Labels | Formula | None = None  # which one the next cycle machines
     contour_data: ContourData | None = None
+    rough_out_tool: Tool | None = None  # with which cycle 22 was called last, its deltas included
+    tool_before: Tool | None = None  # that was in the spindle before the last TOOL CALL of a tool
 
     # free contours
     free_pole: tuple[float, float] | None = None

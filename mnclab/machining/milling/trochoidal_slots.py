@@ -125,7 +125,7 @@ def _ways(line: Contour, half: float, step: float) -> tuple[Floats, NDArray[np.b
     upto, goes_on = np.append(0.0, np.cumsum(line.lengths)), np.append(line.turns(), 0.0)
     outer = line.lengths * (1 + half / line.radii)
     if line.length + outer.sum() > MOST * step:
-        raise TooMany(f"{step:.10g} divides the slot into more than {MOST} circles")
+        raise TooMany(f"a step of {step:.10g} divides the slot into more than {MOST} circles")
     before = np.cumsum(half * np.abs(goes_on)) + np.append(0.0, np.cumsum(outer))  # behind each corner
     counted = np.stack([before - half * np.abs(goes_on), before], axis=1).ravel()
     stops = np.interp(np.arange(0.0, counted[-1] - SAME, step), counted, np.repeat(upto, 2))

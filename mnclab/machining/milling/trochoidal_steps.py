@@ -32,17 +32,17 @@ def way_down(line: Contour, radius: float, angle: float) -> Down:
     return down
 
 
-def rough(clearing: Clearing, work: Work, down: Down, end: float) -> Iterator[Step]:
-    """Every layer; after each up to the height `end` and back over the begin."""
+def rough(clearing: Clearing, work: Work, down: Down, up: Sequence[float]) -> Iterator[Step]:
+    """Every layer; after each `up` to one height after the other, and back over the begin."""
     top = work.surface
     for name, level in zip(numbered("layer", len(work.layers)), work.layers, strict=True):
         yield from _clear(name, clearing, down(top, level), top + work.lift, work.feeds[0], work.side)
-        yield from _back(name, clearing, end)
+        yield from _back(name, clearing, up)
         top = level
 
 
-def finish_walls(walls: Sequence[Wall], work: Work, end: float) -> Iterator[Step]:
-    """Round every wall on all levels, from a place on the centre line and back to it."""
+def finish_walls(walls: Sequence[Wall], work: Work, up: Sequence[float]) -> Iterator[Step]:
+    """Round every wall on all levels, from a place on the centre line and back to it, and `up`."""
     _, feeds, _ = work.feeds
     for which, wall in zip(numbered("wall", len(walls)), walls, strict=True):
         x, y = wall.place.tolist()
@@ -57,17 +57,17 @@ def finish_walls(walls: Sequence[Wall], work: Work, end: float) -> Iterator[Step
             for step_name, way in zip(names, ways, strict=True):
                 yield from along(step_name, way, feeds.level, feeds.edge, work.side)
             yield Go(f"{name}, back to the start", None, feeds.level, x, y)
-        yield Go(f"{which}, lift", end)
+        yield from (Go(f"{which}, lift", height) for height in up)
 
 
-def finish_floor(clearing: Clearing, work: Work, down: Down, end: float) -> Iterator[Step]:
-    """From what roughing has left to the floor, as a layer."""
+def finish_floor(clearing: Clearing, work: Work, down: Down, up: Sequence[float]) -> Iterator[Step]:
+    """From what roughing has left to the floor, as a layer, and `up`."""
     for level in work.floor:
         x, y = begin_of(clearing)
         yield Go("floor finishing, over the start", x=x, y=y)
         down_to = down(work.left_over, level)
         yield from _clear("floor finishing", clearing, down_to, work.left_over + work.lift, work.feeds[2], work.side)
-        yield from _back("floor finishing", clearing, end)
+        yield from _back("floor finishing", clearing, up)
 
 
 def begin_of(clearing: Clearing) -> tuple[float, float]:
@@ -84,7 +84,7 @@ def _clear(name: str, clearing: Clearing, down: Descent, above: float, feeds: Fe
         yield from along(f"{name}, {label}", contour, feeds.level, feeds.edge, side)
 
 
-def _back(name: str, clearing: Clearing, end: float) -> Iterator[Step]:
+def _back(name: str, clearing: Clearing, up: Sequence[float]) -> Iterator[Step]:
     x, y = begin_of(clearing)
-    yield Go(f"{name}, lift", end)
+    yield from (Go(f"{name}, lift", height) for height in up)
     yield Go(f"{name}, back to the start", x=x, y=y)

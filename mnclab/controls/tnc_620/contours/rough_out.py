@@ -23,7 +23,7 @@ from mnclab.machining.milling.residue import left_by
 from mnclab.machining.milling.rings import rings
 from mnclab.machining.milling.roughing import Feeds, Heights
 from mnclab.machining.milling.terraces import levels
-from mnclab.machining.steps import Say, Step
+from mnclab.machining.steps import Say, Step, Write
 
 CYCLES = CycleTable()
 LEAST_ANGLE = 0.1  # degrees
@@ -61,6 +61,7 @@ class RoughOut(Cycle):
 
     def moves(self, m: Machine) -> Iterator[Step]:
         data, before, plunge = contour_data(m), m.programmed, self.swing_feed or self.plunge_feed
+        yield Write("memory", m.tool, "rough_out_tool")
         found = yield from contour_terraces(m, data)
         clearings = [clearing(self, m, data, terrace.region) for terrace in found]
         if data.overlap > 1:

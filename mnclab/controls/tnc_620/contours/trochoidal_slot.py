@@ -149,15 +149,17 @@ def mill(c: TrochoidalSlot, m: Machine, line: Contour, opens: bool) -> Iterator[
         try:
             centre_feeds(way_along, 1.0, m.radius, work.side)
         except ValueError as error:
-            m.alarm(f"{c.code} Q439={c.feed_reference:g} cannot be obeyed: {error}{remark(m)}", hint="Q439=0 counts at the centre")
+            message = f"{c.code} Q439={c.feed_reference:g} cannot be obeyed: {error}{remark(m)}"
+            m.alarm(message, hint="Q439=0 counts at the tool centre")
     x, y = line.points[0].tolist()
+    up = (c.end,) if c.down > 0 else (c.above, c.end)
     yield Go("to the second set-up clearance", max(m.programmed[2], c.end))
     yield Go("over the start", x=x, y=y)
     if rough:
-        yield from trochoidal_steps.rough(rough, work, down, c.end)
-    yield from trochoidal_steps.finish_walls(around, work, c.end)
+        yield from trochoidal_steps.rough(rough, work, down, up)
+    yield from trochoidal_steps.finish_walls(around, work, up)
     if floor:
-        yield from trochoidal_steps.finish_floor(floor, work, down, c.end)
+        yield from trochoidal_steps.finish_floor(floor, work, down, up)
 
 
 def work_of(c: TrochoidalSlot, m: Machine) -> Work:
@@ -167,4 +169,6 @@ def work_of(c: TrochoidalSlot, m: Machine) -> Work:
         side=1 if c.climb(m) else -1, layers=infeeds(c.surface, milling.left_over(c), c.infeed) if work.layers else (),
         walls=infeeds(c.surface, c.surface + c.depth, c.finishing_infeed) if work.walls else (),
     )  # fmt: skip
-    return work._replace(allowance=0.0, walls=(), floor=()) if c.is_full(m) else work
+    if not c.is_full(m):
+        return work
+    return work._replace(allowance=0.0, walls=(), floor=(), feeds=(work.feeds[0]._replace(edge=0.0), *work.feeds[1:]))
