@@ -18,6 +18,7 @@ from mnclab.controls.tnc_620.contours import (  # isort: skip
     side_finishing,
     train,
     train_data,
+    trochoidal_slot,
 )
 from mnclab.controls.tnc_620.cycles import (
     boring,
@@ -137,6 +138,7 @@ CHAPTERS = (
     side_finishing,
     train_data,
     train,
+    trochoidal_slot,
     transformations, tilting, special, engraving, face_milling, presets, program_call,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip

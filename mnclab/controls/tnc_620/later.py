@@ -18,7 +18,6 @@ CYCLES = {
     28: "Cylinder surface slot",
     29: "Cylinder surface ridge",
     39: "Cylinder surface contour",
-    275: "Trochoidal slot",
 }
 
 PROBING = {
@@ -91,7 +90,6 @@ REFUSED = {
 
 #: Q parameters by the numbers of the cycles that take them: named beside the refusal where a program has another one.
 _OF_CYCLES = {
-    "275": "12 200 201 202 203 204 206 207 215 219 338 351 366 368 369 385 436 439",
     "27 39": "1 3 6 10 11 12 16 17",
     "28": "1 3 6 10 11 12 16 17 20 21",
     "29": "1 3 6 10 11 12 16 17 20",
