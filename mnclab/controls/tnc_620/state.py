@@ -11,6 +11,7 @@ from mnclab.text.program import Word
 
 if TYPE_CHECKING:
     from mnclab.controls.tnc_620.contours.data import ContourData
+    from mnclab.controls.tnc_620.contours.formulas import Definitions
     from mnclab.controls.tnc_620.contours.labels import Labels
     from mnclab.controls.tnc_620.language.blank import Blank
     from mnclab.controls.tnc_620.language.free_contours import Earlier
@@ -62,6 +63,7 @@ class Memory:
     pattern: Pattern | None = None
     contour: Labels | Formula | None = None  # which one the next cycle machines
     contour_data: ContourData | None = None
+    defining: Definitions | None = None  # while the program of SEL CONTOUR runs
 
     # free contours
     free_pole: tuple[float, float] | None = None
