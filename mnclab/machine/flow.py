@@ -10,6 +10,7 @@ from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from mnclab.geometry.frames import FrameChain, Matrix
+from mnclab.path.leads import Lead
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Span
 from mnclab.text.program import Program
@@ -18,9 +19,19 @@ if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 
+class RecordedLead(NamedTuple):
+    """An approach or a departure in a recorded contour, in program coordinates: its row in the path, and where the tool comes
+    from (None: the contour begins with the approach) or ends."""
+
+    lead: Lead
+    row: int
+    place: tuple[float, float, float] | None
+
+
 class Recording(NamedTuple):
     """A contour as a label or a program describes it: `path` in program coordinates from `start` on, and its side (+1
-    left, -1 right, 0 none). `frames` and `memory` are the transformations at its end, `step` executed its first block."""
+    left, -1 right, 0 none). `frames` and `memory` are the transformations at its end, `step` executed its first block;
+    `approach` and `departure` lead to it and away, where the label has them."""
 
     path: Toolpath
     side: int
@@ -28,6 +39,8 @@ class Recording(NamedTuple):
     frames: FrameChain
     memory: Any
     step: int
+    approach: RecordedLead | None = None
+    departure: RecordedLead | None = None
 
 
 class Flow(Protocol):
@@ -70,11 +83,11 @@ class Flow(Protocol):
 
     def record(
         self, m: Machine, name: str, span: Span | None = None, after: Recording | None = None,
-        blocks: Callable[[], None] | None = None, within: Matrix | None = None,
+        blocks: Callable[[], None] | None = None, within: Matrix | None = None, in_space: bool = False,
     ) -> Recording:  # fmt: skip
         """Obey a label for its contour, or `blocks` for that of what has a name; nothing moves. See `running.recording`."""
 
-    def aside(self, m: Machine) -> AbstractContextManager[None]:
+    def aside(self, m: Machine, in_space: bool = False) -> AbstractContextManager[None]:
         """Blocks inside move nothing, and what they change does not stay, but for variables."""
 
     def leave(self) -> None:

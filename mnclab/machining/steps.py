@@ -146,13 +146,14 @@ class Record(NamedTuple):
     """Read the contour of a label, nothing moves; the answer is the recording.
 
     The label stands in a `program` (its index), whose variables hold lengths of `unit` mm; `after` is the recording that it
-    goes on from.
+    goes on from. `in_space`: it must begin with all three coordinates.
     """
 
     name: str
     program: int
     unit: float
     after: Any = None
+    in_space: bool = False
     label: str = ""
 
 

@@ -138,18 +138,18 @@ class Course:
 
     def record(
         self, m: Machine, name: str, span: Span | None = None, after: Recording | None = None,
-        blocks: Callable[[], None] | None = None, within: Matrix | None = None,
+        blocks: Callable[[], None] | None = None, within: Matrix | None = None, in_space: bool = False,
     ) -> Recording:  # fmt: skip
         if blocks is not None:
-            return record(m, self, name, blocks, span, after, within)
+            return record(m, self, name, blocks, span, after, within, in_space)
         place = span or self.span_of_block(self.index_of(name))
-        return record(m, self, f"label {name}", partial(self.call, m, name, span), place, after, within)
+        return record(m, self, f"label {name}", partial(self.call, m, name, span), place, after, within, in_space)
 
     @contextmanager
-    def aside(self, m: Machine) -> Iterator[None]:
+    def aside(self, m: Machine, in_space: bool = False) -> Iterator[None]:
         step = m.step
         self.nesting.extend((self.begun, self.running[-1] << 32 | self.current, RECORDED))
-        with set_aside(m):
+        with set_aside(m, in_space):
             yield
         self.nesting.extend((self.begun, LEFT, 0))
         m.step = step  # what follows belongs to the block that asked; after an alarm the place stays where it happened

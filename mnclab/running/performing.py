@@ -109,7 +109,7 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = 
                 step.run()
             case Record():
                 with m.flow.inside(m, step.program), m.within(variable_unit=step.unit):
-                    answer = m.record(step.name, after=step.after)
+                    answer = m.record(step.name, after=step.after, in_space=step.in_space)
             case Say():
                 m.warn(f"{name} {step.text}", step.word, step.hint)
             case Write():

@@ -4,6 +4,7 @@ The same interpreter runs them on a machine whose frames, rows and modal state a
 the radius is not compensated. Afterwards everything is as before, except variables that were written; alarms keep the
 line they stand in. A transformation inside replaces or adds to that of the program as it would outside; the
 contour is told in the coordinates of the program that calls, and the next part of the same contour goes on with it.
+An approach and a departure are no part of the contour and are told apart from it.
 """
 
 from __future__ import annotations
@@ -17,11 +18,13 @@ import numpy as np
 from mnclab.geometry import frames
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.coordinates import PLANES
-from mnclab.machine.flow import Flow, Recording
-from mnclab.machine.state import PUT_BACK
+from mnclab.machine.flow import Flow, RecordedLead, Recording
+from mnclab.machine.state import PUT_BACK, Place
 from mnclab.machine.waiting import determine
 from mnclab.path import corners
+from mnclab.path.columns import Array
 from mnclab.path.fault import PathFault
+from mnclab.path.leads import Lead
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm, Span
 
@@ -30,11 +33,14 @@ if TYPE_CHECKING:
 
 
 @contextmanager
-def set_aside(m: Machine) -> Iterator[None]:
-    """Inside, blocks move nothing and what they change does not stay, but for variables."""
+def set_aside(m: Machine, in_space: bool = False) -> Iterator[None]:
+    """Inside, blocks move nothing and what they change does not stay, but for variables.
+
+    A contour has the height 0 where it names none; `in_space` it must begin with all three coordinates.
+    """
     kept = m.snapshot(PUT_BACK)
     nan, across = float("nan"), PLANES[m.plane][2]
-    x, y, z = (0.0 if axis == across else nan for axis in range(3))
+    x, y, z = (0.0 if axis == across and not in_space else nan for axis in range(3))
     path_so_far = {"recorder": m.recorder, "programmed_pieces": m.programmed_pieces, "settled": m.settled}
     m.put(recorder=m.recorder.another((x, y, z)), programmed_pieces=[], settled=[], recorded_only=True)
     m.put(tip=(x, y, z), programmed=(x, y, z), side=0, feed=m.feed or 1.0, exact_here=False)
@@ -47,15 +53,16 @@ def set_aside(m: Machine) -> Iterator[None]:
 
 def record(
     m: Machine, flow: Flow, what: str, blocks: Callable[[], None], span: Span | None = None,
-    after: Recording | None = None, within: Matrix | None = None,
+    after: Recording | None = None, within: Matrix | None = None, in_space: bool = False,
 ) -> Recording:  # fmt: skip
     """Obey `blocks` for the contour that they describe; an Alarm when it has none or does not begin with both coordinates.
 
     `what` names it in alarms, `span` is the place of what asks for it; `after` is the part before it in the same contour,
     whose transformations still act. The path is told in the coordinates inside of a frame, that of now if not `within`.
+    `in_space`: the contour must begin with all three coordinates; else its height is 0 where it names none.
     """
     outer = m.matrix if within is None else within
-    with flow.aside(m):
+    with flow.aside(m, in_space):
         if after is not None:
             m.put(frames=after.frames, memory=after.memory)
         try:
@@ -69,13 +76,40 @@ def record(
     path = _within(path.motion, outer)
     if not len(path):
         raise Alarm(f"{what} describes no contour", span)
-    first = path[0].end.tolist()
     begun = int(path.step[0])
     if np.isnan(path.end).any():
-        message = f"the contour of {what} must begin with both coordinates of the plane"
-        raise Alarm(message, flow.span_of_step(begun))
-    side = int(path.side[1] if len(path) > 1 else path.side[0])
-    return Recording(path[1:], side, (first[0], first[1], first[2]), chain, memory, begun)
+        which = "X, Y and Z" if in_space else "both coordinates of the plane"
+        raise Alarm(f"the contour of {what} must begin with {which}", flow.span_of_step(begun))
+    approach, departure = _leads(path, flow, what)
+    first = 0 if approach is None else approach.row
+    whole = path[first + 1 :] if departure is None else path[first + 1 : departure.row]
+    side = int(path.side[min(first + 1, len(path) - 1)])
+    return Recording(whole, side, _place(path.end[first]), chain, memory, begun, approach, departure)
+
+
+def _leads(path: Toolpath, flow: Flow, what: str) -> tuple[RecordedLead | None, RecordedLead | None]:
+    """The approach of a path, with at most its starting point before it, and the departure, with nothing behind it."""
+    approach = departure = None
+    for row in np.flatnonzero(path.joint >= 0).tolist():
+        lead = path.joints[path.joint[row]]
+        if not isinstance(lead, Lead):
+            continue
+        if lead.departs:
+            departure = RecordedLead(lead, row, _place(path.end[row]))
+            if row + 1 < len(path):
+                message = f"the contour of {what} ends with {lead.name}, this block stands behind it"
+                raise Alarm(message, flow.span_of_step(int(path.step[row + 1])))
+        elif row > 1 or approach:
+            hint = "the block with its starting point may stand before it, nothing else"
+            raise Alarm(f"{lead.name} must begin the contour of {what}", flow.span_of_step(lead.step), hint=hint)
+        else:
+            approach = RecordedLead(lead, row, _place(path.end[row - 1]) if row else None)
+    return approach, departure
+
+
+def _place(point: Array) -> Place:
+    x, y, z = point.tolist()
+    return x, y, z
 
 
 def _within(path: Toolpath, outer: Matrix) -> Toolpath:

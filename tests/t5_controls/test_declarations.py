@@ -308,8 +308,8 @@ def test_a_limit_refuses_its_neighbour_and_takes_what_is_allowed(control, code, 
             assert not parameter.refuses(limit + direction if whole else math.nextafter(limit, direction * math.inf))
     if parameter.default is not None:
         assert not parameter.refuses(parameter.default)
-    if parameter.example is not None:
-        assert not parameter.refuses(parameter.example)
+    for example in parameter.example if isinstance(parameter.example, tuple) else (parameter.example,):
+        assert not isinstance(example, int | float) or not parameter.refuses(example)
 
 
 def test_an_example_must_obey_its_own_limits():

@@ -26,8 +26,6 @@ from mnclab.machining.steps import Record, Step
 ON = 1e-6  # mm from a contour: what is nearer lies on it
 SLIVER = 1e-6  # mm²: what overlaps less only touches
 
-upright = outlines.upright
-
 
 class Shape(NamedTuple):
     """What one label encloses, where its contour begins, its name, and the step of its first block."""

@@ -11,7 +11,7 @@ from mnclab.geometry.regions import CrossesItself, Region
 from mnclab.machine.flow import Recording
 from mnclab.machine.machine import Machine
 from mnclab.path.kinds import Kind
-from mnclab.path.outline import outline
+from mnclab.path.outline import chain, outline
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
@@ -54,8 +54,8 @@ def enclosed(m: Machine, recording: Recording, what: str) -> tuple[Contour, Regi
     if upright(path):
         at = int(np.argmax((path.kind == Kind.ARC) & (abs(path.axis[:, 2]) < 0.5)))
         fault(m, int(path.step[at]), f"the contour of {what} has an arc outside the plane XY")
-    view = PlaneView(path)
-    if not view.moves.any():
+    path = path[PlaneView(path).moves]
+    if not len(path):
         fault(m, recording.step, f"the contour of {what} encloses nothing: it is a point")
     contour = outline(path)
     if not contour.bulge.any() and np.linalg.matrix_rank(contour.points - contour.points[0], tol=1e-9) < 2:
@@ -63,9 +63,9 @@ def enclosed(m: Machine, recording: Recording, what: str) -> tuple[Contour, Regi
     try:
         return contour, Region.of(contour)
     except CrossesItself as error:
-        rows = np.flatnonzero(view.moves)
-        rows = np.repeat(rows, np.where(view.arc[rows] & (abs(view.sweep[rows]) > np.pi), 2, 1))
-        fault(m, int(path.step[rows[_last_at(contour, error.place, len(rows))]]), f"the contour of {what}: {error}")
+        rows = chain(path).rows
+        element = _last_at(contour, error.place, len(rows))
+        fault(m, int(path.step[rows[element]]), f"the contour of {what}: {error}")
     except ValueError as error:
         fault(m, recording.step, f"the contour of {what}: {error}")
 
