@@ -73,7 +73,7 @@ def record(
         except PathFault as fault:
             raise Alarm(fault.message, flow.span_of_step(fault.step), hint=fault.hint) from None
         chain, memory = m.frames, m.memory
-    path = _within(path.motion, outer)
+    path = _within(_placed(path.motion, m.plane), outer)
     if not len(path):
         raise Alarm(f"{what} describes no contour", span)
     begun = int(path.step[0])
@@ -85,6 +85,13 @@ def record(
     whole = path[first + 1 :] if departure is None else path[first + 1 : departure.row]
     side = int(path.side[min(first + 1, len(path) - 1)])
     return Recording(whole, side, _place(path.end[first]), chain, memory, begun, approach, departure)
+
+
+def _placed(path: Toolpath, plane: str) -> Toolpath:
+    """The path from the first move on that names a coordinate of its plane."""
+    u, v, _ = PLANES[plane]
+    named = ~np.isnan(path.end[:, [u, v]]).all(axis=1)
+    return path[int(np.argmax(named)) :] if named.any() else path[:0]
 
 
 def _leads(path: Toolpath, flow: Flow, what: str) -> tuple[RecordedLead | None, RecordedLead | None]:

@@ -46,6 +46,8 @@ def described(
     """
     deep = not_negative(m, depth, f"{code} DEPTH (depth of the contour)") if depth else 0.0
     place = m.span_of(word)
+    if m.plane != "XY":
+        m.alarm(f"{code}: contours are built for the tool axis Z alone", word)
     with m.variables.own_values(), m.within(unheard="M"):  # F and M are not obeyed (10.1)
         if word.address == "label":
             m.flow.ask(word.value)

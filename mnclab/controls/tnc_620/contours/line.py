@@ -63,7 +63,7 @@ def contour_line(m: Machine, in_space: bool = False) -> Generator[Step, Any, Lin
         m.alarm(f"label {label} describes no contour")
     if len(path) > MOST_ELEMENTS:
         m.alarm(f"the contour of label {label} has {len(path)} elements, more than {MOST_ELEMENTS}")
-    if upright(path):
+    if upright(path).any():
         m.alarm(f"an arc of the contour of label {label} leaves the plane XY")
     if not in_space and (abs(np.append(path.end[:, 2], recording.start[2])) > 1e-9).any():
         m.alarm(f"the contour of label {label} moves along the tool axis")

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import NoReturn
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import CrossesItself, Region
 from mnclab.machine.flow import Recording
 from mnclab.machine.machine import Machine
-from mnclab.path.kinds import Kind
 from mnclab.path.outline import chain, outline
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
@@ -32,18 +32,20 @@ def doubt(m: Machine, step: int, message: str, hint: str = "") -> None:
         m.warn(message, span, hint)
 
 
-def upright(path: Toolpath) -> bool:
-    """Whether there are arcs outside the plane XY."""
-    return bool(((path.kind == Kind.ARC) & (abs(path.axis[:, 2]) < 0.5)).any())
+def upright(path: Toolpath) -> NDArray[np.bool_]:
+    """Which moves (n,) are arcs outside the plane XY, or lines where another plane is active."""
+    return np.asarray(abs(path.axis[:, 2]) < 0.5)
 
 
 def level(m: Machine, recording: Recording, what: str) -> None:
     """An Alarm where a contour moves along the tool axis."""
     path = recording.path
-    leaves = abs(path.end[:, 2] - recording.start[2]) > 1e-9
-    leaves |= (path.kind == Kind.ARC) & (abs(path.axis[:, 2]) < 0.5)
+    message = f"the contour of {what} moves along the tool axis"
+    if abs(recording.start[2]) > 1e-9:
+        fault(m, recording.step, message)
+    leaves = abs(path.end[:, 2]) > 1e-9
     if leaves.any():
-        fault(m, int(path.step[np.argmax(leaves)]), f"the contour of {what} moves along the tool axis")
+        fault(m, int(path.step[np.argmax(leaves)]), message)
 
 
 def enclosed(m: Machine, recording: Recording, what: str) -> tuple[Contour, Region]:
@@ -51,9 +53,8 @@ def enclosed(m: Machine, recording: Recording, what: str) -> tuple[Contour, Regi
     path = recording.path
     if not len(path):
         fault(m, recording.step, f"{what} describes no contour")
-    if upright(path):
-        at = int(np.argmax((path.kind == Kind.ARC) & (abs(path.axis[:, 2]) < 0.5)))
-        fault(m, int(path.step[at]), f"the contour of {what} has an arc outside the plane XY")
+    if (leaves := upright(path)).any():
+        fault(m, int(path.step[np.argmax(leaves)]), f"the contour of {what} leaves the plane XY")
     path = path[PlaneView(path).moves]
     if not len(path):
         fault(m, recording.step, f"the contour of {what} encloses nothing: it is a point")

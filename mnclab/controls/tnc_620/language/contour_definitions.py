@@ -7,6 +7,7 @@ where they stand, on a copy of the Q parameters: the cycles keep theirs.
 from __future__ import annotations
 
 from mnclab.controls.tnc_620.contours.formulas import Definitions, checked, described, joined
+from mnclab.controls.tnc_620.contours.outlines import fault
 from mnclab.controls.tnc_620.language.flow import call_program
 from mnclab.controls.tnc_620.language.parameters import text
 from mnclab.controls.tnc_620.reading.contour_words import JOINS
@@ -20,6 +21,7 @@ from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
 MOST_PARTS = 9  # of CONTOUR DEF
+LASTING = ("tool", "turning", "speed", "modal")  # what a program of definitions does not change
 MEANINGS = {
     "QC": "contour of a designator", "&": "common area", "|": "joined", "^": "joined without the common area",
     "\\": "without", "(": "begin of a group", ")": "end of a group", "P": "pocket", "I": "island",
@@ -37,13 +39,16 @@ def select(m: Machine, words: Words) -> None:
     name = text(m, word)
     with m.flow.aside(m), m.variables.own_values():
         memory(m).defining = Definitions(m.matrix)
+        before = m.snapshot(LASTING)
         call_program(m, name, "SEL CONTOUR", word)
         definitions = memory(m).defining
         determine(m)
-        rows = m.recorder.take().motion
+        rows, changed = m.recorder.take().motion, before.differences(m.snapshot(LASTING))
     assert definitions is not None
     if len(rows):
-        m.alarm(f"SEL CONTOUR {name}: a program of contour definitions moves nothing", word)
+        fault(m, int(rows.step[0]), f"SEL CONTOUR {name}: a program of contour definitions moves nothing")
+    if changed:
+        m.warn(f"SEL CONTOUR {name}: tool, spindle and M functions of a program of contour definitions do not stay", word)
     if definitions.whole is None:
         m.alarm(f"SEL CONTOUR {name}: the program has no contour formula", word, "for example QC10 = QC1 | QC2")
     memory(m).contour = definitions.whole
