@@ -186,7 +186,7 @@ def test_the_skeleton_with_depths() -> None:
 
 
 def test_depth_in_inches_and_in_a_parameter() -> None:
-    inches = "BEGIN PGM MODEL INCH\nQ5 = 0.5\nDECLARE CONTOUR QC1 = \"S\" DEPTHQ5\nQC10 = QC1\nEND PGM MODEL INCH\n"
+    inches = 'BEGIN PGM MODEL INCH\nQ5 = 0.5\nDECLARE CONTOUR QC1 = "S" DEPTHQ5\nQC10 = QC1\nEND PGM MODEL INCH\n'
     assert areas('SEL CONTOUR "MODEL"', {"MODEL.H": inches, "S.H": box("S", 0, 0, 10, 10)}) == [
         (0, pytest.approx(12.7), pytest.approx(100))
     ]
@@ -251,7 +251,8 @@ def one(*lines: str, main: str = 'CONTOUR DEF P1 = "A"', **files: str):
 
 def test_feeds_m_functions_and_heights_say_nothing() -> None:
     lines = (
-        "L Z+50 FMAX M3", "L X+0 Y+0 Z-5 F0 M8", "L X+40 FMAX M97", "L Z-20 FAUTO M91", "L Y+30 M30", "L X+0 M140 MB MAX", "L Y+0 Z+9",
+        "L Z+50 FMAX M3", "L X+0 Y+0 Z-5 F0 M8", "L X+40 FMAX M97", "L Z-20 FAUTO M91", "L Y+30 M30", "L X+0 M140 MB MAX",
+        "L Y+0 Z+9",
     )  # fmt: skip
     area, alarms = one(*lines)
     assert area == pytest.approx(1200) and not alarms
@@ -292,14 +293,17 @@ def test_transformations_act_in_the_following_programs_and_end_with_them() -> No
 def test_a_contour_is_told_in_the_coordinates_of_the_program() -> None:
     """It is selected under a shift and cut under another one; a mirror image keeps its size."""
     files = {"A.H": box("A", 0, 0, 30, 20)}
-    for frame in ("CYCL DEF 7.0 D\nCYCL DEF 7.1 X+50 Z-3", "CYCL DEF 8.0 M\nCYCL DEF 8.1 X", "CYCL DEF 10.0 R\nCYCL DEF 10.1 ROT+30"):
+    for cycle, words in ((7, "X+50 Z-3"), (8, "X"), (10, "ROT+30")):
+        frame = f"CYCL DEF {cycle}.0 F\nCYCL DEF {cycle}.1 {words}"
         (terrace,) = terraces(memory(after(program("MAIN", frame, 'CONTOUR DEF P1 = "A"'), files)).contour, 5)
         assert terrace.region.bounds == pytest.approx(np.array([[0, 0], [30, 20]]), abs=1e-9)
 
 
 def test_parameters_are_copies() -> None:
     """What definitions and descriptions write to Q, QL and QS parameters does not stay; one program, two contours."""
-    lines = "Q1 = 10", "QS1 = \"A\"", "QL1 = 5", "DECLARE CONTOUR QC1 = QS1", "Q1 = 20", "DECLARE CONTOUR QC2 = \"A\"", "QC3 = QC1 | QC2"
+    lines = (
+        "Q1 = 10", 'QS1 = "A"', "QL1 = 5", "DECLARE CONTOUR QC1 = QS1", "Q1 = 20", 'DECLARE CONTOUR QC2 = "A"', "QC3 = QC1 | QC2",
+    )  # fmt: skip
     described = program("A", "L XQ1 Y+0", "Q7 = Q1 + 5", "L XQ7", "L Y+5", "L XQ1", "Q1 = 999")
     main = program("MAIN", "Q1 = -7", "QL1 = 3", 'SEL CONTOUR "MODEL"', "Q30 = QL1")
     run = mnclab.run(main, "tnc-620", Setup(files={"MODEL.H": program("MODEL", *lines), "A.H": described}))
@@ -313,8 +317,8 @@ def test_parameters_are_copies() -> None:
 
 def test_labels_of_the_same_program_and_names_in_text_parameters() -> None:
     text = (
-        "BEGIN PGM M MM\nQS4 = \"HOLE\"\nCONTOUR DEF P1 = LBL 5 I2 = LBL QS4 DEPTH2\nM2\nLBL 5\nL X+0 Y+0\nL X+50\nL Y+50\nL X+0\n"
-        'LBL 0\nLBL "HOLE"\nCC X+25 Y+25\nLP PR+10 PA+0\nCP IPA+360 DR+\nLBL 0\nEND PGM M MM\n'
+        'BEGIN PGM M MM\nQS4 = "HOLE"\nCONTOUR DEF P1 = LBL 5 I2 = LBL QS4 DEPTH2\nM2\nLBL 5\nL X+0 Y+0\nL X+50\nL Y+50\n'
+        'L X+0\nLBL 0\nLBL "HOLE"\nCC X+25 Y+25\nLP PR+10 PA+0\nCP IPA+360 DR+\nLBL 0\nEND PGM M MM\n'
     )
     contour = memory(after(text, {})).contour
     assert [round(t.region.area, 6) for t in terraces(contour, 5)] == [2500, round(2500 - 100 * math.pi, 6)]
