@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import count
 
 import numpy as np
 
@@ -19,7 +20,7 @@ from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.vectors import cross, left
 from mnclab.geometry.whole_curves import Curve
-from mnclab.machining.milling.clearing import Clearing, Piece, links, numbered, piecewise
+from mnclab.machining.milling.clearing import NOWHERE, Clearing, Piece, links, numbered, piecewise
 
 MOST_RINGS = 2000
 SHARP = 1e-6  # rad and mm, the least turn of a corner and the shortest element
@@ -134,13 +135,14 @@ def _rings(centres: Region, radius: float, stepover: float, corner_radius: float
     """The rings of a piece, with a core ring wherever one more step would leave a core standing."""
     if np.ptp(centres.loops[0].bounds, axis=0).min() / 2 > MOST_RINGS * stepover:
         raise ValueError(f"a stepover of {stepover:g} makes more than {MOST_RINGS} rings")
-    level, here = 0, centres
-    while here.loops:
+    found = centres.insets(stepover)
+    deeper = next(found)
+    for level in count():
+        here, deeper = deeper, next(found, NOWHERE)
         for loop in here.loops:
             yield Ring(level, loop.area < 0, loop if level else rounded(loop, corner_radius))
-        level += 1
-        deeper = centres.inset(level * stepover)
-        for core in centres.inset((level - 1) * stepover + radius).parts if stepover > radius else ():
+        for core in here.inset(radius).parts if stepover > radius else ():
             if not any(core.contains(loop.points[:1])[0] for loop in deeper.loops):
-                yield from (Ring(level - 1 + radius / stepover, loop.area < 0, loop) for loop in core.loops)
-        here = deeper
+                yield from (Ring(level + radius / stepover, loop.area < 0, loop) for loop in core.loops)
+        if not deeper.loops:
+            return
