@@ -18,12 +18,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from mnclab.comparison.engagement import Engagement, engagement
 from mnclab.comparison.table import Table, Titles, Tried
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, left_over, polygons
 from mnclab.machining.milling.clearing import Clearing, begin, end
+from mnclab.machining.milling.engagement import Engagement, engagement
 from mnclab.machining.milling.entries import VERTICAL, Entry, descent
 from mnclab.machining.milling.layers import toolpath
 from mnclab.machining.milling.strategies import STRATEGIES, clear

@@ -22,6 +22,7 @@ from mnclab.geometry.whole_curves import Curve
 
 FULL_TURN = 2 * np.pi
 CUSP = 1e-8  # rad, by which opposite directions may be off
+SHORTEST = 1e-9  # mm, of a piece
 FLAT = 1e-9  # a smaller bulge is a line: over a chord of 1 m it would rise by half a nanometre
 
 
@@ -243,6 +244,24 @@ class Contour:
         bulge = np.append(0.0, np.roll(self.bulge, -i - 1))
         bulge[[0, -1]] = np.tan(self.sweeps[i] * np.array([1 - u, u]) / 4)
         return Contour(points, bulge)
+
+    def between(self, first: float, last: float) -> Contour:
+        """The open piece from one way along the contour to a later one; past the begin of a closed one, once round at most."""
+        upto = np.concatenate([[0.0], np.cumsum(self.lengths)])
+        if self.closed:
+            start = float(np.mod(first, upto[-1]))
+            first, last = start, start + min(last - first, float(upto[-1]))
+            upto = np.concatenate([upto, upto[-1] + upto[1:]])
+        low, high = np.maximum(first, upto[:-1]), np.minimum(last, upto[1:])
+        some = np.flatnonzero(high - low > SHORTEST)
+        if not len(some):
+            return Contour(self.point_at([first, last])[0], closed=False)
+        element, span = some % len(self.lengths), np.diff(upto)[some]
+        shares = np.where(high == upto[1:], np.inf, high - upto[:-1])[some] / span
+        begin = self._at((low - upto[:-1])[some[:1]] / span[:1], element[:1])[0]
+        points = np.vstack([begin, self._at(np.minimum(shares, 1.0), element)[0]])
+        bulge = np.tan(self.sweeps[element] * (high - low)[some] / span / 4)
+        return Contour(points, np.append(bulge, 0.0), closed=False)
 
     def _blocks(self, points: ArrayLike) -> Iterator[Floats]:
         """Points `(k, 2)` in blocks, one at least: points by elements must fit into memory."""

@@ -132,7 +132,7 @@ class Region:
         The way is cut where it meets the whole line or circle of an element; one point of each piece tells.
         """
         a, b = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
-        cuts = np.concatenate([[0.0, 1.0], *(_cuts(loop, a, b - a) for loop in self.loops)])
+        cuts = np.concatenate([[0.0, 1.0], *(meeting(loop, a, b - a) for loop in self.loops)])
         cuts = np.unique(cuts[(cuts >= 0) & (cuts <= 1)])
         middles = a + (cuts[1:] + cuts[:-1])[:, None] / 2 * (b - a)
         spots = np.vstack([a, b, middles])
@@ -156,7 +156,7 @@ def _arranged(loops: Sequence[Contour]) -> Region:
     return Region(tuple(loop for part in within for loop in part))
 
 
-def _cuts(loop: Contour, start: Floats, way: Floats) -> Floats:
+def meeting(loop: Contour, start: Floats, way: Floats) -> Floats:
     """Fractions of a straight way at which it meets the whole lines and circles of a loop."""
     with np.errstate(divide="ignore", invalid="ignore"):
         chord = loop.ends - loop.starts

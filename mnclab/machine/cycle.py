@@ -60,7 +60,7 @@ class Parameter:
     note: str = ""
     mark: int = 0
     several: bool = False
-    example: float | None = None
+    example: float | str | tuple[float | str, ...] | None = None
     is_variable: bool = field(init=False)
     """Whether it is a variable of the program (Q200), not an address (X)."""
     in_units: bool = field(init=False)
@@ -104,7 +104,7 @@ def param(
     choices: Mapping[float, str] | None = None, above: float | None = None, at_least: float | None = None,
     below: float | None = None, at_most: float | None = None, incremental: bool = False, modal: bool = False,
     instead: str = "", also: tuple[str, ...] = (), type: str = "number", predef: bool = False, note: str = "",
-    mark: int = 0, several: bool = False, example: float | None = None,
+    mark: int = 0, several: bool = False, example: float | str | tuple[float | str, ...] | None = None,
 ) -> Any:  # fmt: skip
     """Declare one parameter of a cycle in one line of its class.
 
@@ -120,8 +120,9 @@ def param(
         at_least, below, at_most, incremental, modal, instead, also, "choice" if choices else type, predef, note, mark, several,
         example,
     )  # fmt: skip
-    if example is not None and declared.refuses(example):
-        raise ValueError(f"the example of {first} must be {declared.allowed}, got {example:g}")
+    for one in example if isinstance(example, tuple) else (example,):
+        if isinstance(one, int | float) and declared.refuses(one):
+            raise ValueError(f"the example of {first} must be {declared.allowed}, got {one:g}")
     return field(default=declared.default, kw_only=True, metadata={"parameter": declared})
 
 

@@ -9,6 +9,7 @@ from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from mnclab.geometry.frames import FrameChain
+from mnclab.path.leads import Lead
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Span
 from mnclab.text.program import Program
@@ -17,15 +18,27 @@ if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 
+class RecordedLead(NamedTuple):
+    """An approach or a departure in a recorded contour, in program coordinates: its row in the path, and where the tool comes
+    from (None: the contour begins with the approach) or ends."""
+
+    lead: Lead
+    row: int
+    place: tuple[float, float, float] | None
+
+
 class Recording(NamedTuple):
     """A contour as its label describes it: `path` in program coordinates from `start` on, and its side (+1 left,
-    -1 right, 0 none). `frames` and `memory` are the transformations at its end."""
+    -1 right, 0 none). `frames` and `memory` are the transformations at its end; `approach` and `departure` lead to it
+    and away, where the label has them."""
 
     path: Toolpath
     side: int
     start: tuple[float, float, float]
     frames: FrameChain
     memory: Any
+    approach: RecordedLead | None = None
+    departure: RecordedLead | None = None
 
 
 class Flow(Protocol):
@@ -66,7 +79,9 @@ class Flow(Protocol):
     def repeat(self, m: Machine, first: int, stop: int, times: int, span: Span | None = None) -> None:
         """Run the blocks [first, stop) a number of times more."""
 
-    def record(self, m: Machine, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
+    def record(
+        self, m: Machine, label: str, span: Span | None = None, after: Recording | None = None, in_space: bool = False
+    ) -> Recording:
         """Obey a label for its contour; nothing moves."""
 
     def leave(self) -> None:

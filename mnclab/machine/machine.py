@@ -249,9 +249,11 @@ class Machine(Placed):
         self.add_row(Kind.PROBE, tip, feed=f)
         self.read_position()
 
-    def record(self, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
+    def record(
+        self, label: str, span: Span | None = None, after: Recording | None = None, in_space: bool = False
+    ) -> Recording:
         """Read the contour of a label: nothing moves, variables that it writes stay."""
-        return self.flow.record(self, label, span, after)
+        return self.flow.record(self, label, span, after, in_space)
 
     # --- settling ----------------------------------------------------------------------------------------------------
 

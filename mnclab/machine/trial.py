@@ -45,10 +45,26 @@ def is_text(parameter: Parameter) -> bool:
     return parameter.type == "text" and not isinstance(parameter.default, int | float)
 
 
+def joined(several: Sequence[float | str]) -> str:
+    """Several values in one text, letters with blanks between them, numbers with strokes: `X Y`, `1/2`."""
+    numbers = [isinstance(one, int | float) for one in several]
+    return ("/" if all(numbers) else " ").join(number(one) if isinstance(one, int | float) else one for one in several)
+
+
+def parted(text: str, parameter: Parameter) -> tuple[float | str, ...] | str:
+    """The several values of such a text; the text itself where it holds none."""
+    parts = text.replace("/", " ").replace(",", " ").split()
+    if is_text(parameter):
+        return tuple(parts)
+    return tuple(map(float, parts)) if all(part.isdecimal() for part in parts) else text
+
+
 def first_value(parameter: Parameter) -> float | str:
     """A value to begin with: the example, the default, or a likely one that the limits of the parameter allow."""
+    if isinstance(parameter.example, tuple):
+        return joined(parameter.example)
     if is_text(parameter):
-        return str(parameter.default or "ABC")
+        return str(parameter.example or parameter.default or "ABC")
     if parameter.example is not None:
         return float(parameter.example)
     if parameter.default is not None and parameter.default != math.inf:  # rapid: no number that a box could show

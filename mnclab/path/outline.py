@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from mnclab.geometry.contours import Contour
@@ -12,23 +14,45 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
 
 
+class Chain(NamedTuple):
+    """A path as an open contour, the heights (n,) of its n points along the normal of the plane, and the row (m,) of each of
+    its m elements."""
+
+    contour: Contour
+    heights: np.ndarray
+    rows: np.ndarray
+
+
 def outline(path: Toolpath) -> Contour:
     """The closed contour along the moves of a path in the plane of its first row; a gap is closed by a straight line.
 
-    Arcs of more than half a turn become two, since a bulge tan(sweep / 4) has no whole circle.
+    Arcs of more than half a turn become several, since a bulge tan(sweep / 4) has no whole circle.
     """
     _check_path(path)
-    view, points, bulges = PlaneView(path), list[np.ndarray](), list[float]()
-    for row in np.flatnonzero(view.moves):
+    view = PlaneView(path)
+    whole = _chained(path, view, np.flatnonzero(view.moves)).contour
+    if np.hypot(*(whole.points[-1] - whole.points[0])) > 1e-6:
+        return Contour(whole.points, whole.bulge)
+    return Contour(whole.points[:-1], whole.bulge[:-1])
+
+
+def chain(path: Toolpath) -> Chain:
+    """The open contour along all moves of a path, those along the normal of its plane as elements without length."""
+    _check_path(path)
+    return _chained(path, PlaneView(path), np.flatnonzero(path.is_motion))
+
+
+def _chained(path: Toolpath, view: PlaneView, rows: np.ndarray) -> Chain:
+    points, bulges, heights, source = list[np.ndarray](), list[float](), list[float](), list[int]()
+    for row in rows.tolist():
         sweep, start = float(view.sweep[row]) if view.arc[row] else 0.0, view.start[row, :2]
-        halves = [start, _turned(start, view.centre[row], sweep / 2)] if abs(sweep) > np.pi else [start]
-        points += halves
-        bulges += [float(np.tan(sweep / len(halves) / 4))] * len(halves)
-    end = view.end[row, :2]
-    if np.hypot(*(end - points[0])) > 1e-6:
-        points.append(end)
-        bulges.append(0.0)
-    return Contour(np.array(points), np.array(bulges))
+        count = max(1, int(np.ceil(abs(sweep) / np.pi - 1e-9)))
+        points += [start, *(_turned(start, view.centre[row], sweep * k / count) for k in range(1, count))]
+        bulges += [float(np.tan(sweep / count / 4))] * count
+        heights += np.linspace(view.start[row, 2], view.end[row, 2], count, endpoint=False).tolist()
+        source += [row] * count
+    contour = Contour([*points, view.end[rows[-1], :2]], [*bulges, 0.0], closed=False)
+    return Chain(contour, np.array([*heights, view.end[rows[-1], 2]]), np.array(source))
 
 
 def _check_path(path: Toolpath) -> None:

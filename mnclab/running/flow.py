@@ -134,9 +134,11 @@ class Course:
         self.over = False
         self.go_back(here)
 
-    def record(self, m: Machine, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
+    def record(
+        self, m: Machine, label: str, span: Span | None = None, after: Recording | None = None, in_space: bool = False
+    ) -> Recording:
         self.nesting.extend((self.begun, self.running[-1] << 32 | self.current, RECORDED))
-        found = record(m, self, label, span, after)
+        found = record(m, self, label, span, after, in_space)
         self.nesting.extend((self.begun, LEFT, 0))
         return found
 

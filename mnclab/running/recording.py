@@ -4,6 +4,7 @@ The same interpreter runs the label on a machine whose frames, rows and modal st
 the radius is not compensated. Afterwards everything is as before, except variables that the label wrote; alarms keep the
 line they stand in. A transformation inside the label replaces or adds to that of the program as it would outside; the
 contour is told in the coordinates of the program that calls, and the next label of the same contour goes on with it.
+An approach and a departure are no part of the contour and are told apart from it.
 """
 
 from __future__ import annotations
@@ -15,25 +16,31 @@ import numpy as np
 from mnclab.geometry import frames
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.coordinates import PLANES
-from mnclab.machine.flow import Flow, Recording
-from mnclab.machine.state import PUT_BACK
+from mnclab.machine.flow import Flow, RecordedLead, Recording
+from mnclab.machine.state import PUT_BACK, Place
 from mnclab.machine.waiting import determine
 from mnclab.path import corners
+from mnclab.path.columns import Array
 from mnclab.path.fault import PathFault
+from mnclab.path.leads import Lead
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm, Span
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
-def record(m: Machine, flow: Flow, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
+
+def record(
+    m: Machine, flow: Flow, label: str, span: Span | None = None, after: Recording | None = None, in_space: bool = False
+) -> Recording:
     """Obey a label for its contour; an Alarm when it has none or does not begin with both coordinates.
 
-    `after` is the label before it in the same contour, whose transformations still act.
+    `after` is the label before it in the same contour, whose transformations still act. `in_space`: the contour must begin
+    with all three coordinates; else its height is 0 where it names none.
     """
     kept, outer = m.snapshot(PUT_BACK), m.matrix
     nan, across = float("nan"), PLANES[m.plane][2]
-    x, y, z = (0.0 if axis == across else nan for axis in range(3))
+    x, y, z = (0.0 if axis == across and not in_space else nan for axis in range(3))
     path_so_far = {"recorder": m.recorder, "programmed_pieces": m.programmed_pieces, "settled": m.settled}
     if after is not None:
         m.put(frames=after.frames, memory=after.memory)
@@ -54,10 +61,38 @@ def record(m: Machine, flow: Flow, label: str, span: Span | None = None, after: 
     if not len(path):
         raise Alarm(f"label {label} describes no contour", span)
     if np.isnan(path.end).any():
-        raise Alarm(f"the contour of label {label} must begin with both coordinates of the plane", span)
-    first = path[0].end.tolist()
-    side = int(path.side[1] if len(path) > 1 else path.side[0])
-    return Recording(path[1:], side, (first[0], first[1], first[2]), chain, memory)
+        which = "X, Y and Z" if in_space else "both coordinates of the plane"
+        raise Alarm(f"the contour of label {label} must begin with {which}", span)
+    approach, departure = _leads(path, flow, label)
+    first = 0 if approach is None else approach.row
+    whole = path[first + 1 :] if departure is None else path[first + 1 : departure.row]
+    side = int(path.side[min(first + 1, len(path) - 1)])
+    return Recording(whole, side, _place(path.end[first]), chain, memory, approach, departure)
+
+
+def _leads(path: Toolpath, flow: Flow, label: str) -> tuple[RecordedLead | None, RecordedLead | None]:
+    """The approach of a path, with at most its starting point before it, and the departure, with nothing behind it."""
+    approach = departure = None
+    for row in np.flatnonzero(path.joint >= 0).tolist():
+        lead = path.joints[path.joint[row]]
+        if not isinstance(lead, Lead):
+            continue
+        if lead.departs:
+            departure = RecordedLead(lead, row, _place(path.end[row]))
+            if row + 1 < len(path):
+                message = f"the contour of label {label} ends with {lead.name}, this block stands behind it"
+                raise Alarm(message, flow.span_of_step(int(path.step[row + 1])))
+        elif row > 1 or approach:
+            hint = "the block with its starting point may stand before it, nothing else"
+            raise Alarm(f"{lead.name} must begin the contour of label {label}", flow.span_of_step(lead.step), hint=hint)
+        else:
+            approach = RecordedLead(lead, row, _place(path.end[row - 1]) if row else None)
+    return approach, departure
+
+
+def _place(point: Array) -> Place:
+    x, y, z = point.tolist()
+    return x, y, z
 
 
 def _within(path: Toolpath, outer: Matrix) -> Toolpath:
@@ -67,4 +102,10 @@ def _within(path: Toolpath, outer: Matrix) -> Toolpath:
     places = {name: frames.apply(back, getattr(path, name)) for name in ("start", "end", "centre")}
     axis = frames.apply(back, path.axis) - back[:3, 3]
     axis /= np.linalg.norm(axis, axis=-1, keepdims=True)
-    return path.replace(**places, axis=axis, sweep=path.sweep * sense, side=path.side * sense)
+    scale = float(np.linalg.norm(outer[:3, 0]))
+    joints = [
+        j._replace(side=j.side * sense, length=j.length / scale, radius=j.radius / scale) if isinstance(j, Lead) else j
+        for j in path.joints
+    ]
+    path = path.replace(**places, axis=axis, sweep=path.sweep * sense, side=path.side * sense)
+    return path.annotated(joints=joints)

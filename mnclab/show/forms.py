@@ -118,16 +118,21 @@ def form(code: str, control: str) -> Any:
         else:
             rows.append(box)
 
-    def written() -> dict[str, Any]:
+    def values() -> dict[str, Any]:
         return {name: box.value for name, box in boxes.items() if name not in ticks or ticks[name].value}
 
+    def written() -> dict[str, Any]:
+        several = {p.name: p for p in chosen.parameters() if p.several}
+        return {n: trial.parted(v, several[n]) if n in several else v for n, v in values().items()}
+
     def text() -> str | None:
-        values = written()
         defaults = {p.name: p.default for p in chosen.parameters() if not p.required}
-        return trial.program(help_page.control, chosen, {n: v for n, v in values.items() if v != defaults.get(n)})
+        return trial.program(help_page.control, chosen, {n: v for n, v in values().items() if v != defaults.get(n)})
 
     title = ipywidgets.HTML(f"<strong><code>{escape(chosen.code)}</code> {escape(chosen.title)}</strong>")
-    setup = Setup(start=(30, 0, 20)) if help_page.control.lathe else None  # clear of the chuck's axis
+    setup = Setup(files=help_page.control.trial_files)
+    if help_page.control.lathe:
+        setup = replace(setup, start=(30, 0, 20))  # clear of the chuck's axis
     live = _program(boxes, [title, *rows], text, help_page.control.name, setup, "auto", ticks)
     live.ticks, live.steps = ticks, lambda: steps(chosen.code, help_page.control.name, setup, **written())
     return live
@@ -208,7 +213,7 @@ def _parameter_box(p: Parameter, width: float) -> Any:
     otherwise = left_out(p)
     facts = [p.meaning, p.allowed, p.note, f"left out: {otherwise}" if otherwise else ""]
     looks = _looks(_name(p), width) | {"tooltip": "; ".join(fact for fact in facts if fact)}
-    if trial.is_text(p):
+    if trial.is_text(p) or p.several:
         return ipywidgets.Text(value=value, **looks)
     if p.choices:
         options = [(f"{choice:g} {meaning}", choice) for choice, meaning in p.choices.items()]

@@ -112,6 +112,36 @@ def test_a_closed_contour_begins_anywhere():
         Contour([(0, 0), (1, 0)], closed=False).started_at(0.5)
 
 
+def test_a_piece_of_a_contour():
+    """Half an arc is an arc of half the sweep; round the begin of a closed contour a piece goes on."""
+    quarter = Contour.circle((0, 0), 5).between(2.5 * np.pi, 5 * np.pi)
+    assert quarter.points == pytest.approx(np.array([(0, 5), (-5, 0)]))
+    assert quarter.sweeps == pytest.approx([np.pi / 2]) and not quarter.closed
+    square = Contour([(0, 0), (10, 0), (10, 10), (0, 10)])
+    assert square.between(35, 45).points == pytest.approx(np.array([(0, 5), (0, 0), (5, 0)]))
+    assert square.between(-5, 5).points == pytest.approx(np.array([(0, 5), (0, 0), (5, 0)]))
+    assert square.between(5, 99).length == pytest.approx(40)  # once round at most
+    assert Contour([(0, 0), (10, 0)], closed=False).between(4, 99).points == pytest.approx(np.array([(4, 0), (10, 0)]))
+    assert square.between(3, 3).length == 0
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_a_piece_runs_where_the_contour_runs(closed):
+    rng = np.random.default_rng(5)
+    for _ in range(100):
+        count = int(rng.integers(2, 7))
+        bulge = rng.uniform(-2, 2, count) * (rng.random(count) < 0.6)
+        whole = Contour(rng.normal(size=(count, 2)) * 10, bulge, closed)
+        first, last = np.sort(rng.uniform(0, whole.length, 2))
+        if closed and rng.random() < 0.5:
+            first, last = last, first + whole.length
+        ways = rng.uniform(0, last - first, 9)
+        piece = whole.between(first, last)
+        assert piece.length == pytest.approx(last - first)
+        for one, other in zip(piece.point_at(ways), whole.point_at(first + ways), strict=True):
+            assert one == pytest.approx(other, abs=1e-6)
+
+
 def test_turns_are_the_corners():
     triangle = Contour([(0, 0), (4, 0), (4, 3)])
     expected = [np.pi - np.arctan2(3, 4), np.pi / 2, np.pi - np.arctan2(4, 3)]

@@ -11,9 +11,9 @@ from mnclab.machining.steps import Call, Go, Touch, Wait, Write
 CYCLES = [(name, cycle.code) for name, control in mnc.controls.items() for cycle in dict.fromkeys(control.cycles.values())]
 #: What cycles ask for that only a program has, or a user: the piece of the alarm that says so.
 NEEDS = {
-    "CYCL DEF 7": "needs an axis",
     "CYCL DEF 12": "PGM (name of the program) is missing",
     "CYCL DEF 14": "names label 1, which does not exist",
+    "CYCL DEF 21": "CYCL DEF 14 comes before it",
     "CYCL DEF 22": "CYCL DEF 14 comes before it",
     "CYCL DEF 225": "Q500 (text) is missing",
 }
@@ -70,8 +70,8 @@ def test_a_pattern_calls_the_cycle_at_each_of_its_points() -> None:
 @pytest.mark.parametrize(
     ("code", "values", "said"),
     [
-        ("CYCL DEF 8", {}, ["frame mirror: none"]),
-        ("CYCL DEF 8", {"axes": ("X",)}, ["frame mirror: X"]),
+        ("CYCL DEF 8", {"axes": ()}, ["frame mirror: none"]),
+        ("CYCL DEF 8", {}, ["frame mirror: X"]),
         ("CYCL DEF 11", {}, ["frame scale: 0.5 0.5 0.5"]),
         ("CYCL DEF 10", {}, ["radius compensation: off", "frame rotation: turn by 30°"]),
         ("CYCL DEF 13", {}, ["orientation: 90"]),
@@ -100,7 +100,7 @@ def test_the_title_has_every_value_of_an_address() -> None:
 
 def test_the_title_is_written_as_the_table_is() -> None:
     assert "Q201=-13.3333 " in mnc.steps("200", "tnc-620", Q201=-40 / 3).title
-    assert mnc.steps("CYCL DEF 8", "tnc-620").title == "CYCL DEF 8 Mirroring, called at X20 Y10 Z20"
+    assert mnc.steps("CYCL DEF 8", "tnc-620").title == "CYCL DEF 8 Mirroring: axes=X, called at X20 Y10 Z20"
     assert "Q500=&lt;b&gt;A &amp; B" in mnc.steps("CYCL DEF 225", "tnc-620", Q500="<b>A & B")._repr_html_()
 
 

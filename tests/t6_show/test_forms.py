@@ -129,8 +129,8 @@ def test_every_cycle_has_a_form(control, code):
     for parameter in declared:
         box = live.boxes[parameter.name]
         assert parameter.address in box.description and parameter.meaning in box.description
-        assert not parameter.refuses(box.value), "the first value is outside what is allowed"
-        if parameter.example is not None:
+        assert parameter.several or not parameter.refuses(box.value), "the first value is outside what is allowed"
+        if parameter.example is not None and not parameter.several:
             assert box.value == parameter.example
     assert live.run is not None or "no picture yet" in live.picture.value
     if live.run and all(parameter.example is not None for parameter in declared):
@@ -168,3 +168,48 @@ def test_a_form_shows_the_steps_of_its_cycle():
     pecks = [step.z for step in form.steps() if step.label.startswith("peck")]
     form.boxes["infeed"].value = 7
     assert pecks == [-6, -12, -14] and [s.z for s in form.steps() if s.label.startswith("peck")] == [-7, -14]
+
+
+SUB_BLOCKS = {
+    "CYCL DEF 7": "CYCL DEF 7.1 X+60\nCYCL DEF 7.2 Y+25\n", "CYCL DEF 8": "CYCL DEF 8.1 X\n",
+    "CYCL DEF 10": "CYCL DEF 10.1 ROT+30\n", "CYCL DEF 11": "CYCL DEF 11.1 SCL +0.5\n",
+    "CYCL DEF 12": "CYCL DEF 12.1 PGM ABC\n", "CYCL DEF 14": "CYCL DEF 14.1 CONTOUR LABEL 1/2\n",
+    "CYCL DEF 19": "CYCL DEF 19.1 B+30\n", "CYCL DEF 26": "CYCL DEF 26.1 X+1.4\n",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("code", SUB_BLOCKS)
+def test_a_cycle_in_sub_blocks_has_a_picture(code):
+    live = mnclab.form(code, "tnc-620")
+    assert SUB_BLOCKS[code] in live.run.program.text and live.run.ok
+    assert "no alarms; cutting" in live.alarms.value and picture(live)[1]
+
+
+def test_a_shift_shows_a_figure_before_and_after():
+    """The figure lies from X10 Y5 to X50 Y30, 40 by 25; moved by 60 and 25 it ends at X110 Y55."""
+    live = mnclab.form("CYCL DEF 7", "tnc-620")
+    live.ticks["y"].value = True
+    cuts = live.run.toolpath[live.run.toolpath.kind == mnclab.Kind.LINE].end
+    assert cuts[:, :2].min(axis=0).tolist() == [10, 5] and cuts[:, :2].max(axis=0).tolist() == [110, 55]
+    live.boxes["x"].value = -60.0
+    cuts = live.run.toolpath[live.run.toolpath.kind == mnclab.Kind.LINE].end
+    assert cuts[:, 0].min() == -50 and live.run.program.text.count("CYCL DEF 7") == 3
+
+
+def test_labels_and_axes_are_typed_as_a_program_has_them():
+    """The pocket is 90 by 60; the second one, a circle of 15 about its right edge, makes it 105 long: R 5 and 0.2 stay."""
+    live = mnclab.form("CYCL DEF 14", "tnc-620")
+    box = live.boxes["labels"]
+    assert isinstance(box, ipywidgets.Text) and box.value == "1/2"
+    box.value = "1/3"
+    cuts = live.run.toolpath[live.run.toolpath.kind <= mnclab.Kind.ARC]
+    assert cuts.bounds[1, 0] == pytest.approx(105 - 5.2) and live.run.ok
+    box.value = "1/9"
+    assert "names label 9, which does not exist" in live.alarms.value
+    box.value = "one"
+    assert 'role="alert"' in live.alarms.value
+    mirror = mnclab.form("CYCL DEF 8", "tnc-620")
+    mirror.boxes["mirrored_axes"].value = "X Y"
+    cuts = mirror.run.toolpath[mirror.run.toolpath.kind == mnclab.Kind.LINE].end
+    assert cuts[:, :2].min(axis=0).tolist() == [-50, -30]
+    assert [row.step.value for row in mirror.steps().rows if hasattr(row.step, "value")]

@@ -6,10 +6,20 @@ functions, `cycles` holds the fixed cycles by chapter of the manual, `later` nam
 
 from __future__ import annotations
 
-from mnclab.controls.tnc_620 import later
+from mnclab.controls.tnc_620 import later, trial_figures
 from mnclab.controls.tnc_620.contours import data as contour_data
 from mnclab.controls.tnc_620.contours import labels as contour_labels
-from mnclab.controls.tnc_620.contours import leaving, rough_out
+
+from mnclab.controls.tnc_620.contours import (  # isort: skip
+    floor_finishing,
+    leaving,
+    pilot,
+    rough_out,
+    side_finishing,
+    train,
+    train_data,
+    trochoidal_slot,
+)
 from mnclab.controls.tnc_620.cycles import (
     boring,
     defaults,
@@ -121,7 +131,15 @@ FUNCTIONS = (
 )  # fmt: skip
 CHAPTERS = (
     defaults, drilling, boring, pecking, tapping, threads, point_patterns, pockets, slots, studs, walled_faces,
-    contour_labels, contour_data, rough_out, transformations, tilting, special, engraving, face_milling, presets, program_call,
+    contour_labels, contour_data,
+    pilot,
+    rough_out,
+    floor_finishing,
+    side_finishing,
+    train_data,
+    train,
+    trochoidal_slot,
+    transformations, tilting, special, engraving, face_milling, presets, program_call,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()
@@ -165,6 +183,7 @@ CONTROL = Control(
     read=reader.read, signs=SIGNS, numbers=numbers,
     functions=FUNCTIONS, cycles=CYCLES, names=ISO_NAMES, refused=later.REFUSED, together=later.strange_parameters(CYCLES),
     phases=PHASES, codes=("M",), word_functions=False, meanings=MEANINGS, told=motion.turning_sense, trial=trial_program,
+    trial_files=trial_figures.FILES,
     settings=SETTINGS, memory=Memory, start=program.start, frames=(secondary_axes.FRAME, "preset"),
     storage="variables", preassigned={**parameters.PREASSIGNED, **system_texts.TEXTS}, local_variables="QL",
     named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again, turned=tool_axis.turned,

@@ -1,13 +1,25 @@
-"""A cycle of the TNC 620 in a program of its own."""
+"""A cycle of the TNC 620 in a program of its own.
+
+A transformation shows a figure before and after it, a contour cycle machines a contour that stands below the program.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
-from mnclab.controls.tnc_620.reading import obsolete_blocks
+from mnclab.controls.tnc_620 import trial_figures as figures
+from mnclab.controls.tnc_620.contours.data import ContourData
+from mnclab.controls.tnc_620.contours.labels import ContourGeometry
+from mnclab.controls.tnc_620.contours.rough_out import RoughOut
+from mnclab.controls.tnc_620.reading import obsolete_blocks, sub_blocks
 from mnclab.machine.cycle import Cycle
-from mnclab.machine.trial import number
+from mnclab.machine.trial import TrialWords, first_value, number, written_first
+
+HOLES = ("CYCL DEF 200 DRILLING", *"Q200=2 Q201=-15 Q206=120 Q202=5 Q210=0 Q203=0 Q204=20 Q211=0".split())
+#: Cycles that machine an area or say which.
+AREA = tuple(f"CYCL DEF {n}" for n in (14, 20, 21, 22, 23, 24))
+CALL = "CYCL CALL"
 
 
 def klartext(value: float | str) -> str:
@@ -16,7 +28,10 @@ def klartext(value: float | str) -> str:
 
 
 def as_sub_blocks(cycle: type[Cycle], words: Sequence[tuple[str, Any]]) -> list[str]:
-    """The lines of an obsolete cycle, which has no Q parameters."""
+    """The lines of a cycle that has no Q parameters."""
+    if cycle.code not in obsolete_blocks.CODES:
+        texts = {address: value if isinstance(value, str) else klartext(value) for address, value in words}
+        return list(sub_blocks.written(cycle.code, cycle.title.upper(), texts))
     plain = ("DWELL", "F", "PECKG:F")
     texts = {address: number(value) if address in plain else klartext(value) for address, value in words}
     if "DR" in texts:
@@ -24,20 +39,65 @@ def as_sub_blocks(cycle: type[Cycle], words: Sequence[tuple[str, Any]]) -> list[
     return list(obsolete_blocks.written(int(cycle.code.split()[-1]), cycle.title.upper(), texts))
 
 
-def trial_program(cycle: type[Cycle], words: Sequence[tuple[str, Any]]) -> str | None:
-    """A cycle called by M99, an obsolete one at its set-up clearance; others that stand in sub-blocks have no trial."""
+def definition(cycle: type[Cycle], words: TrialWords) -> list[str]:
+    """The lines that define a cycle."""
+    if cycle.code in obsolete_blocks.CODES or cycle.code in sub_blocks.LINES:
+        return as_sub_blocks(cycle, words)
+    return [" ~\n".join([f"{cycle.code} {cycle.title.upper()}", *(f"  {a}={klartext(v)}" for a, v in words)])]
+
+
+def first_words(cycle: type[Cycle]) -> TrialWords:
+    """The words that a cycle has to begin with."""
+    return [(p.address, first_value(p)) for p in cycle.parameters() if p.required or written_first(p)]
+
+
+def begun(cycle: type[Cycle]) -> list[str]:
+    """A cycle with these words."""
+    return definition(cycle, first_words(cycle))
+
+
+def trial_program(cycle: type[Cycle], words: TrialWords) -> str | None:
+    """A program around a cycle; None where nothing could be seen of it."""
+    mine = definition(cycle, words)
+    if cycle.code in figures.MOVED:
+        return program([*figures.SHOWN, *mine, *figures.SHOWN], figures.FIGURE)
+    if cycle.code in figures.LINES:
+        return program([*begun(ContourGeometry), *mine, CALL], figures.LINES[cycle.code])
+    if cycle.code in AREA:
+        return program([*around(cycle, mine), CALL], figures.CONTOURS)
+    if cycle.code == "CYCL DEF 12":
+        return program([*mine, "L X+20 Y+10 R0 FMAX M99", "L X+60 Y+30 R0 FMAX M99"])
     obsolete = cycle.code in obsolete_blocks.CODES
     if not obsolete and (not words or not all(address.startswith("Q") for address, _ in words)):
         return None
+    return plain_program(cycle, mine, words)
+
+
+def around(cycle: type[Cycle], mine: list[str]) -> Iterator[str]:
+    """The cycles of a contour with one of them as it is written; a side is finished after it was roughed."""
+    for each in (ContourGeometry, ContourData):
+        yield from mine if cycle is each else begun(each)
+    if cycle.runs == "definition" or cycle.code == "CYCL DEF 24":
+        yield from begun(RoughOut)
+    if cycle.code == "CYCL DEF 24":
+        yield CALL
+    if cycle.runs == "call":
+        yield from mine
+
+
+def program(blocks: Sequence[str], below: Sequence[str] = ()) -> str:
+    """Blocks of an end mill, and labels below them."""
+    start = ["BEGIN PGM TRIAL MM", "TOOL CALL 1 Z S1000 F500", "L X+0 Y+0 Z+50 R0 FMAX M3"]
+    return "\n".join([*start, *blocks, "L Z+50 R0 FMAX M2", *below, "END PGM TRIAL MM", ""])
+
+
+def plain_program(cycle: type[Cycle], mine: Sequence[str], words: TrialWords) -> str:
+    """A cycle called by M99, an obsolete one at its set-up clearance."""
     written = [address for address, _ in words]
-    lines = as_sub_blocks(cycle, words) if obsolete else []
-    if not obsolete:
-        lines = [" ~\n".join([f"{cycle.code} {cycle.title.upper()}", *(f"  {a}={klartext(v)}" for a, v in words)])]
     call = ["L X+20 Y+10 R0 FMAX M99"] if cycle.runs == "call" else []
     height = next((abs(value) for address, value in words if address == "SETUP"), 50)
     mills = "PECKG:F" in written or ("Q207" in written and "Q239" not in written)
     tool = 1 if mills else 2  # an end mill; for holes and their threads the drill
     start = ["BEGIN PGM TRIAL MM", f"TOOL CALL {tool} Z S1000", f"L X+0 Y+0 Z{klartext(height)} R0 FMAX M3"]
-    if cycle.code in ("CYCL DEF 220", "CYCL DEF 221"):  # which run the cycle before them
-        start += ["CYCL DEF 200 DRILLING", *"Q200=2 Q201=-15 Q206=120 Q202=5 Q210=0 Q203=0 Q204=20 Q211=0".split()]
-    return "\n".join([*start, *lines, *call, "END PGM TRIAL MM", ""])
+    before = HOLES if cycle.code in ("CYCL DEF 220", "CYCL DEF 221") else ()  # which run the cycle before them
+    return "\n".join([*start, *before, *mine, *call, "END PGM TRIAL MM", ""])

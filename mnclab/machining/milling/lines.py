@@ -124,17 +124,5 @@ def _along_wall(region: Region, a: Floats, b: Floats, stepover: float) -> Contou
         ways = ((forward, loop, there), (loop.length - forward, loop.reversed(), loop.length - there))
         length, ring, first = min(ways, key=lambda way: way[0])
         if 1e-6 < length <= 2 * straight + stepover and straight <= 6 * stepover:
-            return stretch(ring, first, length)
+            return ring.between(first, first + length)
     return None
-
-
-def stretch(loop: Contour, first: float, length: float) -> Contour:
-    """The open piece of a closed contour from one way along it on, of a length."""
-    ring = loop.started_at(first)
-    upto = np.append(0.0, np.cumsum(ring.lengths))
-    last = max(1, int(np.searchsorted(upto, length - 1e-9)))
-    stop = ring.point_at(length)[0]
-    bulge = ring.bulge[:last].copy()
-    share = (length - upto[last - 1]) / max(upto[last] - upto[last - 1], 1e-300)
-    bulge[-1] = np.tan(np.arctan(bulge[-1]) * min(share, 1.0))
-    return Contour(np.vstack([ring.points[:last], stop]), np.append(bulge, 0.0), closed=False)

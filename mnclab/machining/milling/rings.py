@@ -21,6 +21,7 @@ from mnclab.geometry.regions import Region
 from mnclab.geometry.vectors import cross, left
 from mnclab.geometry.whole_curves import Curve
 from mnclab.machining.milling.clearing import NOWHERE, Clearing, Piece, links, numbered, piecewise
+from mnclab.machining.milling.infeed_points import roomiest
 
 MOST_RINGS = 2000
 SHARP = 1e-6  # rad and mm, the least turn of a corner and the shortest element
@@ -37,18 +38,28 @@ class Ring:
 
 def rings(
     region: Region, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True,
-    corner_radius: float = 0.0,
+    corner_radius: float = 0.0, roomiest_first: bool = False,
 ) -> Clearing:  # fmt: skip
     """Passes that clear `region` with a tool of `radius`, leaving `allowance` at its walls.
 
     Rings round islands come first, then those along the walls. In climb milling, the spindle turning clockwise, walls are
     followed counter-clockwise. `corner_radius` rounds the inside corners of the last passes, as measured on the tool centre.
+    `roomiest_first` enters each piece at its infeed point and goes on at the ring nearest to it.
     """
     if corner_radius < 0:
         raise ValueError(f"the corner radius must not be negative, got {corner_radius:g}")
     return piecewise(
-        region, radius, stepover, allowance, lambda part: _piece(part, radius, stepover, climb, corner_radius)
-    )
+        region, radius, stepover, allowance,
+        lambda part: _piece(part, radius, stepover, climb, corner_radius, roomiest(part) if roomiest_first else None),
+    )  # fmt: skip
+
+
+def rings_within(
+    centres: Region, radius: float, stepover: float, *, climb: bool = True, corner_radius: float = 0.0
+) -> Clearing:
+    """The same where the area in which the tool centre may go is known."""
+    parts = tuple(_piece(part, radius, stepover, climb, corner_radius, None) for part in centres.parts)
+    return Clearing(centres, parts, radius)
 
 
 def rounded(loop: Contour, radius: float) -> Contour:
@@ -74,6 +85,8 @@ def rounded(loop: Contour, radius: float) -> Contour:
             taken[1, i - 1], taken[0, i] = cut
             sweep = np.arctan2(cross(*arms), np.dot(*arms))
             arcs[i] = first, last, float(np.tan(sweep / 4))
+    if not arcs:
+        return loop
     kept = np.tan(sweeps * np.clip(1 - taken.sum(axis=0) / lengths, 0, 1) / 4)
     points, bulge = [], []
     for i, corner in enumerate(loop.points):
@@ -93,15 +106,19 @@ def _way(curve: Curve, sweep: float, start: Floats, end: Floats) -> float:
     return float(curve.radius * np.sign(sweep) * np.arctan2(cross(*arms), np.dot(*arms)))
 
 
-def _piece(centres: Region, radius: float, stepover: float, climb: bool, corner_radius: float) -> Piece:
+def _piece(
+    centres: Region, radius: float, stepover: float, climb: bool, corner_radius: float, place: Floats | None
+) -> Piece:
     """The rings of one connected piece of the tool-centre area, in order and joined."""
-    passes = tuple(ring.contour for ring in rings_in_order(centres, radius, stepover, corner_radius))
+    passes = tuple(ring.contour for ring in rings_in_order(centres, radius, stepover, corner_radius, place))
     linked = links(centres, passes, stepover)
     turned = passes if climb else tuple(ring.reversed() for ring in passes)
-    return Piece(centres, turned, linked, numbered("ring", len(passes)))
+    return Piece(centres, turned, linked, numbered("ring", len(passes)), place)
 
 
-def rings_in_order(centres: Region, radius: float, stepover: float, corner_radius: float = 0.0) -> Iterator[Ring]:
+def rings_in_order(
+    centres: Region, radius: float, stepover: float, corner_radius: float = 0.0, begin: Floats | None = None
+) -> Iterator[Ring]:
     """The rings of a connected piece of the tool-centre area from the inside out, each begun nearest to the end of the last.
 
     A ring round an island waits for the deeper rings about it; a ring along a wall for all islands and for
@@ -115,7 +132,7 @@ def rings_in_order(centres: Region, radius: float, stepover: float, corner_radiu
     deeper = level[None, :] > level[:, None]
     waits = np.where(island[:, None], within.T & island & deeper, island | (within & deeper))
     left_over = np.ones(len(todo), dtype=bool)
-    here: Floats | None = None
+    here = begin
     while left_over.any():
         free = np.flatnonzero(left_over & ~(waits & left_over).any(axis=1))
         if here is None:

@@ -103,14 +103,8 @@ def way_at(profile: Contour, element: int, level: float) -> float:
 
 def between(profile: Contour, first: float, last: float) -> Contour | None:
     """The part of an open contour from one way along it to another; None if it has no length."""
-    upto = np.append(0.0, np.cumsum(profile.lengths))
-    low, high = np.maximum(first, upto[:-1]), np.minimum(last, upto[1:])
-    some = high - low > SAME
-    if not some.any():
-        return None
-    ends = np.where((high == upto[1:])[:, None], profile.points[1:], profile.point_at(high)[0])[some]
-    bulges = np.tan(profile.sweeps * (high - low) / np.maximum(profile.lengths, SAME) / 4)[some]
-    return Contour(np.vstack([profile.point_at(first)[0], ends]), np.append(bulges, 0.0), closed=False)
+    piece = profile.between(first, last)
+    return piece if piece.length > SAME else None
 
 
 def joined(pieces: Iterable[Contour | None]) -> Contour:

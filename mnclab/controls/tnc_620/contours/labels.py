@@ -28,7 +28,7 @@ class ContourGeometry(Cycle):
     """The labels whose contours together are the pocket; no motion."""
 
     labels: tuple[float, ...] = addresses.number(
-        "LBL", "label numbers of the contour", at_most=65535, several=True, note="1/2/3, up to 12", example=1
+        "LBL", "label numbers of the contour", at_most=65535, several=True, note="1/2/3, up to 12", example=(1, 2)
     )
 
     def check(self, m: Machine) -> Iterator[Fault]:

@@ -1,6 +1,6 @@
 """The one contour of a contour train, of a trochoidal slot and of the cylinder surfaces: the first label of cycle 14.
 
-Unlike an area it need not be closed: it is where it ends at its beginning.
+Unlike an area it need not be closed: it is where it ends at its beginning. APPR and DEP blocks are no part of it.
 """
 
 from __future__ import annotations
@@ -9,25 +9,37 @@ from collections.abc import Generator, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.contours.area import upright
 from mnclab.controls.tnc_620.contours.labels import Labels
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.state import memory
-from mnclab.geometry.contours import Contour
-from mnclab.machine.flow import Recording
+from mnclab.geometry.contours import Contour, Floats
+from mnclab.machine.flow import RecordedLead, Recording
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Record, Step
-from mnclab.path.outline import outline
+from mnclab.path.outline import chain
 
 CLOSED = 1e-6  # mm, from the end to the beginning of a closed contour
+MOST_ELEMENTS = 16384  # of a contour
 
 
 class Line(NamedTuple):
-    """A contour with the side that its compensation says: +1 left, -1 right, 0 none."""
+    """A contour with the side that its compensation says: +1 left, -1 right, 0 none.
+
+    `heights` (n,) are those of its n points; `steps` and `lines` (m,) name the blocks of its m elements, for alarms.
+    `approach` and `departure` lead to it and away, where the label has APPR and DEP; a label without APPR begins with a
+    straight line.
+    """
 
     contour: Contour
     side: int
+    heights: Floats
+    steps: NDArray[np.int64]
+    lines: NDArray[np.int64]
+    approach: RecordedLead | None = None
+    departure: RecordedLead | None = None
 
 
 def with_labels(m: Machine, single: bool = False) -> Iterator[Fault]:
@@ -39,16 +51,28 @@ def with_labels(m: Machine, single: bool = False) -> Iterator[Fault]:
         yield "", f"takes a single contour, but CYCL DEF 14 names {len(labels.names)} labels"
 
 
-def contour_line(m: Machine) -> Generator[Step, Any, Line]:
-    """The contour of the first label of cycle 14, in coordinates of the program; an Alarm where it leaves its plane."""
+def contour_line(m: Machine, in_space: bool = False) -> Generator[Step, Any, Line]:
+    """The contour of the first label of cycle 14, in coordinates of the program.
+
+    An Alarm where it leaves its plane; `in_space` it may have heights, and its first block needs all three coordinates.
+    """
     labels = memory(m).contour
     assert isinstance(labels, Labels)
     label = labels.names[0]
-    recording: Recording = yield Record(label, labels.program, labels.unit)
-    if (abs(recording.path.end[:, 2] - recording.start[2]) > 1e-9).any() or upright(recording.path):
+    recording: Recording = yield Record(label, labels.program, labels.unit, in_space=in_space)
+    path = recording.path
+    if not len(path):
+        m.alarm(f"label {label} describes no contour")
+    if len(path) > MOST_ELEMENTS:
+        m.alarm(f"the contour of label {label} has {len(path)} elements, more than {MOST_ELEMENTS}")
+    if upright(path):
+        m.alarm(f"an arc of the contour of label {label} leaves the plane XY")
+    ends = [lead.place[2] for lead in (recording.approach, recording.departure) if lead and lead.place]
+    if not in_space and np.abs([*path.end[:, 2], recording.start[2], *ends]).max() > 1e-9:
         m.alarm(f"the contour of label {label} moves along the tool axis")
-    contour = outline(recording.path)
-    first, last = recording.path.start[0, :2], recording.path.end[-1, :2]
-    if np.hypot(*(last - first)) > CLOSED:
-        contour = Contour(contour.points, contour.bulge, closed=False)
-    return Line(contour, recording.side)
+    contour, heights, rows = chain(path)
+    if contour.length <= CLOSED:
+        m.alarm(f"the contour of label {label} has no length in the plane XY")
+    if np.hypot(*(contour.points[-1] - contour.points[0])) <= CLOSED and abs(heights[-1] - heights[0]) <= CLOSED:
+        contour, heights = Contour(contour.points[:-1], contour.bulge[:-1]), heights[:-1]
+    return Line(contour, recording.side, heights, path.step[rows], path.line[rows], recording.approach, recording.departure)

@@ -2,26 +2,31 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from functools import partial
 
 from mnclab.controls.tnc_620.contours.area import contour_terraces
 from mnclab.controls.tnc_620.contours.data import ContourData, contour_data, prepared
 from mnclab.controls.tnc_620.contours.leaving import leave
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, count, increment, ratio
-from mnclab.controls.tnc_620.cycles.faults import Fault, with_radius
+from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates, rate
 from mnclab.geometry.regions import Region
 from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.machine import INF, Machine
-from mnclab.machine.true_size import MILLS, remark
-from mnclab.machining.milling.clearing import Clearing, numbered
+from mnclab.machine.true_size import MILLS, remark, tool
+from mnclab.machining.milling import roughing
+from mnclab.machining.milling.clearing import Clearing
 from mnclab.machining.milling.residue import left_by
 from mnclab.machining.milling.rings import rings
+from mnclab.machining.milling.roughing import Feeds, Heights
 from mnclab.machining.milling.terraces import levels
-from mnclab.machining.steps import Along, Go, Say, Step
+from mnclab.machining.steps import Say, Step, Write
 
 CYCLES = CycleTable()
+LEAST_ANGLE = 0.1  # degrees
 STRATEGIES: dict[float, str] = {0: "along the contour at depth", 1: "retract between the areas"}
 
 
@@ -42,44 +47,44 @@ class RoughOut(Cycle):
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from prepared(m)
+        yield from with_radius(m)
         if self.infeed == 0:
             yield "infeed", "must not be 0"
+        yield from not_zero(self, "feed", *(() if self.swing_feed else ("plunge_feed",)), purpose="to mill with")
         if isinstance(self.retract_feed, float) and FAR < self.retract_feed < INF:
             yield "retract_feed", f"must be at most {FAR:.10g} or FMAX, got {self.retract_feed:g}"
         if self.coarse_tool:
             yield "coarse_tool", "other than 0, fine roughing, is not built yet"
-        if self.factor != 100:
-            yield "factor", f"other than 100 is not built yet, got {self.factor:g}"
-        if self.swing_feed and not m.tool.plunge_angle:
-            yield "swing_feed", "needs the plunge angle (ANGLE) of the tool in its table"
-        if self.swing_feed and m.tool.plunge_angle != 90:
-            yield "swing_feed", "other than 0, a helical or reciprocating plunge, is not built yet"
-        yield from with_radius(m)
+        if self.swing_feed and not LEAST_ANGLE <= m.tool.plunge_angle <= 90:
+            angle = f"the plunge angle (ANGLE) of tool {m.tool.number} in its table, {LEAST_ANGLE:g} to 90 degrees"
+            yield "swing_feed", f"needs {angle}, got {m.tool.plunge_angle:g}"
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        data, before = contour_data(m), m.programmed
+        data, before, plunge = contour_data(m), m.programmed, self.swing_feed or self.plunge_feed
+        yield Write("memory", m.tool, "rough_out_tool")
         found = yield from contour_terraces(m, data)
         clearings = [clearing(self, m, data, terrace.region) for terrace in found]
         if data.overlap > 1:
             for terrace in found:
                 yield from residue(m, terrace.region, data)
-        plunge = self.swing_feed or self.plunge_feed
-        heights = levels(found, data.surface, data.down, abs(self.infeed), data.floor_allowance)
-        for label, level in zip(numbered("level", len(heights)), heights, strict=True):
-            for piece in clearings[level.terrace].pieces:
-                height = data.height  # for positioning (8.4), from above as from below: nothing stands in the way there
-                for ring, linked in zip(piece.passes, (False, *piece.linked)):
-                    x, y = ring.points[0].tolist()
-                    if linked:
-                        yield Go(label, x=x, y=y, feed=self.feed)
-                    else:
-                        yield Go(label, height)
-                        yield Go(label, x=x, y=y)
-                        yield Go(label, data.above)
-                        yield Go(label, level.height, plunge)
-                    yield Along(label, ring, self.feed)
-                    height = data.above
+        heights = Heights(data.height, data.surface, data.above, data.down)
+        feeds = Feeds(plunge, self.feed, self.feed * self.factor / 100)
+        at = levels(found, data.surface, data.down, abs(self.infeed), data.floor_allowance)
+        try:
+            yield from roughing.rough_out(clearings, at, heights, feeds, self.way_down(m, data))
+        except ValueError as error:
+            m.alarm(f"{self.code}: {error}{remark(m)}", hint=f"LCUTS of tool {m.tool.number} in the tool table")
         yield from leave(m, before, data.height, rate(self.retract_feed, self.feed))
+
+    def way_down(self, m: Machine, data: ContourData) -> roughing.WayDown:
+        """Straight without Q19, or where ANGLE is 90; else on a helix, and to and fro where that has no room (8.6)."""
+        mill = tool(m)
+        if not self.swing_feed or mill.plunge_angle == 90:
+            return roughing.straight_down
+        stroke = mill.cutting_length / math.tan(math.radians(mill.plunge_angle))
+        return partial(
+            roughing.sloping_down, radius=m.radius, angle=mill.plunge_angle, stroke=stroke, climb=data.climb(m)
+        )
 
 
 def clearing(c: Cycle, m: Machine, data: ContourData, region: Region) -> Clearing:
@@ -87,7 +92,7 @@ def clearing(c: Cycle, m: Machine, data: ContourData, region: Region) -> Clearin
     try:
         return rings(
             region, m.radius, data.overlap * m.radius, allowance=data.side_allowance, climb=data.climb(m),
-            corner_radius=data.corner,
+            corner_radius=data.corner, roomiest_first=True,
         )  # fmt: skip
     except ValueError as error:
         m.alarm(f"{c.code}: {error}{remark(m)}", hint="take a smaller tool")

@@ -51,7 +51,7 @@ class WorkingPlane(Cycle):
 
     about = in_program_coordinates
     angle_a: float | None = tilt("A", "tilt angle A")
-    angle_b: float | None = tilt("B", "tilt angle B")
+    angle_b: float | None = tilt("B", "tilt angle B", example=30)
     angle_c: float | None = tilt("C", "tilt angle C")
     rotary_feed: float | None = feed("F", "feed of the rotary axes", **STILL, note="degrees a minute")
     set_up_clearance: float | None = distance(

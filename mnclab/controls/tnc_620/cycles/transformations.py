@@ -37,7 +37,7 @@ class Mirroring(Cycle):
 
     mirrored_axes: tuple[str, ...] | None = param(
         "axes", "mirrored axes", "text", type="text", several=True, default=None, default_means="none: no mirror image",
-        modal=True, note="letters: X, Y, X Y; not the tool axis",
+        modal=True, note="letters: X, Y, X Y; not the tool axis", example=("X",),
     )  # fmt: skip
 
     def check(self, m: Machine) -> Iterator[Fault]:
@@ -122,8 +122,8 @@ class DatumShift(Cycle):
     `#5` takes the shift from a row of the active datum table; an empty field there leaves its axis as it is.
     """
 
-    x: float | None = linear("X", "datum shift along X")
-    y: float | None = linear("Y", "datum shift along Y")
+    x: float | None = linear("X", "datum shift along X", example=60)
+    y: float | None = linear("Y", "datum shift along Y", example=25)
     z: float | None = linear("Z", "datum shift along Z")
     a: float | None = rotary("A", "datum shift of A")
     b: float | None = rotary("B", "datum shift of B")

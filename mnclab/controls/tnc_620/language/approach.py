@@ -136,9 +136,6 @@ def departure(m: Machine, words: Words) -> None:
     if form(words) in ("LN", "CT") and not m.side:
         m.alarm(f"{words.code} needs radius compensation: without a side it has no direction")
     heading(m, words)
-    if m.recorded_only:  # a recorded contour ends at its last point
-        m.change("side", 0)
-        return
     to = last_point(m, words, lead)
     m.change("side", 0)
     m.line(*to, f=f, joint=lead)

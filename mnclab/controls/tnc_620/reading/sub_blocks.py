@@ -7,6 +7,7 @@ they are passed over, and what the number means follows from its place.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Mapping
 from functools import partial
 
 from mnclab.controls.tnc_620.reading import obsolete_blocks
@@ -124,3 +125,19 @@ READERS: dict[str, Read] = {
     "CYCL DEF 32.1": tolerance,
     "CYCL DEF 32.2": filters,
 }
+
+#: By cycle, the addresses of the sub-blocks .1, .2, … as they are written; a datum shift has one for each axis.
+LINES: dict[str, tuple[str, ...]] = {
+    "CYCL DEF 7": tuple("XYZABC#"), "CYCL DEF 8": ("axes",), "CYCL DEF 10": ("ROT",), "CYCL DEF 11": ("SCL",),
+    "CYCL DEF 12": ("PGM",), "CYCL DEF 14": ("LBL",), "CYCL DEF 19": ("A B C F ABST",),
+    "CYCL DEF 26": ("X Y Z CCX CCY CCZ",),
+}  # fmt: skip
+_HEADS = {"axes": "", "LBL": "CONTOUR LABEL ", "SCL": "SCL ", "PGM": "PGM "}
+
+
+def written(code: str, title: str, words: Mapping[str, str]) -> Iterator[str]:
+    """The lines of a definition, of the values that are there as they are written."""
+    yield f"{code}.0 {title}"
+    lines = [[address for address in part.split() if address in words] for part in LINES[code]]
+    for number, addresses in enumerate(filter(None, lines), 1):
+        yield f"{code}.{number} " + " ".join(_HEADS.get(address, address) + words[address] for address in addresses)

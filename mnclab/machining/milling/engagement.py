@@ -27,6 +27,8 @@ FINE = 16  # discs to a tool radius
 BLOCK = 500
 RIM = np.radians(np.arange(-90, 90.01, 0.25))
 QUARTER = np.pi / 2
+FULL = np.radians(178)  # from here on the tool cuts with its whole circumference
+SHORT = 0.25  # of the tool radius: a shorter gap between two full stretches is full as well
 
 
 class Engagement(NamedTuple):
@@ -85,6 +87,47 @@ def engagement(
         angle[here], width[here] = _open(sample, low, high, len(here), radius)
     cut = size > 0
     return Engagement(points[cut], heading[cut], angle[cut], width[cut], size[cut], move[cut])
+
+
+class Stretch(NamedTuple):
+    """A part of a pass, and whether the tool cuts on it with its whole circumference: the whole front half of its rim."""
+
+    contour: Contour
+    full: bool
+
+
+def stretches(
+    moves: Sequence[Contour], radius: float, *, stock: Region | None = None, limit: float = FULL
+) -> tuple[tuple[Stretch, ...], ...]:
+    """Each of some contours, cut one after the other, parted where the engagement rises above `limit` (rad) or falls below it.
+
+    All that the tool runs through belongs to `moves`: links, and a contour of no length where it plunged. A contour that is
+    the same all along stays whole, and closed. Without a `stock` there is material everywhere.
+    """
+    found = engagement(moves, radius, stock=stock)
+    full, first = found.angle >= limit, np.searchsorted(found.move, np.arange(len(moves) + 1))
+    return tuple(
+        _parted(contour, full[a:b], SHORT * radius) for contour, a, b in zip(moves, first, first[1:], strict=False)
+    )
+
+
+def _parted(contour: Contour, full: NDArray[np.bool_], short: float) -> tuple[Stretch, ...]:
+    """A contour cut where the flags of its equal steps change."""
+    if not len(full) or full.all() or not full.any():
+        return (Stretch(contour, bool(full.any())),)
+    step = contour.length / len(full)
+    change = np.flatnonzero(full[1:] != full[:-1]) + 1
+    edges = np.concatenate([[0], change, [len(full)]])
+    gap = ~full[edges[:-1]] & (np.diff(edges) * step < short)
+    gap[[0, -1]] = False
+    kept = np.concatenate([[True], ~(gap[1:] | gap[:-1]), [True]])  # a gap goes with both of its edges
+    ways = edges[kept] * step
+    flags = full[edges[:-1]][kept[:-1]]
+    if len(flags) == 1:
+        return (Stretch(contour, bool(flags[0])),)
+    return tuple(
+        Stretch(contour.between(a, b), bool(flag)) for a, b, flag in zip(ways, ways[1:], flags, strict=False)
+    )
 
 
 def _sampled(moves: Sequence[Contour], step: float) -> tuple[Floats, Floats, Floats, NDArray[np.intp]]:

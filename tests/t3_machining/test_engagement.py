@@ -6,10 +6,10 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mnclab.comparison.engagement import engagement
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.shapes import rectangle
+from mnclab.machining.milling.engagement import engagement
 
 pytestmark = pytest.mark.deep
 
