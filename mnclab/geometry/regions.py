@@ -101,8 +101,7 @@ class Region:
     @cached_property
     def bounds(self) -> Floats:
         """Lower left and upper right corner `(2, 2)`, which an empty area has not."""
-        corners = np.array([loop.bounds for loop in self.loops])
-        return np.array([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)])
+        return np.array([self._boxes[:, 0].min(axis=0), self._boxes[:, 1].max(axis=0)])
 
     @cached_property
     def area(self) -> float:
@@ -117,8 +116,12 @@ class Region:
     def contains(self, points: ArrayLike) -> NDArray[np.bool_]:
         """Which of the points `(k, 2)` lie inside, `(k,)`; a point on the boundary may count either way."""
         spots = np.asarray(points, dtype=float).reshape(-1, 2)
-        none = np.zeros(len(spots), dtype=int)
-        return np.asarray(sum((loop.winding(spots) for loop in self.loops), none) > 0)
+        rounds = np.zeros(len(spots), dtype=int)
+        for loop, (low, high) in zip(self.loops, self._boxes, strict=True):
+            near = np.flatnonzero(((spots >= low) & (spots <= high)).all(axis=1))
+            if len(near):
+                rounds[near] += loop.winding(spots[near])
+        return np.asarray(rounds > 0)
 
     def distance(self, points: ArrayLike) -> Floats:
         """Distance of the boundary from each of the points `(k, 2)`, never negative, `(k,)`."""
@@ -132,11 +135,19 @@ class Region:
         The way is cut where it meets the whole line or circle of an element; one point of each piece tells.
         """
         a, b = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
-        cuts = np.concatenate([[0.0, 1.0], *(meeting(loop, a, b - a) for loop in self.loops)])
+        low, high = np.minimum(a, b) - tolerance, np.maximum(a, b) + tolerance
+        near = (self._boxes[:, 0] <= high).all(axis=1) & (self._boxes[:, 1] >= low).all(axis=1)
+        cuts = np.concatenate([[0.0, 1.0], *(meeting(self.loops[k], a, b - a) for k in np.flatnonzero(near))])
         cuts = np.unique(cuts[(cuts >= 0) & (cuts <= 1)])
         middles = a + (cuts[1:] + cuts[:-1])[:, None] / 2 * (b - a)
         spots = np.vstack([a, b, middles])
-        return bool((self.contains(spots) | (self.distance(spots) <= tolerance)).all())
+        outside = spots[~self.contains(spots)]
+        return not len(outside) or bool((self.distance(outside) <= tolerance).all())
+
+    @cached_property
+    def _boxes(self) -> Floats:
+        """Lower left and upper right corners of the loops, `(n, 2, 2)`."""
+        return np.array([loop.bounds for loop in self.loops]).reshape(-1, 2, 2)
 
     def _with(self, operation: str, other: Region) -> Region:
         drawing = Drawing([*self.loops, *other.loops])

@@ -10,11 +10,12 @@ stands then, in sharp corners and along narrow arms between two rings, is the pr
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import count
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
@@ -131,6 +132,7 @@ def rings_in_order(
     within = np.array([ring.contour.winding(starts) != 0 for ring in todo])  # [i, k]: k lies within i
     deeper = level[None, :] > level[:, None]
     waits = np.where(island[:, None], within.T & island & deeper, island | (within & deeper))
+    boxes = np.array([ring.contour.bounds for ring in todo])
     left_over = np.ones(len(todo), dtype=bool)
     here = begin
     while left_over.any():
@@ -140,12 +142,26 @@ def rings_in_order(
             lengths = todo[k].contour.lengths
             way = float(lengths[: int(lengths.argmax())].sum() + lengths.max() / 2)
         else:
-            k = free[np.argmin([float(todo[k].contour.distance(here)[0]) for k in free])]
+            k = _nearest(todo, boxes, free, here)
             way = todo[k].contour.nearest(here)
         left_over[k] = False
         ring = replace(todo[k], contour=todo[k].contour.started_at(way))
         here = ring.contour.points[0]
         yield ring
+
+
+def _nearest(todo: Sequence[Ring], boxes: Floats, free: NDArray[np.intp], here: Floats) -> int:
+    """Which of the free rings is nearest to a place; `boxes` (n, 2, 2) are about the rings."""
+    outside = np.maximum(boxes[free, 0] - here, here - boxes[free, 1]).max(axis=1)
+    order = np.argsort(outside, kind="stable")
+    best, least = int(free[order[0]]), np.inf
+    for k, off in zip(free[order].tolist(), outside[order].tolist(), strict=True):
+        if off > least:
+            break
+        way = float(todo[k].contour.distance(here)[0])
+        if (way, k) < (least, best):
+            best, least = k, way
+    return best
 
 
 def _rings(centres: Region, radius: float, stepover: float, corner_radius: float) -> Iterator[Ring]:
