@@ -9,7 +9,7 @@ counter-clockwise, -1 for half a circle clockwise. Lengths in mm, angles in rad,
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -331,6 +331,20 @@ class Contour:
             off[:, k] = np.where(inside, np.abs(length_of(arm) - radii[k]), np.minimum(at_start, at_end))
             u[:, k] = np.where(inside, ahead / np.abs(s[k]), np.where(at_start <= at_end, 0.0, 1.0))
         return off, u
+
+
+def joined(pieces: Iterable[Contour | None]) -> Contour:
+    """Contours that follow each other as one, with straight lines across gaps."""
+    points: list[Floats] = []
+    bulges: list[float] = []
+    for piece in filter(None, pieces):
+        if points and length_of(piece.points[0] - points[-1]) <= SHORTEST:
+            points.pop()
+        elif points:
+            bulges.append(0.0)
+        points.extend(piece.points)
+        bulges.extend(piece.bulge[:-1])
+    return Contour(np.array(points), [*bulges, 0.0], closed=False)
 
 
 def keeps_circles(matrix: Floats) -> bool:

@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mnclab.geometry import vectors
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour, Floats, joined
 from mnclab.path.inserts import angles_of
 from mnclab.path.tool import Tool
 
@@ -105,20 +105,6 @@ def between(profile: Contour, first: float, last: float) -> Contour | None:
     """The part of an open contour from one way along it to another; None if it has no length."""
     piece = profile.between(first, last)
     return piece if piece.length > SAME else None
-
-
-def joined(pieces: Iterable[Contour | None]) -> Contour:
-    """Contours that follow each other as one, with straight lines across gaps."""
-    points: list[Floats] = []
-    bulges: list[float] = []
-    for piece in filter(None, pieces):
-        if points and np.hypot(*(piece.points[0] - points[-1])) <= SAME:
-            points.pop()
-        elif points:
-            bulges.append(0.0)
-        points.extend(piece.points)
-        bulges.extend(piece.bulge[:-1])
-    return Contour(np.array(points), [*bulges, 0.0], closed=False)
 
 
 def exit_way(profile: Contour, level: float) -> float:
