@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from mnclab.geometry.contours import Contour, Floats
+from mnclab.path.cylinder import Cylinder
 
 RAPID = math.inf
 
@@ -37,6 +38,15 @@ class Turn(NamedTuple):
     z: float | None = None
     feed: float | None = None
     centre: tuple[float, float] = (0.0, 0.0)
+
+
+class Dip(NamedTuple):
+    """A quarter circle of the plane ZX to x and z: it begins along Z where the tool stands, and ends along X."""
+
+    label: str
+    x: float
+    z: float
+    feed: float | None = None
 
 
 class Along(NamedTuple):
@@ -120,6 +130,21 @@ class Swivel(NamedTuple):
     feed: float | None
 
 
+class Rolled(NamedTuple):
+    """Moves over a cylinder, which its rotary axis turns: straight from each of the places to the next.
+
+    `points` (n, 3) are tips as the machine has them, in coordinates of the program; `angles` (n,) rad are those
+    of the axis there; `ways` (n,) mm are the lengths along the developed surface, which the feed counts along.
+    """
+
+    label: str
+    cylinder: Cylinder
+    points: Floats
+    angles: Floats
+    ways: Floats
+    feed: float | None = RAPID
+
+
 class Each(NamedTuple):
     """What `visit(x, y)` yields, at each of the points (n, 2); visits that are alike are made as columns."""
 
@@ -181,8 +206,8 @@ class Write(NamedTuple):
 
 
 Step = (
-    Go | Turn | Along | Thread | Wait | Spin | Orient | Pause | Coolant | Touch | Swivel | Each | Call | Blocks | Record | Say
-    | Write
+    Go | Turn | Dip | Along | Thread | Wait | Spin | Orient | Pause | Coolant | Touch | Swivel | Rolled | Each | Call | Blocks
+    | Record | Say | Write
 )
 
 
@@ -194,6 +219,8 @@ def moved(steps: Iterable[Step], x: float, y: float) -> Iterator[Step]:
                 yield step._replace(x=None if step.x is None else x + step.x, y=None if step.y is None else y + step.y)
             case Turn():
                 yield step._replace(centre=(x + step.centre[0], y + step.centre[1]))
+            case Dip():
+                yield step._replace(x=x + step.x)
             case Along():
                 yield step._replace(at=(x + step.at[0], y + step.at[1]))
             case _:

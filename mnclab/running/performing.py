@@ -16,14 +16,15 @@ import numpy as np
 from mnclab.geometry.contours import Contour
 from mnclab.machine.cycle import Definition
 from mnclab.machine.machine import Machine
-from mnclab.machine.rotary import turn_axes
+from mnclab.machine.rotary import roll, turn_axes
 from mnclab.machine.true_size import MILLS
 from mnclab.machining.depths import TooMany
 from mnclab.running.binding import as_it_stands, bind, fault
 from mnclab.running.repeating import at_each
 
 from mnclab.machining.steps import (  # isort: skip
-    Along, Blocks, Call, Coolant, Each, Go, Orient, Pause, Record, Say, Spin, Step, Swivel, Thread, Touch, Turn, Wait, Write,
+    Along, Blocks, Call, Coolant, Dip, Each, Go, Orient, Pause, Record, Rolled, Say, Spin, Step, Swivel, Thread, Touch, Turn,
+    Wait, Write,
 )  # fmt: skip
 
 Place = tuple[float, float]
@@ -88,6 +89,9 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = 
             case Turn():
                 with m.within(plane="XY"):
                     m.turn((x + step.centre[0], y + step.centre[1]), step.angle, step.z, step.feed)
+            case Dip():
+                with m.within(plane="ZX"):
+                    dip(m, x + step.x, step.z, step.feed)
             case Spin():
                 m.spindle(step.speed, step.turning)
             case Orient():
@@ -100,6 +104,8 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = 
                 answer = m.touch(x + step.x, y + step.y, step.z, f=step.feed, ball=step.ball, miss=step.miss)
             case Swivel():
                 turn_axes(m, step.angles, step.feed)
+            case Rolled():
+                roll(m, step.cylinder, step.points, step.angles, step.ways, step.feed)
             case Each():
                 at_each(m, step.points, lambda *point, visit=step.visit: perform(m, name, visit(*point), (x, y)))
             case Call():
@@ -142,6 +148,13 @@ def write(m: Machine, step: Write) -> None:
             m.log(step.key, step.value)
         case _:
             m.change(step.what, step.value)
+
+
+def dip(m: Machine, x: float, z: float, feed: float | None) -> None:
+    """A quarter circle of the plane ZX, off along Z and to a place along X."""
+    before, _, height = m.programmed
+    sense = 1 if (before - x) * (height - z) > 0 else -1
+    m.arc(x, None, z, sense=sense, centre={0: x, 2: height}, f=feed)
 
 
 def follow(

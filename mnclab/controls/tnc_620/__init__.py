@@ -9,7 +9,19 @@ from __future__ import annotations
 from mnclab.controls.tnc_620 import later, trial_figures
 from mnclab.controls.tnc_620.contours import data as contour_data
 from mnclab.controls.tnc_620.contours import labels as contour_labels
-from mnclab.controls.tnc_620.contours import leaving, pilot, rough_out
+
+from mnclab.controls.tnc_620.contours import (  # isort: skip
+    cylinder,
+    floor_finishing,
+    leaving,
+    pilot,
+    rough_out,
+    side_finishing,
+    train,
+    train_data,
+    surface,
+    trochoidal_slot,
+)
 from mnclab.controls.tnc_620.cycles import (
     boring,
     defaults,
@@ -107,7 +119,8 @@ SETTINGS = (
         unit="s", at_least=0,
     ),
     *tools.SETTINGS, *no_effect.SETTINGS, *retraction.SETTINGS, *tilting.SETTINGS, *engraving.SETTINGS,
-    *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS, *output.SETTINGS, *leaving.SETTINGS,
+    *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS, *output.SETTINGS,
+    *leaving.SETTINGS, *cylinder.SETTINGS, *surface.SETTINGS,
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
@@ -121,7 +134,16 @@ FUNCTIONS = (
 )  # fmt: skip
 CHAPTERS = (
     defaults, drilling, boring, pecking, tapping, threads, point_patterns, pockets, slots, studs, walled_faces,
-    contour_labels, contour_data, pilot, rough_out, transformations, tilting, special, engraving, face_milling, presets, program_call,
+    contour_labels, contour_data,
+    pilot,
+    rough_out,
+    floor_finishing,
+    side_finishing,
+    train_data,
+    train,
+    trochoidal_slot,
+    cylinder,
+    transformations, tilting, special, engraving, face_milling, presets, program_call,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()
@@ -170,5 +192,5 @@ CONTROL = Control(
     storage="variables", preassigned={**parameters.PREASSIGNED, **system_texts.TEXTS}, local_variables="QL",
     named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again, turned=tool_axis.turned,
     compensation=Compensation(approach="perpendicular", rapid=True),
-    bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call")),
+    bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call") and m.memory.developed is None),
 )  # fmt: skip

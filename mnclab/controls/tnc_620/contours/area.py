@@ -1,7 +1,8 @@
 """The area that a contour describes: the labels of cycle 14 (8.2, 8.3), or a formula of regions (chapter 10).
 
 The path inside its contour is a pocket: clockwise with RR, counter-clockwise with RL; else an island. A further pocket is
-united with the area, or intersected with it if the first pocket begins inside it; islands are taken away.
+united with the area, or intersected with it if the first pocket begins inside it; islands are taken away. Islands alone
+are no area, but side finishing takes them as walls that are gone round from outside (8.8).
 """
 
 from __future__ import annotations
@@ -22,23 +23,33 @@ from mnclab.path.kinds import Kind
 from mnclab.path.outline import outline
 from mnclab.path.toolpath import Toolpath
 
-Begin: TypeAlias = tuple[float, float]
+Pocket: TypeAlias = tuple[Contour, tuple[float, float]]  # and where it begins
 
 
-def contour_terraces(m: Machine, data: ContourData) -> Generator[Step, Any, tuple[Terrace, ...]]:
-    """The areas of the contour from the surface down to the depth of cycle 20, which the steps read; a depth of 0 is one area."""
+def contour_terraces(
+    m: Machine, data: ContourData, *, islands_alone: bool = False
+) -> Generator[Step, Any, tuple[Terrace, ...]]:
+    """The areas of the contour from the surface down to the depth of cycle 20, which the steps read; a depth of 0 is one area.
+
+    With `islands_alone` labels without a pocket are one `solid` terrace, else an Alarm.
+    """
     source = memory(m).contour
     assert source is not None
-    formula = Part((yield from labelled_region(m, source))) if isinstance(source, Labels) else source
     try:
-        return terraces(formula, abs(data.depth) or 1.0)
+        if isinstance(source, Labels):
+            pockets, islands = yield from labelled_contours(m, source)
+            if islands_alone and islands and not pockets:
+                return (Terrace(0.0, abs(data.depth), Region.of(*islands), solid=True),)
+            source = Part(united(m, pockets, islands))
+        found = terraces(source, abs(data.depth) or 1.0)
     except ValueError as error:
         m.alarm(f"the contour is no area: {error}")
+    return found if data.depth else (found[0]._replace(bottom=0.0),)
 
 
-def labelled_region(m: Machine, labels: Labels) -> Generator[Step, Any, Region]:
-    """The area of labels, in coordinates of the program."""
-    pockets: list[tuple[Contour, Begin]] = []
+def labelled_contours(m: Machine, labels: Labels) -> Generator[Step, Any, tuple[list[Pocket], list[Contour]]]:
+    """The pockets and the islands that labels describe, in coordinates of the program."""
+    pockets: list[Pocket] = []
     islands: list[Contour] = []
     recording: Recording | None = None
     for label in labels.names:
@@ -55,12 +66,7 @@ def labelled_region(m: Machine, labels: Labels) -> Generator[Step, Any, Region]:
             pockets.append((contour, recording.start[:2]))
         else:
             islands.append(contour)
-    if not pockets:
-        m.alarm("the contour has no pocket", hint="a pocket is clockwise with RR or counter-clockwise with RL")
-    try:
-        return united(pockets, islands)
-    except ValueError as error:
-        m.alarm(f"the contour is no area: {error}")
+    return pockets, islands
 
 
 def upright(path: Toolpath) -> bool:
@@ -68,8 +74,10 @@ def upright(path: Toolpath) -> bool:
     return bool(((path.kind == Kind.ARC) & (abs(path.axis[:, 2]) < 0.5)).any())
 
 
-def united(pockets: Sequence[tuple[Contour, Begin]], islands: Sequence[Contour]) -> Region:
-    """The area of pockets, each with the point where it begins, without islands; a ValueError if one encloses no area."""
+def united(m: Machine, pockets: Sequence[Pocket], islands: Sequence[Contour]) -> Region:
+    """The area of pockets without islands; a ValueError if one encloses no area, an Alarm without a pocket."""
+    if not pockets:
+        m.alarm("the contour has no pocket", hint="a pocket is clockwise with RR or counter-clockwise with RL")
     (first, begin), *others = pockets
     region = Region.of(first)
     for contour, _ in others:
