@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mnclab.geometry import vectors
-from mnclab.geometry.contours import Contour, Floats, joined
+from mnclab.geometry.contours import Contour, Floats
 from mnclab.path.inserts import angles_of
 from mnclab.path.tool import Tool
 
