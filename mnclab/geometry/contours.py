@@ -9,7 +9,7 @@ counter-clockwise, -1 for half a circle clockwise. Lengths in mm, angles in rad,
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -343,6 +343,20 @@ def turning(before: Floats, after: Floats, bends: Floats) -> Floats:
     back = np.abs(angle) > np.pi - CUSP
     angle[back] = np.where(bends[back] > 0, -np.pi, np.pi)
     return angle
+
+
+def joined(pieces: Iterable[Contour | None]) -> Contour:
+    """Contours that follow each other as one, with straight lines across gaps."""
+    points: list[Floats] = []
+    bulges: list[float] = []
+    for piece in filter(None, pieces):
+        if points and length_of(piece.points[0] - points[-1]) <= SHORTEST:
+            points.pop()
+        elif points:
+            bulges.append(0.0)
+        points.extend(piece.points)
+        bulges.extend(piece.bulge[:-1])
+    return Contour(np.array(points), [*bulges, 0.0], closed=False)
 
 
 def keeps_circles(matrix: Floats) -> bool:
