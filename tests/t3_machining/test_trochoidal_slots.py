@@ -5,8 +5,6 @@ import pytest
 import shapely
 
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.strips import strip
-from mnclab.machining.depths import TooMany
 from mnclab.machining.milling.trochoidal_slots import trochoid, walls
 
 STRAIGHT = Contour([(0, 0), (40, 0)], closed=False)
