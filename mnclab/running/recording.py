@@ -58,6 +58,7 @@ def record(
         m.put(**path_so_far)
         m.restore(kept)
     path = _within(path.motion, outer)
+    span = span or flow.span_of_step(int(path.step[0]) if len(path) else m.step)
     if not len(path):
         raise Alarm(f"label {label} describes no contour", span)
     if np.isnan(path.end).any():

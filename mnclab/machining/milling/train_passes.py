@@ -24,7 +24,6 @@ from mnclab.machining.steps import Along, Go, Step
 from mnclab.path.leads import Lead, way
 
 SAME = 1e-9  # mm
-CUTS = 1e-4  # mm, by which a lead may come nearer to the contour than the tool's radius
 
 
 class Train(NamedTuple):
@@ -93,17 +92,6 @@ def _round(point: Floats, centre: Floats, sweep: float, pieces: int) -> list[Flo
     """Where equal pieces of an arc from a point on begin."""
     arms = np.tile(point - centre, (pieces, 1))
     return list(centre + turned(arms, sweep / pieces * np.arange(pieces)))
-
-
-def cuts_into(contour: Contour, lead: Way, distance: float) -> tuple[float, float] | None:
-    """The place (x, y) of a lead that lies nearest to a contour, if the tool centre comes nearer there than `distance`."""
-    chords = lead.contour.points_within(CUTS)
-    count = np.maximum(1, np.ceil(np.hypot(*np.diff(chords, axis=0).T) / max(abs(distance) / 8, CUTS))).astype(int)
-    spots = [a + (b - a) * np.linspace(0, 1, n + 1)[:, None] for a, b, n in zip(chords, chords[1:], count, strict=False)]
-    places = np.vstack(spots)
-    room = contour.distance(places) - abs(distance)
-    x, y = places[int(room.argmin())].tolist()
-    return (x, y) if room.min() < -2 * CUTS else None
 
 
 def mill(trains: Sequence[Train], levels: Sequence[float], feeds: Feeds, to_and_fro: bool = False) -> Iterator[Step]:

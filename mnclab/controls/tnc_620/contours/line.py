@@ -20,6 +20,7 @@ from mnclab.machine.flow import RecordedLead, Recording
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Record, Step
 from mnclab.path.outline import chain
+from mnclab.text.alarm import Alarm
 
 CLOSED = 1e-6  # mm, from the end to the beginning of a closed contour
 MOST_ELEMENTS = 16384  # of a contour
@@ -70,6 +71,9 @@ def contour_line(m: Machine, in_space: bool = False) -> Generator[Step, Any, Lin
     ends = [lead.place[2] for lead in (recording.approach, recording.departure) if lead and lead.place]
     if not in_space and np.abs([*path.end[:, 2], recording.start[2], *ends]).max() > 1e-9:
         m.alarm(f"the contour of label {label} moves along the tool axis")
+    if len(changed := np.flatnonzero(path.side != recording.side)):
+        message = f"the radius compensation of the contour of label {label} changes in this block"
+        raise Alarm(message, m.flow.span_of_step(int(path.step[changed[0]])))
     contour, heights, rows = chain(path)
     if contour.length <= CLOSED:
         m.alarm(f"the contour of label {label} has no length in the plane XY")

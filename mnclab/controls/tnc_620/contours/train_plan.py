@@ -16,9 +16,9 @@ from mnclab.controls.tnc_620.contours.train_data import TrainData
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.flow import RecordedLead
 from mnclab.machine.machine import Machine
-from mnclab.machining.milling.train_passes import Train, cuts_into, leading_off, leading_to
+from mnclab.machining.milling.train_passes import Train, leading_off, leading_to
 from mnclab.machining.milling.train_rests import rests
-from mnclab.machining.milling.trains import Beside, Way, beside
+from mnclab.machining.milling.trains import Beside, Way, beside, cuts_into
 from mnclab.machining.steps import Say, Step
 from mnclab.path.fault import PathFault
 from mnclab.text.alarm import Alarm, Span
