@@ -77,9 +77,10 @@ class Train(Cycle):
         """The levels from the surface to the floor."""
         return infeeds(surface, surface + self.depth, abs(self.infeed))
 
-    def feeds(self, surface: float) -> Feeds:
-        """The feeds, and how far down the tool goes at rapid above the highest place that it cuts."""
-        return Feeds(self.plunge_feed, self.feed, self.height, surface + CLEAR if self.depth < 0 else INF)
+    def feeds(self, m: Machine, surface: float) -> Feeds:
+        """The feeds, with M109 or M110 at the cutting edge, and how far down the tool goes at rapid above what it cuts."""
+        edge = m.feed_rules[-1].edge if m.feed_rules else ""
+        return Feeds(self.plunge_feed, self.feed, self.height, surface + CLEAR if self.depth < 0 else INF, edge, m.radius)
 
 
 @CYCLES("CYCL DEF 25", "Contour train", source="8.9")
@@ -111,7 +112,7 @@ class ContourTrain(Train):
         before, place = m.programmed, m.flow.span_of_step(m.step)
         line = yield from contour_line(m)
         found = yield from trains(m, self, line, self.coarse_radius(m), place)
-        yield from mill(found, self.levels(self.surface), self.feeds(self.surface), not self.sense)
+        yield from mill(found, self.levels(self.surface), self.feeds(m, self.surface), not self.sense)
         yield from leave(m, before, self.height)
 
 
@@ -144,5 +145,5 @@ class SpaceTrain(Train):
         if top + max(self.depth, 0) > self.height:
             m.alarm(f"{self.code}: the contour reaches up to Z{top:.10g}, above the clearance height {self.height:.10g}")
         found = yield from trains(m, self, line, self.coarse_radius(m), place)
-        yield from mill(found, self.levels(0.0) if self.depth else (0.0,), self.feeds(top), not self.sense)
+        yield from mill(found, self.levels(0.0) if self.depth else (0.0,), self.feeds(m, top), not self.sense)
         yield from leave(m, before, self.height)
