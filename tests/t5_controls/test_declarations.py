@@ -36,7 +36,7 @@ CYCLES = [(control, code) for control in TABLES for code in mnclab.controls[cont
 #: Our names where the table has a longer one: the word that the address does not say already.
 NAMES = {
     "set_up_clearance": ("clearance", "set_up_clearance"),
-    "feed_rate_for_plunging": ("feed", "plunge_feed"),
+    "feed_rate_for_plunging": ("feed", "plunge_feed", "plunging_feed"),
     "infeed_depth": "infeed",
     "workpiece_surface_coordinate": "surface",
     "second_set_up_clearance": "second_clearance",
@@ -53,7 +53,7 @@ NAMES = {
     "inside_corner_radius": "corner",
     "rotational_direction": "sense",
     "plunging_depth": "infeed",
-    "feed_rate_for_roughing": "feed",
+    "feed_rate_for_roughing": ("feed", "roughing_feed"),
     "coarse_roughing_tool": "coarse_tool",
     "number_name_of_rough_out_tool": "rough_out_tool",
     "feed_rate_for_reciprocation": "swing_feed",
@@ -72,7 +72,7 @@ NAMES = {
     "finishing_feed_rate": "finishing_feed",
     "prepositioning_feed_rate": "prepositioning_feed",
     "clearance_to_side": "side_clearance",
-    "feed_rate_for_milling": "feed",
+    "feed_rate_for_milling": ("feed", "milling_feed"),
     "first_point_axis_1": "x",
     "first_point_axis_2": "y",
     "measuring_height": "z",
@@ -97,6 +97,8 @@ NAMES = {
     "dwell_time": ("dwell_bottom", "dwell_time"),
     "infeed_per_helix": "pitch",
     "nominal_diameter": ("diameter", "nominal_diameter"),
+    "climb_or_up_cut": ("climb", "milling_type", "sense"),
+    "infeed_per_revolution": "advance",
     "upper_advanced_stop_distance": ("first_stop", "upper_advanced_stop_distance"),
     "lower_advanced_stop_distance": "last_stop",
     "infeed_depth_for_chip_breaking": "break_every",
@@ -154,6 +156,7 @@ EXPLAINED = {
         for code, address in ((200, "Q211"), (210, "Q338"), (211, "Q338"), (220, "Q365"))
         for key, value in (("required", False), ("default", 0))
     },
+    ("tnc-620", "CYCL DEF 21", "Q13", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
     ("tnc-620", "CYCL DEF 24", "Q438", "default"): (-1, "in a sentence there"),
     **{("tnc-620", f"CYCL DEF {n}", "Q18", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name") for n in (22, 25, 276)},
     **{
