@@ -39,6 +39,15 @@ class Turn(NamedTuple):
     centre: tuple[float, float] = (0.0, 0.0)
 
 
+class Dip(NamedTuple):
+    """A quarter circle of the plane ZX to x and z: it begins along Z where the tool stands, and ends along X."""
+
+    label: str
+    x: float
+    z: float
+    feed: float | None = None
+
+
 class Along(NamedTuple):
     """Along a contour of the plane from its start, where the tool stands; level, or at the `heights` of its points.
 
@@ -181,8 +190,8 @@ class Write(NamedTuple):
 
 
 Step = (
-    Go | Turn | Along | Thread | Wait | Spin | Orient | Pause | Coolant | Touch | Swivel | Each | Call | Blocks | Record | Say
-    | Write
+    Go | Turn | Dip | Along | Thread | Wait | Spin | Orient | Pause | Coolant | Touch | Swivel | Each | Call | Blocks | Record
+    | Say | Write
 )
 
 
@@ -194,6 +203,8 @@ def moved(steps: Iterable[Step], x: float, y: float) -> Iterator[Step]:
                 yield step._replace(x=None if step.x is None else x + step.x, y=None if step.y is None else y + step.y)
             case Turn():
                 yield step._replace(centre=(x + step.centre[0], y + step.centre[1]))
+            case Dip():
+                yield step._replace(x=x + step.x)
             case Along():
                 yield step._replace(at=(x + step.at[0], y + step.at[1]))
             case _:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from mnclab.geometry.contours import Floats
-from mnclab.machining.steps import Along, Go, Step, Turn
+from mnclab.machining.steps import Along, Dip, Go, Step, Turn
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
 
@@ -21,19 +21,24 @@ SAME = 1e-9  # mm
 
 def traced(steps: Iterable[Step], start: Sequence[float], radius: float) -> Toolpath:
     """The path of a tool of a `radius` from a place (x, y, z) on; rows are labelled as their steps."""
-    ends, centres, sweeps = [np.array(start, dtype=float)[None]], [], []
+    ends, centres, sweeps, axes = [np.array(start, dtype=float)[None]], [], [], []
     feeds: list[Floats] = []
     marks: list[np.ndarray] = []
     labels = {"": 0}
     for step in steps:
-        if not isinstance(step, Go | Along | Turn):
+        if not isinstance(step, Go | Along | Turn | Dip):
             continue
         here = ends[-1][-1]
-        to, sweep, middle = _along(step, here) if isinstance(step, Along) else _straight_or_round(step, here)
+        axis = np.array([0.0, 1.0, 0.0] if isinstance(step, Dip) else [0.0, 0.0, 1.0])
+        if isinstance(step, Dip):
+            to, sweep, middle = _dip(step, here)
+        else:
+            to, sweep, middle = _along(step, here) if isinstance(step, Along) else _straight_or_round(step, here)
         if not len(to):
             continue
         heights = np.vstack([here, to[:-1]])[:, 2:]
         centres.append(np.where(sweep[:, None] != 0, np.hstack([middle, heights]), np.nan))
+        axes.append(np.broadcast_to(axis, to.shape))
         ends.append(to)
         sweeps.append(sweep)
         feeds.append(np.full(len(to), np.nan if step.feed is None else step.feed))
@@ -43,6 +48,7 @@ def traced(steps: Iterable[Step], start: Sequence[float], radius: float) -> Tool
     columns: dict[str, Any] = {
         "kind": np.where(sweep != 0, np.uint8(Kind.ARC), straight),
         "centre": np.vstack(centres),
+        "axis": np.vstack(axes),
         "sweep": sweep,
         "feed": feed,
         "label": np.concatenate(marks),
@@ -63,6 +69,12 @@ def _straight_or_round(step: Go | Turn, here: Floats) -> tuple[Floats, Floats, F
     goal[2] = here[2] if step.z is None else step.z
     some = slice(bool(sweep) or bool(np.abs(goal - here).max() > SAME))
     return goal[None][some], np.array([sweep])[some], middle[None][some]
+
+
+def _dip(step: Dip, here: Floats) -> tuple[Floats, Floats, Floats]:
+    """The same of the quarter circle in ZX, whose centre lies beside its start and above its end."""
+    sense = 1.0 if (here[0] - step.x) * (here[2] - step.z) > 0 else -1.0
+    return np.array([[step.x, here[1], step.z]]), np.array([sense * math.pi / 2]), np.array([[step.x, here[1]]])
 
 
 def _along(step: Along, here: Floats) -> tuple[Floats, Floats, Floats]:

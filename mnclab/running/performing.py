@@ -23,7 +23,7 @@ from mnclab.running.binding import as_it_stands, bind, fault
 from mnclab.running.repeating import at_each
 
 from mnclab.machining.steps import (  # isort: skip
-    Along, Blocks, Call, Coolant, Each, Go, Orient, Pause, Record, Say, Spin, Step, Swivel, Thread, Touch, Turn, Wait, Write,
+    Along, Blocks, Call, Coolant, Dip, Each, Go, Orient, Pause, Record, Say, Spin, Step, Swivel, Thread, Touch, Turn, Wait, Write,
 )  # fmt: skip
 
 Place = tuple[float, float]
@@ -88,6 +88,9 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = 
             case Turn():
                 with m.within(plane="XY"):
                     m.turn((x + step.centre[0], y + step.centre[1]), step.angle, step.z, step.feed)
+            case Dip():
+                with m.within(plane="ZX"):
+                    dip(m, x + step.x, step.z, step.feed)
             case Spin():
                 m.spindle(step.speed, step.turning)
             case Orient():
@@ -142,6 +145,13 @@ def write(m: Machine, step: Write) -> None:
             m.log(step.key, step.value)
         case _:
             m.change(step.what, step.value)
+
+
+def dip(m: Machine, x: float, z: float, feed: float | None) -> None:
+    """A quarter circle of the plane ZX, off along Z and to a place along X."""
+    before, _, height = m.programmed
+    sense = 1 if (before - x) * (height - z) > 0 else -1
+    m.arc(x, None, z, sense=sense, centre={0: x, 2: height}, f=feed)
 
 
 def follow(

@@ -9,7 +9,17 @@ from __future__ import annotations
 from mnclab.controls.tnc_620 import later, trial_figures
 from mnclab.controls.tnc_620.contours import data as contour_data
 from mnclab.controls.tnc_620.contours import labels as contour_labels
-from mnclab.controls.tnc_620.contours import leaving, pilot, rough_out
+
+from mnclab.controls.tnc_620.contours import (  # isort: skip
+    floor_finishing,
+    leaving,
+    pilot,
+    rough_out,
+    side_finishing,
+    train,
+    train_data,
+    trochoidal_slot,
+)
 from mnclab.controls.tnc_620.cycles import (
     boring,
     defaults,
@@ -123,7 +133,15 @@ FUNCTIONS = (
 )  # fmt: skip
 CHAPTERS = (
     defaults, drilling, boring, pecking, tapping, threads, point_patterns, pockets, slots, studs, walled_faces,
-    contour_labels, contour_data, pilot, rough_out, transformations, tilting, special, engraving, face_milling, presets, program_call,
+    contour_labels, contour_data,
+    pilot,
+    rough_out,
+    floor_finishing,
+    side_finishing,
+    train_data,
+    train,
+    trochoidal_slot,
+    transformations, tilting, special, engraving, face_milling, presets, program_call,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()

@@ -14,10 +14,11 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 
 CYCLES = {
-    23: "Floor finishing", 24: "Side finishing", 25: "Contour train", 27: "Cylinder surface",
-    28: "Cylinder surface slot", 29: "Cylinder surface ridge", 39: "Cylinder surface contour",
-    270: "Contour train data", 275: "Trochoidal slot", 276: "Three-dimensional contour train",
-}  # fmt: skip
+    27: "Cylinder surface",
+    28: "Cylinder surface slot",
+    29: "Cylinder surface ridge",
+    39: "Cylinder surface contour",
+}
 
 PROBING = {
     0: "Reference plane", 1: "Polar preset", 3: "Measuring", 4: "Measuring in three dimensions",
@@ -88,11 +89,10 @@ REFUSED = {
 
 #: Q parameters by the numbers of the cycles that take them: named beside the refusal where a program has another one.
 _OF_CYCLES = {
-    "23": "11 12 208", "24": "9 10 11 12 14 438", "25": "1 3 5 7 10 11 12 15 18 446 447 448",
-    "276": "1 3 7 10 11 12 15 18 446 447 448", "270": "390 391 392 393 394",
-    "275": "12 200 201 202 203 204 206 207 215 219 338 351 366 368 369 385 436 439", "27 39": "1 3 6 10 11 12 16 17",
-    "28": "1 3 6 10 11 12 16 17 20 21", "29": "1 3 6 10 11 12 16 17 20",
-}  # fmt: skip
+    "27 39": "1 3 6 10 11 12 16 17",
+    "28": "1 3 6 10 11 12 16 17 20 21",
+    "29": "1 3 6 10 11 12 16 17 20",
+}
 _OF_PROBING = {
     "450": "409 S409 410", "451": "253 320 380 406 407 408 411 412 413 414 415 416 417 418 419 420 421 422 423 431 432",
     "452": "253 320 380 407 408 411 412 413 414 415 416 417 418 419 420 421 422 423 432",

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from mnclab.controls.tnc_620.contours.data import ContourData
     from mnclab.controls.tnc_620.contours.formulas import Definitions
     from mnclab.controls.tnc_620.contours.labels import Labels
+    from mnclab.controls.tnc_620.contours.train_data import TrainData
     from mnclab.controls.tnc_620.language.blank import Blank
     from mnclab.controls.tnc_620.language.free_contours import Earlier
     from mnclab.controls.tnc_620.language.pattern_definitions import Pattern
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from mnclab.controls.tnc_620.tables.free_tables import FreeTable
     from mnclab.geometry.free_contour import Pair
     from mnclab.machining.milling.terraces import Formula
+    from mnclab.path.tool import Tool
     from mnclab.workpiece.blank import Blank as Body
 
 Place = tuple[float, float, float]
@@ -64,6 +66,9 @@ class Memory:
     contour: Labels | Formula | None = None  # which one the next cycle machines
     contour_data: ContourData | None = None
     defining: Definitions | None = None  # while the program of SEL CONTOUR runs
+    train_data: TrainData | None = None
+    rough_out_tool: Tool | None = None  # with which cycle 22 was called last, its deltas included
+    tool_before: Tool | None = None  # that was in the spindle before the last TOOL CALL of a tool
 
     # free contours
     free_pole: tuple[float, float] | None = None

@@ -53,6 +53,14 @@ def rings(
     )  # fmt: skip
 
 
+def rings_within(
+    centres: Region, radius: float, stepover: float, *, climb: bool = True, corner_radius: float = 0.0
+) -> Clearing:
+    """The same where the area in which the tool centre may go is known."""
+    parts = tuple(_piece(part, radius, stepover, climb, corner_radius, None) for part in centres.parts)
+    return Clearing(centres, parts, radius)
+
+
 def rounded(loop: Contour, radius: float) -> Contour:
     """A closed contour with an arc in place of every corner to the left in which an arc of this radius fits."""
     turns, curves, sweeps, lengths = loop.turns(), loop.curves, loop.sweeps, loop.lengths
@@ -76,6 +84,8 @@ def rounded(loop: Contour, radius: float) -> Contour:
             taken[1, i - 1], taken[0, i] = cut
             sweep = np.arctan2(cross(*arms), np.dot(*arms))
             arcs[i] = first, last, float(np.tan(sweep / 4))
+    if not arcs:
+        return loop
     kept = np.tan(sweeps * np.clip(1 - taken.sum(axis=0) / lengths, 0, 1) / 4)
     points, bulge = [], []
     for i, corner in enumerate(loop.points):

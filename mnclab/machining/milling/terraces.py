@@ -40,11 +40,12 @@ Formula: TypeAlias = Part | Joined
 
 
 class Terrace(NamedTuple):
-    """The area that is cut between two depths, counted from the surface and positive."""
+    """The area that is cut between two depths, counted from the surface and positive; a `solid` one stays, cut free around."""
 
     top: float
     bottom: float
     region: Region
+    solid: bool = False
 
 
 class Level(NamedTuple):

@@ -9,7 +9,7 @@ import pytest
 
 import mnclab
 from mnclab import Setup, Tool
-from mnclab.controls.tnc_620.contours.area import labelled_region
+from mnclab.controls.tnc_620.contours.area import area_of, labelled_shapes
 from mnclab.controls.tnc_620.state import memory
 from mnclab.running.interpreter import Interpreter
 from mnclab.running.performing import perform
@@ -50,7 +50,7 @@ def region(*labels: str, head: str = ""):
     interpreter.run()
     machine = interpreter.machine
     machine.ended = False
-    found = perform(machine, "", labelled_region(machine, memory(machine).contour))
+    found = area_of(machine, *perform(machine, "", labelled_shapes(machine, memory(machine).contour)))
     return found, list(machine.alarms)
 
 

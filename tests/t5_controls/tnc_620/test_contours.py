@@ -6,7 +6,7 @@ from shapely import LineString, MultiPolygon, Point, Polygon, union_all
 
 import mnclab
 from mnclab import Kind, Setup, Tool
-from mnclab.controls.tnc_620.contours.area import labelled_region
+from mnclab.controls.tnc_620.contours.area import area_of, labelled_shapes
 from mnclab.controls.tnc_620.state import memory
 from mnclab.running.interpreter import Interpreter
 from mnclab.running.performing import perform
@@ -37,7 +37,7 @@ def test_overlapping_contours(name):
     labels = CIRCLE_A.format(a=a) + CIRCLE_B.format(b=b, side=side)
     machine = machine_after(f"CYCL DEF 14.0 CONTOUR\nCYCL DEF 14.1 CONTOUR LABEL 1/2\nM2\n{labels}")
     machine.ended = False
-    region = perform(machine, "", labelled_region(machine, memory(machine).contour))
+    region = area_of(machine, *perform(machine, "", labelled_shapes(machine, memory(machine).contour)))
     assert region.area == pytest.approx(area, abs=1e-3)
     assert sum(loop.length for loop in region.loops) == pytest.approx(perimeter, abs=1e-3)
     assert machine.tip == (0, 0, 0) and not machine.recorder.rows  # nothing has moved
@@ -121,6 +121,12 @@ def test_walls_are_climbed_or_cut_up():
         assert len(arcs) and (np.sign(arcs.sweep) == -sense).all()
 
 
+def test_a_depth_of_0_is_cleared_at_the_surface():
+    """8.4: unlike the trains and slots, the cycles 21 to 24 are executed at depth 0."""
+    path = mnclab.run(pocket(Q1=0, Q4=0, Q5=3), "tnc-620", Setup(tools={1: Tool(radius=5)})).toolpath
+    assert {3} == set(path.end[path.feed == 350][:, 2]) == set(path.end[path.feed == 100][:, 2])
+
+
 def test_one_level_where_the_infeed_is_deeper():
     path = mnclab.run(pocket(Q10=20, Q4=0), "tnc-620", Setup(tools={1: Tool(radius=5)})).toolpath
     assert path.end[:, 2].min() == -10 and len(set(path.end[path.feed == 100][:, 2])) == 1
@@ -164,7 +170,7 @@ REFUSED = [
     (dict(Q9=0), "CYCL DEF 20 Q9 (direction of machining) must be one of -1, 1, got 0"),
     (dict(Q10=0), "CYCL DEF 22 Q10 (infeed per cut) must not be 0"),
     (dict(Q208=100000), "CYCL DEF 22 Q208 (retraction feed rate) must be at most 99999.9999 or FMAX, got 100000"),
-    (dict(Q19=100), "CYCL DEF 22 Q19 (feed rate for reciprocation) other than 0"),
+    (dict(Q12=0), "CYCL DEF 22 Q12 (feed rate for roughing) must be greater than 0 to mill with, got 0"),
     (dict(labels="2"), "the contour has no pocket"),
 ]
 

@@ -2,20 +2,21 @@
 
 The path inside its contour is a pocket: clockwise with RR, counter-clockwise with RL; else an island. In the order of
 cycle 14 each further pocket is united with the area, or intersected with it if the first pocket that overlaps it begins
-inside it; islands are taken away.
+inside it; islands are taken away. Islands alone are no area, but side finishing takes them as walls that are gone round
+from outside (8.8).
 """
 
 from __future__ import annotations
 
 from collections.abc import Generator, Sequence
+from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.controls.tnc_620.contours import outlines
 from mnclab.controls.tnc_620.contours.data import ContourData
 from mnclab.controls.tnc_620.contours.labels import Labels
-from mnclab.controls.tnc_620.contours.outlines import MOST_ELEMENTS, doubt, enclosed, fault
+from mnclab.controls.tnc_620.contours.outlines import MOST_ELEMENTS, doubt, enclosed, fault, level
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.regions import Region
 from mnclab.machine.flow import Recording
@@ -36,22 +37,32 @@ class Shape(NamedTuple):
     step: int
 
 
-def contour_terraces(m: Machine, data: ContourData) -> Generator[Step, Any, tuple[Terrace, ...]]:
-    """The areas of the contour from the surface down to the depth of cycle 20, which the steps read; a depth of 0 is one area."""
+def contour_terraces(
+    m: Machine, data: ContourData, *, islands_alone: bool = False
+) -> Generator[Step, Any, tuple[Terrace, ...]]:
+    """The areas of the contour from the surface down to the depth of cycle 20, which the steps read; a depth of 0 is one area.
+
+    With `islands_alone` labels without a pocket are one `solid` terrace, else an Alarm.
+    """
     source = memory(m).contour
     assert source is not None
-    formula = Part((yield from labelled_region(m, source))) if isinstance(source, Labels) else source
+    if isinstance(source, Labels):
+        pockets, islands = yield from labelled_shapes(m, source)
+        if islands_alone and islands and not pockets:
+            return (Terrace(0.0, abs(data.depth), joined(islands), solid=True),)
+        source = Part(area_of(m, pockets, islands))
     whole = abs(data.depth) or 1.0
-    for depth in sorted({part.depth for part in parts(formula) if data.depth and part.depth > whole + 1e-9}):
+    for depth in sorted({part.depth for part in parts(source) if data.depth and part.depth > whole + 1e-9}):
         m.warn(f"DEPTH{depth:.10g} of the contour is deeper than the milling depth Q1 = {data.depth:g}, which counts")
     try:
-        return terraces(formula, whole)
+        found = terraces(source, whole)
     except ValueError as error:
         m.alarm(f"the contour is no area: {error}")
+    return found if data.depth else (found[0]._replace(bottom=0.0),)
 
 
-def labelled_region(m: Machine, labels: Labels) -> Generator[Step, Any, Region]:
-    """The area of labels, in coordinates of the program."""
+def labelled_shapes(m: Machine, labels: Labels) -> Generator[Step, Any, tuple[list[Shape], list[Shape]]]:
+    """The pockets and the islands that labels describe, in coordinates of the program."""
     pockets: list[Shape] = []
     islands: list[Shape] = []
     recording: Recording | None = None
@@ -62,7 +73,7 @@ def labelled_region(m: Machine, labels: Labels) -> Generator[Step, Any, Region]:
         what = f"label {name}"
         if not len(recording.path):
             fault(m, recording.step, f"{what} describes no contour")
-        outlines.level(m, recording, what)
+        level(m, recording, what)
         side = one_side(m, recording, what)
         contour, region = enclosed(m, recording, what)
         elements += len(contour.points)
@@ -70,11 +81,20 @@ def labelled_region(m: Machine, labels: Labels) -> Generator[Step, Any, Region]:
             fault(m, recording.step, f"the contours have more than {MOST_ELEMENTS} elements")
         shape = Shape(region, recording.start[:2], what, recording.step)
         (pockets if contour.area * side > 0 else islands).append(shape)
+    return pockets, islands
+
+
+def area_of(m: Machine, pockets: Sequence[Shape], islands: Sequence[Shape]) -> Region:
+    """The area of pockets without islands; an Alarm without a pocket."""
     if not pockets:
         m.alarm("the contour has no pocket", hint="a pocket is clockwise with RR or counter-clockwise with RL")
-    region = united(m, pockets)
-    doubts(m, region, pockets, islands)
-    return region.without([island.region for island in islands]) if islands else region
+    area = united(m, pockets)
+    doubts(m, area, pockets, islands)
+    return area.without([island.region for island in islands]) if islands else area
+
+
+def joined(shapes: Sequence[Shape]) -> Region:
+    return reduce(Region.union, (shape.region for shape in shapes))
 
 
 def one_side(m: Machine, recording: Recording, what: str) -> int:

@@ -16,7 +16,7 @@ def row_of(m: Machine, given: float | str) -> Tool | None:
     tools = m.tables.tools
     if isinstance(given, str):
         return next((tool for tool in tools.values() if tool.name.upper() == given.strip().upper()), None)
-    return tools.get(given) if given else tools.get(m.tool.number, m.tool)  # type: ignore[call-overload, no-any-return]
+    return tools.get(given) if given else tools.get(m.tool.number, m.tool)  # type: ignore[call-overload]
 
 
 def named(m: Machine, name: str, given: float | str) -> Iterator[Fault]:

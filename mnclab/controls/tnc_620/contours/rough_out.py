@@ -23,7 +23,7 @@ from mnclab.machining.milling.residue import left_by
 from mnclab.machining.milling.rings import rings
 from mnclab.machining.milling.roughing import Feeds, Heights
 from mnclab.machining.milling.terraces import levels
-from mnclab.machining.steps import Say, Step
+from mnclab.machining.steps import Say, Step, Write
 
 CYCLES = CycleTable()
 LEAST_ANGLE = 0.1  # degrees
@@ -61,6 +61,7 @@ class RoughOut(Cycle):
 
     def moves(self, m: Machine) -> Iterator[Step]:
         data, before, plunge = contour_data(m), m.programmed, self.swing_feed or self.plunge_feed
+        yield Write("memory", m.tool, "rough_out_tool")
         found = yield from contour_terraces(m, data)
         clearings = [clearing(self, m, data, terrace.region) for terrace in found]
         if data.overlap > 1:
@@ -72,7 +73,7 @@ class RoughOut(Cycle):
         try:
             yield from roughing.rough_out(clearings, at, heights, feeds, self.way_down(m, data))
         except ValueError as error:
-            m.alarm(f"{self.code}: {error}{remark(m)}")
+            m.alarm(f"{self.code}: {error}{remark(m)}", hint=f"LCUTS of tool {m.tool.number} in the tool table")
         yield from leave(m, before, data.height, rate(self.retract_feed, self.feed))
 
     def way_down(self, m: Machine, data: ContourData) -> roughing.WayDown:

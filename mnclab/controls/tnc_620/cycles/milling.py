@@ -22,11 +22,12 @@ from mnclab.machining.steps import Go, Say, Step, moved
 from mnclab.path.tool import Tool
 
 if TYPE_CHECKING:
+    from mnclab.controls.tnc_620.contours.trochoidal_slot import TrochoidalSlot
     from mnclab.controls.tnc_620.cycles.pockets import AnyPocket
     from mnclab.controls.tnc_620.cycles.slots import AnySlot
     from mnclab.controls.tnc_620.cycles.studs import AnyStud
 
-AnyFigure: TypeAlias = "AnyPocket | AnySlot | AnyStud"
+AnyFigure: TypeAlias = "AnyPocket | AnySlot | AnyStud | TrochoidalSlot"
 
 Place = tuple[float, float]
 STUDS = ("CYCL DEF 256", "CYCL DEF 257", "CYCL DEF 258")

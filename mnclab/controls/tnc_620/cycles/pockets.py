@@ -28,6 +28,7 @@ from mnclab.machining.milling.pocket_steps import Down, Feeds, Room, way_down
 from mnclab.machining.steps import Step
 
 if TYPE_CHECKING:
+    from mnclab.controls.tnc_620.contours.trochoidal_slot import TrochoidalSlot
     from mnclab.controls.tnc_620.cycles.slots import AnySlot
 
 CYCLES = CycleTable()
@@ -161,7 +162,7 @@ def check_pocket(c: AnyPocket, m: Machine, pocket: Pocket) -> Iterator[Fault]:
     yield from too_many("plunging_strategy", lambda: way_in(c, m, room)(0.0, levels[0] - c.surface))
 
 
-def check_angle(c: AnyPocket | AnySlot, m: Machine) -> Iterator[Fault]:
+def check_angle(c: AnyPocket | AnySlot | TrochoidalSlot, m: Machine) -> Iterator[Fault]:
     """All strategies but the vertical one need a plunge angle."""
     if c.plunging_strategy and not 0 < m.tool.plunge_angle <= 90:
         angle = f"the plunge angle (ANGLE) of tool {m.tool.number}, greater than 0 and at most 90"
@@ -180,7 +181,7 @@ def way_in(c: AnyPocket, m: Machine, room: Room) -> Down:
     return partial(way_down, entry, room, m.radius, c.milling_type >= 0)
 
 
-def feeds(c: AnyPocket | AnySlot, m: Machine) -> tuple[Feeds, Feeds, Feeds]:
+def feeds(c: AnyPocket | AnySlot | TrochoidalSlot, m: Machine) -> tuple[Feeds, Feeds, Feeds]:
     """Of roughing, the side and the floor: from which Q439 on they count at the cutting edge; ways down never do."""
     first, second, third = (m.radius if c.feed_reference >= least else 0.0 for least in (3, 1, 2))
     plunge, finish = c.plunging_feed, milling.finishing_feed(c)

@@ -58,6 +58,8 @@ def put_in(m: Machine, tool: Tool | None, deltas: dict[str, float], words: Words
     if changed.get("corner", 0) < 0:
         least = f"{0 - base.corner:g}, got {m.value(words['DR2']):g}: the corner radius is {base.corner:g}"
         m.alarm(f"TOOL CALL DR2 (delta corner radius) must be at least {least}", words["DR2"])
+    if tool:
+        memory(m).tool_before = m.tool
     m.change_tool(replace(base, **changed), tool_axis(m), before)
     with_another_tool(m)
 

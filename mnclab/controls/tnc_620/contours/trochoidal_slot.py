@@ -1,0 +1,174 @@
+"""Cycle 275: a slot about a centre line, roughed on circles (8.12); `milling.trochoidal_slots` does the geometry.
+
+A closed slot begins in the material, an open one outside of it, where its APPR block begins. The manual names no clearance
+height: it is the second set-up clearance. Where two readings are possible, the floor comes after the walls, with the same
+circles, and the walls go down to it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from mnclab.controls.tnc_620.contours.leaving import leave
+from mnclab.controls.tnc_620.contours.line import Line, contour_line, with_labels
+from mnclab.controls.tnc_620.cycles import addresses, milling
+from mnclab.controls.tnc_620.cycles.faults import Fault, at_least, at_most, not_zero
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
+from mnclab.controls.tnc_620.cycles.pockets import check_angle, feeds
+from mnclab.geometry.contours import Contour
+from mnclab.machine.cycle import CycleTable, few_passes
+from mnclab.machine.machine import Machine
+from mnclab.machine.true_size import MILLS, remark, tool
+from mnclab.machining.depths import infeeds
+from mnclab.machining.milling import trochoidal_steps
+from mnclab.machining.milling.cutting_edge import centre_feeds
+from mnclab.machining.milling.pocket_steps import Work
+from mnclab.machining.milling.trochoidal_slots import NOTHING, circle_count, trochoid, walls
+from mnclab.machining.steps import Go, Say, Step
+from mnclab.path.fault import PathFault
+from mnclab.path.leads import way
+
+CYCLES = CycleTable()
+PLUNGE: dict[float, str] = {0: "vertical", 1: "no function: as 0", 2: "reciprocating"}
+CORNER = 0.01  # rad, of a turn that is more than rounded coordinates
+
+
+@CYCLES("CYCL DEF 275", "Trochoidal slot", source="8.12")
+class TrochoidalSlot(AtSurface):
+    """Mills a slot along a contour: circles level by level, then its walls, then its floor; a mirror image keeps its climb."""
+
+    does = MILLS
+    about = in_program_coordinates
+    contradictions = milling.contradictions
+    machining_operation: float = addresses.operation()
+    slot_width: float = addresses.slot_width()
+    side_allowance: float = addresses.side_allowance()
+    advance: float = addresses.length("Q436", "infeed per revolution", unit="mm/rev", note="the greatest engagement", example=2)
+    milling_feed: float = addresses.milling_feed()
+    roughing_feed: float | None = addresses.feed(
+        "Q12", "feed rate for roughing", also=addresses.PLANE, at_most=addresses.FAR, default=None, default_means="not used",
+        note="Q207 counts",
+    )  # fmt: skip
+    milling_type: float = addresses.climb(predef=True)
+    depth: float = addresses.depth()
+    infeed: float = addresses.infeed(note="greater than 0")
+    plunging_feed: float = addresses.plunge_feed(also=addresses.PLANE)
+    finishing_infeed: float = addresses.finishing_infeed()
+    finishing_feed: float = addresses.finishing_feed(example=500)
+    clearance: float = addresses.clearance(predef=True)
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance(example=50)
+    plunging_strategy: float = addresses.plunging(PLUNGE, example=0)
+    floor_allowance: float = addresses.floor_allowance()
+    feed_reference: float = addresses.feed_reference()
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from with_labels(m, single=True)
+        yield from milling.check(self, m)
+
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        """The tool and its step fit the slot; how the tool gets down."""
+        yield from at_least(self, "slot_width", 2 * m.radius, "the tool diameter")
+        rough, circles = self.machining_operation != 2, self.machining_operation != 1 and self.floor_allowance > 0
+        if not self.is_full(m):
+            yield from at_least(self, "slot_width", 2 * m.radius + 2 * self.side_allowance, "the tool diameter and twice Q368")
+            if rough or circles:
+                yield from at_most(self, "slot_width", 4 * m.radius + NOTHING, "twice the tool diameter")
+                yield from not_zero(self, "advance", purpose="to advance by")
+                yield from at_most(self, "advance", 2 * m.radius, "the tool diameter")
+        if self.plunging_strategy == 2:
+            yield from check_angle(self, m)
+
+    def is_full(self, m: Machine) -> bool:
+        return abs(self.slot_width / 2 - m.radius) <= NOTHING
+
+    def climb(self, m: Machine) -> bool:
+        """Whether walls are climbed on the machine: no mirror image changes the sense of milling (8.3)."""
+        return (self.milling_type >= 0) == (m.orientation > 0)
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        if self.roughing_feed is not None:
+            yield Say("Q12 is not used: Q207 is the feed rate for roughing")
+        if self.plunging_strategy == 1 and self.down:
+            yield Say("Q366=1 has no function: the tool goes straight down")
+        if not self.down:
+            yield self.left_out
+            return
+        before, found = m.programmed, (yield from contour_line(m))
+        if found.departure:
+            yield Say(f"{found.departure.lead.name} is no part of the slot, which ends where its contour ends")
+        line = with_approach(m, found)
+        if line.closed and abs(float(line.turns()[0])) > CORNER:
+            m.alarm(f"{self.code}: a slot must not begin in a corner of its contour", m.flow.span_of_step(int(found.steps[0])))
+        yield from mill(self, m, line, found.approach is not None)
+        yield from leave(m, before, self.end)
+
+
+def with_approach(m: Machine, found: Line) -> Contour:
+    """The centre line of a slot: its contour, and the way to it where the tool enters from outside."""
+    line, approach = found.contour, found.approach
+    if approach is None:
+        return line
+    start = np.array((m.programmed if approach.place is None else approach.place)[:2])
+    try:
+        by, centre, sweep = way(approach.lead, start, line.points[0], line.tangents()[0][0])
+    except PathFault as fault:
+        m.alarm(fault.message, m.flow.span_of_step(fault.step), fault.hint)
+    begin = start if math.dist(by, line.points[0]) <= NOTHING else by
+    lead, bulge = [begin], [math.tan(sweep / 4)]
+    if centre is not None and abs(sweep) > math.pi:
+        arm = complex(*(by - centre)) * np.exp(0.5j * sweep)
+        lead, bulge = [by, centre + (arm.real, arm.imag)], [math.tan(sweep / 8)] * 2
+    points = np.vstack([*lead, line.points, *(line.points[:1] if line.closed else ())])
+    return Contour(points, np.concatenate([bulge, line.bulge, [0.0] * line.closed]), closed=False)
+
+
+def mill(c: TrochoidalSlot, m: Machine, line: Contour, opens: bool) -> Iterator[Step]:
+    """Roughing, walls and floor from the second set-up clearance; what cannot be is told before anything moves."""
+    climb, angle = c.climb(m), tool(m).plunge_angle if c.plunging_strategy == 2 else 90.0
+    work = work_of(c, m)
+    if work.is_nothing:
+        why = "the slot is as wide as the tool" if c.is_full(m) else "neither Q368 nor Q369 is given"
+        yield Say(f"Q215=2 finishes nothing: {why}")
+        return
+    width = 2 * m.radius if c.is_full(m) else c.slot_width
+    down = trochoidal_steps.way_down(line, m.radius, angle)
+    around = walls(line, width, m.radius, climb=climb, begins_outside=opens) if work.walls else ()
+    rough = trochoid(line, width - 2 * work.allowance, m.radius, c.advance, climb=climb) if work.layers else None
+    floor = trochoid(line, width, m.radius, c.advance, climb=climb) if work.floor else None
+    for clearing, levels in ((rough, work.layers), (floor, work.floor)):
+        if clearing is not None and len(clearing.passes) > 1:
+            for _, sentence in few_passes("", len(levels), circle_count(line, width, c.advance)):
+                m.alarm(f"{c.code} Q436 (infeed per revolution) {sentence}")
+    edges = ((rough, work.feeds[0]), (floor, work.feeds[2]))
+    ways = [way for clearing, feed in edges if clearing and feed.edge for way in clearing.passes]
+    for way_along in (*ways, *(wall.contour for wall in around if work.feeds[1].edge)):
+        try:
+            centre_feeds(way_along, 1.0, m.radius, work.side)
+        except ValueError as error:
+            message = f"{c.code} Q439={c.feed_reference:g} cannot be obeyed: {error}{remark(m)}"
+            m.alarm(message, hint="Q439=0 counts at the tool centre")
+    x, y = line.points[0].tolist()
+    up = (c.end,) if c.down > 0 else (c.above, c.end)
+    yield Go("to the second set-up clearance", max(m.programmed[2], c.end))
+    yield Go("over the start", x=x, y=y)
+    if rough:
+        yield from trochoidal_steps.rough(rough, work, down, up)
+    yield from trochoidal_steps.finish_walls(around, work, up)
+    if floor:
+        yield from trochoidal_steps.finish_floor(floor, work, down, up)
+
+
+def work_of(c: TrochoidalSlot, m: Machine) -> Work:
+    """What is done: a slot as wide as the tool is only roughed, on its line; the walls go down to the floor."""
+    work = milling.work(c, m, feeds(c, m))
+    work = work._replace(
+        side=1 if c.climb(m) else -1, layers=infeeds(c.surface, milling.left_over(c), c.infeed) if work.layers else (),
+        walls=infeeds(c.surface, c.surface + c.depth, c.finishing_infeed) if work.walls else (),
+    )  # fmt: skip
+    if not c.is_full(m):
+        return work
+    return work._replace(allowance=0.0, walls=(), floor=(), feeds=(work.feeds[0]._replace(edge=0.0), *work.feeds[1:]))

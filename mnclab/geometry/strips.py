@@ -1,0 +1,38 @@
+"""Strips: what lies within a distance of a line of lines and arcs, open or closed. Lengths in mm.
+
+      .----------.       every element has a band on either side of it, every corner and both ends of an open line
+     (  --------  )      a disc: what a disc sweeps along the line, with exact arcs
+      `----------´
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.regions import SAME, SMOOTH, Region
+from mnclab.geometry.vectors import left
+
+
+def strip(line: Contour, reach: float) -> Region:
+    """What lies within `reach` of a line, which may cross itself; a ValueError where `reach` is not greater than 0."""
+    if not reach > 0:
+        raise ValueError(f"a strip reaches more than 0 to either side of its line, got {reach:g}")
+    return Region.of(*_pieces(line, reach))
+
+
+def _pieces(line: Contour, reach: float) -> Iterator[Contour]:
+    begins, ends = line.tangents()
+    columns = zip(line.starts, line.ends, line.bulge, line.radii, line.centres, left(begins), left(ends), strict=False)
+    for start, stop, bulge, radius, centre, first, last in columns:
+        for side in (reach, -reach):
+            if bulge * side > 0 and radius <= reach + SAME:
+                yield Contour([start, stop, centre], [bulge, 0.0, 0.0])  # nothing is nearer beyond the centre
+            else:
+                yield Contour([start, stop, stop + side * last, start + side * first], [bulge, 0.0, -bulge, 0.0])
+    corners = np.abs(line.turns()) > SMOOTH
+    corners[0] |= not line.closed
+    for place in [*line.starts[corners], *(() if line.closed else line.points[-1:])]:
+        yield Contour.circle(place, reach)
