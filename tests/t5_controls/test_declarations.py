@@ -93,6 +93,7 @@ NAMES = {
     "nominal_diameter": ("diameter", "nominal_diameter"),
     "climb_or_up_cut": ("climb", "milling_type"),
     "infeed_per_revolution": "advance",
+    "infeed_for_finishing": "finishing_infeed",
     "upper_advanced_stop_distance": ("first_stop", "upper_advanced_stop_distance"),
     "lower_advanced_stop_distance": "last_stop",
     "infeed_depth_for_chip_breaking": "break_every",
@@ -151,6 +152,7 @@ EXPLAINED = {
         for key, value in (("required", False), ("default", 0))
     },
     ("tnc-620", "CYCL DEF 24", "Q438", "default"): (-1, "in a sentence there"),
+    ("tnc-620", "CYCL DEF 275", "Q439", "limits"): ({}, "its choices"),
     ("tnc-620", "CYCL DEF 22", "Q18", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
     ("tnc-620", "CYCL DEF 8", "axes", "limits"): ({}, "at most three, and which ones, are a check"),
     **{("tnc-620", "CYCL DEF 7", axis, "unit"): ("deg", "one row for all axes; these turn") for axis in "ABC"},
