@@ -94,6 +94,7 @@ NAMES = {
     "climb_or_up_cut": ("climb", "milling_type"),
     "infeed_per_revolution": "advance",
     "infeed_for_finishing": "finishing_infeed",
+    "feed_rate_reference": "feed_reference",
     "upper_advanced_stop_distance": ("first_stop", "upper_advanced_stop_distance"),
     "lower_advanced_stop_distance": "last_stop",
     "infeed_depth_for_chip_breaking": "break_every",
