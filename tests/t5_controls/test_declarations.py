@@ -152,6 +152,7 @@ EXPLAINED = {
         for code, address in ((200, "Q211"), (210, "Q338"), (211, "Q338"), (220, "Q365"))
         for key, value in (("required", False), ("default", 0))
     },
+    ("tnc-620", "CYCL DEF 21", "Q13", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
     ("tnc-620", "CYCL DEF 24", "Q438", "default"): (-1, "in a sentence there"),
     ("tnc-620", "CYCL DEF 275", "Q439", "limits"): ({}, "its choices"),
     ("tnc-620", "CYCL DEF 22", "Q18", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),

@@ -16,6 +16,8 @@ from mnclab.controls.tnc_620.contours import (  # isort: skip
     pilot,
     rough_out,
     side_finishing,
+    train,
+    train_data,
     trochoidal_slot,
 )
 from mnclab.controls.tnc_620.cycles import (
@@ -134,6 +136,8 @@ CHAPTERS = (
     rough_out,
     floor_finishing,
     side_finishing,
+    train_data,
+    train,
     trochoidal_slot,
     transformations, tilting, special, engraving, face_milling, presets, program_call,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,

@@ -14,13 +14,10 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 
 CYCLES = {
-    25: "Contour train",
     27: "Cylinder surface",
     28: "Cylinder surface slot",
     29: "Cylinder surface ridge",
     39: "Cylinder surface contour",
-    270: "Contour train data",
-    276: "Three-dimensional contour train",
 }
 
 PROBING = {
@@ -93,9 +90,6 @@ REFUSED = {
 
 #: Q parameters by the numbers of the cycles that take them: named beside the refusal where a program has another one.
 _OF_CYCLES = {
-    "25": "1 3 5 7 10 11 12 15 18 446 447 448",
-    "276": "1 3 7 10 11 12 15 18 446 447 448",
-    "270": "390 391 392 393 394",
     "27 39": "1 3 6 10 11 12 16 17",
     "28": "1 3 6 10 11 12 16 17 20 21",
     "29": "1 3 6 10 11 12 16 17 20",

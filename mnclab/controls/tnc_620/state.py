@@ -12,6 +12,7 @@ from mnclab.text.program import Word
 if TYPE_CHECKING:
     from mnclab.controls.tnc_620.contours.data import ContourData
     from mnclab.controls.tnc_620.contours.labels import Labels
+    from mnclab.controls.tnc_620.contours.train_data import TrainData
     from mnclab.controls.tnc_620.language.blank import Blank
     from mnclab.controls.tnc_620.language.free_contours import Earlier
     from mnclab.controls.tnc_620.language.pattern_definitions import Pattern
@@ -63,6 +64,7 @@ class Memory:
     pattern: Pattern | None = None
     contour: Labels | Formula | None = None  # which one the next cycle machines
     contour_data: ContourData | None = None
+    train_data: TrainData | None = None
     rough_out_tool: Tool | None = None  # with which cycle 22 was called last, its deltas included
     tool_before: Tool | None = None  # that was in the spindle before the last TOOL CALL of a tool
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
-from mnclab.geometry.vectors import left, length_of
+from mnclab.geometry.vectors import left
 from mnclab.machining.milling.clearing import begin, numbered
 from mnclab.machining.milling.finishing import LEAST, quarter_circles
 from mnclab.machining.milling.rings import rounded
@@ -29,17 +29,17 @@ HALVINGS = 40
 
 
 class Wall(NamedTuple):
-    """A closed pass along a boundary and the open ways to it and off it, none where the tool goes down on the pass itself."""
+    """A closed pass along a boundary and the open ways to it and off it."""
 
     contour: Contour
-    approach: Contour | None
-    departure: Contour | None
+    approach: Contour
+    departure: Contour
     tangential: bool
 
     @property
     def start(self) -> tuple[float, float]:
         """Where the tool goes down."""
-        x, y = begin(self.contour if self.approach is None else self.approach).tolist()
+        x, y = begin(self.approach).tolist()
         return x, y
 
 
@@ -69,7 +69,7 @@ def wall_loops(
     if not radius > 0:
         raise ValueError(f"the tool radius must be greater than 0, got {radius:g}")
     wish = max(radius / 2 if lead is None else lead, least)
-    free = outside(region, radius + abs(allowance) + 2 * wish + 1) if solid else region
+    free = outside(region, 2 * (radius + abs(allowance) + wish) + 1) if solid else region
     centres = free.inset(radius + allowance)
     loops = [loop for part in centres.parts for loop in (*part.loops[1:], part.loops[0])]
     if solid:
@@ -97,11 +97,9 @@ def finish_walls(walls: Sequence[Wall], at: Heights, plunge: float, feed: float)
             rise = at.rise if wall.tangential and level == at.levels[-1] else 0.0
             yield Go(f"{which}, {label}, back to the start", None, feed, *wall.start)
             yield Go(f"{which}, {label}, down", level + rise, plunge)
-            if wall.approach is not None:
-                yield Along(f"{which}, {label}, approach", wall.approach, feed, [level + rise, level])
+            yield Along(f"{which}, {label}, approach", wall.approach, feed, [level + rise, level])
             yield Along(f"{which}, {label}", wall.contour, feed)
-            if wall.departure is not None:
-                yield Along(f"{which}, {label}, departure", wall.departure, feed, [level, level + rise])
+            yield Along(f"{which}, {label}, departure", wall.departure, feed, [level, level + rise])
         height = at.above
 
 
@@ -119,7 +117,7 @@ def _wall(centres: Region, loop: Contour, wish: float, least: float, climb: bool
         approach, departure = quarter_circles(contour, reach, 1 if climb else -1)
         return Wall(contour, approach, departure, tangential=True)
     straight = _straight(centres, contour.points[0], inwards[k], wish)
-    return Wall(contour, straight, None if straight is None else straight.reversed(), tangential=False)
+    return Wall(contour, straight, straight.reversed(), tangential=False)
 
 
 def _widest(centres: Region, place: Floats, inwards: Floats, wish: float, least: float) -> float:
@@ -137,10 +135,8 @@ def _widest(centres: Region, place: Floats, inwards: Floats, wish: float, least:
     return low
 
 
-def _straight(centres: Region, place: Floats, inwards: Floats, wish: float) -> Contour | None:
-    """The straight way to a place from where, along the normal, the tool is clearest of the walls; None without room."""
-    far = place + wish * 0.5 ** np.arange(HALVINGS)[:, None] * inwards
-    ways = [spot for spot in far if length_of(spot - place) > LEAST and centres.holds(spot, place)]
-    if not ways:
-        return None
-    return Contour([ways[int(np.argmax(centres.distance(np.array(ways))))], place], closed=False)
+def _straight(centres: Region, place: Floats, inwards: Floats, wish: float) -> Contour:
+    """The straight way to a place from where, along the normal, the tool is clearest of the walls: without room from itself."""
+    far = place + wish * np.append(0.5 ** np.arange(HALVINGS), 0.0)[:, None] * inwards
+    clear = np.where([centres.holds(spot, place) for spot in far], centres.distance(far), -1.0)
+    return Contour([far[int(clear.argmax())], place], closed=False)

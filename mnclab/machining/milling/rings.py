@@ -84,6 +84,8 @@ def rounded(loop: Contour, radius: float) -> Contour:
             taken[1, i - 1], taken[0, i] = cut
             sweep = np.arctan2(cross(*arms), np.dot(*arms))
             arcs[i] = first, last, float(np.tan(sweep / 4))
+    if not arcs:
+        return loop
     kept = np.tan(sweeps * np.clip(1 - taken.sum(axis=0) / lengths, 0, 1) / 4)
     points, bulge = [], []
     for i, corner in enumerate(loop.points):

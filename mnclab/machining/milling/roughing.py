@@ -6,9 +6,8 @@ where its centre may go. So a piece has one way down on each level: straight, on
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -16,14 +15,13 @@ import numpy as np
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.machining.milling.clearing import Clearing, Piece, begin, end, numbered
-from mnclab.machining.milling.engagement import engagement
+from mnclab.machining.milling.engagement import stretches
 from mnclab.machining.milling.entries import Descent, along, descend, helix, vertical
 from mnclab.machining.milling.routes import route
 from mnclab.machining.milling.terraces import Level
 from mnclab.machining.steps import Along, Go, Step
 
 NARROWEST = 0.1  # of the tool radius: no helix is smaller
-FULL = math.pi - 0.01  # rad: with so much of its rim in the material the tool cuts a full slot
 SHORT = 1e-6  # mm
 WayDown: TypeAlias = Callable[[Piece, float, float], Descent]
 
@@ -67,7 +65,7 @@ def sloping_down(
     if room >= NARROWEST * radius:
         return helix(piece.entry, min(radius, room), top, bottom, angle, clockwise=not climb)
     if not stroke > 0:
-        raise ValueError(f"there is no room for a helix, and without the length of its edges none for a ramp: {room:.3g}")
+        raise ValueError(f"a helix has no room, {room:.3g} mm, and a ramp needs the length of the edges")
     first = piece.passes[0]
     return along(first.between(0.0, min(stroke, first.length)), top, bottom, angle)
 
@@ -157,18 +155,6 @@ def _with_feeds(ways: Ways, radius: float, feeds: Feeds) -> Iterator[tuple[Conto
     if feeds.slot == feeds.level:
         yield from ((move, feeds.level) for move in moves)
         return
-    found = engagement([Contour([ways.piece.entry] * 2, closed=False), *moves], radius)
-    for k, move in enumerate(moves, 1):
-        for stretch, slot in _stretches(move, found.angle[found.move == k] >= FULL):
-            yield stretch, feeds.slot if slot else feeds.level
-
-
-def _stretches(move: Contour, slot: np.ndarray) -> Iterator[tuple[Contour, bool]]:
-    """The stretches of a move in which it cuts a full slot and those in which it does not, from samples evenly along it."""
-    changes = np.flatnonzero(np.diff(slot)) + 1
-    if not len(changes):
-        yield move, bool(slot.any())
-        return
-    step, bounds = move.length / len(slot), [0, *changes.tolist(), len(slot)]
-    for first, last in pairwise(bounds):
-        yield move.between(first * step, last * step), bool(slot[first])
+    _, *found = stretches([Contour([ways.piece.entry] * 2, closed=False), *moves], radius)
+    for stretch in chain.from_iterable(found):
+        yield stretch.contour, feeds.slot if stretch.full else feeds.level

@@ -170,6 +170,7 @@ REFUSED = [
     (dict(Q9=0), "CYCL DEF 20 Q9 (direction of machining) must be one of -1, 1, got 0"),
     (dict(Q10=0), "CYCL DEF 22 Q10 (infeed per cut) must not be 0"),
     (dict(Q208=100000), "CYCL DEF 22 Q208 (retraction feed rate) must be at most 99999.9999 or FMAX, got 100000"),
+    (dict(Q12=0), "CYCL DEF 22 Q12 (feed rate for roughing) must be greater than 0 to mill with, got 0"),
     (dict(labels="2"), "the contour has no pocket"),
 ]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, distance, increment, length, ratio
 from mnclab.controls.tnc_620.cycles.faults import Fault
@@ -15,6 +15,7 @@ from mnclab.machining.steps import Step, Write
 from mnclab.running.binding import unit_of
 
 CYCLES = CycleTable()
+AnyCycle = TypeVar("AnyCycle", bound=Cycle)
 
 
 @CYCLES("CYCL DEF 20", "Contour data", runs="definition", source="8.4")
@@ -65,10 +66,15 @@ def contour_data(m: Machine) -> ContourData:
     """The data of cycle 20 with the Q parameters as they stand now."""
     data = memory(m).contour_data
     assert data is not None
+    return as_they_stand(m, data)
+
+
+def as_they_stand(m: Machine, kept: AnyCycle) -> AnyCycle:
+    """A cycle that was kept, with the Q parameters as they stand now."""
     now: dict[str, Any] = {
-        p.name: m.variables[p.address] * unit_of(m, p) for p in data.parameters() if p.address in m.variables
+        p.name: m.variables[p.address] * unit_of(m, p) for p in kept.parameters() if p.address in m.variables
     }
-    return replace(data, **now)
+    return replace(kept, **now)
 
 
 def prepared(m: Machine) -> Iterator[Fault]:

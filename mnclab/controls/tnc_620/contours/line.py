@@ -28,14 +28,16 @@ MOST_ELEMENTS = 16384  # of a contour
 class Line(NamedTuple):
     """A contour with the side that its compensation says: +1 left, -1 right, 0 none.
 
-    `heights` (n,) are those of its n points; `steps` (m,) name the blocks of its m elements, for alarms. `approach` and
-    `departure` lead to it and away, where the label has APPR and DEP; a label without APPR begins with a straight line.
+    `heights` (n,) are those of its n points; `steps` and `lines` (m,) name the blocks of its m elements, for alarms.
+    `approach` and `departure` lead to it and away, where the label has APPR and DEP; a label without APPR begins with a
+    straight line.
     """
 
     contour: Contour
     side: int
     heights: Floats
     steps: NDArray[np.int64]
+    lines: NDArray[np.int64]
     approach: RecordedLead | None = None
     departure: RecordedLead | None = None
 
@@ -65,11 +67,12 @@ def contour_line(m: Machine, in_space: bool = False) -> Generator[Step, Any, Lin
         m.alarm(f"the contour of label {label} has {len(path)} elements, more than {MOST_ELEMENTS}")
     if upright(path):
         m.alarm(f"an arc of the contour of label {label} leaves the plane XY")
-    if not in_space and (abs(np.append(path.end[:, 2], recording.start[2])) > 1e-9).any():
+    ends = [lead.place[2] for lead in (recording.approach, recording.departure) if lead and lead.place]
+    if not in_space and np.abs([*path.end[:, 2], recording.start[2], *ends]).max() > 1e-9:
         m.alarm(f"the contour of label {label} moves along the tool axis")
     contour, heights, rows = chain(path)
     if contour.length <= CLOSED:
         m.alarm(f"the contour of label {label} has no length in the plane XY")
     if np.hypot(*(contour.points[-1] - contour.points[0])) <= CLOSED and abs(heights[-1] - heights[0]) <= CLOSED:
         contour, heights = Contour(contour.points[:-1], contour.bulge[:-1]), heights[:-1]
-    return Line(contour, recording.side, heights, path.step[rows], recording.approach, recording.departure)
+    return Line(contour, recording.side, heights, path.step[rows], path.line[rows], recording.approach, recording.departure)

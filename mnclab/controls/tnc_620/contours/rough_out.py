@@ -73,7 +73,7 @@ class RoughOut(Cycle):
         try:
             yield from roughing.rough_out(clearings, at, heights, feeds, self.way_down(m, data))
         except ValueError as error:
-            m.alarm(f"{self.code}: {error}{remark(m)}")
+            m.alarm(f"{self.code}: {error}{remark(m)}", hint=f"LCUTS of tool {m.tool.number} in the tool table")
         yield from leave(m, before, data.height, rate(self.retract_feed, self.feed))
 
     def way_down(self, m: Machine, data: ContourData) -> roughing.WayDown:

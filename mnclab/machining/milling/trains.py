@@ -1,0 +1,237 @@
+"""Contour trains: the way of the tool centre beside an open or a closed contour, in the plane or with heights. Lengths in mm.
+
+The way is the machine's own radius compensation (`path.compensation`), with arcs about outside corners; each place of it is as
+high as the place of the contour that it is square to. A closed contour is followed until the way closes:
+
+        open                              closed, begun at P
+    S───────────────────E             ╭──S─────────╮      S lies square beside P; at an inside corner it is where
+    P ───────────────── Q             │  P───────┐ │      the offsets before and behind P meet
+                                      ╰──────────╯ ╯
+
+Where the tool has no room beside the contour, what it cannot reach is left standing if the contour is level, and told.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.geometry import shapely
+from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.regions import Region, bands_beside
+from mnclab.geometry.vectors import left, length_of
+from mnclab.path import compensation
+from mnclab.path.compensation.rules import CORNER, Compensation
+from mnclab.path.fault import PathFault
+from mnclab.path.kinds import Kind
+from mnclab.path.outline import chain
+from mnclab.path.toolpath import Toolpath
+
+SAME = 1e-6  # mm
+DRIFT = 1e-9  # mm
+CHORD_ERROR = 1e-3  # mm, of what is only measured
+RULES = Compensation(approach="perpendicular", rapid=True, look_ahead=True)
+
+
+class Way(NamedTuple):
+    """An open contour and the heights (n,) of its n points."""
+
+    contour: Contour
+    heights: Floats
+
+    @property
+    def begin(self) -> Floats:
+        return np.asarray(self.contour.points[0])
+
+    @property
+    def end(self) -> Floats:
+        return np.asarray(self.contour.points[-1])
+
+    @property
+    def closes(self) -> bool:
+        """Whether it ends where it begins."""
+        apart = np.hypot(*(self.end - self.begin)) <= SAME
+        return bool(apart and abs(self.heights[-1] - self.heights[0]) <= SAME)
+
+    def reversed(self) -> Way:
+        return Way(self.contour.reversed(), self.heights[::-1])
+
+
+def part(along: Way, first: float, last: float) -> Way:
+    """The part of a way between two ways along it; beyond the ends straight on, or round where the way closes."""
+    contour, heights = along
+    length = contour.length
+    if along.closes and (first < 0 or last > length):
+        twice = Contour(
+            np.vstack([contour.points[:-1], contour.points]), np.append(contour.bulge[:-1], contour.bulge), closed=False
+        )
+        shift = length if first < 0 else 0.0
+        return part(Way(twice, np.append(heights[:-1], heights)), first + shift, last + shift)
+    upto = np.append(0.0, np.cumsum(contour.lengths))
+    a, b = max(first, 0.0), min(last, length)
+    inner = np.flatnonzero((upto > a + DRIFT) & (upto < b - DRIFT))
+    points = np.vstack([contour.point_at(a)[0], contour.points[inner], contour.point_at(b)[0]])
+    cuts = np.concatenate([[a], upto[inner], [b]])
+    element = np.clip(np.searchsorted(upto, (cuts[1:] + cuts[:-1]) / 2, side="right") - 1, 0, len(contour.starts) - 1)
+    bulge = np.tan(contour.sweeps[element] * np.diff(cuts) / contour.lengths[element] / 4)
+    z = np.interp(cuts, upto, heights)
+    begin, end = contour.tangents()
+    for beyond, at_end in ((a - first, False), (last - b, True)):
+        if beyond > DRIFT:
+            corner, t = (points[-1], end[-1]) if at_end else (points[0], -begin[0])
+            more = corner + beyond * t / length_of(t)
+            points = np.vstack([points, more]) if at_end else np.vstack([more, points])
+            bulge = np.append(bulge, 0.0) if at_end else np.append(0.0, bulge)
+            z = np.append(z, z[-1]) if at_end else np.append(z[0], z)
+    return Way(Contour(points, np.append(bulge, 0.0), closed=False), z)
+
+
+class Beside(NamedTuple):
+    """The ways beside a contour, and where the tool has no room, why, and how thick what is left is at which place (x, y)."""
+
+    ways: tuple[Way, ...]
+    fault: PathFault | None = None
+    left: float = 0.0
+    place: tuple[float, float] = (0.0, 0.0)
+
+
+def beside(
+    contour: Contour, distance: float, side: int, heights: Sequence[float] | Floats | None = None,
+    lines: Sequence[int] | NDArray[np.int64] | None = None,
+) -> Beside:  # fmt: skip
+    """The ways of the tool centre at a `distance` to the left (`side` 1) or right (-1); a negative one is the other side.
+
+    `heights` (n,) are those of the n points of the contour, `lines` (m,) what its m elements are called in messages. One way,
+    but where a closed contour has a neck that the tool cannot pass: one in each room. A PathFault, whose step is the
+    number of the element, where there is no way, or where the tool has no room and the contour is not level.
+    """
+    level = np.zeros(len(contour.points)) if heights is None else np.asarray(heights, dtype=float)
+    name = np.arange(1, len(contour.starts) + 1) if lines is None else np.asarray(lines)
+    if side * distance == 0:
+        return Beside((_opened(contour, level),))
+    try:
+        found = _closed if contour.closed else _open
+        return Beside((found(contour, abs(distance), int(np.sign(side * distance)), level, name),))
+    except PathFault as fault:
+        if np.ptp(level) > SAME:
+            raise
+        rooms = _rooms if contour.closed else _room
+        ways = rooms(contour, abs(distance), int(np.sign(side * distance)), fault)
+        thickness, (x, y) = _left(contour, abs(distance), ways)
+        return Beside(tuple(Way(way, np.full(len(way.points), level[0])) for way in ways), fault, thickness, (x, y))
+
+
+def _opened(contour: Contour, heights: Floats) -> Way:
+    """A contour as an open one; a closed one ends at its first point."""
+    if not contour.closed:
+        return Way(contour, heights)
+    points, bulge = np.vstack([contour.points, contour.points[:1]]), np.append(contour.bulge, 0.0)
+    return Way(Contour(points, bulge, closed=False), np.append(heights, heights[0]))
+
+
+def _open(contour: Contour, distance: float, side: int, heights: Floats, lines: Any) -> Way:
+    """The compensated way of an open contour, whose elements have `lines`, from square to its beginning to square to its end."""
+    path = _compensated(Way(contour, heights), distance, side, lines, np.arange(len(lines)))
+    return _way(path)
+
+
+def _closed(contour: Contour, distance: float, side: int, heights: Floats, lines: Any) -> Way:
+    """The compensated way of a closed contour, worked out from the middle of its longest element on and begun where it does."""
+    k, n = int(contour.lengths.argmax()), len(lines)
+    whole = _opened(contour, heights)
+    half = np.tan(contour.sweeps[k] / 8)
+    middle = contour.point_at(contour.lengths[:k].sum() + contour.lengths[k] / 2)[0]
+    order = (k + 1 + np.arange(n)) % n
+    points = np.vstack([middle, contour.points[order], middle])
+    bulge = np.concatenate([[half], contour.bulge[order[:-1]], [half, 0.0]])
+    z = (whole.heights[k] + whole.heights[k + 1]) / 2
+    round_ = Way(Contour(points, bulge, closed=False), np.concatenate([[z], heights[order], [z]]))
+    element = np.append(k, order)
+    path = _halves_joined(_compensated(round_, distance, side, lines[element], element))
+    own = np.flatnonzero((path.step == 0) & (np.array(path.labels)[path.label] != CORNER))
+    return _way(path[np.roll(np.arange(len(path)), -int(own[0]))])
+
+
+def _halves_joined(path: Toolpath) -> Toolpath:
+    """A path that ends and begins within one element, which becomes one row."""
+    start, sweep = path.start.copy(), path.sweep.copy()
+    start[0], sweep[0] = path.start[-1], path.sweep[0] + path.sweep[-1]
+    return path.replace(start=start, sweep=sweep)[:-1]
+
+
+def _compensated(way: Way, distance: float, side: int, lines: Any, steps: Any) -> Toolpath:
+    """The rows of the tool centre; their steps tell the element. The straight move square to the contour, by which the
+    compensation begins, is left out."""
+    contour, heights = way
+    moving = int(np.flatnonzero(contour.lengths > SAME)[0])
+    normal = side * left(contour.tangents()[0][moving])
+    flat = np.vstack([contour.points[0] + 2 * distance * normal, contour.points])
+    z = np.append(heights[0], heights)
+    sweep = np.append(0.0, contour.sweeps)
+    columns: dict[str, Any] = {
+        "kind": np.where(sweep != 0, np.uint8(Kind.ARC), np.uint8(Kind.LINE)),
+        "centre": np.vstack([np.full(3, np.nan), np.column_stack([contour.centres, heights[:-1]])]),
+        "sweep": sweep,
+        "side": np.full(len(sweep), side, np.int8),
+        "radius": np.full(len(sweep), distance),
+        "line": np.append(lines[0], lines).astype(np.int32),
+        "step": np.append(-1, steps).astype(np.int32),
+    }
+    path = compensation.apply(Toolpath.chain(np.column_stack([flat, z]), columns), RULES)
+    return path[1:]
+
+
+def _way(path: Toolpath) -> Way:
+    found = chain(path)
+    return Way(found.contour, found.heights)
+
+
+def _rooms(contour: Contour, distance: float, side: int, fault: PathFault) -> list[Contour]:
+    """The boundaries of where the tool centre may be beside a closed contour, in its sense, the one near its beginning first."""
+    try:
+        area = Region.of(contour)
+    except ValueError as error:
+        raise PathFault(str(error), fault.step) from None
+    free = area.inset(distance) if contour.area * side > 0 else area.offset(distance)
+    if not free.loops:
+        raise fault
+    loops = [loop if contour.area > 0 else loop.reversed() for loop in free.loops]
+    start = contour.points[0] + distance * side * left(contour.tangents()[0][0])
+    loops.sort(key=lambda loop: float(loop.distance(start[None])[0]))
+    begun = [loop.started_at(loop.nearest(start)) for loop in loops]
+    return [_opened(loop, np.zeros(len(loop.points))).contour for loop in begun]
+
+
+def _room(contour: Contour, distance: float, side: int, fault: PathFault) -> list[Contour]:
+    """The boundary of where the tool centre may be beside an open contour, from square to its beginning to square to its end."""
+    line = shapely.LineString(contour.points_within(CHORD_ERROR))
+    begin, end = contour.tangents()
+    first = contour.points[0] + distance * side * left(begin[0])
+    last = contour.points[-1] + distance * side * left(end[-1])
+    if not line.is_simple:
+        raise PathFault("the contour crosses itself", fault.step)
+    back = contour.reversed()
+    there = Contour(
+        np.vstack([contour.points, back.points[1:-1]]), np.concatenate([contour.bulge[:-1], back.bulge[:-1]])
+    )
+    discs = (Contour.circle(point, distance) for point in (contour.points[0], contour.points[-1]))
+    near = Region.of(*bands_beside(there, distance), *discs)
+    loop = next((loop for loop in near.loops if loop.distance([first, last]).max() < 1e-4), None)
+    if loop is None:
+        raise fault
+    ring = loop.reversed() if side > 0 else loop
+    start = ring.started_at(ring.nearest(first))
+    whole = _opened(start, np.zeros(len(start.points)))
+    return [part(whole, 0.0, start.nearest(last)).contour]
+
+
+def _left(contour: Contour, distance: float, ways: Sequence[Contour]) -> tuple[float, tuple[float, float]]:
+    """How thick what the tool leaves on a contour is where it is thickest, and where that is."""
+    spots = contour.point_at(np.linspace(0, contour.length, max(2, min(20_000, int(50 * contour.length / distance)))))[0]
+    spots = np.vstack([contour.points, spots])
+    thick = np.min([way.distance(spots) for way in ways], axis=0) - distance
+    x, y = spots[int(thick.argmax())].tolist()
+    return float(thick.max()), (x, y)
