@@ -99,7 +99,7 @@ class TrochoidalSlot(AtSurface):
         if not self.down:
             yield self.left_out
             return
-        before, here = m.programmed, m.flow.span_of_step(m.step)  # reading the contour goes on to its last block
+        here = m.flow.span_of_step(m.step)  # reading the contour goes on to its last block
         found = yield from contour_line(m)
         if found.departure:
             name = found.departure.lead.name
@@ -109,7 +109,6 @@ class TrochoidalSlot(AtSurface):
             corner = m.flow.span_of_step(int(found.steps[0]))
             m.alarm(f"{self.code}: a slot must not begin in a corner of its contour", corner)
         yield from mill(self, m, line, found.approach is not None, here)
-        yield from leave(m, before, self.end)
 
 
 def with_approach(m: Machine, found: Line) -> Contour:
@@ -156,7 +155,7 @@ def mill(c: TrochoidalSlot, m: Machine, line: Contour, opens: bool, here: Span |
         except ValueError as error:
             message = f"{c.code} Q439={c.feed_reference:g} cannot be obeyed: {error}{remark(m)}"
             m.alarm(message, here, hint="Q439=0 counts at the tool centre")
-    x, y = line.points[0].tolist()
+    (x, y), before = line.points[0].tolist(), m.programmed
     up = (c.end,) if c.down > 0 else (c.above, c.end)
     yield Go("to the second set-up clearance", max(m.programmed[2], c.end))
     yield Go("over the start", x=x, y=y)
@@ -165,6 +164,7 @@ def mill(c: TrochoidalSlot, m: Machine, line: Contour, opens: bool, here: Span |
     yield from trochoidal_steps.finish_walls(around, work, up)
     if floor:
         yield from trochoidal_steps.finish_floor(floor, work, down, up)
+    yield from leave(m, before, c.end)
 
 
 def work_of(c: TrochoidalSlot, m: Machine) -> Work:
