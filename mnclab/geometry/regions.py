@@ -23,6 +23,14 @@ from mnclab.geometry.tracing import GRID, SAME, Drawing
 from mnclab.geometry.vectors import cross
 
 
+class CrossesItself(ValueError):
+    """A contour that encloses no area, and where: (x, y) in mm, None where that is not known."""
+
+    def __init__(self, place: tuple[float, float] | None) -> None:
+        super().__init__("the contour crosses or touches itself" + (" near ({:.3f}, {:.3f})".format(*place) if place else ""))
+        self.place = place
+
+
 @dataclass(frozen=True, eq=False)
 class Region:
     """An area of one or more pieces, each a loop counter-clockwise followed by its islands clockwise.
@@ -46,8 +54,7 @@ class Region:
         for area in areas:
             if not area.is_valid:
                 place = shapely.is_valid_reason(area).partition("[")[2].rstrip("]").split()
-                where = f" near ({float(place[0]):.3f}, {float(place[1]):.3f})" if len(place) >= 2 else ""
-                raise ValueError(f"the contour crosses or touches itself{where}")
+                raise CrossesItself((float(place[0]), float(place[1])) if len(place) >= 2 else None)
         if len(areas) == len(outer) == 1:
             contour = drawing.contours[0]
             return cls((contour if contour.area > 0 else contour.reversed(),))

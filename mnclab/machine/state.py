@@ -69,6 +69,7 @@ class State:
     program: int = part(0, rows=True)  # which of the programs runs
     ended: bool = part(False)
     recorded_only: bool = part(False)  # a contour is recorded: nothing moves
+    unheard: str = part("")  # functions whose codes begin so do nothing: where only the contour counts
     block_end: list[Callable[[], None]] = part(lambda m: [])  # to be done when the block is over
     alarms: Alarms = part(lambda m: Alarms(), outlives=True)
     noted: set[tuple[str, Span | None]] = part(lambda m: set(), outlives=True)  # of which a warning was given
@@ -81,6 +82,8 @@ class State:
     origin: Place | None = part(None)  # the first datum, from which the path counts
     pole: tuple[float, float] | None = part(None)
     rotary: Place = part((0.0, 0.0, 0.0), rows=True, history=True)  # A, B, C, radians
+    cylinder: int = part(-1, rows=True)  # of those of the recorder, on which the rows lie that are made now
+    from_angle: float = part(NAN, rows=True)  # where its axis stood before the row, rad
     pending: Pending | None = part(None)  # motion that waits for later blocks
 
     # what a program has said

@@ -25,7 +25,8 @@ class Piece:
     """A connected piece of the tool-centre area: one entry, then its passes in order.
 
     `linked[i]` tells whether the tool may go straight from the end of pass i to the start of pass i + 1;
-    if not, it must lift. `labels[i]` names pass i: "ring 3 of 7".
+    if not, it must lift. `labels[i]` names pass i: "ring 3 of 7". `from_side`: the first pass begins beside the material, where
+    the tool comes down free and cuts in from the side.
     """
 
     centres: Region
@@ -33,6 +34,7 @@ class Piece:
     linked: tuple[bool, ...]
     labels: tuple[str, ...]
     place: Floats | None = None
+    from_side: bool = False
 
     def __repr__(self) -> str:
         return f"<Piece: {', '.join(self.labels)}>"
@@ -43,7 +45,9 @@ class Piece:
         return begin(self.passes[0]) if self.place is None else self.place
 
     def begins_cleared(self, k: int) -> bool:
-        """Whether pass k begins on one before it, where the tool can come straight down."""
+        """Whether pass k begins on one before it or beside the material, where the tool can come straight down."""
+        if k == 0:
+            return self.from_side
         spot = begin(self.passes[k])[None]
         return any(contour.distance(spot)[0] < 1e-3 for contour in self.passes[:k])
 
@@ -147,6 +151,12 @@ def piecewise(
     region: Region, radius: float, stepover: float, allowance: float, plan: Callable[[Region], Piece]
 ) -> Clearing:
     """A clearing planned for each piece of where the tool centre may go; a ValueError where the tool does not fit."""
+    centres = tool_centres(region, radius, stepover, allowance)
+    return Clearing(centres, tuple(plan(part) for part in centres.parts), radius)
+
+
+def tool_centres(region: Region, radius: float, stepover: float, allowance: float) -> Region:
+    """Where the tool centre may go; a ValueError where the tool does not fit, or where radius or stepover are none."""
     if not radius > 0:
         raise ValueError(f"the tool radius must be greater than 0, got {radius:g}")
     if not 0 < stepover <= 2 * radius:
@@ -155,4 +165,4 @@ def piecewise(
     if not centres.loops:
         rest = f" with an allowance of {allowance:g}" if allowance else ""
         raise ValueError(f"a tool of radius {radius:g}{rest} does not fit into the contour")
-    return Clearing(centres, tuple(plan(part) for part in centres.parts), radius)
+    return centres
