@@ -8,9 +8,9 @@ for the tool, outside it where they stand for a wall.
 import numpy as np
 import pytest
 import shapely
+from random_regions import random_task
 
 from mnclab.machining.milling.rings import rings
-from random_regions import random_task
 
 pytestmark = pytest.mark.deep
 BLOCK = 50
