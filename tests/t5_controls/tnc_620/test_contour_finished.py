@@ -5,6 +5,7 @@ Expected numbers are those that the catalogue works out of the manual's examples
 
 import json
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -92,6 +93,33 @@ def test_c21_leaves_the_pocket_of_the_example(whole):
     outline, wall, *islands = sorted(part.cut("XY", -19.9), key=lambda each: -abs(each.area))
     assert abs(wall.area) == pytest.approx(3367.872, rel=1e-3)
     assert [each.area for each in islands] == pytest.approx([256, 128], rel=5e-3)
+
+
+@pytest.fixture(scope="module")
+def formula():
+    """The example of chapter 10: as C21, with a formula, another triangle and two tools."""
+    examples = json.loads((CATALOGUE.parent / "tnc620-contour-formula.json").read_text(encoding="utf-8"))
+    (text,) = (entry["program"] for entry in examples if "CYCL DEF 24" in entry["program"] and "QC10" in entry["program"])
+    main, *others = re.findall(r"0 BEGIN PGM \w+ MM.*?END PGM \w+ MM\n?", text, re.DOTALL)
+    files = {f"{other.split()[3]}.H": other for other in others}
+    mill = dict(plunge_angle=90, kind="mill")
+    tools = {1: Tool(radius=6, **mill), 2: Tool(radius=5, **mill)}
+    return mnclab.run(main, "tnc-620", Setup(tools=tools, files=files))
+
+
+def test_the_example_of_chapter_10(formula):
+    """Cycle 23 at z = -20; cycle 24 on z = -5, -10, -15, -20 with 0.08 before the last; R = 5 < Q3 + 6."""
+    assert formula.ok, formula.alarms
+    floor, side = of(formula, "CYCL DEF 23"), of(formula, "CYCL DEF 24")
+    assert set(floor[floor.feed == 200].end[:, 2]) == {-20}
+    assert side[(side.kind == Kind.LINE) & (side.feed == 100)].end[:, 2] == near([-5, -10, -15, -19.92] * 3)
+
+
+@pytest.mark.deep
+def test_the_example_of_chapter_10_leaves_its_pocket(formula):
+    """The final volume of the catalogue, 20 x 2991.872 mm³."""
+    assert not formula.collisions()
+    assert formula.workpiece().removed == pytest.approx(59837.4, rel=1e-3)
 
 
 # --- floors at several depths --------------------------------------------------------------------------------------------
