@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.contours.leaving import leave
 from mnclab.controls.tnc_620.contours.line import contour_line, with_labels
-from mnclab.controls.tnc_620.contours.other_tool import named, row_of
+from mnclab.controls.tnc_620.contours.other_tools import in_table, named_tool
 from mnclab.controls.tnc_620.contours.train_plan import trains
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, count, increment, length
@@ -64,13 +64,13 @@ class Train(Cycle):
             yield "infeed", "must not be 0"
         yield from too_many("infeed", lambda: self.levels(0.0))
         if self.coarse_tool:
-            yield from named(m, "coarse_tool", self.coarse_tool)
+            yield from in_table(self, m, "coarse_tool")
             if (radius := self.coarse_radius(m)) is not None and radius <= m.radius:
                 yield "coarse_tool", f"must be larger than the tool, whose radius is {m.radius:g}, got {radius:g}"
 
     def coarse_radius(self, m: Machine) -> float | None:
         """The radius of the coarse tool in lengths of the program; None without one."""
-        tool = row_of(m, self.coarse_tool) if self.coarse_tool else None
+        tool = named_tool(m, self.coarse_tool) if self.coarse_tool else None
         return None if tool is None else tool.effective_radius / m.scale
 
     def levels(self, surface: float) -> tuple[float, ...]:
