@@ -138,9 +138,11 @@ def compare(
 
     `strategies` are names of `STRATEGIES` (None: all of them), or a mapping from names to a strategy, a `Clearing`, or a
     function of region, tool radius and stepover. With a `coarse` tool, which has been there before, there is also "fine", what
-    this one has to do after it; the others do everything with the one tool. `overlap` is the share of the tool diameter that two passes have in common;
-    `stepover` says it in mm instead. `limit` is the engagement in degrees above which the share is counted. With axis
-    `limits` the time comes from the feed-rate profile. An Alarm where the tool does not fit.
+    this one has to do after it; the others do everything with the one tool.
+
+    `overlap` is the share of the tool diameter that two passes have in common; `stepover` says it in mm instead. `limit` is
+    the engagement in degrees above which the share is counted. With axis `limits` the time comes from the feed-rate profile.
+    An Alarm where the tool does not fit.
     """
     known = (*STRATEGIES, FINE) if coarse is not None else tuple(STRATEGIES)
     strategies = known if strategies is None else strategies

@@ -64,7 +64,7 @@ def test_what_is_left_is_found():
 
 
 def test_fine_roughing_beside_the_whole_with_one_tool():
-    """After a tool of 12 one of 5 has (1 - π/4)·(12² - 5²) left in each corner, and never the whole slot that rings begin with."""
+    """After a tool of 12 one of 5 has (1 - π/4)·(12² - 5²) left in each corner, and never a whole slot."""
     found = compare(BOX, 5.0, ["rings", "fine"], coarse=Tool(radius=12), overlap=0.6)
     fine = found["fine"]
     assert fine.before.area == pytest.approx(2400 - (4 - np.pi) * 144)
