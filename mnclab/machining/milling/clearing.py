@@ -103,20 +103,25 @@ def numbered(name: str, count: int) -> tuple[str, ...]:
 
 def links(centres: Region, passes: Sequence[Contour], stepover: float) -> tuple[bool, ...]:
     """Which straight ways between passes stay in the tool-centre area and within a stepover of what is cleared."""
+    boxes = np.array([contour.bounds for contour in passes]).reshape(-1, 2, 2)
     return tuple(
-        _clear(centres, end(a), begin(b), passes[: k + 1], stepover) for k, (a, b) in enumerate(pairwise(passes))
+        _clear(centres, end(a), begin(b), passes[: k + 1], boxes[: k + 1], stepover)
+        for k, (a, b) in enumerate(pairwise(passes))
     )
 
 
-def _clear(centres: Region, a: Floats, b: Floats, done: Sequence[Contour], stepover: float) -> bool:
+def _clear(
+    centres: Region, a: Floats, b: Floats, done: Sequence[Contour], boxes: Floats, stepover: float
+) -> bool:  # fmt: skip
     way = float(np.hypot(*(b - a)))
     if way > stepover + SLACK:
         share = np.linspace(0, 1, int(np.ceil(4 * way / stepover)) + 1)[:, None]
         spots = a + share * (b - a)
-        off = np.full(len(spots), np.inf)
-        for contour in reversed(done):
-            off = np.minimum(off, contour.distance(spots))
-            if (off <= stepover + SLACK).all():
+        low, high = np.minimum(a, b) - stepover - SLACK, np.maximum(a, b) + stepover + SLACK
+        near = np.flatnonzero((boxes[:, 0] <= high).all(axis=1) & (boxes[:, 1] >= low).all(axis=1))
+        for k in near[::-1]:
+            spots = spots[done[k].distance(spots) > stepover + SLACK]
+            if not len(spots):
                 break
         else:
             return False

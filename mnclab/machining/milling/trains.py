@@ -20,8 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import shapely
+from mnclab.geometry.bands import bands_beside
 from mnclab.geometry.contours import Contour, Floats
-from mnclab.geometry.regions import Region, bands_beside
+from mnclab.geometry.regions import Region
 from mnclab.geometry.vectors import left, length_of
 from mnclab.path import compensation
 from mnclab.path.compensation.rules import CORNER, Compensation

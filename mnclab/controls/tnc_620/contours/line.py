@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.controls.tnc_620.contours.area import upright
 from mnclab.controls.tnc_620.contours.labels import Labels
+from mnclab.controls.tnc_620.contours.outlines import upright
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour, Floats
@@ -65,7 +65,7 @@ def contour_line(m: Machine, in_space: bool = False) -> Generator[Step, Any, Lin
         m.alarm(f"label {label} describes no contour")
     if len(path) > MOST_ELEMENTS:
         m.alarm(f"the contour of label {label} has {len(path)} elements, more than {MOST_ELEMENTS}")
-    if upright(path):
+    if upright(path).any():
         m.alarm(f"an arc of the contour of label {label} leaves the plane XY")
     ends = [lead.place[2] for lead in (recording.approach, recording.departure) if lead and lead.place]
     if not in_space and np.abs([*path.end[:, 2], recording.start[2], *ends]).max() > 1e-9:
