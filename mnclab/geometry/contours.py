@@ -334,6 +334,17 @@ class Contour:
         return off, u
 
 
+def turning(before: Floats, after: Floats, bends: Floats) -> Floats:
+    """Angles from the directions `before` to those `after`, `(m, 2)`, + to the left.
+
+    In a cusp, where they are opposite, `bends` tells to which side: the sum of 1 / radius on both sides, + to the left.
+    """
+    angle: Floats = np.arctan2(cross(before, after), (before * after).sum(axis=1))
+    back = np.abs(angle) > np.pi - CUSP
+    angle[back] = np.where(bends[back] > 0, -np.pi, np.pi)
+    return angle
+
+
 def joined(pieces: Iterable[Contour | None]) -> Contour:
     """Contours that follow each other as one, with straight lines across gaps."""
     points: list[Floats] = []
@@ -346,17 +357,6 @@ def joined(pieces: Iterable[Contour | None]) -> Contour:
         points.extend(piece.points)
         bulges.extend(piece.bulge[:-1])
     return Contour(np.array(points), [*bulges, 0.0], closed=False)
-
-
-def turning(before: Floats, after: Floats, bends: Floats) -> Floats:
-    """Angles from the directions `before` to those `after`, `(m, 2)`, + to the left.
-
-    In a cusp, where they are opposite, `bends` tells to which side: the sum of 1 / radius on both sides, + to the left.
-    """
-    angle: Floats = np.arctan2(cross(before, after), (before * after).sum(axis=1))
-    back = np.abs(angle) > np.pi - CUSP
-    angle[back] = np.where(bends[back] > 0, -np.pi, np.pi)
-    return angle
 
 
 def keeps_circles(matrix: Floats) -> bool:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from mnclab.controls.tnc_620.contours.area import contour_terraces
 from mnclab.controls.tnc_620.contours.data import ContourData, contour_data, prepared
 from mnclab.controls.tnc_620.contours.leaving import leave
-from mnclab.controls.tnc_620.contours.other_tool import named, row_of
+from mnclab.controls.tnc_620.contours.other_tools import in_table, named_tool
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, count, increment
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
@@ -48,7 +48,7 @@ class SideFinishing(Cycle):
         yield from not_zero(self, "plunge_feed", "feed", purpose="to mill with")
         yield from with_radius(m)
         if self.rough_out_tool not in (-1, 0):
-            yield from named(m, "rough_out_tool", self.rough_out_tool)
+            yield from in_table(self, m, "rough_out_tool")
         here, rough = self.side_allowance + m.radius, contour_data(m).side_allowance + self.rough_radius(m)
         if here >= rough:
             sums = f"Q14 + R = {here:g} must be less than Q3 + R = {rough:g} of the rough-out tool"
@@ -59,7 +59,7 @@ class SideFinishing(Cycle):
         if self.rough_out_tool == 0:
             return 0.0
         kept = memory(m).rough_out_tool or memory(m).tool_before
-        tool = kept if self.rough_out_tool == -1 else row_of(m, self.rough_out_tool)
+        tool = kept if self.rough_out_tool == -1 else named_tool(m, self.rough_out_tool)
         return tool.effective_radius / m.scale if tool else 0.0
 
     def moves(self, m: Machine) -> Iterator[Step]:
