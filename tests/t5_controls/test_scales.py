@@ -50,6 +50,7 @@ MORE = {
     "G344": [{"plunge": 0}],
     "CYCL DEF 200": [{"reference": 1}],
     "CYCL DEF 220": [{"type_of_traverse": 1}],
+    "CYCL DEF 275": [{"plunging_strategy": 2, "machining_operation": 1}],
     "CYCL DEF 232": [{"strategy": 0}, {"strategy": 1}],
     "CYCL DEF 233": [{"strategy": k} for k in (0, 1, 3)] + [{"strategy": 4, "limit_1": 0, "limit_2": 0}],
     "CYCL DEF 240": [{"mode": 1}],
@@ -86,7 +87,7 @@ def values_of(code, more):
 def larger(code, values, s):
     """The values with every length s times as long: what is told in mm, but for a pitch (mm/rev)."""
     cycle = MNC.get(code) or TNC[code]
-    lengths = {p.name for p in cycle.parameters() if p.unit == "mm"}
+    lengths = {p.name for p in cycle.parameters() if p.unit == "mm" or p.name == "advance"}
     return {name: value * s if name in lengths else value for name, value in values.items()}
 
 
@@ -126,6 +127,10 @@ def program(code, values, frame, s=1.0):
             for line in LABELS.split("\n")
         )  # fmt: skip
         return head + data + klartext(code, values) + "CYCL CALL\nM30\n" + labels + "END PGM A MM\n"
+    if code == "CYCL DEF 275":
+        line = f"LBL 1\nL X{-40 * s:+g} Y{-30 * s:+g}\nL X{40 * s:+g}\nRND R{20 * s:g}\nL Y{30 * s:+g}\nLBL 0\n"
+        data = "CYCL DEF 14.0 X\nCYCL DEF 14.1 LABEL 1\n"
+        return head + data + klartext(code, values) + "CYCL CALL\nM30\n" + line + "END PGM A MM\n"
     return head + klartext(code, values) + call + "END PGM A MM\n"
 
 
@@ -233,6 +238,8 @@ def as_the_spindle_has_it(code, values, whole, follows):
         values = values | {"disengage": next(d for d, way in WAYS.items() if math.dist(way, (x, y)) < 1e-9)}
     if code == "CYCL DEF 208" and np.linalg.det(whole) < 0:
         values = values | {"climb": -values["climb"]}  # 4.9: a mirror image does not influence the type of milling
+    if code == "CYCL DEF 275" and np.linalg.det(whole) < 0:
+        values = values | {"milling_type": -values["milling_type"]}  # 8.3
     return values
 
 
@@ -284,7 +291,8 @@ def test_scale_mirror_and_rotation_together(case):
     frame = turn(code, 30) + ("\n" if code in MNC else "") + mirror(code, "X")
     frame += ("\n" if code in MNC else "") + equal(code, 2)
     found = run_once(code, program(code, values, frame), setup(2))
-    plain = run_once(code, program(code, larger(code, values, 2), "", 2), setup(2))
+    written = as_the_spindle_has_it(code, larger(code, values, 2), whole, whole)
+    plain = run_once(code, program(code, written, "", 2), setup(2))
     assert_moved(rows(found), rows(plain), whole)
 
 

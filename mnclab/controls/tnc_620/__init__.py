@@ -195,5 +195,8 @@ CONTROL = Control(
     storage="variables", preassigned={**parameters.PREASSIGNED, **system_texts.TEXTS}, local_variables="QL",
     named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again, turned=tool_axis.turned,
     compensation=Compensation(approach="perpendicular", rapid=True),
-    bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call") and m.memory.developed is None),
+    bulk=PlainWords(
+        motions={None: ("L", 1)}, keyword="L",
+        ready=lambda m: m.side == 0 and not m.modal.get("call") and m.memory.developed is None,
+    ),
 )  # fmt: skip
