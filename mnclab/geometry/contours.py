@@ -9,7 +9,7 @@ counter-clockwise, -1 for half a circle clockwise. Lengths in mm, angles in rad,
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -21,6 +21,7 @@ from mnclab.geometry.vectors import Floats, at_angle, cross, left, length_of, tu
 from mnclab.geometry.whole_curves import Curve
 
 FULL_TURN = 2 * np.pi
+CUSP = 1e-8  # rad, by which opposite directions may be off
 SHORTEST = 1e-9  # mm, of a piece
 FLAT = 1e-9  # a smaller bulge is a line: over a chord of 1 m it would rise by half a nanometre
 
@@ -124,8 +125,8 @@ class Contour:
     def turns(self) -> Floats:
         """Angle by which the contour turns at the start of every element, + to the left, 0 at an open start, `(m,)`."""
         begin, end = self.tangents()
-        before = np.roll(end, 1, axis=0)
-        angle: Floats = np.arctan2(cross(before, begin), (before * begin).sum(axis=1))
+        bend = np.sign(self.sweeps) / self.radii
+        angle = turning(np.roll(end, 1, axis=0), begin, np.roll(bend, 1) + bend)
         if not self.closed:
             angle[0] = 0.0
         return angle
@@ -331,6 +332,31 @@ class Contour:
             off[:, k] = np.where(inside, np.abs(length_of(arm) - radii[k]), np.minimum(at_start, at_end))
             u[:, k] = np.where(inside, ahead / np.abs(s[k]), np.where(at_start <= at_end, 0.0, 1.0))
         return off, u
+
+
+def turning(before: Floats, after: Floats, bends: Floats) -> Floats:
+    """Angles from the directions `before` to those `after`, `(m, 2)`, + to the left.
+
+    In a cusp, where they are opposite, `bends` tells to which side: the sum of 1 / radius on both sides, + to the left.
+    """
+    angle: Floats = np.arctan2(cross(before, after), (before * after).sum(axis=1))
+    back = np.abs(angle) > np.pi - CUSP
+    angle[back] = np.where(bends[back] > 0, -np.pi, np.pi)
+    return angle
+
+
+def joined(pieces: Iterable[Contour | None]) -> Contour:
+    """Contours that follow each other as one, with straight lines across gaps."""
+    points: list[Floats] = []
+    bulges: list[float] = []
+    for piece in filter(None, pieces):
+        if points and length_of(piece.points[0] - points[-1]) <= SHORTEST:
+            points.pop()
+        elif points:
+            bulges.append(0.0)
+        points.extend(piece.points)
+        bulges.extend(piece.bulge[:-1])
+    return Contour(np.array(points), [*bulges, 0.0], closed=False)
 
 
 def keeps_circles(matrix: Floats) -> bool:

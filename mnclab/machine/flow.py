@@ -5,10 +5,11 @@ Where the program goes on changes the machine, so that the machine is handed ove
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
-from mnclab.geometry.frames import FrameChain
+from mnclab.geometry.frames import FrameChain, Matrix
 from mnclab.path.leads import Lead
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Span
@@ -28,15 +29,16 @@ class RecordedLead(NamedTuple):
 
 
 class Recording(NamedTuple):
-    """A contour as its label describes it: `path` in program coordinates from `start` on, and its side (+1 left,
-    -1 right, 0 none). `frames` and `memory` are the transformations at its end; `approach` and `departure` lead to it
-    and away, where the label has them."""
+    """A contour as a label or a program describes it: `path` in program coordinates from `start` on, and its side (+1
+    left, -1 right, 0 none). `frames` and `memory` are the transformations at its end, `step` executed its first block;
+    `approach` and `departure` lead to it and away, where the label has them."""
 
     path: Toolpath
     side: int
     start: tuple[float, float, float]
     frames: FrameChain
     memory: Any
+    step: int
     approach: RecordedLead | None = None
     departure: RecordedLead | None = None
 
@@ -80,9 +82,13 @@ class Flow(Protocol):
         """Run the blocks [first, stop) a number of times more."""
 
     def record(
-        self, m: Machine, label: str, span: Span | None = None, after: Recording | None = None, in_space: bool = False
-    ) -> Recording:
-        """Obey a label for its contour; nothing moves."""
+        self, m: Machine, name: str, span: Span | None = None, after: Recording | None = None,
+        blocks: Callable[[], None] | None = None, within: Matrix | None = None, in_space: bool = False,
+    ) -> Recording:  # fmt: skip
+        """Obey a label for its contour, or `blocks` for that of what has a name; nothing moves. See `running.recording`."""
+
+    def aside(self, m: Machine, in_space: bool = False) -> AbstractContextManager[None]:
+        """Blocks inside move nothing, and what they change does not stay, but for variables."""
 
     def leave(self) -> None:
         """End the running subprogram."""

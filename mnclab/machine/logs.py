@@ -62,7 +62,7 @@ class Logs:
     def add(self, name: str, step: int, value: Any) -> None:
         log = self.by_name.get(name) or self.by_name.setdefault(name, Log())
         steps = log.steps
-        if steps and steps[-1] == step:
+        if steps and steps[-1] >= step:  # of a block that goes on after others that it has obeyed
             log.values[-1] = value
         else:
             steps.append(step)

@@ -249,11 +249,9 @@ class Machine(Placed):
         self.add_row(Kind.PROBE, tip, feed=f)
         self.read_position()
 
-    def record(
-        self, label: str, span: Span | None = None, after: Recording | None = None, in_space: bool = False
-    ) -> Recording:
-        """Read the contour of a label: nothing moves, variables that it writes stay."""
-        return self.flow.record(self, label, span, after, in_space)
+    def record(self, name: str, span: Span | None = None, after: Recording | None = None, **of: Any) -> Recording:
+        """Read the contour of a label, or of other blocks: nothing moves, variables that they write stay. See `Flow.record`."""
+        return self.flow.record(self, name, span, after, **of)
 
     # --- settling ----------------------------------------------------------------------------------------------------
 

@@ -69,6 +69,7 @@ class State:
     program: int = part(0, rows=True)  # which of the programs runs
     ended: bool = part(False)
     recorded_only: bool = part(False)  # a contour is recorded: nothing moves
+    unheard: str = part("")  # functions whose codes begin so do nothing: where only the contour counts
     block_end: list[Callable[[], None]] = part(lambda m: [])  # to be done when the block is over
     alarms: Alarms = part(lambda m: Alarms(), outlives=True)
     noted: set[tuple[str, Span | None]] = part(lambda m: set(), outlives=True)  # of which a warning was given

@@ -71,6 +71,18 @@ class Variables(Kept):
             self[name] = value
 
 
+    @contextmanager
+    def own_values(self) -> Iterator[None]:
+        """Inside, what is written to variables does not stay: they are a copy. After an alarm they are as they were there."""
+        kept = dict(self)
+        yield
+        for name in [name for name in self if name not in kept]:
+            self.forget(name)
+        for name, value in kept.items():
+            if name not in self or self[name] != value:
+                self[name] = value
+
+
 class Measured(Kept):
     """What probing found; every value is logged."""
 

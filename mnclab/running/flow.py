@@ -10,15 +10,17 @@ from __future__ import annotations
 from array import array
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.geometry.frames import Matrix
 from mnclab.machine.flow import Recording
 from mnclab.machine.state import COMPARED, REPEAT
 from mnclab.running.loops import Loop, Loops
-from mnclab.running.recording import record
+from mnclab.running.recording import record, set_aside
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.program import Program
 from mnclab.text.records import shapes
@@ -135,12 +137,22 @@ class Course:
         self.go_back(here)
 
     def record(
-        self, m: Machine, label: str, span: Span | None = None, after: Recording | None = None, in_space: bool = False
-    ) -> Recording:
+        self, m: Machine, name: str, span: Span | None = None, after: Recording | None = None,
+        blocks: Callable[[], None] | None = None, within: Matrix | None = None, in_space: bool = False,
+    ) -> Recording:  # fmt: skip
+        if blocks is not None:
+            return record(m, self, name, blocks, span, after, within, in_space)
+        place = span or self.span_of_block(self.index_of(name))
+        return record(m, self, f"label {name}", partial(self.call, m, name, span), place, after, within, in_space)
+
+    @contextmanager
+    def aside(self, m: Machine, in_space: bool = False) -> Iterator[None]:
+        step = m.step
         self.nesting.extend((self.begun, self.running[-1] << 32 | self.current, RECORDED))
-        found = record(m, self, label, span, after, in_space)
+        with set_aside(m, in_space):
+            yield
         self.nesting.extend((self.begun, LEFT, 0))
-        return found
+        m.step = step  # what follows belongs to the block that asked; after an alarm the place stays where it happened
 
     @contextmanager
     def inside(self, m: Machine, index: int) -> Iterator[None]:

@@ -131,6 +131,8 @@ class Interpreter:
         if plan.remarks:
             self.remark(plan.remarks, words)
         for (_, what, code, head, _), pick in plan.actions:
+            if machine.unheard and code.startswith(machine.unheard):
+                continue
             if machine.pending and not (isinstance(what, Function) and what.collects):
                 determine(machine)
                 before = machine.programmed

@@ -38,7 +38,14 @@ EXAMPLES = {
         *("linear moves", "arc moves", "G00", "G01", "G02", "G03", "G04", "G12", "G14", "G32", "G73", "G74", "G75"),
         *("G77", "G78", "G90", "G91", "G92", "G93", "G94", "G95", "G96", "G97", "T+L"),
     ],
-    "tnc620-klartext": ["BLK FORM", "TOOL CALL", "L", "C", "CT", "CP", "CALL LBL", "CYCL DEF (formats)", "FN", "FK"],
+    "tnc620-klartext": [
+        *("BLK FORM", "TOOL CALL", "L", "C", "CT", "CP", "CALL LBL", "CYCL DEF (formats)", "FN", "FK"),
+        *("contour formula", "CONTOUR DEF"),
+    ],
+    "tnc620-contour-formula": [
+        *("complex contour formula", "SEL CONTOUR", "DECLARE CONTOUR", "QC contour formula"),
+        *("overlapping contours with contour formula", "CONTOUR DEF"),
+    ],
     "tnc620-special": [
         *(f"CYCL DEF {number}" for number in (9, 12, 13, 18, 32, 225, 232, 239)),
         *("engraving layout", "engraving characters", "engraving system variables"),

@@ -18,12 +18,14 @@ from mnclab.text.alarm import Alarm
 #: What a block cannot change, and what is worked out from the table.
 GIVEN, WORKED_OUT = {"control", "setup", "settings", "flow"}, {"matrix", "shift", "row_state"}
 OTHER = {
-    "step": 7, "source_line": 7, "program": 1, "ended": False, "recorded_only": True, "origin": (1.0, 2.0, 3.0),
+    "step": 7, "source_line": 7, "program": 1, "ended": False, "recorded_only": True, "unheard": "M",
+    "origin": (1.0, 2.0, 3.0),
     "tip": (1.0, 2.0, 3.0), "programmed": (1.0, 2.0, 3.0), "pole": (1.0, 2.0), "rotary": (0.1, 0.2, 0.3), "pending": "free",
     "variable_unit": 25.4, "cycle": "another", "position_cycle": "another", "plane": "YZ", "feed": 99.0, "per_rev": True,
     "per_time": True, "speed": 99.0, "turning": -1, "spindle_angle": 30.0, "surface": 200.0, "speed_limit": 3000.0,
     "tool": Tool(radius=7), "side": 1, "corner_rule": 2, "look_ahead": True, "exact": True, "exact_here": True,
     "synchronous": True, "tolerance": 0.1, "label": "G83 peck", "cut_so_far": "less than it was", "stopped": "somewhere",
+    "cylinder": 1, "from_angle": 0.5,
 }  # fmt: skip
 #: What is altered in its place.
 WITHIN = {

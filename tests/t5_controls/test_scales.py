@@ -36,11 +36,14 @@ HOLES = ("G83", "G85", "G300", "G301", "G302", "G303", "G305", "G307",
 MILLS = [code for code in BUILT if code not in (*TAPS, *TRUE_TO_SIZE, *HOLES)]
 
 #: Its advanced stop distance is that of the true depth, no length of the program: see test_obsolete_holes.
-TRUE_STOPS = ("CYCL DEF 1",)
+TRUE_STOPS = ("CYCL DEF 1", "CYCL DEF 21")
+
+#: Those that need a contour and its data; where one side is milled the mirror image keeps it.
+AREAS = ("CYCL DEF 21", "CYCL DEF 22")
 
 #: More ways to run a cycle than its examples.
 MORE = {
-    "CYCL DEF 22": [{"swing_feed": 0}],
+    "CYCL DEF 22": [{"swing_feed": 90}, {"swing_feed": 90, "factor": 50}],
     "G305": [{"mode": 1}],
     "G321": [{"strategy": 1}, {"strategy": 2}],
     "G343": [{"plunge": 0}, {"plunge": 2, "milling_mode": -1}],
@@ -56,7 +59,7 @@ MORE = {
     "CYCL DEF 202": [{"disengage": k} for k in (2, 3, 4)],
     "G302": [{"disengage": k} for k in (2, 3, 4)],
 }
-CASES = [(code, more) for code in BUILT for more in ([{}] if code != "CYCL DEF 22" else []) + MORE.get(code, [])]
+CASES = [(code, more) for code in BUILT for more in [{}, *MORE.get(code, [])]]
 LABELS = """LBL 1
 L X-40 Y-30 RL
 L X+40
@@ -117,7 +120,7 @@ def program(code, values, frame, s=1.0):
     if code == "CYCL DEF 18":
         text = f"M5\nCYCL DEF 18.0 X\nCYCL DEF 18.1 DEPTH{-20 * s:g}\nCYCL DEF 18.2 PITCH+1.5\n"
         return head + text + call + "END PGM A MM\n"
-    if code == "CYCL DEF 22":
+    if code in AREAS:
         data = "CYCL DEF 14.0 X\nCYCL DEF 14.1 LABEL 1/2\n" + klartext("CYCL DEF 20", larger("CYCL DEF 20", SL, s))
         labels = "\n".join(
             " ".join(w[0] + f"{float(w[1:]) * s:+g}" if w[0] in "XY" else w for w in line.split())
@@ -282,7 +285,7 @@ def test_a_mirror_image_and_a_rotation_move_the_path(case, axes, angle):
 @cases
 def test_scale_mirror_and_rotation_together(case):
     code, more = case
-    if code in TAPS + TRUE_TO_SIZE or values_of(code, more).get("disengage") or code in ("CYCL DEF 22", "CYCL DEF 208"):
+    if code in TAPS + TRUE_TO_SIZE or values_of(code, more).get("disengage") or code in (*AREAS, "CYCL DEF 208"):
         return
     values, whole = values_of(code, more), turned(30) @ mirrored("X")
     frame = turn(code, 30) + ("\n" if code in MNC else "") + mirror(code, "X")

@@ -52,6 +52,7 @@ from mnclab.controls.tnc_620.language import (
     blank,
     calls,
     circle_data,
+    contour_definitions,
     datum_shift,
     feeds,
     flow,
@@ -131,6 +132,7 @@ FUNCTIONS = (
     | no_effect.FUNCTIONS | rotary_rules.FUNCTIONS | retraction.FUNCTIONS | plane.FUNCTIONS | datum_shift.FUNCTIONS
     | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS | system_access.FUNCTIONS
     | circle_data.FUNCTIONS | plc.FUNCTIONS | preset.FUNCTIONS | output.FUNCTIONS | free_tables.FUNCTIONS
+    | contour_definitions.FUNCTIONS
 )  # fmt: skip
 CHAPTERS = (
     defaults, drilling, boring, pecking, tapping, threads, point_patterns, pockets, slots, studs, walled_faces,
@@ -178,6 +180,7 @@ MEANINGS = {
     **{f"M118:{axis}": f"greatest turn of the handwheel around {axis}" for axis in "ABC"},
     "TIME": "seconds", "REV": "turns of the spindle", **no_effect.WORDS, **rotary_rules.WORDS, **retraction.WORDS,
     **{f"{code} {word}": plane.WORDS[word] for code, one in plane.FUNCTIONS.items() for word in one.takes if word in plane.WORDS},
+    **contour_definitions.MEANINGS,
     "FSELECT number": "number of the solution, as the control shows them", **free_words.WORDS,
     **{f"PATTERN DEF {address}": meaning for address, meaning in pattern_definitions.MEANINGS.items()},
 }  # fmt: skip
@@ -192,5 +195,8 @@ CONTROL = Control(
     storage="variables", preassigned={**parameters.PREASSIGNED, **system_texts.TEXTS}, local_variables="QL",
     named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again, turned=tool_axis.turned,
     compensation=Compensation(approach="perpendicular", rapid=True),
-    bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call") and m.memory.developed is None),
+    bulk=PlainWords(
+        motions={None: ("L", 1)}, keyword="L",
+        ready=lambda m: m.side == 0 and not m.modal.get("call") and m.memory.developed is None,
+    ),
 )  # fmt: skip

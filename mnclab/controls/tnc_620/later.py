@@ -34,8 +34,7 @@ PROBING = {
 }  # fmt: skip
 
 STATEMENTS = {
-    "SEL CONTOUR": "contour definition", "DECLARE CONTOUR": "contour designator", "CONTOUR DEF": "simple contour formula",
-    "TRANS DATUM": "datum shift of a table", "QC": "contour formula",
+    "TRANS DATUM": "datum shift of a table",
     **{f"PLANE {form}": "tilted plane" for form in "PROJECTED EULER VECTOR POINTS RELATIV AXIAL".split()},
     **{f"FUNCTION {form}": "special function" for form in "TCPM PARAXMODE PARAXCOMP RESET MODE FEED".split()},
     "BLK FORM FILE": "blank from a file",

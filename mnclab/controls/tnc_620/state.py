@@ -11,6 +11,7 @@ from mnclab.text.program import Word
 
 if TYPE_CHECKING:
     from mnclab.controls.tnc_620.contours.data import ContourData
+    from mnclab.controls.tnc_620.contours.formulas import Definitions
     from mnclab.controls.tnc_620.contours.labels import Labels
     from mnclab.controls.tnc_620.contours.train_data import TrainData
     from mnclab.controls.tnc_620.language.blank import Blank
@@ -68,6 +69,7 @@ class Memory:
     rough_out_tool: Tool | None = None  # with which cycle 22 was called last, its deltas included
     tool_before: Tool | None = None  # that was in the spindle before the last TOOL CALL of a tool
     developed: float | None = None  # mm that 1 of X is, while the contour of a cylinder is read
+    defining: Definitions | None = None  # while the program of SEL CONTOUR runs
 
     # free contours
     free_pole: tuple[float, float] | None = None

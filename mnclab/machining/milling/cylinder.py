@@ -18,7 +18,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.shapes import QUARTER
@@ -31,6 +31,7 @@ from mnclab.path.toolpath import Toolpath
 
 CHORD = 1e-4  # mm, between an arc on the developed surface and the rows along it
 LEAST = 1e-9  # mm: an offset or a radius below is none
+Steps = Sequence[int] | NDArray[np.int64]
 
 
 class Way(NamedTuple):
@@ -51,45 +52,67 @@ class Way(NamedTuple):
         return self.feet + self.shifts
 
 
-def beside(contour: Contour, distance: float, steps: Sequence[int] = ()) -> Contour:
+def beside(contour: Contour, distance: float, steps: Steps = ()) -> Contour:
     """The way of a tool centre beside a contour, `distance` to its left (or with a minus right), from end to end.
 
-    Inside corners are cut off where the offsets meet, outside corners closed by arcs. A closed contour begins and ends square
-    to its first point; where that is an inside corner, where the offsets meet. `steps` (m,) are those of its m elements,
-    which a PathFault names where the tool does not fit.
+    Inside corners are cut off where the offsets meet, outside corners closed by arcs. Beside an open contour the way begins
+    and ends square to it, beside a closed one where its first element begins. `steps` (m,) are those of its m elements, which
+    a PathFault names where the tool does not fit.
     """
     if abs(distance) < LEAST:
         return opened(contour)
-    m = len(contour.starts)
-    around = contour.closed and m > 1 and abs(float(contour.turns()[0])) > compensation.TANGENT
-    element = np.array([m - 1, *range(m), 0] if around else range(m))
-    starts, ends = contour.starts[element], contour.ends[element]
-    out = distance * left(np.stack([contour.tangents()[0][element[0]], contour.tangents()[1][element[-1]]]))
-    vertices = np.vstack([starts[:1] + out[:1], starts[:1], ends, ends[-1:] + out[1:]])
-    n = len(element) + 2
-    centre, sweep = np.full((n, 3), np.nan), np.zeros(n)
-    centre[1:-1], sweep[1:-1] = np.column_stack([contour.centres[element], np.zeros(len(element))]), contour.sweeps[element]
-    side = np.full(n, np.sign(distance), np.int8)
-    side[-1] = 0
-    path = Toolpath.chain(
-        np.column_stack([vertices, np.zeros(n + 1)]),
-        {
-            "kind": np.where(sweep != 0, np.uint8(Kind.ARC), np.uint8(Kind.LINE)), "centre": centre, "sweep": sweep,
-            "side": side, "radius": np.full(n, abs(distance)), "step": np.arange(n, dtype=np.int32),
-        },
-    )  # fmt: skip
+    m, cut = len(contour.starts), 0
+    corner = contour.closed and abs(float(contour.turns()[0])) > compensation.TANGENT
+    if corner:  # begun within an element, its first corner is one like the others
+        cut = int(np.argmax(contour.lengths))
+        begun = contour.started_at(float(contour.lengths[:cut].sum() + contour.lengths[cut] / 2))
+        element = (np.arange(m + 1) + cut) % m
+    else:
+        begun, element = contour, np.arange(m)
     try:
-        found = compensation.apply(path, Compensation())
+        found = compensation.apply(_led(begun, distance), Compensation(look_ahead=True))
     except PathFault as fault:
-        k = int(element[min(max(fault.step - 1, 0), n - 3)])
-        raise PathFault(fault.message, int(steps[k]) if len(steps) else k, fault.hint) from None
-    found = found[(found.step > around) & (found.step < n - 1 - around) & (found.lengths > LEAST)]
-    if around and len(found) and found.rule[0] == Rule.OUTSIDE_ARC:
-        found = found[1:]
-    if not len(found):
-        raise PathFault(f"a tool {abs(distance):.7g} mm beside the contour has no way along it", int(steps[0]) if len(steps) else 0)
+        k = int(element[min(max(fault.step - 1, 0), len(element) - 1)])
+        raise PathFault(_worded(fault.message), int(steps[k]) if len(steps) else k, fault.hint) from None
+    found = found[(found.step > 0) & (found.step <= len(element)) & (found.lengths > LEAST)]
+    if corner:
+        first = int(np.argmax((found.step == m - cut + 1) & (found.rule != Rule.OUTSIDE_ARC)))
+        found = found[np.roll(np.arange(len(found)), -first)]
     bulge = np.append(np.tan(np.where(found.kind == Kind.ARC, found.sweep, 0.0) / 4), 0.0)
-    return Contour(np.vstack([found.start[:1, :2], found.end[:, :2]]), bulge, closed=False)
+    way = Contour(np.vstack([found.start[:1, :2], found.end[:, :2]]), bulge, closed=False)
+    return _without(way, found.step, (1, m + 1)) if corner else way
+
+
+def _led(contour: Contour, distance: float) -> Toolpath:
+    """A contour with a line to its begin and one from its end, compensated: the element k is step k + 1."""
+    out = distance * left(np.stack([contour.tangents()[0][0], contour.tangents()[1][-1]]))
+    starts, ends = contour.starts, contour.ends
+    vertices = np.vstack([starts[:1] + out[:1], starts[:1], ends, ends[-1:] + out[1:]])
+    n = len(starts) + 2
+    centre, sweep, side = np.full((n, 3), np.nan), np.zeros(n), np.full(n, np.sign(distance), np.int8)
+    centre[1:-1], sweep[1:-1], side[-1] = np.column_stack([contour.centres, np.zeros(n - 2)]), contour.sweeps, 0
+    columns = {
+        "kind": np.where(sweep != 0, np.uint8(Kind.ARC), np.uint8(Kind.LINE)), "centre": centre, "sweep": sweep, "side": side,
+        "radius": np.full(n, abs(distance)), "step": np.arange(n, dtype=np.int32),
+    }  # fmt: skip
+    return Toolpath.chain(np.column_stack([vertices, np.zeros(n + 1)]), columns)
+
+
+def _worded(text: str) -> str:
+    """A fault of a tool radius as one of a distance, which more than the tool makes; the elements have no lines here."""
+    for one, other in (
+        ("tool radius", "distance"), ("tool of radius", "tool at the distance"), ("largest radius", "largest distance"),
+        ("that of line 0", "another one"), ("the element of line 0", "another element"),
+    ):  # fmt: skip
+        text = text.replace(one, other)
+    return text
+
+
+def _without(way: Contour, step: NDArray[np.int32], halves: tuple[int, int]) -> Contour:
+    """A way without the joint between two halves of a line: rows (m,) of the steps `halves`, the second one first."""
+    joint = np.flatnonzero((step[:-1] == halves[1]) & (step[1:] == halves[0])) + 1
+    joint = joint[(way.bulge[joint] == 0) & (way.bulge[joint - 1] == 0)]
+    return Contour(np.delete(way.points, joint, axis=0), np.delete(way.bulge, joint), closed=False)
 
 
 def opened(contour: Contour) -> Contour:
@@ -99,7 +122,7 @@ def opened(contour: Contour) -> Contour:
     return Contour(np.vstack([contour.points, contour.points[:1]]), np.append(contour.bulge, 0.0), closed=False)
 
 
-def round_about(contour: Contour, distance: float, steps: Sequence[int] = ()) -> Contour:
+def round_about(contour: Contour, distance: float, steps: Steps = ()) -> Contour:
     """The closed loop round an open contour at a `distance` to its left (or with a minus right): along it on this side, round
     its end, back on the other side and round its begin. The ends are half circles about its own ends."""
     there = beside(contour, distance, steps)
@@ -156,14 +179,16 @@ def _way(feet: Floats, shifts: Floats) -> Way:
     return Way(feet[keep], shifts[keep], ways[keep])
 
 
-def slot_round(contour: Contour, distance: float, straight: bool = False, about: float = 1.0) -> list[tuple[str, Way]]:
+def slot_round(
+    contour: Contour, distance: float, straight: bool = False, about: float = 1.0, steps: Steps = ()
+) -> list[tuple[str, Way]]:
     """Once round inside a slot, from the begin of its midpoint path and back there: along the wall `distance` to its left (or
     with a minus right), across at its end, back along the other wall. On to the walls and off them the tool goes on half
     circles, or `straight`.
     """
     if abs(distance) < LEAST:
         return [("slot", way_along(opened(contour), 0.0, about)), ("back", way_along(opened(contour.reversed()), 0.0, about))]
-    there, back = beside(contour, distance), beside(contour.reversed(), distance)
+    there, back = beside(contour, distance, steps), beside(contour.reversed(), distance, steps[::-1])
     begin, end = contour.points[0], contour.ends[-1]
     bend = 0.0 if straight else -math.copysign(1.0, distance)
     on = Contour([begin, there.points[0]], [bend, 0.0], closed=False)

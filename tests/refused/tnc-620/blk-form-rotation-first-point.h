@@ -1,4 +1,4 @@
-; 4:33 alarm: the contour of label 1 must begin with both coordinates of the plane
+; 7:1 alarm: the contour of label 1 must begin with both coordinates of the plane
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
 2 BLK FORM ROTATION Z DIM_R LBL 1

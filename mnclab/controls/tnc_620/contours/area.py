@@ -1,29 +1,38 @@
 """The area that a contour describes: the labels of cycle 14 (8.2, 8.3), or a formula of regions (chapter 10).
 
-The path inside its contour is a pocket: clockwise with RR, counter-clockwise with RL; else an island. A further pocket is
-united with the area, or intersected with it if the first pocket begins inside it; islands are taken away. Islands alone
-are no area, but side finishing takes them as walls that are gone round from outside (8.8).
+The path inside its contour is a pocket: clockwise with RR, counter-clockwise with RL; else an island. In the order of
+cycle 14 each further pocket is united with the area, or intersected with it if the first pocket that overlaps it begins
+inside it; islands are taken away. Islands alone are no area, but side finishing takes them as walls that are gone round
+from outside (8.8).
 """
 
 from __future__ import annotations
 
 from collections.abc import Generator, Sequence
-from typing import Any, TypeAlias
+from functools import reduce
+from typing import Any, NamedTuple
 
 from mnclab.controls.tnc_620.contours.data import ContourData
 from mnclab.controls.tnc_620.contours.labels import Labels
+from mnclab.controls.tnc_620.contours.outlines import MOST_ELEMENTS, doubt, enclosed, fault, level
 from mnclab.controls.tnc_620.state import memory
-from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.machine.flow import Recording
 from mnclab.machine.machine import Machine
-from mnclab.machining.milling.terraces import Part, Terrace, terraces
+from mnclab.machining.milling.terraces import Part, Terrace, parts, terraces
 from mnclab.machining.steps import Record, Step
-from mnclab.path.kinds import Kind
-from mnclab.path.outline import outline
-from mnclab.path.toolpath import Toolpath
 
-Pocket: TypeAlias = tuple[Contour, tuple[float, float]]  # and where it begins
+ON = 1e-6  # mm from a contour: what is nearer lies on it
+SLIVER = 1e-6  # mm²: what overlaps less only touches
+
+
+class Shape(NamedTuple):
+    """What one label encloses, where its contour begins, its name, and the step of its first block."""
+
+    region: Region
+    begin: tuple[float, float]
+    what: str
+    step: int
 
 
 def contour_terraces(
@@ -35,54 +44,105 @@ def contour_terraces(
     """
     source = memory(m).contour
     assert source is not None
+    if isinstance(source, Labels):
+        pockets, islands = yield from labelled_shapes(m, source)
+        if islands_alone and islands and not pockets:
+            return (Terrace(0.0, abs(data.depth), joined(islands), solid=True),)
+        source = Part(area_of(m, pockets, islands))
+    whole = abs(data.depth) or 1.0
+    for depth in sorted({part.depth for part in parts(source) if data.depth and part.depth > whole + 1e-9}):
+        m.warn(f"DEPTH{depth:.10g} of the contour is deeper than the milling depth Q1 = {data.depth:g}, which counts")
     try:
-        if isinstance(source, Labels):
-            pockets, islands = yield from labelled_contours(m, source)
-            if islands_alone and islands and not pockets:
-                return (Terrace(0.0, abs(data.depth), Region.of(*islands), solid=True),)
-            source = Part(united(m, pockets, islands))
-        found = terraces(source, abs(data.depth) or 1.0)
+        found = terraces(source, whole)
     except ValueError as error:
         m.alarm(f"the contour is no area: {error}")
     return found if data.depth else (found[0]._replace(bottom=0.0),)
 
 
-def labelled_contours(m: Machine, labels: Labels) -> Generator[Step, Any, tuple[list[Pocket], list[Contour]]]:
+def labelled_shapes(m: Machine, labels: Labels) -> Generator[Step, Any, tuple[list[Shape], list[Shape]]]:
     """The pockets and the islands that labels describe, in coordinates of the program."""
-    pockets: list[Pocket] = []
-    islands: list[Contour] = []
+    pockets: list[Shape] = []
+    islands: list[Shape] = []
     recording: Recording | None = None
-    for label in labels.names:
-        recording = yield Record(label, labels.program, labels.unit, after=recording)
+    elements = 0
+    for name in labels.names:
+        recording = yield Record(name, labels.program, labels.unit, after=recording)
         assert recording is not None
+        what = f"label {name}"
         if not len(recording.path):
-            m.alarm(f"label {label} describes no contour")
-        if (abs(recording.path.end[:, 2] - recording.start[2]) > 1e-9).any() or upright(recording.path):
-            m.alarm(f"the contour of label {label} moves along the tool axis")
-        if not recording.side:
-            m.alarm(f"the contour of label {label} has no RL or RR: pocket or island cannot be told apart")
-        contour = outline(recording.path)
-        if contour.area * recording.side > 0:
-            pockets.append((contour, recording.start[:2]))
-        else:
-            islands.append(contour)
+            fault(m, recording.step, f"{what} describes no contour")
+        level(m, recording, what)
+        side = one_side(m, recording, what)
+        contour, region = enclosed(m, recording, what)
+        elements += len(contour.points)
+        if elements > MOST_ELEMENTS:
+            fault(m, recording.step, f"the contours have more than {MOST_ELEMENTS} elements")
+        shape = Shape(region, recording.start[:2], what, recording.step)
+        (pockets if contour.area * side > 0 else islands).append(shape)
     return pockets, islands
 
 
-def upright(path: Toolpath) -> bool:
-    """Whether there are arcs outside the plane XY."""
-    return bool(((path.kind == Kind.ARC) & (abs(path.axis[:, 2]) < 0.5)).any())
-
-
-def united(m: Machine, pockets: Sequence[Pocket], islands: Sequence[Contour]) -> Region:
-    """The area of pockets without islands; a ValueError if one encloses no area, an Alarm without a pocket."""
+def area_of(m: Machine, pockets: Sequence[Shape], islands: Sequence[Shape]) -> Region:
+    """The area of pockets without islands; an Alarm without a pocket."""
     if not pockets:
         m.alarm("the contour has no pocket", hint="a pocket is clockwise with RR or counter-clockwise with RL")
-    (first, begin), *others = pockets
-    region = Region.of(first)
-    for contour, _ in others:
-        other = Region.of(contour)
-        region = region.intersection(other) if other.contains([begin])[0] else region.union(other)
-    for contour in islands:
-        region = region.difference(Region.of(contour))
-    return region
+    area = united(m, pockets)
+    doubts(m, area, pockets, islands)
+    return area.without([island.region for island in islands]) if islands else area
+
+
+def joined(shapes: Sequence[Shape]) -> Region:
+    return reduce(Region.union, (shape.region for shape in shapes))
+
+
+def one_side(m: Machine, recording: Recording, what: str) -> int:
+    """The side of the compensation, +1 left, -1 right; an Alarm without one."""
+    if not recording.side:
+        message = f"the contour of {what} has no RL or RR: pocket or island cannot be told apart"
+        fault(m, recording.step, message)
+    return recording.side
+
+
+def united(m: Machine, pockets: Sequence[Shape]) -> Region:
+    """The area of pockets (8.3): joined one after the other, as the beginning of the first that overlaps the next one says."""
+    area = pockets[0].region
+    for k, pocket in enumerate(pockets[1:], 1):
+        other = next((one for one in pockets[:k] if overlap(one.region, pocket.region)), None)
+        if other is None:
+            area = area.union(pocket.region)
+            continue
+        if pocket.region.distance([other.begin])[0] < ON:
+            message = f"the contour of {other.what} begins exactly on that of {pocket.what}: joined or common area is open"
+            fault(m, other.step, message, "begin it inside the other contour (common area) or outside (joined)")
+        inside = pocket.region.contains([other.begin])[0]
+        area = area.intersection(pocket.region) if inside else area.union(pocket.region)
+        if not area.loops:
+            fault(m, pocket.step, f"{pocket.what} has no area in common with the pockets before it")
+    return area
+
+
+def doubts(m: Machine, area: Region, pockets: Sequence[Shape], islands: Sequence[Shape]) -> None:
+    """Warnings where an island that a pocket overlaps does not fulfil the conditions of 8.3."""
+    for island in islands:
+        met = [pocket for pocket in pockets if overlap(pocket.region, island.region)]
+        if not met:
+            doubt(m, island.step, f"the island of {island.what} lies outside the pocket: it takes nothing away")
+            continue
+        for pocket in met:
+            if island.region.distance([pocket.begin])[0] < ON:
+                doubt(m, pocket.step, f"the pocket of {pocket.what} begins exactly on the island of {island.what}")
+            elif island.region.contains([pocket.begin])[0]:
+                hint = "begin the pocket outside the island (8.3)"
+                doubt(m, pocket.step, f"the pocket of {pocket.what} begins inside the island of {island.what}", hint)
+        if area.distance([island.begin])[0] < ON:
+            doubt(m, island.step, f"the island of {island.what} begins exactly on the contour of the pocket")
+        elif not area.contains([island.begin])[0]:
+            hint = "begin the island inside the pocket (8.3)"
+            doubt(m, island.step, f"the island of {island.what} begins outside the pocket that it overlaps", hint)
+
+
+def overlap(one: Region, other: Region) -> bool:
+    """Whether two areas have more than a boundary in common."""
+    (low, high), (least, most) = one.bounds, other.bounds
+    apart = (low >= most).any() or (least >= high).any()
+    return not apart and one.intersection(other).area > SLIVER

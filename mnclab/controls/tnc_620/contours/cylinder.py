@@ -6,6 +6,7 @@ from the axis of the cylinder. Before them and after them the tool is at the hei
 
 from __future__ import annotations
 
+import math
 from collections.abc import Generator, Iterator
 from typing import Any
 
@@ -13,16 +14,17 @@ from mnclab.controls.tnc_620.contours.line import Line, with_labels
 from mnclab.controls.tnc_620.contours.surface import Surface, developed_line, surface, surface_faults
 from mnclab.controls.tnc_620.contours.walls import along_slot, beside_contour, over_contour, round_ridge
 from mnclab.controls.tnc_620.cycles import addresses
-from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, distance, increment, length
+from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, distance, increment, length
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
-from mnclab.machine.cycle import Cycle, CycleTable, too_many
+from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.settings import Setting
 from mnclab.machine.true_size import MILLS, remark
 from mnclab.machining.depths import infeeds
 from mnclab.machining.steps import Go, Say, Step
 from mnclab.path.fault import PathFault
+from mnclab.text.alarm import Alarm
 
 CYCLES = CycleTable()
 SETTINGS = (
@@ -46,18 +48,18 @@ class OnCylinder(Cycle):
     infeed: float
     plunge_feed: float
     feed: float
-    radius: float
-    dimension: float
+    cylinder_radius: float
+    dimension_type: float
     sided = True
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from with_labels(m, single=True)
         yield from with_radius(m)
-        yield from not_zero(self, "infeed", "plunge_feed", "feed", "radius")
+        yield from not_zero(self, "infeed", "plunge_feed", "feed", "cylinder_radius")
         if self.depth > 0:
             yield "depth", f"must be negative, got {self.depth:g}: the tool comes from outside, from inside is not built yet"
-        if -self.depth >= self.radius > 0:
-            yield "depth", f"must be less deep than the radius Q16 = {self.radius:g}, got {self.depth:g}"
+        if -self.depth >= self.cylinder_radius > 0:
+            yield "depth", f"must be less deep than the radius Q16 = {self.cylinder_radius:g}, got {self.depth:g}"
         yield from too_many("infeed", self.levels)
         if self.sided and m.settings["spindle_error"] and not m.turning:
             yield "", "needs a turning spindle (setting spindle_error)"
@@ -65,12 +67,12 @@ class OnCylinder(Cycle):
 
     def levels(self) -> tuple[float, ...]:
         """Distances of the tip from the axis."""
-        return infeeds(self.radius, self.radius + self.depth, abs(self.infeed))
+        return infeeds(self.cylinder_radius, self.cylinder_radius + self.depth, abs(self.infeed))
 
     @property
     def safe(self) -> float:
         """The set-up clearance as a distance from the axis."""
-        return self.radius + self.clearance
+        return self.cylinder_radius + self.clearance
 
     def moves(self, m: Machine) -> Generator[Step, Any, None]:
         """Read the contour, machine it, and go back to the height from before."""
@@ -80,14 +82,14 @@ class OnCylinder(Cycle):
         height = max(m.programmed[2], self.safe)
         if self.clearance <= m.radius:
             yield Say(f"Q6={self.clearance:g} (set-up clearance) should be greater than the tool radius {m.radius:g}{remark(m)}")
-        on = surface(m, self.radius)
-        line = yield from developed_line(m, degrees=self.dimension == 0, on=on)
+        on, call = surface(m, self.cylinder_radius), m.flow.span_of_step(m.step)
+        line = yield from developed_line(m, degrees=self.dimension_type == 0, on=on)
         if self.sided and not line.side:
-            m.alarm(f"{self.code}: the contour has no RL or RR, which says on which side the tool is")
+            m.alarm(f"{self.code}: the contour has no RL or RR, which says on which side the tool is", call)
         try:
             steps = list(self.machine(m, on, line, height))
         except PathFault as fault:
-            m.alarm(f"{self.code}: {fault.message}{remark(m)}", hint=fault.hint or "take a smaller tool")
+            raise Alarm(f"{self.code}: {fault.message}{remark(m)}", m.flow.span_of_step(fault.step), hint=fault.hint) from None
         if height > m.programmed[2]:
             yield Go("retract", height)
         yield from steps
@@ -121,12 +123,16 @@ def roughing_feed() -> Any:
     return addresses.feed("Q12", "feed rate for roughing", also=addresses.PLANE, at_most=FAR, example=350)
 
 
-def cylinder_radius() -> Any:
+def radius() -> Any:
     return length("Q16", "radius of the cylinder", example=25)
 
 
-def dimension_type() -> Any:
+def dimension() -> Any:
     return choice("Q17", "type of dimension of the rotary axis", IN, example=0)
+
+
+def width(what: str) -> Any:
+    return param("Q20", what, "mm", modal=True, above=0, example=12)
 
 
 @CYCLES("CYCL DEF 27", "Cylinder surface", runs="call", source="9.2")
@@ -140,12 +146,13 @@ class CylinderSurface(OnCylinder):
     infeed: float = plunging_depth()
     plunge_feed: float = plunging_feed()
     feed: float = roughing_feed()
-    radius: float = cylinder_radius()
-    dimension: float = dimension_type()
+    cylinder_radius: float = radius()
+    dimension_type: float = dimension()
 
     def machine(self, m: Machine, on: Surface, line: Line, height: float) -> Iterator[Step]:
         if self.side_allowance and not line.side:
-            m.alarm(f"{self.code} Q3 (finishing allowance for side) needs RL or RR in the contour, got {self.side_allowance:g}")
+            what = f"Q3={self.side_allowance:g} (finishing allowance for side) needs RL or RR in the contour"
+            raise PathFault(what, int(line.steps[0]), "with R0 the tool is on the contour")
         return over_contour(self, on, line, m.radius, height)
 
 
@@ -160,22 +167,22 @@ class CylinderSlot(OnCylinder):
     infeed: float = plunging_depth()
     plunge_feed: float = plunging_feed()
     feed: float = roughing_feed()
-    radius: float = cylinder_radius()
-    dimension: float = dimension_type()
-    width: float = coordinate("Q20", "slot width", example=12)
-    tolerance: float = distance("Q21", "tolerance", at_most=9.9999, default=0, note="0: no remachining", example=0.02)
+    cylinder_radius: float = radius()
+    dimension_type: float = dimension()
+    slot_width: float = width("slot width")
+    tolerance: float = length("Q21", "tolerance", at_most=9.9999, default=0, note="0: no remachining", example=0.02)
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
-        if self.width <= 0:
-            yield "width", f"must be greater than 0, got {self.width:g}"
         if 0 < self.tolerance < 0.0001:
             yield "tolerance", f"must be 0 or at least 0.0001, got {self.tolerance:g}"
-        if (free := self.width - 2 * self.side_allowance) < 2 * m.radius - 1e-9:
-            yield "width", f"less Q3 on both walls is {free:g}, too narrow for the tool diameter {2 * m.radius:g}"
+        if (free := self.slot_width - 2 * self.side_allowance) < 2 * m.radius - 1e-9:
+            yield "slot_width", f"less Q3 on both walls is {free:g}, too narrow for the tool diameter {2 * m.radius:g}"
 
     def machine(self, m: Machine, on: Surface, line: Line, height: float) -> Iterator[Step]:
-        return along_slot(self, on, line, m.radius, height, m.settings["cylinder_approach"] == "LineNormal")
+        width = self.slot_width - 2 * self.side_allowance
+        straight = m.settings["cylinder_approach"] == "LineNormal"
+        return along_slot(self, on, line, width / 2 - m.radius, height, straight, self.tolerance)
 
 
 @CYCLES("CYCL DEF 29", "Cylinder surface ridge", runs="call", source="9.4")
@@ -188,20 +195,21 @@ class CylinderRidge(OnCylinder):
     infeed: float = plunging_depth()
     plunge_feed: float = plunging_feed()
     feed: float = roughing_feed()
-    radius: float = cylinder_radius()
-    dimension: float = dimension_type()
-    width: float = coordinate("Q20", "ridge width", example=12)
+    cylinder_radius: float = radius()
+    dimension_type: float = dimension()
+    ridge_width: float = width("ridge width")
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
-        if self.width <= 0:
-            yield "width", f"must be greater than 0, got {self.width:g}"
         yield from room_for_approach(self, m)
 
     def machine(self, m: Machine, on: Surface, line: Line, height: float) -> Iterator[Step]:
-        if line.contour.closed:
-            m.alarm(f"{self.code}: the midpoint path is closed, and a ridge has two ends")
-        return round_ridge(self, on, line, m.radius, height)
+        half = self.ridge_width / 2
+        du, dy = line.contour.ends[-1] - line.contour.points[0]
+        if math.hypot(math.remainder(du, math.tau * self.cylinder_radius), dy) < half:
+            what = "the midpoint path closes: a ridge has two ends, whose half circles would cut it"
+            raise PathFault(what, int(line.steps[-1]), "let it end at least half the ridge width before its begin")
+        return round_ridge(self, on, line, half, m.radius, height)
 
 
 @CYCLES("CYCL DEF 39", "Cylinder surface contour", runs="call", source="9.5")
@@ -214,8 +222,8 @@ class CylinderContour(OnCylinder):
     infeed: float = plunging_depth()
     plunge_feed: float = plunging_feed()
     feed: float = roughing_feed()
-    radius: float = cylinder_radius()
-    dimension: float = dimension_type()
+    cylinder_radius: float = radius()
+    dimension_type: float = dimension()
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)

@@ -33,6 +33,8 @@ class ContourData(Cycle):
     sense: float = choice("Q9", "direction of machining", {-1: "up-cut milling", 1: "climb milling"})
 
     def check(self, m: Machine) -> Iterator[Fault]:
+        if m.recorded_only:
+            yield "", "cannot stand in a contour that a cycle reads, nor in a program of contour definitions"
         if abs(self.depth) < self.floor_allowance:
             yield "depth", f"must be at least Q4 = {self.floor_allowance:g} deep, got {self.depth:g}"
         if self.height < self.surface + self.clearance:

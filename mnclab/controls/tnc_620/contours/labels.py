@@ -32,6 +32,8 @@ class ContourGeometry(Cycle):
     )
 
     def check(self, m: Machine) -> Iterator[Fault]:
+        if m.recorded_only:
+            yield "", "cannot stand in a contour that a cycle reads, nor in a program of contour definitions"
         if len(self.labels) > MOST_LABELS:
             yield "labels", f"must be at most {MOST_LABELS} labels, got {len(self.labels)}"
         for number in self.labels:

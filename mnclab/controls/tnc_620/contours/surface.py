@@ -98,9 +98,9 @@ def surface_faults(m: Machine) -> Iterator[Fault]:
     if abs(out) < 1 - SAME or out < 0:
         yield "", "cannot run under a mirror image of the tool axis"
     elif abs(along) < 1 - SAME:
-        yield "", f"cannot run under a rotation of the plane: Y of its contour lies along the rotary axis {AXES[found]}"
+        yield "", f"cannot run under a rotation of the plane: Y lies along the axis {AXES[found]}"
     elif across < 0 and rotary(m)[1][found] > 0:
-        yield "", f"cannot run under a mirror image across the cylinder alone: the rotary axis {AXES[found]} must be mirrored, too"
+        yield "", f"cannot run under a mirror image across the cylinder alone: the axis {AXES[found]} must be mirrored, too"
     elif math.hypot(*np.delete(moved, found)) > OFF:
         way = math.hypot(*np.delete(moved, found))
         yield "", f"needs its datum on the axis of the cylinder, the shifts of the program move it {way:.4g} mm away"

@@ -1,4 +1,4 @@
-"""How cycles 27, 28, 29 and 39 go over a cylinder, level by level; heights are distances of the tip from its axis (9.2 to 9.5)."""
+"""How cycles 27, 28, 29 and 39 go over a cylinder, level by level (9.2 to 9.5); heights are distances from its axis."""
 
 from __future__ import annotations
 
@@ -40,60 +40,51 @@ class Depths(Protocol):
     @property
     def feed(self) -> float: ...
     @property
-    def radius(self) -> float: ...
+    def cylinder_radius(self) -> float: ...
     @property
     def safe(self) -> float: ...
     def levels(self) -> tuple[float, ...]: ...
 
 
-class Wide(Depths, Protocol):
-    """The same of a slot or a ridge."""
-
-    @property
-    def width(self) -> float: ...
-
-
-class Slot(Wide, Protocol):
-    """The same of a slot."""
-
-    @property
-    def tolerance(self) -> float: ...
-
-
 def over_contour(c: Depths, on: Surface, line: Line, radius: float, height: float) -> Iterator[Step]:
     """27: along the contour, the tool always pointing to the axis; on the contour itself where it has no side."""
-    way = way_along(beside(line.contour, line.side * (radius + c.side_allowance)))
+    way = way_along(beside(line.contour, line.side * (radius + c.side_allowance), line.steps))
     yield from rounds(c, on, [("contour", way)], height, lifts=True)
     yield on.to("retract", way.last, height)
 
 
-def along_slot(c: Slot, on: Surface, line: Line, radius: float, height: float, straight: bool) -> Iterator[Step]:
-    """28: with RL forward along the wall on the right and back along the left one, with RR the other way round.
+def along_slot(
+    c: Depths, on: Surface, line: Line, shift: float, height: float, straight: bool, tolerance: float
+) -> Iterator[Step]:
+    """28: with RL forward along the wall on the right and back along the left one, `shift` beside the middle; with RR the other
+    way round.
 
     Where remachining is asked for, more rounds at the floor follow, whose walls take their direction from deeper down.
     """
-    distance = -line.side * (c.width / 2 - c.side_allowance - radius)
-    ways = slot_round(line.contour, distance, straight)
+    distance = -line.side * shift
+    ways = slot_round(line.contour, distance, straight, steps=line.steps)
     yield from rounds(c, on, ways, height)
     floor = c.levels()[-1]
-    others = remachining(line.contour, distance, c.radius, floor, c.tolerance)
+    others = remachining(line.contour, distance, c.cylinder_radius, floor, tolerance)
     for name, at in zip(numbered("remachining", len(others)), others, strict=True):
-        more = slot_round(shrunk(line.contour, at / c.radius), distance, straight, c.radius / at)
+        more = slot_round(shrunk(line.contour, at / c.cylinder_radius), distance, straight, c.cylinder_radius / at)
         yield from through(c, on, more, floor, name)
     yield on.to("retract", ways[-1][1].last, height)
 
 
-def round_ridge(c: Wide, on: Surface, line: Line, radius: float, height: float) -> Iterator[Step]:
-    """29: round the ridge, from a place one tool diameter beside it: with RL from the left, with RR from the right."""
-    distance = line.side * (c.width / 2 + c.side_allowance + radius)
-    loop = round_about(line.contour, distance)
-    yield from with_leads(c, on, loop, way_along(loop, distance), line.side * (radius - c.side_allowance), height, False)
+def round_ridge(c: Depths, on: Surface, line: Line, half: float, radius: float, height: float) -> Iterator[Step]:
+    """29: round the ridge, `half` as wide as it is, from a place one tool diameter beside it: with RL on the left, with RR on
+    the right."""
+    distance = line.side * (half + c.side_allowance + radius)
+    loop = round_about(line.contour, distance, line.steps)
+    gap = line.side * (radius - c.side_allowance)
+    yield from with_leads(c, on, loop, way_along(loop, distance), gap, height, straight=False)
 
 
 def beside_contour(c: Depths, on: Surface, line: Line, radius: float, height: float, straight: bool) -> Iterator[Step]:
     """39: along the wall, from a place one tool diameter beside it."""
     distance = line.side * (radius + c.side_allowance)
-    path = beside(line.contour, distance)
+    path = beside(line.contour, distance, line.steps)
     yield from with_leads(c, on, path, way_along(path, distance), line.side * (radius - c.side_allowance), height, straight)
 
 

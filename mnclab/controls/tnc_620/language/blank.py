@@ -153,7 +153,7 @@ def turned_blank(m: Machine, words: Words) -> None:
     word = words["label"]
     m.flow.ask(word.value)
     name = label_name(m, word)
-    with m.within(plane="ZX", step=m.step):  # the blank is that of this block, not of the last one of the label
+    with m.within(plane="ZX"):
         recording = m.record(name, m.span_of(word))
     give(m, TurnedBlank((section(m, name, word, recording.path, words["DIM"].value == "D"),)))
 

@@ -78,6 +78,8 @@ def calls_again(keyword: str, words: Sequence[Word]) -> bool:
 
 
 def ready(m: Machine, code: str, word: Word | None = None) -> Definition:
+    if m.recorded_only:
+        m.alarm(f"{code} cannot stand in a contour that a cycle reads", word)
     if m.cycle is None:
         m.alarm(f"{code} has no cycle to call", word, hint="define one before, for example CYCL DEF 200")
     if m.side:

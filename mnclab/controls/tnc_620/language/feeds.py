@@ -28,7 +28,7 @@ TITLES = {
 def feed(m: Machine, words: Words) -> float | None:
     """Set the feed of this and the following blocks; inf for FMAX, which counts in its block alone."""
     word = one_of(m, words, FEED_WORDS.split(), "one feed")
-    if word is None:
+    if word is None or m.unheard:  # a contour has no feed of its own (10.1)
         return None
     if word.address == "FMAX":
         return INF

@@ -74,7 +74,8 @@ def line(m: Machine, words: Words) -> None:
     turns = [words[axis] for axis in AXES_OF_ROTATION if axis in words]
     if turns and (turned := rotary_angles(m, words)) != angles(m):
         refuse_rotary(m, turns[0])
-        refuse_on_cylinder(m, words)
+        if memory(m).developed is not None:
+            m.alarm(f"{turns[0]}: the contour of a cylinder has X and Y alone, X for the rotary axis", turns[0])
         target = m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z")))
         if math.dist(target, m.tip) <= 1e-9:  # a frame rounds
             turn_axes(m, turned, f)

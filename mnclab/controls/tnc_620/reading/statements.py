@@ -7,10 +7,11 @@ is read by its keyword alone: the run refuses it by name where it stands.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
-from mnclab.controls.tnc_620.reading import labels
+from mnclab.controls.tnc_620.reading import contour_words, labels
 from mnclab.controls.tnc_620.reading.file_functions import FILES
 from mnclab.controls.tnc_620.reading.formulas import FN, assignment, declared_text, text_assignment, text_formula
 from mnclab.controls.tnc_620.reading.pattern_words import PatternWords
@@ -166,7 +167,8 @@ WORDS: dict[str, Read] = {
     "SEL PGM": labels.select_program, "CALL SELECTED PGM": plain,
     "TOOL CALL": partial(tool, words=with_axis), "TOOL DEF": partial(tool, words=with_radius),
     "DECLARE STRING": declared_text, "SEL PATTERN": file_name, "SEL TABLE": file_name,
-    "PATTERN DEF": plain,  # whose lines PatternWords reads
+    "PATTERN DEF": plain, "DECLARE CONTOUR": plain, "CONTOUR DEF": plain,  # whose lines LINES read
+    "SEL CONTOUR": contour_words.selected,
     "BEGIN PGM": program_name, "END PGM": program_name, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
     "PLANE RESET": plane, "PLANE SPATIAL": plane, "TRANS DATUM AXIS": plain, "TRANS DATUM RESET": plain,
     "FUNCTION RESET TCPM": plain, "FUNCTION DWELL": waiting,
@@ -174,10 +176,13 @@ WORDS: dict[str, Read] = {
     **{f"{way} {form}": plain for way in ("APPR", "DEP") for form in _FORMS},
 }  # fmt: skip
 
+#: Statements of several lines that go on anywhere between two words.
+LINES: dict[str, Callable[[], Read]] = {
+    "PATTERN DEF": PatternWords, "DECLARE CONTOUR": contour_words.DeclaredWords, "CONTOUR DEF": contour_words.PartWords,
+}  # fmt: skip
 #: Statements whose rest is not read: keyword -> whether further lines without a number belong to them.
 KEYWORDS_ONLY = {
-    "BLK FORM": False, "SEL CONTOUR": False, "DECLARE CONTOUR": True, "CONTOUR DEF": True,
-    "PLANE": False, "FUNCTION": False, "TRANS DATUM": False, "APPR": False, "DEP": False,
+    "BLK FORM": False, "PLANE": False, "FUNCTION": False, "TRANS DATUM": False, "APPR": False, "DEP": False,
 }  # fmt: skip
 
 _ALL = sorted([*WORDS, *KEYWORDS_ONLY], key=len, reverse=True)
@@ -214,8 +219,8 @@ def recognize(cursor: Cursor) -> Statement | None:
         keyword = " ".join(found.group().upper().split())
         if keyword in KEYWORDS_ONLY:
             return _known_by_name(cursor, keyword, found.start())
-        if keyword == "PATTERN DEF":
-            elements = PatternWords()
+        if keyword in LINES:
+            elements = LINES[keyword]()
             return Statement(keyword, elements, elements)
         return Statement(keyword, WORDS[keyword])
     if found := cursor.match(_FN):
@@ -225,7 +230,7 @@ def recognize(cursor: Cursor) -> Statement | None:
     if found := cursor.match(_TARGET):
         kind = found.group(1).upper()
         if kind == "C":
-            return Statement("QC", ignored)
+            return Statement("QC", contour_words.FormulaWords(int(found.group(2)), begin, found.end() - begin))
         name = f"Q{kind}{int(found.group(2))}"
         return Statement("QS", text_assignment(name, begin)) if kind == "S" else Statement("Q", assignment(name, begin))
     if _M.match(cursor.text, cursor.at, cursor.stop):
