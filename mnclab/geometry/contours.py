@@ -9,7 +9,7 @@ counter-clockwise, -1 for half a circle clockwise. Lengths in mm, angles in rad,
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -21,6 +21,7 @@ from mnclab.geometry.vectors import Floats, at_angle, cross, left, length_of, tu
 from mnclab.geometry.whole_curves import Curve
 
 FULL_TURN = 2 * np.pi
+CUSP = 1e-8  # rad, by which opposite directions may be off
 SHORTEST = 1e-9  # mm, of a piece
 FLAT = 1e-9  # a smaller bulge is a line: over a chord of 1 m it would rise by half a nanometre
 
@@ -119,13 +120,13 @@ class Contour:
 
     def tangents(self) -> tuple[Floats, Floats]:
         """Unit tangents at the start and at the end of every element, each `(m, 2)`."""
-        return self._at(0.0)[1], self._at(1.0)[1]
+        return self.at(0.0)[1], self.at(1.0)[1]
 
     def turns(self) -> Floats:
         """Angle by which the contour turns at the start of every element, + to the left, 0 at an open start, `(m,)`."""
         begin, end = self.tangents()
-        before = np.roll(end, 1, axis=0)
-        angle: Floats = np.arctan2(cross(before, begin), (before * begin).sum(axis=1))
+        bend = np.sign(self.sweeps) / self.radii
+        angle = turning(np.roll(end, 1, axis=0), begin, np.roll(bend, 1) + bend)
         if not self.closed:
             angle[0] = 0.0
         return angle
@@ -189,7 +190,7 @@ class Contour:
         """
         way = np.asarray(distance, dtype=float)
         element, fraction = self._element_at(np.atleast_1d(way))
-        place, tangent = self._at(fraction, element)
+        place, tangent = self.at(fraction, element)
         return (place, tangent) if way.ndim else (place[0], tangent[0])
 
     def points_within(self, chord_error: float) -> Floats:
@@ -201,7 +202,7 @@ class Contour:
         element = np.repeat(np.arange(len(steps)), steps)
         first = np.repeat(np.cumsum(steps) - steps, steps)
         fraction = (np.arange(len(element)) - first) / steps[element]
-        places = self._at(fraction, element)[0]
+        places = self.at(fraction, element)[0]
         return np.vstack([places, self.ends[-1]])
 
     def distance(self, points: ArrayLike) -> Floats:
@@ -220,7 +221,7 @@ class Contour:
         for spots in self._blocks(points):
             off, fraction = self._feet(spots)
             element = off.argmin(axis=1)
-            feet.append(self._at(fraction[np.arange(len(element)), element], element)[0])
+            feet.append(self.at(fraction[np.arange(len(element)), element], element)[0])
         return np.vstack(feet)
 
     def winding(self, points: ArrayLike) -> NDArray[np.int_]:
@@ -236,7 +237,7 @@ class Contour:
         if min(u, 1 - u) * self.lengths[i] < 1e-9:
             i = (i + round(u)) % len(self.points)
             return Contour(np.roll(self.points, -i, axis=0), np.roll(self.bulge, -i))
-        place = self._at(np.array([u]), elements)[0]
+        place = self.at(np.array([u]), elements)[0]
         if len(self.points) == 2 and (np.abs(self.bulge) == 1).all():
             return Contour([place[0], self.points.sum(axis=0) - place[0]], self.bulge)
         points = np.vstack([place, np.roll(self.points, -i - 1, axis=0)])
@@ -257,8 +258,8 @@ class Contour:
             return Contour(self.point_at([first, last])[0], closed=False)
         element, span = some % len(self.lengths), np.diff(upto)[some]
         shares = np.where(high == upto[1:], np.inf, high - upto[:-1])[some] / span
-        begin = self._at((low - upto[:-1])[some[:1]] / span[:1], element[:1])[0]
-        points = np.vstack([begin, self._at(np.minimum(shares, 1.0), element)[0]])
+        begin = self.at((low - upto[:-1])[some[:1]] / span[:1], element[:1])[0]
+        points = np.vstack([begin, self.at(np.minimum(shares, 1.0), element)[0]])
         bulge = np.tan(self.sweeps[element] * (high - low)[some] / span / 4)
         return Contour(points, np.append(bulge, 0.0), closed=False)
 
@@ -300,7 +301,7 @@ class Contour:
         span = np.where(self.lengths > 0, self.lengths, 1.0)[element]
         return element, np.clip((way - upto[element]) / span, 0.0, 1.0)
 
-    def _at(self, fraction: float | Floats, element: NDArray[np.intp] | None = None) -> tuple[Floats, Floats]:
+    def at(self, fraction: float | Floats, element: NDArray[np.intp] | None = None) -> tuple[Floats, Floats]:
         """Points and tangents at fractions u of elements.
 
         The chord from the start to the fraction u of a sweep s has the length c·sin(u·s/2) / sin(s/2) and is
@@ -331,6 +332,31 @@ class Contour:
             off[:, k] = np.where(inside, np.abs(length_of(arm) - radii[k]), np.minimum(at_start, at_end))
             u[:, k] = np.where(inside, ahead / np.abs(s[k]), np.where(at_start <= at_end, 0.0, 1.0))
         return off, u
+
+
+def turning(before: Floats, after: Floats, bends: Floats) -> Floats:
+    """Angles from the directions `before` to those `after`, `(m, 2)`, + to the left.
+
+    In a cusp, where they are opposite, `bends` tells to which side: the sum of 1 / radius on both sides, + to the left.
+    """
+    angle: Floats = np.arctan2(cross(before, after), (before * after).sum(axis=1))
+    back = np.abs(angle) > np.pi - CUSP
+    angle[back] = np.where(bends[back] > 0, -np.pi, np.pi)
+    return angle
+
+
+def joined(pieces: Iterable[Contour | None]) -> Contour:
+    """Contours that follow each other as one, with straight lines across gaps."""
+    points: list[Floats] = []
+    bulges: list[float] = []
+    for piece in filter(None, pieces):
+        if points and length_of(piece.points[0] - points[-1]) <= SHORTEST:
+            points.pop()
+        elif points:
+            bulges.append(0.0)
+        points.extend(piece.points)
+        bulges.extend(piece.bulge[:-1])
+    return Contour(np.array(points), [*bulges, 0.0], closed=False)
 
 
 def keeps_circles(matrix: Floats) -> bool:

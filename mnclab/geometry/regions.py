@@ -1,38 +1,26 @@
 """Areas with islands, bounded by lines and arcs: union, difference, intersection, inset.
 
-Set operations run in shapely on fine polylines; afterwards the lines and arcs are found again. That works
-because every straight piece of a result lies on a piece of an operand, and each of those knows its curve:
-
-    operands, arcs and all  ──►  polylines, every piece tagged with its whole line or circle
-    shapely                 ──►  rings of straight pieces: their order is right, their corners are near
-    runs of pieces with one tag  ──►  one element on the exact curve
-    corners                 ──►  where neighbouring curves meet
-
-An inset by d takes away bands of width d along the inner side of every element, and a fan of radius d at each
-corner that points inwards. They are made of lines and arcs as well, so that an inset is one more difference.
-Equal circles are cut at equal places, so that boundaries which coincide do so exactly.
+Insets are cut out of the moved elements themselves (`insets`). Set operations run in shapely on fine polylines, in which
+the lines and arcs are found again (`tracing`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
-from itertools import chain, pairwise
-from typing import Any
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry import shapely
-from mnclab.geometry.contours import FULL_TURN, Contour, Floats, steps_within
-from mnclab.geometry.vectors import at_angle, cross, left, length_of, turned, unit_of
-from mnclab.geometry.whole_curves import Curve
-
-CHORD_ERROR = 2e-5  # mm, of the polylines: decides only what touches and what does not
-GRID = 1e-9  # mm, on which shapely rounds corners, so that nearly equal ones become equal
-SAME = 1e-7  # mm, below which places and radii count as equal
-SMOOTH = 1e-9  # rad, below which a corner is none
+from mnclab.geometry.bands import inset_by_bands
+from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.cutting import Outlines, outlines_of
+from mnclab.geometry.insets import inset
+from mnclab.geometry.tracing import GRID, SAME, Drawing
+from mnclab.geometry.vectors import cross
 
 
 class CrossesItself(ValueError):
@@ -61,7 +49,7 @@ class Region:
 
         A single contour is kept as it is. Raises ValueError where a contour is open or crosses itself.
         """
-        drawing = _Drawing([_tidy(contour) for contour in (*outer, *holes)])
+        drawing = Drawing([_tidy(contour) for contour in (*outer, *holes)])
         areas = [shapely.Polygon(ring) for ring in drawing.rings]
         for area in areas:
             if not area.is_valid:
@@ -82,7 +70,7 @@ class Region:
 
     def without(self, others: Sequence[Region]) -> Region:
         """The difference from all of some others at once."""
-        drawing = _Drawing([*self.loops, *(loop for other in others for loop in other.loops)])
+        drawing = Drawing([*self.loops, *(loop for other in others for loop in other.loops)])
         first, gone = len(self.loops), []
         for other in others:
             gone.append(drawing.area(other.loops, first))
@@ -98,12 +86,20 @@ class Region:
         if distance == 0 or not self.loops:
             return self
         faces = self.loops if distance > 0 else [loop.reversed() for loop in self.loops]
-        bands = [band for face in faces for band in bands_beside(face, abs(distance))]
-        drawing = _Drawing([*self.loops, *bands])
-        strips = [shapely.Polygon(ring) for ring in drawing.rings[len(self.loops) :]]
-        strip = shapely.union_all(strips, grid_size=GRID)
-        change = shapely.difference if distance > 0 else shapely.union
-        return Region(drawing.traced(change(drawing.area(self.loops, 0), strip, grid_size=GRID)))
+        found = inset(outlines_of(faces), abs(distance))
+        if found is None:
+            return Region(inset_by_bands(self.loops, distance))
+        return _arranged(found.contours if distance > 0 else [loop.reversed() for loop in found.contours])
+
+    def insets(self, step: float) -> Iterator[Region]:
+        """The area itself, its insets by `step` > 0, twice that and so on, until nothing is left."""
+        here, level = self, 0
+        outlines: Outlines | None = outlines_of(self.loops) if self.loops else None
+        while here.loops:
+            yield here
+            level += 1
+            outlines = None if outlines is None else inset(outlines, step)
+            here = self.inset(level * step) if outlines is None else _arranged(outlines.contours)
 
     def offset(self, distance: float) -> Region:
         """What is nearer than `distance` to the area: the inset outwards, corners rounded."""
@@ -112,8 +108,7 @@ class Region:
     @cached_property
     def bounds(self) -> Floats:
         """Lower left and upper right corner `(2, 2)`, which an empty area has not."""
-        corners = np.array([loop.bounds for loop in self.loops])
-        return np.array([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)])
+        return np.array([self._boxes[:, 0].min(axis=0), self._boxes[:, 1].max(axis=0)])
 
     @cached_property
     def area(self) -> float:
@@ -128,8 +123,12 @@ class Region:
     def contains(self, points: ArrayLike) -> NDArray[np.bool_]:
         """Which of the points `(k, 2)` lie inside, `(k,)`; a point on the boundary may count either way."""
         spots = np.asarray(points, dtype=float).reshape(-1, 2)
-        none = np.zeros(len(spots), dtype=int)
-        return np.asarray(sum((loop.winding(spots) for loop in self.loops), none) > 0)
+        rounds = np.zeros(len(spots), dtype=int)
+        for loop, (low, high) in zip(self.loops, self._boxes, strict=True):
+            near = np.flatnonzero(((spots >= low) & (spots <= high)).all(axis=1))
+            if len(near):
+                rounds[near] += loop.winding(spots[near])
+        return np.asarray(rounds > 0)
 
     def distance(self, points: ArrayLike) -> Floats:
         """Distance of the boundary from each of the points `(k, 2)`, never negative, `(k,)`."""
@@ -143,215 +142,36 @@ class Region:
         The way is cut where it meets the whole line or circle of an element; one point of each piece tells.
         """
         a, b = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
-        cuts = np.concatenate([[0.0, 1.0], *(meeting(loop, a, b - a) for loop in self.loops)])
+        low, high = np.minimum(a, b) - tolerance, np.maximum(a, b) + tolerance
+        near = (self._boxes[:, 0] <= high).all(axis=1) & (self._boxes[:, 1] >= low).all(axis=1)
+        cuts = np.concatenate([[0.0, 1.0], *(meeting(self.loops[k], a, b - a) for k in np.flatnonzero(near))])
         cuts = np.unique(cuts[(cuts >= 0) & (cuts <= 1)])
         middles = a + (cuts[1:] + cuts[:-1])[:, None] / 2 * (b - a)
         spots = np.vstack([a, b, middles])
-        return bool((self.contains(spots) | (self.distance(spots) <= tolerance)).all())
+        outside = spots[~self.contains(spots)]
+        return not len(outside) or bool((self.distance(outside) <= tolerance).all())
+
+    @cached_property
+    def _boxes(self) -> Floats:
+        """Lower left and upper right corners of the loops, `(n, 2, 2)`."""
+        return np.array([loop.bounds for loop in self.loops]).reshape(-1, 2, 2)
 
     def _with(self, operation: str, other: Region) -> Region:
-        drawing = _Drawing([*self.loops, *other.loops])
+        drawing = Drawing([*self.loops, *other.loops])
         mine, theirs = drawing.area(self.loops, 0), drawing.area(other.loops, len(self.loops))
         return Region(drawing.traced(getattr(shapely, operation)(mine, theirs, grid_size=GRID)))
 
 
-@dataclass
-class _Drawing:
-    """Contours as polylines whose pieces know their curves."""
-
-    contours: Sequence[Contour]
-    rings: list[Floats] = field(default_factory=list)  # (k, 2) each, not closed
-    tags: list[NDArray[np.intp]] = field(default_factory=list)  # (k,) each: which of the curves
-    curves: list[Curve] = field(default_factory=list)
-
-    def __post_init__(self) -> None:
-        for contour in self.contours:
-            self.curves.extend(contour.curves)
-        label = iter(labels(self.curves).tolist())
-        elements = [list(zip(c.starts, c.ends, c.sweeps, label)) for c in self.contours]
-        arcs_on: dict[int, list[Floats]] = {}
-        for start, end, sweep, tag in chain(*elements):
-            if sweep:
-                arcs_on.setdefault(tag, []).extend([start, end])
-        for mine in elements:
-            pieces, tags = list[Floats](), list[int]()
-            for start, _, sweep, tag in mine:
-                circle = self.curves[tag]
-                between = _arc_points(circle, start, sweep, np.array(arcs_on[tag])) if sweep else np.zeros((0, 2))
-                pieces += [start[None], between]
-                tags += [tag] * (1 + len(between))
-            self.rings.append(np.vstack(pieces))
-            self.tags.append(np.array(tags))
-
-    def area(self, loops: Sequence[Contour], first: int) -> Any:
-        """Loops of a region, which stand in the drawing from `first` on, as a shapely area."""
-        pieces: list[tuple[Floats, list[Floats]]] = []
-        for loop, ring in zip(loops, self.rings[first:], strict=False):
-            if len(ring) < 3:
-                continue  # a circle smaller than what counts as equal
-            if loop.area > 0:
-                pieces.append((ring, []))
-            else:
-                pieces[-1][1].append(ring)
-        whole = shapely.MultiPolygon([shapely.Polygon(*piece) for piece in pieces])
-        return whole if whole.is_valid else shapely.union_all(_polygons(shapely.make_valid(whole)))
-
-    def traced(self, result: Any) -> tuple[Contour, ...]:
-        """The loops of a shapely result, with lines and arcs found again."""
-        starts = np.vstack([np.zeros((0, 2)), *self.rings])
-        ends = np.vstack([np.zeros((0, 2)), *(np.roll(ring, -1, axis=0) for ring in self.rings)])
-        return traced(result, starts, ends, np.concatenate([np.zeros(0, dtype=int), *self.tags]), self.curves)
-
-
-def polygons_of(region: Region) -> Any:
-    """A region as a shapely area of fine polylines, `CHORD_ERROR` mm from it."""
-    return _Drawing(region.loops).area(region.loops, 0)
-
-
-def covered(contours: Sequence[Contour]) -> Any:
-    """What closed contours cover together, as a shapely area of such polylines."""
-    return shapely.union_all([shapely.Polygon(ring) for ring in _Drawing(contours).rings if len(ring) > 2])
-
-
-def traced(
-    result: Any, starts: Floats, ends: Floats, tags: NDArray[np.intp], curves: Sequence[Curve]
-) -> tuple[Contour, ...]:
-    """The loops of a shapely area, with lines and arcs found again.
-
-    It was made of straight pieces from `starts` to `ends` (k, 2), each on one of the curves, which its tag names.
-    """
-    tree = shapely.STRtree(shapely.linestrings(np.stack([starts, ends], axis=1)))
-    loops: list[Contour] = []
-    for polygon in _polygons(result):
-        for ring, sense in [(polygon.exterior, 1.0), *((ring, -1.0) for ring in polygon.interiors)]:
-            corners = shapely.get_coordinates(ring)[:-1]
-            after = np.roll(corners, -1, axis=0)
-            middles, way = shapely.points((corners + after) / 2), after - corners
-            piece, source = tree.query(middles, predicate="dwithin", distance=10 * GRID)
-            skew = np.abs(cross(way[piece], unit_of(ends - starts)[source]))
-            order = np.lexsort((source, skew, piece))
-            piece, chosen = np.unique(piece[order], return_index=True)
-            tag = np.full(len(corners), -1)
-            tag[piece] = tags[source[order][chosen]]
-            loop = _found_again(corners, tag, curves)
-            if loop is not None:
-                loops.append(loop if loop.area * sense > 0 else loop.reversed())
-            elif sense > 0:
-                break  # a sliver, and so are its holes
-    return tuple(loops)
-
-
-def _found_again(ring: Floats, tag: NDArray[np.intp], curves: Sequence[Curve]) -> Contour | None:
-    """A ring `(m, 2)` of straight pieces with tags `(m,)` as lines and arcs; None for a sliver."""
-    raw = Contour(ring)
-    if abs(raw.area) < SAME * 10 * raw.length:
-        return None
-    runs = list(_runs(raw, tag, curves))
-    if len(runs) == 1 and np.isfinite(curves[runs[0][0]].radius):
-        curve = curves[runs[0][0]]
-        arm = ring[0] - curve.point
-        return Contour.circle(curve.point, curve.radius, np.arctan2(arm[1], arm[0]), clockwise=raw.area < 0)
-    before = [*runs[-1:], *runs[:-1]]
-    corners = [_corner(curves[a[0]], curves[b[0]], ring[b[1]]) for a, b in zip(before, runs, strict=True)]
-    points: list[Floats] = []
-    bulge: list[float] = []
-    for (which, first, last), start, end in zip(runs, corners, [*corners[1:], *corners[:1]], strict=True):
-        curve = curves[which]
-        if np.isinf(curve.radius):
-            sweeps = [0.0]
-        else:
-            seen = _angle_swept(np.vstack([ring, ring])[first : last + 1] - curve.point)
-            exact = _angle_swept(np.array([start, end]) - curve.point)
-            sweep = seen + np.remainder(exact - seen + np.pi, FULL_TURN) - np.pi
-            sweeps = [sweep] if abs(sweep) < 6 else [sweep / 2, sweep / 2]
-        if length_of(end - start) < SAME and len(sweeps) == 1:
-            continue
-        arm = start - curve.point
-        for k, sweep in enumerate(sweeps):
-            points.append(start if k == 0 else curve.foot(curve.point + turned(arm, sweep)))
-            bulge.append(float(np.tan(sweep / 4)))
-    exact_loop = Contour(points, bulge) if len(points) > 1 else raw
-    plausible = abs(exact_loop.area - raw.area) < 10 * CHORD_ERROR * raw.length
-    return exact_loop if plausible else raw
-
-
-def _runs(raw: Contour, tag: NDArray[np.intp], curves: Sequence[Curve]) -> Iterator[tuple[int, int, int]]:
-    """Runs of pieces on one curve: (curve, first point, last point), the last one counted on past the end."""
-    kept = np.flatnonzero((raw.lengths > 10 * SAME) & (tag >= 0))
-    if not len(kept):
-        return
-    fresh = [j for j, i in enumerate(kept) if not _same(curves, int(tag[kept[j - 1]]), int(tag[i]))]
-    if not fresh:
-        yield int(tag[kept[0]]), 0, len(tag)
-        return
-    for j, k in zip(fresh, [*fresh[1:], fresh[0] + len(kept)], strict=True):
-        last = kept[(k - 1) % len(kept)] + 1
-        first = kept[j]
-        yield int(tag[first]), int(first), int(last if last > first else last + len(tag))
-
-
-def _corner(a: Curve, b: Curve, near: Floats) -> Floats:
-    """Where two neighbours meet; if they touch smoothly, the place found by shapely is the better one."""
-    on_both = max(np.hypot(*(curve.foot(near) - near)) for curve in (a, b)) < 10 * GRID
-    if on_both and abs(cross(_along(a, near), _along(b, near))) < 1e-3:
-        return near
-    meeting = a.meeting(b, near)
-    off = max(np.hypot(*(curve.foot(meeting) - meeting)) for curve in (a, b))
-    return meeting if off < SAME else near
-
-
-def bands_beside(loop: Contour, width: float) -> Iterator[Contour]:
-    """Bands along the left side of each element, and fans where the loop turns to the right."""
-    begin, end = loop.tangents()
-    first, last = loop.starts + width * left(begin), loop.ends + width * left(end)
-    turns, bulge = loop.turns(), loop.bulge
-    smooth = np.abs(turns) <= SMOOTH
-    first[smooth] = np.roll(last, 1, axis=0)[smooth]  # no gap as wide as a rounding error
-    to_centre = np.where(bulge > 0, loop.radii, np.inf)
-    for i, (start, stop, centre) in enumerate(zip(loop.starts, loop.ends, loop.centres, strict=True)):
-        if to_centre[i] <= width + SAME:
-            yield Contour([start, stop, centre], [bulge[i], 0.0, 0.0])
-        else:
-            yield Contour([start, stop, last[i], first[i]], [bulge[i], 0.0, -bulge[i], 0.0])
-        if turns[i] < -SMOOTH:
-            yield Contour([start, last[i - 1], first[i]], [0.0, np.tan(turns[i] / 4), 0.0])
-
-
-def labels(curves: Sequence[Curve]) -> NDArray[np.intp]:
-    """For each curve the first one that is the same circle; a line is its own."""
-    label = np.arange(len(curves))
-    bent = np.array([i for i, curve in enumerate(curves) if np.isfinite(curve.radius)], dtype=int)
-    if len(bent):
-        centres = shapely.points(np.array([curves[i].point for i in bent]))
-        radius = np.array([curves[i].radius for i in bent])
-        i, k = shapely.STRtree(centres).query(centres, predicate="dwithin", distance=SAME)
-        alike = np.abs(radius[i] - radius[k]) < SAME
-        np.minimum.at(label, bent[i[alike]], bent[k[alike]])
-    return label
-
-
-def _arc_points(circle: Curve, start: Floats, sweep: float, ends: Floats) -> Floats:
-    """Points strictly between the ends of an arc: those of a fixed grid on its circle, and all `ends` there.
-
-    They depend on the circle alone, so that two arcs over the same stretch have the same points.
-    """
-    count = int(steps_within(np.array([circle.radius]), np.array([FULL_TURN]), CHORD_ERROR)[0])
-    step, arm = FULL_TURN / count, start - circle.point
-    low = np.arctan2(arm[1], arm[0]) + min(sweep, 0.0)
-    grid = np.arange(np.ceil(low / step), np.floor((low + abs(sweep)) / step) + 1)
-    angle = np.mod(grid, count) * step
-    spots = circle.point + circle.radius * at_angle(angle)
-    arms = ends - circle.point
-    fixed = np.unique(np.mod(np.arctan2(arms[:, 1], arms[:, 0]) - low, FULL_TURN), return_index=True)
-    places = np.concatenate([fixed[0], grid * step - low])
-    spots = np.vstack([ends[fixed[1]], spots])
-    near = SAME / circle.radius
-    clear = (places > near) & (places < abs(sweep) - near)
-    gap = np.abs(np.remainder(places[len(fixed[0]) :, None] - fixed[0] + np.pi, FULL_TURN) - np.pi)
-    clear[len(fixed[0]) :] &= (gap > near).all(axis=1)
-    clear[1 : len(fixed[0])] &= np.diff(fixed[0]) > near
-    order = np.flatnonzero(clear)[np.argsort(places[clear])]
-    return spots[order if sweep > 0 else order[::-1]]
+def _arranged(loops: Sequence[Contour]) -> Region:
+    """Loops that do not cross, in order: each outer one, from left to right, and the islands in it."""
+    outer = sorted((loop for loop in loops if loop.area > 0), key=lambda loop: loop.bounds[0].tolist())
+    sizes, within = [loop.area for loop in outer], [[loop] for loop in outer]
+    for island in loops if len(outer) < len(loops) else ():
+        if island.area < 0:
+            middle = island.point_at(island.lengths[: int(island.lengths.argmax())].sum() + island.lengths.max() / 2)[0]
+            around = [k for k, loop in enumerate(outer) if loop.winding(middle)[0]] if len(outer) > 1 else [0]
+            within[min(around, key=sizes.__getitem__)].append(island)
+    return Region(tuple(loop for part in within for loop in part))
 
 
 def meeting(loop: Contour, start: Floats, way: Floats) -> Floats:
@@ -366,15 +186,6 @@ def meeting(loop: Contour, start: Floats, way: Floats) -> Floats:
     return cuts[np.isfinite(cuts)]
 
 
-def _same(curves: Sequence[Curve], i: int, k: int) -> bool:
-    """Whether two tags mean one curve: equal ones, or two lines in line."""
-    a, b = curves[i], curves[k]
-    if i == k or np.isfinite(a.radius) or np.isfinite(b.radius):
-        return i == k
-    apart = length_of(a.foot(b.point) - b.point)
-    return bool(abs(cross(a.direction, b.direction)) < SMOOTH and apart < SAME)
-
-
 def _tidy(contour: Contour) -> Contour:
     """A closed contour without elements of no length."""
     if not contour.closed:
@@ -385,19 +196,3 @@ def _tidy(contour: Contour) -> Contour:
     return contour if some.all() else Contour(contour.points[some], contour.bulge[some])
 
 
-def _polygons(geometry: Any) -> list[Any]:
-    """The polygons of any shapely geometry, from left to right; loose points and lines are no area."""
-    flat = shapely.get_parts(shapely.get_parts(geometry))
-    found = [g for g in flat if g.geom_type == "Polygon" and not g.is_empty]
-    return sorted(found, key=lambda g: g.bounds[:2])
-
-
-def _along(curve: Curve, point: Floats) -> Floats:
-    """The direction of a curve at a point."""
-    return curve.direction if np.isinf(curve.radius) else left(point - curve.point) / curve.radius
-
-
-def _angle_swept(arms: Floats) -> float:
-    """The signed angle swept by arms `(k, 2)` from the first to the last."""
-    before, after = arms[:-1], arms[1:]
-    return float(np.arctan2(cross(before, after), (before * after).sum(axis=1)).sum())

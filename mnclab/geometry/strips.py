@@ -12,7 +12,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.regions import SAME, SMOOTH, Region
+from mnclab.geometry.regions import Region
+from mnclab.geometry.tracing import SAME, SMOOTH
 from mnclab.geometry.vectors import left
 
 

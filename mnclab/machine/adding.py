@@ -62,7 +62,8 @@ def row_state(m: Machine) -> int:
             cutting = {"surface": m.surface, "speed_limit": m.speed_limit, "spindle_x": spindle_axis(m)}
         m.row_state = m.recorder.state(
             State(
-                program=m.program, axis=axis, rotary=m.rotary, per_rev=per_rev, spindle=m.spindle_speed,
+                program=m.program, axis=axis, rotary=m.rotary, cylinder=m.cylinder, from_angle=m.from_angle,
+                per_rev=per_rev, spindle=m.spindle_speed,
                 tool=m.tool.number, radius=m.tool.effective_radius, side=m.side * m.orientation,
                 corner_rule=m.corner_rule, exact=m.exact, synchronous=m.synchronous, tolerance=m.tolerance, **cutting,
             )

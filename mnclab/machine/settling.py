@@ -120,6 +120,7 @@ def _shown(m: Machine, path: Toolpath) -> Toolpath:
         if not np.isnan(path.surface).all():
             path = path.replace(spindle_x=path.spindle_x - origin[0])
     notes = {"labels": tuple(m.recorder.labels), "joints": tuple(m.recorder.joints), "origin": tuple(origin)}
+    notes["cylinders"] = tuple(one.moved(-origin) for one in m.recorder.cylinders)
     return path.annotated(**notes, lathe=m.control.lathe, inches=m.variable_unit != 1)
 
 

@@ -82,6 +82,8 @@ class State:
     origin: Place | None = part(None)  # the first datum, from which the path counts
     pole: tuple[float, float] | None = part(None)
     rotary: Place = part((0.0, 0.0, 0.0), rows=True, history=True)  # A, B, C, radians
+    cylinder: int = part(-1, rows=True)  # of those of the recorder, on which the rows lie that are made now
+    from_angle: float = part(NAN, rows=True)  # where its axis stood before the row, rad
     pending: Pending | None = part(None)  # motion that waits for later blocks
 
     # what a program has said

@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from mnclab.geometry.contours import Contour, Floats
+from mnclab.path.cylinder import Cylinder
 
 RAPID = math.inf
 
@@ -129,6 +130,21 @@ class Swivel(NamedTuple):
     feed: float | None
 
 
+class Rolled(NamedTuple):
+    """Moves over a cylinder, which its rotary axis turns: straight from each of the places to the next.
+
+    `points` (n, 3) are tips as the machine has them, in coordinates of the program; `angles` (n,) rad are those
+    of the axis there; `ways` (n,) mm are the lengths along the developed surface, which the feed counts along.
+    """
+
+    label: str
+    cylinder: Cylinder
+    points: Floats
+    angles: Floats
+    ways: Floats
+    feed: float | None = RAPID
+
+
 class Each(NamedTuple):
     """What `visit(x, y)` yields, at each of the points (n, 2); visits that are alike are made as columns."""
 
@@ -190,8 +206,8 @@ class Write(NamedTuple):
 
 
 Step = (
-    Go | Turn | Dip | Along | Thread | Wait | Spin | Orient | Pause | Coolant | Touch | Swivel | Each | Call | Blocks | Record
-    | Say | Write
+    Go | Turn | Dip | Along | Thread | Wait | Spin | Orient | Pause | Coolant | Touch | Swivel | Rolled | Each | Call | Blocks
+    | Record | Say | Write
 )
 
 

@@ -76,6 +76,8 @@ class Columns:
     axis = column(np.float64, (0.0, 0.0, 1.0), "unit normal of the active plane", parts="xyz", per="state")
     sweep = column(np.float64, 0.0, "angle of an arc, right-handed about axis; pitch lies in end", "rad", per="row")
     rotary = column(np.float64, 0.0, "A, B, C at the end of the row", "rad", parts="abc", per="state")
+    cylinder = column(np.int16, -1, "index into cylinders: the surface on which the row lies", per="state")
+    from_angle = column(np.float64, np.nan, "angle of the axis of the cylinder before the row", "rad", per="state")
     feed = column(np.float64, np.nan, "feed along the path; inf for rapids", "mm/min", per="row")
     per_rev = column(np.float64, np.nan, "feed per revolution of rows at feed", "mm/rev", per="state")
     surface = column(np.float64, np.nan, "constant cutting speed", "m/min", per="state")

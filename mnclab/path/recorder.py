@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.path.columns import COLUMNS, Array, Column, fields
+from mnclab.path.cylinder import Cylinder
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath, concatenate
 
@@ -51,6 +52,7 @@ class Recorder:
         self._state_index: dict[State, int] = {}
         self.labels: dict[str, int] = {"": 0}
         self.joints: list[Any] = []
+        self.cylinders: list[Cylinder] = []
         self._done: list[dict[str, NDArray[Any]]] = []  # column chunks not yet taken
         self.taken = 0  # rows handed over
         self._count = 0
@@ -98,7 +100,7 @@ class Recorder:
         twin = copy(self)
         twin.rows, twin._vertices = array("d"), self._vertices[: self._count + 1]
         twin.states, twin._state_index = self.states.copy(), self._state_index.copy()
-        twin.labels, twin.joints = self.labels.copy(), self.joints.copy()
+        twin.labels, twin.joints, twin.cylinders = self.labels.copy(), self.joints.copy(), self.cylinders.copy()
         twin._done = [chunk.copy() for chunk in self._done]
         return twin
 
@@ -137,6 +139,12 @@ class Recorder:
 
     def label(self, text: str) -> int:
         return self.labels.setdefault(text, len(self.labels))
+
+    def cylinder(self, one: Cylinder) -> int:
+        """The index of a cylinder, which rows carry."""
+        if one not in self.cylinders:
+            self.cylinders.append(one)
+        return self.cylinders.index(one)
 
     def add(self, row: tuple[Any, ...]) -> None:
         """One row, the values in the order of `ROW`."""
@@ -249,7 +257,8 @@ class Recorder:
                 columns["per_rev"] = np.where(np.isfinite(columns["feed"]), columns["per_rev"], NAN)
         else:
             columns = {"kind": np.empty(0, dtype=np.uint8)}
-        return Toolpath.chain(vertices, columns, labels=tuple(self.labels), joints=tuple(self.joints))
+        lists = {"labels": tuple(self.labels), "joints": tuple(self.joints), "cylinders": tuple(self.cylinders)}
+        return Toolpath.chain(vertices, columns, **lists)
 
 
 def _refuse(count: int) -> NoReturn:
@@ -287,4 +296,5 @@ def _column(name: str, parts: list[Any], sizes: list[int]) -> NDArray[Any]:
 def join(pieces: list[Toolpath], recorder: Recorder) -> Toolpath:
     """One path from settled pieces, with the labels and joints known at the end."""
     whole = concatenate(pieces) if pieces else recorder.take()
-    return whole.annotated(labels=tuple(recorder.labels), joints=tuple(recorder.joints))
+    lists = {"joints": tuple(recorder.joints), "cylinders": tuple(recorder.cylinders)}
+    return whole.annotated(labels=tuple(recorder.labels), **lists)

@@ -26,13 +26,14 @@ from mnclab.text.columns import fixed
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from mnclab.path.cylinder import Cylinder
     from mnclab.path.listing import Unit
 
 
 class Toolpath(Columns):
     """Moves and events in columns of n rows; the names and meanings are in `COLUMNS`.
 
-    `labels` and `joints` are what the columns of these names index; `origin` (3,) is the machine position, mm,
+    `labels`, `joints` and `cylinders` are what columns index; `origin` (3,) is the machine position, mm,
     that all positions are relative to; `lathe` says that pictures and listings show X (a radius) and Z, `inches` that
     listings and tables are in inches. The columns are always in mm.
     """
@@ -40,6 +41,7 @@ class Toolpath(Columns):
     def __init__(
         self, columns: dict[str, NDArray[Any]], labels: Sequence[str] = ("",), joints: Sequence[Any] = (),
         origin: Iterable[float] = (0.0, 0.0, 0.0), lathe: bool = False, inches: bool = False,
+        cylinders: Sequence[Cylinder] = (),
     ) -> None:  # fmt: skip
         self._n = len(columns["kind"])
         for name, each in COLUMNS.items():
@@ -49,7 +51,7 @@ class Toolpath(Columns):
             elif column.dtype != each.dtype and self._n and column.strides[0] == 0:  # keep a constant column constant
                 column = each.of(self._n, column[0])
             setattr(self, name, fixed(np.asarray(column, dtype=each.dtype)))
-        self.labels, self.joints = tuple(labels), tuple(joints)
+        self.labels, self.joints, self.cylinders = tuple(labels), tuple(joints), tuple(cylinders)
         self.origin = fixed(np.asarray(tuple(origin), dtype=np.float64))
         self.lathe, self.inches = lathe, inches
 
@@ -65,7 +67,7 @@ class Toolpath(Columns):
 
     def notes(self) -> dict[str, Any]:
         """What is known of the path as a whole."""
-        return {"origin": self.origin, "lathe": self.lathe, "inches": self.inches}
+        return {"origin": self.origin, "lathe": self.lathe, "inches": self.inches, "cylinders": self.cylinders}
 
     @property
     def unit(self) -> Unit:
@@ -104,7 +106,7 @@ class Toolpath(Columns):
         return Toolpath(whole, self.labels, self.joints, **self.notes())
 
     def annotated(self, **more: Any) -> Toolpath:
-        """The same columns with other `labels`, `joints`, `origin`, `lathe` or `inches`."""
+        """The same columns with other `labels`, `joints`, `origin`, `lathe`, `inches` or `cylinders`."""
         kept = {"labels": self.labels, "joints": self.joints, **self.notes()}
         return Toolpath({name: getattr(self, name) for name in COLUMNS}, **{**kept, **more})
 
@@ -112,7 +114,7 @@ class Toolpath(Columns):
         """Copies and pickles: a constant column stays one row."""
         columns = {name: getattr(self, name) for name in COLUMNS}
         kept = {name: each[:1] if self._n and each.strides[0] == 0 else each for name, each in columns.items()}
-        return _unpacked, (self._n, kept, self.labels, self.joints, self.origin, self.lathe, self.inches)
+        return _unpacked, (self._n, kept, self.labels, self.joints, *self.notes().values())
 
     @property
     def is_motion(self) -> Mask:
@@ -155,6 +157,18 @@ class Toolpath(Columns):
         from mnclab.path.points import points
 
         return points(self, chord_error)
+
+    def unrolled(self) -> Toolpath:
+        """The rows on a cylinder on its developed surface: X along it, Y along the axis, Z above it; see `path.cylinder`."""
+        from mnclab.path.cylinder import unrolled
+
+        return unrolled(self)
+
+    def on_workpiece(self, chord_error: float = 0.01) -> tuple[Array, Index]:
+        """Points (m, 3) along the motion as they lie on a workpiece that turns, and the row (m,) of each."""
+        from mnclab.path.cylinder import on_workpiece
+
+        return on_workpiece(self, chord_error)
 
     def labelled(self, piece: str) -> Toolpath:
         """The rows whose label has `piece` in it, such as "helix" or "layer 1 of 3, ring"; it may be none."""

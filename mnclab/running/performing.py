@@ -16,14 +16,15 @@ import numpy as np
 from mnclab.geometry.contours import Contour
 from mnclab.machine.cycle import Definition
 from mnclab.machine.machine import Machine
-from mnclab.machine.rotary import turn_axes
+from mnclab.machine.rotary import roll, turn_axes
 from mnclab.machine.true_size import MILLS
 from mnclab.machining.depths import TooMany
 from mnclab.running.binding import as_it_stands, bind, fault
 from mnclab.running.repeating import at_each
 
 from mnclab.machining.steps import (  # isort: skip
-    Along, Blocks, Call, Coolant, Dip, Each, Go, Orient, Pause, Record, Say, Spin, Step, Swivel, Thread, Touch, Turn, Wait, Write,
+    Along, Blocks, Call, Coolant, Dip, Each, Go, Orient, Pause, Record, Rolled, Say, Spin, Step, Swivel, Thread, Touch, Turn,
+    Wait, Write,
 )  # fmt: skip
 
 Place = tuple[float, float]
@@ -103,6 +104,8 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = 
                 answer = m.touch(x + step.x, y + step.y, step.z, f=step.feed, ball=step.ball, miss=step.miss)
             case Swivel():
                 turn_axes(m, step.angles, step.feed)
+            case Rolled():
+                roll(m, step.cylinder, step.points, step.angles, step.ways, step.feed)
             case Each():
                 at_each(m, step.points, lambda *point, visit=step.visit: perform(m, name, visit(*point), (x, y)))
             case Call():

@@ -45,7 +45,7 @@ def cutting_of(run: Run, stock: Any = None) -> Cutting:
     body = body if stock is None else body.moved(-origin)
     tools, which, lift = _held(run)
     start, changed = run.setup.start, run.history.changed
-    tilted = tilted_rows(path.step, changed(TILT), changed(LOG))
+    tilted = tilted_rows(path.step, changed(TILT), changed(LOG), path.cylinder)
     known = start_known(path, start, *(() if any(start) else _named(run)))
     fixtures = tuple(_placed(run, each) for each in run.setup.fixtures)
     return Cutting(lifted(path, lift), tools, which, body, *known, tilted, fixtures, run.place_of_line, tuple(origin.tolist()))

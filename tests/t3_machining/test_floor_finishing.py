@@ -67,7 +67,7 @@ def down(arc, up=1, first=50.0, above=2.0):
 
 
 def test_the_tool_comes_down_on_a_quarter_circle_of_zx():
-    """A ring begun at x0 on the floor -20: from (x0 - 1.5, -18.5) about (x0, -18.5), where the side away from -X has room, too."""
+    """A ring begun at x0 on the floor -20: from (x0 - 1.5, -18.5) about (x0, -18.5)."""
     (floor,) = floor_passes(terraces(part(0, 0, 80, 60), 20), R, R)
     path = traced(finish_floor("floor", floor.clearing, -20, down(1.5), 300), (0, 0, 60), R)
     (k,) = [i for i, row in enumerate(path) if row.label == "floor, approach"]

@@ -36,17 +36,21 @@ HOLES = ("G83", "G85", "G300", "G301", "G302", "G303", "G305", "G307",
 MILLS = [code for code in BUILT if code not in (*TAPS, *TRUE_TO_SIZE, *HOLES)]
 
 #: Its advanced stop distance is that of the true depth, no length of the program: see test_obsolete_holes.
-TRUE_STOPS = ("CYCL DEF 1",)
+TRUE_STOPS = ("CYCL DEF 1", "CYCL DEF 21")
+
+#: Those that need a contour and its data; where one side is milled the mirror image keeps it.
+AREAS = ("CYCL DEF 21", "CYCL DEF 22")
 
 #: More ways to run a cycle than its examples.
 MORE = {
-    "CYCL DEF 22": [{"swing_feed": 0}],
+    "CYCL DEF 22": [{"swing_feed": 90}, {"swing_feed": 90, "factor": 50}],
     "G305": [{"mode": 1}],
     "G321": [{"strategy": 1}, {"strategy": 2}],
     "G343": [{"plunge": 0}, {"plunge": 2, "milling_mode": -1}],
     "G344": [{"plunge": 0}],
     "CYCL DEF 200": [{"reference": 1}],
     "CYCL DEF 220": [{"type_of_traverse": 1}],
+    "CYCL DEF 275": [{"plunging_strategy": 2, "machining_operation": 1}],
     "CYCL DEF 232": [{"strategy": 0}, {"strategy": 1}],
     "CYCL DEF 233": [{"strategy": k} for k in (0, 1, 3)] + [{"strategy": 4, "limit_1": 0, "limit_2": 0}],
     "CYCL DEF 240": [{"mode": 1}],
@@ -55,7 +59,7 @@ MORE = {
     "CYCL DEF 202": [{"disengage": k} for k in (2, 3, 4)],
     "G302": [{"disengage": k} for k in (2, 3, 4)],
 }
-CASES = [(code, more) for code in BUILT for more in ([{}] if code != "CYCL DEF 22" else []) + MORE.get(code, [])]
+CASES = [(code, more) for code in BUILT for more in [{}, *MORE.get(code, [])]]
 LABELS = """LBL 1
 L X-40 Y-30 RL
 L X+40
@@ -83,7 +87,7 @@ def values_of(code, more):
 def larger(code, values, s):
     """The values with every length s times as long: what is told in mm, but for a pitch (mm/rev)."""
     cycle = MNC.get(code) or TNC[code]
-    lengths = {p.name for p in cycle.parameters() if p.unit == "mm"}
+    lengths = {p.name for p in cycle.parameters() if p.unit == "mm" or p.name == "advance"}
     return {name: value * s if name in lengths else value for name, value in values.items()}
 
 
@@ -116,13 +120,17 @@ def program(code, values, frame, s=1.0):
     if code == "CYCL DEF 18":
         text = f"M5\nCYCL DEF 18.0 X\nCYCL DEF 18.1 DEPTH{-20 * s:g}\nCYCL DEF 18.2 PITCH+1.5\n"
         return head + text + call + "END PGM A MM\n"
-    if code == "CYCL DEF 22":
+    if code in AREAS:
         data = "CYCL DEF 14.0 X\nCYCL DEF 14.1 LABEL 1/2\n" + klartext("CYCL DEF 20", larger("CYCL DEF 20", SL, s))
         labels = "\n".join(
             " ".join(w[0] + f"{float(w[1:]) * s:+g}" if w[0] in "XY" else w for w in line.split())
             for line in LABELS.split("\n")
         )  # fmt: skip
         return head + data + klartext(code, values) + "CYCL CALL\nM30\n" + labels + "END PGM A MM\n"
+    if code == "CYCL DEF 275":
+        line = f"LBL 1\nL X{-40 * s:+g} Y{-30 * s:+g}\nL X{40 * s:+g}\nRND R{20 * s:g}\nL Y{30 * s:+g}\nLBL 0\n"
+        data = "CYCL DEF 14.0 X\nCYCL DEF 14.1 LABEL 1\n"
+        return head + data + klartext(code, values) + "CYCL CALL\nM30\n" + line + "END PGM A MM\n"
     return head + klartext(code, values) + call + "END PGM A MM\n"
 
 
@@ -230,6 +238,8 @@ def as_the_spindle_has_it(code, values, whole, follows):
         values = values | {"disengage": next(d for d, way in WAYS.items() if math.dist(way, (x, y)) < 1e-9)}
     if code == "CYCL DEF 208" and np.linalg.det(whole) < 0:
         values = values | {"climb": -values["climb"]}  # 4.9: a mirror image does not influence the type of milling
+    if code == "CYCL DEF 275" and np.linalg.det(whole) < 0:
+        values = values | {"milling_type": -values["milling_type"]}  # 8.3
     return values
 
 
@@ -275,13 +285,14 @@ def test_a_mirror_image_and_a_rotation_move_the_path(case, axes, angle):
 @cases
 def test_scale_mirror_and_rotation_together(case):
     code, more = case
-    if code in TAPS + TRUE_TO_SIZE or values_of(code, more).get("disengage") or code in ("CYCL DEF 22", "CYCL DEF 208"):
+    if code in TAPS + TRUE_TO_SIZE or values_of(code, more).get("disengage") or code in (*AREAS, "CYCL DEF 208"):
         return
     values, whole = values_of(code, more), turned(30) @ mirrored("X")
     frame = turn(code, 30) + ("\n" if code in MNC else "") + mirror(code, "X")
     frame += ("\n" if code in MNC else "") + equal(code, 2)
     found = run_once(code, program(code, values, frame), setup(2))
-    plain = run_once(code, program(code, larger(code, values, 2), "", 2), setup(2))
+    written = as_the_spindle_has_it(code, larger(code, values, 2), whole, whole)
+    plain = run_once(code, program(code, written, "", 2), setup(2))
     assert_moved(rows(found), rows(plain), whole)
 
 

@@ -11,6 +11,7 @@ from mnclab.controls.tnc_620.contours import data as contour_data
 from mnclab.controls.tnc_620.contours import labels as contour_labels
 
 from mnclab.controls.tnc_620.contours import (  # isort: skip
+    cylinder,
     floor_finishing,
     leaving,
     pilot,
@@ -18,6 +19,7 @@ from mnclab.controls.tnc_620.contours import (  # isort: skip
     side_finishing,
     train,
     train_data,
+    surface,
     trochoidal_slot,
 )
 from mnclab.controls.tnc_620.cycles import (
@@ -118,7 +120,8 @@ SETTINGS = (
         unit="s", at_least=0,
     ),
     *tools.SETTINGS, *no_effect.SETTINGS, *retraction.SETTINGS, *tilting.SETTINGS, *engraving.SETTINGS,
-    *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS, *output.SETTINGS, *leaving.SETTINGS,
+    *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS, *output.SETTINGS,
+    *leaving.SETTINGS, *cylinder.SETTINGS, *surface.SETTINGS,
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
@@ -141,6 +144,7 @@ CHAPTERS = (
     train_data,
     train,
     trochoidal_slot,
+    cylinder,
     transformations, tilting, special, engraving, face_milling, presets, program_call,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
@@ -191,5 +195,8 @@ CONTROL = Control(
     storage="variables", preassigned={**parameters.PREASSIGNED, **system_texts.TEXTS}, local_variables="QL",
     named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again, turned=tool_axis.turned,
     compensation=Compensation(approach="perpendicular", rapid=True),
-    bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call")),
+    bulk=PlainWords(
+        motions={None: ("L", 1)}, keyword="L",
+        ready=lambda m: m.side == 0 and not m.modal.get("call") and m.memory.developed is None,
+    ),
 )  # fmt: skip

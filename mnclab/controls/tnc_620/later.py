@@ -13,13 +13,6 @@ from mnclab.machine.cycle import Cycle
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 
-CYCLES = {
-    27: "Cylinder surface",
-    28: "Cylinder surface slot",
-    29: "Cylinder surface ridge",
-    39: "Cylinder surface contour",
-}
-
 PROBING = {
     0: "Reference plane", 1: "Polar preset", 3: "Measuring", 4: "Measuring in three dimensions",
     30: "Calibrating the tool probe", 31: "Tool length", 32: "Tool radius", 33: "Tool length and radius",
@@ -72,7 +65,6 @@ WORDS = {
 }  # fmt: skip
 
 WAITING = {
-    **{f"CYCL DEF {n}": title for n, title in CYCLES.items()},
     **{f"TCH PROBE {n}": title for n, title in PROBING.items()},
     **STATEMENTS,
     **{f"M{n}": title for n, title in M.items()},
@@ -88,11 +80,6 @@ REFUSED = {
 }
 
 #: Q parameters by the numbers of the cycles that take them: named beside the refusal where a program has another one.
-_OF_CYCLES = {
-    "27 39": "1 3 6 10 11 12 16 17",
-    "28": "1 3 6 10 11 12 16 17 20 21",
-    "29": "1 3 6 10 11 12 16 17 20",
-}
 _OF_PROBING = {
     "450": "409 S409 410", "451": "253 320 380 406 407 408 411 412 413 414 415 416 417 418 419 420 421 422 423 431 432",
     "452": "253 320 380 407 408 411 412 413 414 415 416 417 418 419 420 421 422 423 432",
@@ -124,9 +111,8 @@ _OF_PROBING = {
     "441": "396 397 399 400", "480": "260", "484": "536", "481 482 483": "260 340 341",
 }  # fmt: skip
 PARAMETERS = {
-    f"{kind} {cycle}": frozenset(f"Q{number}" for number in numbers.split())
-    for kind, table in (("CYCL DEF", _OF_CYCLES), ("TCH PROBE", _OF_PROBING))
-    for cycles, numbers in table.items()
+    f"TCH PROBE {cycle}": frozenset(f"Q{number}" for number in numbers.split())
+    for cycles, numbers in _OF_PROBING.items()
     for cycle in cycles.split()
 }
 

@@ -65,10 +65,11 @@ class Memory:
     pattern: Pattern | None = None
     contour: Labels | Formula | None = None  # which one the next cycle machines
     contour_data: ContourData | None = None
-    defining: Definitions | None = None  # while the program of SEL CONTOUR runs
     train_data: TrainData | None = None
     rough_out_tool: Tool | None = None  # with which cycle 22 was called last, its deltas included
     tool_before: Tool | None = None  # that was in the spindle before the last TOOL CALL of a tool
+    developed: float | None = None  # mm that 1 of X is, while the contour of a cylinder is read
+    defining: Definitions | None = None  # while the program of SEL CONTOUR runs
 
     # free contours
     free_pole: tuple[float, float] | None = None

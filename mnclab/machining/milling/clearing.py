@@ -25,7 +25,8 @@ class Piece:
     """A connected piece of the tool-centre area: one entry, then its passes in order.
 
     `linked[i]` tells whether the tool may go straight from the end of pass i to the start of pass i + 1;
-    if not, it must lift. `labels[i]` names pass i: "ring 3 of 7".
+    if not, it must lift. `labels[i]` names pass i: "ring 3 of 7". `from_side`: the first pass begins beside the material, where
+    the tool comes down free and cuts in from the side.
     """
 
     centres: Region
@@ -33,6 +34,7 @@ class Piece:
     linked: tuple[bool, ...]
     labels: tuple[str, ...]
     place: Floats | None = None
+    from_side: bool = False
 
     def __repr__(self) -> str:
         return f"<Piece: {', '.join(self.labels)}>"
@@ -43,7 +45,9 @@ class Piece:
         return begin(self.passes[0]) if self.place is None else self.place
 
     def begins_cleared(self, k: int) -> bool:
-        """Whether pass k begins on one before it, where the tool can come straight down."""
+        """Whether pass k begins on one before it or beside the material, where the tool can come straight down."""
+        if k == 0:
+            return self.from_side
         spot = begin(self.passes[k])[None]
         return any(contour.distance(spot)[0] < 1e-3 for contour in self.passes[:k])
 
@@ -99,20 +103,25 @@ def numbered(name: str, count: int) -> tuple[str, ...]:
 
 def links(centres: Region, passes: Sequence[Contour], stepover: float) -> tuple[bool, ...]:
     """Which straight ways between passes stay in the tool-centre area and within a stepover of what is cleared."""
+    boxes = np.array([contour.bounds for contour in passes]).reshape(-1, 2, 2)
     return tuple(
-        _clear(centres, end(a), begin(b), passes[: k + 1], stepover) for k, (a, b) in enumerate(pairwise(passes))
+        _clear(centres, end(a), begin(b), passes[: k + 1], boxes[: k + 1], stepover)
+        for k, (a, b) in enumerate(pairwise(passes))
     )
 
 
-def _clear(centres: Region, a: Floats, b: Floats, done: Sequence[Contour], stepover: float) -> bool:
+def _clear(
+    centres: Region, a: Floats, b: Floats, done: Sequence[Contour], boxes: Floats, stepover: float
+) -> bool:  # fmt: skip
     way = float(np.hypot(*(b - a)))
     if way > stepover + SLACK:
         share = np.linspace(0, 1, int(np.ceil(4 * way / stepover)) + 1)[:, None]
         spots = a + share * (b - a)
-        off = np.full(len(spots), np.inf)
-        for contour in reversed(done):
-            off = np.minimum(off, contour.distance(spots))
-            if (off <= stepover + SLACK).all():
+        low, high = np.minimum(a, b) - stepover - SLACK, np.maximum(a, b) + stepover + SLACK
+        near = np.flatnonzero((boxes[:, 0] <= high).all(axis=1) & (boxes[:, 1] >= low).all(axis=1))
+        for k in near[::-1]:
+            spots = spots[done[k].distance(spots) > stepover + SLACK]
+            if not len(spots):
                 break
         else:
             return False
@@ -142,6 +151,12 @@ def piecewise(
     region: Region, radius: float, stepover: float, allowance: float, plan: Callable[[Region], Piece]
 ) -> Clearing:
     """A clearing planned for each piece of where the tool centre may go; a ValueError where the tool does not fit."""
+    centres = tool_centres(region, radius, stepover, allowance)
+    return Clearing(centres, tuple(plan(part) for part in centres.parts), radius)
+
+
+def tool_centres(region: Region, radius: float, stepover: float, allowance: float) -> Region:
+    """Where the tool centre may go; a ValueError where the tool does not fit, or where radius or stepover are none."""
     if not radius > 0:
         raise ValueError(f"the tool radius must be greater than 0, got {radius:g}")
     if not 0 < stepover <= 2 * radius:
@@ -150,4 +165,4 @@ def piecewise(
     if not centres.loops:
         rest = f" with an allowance of {allowance:g}" if allowance else ""
         raise ValueError(f"a tool of radius {radius:g}{rest} does not fit into the contour")
-    return Clearing(centres, tuple(plan(part) for part in centres.parts), radius)
+    return centres

@@ -195,11 +195,11 @@ def descent(
 ) -> Descent:
     """The way down to a pass of a piece (the first, or that of a `number`) as wished for, ending near its start.
 
-    Straight where the pass begins on an earlier one; along the pass where a helix or a ramp has no room.
+    Straight where the pass begins on an earlier one or beside the material; along the pass where a helix or a ramp has no room.
     """
     place = begin(piece.passes[number]) if number else piece.entry
     straight = entry.kind == "vertical" or entry.angle == 90 or top <= bottom
-    if straight or (number and piece.begins_cleared(number)):
+    if straight or (piece.passes and piece.begins_cleared(number)):
         return vertical(place, top, bottom)
     if entry.kind == "helix":
         wish = radius if entry.size is None else entry.size

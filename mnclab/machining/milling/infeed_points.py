@@ -27,7 +27,8 @@ LEAST = 1e-3  # of the size of a piece: narrower than that it has a place within
 SAME = 1e-6
 TOGETHER = 1e-3  # mm, within which two infeed points of different depths are one hole
 CORNERS = np.array([(-1, -1), (1, -1), (-1, 1), (1, 1)]) / 2
-AROUND = np.linspace(0, 2 * np.pi, 16, endpoint=False)
+AROUND = np.linspace(0, 2 * np.pi, 8, endpoint=False)
+TOP = 1e-5  # mm, how near a place is to the top that is found
 
 
 def infeed_points(region: Region, reach: float) -> Floats:
@@ -58,20 +59,19 @@ def roomiest(piece: Region) -> Floats:
         squares = (squares[promising, None] + size / 2 * CORNERS).reshape(-1, 2)
         size /= 2
     top = spots[rooms >= rooms.max() - 2 * FINE * abs(rooms.max())]
-    return _climbed(area, edge, top[np.hypot(*(top - top.mean(axis=0)).T).argmin()], FINE * float(rooms.max()))
+    return _climbed(piece, top[np.hypot(*(top - top.mean(axis=0)).T).argmin()], FINE * abs(float(rooms.max())))
 
 
-def _climbed(area: Any, edge: Any, spot: Floats, step: float) -> Floats:
-    """From a place to the top near by."""
-    here, room = spot, float(_rooms(area, edge, spot[None])[0])
-    least = step * 1e-3
-    while step > least:
-        round_about = here + step * np.stack([np.cos(AROUND), np.sin(AROUND)], axis=1)
-        rooms = _rooms(area, edge, round_about)
-        if rooms.max() > room + 1e-9:
+def _climbed(piece: Region, here: Floats, step: float) -> Floats:
+    """From a place to the top near by, where lines and arcs count as they are; no ridge is in line with all the tries."""
+    room, turn = float(piece.distance([here])[0]), 0.0
+    while step > TOP:
+        round_about = here + step * np.stack([np.cos(AROUND + turn), np.sin(AROUND + turn)], axis=1)
+        rooms = np.where(piece.contains(round_about), piece.distance(round_about), 0.0)
+        if rooms.max() > room + 1e-3 * step:
             here, room = round_about[rooms.argmax()], float(rooms.max())
         else:
-            step /= 2
+            step, turn = step / 2, turn + 1
     return here
 
 

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.regions import Region
 from mnclab.machining.milling.clearing import Clearing, begin, end
 
 
@@ -54,8 +55,11 @@ def within(length: float, width: float, radius: float, places: Sequence[float], 
     return near + far
 
 
-def left_by(clearing: Clearing) -> float:
-    """The area that the tool could reach and the passes of a clearing leave, but for slivers of a thousandth of R."""
+def left_by(clearing: Clearing, material: Region | None = None) -> float:
+    """The area that the passes of a clearing leave of all that the tool could reach, or of some material in its reach.
+
+    Slivers of a thousandth of R do not count.
+    """
     from mnclab.geometry.sweeps import covered, left_over, polygons
 
     radius, ways = clearing.radius, list(clearing.passes)
@@ -63,5 +67,5 @@ def left_by(clearing: Clearing) -> float:
         for joined, (a, b) in zip(piece.linked, pairwise(piece.passes), strict=True):
             if joined:
                 ways.append(Contour([end(a), begin(b)], closed=False))
-    reach = polygons(clearing.centres.offset(radius))
+    reach = polygons(clearing.centres.offset(radius) if material is None else material)
     return left_over(reach, covered(ways, radius), radius * 1e-3).area

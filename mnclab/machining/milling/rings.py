@@ -10,16 +10,18 @@ stands then, in sharp corners and along narrow arms between two rings, is the pr
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import count
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.vectors import cross, left
 from mnclab.geometry.whole_curves import Curve
-from mnclab.machining.milling.clearing import Clearing, Piece, links, numbered, piecewise
+from mnclab.machining.milling.clearing import NOWHERE, Clearing, Piece, links, numbered, piecewise
 from mnclab.machining.milling.infeed_points import roomiest
 
 MOST_RINGS = 2000
@@ -130,6 +132,7 @@ def rings_in_order(
     within = np.array([ring.contour.winding(starts) != 0 for ring in todo])  # [i, k]: k lies within i
     deeper = level[None, :] > level[:, None]
     waits = np.where(island[:, None], within.T & island & deeper, island | (within & deeper))
+    boxes = np.array([ring.contour.bounds for ring in todo])
     left_over = np.ones(len(todo), dtype=bool)
     here = begin
     while left_over.any():
@@ -139,7 +142,7 @@ def rings_in_order(
             lengths = todo[k].contour.lengths
             way = float(lengths[: int(lengths.argmax())].sum() + lengths.max() / 2)
         else:
-            k = free[np.argmin([float(todo[k].contour.distance(here)[0]) for k in free])]
+            k = _nearest(todo, boxes, free, here)
             way = todo[k].contour.nearest(here)
         left_over[k] = False
         ring = replace(todo[k], contour=todo[k].contour.started_at(way))
@@ -147,17 +150,32 @@ def rings_in_order(
         yield ring
 
 
+def _nearest(todo: Sequence[Ring], boxes: Floats, free: NDArray[np.intp], here: Floats) -> int:
+    """Which of the free rings is nearest to a place; `boxes` (n, 2, 2) are about the rings."""
+    outside = np.maximum(boxes[free, 0] - here, here - boxes[free, 1]).max(axis=1)
+    order = np.argsort(outside, kind="stable")
+    best, least = int(free[order[0]]), np.inf
+    for k, off in zip(free[order].tolist(), outside[order].tolist(), strict=True):
+        if off > least:
+            break
+        way = float(todo[k].contour.distance(here)[0])
+        if (way, k) < (least, best):
+            best, least = k, way
+    return best
+
+
 def _rings(centres: Region, radius: float, stepover: float, corner_radius: float) -> Iterator[Ring]:
     """The rings of a piece, with a core ring wherever one more step would leave a core standing."""
     if np.ptp(centres.loops[0].bounds, axis=0).min() / 2 > MOST_RINGS * stepover:
         raise ValueError(f"a stepover of {stepover:g} makes more than {MOST_RINGS} rings")
-    level, here = 0, centres
-    while here.loops:
+    found = centres.insets(stepover)
+    deeper = next(found)
+    for level in count():
+        here, deeper = deeper, next(found, NOWHERE)
         for loop in here.loops:
             yield Ring(level, loop.area < 0, loop if level else rounded(loop, corner_radius))
-        level += 1
-        deeper = centres.inset(level * stepover)
-        for core in centres.inset((level - 1) * stepover + radius).parts if stepover > radius else ():
+        for core in here.inset(radius).parts if stepover > radius else ():
             if not any(core.contains(loop.points[:1])[0] for loop in deeper.loops):
-                yield from (Ring(level - 1 + radius / stepover, loop.area < 0, loop) for loop in core.loops)
-        here = deeper
+                yield from (Ring(level + radius / stepover, loop.area < 0, loop) for loop in core.loops)
+        if not deeper.loops:
+            return

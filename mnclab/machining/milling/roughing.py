@@ -39,6 +39,13 @@ class Heights(NamedTuple):
         return self.above - self.surface
 
 
+class Cut(NamedTuple):
+    """Passes, and what stands where they run; None: material everywhere."""
+
+    clearing: Clearing
+    material: Region | None = None
+
+
 class Feeds(NamedTuple):
     """Down, along the passes, and where the tool cuts a full slot."""
 
@@ -53,19 +60,20 @@ def straight_down(piece: Piece, top: float, bottom: float) -> Descent:
 
 
 def sloping_down(
-    piece: Piece, top: float, bottom: float, *, radius: float, angle: float, stroke: float, climb: bool
-) -> Descent:
+    piece: Piece, top: float, bottom: float, *, radius: float, angle: float, stroke: float, climb: bool, helical: bool = True
+) -> Descent:  # fmt: skip
     """On a helix about the infeed point, as wide as the tool or as the room there; in a slot to and fro along its first pass.
 
     `angle` is the steepest in degrees, `stroke` the longest way to or fro; a ValueError where one is needed and it is 0.
+    Straight beside the material; never on a helix if not `helical`.
     """
-    if top == bottom:
+    if top == bottom or piece.from_side:
         return straight_down(piece, top, bottom)
-    room = float(piece.centres.distance([piece.entry])[0])
+    room = float(piece.centres.distance([piece.entry])[0]) if helical else 0.0
     if room >= NARROWEST * radius:
         return helix(piece.entry, min(radius, room), top, bottom, angle, clockwise=not climb)
     if not stroke > 0:
-        raise ValueError(f"a helix has no room, {room:.3g} mm, and a ramp needs the length of the edges")
+        raise ValueError("where a helix has no room the tool goes to and fro, for which it needs the length of its edges")
     first = piece.passes[0]
     return along(first.between(0.0, min(stroke, first.length)), top, bottom, angle)
 
@@ -107,17 +115,14 @@ class Ways:
 
 
 def rough_out(
-    clearings: Sequence[Clearing], levels: Sequence[Level], heights: Heights, feeds: Feeds, way_down: WayDown
+    cuts: Sequence[Cut], levels: Sequence[Level], heights: Heights, feeds: Feeds, way_down: WayDown
 ) -> Iterator[Step]:
-    """Each level with the clearing of its terrace, piece by piece.
+    """Each level with the passes of its terrace, piece by piece.
 
     At rapid the tool goes down to the set-up clearance, or in a place where it has been down before to as much above that.
     """
-    ways = [[Ways(piece) for piece in clearing.pieces] for clearing in clearings]
-    planned = [
-        [list(_with_feeds(each, clearing.radius, feeds)) for each in some]
-        for clearing, some in zip(clearings, ways, strict=True)
-    ]
+    ways = [[Ways(piece) for piece in cut.clearing.pieces] for cut in cuts]
+    planned = [[list(_with_feeds(each, cut, feeds)) for each in some] for cut, some in zip(cuts, ways, strict=True)]
     before: Level | None = None
     height = heights.height
     for label, level in zip(numbered("level", len(levels)), levels, strict=True):
@@ -149,12 +154,12 @@ def _down(label: str, way: Descent, feeds: Feeds) -> Iterator[Step]:
         yield from descend(way._replace(label=f"{label}, {way.label}"), feeds.plunge, feeds.slot)
 
 
-def _with_feeds(ways: Ways, radius: float, feeds: Feeds) -> Iterator[tuple[Contour, float]]:
+def _with_feeds(ways: Ways, cut: Cut, feeds: Feeds) -> Iterator[tuple[Contour, float]]:
     """The passes of a piece and the ways between them, each with its feed, in stretches where that changes."""
     moves = list(ways.passes)
     if feeds.slot == feeds.level:
         yield from ((move, feeds.level) for move in moves)
         return
-    _, *found = stretches([Contour([ways.piece.entry] * 2, closed=False), *moves], radius)
+    _, *found = stretches([Contour([ways.piece.entry] * 2, closed=False), *moves], cut.clearing.radius, stock=cut.material)
     for stretch in chain.from_iterable(found):
         yield stretch.contour, feeds.slot if stretch.full else feeds.level

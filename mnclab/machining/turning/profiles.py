@@ -107,20 +107,6 @@ def between(profile: Contour, first: float, last: float) -> Contour | None:
     return piece if piece.length > SAME else None
 
 
-def joined(pieces: Iterable[Contour | None]) -> Contour:
-    """Contours that follow each other as one, with straight lines across gaps."""
-    points: list[Floats] = []
-    bulges: list[float] = []
-    for piece in filter(None, pieces):
-        if points and np.hypot(*(piece.points[0] - points[-1])) <= SAME:
-            points.pop()
-        elif points:
-            bulges.append(0.0)
-        points.extend(piece.points)
-        bulges.extend(piece.bulge[:-1])
-    return Contour(np.array(points), [*bulges, 0.0], closed=False)
-
-
 def exit_way(profile: Contour, level: float) -> float:
     """The way to the last point at or below a level."""
     r = profile.points[:, 1]

@@ -17,8 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour
-from mnclab.machining.turning.profiles import SAME, between, checked, entry_way, exit_way, joined
+from mnclab.geometry.contours import Contour, joined
+from mnclab.machining.turning.profiles import SAME, between, checked, entry_way, exit_way
 
 OPEN, SEMI_OPEN, CLOSED, COMBINED = "open", "semi-open", "closed", "combined"
 KINDS = (OPEN, SEMI_OPEN, CLOSED, COMBINED)

@@ -14,8 +14,10 @@ import numpy as np
 
 from mnclab.geometry import shapely
 from mnclab.geometry.apart import CLEAR, rough
+from mnclab.geometry.bands import bands_beside
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.regions import Region, bands_beside, covered, polygons_of
+from mnclab.geometry.regions import Region
+from mnclab.geometry.tracing import covered, polygons_of
 from mnclab.workpiece.design.removals import TINY, Slant, Slanting, Wedge
 
 SAME = 1e-9  # of an area, and mm
@@ -116,11 +118,11 @@ def _bands(slant: Slant, out: float) -> Iterator[Contour]:
 
 def _open_to(near: Region, slant: Slant) -> Any:
     """Where a slant may take something of a region: on its side of the edge."""
-    place = polygons_of(near)
+    place = polygons_of(near.loops)
     if isinstance(slant, Wedge) or not isinstance(slant.base, Region):
         return place
     cut = shapely.intersection if slant.inside else shapely.difference
-    return cut(place, polygons_of(slant.base))
+    return cut(place, polygons_of(slant.base.loops))
 
 
 def _integral(area: Callable[[float], float], low: float, high: float, least: float) -> float:

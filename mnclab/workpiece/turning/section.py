@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import FULL_TURN, Contour, Floats, steps_within
-from mnclab.geometry.regions import labels, traced
+from mnclab.geometry.tracing import labels, traced
 from mnclab.geometry.vectors import at_angle, unit_of
 from mnclab.geometry.whole_curves import Curve
 

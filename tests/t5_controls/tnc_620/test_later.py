@@ -22,7 +22,7 @@ def test_the_parameters_are_those_of_the_manual(code: str) -> None:
     assert PARAMETERS[code] == {part for row in ENTRIES[code] for part in row["address"].split("/")}
 
 
-CODES = [f"CYCL DEF {n}" for n in later.CYCLES] + [f"TCH PROBE {n}" for n in later.PROBING]
+CODES = [f"TCH PROBE {n}" for n in later.PROBING]
 
 
 @pytest.mark.parametrize("code", CODES)

@@ -196,7 +196,9 @@ def test_a_narrow_helix_and_none():
 def test_a_slot_needs_the_length_of_the_edges():
     run, _ = rough(FLUTE, Tool(radius=5, plunge_angle=5), Q19=80)
     (alarm,) = run.alarms
-    assert alarm.message == "CYCL DEF 22: a helix has no room, 0.1 mm, and a ramp needs the length of the edges"
+    assert alarm.message == (
+        "CYCL DEF 22: where a helix has no room the tool goes to and fro, for which it needs the length of its edges"
+    )
     assert "LCUTS" in alarm.hint
 
 
@@ -280,6 +282,106 @@ def test_q401_slows_down_in_full_slots():
     assert 60 < slow.length < 0.6 * level.length
     _, plain = rough(CHAMBERS, Q401=100, Q1=-5)
     assert plain[plain.feed == 400].length == pytest.approx(level.length, rel=1e-9)
+
+
+# --- fine roughing ------------------------------------------------------------------------------------------------------
+
+
+def test_fine_roughing_of_the_example():
+    """It clears the neck, 83.134 mm² that the coarse tool left, and nothing else; then all 84254.6 mm³ are gone."""
+    tools = {1: Tool(radius=15, plunge_angle=5, cutting_length=25), 2: Tool(radius=7.5, plunge_angle=5, cutting_length=25)}
+    run = mnclab.run(C20.replace("Q8=0.1", "Q8=0"), "tnc-620", Setup(tools=tools))
+    assert run.ok and not run.alarms and not run.collisions()
+    path = of(run, "CYCL DEF 22")
+    coarse, fine = path[path.radius == 15], path[path.radius == 7.5]
+    before, after = at_depth(coarse, -20, 15), at_depth(fine, -20, 7.5)
+    assert after.difference(before).area == pytest.approx(83.134, abs=0.03)
+    assert 20 * before.union(after).area == pytest.approx(84254.6, abs=1)
+    assert fine[fine.feed == 350].length < 4 * 100
+    assert run.workpiece(step=0.25).removed == pytest.approx(84254.6, rel=1e-3)
+
+
+#: A large chamber, and a small one behind a neck of 16 that a tool of radius 10 cannot pass; corners left of both kinds.
+BEHIND = [(0, 0), (60, 0), (60, 12), (70, 12), (70, 8), (86, 8), (86, 36), (70, 36), (70, 28), (60, 28), (60, 40), (0, 40)]
+APART = [(0, 0), (60, 0), (60, 40), (0, 40)], [(80, 0), (96, 0), (96, 40), (80, 40)]  # the second is too narrow for it
+
+
+def fine(corners, tool, coarse=10.0, **given):
+    text = polygon_program(corners, **{"Q18": 2, "Q19": 90} | given)
+    run = mnclab.run(text, "tnc-620", Setup(tools={1: tool, 2: Tool(radius=coarse, name="COARSE", dr=0.5)}))
+    return run, of(run, "CYCL DEF 22")
+
+
+SMALL = Tool(radius=4, plunge_angle=5, cutting_length=10)
+
+
+def test_fine_roughing_cuts_what_the_coarse_tool_left():
+    """Its wear, dr, does not count: what it reached is that of the radius 10."""
+    run, path = fine(BEHIND, SMALL, Q404=0)
+    assert run.ok and not run.alarms
+    contour = Polygon(BEHIND)
+    reached = contour.buffer(-10, 256).buffer(10, 256)
+    rest = contour.buffer(-4, 256).buffer(4, 256).difference(reached)
+    cut = at_depth(path, -10, 4)
+    assert rest.difference(cut.buffer(1e-3)).area < 1e-3 and cut.difference(contour.buffer(1e-3)).area < 1e-6
+    assert cut.area < 0.75 * contour.area
+
+
+@pytest.mark.parametrize(("coarse", "strategy", "lifts"), [(8, 0, 1), (8, 1, 4), (8.5, 0, 4)])
+def test_between_the_areas_of_fine_roughing(coarse, strategy, lifts):
+    """Along the contour at depth if R is at least half that of the coarse tool, else by way of the set-up clearance."""
+    run, path = fine(BOX, SMALL, coarse, Q404=strategy)
+    assert run.ok, run.alarms
+    up = path[(path.end[:, 2] > path.start[:, 2]) & (path.start[:, 2] < 0)]
+    assert len(up) == 2 * lifts  # two levels, four corners
+    assert set(up.end[:, 2]) == ({2, 50} if lifts > 1 or len(up) > 1 else {50})
+
+
+def two(first, second, tool, **given):
+    """Two pockets as one contour."""
+    text = polygon_program(first, (second,), **{"Q18": 2, "Q19": 90} | given)
+    labels = text[text.index("LBL 2") :].replace(" RR", " RL")
+    run = mnclab.run(text[: text.index("LBL 2")] + labels, "tnc-620", Setup(tools={1: tool, 2: Tool(radius=10)}))
+    return run, of(run, "CYCL DEF 22")
+
+
+def test_fine_roughing_from_above_goes_to_and_fro():
+    """Into the second pocket, where the coarse tool has not been; no helix (8.6)."""
+    run, path = two(*APART, Tool(radius=4, plunge_angle=5, cutting_length=3), Q10=3)
+    assert run.ok and not run.alarms
+    inside = path[path.end[:, 0] > 80]
+    slopes = inside[(inside.start[:, 2] > inside.end[:, 2]) & (np.hypot(*(inside.end - inside.start)[:, :2].T) > 0)]
+    lengths, drops = np.hypot(*(slopes.end - slopes.start)[:, :2].T), (slopes.start - slopes.end)[:, 2]
+    assert drops.sum() == pytest.approx(10) and (slopes.kind == Kind.LINE).all()
+    assert (drops <= lengths * np.tan(np.radians(5)) + 1e-9).all() and lengths.max() <= 3 / np.tan(np.radians(5)) + 1e-9
+    assert Polygon(APART[1]).buffer(-4, 128).buffer(4, 128).difference(at_depth(inside, -10, 4).buffer(1e-3)).area < 1e-3
+
+
+def test_fine_roughing_from_above_needs_the_tool_table():
+    run, _ = two(*APART, Tool(radius=4, plunge_angle=5))
+    assert [alarm.message.startswith("CYCL DEF 22: where a helix has no room") for alarm in run.alarms] == [True]
+    run, _ = two(*APART, Tool(radius=4, cutting_length=20))
+    assert "Q19 (feed rate for reciprocation) needs the plunge angle (ANGLE)" in run.alarms[0].message
+    run, path = two(*APART, Tool(radius=4), Q19=0)
+    down = path[(path.end[:, 0] > 80) & (path.end[:, 2] < path.start[:, 2]) & (path.kind == Kind.LINE)]
+    assert run.ok and set(down.feed) == {100} and (down.start[:, :2] == down.end[:, :2]).all()  # Q19 = 0: always straight
+
+
+@pytest.mark.parametrize("coarse", [4, 3])
+def test_a_coarse_tool_that_left_nothing(coarse):
+    run, path = fine(BOX, SMALL, coarse)
+    (warning,) = run.alarms
+    assert run.ok and not len(path)
+    assert warning.message == (
+        "CYCL DEF 22 has nothing to cut: the coarse tool of Q18 has reached all that this one reaches"
+    )
+
+
+def test_the_coarse_tool_by_name():
+    text = polygon_program(BEHIND, Q18=2, Q19=90).replace("Q18=+2", 'QS18="coarse"')
+    run = mnclab.run(text, "tnc-620", Setup(tools={1: SMALL, 2: Tool(radius=10, name="Coarse")}))
+    by_name, by_number = of(run, "CYCL DEF 22"), fine(BEHIND, SMALL)[1]
+    assert run.ok and len(by_number) == len(by_name) and np.array_equal(by_number.end, by_name.end)
 
 
 # --- frames -------------------------------------------------------------------------------------------------------------

@@ -12,8 +12,6 @@ from collections.abc import Generator, Sequence
 from functools import reduce
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from mnclab.controls.tnc_620.contours.data import ContourData
 from mnclab.controls.tnc_620.contours.labels import Labels
 from mnclab.controls.tnc_620.contours.outlines import MOST_ELEMENTS, doubt, enclosed, fault, level
@@ -98,13 +96,10 @@ def joined(shapes: Sequence[Shape]) -> Region:
 
 
 def one_side(m: Machine, recording: Recording, what: str) -> int:
-    """The side of the compensation, +1 left, -1 right; an Alarm without one or where it changes."""
+    """The side of the compensation, +1 left, -1 right; an Alarm without one."""
     if not recording.side:
         message = f"the contour of {what} has no RL or RR: pocket or island cannot be told apart"
         fault(m, recording.step, message)
-    other = recording.path.side * recording.side < 0
-    if other.any():
-        fault(m, int(recording.path.step[np.argmax(other)]), f"the contour of {what} has RL and RR: one side counts")
     return recording.side
 
 

@@ -19,7 +19,7 @@ from mnclab.machining.milling.floor_finishing import Descent, finish_floor, floo
 from mnclab.machining.steps import Say, Step
 
 CYCLES = CycleTable()
-OVER_ALLOWANCE = 1.0  # mm, how far above the allowance the arc to the floor begins, where the tool is not smaller
+OVER_ALLOWANCE = 1.0  # mm on the machine, how far above the allowance the arc to the floor begins with a tool not smaller
 
 
 @CYCLES("CYCL DEF 23", "Floor finishing", source="8.7")
@@ -54,7 +54,7 @@ class FloorFinishing(Cycle):
         except ValueError as error:
             m.alarm(f"{self.code}: {error}{remark(m)}", hint="take a smaller tool")
         arcs = abs(depth_scale(m) - plane_scale(m)) < SAME  # else they would be ellipses
-        arc = min(data.floor_allowance + OVER_ALLOWANCE, m.radius) if arcs else 0.0
+        arc = min(data.floor_allowance + OVER_ALLOWANCE / m.scale, m.radius) if arcs else 0.0
         down = Descent(data.height, data.above, max(arc, 0.0), -data.down, self.plunge_feed)
         for name, floor in zip(numbered("floor", len(floors)), floors, strict=True):
             if not floor.clearing.pieces:

@@ -9,6 +9,8 @@ from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
 from mnclab.path.tool import Tool
 
+LONGEST = 16  # characters of a name
+
 
 def named_tool(m: Machine, tool: float | str) -> Tool | None:
     """The tool of a number (5.1 is a row of its own), or of a name whatever its case; None where the table has none."""
@@ -19,8 +21,13 @@ def named_tool(m: Machine, tool: float | str) -> Tool | None:
 
 
 def in_table(c: Cycle, m: Machine, name: str) -> Iterator[Fault]:
-    """A tool that the table does not have."""
-    tool: float | str = getattr(c, name)
-    if named_tool(m, tool) is None:
-        written = f'"{tool}"' if isinstance(tool, str) else f"{tool:g}"
+    """A tool that the table does not have, or one that cuts nothing."""
+    given: float | str = getattr(c, name)
+    written = f'"{given}"' if isinstance(given, str) else f"{given:g}"
+    tool = named_tool(m, given)
+    if isinstance(given, str) and len(given) > LONGEST:
+        yield name, f"must have at most {LONGEST} characters, got {len(given)}"
+    elif tool is None:
         yield name, f"names tool {written}, which has no row in the tool table"
+    elif tool.effective_radius <= 0:
+        yield name, f"names tool {written}, which has no radius"

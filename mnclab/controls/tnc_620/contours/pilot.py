@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from mnclab.controls.tnc_620.contours.area import contour_terraces
 from mnclab.controls.tnc_620.contours.data import contour_data, prepared
 from mnclab.controls.tnc_620.contours.leaving import leave
-from mnclab.controls.tnc_620.contours.other_tool import named, row_of
+from mnclab.controls.tnc_620.contours.other_tools import in_table, named_tool
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, count, increment
-from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero
+from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.obsolete_holes import advanced_stop
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.machine.cycle import Cycle, CycleTable
@@ -39,12 +39,15 @@ class PilotDrilling(Cycle):
         if self.infeed == 0:
             yield "infeed", "must not be 0"
         yield from not_zero(self, "feed", purpose="to drill with")
-        yield from named(m, "rough_tool", self.rough_tool)
+        if self.rough_tool:
+            yield from in_table(self, m, "rough_tool")
+        else:
+            yield from with_radius(m)
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """A delta of TOOL CALL does not count for the places (8.5)."""
-        data, before, tool = contour_data(m), m.programmed, row_of(m, self.rough_tool)
-        assert tool is not None
+        data, before = contour_data(m), m.programmed
+        tool = named_tool(m, self.rough_tool or m.tool.number) or m.tool
         radius, height = tool.effective_radius / m.scale, max(data.height, before[2])
         found = yield from contour_terraces(m, data)
         try:

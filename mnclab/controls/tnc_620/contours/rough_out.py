@@ -5,23 +5,25 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import partial
+from typing import Any
 
 from mnclab.controls.tnc_620.contours.area import contour_terraces
 from mnclab.controls.tnc_620.contours.data import ContourData, contour_data, prepared
 from mnclab.controls.tnc_620.contours.leaving import leave
+from mnclab.controls.tnc_620.contours.other_tools import in_table, named_tool
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, count, increment, ratio
-from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
+from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates, rate
 from mnclab.geometry.regions import Region
-from mnclab.machine.cycle import Cycle, CycleTable
+from mnclab.machine.cycle import Cycle, CycleTable, few_passes
 from mnclab.machine.machine import INF, Machine
 from mnclab.machine.true_size import MILLS, remark, tool
 from mnclab.machining.milling import roughing
-from mnclab.machining.milling.clearing import Clearing
 from mnclab.machining.milling.residue import left_by
+from mnclab.machining.milling.rest import rest, rest_passes
 from mnclab.machining.milling.rings import rings
-from mnclab.machining.milling.roughing import Feeds, Heights
+from mnclab.machining.milling.roughing import Cut, Feeds, Heights
 from mnclab.machining.milling.terraces import levels
 from mnclab.machining.steps import Say, Step, Write
 
@@ -39,7 +41,7 @@ class RoughOut(Cycle):
     infeed: float = increment("Q10", "infeed per cut", example=5)
     plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=150)
     feed: float = addresses.feed("Q12", "feed rate for roughing", also=addresses.PLANE, at_most=FAR, example=500)
-    coarse_tool: float = count(("Q18", "QS18"), "coarse roughing tool", type="text", default=0)
+    coarse_tool: float | str = count(("Q18", "QS18"), "coarse roughing tool", type="text", default=0, note="0: none")
     swing_feed: float = addresses.feed("Q19", "feed rate for reciprocation", also=addresses.PLANE, at_most=FAR, example=0)
     retract_feed: float | str = addresses.retract_feed(at_most=None, default=INF, default_means="FMAX", note="", example=None)
     factor: float = ratio("Q401", "feed rate factor at full engagement", at_most=100, default=100)
@@ -54,7 +56,7 @@ class RoughOut(Cycle):
         if isinstance(self.retract_feed, float) and FAR < self.retract_feed < INF:
             yield "retract_feed", f"must be at most {FAR:.10g} or FMAX, got {self.retract_feed:g}"
         if self.coarse_tool:
-            yield "coarse_tool", "other than 0, fine roughing, is not built yet"
+            yield from in_table(self, m, "coarse_tool")
         if self.swing_feed and not LEAST_ANGLE <= m.tool.plunge_angle <= 90:
             angle = f"the plunge angle (ANGLE) of tool {m.tool.number} in its table, {LEAST_ANGLE:g} to 90 degrees"
             yield "swing_feed", f"needs {angle}, got {m.tool.plunge_angle:g}"
@@ -63,15 +65,20 @@ class RoughOut(Cycle):
         data, before, plunge = contour_data(m), m.programmed, self.swing_feed or self.plunge_feed
         yield Write("memory", m.tool, "rough_out_tool")
         found = yield from contour_terraces(m, data)
-        clearings = [clearing(self, m, data, terrace.region) for terrace in found]
+        cuts = [cut(self, m, data, terrace.region) for terrace in found]
         if data.overlap > 1:
-            for terrace in found:
-                yield from residue(m, terrace.region, data)
+            for each in cuts:
+                yield from residue(m, data, each)
+        if not any(each.clearing.pieces for each in cuts):
+            yield Say("has nothing to cut: the coarse tool of Q18 has reached all that this one reaches")
+            return
         heights = Heights(data.height, data.surface, data.above, data.down)
         feeds = Feeds(plunge, self.feed, self.feed * self.factor / 100)
         at = levels(found, data.surface, data.down, abs(self.infeed), data.floor_allowance)
+        for _, sentence in few_passes("infeed", len(at), max(len(each.clearing.passes) for each in cuts)):
+            m.alarm(f"{self.code} Q10={self.infeed:.10g} {sentence}")
         try:
-            yield from roughing.rough_out(clearings, at, heights, feeds, self.way_down(m, data))
+            yield from roughing.rough_out(cuts, at, heights, feeds, self.way_down(m, data))
         except ValueError as error:
             m.alarm(f"{self.code}: {error}{remark(m)}", hint=f"LCUTS of tool {m.tool.number} in the tool table")
         yield from leave(m, before, data.height, rate(self.retract_feed, self.feed))
@@ -83,25 +90,33 @@ class RoughOut(Cycle):
             return roughing.straight_down
         stroke = mill.cutting_length / math.tan(math.radians(mill.plunge_angle))
         return partial(
-            roughing.sloping_down, radius=m.radius, angle=mill.plunge_angle, stroke=stroke, climb=data.climb(m)
-        )
-
-
-def clearing(c: Cycle, m: Machine, data: ContourData, region: Region) -> Clearing:
-    """The rings that clear an area up to the allowance for side; an Alarm where the tool does not fit."""
-    try:
-        return rings(
-            region, m.radius, data.overlap * m.radius, allowance=data.side_allowance, climb=data.climb(m),
-            corner_radius=data.corner, roomiest_first=True,
+            roughing.sloping_down, radius=m.radius, angle=mill.plunge_angle, stroke=stroke, climb=data.climb(m),
+            helical=not self.coarse_tool,
         )  # fmt: skip
+
+    def coarse_radius(self, m: Machine) -> float:
+        """That of the coarse tool in lengths of the program, without its wear (8.6); 0 without one."""
+        coarse = named_tool(m, self.coarse_tool) if self.coarse_tool else None
+        return coarse.radius / m.scale if coarse else 0.0
+
+
+def cut(c: RoughOut, m: Machine, data: ContourData, region: Region) -> Cut:
+    """The passes that clear an area up to the allowance for side, or what a coarse tool left of it; an Alarm without room."""
+    radius, stepover, coarse = m.radius, data.overlap * m.radius, c.coarse_radius(m)
+    walls: dict[str, Any] = {"allowance": data.side_allowance, "climb": data.climb(m), "corner_radius": data.corner}
+    try:
+        if not coarse:
+            return Cut(rings(region, radius, stepover, **walls, roomiest_first=True))
+        along = c.fine_strategy == 0 and radius >= coarse / 2 - SAME
+        left = rest(region, radius, coarse, data.side_allowance, corner_radius=data.corner)
+        return Cut(rest_passes(region, radius, stepover, coarse, **walls, connect=along), left)
     except ValueError as error:
         m.alarm(f"{c.code}: {error}{remark(m)}", hint="take a smaller tool")
 
 
-def residue(m: Machine, region: Region, data: ContourData) -> Iterator[Say]:
-    """A warning where rings more than a radius apart do not meet in sharp corners."""
-    stepover = data.overlap * m.radius
-    area = left_by(rings(region, m.radius, stepover, allowance=data.side_allowance)) * m.scale**2
+def residue(m: Machine, data: ContourData, cut: Cut) -> Iterator[Say]:
+    """A warning where passes more than a radius apart do not meet in sharp corners."""
+    area = left_by(cut.clearing, cut.material) * m.scale**2
     if area >= 0.001:
-        sentence = f"leaves {area:.3f} mm² of each level uncut, where the rings turn sharply"
+        sentence = f"leaves {area:.3f} mm² of each level uncut, where the passes turn sharply"
         yield Say(f"Q2={data.overlap:.10g} {sentence}", "Q2=1 leaves nothing")

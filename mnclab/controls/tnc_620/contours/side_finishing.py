@@ -21,7 +21,7 @@ from mnclab.machining.milling.terraces import Terrace, levels
 from mnclab.machining.steps import Say, Step
 
 CYCLES = CycleTable()
-OVER_ALLOWANCE = 0.5  # mm, how much wider than the allowance the arcs to the wall are
+OVER_ALLOWANCE = 0.5  # mm on the machine, how much wider than the allowance the arcs to the wall are
 SHARE = 25  # of the set-up clearance: where the helices of the last infeed begin
 
 
@@ -56,6 +56,8 @@ class SideFinishing(Cycle):
 
     def rough_radius(self, m: Machine) -> float:
         """The radius of the rough-out tool in lengths of the program, 0 without one."""
+        if self.rough_out_tool == 0:
+            return 0.0
         kept = memory(m).rough_out_tool or memory(m).tool_before
         tool = kept if self.rough_out_tool == -1 else named_tool(m, self.rough_out_tool)
         return tool.effective_radius / m.scale if tool else 0.0
@@ -82,7 +84,7 @@ def walls_of(c: SideFinishing, m: Machine, data: ContourData, terrace: Terrace) 
     try:
         return wall_loops(
             terrace.region, m.radius, allowance=c.side_allowance, corner_radius=data.corner,
-            climb=c.sense * m.orientation > 0, lead=max(m.radius / 2, taken + OVER_ALLOWANCE), least=max(taken, 0.0),
+            climb=c.sense * m.orientation > 0, lead=max(m.radius / 2, taken + OVER_ALLOWANCE / m.scale), least=max(taken, 0.0),
             solid=terrace.solid,
         )  # fmt: skip
     except ValueError as error:

@@ -42,6 +42,8 @@ def place(m: Machine, kind: str) -> str:
 
 def define(m: Machine, kind: str, matrix: Matrix | None) -> Iterator[Write]:
     """Set the frame of a kind where it belongs, None for a neutral one; the register is read anew from where the tip stands."""
+    if memory(m).developed is not None:
+        m.alarm("the contour of a cylinder takes no transformation")
     name = place(m, kind)
     if name == kind and kind + ALSO in m.frames:  # one value stands for both
         yield Write("frame", None, kind + ALSO)

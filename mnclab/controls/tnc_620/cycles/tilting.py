@@ -94,10 +94,10 @@ class WorkingPlane(Cycle):
         yield Write("memory", {axis.lower(): angle for axis, angle in self.angles.items()}, "tilt_angles")
         yield Write("frame", self.matrix(m), chain.TILT)
         to = self.positions(m)
-        for axis, name in RESULTS.items():
-            yield Write("variable", round(math.degrees(to[axis]), 12), name)
+        yield from results(to)
         if self.rotary_feed is not None:
-            yield from self.position(m, to)
+            assert self.set_up_clearance is not None
+            yield from position(m, to, self.rotary_feed, self.set_up_clearance)
 
     def matrix(self, m: Machine) -> Matrix:
         """The tilted system in the untilted one."""
@@ -111,20 +111,33 @@ class WorkingPlane(Cycle):
         now, pair = dict(zip(AXES, m.rotary, strict=True)), m.settings["rotary_axes"]
         if m.settings["tilt_angles"] == "axes":
             return now | {axis: math.radians(angle) for axis, angle in self.angles.items() if axis in pair}
-        tool_axis = (m.frames.before(chain.TILT) @ m.frames[chain.TILT])[:3, 2]
-        return now | tilting.nearest(tilting.positions(pair, tool_axis, now), now)
+        return axis_positions(m)
 
-    def position(self, m: Machine, to: Mapping[str, float]) -> Iterator[Step]:
-        """Turn the axes together; the point ABST below the tip stands still, so the tip goes round it."""
-        assert self.rotary_feed is not None and self.set_up_clearance is not None
-        pair = m.settings["rotary_axes"]
-        now = dict(zip(AXES, m.rotary, strict=True))
-        travel = self.set_up_clearance * (tilting.direction(pair, to) - tilting.direction(pair, now))
-        way = math.degrees(max(abs(to[axis] - now[axis]) for axis in AXES))
-        a, b, c = (math.degrees(to[axis]) for axis in AXES)
-        if length := way and math.hypot(*travel):
-            yield Write("rotary", tuple(map(math.radians, (a, b, c))))
-            x, y, z = m.to_program(p + d for p, d in zip(m.tip, travel, strict=True))
-            yield Go("tilt", z, length * self.rotary_feed / way, x, y)
-        elif way:
-            yield Swivel("tilt", (a, b, c), self.rotary_feed)
+
+def axis_positions(m: Machine) -> dict[str, float]:
+    """Where A, B and C must stand, rad, for the tool to lie along Z of the tilted system."""
+    now, pair = dict(zip(AXES, m.rotary, strict=True)), m.settings["rotary_axes"]
+    tool_axis = (m.frames.before(chain.TILT) @ m.frames[chain.TILT])[:3, 2]
+    return now | tilting.nearest(tilting.positions(pair, tool_axis, now), now)
+
+
+def results(to: Mapping[str, float]) -> Iterator[Write]:
+    """Positions (rad) as the parameters that hold them, degrees."""
+    for axis, name in RESULTS.items():
+        yield Write("variable", round(math.degrees(to[axis]), 12), name)
+
+
+def position(m: Machine, to: Mapping[str, float], rotary_feed: float, distance: float) -> Iterator[Step]:
+    """Turn the axes together, at degrees a minute; the point at a `distance` below the tip stands still, so the tip goes
+    round it."""
+    pair = m.settings["rotary_axes"]
+    now = dict(zip(AXES, m.rotary, strict=True))
+    travel = distance * (tilting.direction(pair, to) - tilting.direction(pair, now))
+    way = math.degrees(max(abs(to[axis] - now[axis]) for axis in AXES))
+    a, b, c = (math.degrees(to[axis]) for axis in AXES)
+    if length := way and math.hypot(*travel):
+        yield Write("rotary", tuple(map(math.radians, (a, b, c))))
+        x, y, z = m.to_program(p + d for p, d in zip(m.tip, travel, strict=True))
+        yield Go("tilt", z, length * rotary_feed / way, x, y)
+    elif way:
+        yield Swivel("tilt", (a, b, c), rotary_feed)

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.controls.tnc_620.language.checks import above_zero
+from mnclab.controls.tnc_620.language.checks import above_zero, refuse_on_cylinder
 from mnclab.controls.tnc_620.language.motion import (
     SIDED,
     SIDES,
@@ -130,6 +130,7 @@ def departure(m: Machine, words: Words) -> None:
 
     G00 of DIN/ISO programs: the line behind the arc is at rapid.
     """
+    refuse_on_cylinder(m, words)
     f, lead = feed(m, words), shape(m, words)._replace(departs=True)
     if "G00" in words:
         lead = lead._replace(feed=INF)

@@ -24,9 +24,9 @@ def one_of(m: Machine, words: Words, addresses: Iterable[str], allowed: str) -> 
     return given[0] if given else None
 
 
-def counted(m: Machine, word: Word, before: float) -> float:
-    """The value of a word; an incremental one counts from `before`."""
-    value = m.value(word)
+def counted(m: Machine, word: Word, before: float, unit: float = 1.0) -> float:
+    """The value of a word, which is told in units of so many mm; an incremental one counts from `before`."""
+    value = m.value(word) * unit
     return before + value if word.incremental else value
 
 
@@ -57,3 +57,9 @@ def warn_once(m: Machine, message: str, word: Word | None = None, hint: str = ""
     if message not in memory(m).told:
         memory(m).told |= {message}
         m.warn(message, word, hint)
+
+
+def refuse_on_cylinder(m: Machine, words: Words) -> None:
+    """An alarm where the contour of a cylinder is read, which has elements of its own (9.2)."""
+    if memory(m).developed is not None:
+        m.alarm(f"{words.code} cannot stand in the contour of a cylinder", first(words), "L, CHF, RND, CR and CT can")

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple, NoReturn
 import numpy as np
 
 from mnclab.controls.tnc_620.language.blank import body
-from mnclab.controls.tnc_620.language.checks import counted, first
+from mnclab.controls.tnc_620.language.checks import counted, first, refuse_on_cylinder
 from mnclab.controls.tnc_620.language.free_words import describe
 from mnclab.controls.tnc_620.language.motion import SIDED, TOLERANCE, feed, refuse_rapid, side
 from mnclab.controls.tnc_620.language.tool_axis import refuse_other
@@ -231,6 +231,7 @@ def _heading(m: Machine) -> float | None:
 @FUNCTIONS("FL FLT", LINES, takes=LINE, collects=True, source="8.13, example")
 def free_element(m: Machine, words: Words) -> None:
     """A line or an arc told by what is known of it; FLT and FCT join the element before tangentially."""
+    refuse_on_cylinder(m, words)
     refuse_other(m, words.code)
     own = feed(m, words)
     if words.code in ("FC", "FCT"):

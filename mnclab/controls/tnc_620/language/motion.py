@@ -7,7 +7,7 @@ from typing import Any
 
 from mnclab.controls.tnc_620.cycles.chain import to_angle, to_rotary
 from mnclab.controls.tnc_620.language import secondary_axes
-from mnclab.controls.tnc_620.language.checks import counted, one_of
+from mnclab.controls.tnc_620.language.checks import counted, one_of, refuse_on_cylinder
 from mnclab.controls.tnc_620.language.feeds import FEED_WORDS, feed
 from mnclab.controls.tnc_620.language.machine_datum import machine_target
 from mnclab.controls.tnc_620.language.pole import angle_here, plane_of, polar_point, pole, within_plane
@@ -29,15 +29,23 @@ SIDES = {"R0": 0, "RL": 1, "RR": -1}
 FEED_NEEDED = "write F or FMAX; with the setting feed_needed = False such a move is at rapid, with a warning"
 SIDED = f"R0 RL RR {FEED_WORDS}"
 SAME = 1e-9  # rad: an end at the angle of the start is a whole turn
+ON_CYLINDERS = ("L", "CR", "CT")  # 9.2; with RND and CHF
 TOLERANCE = 0.016  # mm between the radii at start and end of an arc (catalogue: C)
 
 
 def coordinates(m: Machine, words: Words, axes: str = AXES) -> dict[str, Any]:
-    """Targets of the axes that are written, as arguments of a verb (`x=`, …); IX counts from the register."""
+    """Targets of the axes that are written, as arguments of a verb (`x=`, …); IX counts from the register.
+
+    X of the contour of a cylinder may be in degrees: it is mm from here on.
+    """
+    unit = memory(m).developed
+    if unit is not None and words.code not in ON_CYLINDERS:
+        refuse_on_cylinder(m, words)
     written = {k: words[axis] for k, axis in enumerate(AXES) if axis in axes and axis in words}
     if (active := memory(m).machine_datum) is not None:
+        refuse_on_cylinder(m, words)
         return machine_target(m, active, written)
-    return {"xyz"[k]: counted(m, word, m.programmed[k]) for k, word in written.items()}
+    return {"xyz"[k]: counted(m, word, m.programmed[k], unit if unit and not k else 1.0) for k, word in written.items()}
 
 
 def side(m: Machine, words: Words, begins: bool) -> None:
@@ -66,6 +74,8 @@ def line(m: Machine, words: Words) -> None:
     turns = [words[axis] for axis in AXES_OF_ROTATION if axis in words]
     if turns and (turned := rotary_angles(m, words)) != angles(m):
         refuse_rotary(m, turns[0])
+        if memory(m).developed is not None:
+            m.alarm(f"{turns[0]}: the contour of a cylinder has X and Y alone, X for the rotary axis", turns[0])
         target = m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z")))
         if math.dist(target, m.tip) <= 1e-9:  # a frame rounds
             turn_axes(m, turned, f)

@@ -1,15 +1,27 @@
-"""PLANE RESET, and PLANE SPATIAL as far as it tilts nothing: the plane is that of X and Y again."""
+"""PLANE SPATIAL, the working plane tilted by spatial angles, and PLANE RESET: what cycle 19 does, and how the rotary axes follow.
+
+Without the kinematics of a machine TURN leaves the tip where it is on the workpiece, as rotary axes of L do.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Mapping
 
-from mnclab.controls.tnc_620.cycles.tilting import RESULTS, WorkingPlane
-from mnclab.controls.tnc_620.language.checks import one_of
+from mnclab.controls.tnc_620.cycles.chain import TILT
+from mnclab.controls.tnc_620.cycles.tilting import WorkingPlane, axis_positions, position, results
+from mnclab.controls.tnc_620.language.checks import above_zero, not_negative, one_of
+from mnclab.controls.tnc_620.language.feeds import auto_feed
+from mnclab.controls.tnc_620.language.retraction import retract
+from mnclab.controls.tnc_620.language.rotary_rules import refuse_rotary
+from mnclab.controls.tnc_620.language.tool_axis import refuse_other
+from mnclab.geometry import tilting
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.machine import Machine
+from mnclab.machine.machine import INF, Machine
+from mnclab.machine.rotary import STILL
 from mnclab.machining.steps import Step, Write
 from mnclab.running.performing import perform
+from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
 WORDS = {
@@ -21,42 +33,89 @@ WORDS = {
 ANGLES = ("SPA", "SPB", "SPC")
 HOW = "STAY MOVE TURN MB ABST DIST F FMAX FAUTO"
 SOURCE = "Klartext, not described"
+ORIGIN = (0.0, 0.0)  # steps count in coordinates of the program
 
 
 @FUNCTIONS("PLANE RESET,", "End of a tilted plane", takes=HOW, source=SOURCE)
 def plane_reset(m: Machine, words: Words) -> None:
-    """Cycle 19 is over; with STAY the rotary axes stay, MOVE and TURN have nothing to do where they stand at 0."""
-    untilt(m, words)
+    """Cycle 19 and PLANE SPATIAL are over; with MOVE and TURN the tool turns to Z, with STAY the rotary axes stay."""
+    how = behaviour(m, words)
+    perform(m, words.code, WorkingPlane().moves(m), ORIGIN)
+    turn(m, words, how)
 
 
 @FUNCTIONS("PLANE SPATIAL,", "Tilted plane by spatial angles", takes=f"SPA SPB SPC SEQ TABLE COORD {HOW}", source=SOURCE)
 def plane_spatial(m: Machine, words: Words) -> None:
-    """With three angles of 0 it tilts nothing, and Q120 to Q122 say so; the others are not built."""
+    """Tilts the plane about the active datum by turns about the fixed axes X, then Y, then Z, as cycle 19 does, and writes
+    where the rotary axes must stand into Q120 to Q122; three angles of 0 end the tilt."""
     for address in ANGLES:
         if address not in words:
             m.alarm(f"PLANE SPATIAL needs {address} ({WORDS[address]})")
-        if angle := m.value(words[address]):
-            what = f"PLANE SPATIAL {address}{angle:+g} tilts the plane, which is not built yet"
-            m.alarm(what, words[address], "CYCL DEF 19 tilts it")
-    untilt(m, words)
-    perform(m, words.code, at_zero())
+    degrees = {axis: m.value(words[address]) for axis, address in zip("abc", ANGLES, strict=True)}
+    for address in ANGLES:
+        if abs(angle := m.value(words[address])) > 360:
+            m.alarm(f"PLANE SPATIAL {address} ({WORDS[address]}) must be from -360 to 360, got {angle:g}", words[address])
+    tilts = any(degrees.values())
+    if tilts:
+        refuse_other(m, words.code)
+        for address in ("SEQ", "TABLE", "COORD"):
+            if address in words:
+                m.alarm(f"PLANE SPATIAL {address} ({WORDS[address]}) is not built yet where it tilts", words[address])
+    how = behaviour(m, words)
+    perform(m, words.code, tilt(m, degrees) if tilts else untilt(m), ORIGIN)
+    turn(m, words, how)
 
 
-def at_zero() -> Iterator[Step]:
-    for name in RESULTS.values():
-        yield Write("variable", 0.0, name)
+def tilt(m: Machine, degrees: Mapping[str, float]) -> Iterator[Step]:
+    """The tilted system, and where the rotary axes must stand for it."""
+    yield Write("memory", degrees, "tilt_angles")
+    yield Write("frame", tilting.spatial(*map(math.radians, degrees.values())), TILT)
+    yield from results(axis_positions(m))
 
 
-def untilt(m: Machine, words: Words) -> None:
+def untilt(m: Machine) -> Iterator[Step]:
+    yield from WorkingPlane().moves(m)
+    yield from results(dict.fromkeys("ABC", 0.0))
+
+
+def behaviour(m: Machine, words: Words) -> Word:
+    """STAY, MOVE or TURN; with MB the tool retracts, before anything turns."""
     how = one_of(m, words, ("STAY", "MOVE", "TURN"), "one of STAY, MOVE, TURN")
     if how is None:
         m.alarm(f"{words.code} needs STAY, MOVE or TURN", hint="with STAY no axis moves")
     if how.value is not None:
         m.alarm(f"{words.code} {how.address} takes no number", how)
-    if "MB" in words:
-        m.alarm(f"{words.code} MB (retraction before the axes turn) is not built yet", words["MB"])
-    if how.address != "STAY" and any(m.rotary):
-        m.alarm(f"{words.code} {how.address} is not built yet where rotary axes have turned", how, f"{words.code} STAY is")
     if m.side:
         m.alarm(f"{words.code} cannot change the plane under radius compensation", how, "write R0 before")
-    perform(m, words.code, WorkingPlane().moves(m))
+    if (far := words.get("MB")) is not None:
+        if how.address == "STAY":
+            m.alarm(f"{words.code} MB (retraction before the axes turn) needs MOVE or TURN: with STAY no axis moves", far)
+        if TILT in m.frames and far.value is None:
+            m.alarm(f"{words.code} MB MAX in a tilted plane is not built yet", far, "with a distance, MB50, it is")
+        if TILT in m.frames:
+            m.line(z=m.programmed[2] + not_negative(m, far, f"{words.code} MB (distance of the retraction)"), f=INF)
+        else:
+            retract(m, words.code, far, INF)
+    return how
+
+
+def turn(m: Machine, words: Words, how: Word) -> None:
+    """With TURN the rotary axes move alone; with MOVE the point ABST below the tip stands still, without ABST the tip."""
+    if how.address == "STAY":
+        return
+    below = next((words[address] for address in ("ABST", "DIST") if address in words), None)
+    distance = not_negative(m, below, f"{words.code} {below.address} ({WORDS['ABST']})") if below is not None else 0.0
+    if below is not None and how.address == "TURN" and distance:
+        m.alarm(f"{words.code} {below.address} ({WORDS['ABST']}) is for MOVE: with TURN the axes move alone", below)
+    to = axis_positions(m)
+    if all(abs(angle - m.rotary[k]) < STILL for k, angle in enumerate(to.values())):
+        return
+    refuse_rotary(m, how)
+    word = one_of(m, words, ("F", "FMAX", "FAUTO"), "one feed")
+    if word is None:
+        rate = m.feed_of(None)
+    elif word.address == "FMAX":
+        rate = INF
+    else:
+        rate = auto_feed(m, word) if word.address == "FAUTO" else above_zero(m, word, f"{words.code} F (feed rate)")
+    perform(m, words.code, position(m, to, rate, distance), ORIGIN)

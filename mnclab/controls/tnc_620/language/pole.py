@@ -11,7 +11,7 @@ import math
 from contextlib import AbstractContextManager
 from typing import Any
 
-from mnclab.controls.tnc_620.language.checks import counted
+from mnclab.controls.tnc_620.language.checks import counted, refuse_on_cylinder
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
@@ -55,6 +55,7 @@ def centre(m: Machine, words: Words) -> None:
 
     X and Z, or Y and Z, make a centre in the plane ZX or YZ.
     """
+    refuse_on_cylinder(m, words)
     plane = plane_of(m, words)
     here = ((axis, m.programmed[AXES.index(axis)]) for axis in axes_of(plane))
     u, v = (counted(m, words[axis], at) if axis in words else at for axis, at in here)
@@ -67,6 +68,7 @@ def centre(m: Machine, words: Words) -> None:
 
 def pole(m: Machine, words: Words, meaning: str = "pole") -> tuple[str, tuple[float, float]]:
     """The plane of the pole and the pole in it."""
+    refuse_on_cylinder(m, words)
     if m.pole is None:
         m.alarm(f"{words.code} needs a {meaning}: no CC was programmed", hint="write CC X… Y… before it")
     plane = memory(m).pole_plane

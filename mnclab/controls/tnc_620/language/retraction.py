@@ -37,22 +37,27 @@ def retraction(m: Machine, words: Words) -> None:
         m.alarm("M140 needs MB and a distance, or MB MAX", words.words[0], "for example M140 MB MAX or M140 MB 50")
     if TILT in m.frames:
         m.alarm("M140 in a tilted plane is not built yet", words.words[0])
+    if word.address == DISTANCE and word.value is None:
+        m.alarm("M140 MB needs a number, or MAX", word)
+    if word.address == FAR and word.value is not None:
+        m.alarm("M140 MB MAX takes no number", word)
+    retract(m, "M140", word, own_feed(m, words))
+
+
+def retract(m: Machine, code: str, word: Word, f: float) -> None:
+    """Along the tool axis by the number of a word, or without one to the end of the travel; the plane is not tilted."""
     k, target = PLANES[m.plane][2], list(m.tip)
-    if word.address == DISTANCE:
-        if word.value is None:
-            m.alarm("M140 MB needs a number, or MAX", word)
-        target[k] += not_negative(m, word, "M140 MB (distance of the retraction)")
+    if word.value is not None:
+        target[k] += not_negative(m, word, f"{code} MB (distance of the retraction)")
     else:
-        if word.value is not None:
-            m.alarm("M140 MB MAX takes no number", word)
-        target[k] = end_of_travel(m, k, word) - above_tip(m)[k]
+        target[k] = end_of_travel(m, code, k, word) - above_tip(m)[k]
         if target[k] < m.tip[k] - 1e-6:
-            m.alarm(f"M140 MB MAX leads up alone: the tool stands {m.tip[k] - target[k]:g} mm above the end already", word)
+            m.alarm(f"{code} MB MAX leads up alone: the tool stands {m.tip[k] - target[k]:g} mm above the end already", word)
     x, y, z = m.to_program(target)
-    m.line(x, y, z, f=own_feed(m, words))
+    m.line(x, y, z, f=f)
 
 
-def end_of_travel(m: Machine, axis: int, word: Word) -> float:
+def end_of_travel(m: Machine, code: str, axis: int, word: Word) -> float:
     """The machine coordinate of the spindle reference where an axis ends: of the limits, else that of the setting."""
     travel = m.setup.limits.travel
     if travel is not None and math.isfinite(travel[axis][1]):
@@ -60,7 +65,7 @@ def end_of_travel(m: Machine, axis: int, word: Word) -> float:
     end: float = m.settings["retract_to"]
     if "retract_to" not in m.setup.settings:
         hint = "Setup(limits=mnclab.Limits(travel=…)) or the setting retract_to says where the axis ends"
-        warn_once(m, f"M140 MB MAX leads to {'XYZ'[axis]}{end:g} of the machine", word, hint)
+        warn_once(m, f"{code} MB MAX leads to {'XYZ'[axis]}{end:g} of the machine", word, hint)
     return end
 
 

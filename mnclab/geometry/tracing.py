@@ -1,0 +1,240 @@
+"""Areas as fine polylines whose pieces know their lines and arcs, so that these are found again in what shapely makes of them.
+
+Every straight piece of a result lies on a piece of an operand, and each of those knows its curve:
+
+    operands, arcs and all  ──►  polylines, every piece tagged with its whole line or circle
+    shapely                 ──►  rings of straight pieces: their order is right, their corners are near
+    runs of pieces with one tag  ──►  one element on the exact curve
+    corners                 ──►  where neighbouring curves meet
+
+Equal circles are cut at equal places, so that boundaries which coincide do so exactly. Lengths in mm.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import chain
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.geometry import shapely
+from mnclab.geometry.contours import FULL_TURN, Contour, Floats, steps_within
+from mnclab.geometry.vectors import at_angle, cross, left, length_of, turned, unit_of
+from mnclab.geometry.whole_curves import Curve
+
+CHORD_ERROR = 2e-5  # mm, of the polylines: decides only what touches and what does not
+GRID = 1e-9  # mm, on which shapely rounds corners, so that nearly equal ones become equal
+SAME = 1e-7  # mm, below which places and radii count as equal
+SMOOTH = 1e-9  # rad, below which a corner is none
+
+
+@dataclass
+class Drawing:
+    """Contours as polylines whose pieces know their curves."""
+
+    contours: Sequence[Contour]
+    rings: list[Floats] = field(default_factory=list)  # (k, 2) each, not closed
+    tags: list[NDArray[np.intp]] = field(default_factory=list)  # (k,) each: which of the curves
+    curves: list[Curve] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        for contour in self.contours:
+            self.curves.extend(contour.curves)
+        label = iter(labels(self.curves).tolist())
+        elements = [list(zip(c.starts, c.ends, c.sweeps, label)) for c in self.contours]
+        arcs_on: dict[int, list[Floats]] = {}
+        for start, end, sweep, tag in chain(*elements):
+            if sweep:
+                arcs_on.setdefault(tag, []).extend([start, end])
+        for mine in elements:
+            pieces, tags = list[Floats](), list[int]()
+            for start, _, sweep, tag in mine:
+                circle = self.curves[tag]
+                between = _arc_points(circle, start, sweep, np.array(arcs_on[tag])) if sweep else np.zeros((0, 2))
+                pieces += [start[None], between]
+                tags += [tag] * (1 + len(between))
+            self.rings.append(np.vstack(pieces))
+            self.tags.append(np.array(tags))
+
+    def area(self, loops: Sequence[Contour], first: int) -> Any:
+        """Loops of a region, which stand in the drawing from `first` on, as a shapely area."""
+        pieces: list[tuple[Floats, list[Floats]]] = []
+        for loop, ring in zip(loops, self.rings[first:], strict=False):
+            if len(ring) < 3:
+                continue  # a circle smaller than what counts as equal
+            if loop.area > 0:
+                pieces.append((ring, []))
+            else:
+                pieces[-1][1].append(ring)
+        whole = shapely.MultiPolygon([shapely.Polygon(*piece) for piece in pieces])
+        return whole if whole.is_valid else shapely.union_all(_polygons(shapely.make_valid(whole)))
+
+    def traced(self, result: Any) -> tuple[Contour, ...]:
+        """The loops of a shapely result, with lines and arcs found again."""
+        starts = np.vstack([np.zeros((0, 2)), *self.rings])
+        ends = np.vstack([np.zeros((0, 2)), *(np.roll(ring, -1, axis=0) for ring in self.rings)])
+        return traced(result, starts, ends, np.concatenate([np.zeros(0, dtype=int), *self.tags]), self.curves)
+
+
+def polygons_of(loops: Sequence[Contour]) -> Any:
+    """The loops of a region as a shapely area of fine polylines, `CHORD_ERROR` mm from it."""
+    return Drawing(loops).area(loops, 0)
+
+
+def covered(contours: Sequence[Contour]) -> Any:
+    """What closed contours cover together, as a shapely area of such polylines."""
+    return shapely.union_all([shapely.Polygon(ring) for ring in Drawing(contours).rings if len(ring) > 2])
+
+
+def traced(
+    result: Any, starts: Floats, ends: Floats, tags: NDArray[np.intp], curves: Sequence[Curve]
+) -> tuple[Contour, ...]:
+    """The loops of a shapely area, with lines and arcs found again.
+
+    It was made of straight pieces from `starts` to `ends` (k, 2), each on one of the curves, which its tag names.
+    """
+    tree = shapely.STRtree(shapely.linestrings(np.stack([starts, ends], axis=1)))
+    loops: list[Contour] = []
+    for polygon in _polygons(result):
+        for ring, sense in [(polygon.exterior, 1.0), *((ring, -1.0) for ring in polygon.interiors)]:
+            corners = shapely.get_coordinates(ring)[:-1]
+            after = np.roll(corners, -1, axis=0)
+            middles, way = shapely.points((corners + after) / 2), after - corners
+            piece, source = tree.query(middles, predicate="dwithin", distance=10 * GRID)
+            skew = np.abs(cross(way[piece], unit_of(ends - starts)[source]))
+            order = np.lexsort((source, skew, piece))
+            piece, chosen = np.unique(piece[order], return_index=True)
+            tag = np.full(len(corners), -1)
+            tag[piece] = tags[source[order][chosen]]
+            loop = _found_again(corners, tag, curves)
+            if loop is not None:
+                loops.append(loop if loop.area * sense > 0 else loop.reversed())
+            elif sense > 0:
+                break  # a sliver, and so are its holes
+    return tuple(loops)
+
+
+def _found_again(ring: Floats, tag: NDArray[np.intp], curves: Sequence[Curve]) -> Contour | None:
+    """A ring `(m, 2)` of straight pieces with tags `(m,)` as lines and arcs; None for a sliver."""
+    raw = Contour(ring)
+    if abs(raw.area) < SAME * 10 * raw.length:
+        return None
+    runs = list(_runs(raw, tag, curves))
+    if len(runs) == 1 and np.isfinite(curves[runs[0][0]].radius):
+        curve = curves[runs[0][0]]
+        arm = ring[0] - curve.point
+        return Contour.circle(curve.point, curve.radius, np.arctan2(arm[1], arm[0]), clockwise=raw.area < 0)
+    before = [*runs[-1:], *runs[:-1]]
+    corners = [_corner(curves[a[0]], curves[b[0]], ring[b[1]]) for a, b in zip(before, runs, strict=True)]
+    points: list[Floats] = []
+    bulge: list[float] = []
+    for (which, first, last), start, end in zip(runs, corners, [*corners[1:], *corners[:1]], strict=True):
+        curve = curves[which]
+        if np.isinf(curve.radius):
+            sweeps = [0.0]
+        else:
+            seen = _angle_swept(np.vstack([ring, ring])[first : last + 1] - curve.point)
+            exact = _angle_swept(np.array([start, end]) - curve.point)
+            sweep = seen + np.remainder(exact - seen + np.pi, FULL_TURN) - np.pi
+            sweeps = [sweep] if abs(sweep) < 6 else [sweep / 2, sweep / 2]
+        if length_of(end - start) < SAME and len(sweeps) == 1:
+            continue
+        arm = start - curve.point
+        for k, sweep in enumerate(sweeps):
+            points.append(start if k == 0 else curve.foot(curve.point + turned(arm, sweep)))
+            bulge.append(float(np.tan(sweep / 4)))
+    exact_loop = Contour(points, bulge) if len(points) > 1 else raw
+    plausible = abs(exact_loop.area - raw.area) < 10 * CHORD_ERROR * raw.length
+    return exact_loop if plausible else raw
+
+
+def _runs(raw: Contour, tag: NDArray[np.intp], curves: Sequence[Curve]) -> Iterator[tuple[int, int, int]]:
+    """Runs of pieces on one curve: (curve, first point, last point), the last one counted on past the end."""
+    kept = np.flatnonzero((raw.lengths > 10 * SAME) & (tag >= 0))
+    if not len(kept):
+        return
+    fresh = [j for j, i in enumerate(kept) if not _same(curves, int(tag[kept[j - 1]]), int(tag[i]))]
+    if not fresh:
+        yield int(tag[kept[0]]), 0, len(tag)
+        return
+    for j, k in zip(fresh, [*fresh[1:], fresh[0] + len(kept)], strict=True):
+        last = kept[(k - 1) % len(kept)] + 1
+        first = kept[j]
+        yield int(tag[first]), int(first), int(last if last > first else last + len(tag))
+
+
+def _corner(a: Curve, b: Curve, near: Floats) -> Floats:
+    """Where two neighbours meet; if they touch smoothly, the place found by shapely is the better one."""
+    on_both = max(np.hypot(*(curve.foot(near) - near)) for curve in (a, b)) < 10 * GRID
+    if on_both and abs(cross(_along(a, near), _along(b, near))) < 1e-3:
+        return near
+    meeting = a.meeting(b, near)
+    off = max(np.hypot(*(curve.foot(meeting) - meeting)) for curve in (a, b))
+    return meeting if off < SAME else near
+
+
+def labels(curves: Sequence[Curve]) -> NDArray[np.intp]:
+    """For each curve the first one that is the same circle; a line is its own."""
+    label = np.arange(len(curves))
+    bent = np.array([i for i, curve in enumerate(curves) if np.isfinite(curve.radius)], dtype=int)
+    if len(bent):
+        centres = shapely.points(np.array([curves[i].point for i in bent]))
+        radius = np.array([curves[i].radius for i in bent])
+        i, k = shapely.STRtree(centres).query(centres, predicate="dwithin", distance=SAME)
+        alike = np.abs(radius[i] - radius[k]) < SAME
+        np.minimum.at(label, bent[i[alike]], bent[k[alike]])
+    return label
+
+
+def _arc_points(circle: Curve, start: Floats, sweep: float, ends: Floats) -> Floats:
+    """Points strictly between the ends of an arc: those of a fixed grid on its circle, and all `ends` there.
+
+    They depend on the circle alone, so that two arcs over the same stretch have the same points.
+    """
+    count = int(steps_within(np.array([circle.radius]), np.array([FULL_TURN]), CHORD_ERROR)[0])
+    step, arm = FULL_TURN / count, start - circle.point
+    low = np.arctan2(arm[1], arm[0]) + min(sweep, 0.0)
+    grid = np.arange(np.ceil(low / step), np.floor((low + abs(sweep)) / step) + 1)
+    angle = np.mod(grid, count) * step
+    spots = circle.point + circle.radius * at_angle(angle)
+    arms = ends - circle.point
+    fixed = np.unique(np.mod(np.arctan2(arms[:, 1], arms[:, 0]) - low, FULL_TURN), return_index=True)
+    places = np.concatenate([fixed[0], grid * step - low])
+    spots = np.vstack([ends[fixed[1]], spots])
+    near = SAME / circle.radius
+    clear = (places > near) & (places < abs(sweep) - near)
+    gap = np.abs(np.remainder(places[len(fixed[0]) :, None] - fixed[0] + np.pi, FULL_TURN) - np.pi)
+    clear[len(fixed[0]) :] &= (gap > near).all(axis=1)
+    clear[1 : len(fixed[0])] &= np.diff(fixed[0]) > near
+    order = np.flatnonzero(clear)[np.argsort(places[clear])]
+    return spots[order if sweep > 0 else order[::-1]]
+
+
+def _same(curves: Sequence[Curve], i: int, k: int) -> bool:
+    """Whether two tags mean one curve: equal ones, or two lines in line."""
+    a, b = curves[i], curves[k]
+    if i == k or np.isfinite(a.radius) or np.isfinite(b.radius):
+        return i == k
+    apart = length_of(a.foot(b.point) - b.point)
+    return bool(abs(cross(a.direction, b.direction)) < SMOOTH and apart < SAME)
+
+
+def _polygons(geometry: Any) -> list[Any]:
+    """The polygons of any shapely geometry, from left to right; loose points and lines are no area."""
+    flat = shapely.get_parts(shapely.get_parts(geometry))
+    found = [g for g in flat if g.geom_type == "Polygon" and not g.is_empty]
+    return sorted(found, key=lambda g: g.bounds[:2])
+
+
+def _along(curve: Curve, point: Floats) -> Floats:
+    """The direction of a curve at a point."""
+    return curve.direction if np.isinf(curve.radius) else left(point - curve.point) / curve.radius
+
+
+def _angle_swept(arms: Floats) -> float:
+    """The signed angle swept by arms `(k, 2)` from the first to the last."""
+    before, after = arms[:-1], arms[1:]
+    return float(np.arctan2(cross(before, after), (before * after).sum(axis=1)).sum())

@@ -1,0 +1,141 @@
+"""Paths on a cylinder: the rotary axis turns the workpiece while the tool stands square to it.
+
+Rows name their `Cylinder` (column `cylinder`) and the angle that they begin at (`from_angle`); their points are where the
+machine has the tool tip, as it is for all rows. Two other views follow from it: the developed surface, and the path as it
+lies on the workpiece.
+
+            e_a (direction)          the workpiece point of a tip p at the angle t is p turned about e_a by t;
+             |   / e_r (zero)        developed: u = radius * t + (p - point) e_t along the circumference,
+             |  /                    y = (p - point) e_a along the axis, w = (p - point) e_r - radius above the surface
+             | /
+             +------- e_t = e_a x e_r
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from mnclab.geometry.frames import Matrix
+from mnclab.path.columns import Array, Index
+from mnclab.path.kinds import Kind
+from mnclab.path.places import points_at
+
+if TYPE_CHECKING:
+    from mnclab.path.toolpath import Toolpath
+
+Place = tuple[float, float, float]
+NONE = -1  # the index of rows that lie on no cylinder
+MOST = 4096  # pieces of one row
+
+
+class Cylinder(NamedTuple):
+    """A cylinder about a rotary axis: a `point` of the axis, unit vectors along it and to the tool, where the angle is 0.
+
+    `radius` mm is that of the surface; `rotary` is the number of the axis, 0 for A, 1 for B, 2 for C, which turns in the
+    positive sense about `direction`.
+    """
+
+    point: Place
+    direction: Place
+    zero: Place
+    radius: float
+    rotary: int
+
+    @property
+    def basis(self) -> Array:
+        """The rows e_t, e_a, e_r (3, 3): along the circumference, along the axis, away from it."""
+        return np.array([np.cross(self.direction, self.zero), self.direction, self.zero])
+
+    def moved(self, way: Iterable[float]) -> Cylinder:
+        """The same elsewhere."""
+        x, y, z = (p + d for p, d in zip(self.point, way, strict=True))
+        return self._replace(point=(float(x), float(y), float(z)))
+
+    def behind(self, frame: Matrix) -> Cylinder:
+        """The same seen from outside a frame that turns, shifts and scales equally."""
+        linear = frame[:3, :3]
+        point = linear @ self.point + frame[:3, 3]
+        direction, zero = (tuple((v / np.linalg.norm(v)).tolist()) for v in (linear @ self.direction, linear @ self.zero))
+        size = float(np.linalg.norm(linear @ self.zero))
+        return Cylinder(tuple(point.tolist()), direction, zero, self.radius * size, self.rotary)
+
+    def developed(self, points: Array, angles: Array) -> Array:
+        """Tips (n, 3) at angles (n,) rad in coordinates (n, 3) of the developed surface: u, y, w mm."""
+        found = (points - self.point) @ self.basis.T
+        return np.asarray(found + np.multiply.outer(angles, [self.radius, 0.0, 0.0]) - [0.0, 0.0, self.radius])
+
+    def on_workpiece(self, points: Array, angles: Array) -> Array:
+        """Tips (n, 3) at angles (n,) rad where they are on the workpiece, as it lies at the angle 0."""
+        t, y, r = ((points - self.point) @ self.basis.T).T
+        c, s = np.cos(angles), np.sin(angles)
+        return np.asarray(np.stack([c * t + s * r, y, c * r - s * t], axis=1) @ self.basis + self.point)
+
+
+def unrolled(path: Toolpath) -> Toolpath:
+    """The rows that lie on a cylinder on its developed surface: X along the circumference, Y along the axis, Z above it, mm.
+
+    X is 0 where the rotary axis stands at 0; the feed is that along the developed surface.
+    """
+    mine = path[path.cylinder >= 0]
+    start, end = mine.start.copy(), mine.end.copy()
+    for number, one in enumerate(path.cylinders):
+        rows = np.flatnonzero(mine.cylinder == number)
+        start[rows] = one.developed(mine.start[rows], mine.from_angle[rows])
+        end[rows] = one.developed(mine.end[rows], mine.rotary[rows, one.rotary])
+    n = len(mine)
+    flat = {"rotary": np.zeros((n, 3)), "cylinder": np.full(n, NONE), "from_angle": np.full(n, np.nan)}
+    up = np.broadcast_to([0.0, 0.0, 1.0], (n, 3))
+    feed = _speeds(mine, start, end)
+    return mine.replace(start=start, end=end, axis=up, feed=feed, **flat).annotated(origin=(0.0, 0.0, 0.0), cylinders=())
+
+
+def _speeds(path: Toolpath, start: Array, end: Array) -> Array:
+    """Feeds (n,) along the developed surface: of rows with a time they follow from it."""
+    way = np.linalg.norm(end - start, axis=1)
+    timed = np.isfinite(path.time) & (path.kind == Kind.LINE)
+    return np.where(timed, 60 * way / np.where(timed, path.time, 1.0), path.feed)
+
+
+def on_workpiece(path: Toolpath, chord_error: float = 0.01) -> tuple[Array, Index]:
+    """Points (m, 3) mm along the motion where they are on the workpiece, and the row (m,) of each, within `chord_error` mm.
+
+    The workpiece turns with the axis of the cylinder, before its rows and after them, too. Without a cylinder these are the
+    points of the path.
+    """
+    xyz, of_row = path.points(chord_error)
+    if not path.cylinders or not len(xyz):
+        return xyz, of_row
+    rows = np.flatnonzero(path.is_motion)
+    which = _cylinder_of(path)[rows]
+    after, before = np.empty(len(rows)), np.empty(len(rows))
+    reach, previous = np.empty(len(rows)), np.concatenate([np.zeros((1, 3)), path.rotary[:-1]])
+    for number, one in enumerate(path.cylinders):
+        mine = np.flatnonzero(which == number)
+        k = rows[mine]
+        after[mine] = path.rotary[k, one.rotary]
+        before[mine] = np.where(path.cylinder[k] == number, path.from_angle[k], previous[k, one.rotary])
+        far = [np.linalg.norm((ends[k] - one.point) @ one.basis[[0, 2]].T, axis=1) for ends in (path.start, path.end)]
+        reach[mine] = np.maximum(*far)
+    step = 2 * np.arccos(np.clip(1 - chord_error / np.maximum(reach, chord_error), 0.0, 1.0))
+    own = np.bincount(of_row[1:], minlength=len(path))[rows]  # of arcs
+    pieces = np.clip(np.ceil(np.abs(after - before) / np.maximum(step, 1e-6)), own, np.maximum(own, MOST)).astype(np.int64)
+    row = np.repeat(np.arange(len(rows)), pieces)
+    share = (np.arange(len(row)) - np.repeat(np.cumsum(pieces) - pieces, pieces) + 1) / pieces[row]
+    row, share = np.append(0, row), np.append(0.0, share)
+    points, angles = points_at(path, rows[row], share), before[row] + share * (after - before)[row]
+    for number, one in enumerate(path.cylinders):
+        mine = np.flatnonzero(which[row] == number)
+        points[mine] = one.on_workpiece(points[mine], angles[mine])
+    return points, rows[row]
+
+
+def _cylinder_of(path: Toolpath) -> Index:
+    """The cylinder (n,) about whose axis the workpiece turns: that of the row, else the last one before it, else the first."""
+    on = np.flatnonzero(path.cylinder >= 0)
+    if not len(on):
+        return np.zeros(len(path), dtype=np.int64)
+    last = np.clip(np.searchsorted(on, np.arange(len(path)), "right") - 1, 0, None)
+    return path.cylinder[on[last]].astype(np.int64)

@@ -1,0 +1,30 @@
+; 28:14 alarm: R30 is too small for the distance 80 mm between start and end: at least 40 is needed (too short by 10 mm)
+0 BEGIN PGM A MM
+TOOL CALL 1 Z S2000 F500
+L X+0 Y+0 Z+100 R0 FMAX M3
+CYCL DEF 14.0 CONTOUR
+CYCL DEF 14.1 CONTOUR LABEL 1
+CYCL DEF 20 DATA
+Q1=-10
+Q2=+1
+Q3=+9
+Q4=+0.2
+Q5=+0
+Q6=+2
+Q7=+50
+Q8=+0
+Q9=+1
+CYCL DEF 24 SIDE
+Q9=+1
+Q10=+5
+Q11=+130
+Q12=+400
+Q14=+0
+Q438=+0
+CYCL CALL
+L Z+100 R0 FMAX M2
+LBL 1
+L X+10 Y+20 RL
+CR X+90 Y+20 R+30 DR-
+L X+10
+LBL 0

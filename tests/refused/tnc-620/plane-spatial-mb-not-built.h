@@ -1,4 +1,0 @@
-; 4:40 alarm: PLANE SPATIAL MB (retraction before the axes turn) is not built yet
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 PLANE SPATIAL SPA+0 SPB+0 SPC+0 TURN MB MAX FMAX SEQ- TABLE ROT

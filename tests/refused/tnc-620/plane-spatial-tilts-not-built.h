@@ -1,4 +1,0 @@
-; 4:23 alarm: PLANE SPATIAL SPB+90 tilts the plane, which is not built yet (CYCL DEF 19 tilts it)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 PLANE SPATIAL SPA+0 SPB+90 SPC+0 TURN FMAX
