@@ -96,6 +96,8 @@ area = Shelf("mnclab.area", "contours and regions: by numbers, or out of a drawi
     "mnclab.geometry.dxf": "contours as dxf",
     "mnclab.geometry.svg": "contours as svg",
     "mnclab.path.outline": "outline, outlines",
+    "mnclab.machining.milling.terraces": "Joined, Part, terraces",
+    "mnclab.show.plot.regions": "plot_regions as plot",
 })  # fmt: skip
 
 strategies = Shelf("mnclab.strategies", "ways to clear an area with a mill; mnclab.compare puts them side by side", {
