@@ -107,7 +107,8 @@ strategies = Shelf("mnclab.strategies", "ways to clear an area with a mill; mncl
     "mnclab.machining.milling.spirals": "spiral",
     "mnclab.machining.milling.trochoids": "trochoidal",
     "mnclab.machining.milling.entries": "Entry",
-    "mnclab.machining.milling.engagement": "engagement",
+    "mnclab.machining.milling.rest": "rest, rest_passes",
+    "mnclab.machining.milling.engagement": "engagement, stretches",
 })  # fmt: skip
 
 schemes = Shelf("mnclab.schemes", "ways to turn, groove and thread; mnclab.compare_turning puts them side by side", {
