@@ -84,6 +84,9 @@ def record(
     first = 0 if approach is None else approach.row
     whole = path[first + 1 :] if departure is None else path[first + 1 : departure.row]
     side = int(path.side[min(first + 1, len(path) - 1)])
+    if len(other := np.flatnonzero(path.side[first:] == -side)) and side:
+        place = flow.span_of_step(int(path.step[max(first + other[0], first + 1)]))
+        raise Alarm(f"the contour of {what} changes from RL to RR or back in this block", place)
     return Recording(whole, side, _place(path.end[first]), chain, memory, begun, approach, departure)
 
 

@@ -57,6 +57,12 @@ NAMES = {
     "coarse_roughing_tool": "coarse_tool",
     "number_name_of_rough_out_tool": "rough_out_tool",
     "feed_rate_for_reciprocation": "swing_feed",
+    "residual_material": "accepted",
+    "connection_distance": "connected",
+    "path_extension": "extended",
+    "type_of_approach": "approach",
+    "radius_compensation": "compensation",
+    "center_angle": "angle",
     "retraction_feed_rate": "retract_feed",
     "feed_rate_factor": "factor",
     "fine_roughing_strategy": "fine_strategy",
@@ -91,8 +97,10 @@ NAMES = {
     "dwell_time": ("dwell_bottom", "dwell_time"),
     "infeed_per_helix": "pitch",
     "nominal_diameter": ("diameter", "nominal_diameter"),
-    "climb_or_up_cut": ("climb", "milling_type"),
+    "climb_or_up_cut": ("climb", "milling_type", "sense"),
     "infeed_per_revolution": "advance",
+    "infeed_for_finishing": "finishing_infeed",
+    "feed_rate_reference": "feed_reference",
     "upper_advanced_stop_distance": ("first_stop", "upper_advanced_stop_distance"),
     "lower_advanced_stop_distance": "last_stop",
     "infeed_depth_for_chip_breaking": "break_every",
@@ -153,6 +161,13 @@ EXPLAINED = {
     },
     ("tnc-620", "CYCL DEF 21", "Q13", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
     ("tnc-620", "CYCL DEF 24", "Q438", "default"): (-1, "in a sentence there"),
+    **{("tnc-620", f"CYCL DEF {n}", "Q18", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name") for n in (22, 25, 276)},
+    **{
+        ("tnc-620", f"CYCL DEF {n}", q, "default"): (value, "the value of its example: in words there")
+        for n in (25, 276)
+        for q, value in (("Q446", 0.01), ("Q447", 10), ("Q448", 2))
+    },
+    ("tnc-620", "CYCL DEF 275", "Q439", "limits"): ({}, "its choices"),
     ("tnc-620", "CYCL DEF 22", "Q18", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
     ("tnc-620", "CYCL DEF 8", "axes", "limits"): ({}, "at most three, and which ones, are a check"),
     **{("tnc-620", "CYCL DEF 7", axis, "unit"): ("deg", "one row for all axes; these turn") for axis in "ABC"},

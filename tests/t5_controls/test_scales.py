@@ -39,10 +39,11 @@ MILLS = [code for code in BUILT if code not in (*TAPS, *TRUE_TO_SIZE, *HOLES)]
 TRUE_STOPS = ("CYCL DEF 1", "CYCL DEF 21")
 
 #: Those that need a contour and its data; where one side is milled the mirror image keeps it.
-AREAS = ("CYCL DEF 21", "CYCL DEF 22")
+AREAS = tuple(f"CYCL DEF {n}" for n in (21, 22, 23, 24))
 
 #: More ways to run a cycle than its examples.
 MORE = {
+    "CYCL DEF 24": [{"infeed": 2.5, "sense": -1}],
     "CYCL DEF 22": [{"swing_feed": 90}, {"swing_feed": 90, "factor": 50}],
     "G305": [{"mode": 1}],
     "G321": [{"strategy": 1}, {"strategy": 2}],
@@ -50,6 +51,7 @@ MORE = {
     "G344": [{"plunge": 0}],
     "CYCL DEF 200": [{"reference": 1}],
     "CYCL DEF 220": [{"type_of_traverse": 1}],
+    "CYCL DEF 275": [{"plunging_strategy": 2, "machining_operation": 1}],
     "CYCL DEF 232": [{"strategy": 0}, {"strategy": 1}],
     "CYCL DEF 233": [{"strategy": k} for k in (0, 1, 3)] + [{"strategy": 4, "limit_1": 0, "limit_2": 0}],
     "CYCL DEF 240": [{"mode": 1}],
@@ -80,13 +82,14 @@ def values_of(code, more):
     cycle = MNC.get(code) or TNC[code]
     found = {p.name: trial.first_value(p) for p in cycle.parameters() if trial.written_first(p) or p.required}
     shallow = {"depth": -8} if code.startswith("CYCL DEF 25") else {}  # two layers are enough
-    return found | shallow | more
+    roughed = {"rough_out_tool": 1} if code == "CYCL DEF 24" else {}
+    return found | shallow | roughed | more
 
 
 def larger(code, values, s):
     """The values with every length s times as long: what is told in mm, but for a pitch (mm/rev)."""
     cycle = MNC.get(code) or TNC[code]
-    lengths = {p.name for p in cycle.parameters() if p.unit == "mm"}
+    lengths = {p.name for p in cycle.parameters() if p.unit == "mm" or p.name == "advance"}
     return {name: value * s if name in lengths else value for name, value in values.items()}
 
 
@@ -126,6 +129,10 @@ def program(code, values, frame, s=1.0):
             for line in LABELS.split("\n")
         )  # fmt: skip
         return head + data + klartext(code, values) + "CYCL CALL\nM30\n" + labels + "END PGM A MM\n"
+    if code == "CYCL DEF 275":
+        line = f"LBL 1\nL X{-40 * s:+g} Y{-30 * s:+g}\nL X{40 * s:+g}\nRND R{20 * s:g}\nL Y{30 * s:+g}\nLBL 0\n"
+        data = "CYCL DEF 14.0 X\nCYCL DEF 14.1 LABEL 1\n"
+        return head + data + klartext(code, values) + "CYCL CALL\nM30\n" + line + "END PGM A MM\n"
     return head + klartext(code, values) + call + "END PGM A MM\n"
 
 
@@ -233,6 +240,8 @@ def as_the_spindle_has_it(code, values, whole, follows):
         values = values | {"disengage": next(d for d, way in WAYS.items() if math.dist(way, (x, y)) < 1e-9)}
     if code == "CYCL DEF 208" and np.linalg.det(whole) < 0:
         values = values | {"climb": -values["climb"]}  # 4.9: a mirror image does not influence the type of milling
+    if code == "CYCL DEF 275" and np.linalg.det(whole) < 0:
+        values = values | {"milling_type": -values["milling_type"]}  # 8.3
     return values
 
 
@@ -269,7 +278,7 @@ def test_a_mirror_image_and_a_rotation_move_the_path(case, axes, angle):
     else:  # what is defined last acts first; the direction off the wall follows the rotation alone (4.5, 4.7)
         frame, whole, follows = (mirror(code, axes) if axes else "") + turn(code, angle), first @ second, second
     found = run_once(code, program(code, values, frame), setup())
-    if code == "CYCL DEF 22" and np.linalg.det(whole) < 0:
+    if code in AREAS[1:] and np.linalg.det(whole) < 0:
         return  # it keeps its sense: see below
     plain = run_once(code, program(code, as_the_spindle_has_it(code, values, whole, follows), ""), setup())
     assert_moved(rows(found), rows(plain), whole)
@@ -284,7 +293,8 @@ def test_scale_mirror_and_rotation_together(case):
     frame = turn(code, 30) + ("\n" if code in MNC else "") + mirror(code, "X")
     frame += ("\n" if code in MNC else "") + equal(code, 2)
     found = run_once(code, program(code, values, frame), setup(2))
-    plain = run_once(code, program(code, larger(code, values, 2), "", 2), setup(2))
+    written = as_the_spindle_has_it(code, larger(code, values, 2), whole, whole)
+    plain = run_once(code, program(code, written, "", 2), setup(2))
     assert_moved(rows(found), rows(plain), whole)
 
 
@@ -314,7 +324,7 @@ def fixed_off(places):
 def test_another_scale_of_z_makes_deeper_what_a_tool_cuts_as_it_can(case):
     """Steps of the depth are longer; edges, point and slopes of the tool are what they are."""
     code, more = case
-    if code in TRUE_STOPS:
+    if code in TRUE_STOPS or code == "CYCL DEF 23":  # whose arc to the floor would be an ellipse: it comes down straight there
         return
     values = values_of(code, more)
     found = run_once(code, program(code, values, scaling(code, 1, 1, 2)), setup())

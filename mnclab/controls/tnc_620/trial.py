@@ -62,7 +62,7 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str | None:
     if cycle.code in figures.MOVED:
         return program([*figures.SHOWN, *mine, *figures.SHOWN], figures.FIGURE)
     if cycle.code in figures.LINES:
-        return program([*begun(ContourGeometry), *mine, CALL], figures.LINES[cycle.code])
+        return program([*definition(ContourGeometry, [("LBL", "1")]), *mine, CALL], figures.LINES[cycle.code])
     if cycle.code in AREA:
         return program([*around(cycle, mine), CALL], figures.CONTOURS)
     if cycle.code == "CYCL DEF 12":

@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour, Floats, joined
 from mnclab.geometry.regions import Region, meeting
 
 TOUCH = 1e-6  # mm, within which a place lies on a boundary
@@ -42,7 +42,7 @@ def route(area: Region, start: ArrayLike, end: ArrayLike) -> Contour | None:
         there = float(met[k].max())
         pieces.append(_along(area.loops[k], a + here * (b - a), a + there * (b - a)))
         here = there
-    return _joined(pieces)
+    return joined(pieces)
 
 
 def _meetings(loop: Contour, a: Floats, b: Floats) -> Floats:
@@ -63,9 +63,3 @@ def _along(loop: Contour, start: Floats, end: Floats) -> Contour:
     if 2 * forward <= loop.length:
         return loop.between(there, there + forward)
     return loop.between(back, back + loop.length - forward).reversed()
-
-
-def _joined(pieces: list[Contour]) -> Contour:
-    """One open contour of pieces that lead on to one another."""
-    points = np.vstack([*(piece.points[:-1] for piece in pieces), pieces[-1].points[-1:]])
-    return Contour(points, np.append(np.concatenate([piece.bulge[:-1] for piece in pieces]), 0.0), closed=False)

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -24,15 +25,16 @@ from mnclab.machining.steps import Along, Go, Step
 from mnclab.path.leads import Lead, way
 
 SAME = 1e-9  # mm
-CUTS = 1e-4  # mm, by which a lead may come nearer to the contour than the tool's radius
 
 
 class Train(NamedTuple):
-    """A way along a contour, and those that lead to its beginning and off its end, if any."""
+    """A way along a contour, and those that lead to its beginning and off its end, if any; on which `side` of the contour
+    the tool runs (+1 left, -1 right, 0 on it)."""
 
     along: Way
     to: Way | None = None
     off: Way | None = None
+    side: int = 0
 
     @property
     def begin(self) -> Floats:
@@ -48,18 +50,24 @@ class Train(NamedTuple):
         """The same way backwards: what led to the contour leads off it."""
         return Train(
             self.along.reversed(), None if self.off is None else self.off.reversed(),
-            None if self.to is None else self.to.reversed(),
+            None if self.to is None else self.to.reversed(), -self.side,
         )  # fmt: skip
 
 
 class Feeds(NamedTuple):
     """Feeds, mm/min: `plunge` down and `level` along the contour; and heights: `clearance` above everything, and `rapid_to`, to
-    which the tool goes down at rapid (infinite: nowhere)."""
+    which the tool goes down at rapid (infinite: nowhere).
+
+    `edge` says on which arcs of the contour the level feed counts at the cutting edge of a tool of a `radius`: on none (""),
+    "inside", where the edge has the longer way, or "everywhere".
+    """
 
     plunge: float
     level: float
     clearance: float
     rapid_to: float = math.inf
+    edge: str = ""
+    radius: float = 0.0
 
 
 def leading_to(along: Way, lead: Lead, start: tuple[float, float, float] | None = None) -> Way:
@@ -95,17 +103,6 @@ def _round(point: Floats, centre: Floats, sweep: float, pieces: int) -> list[Flo
     return list(centre + turned(arms, sweep / pieces * np.arange(pieces)))
 
 
-def cuts_into(contour: Contour, lead: Way, distance: float) -> tuple[float, float] | None:
-    """The place (x, y) of a lead that lies nearest to a contour, if the tool centre comes nearer there than `distance`."""
-    chords = lead.contour.points_within(CUTS)
-    count = np.maximum(1, np.ceil(np.hypot(*np.diff(chords, axis=0).T) / max(abs(distance) / 8, CUTS))).astype(int)
-    spots = [a + (b - a) * np.linspace(0, 1, n + 1)[:, None] for a, b, n in zip(chords, chords[1:], count, strict=False)]
-    places = np.vstack(spots)
-    room = contour.distance(places) - abs(distance)
-    x, y = places[int(room.argmin())].tolist()
-    return (x, y) if room.min() < -2 * CUTS else None
-
-
 def mill(trains: Sequence[Train], levels: Sequence[float], feeds: Feeds, to_and_fro: bool = False) -> Iterator[Step]:
     """Every train on each of the levels, which are added to the heights of its way; begins and ends at the clearance height."""
     for name, train in zip(numbered("stretch", len(trains)), trains, strict=True):
@@ -118,7 +115,8 @@ def mill(trains: Sequence[Train], levels: Sequence[float], feeds: Feeds, to_and_
                 yield from _follow(f"{label}, to the contour", run.to, level, feeds.level)
             else:
                 yield Go(f"{label}, down", float(run.along.heights[0]) + level, feeds.plunge)
-            yield from _follow(label, run.along, level, feeds.level)
+            for piece, feed in _at_edge(run, feeds):
+                yield from _follow(label, piece, level, feed)
             if k == last or not to_and_fro:
                 yield from _follow(f"{label}, off the contour", run.off, level, feeds.level)
                 yield Go(f"{label}, retract", feeds.clearance)
@@ -139,3 +137,17 @@ def _follow(label: str, run: Way | None, level: float, feed: float) -> Iterator[
     if run is not None:
         heights = run.heights + level
         yield Along(label, run.contour, feed, None if np.ptp(heights) <= SAME else tuple(heights.tolist()))
+
+
+def _at_edge(train: Train, feeds: Feeds) -> Iterator[tuple[Way, float]]:
+    """The pieces of a way that have one feed of the tool centre each."""
+    contour, heights = train.along
+    inside = train.side * contour.sweeps > 0
+    counts = (contour.sweeps != 0) & (train.side != 0) & (inside | (feeds.edge == "everywhere")) & (feeds.edge != "")
+    at_contour = np.where(inside, contour.radii + feeds.radius, contour.radii - feeds.radius)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        factor = np.where(counts & (at_contour > SAME), contour.radii / at_contour, 1.0)
+    ends = np.flatnonzero(factor[1:] != factor[:-1]) + 1
+    for a, b in pairwise([0, *ends.tolist(), len(factor)]):
+        piece = Contour(contour.points[a : b + 1], contour.bulge[a : b + 1], closed=False)
+        yield Way(piece, heights[a : b + 1]), feeds.level * float(factor[a])

@@ -34,6 +34,7 @@ from mnclab.path.toolpath import Toolpath
 SAME = 1e-6  # mm
 DRIFT = 1e-9  # mm
 CHORD_ERROR = 1e-3  # mm, of what is only measured
+CUTS = 1e-4  # mm, by which measured ways may be off their arcs
 RULES = Compensation(approach="perpendicular", rapid=True, look_ahead=True)
 
 
@@ -99,6 +100,10 @@ class Beside(NamedTuple):
     place: tuple[float, float] = (0.0, 0.0)
 
 
+class Crossed(PathFault):
+    """A contour that crosses itself has no way beside it."""
+
+
 def beside(
     contour: Contour, distance: float, side: int, heights: Sequence[float] | Floats | None = None,
     lines: Sequence[int] | NDArray[np.int64] | None = None,
@@ -113,16 +118,44 @@ def beside(
     name = np.arange(1, len(contour.starts) + 1) if lines is None else np.asarray(lines)
     if side * distance == 0:
         return Beside((_opened(contour, level),))
+    size, outwards = abs(distance), int(np.sign(side * distance))
     try:
-        found = _closed if contour.closed else _open
-        return Beside((found(contour, abs(distance), int(np.sign(side * distance)), level, name),))
+        way = (_closed if contour.closed else _open)(contour, size, outwards, level, name)
+        if (spot := cuts_into(contour, way, size)) is not None:
+            raise Crossed(f"the contour crosses itself near X{spot[0]:.3f} Y{spot[1]:.3f}", 0)
+        return Beside((way,))
+    except Crossed:
+        raise
     except PathFault as fault:
         if np.ptp(level) > SAME:
             raise
-        rooms = _rooms if contour.closed else _room
-        ways = rooms(contour, abs(distance), int(np.sign(side * distance)), fault)
-        thickness, (x, y) = _left(contour, abs(distance), ways)
+        ways = (_rooms if contour.closed else _room)(contour, size, outwards, fault)
+        thickness, (x, y) = _left(contour, size, ways)
         return Beside(tuple(Way(way, np.full(len(way.points), level[0])) for way in ways), fault, thickness, (x, y))
+
+
+def cuts_into(contour: Contour, way: Way, distance: float) -> tuple[float, float] | None:
+    """The place (x, y) of a way that lies nearest to a contour, if the tool centre comes nearer there than `distance`."""
+    chords = way.contour.points_within(CUTS)
+    count = np.maximum(1, np.ceil(length_of(np.diff(chords, axis=0)) / max(distance / 8, CUTS))).astype(int)
+    first = np.repeat(np.cumsum(count) - count, count)
+    share = (np.arange(count.sum()) - first) / np.repeat(count, count)
+    spots = np.repeat(chords[:-1], count, axis=0) + share[:, None] * np.repeat(np.diff(chords, axis=0), count, axis=0)
+    spots = np.vstack([spots, chords[-1:]])
+    room = away([contour], spots)
+    k = int(room.argmin())
+    x, y = spots[k].tolist()
+    return (x, y) if room[k] < distance - 3 * CUTS else None
+
+
+def away(contours: Sequence[Contour], spots: Floats) -> Floats:
+    """How far spots (k, 2) are from the nearest of some contours, but for `CUTS`, `(k,)`; of many elements fast."""
+    chords = [contour.points_within(CUTS) for contour in contours]
+    pieces = np.concatenate([np.stack([line[:-1], line[1:]], axis=1) for line in chords])
+    found = shapely.STRtree(shapely.linestrings(pieces)).query_nearest(
+        shapely.points(spots), return_distance=True, all_matches=False
+    )
+    return np.asarray(found[1])
 
 
 def _opened(contour: Contour, heights: Floats) -> Way:
@@ -231,8 +264,14 @@ def _room(contour: Contour, distance: float, side: int, fault: PathFault) -> lis
 
 def _left(contour: Contour, distance: float, ways: Sequence[Contour]) -> tuple[float, tuple[float, float]]:
     """How thick what the tool leaves on a contour is where it is thickest, and where that is."""
-    spots = contour.point_at(np.linspace(0, contour.length, max(2, min(20_000, int(50 * contour.length / distance)))))[0]
-    spots = np.vstack([contour.points, spots])
-    thick = np.min([way.distance(spots) for way in ways], axis=0) - distance
-    x, y = spots[int(thick.argmax())].tolist()
-    return float(thick.max()), (x, y)
+    upto = np.append(0.0, np.cumsum(contour.lengths))
+    places = np.linspace(0, contour.length, int(np.clip(10 * contour.length / distance, 10, 20_000)))
+    step = places[1]
+    places = np.concatenate([places, upto])
+    for _ in range(3):  # ever closer about the thickest
+        spots = contour.point_at(places)[0]
+        thick = away(ways, spots) - distance
+        best = int(thick.argmax())
+        places, step = places[best] + np.linspace(-step, step, 65), step / 32
+    x, y = spots[best].tolist()
+    return float(thick[best]), (x, y)

@@ -9,7 +9,7 @@ import pytest
 
 import mnclab
 from mnclab import Setup, Tool
-from mnclab.controls.tnc_620.contours.area import joined_area, labelled_shapes
+from mnclab.controls.tnc_620.contours.area import area_of, labelled_shapes
 from mnclab.controls.tnc_620.state import memory
 from mnclab.running.interpreter import Interpreter
 from mnclab.running.performing import perform
@@ -50,7 +50,7 @@ def region(*labels: str, head: str = ""):
     interpreter.run()
     machine = interpreter.machine
     machine.ended = False
-    found = joined_area(machine, *perform(machine, "", labelled_shapes(machine, memory(machine).contour)))
+    found = area_of(machine, *perform(machine, "", labelled_shapes(machine, memory(machine).contour)))
     return found, list(machine.alarms)
 
 
@@ -135,7 +135,7 @@ FAULTS = [
     ("L X+0 Y+0 RR", ["L X+20", "L X+0"], "L X+0 Y+0 RR", "encloses nothing"),
     ("L X+0 Y+0 RR", ["L X+0 Y+0"], "L X+0 Y+0 RR", "describes no contour"),
     ("L X+0 Y+0 RR", [], "L X+0 Y+0 RR", "describes no contour"),
-    ("L X+0 Y+0 RR", ["L Y+20", "L X+20 RL", "L Y+0"], "L X+20 RL", "has RL and RR: one side counts"),
+    ("L X+0 Y+0 RR", ["L Y+20", "L X+20 RL", "L Y+0"], "L X+20 RL", "changes from RL to RR or back"),
     ("L X+0 Y+0 RR", ["CYCL CALL", "L X+20"], "CYCL CALL", "CYCL CALL cannot stand in a contour that a cycle reads"),
     ("Q5 = 1", ["Q6 = 2"], "LBL 1", "describes no contour"),
 ]

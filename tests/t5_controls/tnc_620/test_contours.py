@@ -6,7 +6,7 @@ from shapely import LineString, MultiPolygon, Point, Polygon, union_all
 
 import mnclab
 from mnclab import Kind, Setup, Tool
-from mnclab.controls.tnc_620.contours.area import joined_area, labelled_shapes
+from mnclab.controls.tnc_620.contours.area import area_of, labelled_shapes
 from mnclab.controls.tnc_620.state import memory
 from mnclab.running.interpreter import Interpreter
 from mnclab.running.performing import perform
@@ -37,7 +37,7 @@ def test_overlapping_contours(name):
     labels = CIRCLE_A.format(a=a) + CIRCLE_B.format(b=b, side=side)
     machine = machine_after(f"CYCL DEF 14.0 CONTOUR\nCYCL DEF 14.1 CONTOUR LABEL 1/2\nM2\n{labels}")
     machine.ended = False
-    region = joined_area(machine, *perform(machine, "", labelled_shapes(machine, memory(machine).contour)))
+    region = area_of(machine, *perform(machine, "", labelled_shapes(machine, memory(machine).contour)))
     assert region.area == pytest.approx(area, abs=1e-3)
     assert sum(loop.length for loop in region.loops) == pytest.approx(perimeter, abs=1e-3)
     assert machine.tip == (0, 0, 0) and not machine.recorder.rows  # nothing has moved

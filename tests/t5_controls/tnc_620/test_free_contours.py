@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import mnclab as mnc
-from mnclab.controls.tnc_620.contours.area import joined_area, labelled_shapes
+from mnclab.controls.tnc_620.contours.area import area_of, labelled_shapes
 from mnclab.controls.tnc_620.state import memory
 from mnclab.running.interpreter import Interpreter
 from mnclab.running.performing import perform
@@ -53,7 +53,7 @@ def test_the_example_is_the_contour_of_cycle_14():
     interpreter.run()
     machine = interpreter.machine
     machine.ended = False
-    region = joined_area(machine, *perform(machine, "", labelled_shapes(machine, memory(machine).contour)))
+    region = area_of(machine, *perform(machine, "", labelled_shapes(machine, memory(machine).contour)))
     assert region.area == pytest.approx(4212.730, abs=1e-3)  # [derived: tnc620-contour, C20]
     assert machine.tip == (0, 0, 0) and machine.pending is None
 

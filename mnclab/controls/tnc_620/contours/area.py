@@ -12,12 +12,9 @@ from collections.abc import Generator, Sequence
 from functools import reduce
 from typing import Any, NamedTuple
 
-import numpy as np
-
-from mnclab.controls.tnc_620.contours import outlines
 from mnclab.controls.tnc_620.contours.data import ContourData
 from mnclab.controls.tnc_620.contours.labels import Labels
-from mnclab.controls.tnc_620.contours.outlines import MOST_ELEMENTS, doubt, enclosed, fault
+from mnclab.controls.tnc_620.contours.outlines import MOST_ELEMENTS, doubt, enclosed, fault, level
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.regions import Region
 from mnclab.machine.flow import Recording
@@ -50,9 +47,8 @@ def contour_terraces(
     if isinstance(source, Labels):
         pockets, islands = yield from labelled_shapes(m, source)
         if islands_alone and islands and not pockets:
-            first, *others = (island.region for island in islands)
-            return (Terrace(0.0, abs(data.depth), reduce(Region.union, others, first), solid=True),)
-        source = Part(joined_area(m, pockets, islands))
+            return (Terrace(0.0, abs(data.depth), joined(islands), solid=True),)
+        source = Part(area_of(m, pockets, islands))
     whole = abs(data.depth) or 1.0
     for depth in sorted({part.depth for part in parts(source) if data.depth and part.depth > whole + 1e-9}):
         m.warn(f"DEPTH{depth:.10g} of the contour is deeper than the milling depth Q1 = {data.depth:g}, which counts")
@@ -75,7 +71,7 @@ def labelled_shapes(m: Machine, labels: Labels) -> Generator[Step, Any, tuple[li
         what = f"label {name}"
         if not len(recording.path):
             fault(m, recording.step, f"{what} describes no contour")
-        outlines.level(m, recording, what)
+        level(m, recording, what)
         side = one_side(m, recording, what)
         contour, region = enclosed(m, recording, what)
         elements += len(contour.points)
@@ -86,23 +82,24 @@ def labelled_shapes(m: Machine, labels: Labels) -> Generator[Step, Any, tuple[li
     return pockets, islands
 
 
-def joined_area(m: Machine, pockets: Sequence[Shape], islands: Sequence[Shape]) -> Region:
+def area_of(m: Machine, pockets: Sequence[Shape], islands: Sequence[Shape]) -> Region:
     """The area of pockets without islands; an Alarm without a pocket."""
     if not pockets:
         m.alarm("the contour has no pocket", hint="a pocket is clockwise with RR or counter-clockwise with RL")
-    region = united(m, pockets)
-    doubts(m, region, pockets, islands)
-    return region.without([island.region for island in islands]) if islands else region
+    area = united(m, pockets)
+    doubts(m, area, pockets, islands)
+    return area.without([island.region for island in islands]) if islands else area
+
+
+def joined(shapes: Sequence[Shape]) -> Region:
+    return reduce(Region.union, (shape.region for shape in shapes))
 
 
 def one_side(m: Machine, recording: Recording, what: str) -> int:
-    """The side of the compensation, +1 left, -1 right; an Alarm without one or where it changes."""
+    """The side of the compensation, +1 left, -1 right; an Alarm without one."""
     if not recording.side:
         message = f"the contour of {what} has no RL or RR: pocket or island cannot be told apart"
         fault(m, recording.step, message)
-    other = recording.path.side * recording.side < 0
-    if other.any():
-        fault(m, int(recording.path.step[np.argmax(other)]), f"the contour of {what} has RL and RR: one side counts")
     return recording.side
 
 

@@ -9,8 +9,9 @@ from typing import Any, TypeVar
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, distance, increment, length, ratio
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.state import memory
-from mnclab.machine.cycle import Cycle, CycleTable
+from mnclab.machine.cycle import Cycle, CycleTable, too_many
 from mnclab.machine.machine import Machine
+from mnclab.machining.depths import infeeds
 from mnclab.machining.steps import Step, Write
 from mnclab.running.binding import unit_of
 
@@ -85,3 +86,11 @@ def prepared(m: Machine) -> Iterator[Fault]:
         yield "", "needs a contour: CYCL DEF 14 comes before it"
     if memory(m).contour_data is None:
         yield "", "needs its contour data: CYCL DEF 20 comes before it"
+
+
+def some_infeeds(c: Cycle, m: Machine) -> Iterator[Fault]:
+    """An `infeed` of 0, or one that makes more levels than anybody would wait for; the data are there."""
+    infeed = abs(getattr(c, "infeed", 0.0))
+    if infeed == 0:
+        yield "infeed", "must not be 0"
+    yield from too_many("infeed", lambda: infeeds(0.0, contour_data(m).depth, infeed))

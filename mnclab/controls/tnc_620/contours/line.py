@@ -12,16 +12,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.contours.labels import Labels
-from mnclab.controls.tnc_620.contours.outlines import upright
+from mnclab.controls.tnc_620.contours.outlines import fault
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.machine.flow import RecordedLead, Recording
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Record, Step
+from mnclab.path.kinds import Kind
 from mnclab.path.outline import chain
 
 CLOSED = 1e-6  # mm, from the end to the beginning of a closed contour
+FLAT = 1e-9  # mm
 MOST_ELEMENTS = 16384  # of a contour
 
 
@@ -62,17 +64,22 @@ def contour_line(m: Machine, in_space: bool = False) -> Generator[Step, Any, Lin
     recording: Recording = yield Record(label, labels.program, labels.unit, in_space=in_space)
     path = recording.path
     if not len(path):
-        m.alarm(f"label {label} describes no contour")
+        fault(m, recording.step, f"label {label} describes no contour")
     if len(path) > MOST_ELEMENTS:
-        m.alarm(f"the contour of label {label} has {len(path)} elements, more than {MOST_ELEMENTS}")
-    if upright(path).any():
-        m.alarm(f"an arc of the contour of label {label} leaves the plane XY")
-    ends = [lead.place[2] for lead in (recording.approach, recording.departure) if lead and lead.place]
-    if not in_space and np.abs([*path.end[:, 2], recording.start[2], *ends]).max() > 1e-9:
-        m.alarm(f"the contour of label {label} moves along the tool axis")
+        fault(m, int(path.step[-1]), f"the contour of label {label} has {len(path)} elements, more than {MOST_ELEMENTS}")
+    leads = [lead for lead in (recording.approach, recording.departure) if lead and lead.place]
+    aside = [lead.lead.step for lead in leads if lead.place and abs(lead.place[2]) > FLAT]
+    steep = np.abs(path.start[:, 2]) + np.abs(path.end[:, 2]) > FLAT
+    for steps, what in (
+        (path.step[(path.kind == Kind.ARC) & (np.abs(path.axis[:, 2]) < 0.5)], "has an arc outside the plane XY"),
+        (() if in_space else (*aside, *path.step[steep]), "moves along the tool axis"),
+        (path.step[path.side != recording.side], "changes its radius compensation in this block"),
+    ):
+        if len(steps):
+            fault(m, int(steps[0]), f"the contour of label {label} {what}")
     contour, heights, rows = chain(path)
     if contour.length <= CLOSED:
-        m.alarm(f"the contour of label {label} has no length in the plane XY")
+        fault(m, int(path.step[-1]), f"the contour of label {label} has no length in the plane XY")
     if np.hypot(*(contour.points[-1] - contour.points[0])) <= CLOSED and abs(heights[-1] - heights[0]) <= CLOSED:
         contour, heights = Contour(contour.points[:-1], contour.bulge[:-1]), heights[:-1]
     return Line(contour, recording.side, heights, path.step[rows], path.line[rows], recording.approach, recording.departure)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.contours.area import contour_terraces
-from mnclab.controls.tnc_620.contours.data import contour_data, prepared
+from mnclab.controls.tnc_620.contours.data import contour_data, prepared, some_infeeds
 from mnclab.controls.tnc_620.contours.leaving import leave
 from mnclab.controls.tnc_620.contours.other_tools import in_table, named_tool
 from mnclab.controls.tnc_620.cycles import addresses
@@ -36,8 +36,7 @@ class PilotDrilling(Cycle):
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from prepared(m)
-        if self.infeed == 0:
-            yield "infeed", "must not be 0"
+        yield from some_infeeds(self, m)
         yield from not_zero(self, "feed", purpose="to drill with")
         if self.rough_tool:
             yield from in_table(self, m, "rough_tool")

@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from mnclab.controls.tnc_620.contours.area import contour_terraces
-from mnclab.controls.tnc_620.contours.data import ContourData, contour_data, prepared
+from mnclab.controls.tnc_620.contours.data import ContourData, contour_data, prepared, some_infeeds
 from mnclab.controls.tnc_620.contours.leaving import leave
 from mnclab.controls.tnc_620.contours.other_tools import in_table, named_tool
 from mnclab.controls.tnc_620.cycles import addresses
@@ -50,8 +50,7 @@ class RoughOut(Cycle):
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from prepared(m)
         yield from with_radius(m)
-        if self.infeed == 0:
-            yield "infeed", "must not be 0"
+        yield from some_infeeds(self, m)
         yield from not_zero(self, "feed", *(() if self.swing_feed else ("plunge_feed",)), purpose="to mill with")
         if isinstance(self.retract_feed, float) and FAR < self.retract_feed < INF:
             yield "retract_feed", f"must be at most {FAR:.10g} or FMAX, got {self.retract_feed:g}"
@@ -111,7 +110,7 @@ def cut(c: RoughOut, m: Machine, data: ContourData, region: Region) -> Cut:
         left = rest(region, radius, coarse, data.side_allowance, corner_radius=data.corner)
         return Cut(rest_passes(region, radius, stepover, coarse, **walls, connect=along), left)
     except ValueError as error:
-        m.alarm(f"{c.code}: {error}{remark(m)}", hint="take a smaller tool")
+        m.alarm(f"{c.code}: {error}{remark(m)}", hint="take a smaller tool" if "fit" in str(error) else "")
 
 
 def residue(m: Machine, data: ContourData, cut: Cut) -> Iterator[Say]:

@@ -21,6 +21,7 @@ from mnclab.machine.true_size import MILLS
 from mnclab.machining.depths import infeeds
 from mnclab.machining.milling.train_passes import Feeds, mill
 from mnclab.machining.steps import Say, Step
+from mnclab.text.alarm import Alarm
 
 CYCLES = CycleTable()
 SENSE: dict[float, str] = {1: "climb", -1: "up-cut", 0: "to and fro, infeeds at both ends"}
@@ -77,9 +78,10 @@ class Train(Cycle):
         """The levels from the surface to the floor."""
         return infeeds(surface, surface + self.depth, abs(self.infeed))
 
-    def feeds(self, surface: float) -> Feeds:
-        """The feeds, and how far down the tool goes at rapid above the highest place that it cuts."""
-        return Feeds(self.plunge_feed, self.feed, self.height, surface + CLEAR if self.depth < 0 else INF)
+    def feeds(self, m: Machine, surface: float) -> Feeds:
+        """The feeds, with M109 or M110 at the cutting edge, and how far down the tool goes at rapid above what it cuts."""
+        edge = m.feed_rules[-1].edge if m.feed_rules else ""
+        return Feeds(self.plunge_feed, self.feed, self.height, surface + CLEAR if self.depth < 0 else INF, edge, m.radius)
 
 
 @CYCLES("CYCL DEF 25", "Contour train", source="8.9")
@@ -111,7 +113,7 @@ class ContourTrain(Train):
         before, place = m.programmed, m.flow.span_of_step(m.step)
         line = yield from contour_line(m)
         found = yield from trains(m, self, line, self.coarse_radius(m), place)
-        yield from mill(found, self.levels(self.surface), self.feeds(self.surface), not self.sense)
+        yield from mill(found, self.levels(self.surface), self.feeds(m, self.surface), not self.sense)
         yield from leave(m, before, self.height)
 
 
@@ -142,7 +144,9 @@ class SpaceTrain(Train):
         line = yield from contour_line(m, in_space=True)
         top = float(line.heights.max())
         if top + max(self.depth, 0) > self.height:
-            m.alarm(f"{self.code}: the contour reaches up to Z{top:.10g}, above the clearance height {self.height:.10g}")
+            highest = m.flow.span_of_step(int(line.steps[max(int(line.heights.argmax()) - 1, 0)]))
+            message = f"the contour reaches up to Z{top:.10g} here, above the clearance height {self.height:.10g}"
+            raise Alarm(f"{self.code}: {message}", highest)
         found = yield from trains(m, self, line, self.coarse_radius(m), place)
-        yield from mill(found, self.levels(0.0) if self.depth else (0.0,), self.feeds(top), not self.sense)
+        yield from mill(found, self.levels(0.0) if self.depth else (0.0,), self.feeds(m, top), not self.sense)
         yield from leave(m, before, self.height)

@@ -16,9 +16,9 @@ from mnclab.controls.tnc_620.contours.train_data import TrainData
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.flow import RecordedLead
 from mnclab.machine.machine import Machine
-from mnclab.machining.milling.train_passes import Train, cuts_into, leading_off, leading_to
+from mnclab.machining.milling.train_passes import Train, leading_off, leading_to
 from mnclab.machining.milling.train_rests import rests
-from mnclab.machining.milling.trains import Beside, Way, beside
+from mnclab.machining.milling.trains import Beside, Way, beside, cuts_into
 from mnclab.machining.steps import Say, Step
 from mnclab.path.fault import PathFault
 from mnclab.text.alarm import Alarm, Span
@@ -120,15 +120,15 @@ def _with_leads(m: Machine, line: Line, data: TrainData | None, piece: Way, whol
     if data is not None:
         lead = data.lead(m)
         if lead is None:
-            return Train(piece)
+            return Train(piece, side=outwards)
         lead = lead._replace(side=outwards or 1)
-        return Train(piece, leading_to(piece, lead), leading_off(piece, lead))
+        return Train(piece, leading_to(piece, lead), leading_off(piece, lead), outwards)
     to = off = None
     if line.approach and np.hypot(*(piece.begin - whole.begin)) <= SAME:
         to = _recorded(m, line.approach, piece)
     if line.departure and np.hypot(*(piece.end - whole.end)) <= SAME:
         off = _recorded(m, line.departure, piece)
-    return Train(piece, to, off)
+    return Train(piece, to, off, outwards)
 
 
 def _recorded(m: Machine, recorded: RecordedLead, piece: Way) -> Way:

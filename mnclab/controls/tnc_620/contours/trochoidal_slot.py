@@ -30,6 +30,7 @@ from mnclab.machining.milling.trochoidal_slots import NOTHING, circle_count, tro
 from mnclab.machining.steps import Go, Say, Step
 from mnclab.path.fault import PathFault
 from mnclab.path.leads import way
+from mnclab.text.alarm import Span
 
 CYCLES = CycleTable()
 PLUNGE: dict[float, str] = {0: "vertical", 1: "no function: as 0", 2: "reciprocating"}
@@ -74,7 +75,8 @@ class TrochoidalSlot(AtSurface):
         yield from at_least(self, "slot_width", 2 * m.radius, "the tool diameter")
         rough, circles = self.machining_operation != 2, self.machining_operation != 1 and self.floor_allowance > 0
         if not self.is_full(m):
-            yield from at_least(self, "slot_width", 2 * m.radius + 2 * self.side_allowance, "the tool diameter and twice Q368")
+            least = 2 * m.radius + 2 * self.side_allowance
+            yield from at_least(self, "slot_width", least, "the tool diameter and twice Q368")
             if rough or circles:
                 yield from at_most(self, "slot_width", 4 * m.radius + NOTHING, "twice the tool diameter")
                 yield from not_zero(self, "advance", purpose="to advance by")
@@ -97,14 +99,16 @@ class TrochoidalSlot(AtSurface):
         if not self.down:
             yield self.left_out
             return
-        before, found = m.programmed, (yield from contour_line(m))
+        here = m.flow.span_of_step(m.step)  # reading the contour goes on to its last block
+        found = yield from contour_line(m)
         if found.departure:
-            yield Say(f"{found.departure.lead.name} is no part of the slot, which ends where its contour ends")
+            name = found.departure.lead.name
+            yield Say(f"{name} is no part of the slot, which ends where its contour ends", word=here)
         line = with_approach(m, found)
         if line.closed and abs(float(line.turns()[0])) > CORNER:
-            m.alarm(f"{self.code}: a slot must not begin in a corner of its contour", m.flow.span_of_step(int(found.steps[0])))
-        yield from mill(self, m, line, found.approach is not None)
-        yield from leave(m, before, self.end)
+            corner = m.flow.span_of_step(int(found.steps[0]))
+            m.alarm(f"{self.code}: a slot must not begin in a corner of its contour", corner)
+        yield from mill(self, m, line, found.approach is not None, here)
 
 
 def with_approach(m: Machine, found: Line) -> Contour:
@@ -126,13 +130,13 @@ def with_approach(m: Machine, found: Line) -> Contour:
     return Contour(points, np.concatenate([bulge, line.bulge, [0.0] * line.closed]), closed=False)
 
 
-def mill(c: TrochoidalSlot, m: Machine, line: Contour, opens: bool) -> Iterator[Step]:
+def mill(c: TrochoidalSlot, m: Machine, line: Contour, opens: bool, here: Span | None) -> Iterator[Step]:
     """Roughing, walls and floor from the second set-up clearance; what cannot be is told before anything moves."""
     climb, angle = c.climb(m), tool(m).plunge_angle if c.plunging_strategy == 2 else 90.0
     work = work_of(c, m)
     if work.is_nothing:
         why = "the slot is as wide as the tool" if c.is_full(m) else "neither Q368 nor Q369 is given"
-        yield Say(f"Q215=2 finishes nothing: {why}")
+        yield Say(f"Q215=2 finishes nothing: {why}", word=here)
         return
     width = 2 * m.radius if c.is_full(m) else c.slot_width
     down = trochoidal_steps.way_down(line, m.radius, angle)
@@ -142,7 +146,7 @@ def mill(c: TrochoidalSlot, m: Machine, line: Contour, opens: bool) -> Iterator[
     for clearing, levels in ((rough, work.layers), (floor, work.floor)):
         if clearing is not None and len(clearing.passes) > 1:
             for _, sentence in few_passes("", len(levels), circle_count(line, width, c.advance)):
-                m.alarm(f"{c.code} Q436 (infeed per revolution) {sentence}")
+                m.alarm(f"{c.code} Q436 (infeed per revolution) {sentence}", here)
     edges = ((rough, work.feeds[0]), (floor, work.feeds[2]))
     ways = [way for clearing, feed in edges if clearing and feed.edge for way in clearing.passes]
     for way_along in (*ways, *(wall.contour for wall in around if work.feeds[1].edge)):
@@ -150,8 +154,8 @@ def mill(c: TrochoidalSlot, m: Machine, line: Contour, opens: bool) -> Iterator[
             centre_feeds(way_along, 1.0, m.radius, work.side)
         except ValueError as error:
             message = f"{c.code} Q439={c.feed_reference:g} cannot be obeyed: {error}{remark(m)}"
-            m.alarm(message, hint="Q439=0 counts at the tool centre")
-    x, y = line.points[0].tolist()
+            m.alarm(message, here, hint="Q439=0 counts at the tool centre")
+    (x, y), before = line.points[0].tolist(), m.programmed
     up = (c.end,) if c.down > 0 else (c.above, c.end)
     yield Go("to the second set-up clearance", max(m.programmed[2], c.end))
     yield Go("over the start", x=x, y=y)
@@ -160,6 +164,7 @@ def mill(c: TrochoidalSlot, m: Machine, line: Contour, opens: bool) -> Iterator[
     yield from trochoidal_steps.finish_walls(around, work, up)
     if floor:
         yield from trochoidal_steps.finish_floor(floor, work, down, up)
+    yield from leave(m, before, c.end)
 
 
 def work_of(c: TrochoidalSlot, m: Machine) -> Work:

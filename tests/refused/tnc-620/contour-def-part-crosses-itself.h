@@ -1,0 +1,11 @@
+; 9:1 alarm: the contour of label 1: the contour crosses or touches itself near (17.143, 17.143)
+0 BEGIN PGM A MM
+1 CONTOUR DEF P1 = LBL 1
+2 M30
+LBL 1
+L X+0 Y+0
+L X+40 Y+40
+L X+40 Y+0
+L X+0 Y+30
+LBL 0
+9 END PGM A MM

@@ -1,0 +1,10 @@
+; 8:5 alarm: no value was given to Q77
+0 BEGIN PGM A MM
+1 CONTOUR DEF P1 = LBL 1
+2 M30
+LBL 1
+L X+0 Y+0
+L X+40
+L Y+Q77
+LBL 0
+9 END PGM A MM

@@ -1,0 +1,12 @@
+; 3:114 alarm: CONTOUR DEF P10: there are at most 9 parts, 1 to 9
+0 BEGIN PGM A MM
+1 CONTOUR DEF P1 = LBL 1 P2 = LBL 1 P3 = LBL 1 P4 = LBL 1 P5 = LBL 1 P6 = LBL 1 P7 = LBL 1 P8 = LBL 1 P9 = LBL 1 P10 = LBL 1
+2 M30
+LBL 1
+L X+0 Y+0
+L X+40
+L Y+40
+L X+0
+L Y+0
+LBL 0
+9 END PGM A MM

@@ -1,0 +1,32 @@
+; 29:1 alarm: APPR LCT begins inside of its arc of R8: no line touches the arc from there (take a smaller radius, or a point farther away)
+0 BEGIN PGM A MM
+1 TOOL CALL 1 Z S1000 F100
+2 L Z+50 R0 FMAX M3
+3 CYCL DEF 14.0 C
+4 CYCL DEF 14.1 CONTOUR LABEL1
+5 CYCL DEF 275 T
+Q215=0
+Q219=14
+Q368=0.2
+Q436=2
+Q207=500
+Q351=1
+Q201=-20
+Q202=5
+Q206=150
+Q338=5
+Q385=500
+Q200=2
+Q203=0
+Q204=50
+Q366=0
+Q369=0
+Q439=0
+6 CYCL CALL M3
+7 L Z+50 FMAX M2
+8 LBL 1
+9 L X+12 Y+11
+10 APPR LCT X+10 Y+10 R8 RL
+11 L X+40
+11 LBL 0
+12 END PGM A MM

@@ -1,0 +1,32 @@
+; 25:1 alarm: Q370=1 has no meaning in this block (CYCL DEF 275 does not take Q370) (a line Q… without a block number belongs to the definition above it: number it to assign a variable)
+0 BEGIN PGM A MM
+1 TOOL CALL 1 Z S1000 F100
+2 L Z+50 R0 FMAX M3
+3 CYCL DEF 14.0 C
+4 CYCL DEF 14.1 CONTOUR LABEL1
+5 CYCL DEF 275 T
+Q215=0
+Q219=14
+Q368=0.2
+Q436=2
+Q207=500
+Q351=1
+Q201=-20
+Q202=5
+Q206=150
+Q338=5
+Q385=500
+Q200=2
+Q203=0
+Q204=50
+Q366=0
+Q369=0
+Q439=0
+Q370=1
+6 CYCL CALL M3
+7 L Z+50 FMAX M2
+8 LBL 1
+9 L X+10 Y+10
+10 L X+40
+11 LBL 0
+12 END PGM A MM
