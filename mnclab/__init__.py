@@ -96,6 +96,8 @@ area = Shelf("mnclab.area", "contours and regions: by numbers, or out of a drawi
     "mnclab.geometry.dxf": "contours as dxf",
     "mnclab.geometry.svg": "contours as svg",
     "mnclab.path.outline": "outline, outlines",
+    "mnclab.machining.milling.terraces": "Joined, Part, terraces",
+    "mnclab.show.plot.regions": "plot_regions as plot",
 })  # fmt: skip
 
 strategies = Shelf("mnclab.strategies", "ways to clear an area with a mill; mnclab.compare puts them side by side", {
@@ -105,7 +107,8 @@ strategies = Shelf("mnclab.strategies", "ways to clear an area with a mill; mncl
     "mnclab.machining.milling.spirals": "spiral",
     "mnclab.machining.milling.trochoids": "trochoidal",
     "mnclab.machining.milling.entries": "Entry",
-    "mnclab.machining.milling.engagement": "engagement",
+    "mnclab.machining.milling.rest": "rest, rest_passes",
+    "mnclab.machining.milling.engagement": "engagement, stretches",
 })  # fmt: skip
 
 schemes = Shelf("mnclab.schemes", "ways to turn, groove and thread; mnclab.compare_turning puts them side by side", {

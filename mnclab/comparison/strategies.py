@@ -6,12 +6,13 @@ Lengths in mm, feeds in mm/min, times in s; angles in rad inside and in degrees 
     rest      = reachable less what the passes cover         corners = the area less its allowance less reachable
 
 Engagement and removal are those of one level of the given depth, for everything that runs at it: passes and links. The
-entries clear what is below them and are not counted.
+entries clear what is below them and are not counted. "fine" cuts only what a coarse tool has left; what that tool cleared
+counts as cleared, and as air.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -22,10 +23,11 @@ from mnclab.comparison.table import Table, Titles, Tried
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, left_over, polygons
-from mnclab.machining.milling.clearing import Clearing, begin, end
+from mnclab.machining.milling.clearing import NOWHERE, Clearing, begin, end
 from mnclab.machining.milling.engagement import Engagement, engagement
 from mnclab.machining.milling.entries import VERTICAL, Entry, descent
 from mnclab.machining.milling.layers import toolpath
+from mnclab.machining.milling.rest import reached, rest, rest_passes
 from mnclab.machining.milling.strategies import STRATEGIES, clear
 from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
@@ -38,6 +40,7 @@ if TYPE_CHECKING:
 
 Strategies = Iterable[str] | Mapping[str, str | Clearing | Callable[[Region, float, float], Clearing]]
 
+FINE = "fine"  # fine roughing, after a coarse tool
 DISCS = 10  # to a tool radius; the angles are within half a degree from 10° on
 
 #: Every column of a comparison: what it is, how it is written, and its value.
@@ -71,6 +74,7 @@ class Trial(Tried):
     feed: float
     limit: float
     allowance: float
+    before: Region = NOWHERE  # what a coarse tool has cleared
 
     @property
     def entries(self) -> np.ndarray:
@@ -78,14 +82,14 @@ class Trial(Tried):
         spots = []
         for piece in self.clearing.pieces:
             lifted = [k for k, linked in enumerate(piece.linked, 1) if not linked and not piece.begins_cleared(k)]
-            spots += [piece.entry, *(begin(piece.passes[k]) for k in lifted)]
+            spots += [*([] if piece.from_side else [piece.entry]), *(begin(piece.passes[k]) for k in lifted)]
         return np.array(spots).reshape(-1, 2)
 
     @cached_property
     def _areas(self) -> tuple[Any, Any, Any]:
         whole = polygons(self.region.inset(self.allowance))
         reach = polygons(self.clearing.centres.offset(self.clearing.radius)) if self.clearing.centres.loops else whole
-        return whole, reach, covered(self.clearing.passes, self.clearing.radius)
+        return whole, reach, covered(self.clearing.passes, self.clearing.radius).union(polygons(self.before))
 
     @cached_property
     def rest(self) -> Region:
@@ -125,27 +129,31 @@ class Comparison(Table[Trial]):
 
 @faults_as_alarms()
 def compare(
-    region: Region, tool: Tool | float, strategies: Strategies = tuple(STRATEGIES), *, overlap: float = 0.5,
+    region: Region, tool: Tool | float, strategies: Strategies | None = None, *, overlap: float = 0.5,
     stepover: float | None = None, allowance: float = 0.0, depth: float = 1.0, feed: float = 500.0,
     plunge_feed: float = 150.0, rapid: float = 10000.0, entry: Entry = VERTICAL, climb: bool = True,
-    limit: float = 90.0, limits: Limits | None = None,
+    limit: float = 90.0, limits: Limits | None = None, coarse: Tool | float | None = None,
 ) -> Comparison:  # fmt: skip
     """Try strategies on an area with one tool (a `Tool`, or its radius) and put what comes of it side by side.
 
-    `strategies` are names of `STRATEGIES`, or a mapping from names to a strategy, a `Clearing`, or a function of
-    region, tool radius and stepover. `overlap` is the share of the tool diameter that two passes have in common;
-    `stepover` says it in mm instead. `limit` is the engagement in degrees above which the share is counted. With axis
-    `limits` the time comes from the feed-rate profile. An Alarm where the tool does not fit.
+    `strategies` are names of `STRATEGIES` (None: all of them), or a mapping from names to a strategy, a `Clearing`, or a
+    function of region, tool radius and stepover. With a `coarse` tool, which has been there before, there is also "fine", what
+    this one has to do after it; the others do everything with the one tool.
+
+    `overlap` is the share of the tool diameter that two passes have in common; `stepover` says it in mm instead. `limit` is
+    the engagement in degrees above which the share is counted. With axis `limits` the time comes from the feed-rate profile.
+    An Alarm where the tool does not fit.
     """
-    _check(region, strategies, limits)
+    known = (*STRATEGIES, FINE) if coarse is not None else tuple(STRATEGIES)
+    strategies = known if strategies is None else strategies
+    _check(region, strategies, known, limits)
     _check_numbers(depth, feed, plunge_feed, rapid, allowance, limit)
     if not isinstance(entry, Entry):
         raise Alarm(f"the entry must be an Entry, got {shown(entry)}", hint='mnclab.strategies.Entry("helix", 3)')
     if not isinstance(climb, bool | np.bool_):
         raise Alarm(f"climb must be True or False, got {shown(climb)}")
     depth, feed, plunge_feed, rapid, allowance, limit = plain([depth, feed, plunge_feed, rapid, allowance, limit])
-    radius = plain(tool.effective_radius if isinstance(tool, Tool) else tool)
-    check_number(radius, "the tool (its radius, mm, or a Tool)", above=0)
+    radius = _radius(tool, "the tool")
     if stepover is None:
         check_number(overlap, "the overlap (of two passes, a share of the tool diameter)", at_least=0)
         if not overlap < 1:
@@ -157,31 +165,52 @@ def compare(
     trials = []
     with progress("comparing", len(named), "strategies") as done:
         for name, how in named.items():
-            if isinstance(how, str):
+            before, stock = NOWHERE, None
+            if how == FINE:
+                clearing, before, stock = _fine(region, radius, stepover, _radius(coarse, "the coarse tool"), allowance, climb)
+            elif isinstance(how, str):
                 clearing = clear(how, region, radius, stepover, allowance=allowance, climb=climb)
             else:
                 clearing = how if isinstance(how, Clearing) else how(region, radius, stepover)
             path = toolpath(clearing, (-depth,), entry=entry, feed=feed, plunge_feed=plunge_feed, climb=climb)
             moves, counted = level_moves(clearing, entry, depth, climb)
-            found = engagement(moves, radius, spacing=radius / DISCS)
+            found = engagement(moves, radius, spacing=radius / DISCS, stock=stock)
             found = found.chosen(np.array(counted, dtype=bool)[found.move])
             way = name, path, limits, rapid
-            trials.append(Trial(*way, region, clearing, found, depth, feed, np.radians(limit), allowance))
+            trials.append(Trial(*way, region, clearing, found, depth, feed, np.radians(limit), allowance, before))
             done(len(trials))
     return Comparison(tuple(trials))
 
 
-def _check(region: Region, strategies: Strategies, limits: Limits | None) -> None:
+def _radius(tool: Any, name: str) -> float:
+    radius = plain(tool.effective_radius if isinstance(tool, Tool) else tool)
+    check_number(radius, f"{name} (its radius, mm, or a Tool)", above=0)
+    return float(radius)
+
+
+def _fine(
+    region: Region, radius: float, stepover: float, coarse: float, allowance: float, climb: bool
+) -> tuple[Clearing, Region, Region]:
+    """Fine roughing after a coarse tool: its passes, what is cleared before them, and what stands."""
+    clearing = rest_passes(region, radius, stepover, coarse, allowance=allowance, climb=climb)
+    if not clearing.pieces:
+        raise Alarm(f"a coarse tool of radius {coarse:g} leaves nothing to one of {radius:g}", hint="take a larger coarse tool")
+    return clearing, reached(region, coarse, allowance), rest(region, radius, coarse, allowance)
+
+
+def _check(region: Region, strategies: Strategies, known: Sequence[str], limits: Limits | None) -> None:
     if not isinstance(region, Region):
         example = "mnclab.area.Region.of(mnclab.area.rectangle(60, 40))"
         raise Alarm(f"strategies are compared on a Region, got {shown(region)}", hint=example)
     named = strategies.values() if isinstance(strategies, Mapping) else strategies
     if isinstance(strategies, str) or not isinstance(named, Iterable):
-        example = f'["rings", "spiral"], or a dict of names; known: {", ".join(STRATEGIES)}'
+        example = f'["rings", "spiral"], or a dict of names; known: {", ".join(known)}'
         raise Alarm(f"strategies must be a list of names, got {shown(strategies)}", hint=example)
     for how in named:
         if not isinstance(how, Clearing) and not callable(how):
-            choice(how, "a strategy", STRATEGIES)
+            if how == FINE and FINE not in known:
+                raise Alarm("the strategy fine needs to know which coarse tool was there before", hint="coarse=10.0, its radius")
+            choice(how, "a strategy", known)
     if not isinstance(limits, Limits | None):
         raise Alarm(f"limits must be Limits, got {shown(limits)}", hint="mnclab.Limits(acceleration=1000)")
 

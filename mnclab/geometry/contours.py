@@ -234,12 +234,12 @@ class Contour:
             raise ValueError("only a closed contour can begin anywhere")
         elements, fractions = self._element_at(np.array([float(distance)]))
         i, u = int(elements[0]), float(fractions[0])
+        place = self.at(np.array([u]), elements)[0]
+        if len(self.points) == 2 and (np.abs(np.abs(self.bulge) - 1) < FLAT).all():
+            return Contour([place[0], self.points.sum(axis=0) - place[0]], np.sign(self.bulge))
         if min(u, 1 - u) * self.lengths[i] < 1e-9:
             i = (i + round(u)) % len(self.points)
             return Contour(np.roll(self.points, -i, axis=0), np.roll(self.bulge, -i))
-        place = self.at(np.array([u]), elements)[0]
-        if len(self.points) == 2 and (np.abs(self.bulge) == 1).all():
-            return Contour([place[0], self.points.sum(axis=0) - place[0]], self.bulge)
         points = np.vstack([place, np.roll(self.points, -i - 1, axis=0)])
         bulge = np.append(0.0, np.roll(self.bulge, -i - 1))
         bulge[[0, -1]] = np.tan(self.sweeps[i] * np.array([1 - u, u]) / 4)

@@ -16,8 +16,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry import shapely
 from mnclab.geometry.bands import inset_by_bands
+from mnclab.geometry.boxes import near
 from mnclab.geometry.contours import Contour, Floats
-from mnclab.geometry.cutting import Outlines, outlines_of
+from mnclab.geometry.curves import gap
+from mnclab.geometry.cutting import Outlines, boxes, outlines_of
 from mnclab.geometry.insets import inset
 from mnclab.geometry.tracing import GRID, SAME, Drawing
 from mnclab.geometry.vectors import cross
@@ -29,6 +31,8 @@ class CrossesItself(ValueError):
     def __init__(self, place: tuple[float, float] | None) -> None:
         super().__init__("the contour crosses or touches itself" + (" near ({:.3f}, {:.3f})".format(*place) if place else ""))
         self.place = place
+
+CLEAR = 1e-3  # mm, between loops of which each lies whole within the other area or outside
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,13 +74,21 @@ class Region:
 
     def without(self, others: Sequence[Region]) -> Region:
         """The difference from all of some others at once."""
-        drawing = Drawing([*self.loops, *(loop for other in others for loop in other.loops)])
-        first, gone = len(self.loops), []
+        rest, hard = self, list[Region]()
         for other in others:
+            if _clear(rest.loops, other.loops):
+                rest = rest.difference(other)
+            else:
+                hard.append(other)
+        if not hard:
+            return rest
+        drawing = Drawing([*rest.loops, *(loop for other in hard for loop in other.loops)])
+        first, gone = len(rest.loops), []
+        for other in hard:
             gone.append(drawing.area(other.loops, first))
             first += len(other.loops)
         whole = shapely.union_all(gone, grid_size=GRID)
-        return Region(drawing.traced(shapely.difference(drawing.area(self.loops, 0), whole, grid_size=GRID)))
+        return Region(drawing.traced(shapely.difference(drawing.area(rest.loops, 0), whole, grid_size=GRID)))
 
     def intersection(self, other: Region) -> Region:
         return self._with("intersection", other)
@@ -157,9 +169,24 @@ class Region:
         return np.array([loop.bounds for loop in self.loops]).reshape(-1, 2, 2)
 
     def _with(self, operation: str, other: Region) -> Region:
+        if _clear(self.loops, other.loops):
+            mine, theirs = operation == "intersection", operation != "union"
+            loops = [loop for loop in self.loops if other.contains(loop.points[:1])[0] == mine]
+            others = [loop for loop in other.loops if self.contains(loop.points[:1])[0] == theirs]
+            return _arranged([*loops, *((loop.reversed() for loop in others) if operation == "difference" else others)])
         drawing = Drawing([*self.loops, *other.loops])
-        mine, theirs = drawing.area(self.loops, 0), drawing.area(other.loops, len(self.loops))
-        return Region(drawing.traced(getattr(shapely, operation)(mine, theirs, grid_size=GRID)))
+        one, two = drawing.area(self.loops, 0), drawing.area(other.loops, len(self.loops))
+        return Region(drawing.traced(getattr(shapely, operation)(one, two, grid_size=GRID)))
+
+
+def _clear(mine: Sequence[Contour], theirs: Sequence[Contour]) -> bool:
+    """Whether no loop of one area comes near one of the other: then each lies whole within the other area or outside."""
+    if not (mine and theirs):
+        return False
+    curves = outlines_of([*mine, *theirs]).curves
+    first = sum(len(loop.points) for loop in mine)
+    pairs = ((i, k) for i, k in ((i[i < first], k[i < first]) for i, k in near(*boxes(curves), CLEAR)))
+    return not any((gap(curves.take(i[k >= first]), curves.take(k[k >= first])) < CLEAR).any() for i, k in pairs)
 
 
 def _arranged(loops: Sequence[Contour]) -> Region:

@@ -1,7 +1,7 @@
 """Strips: what lies within a distance of a line of lines and arcs, open or closed. Lengths in mm.
 
-      .----------.       every element has a band on either side of it, every corner and both ends of an open line
-     (  --------  )      a disc: what a disc sweeps along the line, with exact arcs
+      .----------.       every element has a band on either side of it, every corner a fan on its outer side, and
+     (  --------  )      the ends of an open line are round: what a disc sweeps along the line, with exact arcs
       `----------´
 """
 
@@ -26,14 +26,18 @@ def strip(line: Contour, reach: float) -> Region:
 
 def _pieces(line: Contour, reach: float) -> Iterator[Contour]:
     begins, ends = line.tangents()
-    columns = zip(line.starts, line.ends, line.bulge, line.radii, line.centres, left(begins), left(ends), strict=False)
-    for start, stop, bulge, radius, centre, first, last in columns:
+    first, last = left(begins), left(ends)
+    columns = zip(line.starts, line.ends, line.bulge, line.radii, line.centres, first, last, strict=False)
+    for start, stop, bulge, radius, centre, a, b in columns:
         for side in (reach, -reach):
             if bulge * side > 0 and radius <= reach + SAME:
                 yield Contour([start, stop, centre], [bulge, 0.0, 0.0])  # nothing is nearer beyond the centre
             else:
-                yield Contour([start, stop, stop + side * last, start + side * first], [bulge, 0.0, -bulge, 0.0])
-    corners = np.abs(line.turns()) > SMOOTH
-    corners[0] |= not line.closed
-    for place in [*line.starts[corners], *(() if line.closed else line.points[-1:])]:
+                yield Contour([start, stop, stop + side * b, start + side * a], [bulge, 0.0, -bulge, 0.0])
+    turns = line.turns()
+    for k in np.flatnonzero(np.abs(turns) > SMOOTH).tolist():
+        outside = -reach * np.sign(turns[k])
+        here = line.points[k]
+        yield Contour([here, here + outside * last[k - 1], here + outside * first[k]], [0.0, np.tan(turns[k] / 4), 0.0])
+    for place in () if line.closed else line.points[[0, -1]]:
         yield Contour.circle(place, reach)

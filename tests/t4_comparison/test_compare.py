@@ -63,6 +63,31 @@ def test_what_is_left_is_found():
     assert trial.rest.loops[0].bounds == pytest.approx(np.array([[-20, -10], [20, 10]]), abs=0.01)
 
 
+def test_fine_roughing_beside_the_whole_with_one_tool():
+    """After a tool of 12 one of 5 has (1 - π/4)·(12² - 5²) left in each corner, and never a whole slot."""
+    found = compare(BOX, 5.0, ["rings", "fine"], coarse=Tool(radius=12), overlap=0.6)
+    fine = found["fine"]
+    assert fine.before.area == pytest.approx(2400 - (4 - np.pi) * 144)
+    assert fine.covered > 0.9999 and fine.rest.area == pytest.approx(0, abs=0.05)
+    assert fine.row["length"] < found["rings"].row["length"] / 2
+    cut = (fine.engagement.width * fine.engagement.step).sum()
+    assert cut == pytest.approx((4 - np.pi) * (144 - 25), rel=0.02)
+    assert fine.row["most"] < 150 < found["rings"].row["most"]
+    assert not len(fine.entries) and len(found["rings"].entries)
+
+
+def test_fine_roughing_needs_a_coarse_tool_that_leaves_something():
+    assert [trial.name for trial in compare(BOX, 5.0, coarse=12).trials][-1] == "fine"
+    with pytest.raises(Alarm, match="coarse tool was there before"):
+        compare(BOX, 5.0, ["fine"])
+    for coarse in (5, 3):
+        with pytest.raises(Alarm, match=f"coarse tool of radius {coarse} leaves nothing to one of 5"):
+            compare(BOX, 5.0, ["fine"], coarse=coarse)
+    for wrong in (np.nan, -1, "12", [1], {}):
+        with pytest.raises(Alarm, match="coarse tool"):
+            compare(BOX, 5.0, ["fine"], coarse=wrong)
+
+
 def test_own_functions_and_other_names():
     own = compare(BOX, 5.0, {"mine": lambda region, radius, step: concentric.rectangle(60, 40, radius, step)})
     assert own["mine"].covered > 0.999

@@ -42,6 +42,16 @@ def test_nothing_overlaps(found):
             assert not a.overlaps(b)
 
 
+def test_the_greatest_engagement_and_what_was_cleared_before():
+    trials = compare(AREA, 4.0, ("rings", "fine"), coarse=9.0)
+    picture = trials.plot()
+    for ax, trial in zip(picture.axes, trials.trials, strict=False):
+        assert ax.get_title(loc="right") == f"greatest {trial.row['most']:.0f}°"
+    (legend,) = picture.legends
+    assert [text.get_text() for text in legend.get_texts()][:2] == ["entry", "cleared by the coarse tool"]
+    test_nothing_overlaps(trials)
+
+
 def test_a_single_trial_and_none(found):
     assert len(plot_strategies(found[0]).axes) == 2
     with pytest.raises(ValueError, match="nothing to draw"):

@@ -13,6 +13,7 @@ the tool centre.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple
@@ -23,11 +24,8 @@ from numpy.typing import ArrayLike, NDArray
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.shapes import QUARTER
 from mnclab.geometry.vectors import Floats, left, length_of
-from mnclab.path import compensation
-from mnclab.path.compensation import Compensation
+from mnclab.machining.milling import trains
 from mnclab.path.fault import PathFault
-from mnclab.path.kinds import Kind, Rule
-from mnclab.path.toolpath import Toolpath
 
 CHORD = 1e-4  # mm, between an arc on the developed surface and the rows along it
 LEAST = 1e-9  # mm: an offset or a radius below is none
@@ -53,66 +51,29 @@ class Way(NamedTuple):
 
 
 def beside(contour: Contour, distance: float, steps: Steps = ()) -> Contour:
-    """The way of a tool centre beside a contour, `distance` to its left (or with a minus right), from end to end.
+    """The way of a tool centre beside a contour, `distance` to its left (or with a minus right), as `trains.beside` finds it.
 
-    Inside corners are cut off where the offsets meet, outside corners closed by arcs. Beside an open contour the way begins
-    and ends square to it, beside a closed one where its first element begins. `steps` (m,) are those of its m elements, which
-    a PathFault names where the tool does not fit.
+    `steps` (m,) are those of the m elements, which a PathFault names where the tool does not fit.
     """
     if abs(distance) < LEAST:
         return opened(contour)
-    m, cut = len(contour.starts), 0
-    corner = contour.closed and abs(float(contour.turns()[0])) > compensation.TANGENT
-    if corner:  # begun within an element, its first corner is one like the others
-        cut = int(np.argmax(contour.lengths))
-        begun = contour.started_at(float(contour.lengths[:cut].sum() + contour.lengths[cut] / 2))
-        element = (np.arange(m + 1) + cut) % m
-    else:
-        begun, element = contour, np.arange(m)
     try:
-        found = compensation.apply(_led(begun, distance), Compensation(look_ahead=True))
+        found = trains.beside(contour, distance, 1)
+        if found.fault is not None:
+            raise found.fault
     except PathFault as fault:
-        k = int(element[min(max(fault.step - 1, 0), len(element) - 1)])
+        k = min(max(fault.step, 0), len(contour.starts) - 1)
         raise PathFault(_worded(fault.message), int(steps[k]) if len(steps) else k, fault.hint) from None
-    found = found[(found.step > 0) & (found.step <= len(element)) & (found.lengths > LEAST)]
-    if corner:
-        first = int(np.argmax((found.step == m - cut + 1) & (found.rule != Rule.OUTSIDE_ARC)))
-        found = found[np.roll(np.arange(len(found)), -first)]
-    bulge = np.append(np.tan(np.where(found.kind == Kind.ARC, found.sweep, 0.0) / 4), 0.0)
-    way = Contour(np.vstack([found.start[:1, :2], found.end[:, :2]]), bulge, closed=False)
-    return _without(way, found.step, (1, m + 1)) if corner else way
-
-
-def _led(contour: Contour, distance: float) -> Toolpath:
-    """A contour with a line to its begin and one from its end, compensated: the element k is step k + 1."""
-    out = distance * left(np.stack([contour.tangents()[0][0], contour.tangents()[1][-1]]))
-    starts, ends = contour.starts, contour.ends
-    vertices = np.vstack([starts[:1] + out[:1], starts[:1], ends, ends[-1:] + out[1:]])
-    n = len(starts) + 2
-    centre, sweep, side = np.full((n, 3), np.nan), np.zeros(n), np.full(n, np.sign(distance), np.int8)
-    centre[1:-1], sweep[1:-1], side[-1] = np.column_stack([contour.centres, np.zeros(n - 2)]), contour.sweeps, 0
-    columns = {
-        "kind": np.where(sweep != 0, np.uint8(Kind.ARC), np.uint8(Kind.LINE)), "centre": centre, "sweep": sweep, "side": side,
-        "radius": np.full(n, abs(distance)), "step": np.arange(n, dtype=np.int32),
-    }  # fmt: skip
-    return Toolpath.chain(np.column_stack([vertices, np.zeros(n + 1)]), columns)
+    return found.ways[0].contour
 
 
 def _worded(text: str) -> str:
     """A fault of a tool radius as one of a distance, which more than the tool makes; the elements have no lines here."""
     for one, other in (
         ("tool radius", "distance"), ("tool of radius", "tool at the distance"), ("largest radius", "largest distance"),
-        ("that of line 0", "another one"), ("the element of line 0", "another element"),
     ):  # fmt: skip
         text = text.replace(one, other)
-    return text
-
-
-def _without(way: Contour, step: NDArray[np.int32], halves: tuple[int, int]) -> Contour:
-    """A way without the joint between two halves of a line: rows (m,) of the steps `halves`, the second one first."""
-    joint = np.flatnonzero((step[:-1] == halves[1]) & (step[1:] == halves[0])) + 1
-    joint = joint[(way.bulge[joint] == 0) & (way.bulge[joint - 1] == 0)]
-    return Contour(np.delete(way.points, joint, axis=0), np.delete(way.bulge, joint), closed=False)
+    return re.sub(r"that of line \d++", "another one", re.sub(r"the element of line \d++", "another element", text))
 
 
 def opened(contour: Contour) -> Contour:

@@ -42,12 +42,13 @@ def rest(
     """
     if coarse_radius <= radius:
         return Region()
-    return _reached(region, radius, allowance, corner_radius).difference(
-        _reached(region, coarse_radius, allowance, corner_radius)
+    return reached(region, radius, allowance, corner_radius).difference(
+        reached(region, coarse_radius, allowance, corner_radius)
     )
 
 
-def _reached(region: Region, radius: float, allowance: float, corner_radius: float) -> Region:
+def reached(region: Region, radius: float, allowance: float = 0.0, corner_radius: float = 0.0) -> Region:
+    """What rings of a tool clear of an area, if they leave nothing between them."""
     centres = region.inset(radius + allowance)
     return Region(tuple(rounded(loop, corner_radius) for loop in centres.loops)).offset(radius)
 

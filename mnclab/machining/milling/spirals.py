@@ -32,10 +32,15 @@ def half_circles(
     """The spiral of `count` half circles from one distance of the centre to another, begun in the direction `angle`."""
     if count < 1 or min(begin, end) < 0:
         raise ValueError(f"a spiral needs a half circle and radii not below 0, got {count}, {begin:g} and {end:g}")
-    away = begin + (end - begin) * np.arange(count + 1) / count
-    side = np.where(np.arange(count + 1) % 2, -1.0, 1.0) * away
+    return through(centre, begin + (end - begin) * np.arange(count + 1) / count, angle, clockwise)
+
+
+def through(centre: ArrayLike, away: ArrayLike, angle: float = 0.0, clockwise: bool = False) -> Contour:
+    """Half circles between places at distances `away` (n,) from a centre, in the direction `angle` and opposite in turn."""
+    far = np.asarray(away, dtype=float)
+    side = np.where(np.arange(len(far)) % 2, -1.0, 1.0) * far
     way = np.array([np.cos(angle), np.sin(angle)])
-    bulge = np.full(count + 1, -1.0 if clockwise else 1.0)
+    bulge = np.full(len(far), -1.0 if clockwise else 1.0)
     return Contour(np.asarray(centre, dtype=float) + side[:, None] * way, bulge, closed=False)
 
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.vectors import left
-from mnclab.machining.milling.trains import Way, part
+from mnclab.machining.milling.trains import Way, away, part
 
 Bools: TypeAlias = NDArray[np.bool_]
 
@@ -37,12 +37,15 @@ def rests(
     """
     length = along.contour.length
     places = _places(along.contour, radius)
-    thick = _thickness(along.contour, places, radius, side, coarse, coarse_radius) > accepted
+    thick = np.full(len(places), True)
+    if coarse:
+        thick = away(coarse, _feet(along.contour, places, radius, side)) - coarse_radius > accepted
     if thick.all():
         return (part(along, -extended, length + extended),) if not along.closes else (along,)
 
     def still(way: Floats) -> Bools:
-        return _thickness(along.contour, way, radius, side, coarse, coarse_radius) > accepted
+        feet = _feet(along.contour, way, radius, side)
+        return np.asarray(np.min([one.distance(feet) for one in coarse], axis=0) - coarse_radius > accepted)
 
     edges = np.flatnonzero(thick[1:] != thick[:-1])
     found = _edges(still, places[edges], places[edges + 1], thick[edges])
@@ -63,14 +66,10 @@ def _places(contour: Contour, radius: float) -> Floats:
     return np.concatenate(found)
 
 
-def _thickness(
-    contour: Contour, places: Floats, radius: float, side: int, coarse: Sequence[Contour], coarse_radius: float
-) -> Floats:
-    """How thick the rest is at the feet of places (k,) along a way, `(k,)`; what a coarse tool never reached is endless."""
+def _feet(contour: Contour, places: Floats, radius: float, side: int) -> Floats:
+    """Where the tool touches the finished wall at places (k,) along its way, `(k, 2)`."""
     spots, tangents = contour.point_at(places)
-    feet = spots - side * radius * left(tangents)
-    away = [way.distance(feet) for way in coarse]
-    return np.min(away, axis=0) - coarse_radius if away else np.full(len(feet), np.inf)
+    return np.asarray(spots - side * radius * left(tangents))
 
 
 def _edges(still: Callable[[Floats], Bools], low: Floats, high: Floats, begins: Bools) -> Floats:

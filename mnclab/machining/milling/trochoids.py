@@ -4,9 +4,14 @@
     │ (((((((((((((  ─►          tool-centre area; the tool cuts only the arc of its rim that lies outside the disc
     └──────────────────────      before it, and goes straight back through what is cleared
 
-The next disc is the farthest on that line whose rim is nowhere more than one stepover outside the disc before it:
-|m' - m| + r' - r = k. So what lies within the rim is always cleared, if k ≤ R. In the end the walls are followed, which
-takes away the cusps between the arcs.
+The next disc is the farthest on that line on which the tool is engaged no wider than one stepover k. Its rim may then lie so
+far outside the disc before it, both about one centre and r being its radius:
+
+    |m' - m| + r' - r = k·r / (r + R)        width of cut across the way: a·(1 + R/r) - a²/(2·r) for a step of a
+
+So what lies within the rim is always cleared, if k ≤ R. Where a branch leaves a larger disc its first arcs cut up to twice
+as much; on the first turn out of the plunged hole the tool works with nearly its whole rim, whatever the step. The spiral of
+the first disc grows by k·r / (r + R) a turn. In the end the walls are followed, which takes away the cusps between the arcs.
 """
 
 from __future__ import annotations
@@ -19,15 +24,16 @@ from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import Skeleton, skeleton
 from mnclab.machining.milling.clearing import Clearing, Piece, links, numbered, piecewise, round_walls
-from mnclab.machining.milling.spirals import half_circles
+from mnclab.machining.milling.spirals import through
 
 SMALLEST = 0.05  # of the tool radius: discs of tool centres below that are left to the passes along the walls
+FINEST = 1 / 32  # of the stepover: the places on the middle line that are tried; in the smallest disc 1/21 is gone on
 
 
 def trochoidal(
     region: Region, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True
 ) -> Clearing:
-    """An area cleared by arcs along its middle line, from its widest place on; `stepover` is the greatest advance."""
+    """An area cleared by arcs along its middle line, from its widest place on; `stepover` is the width of cut on them."""
     return piecewise(
         region, radius, stepover, allowance, lambda part: _piece(part, radius, min(stepover, radius), climb)
     )
@@ -51,14 +57,14 @@ def _discs(points: Floats, centres: Region, radius: float, stepover: float, clim
     arcs = []
     centre, reach = points[0], float(centres.distance(points[:1])[0])
     if first:
-        halves = max(1, int(np.ceil(2 * reach / stepover)))
-        arcs.append(half_circles(centre, 0.0, reach, halves, clockwise=not climb))
-        arcs.append(Contour.circle(centre, reach, np.pi * halves, clockwise=not climb))
-    middles = _finer(points, stepover / 8) if len(points) > 1 else points
+        away = _widening(reach, radius, stepover)
+        arcs.append(through(centre, away, clockwise=not climb))
+        arcs.append(Contour.circle(centre, reach, np.pi * (len(away) - 1), clockwise=not climb))
+    middles = _finer(points, stepover * FINEST) if len(points) > 1 else points
     rooms = centres.distance(middles)
     while len(middles) > 1:
         beyond = np.hypot(*(middles - centre).T) + rooms - reach
-        over = np.flatnonzero(beyond > stepover)
+        over = np.flatnonzero(beyond > stepover * rooms / (rooms + radius))
         last = max(int(over[0]) - 1, 1) if len(over) else len(middles) - 1
         new, size = middles[last], float(rooms[last])
         arc = _outside(new, size, centre, reach, climb) if size >= SMALLEST * radius else None
@@ -67,6 +73,14 @@ def _discs(points: Floats, centres: Region, radius: float, stepover: float, clim
         centre, reach = new, size
         middles, rooms = middles[last:], rooms[last:]
     return arcs
+
+
+def _widening(reach: float, radius: float, stepover: float) -> list[float]:
+    """Distances from the middle of a spiral, half a turn apart, up to `reach`; the first step is half a stepover."""
+    away = [0.0, min(stepover / 2, reach)]
+    while away[-1] < reach:
+        away.append(min(reach, away[-1] * (1 + stepover / 2 / (away[-1] + radius))))
+    return away
 
 
 def _finer(points: Floats, spacing: float) -> Floats:

@@ -23,6 +23,6 @@ lies close by along the contour, `heights` for what is at the same height and `p
 from __future__ import annotations
 
 from mnclab.path.compensation.moving_ends import apply
-from mnclab.path.compensation.rules import ACUTE, CORNER, ROUND, STRAIGHT, TANGENT, Compensation, Gouge, Report
+from mnclab.path.compensation.rules import ACUTE, CORNER, ROUND, STRAIGHT, Compensation, Gouge, Report
 
-__all__ = ["ACUTE", "CORNER", "ROUND", "STRAIGHT", "TANGENT", "Compensation", "Gouge", "Report", "apply"]
+__all__ = ["ACUTE", "CORNER", "ROUND", "STRAIGHT", "Compensation", "Gouge", "Report", "apply"]

@@ -24,7 +24,7 @@ from mnclab.show.plot.picture import SMALL, Picture, write_legend
 from mnclab.show.plot.trials import side_by_side
 
 ENTRY = Mark("entry", colours.INK, "v", 5, False, 4.0)
-REST, CORNER = "#b3261e", "#8c8c8c"
+REST, CORNER, BEFORE = "#b3261e", "#8c8c8c", "#dbe4ea"
 STEPS = tuple(range(0, 181, 20))  # degrees, limits of the colours
 NORM = BoundaryNorm(STEPS, len(STEPS) - 1)
 #: From pale to dark and red: the harder the tool works, the darker, in grey print too.
@@ -51,14 +51,20 @@ def plot_strategies(found: Comparison | Trial, width: float = 9.0, columns: int 
     for ax, trial in zip(axes, trials):
         draw(ax, trial)
     _scale(picture, *picture.get_size_inches().tolist())
+    before = [Patch(facecolor=BEFORE, edgecolor="none", label="cleared by the coarse tool")]
     narrow = "too narrow for the tool" if any(trial.corners.loops for trial in trials) else ""
-    write_legend(picture, [Line2D([], [], **ENTRY.style()), *hatched(trials, narrow)])
+    cleared = before if any(trial.before.loops for trial in trials) else []
+    write_legend(picture, [Line2D([], [], **ENTRY.style()), *cleared, *hatched(trials, narrow)])
     return picture
 
 
 def draw(ax: Axes, trial: Trial) -> None:
-    """One trial in its axes."""
-    area(ax, trial.region, facecolor="#f4f1e8", edgecolor=colours.INK, linewidth=1.0, zorder=1.0)
+    """One trial in its axes, its greatest engagement above them."""
+    most = math.degrees(trial.engagement.most())
+    ax.set_title(f"greatest {most:.0f}°", fontsize=SMALL, loc="right", pad=4, color=colours.INK)
+    area(ax, trial.region, facecolor="#f4f1e8", edgecolor="none", zorder=1.0)
+    area(ax, trial.before, facecolor=BEFORE, edgecolor="none", zorder=1.1)
+    area(ax, trial.region, facecolor="none", edgecolor=colours.INK, linewidth=1.0, zorder=1.2)
     hatch(ax, trial.rest, trial.corners)
     found = trial.engagement
     half = found.step[:, None] / 2 * np.stack([np.cos(found.heading), np.sin(found.heading)], axis=1)

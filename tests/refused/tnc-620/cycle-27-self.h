@@ -1,4 +1,4 @@
-; 23:1 alarm: CYCL DEF 27: beside this element the tool at the distance 5 goes through another one, which the contour crosses: 5 mm are missing, no tool fits here (end the contour where it meets itself)
+; 23:1 alarm: CYCL DEF 27: the contour crosses itself
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F200
 2 M3

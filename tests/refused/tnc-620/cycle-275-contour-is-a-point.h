@@ -1,4 +1,4 @@
-; 29:1 alarm: label 1 describes no contour
+; 28:1 alarm: label 1 describes no contour
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
 2 L Z+50 R0 FMAX M3

@@ -1,4 +1,4 @@
-; 30:1 alarm: the contour of label 1 moves along the tool axis
+; 29:1 alarm: the contour of label 1 moves along the tool axis
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
 2 L Z+50 R0 FMAX M3

@@ -1,4 +1,4 @@
-; 24:1 alarm: the contour of label 1 has no length in the plane XY
+; 23:1 alarm: the contour of label 1 has no length in the plane XY
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S2000 F400
 2 L X+0 Y+0 Z+100 R0 FMAX

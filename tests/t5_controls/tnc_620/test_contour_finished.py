@@ -5,6 +5,7 @@ Expected numbers are those that the catalogue works out of the manual's examples
 
 import json
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -92,6 +93,85 @@ def test_c21_leaves_the_pocket_of_the_example(whole):
     outline, wall, *islands = sorted(part.cut("XY", -19.9), key=lambda each: -abs(each.area))
     assert abs(wall.area) == pytest.approx(3367.872, rel=1e-3)
     assert [each.area for each in islands] == pytest.approx([256, 128], rel=5e-3)
+
+
+@pytest.fixture(scope="module")
+def formula():
+    """The example of chapter 10: as C21, with a formula, another triangle and two tools."""
+    examples = json.loads((CATALOGUE.parent / "tnc620-contour-formula.json").read_text(encoding="utf-8"))
+    (text,) = (entry["program"] for entry in examples if "CYCL DEF 24" in entry["program"] and "QC10" in entry["program"])
+    main, *others = re.findall(r"0 BEGIN PGM \w+ MM.*?END PGM \w+ MM\n?", text, re.DOTALL)
+    files = {f"{other.split()[3]}.H": other for other in others}
+    mill = dict(plunge_angle=90, kind="mill")
+    tools = {1: Tool(radius=6, **mill), 2: Tool(radius=5, **mill)}
+    return mnclab.run(main, "tnc-620", Setup(tools=tools, files=files))
+
+
+def test_the_example_of_chapter_10(formula):
+    """Cycle 23 at z = -20; cycle 24 on z = -5, -10, -15, -20 with 0.08 before the last; R = 5 < Q3 + 6."""
+    assert formula.ok, formula.alarms
+    floor, side = of(formula, "CYCL DEF 23"), of(formula, "CYCL DEF 24")
+    assert set(floor[floor.feed == 200].end[:, 2]) == {-20}
+    assert side[(side.kind == Kind.LINE) & (side.feed == 100)].end[:, 2] == near([-5, -10, -15, -19.92] * 3)
+
+
+@pytest.mark.deep
+def test_the_example_of_chapter_10_leaves_its_pocket(formula):
+    """The final volume of the catalogue, 20 x 2991.872 mm³."""
+    assert not formula.collisions()
+    assert formula.workpiece().removed == pytest.approx(59837.4, rel=1e-3)
+
+
+# --- floors at several depths --------------------------------------------------------------------------------------------
+
+BOXES = "".join(
+    f"LBL {n}\nL X{x:+d} Y{y:+d}\nL IX{w:+d}\nL IY{h:+d}\nL IX{-w:+d}\nL IY{-h:+d}\nLBL 0\n"
+    for n, x, y, w, h in ((1, 10, 10, 80, 60), (2, 30, 30, 30, 20))
+)
+BLANK = "BLK FORM 0.1 Z X+0 Y+0 Z-30\nBLK FORM 0.2 X+100 Y+80 Z+0\n"
+STEPPED = {
+    "deeper pocket": ("P1 = LBL 1 DEPTH8 P2 = LBL 2 DEPTH20", [8, 20], 8 * 80 * 60 + 12 * 30 * 20, (-8, -20)),
+    "low island": ("P1 = LBL 1 I2 = LBL 2 DEPTH8", [8, 20], 20 * 80 * 60 - 12 * 30 * 20, (-20, -8)),
+}
+
+
+def stepped(formula):
+    written = "".join(f"{a}={v:+g}\n" for a, v in (DATA | dict(Q1=-20, Q3=0.5, Q4=0.3, Q5=0, Q7=50, Q8=0)).items())
+    rough = "CYCL DEF 22 R\nQ10=+6\nQ11=100\nQ12=350\nQ19=0\nCYCL CALL\n"
+    head = f"BEGIN PGM A MM\n{BLANK}TOOL CALL 3 Z S2000 F500\nL X+0 Y+0 Z+100 R0 FMAX M3\nCONTOUR DEF {formula}\n"
+    return run(f"{head}CYCL DEF 20 D\n{written}{rough}{FLOOR}{SIDE.format(-1)}M2\n{BOXES}END PGM A MM\n")
+
+
+@pytest.mark.parametrize("name", STEPPED)
+def test_floors_at_several_depths_are_finished_each_with_its_walls(name):
+    """Walls in infeeds of 5 from the surface on, and at each floor with a helix of min(2/25, last infeed)."""
+    formula, depths, _, _ = STEPPED[name]
+    found = stepped(formula)
+    assert found.ok, found.alarms
+    floor, side = of(found, "CYCL DEF 23"), of(found, "CYCL DEF 24")
+    assert sorted(set(floor[floor.feed == 350].end[:, 2])) == [-depth for depth in reversed(depths)]
+    names = np.array([side.labels[k].split(", ")[-1] for k in side.label])
+    approaches = side[names == "approach"]
+    assert set(np.round(approaches.end[:, 2], 9)) == {-5, -8, -10, -15, -20}
+    deepened = (approaches.start - approaches.end)[:, 2]
+    assert deepened == near(np.where(np.isin(np.round(approaches.end[:, 2], 9), [-8, -20]), 0.08, 0))
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("name", STEPPED)
+def test_the_part_with_floors_at_several_depths(name):
+    """Its volume but for the corners of R = 5, one floor outside the smaller box and the other inside; nothing collides."""
+    formula, _, volume, (outside, inside) = STEPPED[name]
+    found = stepped(formula)
+    assert not found.collisions()
+    part = found.workpiece()
+    assert part.removed == pytest.approx(volume - (4 - math.pi) * 25 * 20, rel=2e-3)
+    x, y = np.meshgrid(np.arange(16, 85, 2.0), np.arange(16, 65, 2.0))
+    within = (x > 30.3) & (x < 59.7) & (y > 30.3) & (y < 49.7)
+    beside = (x < 29.7) | (x > 60.3) | (y < 29.7) | (y > 50.3)
+    corner = (abs(abs(x - 45) - 15) < 5) & (abs(abs(y - 40) - 10) < 5)  # round inside, as the tool leaves it
+    assert part.at(x[within & ~corner], y[within & ~corner]) == near(np.full((within & ~corner).sum(), inside))
+    assert part.at(x[beside & ~corner], y[beside & ~corner]) == near(np.full((beside & ~corner).sum(), outside))
 
 
 #: What is written otherwise -> the cycles run; nothing is refused and nothing is cut beyond the square.

@@ -10,6 +10,7 @@ from mnclab import Setup, Tool
 SQUARE = ["L X+0 Y+0", "L X+40", "L Y+40", "L X+0", "L Y+0"]
 A = 'DECLARE CONTOUR QC1 = "A"'
 B = A.replace("QC1", "QC2")
+LOST = "tool, spindle and M functions"
 
 
 def program(name: str, lines: list[str]) -> str:
@@ -107,11 +108,12 @@ def test_remarks() -> None:
     """Mixed operators without brackets, a depth that is missing, a part deeper than P1, M functions of the definitions."""
     run = run_of([A + " DEPTH3", B, "M3", "QC10 = QC1 | QC2 & QC1"], SQUARE)
     assert run.ok and [(a.source.name, a.span[:2], a.severity, a.message) for a in run.alarms] == [
-        ("program", (3, 13), "warning", "SEL CONTOUR MODEL: tool, spindle and M functions of a program of contour definitions do not stay"),
+        ("program", (3, 13), "warning", f"SEL CONTOUR MODEL: {LOST} of a program of contour definitions do not stay"),
         ("MODEL.H", (3, 17), "warning", "QC2 has no DEPTH, although another contour has one: it counts as DEPTH0"),
         ("MODEL.H", (5, 18), "warning", "| and & without brackets: they are of one rank and joined from left to right"),
     ]  # fmt: skip
-    run = run_of([], SQUARE, 'CONTOUR DEF P1 = "A" DEPTH5 P2 = "A" DEPTH7 P3 = "A" I4 = LBL 1\nM2\nLBL 1\nL X+5 Y+5\nL X+9\nL Y+9\nLBL 0')
+    label = "LBL 1\nL X+5 Y+5\nL X+9\nL Y+9\nLBL 0"
+    run = run_of([], SQUARE, f'CONTOUR DEF P1 = "A" DEPTH5 P2 = "A" DEPTH7 P3 = "A" I4 = LBL 1\nM2\n{label}')
     assert run.ok and [(a.span[:2], a.message) for a in run.alarms] == [
         ((3, 38), "CONTOUR DEF P2 is deeper than P1, which must be the deepest pocket"),
         ((3, 45), "CONTOUR DEF P3 is deeper than P1, which must be the deepest pocket"),

@@ -66,7 +66,7 @@ def contour_line(m: Machine, in_space: bool = False) -> Generator[Step, Any, Lin
     if not len(path):
         fault(m, recording.step, f"label {label} describes no contour")
     if len(path) > MOST_ELEMENTS:
-        m.alarm(f"the contour of label {label} has {len(path)} elements, more than {MOST_ELEMENTS}")
+        fault(m, int(path.step[-1]), f"the contour of label {label} has {len(path)} elements, more than {MOST_ELEMENTS}")
     leads = [lead for lead in (recording.approach, recording.departure) if lead and lead.place]
     aside = [lead.lead.step for lead in leads if lead.place and abs(lead.place[2]) > FLAT]
     steep = np.abs(path.start[:, 2]) + np.abs(path.end[:, 2]) > FLAT
@@ -79,7 +79,7 @@ def contour_line(m: Machine, in_space: bool = False) -> Generator[Step, Any, Lin
             fault(m, int(steps[0]), f"the contour of label {label} {what}")
     contour, heights, rows = chain(path)
     if contour.length <= CLOSED:
-        m.alarm(f"the contour of label {label} has no length in the plane XY")
+        fault(m, int(path.step[-1]), f"the contour of label {label} has no length in the plane XY")
     if np.hypot(*(contour.points[-1] - contour.points[0])) <= CLOSED and abs(heights[-1] - heights[0]) <= CLOSED:
         contour, heights = Contour(contour.points[:-1], contour.bulge[:-1]), heights[:-1]
     return Line(contour, recording.side, heights, path.step[rows], path.line[rows], recording.approach, recording.departure)

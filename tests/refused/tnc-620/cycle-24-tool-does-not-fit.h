@@ -1,0 +1,32 @@
+; 24:1 alarm: CYCL DEF 24: a tool of radius 5 with an allowance of 1 does not fit into the contour (take a smaller tool)
+0 BEGIN PGM A MM
+TOOL CALL 1 Z S2000 F500
+L X+0 Y+0 Z+100 R0 FMAX M3
+CYCL DEF 14.0 CONTOUR
+CYCL DEF 14.1 CONTOUR LABEL 1
+CYCL DEF 20 DATA
+Q1=-10
+Q2=+1
+Q3=+9
+Q4=+0.2
+Q5=+0
+Q6=+2
+Q7=+50
+Q8=+0
+Q9=+1
+CYCL DEF 24 SIDE
+Q9=+1
+Q10=+5
+Q11=+130
+Q12=+400
+Q14=+1
+Q438=+0
+CYCL CALL
+L Z+100 R0 FMAX M2
+LBL 1
+L X+0 Y+0 RL
+L X+60
+L Y+11
+L X+0
+L Y+0
+LBL 0
