@@ -58,7 +58,7 @@ def lifted(path: Toolpath, lift: Array) -> Toolpath:
     return path.replace(**columns, start=path.start + up, end=path.end + up)
 
 
-def tilted_rows(step: Steps, tilts: Changes, axes: Changes = (), cylinder: Index | None = None) -> Mask | None:
+def tilted_rows(step: Steps, tilts: Changes, axes: Changes = (), cylinder: Steps | None = None) -> Mask | None:
     """Rows of some steps that are made with a tool that does not stand along Z of the workpiece (n,).
 
     `tilts` are the changes of the frame `TILT`, `axes` those of the tool axis. `cylinder` (n,)

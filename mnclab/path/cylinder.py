@@ -19,15 +19,15 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from mnclab.geometry.frames import Matrix
-from mnclab.path.columns import Array, Index
+from mnclab.path.columns import COLUMNS, Array, Index
 from mnclab.path.kinds import Kind
-from mnclab.path.places import points_at
 
 if TYPE_CHECKING:
     from mnclab.path.toolpath import Toolpath
 
 Place = tuple[float, float, float]
 NONE = -1  # the index of rows that lie on no cylinder
+STILL = 1e-9  # rad
 MOST = 4096  # pieces of one row
 
 
@@ -99,37 +99,61 @@ def _speeds(path: Toolpath, start: Array, end: Array) -> Array:
     return np.where(timed, 60 * way / np.where(timed, path.time, 1.0), path.feed)
 
 
-def on_workpiece(path: Toolpath, chord_error: float = 0.01) -> tuple[Array, Index]:
-    """Points (m, 3) mm along the motion where they are on the workpiece, and the row (m,) of each, within `chord_error` mm.
+def on_workpiece(path: Toolpath) -> Toolpath:
+    """The same rows where they are on the workpiece, which turns with the axis of the cylinder, before its rows and after
+    them, too; itself without a cylinder.
 
-    The workpiece turns with the axis of the cylinder, before its rows and after them, too. Without a cylinder these are the
-    points of the path.
+    A row at feed that turns is a helix about the axis, any other a straight line from end to end. The rotary axes stand.
     """
-    xyz, of_row = path.points(chord_error)
-    if not path.cylinders or not len(xyz):
-        return xyz, of_row
-    rows = np.flatnonzero(path.is_motion)
-    which = _cylinder_of(path)[rows]
-    after, before = np.empty(len(rows)), np.empty(len(rows))
-    reach, previous = np.empty(len(rows)), np.concatenate([np.zeros((1, 3)), path.rotary[:-1]])
+    if not path.cylinders or not len(path):
+        return path
+    which, previous = _cylinder_of(path), np.concatenate([np.zeros((1, 3)), path.rotary[:-1]])
+    start, end, centre, axis = (np.array(getattr(path, name)) for name in ("start", "end", "centre", "axis"))
+    kind, sweep = path.kind.copy(), path.sweep.copy()
     for number, one in enumerate(path.cylinders):
-        mine = np.flatnonzero(which == number)
-        k = rows[mine]
-        after[mine] = path.rotary[k, one.rotary]
-        before[mine] = np.where(path.cylinder[k] == number, path.from_angle[k], previous[k, one.rotary])
-        far = [np.linalg.norm((ends[k] - one.point) @ one.basis[[0, 2]].T, axis=1) for ends in (path.start, path.end)]
-        reach[mine] = np.maximum(*far)
-    step = 2 * np.arccos(np.clip(1 - chord_error / np.maximum(reach, chord_error), 0.0, 1.0))
-    own = np.bincount(of_row[1:], minlength=len(path))[rows]  # of arcs
-    pieces = np.clip(np.ceil(np.abs(after - before) / np.maximum(step, 1e-6)), own, np.maximum(own, MOST)).astype(np.int64)
-    row = np.repeat(np.arange(len(rows)), pieces)
-    share = (np.arange(len(row)) - np.repeat(np.cumsum(pieces) - pieces, pieces) + 1) / pieces[row]
-    row, share = np.append(0, row), np.append(0.0, share)
-    points, angles = points_at(path, rows[row], share), before[row] + share * (after - before)[row]
+        rows = np.flatnonzero(which == number)
+        after = path.rotary[rows, one.rotary]
+        before = np.where(path.cylinder[rows] == number, path.from_angle[rows], previous[rows, one.rotary])
+        start[rows] = one.on_workpiece(path.start[rows], before)
+        end[rows] = one.on_workpiece(path.end[rows], after)
+        arcs = kind[rows] == Kind.ARC  # the workpiece stands while they are made, or they would be no arcs
+        centre[rows[arcs]] = one.on_workpiece(path.centre[rows[arcs]], before[arcs])
+        axis[rows[arcs]] = one.on_workpiece(path.axis[rows[arcs]] + one.point, before[arcs]) - one.point
+        turns = rows[(np.abs(after - before) > STILL) & (kind[rows] == Kind.LINE)]
+        along = np.array(one.direction)
+        kind[turns], axis[turns] = Kind.ARC, along
+        sweep[turns] = path.rotary[turns, one.rotary] - before[np.searchsorted(rows, turns)]
+        centre[turns] = one.point + ((start[turns] - one.point) @ along)[:, None] * along
+    n = len(path)
+    still = {"rotary": np.zeros((n, 3)), "cylinder": np.full(n, NONE), "from_angle": np.full(n, np.nan)}
+    columns = {name: getattr(path, name) for name in COLUMNS} | still
+    columns |= {"start": start, "end": end, "centre": centre, "axis": axis, "kind": kind, "sweep": sweep}
+    return path.replace(**columns).annotated(cylinders=())
+
+
+def divided(path: Toolpath, turn: float) -> Toolpath:
+    """The path with its rapids that turn on a cylinder parted where the axis has turned by so many rad."""
+    before = np.where(np.isfinite(path.from_angle), path.from_angle, 0.0)
+    last = np.zeros(len(path))
     for number, one in enumerate(path.cylinders):
-        mine = np.flatnonzero(which[row] == number)
-        points[mine] = one.on_workpiece(points[mine], angles[mine])
-    return points, rows[row]
+        rows = path.cylinder == number
+        last[rows] = path.rotary[rows, one.rotary]
+    way = np.where((path.cylinder >= 0) & (path.kind == Kind.RAPID), np.abs(last - before), 0.0)
+    pieces = np.clip(np.ceil(way / turn), 1, MOST).astype(np.int64)
+    row = np.repeat(np.arange(len(path)), pieces)
+    share = (np.arange(len(row)) - np.repeat(np.cumsum(pieces) - pieces, pieces))[:, None] / pieces[row][:, None]
+    step = 1 / pieces[row][:, None]
+    travel = (path.end - path.start)[row]
+    found = path[row]
+    rotary, many = found.rotary.copy(), np.flatnonzero(pieces[row] > 1)
+    of = np.array([one.rotary for one in path.cylinders], dtype=np.int64)[found.cylinder[many]] if len(many) else many
+    begin = before[row[many]] + (last - before)[row[many]] * share[many, 0]
+    from_angle = found.from_angle.copy()
+    from_angle[many] = begin
+    rotary[many, of] = begin + (last - before)[row[many]] * step[many, 0]
+    start = path.start[row] + share * travel
+    end = np.where(pieces[row][:, None] > 1, start + step * travel, path.end[row])
+    return found.replace(start=start, end=end, rotary=rotary, from_angle=from_angle)
 
 
 def _cylinder_of(path: Toolpath) -> Index:

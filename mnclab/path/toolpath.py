@@ -164,11 +164,11 @@ class Toolpath(Columns):
 
         return unrolled(self)
 
-    def on_workpiece(self, chord_error: float = 0.01) -> tuple[Array, Index]:
-        """Points (m, 3) along the motion as they lie on a workpiece that turns, and the row (m,) of each."""
+    def on_workpiece(self) -> Toolpath:
+        """The same rows as they lie on a workpiece that a cylinder cycle turns; see `path.cylinder`."""
         from mnclab.path.cylinder import on_workpiece
 
-        return on_workpiece(self, chord_error)
+        return on_workpiece(self)
 
     def labelled(self, piece: str) -> Toolpath:
         """The rows whose label has `piece` in it, such as "helix" or "layer 1 of 3, ring"; it may be none."""

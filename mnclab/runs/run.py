@@ -261,9 +261,9 @@ class Run:
 
         `colour` "kind", "feed" (mm/min), "speed" (of the spindle, rev/min), "tool", "line" or "z" (mm) says what the
         colour of the cuts shows; `arrows=False`, `marks=False` and `stock=False` leave out arrowheads, crosses at zero
-        points and poles, and the outline of the blank; `view` "XY", "XZ", "YZ" or "ZX"; `frame` "all" or "cuts"; `size`
-        in inches; `ax` axes of one's own; `part=True` draws what is left of the blank under the path. All of them are
-        explained in `mnclab.show.plot.path.plot_path`.
+        points and poles, and the outline of the blank; `view` "XY", "XZ", "YZ", "ZX", of a cylinder "unrolled"; `frame`
+        "all" or "cuts"; `size` in inches; `ax` axes of one's own; `part=True` draws what is left of the blank under the
+        path. All of them are explained in `mnclab.show.plot.path.plot_path`.
         """
         from mnclab.show.plot.path import plot_run
 

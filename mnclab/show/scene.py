@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mnclab.path.cylinder import divided
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
 from mnclab.show import solids
@@ -43,6 +44,7 @@ BAR: dict[str, Any] = {
     "color": "black", "fmt": "%.6g", "title_font_size": 16, "label_font_size": 14,
     "vertical": True, "position_x": 0.86, "position_y": 0.25, "height": 0.5, "width": 0.07,
 }  # fmt: skip
+TURN = 0.05  # rad, of rapids over a cylinder
 NARROWED, ASIDE = 0.88, 0.13  # how much smaller and how far to the left (of half the width) a body stands beside a scale
 
 
@@ -63,17 +65,24 @@ def scene(
     Beside a blank the first approach, from a place that nobody has said, is left out. `row`: where the tool stands, by
     default at the end. `stock`: whether the blank of the setup or the program is shown, or another one, mm in the
     coordinates of the path: two opposite corners (3,) or a body of
-    `workpiece.blank`. `part` shows what is left of the blank after `row` in place of it. `size` in pixels.
+    `workpiece.blank`. `part` shows what is left of the blank after `row` in place of it. `size` in pixels. What
+    lies on a cylinder is shown on it as it lies on the workpiece, without the tool.
 
     An Alarm says in a sentence what is missing: pyvista, or something for VTK to draw with.
     """
     if not isinstance(colour, str) or colour not in COLOURS:
         raise Alarm(f"colour must be one of {', '.join(COLOURS)}, got {shown(colour)}")
     check_drawing()
-    path = run.toolpath
+    path, towards = run.toolpath, (-0.5, -1.0, 0.7)
     plotter = new_plotter(f"scene of {path!r}", size)
-    _add_path(plotter, path[run.rows_from_home :], colour)
-    if tool and (body := solids.tool_of(run, row)):
+    turning = bool(path.cylinders)
+    if turning:
+        add_cylinders(plotter, path)
+        path, towards = _on_cylinders(path)
+        _add_path(plotter, path, colour)
+    else:
+        _add_path(plotter, path[run.rows_from_home :], colour)
+    if tool and not turning and (body := solids.tool_of(run, row)):
         look: dict[str, Any] = {"specular": 0.4, "smooth_shading": True, "split_sharp_edges": True}
         plotter.add_mesh(_surface(body), color=TOOL, name="tool", **look)
     given = run.stock if stock is True else as_blank(stock) if stock is not False else None
@@ -81,6 +90,8 @@ def scene(
         raise Alarm(f"stock must be True, False, two corners (3,) or a body of workpiece.blank, got {shown(stock)}")
     blank = solids.body_of(given) if given else None
     corners = blank.points if blank else None
+    if turning and blank is None:
+        corners = np.concatenate([solids.cylinder_body(run.toolpath, k).points for k in range(len(run.toolpath.cylinders))])
     if part:
         from mnclab.show.part_scene import add_part
 
@@ -96,8 +107,32 @@ def scene(
         plotter.add_axes(line_width=3, color="black")
         if len(path):
             add_rulers(plotter, path.bounds if corners is None else np.concatenate([path.bounds, corners]))
-    view_from(plotter, (0.0, 1.0, 0.0) if path.lathe else (-0.5, -1.0, 0.7), path.lathe)
+    view_from(plotter, (0.0, 1.0, 0.0) if path.lathe else towards, path.lathe)
     return plotter
+
+
+def add_cylinders(plotter: Any, path: Toolpath) -> None:
+    """The cylinders that a path lies on, with their edges."""
+    for number in range(len(path.cylinders)):
+        body = _surface(solids.cylinder_body(path, number))
+        plotter.add_mesh(body, color=STOCK, opacity=0.35, name=f"cylinder {number}")
+        edges = body.extract_feature_edges(feature_angle=45)
+        plotter.add_mesh(edges, color="#7d7664", line_width=1, name=f"edges of cylinder {number}")
+
+
+def _on_cylinders(path: Toolpath) -> tuple[Toolpath, tuple[float, float, float]]:
+    """What lies on cylinders as it lies on the workpiece, without the way from anywhere, and a direction to look from."""
+    parted, one = divided(path, TURN), path.cylinders[0]
+    rows = np.flatnonzero(parted.cylinder >= 0)
+    rows = rows[np.cumsum(parted.kind[rows] != Kind.RAPID) > 0]
+    found = parted.on_workpiece()[rows]
+    out = (found.end - one.point).mean(axis=0)
+    out -= out @ one.direction * np.array(one.direction)
+    size = float(np.linalg.norm(out))
+    out = out / size if size > one.radius / 10 else np.array(one.zero)
+    side = np.cross(one.direction, out)
+    x, y, z = (out - 0.5 * side + 0.45 * np.array(one.direction)).tolist()
+    return found, (x, y, z)
 
 
 def new_plotter(alt: str, size: tuple[int, int]) -> Any:

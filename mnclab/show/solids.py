@@ -70,6 +70,17 @@ def revolved(profile: ArrayLike, sides: int = SIDES, bore: float = 0.0) -> Body:
     return Body(np.concatenate([rings, ends]), np.concatenate(triangles))
 
 
+def cylinder_body(path: Toolpath, number: int = 0) -> Body:
+    """The cylinder that rows of a path lie on, as long as what lies on it and half its radius more at both ends."""
+    one = path.cylinders[number]
+    cuts = path[(path.cylinder == number) & (path.kind == Kind.LINE)]
+    along = (np.concatenate([cuts.start, cuts.end]) - one.point) @ np.array(one.direction) if len(cuts) else np.zeros(1)
+    low, high = along.min() - one.radius / 2, along.max() + one.radius / 2
+    points, triangles = revolved([(one.radius, low), (one.radius, high)], 2 * SIDES)
+    across, direction, zero = one.basis
+    return Body(points @ np.stack([zero, across, direction]) + one.point, triangles)
+
+
 def tool_body(tool: Tool, size: float = 10.0) -> Body:
     """A tool with its tip at 0 0 0 and its shank along +Z; a small peak where the table knows no radius (`size` mm)."""
     radius = tool.effective_radius

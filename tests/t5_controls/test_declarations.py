@@ -168,7 +168,6 @@ EXPLAINED = {
         for q, value in (("Q446", 0.01), ("Q447", 10), ("Q448", 2))
     },
     ("tnc-620", "CYCL DEF 275", "Q439", "limits"): ({}, "its choices"),
-    ("tnc-620", "CYCL DEF 22", "Q18", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
     ("tnc-620", "CYCL DEF 8", "axes", "limits"): ({}, "at most three, and which ones, are a check"),
     **{("tnc-620", "CYCL DEF 7", axis, "unit"): ("deg", "one row for all axes; these turn") for axis in "ABC"},
     ("tnc-620", "CYCL DEF 7", "#", "required"): (False, "the form of cycle 7 with a table"),

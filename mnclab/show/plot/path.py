@@ -169,9 +169,14 @@ def plot_run(
     """Views of the path of a run, with its programmed contour, blank, zero points, poles and the place of its alarm.
 
     The options are those of `plot_path`; `stock=False` leaves out the blank of the setup or the program, `part=True`
-    draws what the run leaves of it, as a lathe's picture does unless its path is long. Beside a blank the first approach
+    draws what the run leaves of it, as a lathe's picture does unless its path is long. `view="unrolled"` shows what lies on a
+    cylinder on its developed surface (`show.plot.unrolled`; of the options it takes `size`). Beside a blank the first approach
     comes from home, unless the setup says from where.
     """
+    if view == "unrolled":
+        from mnclab.show.plot.unrolled import plot_unrolled
+
+        return plot_unrolled(run.toolpath, ax, **options)
     given = {"programmed": None if run.programmed is run.toolpath else run.programmed, "alarms": run.alarms}
     given["stock"] = run.stock if stock else None
     path, insert = run.toolpath, options.get("insert", True)

@@ -383,3 +383,17 @@ def test_the_limits_of_contours_and_elements() -> None:
         run = mnclab.run(program("MAIN", 'CONTOUR DEF P1 = "A"'), "tnc-620", Setup(files=files))
         assert run.ok == (count == 16384)
     assert run.alarms[0].message == "the contours of CONTOUR DEF have more than 16384 elements"
+
+
+@pytest.mark.deep
+def test_the_whole_example() -> None:
+    """Rough, floor and sides of 10.1 without a remark: levels of 22, the floor of 23, levels of 24; 59837.4 mm³ are cut."""
+    run = mnclab.run(FILES["CONTOUR.H"], "tnc-620", Setup(tools=TOOLS, files=FILES))
+    assert run.ok and not run.alarms, run.alarms
+    path = run.toolpath
+    for cycle, feed, heights in ((22, 350, [-19.5, -15, -10, -5]), (23, 200, [-20]), (24, 400, [-20, -15, -10, -5])):
+        flat = path[(path.feed == feed) & (abs(path.end[:, 2] - path.start[:, 2]) < 1e-9)]
+        assert {row.label.split()[2] for row in flat} == {str(cycle)}
+        assert sorted({round(float(z), 9) for z in flat.end[:, 2]}) == heights
+    assert run.workpiece().removed == pytest.approx(59837.4, rel=1e-4)
+    assert not run.collisions()

@@ -109,7 +109,7 @@ def test_c27():
 def test_c27_on_the_workpiece():
     """The tool tips in the cylinder frame as the catalogue has them."""
     path = run(C27, rotary_axes="CB").toolpath
-    points, rows = path.on_workpiece()
+    points, rows = path.on_workpiece().points()
     for expected in ((-0.613, 20.991, 23.5), (-0.526, 17.992, 23.5), (-5.133, 17.252, 27.5), (4.118, 17.523, 52.5)):
         assert np.linalg.norm(points - expected, axis=1).min() < 2e-3
     assert points[-1] == pytest.approx([250 * math.cos(1.6), 250 * math.sin(1.6), 23.5])  # as C stands at the end
@@ -262,9 +262,8 @@ def test_the_walls_of_a_slot_are_as_far_apart_at_every_depth():
 def test_27_narrows_with_depth_and_28_does_not():
     """The same wall line: 27 turns the offset into an angle, so that it shrinks by rho / Q16 (9.1)."""
     line = "L X+20 Y+0 RL\nL Y-50"
-    points27, points28 = (
-        run(program(n, line, **q)).toolpath.labelled("level 2 of 2").on_workpiece()[0] for n, q in ((27, {}), (28, {"Q20": 14}))
-    )
+    paths = (run(program(n, line, **q)).toolpath.labelled("level 2 of 2") for n, q in ((27, {}), (28, {"Q20": 14})))
+    points27, points28 = (path.on_workpiece().points()[0] for path in paths)
     at = np.array([math.sin(20 / 25), math.cos(20 / 25)])  # e_r at the midpoint, in -y and z
     def offset(points):
         low = points[np.hypot(points[:, 1], points[:, 2]) < 19]
