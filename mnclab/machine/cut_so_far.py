@@ -62,7 +62,8 @@ def _grown(m: Machine, before: CutSoFar | None, stock: Blank) -> CutSoFar:
     path = concatenate(pieces) if pieces else join([], m.recorder)
     tools, which, lift = tools_of_rows(path.step, m.logs.changed("tool", m.step), m.setup.tools, m.logs.value)
     arrived, known = (0, 0) if before else start_known(path, m.setup.start)
-    tilted = tilted_rows(path.step, *(m.logs.changed(name, m.step) for name in (TILT, LOG)), path.cylinder)
+    tilts, axes = (m.logs.changed(name, m.step) for name in (TILT, LOG))
+    tilted = tilted_rows(path.step, tilts, axes, path.cylinder)
     more = moves_of(Cutting(lifted(path, lift), tools, which, stock, arrived, known, tilted))
     both = [before.moves, more] if before else [more]
     moves = Moves(**{name: np.concatenate([getattr(each, name) for each in both]) for name in vars(more)})

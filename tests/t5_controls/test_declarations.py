@@ -153,6 +153,7 @@ EXPLAINED = {
         for code in (251, 252, 253, 254)
     },
     ("tnc-620", "CYCL DEF 28", "Q21", "limits"): ({">=": 0, "<=": 9.9999}, "0 makes it inactive, the lower limit is a check"),
+    ("tnc-620", "CYCL DEF 28", "Q21", "default"): (0, "inactive; the table says it with a remark"),
     ("tnc-620", "CYCL DEF 205", "Q208", "required"): (False, "it came later than the cycle, whose way out was at rapid"),
     **{
         ("tnc-620", f"CYCL DEF {code}", address, key): (value, "it came later than the cycle: older programs lack it")
@@ -168,7 +169,6 @@ EXPLAINED = {
         for q, value in (("Q446", 0.01), ("Q447", 10), ("Q448", 2))
     },
     ("tnc-620", "CYCL DEF 275", "Q439", "limits"): ({}, "its choices"),
-    ("tnc-620", "CYCL DEF 22", "Q18", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
     ("tnc-620", "CYCL DEF 8", "axes", "limits"): ({}, "at most three, and which ones, are a check"),
     **{("tnc-620", "CYCL DEF 7", axis, "unit"): ("deg", "one row for all axes; these turn") for axis in "ABC"},
     ("tnc-620", "CYCL DEF 7", "#", "required"): (False, "the form of cycle 7 with a table"),

@@ -1,4 +1,3 @@
-<<<<<<< HEAD
 ; 31:1 alarm: the contour of label 1: the contour crosses or touches itself near (60.000, 0.000)
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
@@ -6,14 +5,6 @@
 3 CYCL DEF 14.0 C
 4 CYCL DEF 14.1 CONTOUR LABEL1
 5 CYCL DEF 20 D
-=======
-; 36:1 alarm: the contour of label 2: the contour crosses or touches itself near (15.000, 15.000)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000
-2 CYCL DEF 14.0 C
-CYCL DEF 14.1 CONTOUR LABEL 1/2
-3 CYCL DEF 20 D
->>>>>>> contours
 Q1=-5
 Q2=+1
 Q3=+0
@@ -23,7 +14,6 @@ Q6=+2
 Q7=+20
 Q8=+0
 Q9=+1
-<<<<<<< HEAD
 6 CYCL DEF 22 R
 Q10=+5
 Q11=+100
@@ -41,28 +31,3 @@ Q208=+999
 14 L Y+0
 15 LBL 0
 16 END PGM A MM
-=======
-4 CYCL DEF 22 R
-Q10=+5
-Q11=100
-Q12=200
-Q18=0
-Q19=0
-Q208=999
-5 CYCL CALL M3
-6 M30
-LBL 1
-L X+0 Y+0 RL
-L X+40
-L Y+40
-L X+0
-L Y+0
-LBL 0
-LBL 2
-L X+10 Y+10 RR
-L X+20 Y+20
-L X+20 Y+10
-L X+10 Y+20
-LBL 0
-9 END PGM A MM
->>>>>>> contours

@@ -32,21 +32,23 @@ class PilotDrilling(Cycle):
     about = in_program_coordinates
     infeed: float = increment("Q10", "infeed per cut", example=5)
     feed: float = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=150)
-    rough_tool: float | str = count(("Q13", "QS13"), "rough-out tool", type="text", note="0: the tool in the spindle", example=1)
+    rough_out_tool: float | str = count(
+        ("Q13", "QS13"), "rough-out tool", type="text", note="0: the tool in the spindle", example=1
+    )
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from prepared(m)
         yield from some_infeeds(self, m)
         yield from not_zero(self, "feed", purpose="to drill with")
-        if self.rough_tool:
-            yield from in_table(self, m, "rough_tool")
+        if self.rough_out_tool:
+            yield from in_table(self, m, "rough_out_tool")
         else:
             yield from with_radius(m)
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """A delta of TOOL CALL does not count for the places (8.5)."""
         data, before = contour_data(m), m.programmed
-        tool = named_tool(m, self.rough_tool or m.tool.number) or m.tool
+        tool = named_tool(m, self.rough_out_tool or m.tool.number) or m.tool
         radius, height = tool.effective_radius / m.scale, max(data.height, before[2])
         found = yield from contour_terraces(m, data)
         try:
