@@ -1,7 +1,7 @@
 """Insets of closed loops, exactly: every element is moved inwards, what of it comes too near to another one falls away.
 
     elements moved by d, and a fan of radius d at each corner that points inwards
-    cut where they cross ──► pieces; a piece stays if its middle is not nearer than d to any element
+    cut where they cross ──► pieces; a piece stays if it is not nearer than d to any element
 
 Lines, circles and centres are handed on from inset to inset: the inset by d of an inset by d is the one by 2 d.
 Lengths in mm, angles in rad.
@@ -30,6 +30,7 @@ from mnclab.geometry.cutting import (
 )  # fmt: skip
 from mnclab.geometry.vectors import Floats, cross, dot, left, length_of, unit_of
 
+ASIDE = 0.4142  # of a piece, where it is looked at: its middle may touch by symmetry what the rest is too near to
 SMOOTH = 1e-8  # rad, below which a corner is none
 
 
@@ -37,7 +38,7 @@ def inset(outlines: Outlines, d: float) -> Outlines | None:
     """The loops at a distance d > 0 to the left of closed loops; None where too much lies on or beside each other."""
     moved, joints = _moved(outlines, d)
     which, begin, end, start, stop = pieces_of(moved, joints)
-    kept = _keeps(outlines.curves, at(moved, which, (begin + end) / 2), d)
+    kept = _keeps(outlines.curves, at(moved, which, begin + ASIDE * (end - begin)), d)
     pieces = Curves(
         start[kept], stop[kept], moved.centre[which[kept]], moved.r[which[kept]],
         moved.sweep[which[kept]] * (end - begin)[kept],

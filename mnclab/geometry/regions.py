@@ -193,10 +193,12 @@ def _arranged(loops: Sequence[Contour]) -> Region:
     """Loops that do not cross, in order: each outer one, from left to right, and the islands in it."""
     outer = sorted((loop for loop in loops if loop.area > 0), key=lambda loop: loop.bounds[0].tolist())
     sizes, within = [loop.area for loop in outer], [[loop] for loop in outer]
-    for island in loops if len(outer) < len(loops) else ():
+    for island in loops if outer and len(outer) < len(loops) else ():
         if island.area < 0:
             middle = island.point_at(island.lengths[: int(island.lengths.argmax())].sum() + island.lengths.max() / 2)[0]
             around = [k for k, loop in enumerate(outer) if loop.winding(middle)[0]] if len(outer) > 1 else [0]
+            if not around:  # it touches the loop that it lies in
+                around = [int(np.argmin([loop.distance(middle)[0] for loop in outer]))]
             within[min(around, key=sizes.__getitem__)].append(island)
     return Region(tuple(loop for part in within for loop in part))
 

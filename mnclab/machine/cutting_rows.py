@@ -58,13 +58,13 @@ def lifted(path: Toolpath, lift: Array) -> Toolpath:
     return path.replace(**columns, start=path.start + up, end=path.end + up)
 
 
-def tilted_rows(step: Steps, tilts: Changes, axes: Changes = (), cylinder: Steps | None = None) -> Mask | None:
+def tilted_rows(step: Steps, tilts: Changes, axes: Changes = (), cylinder: NDArray[np.int16] | None = None) -> Mask | None:
     """Rows of some steps that are made with a tool that does not stand along Z of the workpiece (n,).
 
-    `tilts` are the changes of the frame `TILT`, `axes` those of the tool axis. `cylinder` (n,)
-    names the cylinders on which rows lie, which turn the workpiece; -1 none.
+    `tilts` are the changes of the frame `TILT`, `axes` those of the tool axis. `cylinder` (n,) names
+    the cylinders on which rows lie, which turn the workpiece; -1 none.
     """
-    found = cylinder >= 0 if cylinder is not None and (cylinder >= 0).any() else None
+    found = np.asarray(cylinder >= 0) if cylinder is not None and (cylinder >= 0).any() else None
     leaning = [(when, frame is not None and not np.asarray(frame)[2, 2] > UPRIGHT) for when, frame in tilts]
     for turned in (leaning, [(when, axis != "Z") for when, axis in axes]):
         if any(on for _, on in turned):

@@ -88,14 +88,13 @@ def unrolled(path: Toolpath) -> Toolpath:
     n = len(mine)
     flat = {"rotary": np.zeros((n, 3)), "cylinder": np.full(n, NONE), "from_angle": np.full(n, np.nan)}
     up = np.broadcast_to([0.0, 0.0, 1.0], (n, 3))
-    feed = _speeds(mine, start, end)
+    feed = _speeds(mine, np.linalg.norm(end - start, axis=1))
     return mine.replace(start=start, end=end, axis=up, feed=feed, **flat).annotated(origin=(0.0, 0.0, 0.0), cylinders=())
 
 
-def _speeds(path: Toolpath, start: Array, end: Array) -> Array:
-    """Feeds (n,) along the developed surface: of rows with a time they follow from it."""
-    way = np.linalg.norm(end - start, axis=1)
-    timed = np.isfinite(path.time) & (path.kind == Kind.LINE)
+def _speeds(path: Toolpath, way: Array) -> Array:
+    """Feeds (n,) along a way (n,) mm of each row: of rows with a time they follow from it."""
+    timed = np.isfinite(path.time) & ((path.kind == Kind.LINE) | (path.kind == Kind.ARC))
     return np.where(timed, 60 * way / np.where(timed, path.time, 1.0), path.feed)
 
 
@@ -103,7 +102,8 @@ def on_workpiece(path: Toolpath) -> Toolpath:
     """The same rows where they are on the workpiece, which turns with the axis of the cylinder, before its rows and after
     them, too; itself without a cylinder.
 
-    A row at feed that turns is a helix about the axis, any other a straight line from end to end. The rotary axes stand.
+    A row at feed that turns is a helix about the axis, any other a straight line from end to end. The rotary axes
+    stand, and the feed is that along the workpiece.
     """
     if not path.cylinders or not len(path):
         return path
@@ -128,7 +128,8 @@ def on_workpiece(path: Toolpath) -> Toolpath:
     still = {"rotary": np.zeros((n, 3)), "cylinder": np.full(n, NONE), "from_angle": np.full(n, np.nan)}
     columns = {name: getattr(path, name) for name in COLUMNS} | still
     columns |= {"start": start, "end": end, "centre": centre, "axis": axis, "kind": kind, "sweep": sweep}
-    return path.replace(**columns).annotated(cylinders=())
+    found = path.replace(**columns).annotated(cylinders=())
+    return found.replace(**columns | {"feed": _speeds(found, found.lengths)})
 
 
 def divided(path: Toolpath, turn: float) -> Toolpath:

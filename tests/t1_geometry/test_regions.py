@@ -221,3 +221,13 @@ def test_offset_of_a_convex_polygon(polygon, d):
     contour, radius, shape = polygon
     expected = radius**2 * shape + d * 2 * radius * shape + np.pi * d * d
     assert Region.of(contour).offset(d).area == pytest.approx(expected, rel=1e-9)
+
+
+def test_islands_that_touch_grow_together():
+    """Two discs r = 6 and 7 that touch, grown by 1.5: two circles with a lens in common, whose middle is 1.5 from both edges."""
+    region = Region.of(box(-40, -40, 40, 40), holes=[Contour.circle((-6, 0), 6), Contour.circle((7, 0), 7)])
+    (loop,) = [loop for loop in region.inset(1.5).loops if loop.area < 0]
+    a, b, c = 7.5, 8.5, 13.0
+    at = np.arccos([(a * a + c * c - b * b) / (2 * a * c), (b * b + c * c - a * a) / (2 * b * c)])
+    lens = (np.array([a, b]) ** 2 * (at - np.sin(2 * at) / 2)).sum()
+    assert -loop.area == pytest.approx(np.pi * (a * a + b * b) - lens, abs=1e-9)

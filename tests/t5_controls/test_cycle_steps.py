@@ -13,7 +13,7 @@ CYCLES = [(name, cycle.code) for name, control in mnc.controls.items() for cycle
 NEEDS = {
     "CYCL DEF 12": "PGM (name of the program) is missing",
     "CYCL DEF 14": "names label 1, which does not exist",
-    **{f"CYCL DEF {number}": "CYCL DEF 14 comes before it" for number in (21, 22, 23, 24, 275)},
+    **{f"CYCL DEF {number}": "CYCL DEF 14 comes before it" for number in (21, 22, 23, 24, 25, 27, 28, 29, 39, 275, 276)},
     "CYCL DEF 225": "Q500 (text) is missing",
 }
 

@@ -153,6 +153,7 @@ EXPLAINED = {
         for code in (251, 252, 253, 254)
     },
     ("tnc-620", "CYCL DEF 28", "Q21", "limits"): ({">=": 0, "<=": 9.9999}, "0 makes it inactive, the lower limit is a check"),
+    ("tnc-620", "CYCL DEF 28", "Q21", "default"): (0, "inactive; the table says it with a remark"),
     ("tnc-620", "CYCL DEF 205", "Q208", "required"): (False, "it came later than the cycle, whose way out was at rapid"),
     **{
         ("tnc-620", f"CYCL DEF {code}", address, key): (value, "it came later than the cycle: older programs lack it")

@@ -50,6 +50,7 @@ def test_the_band_is_as_wide_as_the_slot(run):
     band = axes.patches[0].get_path().get_extents()
     assert (band.x0, band.x1) == (pytest.approx(25 * math.pi / 2 - 7, abs=1e-3), pytest.approx(25 * math.pi / 2 + 7, abs=1e-3))
     assert band.y1 == pytest.approx(45, abs=1e-3)  # the tool of radius 5 at Y40
+    picture.draw_without_rendering()
     above = axes.child_axes[0]
     assert above.get_xlabel() == "A, degrees"
     low, high = axes.get_xlim()

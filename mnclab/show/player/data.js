@@ -206,7 +206,7 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
     if (t >= this.end[item]) return {point: path.vertex(row + 1), speed: t > this.begin[item] ? this.speedAfter(row) : 0, share: 1};
     const i = this.pieceAt(row, t);
     const passed = (t - this.begin[item]) / (this.end[item] - this.begin[item]);
-    if (!path.isMotion(row) || i < 0) return {point: path.vertex(row), speed: 0, share: passed};
+    if (!path.isMotion(row) || i < 0) return {point: path.isMotion(row) ? path.point(row, passed) : path.vertex(row), speed: 0, share: passed};
     const T = course.t[i + 1] - course.t[i], since = Math.min(Math.max(t - course.t[i], 0), T);
     const way = Course.cubic(since, T, 0, course.v[i], course.way[i], course.v[i + 1]);
     const u = since / T, w = 1 - u;
@@ -216,7 +216,7 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
       const [p0, v0, p1, v1] = loose;
       return {point: p0.map((p, k) => Course.cubic(since, T, p, v0[k], p1[k], v1[k])), speed: Math.max(speed, 0), share};
     }
-    return {point: path.point(row, length > 0 ? share : 1), speed: Math.max(speed, 0), share};
+    return {point: path.point(row, share), speed: Math.max(speed, 0), share};
   }
   // Rotary axes A, B and C at a share of a row, degrees; null in a run that turns none.
   angles(row, share) {

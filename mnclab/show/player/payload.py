@@ -2,7 +2,8 @@
 
 Lengths are whole numbers of 1 / `scale` mm: the coarsest of 1e-3, 1e-4 and 1e-6 mm that loses nothing, so that the
 page says the digits that the run says. Times are whole microseconds, speeds whole micrometres per second; where numbers
-are too large for that, the parts are coarser by powers of ten. Arcs stay arcs. A *log* is a list of places where a value
+are too large for that, the parts are coarser by powers of ten. Arcs stay arcs. What lies on a cylinder is told as it lies on
+the workpiece. A *log* is a list of places where a value
 changes and the values from there on.
 """
 
@@ -22,6 +23,7 @@ from mnclab.show.player.logs import changes, columns, log, parted, parts_of
 from mnclab.show.player.packing import Packer
 from mnclab.show.player.part import part
 from mnclab.show.player.section import section
+from mnclab.show.solids import cylinder_body
 from mnclab.text.alarm import Alarm, amounts, several
 from mnclab.text.program import Program
 from mnclab.workpiece.collision import Collision
@@ -42,11 +44,12 @@ Array = NDArray[np.float64]
 def payload(run: Any, profile: Profile, cutting: Cutting | None = None, collisions: Sequence[Collision] = ()) -> str:
     """A run with its profile as the text that `data.js` reads; with a cutting also what becomes of its blank."""
     pack = Packer()
-    path, programmed = run.toolpath, run.programmed
+    path = run.toolpath.on_workpiece()
+    programmed = path if run.programmed is run.toolpath else run.programmed.on_workpiece()
     moved, places = _parted(run, "position")
     positions = np.array(places, dtype=np.float64).reshape(-1, 3)
     scale = _scale([path, programmed], positions, profile.pieces.s)
-    angles, turned = parts_of(ANGLES, path.sweep, programmed.sweep), np.degrees(path.rotary)
+    angles, turned = parts_of(ANGLES, path.sweep, programmed.sweep), np.degrees(run.toolpath.rotary)
     degrees = parts_of(DEGREES, turned)
     lines, lasts = zip(*(_lines(pack, program) for program in run.programs))
     header = {
@@ -77,9 +80,10 @@ def payload(run: Any, profile: Profile, cutting: Cutting | None = None, collisio
             "at": pack.add(moved),
             "from": columns(pack, parted(positions, scale) - _tips(path, moved, scale)),
         },
-        "rotary": columns(pack, parted(turned, degrees)) if path.rotary.any() else None,
+        "rotary": columns(pack, parted(turned, degrees)) if turned.any() else None,
         "degrees": degrees,
-        "stock": _edges([run.stock] if run.stock else []),
+        "stock": _edges([run.stock] if run.stock else []) + _cylinders(run.toolpath),
+        "turning": bool(run.toolpath.cylinders),
         "fixtures": _edges(cutting.fixtures) if cutting and not path.lathe else [],
         "history": {name: changes(pack, *_parted(run, name)) for name in run.history if name != "position"},
         "profile": _profile(pack, profile, scale),
@@ -96,6 +100,17 @@ def payload(run: Any, profile: Profile, cutting: Cutting | None = None, collisio
 def _edges(bodies: Sequence[Any]) -> list[list[list[float]]]:
     """The lines that show bodies in space; one that only a probe knows has none."""
     return [np.round(edge, 4).tolist() for body in bodies if not isinstance(body, Part) for edge in body.edges()]
+
+
+def _cylinders(path: Toolpath) -> list[list[list[float]]]:
+    """The circles at the ends of the cylinders that a path lies on, and lines between them."""
+    found = []
+    for number in range(len(path.cylinders)):
+        points = cylinder_body(path, number).points[:-2]
+        low, high = np.split(points, 2)
+        found += [np.vstack([circle, circle[:1]]) for circle in (low, high)]
+        found += [np.stack([low[k], high[k]]) for k in range(0, len(low), len(low) // 8)]
+    return [np.round(edge, 4).tolist() for edge in found]
 
 
 def more_than_first(alarms: Sequence[Alarm]) -> str:

@@ -171,7 +171,7 @@ class PlayerPage {
   }
   draw() {
     const {run, picture} = this, now = this.now(), going = now.item >= 0 && run.itemRow[now.item] === now.row ? now.row : -1;
-    const tool = run.history.has("tool") ? run.history.get("tool").value(now.step) : null;
+    const tool = run.history.has("tool") && !run.header.turning ? run.history.get("tool").value(now.step) : null;
     const side = now.row >= 0 ? run.row.side.value(now.row) : 0;
     const lies = run.history.has("tool axis") ? run.history.get("tool axis").value(now.step) : null, along = lies ? "XYZ".indexOf(lies) : 2;
     this.measure.draw();

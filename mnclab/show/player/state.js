@@ -98,7 +98,7 @@ class Board {
   show({step, row, point, speed, item, angles}) {
     const {run, find} = this, {unit} = run, at = Math.max(row, 0);
     this.positions("tool", point);
-    this.positions("machine", point.map((value, k) => value + run.origin[k]));
+    this.positions("machine", run.header.turning ? null : point.map((value, k) => value + run.origin[k]));
     const feed = run.row.feed.value(at), perRev = run.row.per_rev.value(at), spindle = this.turning(at, point);
     const kind = row >= 0 ? run.path.kind[row] : -1, own = item >= 0 && run.itemRow[item] === row;
     const programmed = perRev ? `${short(perRev / unit.length)} ${unit.short}/rev` : kind === RAPID ? "rapid" : typeof feed === "number" ? `F ${short(feed / unit.length)}` : "";

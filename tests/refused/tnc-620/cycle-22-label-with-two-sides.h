@@ -1,4 +1,4 @@
-; 28:1 alarm: the contour of label 1 has RL and RR: one side counts
+; 28:1 alarm: the contour of label 1 changes from RL to RR or back in this block
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000
 2 CYCL DEF 14.0 C

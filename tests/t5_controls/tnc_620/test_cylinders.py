@@ -216,6 +216,9 @@ def test_the_feed_is_that_along_the_developed_surface():
     row = found.toolpath.labelled("contour")
     assert row.lengths.tolist() == [0] and row.time.tolist() == pytest.approx([60 * 25 * math.pi / 2 / 250])
     assert row.feed.tolist() == pytest.approx([250 / 25])  # rad/min
+    wrapped = row.on_workpiece()
+    assert wrapped.lengths.tolist() == pytest.approx([21 * math.pi / 2])
+    assert wrapped.feed.tolist() == pytest.approx([250 * 21 / 25])
     slot = run(program(28, Q20=10)).toolpath.labelled("wall").unrolled()
     assert slot.feed[slot.lengths > 1e-6] == pytest.approx(250)
     assert run(program(28, Q20=10)).toolpath.labelled("plunge").feed.tolist() == [100, 100]

@@ -32,7 +32,9 @@ class PilotDrilling(Cycle):
     about = in_program_coordinates
     infeed: float = increment("Q10", "infeed per cut", example=5)
     feed: float = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=150)
-    rough_out_tool: float | str = count(("Q13", "QS13"), "rough-out tool", type="text", note="0: the tool in the spindle", example=1)
+    rough_out_tool: float | str = count(
+        ("Q13", "QS13"), "rough-out tool", type="text", note="0: the tool in the spindle", example=1
+    )
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from prepared(m)
