@@ -77,6 +77,7 @@ def at_depth(
 
 
 def combined(operator: str, left: Region, right: Region) -> Region:
+    """Two areas joined by an operator of a formula."""
     match operator:
         case "&":
             return left.intersection(right)
