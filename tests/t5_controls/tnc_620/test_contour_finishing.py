@@ -251,6 +251,7 @@ def test_a_depth_of_0_is_finished_at_the_surface():
     for number, feed in ((23, 300), (24, 400)):
         path = of_cycle(made, number)
         assert set(path[path.feed == feed].end[:, 2]) == {0}
+        assert path.end[:, 2].min() == 0  # the ways to the floor and to the walls come from above
 
 
 # --- both, and the part -------------------------------------------------------------------------------------------------
