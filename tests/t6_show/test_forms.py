@@ -185,6 +185,15 @@ def test_a_cycle_in_sub_blocks_has_a_picture(code):
     assert "no alarms; cutting" in live.alarms.value and picture(live)[1]
 
 
+@pytest.mark.parametrize("number", [20, 21, 22, 23, 24, 25, 27, 28, 29, 39, 270, 275, 276])
+def test_a_contour_cycle_machines_a_contour_in_its_form(number):
+    live = mnclab.form(f"CYCL DEF {number}", "tnc-620")
+    assert live.run.ok and not live.run.alarms and "CYCL DEF 14.1 CONTOUR LABEL 1" in live.run.program.text
+    assert live.run.summary()["cutting length"] > 20
+    _, name = picture(live)
+    assert ("developed cylinder" in name) == (number in (27, 28, 29, 39))
+
+
 def test_a_shift_shows_a_figure_before_and_after():
     """The figure lies from X10 Y5 to X50 Y30, 40 by 25; moved by 60 and 25 it ends at X110 Y55."""
     live = mnclab.form("CYCL DEF 7", "tnc-620")
