@@ -170,10 +170,13 @@ def plot_run(
 
     The options are those of `plot_path`; `stock=False` leaves out the blank of the setup or the program, `part=True`
     draws what the run leaves of it, as a lathe's picture does unless its path is long. `view="unrolled"` shows what lies on a
-    cylinder on its developed surface (`show.plot.unrolled`; of the options it takes `size`), and so does "auto" where all cuts
-    lie on one. Beside a blank the first approach comes from home, unless the setup says from where.
+    cylinder on its developed surface (`show.plot.unrolled`; of the options it takes `size`), and so does "auto" without other
+    options where every cut lies on one. Beside a blank the first approach
+    comes from home, unless the setup says from where.
     """
-    if view == "unrolled" or (view == "auto" and options.keys() <= {"size"} and _all_rolled(run.toolpath)):
+    cuts = (run.toolpath.kind == Kind.LINE) | (run.toolpath.kind == Kind.ARC)
+    rolled = view == "auto" and options.keys() <= {"size"} and bool(cuts.any() and (run.toolpath.cylinder[cuts] >= 0).all())
+    if view == "unrolled" or rolled:
         from mnclab.show.plot.unrolled import plot_unrolled
 
         return plot_unrolled(run.toolpath, ax, **options)
@@ -194,12 +197,6 @@ def plot_run(
         if isinstance(insert, int) and not isinstance(insert, bool) and insert >= 0:
             options["insert"] = max(insert - first, 0)
     return plot_path(path, ax, view, **{**given, **options}, marks=marks)
-
-
-def _all_rolled(path: Toolpath) -> bool:
-    """Whether everything that a path cuts lies on cylinders."""
-    cuts = (path.kind == Kind.LINE) | (path.kind == Kind.ARC)
-    return bool(cuts.any() and (path.cylinder[cuts] >= 0).all())
 
 
 
