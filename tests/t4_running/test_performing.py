@@ -80,7 +80,8 @@ def test_rows_carry_the_code_and_the_label_of_their_step(machine: Machine) -> No
 def test_an_arc_too_short_to_tell_its_ends_apart_is_no_full_circle(machine: Machine, length: float) -> None:
     """A contour from the inset of an area: a quarter of a circle of 10 that is met by arcs of less than a micrometre."""
     angle = np.cumsum([0, length / 10, np.pi / 2, length / 10, -length / 10])
-    contour = Contour(10 * np.stack([np.cos(angle), np.sin(angle)], axis=1), np.tan(np.append(np.diff(angle), 0) / 4), closed=False)
+    points, bulge = 10 * np.stack([np.cos(angle), np.sin(angle)], axis=1), np.tan(np.append(np.diff(angle), 0) / 4)
+    contour = Contour(points, bulge, closed=False)
     perform(machine, "RING", [Go("to the ring", x=10, y=0), Along("ring", contour, 100)], about=(0.0, 0.0))
     machine.settle()
     rows = [move for path in machine.settled for move in path if move.label == 1 or move.feed == 100]
