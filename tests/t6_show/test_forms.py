@@ -222,3 +222,15 @@ def test_labels_and_axes_are_typed_as_a_program_has_them():
     cuts = mirror.run.toolpath[mirror.run.toolpath.kind == mnclab.Kind.LINE].end
     assert cuts[:, :2].min(axis=0).tolist() == [-50, -30]
     assert [row.step.value for row in mirror.steps().rows if hasattr(row.step, "value")]
+
+
+def test_names_have_room():
+    """A choice shows its first 19 letters, a tick its address; a count has no unit; alarms stand with the picture."""
+    live = mnclab.form("CYCL DEF 275", "tnc-620")
+    em = lambda size: float(size.removesuffix("em"))  # noqa: E731
+    choice = next(box for box in live.boxes.values() if hasattr(box, "options"))
+    assert em(choice.layout.width) - em(choice.style.description_width) > 0.55 * len("0 roughing and finishing")
+    assert all(em(tick.layout.width) > 0.55 * len(tick.description) + 1 for tick in live.ticks.values()) and live.ticks
+    named = [box.description for n in (7, 21, 22, 24) for box in mnclab.form(f"CYCL DEF {n}", "tnc-620").boxes.values()]
+    assert not [name for name in named if "[count]" in name or "[text]" in name]
+    assert live.children[0].children[1].children == (live.picture, live.alarms)

@@ -11,7 +11,7 @@
   Q5=+0 ;SURFACE COORDINATE
   Q6=2 ;SET-UP CLEARANCE
   Q7=+50 ;CLEARANCE HEIGHT
-  Q8=0.5 ;ROUNDING RADIUS
+  Q8=0 ;ROUNDING RADIUS
   Q9=+1 ;CLIMB
 6 * - Pilot hole for the insert mill
 7 TOOL CALL 2 Z S1800
@@ -65,32 +65,34 @@
   Q438=-1 ;ROUGH-OUT TOOL
 28 CYCL CALL
 29 L X+58 Y+40 Z+100 R0 FMAX M30
-30 LBL 1 ; the pocket: from outside the bay, so both are joined
+30 LBL 1 ; the pocket: it begins outside the bay, so both are joined
 31 L X+10 Y+40 RR
 32 L Y+64
 33 RND R6
 34 L X+78
-35 L Y+16
-36 L X+10
+35 RND R6
+36 L Y+16
 37 RND R6
-38 L Y+40
-39 LBL 0
-40 LBL 2 ; the bay
-41 CC X+80 Y+40
-42 L X+106 Y+40 RR
-43 C X+106 DR-
-44 LBL 0
-45 LBL 3 ; the boss: it stays
-46 CC X+80 Y+40
-47 L X+92 Y+40 RL
-48 C X+92 DR-
-49 LBL 0
-50 LBL 4 ; the block: it stays
-51 L X+28 Y+40 RL
-52 L Y+46
-53 L X+48
-54 L Y+34
-55 L X+28
-56 L Y+40
-57 LBL 0
-58 END PGM LID MM
+38 L X+10
+39 RND R6
+40 L Y+40
+41 LBL 0
+42 LBL 2 ; the bay
+43 CC X+80 Y+40
+44 L X+106 Y+40 RR
+45 C X+106 DR-
+46 LBL 0
+47 LBL 3 ; the boss: it stays
+48 CC X+80 Y+40
+49 L X+92 Y+40 RL
+50 C X+92 DR-
+51 LBL 0
+52 LBL 4 ; the block: it stays
+53 L X+28 Y+40 RL
+54 L Y+46
+55 L X+48
+56 L Y+34
+57 L X+28
+58 L Y+40
+59 LBL 0
+60 END PGM LID MM

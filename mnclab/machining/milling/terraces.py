@@ -77,6 +77,7 @@ def at_depth(
 
 
 def combined(operator: str, left: Region, right: Region) -> Region:
+    """Two areas as an operator of a formula joins them."""
     match operator:
         case "&":
             return left.intersection(right)

@@ -151,8 +151,8 @@ def test_a_recorded_contour_may_compute_and_the_tool_does_not_move():
 
 
 def test_a_modal_call_calls_nothing_within_the_contour():
-    """M89: the cycle runs at the two positions, and not in the blocks of its own labels."""
-    positions = "L X+0 Y+0 R0 FMAX M89\nL X+5 FMAX\n"
+    """M89: the cycle runs at its two positions, and not in the blocks of its own labels."""
+    positions = "L X+0 Y+0 R0 FMAX M89\nL X+5 FMAX M99\n"
     run = mnclab.run(pocket().replace("CYCL CALL\n", positions), "tnc-620", Setup(tools={1: Tool(radius=5)}))
     once = mnclab.run(pocket(), "tnc-620", Setup(tools={1: Tool(radius=5)})).toolpath
     assert run.ok, run.alarms
