@@ -87,3 +87,10 @@ def test_an_arc_too_short_to_tell_its_ends_apart_is_no_full_circle(machine: Mach
     rows = [move for path in machine.settled for move in path if move.label == 1 or move.feed == 100]
     assert np.sum([abs(move.sweep) for move in rows]) == pytest.approx(np.pi / 2, abs=3 * length)
     assert np.allclose(rows[-1].end[:2], contour.points[-1], atol=1e-9)
+
+
+def test_a_circle_of_two_halves_is_one_full_circle(machine: Machine) -> None:
+    perform(machine, "RING", [Go("to the ring", x=10, y=0), Along("ring", Contour.circle((0, 0), 10), 100)], about=(0.0, 0.0))
+    machine.settle()
+    (ring,) = (move for path in machine.settled for move in path if move.feed == 100)
+    assert ring.kind == Kind.ARC and abs(ring.sweep) == pytest.approx(2 * np.pi)
