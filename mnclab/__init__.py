@@ -106,6 +106,7 @@ strategies = Shelf("mnclab.strategies", "ways to clear an area with a mill; mncl
     "mnclab.machining.milling.rings": "rings",
     "mnclab.machining.milling.spirals": "spiral",
     "mnclab.machining.milling.trochoids": "trochoidal",
+    "mnclab.machining.milling.trochoidal_slots": "trochoid",
     "mnclab.machining.milling.entries": "Entry",
     "mnclab.machining.milling.rest": "rest, rest_passes",
     "mnclab.machining.milling.engagement": "engagement, stretches",

@@ -39,7 +39,8 @@ def _crossings(loop: Contour, y: Floats) -> list[tuple[NDArray[np.intp], Floats,
             row = np.arange(low, high)
             if sweep:
                 half = np.sqrt(np.maximum(radius * radius - (y[row] - centre[1]) ** 2, 0.0))
-                place = centre[0] + (half if xa + xb > 2 * centre[0] else -half)
+                right = (yb > ya) == (sweep > 0)  # counter-clockwise an arc rises on the right of its centre
+                place = centre[0] + (half if right else -half)
             else:
                 place = xa + (y[row] - ya) / (yb - ya) * (xb - xa)
             found.append((row, place, np.full(len(row), 1 if yb < ya else -1, dtype=np.int16)))

@@ -42,7 +42,8 @@ def in_block(cycle: type[Cycle], words: TrialWords) -> str:
 
 def is_text(parameter: Parameter) -> bool:
     """Whether a parameter holds a text; a tool that may be named, too, is a number to begin with."""
-    return parameter.type == "text" and not isinstance(parameter.default or parameter.example, int | float)
+    first = parameter.default, parameter.example
+    return parameter.type == "text" and not any(isinstance(value, int | float) for value in first)
 
 
 def joined(several: Sequence[float | str]) -> str:

@@ -44,6 +44,7 @@ def set_aside(m: Machine, in_space: bool = False) -> Iterator[None]:
     path_so_far = {"recorder": m.recorder, "programmed_pieces": m.programmed_pieces, "settled": m.settled}
     m.put(recorder=m.recorder.another((x, y, z)), programmed_pieces=[], settled=[], recorded_only=True)
     m.put(tip=(x, y, z), programmed=(x, y, z), side=0, feed=m.feed or 1.0, exact_here=False)
+    m.put(modal=m.modal | {"call": ""})  # a modal call of a cycle runs it where the tool moves
     try:
         yield
     finally:

@@ -34,6 +34,8 @@ from mnclab.text.given import check_number, shown
 DRAWING = ThreadPoolExecutor(1, thread_name_prefix="drawing")
 PLACE = re.compile(r"\{(\w+)\}")
 SIZE = (6.4, 4.4)  # inches, of a picture beside boxes
+EM = 0.58  # of the height of letters: how wide they are
+NO_UNITS = ("choice", "count", "text")
 
 Number = float | tuple[float, float, float]
 Work = tuple[Callable[[], Any], str]  # what draws the picture, and what is said below it
@@ -111,7 +113,7 @@ def form(code: str, control: str) -> Any:
     boxes, ticks, rows = {}, {}, []
     longest = max((len(_name(p)) for p in chosen.parameters()), default=0)
     for parameter in chosen.parameters():
-        box = boxes[parameter.name] = _parameter_box(parameter, min(32.0, 0.58 * longest))
+        box = boxes[parameter.name] = _parameter_box(parameter, min(32.0, EM * longest))
         if not parameter.required and parameter.default in (None, inf):
             ticks[parameter.name] = tick = _tick(parameter, box)
             rows.append(ipywidgets.HBox([box, tick]))
@@ -202,7 +204,7 @@ def _box_of(kind: type, value: Any, limits: Sequence[float], looks: Mapping[str,
 
 def _name(p: Parameter) -> str:
     """What is written beside a box: `K depth of one peck [mm]`."""
-    return f"{p.address} {p.meaning}" + (f" [{p.unit}]" if p.unit and p.unit != "choice" and not p.mark else "")
+    return f"{p.address} {p.meaning}" + (f" [{p.unit}]" if p.unit and p.unit not in NO_UNITS and not p.mark else "")
 
 
 def _parameter_box(p: Parameter, width: float) -> Any:
@@ -217,7 +219,8 @@ def _parameter_box(p: Parameter, width: float) -> Any:
         return ipywidgets.Text(value=value, **looks)
     if p.choices:
         options = [(f"{choice:g} {meaning}", choice) for choice, meaning in p.choices.items()]
-        return ipywidgets.Dropdown(options=options, value=value, **looks)
+        wide = EM * max(len(name) for name, _ in options) + 3  # and the arrow
+        return ipywidgets.Dropdown(options=options, value=value, **looks | _looks(_name(p), width, min(max(wide, 8), 14)))
     lowest = [limit for limit in (p.above, p.at_least) if limit is not None]
     highest = [limit for limit in (p.below, p.at_most) if limit is not None]
     limits = (max(lowest, default=-1e9), min(highest, default=1e9)) if lowest or highest else ()
@@ -229,7 +232,8 @@ def _tick(p: Parameter, box: Any) -> Any:
     import ipywidgets
 
     written = trial.written_first(p)
-    tick = ipywidgets.Checkbox(written, description=f"write {p.address}", indent=False, layout={"width": "6em"})
+    name = f"write {p.address}"
+    tick = ipywidgets.Checkbox(written, description=name, indent=False, layout={"width": f"{EM * len(name) + 3:.1f}em"})
     box.disabled = not written
     tick.observe(lambda change: setattr(box, "disabled", not change["new"]), "value")
     return tick
@@ -241,12 +245,14 @@ def _tick(p: Parameter, box: Any) -> Any:
 def _following(
     boxes: dict[str, Any], rows: Any, work: Callable[[Any], Work | None], *also: Any, beside: bool = False
 ) -> Any:
-    """Rows of boxes, with a picture below or beside them and alarms; `work` is done when a box, or one `also`, changes."""
+    """Rows of boxes, with a picture and alarms below or beside them; `work` is done when a box, or one `also`, changes."""
     import ipywidgets
 
     picture, alarms = ipywidgets.HTML(), ipywidgets.HTML()
-    above = [ipywidgets.HBox([rows, picture], layout={"flex_flow": "row wrap"})] if beside else [rows, picture]
-    live: Any = ipywidgets.VBox([*above, alarms])
+    live: Any = ipywidgets.VBox([rows, picture, alarms])
+    if beside:
+        right = ipywidgets.VBox([picture, alarms], layout={"flex": "1 1 460px"})  # at least so wide, or it goes below
+        live = ipywidgets.VBox([ipywidgets.HBox([rows, right], layout={"flex_flow": "row wrap"})])
     live.boxes, live.picture, live.alarms, live.run = boxes, picture, alarms, None
 
     def changed(_: Any = None) -> None:

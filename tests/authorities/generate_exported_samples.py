@@ -12,7 +12,7 @@ import re
 import sys
 from pathlib import Path
 
-from read_back import blocks_of
+from read_back import DRUMS, blocks_of
 from recording import HERE, ask, version
 
 import mnclab
@@ -50,7 +50,7 @@ def old(program):
 
 
 def main(names):
-    every = sorted(program for control in CONTROLS for program in (PROGRAMS / control).iterdir())
+    every = sorted(program for control in CONTROLS for program in (PROGRAMS / control).iterdir() if program.stem not in DRUMS)
     for program in [PROGRAMS / name for name in names] or filter(old, every):
         record(program)
 

@@ -9,6 +9,7 @@ from mnclab.show.export_gcode import DECIMALS, lines, plain
 
 KINDS = {"rapid": (Kind.RAPID,), "feed": (Kind.LINE, Kind.PROBE), "arc": (Kind.ARC,)}
 EXACT = 1e-6  # mm: the file has six decimals
+DRUMS = {"drum_cam", "drum_window"}  # samples that turn an axis: the machine that is asked has X, Y and Z alone
 
 
 def blocks_of(run):

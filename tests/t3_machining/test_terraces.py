@@ -79,3 +79,16 @@ def test_a_level_on_each_floor():
     assert [(round(level.height, 9), level.terrace) for level in made] == [
         (-1, 0), (-2.5, 0), (-4, 1), (-7, 1), (-9.5, 1),
     ]  # fmt: skip
+
+
+def test_formulas_made_of_each_other_are_joined_once(monkeypatch):
+    """Forty strips of 10 x 1 taken away one after the other, looked at after each: forty subtractions, not 820."""
+    seen = []
+    difference = Region.difference
+    monkeypatch.setattr(Region, "difference", lambda one, other: seen.append(1) or difference(one, other))
+    known: dict = {}
+    formula = box(0, 0, 10, 100)
+    for k in range(40):
+        formula = Joined("\\", formula, box(0, 2 * k, 10, 1))
+        assert at_depth(formula, 1, 2, known=known).area == pytest.approx(1000 - 10 * (k + 1))
+    assert len(seen) == 40

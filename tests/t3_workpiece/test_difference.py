@@ -53,6 +53,14 @@ def test_a_bore_too_wide_leaves_the_top_face_as_drawn():
     assert row(found, "pocket", "form").actual == pytest.approx(-0.05, abs=1e-6)
 
 
+@pytest.mark.filterwarnings("error")
+def test_walls_below_every_tool_are_left_over_without_a_warning():
+    """A bore of 23 for 24 that ends 0.3 mm above its floor: nothing has cut at the foot of its wall."""
+    found = part(rings(-7.7, last=6.5)).compare(Design(BLOCK, (CIRCLE,)))
+    assert (found.worst_rest.value, found.worst_gouge.value) == (pytest.approx(0.5, abs=1e-6), 0.0)
+    assert found.rest_volume == pytest.approx(math.pi * (144 * 8 - 11.5**2 * 7.7), rel=2e-3)
+
+
 def test_volumes_of_thin_bands():
     wide = part(rings(), Tool(radius=5.05, number=1, kind="mill")).compare(Design(BLOCK, (CIRCLE,)))
     assert wide.gouge_volume == pytest.approx(math.pi * (12.05**2 - 12**2) * 8, rel=0.02) and wide.rest_volume == 0

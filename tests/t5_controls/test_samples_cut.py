@@ -4,7 +4,7 @@ A mill is asked for heights at places (x, y), a lathe for radii at places along 
 programs are written with. Blanks and tools are those of `data/setups`, or the program has a BLK FORM.
 """
 
-from math import cos, radians, sin, tan
+from math import cos, pi, radians, sin, tan
 from pathlib import Path
 
 import numpy as np
@@ -80,6 +80,12 @@ HEIGHTS = {
         (79.9, 56): 0, (80.1, 56): -8, (72.1, 44): -8, (71.9, 44): 0},
     "tnc-620/cover": holes(-15, (25, 25), (25, 55), (75, 25), (75, 55)) | {(9.9, 40): -5, (10.1, 40): 0, (50, 69.9): 0,
         (50, 70.1): -5, (87.9, 68): -5, (85, 66.9): 0, (12, 68): -5, (13.5, 66.5): 0, (89.9, 10.1): 0, (90.1, 9.9): -5},
+    "tnc-620/dumbbell": {(10.1, 40): -10, (9.9, 40): 0, (124.9, 40): -10, (125.1, 40): 0, **{(67.5, 40 + q * side): z for side in
+        (-1, 1) for q, z in ((6.9, -10), (7.1, 0))}, **{place: -10 for x in (35, 100) for place in on((x, 40), 24.9, 90, 135,
+        270)}, **{place: 0 for x in (35, 100) for place in on((x, 40), 25.1, 90, 135, 270)}},
+    "tnc-620/edge": {(5.9, 40): -12, (6.1, 40): 0, (60, 60): -12, (60, 42.1): -12, (60, 41.9): 0, (49, 43.3): -12, (48.4, 42.4): 0,
+        (71, 43.3): -12, (71.6, 42.4): 0, (9.9, 68.3): -12, (10.3, 67.9): 0, **{place: -12 for place in on((21, 21), 15.1, 225)},
+        **{place: 0 for place in on((21, 21), 14.9, 225)}, (1, 1): -12, (119, 77): -12},
     "tnc-620/ellipse": {(40, 0): -8, (-40, 0): -8, (0, 25): -8, (0, -25): -8, (0, 0): 0, (37.9, 0): 0, (45, 0): 0},
     "tnc-620/eyes": {(-19.9, 0): 0, (-20.1, 0): -4, (71.9, 0): 0, (72.1, 0): -4, (0, 19.9): 0, (0, 20.1): -4,
         (60, -12.2): -4},
@@ -94,6 +100,9 @@ HEIGHTS = {
         (75, 30): -12, (88.9, 30): -12, (89.1, 30): 0, (19.1, 15): 0},
     "tnc-620/lever": {(-19.9, 0): 0, (-20.1, 0): -8, (0, -19.9): 0, (81.9, 40): 0, (82.1, 40): -8, (70, 52.2): -8,
         (0, 0): 0},
+    "tnc-620/lid": {(9.9, 40): 0, (10.1, 40): -15, (11, 63): 0, (12, 62): -15, (11, 17): 0, (69.9, 63.9): -15, (69.5, 64.1): 0,
+        (27.9, 40): -15, (28.1, 40): 0, (47.9, 45.9): 0, (38, 46.1): -15, **{place: z for r, z in ((11.9, 0), (12.1, -15),
+        (25.9, -15), (26.1, 0)) for place in on((80, 40), r, -90, -30, 0, 60)}},
     "tnc-620/name_plate": {(1, 1): 0, (119, 1): 0, (1, 79): 0, (119, 79): 0, (60, 40): 0},
     "tnc-620/one_part": holes(-12, (15, 10), (45, 10), (75, 10)) | {(45, 30): -4, (62.6, 30): -4, (62.8, 30): 0,
         (89, 59): -6},
@@ -117,7 +126,15 @@ HEIGHTS = {
     "tnc-620/threads": {(15, 15): -20, (18.3, 15): -20, (18.9, 45): -16, (19.1, 15): 0, (40, 15): -15,
         (49.1, 15): -15, (50.1, 15): 0, (40, 45): -12, (45.9, 47): -1, (90, 30): 0, (100.9, 30): 0, (102.1, 30): -12,
         (115, 30): -12},
+    "tnc-620/trochoid": {(50, 20): -15, (50, 26.9): -15, (50, 27.1): 0, (13.1, 20): -15, (12.9, 20): 0, (99.9, 38): -15,
+        (100.1, 38): 0, (86.1, 38): -15, (85.9, 38): 0, (112, 79): -15, (118.9, 50): -15, (119.1, 50): 0, (112, 13.1): -15,
+        (112, 12.9): 0},
 }  # fmt: skip
+#: On drums, which no part holds: between which u, y and height the middle of the tool is on the floor.
+DRUMS = {
+    "tnc-620/drum_cam": ((0, 20 - 1, -8), (2 * pi * 40, 50 + 1, -8)),
+    "tnc-620/drum_window": ((30 * pi / 6 + 3, 15 + 3, -6), (30 * 2 * pi / 3 - 3, 65 - 3, -6)),
+}
 #: The radius at places along Z, then that of the bore. A nose of radius r leaves r (sin a + cos a - 1) / cos a on a cone of
 #: the angle a, and the arcs of the recess 0.4 mm aside: these programs do not compensate it.
 RADII = {
@@ -138,7 +155,7 @@ def run_of(name):
 
 
 def test_every_sample_is_asked_and_every_setup_has_its_program():
-    assert {*HEIGHTS, *RADII, *NO_PART} == {*PROGRAMS} and not NO_PART & {*HEIGHTS, *RADII}
+    assert {*HEIGHTS, *RADII, *DRUMS, *NO_PART} == {*PROGRAMS} and not NO_PART & {*HEIGHTS, *RADII, *DRUMS}
     assert {*SETUPS} <= {*PROGRAMS}
 
 
@@ -153,6 +170,13 @@ def test_nothing_collides_and_only_threads_have_notes(name):
 def test_a_path_that_shows_a_function_cuts_nothing_below_its_plane(name):
     path = mnclab.run(PROGRAMS[name]).toolpath
     assert path.end[:, 2].min() >= 0
+
+
+@pytest.mark.parametrize("name", DRUMS)
+def test_on_drums(name):
+    flat = run_of(name).toolpath.unrolled().labelled("level 2 of 2")
+    floor = np.concatenate([flat.labelled(what).end for what in ("contour", "wall")])
+    assert [floor.min(axis=0), floor.max(axis=0)] == pytest.approx(np.array(DRUMS[name]), abs=1e-3)
 
 
 @pytest.mark.parametrize("name", HEIGHTS)

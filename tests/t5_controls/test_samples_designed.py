@@ -72,7 +72,7 @@ def test_features(name):
     assert left == []
 
 
-SLOW = ("tnc-620/studs", "tnc-620/lever", "tnc-620/cam_plate", "tnc-620/pockets")
+SLOW = ("tnc-620/lid", "tnc-620/studs", "tnc-620/lever", "tnc-620/cam_plate", "tnc-620/pockets")
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.deep) if name in SLOW else name for name in MILLED])

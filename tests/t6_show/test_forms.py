@@ -185,6 +185,15 @@ def test_a_cycle_in_sub_blocks_has_a_picture(code):
     assert "no alarms; cutting" in live.alarms.value and picture(live)[1]
 
 
+@pytest.mark.parametrize("number", [20, 21, 22, 23, 24, 25, 27, 28, 29, 39, 270, 275, 276])
+def test_a_contour_cycle_machines_a_contour_in_its_form(number):
+    live = mnclab.form(f"CYCL DEF {number}", "tnc-620")
+    assert live.run.ok and not live.run.alarms and "CYCL DEF 14.1 CONTOUR LABEL 1" in live.run.program.text
+    assert live.run.summary()["cutting length"] > 20
+    _, name = picture(live)
+    assert ("developed cylinder" in name) == (number in (27, 28, 29, 39))
+
+
 def test_a_shift_shows_a_figure_before_and_after():
     """The figure lies from X10 Y5 to X50 Y30, 40 by 25; moved by 60 and 25 it ends at X110 Y55."""
     live = mnclab.form("CYCL DEF 7", "tnc-620")
@@ -213,3 +222,15 @@ def test_labels_and_axes_are_typed_as_a_program_has_them():
     cuts = mirror.run.toolpath[mirror.run.toolpath.kind == mnclab.Kind.LINE].end
     assert cuts[:, :2].min(axis=0).tolist() == [-50, -30]
     assert [row.step.value for row in mirror.steps().rows if hasattr(row.step, "value")]
+
+
+def test_names_have_room():
+    """A choice shows its first 19 letters, a tick its address; a count has no unit; alarms stand with the picture."""
+    live = mnclab.form("CYCL DEF 275", "tnc-620")
+    em = lambda size: float(size.removesuffix("em"))  # noqa: E731
+    choice = next(box for box in live.boxes.values() if hasattr(box, "options"))
+    assert em(choice.layout.width) - em(choice.style.description_width) > 0.55 * len("0 roughing and finishing")
+    assert all(em(tick.layout.width) > 0.55 * len(tick.description) + 1 for tick in live.ticks.values()) and live.ticks
+    named = [box.description for n in (7, 21, 22, 24) for box in mnclab.form(f"CYCL DEF {n}", "tnc-620").boxes.values()]
+    assert not [name for name in named if "[count]" in name or "[text]" in name]
+    assert live.children[0].children[1].children == (live.picture, live.alarms)

@@ -57,6 +57,22 @@ def test_the_band_is_as_wide_as_the_slot(run):
     assert above.get_xlim() == (pytest.approx(math.degrees(low / 25)), pytest.approx(math.degrees(high / 25)))
 
 
+def test_degrees_are_round_numbers(run):
+    """About 34 mm of a radius of 25 are 78°: 15, 30, 45 … and not 9, 18, 27; no line of the legend is too short to be seen."""
+    picture = run.plot(view="unrolled", size=(5.0, 5.0))
+    picture.draw_without_rendering()
+    ticks = picture.axes[0].child_axes[0].get_xticks()
+    assert set(np.round(np.diff(ticks) / 15, 9)) <= {1, 2}
+    drawn = [line for line in picture.axes[0].lines if line.get_linestyle() == "--"]
+    assert all(np.ptp(line.get_xdata()) + np.ptp(line.get_ydata()) > 1e-6 for line in drawn)
+
+
+def test_a_path_on_a_cylinder_is_unrolled_unasked(run):
+    """In the coordinates of the machine it would be a line; another view, or a colour, is what was asked for."""
+    assert run.plot().axes[0].get_xlabel() == "u along the circumference, mm"
+    assert run.plot(view="XY").axes[0].get_xlabel() == run.plot(colour="feed").axes[0].get_xlabel() == "X, mm"
+
+
 def test_without_a_cylinder():
     with pytest.raises(mnc.Alarm, match="no row does"):
         mnc.run("0 BEGIN PGM A MM\nL X+1 R0 FMAX\n", "tnc-620").plot(view="unrolled")

@@ -12,6 +12,8 @@ from mnclab.controls.tnc_620 import trial_figures as figures
 from mnclab.controls.tnc_620.contours.data import ContourData
 from mnclab.controls.tnc_620.contours.labels import ContourGeometry
 from mnclab.controls.tnc_620.contours.rough_out import RoughOut
+from mnclab.controls.tnc_620.contours.train import ContourTrain
+from mnclab.controls.tnc_620.contours.train_data import TrainData
 from mnclab.controls.tnc_620.reading import obsolete_blocks, sub_blocks
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.trial import TrialWords, first_value, number, written_first
@@ -62,7 +64,8 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str | None:
     if cycle.code in figures.MOVED:
         return program([*figures.SHOWN, *mine, *figures.SHOWN], figures.FIGURE)
     if cycle.code in figures.LINES:
-        return program([*definition(ContourGeometry, [("LBL", "1")]), *mine, CALL], figures.LINES[cycle.code])
+        run = begun(ContourTrain) if cycle is TrainData else []  # which shows its data
+        return program([*definition(ContourGeometry, [("LBL", "1")]), *mine, *run, CALL], figures.LINES[cycle.code])
     if cycle.code in AREA:
         return program([*around(cycle, mine), CALL], figures.CONTOURS)
     if cycle.code == "CYCL DEF 12":

@@ -52,15 +52,13 @@ TRAIN = ("L X+10 Y+0 RL", "L Y+25", "RND R8", "L X+40", "L X+55 Y+10", "CR X+85 
 WITHOUT_SIDE = ("L X+10 Y+0 R0", *TRAIN[1:])
 IN_SPACE = ("L X+10 Y+0 Z+0 RL", "L Y+25 Z-2", "L X+40 Z-6", "L X+55 Y+10 Z-6", "CR X+85 Y+10 R20 DR-", "L Y+40 Z+0")
 CENTRE_LINE = ("L X+0 Y+0", "L X+40", "RND R20", "L Y+45", "CR X+85 Y+45 R22.5 DR-", "L Y+20")
-ON_CYLINDER = ("L X+0 Y+0 RL", "L X+50", "RND R8", "L Y+35", "L X+90 Y+50")
+ON_CYLINDER = ("L X+0 Y+0 RL", "L X+50", "RND R20", "L Y+45", "L X+90 Y+65")
 #: By cycle, the one contour that it machines.
 LINES = {
-    "CYCL DEF 25": line(*TRAIN), "CYCL DEF 276": line(*IN_SPACE), "CYCL DEF 275": line(*CENTRE_LINE),
+    "CYCL DEF 25": line(*TRAIN), "CYCL DEF 270": line(*WITHOUT_SIDE), "CYCL DEF 276": line(*IN_SPACE),
+    "CYCL DEF 275": line(*CENTRE_LINE),
     **{f"CYCL DEF {n}": line(*ON_CYLINDER) for n in (27, 28, 29, 39)},
 }  # fmt: skip
-#: The contour of the data of a contour train, which cycle 25 shows.
-WITH_DATA = line(*WITHOUT_SIDE)
-
 #: The program that cycle 12 runs to begin with, by its name.
 FILES = {
     "ABC.H": "BEGIN PGM ABC MM\nL Z+2 R0 FMAX\nL Z-5 F200\nL IX+15\nL IY+10\nL IX-15\nL IY-10\nL Z+50 FMAX\nEND PGM ABC MM\n"

@@ -69,7 +69,7 @@ def _climbed(piece: Region, here: Floats, step: float) -> Floats:
         round_about = here + step * np.stack([np.cos(AROUND + turn), np.sin(AROUND + turn)], axis=1)
         rooms = np.where(piece.contains(round_about), piece.distance(round_about), 0.0)
         if rooms.max() > room + 1e-3 * step:
-            here, room = round_about[rooms.argmax()], float(rooms.max())
+            here, room, step = round_about[rooms.argmax()], float(rooms.max()), 2 * step
         else:
             step, turn = step / 2, turn + 1
     return here

@@ -37,6 +37,8 @@ class Joined(NamedTuple):
 
 
 Formula: TypeAlias = Part | Joined
+#: Areas that were found before: a formula (kept, since its `id` is the key), and what it is at a depth.
+Known: TypeAlias = dict[tuple[int, float, float, bool], tuple[Formula, Region]]
 
 
 class Terrace(NamedTuple):
@@ -55,14 +57,28 @@ class Level(NamedTuple):
     terrace: int
 
 
-def at_depth(formula: Formula, depth: float, whole: float, taken_away: bool = False) -> Region:
-    """The area that is cut at a depth, where the formula as a whole is `whole` deep."""
+def at_depth(
+    formula: Formula, depth: float, whole: float, taken_away: bool = False, known: Known | None = None
+) -> Region:
+    """The area that is cut at a depth, where the formula as a whole is `whole` deep.
+
+    `known` keeps the areas of its parts, for formulas that are made of each other.
+    """
     if isinstance(formula, Part):
         reach = formula.depth or (0.0 if taken_away else whole)
         return formula.region if (depth > reach) == taken_away else Region()
-    left = at_depth(formula.left, depth, whole, taken_away)
-    right = at_depth(formula.right, depth, whole, taken_away != (formula.operator == "\\"))
-    match formula.operator:
+    known = {} if known is None else known
+    key = id(formula), depth, whole, taken_away
+    if key not in known:
+        left = at_depth(formula.left, depth, whole, taken_away, known)
+        right = at_depth(formula.right, depth, whole, taken_away != (formula.operator == "\\"), known)
+        known[key] = formula, combined(formula.operator, left, right)
+    return known[key][1]
+
+
+def combined(operator: str, left: Region, right: Region) -> Region:
+    """Two areas as an operator of a formula joins them."""
+    match operator:
         case "&":
             return left.intersection(right)
         case "|":

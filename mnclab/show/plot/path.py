@@ -170,10 +170,13 @@ def plot_run(
 
     The options are those of `plot_path`; `stock=False` leaves out the blank of the setup or the program, `part=True`
     draws what the run leaves of it, as a lathe's picture does unless its path is long. `view="unrolled"` shows what lies on a
-    cylinder on its developed surface (`show.plot.unrolled`; of the options it takes `size`). Beside a blank the first approach
+    cylinder on its developed surface (`show.plot.unrolled`; of the options it takes `size`), and so does "auto" without other
+    options where every cut lies on one. Beside a blank the first approach
     comes from home, unless the setup says from where.
     """
-    if view == "unrolled":
+    cuts = (run.toolpath.kind == Kind.LINE) | (run.toolpath.kind == Kind.ARC)
+    rolled = view == "auto" and options.keys() <= {"size"} and bool(cuts.any() and (run.toolpath.cylinder[cuts] >= 0).all())
+    if view == "unrolled" or rolled:
         from mnclab.show.plot.unrolled import plot_unrolled
 
         return plot_unrolled(run.toolpath, ax, **options)

@@ -5,6 +5,7 @@ What the tool sweeps of the surface is shaded, as wide as the tool: a slot stand
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path as Outline
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import MultipleLocator
 
 from mnclab.geometry import shapely
 from mnclab.path.cylinder import Cylinder
@@ -25,6 +26,8 @@ from mnclab.show.plot.strokes import Array, line_of
 from mnclab.text.alarm import Alarm
 
 SWATH = "swept by the tool"
+ANGLES, MOST = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 90, 180, 360), 9  # steps of degrees, how many at most
+SEEN = 1e-6  # mm: shorter lines are the noise of turning, not moves
 
 
 def plot_unrolled(path: Toolpath, ax: Axes | None = None, size: tuple[float, float] = SIZE) -> Figure:
@@ -43,7 +46,7 @@ def plot_unrolled(path: Toolpath, ax: Axes | None = None, size: tuple[float, flo
     corners = np.concatenate([flat.start, flat.end, *([_box(swath)] if swath is not None else [])])
     low, high = corners.min(axis=0) * (1, 1, 0), corners.max(axis=0) * (1, 1, 0)
     lines = [(colours.RAPID, line_of(flat, (Kind.RAPID,))), (colours.FEED, line_of(flat, (Kind.LINE, Kind.ARC)))]
-    lines = [(look, xyz) for look, xyz in lines if np.nansum(np.abs(np.diff(xyz[:, :2], axis=0))) > 0]
+    lines = [(look, xyz) for look, xyz in lines if np.nansum(np.abs(np.diff(xyz[:, :2], axis=0))) > SEEN]
     names = [*([SWATH] if swath is not None else []), *(look.name for look, _ in lines), colours.START.name, colours.END.name]
     alt = f"developed cylinder of radius {one.radius / path.unit.length:.4g} {path.unit.short}"
     figure: Any = None
@@ -60,9 +63,10 @@ def plot_unrolled(path: Toolpath, ax: Axes | None = None, size: tuple[float, flo
         artists.insert(0, _shade(ax, swath))
     ax.set_xlabel(f"u along the circumference, {path.unit.short}", fontsize=SMALL + 1)
     ax.set_ylabel(f"y along the axis, {path.unit.short}", fontsize=SMALL + 1)
-    _degrees(ax, one)
     if figure is None:
         ax.autoscale_view()
+    _degrees(ax, one)
+    if figure is None:
         return ax.figure  # type: ignore[return-value]
     picture: Picture = figure
     write_legend(picture, artists)
@@ -105,6 +109,9 @@ def _degrees(ax: Axes, one: Cylinder) -> None:
     """A second scale above: the angle of the rotary axis."""
     per = np.degrees(1 / one.radius)
     above = ax.secondary_xaxis("top", functions=(lambda u: u * per, lambda angle: angle / per))
-    above.xaxis.set_major_locator(MaxNLocator(nbins=9, steps=[1, 1.5, 3, 4.5, 6, 9, 10]))
+    low, high = ax.get_xlim()
+    wide = (high - low) * per
+    step = next((each for each in ANGLES if wide <= MOST * each), 360 * math.ceil(wide / 360 / MOST))
+    above.xaxis.set_major_locator(MultipleLocator(step))
     above.set_xlabel(f"{'ABC'[one.rotary]}, degrees", fontsize=SMALL + 1)
     above.tick_params(labelsize=SMALL)

@@ -43,7 +43,7 @@ def guessed(workpiece: Milled, origin: Array, direction: Array, z: Array, materi
         for _ in range(STEPS):
             x, y = (origin[some] + way[:, None] * direction[some]).T
             beside = (left_by(cones, x, y) - near.low[:, None] - wide).min(axis=0)
-            ahead = np.maximum(np.where(material[some], beside, -beside), 0.0)
+            ahead = np.clip(np.where(material[some], beside, -beside), 0.0, LONG)  # none cuts at a height: endless
             way += ahead
             if ahead.max() < LEAST:
                 break

@@ -1,4 +1,4 @@
-; 17:1 alarm: CYCL DEF 24 0.0001 divides 10 into more than 10000 infeeds
+; 19:1 alarm: CYCL DEF 24 Q10 (infeed per cut) 0.0001 divides 10 into more than 10000 infeeds
 0 BEGIN PGM A MM
 TOOL CALL 1 Z S2000 F500
 L X+0 Y+0 Z+100 R0 FMAX M3

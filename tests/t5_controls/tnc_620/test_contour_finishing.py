@@ -184,6 +184,14 @@ def test_the_rough_out_tool(named, radius):
     assert f"must be less than Q3 + R = {0.5 + radius:g} of the rough-out tool" in made.alarms[0].message
 
 
+def test_the_rough_out_tool_may_be_named_by_a_text_parameter():
+    """R = 5.5 of tool 3 allows what the 5 of ROUGH do not: Q14 + R = 5.7 < Q3 + R = 6."""
+    tools = TOOLS | {3: Tool(radius=5.5, name="COARSE")}
+    for name, fits in (("COARSE", True), ("ROUGH", False)):
+        made = run(f'9 QS9 = "{name}"\n', side(Q14=0.7, QS438="QS9"), tools=tools)
+        assert made.ok == fits, made.alarms
+
+
 def test_without_22_the_tool_before_counts():
     """The tool before TOOL CALL 3 is number 1 with the DR of its call."""
     made = run("TOOL CALL 1 Z S9 DR+1\nTOOL CALL 3 Z S2000 DR+2\n", side())
@@ -251,6 +259,7 @@ def test_a_depth_of_0_is_finished_at_the_surface():
     for number, feed in ((23, 300), (24, 400)):
         path = of_cycle(made, number)
         assert set(path[path.feed == feed].end[:, 2]) == {0}
+        assert path.end[:, 2].min() == 0  # the ways to the floor and to the walls come from above
 
 
 # --- both, and the part -------------------------------------------------------------------------------------------------

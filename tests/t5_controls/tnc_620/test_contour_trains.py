@@ -187,8 +187,20 @@ def test_to_and_fro_is_left_where_it_ends():
 def test_allowance():
     assert ends(run(CORNER, Q3=1.5))[:, :2] == pytest.approx(np.array([(43.5, 16.5), (43.5, 50)]))
     assert ends(run(CORNER, Q3=-1.5))[:, :2] == pytest.approx(np.array([(46.5, 13.5), (46.5, 50)]))
-    other = ends(run(CORNER, Q3=-8))[:, :2]  # 3 mm beyond the contour: the other side, up-cut where RL climbs
-    assert other == pytest.approx(np.array([(53, 10), (50, 7), (10, 7)]))
+    beyond = ends(run(CORNER, Q3=-8))[:, :2]  # 3 mm beyond the contour, and as RL climbs: the wall is farther to the right
+    assert beyond == pytest.approx(np.array([(50, 7), (53, 10), (53, 50)]))
+
+
+def test_approach_beyond_the_contour_keeps_away_from_the_wall():
+    """Where Q3 takes 8 mm off, the tool of radius 5 runs 3 mm beyond: it comes from the left, the wall is on the right."""
+    found = cut(run(CORNER.replace(" RL", ""), Q3=-8, before=data(1, 1, angle=90)))
+    assert found.start[0, :2] == pytest.approx((7, 10)) and found.end[-1, :2] == pytest.approx((50, 53))
+    assert found.end[:, 1].min() == pytest.approx(7) and found.end[:, 0].max() == pytest.approx(53)
+
+
+def test_an_inside_arc_as_small_as_the_tool_leaves_nothing():
+    found = run("L X+10 Y+10 RL\nL X+50\nRND R5\nL Y+50")
+    assert said(found) == [] and ends(found)[:, :2] == pytest.approx(np.array([(45, 15), (45, 50)]))
 
 
 def test_closed_contours():

@@ -150,6 +150,15 @@ def test_a_recorded_contour_may_compute_and_the_tool_does_not_move():
     assert (10.0, 90.0, 0.0) not in positions
 
 
+def test_a_modal_call_calls_nothing_within_the_contour():
+    """M89: the cycle runs at its two positions, and not in the blocks of its own labels."""
+    positions = "L X+0 Y+0 R0 FMAX M89\nL X+5 FMAX M99\n"
+    run = mnclab.run(pocket().replace("CYCL CALL\n", positions), "tnc-620", Setup(tools={1: Tool(radius=5)}))
+    once = mnclab.run(pocket(), "tnc-620", Setup(tools={1: Tool(radius=5)})).toolpath
+    assert run.ok, run.alarms
+    assert run.toolpath[run.toolpath.feed == 350].length == pytest.approx(2 * once[once.feed == 350].length)
+
+
 def test_the_contour_turns_with_the_frame():
     """Cycle 7 and 10 before the call: the same area, shifted and turned."""
     turned = "CYCL DEF 7.0 DATUM\nCYCL DEF 7.1 X+200\nCYCL DEF 10.0 ROT\nCYCL DEF 10.1 ROT+30\n"

@@ -108,7 +108,7 @@ def allowance(where: str) -> Any:
 
 
 def set_up_clearance() -> Any:
-    return distance("Q6", "set-up clearance", note="of the tool tip over the cylinder", example=5)
+    return distance("Q6", "set-up clearance", note="of the tool tip over the cylinder", example=8)
 
 
 def plunging_depth() -> Any:

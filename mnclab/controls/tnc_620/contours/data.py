@@ -47,8 +47,8 @@ class ContourData(Cycle):
 
     @property
     def down(self) -> int:
-        """-1 where the cycles work downwards, +1 upwards."""
-        return -1 if self.depth < 0 else 1
+        """-1 where the cycles work downwards, as at a depth of 0, +1 upwards."""
+        return 1 if self.depth > 0 else -1
 
     @property
     def above(self) -> float:

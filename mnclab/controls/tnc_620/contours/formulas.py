@@ -20,7 +20,7 @@ from mnclab.controls.tnc_620.reading.contour_words import CLOSED, JOINS, OPEN
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.flow import Recording
 from mnclab.machine.machine import Machine
-from mnclab.machining.milling.terraces import Formula, Joined, Part, at_depth, parts
+from mnclab.machining.milling.terraces import Formula, Joined, Known, Part, at_depth, parts
 from mnclab.text.program import Word
 
 MOST = 128  # contours of a cycle (10.1)
@@ -35,6 +35,7 @@ class Definitions:
     declared: dict[str, Word] = field(default_factory=dict)  # designators of single contours, and whether …
     deep: dict[str, bool] = field(default_factory=dict)  # … they were given a depth
     whole: Formula | None = None  # of the last formula
+    areas: Known = field(default_factory=dict)
 
 
 def described(
@@ -106,13 +107,13 @@ def joined(m: Machine, words: Sequence[Word], named: dict[str, Formula]) -> Form
     return have
 
 
-def checked(m: Machine, formula: Formula, word: Word, what: str) -> Formula:
-    """The formula, if it cuts something at the surface and has not too many elements."""
+def checked(m: Machine, formula: Formula, word: Word, what: str, known: Known | None = None) -> Formula:
+    """The formula, if it cuts something at the surface and has not too many elements; `known` are areas of others."""
     different = {id(part.region): part.region for part in parts(formula)}.values()
     if sum(len(loop.points) for region in different for loop in region.loops) > MOST_ELEMENTS:
         m.alarm(f"the contours of {what} have more than {MOST_ELEMENTS} elements", word)
     deepest = max(part.depth for part in parts(formula)) or 1.0
     shallow = min((part.depth for part in parts(formula) if part.depth), default=deepest) / 2
-    if not at_depth(formula, shallow, deepest + 1.0).loops:
+    if not at_depth(formula, shallow, deepest + 1.0, known=known).loops:
         m.alarm(f"{what} encloses nothing", word)
     return formula

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from mnclab.controls.tnc_620.contours.area import contour_terraces
 from mnclab.controls.tnc_620.contours.data import contour_data, prepared, some_infeeds
 from mnclab.controls.tnc_620.contours.leaving import leave
-from mnclab.controls.tnc_620.contours.other_tools import in_table, named_tool
+from mnclab.controls.tnc_620.contours.other_tools import Named, in_table, named_tool
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, count, increment
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
@@ -32,7 +32,7 @@ class PilotDrilling(Cycle):
     about = in_program_coordinates
     infeed: float = increment("Q10", "infeed per cut", example=5)
     feed: float = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=150)
-    rough_out_tool: float | str = count(
+    rough_out_tool: Named = count(
         ("Q13", "QS13"), "rough-out tool", type="text", note="0: the tool in the spindle", example=1
     )
 

@@ -10,7 +10,7 @@ from typing import Any
 from mnclab.controls.tnc_620.contours.area import contour_terraces
 from mnclab.controls.tnc_620.contours.data import ContourData, contour_data, prepared, some_infeeds
 from mnclab.controls.tnc_620.contours.leaving import leave
-from mnclab.controls.tnc_620.contours.other_tools import in_table, named_tool
+from mnclab.controls.tnc_620.contours.other_tools import Named, in_table, named_tool
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, count, increment, ratio
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, not_zero, with_radius
@@ -41,7 +41,7 @@ class RoughOut(Cycle):
     infeed: float = increment("Q10", "infeed per cut", example=5)
     plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=150)
     feed: float = addresses.feed("Q12", "feed rate for roughing", also=addresses.PLANE, at_most=FAR, example=500)
-    coarse_tool: float | str = count(("Q18", "QS18"), "coarse roughing tool", type="text", default=0, note="0: none")
+    coarse_tool: Named = count(("Q18", "QS18"), "coarse roughing tool", type="text", default=0, note="0: none")
     swing_feed: float = addresses.feed("Q19", "feed rate for reciprocation", also=addresses.PLANE, at_most=FAR, example=0)
     retract_feed: float | str = addresses.retract_feed(at_most=None, default=INF, default_means="FMAX", note="", example=None)
     factor: float = ratio("Q401", "feed rate factor at full engagement", at_most=100, default=100)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from mnclab.controls.tnc_620.contours.area import contour_terraces
-from mnclab.controls.tnc_620.contours.data import ContourData, contour_data, prepared
+from mnclab.controls.tnc_620.contours.data import ContourData, contour_data, prepared, some_infeeds
 from mnclab.controls.tnc_620.contours.leaving import leave
-from mnclab.controls.tnc_620.contours.other_tools import in_table, named_tool
+from mnclab.controls.tnc_620.contours.other_tools import Named, in_table, named_tool
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, count, increment
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
@@ -36,15 +36,14 @@ class SideFinishing(Cycle):
     plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=150)
     feed: float = addresses.feed("Q12", "feed rate for finishing", also=addresses.PLANE, at_most=FAR, example=350)
     side_allowance: float = increment("Q14", "allowance that stays at the side", note="less than Q3 of cycle 20", example=0)
-    rough_out_tool: float | str = count(
+    rough_out_tool: Named = count(
         ("Q438", "QS438"), "rough-out tool", type="text", at_least=-1, at_most=32767.9, default=-1,
         note="-1: that of the last cycle 22, or the tool before; 0: none",
     )  # fmt: skip
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from prepared(m)
-        if self.infeed == 0:
-            yield "infeed", "must not be 0"
+        yield from some_infeeds(self, m)
         yield from not_zero(self, "plunge_feed", "feed", purpose="to mill with")
         yield from with_radius(m)
         if self.rough_out_tool not in (-1, 0):

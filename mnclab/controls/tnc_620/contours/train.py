@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.contours.leaving import leave
 from mnclab.controls.tnc_620.contours.line import contour_line, with_labels
-from mnclab.controls.tnc_620.contours.other_tools import in_table, named_tool
+from mnclab.controls.tnc_620.contours.other_tools import Named, in_table, named_tool
 from mnclab.controls.tnc_620.contours.train_plan import trains
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, count, increment, length
@@ -52,7 +52,7 @@ class Train(Cycle):
     plunge_feed: float
     feed: float
     sense: float
-    coarse_tool: float | str
+    coarse_tool: Named
     accepted: float
     connected: float
     extended: float
@@ -96,7 +96,7 @@ class ContourTrain(Train):
     plunge_feed: float = plunge_feed
     feed: float = milling_feed
     sense: float = sense
-    coarse_tool: float | str = coarse_tool
+    coarse_tool: Named = coarse_tool
     accepted: float = accepted
     connected: float = connected
     extended: float = extended
@@ -128,7 +128,7 @@ class SpaceTrain(Train):
     plunge_feed: float = plunge_feed
     feed: float = milling_feed
     sense: float = sense
-    coarse_tool: float | str = coarse_tool
+    coarse_tool: Named = coarse_tool
     accepted: float = accepted
     connected: float = connected
     extended: float = extended

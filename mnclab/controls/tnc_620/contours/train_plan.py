@@ -14,6 +14,7 @@ from mnclab.controls.tnc_620.contours.data import as_they_stand
 from mnclab.controls.tnc_620.contours.line import Line
 from mnclab.controls.tnc_620.contours.train_data import TrainData
 from mnclab.controls.tnc_620.state import memory
+from mnclab.geometry.contours import Contour
 from mnclab.machine.flow import RecordedLead
 from mnclab.machine.machine import Machine
 from mnclab.machining.milling.train_passes import Train, leading_off, leading_to
@@ -24,6 +25,7 @@ from mnclab.path.fault import PathFault
 from mnclab.text.alarm import Alarm, Span
 
 SAME = 1e-6  # mm
+LEFT = 5e-4  # mm, the thinnest rest that is told
 
 
 class Wanted(Protocol):
@@ -49,18 +51,18 @@ def trains(
     for text in _remarks(c, line, data, side):
         yield Say(text, word=place)
     found = _beside(m, c, line, m.radius, side)
-    if found.fault is not None:
+    if found.fault is not None and found.left > LEFT:
         yield _left_standing(found, found.fault, place)
-    outwards = side if m.radius + c.side_allowance >= 0 else -side
     pieces = found.ways
     if coarse_radius is not None:
         pieces = _after(m, c, line, found.ways, side, coarse_radius)
         if not pieces:
             yield Say(f"finds nothing thicker than Q446 = {c.accepted:g} after the tool of Q18: nothing is machined", word=place)
-    planned = [_with_leads(m, line, data, piece, found.ways[0], outwards) for piece in pieces]
+    planned = [_with_leads(m, line, data, piece, found.ways[0], side) for piece in pieces]
+    walls, distance = _walls(m, c, line, side)
     for train in planned:
-        _refuse_damage(m, line, train, abs(m.radius + c.side_allowance) if side else 0.0, place)
-    ahead = not c.sense or not side or c.sense * outwards * m.orientation > 0
+        _refuse_damage(m, line, train, walls, distance if side else 0.0, place)
+    ahead = not c.sense or not side or c.sense * side * m.orientation > 0
     return tuple(train if ahead else train.reversed() for train in planned)
 
 
@@ -115,20 +117,27 @@ def _after(m: Machine, c: Wanted, line: Line, ways: tuple[Way, ...], side: int, 
     )
 
 
-def _with_leads(m: Machine, line: Line, data: TrainData | None, piece: Way, whole: Way, outwards: int) -> Train:
+def _walls(m: Machine, c: Wanted, line: Line, side: int) -> tuple[tuple[Contour, ...], float]:
+    """What the tool centre keeps a distance from: the contour, or what is to stand where the tool goes beyond the contour."""
+    if (distance := m.radius + c.side_allowance) >= 0:
+        return (line.contour,), distance
+    return tuple(way.contour for way in _beside(m, c, line, 0.0, side).ways), m.radius
+
+
+def _with_leads(m: Machine, line: Line, data: TrainData | None, piece: Way, whole: Way, side: int) -> Train:
     """A way with its approach and departure: those of cycle 270, or of the contour at its own ends."""
     if data is not None:
         lead = data.lead(m)
         if lead is None:
-            return Train(piece, side=outwards)
-        lead = lead._replace(side=outwards or 1)
-        return Train(piece, leading_to(piece, lead), leading_off(piece, lead), outwards)
+            return Train(piece, side=side)
+        lead = lead._replace(side=side or 1)
+        return Train(piece, leading_to(piece, lead), leading_off(piece, lead), side)
     to = off = None
     if line.approach and np.hypot(*(piece.begin - whole.begin)) <= SAME:
         to = _recorded(m, line.approach, piece)
     if line.departure and np.hypot(*(piece.end - whole.end)) <= SAME:
         off = _recorded(m, line.departure, piece)
-    return Train(piece, to, off, outwards)
+    return Train(piece, to, off, side)
 
 
 def _recorded(m: Machine, recorded: RecordedLead, piece: Way) -> Way:
@@ -145,14 +154,16 @@ def _recorded(m: Machine, recorded: RecordedLead, piece: Way) -> Way:
         raise Alarm(fault.message, span, hint=fault.hint) from None
 
 
-def _refuse_damage(m: Machine, line: Line, train: Train, distance: float, place: Span | None) -> None:
-    """An Alarm where the ways to the contour or off it, or what is put on at its ends, lead the tool into the contour."""
+def _refuse_damage(
+    m: Machine, line: Line, train: Train, walls: tuple[Contour, ...], distance: float, place: Span | None
+) -> None:  # fmt: skip
+    """An Alarm where the ways to the contour or off it, or what is put on at its ends, lead the tool into walls."""
     for way, recorded, name in (
         (train.to, line.approach, "the approach"), (train.off, line.departure, "the departure"),
         (train.along, None, "the extended path"),
     ):  # fmt: skip
-        spot = cuts_into(line.contour, way, distance) if way is not None and distance else None
-        if spot is not None:
+        spots = (cuts_into(wall, way, distance) for wall in walls if way is not None and distance)
+        if (spot := next(filter(None, spots), None)) is not None:
             span = place if recorded is None else m.flow.span_of_step(recorded.lead.step)
             message = f"{name} leads the tool into the contour at X{spot[0]:.3f} Y{spot[1]:.3f}"
             raise Alarm(message, span, hint="take another approach, a smaller radius or a shorter distance")

@@ -106,7 +106,7 @@ def formula(m: Machine, words: Words) -> None:
     name = str(target.value)
     if name in definitions.declared:
         m.alarm(f"{name} is a contour already", target, "take another designator")
-    found = checked(m, joined(m, rest, definitions.named), target, name)
+    found = checked(m, joined(m, rest, definitions.named), target, name, definitions.areas)
     definitions.named[name] = definitions.whole = found
 
 
