@@ -34,8 +34,9 @@ class Outcome(NamedTuple):
     def html(self) -> str:
         """The lines of a card."""
         told = "; ".join(f"{name}: {said}" for name, said in self.facts() if name != "collisions")
-        clean = "; ".join(["; no collisions", *self.collisions.notes]) if self.collisions is not None and not self.collisions else ""
-        return f"<p>{escape(told + clean)}</p>{collisions_html(self.collisions or Collisions(), TOLD)}"
+        found = Collisions() if self.collisions is None else self.collisions
+        clean = "" if found or self.collisions is None else "; ".join(["; no collisions", *found.notes])
+        return f"<p>{escape(told + clean)}</p>{collisions_html(found, TOLD)}"
 
 
 def collisions_html(found: Collisions, most: int | None = None) -> str:
