@@ -169,12 +169,13 @@ def follow(
     `about`. A circle of two halves is one full circle; an arc so short that its ends would count as one place is a line.
     """
     elements, (x0, y0) = contour.walk, about
-    if contour.closed and len(elements) == 2 and np.array_equal(np.abs(contour.bulge), [1.0, 1.0]):
+    whole = contour.closed and len(elements) == 2 and np.array_equal(np.abs(contour.bulge), [1.0, 1.0])
+    if whole:
         elements = elements[1:]
     for k, ((x, y), sweep, (cx, cy)) in enumerate(elements):
         z = None if heights is None else float(heights[(k + 1) % len(heights)])
         here = m.programmed
-        if sweep and (abs(sweep) > math.pi or math.dist(here[:2], (x0 + x, y0 + y)) >= FULL):
+        if sweep and (whole or abs(sweep) > math.pi or math.dist(here[:2], (x0 + x, y0 + y)) >= FULL):
             m.arc(x0 + x, y0 + y, z, sense=1 if sweep > 0 else -1, centre={0: x0 + cx, 1: y0 + cy}, f=feed)
         else:
             m.line(x0 + x, y0 + y, z, f=feed)
