@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 PLACES = 4000  # of a path, if no step is given
 MOST = 10_000_000  # of a path, whatever the step
 SAME = 1e-9  # mm; paths no farther apart than this are the same
-CHUNK, GROUP = 256, 64  # places at a time; strokes that share a box
+CHUNK, GROUP, SPARSE = 64, 64, 16  # places at a time; strokes that share a box; every which of them is tried first
 
 
 @dataclass(frozen=True)
@@ -140,18 +140,29 @@ def _strokes(path: Toolpath, chord_error: float) -> tuple[Array, Array, NDArray[
 
 
 def _places(start: Array, end: Array, row: NDArray[np.int64], step: float) -> tuple[Array, NDArray[np.int64]]:
-    """Places (m, 3) along strokes, both ends of each among them, and their rows (m,)."""
-    count = np.maximum(np.ceil(np.linalg.norm(end - start, axis=1) / step), 1).astype(np.int64) + 1
-    which = np.repeat(np.arange(len(row)), count)
+    """Places (m, 3) along the strokes of each row, its both ends among them, and their rows (m,)."""
+    if not len(row):
+        return start, row
+    first = np.flatnonzero(np.append(True, row[1:] != row[:-1]))
+    last = np.append(first[1:], len(row)) - 1
+    length = np.linalg.norm(end - start, axis=1)
+    upto = np.cumsum(length)
+    begin = upto[first] - length[first]
+    count = np.maximum(np.ceil((upto[last] - begin) / step), 1).astype(np.int64) + 1
+    which = np.repeat(np.arange(len(first)), count)
     share = (np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)) / (count[which] - 1)
-    return start[which] + share[:, None] * (end - start)[which], row[which]
+    way = begin[which] + share * (upto[last] - begin)[which]
+    stroke = np.clip(np.searchsorted(upto, way), first[which], last[which])
+    part = np.clip((way - upto[stroke] + length[stroke]) / np.where(length[stroke] > 0, length[stroke], 1.0), 0.0, 1.0)
+    part[share == 1] = 1.0
+    return start[stroke] + part[:, None] * (end - start)[stroke], row[stroke]
 
 
 def _nearest(places: Array, start: Array, end: Array) -> Array:
     """The nearest place on any stroke (m, 3).
 
-    Strokes are put into boxes in their order. The box that seems nearest gives a distance; only boxes that come nearer
-    than that can hold a nearer stroke. Neighbouring places share them, so they are looked at together.
+    Strokes are put into boxes in their order. The box of the nearest of some strokes gives a distance; only boxes that come
+    nearer than that can hold a nearer stroke. Neighbouring places share them, so they are looked at together.
     """
     if not len(start) or not len(places):
         return np.full_like(places, np.nan)
@@ -166,7 +177,9 @@ def _nearest(places: Array, start: Array, end: Array) -> Array:
             value = here[:, k, None]
             square += np.maximum(np.maximum(low[:, k] - value, value - high[:, k]), 0) ** 2
         gap = np.sqrt(square)
-        best = np.unique(gap.argmin(axis=1))
+        some = start[::SPARSE] - here[0]
+        nearest = (np.einsum("ij,ij->i", some, some) - 2 * (here - here[0]) @ some.T).argmin(axis=1)
+        best = np.unique(nearest * SPARSE // GROUP)
         near = _on_strokes(here, start, end, best)
         reach = np.linalg.norm(here - near, axis=1)
         needed = np.flatnonzero((gap < reach[:, None] + 1e-12).any(axis=0))

@@ -173,8 +173,9 @@ def _collisions(run: Run, stock: Any, step: float | None) -> Collisions:
 
         found = of_mill(cutting, step)
     if run.settings["stopped_spindle"] == "accept":
-        found = Collisions(each for each in found if each.kind != "spindle" or run.toolpath.spindle[each.row])
-    return Collisions([*found, *_beyond_travel(run)])
+        kept = (each for each in found if each.kind != "spindle" or run.toolpath.spindle[each.row])
+        found = Collisions(kept, found.notes)
+    return Collisions([*found, *_beyond_travel(run)], found.notes)
 
 
 def _beyond_travel(run: Run) -> Iterator[Collision]:

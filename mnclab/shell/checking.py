@@ -16,7 +16,7 @@ from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import load
 from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, describe, program, say, sensible, with_blank
 from mnclab.text.alarm import ALARM, Alarm
-from mnclab.workpiece.collision import Collision
+from mnclab.workpiece.collision import Collisions
 
 NARROWEST = 60  # letters of a row that a terminal is given in any case
 
@@ -33,21 +33,24 @@ def check(chosen: argparse.Namespace) -> int:
         return INTERRUPTED if found.interrupted else CLEAN if found.ok else ALARMS
     for file in chosen.files:
         alarms: tuple[Alarm, ...] = ()
-        collisions: tuple[Collision, ...] = ()
+        collisions = Collisions()
         try:
             result = run(program(file), chosen.control, setup)
             alarms = result.alarms
-            collisions = with_blank(result).collisions() if chosen.material else ()
+            collisions = with_blank(result).collisions() if chosen.material else collisions
         except Alarm as fault:  # no program, or no blank
             alarms = (*alarms, fault)
         if collisions or any(alarm.severity == ALARM for alarm in alarms):
             status = ALARMS
         said: dict[str, Any] = {"file": file, "alarms": [describe(alarm, file) for alarm in alarms]}
-        report.append(said | ({"collisions": [each.as_dict() for each in collisions]} if chosen.material else {}))
+        said |= {"collisions": [each.as_dict() for each in collisions]} if chosen.material else {}
+        report.append(said | ({"notes": collisions.notes} if collisions.notes else {}))
         for alarm in () if chosen.json else alarms:
             say(alarm, file)
         for collision in () if chosen.json else collisions:
             print(collision, file=sys.stderr)
+        for note in () if chosen.json else collisions.notes:
+            print(f"{file}: note: {note}", file=sys.stderr)
     if chosen.json:
         print(json.dumps(report, indent=1))
     return status

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from html import escape
 from typing import NamedTuple
 
 from mnclab.text.alarm import SHOWN, several
@@ -57,11 +58,15 @@ class Collisions(tuple[Collision, ...]):
     """Collisions in the order of the rows, each row and kind once.
 
     Shows itself as a table of the first lines, where those of one kind in one line stand together: the deepest, and how
-    many more. A path of ten thousand cuts with a still spindle is one mistake.
+    many more. A path of ten thousand cuts with a still spindle is one mistake. `notes` say what was not judged.
     """
 
-    def __new__(cls, found: Iterable[Collision] = ()) -> Collisions:
-        return super().__new__(cls, sorted(found, key=lambda each: (each.row, each.kind)))
+    notes: tuple[str, ...]
+
+    def __new__(cls, found: Iterable[Collision] = (), notes: Iterable[str] = ()) -> Collisions:
+        made = super().__new__(cls, sorted(found, key=lambda each: (each.row, each.kind)))
+        made.notes = tuple(notes)
+        return made
 
     @property
     def by_line(self) -> list[tuple[Collision, int]]:
@@ -81,7 +86,8 @@ class Collisions(tuple[Collision, ...]):
 
     def __repr__(self) -> str:
         first, more = self._shown()
-        return "\n".join([*(f"{each}{others}" for each, others in first), *filter(None, [more])]) or "no collisions"
+        lines = [*(f"{each}{others}" for each, others in first), *filter(None, [more])] or ["no collisions"]
+        return "\n".join([*lines, *(f"  note: {note}" for note in self.notes)])
 
     def _repr_html_(self) -> str:
         first, more = self._shown()
@@ -91,4 +97,4 @@ class Collisions(tuple[Collision, ...]):
             for each, others in first
         ]  # fmt: skip
         table = html_table(HEAD, rows, numbers=(2,)) if rows else "<p>no collisions</p>"
-        return table + (f"<p>{more}</p>" if more else "")
+        return table + "".join(f"<p>{escape(each)}</p>" for each in (more, *self.notes) if each)

@@ -29,13 +29,15 @@ class Outcome(NamedTuple):
         if most is not None:
             rates = f"{volume(mean)}/min, at most {volume(most.rate)}/min in line {self.removal.place(most)}"
             found.append(("removal rate", rates))
-        return [*found, ("collisions", str(len(self.collisions) or "none"))]
+        return [*found, ("collisions", "; ".join([str(len(self.collisions) or "none"), *self.collisions.notes]))]
 
     def html(self) -> str:
         """The lines of a card."""
         told = "; ".join(f"{name}: {said}" for name, said in self.facts() if name != "collisions")
-        clean = "; no collisions" if self.collisions == () else ""
-        return f"<p>{escape(told)}{clean}</p>{collisions_html(self.collisions or Collisions(), TOLD)}"
+        clean = ""
+        if self.collisions is not None and not self.collisions:
+            clean = "; ".join(["; no collisions", *self.collisions.notes])
+        return f"<p>{escape(told + clean)}</p>{collisions_html(self.collisions or Collisions(), TOLD)}"
 
 
 def collisions_html(found: Collisions, most: int | None = None) -> str:

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mnclab.geometry import insets
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 
@@ -231,3 +232,16 @@ def test_islands_that_touch_grow_together():
     at = np.arccos([(a * a + c * c - b * b) / (2 * a * c), (b * b + c * c - a * a) / (2 * b * c)])
     lens = (np.array([a, b]) ** 2 * (at - np.sin(2 * at) / 2)).sum()
     assert -loop.area == pytest.approx(np.pi * (a * a + b * b) - lens, abs=1e-9)
+
+
+def test_elements_that_have_passed_each_other_are_not_crossed(monkeypatch):
+    """A ring polygon of 300 sides, r = 40, in steps of 17: at 51 all sides have passed the centre, and each would cross all others."""
+    seen = []
+    crossed = insets.pieces_of
+    monkeypatch.setattr(insets, "pieces_of", lambda moved, joints: seen.append(len(moved.r)) or crossed(moved, joints))
+    turns = 2 * np.pi * np.arange(300) / 300
+    region = Region.of(Contour(40 * np.stack([np.cos(turns), np.sin(turns)], axis=1)))
+    apothem = 40 * np.cos(np.pi / 300)
+    expected = [300 * np.tan(np.pi / 300) * (apothem - 17 * k) ** 2 for k in range(3)]
+    assert [each.area for each in region.insets(17)] == pytest.approx(expected)
+    assert seen == [300, 300, 0]

@@ -334,3 +334,12 @@ def test_places_are_those_of_the_path_whatever_the_datum():
 
 def test_a_place_beside_zero_has_no_sign():
     assert coordinates("XYZ", (-1e-5, 0.0, -2.5)) == "X0.000 Y0.000 Z-2.500"
+
+
+def test_a_note_names_what_is_not_judged():
+    """Whoever reads that nothing was met, reads of what this holds."""
+    text = "TOOL CALL 3 Z S1000\nL Z+100 R0 FMAX M3\nPLANE SPATIAL SPA+0 SPB+30 SPC+0 STAY\nL X+10 R0 F100\n"
+    found = mnclab.run(text, "tnc-620").collisions(((-20, -20, -20), (20, 20, 90)))
+    assert found == () and found.notes == ("1 row of a tool not along Z not judged (program:4)",)
+    assert repr(found) == "no collisions\n  note: 1 row of a tool not along Z not judged (program:4)"
+    assert "<p>1 row of a tool not along Z not judged (program:4)</p>" in found._repr_html_()

@@ -22,6 +22,16 @@ def test_the_same_path_has_none():
     assert "farthest apart" not in str(found) + found._repr_html_()
 
 
+def test_places_are_a_step_apart_however_short_the_chords_are():
+    """Of 100 circles of 360,000 chords in all, only as many places are looked at as the step asks for."""
+    run = mnclab.run("G0 X0 Y0\n" + "G3 I1.7 F100\n" * 100, "mnc")
+    found = deviation(run.toolpath, run.toolpath, step=0.5, chord_error=1e-7)
+    circle = 2 * math.pi * 1.7
+    assert len(found.one.places) == 100 * (math.ceil(circle / 0.5) + 1) and found.largest < 1e-9
+    apart = np.linalg.norm(np.diff(found.one.places, axis=0), axis=1)
+    assert apart.max() == pytest.approx(2 * 1.7 * math.sin(circle / 22 / 1.7 / 2), abs=1e-5)
+
+
 def test_programs_without_a_name_are_told_by_their_controls():
     found = mnclab.diff(mnclab.run("G1 X10 F100\n", "mnc"), mnclab.run("L X+10 Y+3 R0 F100\n", "tnc-620"))
     assert found.names == ("the mnc program", "the tnc-620 program") and found.largest == pytest.approx(3, abs=1e-9)

@@ -15,6 +15,7 @@ import numpy as np
 
 from mnclab.path.columns import Mask
 from mnclab.path.tool import Tool
+from mnclab.text.alarm import several
 from mnclab.workpiece.collision import Collision, Collisions, coordinates
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.bodies import TOLERANCE, Body, above_edges, edges, holder
@@ -32,7 +33,8 @@ def collisions_of(cutting: Cutting, step: float | None = None) -> Collisions:
     """What the rows of a cutting meet that they must not, one of each row and kind; see `KINDS`.
 
     `step` mm between the points that are looked at, a four-hundredth of the longer side of the blank by default. A row
-    that only touches, within 0.01 mm, meets nothing. Rows with a tilted tool are not judged.
+    that only touches, within 0.01 mm, meets nothing. Rows with a tilted tool are not judged, which a
+    note says.
     """
     scene = Judging.of(cutting, step)
     found: dict[tuple[int, str], Collision] = {}
@@ -44,7 +46,13 @@ def collisions_of(cutting: Cutting, step: float | None = None) -> Collisions:
         known = found.get((row, kind))
         if known is None or each.depth > known.depth:
             found[row, kind] = each
-    return Collisions(found.values())
+    return Collisions(found.values(), _not_judged(cutting))
+
+
+def _not_judged(cutting: Cutting) -> Iterator[str]:
+    """What is not looked at, in a sentence for people."""
+    if cutting.tilted is not None and (out := cutting.path.is_motion & cutting.tilted).any():
+        yield f"{several(int(out.sum()), 'row')} of a tool not along Z not judged ({cutting.lines(out)})"
 
 
 def _hint(cutting: Cutting, kind: str, row: int) -> str:
