@@ -41,6 +41,7 @@ if TYPE_CHECKING:
 Strategies = Iterable[str] | Mapping[str, str | Clearing | Callable[[Region, float, float], Clearing]]
 
 FINE = "fine"  # fine roughing, after a coarse tool
+MOST = 100_000  # tool radii, about as long as a way may be
 DISCS = 10  # to a tool radius; the angles are within half a degree from 10° on
 
 #: Every column of a comparison: what it is, how it is written, and its value.
@@ -161,6 +162,8 @@ def compare(
         stepover = 2 * radius * (1 - plain(overlap))
     check_number(stepover, "the stepover (mm)", above=0)
     stepover = plain(stepover)
+    if region.area / stepover / radius > MOST:
+        raise Alarm(f"a stepover of {stepover:g} mm is too small for this area: there is no end to such a way")
     named = strategies if isinstance(strategies, Mapping) else {name: name for name in strategies}
     trials = []
     with progress("comparing", len(named), "strategies") as done:

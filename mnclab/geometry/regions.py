@@ -22,7 +22,7 @@ from mnclab.geometry.curves import gap
 from mnclab.geometry.cutting import Outlines, boxes, outlines_of
 from mnclab.geometry.insets import inset
 from mnclab.geometry.tracing import GRID, SAME, Drawing
-from mnclab.geometry.vectors import cross
+from mnclab.geometry.vectors import cross, length_of
 
 
 class CrossesItself(ValueError):
@@ -145,8 +145,14 @@ class Region:
     def distance(self, points: ArrayLike) -> Floats:
         """Distance of the boundary from each of the points `(k, 2)`, never negative, `(k,)`."""
         spots = np.asarray(points, dtype=float).reshape(-1, 2)
-        far = np.full(len(spots), np.inf)
-        return np.asarray(np.min([far, *(loop.distance(spots) for loop in self.loops)], axis=0))
+        low, high = self._boxes[:, 0], self._boxes[:, 1]
+        least = length_of(np.maximum(np.maximum(low - spots[:, None], spots[:, None] - high), 0.0))
+        found = np.full(len(spots), np.inf)
+        for k in np.argsort(least.min(axis=0, initial=np.inf), kind="stable"):
+            nearer = np.flatnonzero(least[:, k] < found)
+            if len(nearer):
+                found[nearer] = np.minimum(found[nearer], self.loops[k].distance(spots[nearer]))
+        return found
 
     def holds(self, start: ArrayLike, end: ArrayLike, tolerance: float = 1e-6) -> bool:
         """Whether the straight way from start to end stays in the area, or within a tolerance of it.
@@ -161,7 +167,8 @@ class Region:
         middles = a + (cuts[1:] + cuts[:-1])[:, None] / 2 * (b - a)
         spots = np.vstack([a, b, middles])
         outside = spots[~self.contains(spots)]
-        return not len(outside) or bool((self.distance(outside) <= tolerance).all())
+        edge = Region(tuple(self.loops[k] for k in np.flatnonzero(near)))
+        return not len(outside) or bool((edge.distance(outside) <= tolerance).all())
 
     @cached_property
     def _boxes(self) -> Floats:

@@ -5,6 +5,7 @@ Rows are labelled with the code of the cycle and the label of the step. The hole
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
@@ -13,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from mnclab.geometry.arcs import FULL
 from mnclab.geometry.contours import Contour
 from mnclab.machine.cycle import Definition
 from mnclab.machine.machine import Machine
@@ -164,14 +166,16 @@ def follow(
     """Run along a contour at a feed (None: the modal one) from where it begins: the tool must be there.
 
     `heights` are the tool-axis coordinates of its n points, or none for a level contour; its own coordinates count from
-    `about`. A circle of two halves is one full circle.
+    `about`. A circle of two halves is one full circle; an arc so short that its ends would count as one place is a line.
     """
     elements, (x0, y0) = contour.walk, about
-    if contour.closed and len(elements) == 2 and np.array_equal(np.abs(contour.bulge), [1.0, 1.0]):
+    whole = contour.closed and len(elements) == 2 and np.array_equal(np.abs(contour.bulge), [1.0, 1.0])
+    if whole:
         elements = elements[1:]
     for k, ((x, y), sweep, (cx, cy)) in enumerate(elements):
         z = None if heights is None else float(heights[(k + 1) % len(heights)])
-        if sweep:
+        here = m.programmed
+        if sweep and (whole or abs(sweep) > math.pi or math.dist(here[:2], (x0 + x, y0 + y)) >= FULL):
             m.arc(x0 + x, y0 + y, z, sense=1 if sweep > 0 else -1, centre={0: x0 + cx, 1: y0 + cy}, f=feed)
         else:
             m.line(x0 + x, y0 + y, z, f=feed)

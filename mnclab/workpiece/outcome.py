@@ -34,7 +34,9 @@ class Outcome(NamedTuple):
     def html(self) -> str:
         """The lines of a card."""
         told = "; ".join(f"{name}: {said}" for name, said in self.facts() if name != "collisions")
-        clean = "; ".join(["; no collisions", *self.collisions.notes]) if self.collisions is not None and not self.collisions else ""
+        clean = ""
+        if self.collisions is not None and not self.collisions:
+            clean = "; ".join(["; no collisions", *self.collisions.notes])
         return f"<p>{escape(told + clean)}</p>{collisions_html(self.collisions or Collisions(), TOLD)}"
 
 

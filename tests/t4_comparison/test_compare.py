@@ -88,6 +88,11 @@ def test_fine_roughing_needs_a_coarse_tool_that_leaves_something():
             compare(BOX, 5.0, ["fine"], coarse=wrong)
 
 
+def test_a_stepover_without_an_end_is_an_alarm():
+    with pytest.raises(Alarm, match="a stepover of 1e-06 mm is too small for this area"):
+        compare(Region.of(rectangle(80, 50)), 4, ["rings"], stepover=1e-6)
+
+
 def test_own_functions_and_other_names():
     own = compare(BOX, 5.0, {"mine": lambda region, radius, step: concentric.rectangle(60, 40, radius, step)})
     assert own["mine"].covered > 0.999

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import mnclab
+from mnclab.geometry.contours import Contour
 from mnclab.machine.machine import Machine
-from mnclab.machining.steps import Each, Go, Say, Step, Swivel, Touch, Write
+from mnclab.machining.steps import Along, Each, Go, Say, Step, Swivel, Touch, Write
 from mnclab.path.kinds import Kind
 from mnclab.running.interpreter import Interpreter
 from mnclab.running.performing import perform
@@ -73,3 +74,23 @@ def test_rows_carry_the_code_and_the_label_of_their_step(machine: Machine) -> No
     assert [path.labels[k] for k in path.label[-2:]] == ["G1 down", "G1 turn"] and machine.label == "before"
     assert path.rotary[-1] == pytest.approx((np.pi / 2, 0, 0)) and path.time[-1] == pytest.approx(1.5)
     assert [(alarm.message, alarm.hint) for alarm in machine.alarms] == [("G1 says this", "so")]
+
+
+@pytest.mark.parametrize("length", [9e-4, 1e-5, 7e-8])
+def test_an_arc_too_short_to_tell_its_ends_apart_is_no_full_circle(machine: Machine, length: float) -> None:
+    """A contour from the inset of an area: a quarter of a circle of 10 that is met by arcs of less than a micrometre."""
+    angle = np.cumsum([0, length / 10, np.pi / 2, length / 10, -length / 10])
+    points, bulge = 10 * np.stack([np.cos(angle), np.sin(angle)], axis=1), np.tan(np.append(np.diff(angle), 0) / 4)
+    contour = Contour(points, bulge, closed=False)
+    perform(machine, "RING", [Go("to the ring", x=10, y=0), Along("ring", contour, 100)], about=(0.0, 0.0))
+    machine.settle()
+    rows = [move for path in machine.settled for move in path if move.label == 1 or move.feed == 100]
+    assert np.sum([abs(move.sweep) for move in rows]) == pytest.approx(np.pi / 2, abs=3 * length)
+    assert np.allclose(rows[-1].end[:2], contour.points[-1], atol=1e-9)
+
+
+def test_a_circle_of_two_halves_is_one_full_circle(machine: Machine) -> None:
+    perform(machine, "RING", [Go("to the ring", x=10, y=0), Along("ring", Contour.circle((0, 0), 10), 100)], about=(0.0, 0.0))
+    machine.settle()
+    (ring,) = (move for path in machine.settled for move in path if move.feed == 100)
+    assert ring.kind == Kind.ARC and abs(ring.sweep) == pytest.approx(2 * np.pi)

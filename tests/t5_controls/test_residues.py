@@ -119,13 +119,14 @@ def test_a_cone_of_g305_is_not_wider_than_the_tool(diameter):
 DEEP = {code: [p for p in cycle.parameters() if p.name in ("depth", "thread_depth", "end_tool_axis", "end_3rd_axis")]
         for code, cycle in TNC.items() if cycle.runs == "call"}  # fmt: skip
 SEVERAL = ("CYCL DEF 263", "CYCL DEF 264", "CYCL DEF 265", "CYCL DEF 267")  # which still have another depth
+ALONG = ("CYCL DEF 276",)  # which then goes along its contour
 
 
-@pytest.mark.parametrize("code", [c for c, p in DEEP.items() if p and c not in SEVERAL and "CYCL DEF 18" not in c])
+@pytest.mark.parametrize("code", [c for c, p in DEEP.items() if p and c not in (*SEVERAL, *ALONG) and "CYCL DEF 18" not in c])
 def test_a_depth_of_0_is_said(code):
     """The cycle does nothing, as its notes say, and is not silent about it; in a pattern it is said once."""
     cycle, (depth,) = TNC[code], DEEP[code]
-    values = {p.name: trial.first_value(p) for p in cycle.parameters()}
+    values = {p.name: trial.first_value(p) for p in cycle.parameters() if p.required or trial.written_first(p)}
     values[depth.name] = values.get("start_3rd_axis", 0)
     text = trial.program(mnclab.controls["tnc-620"], cycle, values)
     many = "PATTERN DEF ROW1 (X+0 Y+0 D+30 NUM12 ROT+0 Z+0)\nCYCL CALL PAT FMAX"

@@ -93,7 +93,7 @@ def test_a_text_parameter_is_no_number() -> None:
 
 @pytest.mark.parametrize("tool", ["Q18=0", "Q18=Q50", 'QS18="MILL"', 'QS18="NONE"', "Q18=7"])
 def test_the_coarse_tool_of_fine_roughing(tool: str) -> None:
-    """Q18 by number, computed, or QS18 by name; 0 is none, and fine roughing after another tool is refused."""
+    """Q18 by number, computed, or QS18 by name; 0 is none; a tool that is not there is refused, one as wide leaves nothing."""
     address, value = tool.split("=")
     square = "LBL 1\nL X+0 Y+0 RR\nL Y+60\nL X+60\nL Y+0\nL X+0\nLBL 0\n"
     data = {f"Q{k}": v for k, v in zip(range(1, 10), (-10, 1, 0, 0, 0, 2, 50, 0, 1), strict=True)}
@@ -101,14 +101,15 @@ def test_the_coarse_tool_of_fine_roughing(tool: str) -> None:
     contour = "CYCL DEF 14.0 C\nCYCL DEF 14.1 CONTOUR LABEL 1\n"
     text = f"3 Q50 = 0\n{contour}{defined('CYCL DEF 20', data)}{defined('CYCL DEF 22', rough)}CYCL CALL\nM30\n{square}"
     found = run(text)
-    if found.ok:
-        assert tool in ("Q18=0", "Q18=Q50")
-    else:
+    names = {'QS18="NONE"': 'names tool "NONE", which has no radius', "Q18=7": "names tool 7, which has no row in the tool table"}
+    if tool in names:
         (alarm,) = found.alarms
-        assert (
-            "Q18 (coarse roughing tool) other than 0" in alarm.message
-            and found.program.line_text(alarm.span.line) == tool
-        )
+        assert alarm.message == f"CYCL DEF 22 Q18 (coarse roughing tool) {names[tool]}"
+        assert found.program.line_text(alarm.span.line) == tool
+    elif tool == 'QS18="MILL"':
+        assert found.ok and "has nothing to cut" in found.alarms[0].message
+    else:
+        assert found.ok and not found.alarms
 
 
 @pytest.mark.parametrize(
