@@ -235,7 +235,7 @@ def test_islands_that_touch_grow_together():
 
 
 def test_elements_that_have_passed_each_other_are_not_crossed(monkeypatch):
-    """A ring polygon of 300 sides, r = 40, in steps of 17: at 51 all sides have passed the centre, and each would cross all others."""
+    """A polygon of 300 sides, r = 40, in steps of 17: at 51 all have passed the centre, where each would cross all others."""
     seen = []
     crossed = insets.pieces_of
     monkeypatch.setattr(insets, "pieces_of", lambda moved, joints: seen.append(len(moved.r)) or crossed(moved, joints))

@@ -15,7 +15,9 @@ from mnclab.controls.tnc_620.reading.dialog import dialog
 from mnclab.controls.tnc_620.reading.labels import program_of_cycle
 from mnclab.controls.tnc_620.reading.words import FLAGS, WHOLE, Cursor, Read, from_inches
 
-_LABELS, _SLASH = re.compile(r"[^\d;~]*"), re.compile(r"[ \t]*/")
+#: A title: all before the numbers that is no sign of one, no name and no parameter.
+_LABELS = re.compile(r'(?:(?!(?<![A-Z])Q[LRS]?\d)[^\d;~"+-]|[+-](?![ \t]*\d))*+', FLAGS)
+_SLASH = re.compile(r"[ \t]*/")
 _ROW = re.compile(r"#")
 _LETTER = re.compile(r"[ \t]*([XYZUVWABC])(?![A-Z\d])", FLAGS)
 _TOLERANCE = re.compile(r"T(?![A-Z])", FLAGS)
