@@ -78,6 +78,10 @@ def record(
     if not len(path):
         raise Alarm(f"{what} describes no contour", span)
     begun = int(path.step[0])
+    turned = (path.rotary != np.asarray(m.rotary)).any(axis=1)
+    if turned.any():
+        message = f"the contour of {what} turns a rotary axis, which no contour does"
+        raise Alarm(message, flow.span_of_step(int(path.step[np.argmax(turned)])))
     if np.isnan(path.end).any():
         which = "X, Y and Z" if in_space else "both coordinates of the plane"
         raise Alarm(f"the contour of {what} must begin with {which}", flow.span_of_step(begun))
