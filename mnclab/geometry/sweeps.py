@@ -45,9 +45,12 @@ def under(contour: Contour, level: float) -> Any:
 
 
 def polygons(region: Region) -> Any:
-    """A region as a shapely area."""
-    pieces = [[loop.points_within(CHORD_ERROR) for loop in part.loops] for part in region.parts]
-    return shapely.union_all([shapely.make_valid(shapely.Polygon(outer, holes)) for outer, *holes in pieces])
+    """A region as a shapely area. Holes are taken away one by one: chords of one that touches its wall may cross it."""
+    areas = []
+    for part in region.parts:
+        wall, *holes = (shapely.make_valid(shapely.Polygon(loop.points_within(CHORD_ERROR))) for loop in part.loops)
+        areas.append(shapely.difference(wall, shapely.union_all(holes)) if holes else wall)
+    return shapely.union_all(areas)
 
 
 def stays(passes: Iterable[Contour], area: Any) -> list[bool]:
