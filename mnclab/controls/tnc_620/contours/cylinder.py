@@ -38,7 +38,7 @@ IN: dict[float, str] = {0: "in degrees", 1: "in mm, or in inches"}
 
 
 class OnCylinder(Cycle):
-    """What the four share; who inherits declares the parameters and yields the steps of a contour in `machine`."""
+    """What the four share; who inherits declares the parameters and says in `machine` what it does with a contour."""
 
     does = MILLS
     about = in_program_coordinates
@@ -95,8 +95,11 @@ class OnCylinder(Cycle):
         yield from steps
 
     def machine(self, m: Machine, on: Surface, line: Line, height: float) -> Iterator[Step]:
-        """The steps over the cylinder, which end at the `height` that they begin at; a PathFault where the tool does not fit."""
-        raise NotImplementedError
+        """The steps over the cylinder, which end at the `height` that they begin at; a PathFault where the tool does not fit.
+
+        Of itself nothing.
+        """
+        return iter(())
 
 
 def milling_depth() -> Any:
