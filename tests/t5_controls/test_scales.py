@@ -26,7 +26,8 @@ MNC, TNC = (
     for name in ("mnc", "tnc-620")
 )
 QUIET = (7, 8, 9, 10, 11, 12, 13, 14, 19, 20, 26, 32, 239, 247)  # what does not move
-BUILT = [*MNC, *(code for code in TNC if code.startswith("CYCL") and int(code.split()[-1]) not in QUIET)]
+ALONG = (25, 27, 28, 29, 39, 270, 276)  # along one contour of a label: tested in frames with it
+BUILT = [*MNC, *(code for code in TNC if code.startswith("CYCL") and int(code.split()[-1]) not in (*QUIET, *ALONG))]
 
 #: What the frames must spare (mnc: MNC-PREP-XFORM; TNC 620: 5.2 to 5.10): the pitch of a tap, any size of a thread or a bar.
 TAPS = ("G84", "G309", *(f"CYCL DEF {n}" for n in (2, 17, 18, 206, 207, 209)))
