@@ -19,7 +19,7 @@ CROOKED = 5  # hairs by which the corner of two shallow arcs may be off
 LEAST = 1e-3  # mm², area that counts as left
 NEAR = 1e-6
 WAYS = 0.15  # of what roughing runs along the walls: ways at depth to the next pass, in either sense
-QUICK, ALL, BLOCK = (19, 28, 37), 200, 5
+QUICK, ALL, BLOCK = (19, 28, 37), 60, 5
 
 
 class Judge:
