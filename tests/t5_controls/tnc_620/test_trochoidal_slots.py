@@ -113,6 +113,13 @@ def test_a_departure_is_named():
     assert found.ok and circles(rows(found, "trochoid"))[0][:, 0].max() == pytest.approx(50)
 
 
+def test_a_side_of_the_middle_line_is_named():
+    found = slot("L X+10 Y+10 RL\nL X+50")
+    assert [a.message for a in found.alarms] == [
+        "CYCL DEF 275 the contour is the middle of the slot: its RL or RR has no effect"
+    ]
+
+
 def test_what_is_done():
     """Q215, and what Q368 and Q369 leave to be finished."""
     assert not len(rows(slot(changes={"Q215": 1, "Q369": 1}), "finishing"))

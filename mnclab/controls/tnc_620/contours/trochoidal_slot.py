@@ -101,6 +101,8 @@ class TrochoidalSlot(AtSurface):
             return
         here = m.flow.span_of_step(m.step)  # reading the contour goes on to its last block
         found = yield from contour_line(m)
+        if found.side and not found.approach:
+            yield Say("the contour is the middle of the slot: its RL or RR has no effect", word=here)
         if found.departure:
             name = found.departure.lead.name
             yield Say(f"{name} is no part of the slot, which ends where its contour ends", word=here)
