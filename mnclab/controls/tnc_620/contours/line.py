@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.contours.labels import Labels
-from mnclab.controls.tnc_620.contours.outlines import fault
+from mnclab.controls.tnc_620.contours.outlines import MOST_ELEMENTS, fault
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour, Floats
@@ -24,7 +24,6 @@ from mnclab.path.outline import chain
 
 CLOSED = 1e-6  # mm, from the end to the beginning of a closed contour
 FLAT = 1e-9  # mm
-MOST_ELEMENTS = 16384  # of a contour
 
 
 class Line(NamedTuple):

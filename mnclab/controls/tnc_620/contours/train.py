@@ -86,7 +86,7 @@ class Train(Cycle):
 
 @CYCLES("CYCL DEF 25", "Contour train", source="8.9")
 class ContourTrain(Train):
-    """Along an open or closed contour, level by level; a mirror image keeps climb climb."""
+    """Along an open or closed contour, level by level; under a mirror image climb stays climb."""
 
     depth: float = milling_depth
     side_allowance: float = side_allowance
@@ -119,7 +119,7 @@ class ContourTrain(Train):
 
 @CYCLES("CYCL DEF 276", "Three-dimensional contour train", source="8.10")
 class SpaceTrain(Train):
-    """Along a contour with heights: at them, or in infeeds down from them; a mirror image keeps climb climb."""
+    """Along a contour with heights: at them, or in infeeds down from them; under a mirror image climb stays climb."""
 
     depth: float = milling_depth
     side_allowance: float = side_allowance
