@@ -30,7 +30,8 @@ from mnclab.controls.choice import Help, modern, read, run
 from mnclab.controls.choice import help as help
 from mnclab.controls.renumber import renumber
 from mnclab.controls.survey import check
-from mnclab.machine.setup import Datum, Probe, Setup
+from mnclab.machine.probe import Probe
+from mnclab.machine.setup import Datum, Setup
 from mnclab.path.kinds import RULE_NAMES, Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile

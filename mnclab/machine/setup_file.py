@@ -7,7 +7,8 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from mnclab.machine.setup import NOT_BUILT, Datum, Probe, Setup
+from mnclab.machine.probe import Probe
+from mnclab.machine.setup import NOT_BUILT, Datum, Setup
 from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
@@ -46,15 +47,17 @@ high = [0, 40, 15]
 [limits]                       # rapid, acceleration, jerk, corner_speed, corner_tolerance, corner_jump, rapid_motion,
                                # spindle, spindle_acceleration, tool_change; a number, or [x, y, z] per axis;
                                # travel = [[0, 400], [0, 300], [-200, 0]]: how far the axes go, machine coordinates
-[probe]                        # clearance, reach, feed, rapid
+[probe]                        # clearance, reach, feed, rapid, positioning, track, angle, offset [x, y]: as its table has it;
+                               # true_offset, deflection [x, y, z], spread, seed, stem, stem_length: as it is
+[true_tools]                   # tools as they truly are, written like tools
 [settings]                     # choices of the control: mnclab help settings --control NAME lists them
 [files]                        # names that programs call -> files, seen from this one
 [variables]                    # values that are there before the program: QR1 = 2.5, QS1 = "text"
 """
 
-ROWS = {"tools": Tool, "datums": Datum, "presets": Datum, "correctors": Datum}
+ROWS = {"tools": Tool, "datums": Datum, "presets": Datum, "correctors": Datum, "true_tools": Tool}
 RECORDS = {"limits": Limits, "probe": Probe}
-TEXTS = ("name", "kind", "hand", "corner_speed", "rapid_motion")  # of a tool; of the limits
+TEXTS = ("name", "kind", "hand", "corner_speed", "rapid_motion", "positioning")  # of a tool; of the limits; of a probe
 KNOWN = ("start", "stock", "part", "fixtures", *ROWS, *RECORDS, "settings", "files", "variables")
 
 

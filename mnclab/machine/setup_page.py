@@ -23,7 +23,8 @@ UNITS = {
     "angle": "°", "plunge_angle": "°", "main_angle": "°", "auxiliary_angle": "°", "teeth": "",
     "feed": " mm/min", "rapid": " mm/min", "acceleration": " mm/s²", "jerk": " mm/s³", "corner_jump": " mm/min",
     "corner_speed": "", "rapid_motion": "", "spindle": " rev/min", "spindle_acceleration": " rev/min in a second",
-    "tool_change": " s", "centre_cutting": "", "hand": "", "shank": " mm", "holder": " mm",
+    "tool_change": " s", "centre_cutting": "", "hand": "", "shank": " mm", "holder": " mm", "positioning": "", "track": "",
+    "seed": "",
 }  # fmt: skip
 MM = " mm"  # of all others
 
@@ -50,6 +51,7 @@ def _rows(setup: Setup) -> Iterator[tuple[str, str]]:
         cut = "what the program has cut so far" if setup.part == "cut" else None
         yield "part", cut or getattr(setup.part, "__name__", None) or repr(setup.part)
     yield from (("fixture", str(each)) for each in setup.fixtures)
+    yield from ((f"true T{number}", tool_line(tool)) for number, tool in setup.true_tools.items())
     yield "probe", ", ".join(_different(setup.probe, type(setup.probe)())) or "as usual"
     yield "limits", ", ".join(_different(setup.limits, Limits())) or "as usual"
     yield "start", place(setup.start)

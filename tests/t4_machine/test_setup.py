@@ -94,7 +94,8 @@ def test_a_probe_that_cannot_be(named):
         ({"variables": [1]}, "variables must be a dict with names"),
         ({"kinematics": {"A": 1}}, r"Setup\(kinematics=…\) is not built yet"),
         ({"kinematics": ()}, r"Setup\(kinematics=…\) is not built yet"),
-        ({"true_tools": {1: Tool()}}, r"Setup\(true_tools=…\) is not built yet"),
+        ({"true_tools": {1: 5}}, r"true_tools\[1\] must be a Tool, got 5"),
+        ({"true_tools": 1}, "true_tools must be a dict, got 1"),
     ],
     ids=str,
 )

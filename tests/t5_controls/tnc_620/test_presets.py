@@ -101,7 +101,7 @@ def test_from_below_the_clearance_height_it_rises_first():
 
 
 REFUSED = [
-    (((40, 0, 0), (-1, 0, 0)), {}, "touch point inaccessible: no contact within 10 mm"),
+    (((40, 0, 0), (-1, 0, 0)), {}, "touch point inaccessible: the probe did not trigger within 10 mm"),
     (WALL, {"Q272": 4}, "TCH PROBE 419 Q272 (measuring axis) must be one of 1, 2, 3, got 4"),
     (WALL, {"Q305": 2, "Q303": -1}, "TCH PROBE 419 Q303 (measured value transfer) -1 does not say where row Q305 is"),
     (
