@@ -1,6 +1,7 @@
 """Lines, circles, planes and the like through measured points: closed forms, turned and shifted points, and the touches of the
 measuring cycles as they were worked out by hand."""
 
+import importlib
 import math
 
 import numpy as np
@@ -395,6 +396,11 @@ def test_any_points_give_numbers_or_an_alarm(points, function):
 def test_results_show_three_decimals_and_units():
     assert repr(circle([[5, 0], [-5, 0], [0, 5]])) == "Circle(x=0.000 mm, y=0.000 mm, diameter=10.000 mm, roundness=0.000 mm)"
     assert repr(probing.line([[0, 0], [1, 1]])) == "Line(x=0.500 mm, y=0.500 mm, angle=45.000°, straightness=0.000 mm)"
+
+
+def test_the_shelf_holds_what_the_package_gives():
+    package = importlib.import_module("mnclab.machining.probing")
+    assert all(getattr(probing, name) is getattr(package, name) for name in probing.__all__)
 
 
 def test_points_in_space_are_seen_from_above():
