@@ -75,7 +75,7 @@ OPENED = Shelf("mnclab", "the names that need more than numpy", {
 })  # fmt: skip
 
 part = Shelf("mnclab.part", "what a probe touches, for Setup(part=…); parts combine: a | b, a & b, a - b", {
-    "mnclab.workpiece.part": "Part, ball, box, contact, cylinder, plane",
+    "mnclab.workpiece.part": "Part, ball, boss, box, cone, contact, cylinder, foot, hole, mesh, plane, pocket, slot",
 })  # fmt: skip
 
 blank = Shelf("mnclab.blank", "what a program cuts from, for Setup(stock=…), and what holds it, for Setup(fixtures=…)", {

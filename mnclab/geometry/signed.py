@@ -7,6 +7,7 @@ than the square is wide, is the nearest to none of its points.
 from __future__ import annotations
 
 from functools import lru_cache
+from types import EllipsisType
 from typing import NamedTuple
 
 import numpy as np
@@ -60,7 +61,7 @@ def contains(region: Region, x: Floats, y: Floats) -> Mask:
     for k in range(0, len(x), many):
         px, py = x[k : k + many, None], y[k : k + many, None]
         point, element = np.nonzero((edges.low <= py) & (py <= edges.high) & (px <= edges.right))
-        rounds = _winding(edges, element, px[point, 0], py[point, 0])
+        rounds = winding(edges, element, px[point, 0], py[point, 0])
         found[k : k + many] = np.bincount(point, rounds, minlength=len(px)) > 0.5
     return found
 
@@ -138,22 +139,23 @@ def _off(edges: Edges, which: Index, x: Floats, y: Floats) -> Floats:
     """Distances (p,) of points from one element each."""
     bent = edges.sweep[which] != 0
     if not bent.any():
-        return _from_lines(edges, which, x, y)
+        return from_lines(edges, which, x, y)
     if bent.all():
-        return _from_arcs(edges, which, x, y)
+        return from_arcs(edges, which, x, y)
     found, straight = np.empty(len(x)), ~bent
-    found[straight] = _from_lines(edges, which[straight], x[straight], y[straight])
-    found[bent] = _from_arcs(edges, which[bent], x[bent], y[bent])
+    found[straight] = from_lines(edges, which[straight], x[straight], y[straight])
+    found[bent] = from_arcs(edges, which[bent], x[bent], y[bent])
     return found
 
 
-def _from_lines(edges: Edges, k: Index, x: Floats, y: Floats) -> Floats:
+def from_lines(edges: Edges, k: Index | EllipsisType, x: Floats, y: Floats) -> Floats:
+    """Distances of points from lines: (p,) from those numbered `k`, or of points (m, 1) from all of them with `k` as `...`."""
     px, py, dx, dy = x - edges.x[k], y - edges.y[k], edges.dx[k], edges.dy[k]
     share = np.clip((px * dx + py * dy) * edges.less[k], 0.0, 1.0)
     return np.asarray(np.hypot(px - share * dx, py - share * dy))
 
 
-def _from_arcs(edges: Edges, k: Index, x: Floats, y: Floats) -> Floats:
+def from_arcs(edges: Edges, k: Index | EllipsisType, x: Floats, y: Floats) -> Floats:
     """A point in the sector of an arc is as far from it as from its circle, another one as from its nearer end."""
     ax, ay = x - edges.u[k], y - edges.v[k]
     sx, sy = edges.x[k] - edges.u[k], edges.y[k] - edges.v[k]
@@ -169,7 +171,7 @@ def _from_arcs(edges: Edges, k: Index, x: Floats, y: Floats) -> Floats:
     return np.asarray(found)
 
 
-def _winding(edges: Edges, k: Index, x: Floats, y: Floats) -> Floats:
+def winding(edges: Edges, k: Index | EllipsisType, x: Floats, y: Floats) -> Floats:
     """By how much an element each adds to the rounds about points (p,): its chord, and the piece between it and an arc."""
     dx, dy, sweep = edges.dx[k], edges.dy[k], edges.sweep[k]
     px, py = x - edges.x[k], y - edges.y[k]

@@ -20,6 +20,7 @@ from mnclab.machine.cutting_rows import stock_of
 from mnclab.machine.machine import Machine
 from mnclab.machine.machine_file import load
 from mnclab.machine.measuring import record
+from mnclab.machine.obstructed import stop_at_part
 from mnclab.machine.output import written
 from mnclab.machine.settling import paths, shifted, stop_at_travel
 from mnclab.machine.setup import Setup, Tables
@@ -382,7 +383,7 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
     finally:
         if collecting:
             gc.enable()
-    for finish in (partial(machine.settle, unfinished=broken), partial(stop_at_travel, machine)):
+    for finish in (partial(machine.settle, unfinished=broken), partial(stop_at_travel, machine), partial(stop_at_part, machine)):
         try:
             finish()
         except Alarm as alarm:

@@ -83,6 +83,10 @@ class Mesh:
     def __repr__(self) -> str:
         return f"<Mesh {self.name}: {len(self.triangles)} triangles, within {self.error:.3g} mm>"
 
+    def __getstate__(self) -> dict[str, Any]:
+        """What vtk made of it stays: another process makes its own."""
+        return {name: value for name, value in vars(self).items() if name not in ("surface", "_implicit")}
+
     @cached_property
     def surface(self) -> Any:
         """As pyvista has it."""
