@@ -80,9 +80,11 @@ def unfit(m: Machine, *, still: bool = False) -> Iterator[tuple[str, str]]:
 
 
 def part_to_touch(m: Machine, word: Word | None = None) -> Part | None:
-    """The part of the setup, or what the program has cut up to here."""
+    """The part of the setup, or what the program has cut up to here: only that needs the path of the tool settled."""
+    if m.setup.part != CUT:
+        return m.setup.part
     m.settle()
-    return part_before(m, word) if m.setup.part == CUT else m.setup.part
+    return part_before(m, word)
 
 
 def offset(m: Machine, of: tuple[float, float]) -> Floats:
