@@ -21,6 +21,7 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import Figure, Measurement, judged
 from mnclab.machine.output import put_out
 from mnclab.machine.rotary import roll, turn_axes
+from mnclab.machine.tool_axis import tool_axis
 from mnclab.machine.touching import FEELS, PROBES, Contact, Felt, ball_from_axis, guarded, guarded_turn, part_to_touch
 from mnclab.machine.true_size import MILLS
 from mnclab.machining.depths import TooMany
@@ -182,8 +183,10 @@ def write(m: Machine, step: Write) -> None:
         case "probe":
             m.tables.probe = step.value
             m.log("probe", step.value)
-        case "file":
-            put_out(m, step.key, step.value, anew=True)
+        case "tool":
+            m.change_tool(step.value, tool_axis(m), tool_axis(m))
+        case "file" | "appended":
+            put_out(m, step.key, step.value, anew=step.what == "file")
         case "frame":
             m.set_frame(step.key, step.value)
         case "renamed":

@@ -80,6 +80,8 @@ from mnclab.controls.tnc_620.language import (
 )
 from mnclab.controls.tnc_620.printing import output
 from mnclab.controls.tnc_620.probing import (
+    calibration,
+    fast_probing,
     preset_circles,
     preset_corners,
     preset_holes,
@@ -128,6 +130,7 @@ SETTINGS = (
     *tools.SETTINGS, *no_effect.SETTINGS, *retraction.SETTINGS, *tilting.SETTINGS, *engraving.SETTINGS,
     *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS, *output.SETTINGS,
     *leaving.SETTINGS, *cylinder.SETTINGS, *surface.SETTINGS,
+    *calibration.SETTINGS,
     Setting("max_touch_feed", 3000.0, "upper limit of the probing feed (maxTouchFeed, no. 122602)", "13.2", {}, "mm/min", 1),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
@@ -158,6 +161,8 @@ CHAPTERS = (
     preset_circles,
     preset_corners,
     preset_holes,
+    calibration,
+    fast_probing,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()
