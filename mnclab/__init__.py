@@ -19,8 +19,8 @@ The map of the house, floor by floor (a folder imports only from those above its
     shell       what is typed in a terminal
 
 This module is the front door, and nothing else: it imports numpy only. What needs more is opened when it is first asked
-for, with its own signature; `part`, `blank`, `design`, `area`, `strategies` and `schemes` are shelves: print one to see
-what is on it.
+for, with its own signature; `part`, `blank`, `design`, `area`, `strategies`, `schemes` and `probing` are shelves: print
+one to see what is on it.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -30,12 +30,14 @@ from mnclab.controls.choice import Help, modern, read, run
 from mnclab.controls.choice import help as help
 from mnclab.controls.renumber import renumber
 from mnclab.controls.survey import check
-from mnclab.machine.setup import Datum, Probe, Setup
+from mnclab.machine.probe import Probe
+from mnclab.machine.setup import Datum, Setup
 from mnclab.path.kinds import RULE_NAMES, Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
+from mnclab.path.wear import Wear
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm
 from mnclab.text.nearest import nearest as _nearest
@@ -122,6 +124,13 @@ schemes = Shelf("mnclab.schemes", "ways to turn, groove and thread; mnclab.compa
     "mnclab.show.plot.turning_schemes": "plot_threads",
 })  # fmt: skip
 
+probing = Shelf("mnclab.probing", "what measured points are: circle(points), and how sure that is", {
+    "mnclab.machining.probing.fits":
+        "angle, centre_of_four, circle, corner, line, off_the_ball, plane, rectangle, reduced, sphere, width",
+    "mnclab.machining.probing.found": "axes_on, spatial_angles, Circle, Line, Plane, Point, Rectangle, Sphere, Width",
+    "mnclab.machining.probing.uncertainty": "uncertainty",
+})  # fmt: skip
+
 __all__ = [
     "RULE_NAMES",
     "Alarm",
@@ -140,6 +149,7 @@ __all__ = [
     "Tool",
     "Toolpath",
     "TurnedDesign",
+    "Wear",
     "Workpiece",
     "area",
     "blank",
@@ -155,6 +165,7 @@ __all__ = [
     "modern",
     "panel",
     "part",
+    "probing",
     "profile_panel",
     "read",
     "renumber",
@@ -168,7 +179,7 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     if name in OPENED.__all__:
         return getattr(OPENED, name)
-    shelves = {each: shelf for shelf in (part, blank, design, area, strategies, schemes) for each in shelf.__all__}
+    shelves = {each: shelf for shelf in (part, blank, design, area, strategies, schemes, probing) for each in shelf.__all__}
     near = [] if name.startswith("_") else _nearest(name, dict.fromkeys([*__all__, *OPENED.__all__, *shelves]))
     said = ", ".join(f"{shelves[each].__name__}.{each}" if each in shelves else each for each in near)
     raise AttributeError(f"mnclab has no {name!r}" + (f" (near: {said})" if said else ""))

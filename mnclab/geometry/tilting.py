@@ -26,6 +26,16 @@ def spatial(a: float, b: float, c: float) -> Matrix:
     return turn(c, "z") @ turn(b, "y") @ turn(a, "x")
 
 
+def angles_of(axes: ArrayLike) -> tuple[float, float, float]:
+    """The turns a, b, c about the fixed axes X, Y, Z that `spatial` makes axes (3, 3) of: b within a quarter turn, and a 0 where
+    it is one."""
+    (xx, xy, _), (yx, yy, _), (zx, zy, zz) = np.asarray(axes, dtype=np.float64)[:3, :3].tolist()
+    level = math.hypot(xx, yx)
+    if level < SINGULAR:
+        return 0.0, math.atan2(-zx, level), math.atan2(-xy, yy)
+    return math.atan2(zy, zz), math.atan2(-zx, level), math.atan2(yx, xx)
+
+
 def of_axes(pair: str, angles: Mapping[str, float]) -> Matrix:
     """The turn that the two rotary axes make, the carrier first."""
     outer, inner = pair[0], pair[1]

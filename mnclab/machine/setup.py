@@ -10,6 +10,7 @@ from types import MappingProxyType, UnionType
 from typing import Any, NamedTuple
 
 from mnclab.machine.magazine import MILLS, Magazine
+from mnclab.machine.probe import Probe
 from mnclab.machine.setup_page import page
 from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
@@ -46,35 +47,9 @@ class Datum(_Datum):
         return found
 
 
-class _Probe(NamedTuple):
-    clearance: float = 2.0  # SET_UP
-    reach: float = 10.0  # DIST
-    feed: float = 100.0  # F
-    rapid: float = float("inf")  # FMAX
-
-    def __repr__(self) -> str:
-        return written(self)
-
-
-class Probe(_Probe):
-    """A touch probe, lengths in mm and feeds in mm/min (TNC 620: columns of the touch probe table).
-
-    The radius of its ball is that of the tool in the spindle. An Alarm names a number that makes no sense.
-    """
-
-    __slots__ = ()
-
-    def __new__(cls, *values: float, **named: float) -> Probe:
-        found = super().__new__(cls, *values, **named)
-        check_number(found.clearance, "the clearance of a probe", at_least=0)
-        for name in ("reach", "feed", "rapid"):
-            check_number(getattr(found, name), f"the {name} of a probe", above=0, endless=name == "rapid")
-        return found
-
-
-ROWS = ("tools", "datums", "presets", "correctors")
+ROWS = ("tools", "datums", "presets", "correctors", "true_tools")
 NAMED = ("files", "settings", "variables")
-NOT_BUILT = ("kinematics", "true_tools")
+NOT_BUILT = ("kinematics",)
 
 
 Check = Callable[[str, Any], None]  # an Alarm unless what is given for a part, or for a piece of it, is right
@@ -148,7 +123,7 @@ def _tools(what: str, given: Any) -> None:
 
 
 def _not_built(what: str, given: Any) -> None:
-    if given is not None and not (what == "true_tools" and isinstance(given, Mapping) and not given):
+    if given is not None:
         raise Alarm(f"Setup({what}=…) is not built yet: {MEANT[what][1]}", hint=f"leave {what} out")
 
 
@@ -175,7 +150,8 @@ MEANT: Mapping[str, tuple[Check, str]] = {
                  'Setup(settings={"block_skip": True})'),
     "variables": (_names(_variable), 'values that are there before the program: Setup(variables={"QR1": 2.5})'),
     "kinematics": (_not_built, "the axes of the machine stand square to each other"),
-    "true_tools": (_not_built, "the tools are as their table says"),
+    "true_tools": (_rows(_a(Tool, "a Tool")),
+                   "what a tool truly is, beside its row of the table: Setup(true_tools={1: mnclab.Tool(radius=3.98)})"),
 }  # fmt: skip
 
 
@@ -191,7 +167,8 @@ class Setup:
     `correctors` are offsets along the axes, mm, of the controls whose words D or L name them. Tools given without a
     number get the one they are listed under. `variables` have values before the program begins: what another left
     (`run.variables`). `source` is the file that the setup was read from: an alarm about a setting shows its line.
-    `kinematics` and `true_tools` are not built yet. An Alarm names what cannot be.
+    `true_tools` are the tools as they truly are, by the number of their row in the table, where they differ from it: what
+    probing and measuring find. `kinematics` is not built yet. An Alarm names what cannot be.
     """
 
     tools: Magazine | None = None
@@ -276,6 +253,7 @@ class Tables:
             {row: Datum(*datum) for row, datum in table.items()}
             for table in (setup.datums, setup.presets, setup.correctors)
         )
+        self.probe = setup.probe
 
     def __repr__(self) -> str:
         return f"<Tables: {len(self.tools)} tools, {len(self.datums)} datums, {len(self.presets)} presets>"

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from mnclab.geometry import frames
 from mnclab.geometry.frames import FrameChain, Matrix
 from mnclab.machine.logs import Logs
+from mnclab.machine.measuring import Figure, Measurement, Touched
 from mnclab.machine.setup import Setup, Tables
 from mnclab.machine.snapshot import Snapshot
 from mnclab.machine.variables import Measured, Variables
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from mnclab.machine.control import Control
     from mnclab.machine.cut_so_far import CutSoFar
     from mnclab.machine.cycle import Definition
+    from mnclab.machine.touching import Felt
     from mnclab.machine.waiting import Pending
     from mnclab.path.compensation import Gouge
     from mnclab.path.travel import Stopped
@@ -91,6 +93,10 @@ class State:
     tables: Tables = part(lambda m: Tables(m.setup, m.control.magazine), outlives=True)
     variables: Variables = part(Variables, outlives=True)
     measured: Measured = part(Measured, outlives=True)
+    touches: list[Touched] = part(lambda m: [], outlives=True)
+    figures: list[Figure] = part(lambda m: [], outlives=True)  # that cycles measured
+    measurements: list[Measurement] = part(lambda m: [], outlives=True)
+    felt: Felt | None = part(None)  # what a cycle that probes feels, while it runs
     variable_unit: float = part(1.0)  # mm that a length of 1 of the program or a variable stands for: 25.4 for inches
     cycle: Definition | None = part(None)  # the cycle that a call runs
     position_cycle: Definition | None = part(None, compared=(PATTERN, REPEAT))  # the cycle that runs at each position

@@ -33,7 +33,7 @@ def faults(does: str, m: Machine) -> Iterator[str]:
     if is_upside_down(m):
         yield "cannot run under a mirror image of Z: it would work from below the table"
         return
-    if does == VISITS:
+    if does not in (MILLS, TAPS, MILLS_THREADS, SHIFTS):
         return
     if does == MILLS:
         if not is_round(m):

@@ -182,6 +182,33 @@ class Record(NamedTuple):
     label: str = ""
 
 
+class Measure(NamedTuple):
+    """A line of the measuring record: mm, or degrees as the `unit` says; nan where there is no nominal value or no limit.
+
+    Without a `verdict` ("ok", "rework", "scrap", "out") the limits give it. `touches` are the numbers of the contacts.
+    """
+
+    what: str
+    actual: float
+    nominal: float = math.nan
+    lower: float = math.nan
+    upper: float = math.nan
+    unit: str = "mm"
+    verdict: str = ""
+    touches: tuple[int, ...] = ()
+    label: str = ""
+
+
+class Sketch(NamedTuple):
+    """A figure as it should be and as it was found, contours of the plane at a height: for pictures of the measuring."""
+
+    nominal: Contour
+    actual: Contour
+    height: float
+    touches: tuple[int, ...] = ()
+    label: str = ""
+
+
 class Say(NamedTuple):
     """A warning at a word, or at the block."""
 
@@ -194,7 +221,8 @@ class Say(NamedTuple):
 class Write(NamedTuple):
     """A value that stays: an attribute of the machine that rows carry ("side"), or with a `key` one of these.
 
-    A "variable", a "measured" value, a row of "tools", "datums" or "presets", a "frame", the new name of a frame ("renamed"),
+    A "variable", a "measured" value, a row of "tools", "datums" or "presets", the "probe" table, a whole "file" by its
+    name, a "frame", the new name of a frame ("renamed"),
     the "datum" as a frame, a "modal" group, "memory" of the control, what is "kept" for the next
     call of the cycle, a value that only the "history" keeps.
     """
@@ -207,7 +235,7 @@ class Write(NamedTuple):
 
 Step = (
     Go | Turn | Dip | Along | Thread | Wait | Spin | Orient | Pause | Coolant | Touch | Swivel | Rolled | Each | Call | Blocks
-    | Record | Say | Write
+    | Record | Measure | Sketch | Say | Write
 )
 
 

@@ -18,15 +18,18 @@ from mnclab.geometry.arcs import FULL
 from mnclab.geometry.contours import Contour
 from mnclab.machine.cycle import Definition
 from mnclab.machine.machine import Machine
+from mnclab.machine.measuring import Figure, Measurement, judged
+from mnclab.machine.output import put_out
 from mnclab.machine.rotary import roll, turn_axes
+from mnclab.machine.touching import FEELS, PROBES, Contact, Felt, ball_from_axis, guarded, guarded_turn, part_to_touch
 from mnclab.machine.true_size import MILLS
 from mnclab.machining.depths import TooMany
 from mnclab.running.binding import as_it_stands, bind, fault
 from mnclab.running.repeating import at_each
 
 from mnclab.machining.steps import (  # isort: skip
-    Along, Blocks, Call, Coolant, Dip, Each, Go, Orient, Pause, Record, Rolled, Say, Spin, Step, Swivel, Thread, Touch, Turn,
-    Wait, Write,
+    Along, Blocks, Call, Coolant, Dip, Each, Go, Measure, Orient, Pause, Record, Rolled, Say, Sketch, Spin, Step, Swivel,
+    Thread, Touch, Turn, Wait, Write,
 )  # fmt: skip
 
 Place = tuple[float, float]
@@ -53,10 +56,15 @@ def _run(m: Machine, definition: Definition, through: Through | None, instead: M
                 names = {p.name for p in definition.cycle.parameters()} & instead.keys()
                 bound = replace(bound, **{name: instead[name] for name in names})
             feed, steps, about = bound.modal_feed(m), bound.moves(m), bound.about(m)
-            with m.within(**({} if feed is None else {"feed": feed})):
+            with m.within(**({} if feed is None else {"feed": feed}), **feels(m, definition.cycle.does)):
                 perform(m, bound.code, through(steps, about) if through else steps, about)
     except TooMany as error:
         raise fault(definition, None, str(error)) from None
+
+
+def feels(m: Machine, does: str) -> dict[str, Felt]:
+    """What a cycle feels while it runs, if it probes."""
+    return {"felt": Felt(part_to_touch(m), does == PROBES)} if does in (PROBES, FEELS) else {}
 
 
 def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = None) -> Any:
@@ -77,6 +85,8 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = 
             return end.value
         m.label, answer = f"{name} {step.label}", None
         match step:
+            case Go() | Turn() | Touch() if m.felt:
+                answer = probing(m, m.felt, step, (x, y))
             case Go():
                 to = None if step.x is None else x + step.x, None if step.y is None else y + step.y, step.z
                 m.line(*to, f=step.feed)
@@ -118,10 +128,48 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = 
             case Record():
                 with m.flow.inside(m, step.program), m.within(variable_unit=step.unit):
                     answer = m.record(step.name, after=step.after, in_space=step.in_space)
+            case Measure() | Sketch():
+                measured(m, name, step)
             case Say():
                 m.warn(f"{name} {step.text}", step.word, step.hint)
             case Write():
                 write(m, step)
+
+
+def probing(m: Machine, felt: Felt, step: Go | Turn | Touch, about: Place) -> Contact | None:
+    """A step of a cycle that probes: positioning stops at what is in the way; places may be those of the ball."""
+    beside = ball_from_axis(m) if felt.by_ball else (0.0, 0.0)
+    x, y = about[0] - beside[0], about[1] - beside[1]
+    match step:
+        case Turn():
+            centre = x + step.centre[0], y + step.centre[1]
+            if felt.part is None:
+                m.turn(centre, step.angle, step.z, step.feed)
+            else:
+                guarded_turn(m, felt.part, centre, step.angle, step.feed)
+        case Touch():
+            return m.touch(x + step.x, y + step.y, step.z, f=step.feed, ball=step.ball, miss=step.miss)
+        case Go():
+            target = m.target(None if step.x is None else x + step.x, None if step.y is None else y + step.y, step.z)
+            if felt.part is None:
+                m.line(*target, f=step.feed)
+            else:
+                guarded(m, felt.part, target, step.feed)
+    return None
+
+
+def measured(m: Machine, cycle: str, step: Measure | Sketch) -> None:
+    """Write what was measured into the record, or a figure for its picture."""
+    line, program, touches = m.source_line, m.program, tuple(step.touches)
+    if isinstance(step, Sketch):
+        figure = Figure(m.step, line, program, cycle, step.nominal, step.actual, step.height, m.matrix, touches)
+        m.figures.append(figure)
+        return
+    what, actual, nominal, lower, upper, unit, verdict, *_ = step
+    verdict = verdict or judged(actual, lower, upper)
+    row = Measurement(line, cycle, what, nominal, actual, lower, upper, unit, verdict, touches, m.step, program)
+    m.measurements.append(row)
+    m.measured[what] = actual
 
 
 def write(m: Machine, step: Write) -> None:
@@ -131,6 +179,11 @@ def write(m: Machine, step: Write) -> None:
             (m.variables if step.what == "variable" else m.measured)[step.key] = step.value
         case "tools" | "datums" | "presets":
             m.write_table(step.what, step.key, step.value)
+        case "probe":
+            m.tables.probe = step.value
+            m.log("probe", step.value)
+        case "file":
+            put_out(m, step.key, step.value, anew=True)
         case "frame":
             m.set_frame(step.key, step.value)
         case "renamed":

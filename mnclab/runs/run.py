@@ -19,6 +19,8 @@ from mnclab.machine.control import Control
 from mnclab.machine.cutting_rows import stock_of
 from mnclab.machine.machine import Machine
 from mnclab.machine.machine_file import load
+from mnclab.machine.measuring import record
+from mnclab.machine.obstructed import stop_at_part
 from mnclab.machine.output import written
 from mnclab.machine.settling import paths, shifted, stop_at_travel
 from mnclab.machine.setup import Setup, Tables
@@ -37,6 +39,7 @@ from mnclab.runs.history import History
 from mnclab.runs.moment import Moment
 from mnclab.runs.moments import Moments, when
 from mnclab.runs.start import MissedOnes, start_at
+from mnclab.runs.tables import tables_at_end
 from mnclab.text.alarm import ALARM, Alarm, by_place, card_html, first_of, quoted, several
 from mnclab.text.columns import fixed
 from mnclab.text.given import shown, whole
@@ -65,6 +68,7 @@ EXAMPLE = "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
 class Run:
     """The result of running a program: both paths, alarms, history, the `files` it wrote, and where the machine stands.
 
+    `measured` is what probing found, by name, `measurements` the record; `touches`, `figures`: machine coordinates.
     `gouges` are the places where a compensated tool does not fit: the one that was refused, or with the setting
     `gouge = "mark"` all of them. `stopped` is where an axis would have left its travel, machine coordinates.
     """
@@ -84,8 +88,9 @@ class Run:
         self.history = History(machine.logs, len(self.steps.block))
         self.variables: dict[str, Any] = self._as_of_end("", machine.variables)
         self.measured: dict[str, Any] = self._as_of_end("measured ", machine.measured)
+        self.touches, self.figures, self.measurements = record(machine, len(self.steps.block), self.place_of_line)
         self.files = written(self.history, self.history.changed)
-        self.tables: Tables = machine.tables if machine.cut is None else self._tables_of_history()
+        self.tables: Tables = tables_at_end(machine, self.history, len(self.steps.block))
         self.frames = machine.frames
         self.gouges: tuple[Gouge, ...] = tuple(shifted(machine))
         self.stopped: Stopped | None = machine.stopped
@@ -99,15 +104,6 @@ class Run:
         found = {name: self.history.value(prefix + name, last) for name in values}
         return {name: value for name, value in found.items() if value is not None}
 
-    def _tables_of_history(self) -> Tables:
-        """The tables with only those writes that came before a fault."""
-        tables, last = Tables(self.setup, self.control.magazine), len(self.steps.block) - 1
-        for name in self.history:
-            table, _, row = name.partition(" ")
-            if table in ("tools", "datums", "presets", "correctors"):
-                getattr(tables, table)[int(row)] = self.history.value(name, last)
-        return tables
-
     @property
     def ok(self) -> bool:
         return not any(alarm.severity == ALARM for alarm in self.alarms)
@@ -117,9 +113,9 @@ class Run:
 
         A line within a block of several lines means the block.
         """
+        if step is None and line is None:
+            raise Alarm("at() needs a line or a step", hint="run.at(line=5)")
         if step is None:
-            if line is None:
-                raise Alarm("at() needs a line or a step", hint="run.at(line=5)")
             line, pass_ = whole(line, "the line"), whole(pass_, "pass_")
             found = self.executions(line, whole(program, "the number of the program"))
             if not 1 <= pass_ <= len(found):
@@ -172,9 +168,7 @@ class Run:
             raise Alarm(f"a condition is a text, got {shown(condition)}", hint='run.when("z < -5")')
         return when(self, condition)
 
-    def explain(
-        self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0
-    ) -> Explanation:
+    def explain(self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0) -> Explanation:
         """A block (named as for `at`) in plain words: what each word means and changed, and the way to the tool."""
         return Explanation(self, self.at(line, pass_, step, program))
 
@@ -268,6 +262,12 @@ class Run:
         from mnclab.show.plot.path import plot_run
 
         return plot_run(self, **options)
+
+    def plot_measured(self, **options: Any) -> Figure:
+        """What was measured, deviations magnified: `line`, `factor`, `part`, `width`; see `mnclab.show.plot.measured`."""
+        from mnclab.show.plot.measured import plot_measured
+
+        return plot_measured(self, **options)
 
     def plot_speed(self, **options: Any) -> Figure:
         """Spindle speed and diameter over the way of a lathe's tool; `most` is the greatest speed, rev/min."""
@@ -387,7 +387,7 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
     finally:
         if collecting:
             gc.enable()
-    for finish in (partial(machine.settle, unfinished=broken), partial(stop_at_travel, machine)):
+    for finish in (partial(machine.settle, unfinished=broken), partial(stop_at_travel, machine), partial(stop_at_part, machine)):
         try:
             finish()
         except Alarm as alarm:

@@ -16,7 +16,7 @@ from mnclab.workpiece.blank import Box, Revolved
 
 NAN, INF = math.nan, math.inf
 NEVER = [NAN, INF, -INF, "3", None, True, [1], {}, 1j, 10**400]
-WORDS_AND_BODIES = ("name", "kind", "hand", "centre_cutting", "shank", "holder")
+WORDS_AND_BODIES = ("name", "kind", "hand", "centre_cutting", "shank", "holder", "wear", "locked", "runout", "edges")
 NUMBERS = [each.name for each in fields(Tool) if each.name not in WORDS_AND_BODIES]
 SIZES = ["radius", "corner", "teeth", "cutting_length", "width", "number", "angle", "plunge_angle"]
 
@@ -94,7 +94,8 @@ def test_a_probe_that_cannot_be(named):
         ({"variables": [1]}, "variables must be a dict with names"),
         ({"kinematics": {"A": 1}}, r"Setup\(kinematics=…\) is not built yet"),
         ({"kinematics": ()}, r"Setup\(kinematics=…\) is not built yet"),
-        ({"true_tools": {1: Tool()}}, r"Setup\(true_tools=…\) is not built yet"),
+        ({"true_tools": {1: 5}}, r"true_tools\[1\] must be a Tool, got 5"),
+        ({"true_tools": 1}, "true_tools must be a dict, got 1"),
     ],
     ids=str,
 )

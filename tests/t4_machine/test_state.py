@@ -25,7 +25,7 @@ OTHER = {
     "per_time": True, "speed": 99.0, "turning": -1, "spindle_angle": 30.0, "surface": 200.0, "speed_limit": 3000.0,
     "tool": Tool(radius=7), "side": 1, "corner_rule": 2, "look_ahead": True, "exact": True, "exact_here": True,
     "synchronous": True, "tolerance": 0.1, "label": "G83 peck", "cut_so_far": "less than it was", "stopped": "somewhere",
-    "cylinder": 1, "from_angle": 0.5,
+    "cylinder": 1, "from_angle": 0.5, "felt": "a part",
 }  # fmt: skip
 #: What is altered in its place.
 WITHIN = {
@@ -38,6 +38,9 @@ WITHIN = {
     "tables": lambda m: m.tables.tools.update({99: Tool(radius=7)}),
     "variables": lambda m: m.variables.update(Q1=2.0),
     "measured": lambda m: m.measured.update(x=2.0),
+    "touches": lambda m: m.touches.append("a touch"),
+    "figures": lambda m: m.figures.append("a figure"),
+    "measurements": lambda m: m.measurements.append("a line"),
     "memory": lambda m: m.memory.rotation_angles.update(rotation=30.0),
     "feed_rules": lambda m: m.feed_rules.append((0, 1)),
     "recorder": lambda m: m.add_row(mnclab.Kind.STOP, m.tip),

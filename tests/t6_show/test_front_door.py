@@ -178,7 +178,7 @@ def test_run_and_help_of_anything_give_a_result_or_an_alarm(source, control, set
 
 
 HOME = Path(mnclab.__file__)
-SHELVES = ["area", "blank", "part", "schemes", "strategies"]
+SHELVES = ["area", "blank", "part", "probing", "schemes", "strategies"]
 
 
 def imports_for_types():

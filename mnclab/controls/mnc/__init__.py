@@ -73,7 +73,7 @@ CONTROL = Control(
     cycles=fixed.CYCLES | drilling.CYCLES | boring.CYCLES | prepared.CYCLES | milling.CYCLES | pockets.CYCLES,
     phases=PHASES,
     settings=SETTINGS,
-    frames=("datum", "local", "rotation", "mirror", "scaling"),
+    frames=("datum", "base rotation", "local", "rotation", "mirror", "scaling"),
     memory=Memory,
     compensation=Compensation(approach="corner", change=True, look_ahead=True),
     start=language.power_on,

@@ -22,6 +22,8 @@ class Memory(state.Memory):
 
     polar: Polar | None = None  # while a pole is active
     run_up: int = -1  # the step that last waited for the spindle
+    base_rotation: float = 0.0  # degrees, counter-clockwise
+    angled: frozenset[int] = frozenset()  # rows of the datum table that hold an angle
 
 
 memory = Memory.of

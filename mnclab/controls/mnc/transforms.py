@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 
+from mnclab.controls.mnc.state import memory
 from mnclab.controls.word_address.motion import AXES, first_word, uncompensated
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
@@ -107,4 +108,8 @@ def select_row(m: Machine, row: int) -> None:
     if "local" in m.frames:
         m.set_frame("local", None)
     m.log("datum row", row)
-    m.select_datum(m.tables.datums.get(row, Datum()))
+    datum = m.tables.datums.get(row, Datum())
+    if datum.rotation or row in memory(m).angled:  # an empty cell keeps the base rotation (MNC-BASEROT-ROW)
+        m.set_frame("base rotation", frames.turn(math.radians(datum.rotation)) if datum.rotation else None)
+        memory(m).base_rotation = datum.rotation
+    m.select_datum(datum._replace(rotation=0.0))

@@ -1,0 +1,89 @@
+"""What all touch probe cycles of the TNC 620 share: their positions, what refuses them, how the probe approaches (chapter 13).
+
+Positions of the program are those of the south pole of the ball; nominal points in the plane and measuring heights those of
+the ball's center.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterable, Iterator, Sequence
+from typing import Any, ClassVar
+
+from mnclab.controls.tnc_620.cycles.chain import TILT
+from mnclab.controls.tnc_620.cycles.faults import Fault
+from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
+from mnclab.machine.cycle import Cycle
+from mnclab.machine.machine import Machine
+from mnclab.machine.tool_axis import FRAME
+from mnclab.machine.touching import PROBES, Contact, unfit
+from mnclab.machining.probing.sequences import Approach
+from mnclab.machining.steps import Measure, Step, Write
+from mnclab.text.alarm import Alarm
+
+Moves = Generator[Step, Any, None]
+LEAST_STEP = 5.0  # degrees (15.6, 16.4)
+ALLOWED = ("preset", FRAME)  # frames that a cycle 4xx may find active (13.2)
+
+
+class ProbingCycle(Cycle):
+    """Base of the cycles 4xx: who inherits declares the parameters, the clearance Q320 and the height Q260 among them."""
+
+    does: ClassVar[str] = PROBES
+    about = in_program_coordinates
+    tilted: ClassVar[bool] = False
+    """Whether it may run in a tilted working plane."""
+
+    clearance = 0.0
+    height = 0.0
+    level = 0.0
+    move_to_clearance = 0.0
+    row = 0.0
+    transfer = 1.0
+    probe_z = top_x = top_y = top_z = datum_z = 0.0
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from unfit(m)
+        allowed = (*ALLOWED, TILT) if self.tilted else ALLOWED
+        if active := [name for name, _ in m.frames if name not in allowed and name in m.frames]:
+            yield "", f"cannot run while a {active[0]} is active"
+        if self.transfer == -1 and self.row:  # of programs from older controls (15.1)
+            yield "transfer", "-1 does not say where row Q305 is: choose 0 (datum table) or 1 (preset table)"
+
+    def approach(self, m: Machine, **other: Any) -> Approach:
+        """How the probe of the table moves in this cycle; `other` values of it."""
+        probe = m.tables.probe
+        found = {
+            "ball": m.radius, "gap": probe.clearance + self.clearance, "level": self.level, "height": self.height,
+            "reach": probe.reach, "feed": min(probe.feed, m.settings["max_touch_feed"]),
+            "positioning": probe.positioning_feed, "over": self.move_to_clearance == 1, "track": probe.track,
+        }  # fmt: skip
+        return Approach(**{**found, **other})
+
+
+def too_fine(step: float) -> Iterator[Fault]:
+    """A stepping angle below that of the manual."""
+    if abs(step) < LEAST_STEP:
+        yield "stepping_angle", f"must be at least {LEAST_STEP:g} or at most -{LEAST_STEP:g}, got {step:g}"
+
+
+def results(**values: float) -> Iterable[Step]:
+    """Q parameters: `results(Q151=x)`."""
+    return [Write("variable", float(value), name) for name, value in values.items()]
+
+
+def numbers(contacts: Sequence[Contact]) -> tuple[int, ...]:
+    """Of touches."""
+    return tuple(each.number for each in contacts)
+
+
+def measured(contacts: Sequence[Contact], **found: tuple[float, float]) -> Iterable[Step]:
+    """Lines of the measuring record without limits: `measured(contacts, X=(actual, nominal))`."""
+    return [Measure(what, actual, nominal, touches=numbers(contacts)) for what, (actual, nominal) in found.items()]
+
+
+def needed(fit: Any, *points: Any, m: Machine, code: str) -> Any:
+    """What a fit finds in the touched points; where they do not make the figure, an alarm of the cycle."""
+    try:
+        return fit(*points)
+    except Alarm as alarm:
+        m.alarm(f"{code}: {alarm.message}")

@@ -1,0 +1,170 @@
+"""What a program measures: each touch, each figure that was touched, and the table of a measuring record.
+
+Touches and figures are in machine coordinates while the program runs; `runs` gives them in those of the path.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from mnclab.geometry.contours import Contour
+from mnclab.text.tables import html_table, text_table
+
+if TYPE_CHECKING:
+    from mnclab.machine.machine import Machine
+
+Point = tuple[float, float, float]
+OK, OUT, REWORK, SCRAP = "ok", "out", "rework", "scrap"
+HEAD = ("line", "cycle", "what", "nominal", "actual", "deviation", "lower", "upper", "verdict")
+NUMBERS = range(3, 8)
+DIGITS = 4
+SLACK = 1e-6  # mm or degrees, by which a value may be beyond its limit: it stands on it (MNC 12)
+
+
+class Touched(NamedTuple):
+    """One touch: from where the centre of the ball went (`start`), where it stood (`centre`) and where the part was
+    (`surface`, as it is), mm. `programmed` is the centre in the coordinates of the program as the control took it, `found`
+    the touched point, so too. `frame` (4, 4) leads from the program to the machine."""
+
+    step: int
+    line: int
+    program: int
+    label: str
+    start: Point
+    centre: Point
+    direction: Point
+    ball: float
+    surface: Point
+    programmed: Point
+    found: Point
+    frame: Any
+
+
+class Figure(NamedTuple):
+    """A figure that a cycle touched: as it should be and as it was found, contours in the plane of the `frame` (4, 4) at a
+    height, and the numbers of its touches."""
+
+    step: int
+    line: int
+    program: int
+    cycle: str
+    nominal: Contour
+    actual: Contour
+    height: float
+    frame: Any
+    touches: tuple[int, ...]
+
+    def points(self, contour: Contour, tolerance: float = 1e-3) -> np.ndarray[Any, np.dtype[np.float64]]:
+        """Points (n, 3) along one of its contours, machine coordinates."""
+        flat = contour.points_within(tolerance)
+        space = np.column_stack([flat, np.full(len(flat), self.height), np.ones(len(flat))])
+        return np.asarray((space @ np.asarray(self.frame).T)[:, :3])
+
+
+class Measurement(NamedTuple):
+    """One line of the measuring record: mm or degrees as `unit` says; what is not known, or not limited, is nan.
+
+    `verdict`: "ok", "rework", "scrap", "out", or "" where there is no tolerance. `touches` are numbers of `run.touches`.
+    """
+
+    line: int
+    cycle: str
+    what: str
+    nominal: float
+    actual: float
+    lower: float
+    upper: float
+    unit: str
+    verdict: str
+    touches: tuple[int, ...] = ()
+    step: int = 0
+    program: int = 0
+    where: str = ""
+
+    @property
+    def deviation(self) -> float:
+        """Actual less nominal."""
+        return self.actual - self.nominal
+
+    @property
+    def tolerance(self) -> tuple[float, float]:
+        """The limits as deviations from the nominal value."""
+        return self.lower - self.nominal, self.upper - self.nominal
+
+    def texts(self) -> tuple[str, ...]:
+        """What the table says, column by column."""
+        numbers = (self.nominal, self.actual, self.deviation, self.lower, self.upper)
+        said = (_written(number, sign) for number, sign in zip(numbers, (False, False, True, False, False)))
+        unit = "" if self.unit == "mm" else f" [{self.unit}]"
+        return self.where or str(self.line), self.cycle, self.what + unit, *said, self.verdict
+
+
+class Measurements(Sequence[Measurement]):
+    """The measuring record of a run; it prints as a table."""
+
+    def __init__(self, rows: Sequence[Measurement]) -> None:
+        self._rows = tuple(rows)
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def __getitem__(self, which: Any) -> Any:
+        return Measurements(self._rows[which]) if isinstance(which, slice) else self._rows[which]
+
+    def of(self, what: str) -> Measurements:
+        """The rows of a cycle ("G421") or of a measure ("diameter")."""
+        return Measurements([row for row in self if what in (row.cycle, row.what)])
+
+    @property
+    def outside(self) -> Measurements:
+        """The rows beyond their limits."""
+        return Measurements([row for row in self if row.verdict not in ("", OK)])
+
+    def __repr__(self) -> str:
+        return text_table(HEAD, [row.texts() for row in self]) if self else "nothing was measured"
+
+    def _repr_html_(self) -> str:
+        return html_table(HEAD, [row.texts() for row in self], numbers=NUMBERS) if self else "<p>nothing was measured</p>"
+
+    def as_dicts(self) -> list[dict[str, Any]]:
+        """For JSON and for tables of other libraries: nan as None."""
+        rows = [{**row._asdict(), "deviation": row.deviation} for row in self]
+        return [{k: None if isinstance(v, float) and math.isnan(v) else v for k, v in row.items()} for row in rows]
+
+    def save(self, path: str | Path) -> None:
+        """Write the table as CSV, numbers with all their digits."""
+        with Path(path).open("w", newline="", encoding="utf-8") as file:
+            names = ("line", "cycle", "what", "unit", "nominal", "actual", "deviation", "lower", "upper", "verdict")
+            out = csv.DictWriter(file, names, extrasaction="ignore")
+            out.writeheader()
+            out.writerows(self.as_dicts())
+
+
+def record(
+    m: Machine, steps: int, place_of_line: Callable[[int, int], str]
+) -> tuple[tuple[Touched, ...], tuple[Figure, ...], Measurements]:
+    """What was touched and measured in the first steps of a run."""
+    touches = tuple(each for each in m.touches if each.step < steps)
+    figures = tuple(each for each in m.figures if each.step < steps)
+    rows = [each._replace(where=place_of_line(each.line, each.program)) for each in m.measurements if each.step < steps]
+    return touches, figures, Measurements(rows)
+
+
+def judged(actual: float, lower: float, upper: float) -> str:
+    """"ok" or "out", or "" without a limit; a value on its limit is within."""
+    if math.isnan(lower) and math.isnan(upper):
+        return ""
+    return OUT if actual < lower - SLACK or actual > upper + SLACK else OK
+
+
+def _written(number: float, sign: bool) -> str:
+    if math.isnan(number):
+        return "–"
+    found = f"{number:+.{DIGITS}f}" if sign else f"{number:.{DIGITS}f}"
+    return found.replace("-0.0000", "0.0000").replace("+0.0000", "0.0000")

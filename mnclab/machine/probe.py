@@ -1,0 +1,78 @@
+"""The touch probe: its row of the probe table, and what is true of it beside the table.
+
+The radius and the length that a control knows are those of the tool in the spindle; the true ones are those of
+`Setup(true_tools=…)`, and where nothing is said there, the same.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, check_point, choice
+from mnclab.text.records import written
+
+FEEDS = {"probe": "the feed `rapid` of the probe", "machine": "the rapid traverse of the machine"}
+ENDLESS = ("rapid",)
+POSITIVE = ("reach", "feed", "rapid", "stem_length")
+POINTS = {"offset": 2, "true_offset": 2, "deflection": 3}
+
+
+@dataclass(frozen=True)
+class Probe:
+    """A touch probe, lengths in mm, angles in degrees, feeds in mm/min.
+
+    As the table of the control has it (TNC 620 13.3, MNC 12): `clearance` (SET_UP, PR_CLR), `reach` (DIST, MAX_DIST), `feed`
+    (F, F_MEAS), `rapid` (FMAX, F_POS), which of `FEEDS` positions (F_PREPOS), `track` (TRACK), `angle` of the spindle for
+    which it was calibrated (CAL_ANG) and the `offset` (x, y) of the ball from the spindle axis (CAL_OF1, CAL_OF2).
+
+    As it is: the `true_offset` (x, y) of the ball (None: as the table has it), the `deflection` (x, y, z) by which it goes on
+    until it triggers, the standard deviation `spread` of a trigger with the `seed` of its randomness, and the stem: a
+    cylinder of `stem` radius (0: not judged) that goes up from the ball by `stem_length`.
+    """
+
+    clearance: float = 2.0
+    reach: float = 10.0
+    feed: float = 100.0
+    rapid: float = float("inf")
+    positioning: str = "probe"
+    track: bool = False
+    angle: float = 0.0
+    offset: tuple[float, float] = (0.0, 0.0)
+    true_offset: tuple[float, float] | None = None
+    deflection: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    spread: float = 0.0
+    seed: int = 0
+    stem: float = 0.0
+    stem_length: float = 40.0
+
+    __repr__ = written
+
+    def __post_init__(self) -> None:
+        for each in fields(self):
+            name, value, what = each.name, getattr(self, each.name), f"the {each.name.replace('_', ' ')} of a probe"
+            if name == "positioning":
+                choice(value, what, FEEDS)
+            elif name == "track":
+                if not isinstance(value, bool):
+                    raise Alarm(f"{what} must be True or False, got {value!r}")
+            elif name in POINTS:
+                if value is not None:
+                    check_point(value, what, flat=POINTS[name] == 2)
+                    object.__setattr__(self, name, tuple(map(float, value)))
+            elif name in POSITIVE:
+                check_number(value, what, above=0, endless=name in ENDLESS)
+            else:
+                check_number(value, what, at_least=None if name == "angle" else 0)
+        if self.seed != int(self.seed):
+            raise Alarm(f"the seed of a probe must be a whole number, got {self.seed:g}")
+
+    @property
+    def positioning_feed(self) -> float:
+        """Between the touches, mm/min."""
+        return self.rapid if self.positioning == "probe" else float("inf")
+
+    @property
+    def where(self) -> tuple[float, float]:
+        """Where the ball truly is beside the spindle axis, the spindle at the calibration angle."""
+        return self.offset if self.true_offset is None else self.true_offset

@@ -1,0 +1,230 @@
+"""What measured points are found to be: points, lines, circles, balls, widths, rectangles and planes, as values.
+
+Lengths in mm, angles in degrees. A result shows its numbers with three decimals, as a control does, and holds them whole.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
+
+import numpy as np
+
+from mnclab.geometry.frames import Matrix
+from mnclab.geometry.tilting import angles_of
+from mnclab.machining.probing.given import Floats, Points, Vector, numbers, unit
+from mnclab.text.alarm import Alarm
+
+DEGREES = {"angle", "about_x", "about_y", "a", "b", "c"}  # numbers of these names are angles, all others lengths
+SQUARE = 1e-9  # rad: nearer to a right angle a direction does not say to which side it points
+
+Numbers = tuple[float, ...]
+
+
+class Found:
+    """What all results share: the names of the numbers that they show."""
+
+    SHOWN: ClassVar[tuple[str, ...]]
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """The numbers that are shown, by name: mm, angles in degrees."""
+        return {name: getattr(self, name) for name in self.SHOWN}
+
+    @property
+    def centre(self) -> Numbers:
+        """The middle, x and y, of what lies in space also z."""
+        return tuple(getattr(self, axis) for axis in "xyz" if hasattr(self, axis))
+
+    def __repr__(self) -> str:
+        said = (f"{name}={value:z.3f}" + ("°" if name in DEGREES else " mm") for name, value in self.numbers.items())
+        return f"{type(self).__name__}({', '.join(said)})"
+
+
+class Round(Found):
+    """A circle or a ball."""
+
+    radius: float
+
+    @property
+    def diameter(self) -> float:
+        return 2 * self.radius
+
+    def grown(self, by: float) -> Self:
+        """With a radius larger by so much: from ball centres to the wall of a hole by the ball's radius, to that of a stud by
+        minus that."""
+        return replace(self, radius=self.radius + by)  # type: ignore[type-var]
+
+
+class Flat(Found):
+    """A line or a plane."""
+
+    @property
+    def normal(self) -> Numbers:
+        """The unit vector square to it."""
+        raise NotImplementedError
+
+    def distance(self, points: Vector | Points) -> Floats:
+        """How far points (…, 2) or (…, 3) are off it (…), positive on the side of the normal."""
+        p = numbers(points, "points")
+        if not p.ndim or p.shape[-1] != len(self.centre):
+            raise Alarm(f"points must be an array (…, {len(self.centre)}), got one {p.shape}")
+        return np.asarray((p - self.centre) @ self.normal)
+
+    def towards(self, direction: Vector, by: float) -> Self:
+        """Moved along its normal to the side where a direction points: from ball centres to the material by the ball's radius."""
+        way = unit(direction, "a direction")
+        side = float(way @ self.normal) if way.shape == (len(self.centre),) else 0.0
+        if abs(side) < SQUARE:
+            raise Alarm(f"the direction {direction!r} points to no side of the {type(self).__name__.lower()}")
+        moved = (c + math.copysign(1.0, side) * by * n for c, n in zip(self.centre, self.normal, strict=True))
+        return replace(self, **dict(zip("xyz", moved, strict=False)))  # type: ignore[type-var]
+
+
+@dataclass(frozen=True, repr=False)
+class Point(Found):
+    """A point of the plane."""
+
+    x: float
+    y: float
+    SHOWN = "x", "y"
+
+
+@dataclass(frozen=True, repr=False)
+class Line(Flat):
+    """A line through the mean of its points, in their order, and its angle to X.
+
+    `straightness` is how far apart the two parallels to it are that hold all points between them.
+    """
+
+    x: float
+    y: float
+    angle: float
+    straightness: float = 0.0
+    SHOWN = "x", "y", "angle", "straightness"
+
+    @property
+    def direction(self) -> Numbers:
+        """The unit vector along it."""
+        return math.cos(math.radians(self.angle)), math.sin(math.radians(self.angle))
+
+    @property
+    def normal(self) -> Numbers:
+        """The unit vector to its left."""
+        x, y = self.direction
+        return -y, x
+
+
+@dataclass(frozen=True, repr=False)
+class Circle(Round):
+    """A circle; `roundness` is the difference between the farthest and the nearest point from its centre."""
+
+    x: float
+    y: float
+    radius: float
+    roundness: float = 0.0
+    SHOWN = "x", "y", "diameter", "roundness"
+
+
+@dataclass(frozen=True, repr=False)
+class Sphere(Round):
+    """A ball; `roundness` is the difference between the farthest and the nearest point from its centre."""
+
+    x: float
+    y: float
+    z: float
+    radius: float
+    roundness: float = 0.0
+    SHOWN = "x", "y", "z", "diameter", "roundness"
+
+
+@dataclass(frozen=True, repr=False)
+class Width(Found):
+    """The width of a slot or a ridge, and the middle between its two touches."""
+
+    x: float
+    y: float
+    width: float
+    SHOWN = "x", "y", "width"
+
+    def grown(self, by: float) -> Width:
+        """With either wall moved outward by so much: for a slot by the ball's radius, for a ridge by minus that."""
+        return replace(self, width=self.width + 2 * by)
+
+
+@dataclass(frozen=True, repr=False)
+class Rectangle(Found):
+    """A rectangle: its middle, its length along the direction of `angle`, its width across."""
+
+    x: float
+    y: float
+    length: float
+    width: float
+    angle: float = 0.0
+    SHOWN = "x", "y", "length", "width", "angle"
+
+    def grown(self, by: float) -> Rectangle:
+        """With every wall moved outward by so much: for a pocket by the ball's radius, for a stud by minus that."""
+        return replace(self, length=self.length + 2 * by, width=self.width + 2 * by)
+
+
+@dataclass(frozen=True, repr=False)
+class Plane(Flat):
+    """A plane through the mean of its points, and its unit normal that points to +Z.
+
+    `flatness` is how far apart the two parallels to it are that hold all points between them.
+    """
+
+    x: float
+    y: float
+    z: float
+    up: tuple[float, float, float]
+    flatness: float = 0.0
+    SHOWN = "x", "y", "z", "about_x", "about_y", "flatness"
+
+    @property
+    def normal(self) -> Numbers:
+        """The unit vector upward."""
+        return self.up
+
+    @property
+    def about_x(self) -> float:
+        """The projection angle of the A axis: seen along X; positive where the plane rises with Y (TNC 620 § 16.13, Q158)."""
+        return math.degrees(math.atan2(-self.up[1], self.up[2]))
+
+    @property
+    def about_y(self) -> float:
+        """The projection angle of the B axis: seen along Y; negative where the plane rises with X (TNC 620 § 16.13, Q159)."""
+        return math.degrees(math.atan2(self.up[0], self.up[2]))
+
+    @property
+    def spatial(self) -> tuple[float, float, float]:
+        """The spatial angles A, B, C that lay the plane level, without a turn in itself: C is 0 (TNC 620 § 14.3)."""
+        return spatial_angles(axes_on(self.up))
+
+
+def axes_on(normal: Vector, along: Vector | None = None) -> Matrix:
+    """The axes (3, 3) of a system on a plane, as columns: Z is the normal (3,), X is nearest to `along` (3,).
+
+    Without `along` X has no part in Y, so that the spatial angle C is 0.
+
+    Cycle 431 has X along its points 1 and 2, and the normal (M2 - M1) x (M3 - M1), which points down where the third point lies
+    to the right.
+    """
+    up = unit(normal, "the normal")
+    level = up.shape == (3,) and math.hypot(up[0], up[2]) > SQUARE
+    ahead = unit(along, "X") if along is not None else np.array([up[2], 0.0, -up[0]] if level else [1.0, 0.0, 0.0])
+    if up.shape != (3,) or ahead.shape != (3,) or np.linalg.norm(np.cross(up, ahead)) < SQUARE:
+        raise Alarm(f"the normal and X must be three numbers each, and not along each other, got {normal!r} and {along!r}")
+    across = unit(np.cross(up, ahead), "Y")
+    return np.column_stack([np.cross(across, up), across, up])
+
+
+def spatial_angles(axes: Matrix) -> tuple[float, float, float]:
+    """The spatial angles A, B, C in degrees of a system whose axes are the columns (3, 3).
+
+    They are turns about the fixed axes X, then Y, then Z, as cycle 19 takes them (TNC 620 § 11.9, 16.13).
+    """
+    a, b, c = (math.degrees(angle) for angle in angles_of(axes))
+    return a, b, c
