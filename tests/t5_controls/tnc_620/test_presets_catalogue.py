@@ -14,7 +14,6 @@ import pytest
 import mnclab as mnc
 from mnclab import Kind
 from mnclab.workpiece.part import box, cylinder, hole, plane, pocket, slot
-
 from tests.probed import gaps
 
 FILE = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-probing-presets.json"
