@@ -79,7 +79,11 @@ from mnclab.controls.tnc_620.language import (
     tools,
 )
 from mnclab.controls.tnc_620.printing import output
-from mnclab.controls.tnc_620.probing import presets
+from mnclab.controls.tnc_620.probing import (
+    presets,
+    rotary_table,
+    rotation,
+)
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
 from mnclab.controls.tnc_620.reading.numbers import numbers
@@ -147,6 +151,8 @@ CHAPTERS = (
     trochoidal_slot,
     cylinder,
     transformations, tilting, special, engraving, face_milling, presets, program_call,
+    rotation,
+    rotary_table,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()

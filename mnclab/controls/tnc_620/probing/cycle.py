@@ -6,7 +6,7 @@ the ball's center.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from typing import Any, ClassVar
 
 from mnclab.controls.tnc_620.cycles.chain import TILT
@@ -15,7 +15,7 @@ from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
 from mnclab.machine.tool_axis import FRAME
-from mnclab.machine.touching import PROBES, unfit
+from mnclab.machine.touching import PROBES, Contact, unfit
 from mnclab.machining.probing.sequences import Approach
 from mnclab.machining.steps import Step, Write
 from mnclab.text.alarm import Alarm
@@ -41,11 +41,15 @@ class ProbingCycle(Cycle):
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from unfit(m)
+        yield from self.transformed(m)
+        if self.transfer == -1 and self.row:  # of programs from older controls (15.1)
+            yield "transfer", "-1 does not say where row Q305 is: choose 0 (datum table) or 1 (preset table)"
+
+    def transformed(self, m: Machine) -> Iterator[Fault]:
+        """A transformation that it must not find active (13.2)."""
         allowed = (*ALLOWED, TILT) if self.tilted else ALLOWED
         if active := [name for name, _ in m.frames if name not in allowed and name in m.frames]:
             yield "", f"cannot run while a {active[0]} is active"
-        if self.transfer == -1 and self.row:  # of programs from older controls (15.1)
-            yield "transfer", "-1 does not say where row Q305 is: choose 0 (datum table) or 1 (preset table)"
 
     def approach(self, m: Machine, **other: Any) -> Approach:
         """How the probe of the table moves in this cycle; `other` values of it."""
@@ -61,6 +65,11 @@ class ProbingCycle(Cycle):
 def results(**values: float) -> Iterable[Step]:
     """Q parameters: `results(Q151=x)`."""
     return [Write("variable", float(value), name) for name, value in values.items()]
+
+
+def numbers(contacts: Sequence[Contact]) -> tuple[int, ...]:
+    """Of touches."""
+    return tuple(each.number for each in contacts)
 
 
 def needed(fit: Any, *points: Any, m: Machine, code: str) -> Any:
