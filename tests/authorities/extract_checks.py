@@ -62,6 +62,10 @@ EXAMPLES = {
         *(f"PATTERN DEF {form}" for form in ("POS", "ROW", "PAT", "FRAME", "CIRC", "PITCHCIRC")),
         *("point table", "SEL PATTERN"),
     ],
+    "tnc620-probing-alignment": [
+        *(f"TCH PROBE {number}" for number in (400, 401, 402, 403, 404, 405, 1410, 1411, 1420)),
+        *("14xx semi-automatic mode", "14xx text parameters"),
+    ],
     "tnc620-patterns": ["CYCL DEF 220", "CYCL DEF 221"],
     "tnc620-pockets": [
         *(f"CYCL DEF {number}" for number in (251, 252, 253, 254, 256, 257, 258, 233)),

@@ -75,6 +75,8 @@ NAMES = {
     "feed_rate_for_milling": ("feed", "milling_feed"),
     "first_point_axis_1": "x",
     "first_point_axis_2": "y",
+    "second_point_axis_1": "second_x",
+    "second_point_axis_2": "second_y",
     "measuring_height": ("z", "level"),
     "first_point_axis_3": "z",
     "measuring_axis": "axis",
@@ -191,6 +193,8 @@ EXPLAINED = {
         for code in (412, 413)
         for key, value in (("required", False), ("default", 1))
     },
+    ("tnc-620", "TCH PROBE 405", "Q337", "limits"): ({">=": 0, "<=": 99999}, "0, or a row"),
+    ("tnc-620", "TCH PROBE 405", "Q337", "choices"): (set(), "0, or a row"),
     ("tnc-620", "CYCL DEF 21", "Q13", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
     ("tnc-620", "CYCL DEF 24", "Q438", "default"): (-1, "in a sentence there"),
     **{("tnc-620", f"CYCL DEF {n}", "Q18", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name") for n in (22, 25, 276)},
