@@ -79,7 +79,7 @@ from mnclab.controls.tnc_620.language import (
     tools,
 )
 from mnclab.controls.tnc_620.printing import output
-from mnclab.controls.tnc_620.probing import presets
+from mnclab.controls.tnc_620.probing import measuring_circles, measuring_points, measuring_sides, presets
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
 from mnclab.controls.tnc_620.reading.numbers import numbers
@@ -147,6 +147,9 @@ CHAPTERS = (
     trochoidal_slot,
     cylinder,
     transformations, tilting, special, engraving, face_milling, presets, program_call,
+    measuring_points,
+    measuring_circles,
+    measuring_sides,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()

@@ -133,6 +133,27 @@ def from_above(a: Approach, x: float, y: float, z: float, now: float, *, leave: 
     return contact
 
 
+def in_one_axis(a: Approach, axis: int, sense: float, points: Sequence[tuple[float, float, float]], now: float) -> Steps:
+    """Touches along an axis (0, 1, or 2: that of the tool) at nominal points, in the plane at `Approach.level`; the contacts."""
+    if axis < 2:
+        direction = (sense, 0.0) if axis == 0 else (0.0, sense)
+        return (yield from in_plane(a, [Aim(x, y, direction) for x, y, _ in points], now))
+    contacts = []
+    for k, (x, y, z) in enumerate(points):
+        begin = z - sense * a.away - a.ball
+        if k == 0:
+            yield from over_to(a, x, y, now, begin)
+        else:
+            if a.over:
+                yield a.go("to the clearance height", a.height)
+            yield a.go("to the next starting point", x=x, y=y)
+            yield a.go("to the starting point", begin)
+        contacts.append((yield Touch(f"touch {k + 1}", x, y, begin + sense * a.reach, a.feed, a.ball)))
+        yield a.go("back", begin)
+    yield a.go("to the clearance height", a.height)
+    return contacts
+
+
 # --- figures -------------------------------------------------------------------------------------------------------------
 
 
