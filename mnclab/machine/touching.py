@@ -80,9 +80,11 @@ def unfit(m: Machine, *, still: bool = False) -> Iterator[tuple[str, str]]:
 
 
 def part_to_touch(m: Machine, word: Word | None = None) -> Part | None:
-    """The part of the setup, or what the program has cut up to here."""
+    """The part of the setup, or what the program has cut up to here: only that needs the path of the tool settled."""
+    if m.setup.part != CUT:
+        return m.setup.part
     m.settle()
-    return part_before(m, word) if m.setup.part == CUT else m.setup.part
+    return part_before(m, word)
 
 
 def offset(m: Machine, of: tuple[float, float]) -> Floats:
@@ -150,9 +152,10 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
     if travel is not None:
         number = len(m.touches)
         surface = _point(begin + direction * (travel + true.radius))
+        found = m.to_program(_point(np.array(centre) + direction * ball))
         m.touches.append(
             Touched(m.step, m.source_line, m.program, m.label, _point(begin), _point(begin + direction * travel),
-                    _point(direction), true.radius, surface, m.to_program(centre))
+                    _point(direction), true.radius, surface, m.to_program(centre), found, m.matrix)
         )  # fmt: skip
     return Contact(m.to_program(centre), centre, travel is not None, _point(end), number)
 

@@ -1,37 +1,36 @@
-"""Figures of pictures: one as it should be and as it was found, for a `Sketch` (contours of the plane, mm)."""
+"""Pictures of what was touched: a figure as it should be and as it was found, for `Sketch`."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from mnclab.geometry.contours import Contour
-from mnclab.machining.probing.found import Circle, Rectangle
+from mnclab.geometry.vectors import turned
+from mnclab.machining.probing.found import Circle, Rectangle, Width
 from mnclab.machining.steps import Sketch
 
-Pair = tuple[float, float]
+Figure = Circle | Rectangle | Width | Sequence[tuple[float, ...]]
+TINY = 1e-6  # mm, that a figure without a size is drawn with
 
 
-def round_sketch(centre: Pair, radius: float, found: Circle, height: float, contacts: Sequence[Any]) -> Sketch:
-    """A hole or a round stud; `contacts` are the answers of its touches."""
-    return _sketch(Contour.circle(centre, radius), Contour.circle(found.centre, found.radius), height, contacts)
+def sketch(nominal: Figure, actual: Figure, height: float, touches: Sequence[int] = (), direction: float = 0.0) -> Sketch:
+    """Two figures at a height; `direction` (degrees) is that of a width, the numbers of the touches belong to the second."""
+    return Sketch(outline(nominal, direction), outline(actual, direction), height, tuple(touches))
 
 
-def box_sketch(centre: Pair, sides: Pair, found: Rectangle, height: float, contacts: Sequence[Any]) -> Sketch:
-    """A pocket or stud, whose sides lie along the axes."""
-    return _sketch(_box(centre, sides), _box((found.x, found.y), (found.length, found.width)), height, contacts)
-
-
-def line_sketch(nominal: Sequence[Pair], found: Sequence[Pair], height: float, contacts: Sequence[Any]) -> Sketch:
-    """A line through points: an edge, or from wall to wall of a slot or ridge."""
-    return _sketch(Contour(nominal, closed=False), Contour(found, closed=False), height, contacts)
-
-
-def _box(centre: Pair, sides: Pair) -> Contour:
-    return Contour(np.array(centre) + np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) * np.array(sides) / 2)
-
-
-def _sketch(nominal: Contour, found: Contour, height: float, contacts: Sequence[Any]) -> Sketch:
-    return Sketch(nominal, found, height, tuple(contact.number for contact in contacts))
+def outline(figure: Figure, direction: float = 0.0) -> Contour:
+    """The contour of a figure: of a width the way from wall to wall, of points (n, 2 or more) the lines between them."""
+    match figure:
+        case Circle():
+            return Contour.circle(figure.centre, max(figure.radius, TINY))
+        case Rectangle():
+            half = np.maximum((figure.length, figure.width), TINY) / 2
+            corners = half * [(1, 1), (-1, 1), (-1, -1), (1, -1)]
+            return Contour(turned(corners, np.radians(figure.angle)) + figure.centre)
+        case Width():
+            ends = np.array([(-1.0, 0.0), (1.0, 0.0)]) * max(figure.width, TINY) / 2
+            return Contour(turned(ends, np.radians(direction)) + figure.centre, closed=False)
+        case _:
+            return Contour([point[:2] for point in figure], closed=False)

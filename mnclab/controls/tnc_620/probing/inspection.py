@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, results
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, numbers, results
 from mnclab.controls.tnc_620.probing.log import Value, logged
 from mnclab.controls.tnc_620.probing.monitoring import monitored
 from mnclab.machine.cycle import param
@@ -26,6 +26,7 @@ AXES = ("reference axis", "minor axis", "touch probe axis")
 
 centre_x = partial(coordinate, "Q273", meaning="center, reference axis", example=50)
 centre_y = partial(coordinate, "Q274", meaning="center, minor axis", example=30)
+side = length
 log = partial(choice, "Q281", meaning="measuring log", choices=LOGS, example=0)
 stop = partial(choice, "Q309", meaning="where a tolerance is exceeded", choices=STOPS, example=0)
 maximum = partial(length, meaning="maximum limit", note="0 with a minimum of 0: not monitored", example=0)
@@ -48,7 +49,7 @@ def report(
 
     `sizes` are the values that the monitored tool made, `compensation` is what is added to its DR and DL.
     """
-    touches, declared = tuple(contact.number for contact in contacts), {p.name for p in c.parameters()}
+    touches, declared = numbers(contacts), {p.name for p in c.parameters()}
     for each in values:
         lower, upper = (each.lower, each.upper) if each.watched else (math.nan, math.nan)
         yield Measure(each.what, each.actual, each.nominal, lower, upper, each.unit, each.verdict, touches)

@@ -10,7 +10,7 @@ from mnclab.controls.tnc_620.contours.other_tools import Named
 from mnclab.controls.tnc_620.cycles.addresses import angle
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault
 from mnclab.controls.tnc_620.probing import addresses, inspection
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed, numbers, too_fine
 from mnclab.controls.tnc_620.probing.inspection import middle, report, size, wear
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
@@ -18,10 +18,9 @@ from mnclab.machine.touching import Contact
 from mnclab.machining.probing.fits import circle
 from mnclab.machining.probing.found import Circle
 from mnclab.machining.probing.sequences import around, from_centre
-from mnclab.machining.probing.sketches import round_sketch
+from mnclab.machining.probing.sketches import sketch
 
 CYCLES = CycleTable()
-LEAST_STEP = 5  # degrees
 
 
 @dataclass(frozen=True)
@@ -49,10 +48,6 @@ class Round:
     reverse_tool: float | None = inspection.reverse_tool()
     angle_of_incidence: float | None = inspection.incidence()
 
-    def contradictions(self) -> Iterator[Fault]:
-        if abs(self.stepping_angle) < LEAST_STEP:
-            yield "stepping_angle", f"must be at least {LEAST_STEP} either way, got {self.stepping_angle:g}"
-
 
 @CYCLES("TCH PROBE 421", "Hole measuring", runs="definition", source="16.5")
 class HoleMeasuring(Round, ProbingCycle):
@@ -62,6 +57,7 @@ class HoleMeasuring(Round, ProbingCycle):
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
+        yield from too_fine(self.stepping_angle)
         if self.diameter <= 2 * m.radius:
             yield "diameter", f"must be greater than the ball, {2 * m.radius:g}, got {self.diameter:g}"
 
@@ -76,6 +72,10 @@ class StudMeasuring(Round, ProbingCycle):
     tilted = True
     maximum_limit: float = inspection.maximum("Q277")
     minimum_limit: float = inspection.minimum("Q278")
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from super().check(m)
+        yield from too_fine(self.stepping_angle)
 
     def moves(self, m: Machine) -> Moves:
         return touched_round(self, m, False)
@@ -96,7 +96,7 @@ def told(
     figure: str, inside: bool | None,
 ) -> Moves:  # fmt: skip
     """The centre and the diameter that were found."""
-    yield round_sketch((c.centre_x, c.centre_y), c.diameter / 2, found, c.level, contacts)
+    yield sketch(Circle(c.centre_x, c.centre_y, c.diameter / 2), found, c.level, numbers(contacts))
     limits = c.minimum_limit, c.maximum_limit
     wide = size("diameter", "Diameter", "Q153", "Q163", found.diameter, c.diameter, limits, f"dimension for {figure}", inside)
     centre = middle(0, found.x, c.centre_x, c.tolerance_x), middle(1, found.y, c.centre_y, c.tolerance_y)

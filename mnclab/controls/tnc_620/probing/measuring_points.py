@@ -12,7 +12,7 @@ from mnclab.controls.tnc_620.contours.other_tools import Named
 from mnclab.controls.tnc_620.cycles.addresses import coordinate
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault
 from mnclab.controls.tnc_620.probing import addresses, inspection
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed, numbers
 from mnclab.controls.tnc_620.probing.inspection import AXES, report
 from mnclab.controls.tnc_620.probing.log import Value
 from mnclab.machine.cycle import CycleTable
@@ -21,7 +21,7 @@ from mnclab.machine.measuring import REWORK, SCRAP
 from mnclab.machining.probing.fits import angle, plane, reduced
 from mnclab.machining.probing.found import axes_on, spatial_angles
 from mnclab.machining.probing.sequences import in_one_axis
-from mnclab.machining.probing.sketches import line_sketch
+from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Say
 
 CYCLES = CycleTable()
@@ -60,7 +60,7 @@ class AngleMeasuring(ProbingCycle):
         if k < 2:
             found, nominal = reduced(angle(first, second)), reduced(angle(points[0][:2], points[1][:2]))
             shift = np.eye(3)[k] * self.direction * a.ball
-            yield line_sketch([p[:2] for p in points], [(p + shift)[:2] for p in (first, second)], self.level, contacts)
+            yield sketch(points, [first + shift, second + shift], self.level, numbers(contacts))
         else:
             dx, dy, dz = second - first
             found, nominal = math.degrees(math.atan(dz / dy if abs(dy) > abs(dx) else -dz / dx)), 0.0

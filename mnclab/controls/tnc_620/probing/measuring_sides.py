@@ -6,18 +6,19 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from mnclab.controls.tnc_620.contours.other_tools import Named
-from mnclab.controls.tnc_620.cycles.addresses import coordinate, increment, length
+from mnclab.controls.tnc_620.cycles.addresses import coordinate, increment
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault
 from mnclab.controls.tnc_620.probing import addresses, inspection
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed, numbers
 from mnclab.controls.tnc_620.probing.inspection import AXES, middle, report, size, wear
 from mnclab.controls.tnc_620.probing.log import Value
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.touching import Contact
 from mnclab.machining.probing.fits import rectangle
+from mnclab.machining.probing.found import Rectangle
 from mnclab.machining.probing.sequences import ROUND, Aim, between, in_plane, sides
-from mnclab.machining.probing.sketches import box_sketch, line_sketch
+from mnclab.machining.probing.sketches import sketch
 
 CYCLES = CycleTable()
 
@@ -28,8 +29,8 @@ class Rectangular:
 
     centre_x: float = inspection.centre_x()
     centre_y: float = inspection.centre_y()
-    first_side: float = length("Q282", "length along the reference axis", example=60)
-    second_side: float = length("Q283", "length along the minor axis", example=40)
+    length: float = inspection.side("Q282", "length along the reference axis", example=60)
+    width: float = inspection.side("Q283", "length along the minor axis", example=40)
     level: float = addresses.level()
     clearance: float = addresses.clearance()
     height: float = addresses.height()
@@ -53,7 +54,7 @@ class PocketMeasuring(Rectangular, ProbingCycle):
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
-        for name in ("first_side", "second_side"):
+        for name in ("length", "width"):
             if getattr(self, name) <= 2 * m.radius:
                 yield name, f"must be greater than the ball, {2 * m.radius:g}, got {getattr(self, name):g}"
 
@@ -73,11 +74,11 @@ class RectangularStudMeasuring(Rectangular, ProbingCycle):
 
 def touched_sides(c: PocketMeasuring | RectangularStudMeasuring, m: Machine, inside: bool) -> Moves:
     """The touches of a pocket or a stud, and what they find."""
-    a, centre, lengths = c.approach(m), (c.centre_x, c.centre_y), (c.first_side, c.second_side)
+    a, centre, lengths = c.approach(m), (c.centre_x, c.centre_y), (c.length, c.width)
     contacts = yield from sides(a, centre, (lengths[0] / 2, lengths[1] / 2), ROUND, inside, m.programmed[2])
     right, back, left, front = (contact.point for contact in contacts)
     found = needed(rectangle, [right, left, back, front], m=m, code=c.code).grown(a.ball if inside else -a.ball)
-    yield box_sketch(centre, lengths, found, c.level, contacts)
+    yield sketch(Rectangle(*centre, *lengths), found, c.level, numbers(contacts))
     limits = (c.first_minimum, c.first_maximum), (c.second_minimum, c.second_maximum)
     measured = ("length", found.length), ("width", found.width)
     sizes = [
@@ -99,7 +100,7 @@ class SlotMeasuring(ProbingCycle):
     axis: float = addresses.axis()
     level: float = addresses.level()
     height: float = addresses.height()
-    nominal_length: float = length("Q311", "nominal length", example=10)
+    nominal_length: float = inspection.side("Q311", "nominal length", example=10)
     maximum_limit: float = inspection.maximum("Q288")
     minimum_limit: float = inspection.minimum("Q289")
     measuring_log: float = inspection.log()
@@ -135,7 +136,7 @@ class RidgeMeasuring(ProbingCycle):
     level: float = addresses.level()
     clearance: float = addresses.clearance()
     height: float = addresses.height()
-    nominal_length: float = length("Q311", "nominal length", example=60)
+    nominal_length: float = inspection.side("Q311", "nominal length", example=60)
     maximum_limit: float = inspection.maximum("Q288")
     minimum_limit: float = inspection.minimum("Q289")
     measuring_log: float = inspection.log()
@@ -172,7 +173,7 @@ def told(
     walls, other, half = (near.point[k] - ball, far.point[k] + ball), near.point[1 - k], c.nominal_length / 2
     line = sum(walls) / 2
     nominal, found = ([(x, other) if k == 0 else (other, x) for x in pair] for pair in ((line - half, line + half), walls))
-    yield line_sketch(nominal, found, c.level, contacts)
+    yield sketch(nominal, found, c.level, numbers(contacts))
     limits, width = (c.minimum_limit, c.maximum_limit), walls[1] - walls[0]
     wide = size("width", "Measured length", "Q156", "Q166", width, c.nominal_length, limits, "length", inside)
     yield from report(
