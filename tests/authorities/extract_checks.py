@@ -71,6 +71,11 @@ EXAMPLES = {
         *(f"CYCL DEF {number}" for number in (251, 252, 253, 254, 256, 257, 258, 233)),
         "PGM C210 (section 6.10)",
     ],
+    "tnc620-probing-inspection": [
+        *("measuring log", "result classification", "tool monitoring"),
+        *(f"TCH PROBE {number}" for number in (0, 1, 420, 421, 422, 423, 424, 425, 426, 427, 430, 431)),
+        *("program BEAMS", "program BSMEAS"),
+    ],
     "tnc620-probing-presets": [*(f"TCH PROBE {number}" for number in range(408, 420)), "example 15.14", "example 15.15"],
     "tnc620-threading": [
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),

@@ -80,6 +80,9 @@ from mnclab.controls.tnc_620.language import (
 )
 from mnclab.controls.tnc_620.printing import output
 from mnclab.controls.tnc_620.probing import (
+    measuring_circles,
+    measuring_points,
+    measuring_sides,
     preset_circles,
     preset_corners,
     preset_holes,
@@ -162,6 +165,9 @@ CHAPTERS = (
     preset_holes,
     rotation,
     rotary_table,
+    measuring_points,
+    measuring_circles,
+    measuring_sides,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()
