@@ -194,4 +194,4 @@ def touched(m: Machine, step: Touch) -> Contact:
     """The answer of a part that stands where the probe was sent."""
     x, y, z = m.programmed
     centre = x, y, z + (m.radius if step.ball is None else step.ball)
-    return Contact(centre, m.to_machine(centre), hit=True)
+    return Contact(centre, m.to_machine(centre), hit=True, tip=m.tip)
