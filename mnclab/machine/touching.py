@@ -154,9 +154,10 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
     if travel is not None:
         number = len(m.touches)
         surface = _point(begin + direction * (travel + true.radius))
+        found = m.to_program(_point(np.array(centre) + direction * ball))
         m.touches.append(
             Touched(m.step, m.source_line, m.program, m.label, _point(begin), _point(begin + direction * travel),
-                    _point(direction), true.radius, surface, m.to_program(centre))
+                    _point(direction), true.radius, surface, m.to_program(centre), found, m.matrix)
         )  # fmt: skip
     return Contact(m.to_program(centre), centre, travel is not None, _point(end), number)
 

@@ -2,9 +2,10 @@
 
 import time
 
-import mnclab as mnc
 import numpy as np
 import pytest
+
+import mnclab as mnc
 
 pytestmark = pytest.mark.benchmark
 P = mnc.part
