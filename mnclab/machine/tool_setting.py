@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 SETS = "sets tools"  # what such a cycle does (`Cycle.does`)
 PLATE, BEAM = "a plate", "a laser beam"
 SAME = 1e-9  # mm
+FINE = 9  # digits of a measured size: those behind come from arithmetic alone
 Pair = tuple[float, float]
 
 
@@ -71,11 +72,12 @@ def written(m: Machine, tool: Tool) -> Iterator[Step]:
     """Write the row of the tool in the spindle; that has the new dimensions at once, with the deltas of its call. Nothing
     moves, the tip is elsewhere."""
     row, now = row_of(m), m.tool
+    tool = replace(tool, **{name: round(getattr(tool, name), FINE) for name in ("length", "radius", "dl", "dr")})
     yield Write("tools", tool, now.number)
     dl, dr, corner = (getattr(tool, name) + getattr(now, name) - getattr(row, name) for name in ("dl", "dr", "corner"))
-    own = replace(tool, dl=dl, dr=dr, corner=max(corner, 0.0))
+    own = replace(tool, dl=dl, dr=dr, corner=min(max(corner, 0.0), tool.radius or corner))
     if own != now:
-        yield Write("tool", own)
+        yield Write("tool", own, label="new dimensions")
 
 
 def true_tool(m: Machine) -> Tool:

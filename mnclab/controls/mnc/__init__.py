@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from mnclab.controls.mnc import auxiliary, language, polar, transforms
 from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets, prepared
+from mnclab.controls.mnc.probing import tool_setting
 from mnclab.controls.mnc.settings import SETTINGS
 from mnclab.controls.mnc.signs import SIGNS
 from mnclab.controls.mnc.state import Memory
@@ -30,7 +31,7 @@ PHASES = (
 _LATER = "it is part of this control but not built yet"
 REFUSED = (
     {f"G{n}": _LATER for n in (400, 404, *range(408, 416), 417, *range(419, 427), *range(460, 463))}
-    | {f"G{n}": _LATER for n in (470, 471, 472, 480, 481, 482, 490, 491, 492, 499)}
+    | {f"G{n}": _LATER for n in (490, 491, 492, 499)}
     | {f"G{n}": "this control has no such cycle, G83 does its work" for n in (81, 82)}
 )
 
@@ -70,7 +71,8 @@ CONTROL = Control(
     suffixes=(".mnc",),
     read=reader("mnc"),
     functions=FUNCTIONS,
-    cycles=fixed.CYCLES | drilling.CYCLES | boring.CYCLES | prepared.CYCLES | milling.CYCLES | pockets.CYCLES,
+    cycles=fixed.CYCLES | drilling.CYCLES | boring.CYCLES | prepared.CYCLES | milling.CYCLES | pockets.CYCLES
+    | tool_setting.CYCLES,
     phases=PHASES,
     settings=SETTINGS,
     frames=("datum", "base rotation", "local", "rotation", "mirror", "scaling"),

@@ -85,6 +85,8 @@ from mnclab.controls.tnc_620.probing import (
     preset_holes,
     preset_rectangles,
     presets,
+    tool_measuring,
+    tool_setter,
 )
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
@@ -127,6 +129,7 @@ SETTINGS = (
     ),
     *tools.SETTINGS, *no_effect.SETTINGS, *retraction.SETTINGS, *tilting.SETTINGS, *engraving.SETTINGS,
     *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS, *output.SETTINGS,
+    *tool_setter.SETTINGS,
     *leaving.SETTINGS, *cylinder.SETTINGS, *surface.SETTINGS,
     Setting("max_touch_feed", 3000.0, "upper limit of the probing feed (maxTouchFeed, no. 122602)", "13.2", {}, "mm/min", 1),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
@@ -158,6 +161,8 @@ CHAPTERS = (
     preset_circles,
     preset_corners,
     preset_holes,
+    tool_setter,
+    tool_measuring,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()

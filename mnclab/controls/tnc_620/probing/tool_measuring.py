@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Generator, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate
@@ -91,6 +91,9 @@ class ToolMeasuring(SetterCycle):
         aside = row.effective_radius if row.wear.offset_radius is None else row.wear.offset_radius
         standing = row.wear.offset_radius == 0 or not m.settings["radius_measured"]
         if self.teeth:
+            turn = math.tau / row.teeth
+            if row.teeth > 1 and math.hypot(aside - row.radius * math.cos(turn), row.radius * math.sin(turn)) < tt.radius:
+                yield Say("lays several teeth on the TT at once: the longest of them counts", "a greater R-OFFS lays one alone on it")
             yield from self.radius(m, row, tt, high)  # which finds the angle of the first tooth
             yield Go("to the clearance height", high)
         yield Go("over the TT", x=tt.x + aside, y=tt.y)
@@ -156,6 +159,7 @@ class ToolMeasuring(SetterCycle):
             yield from written(m, replace(tool, locked=row.locked or worst > 0))
 
 
+@dataclass(frozen=True)
 class NewFormat(ToolMeasuring):
     """The status is Q199."""
 
@@ -165,6 +169,7 @@ class NewFormat(ToolMeasuring):
     teeth: float = choice("Q341", "whether each tooth is measured", TEETH, example=0)
 
 
+@dataclass(frozen=True)
 class OldFormat(ToolMeasuring):
     """The status is a parameter that the block names, if it does."""
 

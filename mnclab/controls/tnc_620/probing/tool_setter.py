@@ -119,7 +119,7 @@ class Calibrating(SetterCycle):
                     before = SIDES[k - 1]
                     yield Go("to the corner", x=x + away * (u + before[0]), y=y + away * (v + before[1]))
                     yield Go("beside the TT", x=x + away * u, y=y + away * v)
-                if k == 0:
+                if turn and k == 0:
                     yield Orient(f"spindle at {turn:g}", turn)
                 contact = yield Touch(f"touch {k + 1}", x, y, level, feed)
                 points.append(contact.tip[:2])
