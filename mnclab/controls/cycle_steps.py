@@ -175,7 +175,7 @@ def noting(m: Machine, cycle: type[Cycle], rows: list[Row]) -> Callable[[Iterabl
                 case Each():
                     for x, y in step.points.tolist():
                         yield from through(step.visit(x, y), about)
-                case Touch():
+                case Touch() if not (m.felt and m.felt.setter):
                     yield Go(step.label, step.z, step.feed, step.x, step.y)
                     note(step)
                     answer = touched(m, step)
