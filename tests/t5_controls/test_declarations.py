@@ -134,6 +134,11 @@ NAMES = {
     "center_axis_2": "centre_y",
     "slot_position_reference": "slot_position",
     "start_tool_axis": "surface",
+    # measuring cycles (MNC, chapter 12)
+    "extra_clearance": "clearance",
+    "safe_height": "height",
+    "between_points": "between",
+    "datum_row": "row",
 }
 
 ONCE = "only what L chooses is used: the example writes H0 beside L1, so the limit is checked where it counts"
@@ -162,6 +167,8 @@ EXPLAINED = {
     ("mnc", "G306", "L", "choices"): ({1, -1, 0}, "L0 is L1 (MNC-G306-L)"),
     ("mnc", "G307", "K", "limits"): ({">=": 0}, "its other limit is H: a check"),
     ("mnc", "G309", "P", "limits"): ({}, "not 0: a check"),
+    ("mnc", "G415", "C", "limits"): ({}, "its choices"),
+    **{("mnc", f"G{n}", letter, "required"): (False, "with F1: a check") for n in range(408, 416) for letter in "IJK"},
     **{
         ("tnc-620", f"CYCL DEF {n}", "Q208", "limits"): ({">=": 0}, "FMAX is infinite; the upper limit is a check")
         for n in (22, 23)

@@ -195,7 +195,7 @@ def sides(a: Approach, centre: Pair, half: Pair, order: Sequence[int], inside: b
         a = replace(a, over=False)
         if not each:
             a, short = replace(a, reach=max(a.reach, max(half) + a.gap)), [True] * len(short)
-    aims = [side(centre, half, k, inside, half[k % 2] if near else None) for k, near in zip(order, short)]
+    aims = [side(centre, (0.0, 0.0) if near else half, k, inside, 0.0 if near else None) for k, near in zip(order, short)]
     ways = () if a.over else ways_round(centre, (half[0] + a.away, half[1] + a.away), order, inside)
     return (yield from in_plane(a, aims, now, ways))
 
