@@ -83,8 +83,6 @@ NAMES = {
     "traverse_direction": "direction",
     "number_in_table": "row",
     "datum_ts_axis": ("datum", "datum_z"),
-    "second_point_axis_1": "second_x",
-    "second_point_axis_2": "second_y",
     "second_point_axis_3": "second_z",
     "third_point_axis_3": "third_z",
     "maximum_limit_size": "maximum_limit",
