@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Generator, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-from mnclab.machining.steps import RAPID, Go, Orient, Step, Touch, Turn
+from mnclab.machining.steps import RAPID, Go, Orient, Say, Step, Touch, Turn
 
 Pair = tuple[float, float]
 Way = Iterable["Pair | Turn"]  # places of the ball's centre, or turns, from one start to the next; none: straight
@@ -76,6 +76,8 @@ def in_plane(a: Approach, aims: Sequence[Aim], now: float, ways: Sequence[Way] =
     touch k to that of the next.
     """
     contacts = []
+    if a.height < a.pole:
+        yield Say("has a clearance height below the measuring height", "between figures the probe goes down to it")
     for k, aim in enumerate(aims):
         x, y = aim.start(a)
         dx, dy = aim.direction
@@ -84,7 +86,7 @@ def in_plane(a: Approach, aims: Sequence[Aim], now: float, ways: Sequence[Way] =
         if k == 0:
             yield from over_to(a, x, y, now)
         else:
-            yield from between(a, x, y, ways[k - 1] if ways else ())
+            yield from between(a, x, y, ways[k - 1] if ways else (), aims[k - 1].start(a))
         contacts.append((yield Touch(f"touch {k + 1}", x + a.reach * dx, y + a.reach * dy, a.pole, a.feed, a.ball)))
         yield a.go("back", a.pole, x, y)
     if leave:
@@ -100,13 +102,19 @@ def over_to(a: Approach, x: float, y: float, now: float, z: float | None = None)
     yield a.go("to the starting point", a.pole if z is None else z)
 
 
-def between(a: Approach, x: float, y: float, way: Way) -> Iterator[Step]:
-    """From one start to the next."""
+def between(a: Approach, x: float, y: float, way: Way, at: Pair | None = None) -> Iterator[Step]:
+    """From one start, `at` which the probe stands, to the next."""
     if a.over:
         yield a.go("to the clearance height", a.height)
     for place in way:
-        yield place if isinstance(place, Turn) else a.go("around", x=place[0], y=place[1])
-    yield a.go("to the next starting point", x=x, y=y)
+        if isinstance(place, Turn):
+            yield place
+            at = x, y  # where an arc ends
+        elif place != at:
+            yield a.go("around", x=place[0], y=place[1])
+            at = place
+    if (x, y) != at:
+        yield a.go("to the next starting point", x=x, y=y)
     if a.over:
         yield a.go("to the measuring height", a.pole)
 
@@ -174,3 +182,54 @@ def on_circle(centre: Pair, radius: float, first: float, step: float, count: int
         direction = (ux, uy) if inside else (-ux, -uy)
         aims.append(Aim(centre[0] + radius * ux, centre[1] + radius * uy, direction, back))
     return aims
+
+
+def sides(a: Approach, centre: Pair, half: Pair, order: Sequence[int], inside: bool, now: float, *, each: bool = True) -> Steps:
+    """Touches of a slot, ridge, pocket or stud in the middle of its sides, in an order such as `ROUND`; returns the contacts.
+
+    Where a touch from within has no room before it, it begins in the centre, and the probe stays at the measuring height: on the
+    axis that is too short (`each`, TNC 620 15.4 and 16.6), or on all, reaching farther (MNC 12, "probe motion").
+    """
+    short = [inside and (size < a.away if each else size <= a.away) for size in (half[which % 2] for which in order)]
+    if any(short):
+        a = replace(a, over=False)
+        if not each:
+            a, short = replace(a, reach=max(a.reach, max(half) + a.gap)), [True] * len(short)
+    aims = [side(centre, half, k, inside, half[k % 2] if near else None) for k, near in zip(order, short)]
+    ways = () if a.over else ways_round(centre, (half[0] + a.away, half[1] + a.away), order, inside)
+    return (yield from in_plane(a, aims, now, ways))
+
+
+def around(
+    a: Approach, centre: Pair, radius: float, first: float, step: float, count: int, inside: bool, now: float, arc: bool = True
+) -> Steps:  # fmt: skip
+    """Touches of a hole or a round stud, from an angle on in steps (degrees); returns the contacts (TNC 620 15.6, 15.7, 16.4).
+
+    From start to start on an arc, over the clearance height also straight (`arc` False). Where a touch from within has no room it
+    begins in the centre, and the probe stays at the measuring height.
+    """
+    begin = radius + (-a.away if inside else a.away)
+    if begin < 0:
+        a, begin = replace(a, over=False), 0.0
+    aims = on_circle(centre, radius, first, step, count, inside, None if begin else radius)
+    turn = Turn("around", math.radians(step), feed=a.positioning, centre=centre)
+    ways = [[turn]] * (count - 1) if begin and (arc or not a.over) else ()
+    return (yield from in_plane(a, aims, now, ways))
+
+
+def from_centre(a: Approach, centre: Pair, now: float) -> Steps:
+    """Four touches of a hole that nobody gave a size, from its centre, `ROUND`; returns the contacts."""
+    aims = [Aim(*centre, NORMALS[which], 0.0) for which in ROUND]
+    return (yield from in_plane(replace(a, over=False), aims, now))
+
+
+def corner(a: Approach, first: Sequence[Aim], second: Sequence[Aim], now: float) -> Steps:
+    """Touches along one side of a corner, then along the other; returns the contacts.
+
+    From side to side it goes along X first, then along Y.
+    """
+    aims = [*first, *second]
+    ways: list[Way] = [()] * (len(aims) - 1)
+    if not a.over:
+        ways[len(first) - 1] = [(second[0].start(a)[0], first[-1].start(a)[1])]
+    return (yield from in_plane(a, aims, now, ways))
