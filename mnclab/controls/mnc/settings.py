@@ -6,6 +6,7 @@ to the cycles, `block_skip` is a switch of the operator's panel, `bulk` is about
 
 from __future__ import annotations
 
+from mnclab.controls.mnc.probing import tool_setting
 from mnclab.machine.settings import Setting, one_of
 from mnclab.path.limits import RAPIDS
 
@@ -96,4 +97,4 @@ PROBING = (
            tip="of the south pole by the length of the table, without its correction", reference="of the spindle reference"),
 )  # fmt: skip
 
-SETTINGS = PROGRAM + MOTION + COORDINATES + TECHNOLOGY + PROBING
+SETTINGS = PROGRAM + MOTION + COORDINATES + TECHNOLOGY + PROBING + tool_setting.SETTINGS
