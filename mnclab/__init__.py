@@ -37,6 +37,7 @@ from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
+from mnclab.path.wear import Wear
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm
 from mnclab.text.nearest import nearest as _nearest
@@ -148,6 +149,7 @@ __all__ = [
     "Tool",
     "Toolpath",
     "TurnedDesign",
+    "Wear",
     "Workpiece",
     "area",
     "blank",

@@ -29,7 +29,8 @@ SLACK = 1e-6  # mm or degrees, by which a value may be beyond its limit: it stan
 
 class Touched(NamedTuple):
     """One touch: from where the centre of the ball went (`start`), where it stood (`centre`) and where the part was
-    (`surface`, as it is), mm. `programmed` is the centre in the coordinates of the program, as the control took it."""
+    (`surface`, as it is), mm. `programmed` is the centre in the coordinates of the program as the control took it, `found`
+    the touched point, so too. `frame` (4, 4) leads from the program to the machine."""
 
     step: int
     line: int
@@ -41,6 +42,8 @@ class Touched(NamedTuple):
     ball: float
     surface: Point
     programmed: Point
+    found: Point
+    frame: Any
 
 
 class Figure(NamedTuple):

@@ -11,6 +11,7 @@ from mnclab.machine.probe import Probe
 from mnclab.machine.setup import NOT_BUILT, Datum, Setup
 from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
+from mnclab.path.wear import Wear
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
 from mnclab.text.toml_file import File, as_table, as_tables, check_names, parse
@@ -26,7 +27,8 @@ radius = 5                     # mm; also length, name, corner, dl, dr, teeth, k
 length = 80                    # and in degrees angle (of the point) and plunge_angle; of a lathe tool main_angle and
                                # auxiliary_angle, from the axis to the edges, and width of a blade in mm; for
                                # collisions centre_cutting (true, false), hand, shank = [radius, from],
-                               # holder = [[radius, from], …], mm above the tip
+                               # holder = [[radius, from], …], mm above the tip; locked (true, false); for measuring it
+                               # wear = { length, radius, corner, break_length, break_radius, offset_length, offset_radius }
 
 [datums]                       # work offsets: machine coordinates of the zero points, mm
 1 = [100, 50, -200]
@@ -49,7 +51,8 @@ high = [0, 40, 15]
                                # travel = [[0, 400], [0, 300], [-200, 0]]: how far the axes go, machine coordinates
 [probe]                        # clearance, reach, feed, rapid, positioning, track, angle, offset [x, y]: as its table has it;
                                # true_offset, deflection [x, y, z], spread, seed, stem, stem_length: as it is
-[true_tools]                   # tools as they truly are, written like tools
+[true_tools]                   # tools as they truly are, written like tools, with runout = [x, y] of their axis and
+                               # edges = [[length, radius], …], the deviations of single edges
 [settings]                     # choices of the control: mnclab help settings --control NAME lists them
 [files]                        # names that programs call -> files, seen from this one
 [variables]                    # values that are there before the program: QR1 = 2.5, QS1 = "text"
@@ -115,6 +118,8 @@ def record(kind: Any, value: Any, file: File, *keys: str) -> Any:
         names = kind._fields if hasattr(kind, "_fields") else [field.name for field in fields(kind)]
         check_names(as_table(value, where), names, where, file, *keys)
         found = {name: _field(item) for name, item in value.items()}
+        if "wear" in found:
+            found["wear"] = record(Wear, value["wear"], file, *keys, "wear")
         for name, item in found.items():
             with file.at(*keys, name):
                 _check_kind(value[name], f"{where}.{name}", name)
@@ -131,7 +136,7 @@ def _check_kind(value: Any, where: str, name: str) -> None:
     if name in TEXTS and not isinstance(value, str):
         raise Alarm(f"{where} must be a text, got {shown(value)}")
     for each in value if isinstance(value, list) else [] if isinstance(value, bool) else [value]:
-        if name not in TEXTS and not isinstance(each, list):
+        if name not in (*TEXTS, "wear") and not isinstance(each, list):
             check_number(each, where, endless=True)
 
 

@@ -10,6 +10,7 @@ from mnclab.machine.magazine import LATHES, MILLS
 from mnclab.path.limits import Limits
 from mnclab.path.listing import figure
 from mnclab.path.tool import Tool
+from mnclab.path.wear import Wear
 from mnclab.text.given import shown
 from mnclab.workpiece.blank import Box, blank
 
@@ -24,7 +25,7 @@ UNITS = {
     "feed": " mm/min", "rapid": " mm/min", "acceleration": " mm/s²", "jerk": " mm/s³", "corner_jump": " mm/min",
     "corner_speed": "", "rapid_motion": "", "spindle": " rev/min", "spindle_acceleration": " rev/min in a second",
     "tool_change": " s", "centre_cutting": "", "hand": "", "shank": " mm", "holder": " mm", "positioning": "", "track": "",
-    "seed": "",
+    "seed": "", "locked": "", "edges": " mm", "runout": " mm",
 }  # fmt: skip
 MM = " mm"  # of all others
 
@@ -76,17 +77,21 @@ def _different(record: Any, usual: Any, leave: tuple[str, ...] = ()) -> Iterator
     names = [each.name for each in fields(record)] if is_dataclass(record) else record._fields
     for name in names:
         value = getattr(record, name)
-        if name not in leave and value != getattr(usual, name):
-            yield f"{name.replace('_', ' ')} {_value(value)}{UNITS.get(name, MM) if value is not None else ''}"
+        if name in leave or value == getattr(usual, name):
+            continue
+        if isinstance(value, Wear):
+            yield from (f"{name} {said}" for said in _different(value, Wear()))
+        else:
+            yield f"{name.replace('_', ' ')} {_value(value, name == 'travel')}{UNITS.get(name, MM) if value is not None else ''}"
 
 
-def _value(value: Any) -> str:
+def _value(value: Any, travel: bool = False) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, tuple):  # of each axis; of travel from and to
-        if value and isinstance(value[0], tuple) and len(value) == 3:
+        if travel:
             return ", ".join(f"{axis} {_value(low)} to {_value(high)}" for axis, (low, high) in zip("XYZ", value))
-        return " ".join(map(_value, value))
+        return (", " if value and isinstance(value[0], tuple) else " ").join(map(_value, value))
     if value is None:
         return "none"
     return value if isinstance(value, str) else figure(float(value))

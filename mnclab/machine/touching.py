@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -21,6 +20,7 @@ from mnclab.machine.measuring import Touched
 from mnclab.machine.tool_axis import tool_axis
 from mnclab.text.program import Word
 from mnclab.workpiece.part import Part, contact
+from mnclab.workpiece.part.rows import blocked
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 PROBES, FEELS = "probes", "feels"
 DEEP = 1e-6  # mm, by which a ball may stand in the material where its touch begins: it only rests on it
 ALONG = 0.5  # mm between the places of an arc, or of a stem, that are looked at
+PLACES = 17  # on a row that are looked at first
+SHARES = np.linspace(0.0, 1.0, PLACES)
 SPREADS = 6  # standard deviations of a trigger that are not taken for a collision
 FOLLOWED = ("", "probe")  # kinds of tools that may be a touch probe
 Point = tuple[float, float, float]
@@ -78,9 +80,11 @@ def unfit(m: Machine, *, still: bool = False) -> Iterator[tuple[str, str]]:
 
 
 def part_to_touch(m: Machine, word: Word | None = None) -> Part | None:
-    """The part of the setup, or what the program has cut up to here."""
+    """The part of the setup, or what the program has cut up to here: only that needs the path of the tool settled."""
+    if m.setup.part != CUT:
+        return m.setup.part
     m.settle()
-    return part_before(m, word) if m.setup.part == CUT else m.setup.part
+    return part_before(m, word)
 
 
 def offset(m: Machine, of: tuple[float, float]) -> Floats:
@@ -121,9 +125,8 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
         m.alarm("a probe cannot move under radius compensation", word)
     if m.setup.part is None:
         m.alarm("there is no part to touch", word, hint='give one: Setup(part=…); "cut" is what the program has cut')
-    part = m.felt.part if m.felt and m.felt.part else part_to_touch(m, word)
+    part = m.felt.part if m.felt else part_to_touch(m, word)
     assert part is not None
-    m.settle()
     m.variables.state_read = m.step
     start, goal = np.array(m.tip), np.array(m.to_machine(target))
     reach = float(np.linalg.norm(goal - start))
@@ -137,7 +140,7 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
     if travel is not None:
         travel += trigger(m, direction)
     way = reach if travel is None else travel
-    if (stopped := stem_meets(m, part, true, begin, direction, way)) is not None:
+    if (stopped := stem_meets(m, part, true, begin, begin + direction * way)) is not None:
         m.probe_to(_point(start + direction * stopped), f)
         m.alarm("the stem of the probe touches the part before the ball does", word)
     end = start + direction * way
@@ -149,9 +152,10 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
     if travel is not None:
         number = len(m.touches)
         surface = _point(begin + direction * (travel + true.radius))
+        found = m.to_program(_point(np.array(centre) + direction * ball))
         m.touches.append(
             Touched(m.step, m.source_line, m.program, m.label, _point(begin), _point(begin + direction * travel),
-                    _point(direction), true.radius, surface, m.to_program(centre))
+                    _point(direction), true.radius, surface, m.to_program(centre), found, m.matrix)
         )  # fmt: skip
     return Contact(m.to_program(centre), centre, travel is not None, _point(end), number)
 
@@ -170,20 +174,19 @@ def slack(m: Machine) -> float:
     return max(m.setup.probe.deflection) + SPREADS * m.setup.probe.spread
 
 
-def stem_meets(m: Machine, part: Part, ball: Ball, begin: Floats, direction: Floats, way: float) -> float | None:
+def stem_meets(m: Machine, part: Part, ball: Ball, begin: Floats, end: Floats) -> float | None:
     """How far the probe goes until its stem touches; None where it does not, or where nobody says how thick it is."""
     probe = m.setup.probe
-    if not probe.stem or way <= 0:
+    if not probe.stem or not (end != begin).any():
         return None
-    heights = np.linspace(0.0, probe.stem_length, max(2, math.ceil(probe.stem_length / ALONG)))
-    places = ball.up * heights[:, None]
-    stem = Part(partial(_nearest, part, places), "part from a stem", at_once=8)
-    return contact(stem, begin, direction, max(probe.stem - DEEP - slack(m), DEEP), way)
+    return blocked(part, begin, end, DEEP, max(probe.stem - DEEP - slack(m), DEEP), probe.stem_length, ball.up)
 
 
-def _nearest(part: Part, places: Floats, points: Floats) -> Floats:
-    """The smallest distance of the `places` (k, 3) about each of the points (n, 3)."""
-    return np.asarray(part((points[:, None, :] + places).reshape(-1, 3)).reshape(len(points), -1).min(axis=1))
+def is_free(part: Part, begin: Floats, end: Floats, radius: float) -> bool:
+    """Whether a ball surely touches nothing on a straight way: a few places whose gaps reach over those between them."""
+    step = float(np.linalg.norm(end - begin)) / (PLACES - 1)
+    gaps = (part(begin + (end - begin) * SHARES[:, None]) - radius) / part.steep
+    return bool((gaps[:-1] + gaps[1:] >= step - DEEP / 2).all() and (gaps > 0).all())
 
 
 def guarded(m: Machine, part: Part, target: Point, feed: float | None) -> None:
@@ -192,9 +195,10 @@ def guarded(m: Machine, part: Part, target: Point, feed: float | None) -> None:
     way = float(np.linalg.norm(goal - start))
     if way > 0:
         ball, direction = true_ball(m, m.radius), (goal - start) / way
-        begin = start + ball.beside
-        free = contact(part, begin, direction, max(ball.radius - DEEP - slack(m), DEEP), way)
-        stem = stem_meets(m, part, ball, begin, direction, way)
+        begin, radius = start + ball.beside, max(ball.radius - DEEP - slack(m), DEEP)
+        end = begin + direction * way
+        free = None if is_free(part, begin, end, radius) else contact(part, begin, direction, radius, way)
+        stem = stem_meets(m, part, ball, begin, end)
         stopped = min((each for each in (free, stem) if each is not None), default=None)
         if stopped is not None:
             m.line(*m.to_program(_point(start + direction * stopped)), f=feed)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
+from mnclab.path.wear import Wear
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, shown
+from mnclab.text.given import check_number, check_point, shown
 from mnclab.text.nearest import hint
 from mnclab.text.records import written
 
@@ -18,7 +19,7 @@ KINDS = (
 )  # fmt: skip
 LATHE = ("turning", "boring", "grooving", "face grooving", "thread")  # their corner is the nose, whatever the radius
 MOST = 1e9  # of every number of a tool
-BODIES = ("centre_cutting", "shank", "holder")  # no plain numbers
+BODIES = ("centre_cutting", "shank", "holder", "wear", "locked", "runout", "edges")  # no plain numbers
 SIZES = ("radius", "corner", "teeth", "cutting_length", "width", "number", "angle", "plunge_angle")  # never negative
 
 
@@ -36,6 +37,10 @@ class Tool:
     Collisions are judged by `centre_cutting` (None: whether it may plunge is not judged), `hand` ("right" turns with
     M3), `shank`, the radius of what is behind the edges and how far above the tip it begins, and `holder`, such pairs
     from the tip up. Of chamfer tools and countersinks `angle` is the included one.
+
+    `wear` are the tolerances and offsets for measuring the tool, a `locked` tool is not to be called again. Of a true tool
+    (`Setup.true_tools`) `edges` are the deviations (length, radius) of its single edges and `runout` is how far (x, y) its
+    axis stands beside that of the spindle, both as seen at the spindle angle 0.
 
     An Alarm names a dimension that makes no sense. Negative may be the deltas, and the length against a zero tool; a
     radius below 0 is written as a negative `dr`.
@@ -61,6 +66,10 @@ class Tool:
     hand: str = "right"
     shank: tuple[float, float] | None = None
     holder: tuple[tuple[float, float], ...] = ()
+    wear: Wear = Wear()
+    locked: bool = False
+    runout: tuple[float, float] = (0.0, 0.0)
+    edges: tuple[tuple[float, float], ...] = ()
 
     __repr__ = written
 
@@ -81,6 +90,7 @@ class Tool:
         if self.hand not in HANDS:
             raise Alarm(f"the hand of a tool must be right or left, got {shown(self.hand)}")
         self._check_body()
+        self._check_measured()
         if 0 < self.radius < self.corner * (1 - 1e-9) and self.kind not in LATHE:
             found = f"{self.corner:g} and {self.radius:g}"
             raise Alarm(f"the corner radius of a tool must not be greater than its radius, got {found}")
@@ -97,6 +107,19 @@ class Tool:
         heights = [height for _, height in self.holder]
         if heights != sorted(heights):
             raise Alarm(f"the holder of a tool is given from the tip up, got {shown(self.holder)}")
+
+    def _check_measured(self) -> None:
+        """What matters where the tool is measured."""
+        for name, kind, be in (("wear", Wear, "a Wear"), ("locked", bool, "True or False"), ("edges", tuple | list, "pairs")):
+            if not isinstance(getattr(self, name), kind):
+                raise Alarm(f"the {name} of a tool must be {be}, got {shown(getattr(self, name))}")
+        check_point(self.runout, "the runout of a tool", flat=True)
+        object.__setattr__(self, "runout", tuple(map(float, self.runout)))
+        for each in self.edges:
+            check_point(each, "an edge of a tool, its deviations of length and radius", flat=True)
+        object.__setattr__(self, "edges", tuple((float(length), float(radius)) for length, radius in self.edges))
+        if self.edges and self.teeth not in (0, len(self.edges)):
+            raise Alarm(f"the edges of a tool must be as many as its teeth, got {len(self.edges)} and {self.teeth:g}")
 
     def of_radius(self, radius: float, dr: float = 0.0) -> Tool:
         """The same tool with another radius, mm; a corner that this has no room for is as large as it."""

@@ -42,7 +42,8 @@ def _fields(record: Any) -> Iterator[tuple[str, Any, Any]]:
 
 
 def _same(value: Any, default: Any) -> bool:
-    return value is default or (type(value) in (int, float, str, bool, tuple, dict) and bool(value == default))
+    plain = type(value) in (int, float, str, bool, tuple, dict)
+    return value is default or ((plain or is_dataclass(default) and type(value) is type(default)) and bool(value == default))
 
 
 def _exact(value: Any) -> str:

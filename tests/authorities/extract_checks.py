@@ -67,6 +67,7 @@ EXAMPLES = {
         *(f"CYCL DEF {number}" for number in (251, 252, 253, 254, 256, 257, 258, 233)),
         "PGM C210 (section 6.10)",
     ],
+    "tnc620-probing-presets": [*(f"TCH PROBE {number}" for number in range(408, 420)), "example 15.14", "example 15.15"],
     "tnc620-threading": [
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
         "PGM 1 (section 5.11)",

@@ -16,7 +16,7 @@ from mnclab.workpiece.blank import Box, Revolved
 
 NAN, INF = math.nan, math.inf
 NEVER = [NAN, INF, -INF, "3", None, True, [1], {}, 1j, 10**400]
-WORDS_AND_BODIES = ("name", "kind", "hand", "centre_cutting", "shank", "holder")
+WORDS_AND_BODIES = ("name", "kind", "hand", "centre_cutting", "shank", "holder", "wear", "locked", "runout", "edges")
 NUMBERS = [each.name for each in fields(Tool) if each.name not in WORDS_AND_BODIES]
 SIZES = ["radius", "corner", "teeth", "cutting_length", "width", "number", "angle", "plunge_angle"]
 

@@ -79,7 +79,13 @@ from mnclab.controls.tnc_620.language import (
     tools,
 )
 from mnclab.controls.tnc_620.printing import output
-from mnclab.controls.tnc_620.probing import presets
+from mnclab.controls.tnc_620.probing import (
+    preset_circles,
+    preset_corners,
+    preset_holes,
+    preset_rectangles,
+    presets,
+)
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
 from mnclab.controls.tnc_620.reading.numbers import numbers
@@ -146,7 +152,12 @@ CHAPTERS = (
     train,
     trochoidal_slot,
     cylinder,
-    transformations, tilting, special, engraving, face_milling, presets, program_call,
+    transformations, tilting, special, engraving, face_milling, program_call,
+    presets,
+    preset_rectangles,
+    preset_circles,
+    preset_corners,
+    preset_holes,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()

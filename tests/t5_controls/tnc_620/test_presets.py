@@ -58,12 +58,12 @@ def mnclab_array(rows):
 
 
 def test_the_result_moves_the_datum_of_the_blocks_that_follow():
-    """X 0 of the program is now the wall: 25.06 in the old system, which is the origin of the path."""
-    run = probing(WALL, after="5 L X+0 Y+0 R0 FMAX\n6 L IX+1 FMAX\n")
-    assert run.toolpath.end[-2] == pytest.approx((25.06, 0, 50), abs=1e-9)
-    assert run.toolpath.end[-1] == pytest.approx((26.06, 0, 50), abs=1e-9)
-    line = next(n for n, text in enumerate(run.program.text.splitlines(), 1) if text.startswith("5 L X+0"))
-    assert run.at(line=line).position == pytest.approx((0, 0, 50), abs=1e-9)
+    """X 0 of the program is now the wall: 25.06 in the old system, which is the origin of the path. The probe stays off it."""
+    run = probing(WALL, after="5 L X-10 Y+0 R0 FMAX\n6 L IX+1 FMAX\n")
+    assert run.toolpath.end[-2] == pytest.approx((15.06, 0, 50), abs=1e-9)
+    assert run.toolpath.end[-1] == pytest.approx((16.06, 0, 50), abs=1e-9)
+    line = next(n for n, text in enumerate(run.program.text.splitlines(), 1) if text.startswith("5 L X-10"))
+    assert run.at(line=line).position == pytest.approx((-10, 0, 50), abs=1e-9)
 
 
 def test_downwards():

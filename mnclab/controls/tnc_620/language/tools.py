@@ -36,7 +36,11 @@ def tool_call(m: Machine, words: Words) -> None:
     feed = above_zero(m, words["F"], "TOOL CALL F (feed rate)") if "F" in words else None
     deltas = {DELTAS[name]: m.value(words[name]) for name in DELTAS if name in words}
     word = words.get("tool", words.get("text"))
-    tool, before = find(m, word, "TOOL CALL") if word else None, change_axis(m, words)
+    tool = find(m, word, "TOOL CALL") if word else None
+    if tool and tool.locked:
+        hint = "it counts as worn or broken: another tool takes its place"
+        m.alarm(f"TOOL CALL cannot call T{tool.number}: it is locked in the tool table (TL = L)", word, hint)
+    before = change_axis(m, words)
     if tool or deltas or before != tool_axis(m):
         put_in(m, tool, deltas, words, before)
     if speed is not None:
