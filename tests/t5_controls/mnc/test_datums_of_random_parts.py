@@ -1,7 +1,7 @@
 """Base rotation and datums from random parts against plain arithmetic (MNC 12.1 to 12.12, formulas of the catalogue).
 
-Place, turn and size of the part, the ball, the approach, an earlier base rotation B and a shift s of G92 are random. D is the datum
-in the machine, p a place of the program: machine = D + Rot_B(p + s).
+Place, turn and size of the part, the ball, the approach, an earlier base rotation B and a shift s of G92 are random. D is the
+datum in the machine, p a place of the program: machine = D + Rot_B(p + s).
 """
 
 import math
@@ -10,7 +10,10 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 from probed import gaps
-from probing_mnc import BEFORE, DATUM, at, base_of, box, disc, measured, rows_of, to_round, to_wall, turn, walls, working
+
+from probing_mnc import (  # isort: skip
+    BEFORE, DATUM, at, base_of, box, disc, measured, rows_of, to_round, to_wall, turn, walls, working,
+)  # fmt: skip
 
 from mnclab import Datum
 
@@ -24,7 +27,7 @@ BACK = {"+X": "-X", "-X": "+X", "+Y": "-Y", "-Y": "+Y"}
 
 
 class Case(NamedTuple):
-    """A block, its part in program coordinates, what the record must say, the centres by axis with what they get, and the turn."""
+    """A block, its part in program coordinates, what the record must say, what was found by axis with what it gets, the turn."""
 
     words: dict
     part: object
@@ -77,9 +80,9 @@ class Scene:
         return words, {"Z": self.top}, {2: (self.top, self.new[2])}
 
 
-def aside(centre, sign, start, which):
+def aside(centre, start, which):
     """Where the touch of a side starts: that far from the middle of the figure."""
-    return np.array(centre) + np.array(AHEAD[which]) * start * sign
+    return np.array(centre) + np.array(AHEAD[which]) * start
 
 
 def slot_or_ridge(scene, inside):
@@ -93,7 +96,7 @@ def slot_or_ridge(scene, inside):
     for which in SIDES[2 * k : 2 * k + 2]:
         point, normal = out[which]
         way = AHEAD[which] if inside else AHEAD[BACK[which]]
-        hit.append(to_wall(aside(nominal, 1, start, which), way, (point, -normal if inside else normal), scene.ball)[k])
+        hit.append(to_wall(aside(nominal, start, which), way, (point, -normal if inside else normal), scene.ball)[k])
     middle, wide = (hit[0] + hit[1]) / 2, hit[0] - hit[1] + (2 if inside else -2) * scene.ball
     top = (centre[0] + 60 * (k == 0 or not inside) * inside, centre[1] + 60 * (k == 1) * inside)
     more, says, found = scene.above(*top)
@@ -118,7 +121,7 @@ def box_figure(scene, inside):
         start = 0.0 if from_centre else half - scene.away if inside else half + scene.away
         point, normal = out[which]
         way = AHEAD[which] if inside else AHEAD[BACK[which]]
-        hit[which] = to_wall(aside(nominal, 1, start, which), way, (point, -normal if inside else normal), scene.ball)
+        hit[which] = to_wall(aside(nominal, start, which), way, (point, -normal if inside else normal), scene.ball)
     more = (2 if inside else -2) * scene.ball
     x, y = (hit["+X"][0] + hit["-X"][0]) / 2, (hit["+Y"][1] + hit["-Y"][1]) / 2
     says = {"length X": hit["+X"][0] - hit["-X"][0] + more, "length Y": hit["+Y"][1] - hit["-Y"][1] + more}
@@ -135,10 +138,10 @@ def round_figure(scene, inside):
     nominal, real = scene.place(), diameter + scene.some(-0.2, 0.2)
     centre = np.array(scene.near(nominal, 0.2))
     start = max(diameter / 2 - scene.away, 0.0) if inside else diameter / 2 + scene.away
-    hit = [
-        to_round(aside(nominal, 1, start, which), AHEAD[which] if inside else AHEAD[BACK[which]], centre, real / 2, scene.ball, not inside)
-        for which in SIDES
-    ]  # fmt: skip
+    hit = []
+    for which in SIDES:
+        way = AHEAD[which] if inside else AHEAD[BACK[which]]
+        hit.append(to_round(aside(nominal, start, which), way, centre, real / 2, scene.ball, not inside))
     x, y = (hit[0][0] + hit[1][0]) / 2, (hit[2][1] + hit[3][1]) / 2
     rho = sum(math.dist(each, (x, y)) for each in hit) / 4
     words, higher, found = scene.above(centre[0] + inside * diameter, centre[1])
@@ -149,7 +152,7 @@ def round_figure(scene, inside):
 
 
 def corner_of(hits, ways, ball):
-    """Where two lines cross, each through two ball centres and moved by the ball towards the material; and the angle of the first."""
+    """Where two lines cross, each through two ball centres and moved by the ball to the material; the angle of the first."""
     normals, sums = [], []
     for (one, other), way in zip(hits, ways):
         along = other - one
@@ -305,7 +308,8 @@ def test_an_alignment_of_random_parts():
         out = walls(centre, (120, 90), angle)
         point, normal = out[{v: n for n, v in AHEAD.items()}[tuple(-way + 0.0)]]
         along = np.array((-normal[1], normal[0]))
-        points = [np.round(point + along * far + way * scene.some(-0.4, 0.4), 3) for far in (scene.some(-38, -10), scene.some(5, 38))]
+        apart = scene.some(-38, -10), scene.some(5, 38)
+        points = [np.round(point + along * far + way * scene.some(-0.4, 0.4), 3) for far in apart]
         reference = scene.some(-360, 360)
         words = scene.common(X=points[0][0], Y=points[0][1], U=points[1][0], V=points[1][1], L=k + 1, K=sense, E=reference)
         words.pop("S")
