@@ -165,7 +165,6 @@ NAMES = {
     "exact_calibration_sphere_radius": "radius",
     "ring_radius": "radius",
     "stud_radius": "radius",
-    "number_of_probe_points": "points",
     "positioning_feed_rate": "positioning",
     "select_feed_rate": "rapid",
     "angle_tracking": "track",

@@ -305,7 +305,8 @@ def test_single_touches_of_a_plane(seed):
     ball = start + (0, 0, draw.ball)
     travel = draw(2, 11)
     point = ball + travel * way - draw.ball * normal  # where the ball then touches
-    run, ends = draw.run(text + f"\nG0 X{draw.centre[0]} Y{draw.centre[1]} Z60", parts.plane(point, normal), draw.centre + (1, 0))
+    home = f"\nG0 X{draw.centre[0]} Y{draw.centre[1]} Z60"
+    run, ends = draw.run(text + home, parts.plane(point, normal), draw.centre + (1, 0))
     touch = probes(run)[0]
     assert np.linalg.norm(touch.end - touch.start) == pytest.approx(travel, abs=1e-6)
     tip, back = start + travel * way, int(np.flatnonzero(run.toolpath.motion.kind == Kind.PROBE)[0]) + 1
