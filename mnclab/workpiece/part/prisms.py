@@ -142,7 +142,7 @@ class Prisms:
         keys = np.column_stack([kind, columns[:, [0, 1, 2, 3, 5]].round(DIGITS)])
         once, first, element = np.unique(keys, axis=0, return_index=True, return_inverse=True)  # lines, arcs, circles
         lines, arcs, circles = (Edges(*columns[first[once[:, 0] == each]].T) for each in range(3))
-        times, begin = np.zeros((len(once), len(sizes))), np.cumsum(sizes) - sizes
+        times, begin = np.zeros((len(once), len(sizes))), np.cumsum([0, *sizes[:-1]])
         np.add.at(times, (element.ravel(), np.repeat(np.arange(len(sizes)), sizes)), 1.0)
         return Walls(lines, arcs, circles, element.ravel(), begin, times)
 
@@ -183,7 +183,7 @@ class Prisms:
         if len(walls.circles.x):
             beyond = np.hypot(x - walls.circles.u, y - walls.circles.v) - walls.circles.radius
             off.append(np.abs(beyond))
-            rounds.append((beyond < 0) * np.sign(walls.circles.sweep))
+            rounds.append(np.where(beyond < 0, np.sign(walls.circles.sweep), 0.0))
         near = np.minimum.reduceat(np.concatenate(off, axis=1)[:, walls.element], walls.begin, axis=1)
         return np.where(np.concatenate(rounds, axis=1) @ walls.times > 0.5, -near, near)
 
