@@ -159,6 +159,15 @@ NAMES = {
     "safe_height": "height",
     "between_points": "between",
     "datum_row": "row",
+    "ring_diameter": "diameter",
+    "boss_diameter": "diameter",
+    # calibration (TNC 620, chapter 17)
+    "exact_calibration_sphere_radius": "radius",
+    "ring_radius": "radius",
+    "stud_radius": "radius",
+    "positioning_feed_rate": "positioning",
+    "select_feed_rate": "rapid",
+    "angle_tracking": "track",
 }
 
 ONCE = "only what L chooses is used: the example writes H0 beside L1, so the limit is checked where it counts"
@@ -210,6 +219,13 @@ EXPLAINED = {
         ("tnc-620", f"TCH PROBE {code}", "Q365", key): (value, "it came later than the cycle: older programs lack it")
         for code in (412, 413)
         for key, value in (("required", False), ("default", 1))
+    },
+    ("tnc-620", "TCH PROBE 460", "Q455", "limits"): ({">=": 0, "<=": 30}, "0 is allowed too"),
+    ("tnc-620", "TCH PROBE 460", "Q455", "default"): (0, "none, as where the option is missing"),
+    ("tnc-620", "TCH PROBE 462", "Q407", "limits"): ({">=": 0, "<=": 99.9999}, "the first 9 was lost in print"),
+    **{
+        ("tnc-620", "TCH PROBE 441", q, "required"): (False, "left out (NO ENT) the touch probe table counts")
+        for q in ("Q396", "Q397", "Q399", "Q400")
     },
     ("tnc-620", "TCH PROBE 405", "Q337", "limits"): ({">=": 0, "<=": 99999}, "0, or a row"),
     ("tnc-620", "TCH PROBE 405", "Q337", "choices"): (set(), "0, or a row"),

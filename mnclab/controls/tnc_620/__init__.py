@@ -80,6 +80,8 @@ from mnclab.controls.tnc_620.language import (
 )
 from mnclab.controls.tnc_620.printing import output
 from mnclab.controls.tnc_620.probing import (
+    calibration,
+    fast_probing,
     measuring_circles,
     measuring_points,
     measuring_sides,
@@ -136,6 +138,7 @@ SETTINGS = (
     *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS, *output.SETTINGS,
     *tool_setter.SETTINGS,
     *leaving.SETTINGS, *cylinder.SETTINGS, *surface.SETTINGS,
+    *calibration.SETTINGS,
     Setting("max_touch_feed", 3000.0, "upper limit of the probing feed (maxTouchFeed, no. 122602)", "13.2", {}, "mm/min", 1),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
@@ -166,6 +169,8 @@ CHAPTERS = (
     preset_circles,
     preset_corners,
     preset_holes,
+    calibration,
+    fast_probing,
     rotation,
     rotary_table,
     measuring_points,
