@@ -85,6 +85,8 @@ from mnclab.controls.tnc_620.probing import (
     preset_holes,
     preset_rectangles,
     presets,
+    rotary_table,
+    rotation,
 )
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
@@ -158,6 +160,8 @@ CHAPTERS = (
     preset_circles,
     preset_corners,
     preset_holes,
+    rotation,
+    rotary_table,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()
