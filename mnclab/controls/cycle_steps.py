@@ -175,7 +175,7 @@ def noting(m: Machine, cycle: type[Cycle], rows: list[Row]) -> Callable[[Iterabl
                 case Each():
                     for x, y in step.points.tolist():
                         yield from through(step.visit(x, y), about)
-                case Touch():
+                case Touch() if not (m.felt and m.felt.setter):
                     yield Go(step.label, step.z, step.feed, step.x, step.y)
                     note(step)
                     answer = touched(m, step)
@@ -194,4 +194,4 @@ def touched(m: Machine, step: Touch) -> Contact:
     """The answer of a part that stands where the probe was sent."""
     x, y, z = m.programmed
     centre = x, y, z + (m.radius if step.ball is None else step.ball)
-    return Contact(centre, m.to_machine(centre), hit=True)
+    return Contact(centre, m.to_machine(centre), hit=True, tip=m.tip)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from mnclab.controls.mnc import auxiliary, language, polar, transforms
 from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets, prepared
-from mnclab.controls.mnc.probing import alignment, corners, datums
+from mnclab.controls.mnc.probing import alignment, corners, datums, tool_setting
 from mnclab.controls.mnc.settings import SETTINGS
 from mnclab.controls.mnc.signs import SIGNS
 from mnclab.controls.mnc.state import Memory
@@ -32,7 +32,7 @@ PHASES = (
 _LATER = "it is part of this control but not built yet"
 REFUSED = (
     {f"G{n}": _LATER for n in (*range(420, 427), *range(460, 463))}
-    | {f"G{n}": _LATER for n in (470, 471, 472, 480, 481, 482, 490, 491, 492, 499)}
+    | {f"G{n}": _LATER for n in (490, 491, 492, 499)}
     | {f"G{n}": "this control has no such cycle, G83 does its work" for n in (81, 82)}
 )
 
@@ -73,6 +73,7 @@ CHAPTERS = (
     alignment,
     datums,
     corners,
+    tool_setting,
 )
 CYCLES = CycleTable({code: cycle for chapter in CHAPTERS for code, cycle in chapter.CYCLES.items()})
 

@@ -6,6 +6,7 @@ to the cycles, `block_skip` is a switch of the operator's panel, `bulk` is about
 
 from __future__ import annotations
 
+from mnclab.controls.mnc.probing import tool_setting
 from mnclab.machine.settings import Setting, one_of
 from mnclab.path.limits import RAPIDS
 
@@ -91,4 +92,4 @@ PROBING = (
            positive="towards positive coordinates", away="away from the corner"),
 )  # fmt: skip
 
-SETTINGS = PROGRAM + MOTION + COORDINATES + TECHNOLOGY + PROBING
+SETTINGS = PROGRAM + MOTION + COORDINATES + TECHNOLOGY + PROBING + tool_setting.SETTINGS

@@ -353,7 +353,7 @@ OTHERS = [
     if setting.name not in ("bulk", "peck_clearance")
     for value in (
         [c for c in setting.choices if c != setting.default]
-        or ([not setting.default] if isinstance(setting.default, bool) else [setting.default + 0.5])
+        or ([not setting.default] if isinstance(setting.default, bool) else [(setting.at_least or 0) + 0.5 if setting.default is None else setting.default + 0.5])
     )
 ]
 number = st.integers(-20_000, 20_000).map(lambda n: f"{n / 1000:g}")
