@@ -17,7 +17,7 @@ from mnclab.geometry.vectors import turned
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.cut_so_far import CUT, part_before
 from mnclab.machine.measuring import Touched
-from mnclab.machine.tool_axis import tool_axis
+from mnclab.machine.tool_axis import FRAME, tool_axis
 from mnclab.text.program import Word
 from mnclab.workpiece.part import Part, contact, foot
 from mnclab.workpiece.part.rows import blocked
@@ -109,7 +109,7 @@ def ball_from_axis(m: Machine) -> tuple[float, float]:
 def true_ball(m: Machine, ball: float) -> Ball:
     """The ball of the tool in the spindle, as it is; `ball` is the radius where nobody says it."""
     true = m.setup.true_tools.get(m.tool.number)
-    up = np.array(m.matrix[:3, tool_axis(m)])
+    up = np.array(m.matrix[:3, 2 if FRAME in m.frames else tool_axis(m)])
     up /= np.linalg.norm(up)
     radius = ball if true is None else true.effective_radius
     longer = 0.0 if true is None else true.effective_length - m.tool.effective_length
