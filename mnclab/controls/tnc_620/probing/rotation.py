@@ -153,7 +153,7 @@ class SetBasicRotation(ProbingCycle):
 def apart(axis: float, first: Pair, second: Pair) -> Iterator[Fault]:
     """Two touches along an axis of the plane (1, 2) that would meet one place."""
     if first[across := 2 - int(axis)] == second[across]:
-        yield ("second_y" if across else "second_x"), f"is that of the first touch point: two places make a line"
+        yield ("second_y" if across else "second_x"), "is that of the first touch point: two places make a line"
 
 
 def edge(m: Machine, a: Approach, code: str, points: Pairs, axis: float, sense: float) -> Touched:
