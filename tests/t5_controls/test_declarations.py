@@ -184,6 +184,8 @@ GLOBAL_LIMITS = [
     *((105, q, TIMES) for q in ("Q210", "Q211")), (110, "Q370", OVERLAP), (111, "Q2", OVERLAP), (111, "Q6", LENGTH),
     (111, "Q7", SIGNED), (120, "Q320", LENGTH), (120, "Q260", SIGNED),
 ]  # fmt: skip
+PLACES = [*((n, 1100 + k) for n, count in ((1410, 6), (1411, 6), (1420, 9)) for k in range(count)), (1411, 1116), (1411, 1117)]
+AIMED = [(n, q) for n in (1410, 1411, 1420) for q in ("Q1125", "Q309", "Q1126")]
 DEFAULTED = [("CYCL DEF 256", "Q437"), ("CYCL DEF 257", "Q376"), ("CYCL DEF 233", "Q348"), ("CYCL DEF 233", "Q349")]
 #: (control, code, address, key) -> what the declaration has, and why.
 EXPLAINED = {
@@ -226,6 +228,11 @@ EXPLAINED = {
     **{
         ("tnc-620", "TCH PROBE 441", q, "required"): (False, "left out (NO ENT) the touch probe table counts")
         for q in ("Q396", "Q397", "Q399", "Q400")
+    },
+    **{("tnc-620", f"TCH PROBE {n}", f"Q{q}", "also"): (set(), "a text, under QS and the same number") for n, q in PLACES},
+    **{
+        ("tnc-620", f"TCH PROBE {n}", q, "limits"): ({}, "its choices")
+        for n, q in (*AIMED, (1410, "Q372"), (1420, "Q372"), (1411, "Q1115"))
     },
     ("tnc-620", "TCH PROBE 405", "Q337", "limits"): ({">=": 0, "<=": 99999}, "0, or a row"),
     ("tnc-620", "TCH PROBE 405", "Q337", "choices"): (set(), "0, or a row"),

@@ -80,7 +80,9 @@ from mnclab.controls.tnc_620.language import (
 )
 from mnclab.controls.tnc_620.printing import output
 from mnclab.controls.tnc_620.probing import (
+    aimed,
     calibration,
+    edge,
     fast_probing,
     measuring_circles,
     measuring_points,
@@ -94,6 +96,7 @@ from mnclab.controls.tnc_620.probing import (
     rotation,
     tool_measuring,
     tool_setter,
+    two_circles,
 )
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
@@ -137,6 +140,7 @@ SETTINGS = (
     *tools.SETTINGS, *no_effect.SETTINGS, *retraction.SETTINGS, *tilting.SETTINGS, *engraving.SETTINGS,
     *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS, *output.SETTINGS,
     *tool_setter.SETTINGS,
+    *aimed.SETTINGS,
     *leaving.SETTINGS, *cylinder.SETTINGS, *surface.SETTINGS,
     *calibration.SETTINGS,
     Setting("max_touch_feed", 3000.0, "upper limit of the probing feed (maxTouchFeed, no. 122602)", "13.2", {}, "mm/min", 1),
@@ -178,6 +182,8 @@ CHAPTERS = (
     measuring_sides,
     tool_setter,
     tool_measuring,
+    edge,
+    two_circles,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()
