@@ -88,6 +88,7 @@ from mnclab.controls.tnc_620.probing import (
     preset_holes,
     preset_rectangles,
     presets,
+    single,
 )
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
@@ -164,6 +165,7 @@ CHAPTERS = (
     measuring_points,
     measuring_circles,
     measuring_sides,
+    single,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()
