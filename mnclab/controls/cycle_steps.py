@@ -18,7 +18,7 @@ from mnclab.machine.control import Control
 from mnclab.machine.cycle import Cycle, Definition, Parameter
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Setup
-from mnclab.machine.touching import Contact
+from mnclab.machine.touching import FEELS, PROBES, Contact
 from mnclab.machine.trial import is_text
 from mnclab.machine.true_size import MILLS
 from mnclab.path.listing import figure
@@ -96,7 +96,7 @@ def allowed(cycle: type[Cycle], parameter: Parameter, value: Any) -> Any:
 
 def situations(control: Control, cycle: type[Cycle], setup: Setup) -> Iterator[Machine]:
     """Machines on which a cycle may run: with each tool, first those made for it, with the spindle on and off."""
-    wanted = "mill" if cycle.does == MILLS else "probe" if "PROBE" in cycle.code else "drill"
+    wanted = "mill" if cycle.does == MILLS else "probe" if cycle.does in (PROBES, FEELS) else "drill"
     magazine = control.magazine if setup.tools is None else setup.tools
     tools = sorted((n for n in magazine if n), key=lambda number: magazine[number].kind != wanted)
     places = (trial_start(control, cycle, setup), (0.0, 0.0, 5.0)) if control.lathe else ((20.0, 10.0, 20.0),)

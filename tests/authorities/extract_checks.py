@@ -33,6 +33,9 @@ EXAMPLES = {
         *("frame", "discretes", "G70", "G71", "G77", "G78", "contour exercise", "G73", "G72", "G74", "G75"),
         *("G31", "G32", "G33", "G25", "fragment N90-N111"),
     ],
+    "mnc-probing": [
+        *("G400", "G404", "G408", "G409", "G410", "G411", "G412", "G413", "G414", "G415", "G417", "G419"),
+    ],
     "jnc-t01": [
         *("program structure", "table 2 notes", "axes and dimensions", "spindle control", "feed programming"),
         *("linear moves", "arc moves", "G00", "G01", "G02", "G03", "G04", "G12", "G14", "G32", "G73", "G74", "G75"),
@@ -58,6 +61,10 @@ EXAMPLES = {
         *("fixed cycles", "CYCL DEF", "CYCL CALL PAT", "CYCL CALL POS", "M89", "PREDEF"),
         *(f"PATTERN DEF {form}" for form in ("POS", "ROW", "PAT", "FRAME", "CIRC", "PITCHCIRC")),
         *("point table", "SEL PATTERN"),
+    ],
+    "tnc620-probing-alignment": [
+        *(f"TCH PROBE {number}" for number in (400, 401, 402, 403, 404, 405, 1410, 1411, 1420)),
+        *("14xx semi-automatic mode", "14xx text parameters"),
     ],
     "tnc620-patterns": ["CYCL DEF 220", "CYCL DEF 221"],
     "tnc620-pockets": [

@@ -75,14 +75,14 @@ NAMES = {
     "feed_rate_for_milling": ("feed", "milling_feed"),
     "first_point_axis_1": "x",
     "first_point_axis_2": "y",
+    "second_point_axis_1": "second_x",
+    "second_point_axis_2": "second_y",
     "measuring_height": ("z", "level"),
     "first_point_axis_3": "z",
     "measuring_axis": "axis",
     "traverse_direction": "direction",
     "number_in_table": "row",
     "datum_ts_axis": ("datum", "datum_z"),
-    "second_point_axis_1": "second_x",
-    "second_point_axis_2": "second_y",
     "second_point_axis_3": "second_z",
     "third_point_axis_3": "third_z",
     "maximum_limit_size": "maximum_limit",
@@ -165,6 +165,11 @@ NAMES = {
     "center_axis_2": "centre_y",
     "slot_position_reference": "slot_position",
     "start_tool_axis": "surface",
+    # measuring cycles (MNC, chapter 12)
+    "extra_clearance": "clearance",
+    "safe_height": "height",
+    "between_points": "between",
+    "datum_row": "row",
 }
 
 ONCE = "only what L chooses is used: the example writes H0 beside L1, so the limit is checked where it counts"
@@ -193,6 +198,8 @@ EXPLAINED = {
     ("mnc", "G306", "L", "choices"): ({1, -1, 0}, "L0 is L1 (MNC-G306-L)"),
     ("mnc", "G307", "K", "limits"): ({">=": 0}, "its other limit is H: a check"),
     ("mnc", "G309", "P", "limits"): ({}, "not 0: a check"),
+    ("mnc", "G415", "C", "limits"): ({}, "its choices"),
+    **{("mnc", f"G{n}", letter, "required"): (False, "with F1: a check") for n in range(408, 416) for letter in "IJK"},
     **{
         ("tnc-620", f"CYCL DEF {n}", "Q208", "limits"): ({">=": 0}, "FMAX is infinite; the upper limit is a check")
         for n in (22, 23)
@@ -215,6 +222,8 @@ EXPLAINED = {
         for code in (412, 413)
         for key, value in (("required", False), ("default", 1))
     },
+    ("tnc-620", "TCH PROBE 405", "Q337", "limits"): ({">=": 0, "<=": 99999}, "0, or a row"),
+    ("tnc-620", "TCH PROBE 405", "Q337", "choices"): (set(), "0, or a row"),
     ("tnc-620", "CYCL DEF 21", "Q13", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
     ("tnc-620", "CYCL DEF 24", "Q438", "default"): (-1, "in a sentence there"),
     **{("tnc-620", f"CYCL DEF {n}", "Q18", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name") for n in (22, 25, 276)},
@@ -272,7 +281,7 @@ MARKS = {
 
 
 #: Rows that name an address in words; others say in brackets in which sub-block it stands.
-ADDRESSED = {"axis and sign": "axis", "X Y Z ...": "X|Y|Z", "REFERENCE SYSTEM": "SYSTEM"}
+ADDRESSED = {"axis and sign": "axis", "X Y Z ...": "X|Y|Z", "X Y Z": "X|Y|Z", "REFERENCE SYSTEM": "SYSTEM"}
 
 
 def addressed(row):

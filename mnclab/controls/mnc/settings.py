@@ -86,4 +86,9 @@ TECHNOLOGY = (
     Setting("bulk", True, "obey long runs of plain blocks at once"),
 )  # fmt: skip
 
-SETTINGS = PROGRAM + MOTION + COORDINATES + TECHNOLOGY
+PROBING = (
+    one_of("corner_spacing", "where points 2 and 4 of G414 lie", "MNC-G414-SPACING",
+           positive="towards positive coordinates", away="away from the corner"),
+)  # fmt: skip
+
+SETTINGS = PROGRAM + MOTION + COORDINATES + TECHNOLOGY + PROBING

@@ -88,6 +88,8 @@ from mnclab.controls.tnc_620.probing import (
     preset_holes,
     preset_rectangles,
     presets,
+    rotary_table,
+    rotation,
     single,
 )
 from mnclab.controls.tnc_620.reading import reader
@@ -162,6 +164,8 @@ CHAPTERS = (
     preset_circles,
     preset_corners,
     preset_holes,
+    rotation,
+    rotary_table,
     measuring_points,
     measuring_circles,
     measuring_sides,

@@ -200,7 +200,8 @@ def test_din_iso():
     assert run.ok, run.alarms
     assert run.variables["Q5"] == pytest.approx(0.012, abs=1e-9)
     for wrong, said in (
-        ("G55 P01 5 X+5", "G55 axis (probing axis and direction) is missing"), ("G91 G55 P01 5 P02 X P03 0 X+5", "takes absolute coordinates"),
+        ("G55 P01 5 X+5", "G55 axis (probing axis and direction) is missing"),
+        ("G91 G55 P01 5 P02 X P03 0 X+5", "takes absolute coordinates"),
         ("G55 P01 5 P02 A P03 0", "G55 takes P01, P02 with P03, X, Y and Z"),
     ):  # fmt: skip
         other = mnc.run(f"%P G71 *\nN10 T7 G17 *\nN20 {wrong} *\nN99999999 %P G71 *\n", "tnc-620", setup)
@@ -248,5 +249,6 @@ def test_refused(text, line, said):
 
 
 def test_a_name_in_front_is_free_and_words_in_it_are_told():
-    run = probing("TCH PROBE 3.0 MESURE X+5\n" + "".join(three(1, "Z", 0, -5).splitlines(True)[1:]), part.plane((0, 0, -3), (0, 0, 1)))
+    text = "TCH PROBE 3.0 MESURE X+5\n" + "".join(three(1, "Z", 0, -5).splitlines(True)[1:])
+    run = probing(text, part.plane((0, 0, -3), (0, 0, 1)))
     assert [a.message for a in run.alarms] == ["X+5 is read as part of the cycle's name and not obeyed"]

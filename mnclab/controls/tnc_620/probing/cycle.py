@@ -47,13 +47,17 @@ class ProbingCycle(Cycle):
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from unfit(m)
-        allowed = (*ALLOWED, TILT) if self.tilted else ALLOWED
-        if active := [name for name, _ in m.frames if name not in allowed and name in m.frames]:
-            yield "", f"cannot run while a {active[0]} is active"
+        yield from self.transformed(m)
         if self.transfer == -1 and self.row:  # of programs from older controls (15.1)
             yield "transfer", "-1 does not say where row Q305 is: choose 0 (datum table) or 1 (preset table)"
         if self.monitored_tool != 0:
             yield from in_table(self, m, "monitored_tool")
+
+    def transformed(self, m: Machine) -> Iterator[Fault]:
+        """A transformation that it must not find active (13.2)."""
+        allowed = (*ALLOWED, TILT) if self.tilted else ALLOWED
+        if active := [name for name, _ in m.frames if name not in allowed and name in m.frames]:
+            yield "", f"cannot run while a {active[0]} is active"
 
     def approach(self, m: Machine, **other: Any) -> Approach:
         """How the probe of the table moves in this cycle; `other` values of it."""
