@@ -98,6 +98,17 @@ NAMES = {
     "starting_point_axis_1": "x",
     "starting_point_axis_2": "y",
     "offset_second_measurement": "offset",
+    "probing_axis_and_direction": "probing",
+    "pre_position": ("x", "y", "z"),
+    "probing_axis": "axis",
+    "probing_angle": "angle",
+    "maximum_measuring_range": "reach",
+    "measuring_feed_rate": "feed",
+    "maximum_retraction_path": "back",
+    "reference_system": "system",
+    "vector_x": "direction_x",
+    "vector_y": "direction_y",
+    "vector_z": "direction_z",
     "angle_of_hole_1": "first_angle",
     "angle_of_hole_2": "second_angle",
     "angle_of_hole_3": "third_angle",
@@ -261,7 +272,12 @@ EXPLAINED = {
     **{("tnc-620", f"CYCL DEF {n}", "Q355", "choices"): (set(), "2, 3, … too: any whole number") for n in (262, 267)},
     **{("tnc-620", f"CYCL DEF {n}", "Q355", "type"): ("integer", "of a pitch per step") for n in (262, 267)},
     ("tnc-620", "CYCL DEF 201", "Q203", "limits"): ({">=": -99999.9999, "<=": 99999.9999}, "a misprint: as everywhere"),
-    # inspection (TNC 620, chapter 16)
+    # inspection (TNC 620, chapters 16 and 17)
+    **{
+        ("tnc-620", f"TCH PROBE {n}", "axis", key): (value, "a text, which the reader checks")
+        for n in (0, 1, 3)
+        for key, value in (("limits", {}), *((("type", "text"),) if n else ()))
+    },
     **{
         ("tnc-620", f"TCH PROBE {n}", "Q330", key): (value, "0 is none, any other one a number or a name")
         for n in (421, 422, 423, 424, 425, 426, 427, 430)
@@ -287,13 +303,23 @@ MARKS = {
 }
 
 
+#: Rows that name an address in words; others say in brackets in which sub-block it stands.
+ADDRESSED = {"axis and sign": "axis", "X Y Z ...": "X|Y|Z", "X Y Z": "X|Y|Z", "REFERENCE SYSTEM": "SYSTEM"}
+
+
+def addressed(row):
+    """The addresses of a row."""
+    address = re.sub(r" \(\d\.\d\)$", "", row["address"])
+    return ADDRESSED.get(address, address).split("|")
+
+
 def rows(control, code):
     """Parameters of a cycle with their rows; a repeated address takes the rows in their order."""
     taken = []
     for parameter in mnclab.controls[control].cycles[code].parameters():
         if not parameter.mark:
-            fitting = [row for row in TABLES[control][code] if parameter.address in row["address"].split("|")]
-            alike = [row for row in fitting if row not in taken or "|" in row["address"]]
+            fitting = [row for row in TABLES[control][code] if parameter.address in addressed(row)]
+            alike = [row for row in fitting if row not in taken or len(addressed(row)) > 1]
             assert alike, f"{code} {parameter.address} has no row"
             taken.append(alike[0])
             yield parameter, alike[0]

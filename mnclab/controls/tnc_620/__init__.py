@@ -97,6 +97,7 @@ from mnclab.controls.tnc_620.probing import (
     tool_measuring,
     tool_setter,
     two_circles,
+    single,
 )
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
@@ -184,6 +185,7 @@ CHAPTERS = (
     tool_measuring,
     edge,
     two_circles,
+    single,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()

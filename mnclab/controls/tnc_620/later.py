@@ -14,10 +14,6 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 
 PROBING = {
-    0: "Reference plane",
-    1: "Polar preset",
-    3: "Measuring",
-    4: "Measuring in three dimensions",
     450: "Saving the kinematics",
     451: "Measuring the kinematics",
     452: "Preset compensation",
