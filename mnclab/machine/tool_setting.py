@@ -131,7 +131,7 @@ def falls(edges: list[Edge], at: Pair, radius: float, above: float) -> Iterator[
             within = along * along - away * away + radius * radius
             rho = -along - math.sqrt(within) if within >= 0 and along < 0 else math.inf
         if rho <= lower.radius + SAME:
-            yield above - longer + float(edge_height(np.float64(rho), lower.flat, lower.corner, lower.slope))
+            yield above - longer + float(edge_height(np.array(rho), lower.flat, lower.corner, lower.slope))
 
 
 def strikes(edges: list[Edge], at: Pair, way: Pair, radius: float, below: float) -> Iterator[float]:

@@ -21,9 +21,9 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import Figure, Measurement, judged
 from mnclab.machine.output import put_out
 from mnclab.machine.rotary import roll, turn_axes
-from mnclab.machine.touching import FEELS, PROBES, Contact, Felt, ball_from_axis, guarded, guarded_turn, part_to_touch
 from mnclab.machine.tool_axis import tool_axis
 from mnclab.machine.tool_setting import SETS, at_setter
+from mnclab.machine.touching import FEELS, PROBES, Contact, Felt, ball_from_axis, guarded, guarded_turn, part_to_touch
 from mnclab.machine.true_size import MILLS
 from mnclab.machining.depths import TooMany
 from mnclab.running.binding import as_it_stands, bind, fault
