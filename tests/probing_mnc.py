@@ -1,6 +1,6 @@
 """What tests of measuring cycles of the MNC share: the machine of the catalogue's checks, parts, and touches worked out by hand.
 
-Places are (x, y) of the program, mm; a wall is a point and its unit normal out of the material, a round one a centre and a radius.
+Places are (x, y) of the program, mm; a wall is a point and its unit normal, a round one a centre and a radius.
 """
 
 import math

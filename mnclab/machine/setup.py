@@ -31,13 +31,19 @@ class _Datum(NamedTuple):
     b: float = 0.0
     c: float = 0.0
     rotation: float = 0.0
+    tilt_x: float = 0.0
+    tilt_y: float = 0.0
 
     def __repr__(self) -> str:
         return written(self)
 
 
 class Datum(_Datum):
-    """A zero point: machine coordinates in mm, rotary axes and the turn of the plane in degrees; an Alarm if it is none."""
+    """A zero point: machine coordinates in mm, angles in degrees; an Alarm if it is none.
+
+    `a`, `b`, `c` are where the rotary axes count from, `rotation` turns the plane; `tilt_x` and `tilt_y` are turns about the
+    fixed axes X and Y before that, of a workpiece that does not lie level (SPA, SPB and SPC of a preset table).
+    """
 
     __slots__ = ()
 
@@ -171,7 +177,8 @@ class Setup:
     number get the one they are listed under. `variables` have values before the program begins: what another left
     (`run.variables`). `source` is the file that the setup was read from: an alarm about a setting shows its line.
     `true_tools` are the tools as they truly are, by the number of their row in the table, where they differ from it: what
-    probing and measuring find. `setter` is the tool setter that measures them, if there is one. `kinematics` is not built yet. An Alarm names what cannot be.
+    probing and measuring find. `setter` is the tool setter that measures them, if there is one. `kinematics` is not built
+    yet. An Alarm names what cannot be.
     """
 
     tools: Magazine | None = None

@@ -17,7 +17,7 @@ from mnclab.workpiece.blank import Box, blank
 if TYPE_CHECKING:
     from mnclab.machine.setup import Setup
 
-AXES = ("X", "Y", "Z", "A", "B", "C", "rotation ")  # of a datum
+AXES = ("X", "Y", "Z", "A", "B", "C", "rotation ", "tilt about X ", "tilt about Y ")  # of a datum
 ROWS = {"datums": "datum", "presets": "preset", "correctors": "corrector"}
 NAMED = {"files": "file", "settings": "setting", "variables": "variable"}
 UNITS = {

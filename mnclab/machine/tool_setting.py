@@ -118,7 +118,8 @@ def way_to(m: Machine, setter: Setter, start: Place, direction: Place) -> float 
     if upright and direction[2] > 0:
         return None
     meets = falls(shown.edges, (x, y), radius, above) if upright else strikes(shown.edges, (x, y), (u, v), radius, -above)
-    return min(meets, default=None)
+    way = min(meets, default=None)
+    return None if way is None else float(way)
 
 
 def falls(edges: list[Edge], at: Pair, radius: float, above: float) -> Iterator[float]:

@@ -14,7 +14,8 @@ import yaml
 
 HERE = Path(__file__).parent / "catalogue"
 
-#: Entries whose examples are copied, by file; behind a blank, what more the name of the copy says. A function that is built gets its entry here.
+#: Entries whose examples are copied, by file; behind a blank, what more the name of the copy says.
+#: A function that is built gets its entry here.
 EXAMPLES = {
     "mnc-language": [
         *("words", "modal groups", "block execution", "G17", "G18", "G19", "G90", "G91", "G92", "G53"),
@@ -62,10 +63,19 @@ EXAMPLES = {
         *(f"PATTERN DEF {form}" for form in ("POS", "ROW", "PAT", "FRAME", "CIRC", "PITCHCIRC")),
         *("point table", "SEL PATTERN"),
     ],
+    "tnc620-probing-alignment": [
+        *(f"TCH PROBE {number}" for number in (400, 401, 402, 403, 404, 405, 1410, 1411, 1420)),
+        *("14xx semi-automatic mode", "14xx text parameters"),
+    ],
     "tnc620-patterns": ["CYCL DEF 220", "CYCL DEF 221"],
     "tnc620-pockets": [
         *(f"CYCL DEF {number}" for number in (251, 252, 253, 254, 256, 257, 258, 233)),
         "PGM C210 (section 6.10)",
+    ],
+    "tnc620-probing-inspection": [
+        *("measuring log", "result classification", "tool monitoring"),
+        *(f"TCH PROBE {number}" for number in (0, 1, 420, 421, 422, 423, 424, 425, 426, 427, 430, 431)),
+        *("program BEAMS", "program BSMEAS"),
     ],
     "tnc620-probing-presets": [*(f"TCH PROBE {number}" for number in range(408, 420)), "example 15.14", "example 15.15"],
     "tnc620-tool-measurement": [

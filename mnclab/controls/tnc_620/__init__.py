@@ -80,11 +80,16 @@ from mnclab.controls.tnc_620.language import (
 )
 from mnclab.controls.tnc_620.printing import output
 from mnclab.controls.tnc_620.probing import (
+    measuring_circles,
+    measuring_points,
+    measuring_sides,
     preset_circles,
     preset_corners,
     preset_holes,
     preset_rectangles,
     presets,
+    rotary_table,
+    rotation,
     tool_measuring,
     tool_setter,
 )
@@ -161,6 +166,11 @@ CHAPTERS = (
     preset_circles,
     preset_corners,
     preset_holes,
+    rotation,
+    rotary_table,
+    measuring_points,
+    measuring_circles,
+    measuring_sides,
     tool_setter,
     tool_measuring,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,

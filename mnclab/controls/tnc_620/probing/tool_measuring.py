@@ -100,7 +100,8 @@ class ToolMeasuring(Cycle):
         if self.teeth:
             turn = math.tau / row.teeth
             if row.teeth > 1 and math.hypot(aside - row.radius * math.cos(turn), row.radius * math.sin(turn)) < tt.radius:
-                yield Say("lays several teeth on the TT at once: the longest of them counts", "a greater R-OFFS lays one alone on it")
+                alone = "a greater R-OFFS lays one alone on it"
+                yield Say("lays several teeth on the TT at once: the longest of them counts", alone)
             yield from self.radius(m, row, tt, high)  # which finds the angle of the first tooth
             yield Go("to the clearance height", high)
         yield Go("over the TT", x=tt.x + aside, y=tt.y)

@@ -117,7 +117,7 @@ class Calibrating(Cycle):
 def calibrated(m: Machine, x: float, y: float, high: float) -> Generator[Step, Any, Calibrated]:
     """From above the TT, whose middle is taken to be at x and y; the tool is left beside it."""
     setter, clearance, feed = setter_of(m), float(m.settings["safety_dist_tool_ax"]), float(m.settings["probing_feed"])
-    length, radius = m.tool.effective_length, m.tool.effective_radius
+    radius = m.tool.effective_radius
     yield Orient("spindle at 0", 0.0)
     contact = yield Touch("touch from above", x, y, min(setter.z, high) - clearance, feed)
     top = contact.tip[2]
@@ -181,7 +181,8 @@ class CalibrateWireless(Calibrating):
             yield Go("by hand", x=setter.x, y=setter.y)
         x, y, high = m.tip
         if (x - setter.x) ** 2 + (y - setter.y) ** 2 > setter.radius**2 or high <= setter.z:
-            m.alarm(f"{self.code} begins above the TT, the tool stands beside it", hint=f"bring it over X{setter.x:g} Y{setter.y:g}")
+            hint = f"bring it over X{setter.x:g} Y{setter.y:g}"
+            m.alarm(f"{self.code} begins above the TT, the tool stands beside it", hint=hint)
         tt = yield from calibrated(m, x, y, high)
         yield Go("up", high)
         yield Go("over the middle", x=tt.x, y=tt.y)
