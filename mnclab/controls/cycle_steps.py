@@ -50,7 +50,7 @@ def steps(code: str, control: str, /, setup: Setup | None = None, **values: Any)
         raise Alarm(f"{code} is no cycle of {found.control.name}: only a cycle has steps", hint=f"cycles: {known}")
     given = chosen(cycle, values)
     faults = []
-    for machine in situations(found.control, cycle, setup or Setup()):
+    for machine in situations(found.control, cycle, setup or found.control.trial_setup or Setup()):
         rows: list[Row] = []
         try:
             definition, start = define(machine, cycle, given), machine.programmed

@@ -165,6 +165,13 @@ NAMES = {
     "center_axis_2": "centre_y",
     "slot_position_reference": "slot_position",
     "start_tool_axis": "surface",
+    # tool setters (TNC 620, chapter 19; MNC 12.27 to 12.32)
+    "probing_the_teeth": "teeth",
+    "status_parameter": "target",
+    "stop_before_running": "stop",
+    "laser_axis": "axis",
+    "reference_length": "length",
+    "reference_diameter": "diameter",
     # measuring cycles (MNC, chapter 12)
     "extra_clearance": "clearance",
     "safe_height": "height",
@@ -206,6 +213,7 @@ EXPLAINED = {
     **{("mnc", code, "T", "limits"): ({">=": 0}, "an example writes T0: then it is F") for code in MILLING},
     **{("mnc", code, "L", "choices"): ({1, -1, 0}, "L0 is L1 (MNC-POCKET-L)") for code in ("G343", "G344")},
     **{("mnc", "G305", address, "limits"): ({}, ONCE) for address in "HD"},
+    ("mnc", "G480", "Q", "required"): (False, "P1 needs none: a check"),
     ("mnc", "G306", "L", "choices"): ({1, -1, 0}, "L0 is L1 (MNC-G306-L)"),
     ("mnc", "G307", "K", "limits"): ({">=": 0}, "its other limit is H: a check"),
     ("mnc", "G309", "P", "limits"): ({}, "not 0: a check"),
@@ -255,6 +263,10 @@ EXPLAINED = {
         for n in (25, 276)
         for q, value in (("Q446", 0.01), ("Q447", 10), ("Q448", 2))
     },
+    **{("tnc-620", f"TCH PROBE {n}", "Q341", "limits"): ({}, "its choices") for n in (481, 482, 483)},
+    **{("tnc-620", f"TCH PROBE {n}", "PROBING THE TEETH", "limits"): ({}, "its choices") for n in (31, 32, 33)},
+    **{("tnc-620", f"TCH PROBE {n}", "status parameter", "limits"): ({}, "which parameter, the reader") for n in (31, 32, 33)},
+    ("tnc-620", "TCH PROBE 484", "Q536", "limits"): ({}, "its choices"),
     ("tnc-620", "CYCL DEF 275", "Q439", "limits"): ({}, "its choices"),
     ("tnc-620", "TCH PROBE 415", "Q308", "limits"): ({}, "its choices"),
     ("tnc-620", "CYCL DEF 8", "axes", "limits"): ({}, "at most three, and which ones, are a check"),
@@ -401,7 +413,7 @@ def test_parameters_stand_in_the_order_of_the_table(control, code):
     found = [TABLES[control][code].index(row) for _, row in rows(control, code)]
     assert found == sorted(found)
     text = str(mnclab.help(code, control)).partition("\n---")[2].splitlines()[1:]
-    told = [line.split()[0] for line in text if line[:1].strip() and not line.startswith("DIN/ISO")]
+    told = [line.partition("  ")[0] for line in text if line[:1].strip() and not line.startswith("DIN/ISO")]
     assert told == [parameter.address for parameter in mnclab.controls[control].cycles[code].parameters()]
 
 
@@ -463,7 +475,7 @@ def test_a_parameter_can_be_explained(control, code, parameter, row):
     """A meaning short enough for an alarm, and a line in the help table."""
     assert parameter.meaning and parameter.unit and len(parameter.meaning) <= 50
     text, page = str(mnclab.help(code, control)), mnclab.help(code, control)._repr_html_()
-    assert [parameter.address] in [line.split()[:1] for line in text.splitlines()]
+    assert parameter.address in [line.partition("  ")[0] for line in text.splitlines()]
     assert f"<code>{parameter.address}</code>" in page
     for choice, meaning in (parameter.choices or {}).items():
         assert f"{choice:g} {meaning}" in text and escape(f"{choice:g} {meaning}") in page

@@ -105,7 +105,7 @@ from mnclab.controls.tnc_620.reading.numbers import numbers
 from mnclab.controls.tnc_620.signs import SIGNS
 from mnclab.controls.tnc_620.state import Memory
 from mnclab.controls.tnc_620.tables import datum_tables, free_tables
-from mnclab.controls.tnc_620.trial import trial_program
+from mnclab.controls.tnc_620.trial import SETUP, trial_program
 from mnclab.machine.control import Control
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.settings import Setting
@@ -231,6 +231,7 @@ CONTROL = Control(
     functions=FUNCTIONS, cycles=CYCLES, names=ISO_NAMES, refused=later.REFUSED, together=later.strange_parameters(CYCLES),
     phases=PHASES, codes=("M",), word_functions=False, meanings=MEANINGS, told=motion.turning_sense, trial=trial_program,
     trial_files=trial_figures.FILES,
+    trial_setup=SETUP,
     settings=SETTINGS, memory=Memory, start=program.start, frames=(secondary_axes.FRAME, "preset"),
     storage="variables", preassigned={**parameters.PREASSIGNED, **system_texts.TEXTS}, local_variables="QL",
     named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again, turned=tool_axis.turned,
