@@ -51,10 +51,12 @@ class Contact(NamedTuple):
 
 
 class Felt(NamedTuple):
-    """What a cycle that probes feels: the part (None: there is none), and whether its places are those of the ball."""
+    """What a cycle that probes feels: the part (None: there is none), and whether its places are those of the ball; or the
+    tool setter."""
 
     part: Part | None
     by_ball: bool
+    setter: bool = False
 
 
 class Ball(NamedTuple):

@@ -80,11 +80,18 @@ from mnclab.controls.tnc_620.language import (
 )
 from mnclab.controls.tnc_620.printing import output
 from mnclab.controls.tnc_620.probing import (
+    measuring_circles,
+    measuring_points,
+    measuring_sides,
     preset_circles,
     preset_corners,
     preset_holes,
     preset_rectangles,
     presets,
+    rotary_table,
+    rotation,
+    tool_measuring,
+    tool_setter,
 )
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
@@ -127,6 +134,7 @@ SETTINGS = (
     ),
     *tools.SETTINGS, *no_effect.SETTINGS, *retraction.SETTINGS, *tilting.SETTINGS, *engraving.SETTINGS,
     *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS, *output.SETTINGS,
+    *tool_setter.SETTINGS,
     *leaving.SETTINGS, *cylinder.SETTINGS, *surface.SETTINGS,
     Setting("max_touch_feed", 3000.0, "upper limit of the probing feed (maxTouchFeed, no. 122602)", "13.2", {}, "mm/min", 1),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
@@ -158,6 +166,13 @@ CHAPTERS = (
     preset_circles,
     preset_corners,
     preset_holes,
+    rotation,
+    rotary_table,
+    measuring_points,
+    measuring_circles,
+    measuring_sides,
+    tool_setter,
+    tool_measuring,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()

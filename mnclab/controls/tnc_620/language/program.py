@@ -21,8 +21,6 @@ def start(m: Machine) -> None:
     """The active preset is the datum of the program (setting "preset")."""
     row = m.settings["preset"]
     preset = m.tables.presets.get(row, Datum())
-    if any((preset.a, preset.b, preset.c, preset.rotation)):
-        m.alarm(f"preset {row} carries a rotation, which is not built yet")
     m.select_datum(preset, "preset")
     parameters.start(m)
 
