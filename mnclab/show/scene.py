@@ -1,4 +1,5 @@
-"""A run in three dimensions: path, tool, blank or part in a pyvista `Plotter`; `part_scene`, `probed_scene` and this file know pyvista.
+"""A run in three dimensions: path, tool, blank or part in a pyvista `Plotter`; pyvista is known here, in `part_scene` and
+in `probed_scene`.
 
 The scene shows itself in Jupyter as a still picture, which works everywhere and needs no server. `scene.show()` does
 the same; `scene.show(jupyter_backend="html")` turns in the browser and needs `mnclab[html]`. VTK without OpenGL ends
