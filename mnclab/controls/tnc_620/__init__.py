@@ -94,10 +94,10 @@ from mnclab.controls.tnc_620.probing import (
     presets,
     rotary_table,
     rotation,
+    single,
     tool_measuring,
     tool_setter,
     two_circles,
-    single,
 )
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
