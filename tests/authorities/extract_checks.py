@@ -14,7 +14,8 @@ import yaml
 
 HERE = Path(__file__).parent / "catalogue"
 
-#: Entries whose examples are copied, by file; behind a blank, what more the name of the copy says. A function that is built gets its entry here.
+#: Entries whose examples are copied, by file; behind a blank, what more the name of the copy says.
+#: A function that is built gets its entry here.
 EXAMPLES = {
     "mnc-language": [
         *("words", "modal groups", "block execution", "G17", "G18", "G19", "G90", "G91", "G92", "G53"),

@@ -58,7 +58,7 @@ class ProbingCycle(Cycle):
         """A transformation that it must not find active (13.2)."""
         allowed = (*ALLOWED, TILT) if self.tilted else ALLOWED
         if active := [name for name, _ in m.frames if name not in allowed and name in m.frames]:
-            yield "", f"cannot run while a {active[0]} is active"
+            yield "", f"cannot run while a {active[0].replace('axis scales', 'scale of an axis')} is active"
 
     def approach(self, m: Machine, **other: Any) -> Approach:
         """How the probe of the table moves in this cycle; `other` values of it."""
