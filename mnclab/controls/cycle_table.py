@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.setup import Datum
+from mnclab.machine.setup_page import AXES, tool_line
 from mnclab.machining.steps import Call, Coolant, Orient, Pause, Say, Spin, Step, Swivel, Turn, Wait, Write
 from mnclab.path.listing import figure, point
 from mnclab.runs.values import described, said
@@ -108,7 +109,7 @@ def called(step: Call) -> str:
 
 def zero_point(datum: Datum, *, whole: bool) -> str:
     """A zero point: all of X, Y and Z if `whole`, else only what is not zero."""
-    pairs = zip(("X", "Y", "Z", "A", "B", "C", "rotation "), datum, strict=True)
+    pairs = zip(AXES, datum, strict=True)
     told = [f"{name}{figure(value)}" for k, (name, value) in enumerate(pairs) if value or (whole and k < 3)]
     return " ".join(told) or "all zero"
 
@@ -130,7 +131,11 @@ def written(step: Write) -> str:
             return f"frame {key}: now called {value}"
         case "datum":
             return f"datum: {zero_point(value, whole=True)}"
-        case "presets" | "datums" | "tools":
+        case "tool" | "tools":
+            return f"{step.what}{'' if key is None else f' row {key}'}: {tool_line(value)}"
+        case "file":
+            return f"file {key}"
+        case "presets" | "datums":
             row = zero_point(value, whole=False) if isinstance(value, Datum) else str(value)
             return f"{step.what} row {key}: {row}"
         case "variable" | "measured":

@@ -47,11 +47,13 @@ class Placed(State):
         self.log("frame " + name, tuple(map(tuple, (self.frames[name]).tolist())))
 
     def select_datum(self, datum: Datum, frame: str = "datum") -> None:
-        """Count from a work offset, and its turn of the plane XY; the first one selected is the origin of the path."""
+        """Count from a work offset in its turned axes; the first one selected is the origin of the path."""
         if self.origin is None:
             self.origin = (datum.x, datum.y, datum.z)
         place = frames.shift(datum.x, datum.y, datum.z)
-        self.set_frame(frame, place @ frames.turn(math.radians(datum.rotation)) if datum.rotation else place)
+        for angle, axis in ((datum.rotation, "z"), (datum.tilt_y, "y"), (datum.tilt_x, "x")):
+            place = place @ frames.turn(math.radians(angle), axis) if angle else place
+        self.set_frame(frame, place)
 
     def to_machine(self, point: Iterable[float]) -> Place:
         x, y, z = point

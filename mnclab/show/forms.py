@@ -135,7 +135,7 @@ def form(code: str, control: str) -> Any:
         return trial.program(help_page.control, chosen, {n: v for n, v in values().items() if v != defaults.get(n)})
 
     title = ipywidgets.HTML(f"<strong><code>{escape(chosen.code)}</code> {escape(chosen.title)}</strong>")
-    setup = Setup(files=help_page.control.trial_files)
+    setup = replace(help_page.control.trial_setup or Setup(), files=help_page.control.trial_files)
     if help_page.control.lathe:
         setup = replace(setup, start=(30, 0, 20))  # clear of the chuck's axis
 

@@ -39,6 +39,7 @@ class Approach:
     positioning: float = RAPID
     over: bool = False
     track: bool = False
+    stands: float | None = None
 
     @property
     def away(self) -> float:
@@ -47,8 +48,8 @@ class Approach:
 
     @property
     def pole(self) -> float:
-        """The south pole at the measuring height."""
-        return self.level - self.ball
+        """The south pole at the measuring height; where the probe `stands` there already, that."""
+        return self.level - self.ball if self.stands is None else self.stands
 
     def go(self, label: str, z: float | None = None, x: float | None = None, y: float | None = None) -> Go:
         """Position."""
@@ -138,6 +139,27 @@ def from_above(a: Approach, x: float, y: float, z: float, now: float, *, leave: 
     return contact
 
 
+def in_one_axis(a: Approach, axis: int, sense: float, points: Sequence[tuple[float, float, float]], now: float) -> Steps:
+    """Touches along an axis (0, 1, or 2: that of the tool) at nominal points, in the plane at `Approach.level`; the contacts."""
+    if axis < 2:
+        direction = (sense, 0.0) if axis == 0 else (0.0, sense)
+        return (yield from in_plane(a, [Aim(x, y, direction) for x, y, _ in points], now))
+    contacts = []
+    for k, (x, y, z) in enumerate(points):
+        begin = z - sense * a.away - a.ball
+        if k == 0:
+            yield from over_to(a, x, y, now, begin)
+        else:
+            if a.over:
+                yield a.go("to the clearance height", a.height)
+            yield a.go("to the next starting point", x=x, y=y)
+            yield a.go("to the starting point", begin)
+        contacts.append((yield Touch(f"touch {k + 1}", x, y, begin + sense * a.reach, a.feed, a.ball)))
+        yield a.go("back", begin)
+    yield a.go("to the clearance height", a.height)
+    return contacts
+
+
 # --- figures -------------------------------------------------------------------------------------------------------------
 
 
@@ -201,7 +223,8 @@ def sides(a: Approach, centre: Pair, half: Pair, order: Sequence[int], inside: b
 
 
 def around(
-    a: Approach, centre: Pair, radius: float, first: float, step: float, count: int, inside: bool, now: float, arc: bool = True
+    a: Approach, centre: Pair, radius: float, first: float, step: float, count: int, inside: bool, now: float, arc: bool = True,
+    leave: bool = True,
 ) -> Steps:  # fmt: skip
     """Touches of a hole or a round stud, from an angle on in steps (degrees); returns the contacts (TNC 620 15.6, 15.7, 16.4).
 
@@ -214,7 +237,7 @@ def around(
     aims = on_circle(centre, radius, first, step, count, inside, None if begin else radius)
     turn = Turn("around", math.radians(step), feed=a.positioning, centre=centre)
     ways = [[turn]] * (count - 1) if begin and (arc or not a.over) else ()
-    return (yield from in_plane(a, aims, now, ways))
+    return (yield from in_plane(a, aims, now, ways, leave))
 
 
 def from_centre(a: Approach, centre: Pair, now: float) -> Steps:

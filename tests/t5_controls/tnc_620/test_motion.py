@@ -126,9 +126,15 @@ def test_preset_is_the_origin(tnc) -> None:
     assert tuple(run.toolpath.origin) == (100, 50, -20) and run.toolpath[0].end.tolist() == [10, 0, 0]
 
 
-def test_a_preset_that_is_turned_is_refused(tnc) -> None:
-    run = tnc("1 L X+10 F100\n", mnc.Setup(presets={0: mnc.Datum(rotation=3)}))
-    assert [a.message for a in run.alarms] == ["preset 0 carries a rotation, which is not built yet"]
+def test_a_preset_that_is_turned_and_tilted(tnc) -> None:
+    """Rz(30) Ry(20) Rx(10) of (10, 0, 0): the turn about X leaves it, that about Y takes it to (10 cos 20, 0, -10 sin 20)."""
+    preset = mnc.Datum(1, 2, 3, c=5, rotation=30, tilt_x=10, tilt_y=20)
+    run = tnc("1 L X+10 Y+0 Z+0 C+10 F100\n", mnc.Setup(presets={0: preset}))
+    cos, sin = (lambda angle: math.cos(math.radians(angle))), (lambda angle: math.sin(math.radians(angle)))
+    assert tuple(run.toolpath.origin) == (1, 2, 3)
+    expected = (10 * cos(20) * cos(30), 10 * cos(20) * sin(30), -10 * sin(20))
+    assert run.toolpath[0].end == pytest.approx(expected, abs=1e-12)
+    assert math.degrees(run.toolpath.rotary[-1][2]) == pytest.approx(15)  # C counts from 5
 
 
 def test_blank(tnc) -> None:

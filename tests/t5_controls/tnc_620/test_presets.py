@@ -46,8 +46,8 @@ def test_example_of_the_manual():
     assert [Kind(k).name for k in moves.kind] == ["RAPID", "RAPID", "PROBE", "RAPID", "RAPID"]
     expected = [(21, 25, 100), (21, 25, 23), (23.06, 25, 23), (21, 25, 23), (21, 25, 50)]
     assert moves.end == pytest.approx(mnclab_array(expected), abs=1e-9)
-    assert run.tables.presets[0] == pytest.approx((125.06, 200, -300, 0, 0, 0, 0), abs=1e-9)
-    assert run.tables.presets[1] == (100, 200, -300, 0, 0, 0, 0)
+    assert run.tables.presets[0] == pytest.approx((125.06, 200, -300, 0, 0, 0, 0, 0, 0), abs=1e-9)
+    assert run.tables.presets[1] == (100, 200, -300, 0, 0, 0, 0, 0, 0)
     assert run.setup.presets[1] == PRESET  # the setup stays as it was
 
 

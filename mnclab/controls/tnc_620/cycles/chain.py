@@ -12,9 +12,10 @@ from __future__ import annotations
 from collections.abc import Generator, Iterator, Mapping
 from typing import Any, TypeAlias
 
-from mnclab.controls.tnc_620.state import memory
+from mnclab.controls.tnc_620.state import active_preset, memory
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.machine import Machine
+from mnclab.machine.setup import Datum
 from mnclab.machining.steps import Write
 from mnclab.text.program import Word
 
@@ -107,13 +108,18 @@ def rotary(m: Machine) -> tuple[tuple[float, ...], tuple[float, ...]]:
     return kept.rotary_shift, tuple(-1.0 if axis in kept.rotary_mirror else 1.0 for axis in "ABC")
 
 
+def offset(m: Machine, axis: int) -> float:
+    """Where a rotary axis counts from by the active preset, degrees (A_OFFS, B_OFFS, C_OFFS)."""
+    return float(m.tables.presets.get(active_preset(m), Datum())[3 + axis])
+
+
 def to_rotary(m: Machine, axis: int, angle: float) -> float:
     """The position of a rotary axis, degrees, for an angle of the program."""
     shift, sense = rotary(m)
-    return shift[axis] + sense[axis] * angle
+    return offset(m, axis) + shift[axis] + sense[axis] * angle
 
 
 def to_angle(m: Machine, axis: int, position: float) -> float:
     """The angle of the program, degrees, for a position of a rotary axis."""
     shift, sense = rotary(m)
-    return sense[axis] * (position - shift[axis])
+    return sense[axis] * (position - offset(m, axis) - shift[axis])

@@ -177,9 +177,6 @@ class Presetting(Cycle):
         if row and m.setup.presets and row not in m.tables.presets:
             known = ", ".join(map(str, sorted(m.tables.presets))) or "none but 0"
             yield "preset_number", f"names row {row}, which the preset table does not have (rows: {known})"
-        preset = m.tables.presets.get(row, Datum())
-        if any((preset.a, preset.b, preset.c, preset.rotation)):
-            yield "preset_number", f"names row {row}, which carries a rotation: that is not built yet"
 
     def moves(self, m: Machine) -> Iterator[Step]:
         row = int(self.preset_number)

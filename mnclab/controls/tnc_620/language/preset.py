@@ -22,7 +22,8 @@ def set_datum(m: Machine, words: Words) -> None:
         m.alarm(f"FN 25 cannot set the datum while a {active[0]} is active", words["axis"])
     by = (m.value(words["first"]) - m.value(words["second"])) * m.variable_unit
     before = m.tables.presets.get(active_preset(m), Datum())
-    preset = before._replace(**{axis.lower(): getattr(before, axis.lower()) + by})
+    way = by * m.frames["preset"][:3, "XYZ".index(axis)]
+    preset = before._replace(**{name: float(old + along) for name, old, along in zip("xyz", before, way)})
     m.write_table("presets", 0, preset)
     memory(m).preset = 0
     m.select_datum(preset, "preset")

@@ -21,8 +21,6 @@ def start(m: Machine) -> None:
     """The active preset is the datum of the program (setting "preset")."""
     row = m.settings["preset"]
     preset = m.tables.presets.get(row, Datum())
-    if any((preset.a, preset.b, preset.c, preset.rotation)):
-        m.alarm(f"preset {row} carries a rotation, which is not built yet")
     m.select_datum(preset, "preset")
     parameters.start(m)
 
@@ -47,6 +45,7 @@ def end(m: Machine, words: Words) -> None:
         m.alarm(f"END PGM says {unit.value}, BEGIN PGM {kept.unit}", unit)
     if kept.name is not None and name != kept.name:
         m.warn(f"END PGM names {name}, BEGIN PGM {kept.name}", words.words[0])
+    kept.fast_probing = None  # 17.10
     if m.flow.called:
         m.flow.end_program()
     else:

@@ -9,9 +9,11 @@ from __future__ import annotations
 from collections.abc import Generator, Iterable, Iterator, Sequence
 from typing import Any, ClassVar
 
+from mnclab.controls.tnc_620.contours.other_tools import Named, in_table
 from mnclab.controls.tnc_620.cycles.chain import TILT
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
+from mnclab.controls.tnc_620.probing.fast_probing import probe_in_force
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
 from mnclab.machine.tool_axis import FRAME
@@ -39,19 +41,28 @@ class ProbingCycle(Cycle):
     move_to_clearance = 0.0
     row = 0.0
     transfer = 1.0
+    measuring_log = 0.0
+    program_stop = 0.0
+    monitored_tool: Named = 0.0
     probe_z = top_x = top_y = top_z = datum_z = 0.0
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from unfit(m)
-        allowed = (*ALLOWED, TILT) if self.tilted else ALLOWED
-        if active := [name for name, _ in m.frames if name not in allowed and name in m.frames]:
-            yield "", f"cannot run while a {active[0]} is active"
+        yield from self.transformed(m)
         if self.transfer == -1 and self.row:  # of programs from older controls (15.1)
             yield "transfer", "-1 does not say where row Q305 is: choose 0 (datum table) or 1 (preset table)"
+        if self.monitored_tool != 0:
+            yield from in_table(self, m, "monitored_tool")
+
+    def transformed(self, m: Machine) -> Iterator[Fault]:
+        """A transformation that it must not find active (13.2)."""
+        allowed = (*ALLOWED, TILT) if self.tilted else ALLOWED
+        if active := [name for name, _ in m.frames if name not in allowed and name in m.frames]:
+            yield "", f"cannot run while a {active[0].replace('axis scales', 'scale of an axis')} is active"
 
     def approach(self, m: Machine, **other: Any) -> Approach:
         """How the probe of the table moves in this cycle; `other` values of it."""
-        probe = m.tables.probe
+        probe = probe_in_force(m)
         found = {
             "ball": m.radius, "gap": probe.clearance + self.clearance, "level": self.level, "height": self.height,
             "reach": probe.reach, "feed": min(probe.feed, m.settings["max_touch_feed"]),

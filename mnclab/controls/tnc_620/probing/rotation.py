@@ -1,0 +1,211 @@
+"""Basic rotation over two points, holes or studs, and set by hand: cycles 400, 401, 402, 404 (TNC 620, 14.7 to 14.9, 14.11)."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterator, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+from mnclab.controls.tnc_620.cycles.addresses import angle, choice, coordinate, count, length
+from mnclab.controls.tnc_620.cycles.faults import Fault
+from mnclab.controls.tnc_620.probing import addresses
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed, numbers
+from mnclab.controls.tnc_620.probing.misalignment import C, align, cannot_turn, reset, store, zeroed
+from mnclab.controls.tnc_620.state import active_preset
+from mnclab.machine.cycle import CycleTable
+from mnclab.machine.machine import Machine
+from mnclab.machine.touching import Contact
+from mnclab.machining.probing import fits
+from mnclab.machining.probing.found import Circle, Line
+from mnclab.machining.probing.sequences import Approach, Pair, around, from_centre, in_one_axis
+from mnclab.machining.probing.sketches import line_sketch, round_sketch
+from mnclab.machining.steps import Measure, Step
+
+CYCLES = CycleTable()
+Pairs = tuple[Pair, Pair]
+Touched = Generator[Step, Any, tuple[Line, list[Contact]]]
+COMPENSATION: dict[float, str] = {0: "basic rotation", 1: "the rotary table turns"}
+row = partial(addresses.row, at_most=99999)
+reference = partial(angle, "Q307", meaning="angle of the line that is 0", example=0)
+first_center_axis_1 = partial(coordinate, "Q268", meaning="first center, reference axis", example=20)
+first_center_axis_2 = partial(coordinate, "Q269", meaning="first center, minor axis", example=20)
+second_center_axis_1 = partial(coordinate, "Q270", meaning="second center, reference axis", example=80)
+second_center_axis_2 = partial(coordinate, "Q271", meaning="second center, minor axis", example=20)
+compensation = partial(choice, "Q402", meaning="compensation", choices=COMPENSATION, example=0)
+set_to_zero = partial(choice, "Q337", meaning="set the rotary axis to zero", choices=addresses.SWITCH, example=0)
+
+
+@CYCLES("TCH PROBE 400", "Basic rotation", runs="definition", source="14.7")
+class BasicRotation(ProbingCycle):
+    """Two touches of an edge, which becomes the direction Q307; an active basic rotation is over before."""
+
+    x: float = addresses.first_x()
+    y: float = addresses.first_y()
+    second_x: float = addresses.second_x()
+    second_y: float = addresses.second_y()
+    axis: float = addresses.axis(example=2)
+    direction: float = addresses.direction()
+    level: float = addresses.level()
+    clearance: float = addresses.clearance()
+    height: float = addresses.height()
+    move_to_clearance: float = addresses.move_to_clearance()
+    preset_rotation_angle: float = reference()
+    row: float = row(note="0: the active row")
+
+    def contradictions(self) -> Iterator[Fault]:
+        yield from apart(self.axis, (self.x, self.y), (self.second_x, self.second_y))
+
+    def moves(self, m: Machine) -> Moves:
+        yield from reset(m)
+        points = (self.x, self.y), (self.second_x, self.second_y)
+        line, contacts = yield from edge(m, self.approach(m), self.code, points, self.axis, self.direction)
+        turned = fits.reduced(line.angle - self.preset_rotation_angle)
+        yield Measure("rotation", turned, 0.0, unit="deg", touches=numbers(contacts))
+        yield from store(m, self.row or active_preset(m), rotation=turned)
+
+
+@CYCLES("TCH PROBE 401", "Basic rotation over two holes", runs="definition", source="14.8")
+class OverTwoHoles(ProbingCycle):
+    """Four touches of each hole from its programmed center, so that DIST must reach the wall."""
+
+    first_center_axis_1: float = first_center_axis_1()
+    first_center_axis_2: float = first_center_axis_2()
+    second_center_axis_1: float = second_center_axis_1()
+    second_center_axis_2: float = second_center_axis_2()
+    level: float = addresses.level()
+    height: float = addresses.height()
+    preset_rotation_angle: float = reference()
+    row: float = row()
+    compensation: float = compensation()
+    set_to_zero: float = set_to_zero()
+
+    def contradictions(self) -> Iterator[Fault]:
+        yield from one_place(self)
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from super().check(m)
+        if self.compensation == 1:
+            yield from cannot_turn(m, C, "compensation")
+
+    def moves(self, m: Machine) -> Moves:
+        yield from reset(m)
+        a, holes = self.approach(m), []
+        for k, centre in enumerate(centres(self)):
+            holes.append((yield from from_centre(a, centre, m.programmed[2])))
+            yield from found(self, m, holes[k], k, None, a)
+        yield from compensate(self, m, *holes)
+
+
+@CYCLES("TCH PROBE 402", "Basic rotation over two studs", runs="definition", source="14.9")
+class OverTwoStuds(ProbingCycle):
+    """Four touches round each stud, counter-clockwise."""
+
+    first_center_axis_1: float = first_center_axis_1()
+    first_center_axis_2: float = first_center_axis_2()
+    diameter_stud_1: float = length("Q313", "diameter of the first stud", note="rather too large", example=20)
+    level: float = addresses.level(meaning="measuring height at the first stud")
+    second_center_axis_1: float = second_center_axis_1()
+    second_center_axis_2: float = second_center_axis_2()
+    diameter_stud_2: float = length("Q314", "diameter of the second stud", note="rather too large", example=20)
+    measuring_height_stud_2: float = coordinate("Q315", "measuring height at the second stud", example=-5)
+    clearance: float = addresses.clearance()
+    height: float = addresses.height()
+    move_to_clearance: float = addresses.move_to_clearance()
+    preset_rotation_angle: float = reference()
+    row: float = row()
+    compensation: float = compensation()
+    set_to_zero: float = set_to_zero()
+
+    def contradictions(self) -> Iterator[Fault]:
+        yield from one_place(self)
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from super().check(m)
+        if self.compensation == 1:
+            yield from cannot_turn(m, C, "compensation")
+
+    def moves(self, m: Machine) -> Moves:
+        yield from reset(m)
+        a, studs = self.approach(m), []
+        sizes = (self.diameter_stud_1, self.level), (self.diameter_stud_2, self.measuring_height_stud_2)
+        for k, (centre, (diameter, level)) in enumerate(zip(centres(self), sizes, strict=True)):
+            a = replace(a, level=level)
+            studs.append((yield from around(a, centre, diameter / 2, 0, 90, 4, False, m.programmed[2], arc=False)))
+            yield from found(self, m, studs[k], k, diameter / 2, a)
+        yield from compensate(self, m, *studs)
+
+
+@CYCLES("TCH PROBE 404", "Set basic rotation", runs="definition", source="14.11")
+class SetBasicRotation(ProbingCycle):
+    """Nothing moves: the basic rotation of a preset row becomes Q307."""
+
+    preset_rotation_angle: float = angle("Q307", "basic rotation", example=0)
+    row: float = count("Q305", "number in table", at_least=-1, note="-1: the active row; 0: row 0, active then", example=-1)
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from self.transformed(m)
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        yield from store(m, active_preset(m) if self.row == -1 else self.row, rotation=self.preset_rotation_angle)
+
+
+def apart(axis: float, first: Pair, second: Pair) -> Iterator[Fault]:
+    """Two touches along an axis of the plane (1, 2) that would meet one place."""
+    if first[across := 2 - int(axis)] == second[across]:
+        yield ("second_y" if across else "second_x"), "is that of the first touch point: two places make a line"
+
+
+def edge(m: Machine, a: Approach, code: str, points: Pairs, axis: float, sense: float) -> Touched:
+    """Two touches of an edge along an axis of the plane (1, 2); returns the line of the ball's centres, and the contacts."""
+    contacts = yield from in_one_axis(a, int(axis) - 1, sense, [(*point, a.level) for point in points], m.programmed[2])
+    line = needed(fits.line, [c.point for c in contacts], m=m, code=code)
+    direction = (sense, 0.0) if axis == 1 else (0.0, sense)
+    touched = fits.off_the_ball([c.point[:2] for c in contacts], direction, a.ball).tolist()
+    yield line_sketch(points, touched, a.level, contacts)
+    return line, contacts
+
+
+# --- two centres: 401 and 402 ---------------------------------------------------------------------------------------------
+
+
+def centres(c: OverTwoHoles | OverTwoStuds) -> Pairs:
+    return (c.first_center_axis_1, c.first_center_axis_2), (c.second_center_axis_1, c.second_center_axis_2)
+
+
+def one_place(c: OverTwoHoles | OverTwoStuds) -> Iterator[Fault]:
+    """Two centres that make no line."""
+    if centres(c)[0] == centres(c)[1]:
+        yield "second_center_axis_1", "and Q271 are those of the first center: two places make a line"
+
+
+def circle(c: ProbingCycle, m: Machine, contacts: Sequence[Contact]) -> Circle:
+    """Of the ball's centres."""
+    around_it: Circle = needed(fits.circle, [each.point for each in contacts], "power", m=m, code=c.code)
+    return around_it
+
+
+def found(
+    c: OverTwoHoles | OverTwoStuds, m: Machine, contacts: Sequence[Contact], which: int, radius: float | None, a: Approach
+) -> Iterator[Step]:
+    """The lines of the record for a circle, and its picture where it has a nominal `radius`."""
+    is_, nominal = circle(c, m, contacts), centres(c)[which]
+    for axis, actual, should in zip("XY", is_.centre, nominal, strict=True):
+        yield Measure(f"center {which + 1} {axis}", actual, should, touches=numbers(contacts))
+    if radius is not None:
+        yield round_sketch(nominal, radius, is_.grown(-a.ball), a.level, contacts)
+
+
+def compensate(
+    c: OverTwoHoles | OverTwoStuds, m: Machine, first: Sequence[Contact], second: Sequence[Contact]
+) -> Iterator[Step]:
+    """The line through both centres becomes the direction Q307: by a basic rotation, or by the rotary table."""
+    line = needed(fits.line, [circle(c, m, contacts).centre for contacts in (first, second)], m=m, code=c.code)
+    turned = fits.reduced(line.angle - c.preset_rotation_angle, 360)
+    yield Measure("rotation", turned, 0.0, unit="deg", touches=numbers([*first, *second]))
+    if c.compensation == 0:
+        yield from store(m, c.row, rotation=turned)
+        return
+    yield from align(m, C, turned)
+    if c.set_to_zero:
+        yield from store(m, c.row, **zeroed(m, C))
