@@ -112,7 +112,7 @@ def test_the_active_row_is_written_and_the_working_datum_stays():
     """MNC-DATUM-WACTIVE: S0 W1 changes row 1 alone, until it is selected again."""
     part = parts.box((0.25, 0, -80), (100, 60, 0))
     found = measured(SIDE.replace("W0 U0 S1", "W1 U0 S0") + "\nG0 X0\nG54\nG0 X0\n", part)
-    assert found.tables.datums[1] == pytest.approx((300.25, 200, -400, 0, 0, 0, 0))
+    assert found.tables.datums[1] == pytest.approx(Datum(300.25, 200, -400))
     x = found.toolpath.end[:, 0] + found.toolpath.origin[0]
     assert (x[-2], x[-1]) == pytest.approx((300, 300.25))
 
@@ -137,7 +137,7 @@ def test_neither_row_nor_apply_sets_nothing():
 def test_a_row_keeps_the_columns_that_are_not_measured():
     """MNC-DATUM-OTHERAXES: row 7 keeps Y, Z and its angle, the working datum too."""
     found = measured(SIDE.replace("W0", "W7"), BOX, datums={1: DATUM, 7: Datum(1, 2, 3, rotation=40)})
-    assert found.tables.datums[7] == pytest.approx((300, 2, 3, 0, 0, 0, 40)) and base_of(found) == 0
+    assert found.tables.datums[7] == pytest.approx(Datum(300, 2, 3, rotation=40)) and base_of(found) == 0
 
 
 def test_an_angle_of_zero_is_stored_too():
