@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.probing import addresses
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, needed, numbers, results, too_fine
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, lengths, measured, needed, numbers, too_fine
 from mnclab.controls.tnc_620.probing.transfer import finish
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
@@ -93,5 +93,5 @@ def all_around(c: PresetInCircle | PresetOnCircle, m: Machine, inside: bool) -> 
     found = balls.grown(a.ball if inside else -a.ball)
     yield from measured(contacts, X=(found.x, c.centre_x), Y=(found.y, c.centre_y), diameter=(found.diameter, c.diameter))
     yield sketch(Circle(*centre, radius), found, c.level, numbers(contacts))
-    yield from results(Q151=found.x, Q152=found.y, Q153=found.diameter)
+    yield from lengths(m, Q151=found.x, Q152=found.y, Q153=found.diameter)
     yield from finish(c, m, a, {0: (found.x, c.datum_x), 1: (found.y, c.datum_y)})

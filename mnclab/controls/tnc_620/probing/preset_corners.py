@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, distance
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero
 from mnclab.controls.tnc_620.probing import addresses
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, needed, numbers, results
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, lengths, measured, needed, numbers
 from mnclab.controls.tnc_620.probing.transfer import finish
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
@@ -128,7 +128,7 @@ def both_sides(c: PresetOnCorner | PresetInCorner, m: Machine, a: Approach, *lin
     yield from measured(contacts, X=(found.x, nominal[0]), Y=(found.y, nominal[1]))
     yield Measure("angle", angle, 0.0, unit="deg", touches=numbers(contacts))
     yield sketch([lines[0][0][1], nominal, lines[1][0][1]], [balls[1], found.centre, balls[3]], c.level, numbers(contacts))
-    yield from results(Q151=found.x, Q152=found.y)
+    yield from lengths(m, Q151=found.x, Q152=found.y)
     turned = angle if c.basic_rotation else 0.0
     yield from finish(c, m, a, {0: (found.x, c.datum_x), 1: (found.y, c.datum_y)}, turned)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from mnclab.controls.tnc_620.cycles.addresses import coordinate, distance
 from mnclab.controls.tnc_620.probing import addresses
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, needed, numbers, results
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, lengths, measured, needed, numbers
 from mnclab.controls.tnc_620.probing.transfer import finish
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
@@ -75,7 +75,7 @@ def middle(c: PresetInSlot | PresetOnRidge, m: Machine, inside: bool) -> Moves:
     at = found.centre[k]
     yield from measured(contacts, **{"XY"[k]: (at, centre[k]), "width": (found.width, c.width)})
     yield sketch(Width(*centre, c.width), found, c.level, numbers(contacts), 90 * k)
-    yield from results(Q157=at, Q166=found.width)
+    yield from lengths(m, Q157=at, Q166=found.width)
     yield from finish(c, m, a, {k: (at, c.datum)})
 
 
@@ -140,5 +140,5 @@ def four_sides(c: PresetInRectangle | PresetOnRectangle, m: Machine, inside: boo
     sizes = {"length": (found.length, c.length), "width": (found.width, c.width)}
     yield from measured(contacts, X=(found.x, c.centre_x), Y=(found.y, c.centre_y), **sizes)
     yield sketch(Rectangle(*centre, c.length, c.width), found, c.level, numbers(contacts))
-    yield from results(Q151=found.x, Q152=found.y, Q154=found.length, Q155=found.width)
+    yield from lengths(m, Q151=found.x, Q152=found.y, Q154=found.length, Q155=found.width)
     yield from finish(c, m, a, {0: (found.x, c.datum_x), 1: (found.y, c.datum_y)})
