@@ -225,3 +225,101 @@ def test_a_stud_is_not_crossed_between_its_touches():
     stud = cylinder((50, 50, -30), (50, 50, 15), 37.5)
     run = probing(example(EXAMPLES["TCH PROBE 413"], Q381=0) + "\n", stud)
     assert run.ok and gaps(run, stud.shifted(*PRESET), 2)[1:].min() >= -1e-6
+
+
+def test_a_program_in_the_manner_of_a_post():
+    """Top, then outside, then a bore: each preset counts at once (Q305 = 0), as posts for CAM write it.
+
+    The part is a disc of 64 with a bore of 22, its axis at (0.4, -0.3) and its top at 0.25 in the preset of before. With Q320 = 8
+    and SET_UP = 2 a touch begins 10 mm off, so that DIST has to be longer than that.
+    """
+    text = """0  BEGIN PGM RONDE_ANTASTEN MM
+1  BLK FORM 0.1 Z  X-33  Y-33  Z-30
+2  BLK FORM 0.2  X+33  Y+33  Z+0
+3  ;-------------------------------------
+4  ; T100 D=6 probe
+5  ;-------------------------------------
+6  * - Oberkante
+7  M5
+8  TOOL CALL 100 Z S50
+9  L M140 MB MAX
+10 L  X-24  Y+0 R0 FMAX
+11 L  Z+60 R0 FMAX
+12 CYCL DEF 32.0 TOLERANCE
+13 CYCL DEF 32.1
+14 TCH PROBE 417 DATUM IN TS AXIS ~
+    Q263=-24   ;1ST POINT 1ST AXIS ~
+    Q264=+0    ;1ST POINT 2ND AXIS ~
+    Q294=+0    ;1ST POINT 3RD AXIS ~
+    Q320=+8    ;SET-UP CLEARANCE ~
+    Q260=+15   ;CLEARANCE HEIGHT ~
+    Q305=+0    ;NUMBER IN TABLE ~
+    Q333=+0    ;DATUM ~
+    Q303=+1    ;MEAS. VALUE TRANSFER
+15 L  Z+60 FMAX
+16 * - Aussen
+17 L  X+0  Y+0 R0 FMAX
+18 TCH PROBE 413 DATUM OUTSIDE CIRCLE ~
+    Q321=+0    ;CENTER IN 1ST AXIS ~
+    Q322=+0    ;CENTER IN 2ND AXIS ~
+    Q262=+64   ;NOMINAL DIAMETER ~
+    Q325=+0    ;STARTING ANGLE ~
+    Q247=+90   ;STEPPING ANGLE ~
+    Q261=-5    ;MEASURING HEIGHT ~
+    Q320=+8    ;SET-UP CLEARANCE ~
+    Q260=+15   ;CLEARANCE HEIGHT ~
+    Q301=+1    ;MOVE TO CLEARANCE ~
+    Q305=+0    ;NUMBER IN TABLE ~
+    Q331=+0    ;DATUM ~
+    Q332=+0    ;DATUM ~
+    Q303=+1    ;MEAS. VALUE TRANSFER ~
+    Q381=+0    ;PROBE IN TS AXIS ~
+    Q382=+0    ;1ST CO. FOR TS AXIS ~
+    Q383=+0    ;2ND CO. FOR TS AXIS ~
+    Q384=+0    ;3RD CO. FOR TS AXIS ~
+    Q333=+0    ;DATUM ~
+    Q423=+4    ;NO. OF MEAS. POINTS ~
+    Q365=+1    ;TYPE OF TRAVERSE
+19 L  Z+60 FMAX
+20 CALL LBL 1
+21 M5
+22 L M140 MB MAX
+23 M30
+24 LBL 1
+25 TCH PROBE 412 DATUM INSIDE CIRCLE ~
+    Q321=+0 ~
+    Q322=+0 ~
+    Q262=+22 ~
+    Q325=+0 ~
+    Q247=+90 ~
+    Q261=-5 ~
+    Q320=+8 ~
+    Q260=+15 ~
+    Q301=+1 ~
+    Q305=+0 ~
+    Q331=+5 ~
+    Q332=-5 ~
+    Q303=+1 ~
+    Q381=+0 ~
+    Q382=+0 ~
+    Q383=+0 ~
+    Q384=+0 ~
+    Q333=+0
+26 L  X+5 Y-5 R0 FMAX
+27 LBL 0
+28 END PGM RONDE_ANTASTEN MM
+"""
+    disc = cylinder((0.4, -0.3, -30), (0.4, -0.3, 0.25), 32) - hole((0.4, -0.3, 0.25), 22, 25)
+    run = mnc.run(text, "tnc-620", mnc.Setup(
+        tools={100: mnc.Tool(radius=3, kind="probe")}, presets={1: PRESET}, settings={"preset": 1},
+        part=disc.shifted(*PRESET), probe=mnc.Probe(clearance=2, reach=30),
+    ))  # fmt: skip
+    assert run.ok, run.alarms
+    assert len(run.touches) == 9
+    assert np.array(run.tables.presets[0][:3]) - PRESET == pytest.approx((0.4 - 5, -0.3 + 5, 0.25), abs=1e-6)
+    found = [(row.what, round(row.actual, 6)) for row in run.measurements]
+    assert found == [("Z", 0.25), ("X", 0.4), ("Y", -0.3), ("diameter", 64), ("X", 0), ("Y", 0), ("diameter", 22)]
+    line = run.program.text.splitlines().index("26 L  X+5 Y-5 R0 FMAX") + 1
+    assert run.at(line=line).position[:2] == pytest.approx((5, -5), abs=1e-9)
+    starts = np.subtract([touch.start for touch in run.touches[5:]], PRESET)
+    assert starts[:, :2] == pytest.approx(np.tile((0.4, -0.3), (4, 1)), abs=1e-6)  # 11 is less than 3 + 10: from the centre

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from mnclab.controls.tnc_620.cycles.addresses import coordinate, distance
 from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, lengths, measured, needed, numbers
@@ -79,9 +81,9 @@ def middle(c: PresetInSlot | PresetOnRidge, m: Machine, inside: bool) -> Moves:
     yield from finish(c, m, a, {k: (at, c.datum)})
 
 
-@CYCLES("TCH PROBE 410", "Preset from inside a rectangle", runs="definition", source="15.4")
-class PresetInRectangle(ProbingCycle):
-    """Four touches from within a pocket; its middle gets the coordinates Q331 and Q332."""
+@dataclass(frozen=True)
+class Rectangular:
+    """The parameters of 410 and 411."""
 
     centre_x: float = addresses.center_x()
     centre_y: float = addresses.center_y()
@@ -100,32 +102,19 @@ class PresetInRectangle(ProbingCycle):
     top_y: float = addresses.top_y()
     top_z: float = addresses.top_z()
     datum_z: float = addresses.datum_z()
+
+
+@CYCLES("TCH PROBE 410", "Preset from inside a rectangle", runs="definition", source="15.4")
+class PresetInRectangle(Rectangular, ProbingCycle):
+    """Four touches from within a pocket; its middle gets the coordinates Q331 and Q332."""
 
     def moves(self, m: Machine) -> Moves:
         return four_sides(self, m, inside=True)
 
 
 @CYCLES("TCH PROBE 411", "Preset from outside a rectangle", runs="definition", source="15.5")
-class PresetOnRectangle(ProbingCycle):
+class PresetOnRectangle(Rectangular, ProbingCycle):
     """Four touches of a stud from outside; its middle gets the coordinates Q331 and Q332."""
-
-    centre_x: float = addresses.center_x()
-    centre_y: float = addresses.center_y()
-    length: float = distance("Q323", "length along the reference axis", example=40)
-    width: float = distance("Q324", "length along the minor axis", example=20)
-    level: float = addresses.level()
-    clearance: float = addresses.clearance()
-    height: float = addresses.height()
-    move_to_clearance: float = addresses.move_to_clearance()
-    row: float = addresses.row()
-    datum_x: float = addresses.datum_x()
-    datum_y: float = addresses.datum_y()
-    transfer: float = addresses.transfer()
-    probe_z: float = addresses.probe_z()
-    top_x: float = addresses.top_x()
-    top_y: float = addresses.top_y()
-    top_z: float = addresses.top_z()
-    datum_z: float = addresses.datum_z()
 
     def moves(self, m: Machine) -> Moves:
         return four_sides(self, m, inside=False)
