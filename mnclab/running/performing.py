@@ -193,8 +193,8 @@ def write(m: Machine, step: Write) -> None:
         case "probe":
             m.tables.probe = step.value
             m.log("probe", step.value)
-        case "file":
-            put_out(m, step.key, step.value, anew=True)
+        case "file" | "appended":
+            put_out(m, step.key, step.value, anew=step.what == "file")
         case "frame":
             m.set_frame(step.key, step.value)
         case "renamed":
