@@ -146,9 +146,10 @@ def test_a_picture_of_every_figure(number):
     assert len(figure.nominal.points) == len(figure.actual.points) == SHAPES[number]
     assert figure.height == -5 and figure.cycle == f"TCH PROBE {number}"
     surfaces = np.array([run.touches[k].surface for k in figure.touches])
-    if number in (408, 409, 410, 411, 412, 413):
+    if number < 416:
         near = figure.actual.distance(surfaces[:, :2] - np.array(PRESET[:2]))
-        assert np.abs(near).max() < 1e-4  # a touch beside the middle is not along the normal
+        # a touch beside the middle is not along the normal; on a side turned by 1.5° the ball of 2 is 2 sin 1.5° beside it
+        assert np.abs(near).max() < (0.0525 if number > 413 else 1e-4)
 
 
 def test_a_probe_that_stands_beside_the_spindle_axis_measures_right():
