@@ -18,7 +18,7 @@ from mnclab.machine.control import Control
 from mnclab.machine.cycle import Cycle, Definition, Parameter
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Setup
-from mnclab.machine.touching import Contact
+from mnclab.machine.touching import FEELS, PROBES, Contact
 from mnclab.machine.true_size import MILLS
 from mnclab.path.listing import figure
 from mnclab.running.binding import store, value_of
@@ -95,7 +95,7 @@ def allowed(cycle: type[Cycle], parameter: Parameter, value: Any) -> Any:
 
 def situations(control: Control, cycle: type[Cycle], setup: Setup) -> Iterator[Machine]:
     """Machines on which a cycle may run: with each tool, first those made for it, with the spindle on and off."""
-    wanted = "mill" if cycle.does == MILLS else "probe" if "PROBE" in cycle.code else "drill"
+    wanted = "mill" if cycle.does == MILLS else "probe" if cycle.does in (PROBES, FEELS) else "drill"
     magazine = control.magazine if setup.tools is None else setup.tools
     tools = sorted((n for n in magazine if n), key=lambda number: magazine[number].kind != wanted)
     places = (trial_start(control, cycle, setup), (0.0, 0.0, 5.0)) if control.lathe else ((20.0, 10.0, 20.0),)
@@ -175,7 +175,7 @@ def noting(m: Machine, cycle: type[Cycle], rows: list[Row]) -> Callable[[Iterabl
                 case Each():
                     for x, y in step.points.tolist():
                         yield from through(step.visit(x, y), about)
-                case Touch():
+                case Touch() if not (m.felt and m.felt.setter):
                     yield Go(step.label, step.z, step.feed, step.x, step.y)
                     note(step)
                     answer = touched(m, step)
@@ -194,4 +194,4 @@ def touched(m: Machine, step: Touch) -> Contact:
     """The answer of a part that stands where the probe was sent."""
     x, y, z = m.programmed
     centre = x, y, z + (m.radius if step.ball is None else step.ball)
-    return Contact(centre, m.to_machine(centre), hit=True)
+    return Contact(centre, m.to_machine(centre), hit=True, tip=m.tip)

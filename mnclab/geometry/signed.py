@@ -177,6 +177,8 @@ def winding(edges: Edges, k: Index | EllipsisType, x: Floats, y: Floats) -> Floa
     px, py = x - edges.x[k], y - edges.y[k]
     side, low, high = dx * py - dy * px, py >= 0, edges.y[k] + dy > y
     rounds = (low & high & (side > 0)).astype(float) - (~low & ~high & (side < 0))
+    if not sweep.any():
+        return np.asarray(rounds)
     on_right = np.where(side == 0, (dy > 0) | ((dy == 0) & (dx < 0)), side < 0)
     within = (sweep != 0) & (np.hypot(x - edges.u[k], y - edges.v[k]) < edges.radius[k])
     return np.asarray(rounds + (within & (on_right == (sweep > 0))) * np.sign(sweep))

@@ -21,7 +21,8 @@ from mnclab.text.tables import html_table, text_table
 
 
 class Setting(NamedTuple):
-    """One choice. Its kind is that of the default: true or false, a number, a mapping, or one of `choices` (value -> meaning).
+    """One choice. Its kind is that of the default: true or false, a number (None: unknown), a mapping, or one of `choices`
+    (value -> meaning).
 
     `source` is the section of the manual, or the name of the reading where the manual leaves it open. `chooses`: what a
     choice makes of other settings, as long as nobody gives them (choice -> name -> value).
@@ -60,6 +61,8 @@ class Setting(NamedTuple):
             good = isinstance(value, bool)
         elif isinstance(self.default, Mapping):
             good = isinstance(value, Mapping)
+        elif value is None:
+            good = self.default is None
         else:
             good = isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
             good = good and (self.at_least is None or float(value) >= self.at_least)
@@ -124,6 +127,7 @@ def rows(settings: Iterable[Setting]) -> list[tuple[str, str, str, str, str]]:
     table = []
     for one in settings:
         default = str(one.default).lower() if isinstance(one.default, bool) else str(one.default)
+        default = "unknown" if one.default is None else default
         unit = f" {one.unit}" if one.unit else ""
         table.append((one.name, default + unit, "" if one.choices else one.allowed, one.meaning, one.source))
         for choice, meaning in one.choices.items():

@@ -19,7 +19,7 @@ from mnclab.machine.cut_so_far import CUT, part_before
 from mnclab.machine.measuring import Touched
 from mnclab.machine.tool_axis import tool_axis
 from mnclab.text.program import Word
-from mnclab.workpiece.part import Part, contact
+from mnclab.workpiece.part import Part, contact, foot
 from mnclab.workpiece.part.rows import blocked
 
 if TYPE_CHECKING:
@@ -51,10 +51,12 @@ class Contact(NamedTuple):
 
 
 class Felt(NamedTuple):
-    """What a cycle that probes feels: the part (None: there is none), and whether its places are those of the ball."""
+    """What a cycle that probes feels: the part (None: there is none), and whether its places are those of the ball; or the
+    tool setter."""
 
     part: Part | None
     by_ball: bool
+    setter: bool = False
 
 
 class Ball(NamedTuple):
@@ -137,6 +139,9 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
     if float(part(begin)[0]) - true.radius < -DEEP - slack(m):
         m.alarm("the stylus is in contact before it touches", word, hint="the touch begins where the ball is free")
     travel = contact(part, begin, direction, true.radius, reach)
+    if travel is not None and not part.exact and not foot(part, begin + direction * travel)[1]:
+        hint = "it may touch a little later; parts of boxes, holes, slots, pockets and bosses with one axis are exact there"
+        m.warn("the ball touches off a cut edge of the part, where the distance is only bounded", word, hint=hint)
     if travel is not None:
         travel += trigger(m, direction)
     way = reach if travel is None else travel
@@ -152,9 +157,10 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
     if travel is not None:
         number = len(m.touches)
         surface = _point(begin + direction * (travel + true.radius))
+        found = m.to_program(_point(np.array(centre) + direction * ball))
         m.touches.append(
             Touched(m.step, m.source_line, m.program, m.label, _point(begin), _point(begin + direction * travel),
-                    _point(direction), true.radius, surface, m.to_program(centre))
+                    _point(direction), true.radius, surface, m.to_program(centre), found, m.matrix)
         )  # fmt: skip
     return Contact(m.to_program(centre), centre, travel is not None, _point(end), number)
 

@@ -168,9 +168,7 @@ class Run:
             raise Alarm(f"a condition is a text, got {shown(condition)}", hint='run.when("z < -5")')
         return when(self, condition)
 
-    def explain(
-        self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0
-    ) -> Explanation:
+    def explain(self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0) -> Explanation:
         """A block (named as for `at`) in plain words: what each word means and changed, and the way to the tool."""
         return Explanation(self, self.at(line, pass_, step, program))
 
@@ -264,6 +262,12 @@ class Run:
         from mnclab.show.plot.path import plot_run
 
         return plot_run(self, **options)
+
+    def plot_measured(self, **options: Any) -> Figure:
+        """What was measured, deviations magnified: `line`, `factor`, `part`, `width`; see `mnclab.show.plot.measured`."""
+        from mnclab.show.plot.measured import plot_measured
+
+        return plot_measured(self, **options)
 
     def plot_speed(self, **options: Any) -> Figure:
         """Spindle speed and diameter over the way of a lathe's tool; `most` is the greatest speed, rev/min."""

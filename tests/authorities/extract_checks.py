@@ -14,7 +14,7 @@ import yaml
 
 HERE = Path(__file__).parent / "catalogue"
 
-#: Entries whose examples are copied, by file. A function that is built gets its entry here.
+#: Entries whose examples are copied, by file; behind a blank, what more the name of the copy says. A function that is built gets its entry here.
 EXAMPLES = {
     "mnc-language": [
         *("words", "modal groups", "block execution", "G17", "G18", "G19", "G90", "G91", "G92", "G53"),
@@ -32,6 +32,9 @@ EXAMPLES = {
     "nc-31": [
         *("frame", "discretes", "G70", "G71", "G77", "G78", "contour exercise", "G73", "G72", "G74", "G75"),
         *("G31", "G32", "G33", "G25", "fragment N90-N111"),
+    ],
+    "mnc-probing": [
+        *("G400", "G404", "G408", "G409", "G410", "G411", "G412", "G413", "G414", "G415", "G417", "G419"),
     ],
     "jnc-t01": [
         *("program structure", "table 2 notes", "axes and dimensions", "spindle control", "feed programming"),
@@ -68,6 +71,17 @@ EXAMPLES = {
         *(f"CYCL DEF {number}" for number in (251, 252, 253, 254, 256, 257, 258, 233)),
         "PGM C210 (section 6.10)",
     ],
+    "tnc620-probing-inspection": [
+        *("measuring log", "result classification", "tool monitoring"),
+        *(f"TCH PROBE {number}" for number in (0, 1, 420, 421, 422, 423, 424, 425, 426, 427, 430, 431)),
+        *("program BEAMS", "program BSMEAS"),
+    ],
+    "tnc620-probing-presets": [*(f"TCH PROBE {number}" for number in range(408, 420)), "example 15.14", "example 15.15"],
+    "tnc620-tool-measurement": [
+        *("TT spindle speed and probing feed", "TT geometry", "TT wear and breakage status"),
+        *(f"TCH PROBE {number}" for number in (30, 480, 484, 31, 481, 32, 482, 33, 483)),
+    ],
+    "mnc-probing tool-setting": ["G470", "G471", "G472", "G480", "G481", "G482"],
     "tnc620-threading": [
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
         "PGM 1 (section 5.11)",
@@ -191,7 +205,7 @@ def save(name, records):
 
 def main(folder):
     for name, codes in EXAMPLES.items():
-        save(name, examples(folder, name, codes))
+        save(name.replace(" ", "-"), examples(folder, name.partition(" ")[0], codes))
     for control, prefix in PROGRAMS.items():
         save(f"programs-{control}", programs(folder, prefix))
     for control, records in parameters(folder).items():

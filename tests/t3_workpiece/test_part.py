@@ -110,3 +110,18 @@ def test_planes_are_met_exactly(normal, direction, gap, radius):
         assert travel is None
     elif nearer * 500 > gap + 1e-6:
         assert travel == pytest.approx(gap / nearer, rel=1e-11, abs=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (((0, 0), (1, 0, 0), 2, 10), "where a ball starts must be three numbers"),
+        (((0, 0, np.nan), (1, 0, 0), 2, 10), "where a ball starts must be a finite number"),
+        (((0, 0, 0), "x", 2, 10), "direction of a probe"),
+        (((0, 0, 0), (1, 0, 0), -2, 10), "radius of a ball must be at least 0"),
+        (((0, 0, 0), (1, 0, 0), 2, np.inf), "how far a ball travels"),
+    ],
+)
+def test_nonsense_is_an_alarm(given, said):
+    with pytest.raises(Alarm, match=said):
+        contact(BLOCK, *given)

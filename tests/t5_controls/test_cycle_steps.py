@@ -78,7 +78,8 @@ def test_a_pattern_calls_the_cycle_at_each_of_its_points() -> None:
         ("CYCL DEF 32", {}, ["tolerance: as the limits have it", "filter: finishing: more exact", "tolerance of rotary axes: 0"]),
         ("CYCL DEF 32", {"T": 0.05}, ["tolerance: 0.05", "filter: finishing: more exact", "tolerance of rotary axes: 0"]),
         ("GLOBAL DEF 110", {}, ["default Q370: 1", "default Q351: 1", "default Q366: 0"]),
-        ("TCH PROBE 419", {}, ["presets row 0: X14", "preset: 0", "datum: X14 Y0 Z0"]),
+        # from X 20 - 2 - 2 by the reach of 10, and the ball's side
+        ("TCH PROBE 419", {}, ["presets row 0: X28", "preset: 0", "datum: X28 Y0 Z0"]),
     ],
 )
 def test_what_stays_is_said_in_words(code: str, values: dict[str, float], said: list[str]) -> None:

@@ -82,8 +82,44 @@ NAMES = {
     "measuring_axis": "axis",
     "traverse_direction": "direction",
     "number_in_table": "row",
-    "datum_ts_axis": "datum",
+    "datum_ts_axis": ("datum", "datum_z"),
+    "second_point_axis_3": "second_z",
+    "third_point_axis_3": "third_z",
+    "maximum_limit_size": "maximum_limit",
+    "minimum_limit_size": "minimum_limit",
+    "max_limit_1st_side": "first_maximum",
+    "min_limit_1st_side": "first_minimum",
+    "max_limit_2nd_side": "second_maximum",
+    "min_limit_2nd_side": "second_minimum",
+    "tolerance_center_1": "tolerance_x",
+    "tolerance_center_2": "tolerance_y",
+    "program_stop_if_tolerance_exceeded": "program_stop",
+    "tool_for_monitoring": "monitored_tool",
+    "starting_point_axis_1": "x",
+    "starting_point_axis_2": "y",
+    "offset_second_measurement": "offset",
+    "angle_of_hole_1": "first_angle",
+    "angle_of_hole_2": "second_angle",
+    "angle_of_hole_3": "third_angle",
     "measured_value_transfer": "transfer",
+    # presets (TNC 620, chapter 15)
+    "slot_width": "width",
+    "ridge_width": "width",
+    "first_side_length": "length",
+    "second_side_length": "width",
+    "third_point_axis_1": "third_x",
+    "third_point_axis_2": "third_y",
+    "nominal_center_axis_1": "centre_x",
+    "nominal_center_axis_2": "centre_y",
+    "datum_measuring_axis": "datum",
+    "datum_reference_axis": "datum_x",
+    "datum_minor_axis": "datum_y",
+    "probe_in_ts_axis": "probe_z",
+    "ts_axis_coordinate_1": "top_x",
+    "ts_axis_coordinate_2": "top_y",
+    "ts_axis_coordinate_3": "top_z",
+    "number_of_probe_points": "points",
+    "type_of_traverse": "traverse",
     # drilling (TNC 620, chapter 4)
     "select_diameter_or_depth": "mode",
     "centering_diameter": "diameter",
@@ -118,6 +154,11 @@ NAMES = {
     "center_axis_2": "centre_y",
     "slot_position_reference": "slot_position",
     "start_tool_axis": "surface",
+    # measuring cycles (MNC, chapter 12)
+    "extra_clearance": "clearance",
+    "safe_height": "height",
+    "between_points": "between",
+    "datum_row": "row",
 }
 
 ONCE = "only what L chooses is used: the example writes H0 beside L1, so the limit is checked where it counts"
@@ -148,6 +189,8 @@ EXPLAINED = {
     ("mnc", "G306", "L", "choices"): ({1, -1, 0}, "L0 is L1 (MNC-G306-L)"),
     ("mnc", "G307", "K", "limits"): ({">=": 0}, "its other limit is H: a check"),
     ("mnc", "G309", "P", "limits"): ({}, "not 0: a check"),
+    ("mnc", "G415", "C", "limits"): ({}, "its choices"),
+    **{("mnc", f"G{n}", letter, "required"): (False, "with F1: a check") for n in range(408, 416) for letter in "IJK"},
     **{
         ("tnc-620", f"CYCL DEF {n}", "Q208", "limits"): ({">=": 0}, "FMAX is infinite; the upper limit is a check")
         for n in (22, 23)
@@ -170,6 +213,11 @@ EXPLAINED = {
         ("tnc-620", f"TCH PROBE {n}", q, "limits"): ({}, "its choices")
         for n, q in (*AIMED, (1410, "Q372"), (1420, "Q372"), (1411, "Q1115"))
     },
+    **{
+        ("tnc-620", f"TCH PROBE {code}", "Q365", key): (value, "it came later than the cycle: older programs lack it")
+        for code in (412, 413)
+        for key, value in (("required", False), ("default", 1))
+    },
     ("tnc-620", "TCH PROBE 405", "Q337", "limits"): ({">=": 0, "<=": 99999}, "0, or a row"),
     ("tnc-620", "TCH PROBE 405", "Q337", "choices"): (set(), "0, or a row"),
     ("tnc-620", "CYCL DEF 21", "Q13", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
@@ -181,6 +229,7 @@ EXPLAINED = {
         for q, value in (("Q446", 0.01), ("Q447", 10), ("Q448", 2))
     },
     ("tnc-620", "CYCL DEF 275", "Q439", "limits"): ({}, "its choices"),
+    ("tnc-620", "TCH PROBE 415", "Q308", "limits"): ({}, "its choices"),
     ("tnc-620", "CYCL DEF 8", "axes", "limits"): ({}, "at most three, and which ones, are a check"),
     **{("tnc-620", "CYCL DEF 7", axis, "unit"): ("deg", "one row for all axes; these turn") for axis in "ABC"},
     ("tnc-620", "CYCL DEF 7", "#", "required"): (False, "the form of cycle 7 with a table"),
@@ -196,6 +245,14 @@ EXPLAINED = {
     **{("tnc-620", f"CYCL DEF {n}", "Q355", "choices"): (set(), "2, 3, … too: any whole number") for n in (262, 267)},
     **{("tnc-620", f"CYCL DEF {n}", "Q355", "type"): ("integer", "of a pitch per step") for n in (262, 267)},
     ("tnc-620", "CYCL DEF 201", "Q203", "limits"): ({">=": -99999.9999, "<=": 99999.9999}, "a misprint: as everywhere"),
+    # inspection (TNC 620, chapter 16)
+    **{
+        ("tnc-620", f"TCH PROBE {n}", "Q330", key): (value, "0 is none, any other one a number or a name")
+        for n in (421, 422, 423, 424, 425, 426, 427, 430)
+        for key, value in (("choices", set()), ("type", "text"), ("also", set()))
+    },
+    **{("tnc-620", f"TCH PROBE {n}", "Q423", "default"): (4, "in words there") for n in (421, 422)},
+    **{("tnc-620", f"TCH PROBE {n}", "Q365", "default"): (1, "in words there") for n in (421, 422)},
     # studs and face milling (TNC 620, chapter 6)
     ("tnc-620", "CYCL DEF 257", "Q376", "limits"): ({">=": -1, "<=": 360}, "-1 lets the control choose; 360 is named too"),
     **{("tnc-620", code, q, "required"): (False, "the table names a value for it") for code, q in DEFAULTED},
@@ -313,7 +370,7 @@ def test_a_parameter_is_that_of_the_table(control, code, parameter, row):
         allowed, _ = EXPLAINED.get((control, first, parameter.address, key), (theirs, ""))
         assert ours == allowed, key
     names = NAMES.get(row["name"], row["name"])
-    assert parameter.name in (names if isinstance(names, tuple) else (names,))
+    assert parameter.name in (row["name"], *(names if isinstance(names, tuple) else (names,)))
     default = row.get("default")
     if isinstance(default, str) and parameter.default is None:  # said in words: then in ours too
         assert parameter.default_means or parameter.note or parameter.instead

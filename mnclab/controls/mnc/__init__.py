@@ -2,13 +2,14 @@
 
 `language` holds motion, offsets, feed and corners, `auxiliary` tool, spindle and what ISO controls have alike, `polar`
 polar motion, `transforms` scaling, mirror image, rotation and datums, `cycles` those of drilling and milling (chapters 9
-and 10), `settings` what a machine may need otherwise. Codes of probing are refused by name.
+and 10), `probing` those of chapter 12, `settings` what a machine may need otherwise.
 """
 
 from __future__ import annotations
 
 from mnclab.controls.mnc import auxiliary, language, polar, transforms
 from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets, prepared
+from mnclab.controls.mnc.probing import alignment, corners, datums, tool_setting
 from mnclab.controls.mnc.settings import SETTINGS
 from mnclab.controls.mnc.signs import SIGNS
 from mnclab.controls.mnc.state import Memory
@@ -16,7 +17,8 @@ from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.numbers import numbers
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.control import Control, FunctionTable
-from mnclab.machine.cycle import Cycle
+from mnclab.machine.cycle import Cycle, CycleTable
+from mnclab.machine.touching import FEELS, PROBES
 from mnclab.machine.trial import TrialWords, in_block
 from mnclab.path.compensation import Compensation
 from mnclab.running.bulk import PlainWords
@@ -29,8 +31,8 @@ PHASES = (
 
 _LATER = "it is part of this control but not built yet"
 REFUSED = (
-    {f"G{n}": _LATER for n in (400, 404, *range(408, 416), 417, *range(419, 427), *range(460, 463))}
-    | {f"G{n}": _LATER for n in (470, 471, 472, 480, 481, 482, 490, 491, 492, 499)}
+    {f"G{n}": _LATER for n in (*range(420, 427), *range(460, 463))}
+    | {f"G{n}": _LATER for n in (490, 491, 492, 499)}
     | {f"G{n}": "this control has no such cycle, G83 does its work" for n in (81, 82)}
 )
 
@@ -50,7 +52,9 @@ MEANINGS = {
 
 
 def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
-    """A milling cycle runs where it stands, a prepared one by M99, a fixed one at a position."""
+    """A milling or measuring cycle runs where it stands, a prepared one by M99, a fixed one at a position."""
+    if cycle.does in (PROBES, FEELS):
+        return f"G17 G90 G54\nT6\nG0 X20 Y10 Z20\n{in_block(cycle, words)}\n"
     if cycle.runs == "definition":  # milling
         return f"G17 G90 G54\nT1 S1000 M3\nG0 X20 Y10 Z20 F100\n{in_block(cycle, words)}\n"
     call = "G80" if cycle.runs == "position" else "G0 X20 Y10 M99"
@@ -64,13 +68,22 @@ FIRST = (
 _ALL = polar.FUNCTIONS | transforms.FUNCTIONS | auxiliary.FUNCTIONS | language.FUNCTIONS | prepared.FUNCTIONS
 FUNCTIONS = FunctionTable({code: _ALL[code] for code in (*FIRST.split(), *_ALL)})
 
+CHAPTERS = (
+    *(fixed, drilling, boring, prepared, milling, pockets),
+    alignment,
+    datums,
+    corners,
+    tool_setting,
+)
+CYCLES = CycleTable({code: cycle for chapter in CHAPTERS for code, cycle in chapter.CYCLES.items()})
+
 CONTROL = Control(
     name="mnc",
     title="Mechatronics MNC (2015)",
     suffixes=(".mnc",),
     read=reader("mnc"),
     functions=FUNCTIONS,
-    cycles=fixed.CYCLES | drilling.CYCLES | boring.CYCLES | prepared.CYCLES | milling.CYCLES | pockets.CYCLES,
+    cycles=CYCLES,
     phases=PHASES,
     settings=SETTINGS,
     frames=("datum", "base rotation", "local", "rotation", "mirror", "scaling"),

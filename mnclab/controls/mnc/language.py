@@ -18,6 +18,7 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word, digits
 
 FUNCTIONS = FunctionTable()
+OFFSETS = ("datum", "base rotation", "local")  # frames that belong to the datum: G53 leaves them
 CORNERS = {"G160": ROUND, "G161": STRAIGHT, "G162": ACUTE}
 SHAPES = {"G160": "arc", "G161": "straight", "G162": "arc at acute corners only"}
 CORNER_TITLES = {code: f"Outside corners: {shape}" for code, shape in SHAPES.items()}
@@ -78,7 +79,7 @@ def machine_coordinates(m: Machine, words: Words) -> None:
     if m.side and not (transformed and m.settings["g53_tool_length"]):
         fault = "G53 without the corrections cannot stand under radius compensation"
         m.alarm(fault, first_word(words), hint="write G40 first")
-    motion.leave_frames(m, [name for name, _ in m.frames if name in ("datum", "local") or not transformed])
+    motion.leave_frames(m, [name for name, _ in m.frames if name in OFFSETS or not transformed])
     if not m.settings["g53_tool_length"]:  # Z is the spindle reference, above the tip by the length
         m.set_frame("local", frames.shift(z=-m.tool.effective_length))
 
@@ -88,7 +89,7 @@ def set_position(m: Machine, words: Words) -> None:
     """The present point gets the coordinates X Y Z; U V W move the origin by that much. No motion."""
     motion.uncompensated(m, words)
     point, local = list(m.programmed), m.frames["local"][:3, 3]
-    transformations = [frame for name, frame in m.frames if name not in ("datum", "local")]
+    transformations = [frame for name, frame in m.frames if name not in OFFSETS]
     inner = functools.reduce(np.matmul, transformations, frames.IDENTITY)
     if not np.array_equal(inner, frames.IDENTITY):
         m.warn("G92 under scaling, mirror image or rotation: its values are programmed coordinates", first_word(words))
@@ -99,8 +100,9 @@ def set_position(m: Machine, words: Words) -> None:
             point[k] = m.value(words[axis])
         elif increment in words:
             point[k] += m.value(words[increment]) * (1 if m.settings["g92_increment"] == "add" else -1)
-    # shift = tip - datum - q(p), for the axes written (2.5, MNC-G92-XFORM)
-    shift = np.array(m.tip) - m.frames["datum"][:3, 3] - frames.apply(inner, point)
+    # shift = tip - datum, turned back by the base rotation, - q(p), for the axes written (2.5, MNC-G92-XFORM, "base rotation")
+    outer = m.frames["datum"] @ m.frames["base rotation"]
+    shift = frames.apply(frames.inverse(outer), m.tip) - frames.apply(inner, point)
     written = [axis in words or increment in words for axis, increment in zip(AXES, "UVW", strict=True)]
     m.set_frame("local", frames.shift(*np.where(written, shift, local)), keep="programmed")
     m.set_register(point)  # exactly as written

@@ -6,6 +6,7 @@ to the cycles, `block_skip` is a switch of the operator's panel, `bulk` is about
 
 from __future__ import annotations
 
+from mnclab.controls.mnc.probing import tool_setting
 from mnclab.machine.settings import Setting, one_of
 from mnclab.path.limits import RAPIDS
 
@@ -86,4 +87,9 @@ TECHNOLOGY = (
     Setting("bulk", True, "obey long runs of plain blocks at once"),
 )  # fmt: skip
 
-SETTINGS = PROGRAM + MOTION + COORDINATES + TECHNOLOGY
+PROBING = (
+    one_of("corner_spacing", "where points 2 and 4 of G414 lie", "MNC-G414-SPACING",
+           positive="towards positive coordinates", away="away from the corner"),
+)  # fmt: skip
+
+SETTINGS = PROGRAM + MOTION + COORDINATES + TECHNOLOGY + PROBING + tool_setting.SETTINGS

@@ -12,7 +12,7 @@ from collections.abc import Generator, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-from mnclab.machining.steps import RAPID, Go, Orient, Step, Touch, Turn
+from mnclab.machining.steps import RAPID, Go, Orient, Say, Step, Touch, Turn
 
 Pair = tuple[float, float]
 Way = Iterable["Pair | Turn"]  # places of the ball's centre, or turns, from one start to the next; none: straight
@@ -76,6 +76,8 @@ def in_plane(a: Approach, aims: Sequence[Aim], now: float, ways: Sequence[Way] =
     touch k to that of the next.
     """
     contacts = []
+    if a.height < a.pole:
+        yield Say("has a clearance height below the measuring height", "between figures the probe goes down to it")
     for k, aim in enumerate(aims):
         x, y = aim.start(a)
         dx, dy = aim.direction
@@ -84,7 +86,7 @@ def in_plane(a: Approach, aims: Sequence[Aim], now: float, ways: Sequence[Way] =
         if k == 0:
             yield from over_to(a, x, y, now)
         else:
-            yield from between(a, x, y, ways[k - 1] if ways else ())
+            yield from between(a, x, y, ways[k - 1] if ways else (), aims[k - 1].start(a))
         contacts.append((yield Touch(f"touch {k + 1}", x + a.reach * dx, y + a.reach * dy, a.pole, a.feed, a.ball)))
         yield a.go("back", a.pole, x, y)
     if leave:
@@ -100,15 +102,18 @@ def over_to(a: Approach, x: float, y: float, now: float, z: float | None = None)
     yield a.go("to the starting point", a.pole if z is None else z)
 
 
-def between(a: Approach, x: float, y: float, way: Way) -> Iterator[Step]:
-    """From one start to the next."""
+def between(a: Approach, x: float, y: float, way: Way, at: Pair | None = None) -> Iterator[Step]:
+    """From one start, `at` which the probe stands, to the next."""
     if a.over:
         yield a.go("to the clearance height", a.height)
-    arrived = False  # an arc ends at the next start
     for place in way:
-        arrived = isinstance(place, Turn)
-        yield place if isinstance(place, Turn) else a.go("around", x=place[0], y=place[1])
-    if not arrived:
+        if isinstance(place, Turn):
+            yield place
+            at = x, y  # where an arc ends
+        elif place != at:
+            yield a.go("around", x=place[0], y=place[1])
+            at = place
+    if (x, y) != at:
         yield a.go("to the next starting point", x=x, y=y)
     if a.over:
         yield a.go("to the measuring height", a.pole)
@@ -211,7 +216,7 @@ def sides(a: Approach, centre: Pair, half: Pair, order: Sequence[int], inside: b
         a = replace(a, over=False)
         if not each:
             a, short = replace(a, reach=max(a.reach, max(half) + a.gap)), [True] * len(short)
-    aims = [side(centre, half, k, inside, half[k % 2] if near else None) for k, near in zip(order, short)]
+    aims = [side(centre, (0.0, 0.0) if near else half, k, inside, 0.0 if near else None) for k, near in zip(order, short)]
     ways = () if a.over else ways_round(centre, (half[0] + a.away, half[1] + a.away), order, inside)
     return (yield from in_plane(a, aims, now, ways))
 

@@ -1,4 +1,4 @@
-"""Figures of pictures: one as it should be and as it was found, for a `Sketch` (contours of the plane, mm)."""
+"""Pictures of what was touched: a figure as it should be and as it was found, for `Sketch`."""
 
 from __future__ import annotations
 
@@ -8,8 +8,34 @@ from typing import Any
 import numpy as np
 
 from mnclab.geometry.contours import Contour
-from mnclab.machining.probing.found import Circle, Rectangle
+from mnclab.geometry.vectors import turned
+from mnclab.machining.probing.found import Circle, Rectangle, Width
 from mnclab.machining.steps import Sketch
+
+Figure = Circle | Rectangle | Width | Sequence[tuple[float, ...]]
+TINY = 1e-6  # mm, that a figure without a size is drawn with
+
+
+def sketch(nominal: Figure, actual: Figure, height: float, touches: Sequence[int] = (), direction: float = 0.0) -> Sketch:
+    """Two figures at a height; `direction` (degrees) is that of a width, the numbers of the touches belong to the second."""
+    return Sketch(outline(nominal, direction), outline(actual, direction), height, tuple(touches))
+
+
+def outline(figure: Figure, direction: float = 0.0) -> Contour:
+    """The contour of a figure: of a width the way from wall to wall, of points (n, 2 or more) the lines between them."""
+    match figure:
+        case Circle():
+            return Contour.circle(figure.centre, max(figure.radius, TINY))
+        case Rectangle():
+            half = np.maximum((figure.length, figure.width), TINY) / 2
+            corners = half * [(1, 1), (-1, 1), (-1, -1), (1, -1)]
+            return Contour(turned(corners, np.radians(figure.angle)) + figure.centre)
+        case Width():
+            ends = np.array([(-1.0, 0.0), (1.0, 0.0)]) * max(figure.width, TINY) / 2
+            return Contour(turned(ends, np.radians(direction)) + figure.centre, closed=False)
+        case _:
+            return Contour([point[:2] for point in figure], closed=False)
+
 
 Pair = tuple[float, float]
 

@@ -214,7 +214,7 @@ class Design(AsDrawn):
     @property
     def part(self) -> Part:
         """What a probe touches: signed distances, exact but for the corners of chamfers."""
-        return Part(self.stack.distance, self.title or "design")
+        return Part(self.stack.distance, self.title or "design", bounds=np.array(self.bounds))
 
     def workpiece(self, step: float | None = None) -> Workpiece:
         """The finished part, as `run.workpiece()` would have it of a perfect program; `step` mm of its cells."""

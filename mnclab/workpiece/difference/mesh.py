@@ -14,6 +14,7 @@ import numpy as np
 
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array, Index
 from mnclab.text.alarm import Alarm
 
@@ -225,6 +226,10 @@ class Mesh:
         normal, origin = np.eye(3)[axis], np.array(self.bounds.mean(axis=0))
         origin[axis] = at
         return _contours(self._area(normal, origin, [k for k in range(3) if k != axis]))
+
+    def section(self, z: float) -> Region:
+        """What a level plane cuts."""
+        return Region(tuple(self.cut("XY", z)))
 
     def half_section(self, axis: float) -> list[Contour]:
         """The section through the axis of a spindle at x = `axis`, y = 0, from there outwards: contours (z, r)."""

@@ -41,7 +41,7 @@ class Touched:
 
     @property
     def part(self) -> Part:
-        return Part(self.distance, "what is left of the blank", AT_ONCE)
+        return Part(self.distance, "what is left of the blank", AT_ONCE, np.array(self.stock.bounds))
 
     def distance(self, points: Array) -> Array:
         """Signed distances (m,) of points (m, 3) from the material; from `FAR` on they may be too small."""

@@ -12,12 +12,13 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
-from mnclab.workpiece.part.part import Floats, Part
-from mnclab.workpiece.part.prisms import Prisms, Slab
+from mnclab.workpiece.part.part import AT_ONCE, Floats, Part
+from mnclab.workpiece.part.prisms import Prism, Prisms, Slab
 
 Triangles = NDArray[np.int64]
 
 CELLS, BLOCKS = 240, 60  # of a grid without a step: squares along the longer side of a section, cubes of a surface
+COARSER = 4  # where a distance costs more
 MOST = 20_000_000  # places of a grid
 CHORD_ERROR = 0.01  # mm, of the arcs of a surface
 UPRIGHT = 1e-9
@@ -26,17 +27,17 @@ UPRIGHT = 1e-9
 def section(part: Part, z: float, step: float | None = None, within: ArrayLike | None = None) -> list[Contour]:
     """What a level plane cuts of the material, as closed contours, outer ones counter-clockwise, holes clockwise.
 
-    Of upright prisms exact, lines and arcs. Of others polygons over squares of `step` mm; `within` are two corners (x, y) or
-    (x, y, z) of where to look, the bounds of the part if it has none.
+    Of upright prisms and designs exact, lines and arcs, of meshes theirs. Of others polygons over squares of `step` mm;
+    `within` are two corners (x, y) or (x, y, z) of where to look, the bounds of the part if it has none.
     """
     check_number(z, "the height of a section (mm)")
-    body = part.distance
-    if isinstance(body, Prisms) and not body.taper and abs(abs(body.placing[2, 2]) - 1) < UPRIGHT:
+    body = _body(part)
+    if isinstance(body, Prisms) and abs(abs(body.placing[2, 2]) - 1) < UPRIGHT:
         own = (z - body.placing[2, 3]) * body.placing[2, 2]
-        loops = [loop for slab in body.solid if slab.low < own <= slab.high for loop in slab.region.loops]
-        sense = np.linalg.det(body.placing[:2, :2]) > 0
-        moved = [loop.transformed(body.placing) for loop in loops]
-        return moved if sense else [loop.reversed() for loop in moved]
+        here = [slab.region for slab in body.solid if slab.low < own <= slab.high]
+        return [loop for region in here for loop in Prism(region, own, own).moved(body.placing).region.loops]
+    if hasattr(body, "section"):
+        return list(body.section(z).loops)
     found = _zeros(part, *_grid(part, step, within, CELLS, 2), z).strip(join=True)
     loops, lines = list[Contour](), found.lines
     while len(lines):
@@ -53,27 +54,35 @@ def surface(part: Part, step: float | None = None, within: ArrayLike | None = No
     Of upright prisms exact but for the chords of arcs, else by pyvista over cubes of `step` mm; `within` are two corners
     (x, y, z) of where to look, the bounds of the part if it has none.
     """
-    body = part.distance
-    if isinstance(body, Prisms) and not body.taper and np.isfinite([*part.bounds.ravel(), body.top]).all():
+    body = _body(part)
+    if hasattr(body, "triangles"):
+        return body.points, body.triangles
+    if isinstance(body, Prisms) and np.isfinite([*part.bounds.ravel(), body.top]).all():
         points, triangles = _of_prisms(body)
         return points @ body.placing[:3, :3].T + body.placing[:3, 3], triangles
     return _triangles(_zeros(part, *_grid(part, step, within, BLOCKS, 3)))
 
 
-def _zeros(part: Part, axes: list[Floats], step: float, z: float = 0.0) -> Any:
-    """Where the distance is 0 on a grid, as pyvista has it: triangles, or lines of a level grid at a height."""
+def _body(part: Part) -> Any:
+    """What a part is made of, which may know its own sections or triangles."""
+    own = getattr(part.distance, "__self__", part.distance)
+    return None if isinstance(own, Prisms) and own.taper else own
+
+
+def _zeros(part: Part, axes: list[Floats], ends: Floats, z: float = 0.0) -> Any:
+    """Where the distance is 0 on a grid, as pyvista has it: triangles, or lines of a level grid at a height. Cut off at the
+    ends of where to look."""
     import pyvista
 
-    level = len(axes) == 2
-    grid = pyvista.RectilinearGrid(*axes, *([np.array([z])] if level else []))
-    field = part(np.asarray(grid.points, dtype=float)).reshape([len(axis) for axis in reversed(axes)])
-    for side in range(len(axes)):  # closed at the ends of the grid
-        np.moveaxis(field, side, 0)[[0, -1]] = step
-    return grid.contour([0.0], scalars=field.ravel()) if (field < 0).any() else pyvista.PolyData()
+    grid = pyvista.RectilinearGrid(*axes, *([np.array([z])] if len(axes) == 2 else []))
+    points = np.asarray(grid.points, dtype=float)
+    beyond = np.abs(points[:, : len(axes)] - ends.mean(axis=0)) - (ends[1] - ends[0]) / 2
+    field = np.maximum(part(points), beyond.max(axis=1))
+    return grid.contour([0.0], scalars=field) if (field < 0).any() else pyvista.PolyData()
 
 
-def _grid(part: Part, step: float | None, within: ArrayLike | None, cells: int, many: int) -> tuple[list[Floats], float]:
-    """Places along `many` axes, around the part or where it is looked for, and how far they are apart."""
+def _grid(part: Part, step: float | None, within: ArrayLike | None, cells: int, many: int) -> tuple[list[Floats], Floats]:
+    """Places along `many` axes, around the part or where it is looked for, and the two corners of that (2, many)."""
     if step is not None:
         check_number(step, "the step of a grid (mm)", above=0)
     if within is None:
@@ -87,12 +96,13 @@ def _grid(part: Part, step: float | None, within: ArrayLike | None, cells: int, 
             raise Alarm(f"where to look for a part is two corners, got {shown(within)}")
     if not np.isfinite(ends).all():
         raise Alarm(f"{part.name} has no end: say where to look, two corners", hint="within=((0, 0, -20), (100, 60, 0))")
+    cells = cells if part.at_once == AT_ONCE else cells // COARSER
     step = step or float((ends[1] - ends[0]).max()) / cells or 1.0
     counts = np.ceil((ends[1] - ends[0]) / step) + 1
     if counts.prod() > MOST:
         raise Alarm(f"a grid of {step:g} mm has too many places, {counts.prod():.3g}", hint="give a larger step")
     middle = ends.mean(axis=0)
-    return [m + step * (np.arange(n + 2) - (n + 1) / 2) for m, n in zip(middle, counts.astype(int))], step
+    return [m + step * (np.arange(n + 2) - (n + 1) / 2) for m, n in zip(middle, counts.astype(int))], ends
 
 
 def _of_prisms(body: Prisms) -> tuple[Floats, Triangles]:

@@ -8,10 +8,10 @@ from numpy.typing import ArrayLike
 from mnclab.text.given import check_number, check_point
 from mnclab.workpiece.part.part import Floats, Part
 from mnclab.workpiece.part.shapes import unit
-from mnclab.workpiece.part.touching import contact
 
-RESTING = 1e-4  # mm: a ball that is no deeper in the material only rests on it
-FINE = 0.01  # mm, within which the place of a stem is told
+RESTING = 1e-3  # mm: a ball that is no deeper in the material only rests on it
+FINE = 0.01  # mm, within which a place is told
+AT_FIRST = 3  # times that all is quartered before anything is looked at
 CORNERS = np.array([(-1, -1), (-1, 1), (1, -1), (1, 1)]) / 2  # of a quarter of a cell
 
 
@@ -28,31 +28,35 @@ def blocked(
     check_number(length, "the length of a stem", at_least=0)
     origin, way = np.asarray(start, dtype=float), np.asarray(end, dtype=float) - np.asarray(start, dtype=float)
     reach = float(np.linalg.norm(way))
-    found = contact(part, origin, way if reach else (0, 0, 1), max(ball - RESTING, 0.0), reach)
-    if stem and length:
-        far = reach if found is None else found
-        ahead = way / reach if reach else np.zeros(3)
-        by_stem = _met(part, origin, ahead, far, unit(up, "the direction of a stem") * length, stem)
-        found = found if by_stem is None else by_stem
-    return found
+    ahead, axis = way / reach if reach else np.zeros(3), unit(up, "the direction of a stem") * length
+    found = _met(part, origin, ahead, reach, np.zeros(3), ball)
+    by_stem = _met(part, origin, ahead, reach if found is None else found, axis, stem) if stem and length else None
+    return found if by_stem is None else by_stem
 
 
 def _met(part: Part, origin: Floats, ahead: Floats, reach: float, axis: Floats, radius: float) -> float | None:
-    """How far a stem goes before it meets the part, within `FINE`; None within `reach` if it does not.
+    """How far all that is no farther than a radius from an axis (3,) goes before it meets the part; None within `reach` if it
+    never does.
 
-    The row times the stem is an area; of a cell of it nothing touches if the middle is farther off the part than the corners
+    The row times the axis is an area; of a cell of it nothing touches if the middle is farther off the part than the corners
     are from the middle, else it is looked at in quarters.
     """
-    halves = np.array([max(reach, FINE), 1.0]) / 2  # of the way, mm, and of the stem
+    halves = np.array([max(reach, FINE), float(axis.any())]) / 2  # of the way, mm, and of the axis
+    corners = CORNERS if axis.any() else CORNERS[[0, 2]]
     cells, first = halves[None], np.inf
+    for _ in range(AT_FIRST):
+        cells, halves = (cells[:, None] + corners * halves).reshape(-1, 2), halves / 2
     while len(cells):
-        gaps = (part(origin + cells[:, :1] * ahead + cells[:, 1:] * axis) - radius) / part.steep
+        wide = max(float(np.linalg.norm(halves[0] * ahead + sign * halves[1] * axis)) for sign in (1, -1))
+        middles = origin + cells[:, :1] * ahead + cells[:, 1:] * axis
+        beside = np.maximum(np.maximum(part.bounds[0] - middles, middles - part.bounds[1]), 0.0)  # the box around the part
+        near = (beside**2).sum(axis=1) <= (radius + wide) ** 2
+        cells, gaps = cells[near], (part(middles[near]) - radius) / part.steep if near.any() else np.zeros(0)
         met = gaps < -RESTING
         first = min(first, float(cells[met, 0].min(initial=np.inf)))
-        wide = max(float(np.linalg.norm(halves[0] * ahead + sign * halves[1] * axis)) for sign in (1, -1))
         if wide < FINE:
             break
         cells = cells[(gaps <= wide) & (cells[:, 0] - halves[0] < first)]
-        cells = (cells[:, None] + CORNERS * halves).reshape(-1, 2)
+        cells = (cells[:, None] + corners * halves).reshape(-1, 2)
         halves = halves / 2
     return float(np.clip(first, 0.0, reach)) if np.isfinite(first) else None

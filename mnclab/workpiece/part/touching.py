@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mnclab.text.given import check_point
+from mnclab.text.given import check_number, check_point
 from mnclab.workpiece.part.part import Floats, Part
 from mnclab.workpiece.part.shapes import unit
 
@@ -15,6 +15,8 @@ TOUCHING = 1e-10  # mm, a gap that counts as closed
 SETTLED = 1e-13  # mm, a gap that is none
 CREEP = 1e-4  # mm, the step where the gap gets smaller than this
 FEW = 8  # places looked at first, then twice as many each time
+CLOSER = 0.3 ** np.arange(1, 24)  # of the rest of a way: how far before its end it is looked at
+FAR = 10.0  # gaps: a contact that is not farther off is gone for
 ASIDE = 10.0 ** -np.arange(1, 9)  # of a span: how far beside the place that the secant tells others are tried
 EVENLY = np.arange(1, 8) / 8
 SMALL = 1e-5  # mm, between places whose distances are compared for a direction
@@ -29,28 +31,39 @@ def contact(part: Part, start: ArrayLike, direction: ArrayLike, radius: float, r
     gap, and on as long as this holds. Where the gap is small it creeps, and may miss a graze of less than a
     nanometre. Then it settles between the last free place and the first one that is not.
     """
+    check_point(start, "where a ball starts")
+    check_point(direction, "the direction of a probe")
+    check_number(radius, "the radius of a ball", at_least=0)
+    check_number(reach, "how far a ball travels (mm)", at_least=0)
     origin, ahead = np.asarray(start, dtype=float), unit(direction, "the direction of a probe")
 
     def gap(travel: Floats) -> Floats:
         return np.asarray((part(origin + travel[:, None] * ahead) - radius) / part.steep)
 
-    free, room, look = 0.0, float(gap(np.zeros(1))[0]), FEW
+    closer = CLOSER[:: max(1, 24 // part.at_once)]
+    free, room, look, nearer = 0.0, float(gap(np.zeros(1))[0]), FEW, np.zeros(0)
     while room > TOUCHING:
         if free > reach:
             return None
         step = max(room, CREEP)
         many = int(np.clip(np.ceil((reach - free) / step), 1, min(look, part.at_once)))
-        places = free + step * np.arange(1.0, many + 1)
+        places = np.union1d(free + step * np.arange(1.0, many + 1), nearer)
         gaps = gap(places)
-        sure = np.append(room, gaps[:-1]) + gaps >= step - TOUCHING
+        sure = np.append(room, gaps[:-1]) + gaps >= np.diff(places, prepend=free) - TOUCHING
         known = len(places) if room <= CREEP or sure.all() else max(int(sure.argmin()), 1)
         hit = np.flatnonzero(gaps[:known] <= TOUCHING)
         if len(hit):
-            k = hit[0]
+            k = int(hit[0])
+            while gaps[k] > SETTLED and k + 1 < known and gaps[k + 1] < gaps[k]:  # it is about to close
+                k += 1
             last, at_last = (float(places[k - 1]), float(gaps[k - 1])) if k else (free, room)
             free = _settled(gap, last, at_last, float(places[k]), float(gaps[k]), part.at_once)
             break
+        before, room_before = (float(places[known - 2]), float(gaps[known - 2])) if known > 1 else (free, room)
         free, room, look = float(places[known - 1]), float(gaps[known - 1]), 2 * look
+        rest = room * (free - before) / max(room_before - room, TOUCHING)  # to the contact, by the secant
+        there = np.append(rest * (1 - closer[closer * rest > TOUCHING]), rest + TOUCHING / 4)
+        nearer = free + there if rest < FAR * room else np.zeros(0)
     return free if free <= reach + TOUCHING else None
 
 

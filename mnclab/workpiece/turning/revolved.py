@@ -115,7 +115,10 @@ def volume(section: Sequence[Contour]) -> float:
 
 def part(section: Sequence[Contour], axis: float) -> Part:
     """The body about x = `axis`, y = 0 as a probe meets it; in the material the axis counts as a face."""
-    return Part(partial(_distance, Region(tuple(section)), axis), "turned part")
+    region = Region(tuple(section))
+    (low, _), (high, wide) = region.bounds if section else np.zeros((2, 2))
+    bounds = np.array([(axis - wide, -wide, low), (axis + wide, wide, high)])
+    return Part(partial(_distance, region, axis), "turned part", bounds=bounds)
 
 
 def _distance(region: Region, axis: float, points: Floats) -> Floats:

@@ -69,7 +69,7 @@ def test_what_the_manual_does_not_list_is_said_to_be_so(code):
 @pytest.mark.parametrize(
     ("wrong", "near"),
     [
-        ("G60", "G61"), ("G20", "G2"), ("G144", "G147"), ("M33", "M3"), ("G-1", "G1"), ("G17.5", "G17"),
+        ("G60", "G61"), ("G20", "G2"), ("G146", "G147"), ("M33", "M3"), ("G-1", "G1"), ("G17.5", "G17"),
         ("G31", "G13"), ("G900", "G90"), ("G380", "G38"), ("M98", "M9"), ("G811", "G11"),
     ],
 )  # fmt: skip

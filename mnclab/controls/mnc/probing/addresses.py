@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import Any
 
 from mnclab.controls.mnc.cycles.addresses import choice, kind
+from mnclab.machine.cycle import param
 
 PLANE_AXES: dict[float, str] = {1: "X", 2: "Y"}
 SENSE: dict[float, str] = {-1: "negative", 1: "positive"}
@@ -13,12 +15,38 @@ SWITCH: dict[float, str] = {0: "no", 1: "yes"}
 
 coordinate = kind()
 length = kind(at_least=0, incremental=True)
+size = kind(above=0)  # of a figure
+spacing = kind(above=0, incremental=True)
+gets = kind(default=0)  # coordinates in the new system
+turn = kind("deg", at_least=-360, at_most=360)
 angle = kind("deg", default=0, at_least=-360, at_most=360)
 count = kind("count", type="integer", at_least=0, default=0)
 
 clearance = partial(length, "Q", "extra clearance", 0, default=0, note="added to PR_CLR of the probe table")
 level = partial(coordinate, "Z", "measuring height of the ball's centre", -8)
 height = partial(coordinate, "H", "safe height", 20)
-between = partial(choice, "P", meaning="height between measuring points", choices=BETWEEN, example=0, default=0)
+
+
+def between(address: str | tuple[str, ...] = "P") -> Any:
+    """How the probe goes from point to point."""
+    return param(address, "height between measuring points", "choice", choices=BETWEEN, example=0, default=0)
+
+
 axis = partial(choice, "L", meaning="measuring axis", choices=PLANE_AXES, example=1)
 row = partial(count, "W", "row of the datum table", 0, note="0: it is not saved")
+direction = partial(choice, "K", meaning="direction of measuring", choices=SENSE, example=1)
+width = partial(kind(at_least=0), "D", example=20)
+diameter = partial(size, "D", "nominal diameter", 30)
+length_x = partial(size, "A", "nominal length along X", 80)
+length_y = partial(size, "B", "nominal length along Y", 50)
+new = partial(gets, meaning="coordinate of the centre in the new system", example=0)
+new_x = partial(gets, "U", "X of the point in the new system", 0)
+new_y = partial(gets, "V", "Y of the point in the new system", 0)
+apply = partial(choice, "S", meaning="apply the new coordinate system", choices=SWITCH, example=1, default=0)
+rotate = partial(choice, "E", meaning="compensate the turn of the part", choices=SWITCH, example=0, default=0, note="with S1")
+probe_z = partial(choice, "F", meaning="measure the datum along Z too", choices=SWITCH, example=0, default=0)
+_with_f = kind(default=None, default_means="needed with F1")
+z_probe_x = partial(_with_f, "I", "X of the point measured along Z", 30)
+z_probe_y = partial(_with_f, "J", "Y of the point measured along Z", 20)
+z_probe_z = partial(_with_f, "K", "nominal Z of the point measured along Z", 0)
+z_new = partial(gets, "R", meaning="Z in the new system of the point measured along Z", example=0)

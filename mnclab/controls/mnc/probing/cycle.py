@@ -8,14 +8,20 @@ from __future__ import annotations
 from collections.abc import Generator, Iterable, Iterator
 from typing import Any, ClassVar
 
+from mnclab.controls.mnc.probing.datum import set_datum
+from mnclab.controls.word_address.holes import out_of_place
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
-from mnclab.machine.touching import PROBES, unfit
-from mnclab.machining.probing.sequences import Approach
-from mnclab.machining.steps import Step, Write
+from mnclab.machine.touching import PROBES, Contact, unfit
+from mnclab.machining.probing.found import Line
+from mnclab.machining.probing.sequences import Approach, from_above
+from mnclab.machining.steps import Measure, Step, Write
 
 Moves = Generator[Step, Any, None]
+Found = dict[int, tuple[float, float]]  # by axis: its measured coordinate and the one that it gets
 SCALES = ("scaling", "mirror")
+TURNS = (*SCALES, "rotation")
+NEEDED_WITH_F = ("z_probe_x", "z_probe_y", "z_probe_z")
 
 
 class MeasuringCycle(Cycle):
@@ -29,14 +35,26 @@ class MeasuringCycle(Cycle):
     level = 0.0
     height = 0.0
     between = 0.0
+    row = 0.0
+    apply = 0.0
+    probe_z = 0.0
+    z_probe_x: float | None = None
+    z_probe_y: float | None = None
+    z_probe_z: float | None = None
+    z_new = 0.0
+
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        for name in NEEDED_WITH_F if self.probe_z else ():
+            if getattr(self, name) is None:
+                yield name, "is missing: F1 needs it"
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        yield from unplaced(m)
         yield from unfit(m, still=True)
-        if m.plane != "XY":
-            yield "", f"needs the plane G17, {m.modal.get('plane', m.plane)} is active"
         for name in self.refused:
             if name in m.frames:
                 yield "", f"cannot run while a {name} is active"
+        yield from self.low(self.approach(m))
 
     def about(self, m: Machine) -> tuple[float, float]:
         return 0.0, 0.0
@@ -52,9 +70,47 @@ class MeasuringCycle(Cycle):
         return Approach(**{**found, **other})
 
     def low(self, a: Approach) -> Iterator[tuple[str, str]]:
-        """A safe height below the measuring height."""
-        if a.height < a.pole:
-            yield "height", f"must be at least the measuring height of the south pole, {a.pole:g}, got {a.height:g}"
+        """A safe height below the measuring height, or below where the touch along Z begins."""
+        yield from self.below(a, a.pole)
+        if self.z_probe_z is not None and self.probe_z:
+            yield from self.below(a, self.z_probe_z + a.gap)
+
+    def below(self, a: Approach, z: float) -> Iterator[tuple[str, str]]:
+        if a.height < z:
+            yield "height", f"must not lie below the ball's lowest point where a touch begins, {z:g}, got {a.height:g}"
+
+    def fits(self, m: Machine, **sizes: float) -> Iterator[tuple[str, str]]:
+        """A figure that the ball does not enter."""
+        for name, given in sizes.items():
+            if given <= 2 * m.radius:
+                yield name, f"must be greater than the diameter of the ball, {2 * m.radius:g}, got {given:g}"
+
+    def finish(self, m: Machine, a: Approach, found: Found, turned: float | None = None) -> Moves:
+        """With F1 the touch from above, at the safe height before and after; then the datum of the axes that were `found`."""
+        if self.probe_z and self.z_probe_x is not None and self.z_probe_y is not None and self.z_probe_z is not None:
+            contact = yield from from_above(a, self.z_probe_x, self.z_probe_y, self.z_probe_z, a.height)
+            z = contact.point[2] - a.ball
+            yield Measure("Z", z, self.z_probe_z, touches=(contact.number,))
+            found = {**found, 2: (z, self.z_new)}
+        yield from set_datum(m, found, self.row, self.apply == 1, turned)
+
+
+def unplaced(m: Machine) -> Iterator[tuple[str, str]]:
+    """A fault in machine coordinates, under radius compensation, or in another plane."""
+    yield from out_of_place(m)
+    if m.plane != "XY":
+        yield "", f"needs the plane G17, {m.modal.get('plane', m.plane)} is active"
+
+
+def numbers(contacts: Iterable[Contact]) -> tuple[int, ...]:
+    """Which touches these are, for the measuring record."""
+    return tuple(contact.number for contact in contacts)
+
+
+def on_line(side: Line, contacts: Iterable[Contact]) -> list[tuple[float, float]]:
+    """Where the contacts of a line (moved towards the material) touched: their nearest points of it."""
+    (nx, ny), points = side.normal, [contact.point[:2] for contact in contacts]
+    return [(x - off * nx, y - off * ny) for (x, y), off in zip(points, side.distance(points).tolist(), strict=True)]
 
 
 def results(**values: float) -> Iterable[Step]:

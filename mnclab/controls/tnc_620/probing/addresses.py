@@ -11,6 +11,7 @@ PLANE_AXES: dict[float, str] = {1: "reference axis", 2: "minor axis"}
 SENSE: dict[float, str] = {-1: "negative", 1: "positive"}
 BETWEEN: dict[float, str] = {0: "at the measuring height", 1: "at the clearance height"}
 TRANSFER: dict[float, str] = {-1: "do not use", 0: "datum table", 1: "preset table"}
+TABLES: dict[float, str] = {0: "datum table", 1: "preset table"}
 TRAVERSE: dict[float, str] = {0: "straight", 1: "on an arc through the starting points"}
 POINTS: dict[float, str] = {4: "4 points", 3: "3 points"}
 SWITCH: dict[float, str] = {0: "no", 1: "yes"}
@@ -41,3 +42,4 @@ axis = partial(choice, "Q272", meaning="measuring axis", choices=PLANE_AXES, exa
 direction = partial(choice, "Q267", meaning="traverse direction", choices=SENSE, example=1)
 points = partial(choice, "Q423", meaning="number of touch points", choices=POINTS, default=4)
 traverse = partial(choice, "Q365", meaning="way between the touch points", choices=TRAVERSE, default=1)
+basic_rotation = partial(choice, "Q304", meaning="basic rotation by the line of points 1 and 2", choices=SWITCH, example=0)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Generator, Iterable, Iterator, Sequence
 from typing import Any, ClassVar
 
+from mnclab.controls.tnc_620.contours.other_tools import Named, in_table
 from mnclab.controls.tnc_620.cycles.chain import TILT
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
@@ -17,10 +18,11 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.tool_axis import FRAME
 from mnclab.machine.touching import PROBES, Contact, unfit
 from mnclab.machining.probing.sequences import Approach
-from mnclab.machining.steps import Step, Write
+from mnclab.machining.steps import Measure, Step, Write
 from mnclab.text.alarm import Alarm
 
 Moves = Generator[Step, Any, None]
+LEAST_STEP = 5.0  # degrees (15.6, 16.4)
 ALLOWED = ("preset", FRAME)  # frames that a cycle 4xx may find active (13.2)
 
 
@@ -38,12 +40,18 @@ class ProbingCycle(Cycle):
     move_to_clearance = 0.0
     row = 0.0
     transfer = 1.0
+    measuring_log = 0.0
+    program_stop = 0.0
+    monitored_tool: Named = 0.0
+    probe_z = top_x = top_y = top_z = datum_z = 0.0
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from unfit(m)
         yield from self.transformed(m)
         if self.transfer == -1 and self.row:  # of programs from older controls (15.1)
             yield "transfer", "-1 does not say where row Q305 is: choose 0 (datum table) or 1 (preset table)"
+        if self.monitored_tool != 0:
+            yield from in_table(self, m, "monitored_tool")
 
     def transformed(self, m: Machine) -> Iterator[Fault]:
         """A transformation that it must not find active (13.2)."""
@@ -62,6 +70,12 @@ class ProbingCycle(Cycle):
         return Approach(**{**found, **other})
 
 
+def too_fine(step: float) -> Iterator[Fault]:
+    """A stepping angle below that of the manual."""
+    if abs(step) < LEAST_STEP:
+        yield "stepping_angle", f"must be at least {LEAST_STEP:g} or at most -{LEAST_STEP:g}, got {step:g}"
+
+
 def results(**values: float) -> Iterable[Step]:
     """Q parameters: `results(Q151=x)`."""
     return [Write("variable", float(value), name) for name, value in values.items()]
@@ -70,6 +84,11 @@ def results(**values: float) -> Iterable[Step]:
 def numbers(contacts: Sequence[Contact]) -> tuple[int, ...]:
     """Of touches."""
     return tuple(each.number for each in contacts)
+
+
+def measured(contacts: Sequence[Contact], **found: tuple[float, float]) -> Iterable[Step]:
+    """Lines of the measuring record without limits: `measured(contacts, X=(actual, nominal))`."""
+    return [Measure(what, actual, nominal, touches=numbers(contacts)) for what, (actual, nominal) in found.items()]
 
 
 def needed(fit: Any, *points: Any, m: Machine, code: str) -> Any:

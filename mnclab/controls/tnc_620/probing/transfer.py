@@ -10,14 +10,25 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured
 from mnclab.controls.tnc_620.state import active_preset
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
 from mnclab.machine.tool_axis import FRAME
+from mnclab.machining.probing.sequences import Approach, from_above
 from mnclab.machining.steps import Step, Write
 
 AXES = ("x", "y", "z")
 SAME = 1e-12
+
+
+def finish(c: ProbingCycle, m: Machine, a: Approach, found: dict[int, tuple[float, float]], turned: float = 0.0) -> Moves:
+    """Touch from above too, if the cycle asks for it (Q381), in the system that it began with; then save the preset."""
+    if c.probe_z:
+        contact = yield from from_above(a, c.top_x, c.top_y, c.top_z, a.height, leave="higher")
+        found[2] = contact.point[2] - a.ball, c.datum_z
+        yield from measured([contact], Z=(found[2][0], c.top_z))
+    yield from save(m, found, c.row, c.transfer, turned)
 
 
 def save(

@@ -1,0 +1,96 @@
+"""What cycles that inspect a workpiece share (TNC 620, 16.1): results, classification, tolerance and tool monitoring, the log.
+
+Too much material is rework, too little is scrap, and so is a wrong place. A limit that is 0, of sizes both, watches nothing.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import partial
+
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, numbers, results
+from mnclab.controls.tnc_620.probing.log import Value, logged
+from mnclab.controls.tnc_620.probing.monitoring import monitored
+from mnclab.machine.cycle import param
+from mnclab.machine.machine import Machine
+from mnclab.machine.measuring import OK, REWORK, SCRAP
+from mnclab.machine.touching import Contact
+from mnclab.machining.steps import Measure
+
+LOGS: dict[float, str] = {0: "none", 1: "a file TCHPR….TXT", 2: "on the screen, the program waits"}
+STOPS: dict[float, str] = {0: "the program goes on", 1: "an alarm"}
+HEIGHT = "Measuring height"  # in the log
+AXES = ("reference axis", "minor axis", "touch probe axis")
+
+centre_x = partial(coordinate, "Q273", meaning="center, reference axis", example=50)
+centre_y = partial(coordinate, "Q274", meaning="center, minor axis", example=30)
+side = length
+log = partial(choice, "Q281", meaning="measuring log", choices=LOGS, example=0)
+stop = partial(choice, "Q309", meaning="where a tolerance is exceeded", choices=STOPS, example=0)
+maximum = partial(length, meaning="maximum limit", note="0 with a minimum of 0: not monitored", example=0)
+minimum = partial(length, meaning="minimum limit", example=0)
+tolerance_x = partial(length, "Q279", meaning="tolerance of the center, reference axis", note="0: not monitored", example=0)
+tolerance_y = partial(length, "Q280", meaning="tolerance of the center, minor axis", note="0: not monitored", example=0)
+tool = partial(
+    count, "Q330", meaning="tool that is monitored, number or name", type="text", at_most=32767.9, note="0: none", example=0
+)  # fmt: skip
+without_effect = partial(param, default=None, default_means="without effect", modal=True)  # of programs of other controls
+reverse_tool = partial(without_effect, "Q498", "reverse tool", "choice", type="choice")
+incidence = partial(without_effect, "Q531", "angle of incidence", "deg")
+
+
+def report(
+    c: ProbingCycle, m: Machine, values: Sequence[Value], contacts: Sequence[Contact], sizes: Sequence[Value] = (),
+    compensation: tuple[float, float] = (0.0, 0.0),
+) -> Moves:  # fmt: skip
+    """Results, status, tool table and log, in this order; then an alarm where one is due.
+
+    `sizes` are the values that the monitored tool made, `compensation` is what is added to its DR and DL.
+    """
+    touches, declared = numbers(contacts), {p.name for p in c.parameters()}
+    for each in values:
+        lower, upper = (each.lower, each.upper) if each.watched else (math.nan, math.nan)
+        yield Measure(each.what, each.actual, each.nominal, lower, upper, each.unit, each.verdict, touches)
+    unit = {"mm": m.variable_unit, "deg": 1.0}
+    yield from results(**{each.q: each.actual / unit[each.unit] for each in values})
+    yield from results(**{each.difference: each.deviation / unit[each.unit] for each in values if each.difference})
+    out, broken = [each for each in values if each.verdict not in ("", OK)], ""
+    if "program_stop" in declared:  # the others judge nothing
+        verdict = next((which for which in (SCRAP, REWORK) if which in {each.verdict for each in out}), OK)
+        yield from results(**{q: verdict == which for q, which in (("Q180", OK), ("Q181", REWORK), ("Q182", SCRAP))})
+    if c.monitored_tool != 0 and sizes:
+        broken = yield from monitored(m, c.monitored_tool, max(abs(each.deviation) for each in sizes), *compensation)
+    yield from logged(m, c, values, {HEIGHT: c.level} if "level" in declared else {})
+    if broken:
+        m.alarm(f"{c.code}: {broken}")
+    if c.program_stop and out:
+        said = (f"{each.what} {each.actual:.4f}, allowed from {each.lower:.4f} to {each.upper:.4f}" for each in out)
+        m.alarm(f"{c.code}: tolerance exceeded: {'; '.join(said)}")
+
+
+def wear(sizes: Sequence[Value], inside: bool) -> tuple[float, float]:
+    """What is added to DR and DL of the tool that made a figure: half of the deviation of a size, of two sides their mean."""
+    return (1.0 if inside else -1.0) * sum(each.deviation for each in sizes) / len(sizes) / 2, 0.0
+
+
+def middle(k: int, actual: float, nominal: float, tolerance: float) -> Value:
+    """A coordinate of the centre of a figure, Q151 or Q152."""
+    name = f"enter in {AXES[k]}"
+    return Value(
+        "XY"[k], f"C{name}", actual, f"Q15{k + 1}", nominal, f"Q16{k + 1}", nominal - tolerance, nominal + tolerance,
+        f"limit for c{name}", tolerance != 0,
+    )  # fmt: skip
+
+
+def size(
+    what: str, name: str, q: str, difference: str, actual: float, nominal: float, limits: tuple[float, float], limit: str,
+    inside: bool | None,
+) -> Value:  # fmt: skip
+    """A length, which is watched where one of its limits, the smaller and the larger, is not 0.
+
+    `inside`: of a hollow figure; None: neither too large nor too small can be repaired.
+   """
+    below, above = {True: (REWORK, SCRAP), False: (SCRAP, REWORK), None: (SCRAP, SCRAP)}[inside]
+    return Value(what, name, actual, q, nominal, difference, *limits, limit, limits != (0, 0), below, above)

@@ -1,0 +1,136 @@
+"""Presets in a corner, from outside or from inside (TNC 620, 15.8 and 15.9).
+
+The first line, of the points 1 and 2, runs along the reference axis and is touched along the minor axis; the second one, of the
+points 3 and 4, the other way round. With Q304 = 1 the angle of the first line is added to the basic rotation of the row.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, distance
+from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero
+from mnclab.controls.tnc_620.probing import addresses
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, needed, numbers, results
+from mnclab.controls.tnc_620.probing.transfer import finish
+from mnclab.machine.cycle import CycleTable
+from mnclab.machine.machine import Machine
+from mnclab.machining.probing import sequences
+from mnclab.machining.probing.fits import corner, line, reduced
+from mnclab.machining.probing.found import Point
+from mnclab.machining.probing.sequences import Aim, Approach, Pair
+from mnclab.machining.probing.sketches import sketch
+from mnclab.machining.steps import Measure
+
+CYCLES = CycleTable()
+CORNERS: dict[float, str] = {1: "lower left", 2: "lower right", 3: "upper right", 4: "upper left"}
+INTO = {1: (1.0, 1.0), 2: (-1.0, 1.0), 3: (-1.0, -1.0), 4: (1.0, -1.0)}  # from a corner into the pocket
+
+
+@CYCLES("TCH PROBE 414", "Preset from outside a corner", runs="definition", source="15.8")
+class PresetOnCorner(ProbingCycle):
+    """Two touches of either side from outside; the corner gets the coordinates Q331 and Q332.
+
+    Where the points 1 and 3 lie to each other says which corner it is.
+    """
+
+    x: float = addresses.first_x(example=40)
+    y: float = addresses.first_y()
+    spacing_axis_1: float = distance("Q326", "from point 1 to point 2 along X", example=30)
+    third_x: float = coordinate("Q296", "third touch point, reference axis", example=20)
+    third_y: float = coordinate("Q297", "third touch point, minor axis", example=25)
+    spacing_axis_2: float = distance("Q327", "from point 3 to point 4 along Y", example=20)
+    level: float = addresses.level()
+    clearance: float = addresses.clearance()
+    height: float = addresses.height()
+    move_to_clearance: float = addresses.move_to_clearance()
+    basic_rotation: float = addresses.basic_rotation()
+    row: float = addresses.row()
+    datum_x: float = addresses.datum_x()
+    datum_y: float = addresses.datum_y()
+    transfer: float = addresses.transfer()
+    probe_z: float = addresses.probe_z()
+    top_x: float = addresses.top_x()
+    top_y: float = addresses.top_y()
+    top_z: float = addresses.top_z()
+    datum_z: float = addresses.datum_z()
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from super().check(m)
+        yield from two_lines(self)
+        for name, other in (("third_x", self.x), ("third_y", self.y)):
+            if getattr(self, name) == other:
+                yield name, f"must not be that of the first point, {other:g}: which corner it is would not be known"
+
+    def moves(self, m: Machine) -> Moves:
+        upwards, rightwards = math.copysign(1.0, self.third_y - self.y), math.copysign(1.0, self.x - self.third_x)
+        first = [(self.x, self.y), (self.x + self.spacing_axis_1, self.y)]
+        second = [(self.third_x, self.third_y), (self.third_x, self.third_y + self.spacing_axis_2)]
+        return both_sides(self, m, self.approach(m), (first, (0.0, upwards)), (second, (rightwards, 0.0)))
+
+
+@CYCLES("TCH PROBE 415", "Preset from inside a corner", runs="definition", source="15.9")
+class PresetInCorner(ProbingCycle):
+    """Two touches of either side from within a pocket; the corner gets the coordinates Q331 and Q332.
+
+    Q263 and Q264 are about where the corner is: the first touch of either side is as far from the other one as its ball needs.
+    """
+
+    x: float = addresses.first_x()
+    y: float = addresses.first_y()
+    spacing_axis_1: float = distance("Q326", "from point 1 to point 2 along X", example=30)
+    spacing_axis_2: float = distance("Q327", "from point 3 to point 4 along Y", example=20)
+    corner: float = choice("Q308", "corner", CORNERS, example=1)
+    level: float = addresses.level()
+    clearance: float = addresses.clearance()
+    height: float = addresses.height()
+    move_to_clearance: float = addresses.move_to_clearance()
+    basic_rotation: float = addresses.basic_rotation()
+    row: float = addresses.row()
+    datum_x: float = addresses.datum_x()
+    datum_y: float = addresses.datum_y()
+    transfer: float = addresses.transfer()
+    probe_z: float = addresses.probe_z()
+    top_x: float = addresses.top_x()
+    top_y: float = addresses.top_y()
+    top_z: float = addresses.top_z()
+    datum_z: float = addresses.datum_z()
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from super().check(m)
+        yield from two_lines(self)
+
+    def moves(self, m: Machine) -> Moves:
+        a, (u, v) = self.approach(m), INTO[int(self.corner)]
+        first = [(self.x + u * way, self.y) for way in (a.away, a.away + self.spacing_axis_1)]
+        second = [(self.x, self.y + v * way) for way in (a.away, a.away + self.spacing_axis_2)]
+        return both_sides(self, m, a, (first, (0.0, -v)), (second, (-u, 0.0)))
+
+
+def two_lines(c: PresetOnCorner | PresetInCorner) -> Iterator[Fault]:
+    """What either line and its angle need."""
+    yield from not_zero(c, "spacing_axis_1", "spacing_axis_2", purpose="for a line through both points")
+    if c.basic_rotation and c.row and c.transfer == 0:
+        yield "basic_rotation", "needs the preset table (Q303=1): a row of the datum table holds no basic rotation"
+
+
+def both_sides(c: PresetOnCorner | PresetInCorner, m: Machine, a: Approach, *lines: tuple[Sequence[Pair], Pair]) -> Moves:
+    """Touch both lines, their points each in one direction; where they cross is the preset of both axes."""
+    first, second = ([Aim(*point, way) for point in points] for points, way in lines)
+    contacts = yield from sequences.corner(a, first, second, m.programmed[2])
+    balls, ways = [each.point[:2] for each in contacts], [way for _, way in lines]
+    found, angle = needed(crossing, balls, ways, a.ball, m=m, code=c.code)
+    nominal = lines[1][0][0][0], lines[0][0][0][1]
+    yield from measured(contacts, X=(found.x, nominal[0]), Y=(found.y, nominal[1]))
+    yield Measure("angle", angle, 0.0, unit="deg", touches=numbers(contacts))
+    yield sketch([lines[0][0][1], nominal, lines[1][0][1]], [balls[1], found.centre, balls[3]], c.level, numbers(contacts))
+    yield from results(Q151=found.x, Q152=found.y)
+    turned = angle if c.basic_rotation else 0.0
+    yield from finish(c, m, a, {0: (found.x, c.datum_x), 1: (found.y, c.datum_y)}, turned)
+
+
+def crossing(balls: Sequence[Pair], ways: Sequence[Pair], ball: float) -> tuple[Point, float]:
+    """Where the sides cross that were touched each at two points in one direction, and the angle of the first."""
+    first, second = (line(balls[k : k + 2]).towards(way, ball) for k, way in zip((0, 2), ways))
+    return corner(first, second), reduced(first.angle)

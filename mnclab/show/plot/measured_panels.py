@@ -1,0 +1,227 @@
+"""What a picture of measuring holds: panels, their contours and balls, with the deviation magnified.
+
+A panel lies in the coordinates of the program as they were at its first touch, so that the numbers at its axes are those of
+the cycle. Balls move with the contour, so that they touch it where it is drawn.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.frames import apply, inverse
+from mnclab.path.columns import Array
+from mnclab.show.plot.picture import VIEWS, View
+
+SAMPLES = 48  # of an element of a contour
+SHARE = 0.1  # of the greatest side of a panel: how far the worst deviation is drawn at most
+GREATEST = 1000.0
+NOTHING = 1e-7  # mm: deviations that are none
+ALONG = 0.7  # cosine: a touch nearer to Z than this is seen from the side
+AXIS = 0.999  # cosine from which on a touch goes along an axis
+BELOW = 0.1  # mm under a face that was touched from above is the section that shows it
+TICK = 2.2  # radii of the ball on both sides of a touched point that belongs to no figure
+
+
+class Ball(NamedTuple):
+    """A touch: its number, what it found (a coordinate, or how far out of the contour), and in the view (2,)
+    its centre as drawn and where it came from; its radius; whether it came along the line of sight."""
+
+    number: int
+    text: str
+    centre: Array
+    start: Array
+    radius: float
+    across: bool
+
+
+class Pair(NamedTuple):
+    """A line as it should be (n, 2) and as it was found, magnified (n, 2); of a closed one the middle is marked."""
+
+    nominal: Array
+    actual: Array
+    closed: bool
+
+    def middles(self) -> tuple[Array, Array]:
+        """Of both lines, each piece with the weight that it has in the nominal one."""
+        weights = np.hypot(*np.diff(self.nominal, axis=0).T)
+        one, other = (np.average((line[1:] + line[:-1]) / 2, axis=0, weights=weights) for line in (self.nominal, self.actual))
+        return one, other
+
+
+class Panel(NamedTuple):
+    """One view of one execution of a cycle: of its plane `frame` (4, 4), at a `level` along the line of sight."""
+
+    title: str
+    view: View
+    frame: Array
+    level: float
+    factor: float
+    pairs: list[Pair]
+    balls: list[Ball]
+    rows: list[Any]
+
+    @property
+    def points(self) -> Array:
+        """All that the picture must hold (n, 2)."""
+        discs = [ball.centre + ball.radius * np.array(corner) for ball in self.balls for corner in ((-1, -1), (1, 1))]
+        starts = [ball.start for ball in self.balls]
+        return np.vstack([*(line for pair in self.pairs for line in (pair.nominal, pair.actual)), *discs, *starts])
+
+
+def panels(run: Any, line: int | None, factor: float | None) -> list[Panel]:
+    """The panels of a run in the order of its blocks, or of one line; without a `factor` each has its own."""
+    found: list[Panel] = []
+    touched = [(k, touch) for k, touch in enumerate(run.touches)]
+    passes: dict[tuple[int, int], int] = {}
+    for step in sorted({each.step for each in (*run.touches, *run.figures)}):
+        touches = [(k, touch) for k, touch in touched if touch.step == step]
+        figures = [figure for figure in run.figures if figure.step == step]
+        rows = [row for row in run.measurements if row.step == step]
+        first = (figures or [touch for _, touch in touches])[0]
+        place = first.program, first.line
+        passes[place] = passes.get(place, 0) + 1
+        if line is not None and first.line != line:
+            continue
+        name = next((each.cycle for each in (*rows, *figures)), "") or touches[0][1].label
+        where = f"line {first.line}" if len(run.programs) == 1 else run.place_of_line(first.line, first.program)
+        again = f", pass {passes[place]}" if passes[place] > 1 else ""
+        found += _views(f"{where}{again}  {name}", touches, figures, rows, factor)
+    return found
+
+
+def _views(title: str, touches: Sequence[Any], figures: Sequence[Any], rows: list[Any], factor: float | None) -> list[Panel]:
+    """From above if anything lies in the plane, from the side what was touched along Z."""
+    frame = np.asarray((touches[0][1] if touches else figures[0]).frame)
+    into = inverse(frame)
+    deep = [abs(float((into[:3, :3] @ touch.direction)[2])) > ALONG for _, touch in touches]
+    below = [each for each, along in zip(touches, deep) if along]
+    found = []
+    if figures or not all(deep) or len(below) > 1:
+        lines = [_flat(figure, into) for figure in figures]
+        if figures:
+            height = figures[0].height
+        else:
+            spots = apply(into, [touch.surface if all(deep) else touch.centre for _, touch in touches])
+            height = float(spots[:, 2].min()) - BELOW * all(deep)
+        found.append(_panel(title, VIEWS["XY"], frame, height, touches, lines, rows, factor))
+    if below:
+        spots = apply(into, [touch.centre for _, touch in below])
+        view = VIEWS["YZ" if np.ptp(spots[:, 1]) > np.ptp(spots[:, 0]) else "XZ"]
+        level = float(spots[0, 3 - view.right - view.up])
+        found.append(_panel(title, view, frame, level, below, [], [] if found else rows, factor, rows))
+    return found
+
+
+def _flat(figure: Any, into: Array) -> tuple[tuple[int, ...], Contour, Contour]:
+    """The touches of a figure and its contours in the plane of the panel."""
+    turn = np.eye(3)
+    whole = into @ np.asarray(figure.frame)
+    turn[:2, :2], turn[:2, 2] = whole[:2, :2], whole[:2, 3]
+    same = np.allclose(turn, np.eye(3), atol=1e-12)
+    nominal, actual = (each if same else each.transformed(turn) for each in (figure.nominal, figure.actual))
+    return figure.touches, nominal, actual
+
+
+def _panel(
+    title: str, view: View, frame: Array, level: float, touches: Sequence[Any], figures: Sequence[Any], rows: list[Any],
+    factor: float | None, known: Sequence[Any] = (),
+) -> Panel:  # fmt: skip
+    """One panel; `known` are rows of the record that say what a touch should have found."""
+    axes, into = [view.right, view.up], inverse(frame)
+    lines = [(*_samples(nominal, actual), nominal.closed) for _, nominal, actual in figures]
+    feet, texts = [], []
+    for k, touch in touches:
+        spot, way = apply(into, apply(np.asarray(touch.frame), touch.found)), into[:3, :3] @ touch.direction
+        way /= np.linalg.norm(way)
+        across = abs(float(way[3 - view.right - view.up])) > ALONG
+        foot = spot[axes]
+        owner = next((each for each in figures if k in each[0]), None)
+        if across:
+            pass
+        elif owner is not None:
+            foot = _foot(owner[1], owner[2], foot)
+        else:
+            foot = spot[axes] - _off(k, spot, way, known or rows)[axes]
+        out = _outwards(spot[axes], owner[1]) if owner and not across and np.abs(way).max() < AXIS else ""
+        texts.append(out or _text(spot, way))
+        feet.append((spot[axes], foot, way[axes], across, owner is None and not across))
+    worst = max([float(np.hypot(*(a - n).T).max()) for n, a, _ in lines] + [math.dist(s, f) for s, f, *_ in feet], default=0.0)
+    size = _size([n for n, _, _ in lines] + [spot[None] for spot, *_ in feet], [touch.ball for _, touch in touches])
+    magnified = factor or (min(nice(SHARE * size / worst), GREATEST) if worst > NOTHING else 1.0)
+    pairs = [Pair(n, n + magnified * (a - n), closed) for n, a, closed in lines]
+    balls = []
+    for (k, touch), text, (spot, foot, way, across, lonely) in zip(touches, texts, feet):
+        shown, radius = foot + magnified * (spot - foot), float(touch.ball)
+        travel = math.dist(touch.start, touch.centre)
+        if across:
+            balls.append(Ball(k + 1, text, shown, shown, radius, True))
+            continue
+        if lonely:
+            tick = np.outer([-TICK, TICK], radius * np.array([-way[1], way[0]]))
+            pairs.append(Pair(foot + tick, shown + tick, False))
+        balls.append(Ball(k + 1, text, shown - radius * way, shown - (radius + travel) * way, radius, False))
+    said = f"{title}\n{'from above' if view.up == 1 else 'from the side'}"
+    said += f", deviation × {magnified:g}" if worst > NOTHING and magnified != 1 else ""
+    return Panel(said, view, frame, level, magnified, pairs, balls, rows)
+
+
+def nice(value: float) -> float:
+    """The greatest number 1, 2 or 5 times a power of ten that is not greater, 1 at least."""
+    power = 10.0 ** math.floor(math.log10(max(value, 1.0)))
+    return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= max(value, 1.0))
+
+
+def _samples(nominal: Contour, actual: Contour) -> tuple[Array, Array]:
+    """Places of both contours that belong together (n, 2): element by element, or where they differ by the shortest way."""
+    count = len(nominal.starts)
+    element = np.repeat(np.arange(len(actual.starts)), SAMPLES + 1)
+    share = np.tile(np.linspace(0.0, 1.0, SAMPLES + 1), len(actual.starts))
+    there = actual.at(share, element)[0]
+    if count == len(actual.starts):
+        return nominal.at(share, element)[0], there
+    return nominal.nearest_points(there), there
+
+
+def _foot(nominal: Contour, actual: Contour, spot: Array) -> Array:
+    """The place of the nominal contour that belongs to a touched point."""
+    if len(nominal.starts) != len(actual.starts):
+        return np.asarray(nominal.nearest_points(spot)[0])
+    way, ends = actual.nearest(spot), np.cumsum(actual.lengths)
+    element = min(int(np.searchsorted(ends, way)), len(ends) - 1)
+    share = (way - (ends[element] - actual.lengths[element])) / max(float(actual.lengths[element]), 1e-300)
+    return np.asarray(nominal.at(np.array([min(max(share, 0.0), 1.0)]), np.array([element]))[0][0])
+
+
+def _off(number: int, spot: Array, way: Array, rows: Sequence[Any]) -> Array:
+    """By how much a single touch is off (3,), if a row of the record is about its coordinate and knows the nominal one."""
+    axis = int(np.abs(way).argmax())
+    for row in rows:
+        if tuple(row.touches) == (number,) and abs(way[axis]) > AXIS and abs(row.actual - spot[axis]) < 1e-6:
+            if not math.isnan(row.nominal):
+                return np.asarray(np.eye(3)[axis] * row.deviation)
+    return np.zeros(3)
+
+
+def _outwards(spot: Array, nominal: Contour) -> str:
+    """How far a touched point lies out of a closed contour; where a touch goes along no axis this says more than X and Y."""
+    if not nominal.closed:
+        return ""
+    out = float(nominal.distance(spot)[0]) * (-1 if nominal.winding(spot)[0] else 1)
+    return f"{out:+z.3f}".replace("-", "\N{MINUS SIGN}")
+
+
+def _text(spot: Array, way: Array) -> str:
+    """The coordinates that a touch has found."""
+    along = np.abs(way) > math.sqrt(1 - AXIS**2)
+    told = "  ".join(f"{axis} {value:z.3f}" for axis, value, some in zip("XYZ", spot, along) if some)
+    return told.replace("-", "\N{MINUS SIGN}")
+
+
+def _size(lines: Sequence[Array], balls: Sequence[float]) -> float:
+    points = np.vstack(lines)
+    return float(max(np.ptp(points, axis=0).max(), 8 * max(balls, default=0.0)))
