@@ -59,10 +59,10 @@ class Setting(NamedTuple):
             good = isinstance(value, str) and value in self.choices
         elif isinstance(self.default, bool):
             good = isinstance(value, bool)
-        elif isinstance(self.default, Mapping):
-            good = isinstance(value, Mapping)
         elif value is None:
             good = self.default is None
+        elif isinstance(self.default, Mapping):
+            good = isinstance(value, Mapping)
         else:
             good = isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
             good = good and (self.at_least is None or float(value) >= self.at_least)

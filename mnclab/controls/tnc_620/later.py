@@ -14,18 +14,9 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 
 PROBING = {
-    0: "Reference plane",
-    1: "Polar preset",
-    3: "Measuring",
-    4: "Measuring in three dimensions",
-    441: "Fast probing",
     450: "Saving the kinematics",
     451: "Measuring the kinematics",
     452: "Preset compensation",
-    460: "Calibrating the probe",
-    461: "Calibrating the probe length",
-    462: "Calibrating the probe radius inside",
-    463: "Calibrating the probe radius outside",
 }
 
 STATEMENTS = {
@@ -79,11 +70,6 @@ _OF_PROBING = {
     "450": "409 S409 410",
     "451": "253 320 380 406 407 408 411 412 413 414 415 416 417 418 419 420 421 422 423 431 432",
     "452": "253 320 380 407 408 411 412 413 414 415 416 417 418 419 420 421 422 423 432",
-    "460": "301 320 380 407 423 433 434 455",
-    "461": "434",
-    "462": "320 380 407 423",
-    "463": "301 320 380 407 423",
-    "441": "396 397 399 400",
 }
 PARAMETERS = {
     f"TCH PROBE {cycle}": frozenset(f"Q{number}" for number in numbers.split()) for cycle, numbers in _OF_PROBING.items()
