@@ -31,6 +31,7 @@ from mnclab.controls.choice import help as help
 from mnclab.controls.renumber import renumber
 from mnclab.controls.survey import check
 from mnclab.machine.probe import Probe
+from mnclab.machine.setter import Setter
 from mnclab.machine.setup import Datum, Setup
 from mnclab.path.kinds import RULE_NAMES, Kind
 from mnclab.path.limits import Limits
@@ -145,6 +146,7 @@ __all__ = [
     "Program",
     "Removal",
     "Run",
+    "Setter",
     "Setup",
     "Tool",
     "Toolpath",

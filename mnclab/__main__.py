@@ -135,7 +135,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--suffixes", type=words, metavar=".nc,.h", help=says)
     says = "find the collisions with the blank too (of the setup, or of the program); status 1 if there is one"
     sub.add_argument("--material", action="store_true", help=says)
-    sub = command("run", run, "run a program and print its moves, one a line")
+    sub = command("run", run, "run a program and print its moves, one a line, and what it measured")
     options(sub, "summary, alarms and columns of the path on stdout instead", starts=True)
     does = "write the numbers of blocks anew, and the jumps that name them, and print the program"
     sub = command("renumber", renumber, does)
@@ -197,6 +197,8 @@ def run(chosen: argparse.Namespace) -> int:
         print(json.dumps(document(result), allow_nan=False))
     elif len(result.toolpath):
         print(result.toolpath)
+    if result.measurements and not chosen.json:
+        print(f"\n{result.measurements}\n{result.measurements.verdict}")
     return verdict(result, quiet=chosen.json)
 
 

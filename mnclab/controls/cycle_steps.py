@@ -50,7 +50,7 @@ def steps(code: str, control: str, /, setup: Setup | None = None, **values: Any)
         raise Alarm(f"{code} is no cycle of {found.control.name}: only a cycle has steps", hint=f"cycles: {known}")
     given = chosen(cycle, values)
     faults = []
-    for machine in situations(found.control, cycle, setup or Setup()):
+    for machine in situations(found.control, cycle, setup or found.control.trial_setup or Setup()):
         rows: list[Row] = []
         try:
             definition, start = define(machine, cycle, given), machine.programmed
@@ -176,7 +176,7 @@ def noting(m: Machine, cycle: type[Cycle], rows: list[Row]) -> Callable[[Iterabl
                 case Each():
                     for x, y in step.points.tolist():
                         yield from through(step.visit(x, y), about)
-                case Touch():
+                case Touch() if not (m.felt and m.felt.setter):
                     yield Go(step.label, step.z, step.feed, step.x, step.y)
                     note(step)
                     answer = touched(m, step)
@@ -195,4 +195,4 @@ def touched(m: Machine, step: Touch) -> Contact:
     """The answer of a part that stands where the probe was sent."""
     x, y, z = m.programmed
     centre = x, y, z + (m.radius if step.ball is None else step.ball)
-    return Contact(centre, m.to_machine(centre), hit=True)
+    return Contact(centre, m.to_machine(centre), hit=True, tip=m.tip)

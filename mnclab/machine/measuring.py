@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from mnclab.geometry.contours import Contour
+from mnclab.text.alarm import several
 from mnclab.text.tables import html_table, text_table
 
 if TYPE_CHECKING:
@@ -21,8 +22,9 @@ if TYPE_CHECKING:
 
 Point = tuple[float, float, float]
 OK, OUT, REWORK, SCRAP = "ok", "out", "rework", "scrap"
+TOUCH_HEAD = ("number", "line", "what", "X", "Y", "Z", "ball")
 HEAD = ("line", "cycle", "what", "nominal", "actual", "deviation", "lower", "upper", "verdict")
-NUMBERS = range(3, 8)
+NUMBERS, TOUCH_NUMBERS = range(3, 8), (0, 1, 3, 4, 5, 6)
 DIGITS = 4
 SLACK = 1e-6  # mm or degrees, by which a value may be beyond its limit: it stands on it (MNC 12)
 
@@ -44,6 +46,23 @@ class Touched(NamedTuple):
     programmed: Point
     found: Point
     frame: Any
+
+
+class Touches(tuple[Touched, ...]):
+    """The touches of a run; they print as a table of what they found, as the control took it, number 1 the first."""
+
+    __slots__ = ()
+
+    def texts(self) -> list[tuple[str, ...]]:
+        """What the table says, row by row."""
+        numbers = (tuple(_written(value) for value in (*each.found, each.ball)) for each in self)
+        return [(str(k), str(each.line), each.label, *row) for k, (each, row) in enumerate(zip(self, numbers), 1)]
+
+    def __repr__(self) -> str:
+        return text_table(TOUCH_HEAD, self.texts()) if self else "nothing was touched"
+
+    def _repr_html_(self) -> str:
+        return html_table(TOUCH_HEAD, self.texts(), numbers=TOUCH_NUMBERS) if self else "<p>nothing was touched</p>"
 
 
 class Figure(NamedTuple):
@@ -126,6 +145,14 @@ class Measurements(Sequence[Measurement]):
         """The rows beyond their limits."""
         return Measurements([row for row in self if row.verdict not in ("", OK)])
 
+    @property
+    def verdict(self) -> str:
+        """How many of the measures that have limits are within them."""
+        judged = sum(bool(row.verdict) for row in self)
+        if not judged:
+            return f"{several(len(self), 'measure')}, none with limits"
+        return f"{judged - len(self.outside)} of {several(judged, 'measure')} with limits are within them"
+
     def __repr__(self) -> str:
         return text_table(HEAD, [row.texts() for row in self]) if self else "nothing was measured"
 
@@ -148,9 +175,9 @@ class Measurements(Sequence[Measurement]):
 
 def record(
     m: Machine, steps: int, place_of_line: Callable[[int, int], str]
-) -> tuple[tuple[Touched, ...], tuple[Figure, ...], Measurements]:
+) -> tuple[Touches, tuple[Figure, ...], Measurements]:
     """What was touched and measured in the first steps of a run."""
-    touches = tuple(each for each in m.touches if each.step < steps)
+    touches = Touches(each for each in m.touches if each.step < steps)
     figures = tuple(each for each in m.figures if each.step < steps)
     rows = [each._replace(where=place_of_line(each.line, each.program)) for each in m.measurements if each.step < steps]
     return touches, figures, Measurements(rows)
@@ -163,7 +190,7 @@ def judged(actual: float, lower: float, upper: float) -> str:
     return OUT if actual < lower - SLACK or actual > upper + SLACK else OK
 
 
-def _written(number: float, sign: bool) -> str:
+def _written(number: float, sign: bool = False) -> str:
     if math.isnan(number):
         return "–"
     found = f"{number:+.{DIGITS}f}" if sign else f"{number:.{DIGITS}f}"

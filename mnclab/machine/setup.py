@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from mnclab.machine.magazine import MILLS, Magazine
 from mnclab.machine.probe import Probe
+from mnclab.machine.setter import Setter
 from mnclab.machine.setup_page import page
 from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
@@ -145,6 +146,8 @@ MEANT: Mapping[str, tuple[Check, str]] = {
     "part": (_part, "a part is what a probe touches: Setup(part=mnclab.part.box((0, 0, -20), (60, 40, 0)))"),
     "fixtures": (_fixtures, "fixtures hold the blank, on a lathe the chuck: Setup(fixtures=(((0, 0, -20), (10, 40, 15)),))"),
     "probe": (_a(Probe, "a Probe"), "how a touch probe moves: Setup(probe=mnclab.Probe(clearance=2, reach=10, feed=100))"),
+    "setter": (_a(Setter | None, "a Setter"),
+               "a plate or a beam that measures tools: Setup(setter=mnclab.Setter(x=300, y=200, z=-400, diameter=40))"),
     "limits": (_a(Limits, "a Limits"), "what the axes can do: Setup(limits=mnclab.Limits(rapid=10000, acceleration=1000))"),
     "start": (lambda what, given: check_point(given, what),
               "where the spindle stands before the program, machine coordinates, mm: Setup(start=(0, 0, 300))"),
@@ -174,7 +177,8 @@ class Setup:
     number get the one they are listed under. `variables` have values before the program begins: what another left
     (`run.variables`). `source` is the file that the setup was read from: an alarm about a setting shows its line.
     `true_tools` are the tools as they truly are, by the number of their row in the table, where they differ from it: what
-    probing and measuring find. `kinematics` is not built yet. An Alarm names what cannot be.
+    probing and measuring find. `setter` is the tool setter that measures them, if there is one. `kinematics` is not built
+    yet. An Alarm names what cannot be.
     """
 
     tools: Magazine | None = None
@@ -191,6 +195,7 @@ class Setup:
     settings: Mapping[str, Any] = field(default_factory=dict)
     kinematics: Any = None
     true_tools: Mapping[int, Tool] = field(default_factory=dict)
+    setter: Setter | None = None
     variables: Mapping[str, float | str] = field(default_factory=dict)
     source: Any = field(default=None, compare=False, repr=False)
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from mnclab.machine.probe import Probe
+from mnclab.machine.setter import Setter
 from mnclab.machine.setup import NOT_BUILT, Datum, Setup
 from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
@@ -51,6 +52,8 @@ high = [0, 40, 15]
                                # travel = [[0, 400], [0, 300], [-200, 0]]: how far the axes go, machine coordinates
 [probe]                        # clearance, reach, feed, rapid, positioning, track, angle, offset [x, y]: as its table has it;
                                # true_offset, deflection [x, y, z], spread, seed, stem, stem_length: as it is
+[setter]                       # what measures tools, machine coordinates: x, y, z, diameter of a plate; or axis "X" or "Y" of a
+                               # beam and its slope; off = [x, y, z], how far it truly stands from there
 [true_tools]                   # tools as they truly are, written like tools, with runout = [x, y] of their axis and
                                # edges = [[length, radius], …], the deviations of single edges
 [settings]                     # choices of the control: mnclab help settings --control NAME lists them
@@ -59,8 +62,8 @@ high = [0, 40, 15]
 """
 
 ROWS = {"tools": Tool, "datums": Datum, "presets": Datum, "correctors": Datum, "true_tools": Tool}
-RECORDS = {"limits": Limits, "probe": Probe}
-TEXTS = ("name", "kind", "hand", "corner_speed", "rapid_motion", "positioning")  # of a tool; of the limits; of a probe
+RECORDS = {"limits": Limits, "probe": Probe, "setter": Setter}
+TEXTS = ("name", "kind", "hand", "corner_speed", "rapid_motion", "positioning", "axis")  # of a tool; of the limits; …
 KNOWN = ("start", "stock", "part", "fixtures", *ROWS, *RECORDS, "settings", "files", "variables")
 
 

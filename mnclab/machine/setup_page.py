@@ -25,7 +25,7 @@ UNITS = {
     "feed": " mm/min", "rapid": " mm/min", "acceleration": " mm/s²", "jerk": " mm/s³", "corner_jump": " mm/min",
     "corner_speed": "", "rapid_motion": "", "spindle": " rev/min", "spindle_acceleration": " rev/min in a second",
     "tool_change": " s", "centre_cutting": "", "hand": "", "shank": " mm", "holder": " mm", "positioning": "", "track": "",
-    "seed": "", "locked": "", "edges": " mm", "runout": " mm",
+    "seed": "", "locked": "", "edges": " mm", "axis": "", "slope": "", "runout": " mm",
 }  # fmt: skip
 MM = " mm"  # of all others
 
@@ -54,6 +54,8 @@ def _rows(setup: Setup) -> Iterator[tuple[str, str]]:
     yield from (("fixture", str(each)) for each in setup.fixtures)
     yield from ((f"true T{number}", tool_line(tool)) for number, tool in setup.true_tools.items())
     yield "probe", ", ".join(_different(setup.probe, type(setup.probe)())) or "as usual"
+    if setup.setter is not None:
+        yield "setter", ", ".join(_different(setup.setter, type(setup.setter)())) or "as usual"
     yield "limits", ", ".join(_different(setup.limits, Limits())) or "as usual"
     yield "start", place(setup.start)
     for name, title in NAMED.items():

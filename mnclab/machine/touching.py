@@ -17,9 +17,9 @@ from mnclab.geometry.vectors import turned
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.cut_so_far import CUT, part_before
 from mnclab.machine.measuring import Touched
-from mnclab.machine.tool_axis import tool_axis
+from mnclab.machine.tool_axis import FRAME, tool_axis
 from mnclab.text.program import Word
-from mnclab.workpiece.part import Part, contact
+from mnclab.workpiece.part import Part, contact, foot
 from mnclab.workpiece.part.rows import blocked
 
 if TYPE_CHECKING:
@@ -51,10 +51,12 @@ class Contact(NamedTuple):
 
 
 class Felt(NamedTuple):
-    """What a cycle that probes feels: the part (None: there is none), and whether its places are those of the ball."""
+    """What a cycle that probes feels: the part (None: there is none), and whether its places are those of the ball; or the
+    tool setter."""
 
     part: Part | None
     by_ball: bool
+    setter: bool = False
 
 
 class Ball(NamedTuple):
@@ -107,7 +109,7 @@ def ball_from_axis(m: Machine) -> tuple[float, float]:
 def true_ball(m: Machine, ball: float) -> Ball:
     """The ball of the tool in the spindle, as it is; `ball` is the radius where nobody says it."""
     true = m.setup.true_tools.get(m.tool.number)
-    up = np.array(m.matrix[:3, tool_axis(m)])
+    up = np.array(m.matrix[:3, 2 if FRAME in m.frames else tool_axis(m)])
     up /= np.linalg.norm(up)
     radius = ball if true is None else true.effective_radius
     longer = 0.0 if true is None else true.effective_length - m.tool.effective_length
@@ -137,6 +139,9 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
     if deflected(m, part, ball):
         m.alarm("the stylus is in contact before it touches", word, hint="the touch begins where the ball is free")
     travel = contact(part, begin, direction, true.radius, reach)
+    if travel is not None and not part.exact and not foot(part, begin + direction * travel)[1]:
+        hint = "it may touch a little later; parts of boxes, holes, slots, pockets and bosses with one axis are exact there"
+        m.warn("the ball touches off a cut edge of the part, where the distance is only bounded", word, hint=hint)
     if travel is not None:
         travel += trigger(m, direction)
     way = reach if travel is None else travel

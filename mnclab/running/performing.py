@@ -21,6 +21,8 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import Figure, Measurement, judged
 from mnclab.machine.output import put_out
 from mnclab.machine.rotary import roll, turn_axes
+from mnclab.machine.tool_axis import FRAME, tool_axis
+from mnclab.machine.tool_setting import SETS, at_setter
 from mnclab.machine.touching import FEELS, PROBES, Contact, Felt, ball_from_axis, guarded, guarded_turn, part_to_touch
 from mnclab.machine.true_size import MILLS
 from mnclab.machining.depths import TooMany
@@ -32,6 +34,7 @@ from mnclab.machining.steps import (  # isort: skip
     Thread, Touch, Turn, Wait, Write,
 )  # fmt: skip
 
+AXES = ("X", "Y", "Z")
 Place = tuple[float, float]
 Through = Callable[[Iterable[Step], Place], Iterable[Step]]
 
@@ -63,7 +66,9 @@ def _run(m: Machine, definition: Definition, through: Through | None, instead: M
 
 
 def feels(m: Machine, does: str) -> dict[str, Felt]:
-    """What a cycle feels while it runs, if it probes."""
+    """What a cycle feels while it runs, if it probes or sets tools."""
+    if does == SETS:
+        return {"felt": Felt(None, by_ball=False, setter=True)}
     return {"felt": Felt(part_to_touch(m), does == PROBES)} if does in (PROBES, FEELS) else {}
 
 
@@ -138,6 +143,8 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = 
 
 def probing(m: Machine, felt: Felt, step: Go | Turn | Touch, about: Place) -> Contact | None:
     """A step of a cycle that probes: positioning stops at what is in the way; places may be those of the ball."""
+    if felt.setter and not isinstance(step, Turn):
+        return at_setter(m, step)
     beside = ball_from_axis(m) if felt.by_ball else (0.0, 0.0)
     x, y = about[0] - beside[0], about[1] - beside[1]
     match step:
@@ -166,6 +173,8 @@ def measured(m: Machine, cycle: str, step: Measure | Sketch) -> None:
         m.figures.append(figure)
         return
     what, actual, nominal, lower, upper, unit, verdict, *_ = step
+    if what in AXES and FRAME in m.frames:  # an axis of the turned cycle
+        what = AXES[int(np.argmax(m.frames[FRAME][:3, AXES.index(what)]))]
     verdict = verdict or judged(actual, lower, upper)
     row = Measurement(line, cycle, what, nominal, actual, lower, upper, unit, verdict, touches, m.step, program)
     m.measurements.append(row)
@@ -179,11 +188,13 @@ def write(m: Machine, step: Write) -> None:
             (m.variables if step.what == "variable" else m.measured)[step.key] = step.value
         case "tools" | "datums" | "presets":
             m.write_table(step.what, step.key, step.value)
+        case "tool":
+            m.change_tool(step.value, tool_axis(m), tool_axis(m))
         case "probe":
             m.tables.probe = step.value
             m.log("probe", step.value)
-        case "file":
-            put_out(m, step.key, step.value, anew=True)
+        case "file" | "appended":
+            put_out(m, step.key, step.value, anew=step.what == "file")
         case "frame":
             m.set_frame(step.key, step.value)
         case "renamed":

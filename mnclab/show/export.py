@@ -106,6 +106,7 @@ def document(run: Any) -> dict[str, Any]:
         "summary": summary,
         "ok": run.ok,
         "alarms": [named(alarm).as_dict() for alarm in run.alarms],
+        **({"measurements": run.measurements.as_dicts()} if run.measurements else {}),
         "lathe": path.lathe,
         "origin": path.origin.tolist(),
         "meaning": {name: ", ".join(filter(None, (each.meaning, each.unit))) for name, each in COLUMNS.items()},

@@ -18,7 +18,7 @@ from mnclab.path.listing import INCHES, Unit, figure
 from mnclab.path.tool import Tool
 from mnclab.show.given_away import named
 from mnclab.show.times import clock
-from mnclab.text.alarm import ALARM, Alarm, card_html
+from mnclab.text.alarm import ALARM, Alarm, card_html, several
 from mnclab.text.file import replaced
 from mnclab.text.given import shown
 from mnclab.text.tables import html_table
@@ -28,6 +28,8 @@ from mnclab.workpiece.removal import HEAD
 
 Table = list[tuple[str, ...]]
 Listing = list[tuple[int, str, str]]
+PANELS, MOST_PANELS = 6, 60  # of measuring: in a picture, in all of them
+BLANKS = ("part", "date", "measured by")  # lines of a measuring record that a person fills in
 QUOTED = 84  # characters of a line that stand in the column of the page
 TOOL_HEAD = ("tool", "name", "kind", "radius", "corner", "length", "teeth", "time")
 SIZES = ("radius", "corner", "length")  # of them the lengths
@@ -55,6 +57,15 @@ class Report:
     """Name and listing of the programs that were called."""
     difference: Any = None
     """How the part differs from its design, where one was given."""
+    measured: Any = ()
+    """The measuring record of a run that probed."""
+    measuring: tuple[Any, ...] = ()
+    """Its pictures."""
+    panels_left_out: int = 0
+
+    def who(self, blank: str = "") -> Table:
+        """Head of a measuring record: its program, and lines that a person fills in."""
+        return [("program", self.title), *((name, blank) for name in BLANKS)]
 
     @property
     def programs(self) -> list[tuple[str, Listing]]:
@@ -94,7 +105,7 @@ def report(run: Any, title: str | None = None) -> Report:
     alarms = tuple(map(named, run.alarms))
     return Report(
         *texts, facts, tools, times, alarms, main, tool_head,
-        removal=removal, collisions=collisions or Collisions(), called=tuple(called),
+        removal=removal, collisions=collisions or Collisions(), called=tuple(called), measured=run.measurements,
     )  # fmt: skip
 
 
@@ -135,6 +146,11 @@ def save_report(
         raise Alarm(f"a report is an .html or a .pdf file, got {path.name!r}")
     with replaced(path) as beside:
         found, picture = report(run, title), run.plot(**options)
+        if run.touches:
+            from mnclab.show.plot.measured import pages
+
+            pictures, left_out = pages(run, PANELS, MOST_PANELS)
+            found = replace(found, measuring=tuple(pictures), panels_left_out=left_out)
         if design is not None:
             found = replace(found, difference=run.workpiece().compare(design, tolerance))
         if suffix == ".html":
@@ -161,6 +177,8 @@ def html(found: Report, picture: Any) -> str:
         collided = collisions_html(found.collisions) or "<p>none</p>"
         parts[-1:-1] = [f"<h2>Removal</h2>{html_table(HEAD, found.removal, numbers=range(1, 6))}"]
         parts.append(f"<h2>Collisions</h2>{collided}")
+    if found.measured or found.measuring:
+        parts.append(f"<h2>Measured by the probe</h2>{_measured(found)}")
     if found.difference is not None:
         from mnclab.show.export_difference import record
 
@@ -169,6 +187,16 @@ def html(found: Report, picture: Any) -> str:
     policy = f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
     head = f'<meta charset="utf-8">{policy}<title>{escape(found.title)}</title><style>{style}</style>'
     return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head><body>\n' + "\n".join(parts) + "\n</body></html>\n"
+
+
+def _measured(found: Report) -> str:
+    """The measuring record: whose it is, its table with verdicts, its pictures."""
+    told = [f'<div class="blanks">{html_table((), found.who())}</div>', found.measured._repr_html_()]
+    told += [f"<p>{found.measured.verdict}</p>"] if found.measured else []
+    told += [f"<figure>{picture.html(2.0)}</figure>" for picture in found.measuring]
+    if found.panels_left_out:
+        told.append(f"<p>{several(found.panels_left_out, 'picture')} left out</p>")
+    return "".join(told)
 
 
 def _listing(lines: Listing) -> str:

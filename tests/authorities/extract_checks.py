@@ -14,7 +14,8 @@ import yaml
 
 HERE = Path(__file__).parent / "catalogue"
 
-#: Entries whose examples are copied, by file. A function that is built gets its entry here.
+#: Entries whose examples are copied, by file; behind a blank, what more the name of the copy says.
+#: A function that is built gets its entry here.
 EXAMPLES = {
     "mnc-language": [
         *("words", "modal groups", "block execution", "G17", "G18", "G19", "G90", "G91", "G92", "G53"),
@@ -35,6 +36,7 @@ EXAMPLES = {
     ],
     "mnc-probing": [
         *("G400", "G404", "G408", "G409", "G410", "G411", "G412", "G413", "G414", "G415", "G417", "G419"),
+        *("G420", "G421", "G422", "G423", "G424", "G425", "G426", "G490", "G499", "G491", "G492", "G460", "G461", "G462"),
     ],
     "jnc-t01": [
         *("program structure", "table 2 notes", "axes and dimensions", "spindle control", "feed programming"),
@@ -77,10 +79,16 @@ EXAMPLES = {
         *("program BEAMS", "program BSMEAS"),
     ],
     "tnc620-probing-presets": [*(f"TCH PROBE {number}" for number in range(408, 420)), "example 15.14", "example 15.15"],
+    "tnc620-tool-measurement": [
+        *("TT spindle speed and probing feed", "TT geometry", "TT wear and breakage status"),
+        *(f"TCH PROBE {number}" for number in (30, 480, 484, 31, 481, 32, 482, 33, 483)),
+    ],
+    "mnc-probing tool-setting": ["G470", "G471", "G472", "G480", "G481", "G482"],
     "tnc620-threading": [
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
         "PGM 1 (section 5.11)",
     ],
+    "tnc620-probing-special": [f"TCH PROBE {number}" for number in (460, 461, 462, 463, 441)],
     "turning-technology": [
         *("loop", "zigzag", "descent", "pick-up", "semi-finish pass", "equidistant", "contour scheme"),
         *("closed zone strokes", "groove pass count", "groove scheme 5", "one-sided flank infeed"),
@@ -200,7 +208,7 @@ def save(name, records):
 
 def main(folder):
     for name, codes in EXAMPLES.items():
-        save(name, examples(folder, name, codes))
+        save(name.replace(" ", "-"), examples(folder, name.partition(" ")[0], codes))
     for control, prefix in PROGRAMS.items():
         save(f"programs-{control}", programs(folder, prefix))
     for control, records in parameters(folder).items():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from mnclab.controls.word_address import state
@@ -23,6 +23,7 @@ class Memory(state.Memory):
     polar: Polar | None = None  # while a pole is active
     run_up: int = -1  # the step that last waited for the spindle
     base_rotation: float = 0.0  # degrees, counter-clockwise
+    laser: dict[str, float] = field(default_factory=dict)  # what calibrations found of the tool setter
     angled: frozenset[int] = frozenset()  # rows of the datum table that hold an angle
 
 

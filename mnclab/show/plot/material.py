@@ -16,6 +16,20 @@ CELLS = 220  # along the longer side of a section
 FACE: dict[str, Any] = {"facecolor": "#e9e5da", "edgecolor": "#8c8778", "linewidth": 0.7}
 
 
+MOST = 2000  # moves, beyond which what the program has cut is not worked out for a picture
+
+
+def part_of(run: Any) -> Part | None:
+    """What a probe meets in a run, machine coordinates; of what the program cuts as it is at the end."""
+    part = run.setup.part
+    if part is None or isinstance(part, Part):
+        return part
+    if run.stock is None or run.toolpath.lathe or int(run.toolpath.is_motion.sum()) > MOST:
+        return None
+    found: Part = run.workpiece().part.shifted(*run.toolpath.origin)
+    return found
+
+
 def draw_material(ax: Axes, part: Part, view: View, frame: Array, level: float) -> None:
     """What the plane of a view cuts of a part, within the limits of the axes.
 
@@ -24,7 +38,7 @@ def draw_material(ax: Axes, part: Part, view: View, frame: Array, level: float) 
     (left, right), (below, above) = ax.get_xlim(), ax.get_ylim()
     step = max(right - left, above - below) / CELLS
     across, up = np.arange(left, right + step, step), np.arange(below, above + step, step)
-    places = np.full((len(up), len(across), 3), level)
+    places = np.full((len(up), len(across), 3), float(level))
     places[..., view.right], places[..., view.up] = across, up[:, None]
     off = part(apply(frame, places).reshape(-1, 3)).reshape(places.shape[:2])
     if not (off < 0).any():

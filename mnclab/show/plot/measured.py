@@ -13,7 +13,7 @@ from matplotlib.patches import Circle, Patch
 
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line, Mark
-from mnclab.show.plot.material import FACE, draw_material
+from mnclab.show.plot.material import FACE, draw_material, part_of
 from mnclab.show.plot.measured_panels import Panel, panels
 from mnclab.show.plot.picture import LINE, SMALL, Foot, Picture, dress, write_legend
 from mnclab.show.plot.placing import write_beside
@@ -31,6 +31,7 @@ OUT = "#b3261e"
 MOST = 12  # panels
 LEFT, RIGHT, TITLE, BELOW, GAP, TOP = 0.66, 0.14, 0.36, 0.5, 0.16, 0.34  # inches
 TALL = 0.78  # of the width of a panel
+WIDTH = 7.5  # inches, of a picture
 WIDEST = 4.6  # inches, of a panel
 HEAD = ("", "nominal", "actual", "deviation", "")
 COLUMNS = (2, 3, 4, 5, 8)  # of the record
@@ -38,7 +39,7 @@ LETTER, BETWEEN_COLUMNS = 0.068, 0.12  # inches
 
 
 def plot_measured(
-    run: Any, *, line: int | None = None, factor: float | None = None, part: bool = True, width: float = 7.5
+    run: Any, *, line: int | None = None, factor: float | None = None, part: bool = True, width: float = WIDTH
 ) -> Picture:
     """A panel for each cycle that measured: nominal and actual contour, the ball at each touch with its approach, its number
     and what it found, and the lines of the measuring record.
@@ -64,7 +65,15 @@ def plot_measured(
     if not found:
         lines = ", ".join(map(str, sorted({each.line for each in (*run.touches, *run.figures)})[:MOST]))
         raise Alarm(f"nothing was measured in line {line}", hint=f"lines that measured: {lines}")
-    return _picture(found[:MOST], run.setup.part if part else None, width, len(found) - MOST)
+    return _picture(found[:MOST], part_of(run) if part else None, width, len(found) - MOST)
+
+
+def pages(run: Any, count: int, most: int) -> tuple[list[Picture], int]:
+    """Pictures of `count` panels each for a report, of `most` panels; and how many are left out."""
+    found = panels(run, None, None) if run.touches or run.figures else []
+    shown, part = found[:most], part_of(run) if found else None
+    pictures = [_picture(shown[k : k + count], part, WIDTH, 0) for k in range(0, len(shown), count)]
+    return pictures, len(found) - len(shown)
 
 
 def _picture(found: Sequence[Panel], part: Any, width: float, more: int) -> Picture:
@@ -110,17 +119,16 @@ def draw(ax: Axes, panel: Panel, part: Any = None, box: tuple[float, float] | No
     ax.set_title(panel.title, fontsize=SMALL, loc="left", pad=4, parse_math=False)
     ax.set_xlim(middle[0] - scale * wide / 2, middle[0] + scale * wide / 2)
     ax.set_ylim(middle[1] - scale * tall / 2, middle[1] + scale * tall / 2)
-    if part is not None and callable(part):
+    if part is not None:
         draw_material(ax, part, panel.view, panel.frame, panel.level)
     for pair in panel.pairs:
         quads = np.stack([pair.nominal[:-1], pair.nominal[1:], pair.actual[1:], pair.actual[:-1]], axis=1)
         ax.add_collection(PolyCollection(list(quads), facecolors=BETWEEN, edgecolors="none", zorder=2.2), autolim=False)
         ax.add_line(Line2D(*pair.nominal.T, **NOMINAL.style()))
         ax.add_line(Line2D(*pair.actual.T, **ACTUAL.style()))
-        if pair.closed:
-            nominal, actual = pair.middles()
-            ax.add_line(Line2D(*nominal[:, None], **NOMINAL_MIDDLE.style()))
-            ax.add_line(Line2D(*actual[:, None], **MIDDLE.style()))
+    for nominal, actual in panel.middles:
+        ax.add_line(Line2D(*nominal[:, None], **NOMINAL_MIDDLE.style()))
+        ax.add_line(Line2D(*actual[:, None], **MIDDLE.style()))
     return _balls(ax, panel)
 
 
@@ -180,6 +188,6 @@ def _legend(picture: Picture, found: Sequence[Panel], part: Any) -> None:
         artists += [Line2D([], [], **NOMINAL.style()), Line2D([], [], **ACTUAL.style())]
     if any(panel.balls for panel in found):
         artists += [Line2D([], [], **APPROACH.style()), Line2D([], [], **TOUCHED.style())]
-    if part is not None and callable(part):
+    if part is not None:
         artists.append(Patch(**FACE, label="part"))
     write_legend(picture, artists)

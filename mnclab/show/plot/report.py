@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from mnclab.show.given_away import whole
 from mnclab.show.plot import colours
-from mnclab.text.alarm import ALARM, WARNING, first_of
+from mnclab.text.alarm import ALARM, WARNING, first_of, several
 from mnclab.workpiece.removal import HEAD
 
 A4 = (8.27, 11.69)  # inches
@@ -23,6 +23,7 @@ LINES = int((A4[1] - 2 * TOP) / LINE)
 WIDTH = 92  # characters of a line
 QUOTED = WIDTH - 8  # of a quoted line, which is set in and may begin and end with an ellipsis
 LISTED = 2000  # lines of the programs
+HEADS = ("", "", "", "nominal", "actual", "deviation", "lower", "upper", "verdict")
 MARKS = {"": " ", ALARM: "!", WARNING: "?"}
 
 
@@ -31,8 +32,10 @@ def write(found: Any, picture: Figure, path: Path) -> None:
     data = BytesIO()
     undated = {"CreationDate": None, "Title": whole(found.title)}
     with mpl.rc_context({"pdf.fonttype": 42}), PdfPages(data, metadata=undated) as pages:
+        measured = [*map(_page, chunks([*measuring(found)]))] if found.measured else []
         record = [] if found.difference is None else [found.difference.plot(table=True)]
-        for page in (*map(_page, chunks([*front(found)])), picture, *record, *map(_page, chunks([*texts(found)]))):
+        pictures = picture, *measured, *found.measuring, *record
+        for page in (*map(_page, chunks([*front(found)])), *pictures, *map(_page, chunks([*texts(found)]))):
             pages.savefig(page)
     path.write_bytes(data.getvalue())
 
@@ -64,6 +67,28 @@ def front(found: Any) -> Iterator[tuple[str, bool]]:
             yield from ((part, False) for part in textwrap.wrap(str(each), WIDTH))
         if not found.collisions:
             yield "none", False
+
+
+def measuring(found: Any) -> Iterator[tuple[str, bool]]:
+    """The record of what the probe measured, execution by execution of a cycle."""
+    yield from [("Measured by the probe", True), ("", False)]
+    yield from table(found.who("_" * 40))
+    rows = [row.texts() for row in found.measured]
+    head, *lines = (text for text, _ in table([_columns(HEADS), *map(_columns, rows)]))
+    before = None
+    for row, (where, cycle, *_), line in zip(found.measured, rows, lines):
+        if row.step != before:
+            yield from [("", False), (f"{where}  {cycle}", True), (head, False)]
+        before = row.step
+        yield line, False
+    yield from [("", False), (found.measured.verdict, False)]
+    if found.panels_left_out:
+        yield f"{several(found.panels_left_out, 'picture')} left out", False
+
+
+def _columns(row: Sequence[str]) -> tuple[str, ...]:
+    """What a line of a measuring record says, numbers to the right."""
+    return row[2], *(text.rjust(10) for text in row[3:8]), row[8]
 
 
 def table(rows: list[tuple[str, ...]]) -> Iterator[tuple[str, bool]]:

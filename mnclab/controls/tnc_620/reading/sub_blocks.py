@@ -21,6 +21,7 @@ _SLASH = re.compile(r"[ \t]*/")
 _ROW = re.compile(r"#")
 _LETTER = re.compile(r"[ \t]*([XYZUVWABC])(?![A-Z\d])", FLAGS)
 _TOLERANCE = re.compile(r"T(?![A-Z])", FLAGS)
+_STATUS = re.compile(r"Q[LR]?\d{1,4}(?!\d)", FLAGS)
 _DISTANCE = re.compile(r"(?!FMAX|FAUTO)[A-Z]{3,}[ \t]*", FLAGS)
 _FILTER = re.compile(r"HSC[ \t]*(?:-[ \t]*)?MODE[ \t]*:?|TA", FLAGS)
 
@@ -109,6 +110,16 @@ def filters(cursor: Cursor) -> None:
         cursor.add(address, cursor.needed(f"{address} needs a number", begin, cursor.at - begin), begin)
 
 
+def checked(cursor: Cursor) -> None:
+    """31.1, 32.1 and 33.1 of tool measurement: what becomes of the values, and perhaps the Q parameter of the status."""
+    begin = cursor.blanks()
+    dialog(cursor)
+    cursor.add("CHECK", cursor.needed("a number is missing: the mode 0, 1 or 2", begin, max(1, cursor.at - begin)), begin)
+    begin = cursor.blanks()
+    if found := cursor.match(_STATUS):
+        cursor.add("status parameter", found.group().upper(), begin)
+
+
 #: By cycle, or by cycle and number of the sub-block; the others are known by their number alone.
 READERS: dict[str, Read] = {
     **obsolete_blocks.READERS,
@@ -127,6 +138,10 @@ READERS: dict[str, Read] = {
     "CYCL DEF 26": factors,
     "CYCL DEF 32.1": tolerance,
     "CYCL DEF 32.2": filters,
+    "TCH PROBE 30.1": partial(after_dialog, address="HEIGHT", meaning="clearance height"),
+    **{f"TCH PROBE {n}.1": checked for n in (31, 32, 33)},
+    **{f"TCH PROBE {n}.2": partial(after_dialog, address="HEIGHT", meaning="clearance height") for n in (31, 32, 33)},
+    **{f"TCH PROBE {n}.3": partial(after_dialog, address="PROBING THE TEETH", meaning="teeth, 0 or 1") for n in (31, 32, 33)},
 }
 
 #: By cycle, the addresses of the sub-blocks .1, .2, … as they are written; a datum shift has one for each axis.

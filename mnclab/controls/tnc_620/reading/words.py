@@ -50,7 +50,7 @@ _NAMED = re.compile(rf"(I?)(DR2(?=[ \t]*[+-])|{'|'.join(sorted(_ADDRESSES, key=l
 #: Addresses of lengths and of feeds along a path: inches in a program that begins with INCH.
 LENGTHS = frozenset(
     "X Y Z U V W R RI DI DIST LEN PR F FU FZ DL DR DR2 L CCX CCY CCZ CCPR ABST D P1X P1Y P2X P2Y P3X P3Y PDX PDY DX DY "
-    "DP DEPTH PITCH SETUP PECKG PECKG:F RADIUS length M140:MB M140:F M128:F".split()
+    "DP DEPTH PITCH SETUP PECKG PECKG:F RADIUS HEIGHT length M140:MB M140:F M128:F".split()
 )
 
 #: Addresses that belong to an M function when they stand directly behind it: `M103 F20` beside a feed F of the block.

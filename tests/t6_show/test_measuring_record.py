@@ -1,0 +1,114 @@
+"""The measuring record in a report, on a card and in the shell; touches as a table."""
+
+import json
+import re
+
+import pytest
+from toy_probing import toy_run
+
+import mnclab
+from mnclab import __main__ as shell
+from mnclab.show.plot import report as pages
+from mnclab.show.report import report
+from mnclab.workpiece.part import box, hole
+
+PART = box((0, 0, -20), (100, 60, 0)) - hole((50.1, 29.9, 0), 24.2, 10)
+TEXT = "M1 X50 Y30 D24 Z-5\nM4 X0 Y30 Z-5\nM5 X20 Y10 Z0.01"
+
+
+@pytest.fixture(scope="module")
+def measured():
+    return toy_run(TEXT, PART)
+
+
+def test_touches_print_what_they_found_number_one_the_first(measured):
+    assert repr(measured.touches).splitlines()[0].split() == ["number", "line", "what", "X", "Y", "Z", "ball"]
+    assert measured.touches.texts()[4] == ("5", "4", "M4 touch 1", "0.0000", "30.0000", "-5.0000", "2.0000")
+    assert measured.touches._repr_html_().count("<tr>") == 1 + len(measured.touches) == 7
+    assert repr(toy_run("", PART).touches) == "nothing was touched"
+    assert measured.touches == tuple(measured.touches)
+
+
+def test_the_verdict_counts_what_has_limits(measured):
+    """Of 5 measures the diameter (24.2, limits 23.95 to 24.05) and Z (0 for 0.01, limits -0.02 to 0.02) have limits."""
+    assert len(measured.measurements) == 5
+    assert measured.measurements.verdict == "1 of 2 measures with limits are within them"
+    assert measured.measurements.of("M4").verdict == "1 measure, none with limits"
+
+
+def test_the_report_has_the_record_its_blanks_and_its_pictures(measured, tmp_path):
+    text = measured.report(tmp_path / "a.html", "Plate 7").read_text("utf-8")
+    said = re.sub("<[^>]+>", " ", text.partition("<body>")[2])
+    for piece in ("Measured by the probe", "date", "measured by", "24.2000", "+0.2000", "1 of 2 measures"):
+        assert piece in said, piece
+    assert text.count('alt="measured: 3 panels, 6 touched points"') == 1
+
+
+def test_the_pages_have_the_record_too(measured, tmp_path):
+    one, other = (measured.report(tmp_path / f"{name}.pdf").read_bytes() for name in "ab")
+    assert one == other and one.startswith(b"%PDF")
+    lines = [text for text, _ in pages.measuring(report(measured))]
+    assert lines[0] == "Measured by the probe" and max(map(len, lines)) <= pages.WIDTH
+    (diameter,) = (line.split() for line in lines if line.startswith("diameter"))
+    assert diameter == ["diameter", "24.0000", "24.2000", "+0.2000", "23.9500", "24.0500", "out"]
+    assert sum(line.endswith("  M1") for line in lines) == 1  # a heading for each cycle
+
+
+def test_a_long_measuring_has_a_report_of_few_pictures(tmp_path, monkeypatch):
+    monkeypatch.setattr("mnclab.show.report.PANELS", 2)
+    monkeypatch.setattr("mnclab.show.report.MOST_PANELS", 4)
+    text = toy_run("M4 X0 Y30 Z-5\n" * 9, PART).report(tmp_path / "a.html").read_text("utf-8")
+    assert text.count('alt="measured: 2 panels') == 2 and "5 pictures left out" in text
+
+
+def test_a_report_without_measuring_has_no_record(tmp_path):
+    text = mnclab.run("G0 X1\n", "mnc").report(tmp_path / "a.html").read_text("utf-8")
+    assert "Measured" not in text
+
+
+def test_the_card_has_the_first_lines(measured):
+    assert "24.2000" in measured._repr_html_() and "run.measurements" not in measured._repr_html_()
+    assert "8 more: <code>run.measurements" in toy_run("M4 X0 Y30 Z-5\n" * 20, PART)._repr_html_()
+
+
+PROGRAM = """BEGIN PGM P MM
+BLK FORM 0.1 Z X+0 Y+0 Z-20
+BLK FORM 0.2 X+60 Y+40 Z+0
+TOOL CALL 1 Z S1000
+L X-10 Y+20 Z+5 R0 FMAX M3
+L Z-6 R0 FMAX
+L X+20 R0 F200
+L Z+50 R0 FMAX M5
+TOOL CALL 7 Z
+L Z+50 R0 FMAX
+TCH PROBE 419 PRESET
+Q263=+24.9
+Q264=+20
+Q261=-2
+Q320=+0
+Q260=+50
+Q272=+1
+Q267=+1
+Q305=+0
+Q333=+0
+Q303=+1
+END PGM P MM
+"""
+SETUP = (
+    'part = "cut"\n[tools.1]\nradius = 5\nlength = 60\nkind = "mill"\n[tools.7]\nradius = 2\nlength = 80\nkind = "probe"\n'
+    "[presets]\n1 = [100, 200, -300]\n[settings]\npreset = 1\n"
+)
+
+
+def test_the_shell_prints_the_record(tmp_path, monkeypatch, capsys):
+    """A 10 mm mill to X20 leaves a wall at X25, measured for 24.9."""
+    (tmp_path / "p.h").write_text(PROGRAM)
+    (tmp_path / "s.toml").write_text(SETUP)
+    monkeypatch.chdir(tmp_path)
+    assert shell.main(["run", "p.h", "--setup", "s.toml"]) == 0
+    out = capsys.readouterr().out
+    assert out.splitlines()[-2].split() == ["p.h:11", "TCH", "PROBE", "419", "X", "24.9000", "25.0000", "+0.1000", "–", "–"]
+    assert out.splitlines()[-1] == "1 measure, none with limits"
+    assert shell.main(["run", "p.h", "--setup", "s.toml", "--json"]) == 0
+    (row,) = json.loads(capsys.readouterr().out)["measurements"]
+    assert row["actual"] == pytest.approx(25) and row["deviation"] == pytest.approx(0.1) and row["lower"] is None
