@@ -141,6 +141,27 @@ def test_din_iso(code):
     assert dict(one.variables) == dict(other.variables)
 
 
+@pytest.mark.parametrize("letter", "XY")
+@pytest.mark.parametrize("code", WORDS)
+def test_along_other_tool_axes(code, letter):
+    """Tool axis X: reference axis Y, minor axis Z; tool axis Y: Z, X (chapter 16). The part is turned with it, results stay."""
+    k = "XYZ".index(letter)
+    frame, begin = np.eye(4), np.zeros(3)
+    frame[:3, :3], begin[k] = np.roll(np.eye(3), k + 1, axis=0), 130
+    text = f"L {letter}+80 R0 FMAX\nTCH PROBE {code} X\n" + "\n".join(WORDS[code].split())
+    run = mnc.run(
+        f"BEGIN PGM P MM\nTOOL CALL 7 {letter}\n{text}\nEND PGM P MM\n", "tnc-620",
+        Setup(tools={7: Tool(radius=BALL, length=50, kind="probe")}, part=good(code).placed(frame), probe=Probe(),
+              start=tuple(begin)),
+    )  # fmt: skip
+    assert run.ok, run.alarms
+    upright = probing(code, good(code))
+    for name, value in dict(upright.variables).items():
+        assert run.variables[name] == pytest.approx(value, abs=1e-9), name
+    turned = upright.toolpath.motion.end[1:] @ frame[:3, :3].T
+    assert run.toolpath.motion.end[1:] == pytest.approx(turned, abs=1e-9)
+
+
 def test_a_probe_that_is_not_calibrated_measures_wrong():
     """The ball is 0.01 smaller than the table says, and 0.05 beside the axis: the hole comes out 0.02 wider, its centre aside."""
     true = {7: Tool(radius=BALL - 0.01, length=50, kind="probe")}
