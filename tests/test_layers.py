@@ -27,7 +27,7 @@ FLOORS = {
 OUTSIDE = {  # package -> the only modules of mnclab that import it
     "shapely": ("geometry.shapely",),
     "matplotlib": ("show.plot", "show.drawing"),
-    "pyvista": ("show.scene", "show.part_scene", "show.difference_scene", "workpiece.difference.mesh",
+    "pyvista": ("show.scene", "show.part_scene", "show.probed_scene", "show.difference_scene", "workpiece.difference.mesh",
                 "workpiece.part.pictures"),
     "vtkmodules": ("show.scene", "show.part_scene", "workpiece.difference.mesh"),
     "ezdxf": ("geometry.dxf",),

@@ -1,4 +1,5 @@
-"""A run in three dimensions: path, tool, blank or part in a pyvista `Plotter`; `part_scene` and this file know pyvista.
+"""A run in three dimensions: path, tool, blank or part in a pyvista `Plotter`; pyvista is known here, in `part_scene` and
+in `probed_scene`.
 
 The scene shows itself in Jupyter as a still picture, which works everywhere and needs no server. `scene.show()` does
 the same; `scene.show(jupyter_backend="html")` turns in the browser and needs `mnclab[html]`. VTK without OpenGL ends
@@ -56,6 +57,7 @@ def scene(
     tool: bool = True,
     stock: bool | Blank | tuple[ArrayLike, ArrayLike] = True,
     part: bool = False,
+    probed: bool = True,
     axes: bool = True,
     size: tuple[int, int] = SIZE,
 ) -> pyvista.Plotter:
@@ -65,7 +67,8 @@ def scene(
     Beside a blank the first approach, from a place that nobody has said, is left out. `row`: where the tool stands, by
     default at the end. `stock`: whether the blank of the setup or the program is shown, or another one, mm in the
     coordinates of the path: two opposite corners (3,) or a body of
-    `workpiece.blank`. `part` shows what is left of the blank after `row` in place of it. `size` in pixels. What
+    `workpiece.blank`. `part` shows what is left of the blank after `row` in place of it, `probed` the part that a probe
+    meets, and its touches with their numbers. `size` in pixels. What
     lies on a cylinder is shown on it as it lies on the workpiece, without the tool.
 
     An Alarm says in a sentence what is missing: pyvista, or something for VTK to draw with.
@@ -103,6 +106,11 @@ def scene(
         plotter.add_mesh(_surface(blank), color=STOCK, opacity=0.25, name="blank")
         edges = _surface(blank).extract_feature_edges()
         plotter.add_mesh(edges, color="#7d7664", line_width=1, name="edges of the blank")
+    if probed and run.setup.part is not None:
+        from mnclab.show.probed_scene import add_probed
+
+        ends = add_probed(plotter, run)
+        corners = ends if corners is None or ends is None else np.concatenate([corners, ends])
     if axes:
         plotter.add_axes(line_width=3, color="black")
         if len(path):

@@ -41,7 +41,7 @@ def test_deviations_are_drawn_as_often_as_the_title_says():
     assert panel.title.endswith("deviation × 20")
     assert np.hypot(*(pair.nominal - (50, 30)).T) == pytest.approx(12)
     assert np.hypot(*(pair.actual - (50 + 20 * 0.1, 30 - 20 * 0.1)).T) == pytest.approx(12 + 20 * 0.1)
-    assert pair.middles()[1] == pytest.approx((52, 28), abs=1e-6)
+    assert panel.middles[0].actual == pytest.approx((52, 28), abs=1e-6)
     for ball in panel.balls:  # it touches the line where it is drawn, near to a graze: 0.1 of 24 aside
         off = np.hypot(*(ball.centre - (52, 28))) + 2
         assert off == pytest.approx(14, abs=20 * 0.1**2 / 24 + 1e-3)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from mnclab.controls.mnc import auxiliary, language, polar, transforms
 from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets, prepared
-from mnclab.controls.mnc.probing import alignment, corners, datums, tool_setting
+from mnclab.controls.mnc.probing import alignment, calibration, corners, datums, measuring, single, tool_setting
 from mnclab.controls.mnc.settings import SETTINGS
 from mnclab.controls.mnc.signs import SIGNS
 from mnclab.controls.mnc.state import Memory
@@ -31,12 +31,7 @@ PHASES = (
     *("dwell", "motion", "call", "end"),
 )
 
-_LATER = "it is part of this control but not built yet"
-REFUSED = (
-    {f"G{n}": _LATER for n in (*range(420, 427), *range(460, 463))}
-    | {f"G{n}": _LATER for n in (490, 491, 492, 499)}
-    | {f"G{n}": "this control has no such cycle, G83 does its work" for n in (81, 82)}
-)
+REFUSED = {f"G{n}": "this control has no such cycle, G83 does its work" for n in (81, 82)}
 
 #: What the words of functions are, where their letters do not say it.
 MEANINGS = {
@@ -77,6 +72,9 @@ CHAPTERS = (
     alignment,
     datums,
     corners,
+    measuring,
+    single,
+    calibration,
     tool_setting,
 )
 CYCLES = CycleTable({code: cycle for chapter in CHAPTERS for code, cycle in chapter.CYCLES.items()})

@@ -80,6 +80,10 @@ from mnclab.controls.tnc_620.language import (
 )
 from mnclab.controls.tnc_620.printing import output
 from mnclab.controls.tnc_620.probing import (
+    aimed,
+    calibration,
+    edge,
+    fast_probing,
     measuring_circles,
     measuring_points,
     measuring_sides,
@@ -90,8 +94,10 @@ from mnclab.controls.tnc_620.probing import (
     presets,
     rotary_table,
     rotation,
+    single,
     tool_measuring,
     tool_setter,
+    two_circles,
 )
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
@@ -135,7 +141,9 @@ SETTINGS = (
     *tools.SETTINGS, *no_effect.SETTINGS, *retraction.SETTINGS, *tilting.SETTINGS, *engraving.SETTINGS,
     *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS, *output.SETTINGS,
     *tool_setter.SETTINGS,
+    *aimed.SETTINGS,
     *leaving.SETTINGS, *cylinder.SETTINGS, *surface.SETTINGS,
+    *calibration.SETTINGS,
     Setting("max_touch_feed", 3000.0, "upper limit of the probing feed (maxTouchFeed, no. 122602)", "13.2", {}, "mm/min", 1),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
@@ -166,6 +174,8 @@ CHAPTERS = (
     preset_circles,
     preset_corners,
     preset_holes,
+    calibration,
+    fast_probing,
     rotation,
     rotary_table,
     measuring_points,
@@ -173,6 +183,9 @@ CHAPTERS = (
     measuring_sides,
     tool_setter,
     tool_measuring,
+    edge,
+    two_circles,
+    single,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()

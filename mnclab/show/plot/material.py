@@ -38,7 +38,7 @@ def draw_material(ax: Axes, part: Part, view: View, frame: Array, level: float) 
     (left, right), (below, above) = ax.get_xlim(), ax.get_ylim()
     step = max(right - left, above - below) / CELLS
     across, up = np.arange(left, right + step, step), np.arange(below, above + step, step)
-    places = np.full((len(up), len(across), 3), level)
+    places = np.full((len(up), len(across), 3), float(level))
     places[..., view.right], places[..., view.up] = across, up[:, None]
     off = part(apply(frame, places).reshape(-1, 3)).reshape(places.shape[:2])
     if not (off < 0).any():

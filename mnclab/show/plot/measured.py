@@ -126,10 +126,9 @@ def draw(ax: Axes, panel: Panel, part: Any = None, box: tuple[float, float] | No
         ax.add_collection(PolyCollection(list(quads), facecolors=BETWEEN, edgecolors="none", zorder=2.2), autolim=False)
         ax.add_line(Line2D(*pair.nominal.T, **NOMINAL.style()))
         ax.add_line(Line2D(*pair.actual.T, **ACTUAL.style()))
-        if pair.closed:
-            nominal, actual = pair.middles()
-            ax.add_line(Line2D(*nominal[:, None], **NOMINAL_MIDDLE.style()))
-            ax.add_line(Line2D(*actual[:, None], **MIDDLE.style()))
+    for nominal, actual in panel.middles:
+        ax.add_line(Line2D(*nominal[:, None], **NOMINAL_MIDDLE.style()))
+        ax.add_line(Line2D(*actual[:, None], **MIDDLE.style()))
     return _balls(ax, panel)
 
 

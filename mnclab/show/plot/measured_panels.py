@@ -40,21 +40,20 @@ class Ball(NamedTuple):
 
 
 class Pair(NamedTuple):
-    """A line as it should be (n, 2) and as it was found, magnified (n, 2); of a closed one the middle is marked."""
+    """A line as it should be (n, 2) and as it was found, magnified (n, 2)."""
 
     nominal: Array
     actual: Array
-    closed: bool
 
-    def middles(self) -> tuple[Array, Array]:
-        """Of both lines, each piece with the weight that it has in the nominal one."""
-        weights = np.hypot(*np.diff(self.nominal, axis=0).T)
-        one, other = (np.average((line[1:] + line[:-1]) / 2, axis=0, weights=weights) for line in (self.nominal, self.actual))
-        return one, other
+    def middles(self) -> Pair:
+        """Of both lines (2,), each piece with the weight that it has in the nominal one."""
+        weights = np.hypot(*np.diff(self.nominal, axis=0).T) + 1e-12
+        return Pair(*(np.average((line[1:] + line[:-1]) / 2, axis=0, weights=weights) for line in self))
 
 
 class Panel(NamedTuple):
-    """One view of one execution of a cycle: of its plane `frame` (4, 4), at a `level` along the line of sight."""
+    """One view of one execution of a cycle: of its plane `frame` (4, 4), at a `level` along the line of sight; `middles` are
+    places (2,) of figures that have one."""
 
     title: str
     view: View
@@ -62,6 +61,7 @@ class Panel(NamedTuple):
     level: float
     factor: float
     pairs: list[Pair]
+    middles: list[Pair]
     balls: list[Ball]
     rows: list[Any]
 
@@ -133,7 +133,9 @@ def _panel(
 ) -> Panel:  # fmt: skip
     """One panel; `known` are rows of the record that say what a touch should have found."""
     axes, into = [view.right, view.up], inverse(frame)
-    lines = [(*_samples(nominal, actual), nominal.closed) for _, nominal, actual in figures]
+    ways = {k: (into[:3, :3] @ touch.direction)[axes] for k, touch in touches}
+    widths = [_width(nominal, [ways[k] for k in numbers if k in ways]) for numbers, nominal, _ in figures]
+    lines = [_samples(nominal, actual) for _, nominal, actual in figures]
     feet, texts = [], []
     for k, touch in touches:
         spot, way = apply(into, apply(np.asarray(touch.frame), touch.found)), into[:3, :3] @ touch.direction
@@ -149,11 +151,14 @@ def _panel(
             foot = spot[axes] - _off(k, spot, way, known or rows)[axes]
         out = _outwards(spot[axes], owner[1]) if owner and not across and np.abs(way).max() < AXIS else ""
         texts.append(out or _text(spot, way))
-        feet.append((spot[axes], foot, way[axes], across, owner is None and not across))
-    worst = max([float(np.hypot(*(a - n).T).max()) for n, a, _ in lines] + [math.dist(s, f) for s, f, *_ in feet], default=0.0)
-    size = _size([n for n, _, _ in lines] + [spot[None] for spot, *_ in feet], [touch.ball for _, touch in touches])
+        alone = not across and (owner is None or widths[[each is owner for each in figures].index(True)])
+        feet.append((spot[axes], foot, way[axes], across, alone))
+    worst = max([float(np.hypot(*(a - n).T).max()) for n, a in lines] + [math.dist(s, f) for s, f, *_ in feet], default=0.0)
+    size = _size([n for n, _ in lines] + [spot[None] for spot, *_ in feet], [touch.ball for _, touch in touches])
     magnified = factor or (min(nice(SHARE * size / worst), GREATEST) if worst > NOTHING else 1.0)
-    pairs = [Pair(n, n + magnified * (a - n), closed) for n, a, closed in lines]
+    drawn = [Pair(n, n + magnified * (a - n)) for n, a in lines]
+    pairs = [pair for pair, width in zip(drawn, widths) if not width]
+    middles = [pair.middles() for pair, width, (_, nominal, _) in zip(drawn, widths, figures) if width or nominal.closed]
     balls = []
     for (k, touch), text, (spot, foot, way, across, lonely) in zip(touches, texts, feet):
         shown, radius = foot + magnified * (spot - foot), float(touch.ball)
@@ -163,17 +168,26 @@ def _panel(
             continue
         if lonely:
             tick = np.outer([-TICK, TICK], radius * np.array([-way[1], way[0]]))
-            pairs.append(Pair(foot + tick, shown + tick, False))
+            pairs.append(Pair(foot + tick, shown + tick))
         balls.append(Ball(k + 1, text, shown - radius * way, shown - (radius + travel) * way, radius, False))
     said = f"{title}\n{'from above' if view.up == 1 else 'from the side'}"
     said += f", deviation × {magnified:g}" if worst > NOTHING and magnified != 1 else ""
-    return Panel(said, view, frame, level, magnified, pairs, balls, rows)
+    return Panel(said, view, frame, level, magnified, pairs, middles, balls, rows)
 
 
 def nice(value: float) -> float:
     """The greatest number 1, 2 or 5 times a power of ten that is not greater, 1 at least."""
     power = 10.0 ** math.floor(math.log10(max(value, 1.0)))
     return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= max(value, 1.0))
+
+
+def _width(nominal: Contour, ways: Sequence[Array]) -> bool:
+    """Whether a line goes from wall to wall: the touches at its ends went along it."""
+    if nominal.closed or len(nominal.starts) > 1 or not len(ways):
+        return False
+    along = nominal.ends[-1] - nominal.starts[0]
+    size = float(np.hypot(*along))
+    return size > 0 and all(abs(float(way @ along)) > AXIS * size * np.hypot(*way) > 0 for way in ways)
 
 
 def _samples(nominal: Contour, actual: Contour) -> tuple[Array, Array]:

@@ -13,6 +13,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
@@ -23,7 +24,10 @@ from mnclab.show.plot.classes import Classes, classes
 from mnclab.show.plot.classes import lines as lines_of
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, crosses, near, places_of, write_names
+from mnclab.show.plot.felt import Felt, draw_felt
+from mnclab.show.plot.felt import felt as felt_of
 from mnclab.show.plot.lathe import Lathe, draw_blank, draw_insert, lathe, speed_strokes, with_blank
+from mnclab.show.plot.material import FACE
 from mnclab.show.plot.picture import SCALE, SIZE, VIEWS, Foot, View, arrange, dress, roomy, write_legend
 from mnclab.show.plot.scale import write_scale
 from mnclab.show.plot.strokes import Array, Strokes, corners, line_of, strokes
@@ -35,6 +39,7 @@ from mnclab.workpiece.workpiece import Workpiece
 
 MARKS = {Kind.DWELL: colours.DWELL, Kind.TOOL: colours.TOOL, Kind.STOP: colours.STOP}
 UNSCALED = (colours.PROGRAMMED, colours.RAPID, colours.PROBING)  # look the same whatever the colour shows
+PART = "part"
 INSERT = 0.09  # edges of an insert, of the greatest side of the picture
 MOST = 2000  # rows of a lathe's path whose part is shown unasked
 MOSTLY = 0.9  # the cosine between two directions from which on they are taken for the same
@@ -56,6 +61,7 @@ class Drawing(NamedTuple):
     lathe: Lathe | None
     part: Workpiece | None
     home: bool
+    felt: Felt | None
 
 
 def plot_path(
@@ -76,6 +82,7 @@ def plot_path(
     insert: bool | int = True,
     part: Workpiece | None = None,
     home: bool = False,
+    felt: Felt | None = None,
 ) -> Figure:
     """Views of a path: rapids dashed red, cuts solid; start and end marked. Returns the figure, which Jupyter shows.
 
@@ -102,6 +109,7 @@ def plot_path(
       False for none.
     - `part`: what is left of the blank, drawn under the path.
     - `home`: the path begins where the tool arrives from home.
+    - `felt`: what a probe meets, drawn behind the path (see `show.plot.felt`).
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
     drawn = strokes(path)
@@ -119,6 +127,8 @@ def plot_path(
     if path.lathe and len(path) and insert is not False and not beyond:
         room = 2.8 * INSERT * float((high - low).max())
         high = np.fmax(high, path.end[-1] + (room, 0.0, room))
+    if felt is not None and frame != "cuts":
+        low, high = felt.box(low, high)
     views = _views(view, path, low, high, single=ax is not None)
     if stock is not None and not path.lathe and frame != "cuts":
         low, high = np.fmin(low, stock.bounds[0]), np.fmax(high, stock.bounds[1])
@@ -127,7 +137,9 @@ def plot_path(
     arrows = arrows and int(path.is_motion.sum()) <= heads.MANY
     beside = lathe(path, stock, tools, insert) if path.lathe and views[0].diameter else None
     found_marks, outline = _marks(path, stop is not None, home), None if beside else stock
-    drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, beside, part, home)
+    if felt is not None and len(felt.places):
+        found_marks.append((colours.TOUCH, felt.places))
+    drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, beside, part, home, felt)
     if ax is not None:
         _draw(ax, views[0], drawing)
         dress(ax, views[0])
@@ -147,9 +159,11 @@ def plot_path(
         names.append(colours.PLUNGE.name)
     if any(line.get_label() == colours.POLE.name for each in views for line in crosses(shown, each)):
         names.append(colours.POLE.name)
+    behind = felt is not None and felt.part is not None
+    names += [PART] if behind else []
     said = _in_words(path, low, high, stop)
     picture, axes = arrange(views, low, high, names, _foot(stop, beyond), said, size, found.scale is not None)
-    artists: dict[str, Line2D] = {}
+    artists: dict[str, Any] = {PART: Patch(**FACE, label=PART)} if behind else {}
     for one, which in zip(axes, views):
         for artist in _draw(one, which, drawing):
             artists.setdefault(str(artist.get_label()), artist)
@@ -164,12 +178,13 @@ def plot_path(
 
 def plot_run(
     run: Any, ax: Axes | None = None, view: str = "auto",
-    *, marks: bool = True, stock: bool = True, part: bool = False, **options: Any,
+    *, marks: bool = True, stock: bool = True, part: bool = False, probed: bool = True, **options: Any,
 ) -> Figure:  # fmt: skip
     """Views of the path of a run, with its programmed contour, blank, zero points, poles and the place of its alarm.
 
     The options are those of `plot_path`; `stock=False` leaves out the blank of the setup or the program, `part=True`
-    draws what the run leaves of it, as a lathe's picture does unless its path is long. `view="unrolled"` shows what lies on a
+    draws what the run leaves of it, as a lathe's picture does unless its path is long; `probed=False` leaves out the part
+    that a probe meets, a section at the height of its touches, and their numbers. `view="unrolled"` shows what lies on a
     cylinder on its developed surface (`show.plot.unrolled`; of the options it takes `size`), and so does "auto" without other
     options where every cut lies on one. Beside a blank the first approach
     comes from home, unless the setup says from where.
@@ -192,12 +207,13 @@ def plot_run(
         given["places"] = places_of(run)
     if part or (run.toolpath.lathe and stock and run.stock and len(run.toolpath) <= MOST):
         given["part"] = run.workpiece()
+    if probed and "felt" not in options:
+        given["felt"] = felt_of(run)
     if first := run.rows_from_home:
         path, given["home"] = path[first:], True
         if isinstance(insert, int) and not isinstance(insert, bool) and insert >= 0:
             options["insert"] = max(insert - first, 0)
     return plot_path(path, ax, view, **{**given, **options}, marks=marks)
-
 
 
 # --- what is drawn ---------------------------------------------------------------------------------------------------
@@ -290,6 +306,8 @@ def _write(ax: Axes, view: View, drawing: Drawing, low: Array, high: Array) -> N
     occupied = [xyz[:, [view.right, view.up]] for _, xyz in drawing.marks]
     if drawing.home:
         heads.draw_arrival(ax, view, drawing.strokes.xyz[0], float((high - low).max()))
+    if drawing.felt is not None:
+        draw_felt(ax, view, drawing.felt, [xyz for _, xyz in drawing.lines], [xyz for _, xyz in drawing.marks])
     if drawing.lathe is not None:
         draw_insert(ax, drawing.lathe, INSERT * float((high - low).max()))
     if drawing.arrows:

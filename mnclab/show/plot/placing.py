@@ -16,6 +16,7 @@ from mnclab.show.plot.picture import SMALL
 
 DISTANCES = (7.0, 12.0, 18.0, 26.0, 36.0, 50.0, 66.0)  # points from the edge of a mark to that of its text
 TURNS = 16
+MARK = 4.0  # points from the middle of another mark to its edge
 APART = 4.0  # points between two texts
 LINE_COST, BEND_COST = 1.0, 5.0  # of a point of a line under a text, of a text on another side than the one wished
 FONT = SMALL - 0.5
@@ -24,12 +25,12 @@ CARD = {"boxstyle": "round,pad=0.12", "facecolor": "#ffffffd8", "edgecolor": "no
 
 def write_beside(
     ax: Axes, texts: Sequence[Sequence[str]], places: Array, radii: Sequence[float], wishes: Array, lines: Sequence[Array],
-    colour: str = colours.INK,
+    colour: str = colours.INK, marks: Array | None = None,
 ) -> int:  # fmt: skip
     """Write one of the `texts` of each place (n, 2) beside its mark: the first that has room; returns how many have none.
 
     `radii` are those of the marks in mm, `wishes` (n, 2) the directions in which a text stands best, `lines` what it should
-    rather not cover. The limits of the axes must be those of the finished picture.
+    rather not cover, `marks` (m, 2) what it must not. The limits of the axes must be those of the finished picture.
     """
     figure = ax.get_figure(root=True)
     assert isinstance(figure, Figure) and isinstance(figure.canvas, FigureCanvasAgg)
@@ -40,6 +41,12 @@ def write_beside(
     frame = np.asarray(ax.get_window_extent().extents) / pixels + (APART, APART, -APART, -APART)
     drawn = np.vstack([np.empty((0, 2)), *(ax.transData.transform(line) / pixels for line in lines)])
     taken = np.column_stack([spots - discs[:, None], spots + discs[:, None]])  # boxes: left, below, right, above
+    if marks is not None and len(marks):
+        others = ax.transData.transform(marks) / pixels
+        taken = np.vstack([taken, np.column_stack([others - MARK, others + MARK])])
+    for other in ax.texts:
+        if other.get_text():
+            taken = np.vstack([taken, np.ravel(other.get_window_extent(figure.canvas.get_renderer()).extents) / pixels])
     left_out = 0
     for spot, disc, wish, choices in zip(spots, discs, wishes, texts):
         written = False

@@ -1,0 +1,114 @@
+"""The part that a probe meets, behind the path, in scenes, and its touches with their numbers."""
+
+import itertools
+
+import numpy as np
+import pytest
+from toy_probing import toy_run
+
+import mnclab
+from mnclab.show.plot.felt import felt
+from mnclab.show.plot.material import draw_material
+from mnclab.show.plot.picture import VIEWS, Picture
+from mnclab.workpiece.part import box, hole, plane
+
+PART = box((0, 0, -20), (100, 60, 0)) - hole((50, 30, 0), 24, 10)
+TEXT = "M1 X50 Y30 D24 Z-5\nM5 X20 Y10 Z0\nM4 X0 Y30 Z-5"
+
+
+@pytest.fixture(scope="module")
+def probed():
+    return toy_run(TEXT, PART)
+
+
+def area(ax):
+    """The filled area of the axes, mm²: outer loops less inner ones, by the shoelace formula."""
+    total = 0.0
+    for path in ax.collections[0].get_paths():
+        for x, y in (loop.T for loop in path.to_polygons()):
+            total += (x[:-1] * y[1:] - x[1:] * y[:-1]).sum() / 2
+    return abs(total)
+
+
+@pytest.mark.parametrize(
+    "view, level, expected",
+    [
+        ("XY", -5, 100 * 60 - np.pi * 144),  # the hole is 10 deep
+        ("XY", -15, 100 * 60),
+        ("XZ", 30, 100 * 20 - 24 * 10),
+        ("XZ", 3, 100 * 20),
+        ("YZ", 50, 60 * 20 - 24 * 10),
+    ],
+)
+def test_a_section_has_the_area_of_the_material(view, level, expected):
+    picture = Picture((6, 4))
+    ax = picture.add_axes((0.1, 0.1, 0.8, 0.8))
+    ax.set(xlim=(-10, 110), ylim=(-40, 70))
+    draw_material(ax, PART, VIEWS[view], np.eye(4), level)
+    assert area(ax) == pytest.approx(expected, rel=0.01)
+
+
+def test_touches_lie_where_the_part_was_touched_in_coordinates_of_the_path(probed):
+    found = felt(probed)
+    assert found.places[0] == pytest.approx((62, 30, -5)) and found.texts[0] == ("1   X 62.000", "1")
+    assert found.places[4] == pytest.approx((20, 10, 0)) and found.texts[4] == ("5   Z 0.000", "5")
+    assert found.level(VIEWS["XY"]) == pytest.approx(-5 - 0.1)  # just below the middle one: four at -5, one at 0, one at -5
+    assert felt(mnclab.run("G0 X1\n", "mnc")) is None
+
+
+def test_the_datum_moves_the_part_behind_the_path():
+    """The path counts from the preset at (50, 30, 0), the part in the machine: the wall at X0 stands at X-50."""
+    text = (
+        "1 TOOL CALL 7 Z\n2 L X-60 Y+0 Z+30 R0 FMAX\n3 TCH PROBE 419 PRESET\nQ263=-50\nQ264=+0\nQ261=-5\nQ320=+0\nQ260=+20\n"
+        "Q272=+1\nQ267=+1\nQ305=+5\nQ333=+0\nQ303=+1\n"
+    )
+    tools = {7: mnclab.Tool(radius=2, kind="probe")}
+    run = mnclab.run(text, "tnc-620", mnclab.Setup(tools=tools, presets={1: (50, 30, 0)}, settings={"preset": 1}, part=PART))
+    assert run.ok, run.alarms
+    found = felt(run)
+    assert found.places == pytest.approx(np.array([(-50, 0, -5)])) and found.texts == [("1   X \N{MINUS SIGN}50.000", "1")]
+    ax = run.plot(view="XY", frame="all").axes[0]
+    xy = np.vstack([path.vertices for each in ax.collections for path in each.get_paths()])
+    assert xy.min(axis=0) == pytest.approx((-50, -30), abs=0.6) and xy.max(axis=0) == pytest.approx((50, 30), abs=0.6)
+
+
+def test_numbers_cover_no_other_and_no_mark(probed):
+    picture = probed.plot()
+    picture.draw_without_rendering()
+    for ax in picture.axes:
+        boxes = [text.get_window_extent() for text in ax.texts if text.get_text()]
+        assert len(boxes) >= 4
+        assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes, 2))
+        marks = [line for line in ax.lines if line.get_label() in ("start", "end", "touch")]
+        spots = np.vstack([ax.transData.transform(line.get_xydata()) for line in marks])
+        assert not any(box.x0 < x < box.x1 and box.y0 < y < box.y1 for box in boxes for x, y in spots)
+    names = [text.get_text() for text in picture.legends[0].get_texts()]
+    assert {"touch", "part"} <= {*names}
+
+
+def test_the_part_can_be_left_out(probed):
+    bare = probed.plot(probed=False)
+    assert [len(ax.collections) for ax in bare.axes] == [len(ax.collections) - 2 for ax in probed.plot().axes]
+    assert "touch" not in [text.get_text() for text in bare.legends[0].get_texts()]
+
+
+def test_a_part_without_an_end_is_shown_as_far_as_the_picture_goes():
+    run = toy_run("M4 X60 Y30 Z-5", plane((60, 0, 0), (-1, 0, 0)))
+    ax = run.plot(frame="all").axes[0]
+    filled = np.vstack([path.vertices for path in ax.collections[0].get_paths()])
+    assert filled[:, 0].min() == pytest.approx(60, abs=1e-6) and filled[:, 0].max() >= ax.get_xlim()[1]
+
+
+def test_a_scene_holds_the_part_and_its_touches(probed):
+    pytest.importorskip("pyvista")
+    plotter = probed.scene()
+    actors = plotter.actors
+    assert {"part to touch", "touches"} <= actors.keys()
+    assert np.ravel(actors["part to touch"].bounds) == pytest.approx((0, 100, 0, 60, -20, 0))
+    plotter.close()
+    bare = probed.scene(probed=False)
+    assert "part to touch" not in bare.actors
+    bare.close()
+    endless = toy_run("M4 X60 Y30 Z-5", plane((60, 0, 0), (-1, 0, 0))).scene()
+    assert "part to touch" in endless.actors
+    endless.close()
