@@ -24,6 +24,7 @@ NOTHING = 1e-7  # mm: deviations that are none
 ALONG = 0.7  # cosine: a touch nearer to Z than this is seen from the side
 AXIS = 0.999  # cosine from which on a touch goes along an axis
 BELOW = 0.1  # mm under a face that was touched from above is the section that shows it
+MISFIT = 0.5  # mm off the found contour a touch belongs to something else, such as a hole of a bolt circle
 TICK = 2.2  # radii of the ball on both sides of a touched point that belongs to no figure
 
 
@@ -142,7 +143,7 @@ def _panel(
         way /= np.linalg.norm(way)
         across = abs(float(way[3 - view.right - view.up])) > ALONG
         foot = spot[axes]
-        owner = next((each for each in figures if k in each[0]), None)
+        owner = next((each for each in figures if k in each[0] and float(each[2].distance(foot)[0]) < MISFIT), None)
         if across:
             pass
         elif owner is not None:
