@@ -1,11 +1,14 @@
 """What tests of measuring cycles of the MNC share: the machine of the catalogue's checks, parts, and touches worked out by hand.
 
-Places are (x, y) of the program, mm; a wall is a point and its unit normal, a round one a centre and a radius.
+Places are (x, y) of the program, mm; a wall is a point and its unit normal out of the material, a round one centre and radius.
 """
 
+import json
 import math
+from pathlib import Path
 
 import numpy as np
+import pytest
 
 import mnclab
 from mnclab import Kind, Probe, Setup, Tool
@@ -25,6 +28,31 @@ def measured(program, part, ball=3.0, before=BEFORE, place=None, **more):
         "datums": {1: DATUM}, "probe": PROBE, "part": part and part.placed(at(DATUM) if place is None else place),
     } | more  # fmt: skip
     return mnclab.run(f"{before}{program}", "mnc", Setup(**setup))
+
+
+def examples(*codes):
+    """The examples of the catalogue with their checks."""
+    found = json.loads((Path(__file__).parent / "authorities/catalogue/mnc-probing.json").read_text(encoding="utf-8"))
+    return [each for each in found if each["code"] in codes]
+
+
+def near(number):
+    """The checks are rounded to four decimals."""
+    return pytest.approx(number, abs=5.001e-5)
+
+
+def feature(given):
+    """A part of a check: its corner is the lower left one before turning."""
+    if given["type"] == "plane":
+        return parts.plane((0, 0, given["z"]), (0, 0, 1))
+    inside, top = given["material"] == "inside", given["top"]
+    if given["type"] == "circle":
+        return disc(given["center"], given["diameter"], top, inside)
+    size, angle = given["size"], given["angle"]
+    centre = given.get("center")
+    if centre is None:
+        centre = (at((*given["corner"], 0), angle) @ (size[0] / 2, size[1] / 2, 0, 1))[:2]
+    return box(centre, size, angle, top, inside)
 
 
 def at(xyz=(0.0, 0.0, 0.0), degrees=0.0):

@@ -19,6 +19,7 @@ from mnclab.machine.cycle import Cycle, Definition, Parameter
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Setup
 from mnclab.machine.touching import FEELS, PROBES, Contact
+from mnclab.machine.trial import is_text
 from mnclab.machine.true_size import MILLS
 from mnclab.path.listing import figure
 from mnclab.running.binding import store, value_of
@@ -49,7 +50,7 @@ def steps(code: str, control: str, /, setup: Setup | None = None, **values: Any)
         raise Alarm(f"{code} is no cycle of {found.control.name}: only a cycle has steps", hint=f"cycles: {known}")
     given = chosen(cycle, values)
     faults = []
-    for machine in situations(found.control, cycle, setup or Setup()):
+    for machine in situations(found.control, cycle, setup or found.control.trial_setup or Setup()):
         rows: list[Row] = []
         try:
             definition, start = define(machine, cycle, given), machine.programmed
@@ -88,7 +89,7 @@ def allowed(cycle: type[Cycle], parameter: Parameter, value: Any) -> Any:
     for one in value if isinstance(value, tuple) and parameter.several else (value,):
         if not isinstance(one, str):
             check_number(one, what, at_least=-1e15, at_most=1e15)
-            if parameter.type == "text" and not isinstance(parameter.default, int | float):
+            if is_text(parameter):
                 raise Alarm(f"{what} must be a text, got {shown(value)}")
     return value
 

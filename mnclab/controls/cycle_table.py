@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.setup import Datum
-from mnclab.machine.setup_page import AXES
+from mnclab.machine.setup_page import AXES, tool_line
 from mnclab.machining.steps import Call, Coolant, Orient, Pause, Say, Spin, Step, Swivel, Turn, Wait, Write
 from mnclab.path.listing import figure, point
 from mnclab.runs.values import described, said
@@ -131,7 +131,11 @@ def written(step: Write) -> str:
             return f"frame {key}: now called {value}"
         case "datum":
             return f"datum: {zero_point(value, whole=True)}"
-        case "presets" | "datums" | "tools":
+        case "tool" | "tools":
+            return f"{step.what}{'' if key is None else f' row {key}'}: {tool_line(value)}"
+        case "file":
+            return f"file {key}"
+        case "presets" | "datums":
             row = zero_point(value, whole=False) if isinstance(value, Datum) else str(value)
             return f"{step.what} row {key}: {row}"
         case "variable" | "measured":

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
     from mnclab.machine.cycle import Cycle, CycleTable, Definition, Parameter
     from mnclab.machine.machine import Machine
+    from mnclab.machine.setup import Setup
     from mnclab.path.compensation import Compensation
 
 Obey = Callable[["Machine", "Words"], None]
@@ -151,9 +152,9 @@ class Control:
     its words are handed out: one of them may be a code, or leave its word out. `preassigned` are variables that the control
     keeps itself; names that begin with `local_variables` belong to one program. `modern` writes a program in the notation
     of today, where the control's own is another. `trial` writes a short program around a cycle and its words (address and
-    value), for its form; None where it cannot; `trial_files` are programs that it may call, by name. `magazine` are the
-    tools of a setup that was given none; of a control without tool words `cycle_tools` says which of them cut, by the code
-    of a cycle (`mnclab.runs.cycle_tools`).
+    value), for its form; None where it cannot; `trial_files` are programs that it may call, by name, `trial_setup` is the
+    machine that it runs on. `magazine` are the tools of a setup that was given none; of a control without tool words
+    `cycle_tools` says which of them cut, by the code of a cycle (`mnclab.runs.cycle_tools`).
     `signs` tell its programs from those of others; `numbers` finds the numbers of blocks, and what names them.
     """
 
@@ -198,6 +199,7 @@ class Control:
     local_variables: str = ""
     trial: Callable[[type[Cycle], list[tuple[str, Any]]], str | None] | None = None
     trial_files: Mapping[str, str] = field(default_factory=dict)
+    trial_setup: Setup | None = None
     modern: Callable[[Program], Notation] | None = None
     magazine: Magazine = field(default_factory=lambda: MILLS)
     cycle_tools: Mapping[str, int] = field(default_factory=dict)

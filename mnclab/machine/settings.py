@@ -21,8 +21,8 @@ from mnclab.text.tables import html_table, text_table
 
 
 class Setting(NamedTuple):
-    """One choice. Its kind is that of the default: true or false, a number (None: unknown), or one of `choices` (value ->
-    meaning).
+    """One choice. Its kind is that of the default: true or false, a number (None: unknown), a mapping, or one of `choices`
+    (value -> meaning).
 
     `source` is the section of the manual, or the name of the reading where the manual leaves it open. `chooses`: what a
     choice makes of other settings, as long as nobody gives them (choice -> name -> value).
@@ -47,6 +47,8 @@ class Setting(NamedTuple):
             return "one of " + ", ".join(self.choices)
         if isinstance(self.default, bool):
             return "true or false"
+        if isinstance(self.default, Mapping):
+            return "a mapping"
         least = "" if self.at_least is None else f" from {self.at_least:g}"
         most = "" if self.at_most is None else f" to {self.at_most:.10g}"
         return f"a number{least}{most}"
@@ -59,6 +61,8 @@ class Setting(NamedTuple):
             good = isinstance(value, bool)
         elif value is None:
             good = self.default is None
+        elif isinstance(self.default, Mapping):
+            good = isinstance(value, Mapping)
         else:
             good = isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
             good = good and (self.at_least is None or float(value) >= self.at_least)
@@ -111,7 +115,7 @@ def chosen(declared: Iterable[Setting], given: Mapping[str, Any], control: str, 
     for name, setting in sorted(known.items(), key=lambda item: not item[1].chooses):  # the choosing ones first
         try:
             found[name] = setting.check(given.get(name, by_others.get(name, setting.default)))
-            by_others |= setting.chooses.get(found[name], {})
+            by_others |= setting.chooses.get(found[name], {}) if setting.chooses else {}
         except Alarm as alarm:
             alarm.source, alarm.span = source, source and source.place_of("settings", name)
             raise

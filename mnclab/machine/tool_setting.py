@@ -118,7 +118,8 @@ def way_to(m: Machine, setter: Setter, start: Place, direction: Place) -> float 
     if upright and direction[2] > 0:
         return None
     meets = falls(shown.edges, (x, y), radius, above) if upright else strikes(shown.edges, (x, y), (u, v), radius, -above)
-    return min(meets, default=None)
+    way = min(meets, default=None)
+    return None if way is None else float(way)
 
 
 def falls(edges: list[Edge], at: Pair, radius: float, above: float) -> Iterator[float]:
@@ -131,7 +132,7 @@ def falls(edges: list[Edge], at: Pair, radius: float, above: float) -> Iterator[
             within = along * along - away * away + radius * radius
             rho = -along - math.sqrt(within) if within >= 0 and along < 0 else math.inf
         if rho <= lower.radius + SAME:
-            yield above - longer + float(edge_height(np.float64(rho), lower.flat, lower.corner, lower.slope))
+            yield above - longer + float(edge_height(np.array(rho), lower.flat, lower.corner, lower.slope))
 
 
 def strikes(edges: list[Edge], at: Pair, way: Pair, radius: float, below: float) -> Iterator[float]:

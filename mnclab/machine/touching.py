@@ -17,9 +17,9 @@ from mnclab.geometry.vectors import turned
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.cut_so_far import CUT, part_before
 from mnclab.machine.measuring import Touched
-from mnclab.machine.tool_axis import tool_axis
+from mnclab.machine.tool_axis import FRAME, tool_axis
 from mnclab.text.program import Word
-from mnclab.workpiece.part import Part, contact
+from mnclab.workpiece.part import Part, contact, foot
 from mnclab.workpiece.part.rows import blocked
 
 if TYPE_CHECKING:
@@ -109,7 +109,7 @@ def ball_from_axis(m: Machine) -> tuple[float, float]:
 def true_ball(m: Machine, ball: float) -> Ball:
     """The ball of the tool in the spindle, as it is; `ball` is the radius where nobody says it."""
     true = m.setup.true_tools.get(m.tool.number)
-    up = np.array(m.matrix[:3, tool_axis(m)])
+    up = np.array(m.matrix[:3, 2 if FRAME in m.frames else tool_axis(m)])
     up /= np.linalg.norm(up)
     radius = ball if true is None else true.effective_radius
     longer = 0.0 if true is None else true.effective_length - m.tool.effective_length
@@ -136,9 +136,12 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
         m.alarm("a touch needs a direction", word)
     direction, true = (goal - start) / reach, true_ball(m, ball)
     begin = start + true.beside
-    if float(part(begin)[0]) - true.radius < -DEEP - slack(m):
+    if deflected(m, part, ball):
         m.alarm("the stylus is in contact before it touches", word, hint="the touch begins where the ball is free")
     travel = contact(part, begin, direction, true.radius, reach)
+    if travel is not None and not part.exact and not foot(part, begin + direction * travel)[1]:
+        hint = "it may touch a little later; parts of boxes, holes, slots, pockets and bosses with one axis are exact there"
+        m.warn("the ball touches off a cut edge of the part, where the distance is only bounded", word, hint=hint)
     if travel is not None:
         travel += trigger(m, direction)
     way = reach if travel is None else travel
@@ -160,6 +163,12 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
                     _point(direction), true.radius, surface, m.to_program(centre), found, m.matrix)
         )  # fmt: skip
     return Contact(m.to_program(centre), centre, travel is not None, _point(end), number)
+
+
+def deflected(m: Machine, part: Part | None, ball: float) -> bool:
+    """Whether the stylus stands in contact already."""
+    true = true_ball(m, ball)
+    return part is not None and float(part(np.array(m.tip) + true.beside)[0]) - true.radius < -DEEP - slack(m)
 
 
 def trigger(m: Machine, direction: Floats) -> float:

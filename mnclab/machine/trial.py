@@ -12,7 +12,11 @@ from typing import Any
 
 from mnclab.machine.control import Control
 from mnclab.machine.cycle import Cycle, Parameter
+from mnclab.machine.magazine import MILLS
+from mnclab.machine.setter import Setter
+from mnclab.machine.setup import Setup
 from mnclab.path.listing import figure
+from mnclab.path.tool import Tool
 
 TrialWords = Sequence[tuple[str, Any]]  # address and value
 
@@ -28,6 +32,15 @@ FIRST = (
 WRITTEN = ("position along", "peck", "infeed")
 BY_UNIT = {"mm/min": 120.0, "s": 0.0, "rev/min": 1000.0, "0.0001 mm/rev": 2000.0}
 SCALE = {"0.01 mm": 100.0}
+
+
+#: What cycles that set tools measure in a trial.
+MEASURED = Tool(radius=5, length=100, number=7, name="cutter 10", teeth=4, kind="mill")
+
+
+def at_setter(setter: Setter, **settings: Any) -> Setup:
+    """The machine of trials: a tool setter on it, and a tool whose length is known."""
+    return Setup(tools={**MILLS, MEASURED.number: MEASURED}, setter=setter, settings=settings)
 
 
 def number(value: float) -> str:

@@ -15,6 +15,7 @@ from mnclab.machine.machine import Machine
 from mnclab.text.alarm import Alarm
 from mnclab.text.expression import Expression
 from mnclab.text.program import GROUP_MARK, INCREMENTAL, RAPID_MARK, Word
+from mnclab.text.strings import TextFormula
 
 
 def assign(
@@ -38,6 +39,8 @@ def value_of(m: Machine, parameter: Parameter, code: str, word: Word, in_variabl
     """The number of a parameter; a word in place of a number only where it is allowed."""
     if word.value == "PREDEF" and m.control.predefined:
         return m.control.predefined(m, code, parameter, word)
+    if isinstance(word.value, str | TextFormula) and word.address in parameter.aliases:  # a text that holds a number
+        return word.value
     if isinstance(word.value, str) and parameter.type != "text":
         if word.value.rstrip("0123456789.") not in parameter.also:
             allowed = f"a number{', ' + ', '.join(parameter.also) if parameter.also else ''}"

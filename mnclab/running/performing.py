@@ -21,7 +21,7 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import Figure, Measurement, judged
 from mnclab.machine.output import put_out
 from mnclab.machine.rotary import roll, turn_axes
-from mnclab.machine.tool_axis import tool_axis
+from mnclab.machine.tool_axis import FRAME, tool_axis
 from mnclab.machine.tool_setting import SETS, at_setter
 from mnclab.machine.touching import FEELS, PROBES, Contact, Felt, ball_from_axis, guarded, guarded_turn, part_to_touch
 from mnclab.machine.true_size import MILLS
@@ -34,6 +34,7 @@ from mnclab.machining.steps import (  # isort: skip
     Thread, Touch, Turn, Wait, Write,
 )  # fmt: skip
 
+AXES = ("X", "Y", "Z")
 Place = tuple[float, float]
 Through = Callable[[Iterable[Step], Place], Iterable[Step]]
 
@@ -172,6 +173,8 @@ def measured(m: Machine, cycle: str, step: Measure | Sketch) -> None:
         m.figures.append(figure)
         return
     what, actual, nominal, lower, upper, unit, verdict, *_ = step
+    if what in AXES and FRAME in m.frames:  # an axis of the turned cycle
+        what = AXES[int(np.argmax(m.frames[FRAME][:3, AXES.index(what)]))]
     verdict = verdict or judged(actual, lower, upper)
     row = Measurement(line, cycle, what, nominal, actual, lower, upper, unit, verdict, touches, m.step, program)
     m.measurements.append(row)
@@ -190,8 +193,8 @@ def write(m: Machine, step: Write) -> None:
         case "probe":
             m.tables.probe = step.value
             m.log("probe", step.value)
-        case "file":
-            put_out(m, step.key, step.value, anew=True)
+        case "file" | "appended":
+            put_out(m, step.key, step.value, anew=step.what == "file")
         case "frame":
             m.set_frame(step.key, step.value)
         case "renamed":

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import replace
 from difflib import get_close_matches
 from html import escape
@@ -21,10 +22,12 @@ import numpy as np
 from mnclab.controls.choice import help as help_on
 from mnclab.controls.choice import run as run_text
 from mnclab.controls.cycle_steps import steps
+from mnclab.controls.trial_part import touched_part
 from mnclab.machine import trial
 from mnclab.machine.cycle import Cycle, Parameter
 from mnclab.machine.parameter_table import left_out
 from mnclab.machine.setup import Setup
+from mnclab.machine.touching import FEELS, PROBES
 from mnclab.path.profile import Profile
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm, card_html
@@ -65,7 +68,7 @@ def panel(
     def text() -> str:
         return PLACE.sub(lambda place: trial.number(boxes[place[1]].value), template)
 
-    return _program(boxes, list(boxes.values()), text, control, setup, view)
+    return _program(boxes, list(boxes.values()), text, control, lambda: setup, view)
 
 
 def compensation_panel(run: Run, **options: Any) -> Any:
@@ -132,10 +135,19 @@ def form(code: str, control: str) -> Any:
         return trial.program(help_page.control, chosen, {n: v for n, v in values().items() if v != defaults.get(n)})
 
     title = ipywidgets.HTML(f"<strong><code>{escape(chosen.code)}</code> {escape(chosen.title)}</strong>")
-    setup = Setup(files=help_page.control.trial_files)
+    setup = replace(help_page.control.trial_setup or Setup(), files=help_page.control.trial_files)
     if help_page.control.lathe:
         setup = replace(setup, start=(30, 0, 20))  # clear of the chuck's axis
-    live = _program(boxes, [title, *rows], text, help_page.control.name, setup, "auto", ticks)
+
+    def machine() -> Setup:
+        """For a cycle that probes with something to touch."""
+        with suppress(Alarm):
+            if chosen.does in (PROBES, FEELS):
+                found = steps(chosen.code, help_page.control.name, setup, **written())
+                return replace(setup, part=touched_part(found, setup.probe.clearance))
+        return setup
+
+    live = _program(boxes, [title, *rows], text, help_page.control.name, machine, "auto", ticks)
     live.ticks, live.steps = ticks, lambda: steps(chosen.code, help_page.control.name, setup, **written())
     return live
 
@@ -273,8 +285,8 @@ def _following(
 
 
 def _program(
-    boxes: dict[str, Any], rows: list[Any], text: Callable[[], str | None], control: str | None, setup: Setup | None,
-    view: str, ticks: Mapping[str, Any] | None = None,
+    boxes: dict[str, Any], rows: list[Any], text: Callable[[], str | None], control: str | None,
+    setup: Callable[[], Setup | None], view: str, ticks: Mapping[str, Any] | None = None,
 ) -> Any:  # fmt: skip
     """Boxes with the picture of a program beside them; those of a form have `ticks`, and the program below."""
     import ipywidgets
@@ -288,7 +300,7 @@ def _program(
             live.picture.value = f"<p>no picture yet: {what}</p>"
             return None
         program.value = f"<pre>{escape(source)}</pre>"
-        live.run = run = run_text(source, control, setup)
+        live.run = run = run_text(source, control, setup())
         return lambda: run.plot(view=view, size=SIZE), verdict(run)
 
     left = ipywidgets.VBox(rows if ticks is None else [*rows, program])

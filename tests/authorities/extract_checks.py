@@ -14,7 +14,8 @@ import yaml
 
 HERE = Path(__file__).parent / "catalogue"
 
-#: Entries whose examples are copied, by file; behind a blank, what more the name of the copy says. A function that is built gets its entry here.
+#: Entries whose examples are copied, by file; behind a blank, what more the name of the copy says.
+#: A function that is built gets its entry here.
 EXAMPLES = {
     "mnc-language": [
         *("words", "modal groups", "block execution", "G17", "G18", "G19", "G90", "G91", "G92", "G53"),
@@ -35,6 +36,7 @@ EXAMPLES = {
     ],
     "mnc-probing": [
         *("G400", "G404", "G408", "G409", "G410", "G411", "G412", "G413", "G414", "G415", "G417", "G419"),
+        *("G420", "G421", "G422", "G423", "G424", "G425", "G426", "G490", "G499", "G491", "G492", "G460", "G461", "G462"),
     ],
     "jnc-t01": [
         *("program structure", "table 2 notes", "axes and dimensions", "spindle control", "feed programming"),
@@ -86,6 +88,7 @@ EXAMPLES = {
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
         "PGM 1 (section 5.11)",
     ],
+    "tnc620-probing-special": [f"TCH PROBE {number}" for number in (460, 461, 462, 463, 441)],
     "turning-technology": [
         *("loop", "zigzag", "descent", "pick-up", "semi-finish pass", "equidistant", "contour scheme"),
         *("closed zone strokes", "groove pass count", "groove scheme 5", "one-sided flank infeed"),

@@ -40,3 +40,24 @@ def test_touches(capsys):
     with capsys.disabled():
         print(f"\ncontact {alone / TOUCHES * 1e3:.2f} ms; a program of {TOUCHES} touches {whole:.2f} s, ", end="")
         print(f"{whole / alone:.1f} times the contacts alone (four guarded rows to each)")
+
+
+@pytest.mark.parametrize("errors", [{}, {"taper": 0.5, "bow": 0.02, "roughness": 0.003}])
+def test_ways(capsys, errors):
+    """What one touch costs where it is not straight ahead, and a row of a ball with its stem."""
+    part = plate().with_errors(**errors)
+    ways = {
+        "in a bore": lambda k: P.contact(part, (15 + 18 * (k % 10), 30, -5), (np.cos(k), np.sin(k), 0), 1.5, 30),
+        "slanting": lambda k: P.contact(part, (-12, 5 + 0.1 * k, -15), (1, 0.1, 0.02), 1.5, 60),
+        "from above": lambda k: P.contact(part, (0.4 * k, 50, 8), (0, 0, -1), 1.5, 30),
+        "a row over it": lambda k: part.blocked((-20, 0.2 * k, 15), (220, 100 - 0.2 * k, 15), 1.5, 1.0, 50),
+        "down a bore": lambda k: part.blocked((15 + 18 * (k % 10), 30, 50), (15 + 18 * (k % 10), 30, -5), 1.5, 1.0, 50),
+    }
+    told = []
+    for name, way in ways.items():
+        begin = time.process_time()
+        for k in range(TOUCHES):
+            way(k)
+        told.append(f"{name} {(time.process_time() - begin) / TOUCHES * 1e3:.2f} ms")
+    with capsys.disabled():
+        print(f"\n{', '.join(errors) or 'no errors'}: {', '.join(told)}")

@@ -68,7 +68,7 @@ CYCLES = [
     for name in MILL_CONTROLS
     for code, cycle in mnclab.controls[name].cycles.items()
     if code == cycle.code and code not in NOT_IN_SOLID | CUT_NOTHING | NOT_JUDGED | PILOT
-    and trial.program(mnclab.controls[name], cycle, {})
+    and "MNC 12" not in cycle.source and trial.program(mnclab.controls[name], cycle, {})
 ]
 VARIANTS = 9
 

@@ -13,7 +13,7 @@ from mnclab.workpiece.part import ball, box, contact, foot, mesh
 pyvista = pytest.importorskip("pyvista")
 
 RECORD = json.loads((Path(__file__).parents[1] / "authorities" / "meshes.json").read_text())
-WITHIN = 1e-3  # mm
+WITHIN = 1e-6  # mm
 
 
 def stl(path, triangles):
@@ -97,3 +97,31 @@ def test_what_is_no_body(tmp_path):
         mesh(5)
     with pytest.raises(Alarm, match="closed body"):
         mesh(pyvista.Plane())
+
+
+def rounds_about(triangles, points):
+    """How often triangles go round points: their solid angles together over 4π (van Oosterom and Strackee, 1983)."""
+    a, b, c = (np.array(triangles)[:, k] - points[:, None] for k in range(3))
+    la, lb, lc = (np.linalg.norm(each, axis=2) for each in (a, b, c))
+    whole = (a * np.cross(b, c)).sum(axis=2)
+    part = la * lb * lc + (a * b).sum(axis=2) * lc + (b * c).sum(axis=2) * la + (c * a).sum(axis=2) * lb
+    return 2 * np.arctan2(whole, part).sum(axis=1) / (4 * np.pi)
+
+
+@pytest.mark.parametrize("name", RECORD["bodies"])
+def test_the_sign_is_right_near_corners(bodies, name):
+    """Also beside the corners and the edges, where two faces are equally far; and the distance is no farther than a corner,
+    changes by no more than the way, and its foot is on the surface."""
+    triangles, rng = RECORD["bodies"][name], np.random.default_rng(3)
+    corners = np.array(triangles).reshape(-1, 3)
+    middles = (np.array(triangles) + np.roll(triangles, 1, axis=1)).reshape(-1, 3) / 2
+    near = np.concatenate([corners, middles])[rng.integers(0, 2 * len(corners), 600)]
+    beside = near + rng.normal(size=(600, 3)) * rng.choice([0.01, 0.3, 3], (600, 1))
+    points = np.concatenate([beside, rng.uniform(-40, 40, (300, 3))])
+    part = bodies[name]
+    found = part(points)
+    assert ((found < 0) == (np.abs(rounds_about(triangles, points)) > 0.5)).all()
+    assert (np.abs(found[:600]) <= np.linalg.norm(points[:600] - near, axis=1) + 1e-9).all()
+    others = points + rng.normal(size=points.shape) * rng.choice([0.01, 1, 10], (900, 1))
+    assert (np.abs(part(others) - found) <= np.linalg.norm(others - points, axis=1) + 1e-9).all()
+    assert sum(not foot(part, each)[1] for each in points[600:700]) <= 3

@@ -4,8 +4,10 @@ from math import inf, nan, pi
 
 import numpy as np
 import pytest
-from mnclab.design import Design, Pocket
+from mnclab.design import Design, Pocket, TurnedDesign
 
+import mnclab
+from mnclab import Setup
 from mnclab.text.alarm import Alarm
 from mnclab.workpiece.part import ball, boss, box, cylinder, hole, mesh, plane, pocket
 from mnclab.workpiece.part.part import Part
@@ -112,3 +114,14 @@ def test_a_part_by_its_distance_alone():
     part = Part(lambda p: np.linalg.norm(p, axis=1) - 5, "by hand")
     (circle,) = part.section(0, within=((-6, -6), (6, 6)))
     assert circle.area == pytest.approx(25 * pi, rel=1e-3)
+
+
+def test_bounds_of_others():
+    """A design has those of its blank, a turned part those of its largest radius, what was cut those of the blank."""
+    low_high = [[0, 0, -20], [100, 60, 0]]
+    design = Design(((0, 0, -20), (100, 60, 0)), [Pocket.circle(50, 30, 24, 10)])
+    assert design.part.bounds.tolist() == low_high
+    bar = TurnedDesign([(0, 10), (-20, 10), (-20, 15), (-50, 15)])
+    assert bar.part.bounds == pytest.approx(np.array([[-15, -15, -50], [15, 15, 0]]))
+    run = mnclab.run("T1 M6\nS1000 M3\nG0 X50 Y30 Z5\nG1 Z-4 F100\nG0 Z50\n", "g43", Setup(stock=low_high))
+    assert run.workpiece().part.bounds.tolist() == low_high

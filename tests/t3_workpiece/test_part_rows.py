@@ -80,10 +80,8 @@ def test_stems_on_random_rows(seed):
 def test_a_stem_may_lean():
     """Along X, a stem that lies back: it meets nothing where an upright one would."""
     assert SHELF.blocked((-10, 30, 20), (15, 30, 20), 1.5, 1.0, 60) is None
-    from mnclab.workpiece.part.rows import blocked
-
-    assert blocked(SHELF, (-10, 30, 20), (15, 30, 20), 1.5, 1.0, 60, up=(1, 0, 1)) is not None
-    assert blocked(SHELF, (-10, 30, 20), (15, 30, 20), 1.5, 1.0, 60, up=(-1, 0, 1)) is None
+    assert SHELF.blocked((-10, 30, 20), (15, 30, 20), 1.5, 1.0, 60, up=(1, 0, 1)) is not None
+    assert SHELF.blocked((-10, 30, 20), (15, 30, 20), 1.5, 1.0, 60, up=(-1, 0, 1)) is None
 
 
 def test_a_touch_and_the_way_back():

@@ -71,3 +71,12 @@ def test_the_spread_of_a_probe_has_a_seed():
     assert wall(1) == wall(1) != wall(2)
     many = [wall(seed) for seed in range(40)]
     assert 0.006 < (sum(x * x for x in many) / 40) ** 0.5 < 0.014
+
+
+@pytest.mark.parametrize(("height", "doubtful"), [(-10, False), (-4, True)])
+def test_a_contact_off_a_cut_edge_is_doubtful(height, doubtful):
+    """A chamfer cut by a plane from (0, -5) on: a ball of 2 at Z-4 touches the edge, which no shape knows of."""
+    part = WALL & mnc.part.plane((0, 0, -5), (-1, 0, 1))
+    found = run(cycle(Q261=height), part)
+    assert found.ok and len(found.touches) > 0
+    assert any("off a cut edge of the part" in alarm.message for alarm in found.alarms) == doubtful

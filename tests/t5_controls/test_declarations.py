@@ -98,6 +98,17 @@ NAMES = {
     "starting_point_axis_1": "x",
     "starting_point_axis_2": "y",
     "offset_second_measurement": "offset",
+    "probing_axis_and_direction": "probing",
+    "pre_position": ("x", "y", "z"),
+    "probing_axis": "axis",
+    "probing_angle": "angle",
+    "maximum_measuring_range": "reach",
+    "measuring_feed_rate": "feed",
+    "maximum_retraction_path": "back",
+    "reference_system": "system",
+    "vector_x": "direction_x",
+    "vector_y": "direction_y",
+    "vector_z": "direction_z",
     "angle_of_hole_1": "first_angle",
     "angle_of_hole_2": "second_angle",
     "angle_of_hole_3": "third_angle",
@@ -154,11 +165,27 @@ NAMES = {
     "center_axis_2": "centre_y",
     "slot_position_reference": "slot_position",
     "start_tool_axis": "surface",
+    # tool setters (TNC 620, chapter 19; MNC 12.27 to 12.32)
+    "probing_the_teeth": "teeth",
+    "status_parameter": "target",
+    "stop_before_running": "stop",
+    "laser_axis": "axis",
+    "reference_length": "length",
+    "reference_diameter": "diameter",
     # measuring cycles (MNC, chapter 12)
     "extra_clearance": "clearance",
     "safe_height": "height",
     "between_points": "between",
     "datum_row": "row",
+    "ring_diameter": "diameter",
+    "boss_diameter": "diameter",
+    # calibration (TNC 620, chapter 17)
+    "exact_calibration_sphere_radius": "radius",
+    "ring_radius": "radius",
+    "stud_radius": "radius",
+    "positioning_feed_rate": "positioning",
+    "select_feed_rate": "rapid",
+    "angle_tracking": "track",
 }
 
 ONCE = "only what L chooses is used: the example writes H0 beside L1, so the limit is checked where it counts"
@@ -175,6 +202,8 @@ GLOBAL_LIMITS = [
     *((105, q, TIMES) for q in ("Q210", "Q211")), (110, "Q370", OVERLAP), (111, "Q2", OVERLAP), (111, "Q6", LENGTH),
     (111, "Q7", SIGNED), (120, "Q320", LENGTH), (120, "Q260", SIGNED),
 ]  # fmt: skip
+PLACES = [*((n, 1100 + k) for n, count in ((1410, 6), (1411, 6), (1420, 9)) for k in range(count)), (1411, 1116), (1411, 1117)]
+AIMED = [(n, q) for n in (1410, 1411, 1420) for q in ("Q1125", "Q309", "Q1126")]
 DEFAULTED = [("CYCL DEF 256", "Q437"), ("CYCL DEF 257", "Q376"), ("CYCL DEF 233", "Q348"), ("CYCL DEF 233", "Q349")]
 #: (control, code, address, key) -> what the declaration has, and why.
 EXPLAINED = {
@@ -184,6 +213,7 @@ EXPLAINED = {
     **{("mnc", code, "T", "limits"): ({">=": 0}, "an example writes T0: then it is F") for code in MILLING},
     **{("mnc", code, "L", "choices"): ({1, -1, 0}, "L0 is L1 (MNC-POCKET-L)") for code in ("G343", "G344")},
     **{("mnc", "G305", address, "limits"): ({}, ONCE) for address in "HD"},
+    ("mnc", "G480", "Q", "required"): (False, "P1 needs none: a check"),
     ("mnc", "G306", "L", "choices"): ({1, -1, 0}, "L0 is L1 (MNC-G306-L)"),
     ("mnc", "G307", "K", "limits"): ({">=": 0}, "its other limit is H: a check"),
     ("mnc", "G309", "P", "limits"): ({}, "not 0: a check"),
@@ -211,6 +241,18 @@ EXPLAINED = {
         for code in (412, 413)
         for key, value in (("required", False), ("default", 1))
     },
+    ("tnc-620", "TCH PROBE 460", "Q455", "limits"): ({">=": 0, "<=": 30}, "0 is allowed too"),
+    ("tnc-620", "TCH PROBE 460", "Q455", "default"): (0, "none, as where the option is missing"),
+    ("tnc-620", "TCH PROBE 462", "Q407", "limits"): ({">=": 0, "<=": 99.9999}, "the first 9 was lost in print"),
+    **{
+        ("tnc-620", "TCH PROBE 441", q, "required"): (False, "left out (NO ENT) the touch probe table counts")
+        for q in ("Q396", "Q397", "Q399", "Q400")
+    },
+    **{("tnc-620", f"TCH PROBE {n}", f"Q{q}", "also"): (set(), "a text, under QS and the same number") for n, q in PLACES},
+    **{
+        ("tnc-620", f"TCH PROBE {n}", q, "limits"): ({}, "its choices")
+        for n, q in (*AIMED, (1410, "Q372"), (1420, "Q372"), (1411, "Q1115"))
+    },
     ("tnc-620", "TCH PROBE 405", "Q337", "limits"): ({">=": 0, "<=": 99999}, "0, or a row"),
     ("tnc-620", "TCH PROBE 405", "Q337", "choices"): (set(), "0, or a row"),
     ("tnc-620", "CYCL DEF 21", "Q13", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
@@ -221,6 +263,10 @@ EXPLAINED = {
         for n in (25, 276)
         for q, value in (("Q446", 0.01), ("Q447", 10), ("Q448", 2))
     },
+    **{("tnc-620", f"TCH PROBE {n}", "Q341", "limits"): ({}, "its choices") for n in (481, 482, 483)},
+    **{("tnc-620", f"TCH PROBE {n}", "PROBING THE TEETH", "limits"): ({}, "its choices") for n in (31, 32, 33)},
+    **{("tnc-620", f"TCH PROBE {n}", "status parameter", "limits"): ({}, "which parameter, the reader") for n in (31, 32, 33)},
+    ("tnc-620", "TCH PROBE 484", "Q536", "limits"): ({}, "its choices"),
     ("tnc-620", "CYCL DEF 275", "Q439", "limits"): ({}, "its choices"),
     ("tnc-620", "TCH PROBE 415", "Q308", "limits"): ({}, "its choices"),
     ("tnc-620", "CYCL DEF 8", "axes", "limits"): ({}, "at most three, and which ones, are a check"),
@@ -238,7 +284,12 @@ EXPLAINED = {
     **{("tnc-620", f"CYCL DEF {n}", "Q355", "choices"): (set(), "2, 3, … too: any whole number") for n in (262, 267)},
     **{("tnc-620", f"CYCL DEF {n}", "Q355", "type"): ("integer", "of a pitch per step") for n in (262, 267)},
     ("tnc-620", "CYCL DEF 201", "Q203", "limits"): ({">=": -99999.9999, "<=": 99999.9999}, "a misprint: as everywhere"),
-    # inspection (TNC 620, chapter 16)
+    # inspection (TNC 620, chapters 16 and 17)
+    **{
+        ("tnc-620", f"TCH PROBE {n}", "axis", key): (value, "a text, which the reader checks")
+        for n in (0, 1, 3)
+        for key, value in (("limits", {}), *((("type", "text"),) if n else ()))
+    },
     **{
         ("tnc-620", f"TCH PROBE {n}", "Q330", key): (value, "0 is none, any other one a number or a name")
         for n in (421, 422, 423, 424, 425, 426, 427, 430)
@@ -264,13 +315,23 @@ MARKS = {
 }
 
 
+#: Rows that name an address in words; others say in brackets in which sub-block it stands.
+ADDRESSED = {"axis and sign": "axis", "X Y Z ...": "X|Y|Z", "X Y Z": "X|Y|Z", "REFERENCE SYSTEM": "SYSTEM"}
+
+
+def addressed(row):
+    """The addresses of a row."""
+    address = re.sub(r" \(\d\.\d\)$", "", row["address"])
+    return ADDRESSED.get(address, address).split("|")
+
+
 def rows(control, code):
     """Parameters of a cycle with their rows; a repeated address takes the rows in their order."""
     taken = []
     for parameter in mnclab.controls[control].cycles[code].parameters():
         if not parameter.mark:
-            fitting = [row for row in TABLES[control][code] if parameter.address in row["address"].split("|")]
-            alike = [row for row in fitting if row not in taken or "|" in row["address"]]
+            fitting = [row for row in TABLES[control][code] if parameter.address in addressed(row)]
+            alike = [row for row in fitting if row not in taken or len(addressed(row)) > 1]
             assert alike, f"{code} {parameter.address} has no row"
             taken.append(alike[0])
             yield parameter, alike[0]
@@ -352,7 +413,7 @@ def test_parameters_stand_in_the_order_of_the_table(control, code):
     found = [TABLES[control][code].index(row) for _, row in rows(control, code)]
     assert found == sorted(found)
     text = str(mnclab.help(code, control)).partition("\n---")[2].splitlines()[1:]
-    told = [line.split()[0] for line in text if line[:1].strip() and not line.startswith("DIN/ISO")]
+    told = [line.partition("  ")[0] for line in text if line[:1].strip() and not line.startswith("DIN/ISO")]
     assert told == [parameter.address for parameter in mnclab.controls[control].cycles[code].parameters()]
 
 
@@ -414,7 +475,7 @@ def test_a_parameter_can_be_explained(control, code, parameter, row):
     """A meaning short enough for an alarm, and a line in the help table."""
     assert parameter.meaning and parameter.unit and len(parameter.meaning) <= 50
     text, page = str(mnclab.help(code, control)), mnclab.help(code, control)._repr_html_()
-    assert [parameter.address] in [line.split()[:1] for line in text.splitlines()]
+    assert parameter.address in [line.partition("  ")[0] for line in text.splitlines()]
     assert f"<code>{parameter.address}</code>" in page
     for choice, meaning in (parameter.choices or {}).items():
         assert f"{choice:g} {meaning}" in text and escape(f"{choice:g} {meaning}") in page

@@ -16,7 +16,8 @@ pytestmark = pytest.mark.deep
 
 #: Cycles of the TNC 620 that are varied too, by the numbers of CYCL DEF.
 TNC = (200, 201, 202, 203, 204, 205, 208, 240, 241, 1, 2, 3, 4, 5, 17, *range(210, 216), 230, 231)
-CYCLES = {code: cycle for code, cycle in mnclab.controls["mnc"].cycles.items() if code == cycle.code} | {
+MNC = {code: each for code, each in mnclab.controls["mnc"].cycles.items() if code == each.code and "MNC 12" not in each.source}
+CYCLES = MNC | {
     f"CYCL DEF {number}": mnclab.controls["tnc-620"].cycles[f"CYCL DEF {number}"] for number in TNC
 }
 LATHE = mnclab.controls["jnc-t01"].cycles

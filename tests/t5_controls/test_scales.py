@@ -18,13 +18,11 @@ from mnclab.controls.tnc_620.reading import obsolete_blocks
 from mnclab.controls.tnc_620.trial import as_sub_blocks
 from mnclab.controls.tnc_620.trial import klartext as signed
 from mnclab.machine import trial
-from mnclab.machine.touching import FEELS, PROBES
 
 pytestmark = pytest.mark.deep
 
 MNC, TNC = (
-    {code: each for code, each in mnclab.controls[name].cycles.items() if code == each.code and each.does not in (PROBES, FEELS)
-     and code != "G404"}  # what does not move is no path
+    {code: each for code, each in mnclab.controls[name].cycles.items() if code == each.code and "MNC 12" not in each.source}
     for name in ("mnc", "tnc-620")
 )
 QUIET = (7, 8, 9, 10, 11, 12, 13, 14, 19, 20, 26, 32, 239, 247)  # what does not move

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from mnclab.controls.mnc import auxiliary, language, polar, transforms
 from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets, prepared
-from mnclab.controls.mnc.probing import alignment, corners, datums, tool_setting
+from mnclab.controls.mnc.probing import alignment, calibration, corners, datums, measuring, single, tool_setting
 from mnclab.controls.mnc.settings import SETTINGS
 from mnclab.controls.mnc.signs import SIGNS
 from mnclab.controls.mnc.state import Memory
@@ -18,8 +18,10 @@ from mnclab.controls.word_address.numbers import numbers
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.control import Control, FunctionTable
 from mnclab.machine.cycle import Cycle, CycleTable
+from mnclab.machine.setter import Setter
+from mnclab.machine.tool_setting import SETS
 from mnclab.machine.touching import FEELS, PROBES
-from mnclab.machine.trial import TrialWords, in_block
+from mnclab.machine.trial import TrialWords, at_setter, in_block
 from mnclab.path.compensation import Compensation
 from mnclab.running.bulk import PlainWords
 
@@ -29,12 +31,7 @@ PHASES = (
     *("dwell", "motion", "call", "end"),
 )
 
-_LATER = "it is part of this control but not built yet"
-REFUSED = (
-    {f"G{n}": _LATER for n in (*range(420, 427), *range(460, 463))}
-    | {f"G{n}": _LATER for n in (490, 491, 492, 499)}
-    | {f"G{n}": "this control has no such cycle, G83 does its work" for n in (81, 82)}
-)
+REFUSED = {f"G{n}": "this control has no such cycle, G83 does its work" for n in (81, 82)}
 
 #: What the words of functions are, where their letters do not say it.
 MEANINGS = {
@@ -55,6 +52,8 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
     """A milling or measuring cycle runs where it stands, a prepared one by M99, a fixed one at a position."""
     if cycle.does in (PROBES, FEELS):
         return f"G17 G90 G54\nT6\nG0 X20 Y10 Z20\n{in_block(cycle, words)}\n"
+    if cycle.does == SETS:
+        return f"G17 G90 G54\nT7\nG0 X20 Y10 Z20\n{in_block(cycle, words)}\n"
     if cycle.runs == "definition":  # milling
         return f"G17 G90 G54\nT1 S1000 M3\nG0 X20 Y10 Z20 F100\n{in_block(cycle, words)}\n"
     call = "G80" if cycle.runs == "position" else "G0 X20 Y10 M99"
@@ -73,6 +72,9 @@ CHAPTERS = (
     alignment,
     datums,
     corners,
+    measuring,
+    single,
+    calibration,
     tool_setting,
 )
 CYCLES = CycleTable({code: cycle for chapter in CHAPTERS for code, cycle in chapter.CYCLES.items()})
@@ -105,4 +107,5 @@ CONTROL = Control(
         straight_arcs=True,
     ),
     trial=trial_program,
+    trial_setup=at_setter(Setter(x=20, y=10, z=-40, axis="X"), laser_x=20, laser_y=10, laser_z=-40, laser_axis=1),
 )

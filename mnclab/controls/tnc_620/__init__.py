@@ -80,6 +80,10 @@ from mnclab.controls.tnc_620.language import (
 )
 from mnclab.controls.tnc_620.printing import output
 from mnclab.controls.tnc_620.probing import (
+    aimed,
+    calibration,
+    edge,
+    fast_probing,
     measuring_circles,
     measuring_points,
     measuring_sides,
@@ -90,8 +94,10 @@ from mnclab.controls.tnc_620.probing import (
     presets,
     rotary_table,
     rotation,
+    single,
     tool_measuring,
     tool_setter,
+    two_circles,
 )
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
@@ -99,7 +105,7 @@ from mnclab.controls.tnc_620.reading.numbers import numbers
 from mnclab.controls.tnc_620.signs import SIGNS
 from mnclab.controls.tnc_620.state import Memory
 from mnclab.controls.tnc_620.tables import datum_tables, free_tables
-from mnclab.controls.tnc_620.trial import trial_program
+from mnclab.controls.tnc_620.trial import SETUP, trial_program
 from mnclab.machine.control import Control
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.settings import Setting
@@ -135,7 +141,9 @@ SETTINGS = (
     *tools.SETTINGS, *no_effect.SETTINGS, *retraction.SETTINGS, *tilting.SETTINGS, *engraving.SETTINGS,
     *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS, *output.SETTINGS,
     *tool_setter.SETTINGS,
+    *aimed.SETTINGS,
     *leaving.SETTINGS, *cylinder.SETTINGS, *surface.SETTINGS,
+    *calibration.SETTINGS,
     Setting("max_touch_feed", 3000.0, "upper limit of the probing feed (maxTouchFeed, no. 122602)", "13.2", {}, "mm/min", 1),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
@@ -166,6 +174,8 @@ CHAPTERS = (
     preset_circles,
     preset_corners,
     preset_holes,
+    calibration,
+    fast_probing,
     rotation,
     rotary_table,
     measuring_points,
@@ -173,6 +183,9 @@ CHAPTERS = (
     measuring_sides,
     tool_setter,
     tool_measuring,
+    edge,
+    two_circles,
+    single,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()
@@ -218,6 +231,7 @@ CONTROL = Control(
     functions=FUNCTIONS, cycles=CYCLES, names=ISO_NAMES, refused=later.REFUSED, together=later.strange_parameters(CYCLES),
     phases=PHASES, codes=("M",), word_functions=False, meanings=MEANINGS, told=motion.turning_sense, trial=trial_program,
     trial_files=trial_figures.FILES,
+    trial_setup=SETUP,
     settings=SETTINGS, memory=Memory, start=program.start, frames=(secondary_axes.FRAME, "preset"),
     storage="variables", preassigned={**parameters.PREASSIGNED, **system_texts.TEXTS}, local_variables="QL",
     named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again, turned=tool_axis.turned,

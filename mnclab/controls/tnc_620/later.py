@@ -14,21 +14,9 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 
 PROBING = {
-    0: "Reference plane",
-    1: "Polar preset",
-    3: "Measuring",
-    4: "Measuring in three dimensions",
-    441: "Fast probing",
     450: "Saving the kinematics",
     451: "Measuring the kinematics",
     452: "Preset compensation",
-    460: "Calibrating the probe",
-    461: "Calibrating the probe length",
-    462: "Calibrating the probe radius inside",
-    463: "Calibrating the probe radius outside",
-    1410: "Probing on an edge",
-    1411: "Probing two circles",
-    1420: "Probing in a plane",
 }
 
 STATEMENTS = {
@@ -82,14 +70,6 @@ _OF_PROBING = {
     "450": "409 S409 410",
     "451": "253 320 380 406 407 408 411 412 413 414 415 416 417 418 419 420 421 422 423 431 432",
     "452": "253 320 380 407 408 411 412 413 414 415 416 417 418 419 420 421 422 423 432",
-    "1420": "260 309 320 372 1100 1101 1102 1103 1104 1105 1106 1107 1108 1120 1121 1125 1126",
-    "1410": "260 309 320 372 1100 1101 1102 1103 1104 1105 1120 1121 1125 1126",
-    "1411": "260 309 320 325 423 1100 1101 1102 1103 1104 1105 1115 1116 1117 1119 1120 1121 1125 1126",
-    "460": "301 320 380 407 423 433 434 455",
-    "461": "434",
-    "462": "320 380 407 423",
-    "463": "301 320 380 407 423",
-    "441": "396 397 399 400",
 }
 PARAMETERS = {
     f"TCH PROBE {cycle}": frozenset(f"Q{number}" for number in numbers.split()) for cycle, numbers in _OF_PROBING.items()

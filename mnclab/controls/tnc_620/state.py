@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from mnclab.controls.tnc_620.language.blank import Blank
     from mnclab.controls.tnc_620.language.free_contours import Earlier
     from mnclab.controls.tnc_620.language.pattern_definitions import Pattern
+    from mnclab.controls.tnc_620.probing.fast_probing import FastProbing
     from mnclab.controls.tnc_620.probing.tool_setter import Calibrated
     from mnclab.controls.tnc_620.tables.datum_tables import DatumTable
     from mnclab.controls.tnc_620.tables.free_tables import FreeTable
@@ -49,6 +50,7 @@ class Memory:
     feed_per_tooth: float | None = None  # mm, beside the feed per revolution that it makes with the tool in the spindle
     orientation: float | None = None  # where M19 and M20 stop the spindle, degrees
     probe_input: float | None = None
+    fast_probing: FastProbing | None = None  # cycle 441
     tool_setter: Calibrated | None = None  # as the last calibration found the TT
 
     # datums, transformations, planes

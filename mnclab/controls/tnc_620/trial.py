@@ -16,12 +16,17 @@ from mnclab.controls.tnc_620.contours.train import ContourTrain
 from mnclab.controls.tnc_620.contours.train_data import TrainData
 from mnclab.controls.tnc_620.reading import obsolete_blocks, sub_blocks
 from mnclab.machine.cycle import Cycle
-from mnclab.machine.trial import TrialWords, first_value, number, written_first
+from mnclab.machine.setter import Setter
+from mnclab.machine.tool_setting import SETS
+from mnclab.machine.touching import FEELS, PROBES
+from mnclab.machine.trial import TrialWords, at_setter, first_value, number, written_first
 
 HOLES = ("CYCL DEF 200 DRILLING", *"Q200=2 Q201=-15 Q206=120 Q202=5 Q210=0 Q203=0 Q204=20 Q211=0".split())
 #: Cycles that machine an area or say which.
 AREA = tuple(f"CYCL DEF {n}" for n in (14, 20, 21, 22, 23, 24))
 CALL = "CYCL CALL"
+TOOLS = {SETS: 7, PROBES: 6, FEELS: 6}  # by what a cycle does
+SETUP = at_setter(Setter(x=10, y=5, z=-40), tt_calibrated=True)
 
 
 def klartext(value: float | str) -> str:
@@ -100,7 +105,7 @@ def plain_program(cycle: type[Cycle], mine: Sequence[str], words: TrialWords) ->
     call = ["L X+20 Y+10 R0 FMAX M99"] if cycle.runs == "call" else []
     height = next((abs(value) for address, value in words if address == "SETUP"), 50)
     mills = "PECKG:F" in written or ("Q207" in written and "Q239" not in written)
-    tool = 1 if mills else 2  # an end mill; for holes and their threads the drill
+    tool = TOOLS.get(cycle.does) or (1 if mills else 2)  # an end mill; for holes and their threads the drill
     start = ["BEGIN PGM TRIAL MM", f"TOOL CALL {tool} Z S1000", f"L X+0 Y+0 Z{klartext(height)} R0 FMAX M3"]
     before = HOLES if cycle.code in ("CYCL DEF 220", "CYCL DEF 221") else ()  # which run the cycle before them
     return "\n".join([*start, *before, *mine, *call, "END PGM TRIAL MM", ""])

@@ -39,6 +39,7 @@ class Approach:
     positioning: float = RAPID
     over: bool = False
     track: bool = False
+    stands: float | None = None
 
     @property
     def away(self) -> float:
@@ -47,8 +48,8 @@ class Approach:
 
     @property
     def pole(self) -> float:
-        """The south pole at the measuring height."""
-        return self.level - self.ball
+        """The south pole at the measuring height; where the probe `stands` there already, that."""
+        return self.level - self.ball if self.stands is None else self.stands
 
     def go(self, label: str, z: float | None = None, x: float | None = None, y: float | None = None) -> Go:
         """Position."""

@@ -116,11 +116,14 @@ class Part:
 
         return with_errors(self, **errors)
 
-    def blocked(self, start: ArrayLike, end: ArrayLike, ball: float, stem: float = 0.0, length: float = 0.0) -> float | None:
+    def blocked(
+        self, start: ArrayLike, end: ArrayLike, ball: float, stem: float = 0.0, length: float = 0.0,
+        up: ArrayLike = (0.0, 0.0, 1.0),
+    ) -> float | None:  # fmt: skip
         """How far a ball gets on its row before it, or the stem on it, meets the part, mm; None where the row is free."""
         from mnclab.workpiece.part.rows import blocked
 
-        return blocked(self, start, end, ball, stem, length)
+        return blocked(self, start, end, ball, stem, length, up)
 
     def section(self, z: float, step: float | None = None, within: ArrayLike | None = None) -> list[Contour]:
         """What a level plane cuts, as closed contours; see `mnclab.workpiece.part.pictures`."""

@@ -65,11 +65,12 @@ class Slab(NamedTuple):
 
 
 class Walls(NamedTuple):
-    """The lines and the arcs (u,) of all outlines, each once; of those slabs that have one, columns (s,), the numbers of
-    their elements one after the other, where each slab begins among these, and how often it has an element (u, s)."""
+    """The lines, arcs and whole circles of all outlines, each once, u in all. Of those slabs that have an outline: the numbers
+    of their elements one after the other, where each slab begins among these, and how often it has an element (u, s)."""
 
     lines: Edges
     arcs: Edges
+    circles: Edges
     element: NDArray[np.intp]
     begin: NDArray[np.intp]
     times: Floats
@@ -135,18 +136,15 @@ class Prisms:
 
     @cached_property
     def _walls(self) -> Walls:
-        columns = [np.array(edges_of(slab.region)) for slab in self.solid]
-        every = np.concatenate(columns, axis=1)
-        _, first, which = np.unique(every[[0, 1, 2, 3, 5]].round(DIGITS), axis=1, return_index=True, return_inverse=True)
-        order = np.argsort(every[5, first] != 0, kind="stable")
-        rank = np.argsort(order, kind="stable")
-        element, once = rank[which.ravel()], every[:, first[order]]
-        straight = int((once[5] == 0).sum())
-        sizes = [column.shape[1] for column in columns]
-        count = np.zeros((len(first), len(sizes)))
-        np.add.at(count, (element, np.repeat(np.arange(len(sizes)), sizes)), 1.0)
-        begin = np.cumsum(sizes) - sizes
-        return Walls(Edges(*once[:, :straight]), Edges(*once[:, straight:]), element, begin, count)
+        every = [_kinds(np.array(edges_of(slab.region)).T) for slab in self.solid]
+        sizes = [len(kind) for kind, _ in every]
+        kind, columns = (np.concatenate(each) for each in zip(*every))
+        keys = np.column_stack([kind, columns[:, [0, 1, 2, 3, 5]].round(DIGITS)])
+        once, first, element = np.unique(keys, axis=0, return_index=True, return_inverse=True)  # lines, arcs, circles
+        lines, arcs, circles = (Edges(*columns[first[once[:, 0] == each]].T) for each in range(3))
+        times, begin = np.zeros((len(once), len(sizes))), np.cumsum([0, *sizes[:-1]])
+        np.add.at(times, (element.ravel(), np.repeat(np.arange(len(sizes)), sizes)), 1.0)
+        return Walls(lines, arcs, circles, element.ravel(), begin, times)
 
     @cached_property
     def _ends(self) -> tuple[Floats, Floats, NDArray[np.bool_]]:
@@ -177,12 +175,27 @@ class Prisms:
     def _aside(self, x: Floats, y: Floats) -> Floats:
         """Signed distances (n, s) in the plane from the outlines of those slabs that have one, of points (n, 1)."""
         walls = self._walls
-        both = (walls.lines, from_lines), (walls.arcs, from_arcs)
-        some = [(edges, measure) for edges, measure in both if len(edges.x)]
-        off = np.concatenate([measure(edges, ..., x, y) for edges, measure in some], axis=1)
-        rounds = np.concatenate([winding(edges, ..., x, y) for edges, _ in some], axis=1) @ walls.times
-        near = np.minimum.reduceat(off[:, walls.element], walls.begin, axis=1)
-        return np.where(rounds > 0.5, -near, near)
+        off, rounds = list[Floats](), list[Floats]()
+        for edges, measure in ((walls.lines, from_lines), (walls.arcs, from_arcs)):
+            if len(edges.x):
+                off.append(measure(edges, ..., x, y))
+                rounds.append(winding(edges, ..., x, y))
+        if len(walls.circles.x):
+            beyond = np.hypot(x - walls.circles.u, y - walls.circles.v) - walls.circles.radius
+            off.append(np.abs(beyond))
+            rounds.append(np.where(beyond < 0, np.sign(walls.circles.sweep), 0.0))
+        near = np.minimum.reduceat(np.concatenate(off, axis=1)[:, walls.element], walls.begin, axis=1)
+        return np.where(np.concatenate(rounds, axis=1) @ walls.times > 0.5, -near, near)
+
+
+def _kinds(columns: Floats) -> tuple[Floats, Floats]:
+    """The elements of an outline (e, 12): 0 a line, 1 an arc, 2 a whole circle, which counts once, and their columns."""
+    same = (columns == np.roll(columns, -1, axis=0))[:, [5, 6, 7, 8]].all(axis=1)
+    whole = np.isclose(np.abs(columns[:, 5]), np.pi, rtol=0, atol=1e-12) & same  # two halves follow each other
+    whole[-1] = False
+    second = np.roll(whole, 1)
+    kind = np.where(whole, 2.0, columns[:, 5] != 0)
+    return kind[~second], columns[~second]
 
 
 def _between(low: float, high: float) -> float:

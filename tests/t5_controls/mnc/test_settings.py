@@ -308,7 +308,8 @@ def test_every_setting_is_tested_here_or_with_its_cycle():
     text = open(__file__, encoding="utf-8").read()
     for setting in SETTINGS.values():
         elsewhere = ("block_skip", "peck_clearance", "bulk", "rapid_motion", "stopped_spindle", "most_rows", "corner_spacing")
-        assert setting.name in text or setting.name in elsewhere
+        of_tools = setting.name.startswith("laser_") or setting.name == "spindle_max"  # test_tool_setting.py
+        assert setting.name in text or setting.name in elsewhere or of_tools
         assert setting.check(setting.default) == setting.default and setting.meaning
         assert setting.source or setting.name == "bulk"
 
@@ -353,7 +354,7 @@ OTHERS = [
     if setting.name not in ("bulk", "peck_clearance")
     for value in (
         [c for c in setting.choices if c != setting.default]
-        or ([not setting.default] if isinstance(setting.default, bool) else [(setting.at_least or 0) + 0.5 if setting.default is None else setting.default + 0.5])
+        or ([not setting.default] if isinstance(setting.default, bool) else [(setting.default or setting.at_least or 0) + 0.5])
     )
 ]
 number = st.integers(-20_000, 20_000).map(lambda n: f"{n / 1000:g}")

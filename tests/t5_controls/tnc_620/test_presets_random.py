@@ -19,7 +19,7 @@ from mnclab.workpiece.part import Part, box, cylinder, hole
 SEEDS = range(20)
 BIG = 150  # mm, half of a block
 TIGHT = 1e-6
-TURN = 0.0  # degrees, of the basic rotation that is active before
+TURN = 40.0  # degrees, of the basic rotation that is active before
 
 
 @dataclass

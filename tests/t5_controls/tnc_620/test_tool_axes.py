@@ -96,7 +96,7 @@ def trial(code: str) -> str:
     return text
 
 
-@pytest.mark.parametrize("code", sorted(TURNED - {"CYCL DEF 18"}))
+@pytest.mark.parametrize("code", sorted(code for code in TURNED - {"CYCL DEF 18"} if code.startswith("CYCL")))
 def test_every_cycle_runs_along_the_tool(code: str) -> None:
     for axis in "XY":
         same_turned(trial(code), axis, mnc.Setup())

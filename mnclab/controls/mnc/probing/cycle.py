@@ -42,6 +42,8 @@ class MeasuringCycle(Cycle):
     z_probe_y: float | None = None
     z_probe_z: float | None = None
     z_new = 0.0
+    protocol = 0.0
+    stop_on_error = 0.0
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
         for name in NEEDED_WITH_F if self.probe_z else ():

@@ -35,6 +35,7 @@ SETTINGS = (
 )  # fmt: skip
 FRAMES = ("base rotation", "scaling", "mirror")
 FOLDER = "meas_prot"
+ALL = ("laser_z", "laser_x", "laser_y", "laser_axis")
 Height = Generator[Step, Any, float]
 
 
@@ -50,6 +51,10 @@ class LaserCycle(Cycle):
     needs: ClassVar[tuple[str, ...]] = ()
     """What must be known of the beam."""
     refused: ClassVar[tuple[str, ...]] = ()
+    """Frames that must not be active."""
+    axis: float | None = None
+    depth: float | None = None
+    kind: float = 2
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         yield from unfit(m, BEAM)
@@ -62,6 +67,8 @@ class LaserCycle(Cycle):
             if known(m, name) is None:
                 how = "G471" if name == "laser_z" else "G472"
                 yield "", f"needs {name} of the tool setter: {how} finds it, or the setting says it"
+        if self.depth is not None and self.kind != 1 and self.needs == ALL and not m.tool.effective_radius > 0:
+            yield "", f"needs the radius of T{m.tool.number} in the tool table"
 
     def about(self, m: Machine) -> tuple[float, float]:
         return 0.0, 0.0
@@ -81,103 +88,10 @@ class LaserCycle(Cycle):
 
     def w(self, m: Machine) -> int:
         """The number of the axis across the beam."""
-        return 1 if self.laser_axis(m) == 1 else 0
-
-    def laser_axis(self, m: Machine) -> float:
-        return float(known(m, "laser_axis"))
+        return 1 if (self.axis or known(m, "laser_axis")) == 1 else 0
 
     def beside(self, m: Machine, label: str, w: float) -> Go:
         return Go(label, y=w) if self.w(m) else Go(label, x=w)
-
-
-class Calibration(LaserCycle):
-    """Base of G470 to G472: the reference tool stands above the beam; the spindle is left as it is."""
-
-    refused = FRAMES
-
-
-@CYCLES("G470", "Laser tool setter: level of the beam", runs="definition", source="MNC 12.27")
-class Level(Calibration):
-    """The beam is broken twice, at two places along it."""
-
-    axis: float = addresses.choice("L", "axis that the beam lies along", addresses.PLANE_AXES, 1)
-    direction: float = addresses.choice("K", "way to the second point", addresses.SENSE, 1)
-    distance: float = param("P", "distance of the two points", above=0, incremental=True, example=40)
-
-    def laser_axis(self, m: Machine) -> float:
-        return self.axis
-
-    def moves(self, m: Machine) -> Moves:
-        high, feed = m.tip[2], float(m.settings["laser_feed"])
-        first = yield from self.down(m, feed, "touch 1")
-        yield Go("up", high)
-        along = 1 - self.w(m)
-        there = m.tip[along] + self.direction * self.distance
-        yield Go("to the second point", x=there) if along == 0 else Go("to the second point", y=there)
-        second = yield from self.down(m, feed, "touch 2")
-        yield Go("up", high)
-        deviation = second - first
-        angle = math.degrees(math.atan(self.direction * deviation / self.distance))
-        yield Measure("level", deviation, 0.0)
-        yield Measure("angle", angle, 0.0, unit="deg")
-        values = {"z1": first, "z2": second, "deviation": deviation, "angle": angle}
-        yield from report(m, self.code, values)
-
-
-@CYCLES("G471", "Laser tool setter: calibrate Z", runs="definition", source="MNC 12.28")
-class HeightOfBeam(Calibration):
-    """The beam is broken once from above, by a tool whose length is known."""
-
-    length: float = addresses.coordinate("H", "length of the reference tool", 100, at_least=0)
-
-    def moves(self, m: Machine) -> Moves:
-        high = m.tip[2]
-        reference = yield from self.down(m, float(m.settings["laser_feed"]), "touch")
-        yield Go("up", high)
-        yield from learned(m, laser_z=reference - self.length)
-
-
-@CYCLES("G472", "Laser tool setter: calibrate X and Y", runs="definition", source="MNC 12.29")
-class Place(Calibration):
-    """The beam is broken from both sides by a tool that is known; along the beam the place of the call counts."""
-
-    needs = ("laser_z",)
-    length: float = addresses.coordinate("H", "length of the reference tool", 100, at_least=0)
-    diameter: float = param("D", "diameter of the reference tool", above=0, example=10)
-    depth: float = param("Q", "depth below the beam", above=0, incremental=True, example=5)
-    axis: float = addresses.choice("L", "axis that the beam lies along", addresses.PLANE_AXES, 1)
-
-    def laser_axis(self, m: Machine) -> float:
-        return self.axis
-
-    def moves(self, m: Machine) -> Moves:
-        k, (x, y, high), feed = self.w(m), m.tip, float(m.settings["laser_feed"])
-        w, away = m.tip[k], self.diameter / 2 + float(m.settings["laser_clr"])
-        low = float(known(m, "laser_z")) + self.length - self.depth - m.tool.effective_length
-        found = []
-        for side, sense in (("+", 1), ("-", -1)):
-            yield self.beside(m, f"to the {side} side", w + sense * away)
-            yield Go("down", low)
-            found.append((yield from self.across(m, w - sense * away, feed, f"touch from {side}")))
-            yield self.beside(m, "back", w + sense * away)
-            yield Go("up", high)
-        yield Go("to the start", x=x, y=y)
-        place = [x, y]
-        place[k] = (found[0] + found[1]) / 2
-        yield Measure("width of the beam", found[0] - found[1] - self.diameter, 0.0)
-        yield from learned(m, laser_x=place[0], laser_y=place[1], laser_axis=self.axis)
-
-
-class ToolMeasuring(LaserCycle):
-    """Base of G480 to G482: the spindle turns at its greatest speed."""
-
-    needs = ("laser_z", "laser_x", "laser_y", "laser_axis")
-    depth: float | None = None
-
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        yield from super().check(m)
-        if self.depth is not None and not m.tool.effective_radius > 0:
-            yield "", f"needs the radius of T{m.tool.number} in the tool table"
 
     def measured(self, m: Machine, length: bool, radius: bool) -> Generator[Step, Any, tuple[float, float]]:
         """Length and radius, nan where one is not measured; the tool ends where it began."""
@@ -226,10 +140,79 @@ class ToolMeasuring(LaserCycle):
             yield Pause("worn or broken")
 
 
+@CYCLES("G470", "Laser tool setter: level of the beam", runs="definition", source="MNC 12.27")
+class Level(LaserCycle):
+    """The beam is broken twice, at two places along it."""
+
+    refused = FRAMES
+    axis: float = addresses.choice("L", "axis that the beam lies along", addresses.PLANE_AXES, 1)
+    direction: float = addresses.choice("K", "way to the second point", addresses.SENSE, 1)
+    distance: float = param("P", "distance of the two points", above=0, incremental=True, example=40)
+
+    def moves(self, m: Machine) -> Moves:
+        high, feed = m.tip[2], float(m.settings["laser_feed"])
+        first = yield from self.down(m, feed, "touch 1")
+        yield Go("up", high)
+        along = 1 - self.w(m)
+        there = m.tip[along] + self.direction * self.distance
+        yield Go("to the second point", x=there) if along == 0 else Go("to the second point", y=there)
+        second = yield from self.down(m, feed, "touch 2")
+        yield Go("up", high)
+        deviation = second - first
+        angle = math.degrees(math.atan(self.direction * deviation / self.distance))
+        yield Measure("level", deviation, 0.0)
+        yield Measure("angle", angle, 0.0, unit="deg")
+        values = {"z1": first, "z2": second, "deviation": deviation, "angle": angle}
+        yield from report(m, self.code, values)
+
+
+@CYCLES("G471", "Laser tool setter: calibrate Z", runs="definition", source="MNC 12.28")
+class HeightOfBeam(LaserCycle):
+    """The beam is broken once from above, by a tool whose length is known."""
+
+    refused = FRAMES
+    length: float = addresses.coordinate("H", "length of the reference tool", 100, at_least=0)
+
+    def moves(self, m: Machine) -> Moves:
+        high = m.tip[2]
+        reference = yield from self.down(m, float(m.settings["laser_feed"]), "touch")
+        yield Go("up", high)
+        yield from learned(m, laser_z=reference - self.length)
+
+
+@CYCLES("G472", "Laser tool setter: calibrate X and Y", runs="definition", source="MNC 12.29")
+class Place(LaserCycle):
+    """The beam is broken from both sides by a tool that is known; along the beam the place of the call counts."""
+
+    refused, needs = FRAMES, ("laser_z",)
+    length: float = addresses.coordinate("H", "length of the reference tool", 100, at_least=0)
+    diameter: float = param("D", "diameter of the reference tool", above=0, example=10)
+    depth: float = param("Q", "depth below the beam", above=0, incremental=True, example=5)
+    axis: float = addresses.choice("L", "axis that the beam lies along", addresses.PLANE_AXES, 1)
+
+    def moves(self, m: Machine) -> Moves:
+        k, (x, y, high), feed = self.w(m), m.tip, float(m.settings["laser_feed"])
+        w, away = m.tip[k], self.diameter / 2 + float(m.settings["laser_clr"])
+        low = float(known(m, "laser_z")) + self.length - self.depth - m.tool.effective_length
+        found = []
+        for side, sense in (("+", 1), ("-", -1)):
+            yield self.beside(m, f"to the {side} side", w + sense * away)
+            yield Go("down", low)
+            found.append((yield from self.across(m, w - sense * away, feed, f"touch from {side}")))
+            yield self.beside(m, "back", w + sense * away)
+            yield Go("up", high)
+        yield Go("to the start", x=x, y=y)
+        place = [x, y]
+        place[k] = (found[0] + found[1]) / 2
+        yield Measure("width of the beam", found[0] - found[1] - self.diameter, 0.0)
+        yield from learned(m, laser_x=place[0], laser_y=place[1], laser_axis=self.axis)
+
+
 @CYCLES("G480", "Measure length and radius of a tool", runs="definition", source="MNC 12.30")
-class MeasureTool(ToolMeasuring):
+class MeasureTool(LaserCycle):
     """What is measured stands in the tool table, without corrections."""
 
+    needs = ALL
     kind: float = addresses.choice("P", "what is measured", {1: "length", 2: "radius", 3: "length and radius"}, 1)
     depth: float | None = param(
         "Q", "depth below the beam for the radius", above=0, incremental=True, default=None, default_means="with P1", example=4
@@ -260,9 +243,10 @@ class MeasureTool(ToolMeasuring):
 
 
 @CYCLES("G481", "Check the length of a tool", runs="definition", source="MNC 12.31")
-class CheckLength(ToolMeasuring):
+class CheckLength(LaserCycle):
     """The deviation from the length in the table becomes its correction."""
 
+    needs = ALL
     tolerance: float = addresses.coordinate("H", "permissible deviation of the length", 0.05, at_least=0)
 
     def moves(self, m: Machine) -> Moves:
@@ -273,11 +257,12 @@ class CheckLength(ToolMeasuring):
 
 
 @CYCLES("G482", "Check the radius of a tool", runs="definition", source="MNC 12.32")
-class CheckRadius(ToolMeasuring):
+class CheckRadius(LaserCycle):
     """The deviation from the radius in the table becomes its correction."""
 
+    needs = ALL
     tolerance: float = addresses.coordinate("D", "permissible deviation of the radius", 0.05, at_least=0)
-    depth: float | None = param("Q", "depth below the beam", above=0, incremental=True, example=4)
+    depth: float = param("Q", "depth below the beam", above=0, incremental=True, example=4)
 
     def moves(self, m: Machine) -> Moves:
         row = row_of(m)

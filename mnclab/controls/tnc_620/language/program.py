@@ -45,6 +45,7 @@ def end(m: Machine, words: Words) -> None:
         m.alarm(f"END PGM says {unit.value}, BEGIN PGM {kept.unit}", unit)
     if kept.name is not None and name != kept.name:
         m.warn(f"END PGM names {name}, BEGIN PGM {kept.name}", words.words[0])
+    kept.fast_probing = None  # 17.10
     if m.flow.called:
         m.flow.end_program()
     else:

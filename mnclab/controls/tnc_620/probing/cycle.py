@@ -13,6 +13,7 @@ from mnclab.controls.tnc_620.contours.other_tools import Named, in_table
 from mnclab.controls.tnc_620.cycles.chain import TILT
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
+from mnclab.controls.tnc_620.probing.fast_probing import probe_in_force
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
 from mnclab.machine.tool_axis import FRAME
@@ -57,11 +58,11 @@ class ProbingCycle(Cycle):
         """A transformation that it must not find active (13.2)."""
         allowed = (*ALLOWED, TILT) if self.tilted else ALLOWED
         if active := [name for name, _ in m.frames if name not in allowed and name in m.frames]:
-            yield "", f"cannot run while a {active[0]} is active"
+            yield "", f"cannot run while a {active[0].replace('axis scales', 'scale of an axis')} is active"
 
     def approach(self, m: Machine, **other: Any) -> Approach:
         """How the probe of the table moves in this cycle; `other` values of it."""
-        probe = m.tables.probe
+        probe = probe_in_force(m)
         found = {
             "ball": m.radius, "gap": probe.clearance + self.clearance, "level": self.level, "height": self.height,
             "reach": probe.reach, "feed": min(probe.feed, m.settings["max_touch_feed"]),

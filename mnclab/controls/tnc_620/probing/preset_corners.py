@@ -16,6 +16,7 @@ from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured,
 from mnclab.controls.tnc_620.probing.transfer import finish
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
+from mnclab.machine.tool_axis import tool_axis
 from mnclab.machining.probing import sequences
 from mnclab.machining.probing.fits import corner, line, reduced
 from mnclab.machining.probing.found import Point
@@ -58,7 +59,7 @@ class PresetOnCorner(ProbingCycle):
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
-        yield from two_lines(self)
+        yield from two_lines(self, m)
         for name, other in (("third_x", self.x), ("third_y", self.y)):
             if getattr(self, name) == other:
                 yield name, f"must not be that of the first point, {other:g}: which corner it is would not be known"
@@ -99,7 +100,7 @@ class PresetInCorner(ProbingCycle):
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
-        yield from two_lines(self)
+        yield from two_lines(self, m)
 
     def moves(self, m: Machine) -> Moves:
         a, (u, v) = self.approach(m), INTO[int(self.corner)]
@@ -108,11 +109,13 @@ class PresetInCorner(ProbingCycle):
         return both_sides(self, m, a, (first, (0.0, -v)), (second, (-u, 0.0)))
 
 
-def two_lines(c: PresetOnCorner | PresetInCorner) -> Iterator[Fault]:
+def two_lines(c: PresetOnCorner | PresetInCorner, m: Machine) -> Iterator[Fault]:
     """What either line and its angle need."""
     yield from not_zero(c, "spacing_axis_1", "spacing_axis_2", purpose="for a line through both points")
     if c.basic_rotation and c.row and c.transfer == 0:
         yield "basic_rotation", "needs the preset table (Q303=1): a row of the datum table holds no basic rotation"
+    if c.basic_rotation and tool_axis(m) != 2:
+        yield "basic_rotation", "with another tool axis than Z: not built yet"
 
 
 def both_sides(c: PresetOnCorner | PresetInCorner, m: Machine, a: Approach, *lines: tuple[Sequence[Pair], Pair]) -> Moves:

@@ -8,16 +8,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Generator, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from functools import partial
 from typing import Any, ClassVar
 
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate
 from mnclab.controls.tnc_620.cycles.faults import Fault
+from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.controls.tnc_620.probing.cycle import Moves
-from mnclab.controls.tnc_620.probing.tool_setter import Calibrated, SetterCycle, known
-from mnclab.machine.cycle import CycleTable, param
+from mnclab.controls.tnc_620.probing.tool_setter import Calibrated, known, start_height, unfit_for_tt
+from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
-from mnclab.machine.tool_setting import row_of, written
+from mnclab.machine.tool_setting import SETS, row_of, written
 from mnclab.machining.steps import Go, Measure, Orient, Say, Spin, Step, Touch, Write
 from mnclab.path.tool import Tool
 
@@ -31,6 +33,7 @@ CHECK: dict[float, str] = {
 TEETH: dict[float, str] = {0: "no", 1: "yes"}
 MOST_TEETH = 20
 WORN, BROKEN = 1.0, 2.0
+STATUS_PARAMETER = "Q199"
 STATUS = {WORN: "worn", BROKEN: "broken"}
 DELTAS = {"length": ("dl", "Q115"), "radius": ("dr", "Q116")}
 
@@ -49,16 +52,20 @@ def status(deviation: float, worn: float, broken: float) -> float:
     return BROKEN if beyond[1] else WORN if beyond[0] else 0.0
 
 
-class ToolMeasuring(SetterCycle):
-    """Base of both formats; who inherits says what it measures."""
+class ToolMeasuring(Cycle):
+    """Base of both formats; who inherits says what it measures, and declares the parameters."""
+
+    does: ClassVar[str] = SETS
+    about = in_program_coordinates
 
     measures: ClassVar[tuple[str, ...]]
     mode = 0.0
+    height = 0.0
     teeth = 0.0
-    target = ""
+    target: Any = STATUS_PARAMETER
 
     def check(self, m: Machine) -> Iterator[Fault]:
-        yield from super().check(m)
+        yield from unfit_for_tt(self, m)
         if known(m) is None:
             yield "", "needs a TT that is calibrated: TCH PROBE 480 before it, or the setting tt_calibrated"
         if self.teeth and not 1 <= (count := row_of(m).teeth) <= MOST_TEETH:
@@ -69,7 +76,7 @@ class ToolMeasuring(SetterCycle):
     def moves(self, m: Machine) -> Moves:
         tt, row, speed = known(m), row_of(m), m.speed
         assert tt is not None
-        high = self.start_height(m, tt.top)
+        high = start_height(m, self.height, tt.top)
         yield Go("to the clearance height", high)
         found = {}
         for what in self.measures:
@@ -93,7 +100,8 @@ class ToolMeasuring(SetterCycle):
         if self.teeth:
             turn = math.tau / row.teeth
             if row.teeth > 1 and math.hypot(aside - row.radius * math.cos(turn), row.radius * math.sin(turn)) < tt.radius:
-                yield Say("lays several teeth on the TT at once: the longest of them counts", "a greater R-OFFS lays one alone on it")
+                alone = "a greater R-OFFS lays one alone on it"
+                yield Say("lays several teeth on the TT at once: the longest of them counts", alone)
             yield from self.radius(m, row, tt, high)  # which finds the angle of the first tooth
             yield Go("to the clearance height", high)
         yield Go("over the TT", x=tt.x + aside, y=tt.y)
@@ -159,63 +167,75 @@ class ToolMeasuring(SetterCycle):
             yield from written(m, replace(tool, locked=row.locked or worst > 0))
 
 
-@dataclass(frozen=True)
-class NewFormat(ToolMeasuring):
-    """The status is Q199."""
-
-    target = "Q199"
-    mode: float = choice("Q340", "what becomes of the measured values", CHECK, example=1)
-    height: float = coordinate("Q260", "clearance height", example=100)
-    teeth: float = choice("Q341", "whether each tooth is measured", TEETH, example=0)
-
-
-@dataclass(frozen=True)
-class OldFormat(ToolMeasuring):
-    """The status is a parameter that the block names, if it does."""
-
-    mode: float = choice("CHECK", "what becomes of the measured values", CHECK, modal=False, example=1)
-    target: str = param("status parameter", "Q parameter that gets the status", "", type="text", default="", default_means="none")
-    height: float = coordinate("HEIGHT", "clearance height", modal=False, example=100)
-    teeth: float = choice("PROBING THE TEETH", "whether each tooth is measured", TEETH, modal=False, example=0)
+mode = partial(choice, "Q340", "what becomes of the measured values", CHECK, example=1)
+height = partial(coordinate, "Q260", "clearance height", example=100)
+teeth = partial(choice, "Q341", "whether each tooth is measured", TEETH, example=0)
+old_mode = partial(choice, "CHECK", "what becomes of the measured values", CHECK, modal=False, example=1)
+old_height = partial(coordinate, "HEIGHT", "clearance height", modal=False, example=100)
+old_teeth = partial(choice, "PROBING THE TEETH", "whether each tooth is measured", TEETH, modal=False, example=0)
+target = partial(
+    param, "status parameter", "Q parameter of the status", "choice", type="text", default=None, default_means="none"
+)
 
 
 @CYCLES("TCH PROBE 481", "Measuring the tool length", runs="definition", source="19.4")
-class Length(NewFormat):
+class Length(ToolMeasuring):
     """From above."""
 
     measures = ("length",)
+    mode: float = mode()
+    height: float = height()
+    teeth: float = teeth()
 
 
 @CYCLES("TCH PROBE 482", "Measuring the tool radius", runs="definition", source="19.5")
-class Radius(NewFormat):
+class Radius(ToolMeasuring):
     """From the side."""
 
     measures = ("radius",)
+    mode: float = mode()
+    height: float = height()
+    teeth: float = teeth()
 
 
 @CYCLES("TCH PROBE 483", "Measuring the tool length and radius", runs="definition", source="19.6")
-class LengthAndRadius(NewFormat):
+class LengthAndRadius(ToolMeasuring):
     """The radius first, then the length."""
 
     measures = ("radius", "length")
+    mode: float = mode()
+    height: float = height()
+    teeth: float = teeth()
 
 
 @CYCLES("TCH PROBE 31", "Measuring the tool length, old format", runs="definition", source="19.4")
-class OldLength(OldFormat):
-    """As 481."""
+class OldLength(ToolMeasuring):
+    """As 481; the status is a parameter that the block names."""
 
     measures = ("length",)
+    mode: float = old_mode()
+    target: str | None = target()
+    height: float = old_height()
+    teeth: float = old_teeth()
 
 
 @CYCLES("TCH PROBE 32", "Measuring the tool radius, old format", runs="definition", source="19.5")
-class OldRadius(OldFormat):
-    """As 482."""
+class OldRadius(ToolMeasuring):
+    """As 482; the status is a parameter that the block names."""
 
     measures = ("radius",)
+    mode: float = old_mode()
+    target: str | None = target()
+    height: float = old_height()
+    teeth: float = old_teeth()
 
 
 @CYCLES("TCH PROBE 33", "Measuring the tool length and radius, old format", runs="definition", source="19.6")
-class OldLengthAndRadius(OldFormat):
-    """As 483."""
+class OldLengthAndRadius(ToolMeasuring):
+    """As 483; the status is a parameter that the block names."""
 
     measures = ("radius", "length")
+    mode: float = old_mode()
+    target: str | None = target()
+    height: float = old_height()
+    teeth: float = old_teeth()

@@ -7,8 +7,8 @@ machine coordinates. A calibration finds where it truly is; it holds for the res
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import ClassVar, NamedTuple
+from collections.abc import Generator, Iterator
+from typing import Any, ClassVar, NamedTuple
 
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate
 from mnclab.controls.tnc_620.cycles.chain import FACTORS, MIRROR, SCALE, TILT
@@ -22,7 +22,7 @@ from mnclab.machine.setter import Setter
 from mnclab.machine.settings import Setting
 from mnclab.machine.tool_setting import PLATE, SETS, unfit
 from mnclab.machining.probing.fits import circle
-from mnclab.machining.steps import Go, Measure, Orient, Pause, Say, Touch, Write
+from mnclab.machining.steps import Go, Measure, Orient, Pause, Say, Step, Touch, Write
 
 CYCLES = CycleTable()
 SETTINGS = (
@@ -70,94 +70,93 @@ def known(m: Machine) -> Calibrated | None:
     return memory(m).tool_setter
 
 
-class SetterCycle(Cycle):
-    """Base of the cycles of chapter 19: who inherits declares the parameters."""
+def unfit_for_tt(c: Cycle, m: Machine) -> Iterator[Fault]:
+    """What refuses all cycles of chapter 19."""
+    yield from unfit(m, PLATE)
+    if m.settings["hide_measure_tt"] and int(c.code.split()[-1]) >= 480:
+        yield "", "is hidden on this machine (setting hide_measure_tt)"
+    if active := [name for name, _ in m.frames if name.partition(" (")[0] in UNFIT]:
+        yield "", f"cannot run while a {active[0]} is active"
+    for name in ("length", "radius"):
+        if not getattr(m.tool, f"effective_{name}") > 0:
+            yield "", f"needs the {name} of T{m.tool.number} in the tool table"
+
+
+def start_height(m: Machine, height: float, top: float) -> float:
+    """Where the tip begins: Q260, which counts from the preset, or above an upper side that lies higher."""
+    wanted = float(m.frames["preset"][2, 3]) + height
+    return wanted if wanted >= top - SAME else top + float(m.settings["safety_dist_tool_ax"])
+
+
+class Calibrating(Cycle):
+    """One touch from above, and four round the stylus with the spindle at 0 and at 180 degrees.
+
+    The calibrating tool is exactly round, its length and radius stand in the tool table.
+    """
 
     does: ClassVar[str] = SETS
     about = in_program_coordinates
     height = 0.0
 
     def check(self, m: Machine) -> Iterator[Fault]:
-        yield from unfit(m, PLATE)
-        if m.settings["hide_measure_tt"] and int(self.code.split()[-1]) >= 480:
-            yield "", "is hidden on this machine (setting hide_measure_tt)"
-        if active := [name for name, _ in m.frames if name.partition(" (")[0] in UNFIT]:
-            yield "", f"cannot run while a {active[0]} is active"
-        for name in ("length", "radius"):
-            if not getattr(m.tool, f"effective_{name}") > 0:
-                yield "", f"needs the {name} of T{m.tool.number} in the tool table"
-
-    def start_height(self, m: Machine, top: float) -> float:
-        """Where the tip begins: Q260, which counts from the preset, or above an upper side that lies higher."""
-        wanted = float(m.frames["preset"][2, 3]) + self.height
-        return wanted if wanted >= top - SAME else top + float(m.settings["safety_dist_tool_ax"])
-
-
-class Calibrating(SetterCycle):
-    """One touch from above, and four round the stylus with the spindle at 0 and at 180 degrees."""
-
-    def check(self, m: Machine) -> Iterator[Fault]:
-        yield from super().check(m)
+        yield from unfit_for_tt(self, m)
         if m.tool.effective_radius > (most := float(m.settings["safety_dist_tool_ax"]) + BESIDE):
             yield "", f"needs a calibrating tool of a radius up to {most:g}, that of T{m.tool.number} is greater"
 
-    def calibrate(self, m: Machine, x: float, y: float, high: float) -> Moves:
-        """From above the TT, whose middle is taken to be at x and y; the tool is left beside it."""
-        setter, clearance, feed = setter_of(m), float(m.settings["safety_dist_tool_ax"]), float(m.settings["probing_feed"])
-        _length, radius = m.tool.effective_length, m.tool.effective_radius
-        yield Orient("spindle at 0", 0.0)
-        contact = yield Touch("touch from above", x, y, min(setter.z, high) - clearance, feed)
-        top = contact.tip[2]
-        yield Go("up", high)
-        away, level, middles, found = setter.radius + clearance + BESIDE, top - float(m.settings["offset_tool_axis"]), [], []
-        yield Go("beside the TT", x=x + away, y=y)
-        yield Go("down", level)
-        for turn in (0.0, 180.0):
-            points = []
-            for k, (u, v) in enumerate(SIDES):
-                if turn or k:
-                    before = SIDES[k - 1]
-                    yield Go("to the corner", x=x + away * (u + before[0]), y=y + away * (v + before[1]))
-                    yield Go("beside the TT", x=x + away * u, y=y + away * v)
-                if turn and k == 0:
-                    yield Orient(f"spindle at {turn:g}", turn)
-                contact = yield Touch(f"touch {k + 1}", x, y, level, feed)
-                points.append(contact.tip[:2])
-                yield Go("back", x=x + away * u, y=y + away * v)
-            found.append(circle(points))
-            middles.append(found[-1].centre)
-        (x0, y0), (x1, y1) = middles
-        tt = Calibrated((x0 + x1) / 2, (y0 + y1) / 2, top, (found[0].radius + found[1].radius) / 2 - radius)
-        nominal = (setter.x, setter.y, setter.z, setter.radius)
-        yield from (Measure(f"TT {name}", each, was) for name, each, was in zip(("X", "Y", "Z", "radius"), tt, nominal))
-        yield from (Measure(f"runout {name}", (b - a) / 2, 0.0) for name, a, b in (("X", x0, x1), ("Y", y0, y1)))
-        yield Write("memory", tt, "tool_setter")
-
-
-class CalibratingAtHeight(Calibrating):
-    """From the clearance height; the tool ends above the middle that was found."""
-
     def moves(self, m: Machine) -> Moves:
+        """From the clearance height; the tool ends above the middle that was found."""
         setter = setter_of(m)
-        high = self.start_height(m, setter.z)
+        high = start_height(m, self.height, setter.z)
         yield Go("to the clearance height", high)
         yield Go("over the TT", x=setter.x, y=setter.y)
-        yield from self.calibrate(m, setter.x, setter.y, high)
-        tt = known(m)
-        assert tt is not None
+        tt = yield from calibrated(m, setter.x, setter.y, high)
         yield Go("up", tt.top + float(m.settings["safety_dist_tool_ax"]))
         yield Go("over the middle", x=tt.x, y=tt.y)
 
 
+def calibrated(m: Machine, x: float, y: float, high: float) -> Generator[Step, Any, Calibrated]:
+    """From above the TT, whose middle is taken to be at x and y; the tool is left beside it."""
+    setter, clearance, feed = setter_of(m), float(m.settings["safety_dist_tool_ax"]), float(m.settings["probing_feed"])
+    radius = m.tool.effective_radius
+    yield Orient("spindle at 0", 0.0)
+    contact = yield Touch("touch from above", x, y, min(setter.z, high) - clearance, feed)
+    top = contact.tip[2]
+    yield Go("up", high)
+    away, level, middles, found = setter.radius + clearance + BESIDE, top - float(m.settings["offset_tool_axis"]), [], []
+    yield Go("beside the TT", x=x + away, y=y)
+    yield Go("down", level)
+    for turn in (0.0, 180.0):
+        points = []
+        for k, (u, v) in enumerate(SIDES):
+            if turn or k:
+                before = SIDES[k - 1]
+                yield Go("to the corner", x=x + away * (u + before[0]), y=y + away * (v + before[1]))
+                yield Go("beside the TT", x=x + away * u, y=y + away * v)
+            if turn and k == 0:
+                yield Orient(f"spindle at {turn:g}", turn)
+            contact = yield Touch(f"touch {k + 1}", x, y, level, feed)
+            points.append(contact.tip[:2])
+            yield Go("back", x=x + away * u, y=y + away * v)
+        found.append(circle(points))
+        middles.append(found[-1].centre)
+    (x0, y0), (x1, y1) = middles
+    tt = Calibrated((x0 + x1) / 2, (y0 + y1) / 2, top, (found[0].radius + found[1].radius) / 2 - radius)
+    nominal = (setter.x, setter.y, setter.z, setter.radius)
+    yield from (Measure(f"TT {name}", each, was) for name, each, was in zip(("X", "Y", "Z", "radius"), tt, nominal))
+    yield from (Measure(f"runout {name}", (b - a) / 2, 0.0) for name, a, b in (("X", x0, x1), ("Y", y0, y1)))
+    yield Write("memory", tt, "tool_setter")
+    return tt
+
+
 @CYCLES("TCH PROBE 480", "Calibrating the TT", runs="definition", source="19.2")
-class Calibrate(CalibratingAtHeight):
-    """The calibrating tool is exactly round, its length and radius stand in the tool table."""
+class Calibrate(Calibrating):
+    """From the clearance height."""
 
     height: float = coordinate("Q260", "clearance height", example=100)
 
 
 @CYCLES("TCH PROBE 30", "Calibrating the TT, old format", runs="definition", source="19.2")
-class OldCalibrate(CalibratingAtHeight):
+class OldCalibrate(Calibrating):
     """As 480."""
 
     height: float = coordinate("HEIGHT", "clearance height", modal=False, example=100)
@@ -182,9 +181,8 @@ class CalibrateWireless(Calibrating):
             yield Go("by hand", x=setter.x, y=setter.y)
         x, y, high = m.tip
         if (x - setter.x) ** 2 + (y - setter.y) ** 2 > setter.radius**2 or high <= setter.z:
-            m.alarm(f"{self.code} begins above the TT, the tool stands beside it", hint=f"bring it over X{setter.x:g} Y{setter.y:g}")
-        yield from self.calibrate(m, x, y, high)
-        tt = known(m)
-        assert tt is not None
+            hint = f"bring it over X{setter.x:g} Y{setter.y:g}"
+            m.alarm(f"{self.code} begins above the TT, the tool stands beside it", hint=hint)
+        tt = yield from calibrated(m, x, y, high)
         yield Go("up", high)
         yield Go("over the middle", x=tt.x, y=tt.y)

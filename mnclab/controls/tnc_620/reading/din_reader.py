@@ -11,7 +11,7 @@ import re
 from collections.abc import Sequence
 from itertools import takewhile
 
-from mnclab.controls.tnc_620.reading import din_formulas, din_statements
+from mnclab.controls.tnc_620.reading import din_formulas, din_statements, probe_blocks
 from mnclab.controls.tnc_620.reading.din_blocks import Raw, blocks
 from mnclab.controls.tnc_620.reading.din_modes import MIXED, PATHS, Modes, modes_before
 from mnclab.controls.tnc_620.reading.din_motion import Departure, Motion, approach
@@ -19,7 +19,7 @@ from mnclab.controls.tnc_620.reading.din_said import said
 from mnclab.controls.tnc_620.reading.din_statements import REFUSED, STATEMENTS
 from mnclab.controls.tnc_620.reading.din_words import MEASURED, Given, has_tail, put, read_words
 from mnclab.controls.tnc_620.reading.labels import name_of_program
-from mnclab.controls.tnc_620.reading.statements import cycle_parameters, ignored, recognize
+from mnclab.controls.tnc_620.reading.statements import cycle_parameters, recognize
 from mnclab.controls.tnc_620.reading.words import FLAGS, INCH, Cursor, Fault
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Program
@@ -312,7 +312,9 @@ class _Reader:
         else:
             keyword = din_statements.cycle_of(code)
             self.builder.block(raw.start, keyword, raw.skip)
-            read = ignored if code == 55 else cycle_parameters
+            if code == 55 and [modes.incremental + 90, *(word.code for word in words if word.code in (90, 91))][-1] == 91:
+                raise head.fault(self.builder, "takes absolute coordinates", "write G90 before it")
+            read = probe_blocks.in_words if code == 55 else cycle_parameters
             read(cursor)
             for at, stop in rest:
                 if not cursor.done:

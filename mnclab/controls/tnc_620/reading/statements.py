@@ -259,6 +259,6 @@ def _cycle(cursor: Cursor, found: re.Match[str]) -> Statement:
         return Statement(keyword, cycle_parameters, cycle_parameters)
     part = int(found.group(3))
     if part == 0:
-        return Statement(keyword, ignored if word == "TCH PROBE" else passed_over, None, 0)
+        return Statement(keyword, READERS.get(f"{keyword}.0", passed_over), None, 0)
     read = READERS.get(f"{keyword}.{part}", READERS.get(keyword, ignored))
     return Statement(keyword, read, read, part)

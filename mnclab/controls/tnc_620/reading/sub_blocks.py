@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator, Mapping
 from functools import partial
 
-from mnclab.controls.tnc_620.reading import obsolete_blocks
+from mnclab.controls.tnc_620.reading import obsolete_blocks, probe_blocks
 from mnclab.controls.tnc_620.reading.dialog import dialog
 from mnclab.controls.tnc_620.reading.labels import program_of_cycle
 from mnclab.controls.tnc_620.reading.words import FLAGS, WHOLE, Cursor, Read, from_inches
@@ -123,6 +123,7 @@ def checked(cursor: Cursor) -> None:
 #: By cycle, or by cycle and number of the sub-block; the others are known by their number alone.
 READERS: dict[str, Read] = {
     **obsolete_blocks.READERS,
+    **probe_blocks.READERS,
     "CYCL DEF 7": datum_shift,
     "CYCL DEF 8": mirrored,
     "CYCL DEF 9.1": partial(after_dialog, address="DWELL", meaning="dwell in seconds"),

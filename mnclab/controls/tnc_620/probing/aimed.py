@@ -1,0 +1,246 @@
+"""What the cycles 14xx share (TNC 620, 14.2): nominal places, the way of the probe from one to the next, results, tolerances.
+
+Places are nominal coordinates of the input system, also in a tilted plane. What is found goes to Q950 and on, deviations from
+the middle of the tolerances to Q980 and on; the status Q183 is worked out before the preset changes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Generator, Iterator, Mapping, Sequence
+from functools import partial
+from typing import Any, ClassVar, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate
+from mnclab.controls.tnc_620.cycles.faults import Fault
+from mnclab.controls.tnc_620.probing.cycle import numbers
+from mnclab.controls.tnc_620.probing.nominal import Nominal, read
+from mnclab.machine.machine import Machine
+from mnclab.machine.measuring import OK, REWORK, SCRAP, SLACK
+from mnclab.machine.settings import Setting
+from mnclab.machine.touching import Contact
+from mnclab.machining.probing.sequences import Approach, over_to
+from mnclab.machining.steps import Go, Measure, Orient, Pause, Step, Touch, Write
+from mnclab.text.strings import TextFormula
+from mnclab.text.tables import html_table
+
+Floats = NDArray[np.float64]
+Given = float | str | TextFormula
+SETTINGS = (
+    Setting("manual_points", {}, "where the operator puts the center of the ball, or 1411 that of the circle, for a ? in a "
+            "cycle 14xx: number of the place -> (x, y, z) of the program, mm", "14.2"),
+    Setting("table_x", 0.0, "X of the center of the rotary table in machine coordinates", "14.2", unit="mm"),
+    Setting("table_y", 0.0, "Y of the center of the rotary table in machine coordinates", "14.2", unit="mm"),
+)  # fmt: skip
+DIRECTIONS: dict[float, str] = {
+    sense * (k + 1): f"{'+' if sense > 0 else '-'}{axis}" for k, axis in enumerate("XYZ") for sense in (1, -1)
+}
+MODES: dict[float, str] = {
+    -1: "never", 0: "before and after the cycle", 1: "before and after every object", 2: "before and after every touch",
+}  # fmt: skip
+REACTIONS: dict[float, str] = {0: "none", 1: "an alarm for rework and scrap", 2: "an alarm for scrap"}
+ALIGNING: dict[float, str] = {0: "not at all", 1: "they turn about the tip (MOVE)", 2: "they turn (TURN)"}
+TRANSFERS: dict[float, str] = {0: "none", 1: "point 1", 2: "point 2", 3: "the mean of the points"}
+ROTATIONS: dict[float, str] = {0: "none", 1: "basic rotation", 2: "the rotary table turns"}
+AXES = ("ref_axis", "minor_axis", "tool_axis")
+PLACES = ("first_point", "second_point", "third_point")
+STATUS = {OK: 0, REWORK: 1, SCRAP: 2}
+LOG = "TCHPRAUTO.html"
+
+TEXT = "or a text QS… with tolerances, @ or ?"
+place = partial(coordinate, note=TEXT)
+direction = partial(choice, "Q372", "probing direction", DIRECTIONS)
+clearance_mode = partial(choice, "Q1125", "when it goes to the clearance height", MODES, example=1)
+reaction = partial(choice, "Q309", "reaction to a violated tolerance", REACTIONS, example=0)
+aligning = partial(choice, "Q1126", "how rotary axes are aligned", ALIGNING, example=0)
+transferred = partial(choice, "Q1120", "position that corrects the preset", choices=TRANSFERS, example=0)
+rotation = partial(choice, "Q1121", "rotation that is taken over", choices=ROTATIONS, example=0)
+
+
+class Aimed(Protocol):
+    """A cycle 14xx: its parameters, and how it finds one place."""
+
+    code: ClassVar[str]
+    clearance_height_mode: float
+    error_reaction: float
+
+    def approach(self, m: Machine, **other: Any) -> Approach:
+        """How the probe moves."""
+
+    def find(self, m: Machine, a: Approach, k: int, where: Floats, rise: float) -> Finding:
+        """Touch place number k, from 0; `rise` is the height of the probe now, or infinite where it goes there as it is."""
+
+
+class Found(NamedTuple):
+    """A place as it was found, and the diameter of a circle there, mm."""
+
+    point: Floats
+    diameter: float = math.nan
+    contacts: Sequence[Contact] = ()
+
+
+class Judged(NamedTuple):
+    """A measured value beside its limits; `verdict` as in the record, "" without limits."""
+
+    what: str
+    actual: float
+    nominal: Nominal
+    verdict: str
+    contacts: Sequence[Contact]
+
+
+Finding = Generator[Step, Any, Found]
+
+
+def names(c: Any) -> list[tuple[str, str, str]]:
+    """The parameters of each place."""
+    return [(f"{p}_{AXES[0]}", f"{p}_{AXES[1]}", f"{p}_{AXES[2]}") for p in PLACES if hasattr(c, f"{p}_{AXES[0]}")]
+
+
+def nominal(c: Any, m: Machine, name: str) -> Nominal:
+    """What a parameter says."""
+    return read(getattr(c, name), m.variables, m.variable_unit)
+
+
+def nominals(c: Any, m: Machine) -> list[list[Nominal]]:
+    """Of each place its three coordinates."""
+    return [[nominal(c, m, name) for name in axes] for axes in names(c)]
+
+
+def faults(c: Any, m: Machine, *others: str) -> Iterator[Fault]:
+    """Texts that say nothing, points that are half known, questions that nobody answers; `others` are further texts."""
+    for name in (*others, *(name for axes in names(c) for name in axes)):
+        try:
+            nominal(c, m, name)
+        except ValueError as fault:
+            yield name, str(fault)
+            return
+    for k, (axes, known) in enumerate(zip(names(c), nominals(c, m), strict=True)):
+        given = [each.actual is not None for each in known]
+        if any(given) and not all(given):
+            yield axes[given.index(False)], "needs an actual value (@) as the others of the point: it has all three, or none"
+        if any(each.asked for each in known) and by_hand(m, k) is None:
+            asked = next(name for name, each in zip(axes, known, strict=True) if each.asked)
+            yield asked, f"asks for a position (?): the setting manual_points says it, {{{k + 1}: (x, y, z)}}"
+
+
+def by_hand(m: Machine, k: int) -> Floats | None:
+    """Where the operator puts the probe for place number k."""
+    points: Mapping[Any, Any] = m.settings["manual_points"]
+    try:
+        found = np.array(points.get(k + 1, points.get(str(k + 1))), dtype=np.float64)
+    except (TypeError, ValueError):
+        return None
+    return found if found.shape == (3,) and np.isfinite(found).all() else None
+
+
+def measure(c: Aimed, m: Machine, apart: float) -> Generator[Step, Any, list[Found]]:
+    """Find each place, except those whose actual values are given; between them it goes to the clearance height from the mode
+    `apart` on."""
+    a, mode = c.approach(m, over=c.clearance_height_mode == 2), c.clearance_height_mode
+    found, known = [], nominals(c, m)
+    first, moved = True, [k for k, each in enumerate(known) if each[0].actual is None]
+    for k, each in enumerate(known):
+        if k not in moved:
+            found.append(Found(np.array([one.actual for one in each], dtype=np.float64)))
+            continue
+        asked = any(one.asked for one in each)
+        where = by_hand(m, k) if asked else np.array([one.value for one in each], dtype=np.float64)
+        assert where is not None
+        if asked:
+            yield Pause("until the operator has put the probe there")
+        rises = asked or mode >= (0 if first else apart)
+        found.append((yield from c.find(m, a, k, where, m.programmed[2] if rises else math.inf)))
+        first = False
+        if not asked and mode >= (0 if k == moved[-1] else apart):
+            yield a.go("to the clearance height", a.height)
+    return found
+
+
+def touch(c: Any, m: Machine, a: Approach, k: int, where: Floats, rise: float) -> Finding:
+    """One touch along Q372; a place that the operator chose is where it begins."""
+    way = along(c.probing_direction)
+    x, y, z = (where if any(each.asked for each in nominals(c, m)[k]) else where - a.away * way).tolist()
+    if a.track and way[2] == 0:
+        yield Orient("turn the probe", math.degrees(math.atan2(way[1], way[0])) % 360)
+    yield from arrive(a, k, x, y, z - a.ball, rise)
+    to_x, to_y, to_z = (np.array([x, y, z - a.ball]) + a.reach * way).tolist()
+    contact = yield Touch(f"touch {k + 1}", to_x, to_y, to_z, a.feed, a.ball)
+    yield a.go("back", z - a.ball, x, y)
+    return Found(np.array(contact.point) + a.ball * way, contacts=(contact,))
+
+
+def along(number: float) -> Floats:
+    """The unit vector of Q372: 1 is +X, -3 is -Z."""
+    way = np.zeros(3)
+    way[int(abs(number)) - 1] = math.copysign(1.0, number)
+    return way
+
+
+def arrive(a: Approach, k: int, x: float, y: float, z: float, rise: float) -> Iterator[Go]:
+    """To a first start over the clearance height, or as it stands (`rise` infinite); to a further one straight."""
+    if k and math.isinf(rise):
+        yield a.go("to the next starting point", z, x, y)
+    else:
+        yield from over_to(a, x, y, rise, z)
+
+
+# --- results --------------------------------------------------------------------------------------------------------------
+
+
+def means(known: Sequence[Sequence[Nominal]], found: Sequence[Found]) -> Floats:
+    """The middles of the tolerances (n, 3); what has no nominal value is where it was found."""
+    return np.array([[at if each.mean is None else each.mean for each, at in zip(axes, one.point, strict=True)]
+                     for axes, one in zip(known, found, strict=True)])  # fmt: skip
+
+
+def judge(what: str, actual: float, limits: Nominal, contacts: Sequence[Contact], below: str, above: str) -> Judged:
+    """A value beside its limits, and what it means if it lies below or above."""
+    verdict = OK if limits.limited else ""
+    if limits.limited and not limits.lower - SLACK <= actual <= limits.upper + SLACK:
+        verdict = below if actual < limits.lower else above
+    return Judged(what, float(actual), limits, verdict, contacts)
+
+
+def judge_places(c: Any, m: Machine, found: Sequence[Found]) -> list[Judged]:
+    """The coordinates of the places. Where it was touched along an axis, material that is left is rework; anything else is
+    scrap, and what a touch across it did not measure is not judged."""
+    way = along(c.probing_direction) if hasattr(c, "probing_direction") else np.zeros(3)
+    judged = []
+    for k, (known, one) in enumerate(zip(nominals(c, m), found, strict=True)):
+        for axis, limits, actual, sense in zip("XYZ", known, one.point, way, strict=True):
+            if one.contacts and not sense and (way.any() or axis == "Z"):
+                limits = limits._replace(lower=limits.mean or 0.0, upper=limits.mean or 0.0)
+            below, above = (REWORK, SCRAP) if sense > 0 else (SCRAP, REWORK) if sense < 0 else (SCRAP, SCRAP)
+            judged.append(judge(f"point {k + 1} {axis}", actual, limits, one.contacts, below, above))
+    return judged
+
+
+def report(
+    c: Aimed, m: Machine, found: Sequence[Found], nominal: Floats, judged: Sequence[Judged], angles: Mapping[int, float],
+    lengths: Mapping[int, float],
+) -> Iterator[Step]:  # fmt: skip
+    """The places and their deviations, further angles and lengths by the numbers of their Q parameters, the status, the record,
+    its file; then the reaction to a violated tolerance."""
+    points = np.array([one.point for one in found])
+    measured, errors = enumerate(points.ravel(), 950), enumerate((points - nominal).ravel(), 980)
+    for number, value in (*measured, *errors, *lengths.items()):
+        yield Write("variable", float(value) / m.variable_unit, f"Q{number}")
+    for number, value in angles.items():
+        yield Write("variable", float(value), f"Q{number}")
+    status = max((STATUS[each.verdict] for each in judged if each.verdict), default=-1)
+    yield Write("variable", float(status), "Q183")
+    rows = []
+    for what, actual, limits, verdict, contacts in judged:
+        middle = actual if limits.mean is None else limits.mean
+        edges = (limits.lower, limits.upper) if limits.limited else (math.nan, math.nan)
+        yield Measure(what, actual, middle, *edges, verdict=verdict, touches=numbers(contacts))
+        rows.append((what, *(f"{v:.4f}" for v in (middle, actual, actual - middle)), verdict))
+    yield Write("file", html_table(("", "nominal", "actual", "deviation", "status"), rows), LOG)
+    if c.error_reaction and status >= c.error_reaction:
+        worst = next(each for each in judged if each.verdict and STATUS[each.verdict] == status)
+        allowed = f"{worst.nominal.lower:.4f} to {worst.nominal.upper:.4f}"
+        m.alarm(f"{c.code}: {worst.verdict}: {worst.what} is {worst.actual:.4f}, allowed {allowed}")

@@ -1,0 +1,124 @@
+"""Probing on an edge, cycle 1410, and in a plane, cycle 1420 (TNC 620, 14.3, 14.4)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from mnclab.controls.tnc_620.cycles.faults import Fault
+from mnclab.controls.tnc_620.probing import addresses, aimed, taken_over
+from mnclab.controls.tnc_620.probing.aimed import Finding, Floats, Given
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed
+from mnclab.controls.tnc_620.probing.line import line_results, no_line
+from mnclab.machine.cycle import CycleTable
+from mnclab.machine.machine import Machine
+from mnclab.machining.probing import fits
+from mnclab.machining.probing.found import Plane, axes_on
+from mnclab.machining.probing.sequences import Approach
+from mnclab.machining.probing.sketches import line_sketch
+from mnclab.text.alarm import Alarm
+
+CYCLES = CycleTable()
+SPACE: dict[float, str] = {0: "none", 1: "basic rotation in space"}
+OF_THREE: dict[float, str] = {**aimed.TRANSFERS, 3: "point 3", 4: "the mean of the points"}
+STEEP = 0.1  # part of a normal across Y, below which a level X does not say where X of the plane is
+
+
+@CYCLES("TCH PROBE 1410", "Probing on edge", runs="definition", source="14.4")
+class ProbingOnEdge(ProbingCycle):
+    """Two touches along Q372; the line through them is compared with that of the nominal points."""
+
+    tilted = True
+    first_point_ref_axis: Given = aimed.place(("Q1100", "QS1100"), "first point, reference axis", example=20)
+    first_point_minor_axis: Given = aimed.place(("Q1101", "QS1101"), "first point, minor axis", example=10)
+    first_point_tool_axis: Given = aimed.place(("Q1102", "QS1102"), "first point, tool axis", example=-5)
+    second_point_ref_axis: Given = aimed.place(("Q1103", "QS1103"), "second point, reference axis", example=80)
+    second_point_minor_axis: Given = aimed.place(("Q1104", "QS1104"), "second point, minor axis", example=10)
+    second_point_tool_axis: Given = aimed.place(("Q1105", "QS1105"), "second point, tool axis", example=-5)
+    probing_direction: float = aimed.direction(example=2)
+    clearance: float = addresses.clearance()
+    height: float = addresses.height()
+    clearance_height_mode: float = aimed.clearance_mode()
+    error_reaction: float = aimed.reaction()
+    align_rotary_axis: float = aimed.aligning()
+    transfer_position: float = aimed.transferred()
+    confirm_rotation: float = aimed.rotation()
+
+    def contradictions(self) -> Iterator[Fault]:
+        yield from taken_over.contradictions(self)
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from super().check(m)
+        yield from aimed.faults(self, m)
+        yield from no_line(self, m)
+        yield from taken_over.faults(self, m)
+
+    def find(self, m: Machine, a: Approach, k: int, where: Floats, rise: float) -> Finding:
+        return (yield from aimed.touch(self, m, a, k, where, rise))
+
+    def moves(self, m: Machine) -> Moves:
+        found = yield from aimed.measure(self, m, apart=2)
+        contacts = [contact for one in found for contact in one.contacts]
+        nominal = aimed.means(aimed.nominals(self, m), found)
+        if len(contacts) == len(found) and abs(self.probing_direction) < 3:
+            yield line_sketch(nominal[:, :2].tolist(), [one.point[:2].tolist() for one in found], nominal[0, 2], contacts)
+        yield from line_results(self, m, found, nominal, aimed.judge_places(self, m, found), {})
+
+
+@CYCLES("TCH PROBE 1420", "Probing in plane", runs="definition", source="14.3")
+class ProbingInPlane(ProbingCycle):
+    """Three touches along Q372; Q961 to Q963 are the spatial angles of the plane, without a turn in itself."""
+
+    tilted = True
+    first_point_ref_axis: Given = aimed.place(("Q1100", "QS1100"), "first point, reference axis", example=20)
+    first_point_minor_axis: Given = aimed.place(("Q1101", "QS1101"), "first point, minor axis", example=10)
+    first_point_tool_axis: Given = aimed.place(("Q1102", "QS1102"), "first point, tool axis", example=0)
+    second_point_ref_axis: Given = aimed.place(("Q1103", "QS1103"), "second point, reference axis", example=80)
+    second_point_minor_axis: Given = aimed.place(("Q1104", "QS1104"), "second point, minor axis", example=10)
+    second_point_tool_axis: Given = aimed.place(("Q1105", "QS1105"), "second point, tool axis", example=0)
+    third_point_ref_axis: Given = aimed.place(("Q1106", "QS1106"), "third point, reference axis", example=20)
+    third_point_minor_axis: Given = aimed.place(("Q1107", "QS1107"), "third point, minor axis", example=50)
+    third_point_tool_axis: Given = aimed.place(("Q1108", "QS1108"), "third point, tool axis", example=0)
+    probing_direction: float = aimed.direction(example=-3)
+    clearance: float = addresses.clearance()
+    height: float = addresses.height()
+    clearance_height_mode: float = aimed.clearance_mode()
+    error_reaction: float = aimed.reaction()
+    align_rotary_axis: float = aimed.aligning()
+    transfer_position: float = aimed.transferred(choices=OF_THREE)
+    confirm_rotation: float = aimed.rotation(choices=SPACE)
+
+    def contradictions(self) -> Iterator[Fault]:
+        if self.align_rotary_axis and not self.confirm_rotation:
+            yield "align_rotary_axis", "aligns the rotary axes: then Q1121 must be 1, which takes the rotation over"
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from super().check(m)
+        yield from aimed.faults(self, m)
+        known = aimed.nominals(self, m)
+        if all(each.mean is not None for axes in known for each in axes):
+            try:
+                fits.plane([[each.mean or 0.0 for each in axes] for axes in known])
+            except Alarm as alarm:
+                yield "third_point_ref_axis", f"makes no plane with the other points: {alarm.message}"
+
+    def find(self, m: Machine, a: Approach, k: int, where: Floats, rise: float) -> Finding:
+        return (yield from aimed.touch(self, m, a, k, where, rise))
+
+    def moves(self, m: Machine) -> Moves:
+        found = yield from aimed.measure(self, m, apart=2)
+        nominal, points = aimed.means(aimed.nominals(self, m), found), np.array([one.point for one in found])
+        is_: Plane = needed(fits.plane, points, m=m, code=self.code)
+        should: Plane = needed(fits.plane, nominal, m=m, code=self.code)
+        angles = dict(zip((961, 962, 963), is_.spatial, strict=True))
+        yield from aimed.report(self, m, found, nominal, aimed.judge_places(self, m, found), angles, {})
+        yield from taken_over.take_over(self, m, found, nominal, turn_between(should, is_), 0.0)
+
+
+def turn_between(first: Plane, second: Plane) -> Floats:
+    """The rotation (3, 3) that takes a plane to another: that of their axes with a level X, without a turn in themselves."""
+    up = np.array(second.up) * math.copysign(1.0, float(np.dot(first.up, second.up)))
+    ahead = (1.0, 0.0, 0.0) if math.hypot(first.up[0], first.up[2]) < STEEP else None
+    return np.asarray(axes_on(up, ahead) @ axes_on(first.up, ahead).T)

@@ -1,0 +1,194 @@
+"""Single touches: the cycles 0, 1, 3 and 4 (TNC 620, 16.2, 16.3, 17.2, 17.3).
+
+They run in the active system, shifted or turned; X and Y are those of the ball's centre, Z that of its south pole. The results of
+1, 3 and 4 are not compensated.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, increment
+from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, results
+from mnclab.machine.cycle import CycleTable, param
+from mnclab.machine.machine import Machine
+from mnclab.machine.touching import Contact, ball_from_axis, deflected, unfit
+from mnclab.machining.steps import Touch
+
+CYCLES = CycleTable()
+LAST = 1999  # number of a Q parameter
+FASTEST = 3000  # mm/min
+MACHINE: dict[float, str] = {0: "the active system", 1: "the machine (REF)"}
+SILENT: dict[float, str] = {0: "an alarm", 1: "-1 in the fourth result"}
+Vector = NDArray[np.float64]
+
+result = partial(param, "Q", unit="count", at_least=0, at_most=LAST, type="integer", example=5)
+pre_x = partial(coordinate, "X", "pre-position X", default=None, modal=False, default_means="stays", example=20)
+pre_y = partial(coordinate, "Y", "pre-position Y", default=None, modal=False, default_means="stays", example=10)
+pre_z = partial(coordinate, "Z", "pre-position Z", default=None, modal=False, default_means="stays", example=-5)
+axis = partial(param, "axis", "probing axis", "choice", type="text", example="X")
+angle = partial(param, "ANGLE", "angle from the probing axis", "deg", at_least=-180, at_most=180, example=30)
+reach = partial(increment, "ABST", "farthest way", modal=False, note="negative: the other way", example=10)
+feed = partial(param, "F", "feed of the touch", "mm/min", at_least=0, at_most=FASTEST, example=100)
+back = partial(param, "MB", "way back, at most to the start", at_least=0, at_most=FAR, incremental=True, example=1)
+system = partial(choice, "SYSTEM", modal=False, choices=MACHINE, example=0)
+
+
+def in_plane_of(letter: str, degrees: float) -> Vector:
+    """A direction (3,): from X towards Y, from Y towards Z, from Z towards X."""
+    found, k = np.zeros(3), "XYZ".index(letter)
+    found[k], found[(k + 1) % 3] = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    return found
+
+
+def south_pole(m: Machine) -> Vector:
+    """Where the probe stands, as steps have it."""
+    return np.array(m.programmed) + (*ball_from_axis(m), 0.0)
+
+
+def unscaled(m: Machine) -> Iterator[Fault]:
+    """What refuses a single touch."""
+    yield from unfit(m)
+    sizes = np.linalg.norm(m.matrix[:3, :3], axis=0)
+    if np.abs(sizes - 1).max() > 1e-9:
+        yield "", "cannot run under a scale other than 1: the ball keeps its size"
+
+
+def from_place(c: ReferencePlane | PolarPreset, m: Machine, way: Vector) -> Moves:
+    """To the pre-position at rapid, a touch as the probe table has it, and back; returns the contact.
+
+    Where it was goes into Q115 to Q119, as the spindle stands, without length and radius.
+    """
+    a, unit = c.approach(m), m.variable_unit
+    yield a.go("to the pre-position", c.z, c.x, c.y)
+    start = south_pole(m)
+    contact = yield Touch("touch", *(start + a.reach * way).tolist(), a.feed, a.ball)
+    yield a.go("back", *np.roll(start, 1).tolist())
+    (dx, dy), (x, y, z) = ball_from_axis(m), contact.point
+    spindle = x - dx, y - dy, z - a.ball + m.tool.effective_length
+    yield from results(**{f"Q{115 + k}": value / unit for k, value in enumerate(spindle)})
+    yield from results(Q118=math.degrees(m.rotary[0]), Q119=math.degrees(m.rotary[1]))
+    return contact
+
+
+@CYCLES("TCH PROBE 0", "Reference plane", runs="definition", source="16.2")
+class ReferencePlane(ProbingCycle):
+    """A coordinate along an axis, compensated by the ball, for a Q parameter."""
+
+    result_parameter: float = result(meaning="Q parameter of the result")
+    probing: str = param("axis", "probing axis and direction", "choice", type="text", example="X+")
+    x: float | None = pre_x()
+    y: float | None = pre_y()
+    z: float | None = pre_z()
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        return unscaled(m)
+
+    def moves(self, m: Machine) -> Moves:
+        sense, k, ball = float(f"{self.probing[1]}1"), "XYZ".index(self.probing[0]), m.radius
+        contact = yield from from_place(self, m, sense * np.eye(3)[k])
+        found = contact.point[k] + sense * ball
+        yield from measured([contact], **{self.probing[0]: (found, math.nan)})
+        yield from results(**{f"Q{self.result_parameter:.0f}": found / m.variable_unit})
+
+
+@CYCLES("TCH PROBE 1", "Polar preset", runs="definition", source="16.3")
+class PolarPreset(ProbingCycle):
+    """A touch at an angle to an axis: where the ball stood, in Q115 to Q119."""
+
+    axis: str = axis()
+    angle: float = angle()
+    x: float | None = pre_x()
+    y: float | None = pre_y()
+    z: float | None = pre_z()
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        return unscaled(m)
+
+    def moves(self, m: Machine) -> Moves:
+        contact = yield from from_place(self, m, in_plane_of(self.axis, self.angle))
+        yield from measured([contact], **{name: (place, math.nan) for name, place in zip("XYZ", contact.point)})
+
+
+def impossible(c: MeasuringInPlane | MeasuringInSpace) -> Iterator[Fault]:
+    """What 3 and 4 refuse whatever the machine."""
+    yield from not_zero(c, "feed", purpose="to touch with")
+    if c.reach == 0:
+        yield "reach", "must not be 0: a touch needs a way"
+    if c.result_parameter + 3 > LAST:
+        yield "result_parameter", f"must be at most {LAST - 3}, got {c.result_parameter:g}: four parameters get results"
+
+
+def from_here(c: MeasuringInPlane | MeasuringInSpace, m: Machine, way: Vector, silent: bool = False) -> Moves:
+    """A touch from where the probe stands, and back; four Q parameters get the ball's centre, and 1, or -1 without a contact.
+
+    `silent`: a stylus that is deflected before makes no alarm, and no touch.
+    """
+    a, start, way = c.approach(m), south_pole(m), way * math.copysign(1.0, c.reach)
+    x, y, z = (start + (0.0, 0.0, a.ball)).tolist()
+    contact = Contact((x, y, z), m.to_machine((x, y, z)), hit=False)
+    if not (silent and m.felt and deflected(m, m.felt.part, a.ball)):
+        contact = yield Touch("touch", *(start + abs(c.reach) * way).tolist(), c.feed, a.ball, "return")
+        end = south_pole(m)
+        yield a.go("back", *np.roll(end - way * min(c.back, float(np.linalg.norm(end - start))), 1).tolist())
+    first, place = int(c.result_parameter), contact.machine_point if c.system else contact.point
+    yield from results(**{f"Q{first + k}": value / m.variable_unit for k, value in enumerate(place)})
+    yield from results(**{f"Q{first + 3}": 1 if contact.hit else -1})
+    if contact.hit:
+        yield from measured([contact], **{name: (value, math.nan) for name, value in zip("XYZ", place)})
+
+
+@CYCLES("TCH PROBE 3", "Measuring", runs="definition", source="17.2")
+class MeasuringInPlane(ProbingCycle):
+    """A touch at an angle to an axis, in the active system or in that of the machine."""
+
+    result_parameter: float = result(meaning="first Q parameter of the results")
+    axis: str = axis()
+    angle: float = angle()
+    reach: float = reach()
+    feed: float = feed()
+    back: float = back()
+    system: float = system(meaning="system of direction and result")
+    error_mode: float = choice("ERRORMODE", "where the stylus is deflected at the start", SILENT, modal=False, example=0)
+
+    def contradictions(self) -> Iterator[Fault]:
+        return impossible(self)
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        return unscaled(m)
+
+    def moves(self, m: Machine) -> Moves:
+        way = in_plane_of(self.axis, self.angle)
+        return from_here(self, m, m.matrix[:3, :3].T @ way if self.system else way, silent=self.error_mode == 1)
+
+
+@CYCLES("TCH PROBE 4", "Measuring in three dimensions", runs="definition", source="17.3")
+class MeasuringInSpace(ProbingCycle):
+    """A touch along a direction of the active system."""
+
+    result_parameter: float = result(meaning="first Q parameter of the results")
+    direction_x: float = increment("IX", "direction, X", modal=False, example=-0.5)
+    direction_y: float = increment("IY", "direction, Y", modal=False, example=-1)
+    direction_z: float = increment("IZ", "direction, Z", modal=False, example=-1)
+    reach: float = reach()
+    feed: float = feed()
+    back: float = back()
+    system: float = system(meaning="system of the result")
+
+    def contradictions(self) -> Iterator[Fault]:
+        yield from impossible(self)
+        if not (self.direction_x or self.direction_y or self.direction_z):
+            yield "direction_x", "must not be 0 with IY and IZ: they are the direction"
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        return unscaled(m)
+
+    def moves(self, m: Machine) -> Moves:
+        way = np.array([self.direction_x, self.direction_y, self.direction_z])
+        return from_here(self, m, way / np.linalg.norm(way))
