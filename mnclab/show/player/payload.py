@@ -48,7 +48,8 @@ def payload(
 ) -> str:
     """A run with its profile as the text that `data.js` reads; with a cutting also what becomes of its blank, without one the
     part that was `probed`."""
-    pack, shown = Packer(), probed is not None and probed.part is not None and not run.toolpath.lathe
+    pack = Packer()
+    shown = probed if probed is not None and probed.part is not None and not run.toolpath.lathe else None
     path = run.toolpath.on_workpiece()
     programmed = path if run.programmed is run.toolpath else run.programmed.on_workpiece()
     moved, places = _parted(run, "position")
@@ -92,7 +93,7 @@ def payload(
         "fixtures": _edges(cutting.fixtures) if cutting and not path.lathe else [],
         "history": {name: changes(pack, *_parted(run, name)) for name in run.history if name != "position"},
         "profile": _profile(pack, profile, scale),
-        "part": part(pack, cutting, path) if cutting and not path.lathe else felt_part(pack, probed, path) if shown else None,
+        "part": part(pack, cutting, path) if cutting and not path.lathe else felt_part(pack, shown, path) if shown else None,
         "section": section(pack, cutting) if cutting and path.lathe else None,
         "felt": felt_touches(probed, path),
         "collisions": [
