@@ -80,8 +80,7 @@ class ProbingTwoCircles(ProbingCycle):
         radius, now = (aimed.nominal(self, m, DIAMETERS[k]).value or 0.0) / 2, rise
         if hole:
             if radius < a.away:
-                clear = radius - a.ball - m.tables.probe.clearance
-                yield Say(f"keeps a set-up clearance of {clear:.3f} only: the touches of hole {k + 1} begin in its center")
+                yield Say(f"begins in the center of hole {k + 1}: a clearance of {radius - a.ball:g} is possible, not {a.gap:g}")
             yield from aimed.arrive(a, k, x, y, a.pole, rise)
             now = math.inf
         count, over = int(self.number_of_probe_points), self.angular_length
