@@ -1,1 +1,1 @@
-"""Touch probe cycles of the TNC 620: a file for each chapter, or for the figures of one."""
+"""Touch probe cycles of the TNC 620, a file a kind: alignment, presets, inspection, calibration, tool measurement."""
