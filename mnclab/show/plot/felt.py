@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 
 from mnclab.geometry.frames import shift
 from mnclab.path.columns import Array
+from mnclab.path.kinds import Kind
 from mnclab.show.plot import colours
 from mnclab.show.plot.material import draw_material, part_of
 from mnclab.show.plot.picture import View
@@ -56,12 +57,15 @@ class Felt(NamedTuple):
 
 
 def felt(run: Any) -> Felt | None:
-    """What the probe of a run meets; None where nothing is to be touched."""
+    """What the probe of a run meets, or the tool setter where tools are measured; None where nothing is to be touched."""
+    part = part_of(run) if isinstance(run.setup.part, Part) else None
     if run.setup.part is None:
-        return None
+        part = run.setup.setter and (run.toolpath.kind == Kind.PROBE).any() and run.setup.setter.part
+        if not part:
+            return None
     origin = np.array(run.toolpath.origin, dtype=float)
     places = np.array([touch.surface for touch in run.touches], dtype=float).reshape(-1, 3) - origin
-    return Felt(part_of(run) if isinstance(run.setup.part, Part) else None, origin, places, _texts(run))
+    return Felt(part, origin, places, _texts(run))
 
 
 def _texts(run: Any) -> list[tuple[str, str]]:
