@@ -11,7 +11,7 @@ from mnclab.controls.mnc.probing.cycle import TURNS, MeasuringCycle, Moves, numb
 from mnclab.controls.mnc.probing.datum import base_rotation, store_angle, turn_base
 from mnclab.machine.cycle import CycleTable, Given, Values
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import VISITS
+from mnclab.machine.true_size import NOTHING
 from mnclab.machining.probing.fits import line, reduced
 from mnclab.machining.probing.sequences import Aim, in_plane
 from mnclab.machining.probing.sketches import sketch
@@ -75,7 +75,7 @@ class Alignment(MeasuringCycle):
 class BaseRotation(MeasuringCycle):
     """The given angle replaces the base rotation; nothing moves, and no probe is needed. E0 cancels it."""
 
-    does: ClassVar[str] = VISITS
+    does: ClassVar[str] = NOTHING
 
     angle: float = addresses.turn("E", "angle of the base rotation", 30)
     row: float = addresses.row(note="gets the angle; 0: it is not saved")
