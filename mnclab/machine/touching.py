@@ -208,7 +208,8 @@ def guarded(m: Machine, part: Part, target: Point, feed: float | None) -> None:
         ball, direction = true_ball(m, m.tool.effective_radius), (goal - start) / way
         begin, radius = start + ball.beside, max(ball.radius - DEEP - slack(m), DEEP)
         end = begin + direction * way
-        free = None if is_free(part, begin, end, radius) else contact(part, begin, direction, radius, way)
+        few = part.at_once < PLACES  # places at once, where each takes long: the ball is traced
+        free = None if not few and is_free(part, begin, end, radius) else contact(part, begin, direction, radius, way)
         stem = stem_meets(m, part, ball, begin, end)
         stopped = min((each for each in (free, stem) if each is not None), default=None)
         if stopped is not None:
