@@ -137,6 +137,12 @@ def test_what_is_in_the_spindle_and_what_is_active(number):
     assert any("cannot run while a tilt is active" in a.message for a in tilted.alarms) == (number < 1000)
 
 
+@pytest.mark.parametrize("number", [400, 401, 402])
+def test_a_preset_that_is_tilted(number):
+    message = "cannot set a basic rotation where the active preset is tilted (SPA, SPB)"
+    refused(number, message, "", presets={1: Datum(*PRESET, tilt_x=1)})
+
+
 def test_404_under_a_transformation():
     refused(404, "cannot run while a mirror is active", "", before="CYCL DEF 8.0 X\nCYCL DEF 8.1 X")
 
