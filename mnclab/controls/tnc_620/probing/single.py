@@ -15,10 +15,12 @@ from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, increment
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero
+from mnclab.controls.tnc_620.language.parameters import KEPT
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, results
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.touching import Contact, ball_from_axis, deflected, unfit
+from mnclab.machining.probing.sequences import Steps
 from mnclab.machining.steps import Touch
 
 CYCLES = CycleTable()
@@ -60,7 +62,7 @@ def unscaled(m: Machine) -> Iterator[Fault]:
         yield "", "cannot run under a scale other than 1: the ball keeps its size"
 
 
-def from_place(c: ReferencePlane | PolarPreset, m: Machine, way: Vector) -> Moves:
+def from_place(c: ReferencePlane | PolarPreset, m: Machine, way: Vector) -> Steps:
     """To the pre-position at rapid, a touch as the probe table has it, and back; returns the contact.
 
     Where it was goes into Q115 to Q119, as the spindle stands, without length and radius.
@@ -68,7 +70,8 @@ def from_place(c: ReferencePlane | PolarPreset, m: Machine, way: Vector) -> Move
     a, unit = c.approach(m), m.variable_unit
     yield a.go("to the pre-position", c.z, c.x, c.y)
     start = south_pole(m)
-    contact = yield Touch("touch", *(start + a.reach * way).tolist(), a.feed, a.ball)
+    x, y, z = (start + a.reach * way).tolist()
+    contact = yield Touch("touch", x, y, z, a.feed, a.ball)
     yield a.go("back", *np.roll(start, 1).tolist())
     (dx, dy), (x, y, z) = ball_from_axis(m), contact.point
     spindle = x - dx, y - dy, z - a.ball + m.tool.effective_length
@@ -86,6 +89,9 @@ class ReferencePlane(ProbingCycle):
     x: float | None = pre_x()
     y: float | None = pre_y()
     z: float | None = pre_z()
+
+    def contradictions(self) -> Iterator[Fault]:
+        return kept(self)
 
     def check(self, m: Machine) -> Iterator[Fault]:
         return unscaled(m)
@@ -116,8 +122,15 @@ class PolarPreset(ProbingCycle):
         yield from measured([contact], **{name: (place, math.nan) for name, place in zip("XYZ", contact.point)})
 
 
+def kept(c: ReferencePlane | MeasuringInPlane | MeasuringInSpace, count: int = 1) -> Iterator[Fault]:
+    """Results that would overwrite what the control keeps itself."""
+    names = [f"Q{int(c.result_parameter) + k}" for k in range(count)]
+    yield from (("result_parameter", f"cannot be {name}: {KEPT[name][0]}, kept by the control") for name in names if name in KEPT)
+
+
 def impossible(c: MeasuringInPlane | MeasuringInSpace) -> Iterator[Fault]:
     """What 3 and 4 refuse whatever the machine."""
+    yield from kept(c, 4)
     yield from not_zero(c, "feed", purpose="to touch with")
     if c.reach == 0:
         yield "reach", "must not be 0: a touch needs a way"
@@ -134,7 +147,8 @@ def from_here(c: MeasuringInPlane | MeasuringInSpace, m: Machine, way: Vector, s
     x, y, z = (start + (0.0, 0.0, a.ball)).tolist()
     contact = Contact((x, y, z), m.to_machine((x, y, z)), hit=False)
     if not (silent and m.felt and deflected(m, m.felt.part, a.ball)):
-        contact = yield Touch("touch", *(start + abs(c.reach) * way).tolist(), c.feed, a.ball, "return")
+        x, y, z = (start + abs(c.reach) * way).tolist()
+        contact = yield Touch("touch", x, y, z, c.feed, a.ball, "return")
         end = south_pole(m)
         yield a.go("back", *np.roll(end - way * min(c.back, float(np.linalg.norm(end - start))), 1).tolist())
     first, place = int(c.result_parameter), contact.machine_point if c.system else contact.point
