@@ -60,7 +60,7 @@ def test_a_long_measuring_has_a_report_of_few_pictures(tmp_path, monkeypatch):
     monkeypatch.setattr("mnclab.show.report.PANELS", 2)
     monkeypatch.setattr("mnclab.show.report.MOST_PANELS", 4)
     text = toy_run("M4 X0 Y30 Z-5\n" * 9, PART).report(tmp_path / "a.html").read_text("utf-8")
-    assert text.count('alt="measured: 2 panels') == 2 and "5 pictures left out" in text
+    assert text.count('alt="measured: 2 panels') == 2 and "cycles without a picture: 5" in text
 
 
 def test_a_report_without_measuring_has_no_record(tmp_path):
