@@ -12,7 +12,7 @@ from mnclab.path.columns import Array
 from mnclab.show.plot.picture import View
 from mnclab.workpiece.part import Part
 
-CELLS = 220  # along the longer side of a section
+CELLS = 160  # along the longer side of a section
 FACE: dict[str, Any] = {"facecolor": "#e9e5da", "edgecolor": "#8c8778", "linewidth": 0.7}
 
 
