@@ -13,7 +13,7 @@ BALL = 2
 
 
 def program(blocks, before="L Z+100 R0 FMAX"):
-    return f"0 BEGIN PGM P MM\nTOOL CALL 7 Z\n{before}\n{blocks}\nEND PGM P MM\n"
+    return f"0 BEGIN PGM P MM\n{'' if 'TOOL CALL' in before else 'TOOL CALL 7 Z'}\n{before}\n{blocks}\nEND PGM P MM\n"
 
 
 def cycle(number, values):
@@ -21,11 +21,11 @@ def cycle(number, values):
     return "\n".join([f"TCH PROBE {number} NAME", *(f"{q}={v}" for q, v in values.items())])
 
 
-def setup(part=None, settings=None, presets=None, reach=10, ball=BALL, start=(100, 200, -150), **more):
+def setup(part=None, settings=None, presets=None, reach=10, ball=BALL, start=(100, 200, -150), tools=None, **more):
     """The virtual probe of the checks: ball radius 2, SET_UP 2, DIST 10; preset row 1 is active, south pole at Z100."""
     probe = mnclab.Probe(clearance=2, reach=reach, feed=300, rapid=2000)
     return mnclab.Setup(
-        tools={7: mnclab.Tool(radius=ball, kind="probe"), 69: mnclab.Tool(radius=ball, kind="probe")},
+        tools=tools or dict.fromkeys((7, 69), mnclab.Tool(radius=ball, kind="probe")),
         presets={1: PRESET} if presets is None else presets, settings={"preset": 1} | (settings or {}), part=part, probe=probe,
         start=start, **more,
     )  # fmt: skip

@@ -101,7 +101,8 @@ def situations(control: Control, cycle: type[Cycle], setup: Setup) -> Iterator[M
     tools = sorted((n for n in magazine if n), key=lambda number: magazine[number].kind != wanted)
     places = (trial_start(control, cycle, setup), (0.0, 0.0, 5.0)) if control.lathe else ((20.0, 10.0, 20.0),)
     called = next((each for each in control.cycles.values() if each.runs == "call"), None)  # by a pattern
-    for place, turning, number in product(places, (1, 0), tools):
+    spindle = (0, 1) if wanted == "probe" else (1, 0)
+    for place, turning, number in product(places, spindle, tools):
         machine = Interpreter(control, setup, control.read("", "")).machine
         for group, code in control.power_on().items():
             machine.set_modal(group, code)

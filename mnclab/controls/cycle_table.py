@@ -140,6 +140,8 @@ def written(step: Write) -> str:
             return f"{step.what} row {key}: {row}"
         case "variable" | "measured":
             return f"{step.what} {key} = {quoted(value)}"
+        case "file" | "appended":
+            return f"file {key}"
         case "tolerance":
             return f"tolerance: {'as the limits have it' if math.isnan(value) else figure(value)}"
         case "side":

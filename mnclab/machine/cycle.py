@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import MISSING, dataclass, field, fields, replace
 from functools import cache
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from mnclab.machine import true_size
@@ -192,15 +193,24 @@ AnyCycle = TypeVar("AnyCycle", bound=type[Cycle])
 
 
 class CycleTable(dict[str, type[Cycle]]):
-    """Cycles by code; calling it decorates the class of one."""
+    """Cycles by code; calling it decorates the class of one. `addresses` has the parameters that its cycles share, by name."""
+
+    def __init__(self, cycles: Mapping[str, type[Cycle]] = MappingProxyType({}), addresses: Any = None) -> None:
+        super().__init__(cycles)
+        self._addresses = addresses
 
     def __call__(
-        self, codes: str, title: str, *, runs: str = "call", source: str = "", triggers: str = ""
+        self, codes: str, title: str, *, runs: str = "call", source: str = "", triggers: str = "", takes: str = ""
     ) -> Callable[[AnyCycle], AnyCycle]:
-        """Register a cycle under its code; further codes, after commas, are aliases."""
+        """Register a cycle under its code; further codes, after commas, are aliases.
+
+        `takes` names all its parameters in their order: those that its class does not declare are the shared ones.
+        """
         first, *aliases = (code.strip() for code in codes.split(","))
 
         def register(cls: AnyCycle) -> AnyCycle:
+            if takes:
+                self._share(cls, takes.split())
             frozen: Any = dataclass(frozen=True)(cls)
             frozen.code, frozen.title, frozen.runs, frozen.source = first, title, runs, source
             frozen.triggers = tuple(triggers.split())
@@ -209,6 +219,14 @@ class CycleTable(dict[str, type[Cycle]]):
             return frozen
 
         return register
+
+    def _share(self, cls: type[Cycle], names: list[str]) -> None:
+        """Give a class the shared parameters among these names, and its parameters this order."""
+        own = cls.__dict__.get("__annotations__", {})
+        for name in names:
+            if name not in own:
+                setattr(cls, name, getattr(self._addresses, name)())
+        cls.__annotations__ = {name: own.get(name, "float") for name in names} | own
 
     def __repr__(self) -> str:
         return "\n".join(f"{code:15s} {cycle.title}" for code, cycle in self.items())

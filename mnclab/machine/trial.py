@@ -35,7 +35,7 @@ SCALE = {"0.01 mm": 100.0}
 
 
 #: What cycles that set tools measure in a trial.
-MEASURED = Tool(radius=5, length=100, number=7, name="cutter 10", teeth=4, kind="mill")
+MEASURED = Tool(radius=8, length=100, number=7, name="cutter 16", teeth=4, kind="mill")
 
 
 def at_setter(setter: Setter, **settings: Any) -> Setup:

@@ -8,12 +8,11 @@ import numpy as np
 
 from mnclab.path.columns import Array
 from mnclab.show.export_mesh import PROBING
-from mnclab.show.plot.felt import Felt, felt
+from mnclab.show.felt import felt
 
 FACE, EDGE, ANGLE = "#d9d5c8", "#7d7664", 25.0
 BALL = 0.011  # radius of a mark, of the greatest side of the scene
 MOST, FEW = 60, 8  # touches with numbers, with values too
-AROUND = 0.15  # of the greatest side: how far beyond the path a part without an end is shown
 LOOK: dict[str, Any] = {
     "color": FACE, "opacity": 0.6, "ambient": 0.3, "smooth_shading": True, "split_sharp_edges": True, "feature_angle": ANGLE,
 }  # fmt: skip
@@ -26,7 +25,7 @@ def add_probed(plotter: Any, run: Any) -> Array | None:
     found = felt(run)
     if found is None:
         return None
-    ends = _ends(found, run.toolpath.bounds if len(run.toolpath) else np.zeros((2, 3)))
+    ends = found.ends(run.toolpath.bounds if len(run.toolpath) else np.zeros((2, 3)))
     if found.part is not None:
         points, triangles = found.part.surface(within=ends + found.origin)
         if len(triangles):
@@ -45,12 +44,3 @@ def add_probed(plotter: Any, run: Any) -> Array | None:
             shape_opacity=0.75, shape_color="white", show_points=False, always_visible=True, name="numbers of the touches",
         )  # fmt: skip
     return ends
-
-
-def _ends(found: Felt, path: Array) -> Array:
-    """The corners (2, 3) of what is shown: of the part, where it has no end of what lies around the path and the touches."""
-    around = np.vstack([path, found.places])
-    low, high = around.min(axis=0), around.max(axis=0)
-    more = AROUND * float((high - low).max()) + 1.0
-    own = found.part.bounds - found.origin if found.part is not None else np.array([low, high])
-    return np.stack([np.where(np.isfinite(own[0]), own[0], low - more), np.where(np.isfinite(own[1]), own[1], high + more)])

@@ -1,16 +1,20 @@
 """The part that a probe meets, behind the path, in scenes, and its touches with their numbers."""
 
+import base64
 import itertools
+import json
+import zlib
 
 import numpy as np
 import pytest
 from toy_probing import toy_run
 
 import mnclab
-from mnclab.show.plot.felt import felt
+from mnclab.show.felt import felt
+from mnclab.show.player.payload import payload
 from mnclab.show.plot.material import draw_material
 from mnclab.show.plot.picture import VIEWS, Picture
-from mnclab.workpiece.part import box, hole, plane
+from mnclab.workpiece.part import ball, box, hole, plane
 
 PART = box((0, 0, -20), (100, 60, 0)) - hole((50, 30, 0), 24, 10)
 TEXT = "M1 X50 Y30 D24 Z-5\nM5 X20 Y10 Z0\nM4 X0 Y30 Z-5"
@@ -52,7 +56,7 @@ def test_touches_lie_where_the_part_was_touched_in_coordinates_of_the_path(probe
     found = felt(probed)
     assert found.places[0] == pytest.approx((62, 30, -5)) and found.texts[0] == ("1   X 62.000", "1")
     assert found.places[4] == pytest.approx((20, 10, 0)) and found.texts[4] == ("5   Z 0.000", "5")
-    assert found.level(VIEWS["XY"]) == pytest.approx(-5 - 0.1)  # just below the middle one: four at -5, one at 0, one at -5
+    assert found.level(2) == pytest.approx(-5 - 0.1)  # just below the middle one: four at -5, one at 0, one at -5
     assert felt(mnclab.run("G0 X1\n", "mnc")) is None
 
 
@@ -112,3 +116,45 @@ def test_a_scene_holds_the_part_and_its_touches(probed):
     endless = toy_run("M4 X60 Y30 Z-5", plane((60, 0, 0), (-1, 0, 0))).scene()
     assert "part to touch" in endless.actors
     endless.close()
+
+
+def test_heights_are_those_of_the_part(probed):
+    """On the plate 0, in the hole -10, beside the plate nothing; on a half ball of radius 10 its formula."""
+    found = felt(probed)
+    x, y = np.array([10.0, 50.0, 58.0, 63.0, -1.0]), np.array([10.0, 30.0, 30.0, 30.0, 30.0])
+    assert found.heights(x, y, -20, 0, 0.5) == pytest.approx(np.array([0, -10, -10, 0, np.nan]), abs=1e-3, nan_ok=True)
+    round_ = felt(toy_run("M5 X0 Y0 Z10", ball((0, 0, 0), 10)))
+    assert round_.heights(np.array([0.0, 6.0]), np.array([0.0, 0.0]), -10, 10, 0.5) == pytest.approx([10, 8], abs=1e-3)
+
+
+def test_the_player_has_the_map_and_the_touches(probed):
+    header, columns = unpack(payload(probed, probed.profile(), probed=felt(probed)))
+    part, touches = header["part"], header["felt"]["touches"]
+    top = np.array(columns[part["top"]]).reshape(part["shape"]) / part["parts"]
+    assert (top == 0).sum() * part["step"] ** 2 == pytest.approx(100 * 60 - np.pi * 144, rel=0.02)
+    assert touches[0]["at"] == [62, 30, -5] and touches[0]["text"] == "1   X 62.000"
+    rows = [touch["row"] for touch in touches]
+    assert rows == np.flatnonzero(probed.toolpath.kind == mnclab.Kind.PROBE).tolist()  # every touch of these hit
+    assert "class Touches" in probed.player().page and "class Carving" in probed.player().page
+    bare = mnclab.run("G0 X1\n", "mnc")
+    assert unpack(payload(bare, bare.profile()))[0]["felt"] == {"corners": [], "touches": []}
+
+
+def unpack(text):
+    """Header and columns of a payload, as `data.js` reads them."""
+    data = zlib.decompress(base64.b64decode(text))
+    size = int.from_bytes(data[:4], "little")
+    header, rest, columns = json.loads(data[4 : 4 + size]), iter(data[4 + size :]), []
+    for count in header["columns"]:
+        column, before = [], 0
+        for _ in range(count):
+            value = place = 0
+            for byte in rest:
+                value |= (byte & 127) << place
+                place += 7
+                if byte < 128:
+                    break
+            before += -(value + 1) // 2 if value % 2 else value // 2
+            column.append(before)
+        columns.append(column)
+    return header, columns

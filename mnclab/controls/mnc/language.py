@@ -25,12 +25,16 @@ CORNER_TITLES = {code: f"Outside corners: {shape}" for code, shape in SHAPES.ite
 
 
 def together(control: Control, modal: Modal, keyword: str, words: list[Word]) -> None:
-    """Alarms for G functions that may not stand in one block (1.6, 2.6, 2.8.5)."""
+    """Alarms for G functions that may not stand in one block (1.6, 2.6, 2.8.5, MNC-MILL-CALL, MNC-PROBE-GROUP)."""
     codes = {f"G{digits(word.value)}": word for word in words if word.address == "G" and type(word.value) is float}
     if modal.polar and len(codes) > 1:
         message = "more than one G function stands in a block while polar coordinates are active"
         raise Alarm(message, [*codes.values()][1].span, hint="write two blocks, or G15 first")
+    own = next((code for code in codes if code in control.cycles and control.cycles[code].runs == "definition"), "")
     for code, word in codes.items():
+        if own and code in control.functions and control.functions[code].moves:
+            message = f"{own} runs in a block of its own, {word} does not belong to it"
+            raise Alarm(message, word.span, hint="write two blocks")
         if "G53" in codes and code in control.functions and control.functions[code].still:
             message = f"{code} stands in a block without motion, G53 in one with motion"
             raise Alarm(message, word.span, hint="write two blocks")

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from mnclab.path.profile import Profile
+from mnclab.show.felt import felt
 from mnclab.show.given_away import whole
 from mnclab.show.player.payload import payload
 from mnclab.text.alarm import several
@@ -21,7 +22,10 @@ from mnclab.text.given import check_number, choice
 from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.cutting import Cutting
 
-SCRIPTS = ("data", "shapes", "camera", "strokes", "curves", "picture", "curve", "listing", "state", "points", "measure", "player")
+SCRIPTS = (
+    "data", "shapes", "camera", "strokes", "curves", "touches", "picture", "curve", "listing", "state", "points", "measure",
+    "player",
+)  # fmt: skip
 #: What is only in the pages that cut, by whether the machine is a lathe.
 CUTTING = {
     False: ("swept", "heights", "carving", "relief", "shaded", "surface", "shown_part"),
@@ -82,7 +86,9 @@ class Player:
         """The page: markup, style, data and scripts in one text."""
         here = files("mnclab.show.player")
         text = {name: here.joinpath(name).read_text("utf-8") for name in ("page.html", "page.css")}
-        names = [*(CUTTING[self.run.toolpath.lathe] if self.cutting else ()), *SCRIPTS]
+        probed = felt(self.run)
+        shown = self.cutting or (probed is not None and probed.part is not None and not self.run.toolpath.lathe)
+        names = [*(CUTTING[self.run.toolpath.lathe] if shown else ()), *SCRIPTS]
         scripts = "\n".join(_short(here.joinpath(f"{name}.js").read_text("utf-8")) for name in names)
         script, style = f'\n"use strict";\n{scripts}\n', f"\n{text['page.css']}\n"
         parts = {
@@ -91,7 +97,7 @@ class Player:
             "speed": f"{self.speed:g}",
             "policy": POLICY.format(script=_digest(script), style=_digest(style)),
             "style": style,
-            "data": payload(self.run, self.profile, self.cutting, self.collisions),
+            "data": payload(self.run, self.profile, self.cutting, self.collisions, probed),
             "script": script,
         }
         return whole(re.sub("@([a-z]+)@", lambda place: parts[place[1]], text["page.html"]))

@@ -18,7 +18,9 @@ from numpy.typing import NDArray
 from mnclab.path.kinds import Kind
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
+from mnclab.show.felt import Felt
 from mnclab.show.given_away import named
+from mnclab.show.player.felt import felt_part, felt_touches
 from mnclab.show.player.logs import changes, columns, log, parted, parts_of
 from mnclab.show.player.packing import Packer
 from mnclab.show.player.part import part
@@ -41,9 +43,13 @@ OFF = 0.02  # mm that a rapid leaves its straight line before its true course is
 Array = NDArray[np.float64]
 
 
-def payload(run: Any, profile: Profile, cutting: Cutting | None = None, collisions: Sequence[Collision] = ()) -> str:
-    """A run with its profile as the text that `data.js` reads; with a cutting also what becomes of its blank."""
+def payload(
+    run: Any, profile: Profile, cutting: Cutting | None = None, collisions: Sequence[Collision] = (), probed: Felt | None = None
+) -> str:
+    """A run with its profile as the text that `data.js` reads; with a cutting also what becomes of its blank, without one the
+    part that was `probed`."""
     pack = Packer()
+    shown = probed if probed is not None and probed.part is not None and not run.toolpath.lathe else None
     path = run.toolpath.on_workpiece()
     programmed = path if run.programmed is run.toolpath else run.programmed.on_workpiece()
     moved, places = _parted(run, "position")
@@ -87,8 +93,9 @@ def payload(run: Any, profile: Profile, cutting: Cutting | None = None, collisio
         "fixtures": _edges(cutting.fixtures) if cutting and not path.lathe else [],
         "history": {name: changes(pack, *_parted(run, name)) for name in run.history if name != "position"},
         "profile": _profile(pack, profile, scale),
-        "part": part(pack, cutting, path) if cutting and not path.lathe else None,
+        "part": part(pack, cutting, path) if cutting and not path.lathe else felt_part(pack, shown, path) if shown else None,
         "section": section(pack, cutting) if cutting and path.lathe else None,
+        "felt": felt_touches(probed, path),
         "collisions": [
             {"line": each.line, "program": each.program, "row": each.row, "kind": each.kind, "message": each.message}
             for each in collisions

@@ -19,7 +19,7 @@ class Picture {
     const fine = [this.strokes.box(RAPIDS, CUTS, PROBINGS), this.strokes.box(CUTS)];
     this.box = cuts && size(all) > FAR * size(cuts) && size(cuts) > 0 ? fine[1] : fine[0];
     this.box = this.box || [run.path.vertex(0).map(v => v - 10), run.path.vertex(0).map(v => v + 10)];
-    for (const point of run.stock.flat())
+    for (const point of [...run.stock.flat(), ...run.header.felt.corners])
       point.forEach((value, k) => {
         this.box[0][k] = Math.min(this.box[0][k], value);
         this.box[1][k] = Math.max(this.box[1][k], value);
@@ -29,6 +29,7 @@ class Picture {
     this.fewRapids = this.strokes.kind.reduce((n, kind) => n + (kind === RAPIDS), 0) < 3000;
     this.room = this.box.map(corner => corner.slice());  // that is fitted in: with part of the tool
     if (!run.lathe) this.room[1][2] += this.extent / 6;
+    this.touches = new Touches(run);
     this.camera = new Camera(run.lathe);
     this.ahead = document.createElement("canvas");
     this.done = document.createElement("canvas");
@@ -117,6 +118,7 @@ class Picture {
     top.clearRect(0, 0, this.canvas.width, this.canvas.height);
     top.drawImage(this.ahead, 0, 0);
     top.drawImage(this.done, 0, 0);
+    this.touches.draw(this.pen(this.canvas), camera, this.colours, rowsDone);
     this.moment(this.pen(this.canvas), at);
   }
 

@@ -16,20 +16,6 @@ CELLS = 220  # along the longer side of a section
 FACE: dict[str, Any] = {"facecolor": "#e9e5da", "edgecolor": "#8c8778", "linewidth": 0.7}
 
 
-MOST = 2000  # moves, beyond which what the program has cut is not worked out for a picture
-
-
-def part_of(run: Any) -> Part | None:
-    """What a probe meets in a run, machine coordinates; of what the program cuts as it is at the end."""
-    part = run.setup.part
-    if part is None or isinstance(part, Part):
-        return part
-    if run.stock is None or run.toolpath.lathe or int(run.toolpath.is_motion.sum()) > MOST:
-        return None
-    found: Part = run.workpiece().part.shifted(*run.toolpath.origin)
-    return found
-
-
 def draw_material(ax: Axes, part: Part, view: View, frame: Array, level: float) -> None:
     """What the plane of a view cuts of a part, within the limits of the axes.
 

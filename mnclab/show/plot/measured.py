@@ -11,9 +11,10 @@ from matplotlib.collections import PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch
 
+from mnclab.show.felt import part_of
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line, Mark
-from mnclab.show.plot.material import FACE, draw_material, part_of
+from mnclab.show.plot.material import FACE, draw_material
 from mnclab.show.plot.measured_panels import Panel, panels
 from mnclab.show.plot.picture import LINE, SMALL, Foot, Picture, dress, write_legend
 from mnclab.show.plot.placing import write_beside
@@ -35,7 +36,7 @@ WIDTH = 7.5  # inches, of a picture
 WIDEST = 4.6  # inches, of a panel
 HEAD = ("", "nominal", "actual", "deviation", "")
 COLUMNS = (2, 3, 4, 5, 8)  # of the record
-LETTER, BETWEEN_COLUMNS = 0.068, 0.12  # inches
+LETTER, BETWEEN_COLUMNS = 0.071, 0.14  # inches
 
 
 def plot_measured(
@@ -124,7 +125,8 @@ def draw(ax: Axes, panel: Panel, part: Any = None, box: tuple[float, float] | No
     for pair in panel.pairs:
         quads = np.stack([pair.nominal[:-1], pair.nominal[1:], pair.actual[1:], pair.actual[:-1]], axis=1)
         ax.add_collection(PolyCollection(list(quads), facecolors=BETWEEN, edgecolors="none", zorder=2.2), autolim=False)
-        ax.add_line(Line2D(*pair.nominal.T, **NOMINAL.style()))
+        if not np.array_equal(pair.nominal, pair.actual):
+            ax.add_line(Line2D(*pair.nominal.T, **NOMINAL.style()))
         ax.add_line(Line2D(*pair.actual.T, **ACTUAL.style()))
     for nominal, actual in panel.middles:
         ax.add_line(Line2D(*nominal[:, None], **NOMINAL_MIDDLE.style()))

@@ -24,6 +24,7 @@ NOTHING = 1e-7  # mm: deviations that are none
 ALONG = 0.7  # cosine: a touch nearer to Z than this is seen from the side
 AXIS = 0.999  # cosine from which on a touch goes along an axis
 BELOW = 0.1  # mm under a face that was touched from above is the section that shows it
+MISFIT, SLANT = 0.5, 0.3  # mm that a touch may be off its contour, and the sine of its angle to it at least
 TICK = 2.2  # radii of the ball on both sides of a touched point that belongs to no figure
 
 
@@ -142,7 +143,9 @@ def _panel(
         way /= np.linalg.norm(way)
         across = abs(float(way[3 - view.right - view.up])) > ALONG
         foot = spot[axes]
-        owner = next((each for each in figures if k in each[0]), None)
+        on = [k in each[0] and _touches(each[2], width, foot, way[axes], touch.ball) for each, width in zip(figures, widths)]
+        which = on.index(True) if any(on) else None
+        owner = None if which is None else figures[which]
         if across:
             pass
         elif owner is not None:
@@ -151,7 +154,7 @@ def _panel(
             foot = spot[axes] - _off(k, spot, way, known or rows)[axes]
         out = _outwards(spot[axes], owner[1]) if owner and not across and np.abs(way).max() < AXIS else ""
         texts.append(out or _text(spot, way))
-        alone = not across and (owner is None or widths[[each is owner for each in figures].index(True)])
+        alone = not across and (which is None or widths[which])
         feet.append((spot[axes], foot, way[axes], across, alone))
     worst = max([float(np.hypot(*(a - n).T).max()) for n, a in lines] + [math.dist(s, f) for s, f, *_ in feet], default=0.0)
     size = _size([n for n, _ in lines] + [spot[None] for spot, *_ in feet], [touch.ball for _, touch in touches])
@@ -182,12 +185,16 @@ def nice(value: float) -> float:
 
 
 def _width(nominal: Contour, ways: Sequence[Array]) -> bool:
-    """Whether a line goes from wall to wall: the touches at its ends went along it."""
-    if nominal.closed or len(nominal.starts) > 1 or not len(ways):
+    """Whether a line goes from wall to wall: two touches came the opposite ways."""
+    return not nominal.closed and len(nominal.starts) == 1 and any(float(way @ ways[0]) < -ALONG for way in ways[1:])
+
+
+def _touches(actual: Contour, width: bool, spot: Array, way: Array, ball: float) -> bool:
+    """Whether a touch is one on a contour as it was found, and not on something else, such as a hole of a bolt circle."""
+    if float(actual.distance(spot)[0]) > max(MISFIT, ball / 2):
         return False
-    along = nominal.ends[-1] - nominal.starts[0]
-    size = float(np.hypot(*along))
-    return size > 0 and all(abs(float(way @ along)) > AXIS * size * np.hypot(*way) > 0 for way in ways)
+    _, along = actual.point_at(actual.nearest(spot))
+    return width or abs(float(way[0] * along[1] - way[1] * along[0])) > SLANT
 
 
 def _samples(nominal: Contour, actual: Contour) -> tuple[Array, Array]:

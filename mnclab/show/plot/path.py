@@ -18,14 +18,15 @@ from matplotlib.patches import Patch
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
+from mnclab.show.felt import Felt
+from mnclab.show.felt import felt as felt_of
 from mnclab.show.plot import arrows as heads
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import Classes, classes
 from mnclab.show.plot.classes import lines as lines_of
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, crosses, near, places_of, write_names
-from mnclab.show.plot.felt import Felt, draw_felt
-from mnclab.show.plot.felt import felt as felt_of
+from mnclab.show.plot.felt import draw_felt
 from mnclab.show.plot.lathe import Lathe, draw_blank, draw_insert, lathe, speed_strokes, with_blank
 from mnclab.show.plot.material import FACE
 from mnclab.show.plot.picture import SCALE, SIZE, VIEWS, Foot, View, arrange, dress, roomy, write_legend
@@ -109,7 +110,7 @@ def plot_path(
       False for none.
     - `part`: what is left of the blank, drawn under the path.
     - `home`: the path begins where the tool arrives from home.
-    - `felt`: what a probe meets, drawn behind the path (see `show.plot.felt`).
+    - `felt`: what a probe meets, drawn behind the path (see `show.felt`).
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
     drawn = strokes(path)

@@ -142,7 +142,8 @@ class Draw:
         """The cycle, then a move; `part` in program coordinates. The base rotation turns the machine's axes."""
         place, probe = at(self.datum, self.turned), Probe(clearance=self.clearance, reach=20, feed=200, rapid=2000)
         start = tuple((place @ (*self.centre, 60 + 150, 1))[:3])  # of the spindle; the probe is 150 mm long
-        text = f"N10 T20\nG54\nG404 E{self.turned}\nG90 G0 X{self.centre[0]} Y{self.centre[1]} Z60\n{block}\nG0 X{then[0]} Y{then[1]}\n"
+        before = f"N10 T20\nG54\nG404 E{self.turned}\nG90 G0 X{self.centre[0]} Y{self.centre[1]} Z60\n"
+        text = f"{before}{block}\nG0 X{then[0]} Y{then[1]}\n"
         run = measured(text, part, self.ball, "", place, datums={1: self.datum}, probe=probe, start=start, **more)
         assert run.ok, run.alarms
         self.part = part.placed(place)

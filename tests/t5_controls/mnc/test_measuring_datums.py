@@ -13,7 +13,7 @@ import pytest
 from probed import gaps
 from probing_mnc import DATUM, at, base_of, box, disc, measured, probes, rows_of, working
 
-from mnclab import Kind
+from mnclab import Datum, Kind
 from mnclab.workpiece import part as parts
 
 FILE = Path(__file__).parents[2] / "authorities" / "catalogue" / "mnc-probing.json"
@@ -79,7 +79,7 @@ def test_an_example_of_the_catalogue(example):
     stored = {row.pop("row"): row for row in check.pop("rows")}
     assert set(run.tables.datums) == {1, *stored}
     for number, row in stored.items():
-        assert run.tables.datums[number]._asdict() == near(dict.fromkeys("xyzabc", 0) | {"rotation": 0} | row)
+        assert run.tables.datums[number]._asdict() == near(Datum()._asdict() | row)
     for position in check.pop("positions", []):
         place = run.toolpath.end[-1] + run.toolpath.origin
         assert place[:2] == near((position["x_machine"], position["y_machine"]))

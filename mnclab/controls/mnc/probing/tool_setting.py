@@ -186,7 +186,7 @@ class Place(LaserCycle):
 
     refused, needs = FRAMES, ("laser_z",)
     length: float = addresses.coordinate("H", "length of the reference tool", 100, at_least=0)
-    diameter: float = param("D", "diameter of the reference tool", above=0, example=10)
+    diameter: float = param("D", "diameter of the reference tool", above=0, example=16)
     depth: float = param("Q", "depth below the beam", above=0, incremental=True, example=5)
     axis: float = addresses.choice("L", "axis that the beam lies along", addresses.PLANE_AXES, 1)
 

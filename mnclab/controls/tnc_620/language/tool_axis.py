@@ -22,7 +22,7 @@ TURNED = frozenset(
         1, 2, 17, 18, 200, 201, 203, 205, 206, 207, 208, 209, *range(210, 216), 220, 221, 225, 232, 233, 240, 241,
         *range(251, 255), *range(256, 259), *range(262, 266), 267,
     )
-) | frozenset(f"TCH PROBE {n}" for n in range(408, 420))  # fmt: skip
+) | frozenset(f"TCH PROBE {n}" for n in (*range(408, 428), 430, 431))  # fmt: skip
 #: … and those that name axes by their letters, or none.
 NAMED = frozenset(f"CYCL DEF {n}" for n in (7, 8, 9, 10, 11, 13, 14, 20, 26, 32, 239, 247)) | {"GLOBAL DEF 120"}
 

@@ -1,1 +1,1 @@
-"""Touch probe cycles of the TNC 620: a file a chapter. Preset so far only in one axis (419)."""
+"""Touch probe cycles of the TNC 620, a file a kind: alignment, presets, inspection, calibration, tool measurement."""

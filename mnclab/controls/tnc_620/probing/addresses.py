@@ -24,7 +24,9 @@ center_x = partial(coordinate, "Q321", meaning="center, reference axis", example
 center_y = partial(coordinate, "Q322", meaning="center, minor axis", example=30)
 diameter = partial(length, "Q262", meaning="nominal diameter", example=20)
 starting_angle = partial(angle, "Q325", meaning="angle of the first touch point", example=0)
-stepping_angle = partial(angle, "Q247", meaning="stepping angle", at_least=-120, at_most=120, incremental=True, example=90)
+stepping_angle = partial(
+    angle, "Q247", meaning="stepping angle", note="5 at least", at_least=-120, at_most=120, incremental=True, example=90
+)
 level = partial(coordinate, "Q261", meaning="measuring height of the ball's center", example=-5)
 clearance = partial(distance, "Q320", meaning="set-up clearance", note="added to SET_UP of the probe table", example=0)
 height = partial(coordinate, "Q260", meaning="clearance height", example=20)

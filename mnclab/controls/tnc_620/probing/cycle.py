@@ -82,6 +82,11 @@ def results(**values: float) -> Iterable[Step]:
     return [Write("variable", float(value), name) for name, value in values.items()]
 
 
+def lengths(m: Machine, **values: float) -> Iterable[Step]:
+    """Q parameters that hold lengths: mm here, the unit of the program there."""
+    return results(**{name: value / m.variable_unit for name, value in values.items()})
+
+
 def numbers(contacts: Sequence[Contact]) -> tuple[int, ...]:
     """Of touches."""
     return tuple(each.number for each in contacts)

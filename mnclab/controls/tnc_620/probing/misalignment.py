@@ -12,25 +12,15 @@ from collections.abc import Iterator
 from mnclab.controls.tnc_620.cycles.chain import offset, to_angle
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.language.rotary_rules import GROUPS, TITLES
+from mnclab.controls.tnc_620.probing.transfer import store
 from mnclab.controls.tnc_620.state import active_preset, memory
 from mnclab.machine.machine import Machine
 from mnclab.machine.rotary import AXES, angles
 from mnclab.machine.setup import Datum
-from mnclab.machining.steps import RAPID, Say, Step, Swivel, Write
+from mnclab.machining.steps import RAPID, Say, Step, Swivel
 
 STANDS = "a part of the setup does not turn with the table: the blocks that follow meet it as it stood"
 C = AXES.index("C")
-
-
-def store(m: Machine, row: float, **columns: float) -> Iterator[Step]:
-    """Write columns of a preset row: row 0 is a copy of the active row that becomes active; the active row counts at once."""
-    number, active = int(row), active_preset(m)
-    copied = number in (0, active)
-    preset = m.tables.presets.get(active if copied else number, Datum())._replace(**columns)
-    yield Write("presets", preset, number)
-    if copied:
-        yield Write("memory", number, "preset")
-        yield Write("datum", preset, "preset")
 
 
 def reset(m: Machine) -> Iterator[Step]:

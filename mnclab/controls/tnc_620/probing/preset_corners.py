@@ -12,14 +12,14 @@ from collections.abc import Iterator, Sequence
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, distance
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero
 from mnclab.controls.tnc_620.probing import addresses
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, needed, numbers, results
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, lengths, measured, needed, numbers
 from mnclab.controls.tnc_620.probing.transfer import finish
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.tool_axis import tool_axis
 from mnclab.machining.probing import sequences
 from mnclab.machining.probing.fits import corner, line, reduced
-from mnclab.machining.probing.found import Point
+from mnclab.machining.probing.found import Line, Point
 from mnclab.machining.probing.sequences import Aim, Approach, Pair
 from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure
@@ -123,17 +123,26 @@ def both_sides(c: PresetOnCorner | PresetInCorner, m: Machine, a: Approach, *lin
     first, second = ([Aim(*point, way) for point in points] for points, way in lines)
     contacts = yield from sequences.corner(a, first, second, m.programmed[2])
     balls, ways = [each.point[:2] for each in contacts], [way for _, way in lines]
-    found, angle = needed(crossing, balls, ways, a.ball, m=m, code=c.code)
-    nominal = lines[1][0][0][0], lines[0][0][0][1]
+    found, sides = needed(crossing, balls, ways, a.ball, m=m, code=c.code)
+    nominal, angle = (lines[1][0][0][0], lines[0][0][0][1]), reduced(sides[0].angle)
     yield from measured(contacts, X=(found.x, nominal[0]), Y=(found.y, nominal[1]))
     yield Measure("angle", angle, 0.0, unit="deg", touches=numbers(contacts))
-    yield sketch([lines[0][0][1], nominal, lines[1][0][1]], [balls[1], found.centre, balls[3]], c.level, numbers(contacts))
-    yield from results(Q151=found.x, Q152=found.y)
+    far = [max(range(2), key=lambda k: math.dist(points[k], nominal)) for points, _ in lines]
+    ends = [foot(side, balls[2 * k + far[k]]) for k, side in enumerate(sides)]
+    ideal = [points[k] for (points, _), k in zip(lines, far)]
+    yield sketch([ideal[0], nominal, ideal[1]], [ends[0], found.centre, ends[1]], c.level, numbers(contacts))
+    yield from lengths(m, Q151=found.x, Q152=found.y)
     turned = angle if c.basic_rotation else 0.0
     yield from finish(c, m, a, {0: (found.x, c.datum_x), 1: (found.y, c.datum_y)}, turned)
 
 
-def crossing(balls: Sequence[Pair], ways: Sequence[Pair], ball: float) -> tuple[Point, float]:
-    """Where the sides cross that were touched each at two points in one direction, and the angle of the first."""
-    first, second = (line(balls[k : k + 2]).towards(way, ball) for k, way in zip((0, 2), ways))
-    return corner(first, second), reduced(first.angle)
+def crossing(balls: Sequence[Pair], ways: Sequence[Pair], ball: float) -> tuple[Point, list[Line]]:
+    """Where the sides cross that were touched each at two points in one direction, and the sides."""
+    sides = [line(balls[k : k + 2]).towards(way, ball) for k, way in zip((0, 2), ways)]
+    return corner(*sides), sides
+
+
+def foot(side: Line, point: Pair) -> Pair:
+    """The place of a line that is nearest to a point."""
+    off, (nx, ny) = float(side.distance(point)), side.normal
+    return point[0] - off * nx, point[1] - off * ny

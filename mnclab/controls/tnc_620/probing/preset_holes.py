@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 from mnclab.controls.tnc_620.cycles.addresses import angle, coordinate
 from mnclab.controls.tnc_620.probing import addresses
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, needed, results
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, lengths, measured, needed
 from mnclab.controls.tnc_620.probing.transfer import finish
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
@@ -54,7 +54,7 @@ class PresetInBoltCircle(ProbingCycle):
         sizes = {"diameter": (found.diameter, self.diameter)}
         yield from measured(contacts, X=(found.x, self.centre_x), Y=(found.y, self.centre_y), **sizes)
         yield sketch(Circle(self.centre_x, self.centre_y, radius), found, self.level)
-        yield from results(Q151=found.x, Q152=found.y, Q153=found.diameter)
+        yield from lengths(m, Q151=found.x, Q152=found.y, Q153=found.diameter)
         yield from finish(self, m, a, {0: (found.x, self.datum_x), 1: (found.y, self.datum_y)})
 
 
@@ -91,7 +91,7 @@ class PresetBetweenHoles(ProbingCycle):
         found = needed(centre_of_four, holes, m=m, code=self.code)
         yield from measured(contacts, X=(found.x, nominal.x), Y=(found.y, nominal.y))
         yield sketch([*places, places[0]], [*holes, holes[0]], self.level)
-        yield from results(Q151=found.x, Q152=found.y)
+        yield from lengths(m, Q151=found.x, Q152=found.y)
         yield from finish(self, m, a, {0: (found.x, self.datum_x), 1: (found.y, self.datum_y)})
 
 

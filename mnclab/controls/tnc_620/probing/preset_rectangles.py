@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from mnclab.controls.tnc_620.cycles.addresses import coordinate, distance
 from mnclab.controls.tnc_620.probing import addresses
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, needed, numbers, results
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, lengths, measured, needed, numbers
 from mnclab.controls.tnc_620.probing.transfer import finish
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
@@ -75,13 +77,13 @@ def middle(c: PresetInSlot | PresetOnRidge, m: Machine, inside: bool) -> Moves:
     at = found.centre[k]
     yield from measured(contacts, **{"XY"[k]: (at, centre[k]), "width": (found.width, c.width)})
     yield sketch(Width(*centre, c.width), found, c.level, numbers(contacts), 90 * k)
-    yield from results(Q157=at, Q166=found.width)
+    yield from lengths(m, Q157=at, Q166=found.width)
     yield from finish(c, m, a, {k: (at, c.datum)})
 
 
-@CYCLES("TCH PROBE 410", "Preset from inside a rectangle", runs="definition", source="15.4")
-class PresetInRectangle(ProbingCycle):
-    """Four touches from within a pocket; its middle gets the coordinates Q331 and Q332."""
+@dataclass(frozen=True)
+class Rectangular:
+    """The parameters of 410 and 411."""
 
     centre_x: float = addresses.center_x()
     centre_y: float = addresses.center_y()
@@ -100,32 +102,19 @@ class PresetInRectangle(ProbingCycle):
     top_y: float = addresses.top_y()
     top_z: float = addresses.top_z()
     datum_z: float = addresses.datum_z()
+
+
+@CYCLES("TCH PROBE 410", "Preset from inside a rectangle", runs="definition", source="15.4")
+class PresetInRectangle(Rectangular, ProbingCycle):
+    """Four touches from within a pocket; its middle gets the coordinates Q331 and Q332."""
 
     def moves(self, m: Machine) -> Moves:
         return four_sides(self, m, inside=True)
 
 
 @CYCLES("TCH PROBE 411", "Preset from outside a rectangle", runs="definition", source="15.5")
-class PresetOnRectangle(ProbingCycle):
+class PresetOnRectangle(Rectangular, ProbingCycle):
     """Four touches of a stud from outside; its middle gets the coordinates Q331 and Q332."""
-
-    centre_x: float = addresses.center_x()
-    centre_y: float = addresses.center_y()
-    length: float = distance("Q323", "length along the reference axis", example=40)
-    width: float = distance("Q324", "length along the minor axis", example=20)
-    level: float = addresses.level()
-    clearance: float = addresses.clearance()
-    height: float = addresses.height()
-    move_to_clearance: float = addresses.move_to_clearance()
-    row: float = addresses.row()
-    datum_x: float = addresses.datum_x()
-    datum_y: float = addresses.datum_y()
-    transfer: float = addresses.transfer()
-    probe_z: float = addresses.probe_z()
-    top_x: float = addresses.top_x()
-    top_y: float = addresses.top_y()
-    top_z: float = addresses.top_z()
-    datum_z: float = addresses.datum_z()
 
     def moves(self, m: Machine) -> Moves:
         return four_sides(self, m, inside=False)
@@ -140,5 +129,5 @@ def four_sides(c: PresetInRectangle | PresetOnRectangle, m: Machine, inside: boo
     sizes = {"length": (found.length, c.length), "width": (found.width, c.width)}
     yield from measured(contacts, X=(found.x, c.centre_x), Y=(found.y, c.centre_y), **sizes)
     yield sketch(Rectangle(*centre, c.length, c.width), found, c.level, numbers(contacts))
-    yield from results(Q151=found.x, Q152=found.y, Q154=found.length, Q155=found.width)
+    yield from lengths(m, Q151=found.x, Q152=found.y, Q154=found.length, Q155=found.width)
     yield from finish(c, m, a, {0: (found.x, c.datum_x), 1: (found.y, c.datum_y)})

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from mnclab.controls.tnc_620.cycles.addresses import coordinate
 from mnclab.controls.tnc_620.probing import addresses
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, results
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, lengths
 from mnclab.controls.tnc_620.probing.transfer import save
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
@@ -32,7 +32,7 @@ class PresetInProbeAxis(ProbingCycle):
         contact = yield from from_above(a, self.x, self.y, self.z, m.programmed[2])
         z = contact.point[2] - a.ball
         yield Measure("Z", z, self.z, touches=(contact.number,))
-        yield from results(Q160=z)
+        yield from lengths(m, Q160=z)
         yield from save(m, {2: (z, self.datum)}, self.row, self.transfer)
 
 

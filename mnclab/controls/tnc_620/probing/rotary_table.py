@@ -8,9 +8,10 @@ from collections.abc import Iterator
 from mnclab.controls.tnc_620.cycles.addresses import angle, choice, count
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.probing import addresses
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed, numbers, results
-from mnclab.controls.tnc_620.probing.misalignment import C, align, cannot_turn, store, zeroed
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed, numbers, results, too_fine
+from mnclab.controls.tnc_620.probing.misalignment import C, align, cannot_turn, zeroed
 from mnclab.controls.tnc_620.probing.rotation import apart, edge, row, set_to_zero
+from mnclab.controls.tnc_620.probing.transfer import store
 from mnclab.controls.tnc_620.state import active_preset
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
@@ -23,8 +24,6 @@ from mnclab.machining.steps import Measure, Write
 
 CYCLES = CycleTable()
 AXIS: dict[float, str] = {0: "the one that the touches show", 4: "A", 5: "B", 6: "C"}
-TABLES: dict[float, str] = {0: "datum table", 1: "preset table"}
-LEAST_STEP = 5  # degrees
 
 
 @CYCLES("TCH PROBE 403", "Basic rotation compensation via rotary axis", runs="definition", source="14.10")
@@ -48,7 +47,7 @@ class RotaryAxis(ProbingCycle):
     compensation_axis: float = choice("Q312", "rotary axis", AXIS, example=6)
     set_to_zero: float = set_to_zero()
     row: float = row(note="where Q312 is 0, else the active row")
-    transfer: float = addresses.transfer(choices=TABLES)
+    transfer: float = addresses.transfer(choices=addresses.TABLES)
     reference_angle: float = angle("Q380", "angle of the line that is 0", note="of C", example=0)
 
     @property
@@ -114,8 +113,7 @@ class HoleBesideTheAxis(ProbingCycle):
     set_to_zero: float = count("Q337", "row of the datum table", note="0: the preset, and C shows 0", example=0)
 
     def contradictions(self) -> Iterator[Fault]:
-        if abs(self.stepping_angle) < LEAST_STEP:
-            yield "stepping_angle", f"must be at least {LEAST_STEP} in size, got {self.stepping_angle:g}"
+        yield from too_fine(self.stepping_angle)
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)

@@ -11,7 +11,8 @@ from mnclab.controls.tnc_620.cycles.addresses import angle, choice, coordinate, 
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed, numbers
-from mnclab.controls.tnc_620.probing.misalignment import C, align, cannot_turn, reset, store, zeroed
+from mnclab.controls.tnc_620.probing.misalignment import C, align, cannot_turn, reset, zeroed
+from mnclab.controls.tnc_620.probing.transfer import store
 from mnclab.controls.tnc_620.state import active_preset
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine

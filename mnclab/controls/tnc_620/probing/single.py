@@ -19,6 +19,7 @@ from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured,
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.touching import Contact, ball_from_axis, deflected, unfit
+from mnclab.machining.probing.sequences import Steps
 from mnclab.machining.steps import Touch
 
 CYCLES = CycleTable()
@@ -60,7 +61,7 @@ def unscaled(m: Machine) -> Iterator[Fault]:
         yield "", "cannot run under a scale other than 1: the ball keeps its size"
 
 
-def from_place(c: ReferencePlane | PolarPreset, m: Machine, way: Vector) -> Moves:
+def from_place(c: ReferencePlane | PolarPreset, m: Machine, way: Vector) -> Steps:
     """To the pre-position at rapid, a touch as the probe table has it, and back; returns the contact.
 
     Where it was goes into Q115 to Q119, as the spindle stands, without length and radius.
@@ -68,7 +69,8 @@ def from_place(c: ReferencePlane | PolarPreset, m: Machine, way: Vector) -> Move
     a, unit = c.approach(m), m.variable_unit
     yield a.go("to the pre-position", c.z, c.x, c.y)
     start = south_pole(m)
-    contact = yield Touch("touch", *(start + a.reach * way).tolist(), a.feed, a.ball)
+    x, y, z = (start + a.reach * way).tolist()
+    contact = yield Touch("touch", x, y, z, a.feed, a.ball)
     yield a.go("back", *np.roll(start, 1).tolist())
     (dx, dy), (x, y, z) = ball_from_axis(m), contact.point
     spindle = x - dx, y - dy, z - a.ball + m.tool.effective_length
@@ -134,7 +136,8 @@ def from_here(c: MeasuringInPlane | MeasuringInSpace, m: Machine, way: Vector, s
     x, y, z = (start + (0.0, 0.0, a.ball)).tolist()
     contact = Contact((x, y, z), m.to_machine((x, y, z)), hit=False)
     if not (silent and m.felt and deflected(m, m.felt.part, a.ball)):
-        contact = yield Touch("touch", *(start + abs(c.reach) * way).tolist(), c.feed, a.ball, "return")
+        x, y, z = (start + abs(c.reach) * way).tolist()
+        contact = yield Touch("touch", x, y, z, c.feed, a.ball, "return")
         end = south_pole(m)
         yield a.go("back", *np.roll(end - way * min(c.back, float(np.linalg.norm(end - start))), 1).tolist())
     first, place = int(c.result_parameter), contact.machine_point if c.system else contact.point

@@ -15,7 +15,8 @@ import numpy as np
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.cycles.tilting import axis_positions, position
 from mnclab.controls.tnc_620.probing.aimed import Floats, Found
-from mnclab.controls.tnc_620.probing.misalignment import C, align, cannot_turn, store
+from mnclab.controls.tnc_620.probing.misalignment import C, align, cannot_turn
+from mnclab.controls.tnc_620.probing.transfer import store
 from mnclab.controls.tnc_620.state import active_preset
 from mnclab.geometry import frames
 from mnclab.machine.machine import Machine

@@ -38,7 +38,7 @@ def save(
 
     `turned` (degrees) is added to the basic rotation of the row: the point keeps its new coordinates in the turned system.
     """
-    number, active = int(row), active_preset(m)
+    number = int(row)
     measured, new = np.zeros(3), np.zeros(3)
     for k, (is_, gets) in found.items():
         measured[k], new[k] = is_, gets
@@ -51,13 +51,20 @@ def save(
     angle = np.radians(turned)
     turn = np.array([[np.cos(angle), -np.sin(angle), 0.0], [np.sin(angle), np.cos(angle), 0.0], [0.0, 0.0, 1.0]])
     shift, sets = _along(linear, measured - turn @ new, found)
-    before = m.tables.presets.get(active, Datum())
-    kept = before if number in (0, active) else m.tables.presets.get(number, Datum())
-    preset = kept._replace(**{AXES[k]: float(before[k] + shift[k]) for k in sets})
+    before = m.tables.presets.get(active_preset(m), Datum())
+    columns = {AXES[k]: float(before[k] + shift[k]) for k in sets}
     if turned:
-        preset = preset._replace(rotation=before.rotation + turned)
+        columns["rotation"] = before.rotation + turned
+    yield from store(m, number, **columns)
+
+
+def store(m: Machine, row: float, **columns: float) -> Iterator[Step]:
+    """Write columns of a preset row: row 0 is a copy of the active row that becomes active; the active row counts at once."""
+    number, active = int(row), active_preset(m)
+    copied = number in (0, active)
+    preset = m.tables.presets.get(active if copied else number, Datum())._replace(**columns)
     yield Write("presets", preset, number)
-    if number in (0, active):
+    if copied:
         yield Write("memory", number, "preset")
         yield Write("datum", preset, "preset")
 

@@ -1,0 +1,133 @@
+"""What a probe meets in a run, for pictures, scenes and the player: the part, and what was touched.
+
+The part of a setup is in machine coordinates, pictures count in those of the path: `origin` lies between them.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mnclab.path.columns import Array
+from mnclab.path.kinds import Kind
+from mnclab.workpiece.part import Part
+
+FAR = 4.0  # times as large as the path a part may be to be shown whole
+AROUND = 0.15  # of the greatest side: how far beyond the path a part without an end is shown
+UNDER = 0.1  # mm below its highest place is a part cut that nothing has touched
+MOVES = 2000  # beyond which what the program has cut is not worked out for a picture
+TINY = 1e-9
+HALVINGS = 12
+
+
+class Felt(NamedTuple):
+    """The part (None: not known), where the zero point of the path stands in its coordinates (3,), and of each touch the
+    place (n, 3) in coordinates of the path, the row of the path (n,), and what is written there: with its value, and the
+    number alone. Number 1 is `run.touches[0]`."""
+
+    part: Part | None
+    origin: Array
+    places: Array
+    rows: list[int]
+    texts: list[tuple[str, str]]
+
+    def box(self, low: Array, high: Array) -> tuple[Array, Array]:
+        """A box (3,), (3,) around the path, widened by the touches, and by the part unless it is much larger."""
+        for corner in self.places:
+            low, high = np.fmin(low, corner), np.fmax(high, corner)
+        if self.part is None or not np.isfinite(self.part.bounds).all():
+            return low, high
+        ends = self.part.bounds - self.origin
+        if (ends[1] - ends[0]).max() > FAR * max(float((high - low).max()), TINY):
+            return low, high
+        return np.fmin(low, ends[0]), np.fmax(high, ends[1])
+
+    def ends(self, path: Array) -> Array:
+        """The corners (2, 3) of the part; where it has no end, of what lies around the path's box (2, 3) and the touches."""
+        around = np.vstack([path, self.places])
+        low, high = around.min(axis=0), around.max(axis=0)
+        more = AROUND * float((high - low).max()) + 1.0
+        own = np.array([low, high]) if self.part is None else self.part.bounds - self.origin
+        return np.stack([np.where(np.isfinite(own[0]), own[0], low - more), np.where(np.isfinite(own[1]), own[1], high + more)])
+
+    def level(self, axis: int) -> float:
+        """Where a section square to an axis shows what was touched."""
+        if len(self.places):
+            found = float(np.median(self.places[:, axis]))
+            return found - UNDER if axis == 2 else found
+        low, high = (0.0, 0.0) if self.part is None else (self.part.bounds - self.origin)[:, axis].tolist()
+        if axis == 2:
+            return high - UNDER if math.isfinite(high) else 0.0
+        return (low + high) / 2 if math.isfinite(high - low) else 0.0
+
+    def heights(self, x: Array, y: Array, low: float, high: float, step: float) -> Array:
+        """The top of the part at places of the plane (n,), mm; nan where there is none above `low`.
+
+        Places `step` mm apart are looked at, so that less than a quarter of it stays unseen.
+        """
+        found = np.full(len(x), np.nan)
+        if self.part is None:
+            return found
+        places = np.column_stack([x, y, np.full(len(x), high)]) + self.origin
+        going = np.arange(len(x))
+        before = places[:, 2] + step
+        while len(going):
+            gap = self.part(places[going]) / self.part.steep
+            met, left = going[gap <= 0], going[gap > 0]
+            found[met] = 0.0
+            before[left] = places[left, 2]
+            places[left, 2] -= np.maximum(gap[gap > 0], step / 4)
+            going = left[places[left, 2] >= low + self.origin[2]]
+        met = np.flatnonzero(np.isfinite(found))
+        for _ in range(HALVINGS):  # between the last free place and the first that is not
+            middle = np.column_stack([places[met, :2], (before[met] + places[met, 2]) / 2])
+            inside = self.part(middle) <= 0
+            places[met[inside], 2] = middle[inside, 2]
+            before[met[~inside]] = middle[~inside, 2]
+        found[met] = np.minimum(places[met, 2] - self.origin[2], high)
+        return found
+
+
+def felt(run: Any) -> Felt | None:
+    """What the probe of a run meets; None where nothing is to be touched."""
+    if run.setup.part is None:
+        return None
+    origin = np.array(run.toolpath.origin, dtype=float)
+    places = np.array([touch.surface for touch in run.touches], dtype=float).reshape(-1, 3) - origin
+    part = run.setup.part if isinstance(run.setup.part, Part) else None  # what is cut is shown as the blank is
+    return Felt(part, origin, places, _rows(run, origin), _texts(run))
+
+
+def part_of(run: Any) -> Part | None:
+    """What a probe meets in a run, machine coordinates; of what the program cuts as it is at the end."""
+    part = run.setup.part
+    if part is None or isinstance(part, Part):
+        return part
+    if run.stock is None or run.toolpath.lathe or int(run.toolpath.is_motion.sum()) > MOVES:
+        return None
+    found: Part = run.workpiece().part.shifted(*run.toolpath.origin)
+    return found
+
+
+def _rows(run: Any, origin: Array) -> list[int]:
+    """The row of the path that made each touch: of its step the first free one that ends beside it."""
+    path, found = run.toolpath, list[int]()
+    probing = np.flatnonzero(path.kind == Kind.PROBE)
+    for touch in run.touches:
+        rows = probing[(path.step[probing] == touch.step) & (probing > (found[-1] if found else -1))]
+        off = np.linalg.norm(path.end[rows] - (np.array(touch.centre) - origin), axis=1)
+        near = np.flatnonzero(off < off.min(initial=math.inf) + TINY)
+        found.append(int(rows[near[0]]) if len(near) else len(path) - 1)
+    return found
+
+
+def _texts(run: Any) -> list[tuple[str, str]]:
+    found = []
+    for k, touch in enumerate(run.touches, 1):
+        way = np.abs(np.array(touch.found) - touch.programmed)
+        axis = int(way.argmax())
+        value = f"{'XYZ'[axis]} {touch.found[axis]:z.3f}".replace("-", "\N{MINUS SIGN}")
+        found.append((f"{k}   {value}" if way[axis] > 0.999 * np.linalg.norm(way) else str(k), str(k)))
+    return found

@@ -1,0 +1,18 @@
+; 6:1 alarm: TCH PROBE 1410 Q1101 (first point, minor axis) is no nominal value such as "?10", "10+0.02-0.01" or "10@10.01", got "ten"
+1 TOOL CALL 6 Z
+2 L Z+100 R0 FMAX
+3 TCH PROBE 1410 NAME
+Q1100=10
+QS1101="ten"
+Q1102=-5
+Q1103=90
+Q1104=0
+Q1105=-5
+Q372=2
+Q320=0
+Q260=20
+Q1125=1
+Q309=0
+Q1126=0
+Q1120=0
+Q1121=0

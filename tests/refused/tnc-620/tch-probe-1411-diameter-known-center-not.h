@@ -1,0 +1,23 @@
+; 11:1 alarm: TCH PROBE 1411 Q1116 (first diameter) and its center must both have an actual value (@), or none
+1 TOOL CALL 6 Z
+2 L Z+100 R0 FMAX
+3 TCH PROBE 1411 NAME
+Q1100=10
+Q1101=0
+Q1102=-5
+Q1103=90
+Q1104=0
+Q1105=-5
+QS1116="20@20.1"
+Q1117=20
+Q1115=0
+Q423=4
+Q325=0
+Q1119=360
+Q320=0
+Q260=20
+Q1125=1
+Q309=0
+Q1126=0
+Q1120=0
+Q1121=0

@@ -1,0 +1,21 @@
+; 19:1 alarm: TCH PROBE 1420 Q1126 (how rotary axes are aligned) aligns the rotary axes: then Q1121 must be 1, which takes the rotation over
+1 TOOL CALL 6 Z
+2 L Z+100 R0 FMAX
+3 TCH PROBE 1420 NAME
+Q1100=10
+Q1101=10
+Q1102=0
+Q1103=80
+Q1104=10
+Q1105=0
+Q1106=10
+Q1107=50
+Q1108=0
+Q372=-3
+Q320=0
+Q260=20
+Q1125=1
+Q309=0
+Q1126=1
+Q1120=0
+Q1121=0

@@ -1,0 +1,16 @@
+; 8:1 alarm: TCH PROBE 400 Q266 (second touch point, minor axis) is that of the first touch point: two places make a line
+1 TOOL CALL 6 Z
+2 L Z+100 R0 FMAX
+3 TCH PROBE 400 NAME
+Q263=10
+Q264=0
+Q265=90
+Q266=0
+Q272=1
+Q267=1
+Q261=-5
+Q320=0
+Q260=20
+Q301=0
+Q307=0
+Q305=3

@@ -1,0 +1,19 @@
+; 7:1 alarm: TCH PROBE 402 Q270 (second center, reference axis) and Q271 are those of the first center: two places make a line
+1 TOOL CALL 6 Z
+2 L Z+100 R0 FMAX
+3 TCH PROBE 402 NAME
+Q268=10
+Q269=-5
+Q270=10
+Q271=-5
+Q261=-5
+Q260=20
+Q307=0
+Q305=0
+Q402=0
+Q337=0
+Q313=31
+Q314=31
+Q315=-6
+Q320=0
+Q301=0

@@ -1,0 +1,14 @@
+; 9:1 alarm: TCH PROBE 405 Q247 (stepping angle) must be at least 5 or at most -5, got 4.9
+1 TOOL CALL 6 Z
+2 L Z+100 R0 FMAX
+3 TCH PROBE 405 NAME
+Q321=50
+Q322=50
+Q262=10
+Q325=0
+Q247=4.9
+Q261=-5
+Q320=0
+Q260=20
+Q301=0
+Q337=0

@@ -1,0 +1,17 @@
+; 15:1 alarm: TCH PROBE 420 Q301 (height between measuring points) must be one of 0, 1, got 2
+0 BEGIN PGM A MM
+1 TOOL CALL 6 Z
+2 L Z+100 R0 FMAX
+3 TCH PROBE 420 X
+Q263=+10
+Q264=+10
+Q265=+15
+Q266=+95
+Q272=1
+Q267=-1
+Q261=-5
+Q320=0
+Q260=+10
+Q301=2
+Q281=1
+4 END PGM A MM

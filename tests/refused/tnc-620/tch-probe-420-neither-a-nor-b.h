@@ -1,0 +1,17 @@
+; 10:1 alarm: TCH PROBE 420 Q272 (measuring axis) 3 measures an angle along an axis: Q265 must be Q263, or Q266 must be Q264
+0 BEGIN PGM A MM
+1 TOOL CALL 6 Z
+2 L Z+100 R0 FMAX
+3 TCH PROBE 420 X
+Q263=+10
+Q264=+10
+Q265=+15
+Q266=+95
+Q272=3
+Q267=-1
+Q261=-5
+Q320=0
+Q260=+10
+Q301=1
+Q281=1
+4 END PGM A MM

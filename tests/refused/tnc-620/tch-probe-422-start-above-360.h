@@ -1,0 +1,24 @@
+; 9:1 alarm: TCH PROBE 422 Q325 (angle of the first touch point) must be at least -360 and at most 360, got 361
+0 BEGIN PGM A MM
+1 TOOL CALL 6 Z
+2 L Z+100 R0 FMAX
+3 TCH PROBE 422 X
+Q273=+50
+Q274=+50
+Q262=30
+Q325=361
+Q247=+90
+Q261=-5
+Q320=0
+Q260=+20
+Q301=0
+Q277=30.1
+Q278=30
+Q279=0.1
+Q280=0.1
+Q281=0
+Q309=0
+Q330=0
+Q423=4
+Q365=1
+4 END PGM A MM

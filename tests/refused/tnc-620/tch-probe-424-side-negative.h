@@ -1,0 +1,23 @@
+; 8:1 alarm: TCH PROBE 424 Q282 (length along the reference axis) must be at least 0 and at most 99999.9999, got -80
+0 BEGIN PGM A MM
+1 TOOL CALL 6 Z
+2 L Z+100 R0 FMAX
+3 TCH PROBE 424 X
+Q273=+50
+Q274=+50
+Q282=-80
+Q283=60
+Q261=-5
+Q320=0
+Q260=+10
+Q301=1
+Q284=0
+Q285=0
+Q286=0
+Q287=0
+Q279=0
+Q280=0
+Q281=1
+Q309=0
+Q330=0
+4 END PGM A MM

@@ -1,0 +1,18 @@
+; 8:1 alarm: TCH PROBE 427 Q261 (measuring height of the ball's center) must be at least -99999.9999 and at most 99999.9999, got 100000
+0 BEGIN PGM A MM
+1 TOOL CALL 6 Z
+2 L Z+100 R0 FMAX
+3 TCH PROBE 427 X
+Q263=+35
+Q264=+45
+Q261=100000
+Q320=0
+Q272=3
+Q267=-1
+Q260=+20
+Q281=1
+Q288=5.1
+Q289=4.95
+Q309=0
+Q330=0
+4 END PGM A MM

@@ -1,0 +1,21 @@
+; 11:1 alarm: TCH PROBE 430 Q293 (angle of the third hole) names the same hole again, got -270: three holes make a circle
+0 BEGIN PGM A MM
+1 TOOL CALL 6 Z
+2 L Z+100 R0 FMAX
+3 TCH PROBE 430 X
+Q273=+50
+Q274=+50
+Q262=80
+Q291=+0
+Q292=+90
+Q293=-270
+Q261=-5
+Q260=+10
+Q288=80.1
+Q289=79.9
+Q279=0.15
+Q280=0.15
+Q281=1
+Q309=0
+Q330=0
+4 END PGM A MM
