@@ -2,13 +2,15 @@
 
 The cycle is bound as a program would bind it, and its steps are carried out on a machine that nobody else has; so the
 table shows where each of them ends. What the cycle asks of the machine (a tool, a spindle that turns or stands) is looked
-for among the tools of the setup; a touch finds the part where it is aimed at; what needs a program is an Alarm.
+for among the tools of the setup; a touch finds the part of the setup, or one where it is aimed at; what needs a program is
+an Alarm.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Generator, Iterable, Iterator
+from dataclasses import replace
 from itertools import product
 from typing import Any
 
@@ -22,7 +24,7 @@ from mnclab.machine.touching import FEELS, PROBES, Contact
 from mnclab.machine.trial import is_text
 from mnclab.machine.true_size import MILLS
 from mnclab.path.listing import figure
-from mnclab.running.binding import store, value_of
+from mnclab.running.binding import instance, store, value_of
 from mnclab.running.interpreter import Interpreter
 from mnclab.running.performing import Place, run_cycle
 from mnclab.text.alarm import Alarm
@@ -54,8 +56,10 @@ def steps(code: str, control: str, /, setup: Setup | None = None, **values: Any)
         rows: list[Row] = []
         try:
             definition, start = define(machine, cycle, given), machine.programmed
+            if (part := instance(definition).figure(machine)) and machine.setup.part is None:
+                machine.setup = replace(machine.setup, part=part)
             run_cycle(machine, definition, noting(machine, cycle, rows))
-            return CycleSteps(cycle, given, start, rows, lathe=found.control.lathe, per_rev=machine.per_rev)
+            return CycleSteps(cycle, given, start, rows, lathe=found.control.lathe, per_rev=machine.per_rev, part=part)
         except Alarm as alarm:
             faults.append(Alarm(alarm.message, hint=alarm.hint))  # without its place in a program
     raise faults[0]
@@ -177,7 +181,7 @@ def noting(m: Machine, cycle: type[Cycle], rows: list[Row]) -> Callable[[Iterabl
                 case Each():
                     for x, y in step.points.tolist():
                         yield from through(step.visit(x, y), about)
-                case Touch() if not (m.felt and m.felt.setter):
+                case Touch() if not (m.felt and (m.felt.setter or m.felt.part)):
                     yield Go(step.label, step.z, step.feed, step.x, step.y)
                     note(step)
                     answer = touched(m, step)

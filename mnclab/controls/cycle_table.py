@@ -14,6 +14,7 @@ from mnclab.machining.steps import Call, Coolant, Orient, Pause, Say, Spin, Step
 from mnclab.path.listing import figure, point
 from mnclab.runs.values import described, said
 from mnclab.text.tables import html_table, text_table
+from mnclab.workpiece.part import Part
 
 Point = tuple[float, float, float]
 SPINDLE = {1: "clockwise", -1: "counter-clockwise", 0: "stopped"}
@@ -36,10 +37,10 @@ class CycleSteps(Sequence[Step]):
 
     def __init__(
         self, cycle: type[Cycle], values: Mapping[str, Any], start: Point, rows: Sequence[Row], *,
-        lathe: bool = False, per_rev: bool = False,
+        lathe: bool = False, per_rev: bool = False, part: Part | None = None,
     ) -> None:  # fmt: skip
         self.cycle, self.values, self.start, self.rows = cycle, values, start, tuple(rows)
-        self.lathe, self.per_rev = lathe, per_rev
+        self.lathe, self.per_rev, self.part = lathe, per_rev, part
 
     def __len__(self) -> int:
         return len(self.rows)

@@ -17,6 +17,8 @@ BALL = 2.0  # mm, the radius where a touch does not say it
 
 def touched_part(found: CycleSteps, clearance: float) -> Part | None:
     """The pads before the touches of a cycle; `clearance` (mm) of the probe table, to which an own one of the cycle is added."""
+    if found.part is not None:
+        return found.part
     gap = clearance + (found.values.get("clearance") or 0.0)
     pads = list(_pads(found, gap))
     return reduce(operator.or_, pads) if pads else None

@@ -13,12 +13,26 @@ from mnclab.machine.coordinates import PLANES
 from mnclab.machine.tool_axis import tool_axis
 from mnclab.machine.touching import Point
 from mnclab.machining.steps import Measure, Step, Write
+from mnclab.workpiece.part import Part, box, cylinder, hole
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
     from mnclab.path.tool import Tool
 
 Pair = Sequence[float]
+WALL, DEEP = 10.0, 40.0  # mm, of a figure where nobody gave a part: its wall, and how far it goes down
+
+
+def ring(m: Machine, radius: float) -> Part:
+    """A ring about the place of the tip."""
+    (x, y, z), out = m.tip, radius + WALL
+    return box((x - out, y - out, z - DEEP), (x + out, y + out, z + WALL)) - hole((x, y, z + WALL), 2 * radius, DEEP + WALL)
+
+
+def stud(m: Machine, radius: float, top: float) -> Part:
+    """A round stud below the tip, up to a height of the machine."""
+    x, y, _ = m.tip
+    return cylinder((x, y, top - DEEP), (x, y, top), radius)
 
 
 def plane_of(m: Machine, tip: Point) -> tuple[float, float]:

@@ -25,6 +25,7 @@ from mnclab.text.records import written
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
+    from mnclab.workpiece.part import Part
 
 
 Values = dict[str, Any]  # by the name of a parameter; or what a cycle keeps while it is active
@@ -182,6 +183,10 @@ class Cycle:
     def about(self, m: Machine) -> tuple[float, float]:
         """Where x and y of the steps count from: where the tool stands at the call."""
         return m.programmed[0], m.programmed[1]
+
+    def figure(self, m: Machine) -> Part | None:
+        """What a cycle that calibrates touches, in machine coordinates, so that it can be tried out where nobody gave a part."""
+        return None
 
     def modal_feed(self, m: Machine) -> float | None:
         """The feed of moves that say none, in the units of the modal feed; None: the modal feed itself."""

@@ -106,7 +106,8 @@ PROGRAMS = {"tnc-620": "tnc620-"}
 #: Files whose G and M codes are listed.
 CODES = ["mnc-language", "mnc-drilling", "mnc-milling", "mnc-probing"]
 #: Files of the TNC 620 whose entries are listed, whatever their kind.
-CHAPTERS = ["klartext", "using-cycles", "patterns", "drilling", "threading", "pockets", "transformations", "special"]
+CHAPTERS = ["klartext", "using-cycles", "patterns", "drilling", "threading", "pockets", "transformations", "special",
+            "probing-inspection"]
 #: Files whose ambiguities are listed: what the manual leaves open, and the reading to adopt.
 AMBIGUITIES = ["mnc-language"]
 KEYS = (

@@ -15,8 +15,6 @@ NEEDS = {
     "CYCL DEF 14": "names label 1, which does not exist",
     **{f"CYCL DEF {number}": "CYCL DEF 14 comes before it" for number in (21, 22, 23, 24, 25, 27, 28, 29, 39, 275, 276)},
     "CYCL DEF 225": "Q500 (text) is missing",
-    **dict.fromkeys(("G461", "G462", "TCH PROBE 462", "TCH PROBE 463"), "finds a ball of radius -"),  # no part is so large
-    "TCH PROBE 460": "the points lie on one line",  # of the meridian
 }
 
 

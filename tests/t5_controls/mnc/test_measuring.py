@@ -11,7 +11,8 @@ import pytest
 from probed import gaps
 from probing_mnc import DATUM, at, box, disc, examples, feature, measured, near, probes, to_round, to_wall, walls
 
-from mnclab import Kind, Probe
+import mnclab
+from mnclab import Kind, Probe, Setup, Tool
 from mnclab.workpiece import part as parts
 
 HERE = (*(f"G{n}" for n in range(420, 427)), "G490", "G491", "G492", "G499")
@@ -367,3 +368,101 @@ def test_limits_are_compared_as_they_are_written(seed):
         message = run.alarms[0].message
         for name in expected:
             assert next(words for key, words in STATUS.items() if name.startswith(key)) in message
+
+
+# --- settings ---------------------------------------------------------------------------------------------------------
+
+BLOCK = parts.box((0.21, -50, -60), (100, 110, 0))
+
+
+def test_measurements_per_point():
+    """Three touches from X -10, and back after each; with a probe that spreads the mean of the three."""
+    program = "G490 X-10 Y30\nG490 Z-11\nG499 X1\n"
+    settings = {"measurements_per_point": 3}
+    run = measured(program, BLOCK, settings=settings)
+    assert [row.end[0] for row in run.toolpath.motion[-6:]] == pytest.approx([-2.79, -10] * 3, abs=1e-9)
+    assert run.variables["Q312"] == pytest.approx(0.21, abs=1e-9)
+    run = measured(program, BLOCK, settings=settings, probe=Probe(clearance=2, reach=20, spread=0.01, seed=4))
+    stops = probes(run).end[:, 0]
+    assert np.ptp(stops) > 0.001 and run.variables["Q312"] == pytest.approx(stops.mean() + 3, abs=1e-9)
+
+
+@pytest.mark.parametrize(("value", "way"), [("YZ", (0, 0.6, 0.8)), ("XY", (-0.8, 0.6, 0))])
+def test_the_plane_of_an_angle_to_y(value, way):
+    """cos E = 0.6, sin E = 0.8: towards +Z, or counter-clockwise in XY (MNC-G491-PLANE)."""
+    angle = math.degrees(math.atan2(0.8, 0.6))
+    point = np.array((0, 0, 53)) + 8 * np.array(way)  # the ball stops 3 before it
+    run = measured(f"G491 L2 E{angle:.9f} P20 Q1\n", parts.plane(point, -np.array(way)), settings={"g491_l2_plane": value})
+    touch = probes(run)[0]
+    assert touch.end - touch.start == pytest.approx(5 * np.array(way), abs=1e-6)
+
+
+@pytest.mark.parametrize(("value", "z"), [("tip", 0.137 + 0.2), ("reference", 0.137 + 150 + 0.2)])
+def test_raw_z(value, z):
+    """A probe of 150 with a correction of 0.2: the length counts and the correction not, or neither (MNC-G492-RAW)."""
+    tools = {20: Tool(radius=3, length=150, dl=0.2, kind="probe")}
+    run = measured("G0 Z5\nG492 Z-1 P20 Q2 W0\n", parts.plane((0, 0, 0.137), (0, 0, 1)), tools=tools, settings={"raw_z": value})
+    assert run.variables["Q312"] == pytest.approx(z, abs=1e-9)
+
+
+def test_an_offset_of_the_table_does_not_count_in_a_raw_touch():
+    """G499 finds the wall with the offset, G492 gives the spindle axis (MNC-PROBE-OFFPOS, MNC-G492-RAW)."""
+    probe = Probe(clearance=2, reach=20, feed=200, rapid=2000, offset=(0.5, 0.25))
+    program = "G490 X-10 Y30\nG490 Z-11\nG499 X1\nG492 X1 P20 Q2\n"
+    run = measured(program, BLOCK, probe=probe)
+    assert run.variables["Q312"] == -11 and run.history["Q312"][-2] == pytest.approx(0.21, abs=1e-9)
+    assert (run.variables["Q314"], run.variables["Q315"]) == pytest.approx((-2.79 - 0.5, 30), abs=1e-9)
+
+
+# --- what the machine refuses -----------------------------------------------------------------------------------------
+
+BORE = "G421 X10 Y-5 D30 Z-8 H20\n"
+REFUSED = {
+    "no part": (BORE, None, {}, "there is no part to touch"),
+    "no contact": (BORE, box((10, -5), (90, 90), inside=False), {}, "inaccessible: the probe did not trigger within 20 mm"),
+    "in the way": (BORE, disc((13, -5), 30, inside=False), {}, "path obstructed: the stylus touches the part"),
+    "stem": (BORE, disc((10, -5), 30, inside=False) | parts.box((5, -20, 5), (26, 10, 6)),
+             {"probe": Probe(clearance=2, reach=20, stem=2.0, stem_length=60)}, "path obstructed"),
+    "a single touch in the air": ("G492 X1 P7 Q2\n", parts.plane((60, 0, 0), (-1, 0, 0)), {}, "did not trigger within 7 mm"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_the_machine_refuses(name):
+    program, part, more, message = REFUSED[name]
+    run = measured(program, part, **more)
+    assert not run.ok and message in run.alarms[0].message
+    assert run.alarms[0].span[:2] == (len(program.splitlines()) + 2, 1)
+
+
+def test_a_scale_does_not_change_the_ball():
+    """G490 under G37 X2: the ball of 3 stops at X 97 of the machine's axes, which is X 48.5 of the program."""
+    run = measured("G37 X2 Y2 Z1\nG490 X60\n", parts.plane((100, 0, 0), (-1, 0, 0)), before="T20\nG54 G0 X0 Y0 Z50\n")
+    assert "path obstructed" in run.alarms[0].message and run.toolpath.end[-1][0] == pytest.approx(97, abs=1e-4)
+
+
+@pytest.mark.parametrize("code", ["G421", "G423"])
+def test_measuring_under_a_rotation(code):
+    """G39 turns the program by 30 degrees: the figure that lies along its axes has its own place and sizes there."""
+    centre = 12.03, 4.98
+    words, figure = ("D30", disc(centre, 30.02, inside=False))
+    if code == "G423":
+        words, figure = ("A40 B30", box(centre, (40.02, 29.97), inside=False))
+    part = figure.placed(at((0, 0, 0), 30))
+    run = measured(f"G39 A30\nG0 X12 Y5\n{code} X12 Y5 {words} Z-8 H20 P1\n", part)
+    assert run.ok, run.alarms
+    expected = {"Q314": 12.03, "Q315": 4.98} | ({"Q318": 30.02} if code == "G421" else {"Q316": 40.02, "Q317": 29.97})
+    found(run, **expected)
+
+
+def test_what_was_cut_is_measured():
+    """A pocket of diameter 30 that the program has milled: exactly that."""
+    mill = Tool(radius=5, length=100, kind="mill", plunge_angle=3, centre_cutting=True)
+    setup = Setup(
+        tools={1: mill, 20: Tool(radius=3, length=150, kind="probe")}, datums={1: DATUM}, part="cut",
+        stock=((270, 170, -430), (330, 230, -400)), probe=Probe(clearance=2, reach=20),
+    )  # fmt: skip
+    text = "T1 S2000 M3\nG54 G90 G0 X0 Y0 Z50\nG344 M0 D30 Z0 H-12 P6 Q2 I5 K1 J0 F500 V150 L1 T500\nG0 Z50 M5\nT20\n"
+    run = mnclab.run(f"{text}G421 X0 Y0 D30 Z-5 H20\n", "mnc", setup)
+    assert run.ok, run.alarms
+    found(run, Q314=0, Q315=0, Q318=30)

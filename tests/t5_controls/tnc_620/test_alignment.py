@@ -256,3 +256,29 @@ def test_405_a_hole_near_the_y_axis():
     turned = math.degrees(math.atan2(50.1, 0.8)) - 90
     assert found.variables["Q150"] == pytest.approx(turned, abs=1e-7) and turned == pytest.approx(check["Q150"], abs=1e-5)
     assert found.tables.datums[2].c == pytest.approx(0.25 + turned, abs=1e-7) and found.tables.presets[1].c == 0
+
+
+def test_a_row_that_was_measured_turns_the_program_once_it_is_active():
+    """SPC of row 3 counts from the next cycle 247 on; the origin of that row is the machine's."""
+    found = basic_rotation(plate(), after="\nCYCL DEF 247 PRESET\nQ339=+3\nL X+80 Y+0 Z+50 R0 FMAX")
+    turned = math.radians(1.5)
+    there = np.array((80 * math.cos(turned), 80 * math.sin(turned), 50)) - PRESET
+    assert found.toolpath.end[-1] == pytest.approx(there, abs=1e-9)
+
+
+def test_din_iso_and_inch():
+    """G400 is cycle 400; an inch program says its places in inches."""
+    import mnclab
+    from tests.alignment import setup
+
+    values = " ".join(f"Q{q}={v}" for q, v in zip(
+        (263, 264, 265, 266, 272, 267, 261, 320, 260, 301, 307, 305), (10, 0, 90, 0, 2, 1, -5, 0, 20, 0, 0, 1), strict=True
+    ))  # fmt: skip
+    text = f"%P G71 *\nN10 T7 G17 *\nN20 G00 G90 G40 Z+100 *\nN30 G400 {values} *\nN99999999 %P G71 *\n"
+    found = mnclab.run(text, "tnc-620", setup(plate()))
+    assert found.ok and found.tables.presets[1].rotation == pytest.approx(1.5, abs=1e-9), found.alarms
+    lengths = ("Q263", "Q264", "Q265", "Q266", "Q261", "Q320", "Q260")
+    inches = EDGE | {q: EDGE[q] / 25.4 for q in lengths}
+    text = f"BEGIN PGM P INCH\nTOOL CALL 7 Z\nL Z+4 R0 FMAX\n{cycle(400, inches)}\nEND PGM P INCH\n"
+    found = mnclab.run(text, "tnc-620", setup(plate()))
+    assert found.tables.presets[3].rotation == pytest.approx(1.5, abs=1e-9), found.alarms

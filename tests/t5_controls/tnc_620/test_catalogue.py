@@ -1,4 +1,4 @@
-"""Everything that chapters 1 to 7, 11 and 12 of the manual name: obeyed, refused by name, or read as something else is.
+"""Everything that chapters 1 to 7, 11, 12 and 16 of the manual name: obeyed, refused by name, or read as something else is.
 
 The entries (how they were listed: tests/authorities/README.md) have a kind. A concept is text without a code; each other
 one is a function or a cycle of the control, or it is refused by its name, or `READ_AS` says where it went.
@@ -52,6 +52,7 @@ READ_AS: dict[str, tuple[str, list[str]]] = {
     "CYCL DEF 7 (datum table)": ("cycle", ["CYCL DEF 7"]),
     "GLOBAL DEF": ("cycle", [f"GLOBAL DEF {n}" for n in (100, 105, 110, 111, 120, 125)]),
     "TCH PROBE": ("cycle", ["TCH PROBE 419"]),
+    "result parameters": ("cycle", [f"TCH PROBE {n}" for n in range(420, 428)]),
     "Q366": ("parameter", ["Q366"]),
     "Q439": ("parameter", ["Q439"]),
     "engraving characters": ("cycle", ["CYCL DEF 225"]),

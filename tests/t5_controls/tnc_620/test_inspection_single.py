@@ -229,6 +229,8 @@ REFUSED = [
     ("TCH PROBE 1.0 X\nTCH PROBE 1.1 X\nTCH PROBE 1.2 X+1\n", 4, "a number is missing: the probing angle"),
     ("TCH PROBE 1.0 X\nTCH PROBE 1.2 X+1\n", 3, "TCH PROBE 1 axis (probing axis) is missing"),
     (three(1997, "X", 0, 5), 4, "TCH PROBE 3 Q (first Q parameter of the results) must be at most 1996, got 1997"),
+    (three(105, "X", 0, 5), 4, "cannot be Q108: radius of the active tool with its deltas, kept by the control"),
+    (zero(108, "X+", "X+5"), 3, "TCH PROBE 0 Q (Q parameter of the result) cannot be Q108"),
     (three(1, "X", 0, 0), 6, "TCH PROBE 3 ABST (farthest way) must not be 0"),
     (three(1, "X", 0, 5, feed=0), 6, "TCH PROBE 3 F (feed of the touch) must be greater than 0"),
     (three(1, "X", 0, 5, feed=3001), 6, "must be at least 0 and at most 3000, got 3001"),

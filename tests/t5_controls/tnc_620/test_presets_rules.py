@@ -324,3 +324,13 @@ def test_a_program_in_the_manner_of_a_post():
     assert run.at(line=line).position[:2] == pytest.approx((5, -5), abs=1e-9)
     starts = np.subtract([touch.start for touch in run.touches[5:]], PRESET)
     assert starts[:, :2] == pytest.approx(np.tile((0.4, -0.3), (4, 1)), abs=1e-6)  # 11 is less than 3 + 10: from the centre
+
+
+@pytest.mark.parametrize("transfer", [-1, 0, 1])
+def test_row_0_is_the_display_whatever_the_table(transfer):
+    """Q305 = 0 (as in 15.14 with Q303 = 0): a copy of the active row, which becomes active; that one stays as it was."""
+    run = probing(example(EXAMPLES["TCH PROBE 411"], Q303=transfer) + "\n9 L X+0 Y+0 R0 FMAX\n", part(411))
+    assert run.ok, run.alarms
+    assert run.tables.presets[0][:3] == pytest.approx((150.12, 249.91, -300), abs=1e-6)
+    assert run.tables.presets[1][:3] == PRESET and not run.tables.datums
+    assert run.toolpath.end[-1][:2] == pytest.approx((50.12, 49.91), abs=1e-6)

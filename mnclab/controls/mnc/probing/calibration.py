@@ -12,13 +12,14 @@ from typing import Any, ClassVar
 
 from mnclab.controls.mnc.probing import addresses
 from mnclab.controls.mnc.probing.cycle import TURNS, MeasuringCycle, Moves
-from mnclab.machine.calibrating import offset_written, with_length, with_radius
+from mnclab.machine.calibrating import offset_written, ring, stud, with_length, with_radius
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.touching import FEELS
 from mnclab.machining.probing.fits import circle
 from mnclab.machining.probing.sequences import Approach, Pair
 from mnclab.machining.steps import Measure, Orient, Touch
+from mnclab.workpiece.part import Part
 
 CYCLES = CycleTable()
 MISPLACED = 5.0  # mm, by which the probe may stand off the centre (12.25, 12.26)
@@ -55,6 +56,9 @@ class Ring(MeasuringCycle):
         yield from super().check(m)
         yield from self.fits(m, diameter=self.diameter)
 
+    def figure(self, m: Machine) -> Part:
+        return ring(m, self.diameter / 2)
+
     def moves(self, m: Machine) -> Moves:
         a = self.approach(m, height=m.programmed[2], stands=m.programmed[2], track=False)
         yield from offsets_and_radius(self, m, replace(a, reach=max(a.reach, self.diameter / 2 + MISPLACED)), inside=True)
@@ -78,6 +82,9 @@ class CalibrationBoss(MeasuringCycle):
 
     def low(self, a: Approach) -> Iterator[tuple[str, str]]:
         yield from ()  # the safe height is where the probe stands
+
+    def figure(self, m: Machine) -> Part:
+        return stud(m, self.diameter / 2, m.to_machine((0.0, 0.0, self.level))[2] + m.radius)
 
     def moves(self, m: Machine) -> Moves:
         a = self.approach(m, height=m.programmed[2], track=False)

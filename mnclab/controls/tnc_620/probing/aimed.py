@@ -7,9 +7,9 @@ the middle of the tolerances to Q980 and on; the status Q183 is worked out befor
 from __future__ import annotations
 
 import math
-from collections.abc import Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from functools import partial
-from typing import Any, ClassVar, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,20 +58,6 @@ reaction = partial(choice, "Q309", "reaction to a violated tolerance", REACTIONS
 aligning = partial(choice, "Q1126", "how rotary axes are aligned", ALIGNING, example=0)
 transferred = partial(choice, "Q1120", "position that corrects the preset", choices=TRANSFERS, example=0)
 rotation = partial(choice, "Q1121", "rotation that is taken over", choices=ROTATIONS, example=0)
-
-
-class Aimed(Protocol):
-    """A cycle 14xx: its parameters, and how it finds one place."""
-
-    code: ClassVar[str]
-    clearance_height_mode: float
-    error_reaction: float
-
-    def approach(self, m: Machine, **other: Any) -> Approach:
-        """How the probe moves."""
-
-    def find(self, m: Machine, a: Approach, k: int, where: Floats, rise: float) -> Finding:
-        """Touch place number k, from 0; `rise` is the height of the probe now, or infinite where it goes there as it is."""
 
 
 class Found(NamedTuple):
@@ -137,9 +123,9 @@ def by_hand(m: Machine, k: int) -> Floats | None:
     return found if found.shape == (3,) and np.isfinite(found).all() else None
 
 
-def measure(c: Aimed, m: Machine, apart: float) -> Generator[Step, Any, list[Found]]:
-    """Find each place, except those whose actual values are given; between them it goes to the clearance height from the mode
-    `apart` on."""
+def measure(c: Any, m: Machine, apart: float, find: Callable[..., Finding]) -> Generator[Step, Any, list[Found]]:
+    """Find each place (`touch`, or what has its parameters), except those whose actual values are given; between them it goes
+    to the clearance height from the mode `apart` on."""
     a, mode = c.approach(m, over=c.clearance_height_mode == 2), c.clearance_height_mode
     found, known = [], nominals(c, m)
     first, moved = True, [k for k, each in enumerate(known) if each[0].actual is None]
@@ -153,7 +139,7 @@ def measure(c: Aimed, m: Machine, apart: float) -> Generator[Step, Any, list[Fou
         if asked:
             yield Pause("until the operator has put the probe there")
         rises = asked or mode >= (0 if first else apart)
-        found.append((yield from c.find(m, a, k, where, m.programmed[2] if rises else math.inf)))
+        found.append((yield from find(c, m, a, k, where, m.programmed[2] if rises else math.inf)))
         first = False
         if not asked and mode >= (0 if k == moved[-1] else apart):
             yield a.go("to the clearance height", a.height)
@@ -161,7 +147,8 @@ def measure(c: Aimed, m: Machine, apart: float) -> Generator[Step, Any, list[Fou
 
 
 def touch(c: Any, m: Machine, a: Approach, k: int, where: Floats, rise: float) -> Finding:
-    """One touch along Q372; a place that the operator chose is where it begins."""
+    """Place number k, from 0, by one touch along Q372; a place that the operator chose is where it begins. `rise` is the height
+    of the probe now, or infinite where it goes there as it is."""
     way = along(c.probing_direction)
     x, y, z = (where if any(each.asked for each in nominals(c, m)[k]) else where - a.away * way).tolist()
     if a.track and way[2] == 0:
@@ -220,7 +207,7 @@ def judge_places(c: Any, m: Machine, found: Sequence[Found]) -> list[Judged]:
 
 
 def report(
-    c: Aimed, m: Machine, found: Sequence[Found], nominal: Floats, judged: Sequence[Judged], angles: Mapping[int, float],
+    c: Any, m: Machine, found: Sequence[Found], nominal: Floats, judged: Sequence[Judged], angles: Mapping[int, float],
     lengths: Mapping[int, float],
 ) -> Iterator[Step]:  # fmt: skip
     """The places and their deviations, further angles and lengths by the numbers of their Q parameters, the status, the record,

@@ -17,7 +17,7 @@ from mnclab.controls.tnc_620.cycles.addresses import angle, choice, coordinate, 
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed
-from mnclab.machine.calibrating import offset_written, plane_of, with_length, with_radius
+from mnclab.machine.calibrating import offset_written, plane_of, ring, stud, with_length, with_radius
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.output import FILE
@@ -26,6 +26,7 @@ from mnclab.machine.touching import FEELS, Point
 from mnclab.machining.probing.fits import circle
 from mnclab.machining.probing.sequences import Approach, Pair, around, over_to
 from mnclab.machining.steps import Measure, Orient, Say, Step, Touch, Write
+from mnclab.workpiece.part import Part, ball
 
 CYCLES = CycleTable()
 LOG = "TCHPRAUTO.html"  # (17.5)
@@ -58,6 +59,10 @@ class OnSphere(ProbingCycle):
 
     def moves(self, m: Machine) -> Moves:
         yield from logged(self, m, self.calibrate(m))
+
+    def figure(self, m: Machine) -> Part:
+        x, y, z = m.tip
+        return ball((x, y, z - self.approach(m).gap - self.radius), self.radius)
 
     def calibrate(self, m: Machine) -> Moves:
         a, before, about = here(self, m), m.tool, m.programmed[:2]
@@ -135,6 +140,9 @@ class InRing(ProbingCycle):
         if self.radius <= m.radius:
             yield "radius", f"must be greater than the radius of the ball, {m.radius:g}, got {self.radius:g}"
 
+    def figure(self, m: Machine) -> Part:
+        return ring(m, self.radius)
+
     def moves(self, m: Machine) -> Moves:
         a = here(self, m, stands=m.programmed[2])
         yield from logged(self, m, radius_and_offset(self, m, a, m.programmed[:2], inside=True))
@@ -151,6 +159,9 @@ class OnStud(ProbingCycle):
     move_to_clearance: float = addresses.move_to_clearance()
     points: float = count("Q423", "number of touch points", at_least=3, at_most=8, example=8)
     reference_angle: float = angle("Q380", "angle of the first touch point", at_least=0, example=0)
+
+    def figure(self, m: Machine) -> Part:
+        return stud(m, self.radius, m.tip[2] - self.approach(m).gap)
 
     def moves(self, m: Machine) -> Moves:
         a = here(self, m)

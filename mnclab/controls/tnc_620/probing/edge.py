@@ -9,14 +9,13 @@ import numpy as np
 
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.probing import addresses, aimed, taken_over
-from mnclab.controls.tnc_620.probing.aimed import Finding, Floats, Given
+from mnclab.controls.tnc_620.probing.aimed import Floats, Given
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed
 from mnclab.controls.tnc_620.probing.line import line_results, no_line
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machining.probing import fits
 from mnclab.machining.probing.found import Plane, axes_on
-from mnclab.machining.probing.sequences import Approach
 from mnclab.machining.probing.sketches import line_sketch
 from mnclab.text.alarm import Alarm
 
@@ -55,11 +54,8 @@ class ProbingOnEdge(ProbingCycle):
         yield from no_line(self, m)
         yield from taken_over.faults(self, m)
 
-    def find(self, m: Machine, a: Approach, k: int, where: Floats, rise: float) -> Finding:
-        return (yield from aimed.touch(self, m, a, k, where, rise))
-
     def moves(self, m: Machine) -> Moves:
-        found = yield from aimed.measure(self, m, apart=2)
+        found = yield from aimed.measure(self, m, 2, aimed.touch)
         contacts = [contact for one in found for contact in one.contacts]
         nominal = aimed.means(aimed.nominals(self, m), found)
         if len(contacts) == len(found) and abs(self.probing_direction) < 3:
@@ -104,17 +100,14 @@ class ProbingInPlane(ProbingCycle):
             except Alarm as alarm:
                 yield "third_point_ref_axis", f"makes no plane with the other points: {alarm.message}"
 
-    def find(self, m: Machine, a: Approach, k: int, where: Floats, rise: float) -> Finding:
-        return (yield from aimed.touch(self, m, a, k, where, rise))
-
     def moves(self, m: Machine) -> Moves:
-        found = yield from aimed.measure(self, m, apart=2)
+        found = yield from aimed.measure(self, m, 2, aimed.touch)
         nominal, points = aimed.means(aimed.nominals(self, m), found), np.array([one.point for one in found])
         is_: Plane = needed(fits.plane, points, m=m, code=self.code)
         should: Plane = needed(fits.plane, nominal, m=m, code=self.code)
         angles = dict(zip((961, 962, 963), is_.spatial, strict=True))
         yield from aimed.report(self, m, found, nominal, aimed.judge_places(self, m, found), angles, {})
-        yield from taken_over.take_over(self, m, found, nominal, turn_between(should, is_), 0.0)
+        yield from taken_over.take_over(self, m, found, nominal, turn_between(should, is_), math.nan)
 
 
 def turn_between(first: Plane, second: Plane) -> Floats:

@@ -8,8 +8,8 @@ from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, lengths
 from mnclab.controls.tnc_620.probing.transfer import save
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
-from mnclab.machining.probing.sequences import Aim, from_above, in_plane, over_to
-from mnclab.machining.steps import Measure, Touch
+from mnclab.machining.probing.sequences import from_above, in_one_axis
+from mnclab.machining.steps import Measure
 
 CYCLES = CycleTable()
 
@@ -52,16 +52,8 @@ class PresetInOneAxis(ProbingCycle):
     transfer: float = addresses.transfer()
 
     def moves(self, m: Machine) -> Moves:
-        a, k, sense = self.approach(m), int(self.axis) - 1, self.direction
-        if k < 2:
-            direction = (sense, 0.0) if k == 0 else (0.0, sense)
-            (contact,) = yield from in_plane(a, [Aim(self.x, self.y, direction)], m.programmed[2])
-        else:
-            begin = self.level - sense * a.away - a.ball
-            yield from over_to(a, self.x, self.y, m.programmed[2], begin)
-            contact = yield Touch("touch 1", self.x, self.y, begin + sense * a.reach, a.feed, a.ball)
-            yield a.go("back", begin)
-            yield a.go("to the clearance height", a.height)
-        found = contact.point[k] + sense * a.ball
+        a, k = self.approach(m), int(self.axis) - 1
+        (contact,) = yield from in_one_axis(a, k, self.direction, [(self.x, self.y, self.level)], m.programmed[2])
+        found = contact.point[k] + self.direction * a.ball
         yield Measure("XYZ"[k], found, (self.x, self.y, self.level)[k], touches=(contact.number,))
         yield from save(m, {k: (found, self.datum)}, self.row, self.transfer)

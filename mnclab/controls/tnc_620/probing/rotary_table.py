@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from mnclab.controls.tnc_620.cycles.addresses import angle, choice, count
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.probing import addresses
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed, numbers, results, too_fine
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, numbers, results, too_fine
 from mnclab.controls.tnc_620.probing.misalignment import C, align, cannot_turn, zeroed
-from mnclab.controls.tnc_620.probing.rotation import apart, edge, row, set_to_zero
+from mnclab.controls.tnc_620.probing.rotation import apart, circle, edge, row, set_to_zero
 from mnclab.controls.tnc_620.probing.transfer import store
 from mnclab.controls.tnc_620.state import active_preset
 from mnclab.machine.cycle import CycleTable
@@ -123,7 +123,7 @@ class HoleBesideTheAxis(ProbingCycle):
         a, centre, radius = self.approach(m), (self.centre_x, self.centre_y), self.diameter / 2
         first, step, now = self.starting_angle, self.stepping_angle, m.programmed[2]
         contacts = yield from around(a, centre, radius, first, step, 4, True, now, leave=False)
-        hole = needed(fits.circle, [c.point for c in contacts], "power", m=m, code=self.code).grown(a.ball)
+        hole = circle(self, m, contacts).grown(a.ball)
         yield a.go("to the measured center", x=hole.x, y=hole.y)
         yield a.go("to the clearance height", a.height)
         yield round_sketch(centre, radius, hole, a.level, contacts)

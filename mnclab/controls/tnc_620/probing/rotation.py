@@ -10,8 +10,8 @@ from typing import Any
 from mnclab.controls.tnc_620.cycles.addresses import angle, choice, coordinate, count, length
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.probing import addresses
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed, numbers
-from mnclab.controls.tnc_620.probing.misalignment import C, align, cannot_turn, reset, zeroed
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, needed, numbers
+from mnclab.controls.tnc_620.probing.misalignment import C, align, cannot_turn, reset, tilted, zeroed
 from mnclab.controls.tnc_620.probing.transfer import store
 from mnclab.controls.tnc_620.state import active_preset
 from mnclab.machine.cycle import CycleTable
@@ -57,6 +57,10 @@ class BasicRotation(ProbingCycle):
     def contradictions(self) -> Iterator[Fault]:
         yield from apart(self.axis, (self.x, self.y), (self.second_x, self.second_y))
 
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from super().check(m)
+        yield from tilted(m)
+
     def moves(self, m: Machine) -> Moves:
         yield from reset(m)
         points = (self.x, self.y), (self.second_x, self.second_y)
@@ -81,21 +85,16 @@ class OverTwoHoles(ProbingCycle):
     compensation: float = compensation()
     set_to_zero: float = set_to_zero()
 
-    def contradictions(self) -> Iterator[Fault]:
-        yield from one_place(self)
-
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
-        if self.compensation == 1:
-            yield from cannot_turn(m, C, "compensation")
+        yield from faults(self, m)
 
     def moves(self, m: Machine) -> Moves:
         yield from reset(m)
-        a, holes = self.approach(m), []
-        for k, centre in enumerate(centres(self)):
-            holes.append((yield from from_centre(a, centre, m.programmed[2])))
-            yield from found(self, m, holes[k], k, None, a)
-        yield from compensate(self, m, *holes)
+        a, touched = self.approach(m), []
+        for centre in centres(self):
+            touched.append((yield from from_centre(a, centre, m.programmed[2])))
+        yield from compensate(self, m, touched)
 
 
 @CYCLES("TCH PROBE 402", "Basic rotation over two studs", runs="definition", source="14.9")
@@ -118,23 +117,19 @@ class OverTwoStuds(ProbingCycle):
     compensation: float = compensation()
     set_to_zero: float = set_to_zero()
 
-    def contradictions(self) -> Iterator[Fault]:
-        yield from one_place(self)
-
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
-        if self.compensation == 1:
-            yield from cannot_turn(m, C, "compensation")
+        yield from faults(self, m)
 
     def moves(self, m: Machine) -> Moves:
         yield from reset(m)
-        a, studs = self.approach(m), []
+        a, touched = self.approach(m), []
         sizes = (self.diameter_stud_1, self.level), (self.diameter_stud_2, self.measuring_height_stud_2)
-        for k, (centre, (diameter, level)) in enumerate(zip(centres(self), sizes, strict=True)):
+        for centre, (diameter, level) in zip(centres(self), sizes, strict=True):
             a = replace(a, level=level)
-            studs.append((yield from around(a, centre, diameter / 2, 0, 90, 4, False, m.programmed[2], arc=False)))
-            yield from found(self, m, studs[k], k, diameter / 2, a)
-        yield from compensate(self, m, *studs)
+            touched.append((yield from around(a, centre, diameter / 2, 0, 90, 4, False, m.programmed[2], arc=False)))
+            yield round_sketch(centre, diameter / 2, circle(self, m, touched[-1]).grown(-a.ball), level, touched[-1])
+        yield from compensate(self, m, touched)
 
 
 @CYCLES("TCH PROBE 404", "Set basic rotation", runs="definition", source="14.11")
@@ -174,36 +169,27 @@ def centres(c: OverTwoHoles | OverTwoStuds) -> Pairs:
     return (c.first_center_axis_1, c.first_center_axis_2), (c.second_center_axis_1, c.second_center_axis_2)
 
 
-def one_place(c: OverTwoHoles | OverTwoStuds) -> Iterator[Fault]:
-    """Two centres that make no line."""
+def faults(c: OverTwoHoles | OverTwoStuds, m: Machine) -> Iterator[Fault]:
+    yield from tilted(m)
     if centres(c)[0] == centres(c)[1]:
         yield "second_center_axis_1", "and Q271 are those of the first center: two places make a line"
+    if c.compensation == 1:
+        yield from cannot_turn(m, C, "compensation")
 
 
 def circle(c: ProbingCycle, m: Machine, contacts: Sequence[Contact]) -> Circle:
     """Of the ball's centres."""
-    around_it: Circle = needed(fits.circle, [each.point for each in contacts], "power", m=m, code=c.code)
-    return around_it
+    found: Circle = needed(fits.circle, [each.point for each in contacts], "power", m=m, code=c.code)
+    return found
 
 
-def found(
-    c: OverTwoHoles | OverTwoStuds, m: Machine, contacts: Sequence[Contact], which: int, radius: float | None, a: Approach
-) -> Iterator[Step]:
-    """The lines of the record for a circle, and its picture where it has a nominal `radius`."""
-    is_, nominal = circle(c, m, contacts), centres(c)[which]
-    for axis, actual, should in zip("XY", is_.centre, nominal, strict=True):
-        yield Measure(f"center {which + 1} {axis}", actual, should, touches=numbers(contacts))
-    if radius is not None:
-        yield round_sketch(nominal, radius, is_.grown(-a.ball), a.level, contacts)
-
-
-def compensate(
-    c: OverTwoHoles | OverTwoStuds, m: Machine, first: Sequence[Contact], second: Sequence[Contact]
-) -> Iterator[Step]:
+def compensate(c: OverTwoHoles | OverTwoStuds, m: Machine, touched: Sequence[Sequence[Contact]]) -> Iterator[Step]:
     """The line through both centres becomes the direction Q307: by a basic rotation, or by the rotary table."""
-    line = needed(fits.line, [circle(c, m, contacts).centre for contacts in (first, second)], m=m, code=c.code)
-    turned = fits.reduced(line.angle - c.preset_rotation_angle, 360)
-    yield Measure("rotation", turned, 0.0, unit="deg", touches=numbers([*first, *second]))
+    places = [circle(c, m, contacts).centre for contacts in touched]
+    for k, (contacts, place, nominal) in enumerate(zip(touched, places, centres(c), strict=True), 1):
+        yield from measured(contacts, **{f"center {k} {axis}": (place[n], nominal[n]) for n, axis in enumerate("XY")})
+    turned = fits.reduced(needed(fits.line, places, m=m, code=c.code).angle - c.preset_rotation_angle, 360)
+    yield Measure("rotation", turned, 0.0, unit="deg", touches=numbers([*touched[0], *touched[1]]))
     if c.compensation == 0:
         yield from store(m, c.row, rotation=turned)
         return

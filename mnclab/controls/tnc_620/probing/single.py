@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, increment
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero
+from mnclab.controls.tnc_620.language.parameters import KEPT
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, results
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
@@ -89,6 +90,9 @@ class ReferencePlane(ProbingCycle):
     y: float | None = pre_y()
     z: float | None = pre_z()
 
+    def contradictions(self) -> Iterator[Fault]:
+        return kept(self)
+
     def check(self, m: Machine) -> Iterator[Fault]:
         return unscaled(m)
 
@@ -118,8 +122,15 @@ class PolarPreset(ProbingCycle):
         yield from measured([contact], **{name: (place, math.nan) for name, place in zip("XYZ", contact.point)})
 
 
+def kept(c: ReferencePlane | MeasuringInPlane | MeasuringInSpace, count: int = 1) -> Iterator[Fault]:
+    """Results that would overwrite what the control keeps itself."""
+    names = [f"Q{int(c.result_parameter) + k}" for k in range(count)]
+    yield from (("result_parameter", f"cannot be {name}: {KEPT[name][0]}, kept by the control") for name in names if name in KEPT)
+
+
 def impossible(c: MeasuringInPlane | MeasuringInSpace) -> Iterator[Fault]:
     """What 3 and 4 refuse whatever the machine."""
+    yield from kept(c, 4)
     yield from not_zero(c, "feed", purpose="to touch with")
     if c.reach == 0:
         yield "reach", "must not be 0: a touch needs a way"

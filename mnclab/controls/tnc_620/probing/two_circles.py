@@ -12,12 +12,12 @@ from mnclab.controls.tnc_620.cycles.addresses import angle, choice, length
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.probing import addresses, aimed, taken_over
 from mnclab.controls.tnc_620.probing.aimed import Finding, Floats, Found, Given, Judged
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle
 from mnclab.controls.tnc_620.probing.line import line_results, no_line
+from mnclab.controls.tnc_620.probing.rotation import circle
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import REWORK, SCRAP
-from mnclab.machining.probing import fits
 from mnclab.machining.probing.sequences import Approach, around
 from mnclab.machining.probing.sketches import round_sketch
 from mnclab.machining.steps import Say
@@ -75,25 +75,24 @@ class ProbingTwoCircles(ProbingCycle):
                 yield name, "and its center must both have an actual value (@), or none"
 
     def find(self, m: Machine, a: Approach, k: int, where: Floats, rise: float) -> Finding:
+        """Circle number k."""
         x, y, z = where.tolist()
         a, hole = replace(a, level=z), HOLES[int(self.geometry_type)][k]
         radius, now = (aimed.nominal(self, m, DIAMETERS[k]).value or 0.0) / 2, rise
         if hole:
             if radius < a.away:
-                clear = radius - a.ball - m.tables.probe.clearance
-                yield Say(f"keeps a set-up clearance of {clear:.3f} only: the touches of hole {k + 1} begin in its center")
+                yield Say(f"begins in the center of hole {k + 1}: a clearance of {radius - a.ball:g} is possible, not {a.gap:g}")
             yield from aimed.arrive(a, k, x, y, a.pole, rise)
             now = math.inf
         count, over = int(self.number_of_probe_points), self.angular_length
         step = over / (count if abs(over) == 360 else count - 1)
         contacts = yield from around(a, (x, y), radius, self.starting_angle, step, count, hole, now, arc=False, leave=False)
-        balls = needed(fits.circle, [each.point for each in contacts], "power", m=m, code=self.code)
-        found = balls.grown(a.ball if hole else -a.ball)
+        found = circle(self, m, contacts).grown(a.ball if hole else -a.ball)
         yield round_sketch((x, y), radius, found, z, contacts)
         return Found(np.array([found.x, found.y, z]), found.diameter, contacts)
 
     def moves(self, m: Machine) -> Moves:
-        found = yield from aimed.measure(self, m, apart=1)
+        found = yield from aimed.measure(self, m, 1, ProbingTwoCircles.find)
         nominal = aimed.means(aimed.nominals(self, m), found)
         judged, results = aimed.judge_places(self, m, found), dict[int, float]()
         for k, (one, hole) in enumerate(zip(found, HOLES[int(self.geometry_type)], strict=True)):
