@@ -155,7 +155,9 @@ def test_a_pocket_and_its_part_in_true_size():
     part = box((0, 0, -20), (100, 60, 0)) - pocket((50.1, 29.9, 0), 40.3, 23.9, 10, corner=5)
     picture = toy_run("M2 X50 Y30 U40 V24 Z-5", part).plot_measured()
     (ax,) = picture.axes
-    outline = [path for each in ax.collections for path in each.get_paths() if len(path) > 100]
-    assert outline and picture.png()[:4] == b"\x89PNG"
+    drawn = [path for each in ax.collections for path in each.get_paths() if path.get_extents().width > 99]
+    outer, inner = (np.abs((x[:-1] * y[1:] - x[1:] * y[:-1]).sum() / 2) for x, y in (p.T for p in drawn[0].to_polygons()))
+    assert (outer, inner) == pytest.approx((100 * 60, 40.3 * 23.9 - (4 - np.pi) * 5**2), abs=1)  # its corners are chords
+    assert picture.png()[:4] == b"\x89PNG"
     bare = toy_run("M2 X50 Y30 U40 V24 Z-5", part).plot_measured(part=False)
     assert len(bare.axes[0].collections) < len(ax.collections)
