@@ -7,8 +7,10 @@ from dataclasses import dataclass, fields
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, shown
 from mnclab.text.records import written
+from mnclab.workpiece.part import Part, cylinder
 
 AXES = ("", "X", "Y")
+THICK = 10.0  # mm, of the body of a plate
 Place = tuple[float, float, float]
 
 
@@ -46,6 +48,12 @@ class Setter:
         """Where it truly is."""
         dx, dy, dz = self.off
         return self.x + dx, self.y + dy, self.z + dz
+
+    @property
+    def part(self) -> Part | None:
+        """The plate as a body where it truly is, for pictures and among the fixtures; a beam has none."""
+        x, y, z = self.place
+        return None if self.axis else cylinder((x, y, z - THICK), (x, y, z), self.radius)
 
     @property
     def radius(self) -> float:

@@ -91,12 +91,15 @@ class Felt(NamedTuple):
 
 
 def felt(run: Any) -> Felt | None:
-    """What the probe of a run meets; None where nothing is to be touched."""
-    if run.setup.part is None:
-        return None
+    """What the probe of a run meets, or the tool setter where tools are measured; None where nothing is to be touched."""
+    setup, measured = run.setup, (run.toolpath.kind == Kind.PROBE).any()
+    part = setup.part if isinstance(setup.part, Part) else None  # what is cut is shown as the blank is
+    if setup.part is None:
+        part = setup.setter.part if setup.setter and measured else None
+        if part is None:
+            return None
     origin = np.array(run.toolpath.origin, dtype=float)
     places = np.array([touch.surface for touch in run.touches], dtype=float).reshape(-1, 3) - origin
-    part = run.setup.part if isinstance(run.setup.part, Part) else None  # what is cut is shown as the blank is
     return Felt(part, origin, places, _rows(run, origin), _texts(run))
 
 

@@ -230,3 +230,10 @@ def test_nonsense_of_a_setter_is_an_alarm(wrong, sentence):
 def test_a_setup_takes_nothing_else():
     with pytest.raises(mnc.Alarm, match="setter must be a Setter, got 3"):
         mnc.Setup(setter=3)
+
+
+def test_a_plate_is_a_body_and_a_beam_is_none():
+    """What a picture shows and a collision meets: 1 mm above it nothing, in the middle of its 10 mm material."""
+    assert BEAM.part is None
+    part = mnc.Setter(x=10, y=20, z=-30, diameter=16, off=(1, 0, 0)).part
+    assert part([(11, 20, -29), (11, 20, -35), (20, 20, -35)]).tolist() == pytest.approx([1, -5, 1])

@@ -11,13 +11,12 @@ from collections.abc import Generator, Iterator
 from dataclasses import replace
 from typing import Any, ClassVar
 
-from mnclab.controls.mnc.probing import addresses
+from mnclab.controls.mnc.probing import addresses, protocol
 from mnclab.controls.mnc.probing.cycle import Moves
 from mnclab.controls.mnc.state import memory
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import DIGITS
-from mnclab.machine.output import FILE
 from mnclab.machine.settings import Setting
 from mnclab.machine.tool_setting import BEAM, SETS, row_of, unfit, written
 from mnclab.machining.steps import RAPID, Go, Measure, Pause, Say, Spin, Step, Touch, Write
@@ -34,7 +33,6 @@ SETTINGS = (
     Setting("spindle_max", 12000.0, "speed at which tools are measured", "12.30", {}, "rev/min", 1),
 )  # fmt: skip
 FRAMES = ("base rotation", "scaling", "mirror")
-FOLDER = "meas_prot"
 ALL = ("laser_z", "laser_x", "laser_y", "laser_axis")
 Height = Generator[Step, Any, float]
 
@@ -280,5 +278,4 @@ def learned(m: Machine, **found: float) -> Iterator[Step]:
 def report(m: Machine, code: str, values: dict[str, float]) -> Iterator[Step]:
     """The report of G470 in the folder of measurement protocols (MNC-PROT-G470)."""
     lines = [f"{name} = {value:.{DIGITS}f}" for name, value in values.items()]
-    number = 1 + sum(name.startswith(f"{FILE}{FOLDER}/") for name in m.logs.by_name)
-    yield Write("file", "\n".join([f"cycle = {code}", *lines, ""]), f"{FOLDER}/{code}_{number:04d}.txt")
+    yield Write("file", "\n".join([*protocol.head(m, code), *lines, ""]), protocol.name(m, code))
