@@ -149,6 +149,11 @@ def test_what_makes_no_sense_is_refused(measured, options, said):
 def test_without_a_touch_there_is_no_picture():
     with pytest.raises(Alarm, match="nothing was measured"):
         mnclab.run("G0 X1\n", "mnc").plot_measured()
+    tool, plate = mnclab.Tool(radius=5, length=80), mnclab.Setter(z=-50)
+    setup = mnclab.Setup(tools={1: tool}, setter=plate, settings={"tt_calibrated": True})
+    found = mnclab.run("TOOL CALL 1 Z\nTCH PROBE 481 Q340=2 Q260=+0 Q341=0\n", "tnc-620", setup)
+    with pytest.raises(Alarm, match="run.measurements has the tools"):
+        found.plot_measured()
 
 
 def test_a_pocket_and_its_part_in_true_size():

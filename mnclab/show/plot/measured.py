@@ -51,7 +51,7 @@ def plot_measured(
     - `part`: the part itself behind them, in true size, as a section at the height of the touches.
     - `width` of the picture in inches.
 
-    Number 1 is `run.touches[0]`. An Alarm where nothing was measured.
+    Number 1 is `run.touches[0]`. An Alarm where no part was measured.
     """
     if line is not None:
         line = whole(line, "the line")
@@ -61,7 +61,8 @@ def plot_measured(
         raise Alarm(f"part must be True or False, got {shown(part)}")
     check_number(width, "the width of a picture (inches)", at_least=3, at_most=40)
     if not run.touches and not run.figures:
-        raise Alarm("nothing was measured", hint="touch probe cycles measure, with Setup(part=…)")
+        hint = "run.measurements has the tools" if run.measurements else "touch probe cycles measure, with Setup(part=…)"
+        raise Alarm("nothing was measured on a part", hint=hint)
     found, more = panels(run, line, factor, MOST)
     if not found:
         lines = ", ".join(map(str, sorted({each.line for each in (*run.touches, *run.figures)})[:MOST]))
