@@ -205,10 +205,11 @@ def guarded(m: Machine, part: Part, target: Point, feed: float | None) -> None:
     start, goal = np.array(m.tip), np.array(m.to_machine(target))
     way = float(np.linalg.norm(goal - start))
     if way > 0:
-        ball, direction = true_ball(m, m.radius), (goal - start) / way
+        ball, direction = true_ball(m, m.tool.effective_radius), (goal - start) / way
         begin, radius = start + ball.beside, max(ball.radius - DEEP - slack(m), DEEP)
         end = begin + direction * way
-        free = None if is_free(part, begin, end, radius) else contact(part, begin, direction, radius, way)
+        few = part.at_once < PLACES  # places at once, where each takes long: the ball is traced
+        free = None if not few and is_free(part, begin, end, radius) else contact(part, begin, direction, radius, way)
         stem = stem_meets(m, part, ball, begin, end)
         stopped = min((each for each in (free, stem) if each is not None), default=None)
         if stopped is not None:
@@ -228,7 +229,7 @@ def guarded_turn(m: Machine, part: Part, centre: tuple[float, float], angle: flo
     count = 2 + math.ceil(abs(angle) * float(np.linalg.norm(spoke)) / ALONG)
     turns = np.linspace(0.0, angle, min(count, 4000))
     places = np.column_stack([turned(np.broadcast_to(spoke, (len(turns), 2)), turns) + centre, np.full(len(turns), start[2])])
-    ball = true_ball(m, m.radius)
+    ball = true_ball(m, m.tool.effective_radius)
     centres = np.array([m.to_machine(place) for place in places.tolist()]) + ball.beside
     hit = np.flatnonzero(part(centres) < ball.radius - DEEP - slack(m))
     if len(hit):

@@ -23,12 +23,13 @@ if TYPE_CHECKING:
 
 #: What a cycle does (`Cycle.does`), as far as its frame must care.
 VISITS, MILLS, TAPS, MILLS_THREADS, SHIFTS = "visits points", "mills", "taps", "mills threads", "shifts a boring bar"
+NOTHING = "moves nothing"
 SAME = 1e-9
 
 
 def faults(does: str, m: Machine) -> Iterator[str]:
     """Why a cycle that does this cannot run under the frame of the machine: the end of a sentence."""
-    if m.shift is not None:
+    if m.shift is not None or does == NOTHING:
         return
     if is_upside_down(m):
         yield "cannot run under a mirror image of Z: it would work from below the table"

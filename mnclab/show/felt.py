@@ -91,11 +91,11 @@ class Felt(NamedTuple):
 
 
 def felt(run: Any) -> Felt | None:
-    """What the probe of a run meets, or the plate where tools are measured; None where nothing is to be touched."""
-    part = run.setup.part if isinstance(run.setup.part, Part) else None  # what is cut is shown as the blank is
-    if run.setup.part is None:
-        setter = run.setup.setter if (run.toolpath.kind == Kind.PROBE).any() else None
-        part = setter and setter.part
+    """What the probe of a run meets, or the tool setter where tools are measured; None where nothing is to be touched."""
+    setup, measured = run.setup, (run.toolpath.kind == Kind.PROBE).any()
+    part = setup.part if isinstance(setup.part, Part) else None  # what is cut is shown as the blank is
+    if setup.part is None:
+        part = setup.setter.part if setup.setter and measured else None
         if part is None:
             return None
     origin = np.array(run.toolpath.origin, dtype=float)

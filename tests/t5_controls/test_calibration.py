@@ -297,6 +297,18 @@ def test_fast_probing_orients_the_probe():
         assert (run.toolpath.kind == Kind.SPINDLE).sum() == turns
 
 
+@pytest.mark.parametrize("log", [0, 1, 2])
+@pytest.mark.parametrize("interruption", ["", "Q400=0\n", "Q400=1\n"])
+def test_fast_probing_says_whether_results_are_shown(log, interruption):
+    """Q400 = 1: with any Q281; Q400 = 0: with none; else with Q281 = 2. The file of Q281 = 1 is written in any case."""
+    measure = f"TCH PROBE 427 M\nQ263=0\nQ264=0\nQ261=5\nQ320=0\nQ272=3\nQ267=-1\nQ260=20\nQ281={log}\n"
+    measure += "Q288=0\nQ289=0\nQ309=0\nQ330=0\n"
+    run = klartext(f"TCH PROBE 441 F\nQ399=0\n{interruption}{measure}", parts.plane((0, 0, 5), (0, 0, 1)), (0, 0, 12))
+    shown = interruption == "Q400=1\n" or not interruption and log == 2
+    assert run.ok and (Kind.STOP in run.toolpath.kind) == ("SCREEN:" in run.files) == shown
+    assert ("TCHPR427.TXT" in run.files) == (log == 1)
+
+
 def test_the_end_of_a_program_ends_fast_probing():
     """END PGM of a program that was called too (17.10)."""
     called = "BEGIN PGM SUB MM\nTCH PROBE 441 F\nQ396=800\nQ397=0\nQ399=0\nQ400=0\nEND PGM SUB MM\n"

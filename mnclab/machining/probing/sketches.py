@@ -45,18 +45,9 @@ def round_sketch(centre: Pair, radius: float, found: Circle, height: float, cont
     return _sketch(Contour.circle(centre, radius), Contour.circle(found.centre, found.radius), height, contacts)
 
 
-def box_sketch(centre: Pair, sides: Pair, found: Rectangle, height: float, contacts: Sequence[Any]) -> Sketch:
-    """A pocket or stud, whose sides lie along the axes."""
-    return _sketch(_box(centre, sides), _box((found.x, found.y), (found.length, found.width)), height, contacts)
-
-
 def line_sketch(nominal: Sequence[Pair], found: Sequence[Pair], height: float, contacts: Sequence[Any]) -> Sketch:
     """A line through points: an edge, or from wall to wall of a slot or ridge."""
     return _sketch(Contour(nominal, closed=False), Contour(found, closed=False), height, contacts)
-
-
-def _box(centre: Pair, sides: Pair) -> Contour:
-    return Contour(np.array(centre) + np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) * np.array(sides) / 2)
 
 
 def _sketch(nominal: Contour, found: Contour, height: float, contacts: Sequence[Any]) -> Sketch:

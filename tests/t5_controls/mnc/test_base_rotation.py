@@ -103,6 +103,7 @@ def test_it_stands_under_scaling_and_mirror_image():
     """G404 allows them: (10, 0) becomes (20, 0), then (-20, 0), then turned by 90."""
     end, _ = place("G54 G37 X2 Y2\nG51 X0\nG404 E90\nG0 X10 Y0 Z0\n")
     assert end == near(100, 30, -20)
+    assert run("G54 G51 X0 Z0\nG404 E90\n", datums=ROWS).ok
 
 
 def test_history_stages_and_a_start_in_the_middle_know_it():

@@ -11,7 +11,8 @@ import pytest
 from probed import gaps
 from probing_mnc import DATUM, at, box, disc, examples, feature, measured, near, probes, to_round, to_wall, walls
 
-from mnclab import Kind, Probe, Tool
+import mnclab
+from mnclab import Kind, Probe, Setup, Tool
 from mnclab.workpiece import part as parts
 
 HERE = (*(f"G{n}" for n in range(420, 427)), "G490", "G491", "G492", "G499")
@@ -432,3 +433,36 @@ def test_the_machine_refuses(name):
     run = measured(program, part, **more)
     assert not run.ok and message in run.alarms[0].message
     assert run.alarms[0].span[:2] == (len(program.splitlines()) + 2, 1)
+
+
+def test_a_scale_does_not_change_the_ball():
+    """G490 under G37 X2: the ball of 3 stops at X 97 of the machine's axes, which is X 48.5 of the program."""
+    run = measured("G37 X2 Y2 Z1\nG490 X60\n", parts.plane((100, 0, 0), (-1, 0, 0)), before="T20\nG54 G0 X0 Y0 Z50\n")
+    assert "path obstructed" in run.alarms[0].message and run.toolpath.end[-1][0] == pytest.approx(97, abs=1e-4)
+
+
+@pytest.mark.parametrize("code", ["G421", "G423"])
+def test_measuring_under_a_rotation(code):
+    """G39 turns the program by 30 degrees: the figure that lies along its axes has its own place and sizes there."""
+    centre = 12.03, 4.98
+    words, figure = ("D30", disc(centre, 30.02, inside=False))
+    if code == "G423":
+        words, figure = ("A40 B30", box(centre, (40.02, 29.97), inside=False))
+    part = figure.placed(at((0, 0, 0), 30))
+    run = measured(f"G39 A30\nG0 X12 Y5\n{code} X12 Y5 {words} Z-8 H20 P1\n", part)
+    assert run.ok, run.alarms
+    expected = {"Q314": 12.03, "Q315": 4.98} | ({"Q318": 30.02} if code == "G421" else {"Q316": 40.02, "Q317": 29.97})
+    found(run, **expected)
+
+
+def test_what_was_cut_is_measured():
+    """A pocket of diameter 30 that the program has milled: exactly that."""
+    mill = Tool(radius=5, length=100, kind="mill", plunge_angle=3, centre_cutting=True)
+    setup = Setup(
+        tools={1: mill, 20: Tool(radius=3, length=150, kind="probe")}, datums={1: DATUM}, part="cut",
+        stock=((270, 170, -430), (330, 230, -400)), probe=Probe(clearance=2, reach=20),
+    )  # fmt: skip
+    text = "T1 S2000 M3\nG54 G90 G0 X0 Y0 Z50\nG344 M0 D30 Z0 H-12 P6 Q2 I5 K1 J0 F500 V150 L1 T500\nG0 Z50 M5\nT20\n"
+    run = mnclab.run(f"{text}G421 X0 Y0 D30 Z-5 H20\n", "mnc", setup)
+    assert run.ok, run.alarms
+    found(run, Q314=0, Q315=0, Q318=30)

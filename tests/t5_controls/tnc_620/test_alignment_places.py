@@ -264,15 +264,18 @@ def test_actual_positions_are_not_touched():
 
 
 def test_the_operator_puts_the_probe_where_a_question_is():
-    """From (5, -3) and (85, -3) where the ball's center was put: only X has nominal values, so only X corrects the preset."""
-    texts = {"QS1100": '"?10"', "QS1101": '"?"', "QS1102": '"?"', "QS1103": '"?50"', "QS1104": '"?"', "QS1105": '"?"'}
-    values = texts | {key: value for key, value in EDGE.items() if not key.startswith("Q110")} | {"Q1121": 0}
-    hands = {1: (5, -3, -6), 2: (85, -3, -6)}
+    """The left edge, 10 by its drawing: only X has nominal values, so only X corrects the preset (contacts as with 400)."""
+    texts = {"QS1100": '"?10"', "QS1101": '"?"', "QS1102": '"?"', "QS1103": '"?10"', "QS1104": '"?"', "QS1105": '"?"'}
+    values = texts | {key: value for key, value in EDGE.items() if not key.startswith("Q110")} | {"Q372": 1, "Q1121": 0}
+    hands = {1: (-5, 10, -6), 2: (-4.5, 50, -6)}
     found = run(cycle(1410, values), plate(), settings={"manual_points": hands})
     assert [t.start for t in found.touches] == [pytest.approx(np.add(PRESET, hands[k]), abs=1e-9) for k in (1, 2)]
-    assert [found.variables[q] for q in ("Q950", "Q980", "Q981", "Q982", "Q984")] == pytest.approx([5, -5, 0, 0, 0], abs=1e-9)
-    assert found.tables.presets[1] == pytest.approx((95, 200, -300, 0, 0, 0, 0, 0, 0), abs=1e-9)
-    assert ends(found)[-1][2] == -8  # no way back to the clearance height: the program sees to that
+    contacts = example("TCH PROBE 400", 2)[1]["touches"]
+    first, second = (contact["measured"][0] for contact in contacts)
+    results = {"Q950": first, "Q951": 10, "Q952": -6, "Q953": second, "Q980": first - 10, "Q981": 0, "Q982": 0, "Q984": 0}
+    same_results(found, results | {"Q964": 91.5, "Q994": 1.5})
+    assert found.tables.presets[1] == pytest.approx((100 + first - 10, 200, -300, 0, 0, 0, 0, 0, 0), abs=CLOSE)
+    assert ends(found)[-1] == pytest.approx((-4.5, 50, -8))  # no way back to the clearance height: the program sees to that
     refused = run(cycle(1410, values), plate())
     assert "asks for a position (?): the setting manual_points says it, {1: (x, y, z)}" in refused.alarms[0].message
 
@@ -294,8 +297,8 @@ def test_an_inch_program_has_its_texts_and_results_in_inches():
     import mnclab
     from tests.alignment import setup
 
-    values = {name: value / 25.4 if name in ("Q1103", "Q1105", "Q260", "Q320") else value for name, value in EDGE.items()}
-    values |= {"Q1120": 0, "Q1121": 0}
+    lengths = ("Q1103", "Q1105", "Q260", "Q320")
+    values = {name: value / 25.4 if name in lengths else value for name, value in EDGE.items()} | {"Q1120": 0, "Q1121": 0}
     texts = {"Q1100": ("QS1100", f'"{10 / 25.4:.12f}+0.01"'), "Q1102": ("QS1102", f'"{-5 / 25.4:.12f}"')}
     named = dict(texts.get(name, (name, value)) for name, value in values.items())
     text = f"BEGIN PGM P INCH\nTOOL CALL 7 Z\nL Z+4 R0 FMAX\n{cycle(1410, named)}\nEND PGM P INCH\n"
@@ -341,5 +344,20 @@ def test_a_hole_that_is_too_small_for_the_clearance():
         "Q423": 4, "Q325": 0, "Q1119": 360, "Q320": 0, "Q260": 20, "Q1125": 1, "Q309": 0, "Q1126": 0, "Q1120": 0, "Q1121": 0,
     }  # fmt: skip
     found = run(cycle(1411, values), bored((10.2, 0.1, 7.04), (40, 0, 20)))
-    assert "begins in the center of hole 1: a clearance of 1.5 is possible, not 2" in found.alarms[0].message and len(found.alarms) == 1
+    (warning,) = found.alarms
+    assert "begins in the center of hole 1: a clearance of 1.5 is possible, not 2" in warning.message
     assert found.variables["Q966"] == pytest.approx(7.04, abs=1e-9)
+
+
+def test_1411_where_the_operator_chooses_the_center_of_a_hole():
+    """A question in X: the touches lie about the place by hand, and X as it is found becomes nominal."""
+    values = {
+        "QS1100": '"?"', "Q1101": 0, "Q1102": -5, "Q1116": 20, "Q1103": 60, "Q1104": 0, "Q1105": -5, "Q1117": 20, "Q1115": 0,
+        "Q423": 3, "Q325": 0, "Q1119": 360, "Q320": 0, "Q260": 20, "Q1125": 1, "Q309": 0, "Q1126": 0, "Q1120": 1, "Q1121": 0,
+    }  # fmt: skip
+    found = run(cycle(1411, values), bored((13, 0.5, 20), (60, 0, 20)), settings={"manual_points": {"1": [12.8, 0.4, -6]}})
+    assert found.ok, found.alarms
+    results = {"Q950": 13, "Q951": 0.5, "Q952": -6, "Q980": 0, "Q981": 0.5, "Q982": -1}
+    assert {q: found.variables[q] for q in results} == pytest.approx(results, abs=1e-9)
+    assert found.tables.presets[1][:3] == pytest.approx((100, 200.5, -301), abs=1e-9)
+    assert found.touches[0].start == pytest.approx((112.8 + 10 - 4, 200.4, -306), abs=1e-9)

@@ -248,8 +248,8 @@ def test_1411(seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_1420(seed):
-    """Planes that are nearly level, and walls: spatial angles by the turns about the fixed axes X, then Y; Z of the blocks after
-    it is square to a plane that should be level."""
+    """Planes that are nearly level, and walls: spatial angles by the turns about the fixed axes X, then Y; where the rotation is
+    taken over, a block after it along the normal that the plane should have runs along that of the plane."""
     draw = np.random.default_rng(seed).uniform
     number = (-3, -3, -3, 1, -1, 2, -2)[seed % 7]
     axis, sense = abs(number) - 1, math.copysign(1, number)
@@ -267,8 +267,10 @@ def test_1420(seed):
     part = plane(np.add(PRESET, through), normal)
     q = {f"Q{1100 + k}": value for k, value in enumerate(places.ravel().tolist())}
     rest = {"Q372": number, "Q320": clearance, "Q260": 60, "Q1125": 2, "Q309": 0, "Q1126": 0, "Q1120": 1}
-    rest["Q1121"] = int(number == -3)
-    away = np.array((0, 0, 90) if number == -3 else -30 * way)
+    rest["Q1121"] = int(seed % 2 or number == -3)
+    level = np.cross(places[1] - places[0], places[2] - places[0])
+    level *= -math.copysign(1 / np.linalg.norm(level), level @ way)  # the normal that the plane should have
+    away = level * (90 if number == -3 else 30)
     after = "\nL " + " ".join(f"{a}{v:+.9f}" for a, v in zip("XYZ", places[0] + away, strict=True)) + " R0 FMAX"
     start = np.add(PRESET, through + (-way * 60 if axis < 2 else (0, 0, 80)))
     before = "" if axis < 2 else "L Z+100 R0 FMAX"
@@ -284,5 +286,5 @@ def test_1420(seed):
     up = normal * math.copysign(1, normal[2])
     spatial = (math.degrees(math.asin(-up[1])), math.degrees(math.atan2(up[0], up[2])), 0)
     assert [found.variables[f"Q{961 + k}"] for k in range(3)] == pytest.approx(spatial, abs=ANGLE)
-    ahead = 90 * normal if number == -3 else away
+    ahead = normal * np.linalg.norm(away) if rest["Q1121"] else away
     assert found.toolpath.end[-1] == pytest.approx(touched[0] + ahead, abs=LENGTH)

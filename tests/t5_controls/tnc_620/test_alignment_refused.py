@@ -87,6 +87,7 @@ RULES = [
     (1410, {"QS1102": '"?5@5"'}, "QS1102", "asks for a position (?) and gives it (@) in one"),
     (1410, {"QS1102": '"-5@Q1901"'}, "QS1102", "takes its actual value from Q1901, which has none"),
     (1410, {"QS1102": '"-100000"'}, "QS1102", SIGNED),
+    *((1410, {"QS1102": f'"-5{more}{"9" * 150}"'}, "QS1102", SIGNED) for more in ("+", "-", "@", "")),
     (1410, {"QS1100": '"10@10.1"'}, "Q1101", "needs an actual value (@) as the others of the point"),
     (1420, {"QS1107": '"50@50.1"'}, "Q1106", "needs an actual value (@) as the others of the point"),
     (1410, {"QS1101": '"?"'}, "QS1101", ASKED),
@@ -135,6 +136,12 @@ def test_what_is_in_the_spindle_and_what_is_active(number):
     refused(number, "cannot run while a rotation is active", "", before="CYCL DEF 10.0 X\nCYCL DEF 10.1 ROT+5")
     tilted = run(cycle(number, VALUES[number]), plate(), "L Z+100 R0 FMAX\nPLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY")
     assert any("cannot run while a tilt is active" in a.message for a in tilted.alarms) == (number < 1000)
+
+
+@pytest.mark.parametrize("number", [400, 401, 402])
+def test_a_preset_that_is_tilted(number):
+    message = "cannot set a basic rotation where the active preset is tilted (SPA, SPB)"
+    refused(number, message, "", presets={1: Datum(*PRESET, tilt_x=1)})
 
 
 def test_404_under_a_transformation():
@@ -190,3 +197,20 @@ def test_a_basic_rotation_is_reset_even_where_the_touch_fails():
     """400 resets it at its beginning: then the alarm, and the row stays without it."""
     found = run(cycle(400, VALUES[400]), FAR, presets={1: Datum(*PRESET, rotation=7)})
     assert not found.ok and found.tables.presets[1].rotation == 0
+
+
+def test_no_text_raises_anything_but_an_alarm():
+    """Three thousand texts of the characters that these texts are made of: each is read, or refused at its word."""
+    import numpy as np
+
+    from mnclab.controls.tnc_620.probing.nominal import read
+
+    random = np.random.default_rng(5)
+    for _ in range(3000):
+        text = "".join(random.choice(list("?@+-.,0159Qq e"), random.integers(0, 12)))
+        try:
+            found = read(text, {"Q1900": 3.0}, 25.4)
+        except ValueError as fault:
+            assert str(fault)
+        else:
+            assert found.asked if found.value is None else found.lower <= found.mean <= found.upper

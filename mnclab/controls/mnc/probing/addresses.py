@@ -8,6 +8,10 @@ from typing import Any
 from mnclab.controls.mnc.cycles.addresses import choice, kind
 from mnclab.machine.cycle import param
 
+#: Names of parameters that follow each other in many cycles.
+APPROACH = "clearance level height"
+TOP = "apply probe_z z_probe_x z_probe_y z_probe_z z_new"
+
 PLANE_AXES: dict[float, str] = {1: "X", 2: "Y"}
 SENSE: dict[float, str] = {-1: "negative", 1: "positive"}
 BETWEEN: dict[float, str] = {0: "at the measuring height", 1: "at the safe height"}
@@ -22,6 +26,8 @@ turn = kind("deg", at_least=-360, at_most=360)
 angle = kind("deg", default=0, at_least=-360, at_most=360)
 count = kind("count", type="integer", at_least=0, default=0)
 
+x = partial(coordinate, "X", meaning="X of the centre", example=50)
+y = partial(coordinate, "Y", meaning="Y of the centre", example=30)
 clearance = partial(length, "Q", "extra clearance", 0, default=0, note="added to PR_CLR of the probe table")
 level = partial(coordinate, "Z", "measuring height of the ball's centre", -8)
 height = partial(coordinate, "H", "safe height", 20)
@@ -35,13 +41,13 @@ def between(address: str | tuple[str, ...] = "P") -> Any:
 axis = partial(choice, "L", meaning="measuring axis", choices=PLANE_AXES, example=1)
 row = partial(count, "W", "row of the datum table", 0, note="0: it is not saved")
 direction = partial(choice, "K", meaning="direction of measuring", choices=SENSE, example=1)
-width = partial(kind(at_least=0), "D", example=20)
+width = partial(kind(at_least=0), "D", meaning="nominal width", example=20)
 diameter = partial(size, "D", "nominal diameter", 30)
 length_x = partial(size, "A", "nominal length along X", 80)
 length_y = partial(size, "B", "nominal length along Y", 50)
-new = partial(gets, meaning="coordinate of the centre in the new system", example=0)
-new_x = partial(gets, "U", "X of the point in the new system", 0)
-new_y = partial(gets, "V", "Y of the point in the new system", 0)
+new_coordinate = partial(gets, "U", meaning="coordinate of the centre in the new system", example=0)
+x_new = partial(gets, "U", "X of the point in the new system", 0)
+y_new = partial(gets, "V", "Y of the point in the new system", 0)
 apply = partial(choice, "S", meaning="apply the new coordinate system", choices=SWITCH, example=1, default=0)
 rotate = partial(choice, "E", meaning="compensate the turn of the part", choices=SWITCH, example=0, default=0, note="with S1")
 probe_z = partial(choice, "F", meaning="measure the datum along Z too", choices=SWITCH, example=0, default=0)

@@ -6,38 +6,37 @@ from collections.abc import Iterator
 from typing import ClassVar
 
 from mnclab.controls.mnc.probing import addresses
+from mnclab.controls.mnc.probing.addresses import APPROACH
 from mnclab.controls.mnc.probing.cycle import TURNS, MeasuringCycle, Moves, numbers, on_line, unplaced
 from mnclab.controls.mnc.probing.datum import base_rotation, store_angle, turn_base
 from mnclab.machine.cycle import CycleTable, Given, Values
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import VISITS
+from mnclab.machine.true_size import NOTHING
 from mnclab.machining.probing.fits import line, reduced
 from mnclab.machining.probing.sequences import Aim, in_plane
-from mnclab.machining.probing.sketches import line_sketch
+from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure, Say
 
-CYCLES = CycleTable()
+CYCLES = CycleTable(addresses=addresses)
 ASKEW = 45.0  # degrees: a side that lies farther off its line was probably measured against the wrong one
 
 
-@CYCLES("G400", "Align the plane to a straight side", runs="definition", source="MNC 12.1")
+@CYCLES(
+    "G400", "Align the plane to a straight side", runs="definition", source="MNC 12.1",
+    takes=f"x y x2 y2 axis direction {APPROACH} between reference_angle row",
+)  # fmt: skip
 class Alignment(MeasuringCycle):
     """Two touches of a side, without the base rotation; its angle to a reference line becomes the base rotation.
 
     The angle is that of a line without a direction (MNC-G400-UNDIRECTED); the datum point stays.
     """
 
-    refused: ClassVar[tuple[str, ...]] = TURNS
-
-    x: float = addresses.coordinate("X", "X of the first point", 20)
-    y: float = addresses.coordinate("Y", "Y of the first point", 0)
+    refused = TURNS
+    x: float = addresses.x(meaning="X of the first point", example=20)
+    y: float = addresses.y(meaning="Y of the first point", example=0)
     x2: float = addresses.coordinate("U", "X of the second point", 80)
     y2: float = addresses.coordinate("V", "Y of the second point", 0)
     axis: float = addresses.axis(example=2)
-    direction: float = addresses.direction()
-    clearance: float = addresses.clearance()
-    level: float = addresses.level()
-    height: float = addresses.height()
     between: float = addresses.between(("P", "R"))
     reference_angle: float = addresses.angle("E", "angle of the reference line to X", 0)
     row: float = addresses.row(note="gets the angle; 0: it is not saved")
@@ -63,7 +62,7 @@ class Alignment(MeasuringCycle):
         side = line([contact.point[:2] for contact in contacts]).towards(way, a.ball)
         angle = side.angle % 180 if self.axis == 1 else reduced(side.angle)
         turned = reduced(angle - self.reference_angle)
-        yield line_sketch(points, on_line(side, contacts), a.level, contacts)
+        yield sketch(points, on_line(side, contacts), a.level, numbers(contacts))
         yield Measure("angle", angle, self.reference_angle, unit="deg", touches=numbers(contacts))
         yield Measure("base rotation", turned, unit="deg")
         if abs(turned) > ASKEW:
@@ -76,7 +75,7 @@ class Alignment(MeasuringCycle):
 class BaseRotation(MeasuringCycle):
     """The given angle replaces the base rotation; nothing moves, and no probe is needed. E0 cancels it."""
 
-    does: ClassVar[str] = VISITS
+    does: ClassVar[str] = NOTHING
 
     angle: float = addresses.turn("E", "angle of the base rotation", 30)
     row: float = addresses.row(note="gets the angle; 0: it is not saved")

@@ -8,50 +8,39 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import ClassVar
 
 from mnclab.controls.mnc.probing import addresses
+from mnclab.controls.mnc.probing.addresses import APPROACH, TOP
 from mnclab.controls.mnc.probing.cycle import TURNS, MeasuringCycle, Moves, numbers, on_line
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machining.probing.fits import corner, line, reduced
 from mnclab.machining.probing.sequences import Aim, Approach, Pair
 from mnclab.machining.probing.sequences import corner as corner_touches
-from mnclab.machining.probing.sketches import line_sketch
+from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure
 from mnclab.text.alarm import Alarm
 
-CYCLES = CycleTable()
+CYCLES = CycleTable(addresses=addresses)
+CORNER = f"{APPROACH} between rotate row x_new y_new {TOP}"
 CORNERS: dict[float, str] = {1: "lower left", 2: "lower right", 3: "upper right", 4: "upper left"}
 INTO: dict[float, Pair] = {1: (1, 1), 2: (-1, 1), 3: (-1, -1), 4: (1, -1)}  # from the corner into the pocket
 
 
-@CYCLES("G414", "Datum at an outside corner", runs="definition", source="MNC 12.9")
+@CYCLES(
+    "G414", "Datum at an outside corner", runs="definition", source="MNC 12.9",
+    takes=f"x y distance_12 x3 y3 distance_34 {CORNER}",
+)  # fmt: skip
 class DatumAtOutsideCorner(MeasuringCycle):
     """Two touches of each side; points 1 and 3 say which corner is meant. It gets the coordinates U and V."""
 
-    refused: ClassVar[tuple[str, ...]] = TURNS
-
-    x: float = addresses.coordinate("X", "X of the first point", 20)
-    y: float = addresses.coordinate("Y", "Y of the first point", 0)
+    refused = TURNS
+    x: float = addresses.x(meaning="X of the first point", example=20)
+    y: float = addresses.y(meaning="Y of the first point", example=0)
     distance_12: float = addresses.spacing("A", "distance from point 1 to 2 along X", 60)
     x3: float = addresses.coordinate("C", "X of the third point", 0)
     y3: float = addresses.coordinate("D", "Y of the third point", 15)
     distance_34: float = addresses.spacing("B", "distance from point 3 to 4 along Y", 30)
-    clearance: float = addresses.clearance()
-    level: float = addresses.level()
-    height: float = addresses.height()
-    between: float = addresses.between()
-    rotate: float = addresses.rotate()
-    row: float = addresses.row()
-    x_new: float = addresses.new_x()
-    y_new: float = addresses.new_y()
-    apply: float = addresses.apply()
-    probe_z: float = addresses.probe_z()
-    z_probe_x: float | None = addresses.z_probe_x()
-    z_probe_y: float | None = addresses.z_probe_y()
-    z_probe_z: float | None = addresses.z_probe_z()
-    z_new: float = addresses.z_new()
 
     @property
     def senses(self) -> Pair:
@@ -85,31 +74,19 @@ class DatumAtOutsideCorner(MeasuringCycle):
         yield from corner_datum(self, m, a, first, second, nominal)
 
 
-@CYCLES("G415", "Datum at an inside corner", runs="definition", source="MNC 12.10")
+@CYCLES(
+    "G415", "Datum at an inside corner", runs="definition", source="MNC 12.10",
+    takes=f"x y distance_12 distance_14 corner {CORNER}",
+)  # fmt: skip
 class DatumAtInsideCorner(MeasuringCycle):
     """Two touches of each side, the first and the third from one place (MNC-G415-B). The corner gets U and V."""
 
-    refused: ClassVar[tuple[str, ...]] = TURNS
-
-    x: float = addresses.coordinate("X", "X of the first point", 10)
-    y: float = addresses.coordinate("Y", "Y of the first point", 0)
+    refused = TURNS
+    x: float = addresses.x(meaning="X of the first point", example=10)
+    y: float = addresses.y(meaning="Y of the first point", example=0)
     distance_12: float = addresses.spacing("A", "distance from point 1 to 2 along X", 60)
     distance_14: float = addresses.spacing("B", "distance from point 1 to 4 along Y", 40)
     corner: float = addresses.choice("C", "number of the corner", CORNERS, 1)
-    clearance: float = addresses.clearance()
-    level: float = addresses.level()
-    height: float = addresses.height()
-    between: float = addresses.between()
-    rotate: float = addresses.rotate()
-    row: float = addresses.row()
-    x_new: float = addresses.new_x()
-    y_new: float = addresses.new_y()
-    apply: float = addresses.apply()
-    probe_z: float = addresses.probe_z()
-    z_probe_x: float | None = addresses.z_probe_x()
-    z_probe_y: float | None = addresses.z_probe_y()
-    z_probe_z: float | None = addresses.z_probe_z()
-    z_new: float = addresses.z_new()
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         yield from super().check(m)
@@ -143,7 +120,7 @@ def corner_datum(
     angle, touches = reduced(lines[0].angle), numbers(contacts)
     ends = [on_line(side, pair)[1] for side, (pair, _) in zip(lines, pairs, strict=True)]
     actual = ends[0], (found.x, found.y), ends[1]
-    yield line_sketch(nominal or actual, actual, a.level, contacts)
+    yield sketch(nominal or actual, actual, a.level, touches)
     for name, value, k in (("X", found.x, 0), ("Y", found.y, 1)):
         yield Measure(f"corner {name}", value, nominal[1][k] if nominal else math.nan, touches=touches)
     yield Measure("angle", angle, 0.0, unit="deg", touches=touches[:2])

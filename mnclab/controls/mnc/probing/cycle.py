@@ -30,7 +30,15 @@ class MeasuringCycle(Cycle):
     does: ClassVar[str] = PROBES
     refused: ClassVar[tuple[str, ...]] = SCALES
     """Frames that must not be active."""
+    entered: ClassVar[tuple[str, ...]] = ()
+    """The sizes of a figure that the ball must enter."""
 
+    x: Any = 0.0  # some cycles can do without these three
+    y: Any = 0.0
+    width: Any = 0.0
+    diameter = length_x = length_y = 0.0
+    axis = direction = 1.0
+    x_new = y_new = new_coordinate = rotate = 0.0
     clearance = 0.0
     level = 0.0
     height = 0.0
@@ -57,6 +65,7 @@ class MeasuringCycle(Cycle):
             if name in m.frames:
                 yield "", f"cannot run while a {name} is active"
         yield from self.low(self.approach(m))
+        yield from self.fits(m, **{name: getattr(self, name) for name in self.entered})
 
     def about(self, m: Machine) -> tuple[float, float]:
         return 0.0, 0.0

@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Generator, Sequence
 from typing import Any
 
+from mnclab.controls.mnc.probing.cycle import numbers
 from mnclab.machine.touching import Contact
 from mnclab.machining.probing.fits import circle, rectangle
-from mnclab.machining.probing.found import Circle, Rectangle
+from mnclab.machining.probing.found import Circle, Rectangle, Width
 from mnclab.machining.probing.sequences import MINUS_X, MINUS_Y, OPPOSITE, Approach, Pair, X, Y, sides
-from mnclab.machining.probing.sketches import box_sketch, line_sketch, round_sketch
+from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Step
 
 Contacts = Sequence[Contact]
@@ -27,11 +28,10 @@ def middle(
     contacts = yield from sides(a, centre, (size / 2, size / 2), PAIRS[k], inside, now, each=False)
     ball = a.ball if inside else -a.ball
     high, low = contacts[0].point[k] + ball, contacts[1].point[k] - ball
-    walls = [(centre[0] + size / 2, centre[1]), (centre[0] - size / 2, centre[1])], [(high, centre[1]), (low, centre[1])]
-    if k:
-        walls = [(centre[0], centre[1] + size / 2), (centre[0], centre[1] - size / 2)], [(centre[0], high), (centre[0], low)]
-    yield line_sketch(*walls, a.level, contacts)
-    return (high + low) / 2, high - low, contacts
+    found = (high + low) / 2
+    x, y = (centre[0], found) if k else (found, centre[1])
+    yield sketch(Width(*centre, size), Width(x, y, high - low), a.level, numbers(contacts), 90 * k)
+    return found, high - low, contacts
 
 
 def box(
@@ -40,7 +40,7 @@ def box(
     """A rectangular pocket or island, its sides along the axes."""
     contacts = yield from sides(a, centre, (lengths[0] / 2, lengths[1] / 2), OPPOSITE, inside, now, each=False)
     found = rectangle([contact.point[:2] for contact in contacts]).grown(a.ball if inside else -a.ball)
-    yield box_sketch(centre, lengths, found, a.level, contacts)
+    yield sketch(Rectangle(*centre, *lengths), found, a.level, numbers(contacts))
     return found, contacts
 
 
@@ -50,5 +50,5 @@ def ring(
     """A bore or a boss."""
     contacts = yield from sides(a, centre, (diameter / 2, diameter / 2), OPPOSITE, inside, now, each=False)
     found = circle([contact.point[:2] for contact in contacts], "opposite").grown(a.ball if inside else -a.ball)
-    yield round_sketch(centre, diameter / 2, found, a.level, contacts)
+    yield sketch(Circle(*centre, diameter / 2), found, a.level, numbers(contacts))
     return found, contacts

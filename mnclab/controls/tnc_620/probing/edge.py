@@ -107,7 +107,7 @@ class ProbingInPlane(ProbingCycle):
         should: Plane = needed(fits.plane, nominal, m=m, code=self.code)
         angles = dict(zip((961, 962, 963), is_.spatial, strict=True))
         yield from aimed.report(self, m, found, nominal, aimed.judge_places(self, m, found), angles, {})
-        yield from taken_over.take_over(self, m, found, nominal, turn_between(should, is_), 0.0)
+        yield from taken_over.take_over(self, m, found, nominal, turn_between(should, is_), math.nan)
 
 
 def turn_between(first: Plane, second: Plane) -> Floats:

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from mnclab.controls.tnc_620.clock import time_of_day
 from mnclab.controls.tnc_620.probing.cycle import ProbingCycle
+from mnclab.controls.tnc_620.probing.fast_probing import shows_results
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import OK, SCRAP, judged
 from mnclab.machining.steps import Pause, Step, Write
@@ -54,12 +55,13 @@ class Value(NamedTuple):
 
 
 def logged(m: Machine, c: ProbingCycle, values: Sequence[Value], further: Mapping[str, float]) -> Iterator[Step]:
-    """Nothing with 0, a file with 1, and with 2 a window, while the program waits for NC start (Q281)."""
+    """Nothing with 0, a file with 1, and with 2 a window, while the program waits for NC start (Q281); or as cycle 441 says."""
     number, mode = c.code.split()[-1], c.measuring_log
-    if mode:
-        text = "\n".join([*lines(m, number, c.title, values, further), ""])
-        yield Write("file", text, f"TCHPR{number}.TXT" if mode == 1 else SCREEN)
-    if mode == 2:
+    text = "\n".join([*lines(m, number, c.title, values, further), ""])
+    if mode == 1:
+        yield Write("file", text, f"TCHPR{number}.TXT")
+    if shows_results(m, mode == 2):
+        yield Write("file", text, SCREEN)
         yield Pause("the measuring log is shown")
 
 

@@ -23,6 +23,13 @@ STANDS = "a part of the setup does not turn with the table: the blocks that foll
 C = AXES.index("C")
 
 
+def tilted(m: Machine) -> Iterator[Fault]:
+    """A workpiece that does not lie level (SPA, SPB of the active preset): a basic rotation alone cannot say how it is turned."""
+    preset = m.tables.presets.get(active_preset(m), Datum())
+    if preset.tilt_x or preset.tilt_y:
+        yield "", "cannot set a basic rotation where the active preset is tilted (SPA, SPB): the cycles 1410 and 1411 can"
+
+
 def reset(m: Machine) -> Iterator[Step]:
     """The active basic rotation is over, where there is one (400, 401, 402)."""
     if m.tables.presets.get(active_preset(m), Datum()).rotation:

@@ -63,7 +63,10 @@ def read(given: float | str | TextFormula, variables: Mapping[str, Any], unit: f
     is_ = None if found_value is None else found_value * unit
     if value is None:
         return Nominal(None, asked=True)
-    if not abs(nominal := float(value) * unit) <= FAR:
-        raise ValueError(f"must be at least {-FAR:.10g} and at most {FAR:.10g}, got {nominal:.10g}")
+    nominal = float(value) * unit
     low, high = (min(offsets), max(offsets)) if len(offsets) == MOST_TOLERANCES else (min(0, *offsets, 0), max(0, *offsets, 0))
-    return Nominal(nominal, nominal + low * unit, nominal + high * unit, is_, bool(asks))
+    limits = nominal + low * unit, nominal + high * unit
+    for each in (nominal, *limits, is_ or 0.0):
+        if not abs(each) <= FAR:
+            raise ValueError(f"must be at least {-FAR:.10g} and at most {FAR:.10g}, got {each:.10g}")
+    return Nominal(nominal, *limits, is_, bool(asks))

@@ -11,7 +11,7 @@ from mnclab.controls.tnc_620.cycles.addresses import angle, choice, coordinate, 
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, needed, numbers
-from mnclab.controls.tnc_620.probing.misalignment import C, align, cannot_turn, reset, zeroed
+from mnclab.controls.tnc_620.probing.misalignment import C, align, cannot_turn, reset, tilted, zeroed
 from mnclab.controls.tnc_620.probing.transfer import store
 from mnclab.controls.tnc_620.state import active_preset
 from mnclab.machine.cycle import CycleTable
@@ -56,6 +56,10 @@ class BasicRotation(ProbingCycle):
 
     def contradictions(self) -> Iterator[Fault]:
         yield from apart(self.axis, (self.x, self.y), (self.second_x, self.second_y))
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from super().check(m)
+        yield from tilted(m)
 
     def moves(self, m: Machine) -> Moves:
         yield from reset(m)
@@ -166,6 +170,7 @@ def centres(c: OverTwoHoles | OverTwoStuds) -> Pairs:
 
 
 def faults(c: OverTwoHoles | OverTwoStuds, m: Machine) -> Iterator[Fault]:
+    yield from tilted(m)
     if centres(c)[0] == centres(c)[1]:
         yield "second_center_axis_1", "and Q271 are those of the first center: two places make a line"
     if c.compensation == 1:

@@ -53,7 +53,7 @@ def chosen(c: Any, points: Sequence[Floats]) -> Floats | None:
 
 def take_over(c: Any, m: Machine, found: Sequence[Found], nominal: Floats, turned: Floats, by: float) -> Iterator[Step]:
     """Change the active preset: `nominal` (n, 3) are the middles of the tolerances, `turned` (3, 3) is the measured rotation,
-    `by` its angle in the plane, degrees."""
+    `by` its angle in the plane, degrees, nan in space."""
     here, should = chosen(c, [one.point for one in found]), chosen(c, list(nominal))
     before, axes = m.tables.presets.get(active_preset(m), Datum()), m.frames["preset"][:3, :3]
     inner = frames.inverse(m.frames.before("preset") @ m.frames["preset"]) @ m.matrix  # what acts behind the preset
@@ -62,9 +62,9 @@ def take_over(c: Any, m: Machine, found: Sequence[Found], nominal: Floats, turne
         tilt = inner[:3, :3]
         change = tilt @ turned @ tilt.T
         new = axes @ change
-        columns = {"rotation": before.rotation + by}
-        if abs(change[2, 2] - 1) > LEVEL or before.tilt_x or before.tilt_y:
-            columns = dict(zip(("tilt_x", "tilt_y", "rotation"), spatial_angles(new), strict=True))
+        level = not (math.isnan(by) or before.tilt_x or before.tilt_y) and np.abs(change[2, :2]).max() < LEVEL
+        space = dict(zip(("tilt_x", "tilt_y", "rotation"), spatial_angles(new), strict=True))
+        columns = {"rotation": before.rotation + by} if level else space
     elif c.confirm_rotation == TABLE:
         columns = {"c": before.c + by}
     if here is not None and should is not None:
