@@ -8,7 +8,7 @@ the offset of the ball from the spindle axis. The part meets the probe as it is:
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -215,10 +215,8 @@ def guarded(m: Machine, part: Part, target: Point, feed: float | None) -> None:
         if stopped is not None:
             m.line(*m.to_program(_point(start + direction * stopped)), f=feed)
             which = "stylus" if stopped == free else "stem of the probe"
-            x, y, z = m.programmed
-            where = f"X{x:.4g} Y{y:.4g} Z{z:.4g}"
             hint = "the axes stop there; a larger clearance, another height or nominal sizes nearer to the part help"
-            m.alarm(f"path obstructed: the {which} touches the part at {where} while positioning", hint=hint)
+            m.alarm(f"path obstructed: the {which} touches the part at {_place(m.programmed)} while positioning", hint=hint)
     m.line(*target, f=feed)
 
 
@@ -233,11 +231,14 @@ def guarded_turn(m: Machine, part: Part, centre: tuple[float, float], angle: flo
     centres = np.array([m.to_machine(place) for place in places.tolist()]) + ball.beside
     hit = np.flatnonzero(part(centres) < ball.radius - DEEP - slack(m))
     if len(hit):
-        x, y, z = places[hit[0]].tolist()
-        m.alarm(f"path obstructed: the stylus touches the part at X{x:.4g} Y{y:.4g} Z{z:.4g} while positioning")
+        m.alarm(f"path obstructed: the stylus touches the part at {_place(places[hit[0]])} while positioning")
     m.turn(centre, angle, None, feed)
 
 
 def _point(xyz: Floats) -> Point:
     x, y, z = xyz.tolist()
     return x, y, z
+
+
+def _place(point: Sequence[float] | Floats) -> str:
+    return " ".join(f"{axis}{round(float(value), 3) + 0.0:.4g}" for axis, value in zip("XYZ", point, strict=True))

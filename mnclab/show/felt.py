@@ -91,11 +91,11 @@ class Felt(NamedTuple):
 
 
 def felt(run: Any) -> Felt | None:
-    """What the probe of a run meets, or the plate where tools are measured; None where nothing is to be touched."""
-    part = run.setup.part if isinstance(run.setup.part, Part) else None  # what is cut is shown as the blank is
-    if run.setup.part is None:
-        setter = run.setup.setter if (run.toolpath.kind == Kind.PROBE).any() else None
-        part = setter and setter.part
+    """What the probe of a run meets, or the tool setter where tools are measured; None where nothing is to be touched."""
+    setup, measured = run.setup, (run.toolpath.kind == Kind.PROBE).any()
+    part = setup.part if isinstance(setup.part, Part) else None  # what is cut is shown as the blank is
+    if setup.part is None:
+        part = setup.setter.part if setup.setter and measured else None
         if part is None:
             return None
     origin = np.array(run.toolpath.origin, dtype=float)
@@ -127,10 +127,10 @@ def _rows(run: Any, origin: Array) -> list[int]:
 
 
 def _texts(run: Any) -> list[tuple[str, str]]:
-    found, unit = [], run.toolpath.unit
+    found = []
     for k, touch in enumerate(run.touches, 1):
         way = np.abs(np.array(touch.found) - touch.programmed)
         axis = int(way.argmax())
-        value = f"{'XYZ'[axis]} {touch.found[axis] / unit.length:z.{unit.decimals - 1}f}".replace("-", "\N{MINUS SIGN}")
+        value = f"{'XYZ'[axis]} {touch.found[axis]:z.3f}".replace("-", "\N{MINUS SIGN}")
         found.append((f"{k}   {value}" if way[axis] > 0.999 * np.linalg.norm(way) else str(k), str(k)))
     return found

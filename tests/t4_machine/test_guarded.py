@@ -26,7 +26,7 @@ def test_down_beside_a_wall_is_free():
 def test_down_into_the_part_stops_at_its_top():
     """A start over the part: the ball meets the top at Z0, 20 - 0 below the clearance height."""
     found = run(cycle(Q263=30))
-    assert "path obstructed: the stylus touches the part at X26 Y20 Z" in found.alarms[0].message
+    assert "path obstructed: the stylus touches the part at X26 Y20 Z0 while" in found.alarms[0].message
     assert found.toolpath.end[-1] == pytest.approx((26, 20, 0), abs=2e-6)
 
 

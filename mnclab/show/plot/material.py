@@ -33,7 +33,7 @@ def draw_material(ax: Axes, part: Part, view: View, frame: Array, level: float) 
         return
     (left, right), (below, above) = ax.get_xlim(), ax.get_ylim()
     step = max(right - left, above - below) / CELLS
-    across, up = np.arange(left, right + step, step), np.arange(below, above + step, step)
+    across, up = (np.linspace(a, b, max(2, round((b - a) / step) + 1)) for a, b in ((left, right), (below, above)))
     places = np.full((len(up), len(across), 3), float(level))
     places[..., view.right], places[..., view.up] = across, up[:, None]
     off = part(apply(frame, places).reshape(-1, 3)).reshape(places.shape[:2])

@@ -234,6 +234,7 @@ def test_what_is_refused(block, settings, place, sentence):
         ("G37 X2 Y2", "G471 cannot run while a scaling is active"),
         ("G51 X0", "G471 cannot run while a mirror is active"),
         ("G404 E10", "G471 cannot run while a base rotation is active"),
+        ("G18", "G471 needs the plane G17, G18 is active"),
         ("T0", "G471 needs a tool in the spindle"),
         ("T6", "G471 needs a tool in the spindle, T6 is a probe"),
         ("T5 D1", "G471 needs T5 with its own corrector: write T without D before it"),

@@ -456,3 +456,14 @@ def test_a_broken_tool_does_not_reach_the_tt_and_a_long_one_meets_it_too_early()
 def test_help_and_names_in_iso():
     for code in (30, 31, 32, 33, 480, 481, 482, 483, 484):
         assert f"TCH PROBE {code}" in str(mnclab.help(f"TCH PROBE {code}", "tnc-620"))
+
+
+def test_a_tt_calibrated_with_the_wrong_tool_tells_itself():
+    """A pin of 10 that the table has as 6: the TT seems 4 larger; a drill of 3 does not touch it 24 off its middle, but at 23."""
+    tools = {1: CALIBRATING, 2: Tool(radius=3, length=90, teeth=2)}
+    setup = Setup(tools=tools, true_tools={1: replace(CALIBRATING, radius=10)}, setter=TRUE, start=(300, 200, 0))
+    text = f"TOOL CALL 1 Z\nTCH PROBE 480 X\nQ260=-360\nTOOL CALL 2 Z\n{MODES['new']}"
+    found = mnclab.run(text.format(new=482, mode=0, height=-360, teeth=0), "tnc-620", setup)
+    assert found.measured["TT radius"] == pytest.approx(24)
+    (alarm,) = found.alarms
+    assert "the tool setter did not trigger within 23 mm" in alarm.message and (alarm.span.line, alarm.span.column) == (5, 1)
