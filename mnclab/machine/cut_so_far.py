@@ -60,7 +60,7 @@ def _grown(m: Machine, before: CutSoFar | None, stock: Blank) -> CutSoFar:
     if before and not pieces:
         return before
     path = concatenate(pieces) if pieces else join([], m.recorder)
-    tools, which, lift = tools_of_rows(path.step, m.logs.changed("tool", m.step), m.setup.tools, m.logs.value)
+    tools, which, lift = tools_of_rows(path.step, m.logs.changed("tool", m.step), m.setup.tools, m.logs.value, m.setup.true_tools)
     arrived, known = (0, 0) if before else start_known(path, m.setup.start)
     tilts, axes = (m.logs.changed(name, m.step) for name in (TILT, LOG))
     tilted = tilted_rows(path.step, tilts, axes, path.cylinder)

@@ -1,13 +1,14 @@
 """What rows of a path cut with, and from where: the same for a run that is over and for a machine that is still running.
 
-A row is cut by the tool as the table has it at that row, not as the program corrects it: DL and DR of a call lift the
-path and widen the contour, the mill stays as it is.
+A row is cut by the tool as it truly is where the setup says so (`Setup.true_tools`), else as the table has it at that row, not
+as the program corrects it: DL and DR of a call lift the path and widen the contour, the mill stays as it is.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -29,21 +30,23 @@ Lookup = Callable[[str, int], Any]  # the value of a name of the history after a
 
 
 def tools_of_rows(
-    step: Steps, changes: Changes, magazine: Magazine | None, value: Lookup
+    step: Steps, changes: Changes, magazine: Magazine | None, value: Lookup, true_tools: Mapping[int, Tool] = MappingProxyType({})
 ) -> tuple[list[Tool], Index, Array]:
     """The tools, which of them rows of some steps have (n,), and how much higher than the path its tip really is (n,), mm.
 
-    `changes` are those of the tool in the spindle, `magazine` the tools before the program wrote into their table.
+    `changes` are those of the tool in the spindle, `magazine` the tools before the program wrote into their table,
+    `true_tools` those that are not as their table says.
     """
     tools, lifts = [Tool()], [0.0]
     at = []
     for when, held in changes:
         written = value(f"tools {held.number}", when)
         found = written if isinstance(written, Tool) else (magazine or {}).get(held.number, held)
-        true = found if found.number else replace(found, number=held.number)
+        true = true_tools.get(held.number, found)
         at.append(when)
-        tools.append(true)
-        lifts.append(held.dl - true.dl if held.length == true.length else 0.0)
+        tools.append(true if true.number else replace(true, number=held.number))
+        known = held.number in true_tools or held.length == true.length
+        lifts.append(held.effective_length - true.effective_length if known else 0.0)
     which = np.searchsorted(np.array(at, dtype=np.int64), step, "right") if at else np.zeros(len(step), dtype=np.int64)
     return tools, which, np.array(lifts)[which]
 

@@ -177,8 +177,8 @@ class Setup:
     number get the one they are listed under. `variables` have values before the program begins: what another left
     (`run.variables`). `source` is the file that the setup was read from: an alarm about a setting shows its line.
     `true_tools` are the tools as they truly are, by the number of their row in the table, where they differ from it: what
-    probing and measuring find. `setter` is the tool setter that measures them, if there is one. `kinematics` is not built
-    yet. An Alarm names what cannot be.
+    cuts, and what probing and measuring find. `setter` is the tool setter that measures them, if there is one. `kinematics`
+    is not built yet. An Alarm names what cannot be.
     """
 
     tools: Magazine | None = None

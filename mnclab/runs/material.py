@@ -58,8 +58,8 @@ def tools_that_cut(run: Run) -> tuple[dict[int, Tool], Index]:
 
 
 def _held(run: Run) -> tuple[list[Tool], Index, Any]:
-    history = run.history
-    tools, which, lift = tools_of_rows(run.toolpath.step, history.changed("tool"), run.setup.tools, history.value)
+    step, setup, history = run.toolpath.step, run.setup, run.history
+    tools, which, lift = tools_of_rows(step, history.changed("tool"), setup.tools, history.value, setup.true_tools)
     return *cycle_tools(run, tools, which), lift
 
 

@@ -32,6 +32,15 @@ def test_a_tool_of_no_table_is_itself():
     assert [tools[k].radius for k in which] == [0, 0, 3, 3, 3] and not lift.any()
 
 
+def test_a_tool_that_is_not_as_its_table_says():
+    """0.3 shorter than the table, so its tip stands 0.3 higher, and 0.5 more with DL 0.5 in the call; 0.1 thinner."""
+    table, true = Tool(radius=5, length=80, number=1), {1: Tool(radius=4.9, length=79.7)}
+    calls = [(1, table), (3, Tool(radius=5, length=80, number=1, dl=0.5))]
+    tools, which, lift = tools_of_rows(STEPS, calls, {1: table}, lambda name, step: None, true)
+    assert [tools[k].radius for k in which] == [0, 4.9, 4.9, 4.9, 4.9] and tools[1].number == 1
+    assert lift == pytest.approx([0, 0.3, 0.3, 0.8, 0.8])
+
+
 def test_only_a_frame_that_leans_makes_rows_tilted():
     leaning, turned = np.eye(4), np.eye(4)
     c, s = np.cos(0.3), np.sin(0.3)

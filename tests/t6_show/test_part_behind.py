@@ -52,6 +52,16 @@ def test_a_section_has_the_area_of_the_material(view, level, expected):
     assert area(ax) == pytest.approx(expected, rel=0.01)
 
 
+def test_a_section_just_below_the_top_is_exact():
+    """The plate turned by two degrees, 0.1 mm below its top: the corners of its outline, not those of a grid."""
+    ax = Picture((6, 4)).add_axes((0.1, 0.1, 0.8, 0.8))
+    draw_material(ax, PART.turned(2), VIEWS["XY"], np.eye(4), -0.1)
+    cos, sin = np.cos(np.radians(2)), np.sin(np.radians(2))
+    corners = np.array([(0, 0), (100, 0), (100, 60), (0, 60)]) @ np.array([(cos, sin), (-sin, cos)])
+    outer = max(ax.collections[0].get_paths()[0].to_polygons(), key=np.ptp)
+    assert np.linalg.norm(outer - corners[:, None], axis=2).min(axis=1) == pytest.approx(0, abs=1e-9)
+
+
 def test_touches_lie_where_the_part_was_touched_in_coordinates_of_the_path(probed):
     found = felt(probed)
     assert found.places[0] == pytest.approx((62, 30, -5)) and found.texts[0] == ("1   X 62.000", "1")

@@ -6,24 +6,34 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import PathCollection
 
-from mnclab.geometry.frames import apply
+from mnclab.geometry.frames import apply, inverse
 from mnclab.path.columns import Array
 from mnclab.show.plot.picture import View
+from mnclab.show.plot.strategy import outline
 from mnclab.workpiece.part import Part
+from mnclab.workpiece.part.pictures import UPRIGHT
+from mnclab.workpiece.part.prisms import Prisms
 
-CELLS = 220  # along the longer side of a section
+CELLS = 160  # along the longer side of a section
 FACE: dict[str, Any] = {"facecolor": "#e9e5da", "edgecolor": "#8c8778", "linewidth": 0.7}
 
 
 def draw_material(ax: Axes, part: Part, view: View, frame: Array, level: float) -> None:
-    """What the plane of a view cuts of a part, within the limits of the axes.
+    """What the plane of a view cuts of a part, within the limits of the axes: exact of upright prisms seen from above.
 
     The view lies in coordinates that a `frame` (4, 4) leads to those of the part, at a `level` mm along the line of sight.
     """
+    if (view.right, view.up) == (0, 1) and _upright(part, frame):
+        if loops := part.placed(inverse(frame)).section(level):
+            look: dict[str, Any] = {"facecolor": "none", "edgecolor": "none", "linewidth": FACE["linewidth"]}
+            for name, order in (("facecolor", 0.6), ("edgecolor", 0.7)):
+                ax.add_collection(PathCollection([outline(loops)], **look | {name: FACE[name]}, zorder=order), autolim=False)
+        return
     (left, right), (below, above) = ax.get_xlim(), ax.get_ylim()
     step = max(right - left, above - below) / CELLS
-    across, up = np.arange(left, right + step, step), np.arange(below, above + step, step)
+    across, up = (np.linspace(a, b, max(2, round((b - a) / step) + 1)) for a, b in ((left, right), (below, above)))
     places = np.full((len(up), len(across), 3), float(level))
     places[..., view.right], places[..., view.up] = across, up[:, None]
     off = part(apply(frame, places).reshape(-1, 3)).reshape(places.shape[:2])
@@ -32,3 +42,13 @@ def draw_material(ax: Axes, part: Part, view: View, frame: Array, level: float) 
     ax.contourf(across, up, off, [-np.inf, 0.0], colors=[FACE["facecolor"]], zorder=0.6)
     if (off > 0).any():
         ax.contour(across, up, off, [0.0], colors=[FACE["edgecolor"]], linewidths=FACE["linewidth"], zorder=0.7)
+
+
+def _upright(part: Part, frame: Array) -> bool:
+    """Whether a part is of prisms that stand along Z of a frame which turns and shifts, so that its sections are known."""
+    body = part.distance
+    if not isinstance(body, Prisms) or body.taper:
+        return False
+    turn, along = frame[:3, :3], (inverse(frame) @ body.placing)[2, 2]
+    rigid = np.allclose(turn.T @ turn, np.eye(3), rtol=0, atol=UPRIGHT) and np.linalg.det(turn) > 0
+    return bool(rigid and abs(along - 1) < UPRIGHT)

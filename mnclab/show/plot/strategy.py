@@ -17,6 +17,7 @@ from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 
 from mnclab.comparison.strategies import Comparison, Trial
+from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Mark
@@ -77,11 +78,15 @@ def draw(ax: Axes, trial: Trial) -> None:
 
 def area(ax: Axes, region: Region, **look: Any) -> None:
     """A region with its holes as one patch."""
-    if not region.loops:
-        return
-    rings = [loop.points_within(CHORD) for loop in region.loops]
+    if region.loops:
+        ax.add_patch(PathPatch(outline(region.loops), **look))
+
+
+def outline(loops: Sequence[Contour]) -> Path:
+    """Closed contours as one path, in which inner ones are holes."""
+    rings = [loop.points_within(CHORD) for loop in loops]
     codes = [np.r_[Path.MOVETO, np.full(len(ring) - 2, Path.LINETO), Path.CLOSEPOLY] for ring in rings]
-    ax.add_patch(PathPatch(Path(np.vstack(rings), np.concatenate(codes).astype(np.uint8)), **look))
+    return Path(np.vstack(rings), np.concatenate(codes).astype(np.uint8))
 
 
 def hatch(ax: Axes, rest: Region, beyond: Region) -> None:

@@ -1,5 +1,7 @@
 """TCH PROBE 419 in what the program itself has cut: `Setup(part="cut")`."""
 
+import math
+
 import pytest
 
 import mnclab
@@ -49,6 +51,14 @@ def test_the_tool_cuts_as_its_table_says():
     """DL lifts the path and DR widens a contour; a mill that is only called so is as wide and as long as before."""
     shallower = SLOT.replace("S1000", "S1000 DL+1 DR+0.5")
     assert run(FORM, shallower, probe()).tables.presets[0][0] == pytest.approx(125, abs=1e-9)
+
+
+def test_a_mill_that_is_not_as_its_table_says():
+    """It cuts as it is: 4.98 mm wide to X24.98, whatever the table says; and 0.1 longer, 6.1 mm deep."""
+    true = {1: Tool(radius=4.98, length=60.1, kind="mill")}
+    found = run(FORM, SLOT, probe(), true_tools=true)
+    assert found.tables.presets[0][0] == pytest.approx(124.98, abs=1e-9)
+    assert found.workpiece().removed == pytest.approx(6.1 * (20 * 2 * 4.98 + math.pi * 4.98**2 / 2), rel=1e-3)
 
 
 def test_what_is_cut_later_is_not_touched():
