@@ -42,7 +42,8 @@ def _body(given: Any, kind: str, file: File) -> Part:
     if kind == "box":
         if not isinstance(given, list) or len(given) != 2:
             raise Alarm(f"part.box must be two corners, got {shown(given)}", hint="box = [[0, 0, -20], [100, 60, 0]]")
-        return box(*(point_of(each, "a corner of part.box") for each in given))
+        low, high = (point_of(each, "a corner of part.box") for each in given)
+        return box(low, high)
     if not isinstance(given, str):
         raise Alarm(f"part.{kind} must be the name of a file, got {shown(given)}")
     path = Path(file.name).parent / given
