@@ -148,6 +148,8 @@ def parser() -> argparse.ArgumentParser:
     output(sub, f"the suffix says what: {SUFFIXES}")
     says = "contour, tool-centre path and how its corners were found"
     sub.add_argument("--compensation", action="store_true", help=says)
+    says = "what was measured: contours, touches, deviations magnified, the measuring record"
+    sub.add_argument("--measured", action="store_true", help=says)
     sub.add_argument("--rules", type=words, metavar="G160,G161", help="with --compensation: a picture for each rule")
     sub.add_argument("--radii", type=numbers, metavar="2,5", help="with --compensation: a picture for each radius, mm")
     options(sub, starts=True)
@@ -217,6 +219,8 @@ def plot(chosen: argparse.Namespace) -> int:
     if chosen.compensation or chosen.rules or chosen.radii:
         options = {"rules": chosen.rules, "radii": chosen.radii}
         sensible(save, result, chosen.output, lambda run: run.plot_compensation(**options))
+    elif chosen.measured:
+        sensible(save, result, chosen.output, lambda run: run.plot_measured())
     else:
         of_path = {"of": "path"} if Path(chosen.output).suffix.lower() in BODIES else {}
         sensible(partial(result.save, **of_path), chosen.output)

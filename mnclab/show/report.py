@@ -18,7 +18,7 @@ from mnclab.path.listing import INCHES, Unit, figure
 from mnclab.path.tool import Tool
 from mnclab.show.given_away import named
 from mnclab.show.times import clock
-from mnclab.text.alarm import ALARM, Alarm, card_html, several
+from mnclab.text.alarm import ALARM, Alarm, card_html
 from mnclab.text.file import replaced
 from mnclab.text.given import shown
 from mnclab.text.tables import html_table
@@ -195,7 +195,7 @@ def _measured(found: Report) -> str:
     told += [f"<p>{found.measured.verdict}</p>"] if found.measured else []
     told += [f"<figure>{picture.html(2.0)}</figure>" for picture in found.measuring]
     if found.panels_left_out:
-        told.append(f"<p>{several(found.panels_left_out, 'picture')} left out</p>")
+        told.append(f"<p>cycles without a picture: {found.panels_left_out}</p>")
     return "".join(told)
 
 

@@ -106,7 +106,7 @@ def scene(
         plotter.add_mesh(_surface(blank), color=STOCK, opacity=0.25, name="blank")
         edges = _surface(blank).extract_feature_edges()
         plotter.add_mesh(edges, color="#7d7664", line_width=1, name="edges of the blank")
-    if probed and run.setup.part is not None:
+    if probed and (run.setup.part is not None or run.setup.setter is not None):
         from mnclab.show.probed_scene import add_probed
 
         ends = add_probed(plotter, run)

@@ -2,6 +2,7 @@
 
 import json
 import re
+from pathlib import Path
 
 import pytest
 from toy_probing import toy_run
@@ -12,6 +13,7 @@ from mnclab.show.plot import report as pages
 from mnclab.show.report import report
 from mnclab.workpiece.part import box, hole
 
+README = Path(__file__).parents[2] / "README.md"
 PART = box((0, 0, -20), (100, 60, 0)) - hole((50.1, 29.9, 0), 24.2, 10)
 TEXT = "M1 X50 Y30 D24 Z-5\nM4 X0 Y30 Z-5\nM5 X20 Y10 Z0.01"
 
@@ -58,7 +60,7 @@ def test_a_long_measuring_has_a_report_of_few_pictures(tmp_path, monkeypatch):
     monkeypatch.setattr("mnclab.show.report.PANELS", 2)
     monkeypatch.setattr("mnclab.show.report.MOST_PANELS", 4)
     text = toy_run("M4 X0 Y30 Z-5\n" * 9, PART).report(tmp_path / "a.html").read_text("utf-8")
-    assert text.count('alt="measured: 2 panels') == 2 and "5 pictures left out" in text
+    assert text.count('alt="measured: 2 panels') == 2 and "cycles without a picture: 5" in text
 
 
 def test_a_report_without_measuring_has_no_record(tmp_path):
@@ -112,3 +114,15 @@ def test_the_shell_prints_the_record(tmp_path, monkeypatch, capsys):
     assert shell.main(["run", "p.h", "--setup", "s.toml", "--json"]) == 0
     (row,) = json.loads(capsys.readouterr().out)["measurements"]
     assert row["actual"] == pytest.approx(25) and row["deviation"] == pytest.approx(0.1) and row["lower"] is None
+    assert shell.main(["plot", "p.h", "--setup", "s.toml", "--measured", "-o", "m.svg"]) == 0
+    assert "TCH PROBE 419" in (tmp_path / "m.svg").read_text("utf-8")
+
+
+def test_what_the_readme_says_runs(tmp_path, monkeypatch):
+    """The hole of 24.06 is beyond the limit of 24.05."""
+    monkeypatch.chdir(tmp_path)
+    section = README.read_text("utf-8").partition("## Measuring")[2].partition("```python")[2].partition("```")[0]
+    names = {"mnc": mnclab}
+    exec(section, names)
+    assert names["run"].ok and [row.what for row in names["run"].measurements.outside] == ["diameter"]
+    assert (tmp_path / "plate.html").exists()

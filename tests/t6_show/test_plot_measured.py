@@ -25,7 +25,7 @@ def measured():
 
 
 def test_a_panel_for_each_cycle_and_a_second_one_for_what_was_touched_from_above(measured):
-    found = panels(measured, None, None)
+    found, _ = panels(measured, None, None)
     assert [panel.title.split("\n")[0] for panel in found] == [
         "line 3  M1", "line 4  M4", "line 5  M5", "line 5  M5", "line 6  M3", "line 7  M1", "line 8  M2",
     ]  # fmt: skip
@@ -36,7 +36,7 @@ def test_a_panel_for_each_cycle_and_a_second_one_for_what_was_touched_from_above
 def test_deviations_are_drawn_as_often_as_the_title_says():
     """A hole of 24.2 at (50.1, 29.9) for one of 24 at (50, 30): the walls are 0.1 + 0.1 and 0.1 - 0.1 beyond the nominal ones."""
     run = toy_run("M1 X50 Y30 D24 Z-5", BORE)
-    (panel,) = panels(run, None, 20)
+    ((panel,), _) = panels(run, None, 20)
     (pair,) = panel.pairs
     assert panel.title.endswith("deviation × 20")
     assert np.hypot(*(pair.nominal - (50, 30)).T) == pytest.approx(12)
@@ -51,20 +51,20 @@ def test_deviations_are_drawn_as_often_as_the_title_says():
 def test_a_touch_along_no_axis_tells_how_far_out_it_is():
     """At 45 degrees the hole of 24.2 about (50.1, 30) is 0.1 + 0.1 cos 45 out, but for the square of 0.1 sin 45 over 24.2."""
     part = box((0, 0, -20), (100, 60, 0)) - hole((50.1, 30, 0), 24.2, 10)
-    (panel,) = panels(toy_run("M1 X50 Y30 D24 Z-5 A45", part), None, None)
+    ((panel,), _) = panels(toy_run("M1 X50 Y30 D24 Z-5 A45", part), None, None)
     out, back = "+0.170", "+0.029"
     assert [ball.text for ball in panel.balls] == [out, back, back, out]
 
 
 def test_a_wall_without_a_figure_has_a_line_at_the_nominal_place_and_one_at_the_measured():
     run = toy_run("M4 X0.05 Y30 Z-5", BORE)
-    (panel,) = panels(run, None, 100)
+    ((panel,), _) = panels(run, None, 100)
     assert panel.pairs[0].nominal[:, 0] == pytest.approx(0.05) and panel.pairs[0].actual[:, 0] == pytest.approx(0.05 - 5)
     assert panel.balls[0].centre == pytest.approx((0.05 - 5 - 2, 30)) and panel.balls[0].text == "X 0.000"
 
 
 def test_the_factor_is_round_and_shows_the_worst_as_a_tenth(measured):
-    for panel in panels(measured, None, None):
+    for panel in panels(measured, None, None)[0]:
         worst = max((np.hypot(*(pair.actual - pair.nominal).T).max() for pair in panel.pairs), default=0)
         lines = [pair.nominal for pair in panel.pairs] or [np.array([ball.centre for ball in panel.balls])]
         assert worst <= 0.1 * max(np.ptp(np.vstack(lines), axis=0).max(), 8 * 2) * (1 + 1e-9)
@@ -82,7 +82,7 @@ def test_places_are_those_of_the_program_whatever_the_datum_is():
         ),
     )
     assert run.ok, run.alarms
-    (panel,) = panels(run, None, None)
+    ((panel,), _) = panels(run, None, None)
     assert panel.balls[0].text == "X \N{MINUS SIGN}50.000" and panel.balls[0].centre == pytest.approx((-52, 0))
 
 
@@ -120,7 +120,7 @@ def test_numbers_that_have_no_room_are_counted_below():
 def test_many_cycles_have_some_panels_and_say_how_many_more_there_are():
     run = toy_run("M4 X0 Y30 Z-5\n" * (MOST + 3), BORE)
     picture = run.plot_measured()
-    assert len(picture.axes) == MOST and [t.get_text() for t in picture.texts][-1].startswith("3 more panels: line= chooses")
+    assert len(picture.axes) == MOST and [t.get_text() for t in picture.texts][-1].startswith("3 more cycles: line= chooses")
     assert len(run.plot_measured(line=MOST + 5).axes) == 1
 
 
@@ -149,6 +149,11 @@ def test_what_makes_no_sense_is_refused(measured, options, said):
 def test_without_a_touch_there_is_no_picture():
     with pytest.raises(Alarm, match="nothing was measured"):
         mnclab.run("G0 X1\n", "mnc").plot_measured()
+    tool, plate = mnclab.Tool(radius=5, length=80), mnclab.Setter(z=-50)
+    setup = mnclab.Setup(tools={1: tool}, setter=plate, settings={"tt_calibrated": True})
+    found = mnclab.run("TOOL CALL 1 Z\nTCH PROBE 481 Q340=2 Q260=+0 Q341=0\n", "tnc-620", setup)
+    with pytest.raises(Alarm, match="run.measurements has the tools"):
+        found.plot_measured()
 
 
 def test_a_pocket_and_its_part_in_true_size():

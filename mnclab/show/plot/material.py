@@ -18,14 +18,15 @@ from mnclab.workpiece.part import Part
 from mnclab.workpiece.part.pictures import UPRIGHT
 from mnclab.workpiece.part.prisms import Prisms
 
-CELLS = 220  # along the longer side of a section
+CELLS = 160  # along the longer side of a section
 FACE: dict[str, Any] = {"facecolor": "#e9e5da", "edgecolor": "#8c8778", "linewidth": 0.7}
 
 
 def draw_material(ax: Axes, part: Part, view: View, frame: Array, level: float) -> None:
     """What the plane of a view cuts of a part, within the limits of the axes.
 
-    From above upright prisms are exact; what a program has cut is shown from above only. The view lies in coordinates that a `frame` (4, 4) leads to those of the part, at a `level` mm along the line of sight.
+    From above upright prisms are exact; what a program has cut is shown from above only. The view lies in coordinates that a
+    `frame` (4, 4) leads to those of the part, at a `level` mm along the line of sight.
     """
     if (view.right, view.up) == (0, 1) and _sliced(part, frame):
         if loops := part.section(level + float(frame[2, 3])):
@@ -38,7 +39,7 @@ def draw_material(ax: Axes, part: Part, view: View, frame: Array, level: float) 
         return
     (left, right), (below, above) = ax.get_xlim(), ax.get_ylim()
     step = max(right - left, above - below) / CELLS
-    across, up = np.arange(left, right + step, step), np.arange(below, above + step, step)
+    across, up = (np.linspace(a, b, max(2, round((b - a) / step) + 1)) for a, b in ((left, right), (below, above)))
     places = np.full((len(up), len(across), 3), float(level))
     places[..., view.right], places[..., view.up] = across, up[:, None]
     off = part(apply(frame, places).reshape(-1, 3)).reshape(places.shape[:2])

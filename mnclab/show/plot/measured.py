@@ -45,13 +45,13 @@ def plot_measured(
     """A panel for each cycle that measured: nominal and actual contour, the ball at each touch with its approach, its number
     and what it found, and the lines of the measuring record.
 
-    - `line`: only what the block of this line measured; default all, 12 panels at most.
+    - `line`: only what the block of this line measured; default all, 12 panels or so.
     - `factor`: by how much deviations are magnified; default a round number for each panel, so that the worst is seen. It
       stands in the title of the panel.
     - `part`: the part itself behind them, in true size, as a section at the height of the touches.
     - `width` of the picture in inches.
 
-    Number 1 is `run.touches[0]`. An Alarm where nothing was measured.
+    Number 1 is `run.touches[0]`. An Alarm where no part was measured.
     """
     if line is not None:
         line = whole(line, "the line")
@@ -61,20 +61,20 @@ def plot_measured(
         raise Alarm(f"part must be True or False, got {shown(part)}")
     check_number(width, "the width of a picture (inches)", at_least=3, at_most=40)
     if not run.touches and not run.figures:
-        raise Alarm("nothing was measured", hint="touch probe cycles measure, with Setup(part=…)")
-    found = panels(run, line, factor)
+        hint = "run.measurements has the tools" if run.measurements else "touch probe cycles measure, with Setup(part=…)"
+        raise Alarm("nothing was measured on a part", hint=hint)
+    found, more = panels(run, line, factor, MOST)
     if not found:
         lines = ", ".join(map(str, sorted({each.line for each in (*run.touches, *run.figures)})[:MOST]))
         raise Alarm(f"nothing was measured in line {line}", hint=f"lines that measured: {lines}")
-    return _picture(found[:MOST], part_of(run) if part else None, width, len(found) - MOST)
+    return _picture(found, part_of(run) if part else None, width, more)
 
 
 def pages(run: Any, count: int, most: int) -> tuple[list[Picture], int]:
-    """Pictures of `count` panels each for a report, of `most` panels; and how many are left out."""
-    found = panels(run, None, None) if run.touches or run.figures else []
-    shown, part = found[:most], part_of(run) if found else None
-    pictures = [_picture(shown[k : k + count], part, WIDTH, 0) for k in range(0, len(shown), count)]
-    return pictures, len(found) - len(shown)
+    """Pictures of `count` panels each for a report, of about `most` panels; and how many executions of cycles have none."""
+    found, more = panels(run, None, None, most)
+    part = part_of(run) if found else None
+    return [_picture(found[k : k + count], part, WIDTH, 0) for k in range(0, len(found), count)], more
 
 
 def _picture(found: Sequence[Panel], part: Any, width: float, more: int) -> Picture:
@@ -100,7 +100,7 @@ def _picture(found: Sequence[Panel], part: Any, width: float, more: int) -> Pict
             _record(picture, texts[k], x - LEFT + 0.1, place - BELOW)
         place -= BELOW + room + GAP
     _legend(picture, found, part)
-    said = [f"{several(more, 'more panel')}: line= chooses"] if more > 0 else []
+    said = [f"{several(more, 'more cycle')}: line= chooses"] if more > 0 else []
     said += [f"no room for the numbers of {several(left_out, 'touched point')}"] if left_out else []
     if said:
         Foot("; ".join(said)).write(picture)

@@ -7,7 +7,7 @@ the cycle. Balls move with the contour, so that they touch it where it is drawn.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -74,24 +74,35 @@ class Panel(NamedTuple):
         return np.vstack([*(line for pair in self.pairs for line in (pair.nominal, pair.actual)), *discs, *starts])
 
 
-def panels(run: Any, line: int | None, factor: float | None) -> list[Panel]:
-    """The panels of a run in the order of its blocks, or of one line; without a `factor` each has its own."""
+def panels(run: Any, line: int | None, factor: float | None, most: int = 10_000) -> tuple[list[Panel], int]:
+    """The panels of a run in the order of its blocks, or of one line, about `most` of them; without a `factor` each has its
+    own. And how many executions of cycles have none."""
     found: list[Panel] = []
-    touched = [(k, touch) for k, touch in enumerate(run.touches)]
+    touches, figures, rows = _by_step([*enumerate(run.touches)]), _by_step(run.figures), _by_step(run.measurements)
     passes: dict[tuple[int, int], int] = {}
-    for step in sorted({each.step for each in (*run.touches, *run.figures)}):
-        touches = [(k, touch) for k, touch in touched if touch.step == step]
-        figures = [figure for figure in run.figures if figure.step == step]
-        rows = [row for row in run.measurements if row.step == step]
-        first = (figures or [touch for _, touch in touches])[0]
+    left_out = 0
+    for step in sorted({*touches, *figures}):
+        first = figures[step][0] if step in figures else touches[step][0][1]
         place = first.program, first.line
         passes[place] = passes.get(place, 0) + 1
         if line is not None and first.line != line:
             continue
-        name = next((each.cycle for each in (*rows, *figures)), "") or touches[0][1].label
+        if len(found) >= most:
+            left_out += 1
+            continue
+        of = touches.get(step, []), figures.get(step, []), rows.get(step, [])
+        name = next((each.cycle for each in (*of[2], *of[1])), "") or first.label
         where = f"line {first.line}" if len(run.programs) == 1 else run.place_of_line(first.line, first.program)
         again = f", pass {passes[place]}" if passes[place] > 1 else ""
-        found += _views(f"{where}{again}  {name}", touches, figures, rows, factor)
+        found += _views(f"{where}{again}  {name}", *of, factor)
+    return found, left_out
+
+
+def _by_step(all_: Iterable[Any]) -> dict[int, list[Any]]:
+    """What each execution of a block made; touches stand behind their numbers."""
+    found: dict[int, list[Any]] = {}
+    for each in all_:
+        found.setdefault((each[1] if type(each) is tuple else each).step, []).append(each)
     return found
 
 
@@ -104,11 +115,12 @@ def _views(title: str, touches: Sequence[Any], figures: Sequence[Any], rows: lis
     found = []
     if figures or not all(deep) or len(below) > 1:
         lines = [_flat(figure, into) for figure in figures]
-        if figures:
-            height = figures[0].height
+        if not all(deep):
+            height = float(apply(into, touches[deep.index(False)][1].centre)[2])
+        elif figures:
+            height = float(apply(into @ figures[0].frame, (0.0, 0.0, figures[0].height))[2])
         else:
-            spots = apply(into, [touch.surface if all(deep) else touch.centre for _, touch in touches])
-            height = float(spots[:, 2].min()) - BELOW * all(deep)
+            height = float(apply(into, [touch.surface for _, touch in touches])[:, 2].min()) - BELOW
         found.append(_panel(title, VIEWS["XY"], frame, height, touches, lines, rows, factor))
     if below:
         spots = apply(into, [touch.centre for _, touch in below])

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from mnclab.show.given_away import whole
 from mnclab.show.plot import colours
-from mnclab.text.alarm import ALARM, WARNING, first_of, several
+from mnclab.text.alarm import ALARM, WARNING, first_of
 from mnclab.workpiece.removal import HEAD
 
 A4 = (8.27, 11.69)  # inches
@@ -83,7 +83,7 @@ def measuring(found: Any) -> Iterator[tuple[str, bool]]:
         yield line, False
     yield from [("", False), (found.measured.verdict, False)]
     if found.panels_left_out:
-        yield f"{several(found.panels_left_out, 'picture')} left out", False
+        yield f"cycles without a picture: {found.panels_left_out}", False
 
 
 def _columns(row: Sequence[str]) -> tuple[str, ...]:

@@ -100,7 +100,7 @@ def test_examples(example):
         agree(found, tool, check["moves_machine_ref"])
 
 
-@pytest.mark.parametrize("seed", range(24))
+@pytest.mark.parametrize("seed", range(60))
 def test_beams_and_tools_at_random(seed):
     """Calibrated by a reference tool, then tools are measured; the next block knows their length and radius."""
     dice = random.Random(seed)
@@ -139,6 +139,23 @@ def test_beams_and_tools_at_random(seed):
     if seed % 3 < 2:
         assert jump == pytest.approx(table.effective_length - expected[0] - expected[1], abs=1e-6)
     assert path.end[-1, 2] + expected[0] + expected[1] == pytest.approx(start + 60, abs=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_levels_at_random(seed):
+    """z2 - z1 is what the beam rises on the way; its angle counts along the positive axis."""
+    u = random.Random(seed).uniform
+    k, sense, distance, slope = seed % 2, seed // 2 % 2 * 2 - 1, u(10, 80), u(-0.01, 0.01)
+    setter = Setter(u(-300, 300), u(-300, 300), u(-400, -200), axis="XY"[k], slope=slope)
+    x, y, z = setter.place
+    pin = {1: Tool(radius=u(2, 9), length=u(40, 120))}
+    text = f"T0\nG53 G0 X{x} Y{y} Z{z + 200}\nT1\nG470 L{k + 1} K{sense} P{distance}\nG91 G0 X1\n"
+    found = run(text, pin, {1: replace(pin[1], length=pin[1].length + u(-1, 1))}, setter)
+    assert found.measured["level"] == pytest.approx(sense * distance * slope, abs=1e-6)
+    assert found.measured["angle"] == pytest.approx(math.degrees(math.atan(slope)), abs=1e-7)
+    end = np.array([x, y, z + 200 - pin[1].length]) + (1, 0, 0)
+    end[k] += sense * distance
+    assert found.toolpath.end[-1] == pytest.approx(end, abs=1e-6)
 
 
 def test_the_level_of_a_beam_along_y_in_the_negative_direction():
@@ -217,6 +234,7 @@ def test_what_is_refused(block, settings, place, sentence):
         ("G37 X2 Y2", "G471 cannot run while a scaling is active"),
         ("G51 X0", "G471 cannot run while a mirror is active"),
         ("G404 E10", "G471 cannot run while a base rotation is active"),
+        ("G18", "G471 needs the plane G17, G18 is active"),
         ("T0", "G471 needs a tool in the spindle"),
         ("T6", "G471 needs a tool in the spindle, T6 is a probe"),
         ("T5 D1", "G471 needs T5 with its own corrector: write T without D before it"),

@@ -285,43 +285,47 @@ def random_case(seed):
     return dice, setter, table, true
 
 
-@pytest.mark.parametrize("seed", range(24))
-def test_tools_at_random(seed):
-    """Length and radius are those of the longest edge, each tooth has its own; the next block knows the new length."""
+@pytest.mark.parametrize("code", [31, 32, 33, 481, 482, 483])
+@pytest.mark.parametrize("seed", range(20))
+def test_tools_at_random(seed, code):
+    """Length and radius are those of the longest edge, each tooth has its own; the next block knows the new sizes."""
     dice, setter, table, true = random_case(seed)
-    teeth, mode = seed % 2, seed % 3
-    text = MODES["new"].format(new=483, mode=mode, height=setter.z + 150, teeth=teeth)
+    teeth, mode, what = seed % 2, seed % 3, {1: ("length",), 2: ("radius",), 3: ("radius", "length")}[code % 10]
+    text = MODES["old" if code < 100 else "new"].format(old=code, new=code, mode=mode, height=setter.z + 150, teeth=teeth)
     found = run(text + "L Z+0 R0 FMAX M91\n", table, true, setter, start=(0, 0, 400))
-    lengths, radii = ([getattr(true, what) + edge[k] for edge in true.edges] for k, what in enumerate(("length", "radius")))
+    edges = {name: [getattr(true, name) + edge[k] for edge in true.edges] for k, name in enumerate(("length", "radius"))}
     assert found.ok, found.alarms
-    assert found.measured["length"] == pytest.approx(max(lengths), abs=1e-6)
-    assert found.measured["radius"] == pytest.approx(max(radii), abs=1e-6)
-    if teeth:
-        rows = {row.what: row.actual for row in found.measurements}
-        assert [rows[f"radius of tooth {k + 1}"] for k in range(table.teeth)] == pytest.approx(radii, abs=1e-6)
-        assert [rows[f"length of tooth {k + 1}"] for k in range(table.teeth)] == pytest.approx(lengths, abs=1e-6)
+    rows = {row.what: row.actual for row in found.measurements}
+    expected = {name: {0: (max(edges[name]), 0.0), 1: (getattr(table, name), max(edges[name]) - getattr(table, name))}.get(mode)
+                for name in what}  # fmt: skip
+    for name in what:
+        assert found.measured[name] == pytest.approx(max(edges[name]), abs=1e-6)
+        assert [rows.get(f"{name} of tooth {k + 1}") for k in range(table.teeth)] == (
+            pytest.approx(edges[name], abs=1e-6) if teeth else [None] * table.teeth
+        )
     row = found.tables.tools[12]
-    sizes = [(max(lengths), 0, max(radii), 0),
-             (table.length, max(lengths) - table.length, table.radius, max(radii) - table.radius),
-             (table.length, table.dl, table.radius, table.dr)][mode]  # fmt: skip
-    assert (row.length, row.dl, row.radius, row.dr) == pytest.approx(sizes, abs=1e-6)
+    for name, delta in (("length", "dl"), ("radius", "dr")):
+        sizes = expected.get(name) or (getattr(table, name), getattr(table, delta))
+        assert (getattr(row, name), getattr(row, delta)) == pytest.approx(sizes, abs=1e-6)
     path = found.toolpath
-    assert path.radius[-1] == pytest.approx(sizes[2] + sizes[3], abs=1e-6)
+    assert path.radius[-1] == pytest.approx(row.effective_radius, abs=1e-6)
     assert path.start[1:] == pytest.approx(path.end[:-1], abs=1e-9)
-    jumps = path.kind == Kind.TOOL
-    assert (path.end - path.start)[jumps][-1, 2] == pytest.approx(
-        table.effective_length - sizes[0] - sizes[1] if mode != 2 else -table.effective_length, abs=1e-6
-    )
+    jumps = (path.end - path.start)[path.kind == Kind.TOOL][1:, 2]  # the first one is the call
+    assert jumps.sum() == pytest.approx(table.effective_length - row.effective_length, abs=1e-6)
+    assert path.end[-1, 2] == pytest.approx(-row.effective_length, abs=1e-6)  # the spindle reference at 0: by the new length
 
 
-@pytest.mark.parametrize("seed", range(24))
-def test_calibrations_at_random(seed):
+@pytest.mark.parametrize("code", [30, 480, 484])
+@pytest.mark.parametrize("seed", range(20))
+def test_calibrations_at_random(seed, code):
     """The TT is found where it is, whatever the tool runs out by, and the next tool is measured there."""
     dice, setter, table, true = random_case(seed)
-    pin = Tool(radius=dice.uniform(2, 20), length=dice.uniform(50, 120))
+    pin = Tool(radius=dice.uniform(8, 20), length=dice.uniform(50, 120))
     x, y = dice.uniform(-0.05, 0.05), dice.uniform(-0.05, 0.05)
-    setup = Setup(tools={1: pin, 12: table}, true_tools={1: replace(pin, runout=(x, y)), 12: true}, setter=setter)
-    text = f"TOOL CALL 1 Z\nTCH PROBE 480 X\nQ260={setter.z + 150}\nTOOL CALL 12 Z\n"
+    start = (setter.x + dice.uniform(-3, 3), setter.y + dice.uniform(-3, 3), setter.z + 150 + pin.length)
+    setup = Setup(tools={1: pin, 12: table}, true_tools={1: replace(pin, runout=(x, y)), 12: true}, setter=setter, start=start)
+    words = {30: f"30.0 X\nTCH PROBE 30.1 HEIGHT: {setter.z + 150}", 480: f"480 X\nQ260={setter.z + 150}", 484: "484 X\nQ536=1"}
+    text = f"TOOL CALL 1 Z\nTCH PROBE {words[code]}\nTOOL CALL 12 Z\n"
     found = mnclab.run(text + MODES["new"].format(new=483, mode=2, height=setter.z + 150, teeth=0), "tnc-620", setup)
     assert found.ok, found.alarms
     told = found.measured
@@ -452,3 +456,14 @@ def test_a_broken_tool_does_not_reach_the_tt_and_a_long_one_meets_it_too_early()
 def test_help_and_names_in_iso():
     for code in (30, 31, 32, 33, 480, 481, 482, 483, 484):
         assert f"TCH PROBE {code}" in str(mnclab.help(f"TCH PROBE {code}", "tnc-620"))
+
+
+def test_a_tt_calibrated_with_the_wrong_tool_tells_itself():
+    """A pin of 10 that the table has as 6: the TT seems 4 larger; a drill of 3 does not touch it 24 off its middle, but at 23."""
+    tools = {1: CALIBRATING, 2: Tool(radius=3, length=90, teeth=2)}
+    setup = Setup(tools=tools, true_tools={1: replace(CALIBRATING, radius=10)}, setter=TRUE, start=(300, 200, 0))
+    text = f"TOOL CALL 1 Z\nTCH PROBE 480 X\nQ260=-360\nTOOL CALL 2 Z\n{MODES['new']}"
+    found = mnclab.run(text.format(new=482, mode=0, height=-360, teeth=0), "tnc-620", setup)
+    assert found.measured["TT radius"] == pytest.approx(24)
+    (alarm,) = found.alarms
+    assert "the tool setter did not trigger within 23 mm" in alarm.message and (alarm.span.line, alarm.span.column) == (5, 1)

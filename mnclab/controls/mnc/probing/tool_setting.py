@@ -12,7 +12,7 @@ from dataclasses import replace
 from typing import Any, ClassVar
 
 from mnclab.controls.mnc.probing import addresses, protocol
-from mnclab.controls.mnc.probing.cycle import Moves
+from mnclab.controls.mnc.probing.cycle import Moves, unplaced
 from mnclab.controls.mnc.state import memory
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
@@ -56,6 +56,7 @@ class LaserCycle(Cycle):
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         yield from unfit(m, BEAM)
+        yield from unplaced(m)
         if m.tool != row_of(m):
             yield "", f"needs T{m.tool.number} with its own corrector: write T without D before it"
         for name in self.refused:
