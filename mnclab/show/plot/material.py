@@ -25,8 +25,8 @@ FACE: dict[str, Any] = {"facecolor": "#e9e5da", "edgecolor": "#8c8778", "linewid
 def draw_material(ax: Axes, part: Part, view: View, frame: Array, level: float) -> None:
     """What the plane of a view cuts of a part, within the limits of the axes.
 
-    From above upright prisms are exact; what a program has cut is shown from above only. The view lies in coordinates that a
-    `frame` (4, 4) leads to those of the part, at a `level` mm along the line of sight.
+    From above upright prisms are exact; what a program has cut is shown from above only. The view lies in coordinates that
+    a `frame` (4, 4) leads to those of the part, at a `level` mm along the line of sight.
     """
     if (view.right, view.up) == (0, 1) and _sliced(part, frame):
         if loops := part.section(level + float(frame[2, 3])):
