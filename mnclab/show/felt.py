@@ -16,7 +16,7 @@ from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array
 from mnclab.path.kinds import Kind
 from mnclab.workpiece.part import Part
-from mnclab.workpiece.part.part import Distance
+from mnclab.workpiece.part.part import Distance, Floats
 
 FAR = 4.0  # times as large as the path a part may be to be shown whole
 AROUND = 0.15  # of the greatest side: how far beyond the path a part without an end is shown
@@ -134,7 +134,7 @@ class Sections:
     left: Any
     origin: tuple[float, ...]
 
-    def __call__(self, points: Array) -> Array:
+    def __call__(self, points: Floats) -> Floats:
         return self.distance(points)
 
     def section(self, z: float) -> Region:
