@@ -355,7 +355,11 @@ OTHERS = [
     if setting.name not in ("bulk", "peck_clearance")
     for value in (
         [c for c in setting.choices if c != setting.default]
-        or ([not setting.default] if isinstance(setting.default, bool) else [(setting.default or setting.at_least or 0) + (1 if setting.whole else 0.5)])
+        or (
+            [not setting.default]
+            if isinstance(setting.default, bool)
+            else [(setting.default or setting.at_least or 0) + (1 if setting.whole else 0.5)]
+        )
     )
 ]
 number = st.integers(-20_000, 20_000).map(lambda n: f"{n / 1000:g}")
