@@ -126,3 +126,12 @@ def test_what_the_readme_says_runs(tmp_path, monkeypatch):
     exec(section, names)
     assert names["run"].ok and [row.what for row in names["run"].measurements.outside] == ["diameter"]
     assert (tmp_path / "plate.html").exists()
+
+
+def test_the_record_is_saved_as_csv_or_json_and_as_nothing_else(measured, tmp_path):
+    saved = measured.measurements.save(tmp_path / "record.json")
+    assert [row["what"] for row in json.loads(saved.read_text())] == [row.what for row in measured.measurements]
+    assert measured.measurements.save(tmp_path / "record.csv").read_text().startswith("line,cycle,what")
+    for name in ("record.html", "record"):
+        with pytest.raises(mnclab.Alarm, match="written as .csv or .json, got 'record"):
+            measured.measurements.save(tmp_path / name)
