@@ -13,7 +13,6 @@ from mnclab.controls.word_address.holes import out_of_place
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
 from mnclab.machine.touching import PROBES, Contact, unfit
-from mnclab.machining.probing.found import Line
 from mnclab.machining.probing.sequences import Approach, from_above
 from mnclab.machining.steps import Measure, Step, Write
 
@@ -123,12 +122,6 @@ def unplaced(m: Machine) -> Iterator[tuple[str, str]]:
 def numbers(contacts: Iterable[Contact]) -> tuple[int, ...]:
     """Which touches these are, for the measuring record."""
     return tuple(contact.number for contact in contacts)
-
-
-def on_line(side: Line, contacts: Iterable[Contact]) -> list[tuple[float, float]]:
-    """Where the contacts of a line (moved towards the material) touched: their nearest points of it."""
-    (nx, ny), points = side.normal, [contact.point[:2] for contact in contacts]
-    return [(x - off * nx, y - off * ny) for (x, y), off in zip(points, side.distance(points).tolist(), strict=True)]
 
 
 def results(**values: float) -> Iterable[Step]:

@@ -51,6 +51,7 @@ class ProbingCycle(Cycle):
     probe_z = top_x = top_y = top_z = datum = datum_x = datum_y = datum_z = 0.0
     maximum_limit = minimum_limit = first_maximum = first_minimum = second_maximum = second_minimum = 0.0
     tolerance_x = tolerance_y = 0.0
+    result_parameter = angle = reach = feed = back = system = 0.0
     direction = transfer = traverse = 1.0
     points, stepping_angle = 4.0, 90.0
     monitored_tool: Named = 0.0

@@ -129,7 +129,7 @@ def both_sides(c: ProbingCycle, m: Machine, a: Approach, *lines: tuple[Sequence[
     yield from measured(contacts, X=(found.x, nominal[0]), Y=(found.y, nominal[1]))
     yield Measure("angle", angle, 0.0, unit="deg", touches=numbers(contacts))
     far = [max(range(2), key=lambda k: math.dist(points[k], nominal)) for points, _ in lines]
-    ends = [foot(side, balls[2 * k + far[k]]) for k, side in enumerate(sides)]
+    ends = [side.foot(balls[2 * k + far[k]]) for k, side in enumerate(sides)]
     ideal = [points[k] for (points, _), k in zip(lines, far)]
     yield sketch([ideal[0], nominal, ideal[1]], [ends[0], found.centre, ends[1]], c.level, contacts)
     yield from lengths(m, Q151=found.x, Q152=found.y)
@@ -141,9 +141,3 @@ def crossing(balls: Sequence[Pair], ways: Sequence[Pair], ball: float) -> tuple[
     """Where the sides cross that were touched each at two points in one direction, and the sides."""
     sides = [line(balls[k : k + 2]).towards(way, ball) for k, way in zip((0, 2), ways)]
     return corner(*sides), sides
-
-
-def foot(side: Line, point: Pair) -> Pair:
-    """The place of a line that is nearest to a point."""
-    off, (nx, ny) = float(side.distance(point)), side.normal
-    return point[0] - off * nx, point[1] - off * ny
