@@ -11,11 +11,11 @@ from collections.abc import Iterator, Sequence
 
 from mnclab.controls.mnc.probing import addresses
 from mnclab.controls.mnc.probing.addresses import APPROACH, TOP
-from mnclab.controls.mnc.probing.cycle import TURNS, MeasuringCycle, Moves, numbers
+from mnclab.controls.mnc.probing.cycle import TURNS, MeasuringCycle, Moves
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machining.probing.fits import corner, line, reduced
-from mnclab.machining.probing.sequences import Aim, Approach, Pair
+from mnclab.machining.probing.sequences import Aim, Approach, Pair, numbers
 from mnclab.machining.probing.sequences import corner as corner_touches
 from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure

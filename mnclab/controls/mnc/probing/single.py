@@ -13,10 +13,11 @@ from typing import Any
 
 from mnclab.controls.mnc.cycles.addresses import choice, kind
 from mnclab.controls.mnc.language import absolute
-from mnclab.controls.mnc.probing.cycle import MeasuringCycle, Moves, numbers, results
+from mnclab.controls.mnc.probing.cycle import MeasuringCycle, Moves
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.touching import FEELS
+from mnclab.machining.probing.sequences import numbers, results
 from mnclab.machining.steps import Go, Measure, Touch
 
 AXES: dict[float, str] = {1: "X", 2: "Y", 3: "Z"}

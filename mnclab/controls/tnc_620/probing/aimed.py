@@ -14,13 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.cycles.faults import Fault
-from mnclab.controls.tnc_620.probing.cycle import numbers
 from mnclab.controls.tnc_620.probing.nominal import Nominal, read
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import OK, REWORK, SCRAP, SLACK
 from mnclab.machine.settings import Setting
 from mnclab.machine.touching import Contact
-from mnclab.machining.probing.sequences import Approach, over_to
+from mnclab.machining.probing.sequences import Approach, numbers, over_to
 from mnclab.machining.steps import Go, Measure, Orient, Pause, Step, Touch, Write
 from mnclab.text.strings import TextFormula
 from mnclab.text.tables import html_table

@@ -11,11 +11,12 @@ from dataclasses import replace
 from typing import Any
 
 from mnclab.controls.tnc_620.contours.other_tools import Named, named_tool
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, numbers, results
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle
 from mnclab.controls.tnc_620.probing.log import Value, logged
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import OK, REWORK, SCRAP, SLACK
 from mnclab.machine.touching import Contact
+from mnclab.machining.probing.sequences import numbers, results
 from mnclab.machining.steps import Measure, Step, Write
 
 HEIGHT = "Measuring height"  # in the log

@@ -17,7 +17,7 @@ from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.probing import addresses, aimed, taken_over
 from mnclab.controls.tnc_620.probing.addresses import FIRST, SECOND, TAKEN
 from mnclab.controls.tnc_620.probing.aimed import Finding, Floats, Found, Given, Judged
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed, numbers
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed
 from mnclab.controls.tnc_620.probing.figures import circle
 from mnclab.controls.tnc_620.state import active_preset
 from mnclab.geometry import frames
@@ -28,7 +28,7 @@ from mnclab.machine.rotary import angles
 from mnclab.machine.setup import Datum
 from mnclab.machining.probing import fits
 from mnclab.machining.probing.found import Circle
-from mnclab.machining.probing.sequences import Approach, around
+from mnclab.machining.probing.sequences import Approach, around, numbers
 from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure, Say, Step
 

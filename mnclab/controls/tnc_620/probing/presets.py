@@ -14,7 +14,7 @@ from mnclab.controls.tnc_620.cycles.addresses import choice
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero
 from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.addresses import CENTRE, HEIGHTS
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, lengths, measured, needed, numbers
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, lengths, measured, needed
 from mnclab.controls.tnc_620.probing.transfer import finish, save
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
@@ -22,7 +22,7 @@ from mnclab.machine.tool_axis import tool_axis
 from mnclab.machining.probing import sequences
 from mnclab.machining.probing.fits import corner, line, reduced
 from mnclab.machining.probing.found import Line, Point
-from mnclab.machining.probing.sequences import Aim, Approach, Pair, from_above, in_one_axis
+from mnclab.machining.probing.sequences import Aim, Approach, Pair, from_above, in_one_axis, numbers
 from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure
 

@@ -12,7 +12,7 @@ from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, 
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.addresses import CENTRES, HEIGHTS, LINE, ROUND
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, needed, numbers, results
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, needed
 from mnclab.controls.tnc_620.probing.figures import circle, ring
 from mnclab.controls.tnc_620.probing.misalignment import C, align, cannot_turn, reset, tilted, zeroed
 from mnclab.controls.tnc_620.probing.transfer import store
@@ -24,7 +24,7 @@ from mnclab.machine.setup import Datum
 from mnclab.machine.touching import Contact
 from mnclab.machining.probing import fits
 from mnclab.machining.probing.found import Circle, Line
-from mnclab.machining.probing.sequences import Approach, Pair, around, from_centre, in_one_axis
+from mnclab.machining.probing.sequences import Approach, Pair, around, from_centre, in_one_axis, numbers, results
 from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure, Step, Write
 

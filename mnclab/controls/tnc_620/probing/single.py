@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, increment
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero
 from mnclab.controls.tnc_620.language.parameters import KEPT
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, results
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.touching import Contact, ball_from_axis, deflected, unfit
-from mnclab.machining.probing.sequences import Steps
+from mnclab.machining.probing.sequences import Steps, results
 from mnclab.machining.steps import Touch
 
 LAST = 1999  # number of a Q parameter
