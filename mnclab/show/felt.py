@@ -6,7 +6,7 @@ The part of a setup is in machine coordinates, pictures count in those of the pa
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -126,7 +126,8 @@ def part_of(run: Any) -> Part | None:
     return replace(whole, distance=Sections(whole.distance, left, tuple(origin.tolist())))
 
 
-class Sections(NamedTuple):
+@dataclass(frozen=True)
+class Sections:
     """The distance from what a program has cut, which knows its level sections: asking all places of a picture takes minutes."""
 
     distance: Distance
