@@ -12,7 +12,7 @@ pair is two parameters, `instead` ties them, and `Cycle.prepare` makes one level
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import MISSING, dataclass, field, fields, replace
+from dataclasses import MISSING, Field, dataclass, field, fields, replace
 from functools import cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
@@ -198,18 +198,23 @@ AnyCycle = TypeVar("AnyCycle", bound=type[Cycle])
 
 
 class CycleTable(dict[str, type[Cycle]]):
-    """Cycles by code; calling it decorates the class of one. `addresses` has the parameters that its cycles share, by name."""
+    """Cycles by code; calling it decorates the class of one.
 
-    def __init__(self, cycles: Mapping[str, type[Cycle]] = MappingProxyType({}), addresses: Any = None) -> None:
+    `addresses` has the parameters that its cycles share, by name; `runs` is when they run that do not say it.
+    """
+
+    def __init__(
+        self, cycles: Mapping[str, type[Cycle]] = MappingProxyType({}), addresses: Any = None, runs: str = "call"
+    ) -> None:
         super().__init__(cycles)
-        self._addresses = addresses
+        self._addresses, self._runs = addresses, runs
 
     def __call__(
-        self, codes: str, title: str, *, runs: str = "call", source: str = "", triggers: str = "", takes: str = ""
+        self, codes: str, title: str, *, runs: str = "", source: str = "", triggers: str = "", takes: str = ""
     ) -> Callable[[AnyCycle], AnyCycle]:
         """Register a cycle under its code; further codes, after commas, are aliases.
 
-        `takes` names all its parameters in their order: those that its class does not declare are the shared ones.
+        `takes` names all its parameters in their order: those that its class and its bases do not declare are shared.
         """
         first, *aliases = (code.strip() for code in codes.split(","))
 
@@ -217,7 +222,7 @@ class CycleTable(dict[str, type[Cycle]]):
             if takes:
                 self._share(cls, takes.split())
             frozen: Any = dataclass(frozen=True)(cls)
-            frozen.code, frozen.title, frozen.runs, frozen.source = first, title, runs, source
+            frozen.code, frozen.title, frozen.runs, frozen.source = first, title, runs or self._runs, source
             frozen.triggers = tuple(triggers.split())
             for code in (first, *aliases):
                 self[code] = frozen
@@ -229,8 +234,8 @@ class CycleTable(dict[str, type[Cycle]]):
         """Give a class the shared parameters among these names, and its parameters this order."""
         own = cls.__dict__.get("__annotations__", {})
         for name in names:
-            if name not in own:
-                setattr(cls, name, getattr(self._addresses, name)())
+            declared = getattr(cls, name, None)  # by itself, or by a class that is no cycle yet
+            setattr(cls, name, declared if isinstance(declared, Field) else getattr(self._addresses, name)())
         cls.__annotations__ = {name: own.get(name, "float") for name in names} | own
 
     def __repr__(self) -> str:

@@ -16,6 +16,7 @@ from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath, concatenate
 from mnclab.text.alarm import Alarm
 from mnclab.workpiece.part import Part, contact
+from mnclab.workpiece.part.touching import GRAZE
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -65,6 +66,6 @@ def _met(m: Machine, part: Part, path: Toolpath, row: int) -> tuple[float, float
     else:
         way = path.end[row] - path.start[row]
         length = float(np.linalg.norm(way))
-        travel = contact(part, path.start[row] + beside, way, radius, length) if length else None
+        travel = contact(part, path.start[row] + beside, way, radius, length, GRAZE) if length else None
         found = None if travel is None else path.start[row] + way * (travel / length)
     return None if found is None else (float(found[0]), float(found[1]), float(found[2]))

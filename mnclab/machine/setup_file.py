@@ -7,6 +7,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
+from mnclab.machine.part_file import part_of
 from mnclab.machine.probe import Probe
 from mnclab.machine.setter import Setter
 from mnclab.machine.setup import NOT_BUILT, Datum, Setup
@@ -21,7 +22,9 @@ from mnclab.workpiece.blank_file import blank_of, point_of
 #: The format, as the help of the command line shows it.
 FORMAT = """\
 start = [0, 0, 300]            # machine position of the spindle before the program, mm
-part = "cut"                   # a probe touches what the program has cut
+part = "cut"                   # a probe touches what the program has cut; or a table [part] with box = [[…], […]],
+                               # design = "part.toml" or mesh = "part.stl", turned (degrees about Z), at = [x, y, z]: its zero
+                               # point in machine coordinates; errors = { taper, bow, bowed, roughness, grain, seed, burr }
 
 [tools.1]                      # the row of the tool table; every key may be left out
 radius = 5                     # mm; also length, name, corner, dl, dr, teeth, kind, cutting_length, pitch,
@@ -80,7 +83,7 @@ def _setup(table: Mapping[str, Any], file: File) -> Setup:
             if name == "start":
                 found[name] = point_of(value, name)
             elif name == "part":
-                found[name] = value
+                found[name] = part_of(value, name, file)
             elif name == "fixtures":
                 each = enumerate(as_tables(value, name))
                 found[name] = tuple(blank_of(as_table(table, name), name, file, name, str(k)) for k, table in each)

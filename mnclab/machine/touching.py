@@ -21,6 +21,7 @@ from mnclab.machine.tool_axis import FRAME, tool_axis
 from mnclab.text.program import Word
 from mnclab.workpiece.part import Part, contact, foot
 from mnclab.workpiece.part.rows import blocked
+from mnclab.workpiece.part.touching import GRAZE
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 #: What a cycle that probes does (`Cycle.does`): its places are those of the ball, or of the spindle axis.
 PROBES, FEELS = "probes", "feels"
 DEEP = 1e-6  # mm, by which a ball may stand in the material where its touch begins: it only rests on it
+RESTS = 1e-9  # mm, between a ball that rests on the part and the part
 ALONG = 0.5  # mm between the places of an arc, or of a stem, that are looked at
 PLACES = 17  # on a row that are looked at first
 SHARES = np.linspace(0.0, 1.0, PLACES)
@@ -136,9 +138,11 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
         m.alarm("a touch needs a direction", word)
     direction, true = (goal - start) / reach, true_ball(m, ball)
     begin = start + true.beside
-    if deflected(m, part, ball):
+    room = float(part(begin)[0])
+    if room - true.radius < -DEEP - slack(m):
         m.alarm("the stylus is in contact before it touches", word, hint="the touch begins where the ball is free")
-    travel = contact(part, begin, direction, true.radius, reach)
+    # a ball that only rests on the part goes along it, and on to what stands in its way
+    travel = contact(part, begin, direction, min(true.radius, max(room - RESTS, DEEP)), reach)
     if travel is not None and not part.exact and not foot(part, begin + direction * travel)[1]:
         hint = "it may touch a little later; parts of boxes, holes, slots, pockets and bosses with one axis are exact there"
         m.warn("the ball touches off a cut edge of the part, where the distance is only bounded", word, hint=hint)
@@ -209,7 +213,7 @@ def guarded(m: Machine, part: Part, target: Point, feed: float | None) -> None:
         begin, radius = start + ball.beside, max(ball.radius - DEEP - slack(m), DEEP)
         end = begin + direction * way
         few = part.at_once < PLACES  # places at once, where each takes long: the ball is traced
-        free = None if not few and is_free(part, begin, end, radius) else contact(part, begin, direction, radius, way)
+        free = None if not few and is_free(part, begin, end, radius) else contact(part, begin, direction, radius, way, GRAZE)
         stem = stem_meets(m, part, ball, begin, end)
         stopped = min((each for each in (free, stem) if each is not None), default=None)
         if stopped is not None:

@@ -1,5 +1,7 @@
 """Positioning of a probe is guarded: ball and stem against the part, the true probe, arcs (MNC 12.20, TNC 620 13.1)."""
 
+import time
+
 import pytest
 
 import mnclab as mnc
@@ -80,3 +82,24 @@ def test_a_contact_off_a_cut_edge_is_doubtful(height, doubtful):
     found = run(cycle(Q261=height), part)
     assert found.ok and len(found.touches) > 0
     assert any("off a cut edge of the part" in alarm.message for alarm in found.alarms) == doubtful
+
+
+@pytest.mark.parametrize("height", [1.9999999, 2, 2.0000001])
+def test_a_ball_that_rests_on_the_part_goes_on_to_the_wall(height):
+    """A ball of 2 at Z2 rests on the upper side at Z0 when its touch begins; the wall stands at X30.25."""
+    part = WALL | mnc.part.box((30.25, 0, -30), (100, 60, 20))
+    found = run(cycle(Q263=30, Q261=height, Q260=40), part)
+    assert found.measured["X"] == pytest.approx(30.25, abs=1e-6)
+
+
+def test_a_way_along_the_upper_side_takes_no_time():
+    """The clearance height is that of the upper side: the ball slides over 60 mm of it, a pin stops it.
+
+    A pin of radius 0.05 that stands out by 0.02: a ball of 2 meets its edge at 0.05 + sqrt(2² - 1.98²) = 0.332.
+    """
+    text = f"{HEAD}L X+90 F1000\n{cycle(Q263=0, Q260=0)[len(HEAD):]}".replace("Z+50", "Z+0")
+    begun = time.perf_counter()
+    assert run(text).ok
+    assert time.perf_counter() - begun < 1
+    found = run(text, WALL | mnc.part.cylinder((50, 20, -10), (50, 20, 0.02), 0.05))
+    assert "path obstructed: the stylus touches the part at X50.33 Y20 Z0" in found.alarms[0].message

@@ -10,15 +10,16 @@ import numpy as np
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.vectors import turned
 from mnclab.machining.probing.found import Circle, Rectangle, Width
+from mnclab.machining.probing.given import Floats
 from mnclab.machining.steps import Sketch
 
-Figure = Circle | Rectangle | Width | Sequence[tuple[float, ...]]
+Figure = Circle | Rectangle | Width | Sequence[Any] | Floats
 TINY = 1e-6  # mm, that a figure without a size is drawn with
 
 
-def sketch(nominal: Figure, actual: Figure, height: float, touches: Sequence[int] = (), direction: float = 0.0) -> Sketch:
-    """Two figures at a height; `direction` (degrees) is that of a width, the numbers of the touches belong to the second."""
-    return Sketch(outline(nominal, direction), outline(actual, direction), height, tuple(touches))
+def sketch(nominal: Figure, actual: Figure, height: float, contacts: Sequence[Any] = (), direction: float = 0.0) -> Sketch:
+    """Two figures at a height; `direction` (degrees) is that of a width, the contacts belong to the second."""
+    return Sketch(outline(nominal, direction), outline(actual, direction), height, tuple(each.number for each in contacts))
 
 
 def outline(figure: Figure, direction: float = 0.0) -> Contour:
@@ -35,20 +36,3 @@ def outline(figure: Figure, direction: float = 0.0) -> Contour:
             return Contour(turned(ends, np.radians(direction)) + figure.centre, closed=False)
         case _:
             return Contour([point[:2] for point in figure], closed=False)
-
-
-Pair = tuple[float, float]
-
-
-def round_sketch(centre: Pair, radius: float, found: Circle, height: float, contacts: Sequence[Any]) -> Sketch:
-    """A hole or a round stud; `contacts` are the answers of its touches."""
-    return _sketch(Contour.circle(centre, radius), Contour.circle(found.centre, found.radius), height, contacts)
-
-
-def line_sketch(nominal: Sequence[Pair], found: Sequence[Pair], height: float, contacts: Sequence[Any]) -> Sketch:
-    """A line through points: an edge, or from wall to wall of a slot or ridge."""
-    return _sketch(Contour(nominal, closed=False), Contour(found, closed=False), height, contacts)
-
-
-def _sketch(nominal: Contour, found: Contour, height: float, contacts: Sequence[Any]) -> Sketch:
-    return Sketch(nominal, found, height, tuple(contact.number for contact in contacts))

@@ -14,6 +14,7 @@ from mnclab.workpiece.part.shapes import unit
 TOUCHING = 1e-10  # mm, a gap that counts as closed
 SETTLED = 1e-13  # mm, a gap that is none
 CREEP = 1e-4  # mm, the step where the gap gets smaller than this
+GRAZE = 0.05  # mm, the step of a ball that is only positioned: one of 2 mm sinks in by 0.2 µm between two places
 FEW = 8  # places looked at first, then twice as many each time
 CLOSER = 0.3 ** np.arange(1, 24)  # of the rest of a way: how far before its end it is looked at
 FAR = 10.0  # gaps: a contact that is not farther off is gone for
@@ -23,13 +24,15 @@ SMALL = 1e-5  # mm, between places whose distances are compared for a direction
 OFF = 1e-4  # mm: a foot farther from the surface than this is none
 
 
-def contact(part: Part, start: ArrayLike, direction: ArrayLike, radius: float, reach: float) -> float | None:
+def contact(
+    part: Part, start: ArrayLike, direction: ArrayLike, radius: float, reach: float, creep: float = CREEP
+) -> float | None:
     """How far a ball travels from `start` along `direction` until it touches: distance(centre) = radius.
 
     0 if it touches already, None if it does not within `reach`. A gap changes by no more than the way, so
     nothing stands between two places no farther apart than their gaps together: the ball goes ahead by its
-    gap, and on as long as this holds. Where the gap is small it creeps, and may miss a graze of less than a
-    nanometre. Then it settles between the last free place and the first one that is not.
+    gap, and on as long as this holds. Where the gap is small it creeps by steps of `creep` mm, and may miss a
+    graze of less than a nanometre. Then it settles between the last free place and the first one that is not.
     """
     check_point(start, "where a ball starts")
     check_point(direction, "the direction of a probe")
@@ -45,12 +48,12 @@ def contact(part: Part, start: ArrayLike, direction: ArrayLike, radius: float, r
     while room > TOUCHING:
         if free > reach:
             return None
-        step = max(room, CREEP)
+        step = max(room, creep)
         many = int(np.clip(np.ceil((reach - free) / step), 1, min(look, part.at_once)))
         places = np.union1d(free + step * np.arange(1.0, many + 1), nearer)
         gaps = gap(places)
         sure = np.append(room, gaps[:-1]) + gaps >= np.diff(places, prepend=free) - TOUCHING
-        known = len(places) if room <= CREEP or sure.all() else max(int(sure.argmin()), 1)
+        known = len(places) if room <= creep or sure.all() else max(int(sure.argmin()), 1)
         hit = np.flatnonzero(gaps[:known] <= TOUCHING)
         if len(hit):
             k = int(hit[0])

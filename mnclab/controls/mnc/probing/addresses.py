@@ -11,11 +11,16 @@ from mnclab.machine.cycle import param
 #: Names of parameters that follow each other in many cycles.
 APPROACH = "clearance level height"
 TOP = "apply probe_z z_probe_x z_probe_y z_probe_z z_new"
+SIDE = f"x y x2 y2 axis direction {APPROACH} between"
+SIZE = "max_size min_size"
+CENTRE = "tol_center_x tol_center_y protocol stop_on_error"
 
 PLANE_AXES: dict[float, str] = {1: "X", 2: "Y"}
 SENSE: dict[float, str] = {-1: "negative", 1: "positive"}
 BETWEEN: dict[float, str] = {0: "at the measuring height", 1: "at the safe height"}
 SWITCH: dict[float, str] = {0: "no", 1: "yes"}
+PROTOCOL: dict[float, str] = {0: "none", 1: "write a file into the folder meas_prot"}
+STOP: dict[float, str] = {0: "no stop, no message", 1: "program interrupted, message"}
 
 coordinate = kind()
 length = kind(at_least=0, incremental=True)
@@ -28,6 +33,8 @@ count = kind("count", type="integer", at_least=0, default=0)
 
 x = partial(coordinate, "X", meaning="X of the centre", example=50)
 y = partial(coordinate, "Y", meaning="Y of the centre", example=30)
+x2 = partial(coordinate, "U", meaning="X of the second measuring point", example=80)
+y2 = partial(coordinate, "V", meaning="Y of the second measuring point", example=0)
 clearance = partial(length, "Q", "extra clearance", 0, default=0, note="added to PR_CLR of the probe table")
 level = partial(coordinate, "Z", "measuring height of the ball's centre", -8)
 height = partial(coordinate, "H", "safe height", 20)
@@ -56,3 +63,18 @@ z_probe_x = partial(_with_f, "I", "X of the point measured along Z", 30)
 z_probe_y = partial(_with_f, "J", "Y of the point measured along Z", 20)
 z_probe_z = partial(_with_f, "K", "nominal Z of the point measured along Z", 0)
 z_new = partial(gets, "R", meaning="Z in the new system of the point measured along Z", example=0)
+limit = kind(default=None, default_means="not checked", note="0: not checked")
+_deviation = kind(default=None, default_means="not checked", at_least=0, note="both ways; 0: not checked")
+max_size = partial(limit, "R", meaning="greatest permissible size", example=30.05)
+min_size = partial(limit, "T", meaning="least permissible size", example=29.95)
+max_size_x = partial(limit, "R", "greatest permissible length along X", 80.05)
+min_size_x = partial(limit, "T", "least permissible length along X", 79.95)
+max_size_y = partial(limit, "J", "greatest permissible length along Y", 50.05)
+min_size_y = partial(limit, "K", "least permissible length along Y", 49.95)
+tol_center_x = partial(_deviation, "U", "permissible deviation of the centre along X", 0.05)
+tol_center_y = partial(_deviation, "V", "permissible deviation of the centre along Y", 0.05)
+stop_on_error = partial(choice, "E", "what happens beyond a limit", STOP, 1, default=0)
+
+
+def protocol(address: str = "L") -> Any:
+    return choice(address, "measuring protocol", PROTOCOL, 1, default=0)

@@ -21,14 +21,14 @@ from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure
 from mnclab.text.alarm import Alarm
 
-CYCLES = CycleTable(addresses=addresses)
+CYCLES = CycleTable(addresses=addresses, runs="definition")
 CORNER = f"{APPROACH} between rotate row x_new y_new {TOP}"
 CORNERS: dict[float, str] = {1: "lower left", 2: "lower right", 3: "upper right", 4: "upper left"}
 INTO: dict[float, Pair] = {1: (1, 1), 2: (-1, 1), 3: (-1, -1), 4: (1, -1)}  # from the corner into the pocket
 
 
 @CYCLES(
-    "G414", "Datum at an outside corner", runs="definition", source="MNC 12.9",
+    "G414", "Datum at an outside corner", source="MNC 12.9",
     takes=f"x y distance_12 x3 y3 distance_34 {CORNER}",
 )  # fmt: skip
 class DatumAtOutsideCorner(MeasuringCycle):
@@ -75,7 +75,7 @@ class DatumAtOutsideCorner(MeasuringCycle):
 
 
 @CYCLES(
-    "G415", "Datum at an inside corner", runs="definition", source="MNC 12.10",
+    "G415", "Datum at an inside corner", source="MNC 12.10",
     takes=f"x y distance_12 distance_14 corner {CORNER}",
 )  # fmt: skip
 class DatumAtInsideCorner(MeasuringCycle):
@@ -120,7 +120,7 @@ def corner_datum(
     angle, touches = reduced(lines[0].angle), numbers(contacts)
     ends = [on_line(side, pair)[1] for side, (pair, _) in zip(lines, pairs, strict=True)]
     actual = ends[0], (found.x, found.y), ends[1]
-    yield sketch(nominal or actual, actual, a.level, touches)
+    yield sketch(nominal or actual, actual, a.level, contacts)
     for name, value, k in (("X", found.x, 0), ("Y", found.y, 1)):
         yield Measure(f"corner {name}", value, nominal[1][k] if nominal else math.nan, touches=touches)
     yield Measure("angle", angle, 0.0, unit="deg", touches=touches[:2])

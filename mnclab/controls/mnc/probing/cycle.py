@@ -21,6 +21,7 @@ Moves = Generator[Step, Any, None]
 Found = dict[int, tuple[float, float]]  # by axis: its measured coordinate and the one that it gets
 SCALES = ("scaling", "mirror")
 TURNS = (*SCALES, "rotation")
+LIMITS = (("min_size", "max_size"), ("min_size_x", "max_size_x"), ("min_size_y", "max_size_y"))
 NEEDED_WITH_F = ("z_probe_x", "z_probe_y", "z_probe_z")
 
 
@@ -32,6 +33,8 @@ class MeasuringCycle(Cycle):
     """Frames that must not be active."""
     entered: ClassVar[tuple[str, ...]] = ()
     """The sizes of a figure that the ball must enter."""
+    inside: ClassVar[bool] = True
+    """Whether a figure is touched from within."""
 
     x: Any = 0.0  # some cycles can do without these three
     y: Any = 0.0
@@ -39,24 +42,28 @@ class MeasuringCycle(Cycle):
     diameter = length_x = length_y = 0.0
     axis = direction = 1.0
     x_new = y_new = new_coordinate = rotate = 0.0
-    clearance = 0.0
-    level = 0.0
-    height = 0.0
-    between = 0.0
-    row = 0.0
-    apply = 0.0
-    probe_z = 0.0
-    z_probe_x: float | None = None
-    z_probe_y: float | None = None
-    z_probe_z: float | None = None
-    z_new = 0.0
-    protocol = 0.0
-    stop_on_error = 0.0
+    clearance = level = height = between = row = apply = probe_z = z_new = protocol = stop_on_error = 0.0
+    x2 = y2 = 0.0
+    z_probe_x: Any = None
+    z_probe_y: Any = None
+    z_probe_z: Any = None
+    max_size: Any = None
+    min_size: Any = None
+    max_size_x: Any = None
+    min_size_x: Any = None
+    max_size_y: Any = None
+    min_size_y: Any = None
+    tol_center_x: Any = None
+    tol_center_y: Any = None
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
         for name in NEEDED_WITH_F if self.probe_z else ():
             if getattr(self, name) is None:
                 yield name, "is missing: F1 needs it"
+        for name, other in LIMITS:
+            least, most = getattr(self, name), getattr(self, other)
+            if least and most and least > most:
+                yield name, f"must be at most the greatest permissible size {most:g}, got {least:g}"
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         yield from unplaced(m)

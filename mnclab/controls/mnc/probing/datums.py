@@ -10,15 +10,24 @@ from mnclab.controls.mnc.probing.cycle import TURNS, MeasuringCycle, Moves, numb
 from mnclab.controls.mnc.probing.figures import box, middle, ring
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
-from mnclab.machining.probing.sequences import Aim, Approach, Pair, from_above, in_plane
+from mnclab.machining.probing.sequences import Aim, Approach, from_above, in_plane
 from mnclab.machining.steps import Measure
 
-CYCLES = CycleTable(addresses=addresses)
+CYCLES = CycleTable(addresses=addresses, runs="definition")
 CENTRE = f"{APPROACH} between row x_new y_new {TOP}"
 
 
+def middle_datum(c: MeasuringCycle, m: Machine) -> Moves:
+    """The middle of a slot or a ridge."""
+    a, k, centre = c.approach(m), int(c.axis) - 1, (c.x, c.y)
+    found, width, contacts = yield from middle(a, centre, c.width, k, c.inside, m.programmed[2])
+    yield Measure("width", width, c.width, touches=numbers(contacts))
+    yield Measure(f"centre {'XY'[k]}", found, centre[k], touches=numbers(contacts))
+    yield from c.finish(m, a, {k: (found, c.new_coordinate)})
+
+
 @CYCLES(
-    "G408", "Datum at the centre of a slot", runs="definition", source="MNC 12.3",
+    "G408", "Datum at the centre of a slot", source="MNC 12.3",
     takes=f"x y width axis {APPROACH} between row new_coordinate {TOP}",
 )  # fmt: skip
 class DatumInSlot(MeasuringCycle):
@@ -26,68 +35,71 @@ class DatumInSlot(MeasuringCycle):
 
     refused, entered = TURNS, ("width",)
     width: float = addresses.width(meaning="width of the slot, rather too small")
-
-    def moves(self, m: Machine) -> Moves:
-        yield from middle_datum(self, m, self.approach(m), inside=True)
+    moves = middle_datum
 
 
 @CYCLES(
-    "G409", "Datum at the centre of a ridge", runs="definition", source="MNC 12.4",
-    takes=f"x y width axis {APPROACH} row new_coordinate {TOP}",
+    "G409", "Datum at the centre of a ridge", source="MNC 12.4", takes=f"x y width axis {APPROACH} row new_coordinate {TOP}"
 )  # fmt: skip
 class DatumOnRidge(MeasuringCycle):
     """Two touches from outside along an axis, over the safe height (MNC-G409-NOP); the middle gets the coordinate U."""
 
-    refused, between = TURNS, 1.0
+    refused, inside, between = TURNS, False, 1.0
     width: float = addresses.width(meaning="width of the ridge, rather too large")
-
-    def moves(self, m: Machine) -> Moves:
-        yield from middle_datum(self, m, self.approach(m), inside=False)
+    moves = middle_datum
 
 
-@CYCLES("G410", "Datum at the centre of a pocket", runs="definition", source="MNC 12.5", takes=f"x y length_x length_y {CENTRE}")
+def box_datum(c: MeasuringCycle, m: Machine) -> Moves:
+    """The centre of a rectangle."""
+    a = c.approach(m)
+    lengths = c.length_x, c.length_y
+    found, contacts = yield from box(a, (c.x, c.y), lengths, c.inside, m.programmed[2])
+    yield Measure("length X", found.length, c.length_x, touches=numbers(contacts[:2]))
+    yield Measure("length Y", found.width, c.length_y, touches=numbers(contacts[2:]))
+    yield from centre_datum(c, m, a, found.centre, numbers(contacts))
+
+
+@CYCLES("G410", "Datum at the centre of a pocket", source="MNC 12.5", takes=f"x y length_x length_y {CENTRE}")
 class DatumInPocket(MeasuringCycle):
     """Four touches of a rectangular pocket along the axes, whose lengths are given rather too small; its centre gets U and V."""
 
     refused, entered = TURNS, ("length_x", "length_y")
-
-    def moves(self, m: Machine) -> Moves:
-        yield from box_datum(self, m, inside=True)
+    moves = box_datum
 
 
-@CYCLES("G411", "Datum at the centre of an island", runs="definition", source="MNC 12.6", takes=f"x y length_x length_y {CENTRE}")
+@CYCLES("G411", "Datum at the centre of an island", source="MNC 12.6", takes=f"x y length_x length_y {CENTRE}")
 class DatumOnIsland(MeasuringCycle):
     """Four touches of a rectangular island along the axes, whose lengths are given rather too large; its centre gets U and V."""
 
-    refused = TURNS
-
-    def moves(self, m: Machine) -> Moves:
-        yield from box_datum(self, m, inside=False)
+    refused, inside = TURNS, False
+    moves = box_datum
 
 
-@CYCLES("G412", "Datum at the centre of a bore", runs="definition", source="MNC 12.7", takes=f"x y diameter {CENTRE}")
+def ring_datum(c: MeasuringCycle, m: Machine) -> Moves:
+    """The centre of a circle."""
+    a = c.approach(m)
+    found, contacts = yield from ring(a, (c.x, c.y), c.diameter, c.inside, m.programmed[2])
+    yield Measure("diameter", found.diameter, c.diameter, touches=numbers(contacts))
+    yield from centre_datum(c, m, a, found.centre, numbers(contacts))
+
+
+@CYCLES("G412", "Datum at the centre of a bore", source="MNC 12.7", takes=f"x y diameter {CENTRE}")
 class DatumInBore(MeasuringCycle):
     """Four touches of a bore or circular pocket along the axes, given rather too small; its centre gets U and V."""
 
     refused, entered = TURNS, ("diameter",)
-
-    def moves(self, m: Machine) -> Moves:
-        yield from ring_datum(self, m, inside=True)
+    moves = ring_datum
 
 
-@CYCLES("G413", "Datum at the centre of a boss", runs="definition", source="MNC 12.8", takes=f"x y diameter {CENTRE}")
+@CYCLES("G413", "Datum at the centre of a boss", source="MNC 12.8", takes=f"x y diameter {CENTRE}")
 class DatumOnBoss(MeasuringCycle):
     """Four touches of a circular island along the axes, given rather too large; its centre gets U and V."""
 
-    refused = TURNS
-
-    def moves(self, m: Machine) -> Moves:
-        yield from ring_datum(self, m, inside=False)
+    refused, inside = TURNS, False
+    moves = ring_datum
 
 
-@CYCLES(
-    "G417", "Datum along Z", runs="definition", source="MNC 12.11", takes="x y nominal_z clearance height row z_new apply"
-)  # fmt: skip
+@CYCLES("G417", "Datum along Z", source="MNC 12.11", takes="x y nominal_z clearance height row z_new apply")
 class DatumAlongZ(MeasuringCycle):
     """One touch downwards, past the nominal point until the surface; it gets the coordinate R."""
 
@@ -108,10 +120,7 @@ class DatumAlongZ(MeasuringCycle):
         yield from self.finish(m, a, {2: (z, self.z_new)})
 
 
-@CYCLES(
-    "G419", "Datum along X or Y", runs="definition", source="MNC 12.12",
-    takes=f"x y axis direction {APPROACH} row new_coordinate apply",
-)  # fmt: skip
+@CYCLES("G419", "Datum along X or Y", source="MNC 12.12", takes=f"x y axis direction {APPROACH} row new_coordinate apply")
 class DatumAlongAxis(MeasuringCycle):
     """One touch of a side; the touched surface gets the coordinate U of the axis."""
 
@@ -129,33 +138,7 @@ class DatumAlongAxis(MeasuringCycle):
         yield from self.finish(m, a, {k: (found, self.new_coordinate)})
 
 
-def middle_datum(c: MeasuringCycle, m: Machine, a: Approach, *, inside: bool) -> Moves:
-    """The middle of a slot or a ridge."""
-    k, centre = int(c.axis) - 1, (c.x, c.y)
-    found, width, contacts = yield from middle(a, centre, c.width, k, inside, m.programmed[2])
-    yield Measure("width", width, c.width, touches=numbers(contacts))
-    yield Measure(f"centre {'XY'[k]}", found, centre[k], touches=numbers(contacts))
-    yield from c.finish(m, a, {k: (found, c.new_coordinate)})
-
-
-def box_datum(c: MeasuringCycle, m: Machine, *, inside: bool) -> Moves:
-    """The centre of a rectangle."""
-    a = c.approach(m)
-    found, contacts = yield from box(a, (c.x, c.y), (c.length_x, c.length_y), inside, m.programmed[2])
-    yield Measure("length X", found.length, c.length_x, touches=numbers(contacts[:2]))
-    yield Measure("length Y", found.width, c.length_y, touches=numbers(contacts[2:]))
-    yield from centre_datum(c, m, a, (found.x, found.y), numbers(contacts))
-
-
-def ring_datum(c: MeasuringCycle, m: Machine, *, inside: bool) -> Moves:
-    """The centre of a circle."""
-    a = c.approach(m)
-    found, contacts = yield from ring(a, (c.x, c.y), c.diameter, inside, m.programmed[2])
-    yield Measure("diameter", found.diameter, c.diameter, touches=numbers(contacts))
-    yield from centre_datum(c, m, a, (found.x, found.y), numbers(contacts))
-
-
-def centre_datum(c: MeasuringCycle, m: Machine, a: Approach, found: Pair, touches: Sequence[int]) -> Moves:
+def centre_datum(c: MeasuringCycle, m: Machine, a: Approach, found: Sequence[float], touches: Sequence[int]) -> Moves:
     """Both coordinates of a centre; two touches each."""
     yield Measure("centre X", found[0], c.x, touches=tuple(touches[:2]))
     yield Measure("centre Y", found[1], c.y, touches=tuple(touches[2:]))

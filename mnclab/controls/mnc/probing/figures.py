@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Generator, Sequence
 from typing import Any
 
-from mnclab.controls.mnc.probing.cycle import numbers
 from mnclab.machine.touching import Contact
 from mnclab.machining.probing.fits import circle, rectangle
 from mnclab.machining.probing.found import Circle, Rectangle, Width
@@ -30,7 +29,7 @@ def middle(
     high, low = contacts[0].point[k] + ball, contacts[1].point[k] - ball
     found = (high + low) / 2
     x, y = (centre[0], found) if k else (found, centre[1])
-    yield sketch(Width(*centre, size), Width(x, y, high - low), a.level, numbers(contacts), 90 * k)
+    yield sketch(Width(*centre, size), Width(x, y, high - low), a.level, contacts, 90 * k)
     return found, high - low, contacts
 
 
@@ -40,7 +39,7 @@ def box(
     """A rectangular pocket or island, its sides along the axes."""
     contacts = yield from sides(a, centre, (lengths[0] / 2, lengths[1] / 2), OPPOSITE, inside, now, each=False)
     found = rectangle([contact.point[:2] for contact in contacts]).grown(a.ball if inside else -a.ball)
-    yield sketch(Rectangle(*centre, *lengths), found, a.level, numbers(contacts))
+    yield sketch(Rectangle(*centre, *lengths), found, a.level, contacts)
     return found, contacts
 
 
@@ -50,5 +49,5 @@ def ring(
     """A bore or a boss."""
     contacts = yield from sides(a, centre, (diameter / 2, diameter / 2), OPPOSITE, inside, now, each=False)
     found = circle([contact.point[:2] for contact in contacts], "opposite").grown(a.ball if inside else -a.ball)
-    yield sketch(Circle(*centre, diameter / 2), found, a.level, numbers(contacts))
+    yield sketch(Circle(*centre, diameter / 2), found, a.level, contacts)
     return found, contacts

@@ -10,9 +10,11 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+from mnclab.controls.mnc.probing.cycle import MeasuringCycle, numbers
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import DIGITS, OUT, judged
 from mnclab.machine.output import FILE
+from mnclab.machine.touching import Contact
 from mnclab.machining.steps import Measure, Pause, Say, Step, Write
 
 FOLDER = "meas_prot"
@@ -57,16 +59,15 @@ def centre(axis: str, actual: float, nominal: float, by: float | None) -> Check:
     return Check(Measure(f"centre {axis}", actual, nominal, nominal - off, nominal + off), status, status)
 
 
-def conclude(
-    m: Machine, code: str, checks: Sequence[Check], touches: Sequence[int], protocol: bool, stops: bool
-) -> Iterator[Step]:  # fmt: skip
-    """The record, the protocol, and then the check of the limits: a warning and a stop that needs the operator."""
+def conclude(c: MeasuringCycle, m: Machine, contacts: Sequence[Contact], *checks: Check) -> Iterator[Step]:
+    """The record, the protocol, and then the check of the limits: a warning and a stop that needs the operator, as the
+    parameters of the cycle say; its datum and base rotation stay."""
     for check in checks:
-        yield check.measure._replace(touches=tuple(touches))
+        yield check.measure._replace(touches=numbers(contacts))
     beyond = [check for check in checks if check.status]
-    if protocol:
-        yield Write("file", text(m, code, checks, [check.status for check in beyond]), name(m, code))
-    if beyond and stops:
+    if c.protocol:
+        yield Write("file", text(m, c.code, checks, [check.status for check in beyond]), name(m, c.code))
+    if beyond and c.stop_on_error:
         yield Say(f"{'; '.join(check.said for check in beyond)}: the program stops")
         yield Pause("limit exceeded")
 

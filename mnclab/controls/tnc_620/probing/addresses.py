@@ -1,10 +1,20 @@
-"""Q parameters of touch probe cycles that many share, each declared once (chapters 14 to 16); a cycle says what differs."""
+"""Parameters of touch probe cycles that many share, each declared once (chapters 14 to 17); a cycle says what differs."""
 
 from __future__ import annotations
 
 from functools import partial
 
 from mnclab.controls.tnc_620.cycles.addresses import angle, choice, coordinate, count, distance, length
+from mnclab.machine.cycle import param
+
+#: Names of parameters that follow each other in many cycles.
+HEIGHTS = "level clearance height"
+LINE = "x y second_x second_y axis direction"
+TOP = "transfer probe_z top_x top_y top_z datum_z"
+CENTRE = f"row datum_x datum_y {TOP}"
+ROUND = f"diameter starting_angle stepping_angle {HEIGHTS} move_to_clearance"
+CENTRES = "first_center_axis_1 first_center_axis_2 second_center_axis_1 second_center_axis_2"
+INSPECTED = "tolerance_x tolerance_y measuring_log program_stop monitored_tool"
 
 AXES: dict[float, str] = {1: "reference axis", 2: "minor axis", 3: "touch probe axis"}
 PLANE_AXES: dict[float, str] = {1: "reference axis", 2: "minor axis"}
@@ -15,24 +25,44 @@ TABLES: dict[float, str] = {0: "datum table", 1: "preset table"}
 TRAVERSE: dict[float, str] = {0: "straight", 1: "on an arc through the starting points"}
 POINTS: dict[float, str] = {4: "4 points", 3: "3 points"}
 SWITCH: dict[float, str] = {0: "no", 1: "yes"}
+LOGS: dict[float, str] = {0: "none", 1: "a file TCHPR….TXT", 2: "on the screen, the program waits"}
+STOPS: dict[float, str] = {0: "the program goes on", 1: "an alarm"}
+COMPENSATION: dict[float, str] = {0: "basic rotation", 1: "the rotary table turns"}
 
-first_x = partial(coordinate, "Q263", meaning="first touch point, reference axis", example=20)
-first_y = partial(coordinate, "Q264", meaning="first touch point, minor axis", example=10)
+side = length
+x = partial(coordinate, "Q263", meaning="first touch point, reference axis", example=20)
+y = partial(coordinate, "Q264", meaning="first touch point, minor axis", example=10)
+z = partial(coordinate, "Q294", meaning="first touch point, touch probe axis", example=0)
 second_x = partial(coordinate, "Q265", meaning="second touch point, reference axis", example=80)
 second_y = partial(coordinate, "Q266", meaning="second touch point, minor axis", example=10)
-center_x = partial(coordinate, "Q321", meaning="center, reference axis", example=50)
-center_y = partial(coordinate, "Q322", meaning="center, minor axis", example=30)
+third_x = partial(coordinate, "Q296", meaning="third touch point, reference axis", example=50)
+third_y = partial(coordinate, "Q297", meaning="third touch point, minor axis", example=50)
+centre_x = partial(coordinate, "Q321", meaning="center, reference axis", example=50)
+centre_y = partial(coordinate, "Q322", meaning="center, minor axis", example=30)
+middle_x = partial(coordinate, "Q273", meaning="center, reference axis", example=50)
+middle_y = partial(coordinate, "Q274", meaning="center, minor axis", example=30)
+first_center_axis_1 = partial(coordinate, "Q268", meaning="first center, reference axis", example=20)
+first_center_axis_2 = partial(coordinate, "Q269", meaning="first center, minor axis", example=20)
+second_center_axis_1 = partial(coordinate, "Q270", meaning="second center, reference axis", example=80)
+second_center_axis_2 = partial(coordinate, "Q271", meaning="second center, minor axis", example=20)
 diameter = partial(length, "Q262", meaning="nominal diameter", example=20)
+nominal_length = partial(length, "Q311", meaning="nominal length", example=10)
 starting_angle = partial(angle, "Q325", meaning="angle of the first touch point", example=0)
 stepping_angle = partial(
     angle, "Q247", meaning="stepping angle", note="5 at least", at_least=-120, at_most=120, incremental=True, example=90
 )
+first_angle = partial(angle, "Q291", meaning="angle of the first hole", example=0)
+second_angle = partial(angle, "Q292", meaning="angle of the second hole", example=90)
+third_angle = partial(angle, "Q293", meaning="angle of the third hole", example=180)
+reference_angle = partial(angle, "Q380", meaning="reference angle", example=0)
+preset_rotation_angle = partial(angle, "Q307", meaning="angle of the line that is 0", example=0)
 level = partial(coordinate, "Q261", meaning="measuring height of the ball's center", example=-5)
 clearance = partial(distance, "Q320", meaning="set-up clearance", note="added to SET_UP of the probe table", example=0)
 height = partial(coordinate, "Q260", meaning="clearance height", example=20)
 move_to_clearance = partial(choice, "Q301", meaning="height between measuring points", choices=BETWEEN, example=0)
 row = partial(count, "Q305", meaning="number in table", at_most=9999, example=0)
 transfer = partial(choice, "Q303", meaning="measured value transfer", choices=TRANSFER, example=1)
+datum = partial(coordinate, "Q405", meaning="new coordinate in the measuring axis", default=0)
 datum_x = partial(coordinate, "Q331", meaning="new coordinate in the reference axis", default=0)
 datum_y = partial(coordinate, "Q332", meaning="new coordinate in the minor axis", default=0)
 datum_z = partial(coordinate, "Q333", meaning="new coordinate in the touch probe axis", default=0)
@@ -45,3 +75,25 @@ direction = partial(choice, "Q267", meaning="traverse direction", choices=SENSE,
 points = partial(choice, "Q423", meaning="number of touch points", choices=POINTS, default=4)
 traverse = partial(choice, "Q365", meaning="way between the touch points", choices=TRAVERSE, default=1)
 basic_rotation = partial(choice, "Q304", meaning="basic rotation by the line of points 1 and 2", choices=SWITCH, example=0)
+spacing_axis_1 = partial(distance, "Q326", meaning="from point 1 to point 2 along X", example=30)
+spacing_axis_2 = partial(distance, "Q327", meaning="from point 3 to point 4 along Y", example=20)
+compensation = partial(choice, "Q402", meaning="compensation", choices=COMPENSATION, example=0)
+set_to_zero = partial(choice, "Q337", meaning="set the rotary axis to zero", choices=SWITCH, example=0)
+measuring_log = partial(choice, "Q281", meaning="measuring log", choices=LOGS, example=0)
+program_stop = partial(choice, "Q309", meaning="where a tolerance is exceeded", choices=STOPS, example=0)
+tolerance_x = partial(length, "Q279", meaning="tolerance of the center, reference axis", note="0: not monitored", example=0)
+tolerance_y = partial(length, "Q280", meaning="tolerance of the center, minor axis", note="0: not monitored", example=0)
+maximum = partial(length, meaning="maximum limit", note="0 with a minimum of 0: not monitored", example=0)
+minimum = partial(length, meaning="minimum limit", example=0)
+maximum_limit = partial(maximum, "Q288")
+minimum_limit = partial(minimum, "Q289")
+first_maximum = partial(maximum, "Q284", meaning="maximum limit of the first side")
+first_minimum = partial(minimum, "Q285", meaning="minimum limit of the first side")
+second_maximum = partial(maximum, "Q286", meaning="maximum limit of the second side")
+second_minimum = partial(minimum, "Q287", meaning="minimum limit of the second side")
+monitored_tool = partial(
+    count, "Q330", meaning="tool that is monitored, number or name", type="text", at_most=32767.9, note="0: none", example=0
+)  # fmt: skip
+_without_effect = partial(param, default=None, default_means="without effect", modal=True)  # of programs of other controls
+reverse_tool = partial(_without_effect, "Q498", "reverse tool", "choice", type="choice")
+angle_of_incidence = partial(_without_effect, "Q531", "angle of incidence", "deg")

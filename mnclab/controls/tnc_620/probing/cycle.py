@@ -34,17 +34,30 @@ class ProbingCycle(Cycle):
     about = in_program_coordinates
     tilted: ClassVar[bool] = False
     """Whether it may run in a tilted working plane."""
+    inside: ClassVar[bool] = True
+    """Whether a figure is touched from within."""
+    entered: ClassVar[tuple[str, ...]] = ()
+    """The sizes of a figure that the ball must enter."""
 
-    clearance = 0.0
-    height = 0.0
-    level = 0.0
-    move_to_clearance = 0.0
-    row = 0.0
-    transfer = 1.0
-    measuring_log = 0.0
-    program_stop = 0.0
+    x: Any = 0.0  # some cycles can do without these three
+    y: Any = 0.0
+    z: Any = 0.0
+    axis: Any = 1.0
+    second_x = second_y = third_x = third_y = centre_x = centre_y = middle_x = middle_y = 0.0
+    first_center_axis_1 = first_center_axis_2 = second_center_axis_1 = second_center_axis_2 = 0.0
+    diameter = length = width = nominal_length = starting_angle = first_angle = second_angle = third_angle = 0.0
+    reference_angle = preset_rotation_angle = compensation = set_to_zero = basic_rotation = spacing_axis_1 = spacing_axis_2 = 0.0
+    clearance = height = level = move_to_clearance = row = measuring_log = program_stop = 0.0
+    probe_z = top_x = top_y = top_z = datum = datum_x = datum_y = datum_z = 0.0
+    maximum_limit = minimum_limit = first_maximum = first_minimum = second_maximum = second_minimum = 0.0
+    tolerance_x = tolerance_y = 0.0
+    direction = transfer = traverse = 1.0
+    points, stepping_angle = 4.0, 90.0
     monitored_tool: Named = 0.0
-    probe_z = top_x = top_y = top_z = datum_z = 0.0
+
+    def contradictions(self) -> Iterator[Fault]:
+        if abs(self.stepping_angle) < LEAST_STEP:
+            yield "stepping_angle", f"must be at least {LEAST_STEP:g} or at most -{LEAST_STEP:g}, got {self.stepping_angle:g}"
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from unfit(m)
@@ -53,6 +66,9 @@ class ProbingCycle(Cycle):
             yield "transfer", "-1 does not say where row Q305 is: choose 0 (datum table) or 1 (preset table)"
         if self.monitored_tool != 0:
             yield from in_table(self, m, "monitored_tool")
+        for name in self.entered:
+            if getattr(self, name) <= 2 * m.radius:
+                yield name, f"must be greater than the ball, {2 * m.radius:g}, got {getattr(self, name):g}"
 
     def transformed(self, m: Machine) -> Iterator[Fault]:
         """A transformation that it must not find active (13.2)."""
@@ -69,12 +85,6 @@ class ProbingCycle(Cycle):
             "positioning": probe.positioning_feed, "over": self.move_to_clearance == 1, "track": probe.track,
         }  # fmt: skip
         return Approach(**{**found, **other})
-
-
-def too_fine(step: float) -> Iterator[Fault]:
-    """A stepping angle below that of the manual."""
-    if abs(step) < LEAST_STEP:
-        yield "stepping_angle", f"must be at least {LEAST_STEP:g} or at most -{LEAST_STEP:g}, got {step:g}"
 
 
 def results(**values: float) -> Iterable[Step]:

@@ -16,7 +16,7 @@ from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machining.probing import fits
 from mnclab.machining.probing.found import Plane, axes_on
-from mnclab.machining.probing.sketches import line_sketch
+from mnclab.machining.probing.sketches import sketch
 from mnclab.text.alarm import Alarm
 
 CYCLES = CycleTable()
@@ -59,7 +59,7 @@ class ProbingOnEdge(ProbingCycle):
         contacts = [contact for one in found for contact in one.contacts]
         nominal = aimed.means(aimed.nominals(self, m), found)
         if len(contacts) == len(found) and abs(self.probing_direction) < 3:
-            yield line_sketch(nominal[:, :2].tolist(), [one.point[:2].tolist() for one in found], nominal[0, 2], contacts)
+            yield sketch(nominal, [one.point for one in found], nominal[0, 2], contacts)
         yield from line_results(self, m, found, nominal, aimed.judge_places(self, m, found), {})
 
 

@@ -7,38 +7,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import partial
 
-from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, numbers, results
 from mnclab.controls.tnc_620.probing.log import Value, logged
 from mnclab.controls.tnc_620.probing.monitoring import monitored
-from mnclab.machine.cycle import param
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import OK, REWORK, SCRAP
 from mnclab.machine.touching import Contact
 from mnclab.machining.steps import Measure
 
-LOGS: dict[float, str] = {0: "none", 1: "a file TCHPR….TXT", 2: "on the screen, the program waits"}
-STOPS: dict[float, str] = {0: "the program goes on", 1: "an alarm"}
 HEIGHT = "Measuring height"  # in the log
 AXES = ("reference axis", "minor axis", "touch probe axis")
-
-centre_x = partial(coordinate, "Q273", meaning="center, reference axis", example=50)
-centre_y = partial(coordinate, "Q274", meaning="center, minor axis", example=30)
-side = length
-log = partial(choice, "Q281", meaning="measuring log", choices=LOGS, example=0)
-stop = partial(choice, "Q309", meaning="where a tolerance is exceeded", choices=STOPS, example=0)
-maximum = partial(length, meaning="maximum limit", note="0 with a minimum of 0: not monitored", example=0)
-minimum = partial(length, meaning="minimum limit", example=0)
-tolerance_x = partial(length, "Q279", meaning="tolerance of the center, reference axis", note="0: not monitored", example=0)
-tolerance_y = partial(length, "Q280", meaning="tolerance of the center, minor axis", note="0: not monitored", example=0)
-tool = partial(
-    count, "Q330", meaning="tool that is monitored, number or name", type="text", at_most=32767.9, note="0: none", example=0
-)  # fmt: skip
-without_effect = partial(param, default=None, default_means="without effect", modal=True)  # of programs of other controls
-reverse_tool = partial(without_effect, "Q498", "reverse tool", "choice", type="choice")
-incidence = partial(without_effect, "Q531", "angle of incidence", "deg")
 
 
 def report(
@@ -75,13 +54,14 @@ def wear(sizes: Sequence[Value], inside: bool) -> tuple[float, float]:
     return (1.0 if inside else -1.0) * sum(each.deviation for each in sizes) / len(sizes) / 2, 0.0
 
 
-def middle(k: int, actual: float, nominal: float, tolerance: float) -> Value:
-    """A coordinate of the centre of a figure, Q151 or Q152."""
-    name = f"enter in {AXES[k]}"
-    return Value(
-        "XY"[k], f"C{name}", actual, f"Q15{k + 1}", nominal, f"Q16{k + 1}", nominal - tolerance, nominal + tolerance,
-        f"limit for c{name}", tolerance != 0,
-    )  # fmt: skip
+def middle(c: ProbingCycle, x: float, y: float) -> list[Value]:
+    """The coordinates of the centre of a figure, Q151 and Q152."""
+    given = (x, c.middle_x, c.tolerance_x), (y, c.middle_y, c.tolerance_y)
+    return [
+        Value("XY"[k], f"Center in {AXES[k]}", actual, f"Q15{k + 1}", nominal, f"Q16{k + 1}", nominal - off, nominal + off,
+              f"limit for center in {AXES[k]}", off != 0)
+        for k, (actual, nominal, off) in enumerate(given)
+    ]  # fmt: skip
 
 
 def size(

@@ -8,11 +8,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from mnclab.controls.tnc_620.contours.other_tools import Named
 from mnclab.controls.tnc_620.cycles.addresses import coordinate
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault
-from mnclab.controls.tnc_620.probing import addresses, inspection
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed, numbers
+from mnclab.controls.tnc_620.probing import addresses
+from mnclab.controls.tnc_620.probing.addresses import HEIGHTS, LINE
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed
 from mnclab.controls.tnc_620.probing.inspection import AXES, report
 from mnclab.controls.tnc_620.probing.log import Value
 from mnclab.machine.cycle import CycleTable
@@ -24,26 +24,16 @@ from mnclab.machining.probing.sequences import in_one_axis
 from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Say
 
-CYCLES = CycleTable()
+CYCLES = CycleTable(addresses=addresses, runs="definition")
 FLAT = 1e-6  # mm²: points that span less lie on a line
 
 
-@CYCLES("TCH PROBE 420", "Angle measuring", runs="definition", source="16.4")
+@CYCLES("TCH PROBE 420", "Angle measuring", source="16.4", takes=f"{LINE} {HEIGHTS} move_to_clearance measuring_log")
 class AngleMeasuring(ProbingCycle):
     """Two touches of a straight edge; along the probe axis the angle is that about the reference or the minor axis."""
 
     tilted = True
-    x: float = addresses.first_x()
-    y: float = addresses.first_y()
-    second_x: float = addresses.second_x()
-    second_y: float = addresses.second_y()
     axis: float = addresses.axis(choices=addresses.AXES, example=2)
-    direction: float = addresses.direction()
-    level: float = addresses.level()
-    clearance: float = addresses.clearance()
-    height: float = addresses.height()
-    move_to_clearance: float = addresses.move_to_clearance()
-    measuring_log: float = inspection.log()
 
     def contradictions(self) -> Iterator[Fault]:
         same_x, same_y = abs(self.x - self.second_x) < SAME, abs(self.y - self.second_y) < SAME
@@ -60,7 +50,7 @@ class AngleMeasuring(ProbingCycle):
         if k < 2:
             found, nominal = reduced(angle(first, second)), reduced(angle(points[0][:2], points[1][:2]))
             shift = np.eye(3)[k] * self.direction * a.ball
-            yield sketch(points, [first + shift, second + shift], self.level, numbers(contacts))
+            yield sketch(points, [first + shift, second + shift], self.level, contacts)
         else:
             dx, dy, dz = second - first
             found, nominal = math.degrees(math.atan(dz / dy if abs(dy) > abs(dx) else -dz / dx)), 0.0
@@ -68,25 +58,18 @@ class AngleMeasuring(ProbingCycle):
         yield from report(self, m, [value], contacts)
 
 
-@CYCLES("TCH PROBE 427", "Coordinate measuring", runs="definition", source="16.11")
+@CYCLES(
+    "TCH PROBE 427", "Coordinate measuring", source="16.11",
+    takes="x y level clearance axis direction height measuring_log maximum_limit minimum_limit program_stop monitored_tool "
+          "reverse_tool angle_of_incidence",
+)  # fmt: skip
 class CoordinateMeasuring(ProbingCycle):
     """One touch along an axis. Beyond Q288 there is too much material, beyond Q289 too little, whichever is the larger one."""
 
     tilted = True
-    x: float = addresses.first_x()
-    y: float = addresses.first_y()
-    level: float = addresses.level()
-    clearance: float = addresses.clearance()
     axis: float = addresses.axis(choices=addresses.AXES)
-    direction: float = addresses.direction()
-    height: float = addresses.height()
-    measuring_log: float = inspection.log()
     maximum_limit: float = coordinate("Q288", "maximum limit", note="0 with Q289 = 0: not monitored", example=0)
     minimum_limit: float = coordinate("Q289", "minimum limit", example=0)
-    program_stop: float = inspection.stop()
-    monitored_tool: Named = inspection.tool()
-    reverse_tool: float | None = inspection.reverse_tool()
-    angle_of_incidence: float | None = inspection.incidence()
 
     def moves(self, m: Machine) -> Moves:
         a, k = self.approach(m), int(self.axis) - 1
@@ -103,23 +86,16 @@ class CoordinateMeasuring(ProbingCycle):
         yield from report(self, m, [value], contacts, sizes, (0.0, change) if k == 2 else (change, 0.0))
 
 
-@CYCLES("TCH PROBE 431", "Plane measuring", runs="definition", source="16.13")
+@CYCLES(
+    "TCH PROBE 431", "Plane measuring", source="16.13",
+    takes="x y z second_x second_y second_z third_x third_y third_z clearance height measuring_log",
+)  # fmt: skip
 class PlaneMeasuring(ProbingCycle):
     """Three touches downwards: the angles that tilt the working plane; X goes from the first point to the second one."""
 
     tilted = True
-    x: float = addresses.first_x()
-    y: float = addresses.first_y()
-    z: float = coordinate("Q294", "first touch point, touch probe axis", example=0)
-    second_x: float = addresses.second_x()
-    second_y: float = addresses.second_y()
     second_z: float = coordinate("Q295", "second touch point, touch probe axis", example=0)
-    third_x: float = coordinate("Q296", "third touch point, reference axis", example=50)
-    third_y: float = coordinate("Q297", "third touch point, minor axis", example=50)
     third_z: float = coordinate("Q298", "third touch point, touch probe axis", example=0)
-    clearance: float = addresses.clearance()
-    height: float = addresses.height()
-    measuring_log: float = inspection.log()
 
     def contradictions(self) -> Iterator[Fault]:
         ahead, aside = (self.second_x - self.x, self.second_y - self.y), (self.third_x - self.x, self.third_y - self.y)

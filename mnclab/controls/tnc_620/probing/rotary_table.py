@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from mnclab.controls.tnc_620.cycles.addresses import angle, choice, count
+from mnclab.controls.tnc_620.cycles.addresses import choice, count
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.probing import addresses
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, numbers, results, too_fine
+from mnclab.controls.tnc_620.probing.addresses import HEIGHTS, LINE, ROUND
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, numbers, results
+from mnclab.controls.tnc_620.probing.figures import ring
 from mnclab.controls.tnc_620.probing.misalignment import C, align, cannot_turn, zeroed
-from mnclab.controls.tnc_620.probing.rotation import apart, circle, edge, row, set_to_zero
+from mnclab.controls.tnc_620.probing.rotation import apart, edge, row
 from mnclab.controls.tnc_620.probing.transfer import store
 from mnclab.controls.tnc_620.state import active_preset
 from mnclab.machine.cycle import CycleTable
@@ -18,15 +20,17 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.rotary import AXES
 from mnclab.machine.setup import Datum
 from mnclab.machining.probing import fits
-from mnclab.machining.probing.sequences import around, in_one_axis
-from mnclab.machining.probing.sketches import round_sketch
+from mnclab.machining.probing.sequences import in_one_axis
 from mnclab.machining.steps import Measure, Write
 
-CYCLES = CycleTable()
+CYCLES = CycleTable(addresses=addresses, runs="definition")
 AXIS: dict[float, str] = {0: "the one that the touches show", 4: "A", 5: "B", 6: "C"}
 
 
-@CYCLES("TCH PROBE 403", "Basic rotation compensation via rotary axis", runs="definition", source="14.10")
+@CYCLES(
+    "TCH PROBE 403", "Basic rotation compensation via rotary axis", source="14.10",
+    takes=f"{LINE} {HEIGHTS} move_to_clearance compensation_axis set_to_zero row transfer reference_angle",
+)  # fmt: skip
 class RotaryAxis(ProbingCycle):
     """Two touches; a rotary axis turns by the angle of the line through them, which opens from the first to the second.
 
@@ -34,21 +38,11 @@ class RotaryAxis(ProbingCycle):
     quarter.
     """
 
-    x: float = addresses.first_x()
-    y: float = addresses.first_y()
-    second_x: float = addresses.second_x()
-    second_y: float = addresses.second_y()
     axis: float = addresses.axis(choices=addresses.AXES, example=2)
-    direction: float = addresses.direction()
-    level: float = addresses.level()
-    clearance: float = addresses.clearance()
-    height: float = addresses.height()
-    move_to_clearance: float = addresses.move_to_clearance()
     compensation_axis: float = choice("Q312", "rotary axis", AXIS, example=6)
-    set_to_zero: float = set_to_zero()
     row: float = row(note="where Q312 is 0, else the active row")
     transfer: float = addresses.transfer(choices=addresses.TABLES)
-    reference_angle: float = angle("Q380", "angle of the line that is 0", note="of C", example=0)
+    reference_angle: float = addresses.reference_angle(meaning="angle of the line that is 0", note="of C")
 
     @property
     def turns(self) -> int:
@@ -94,39 +88,31 @@ class RotaryAxis(ProbingCycle):
                 yield from store(m, active_preset(m) if self.compensation_axis else self.row, **zero)
 
 
-@CYCLES("TCH PROBE 405", "Compensating workpiece misalignment by rotating the C axis", runs="definition", source="14.12")
+@CYCLES(
+    "TCH PROBE 405", "Compensating workpiece misalignment by rotating the C axis", source="14.12",
+    takes=f"centre_x centre_y {ROUND} set_to_zero",
+)  # fmt: skip
 class HoleBesideTheAxis(ProbingCycle):
     """Four touches of a hole; C turns its center onto the positive Y axis (Q322 = 0), or to its nominal direction.
 
     The datum must lie in the center of the table. The angle goes to Q150.
     """
 
-    centre_x: float = addresses.center_x(example=0)
-    centre_y: float = addresses.center_y(note="0: onto the positive Y axis", example=50)
+    centre_x: float = addresses.centre_x(example=0)
+    centre_y: float = addresses.centre_y(note="0: onto the positive Y axis", example=50)
     diameter: float = addresses.diameter(note="rather too small")
-    starting_angle: float = addresses.starting_angle()
     stepping_angle: float = addresses.stepping_angle(note="at least 5 degrees")
-    level: float = addresses.level()
-    clearance: float = addresses.clearance()
-    height: float = addresses.height()
-    move_to_clearance: float = addresses.move_to_clearance()
     set_to_zero: float = count("Q337", "row of the datum table", note="0: the preset, and C shows 0", example=0)
-
-    def contradictions(self) -> Iterator[Fault]:
-        yield from too_fine(self.stepping_angle)
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
         yield from cannot_turn(m, C, "")
 
     def moves(self, m: Machine) -> Moves:
-        a, centre, radius = self.approach(m), (self.centre_x, self.centre_y), self.diameter / 2
-        first, step, now = self.starting_angle, self.stepping_angle, m.programmed[2]
-        contacts = yield from around(a, centre, radius, first, step, 4, True, now, leave=False)
-        hole = circle(self, m, contacts).grown(a.ball)
+        a = self.approach(m)
+        hole, contacts = yield from ring(self, m, a, (self.centre_x, self.centre_y), leave=False)
         yield a.go("to the measured center", x=hole.x, y=hole.y)
         yield a.go("to the clearance height", a.height)
-        yield round_sketch(centre, radius, hole, a.level, contacts)
         nominal = math.degrees(math.atan2(self.centre_y, self.centre_x)) if self.centre_y else 90.0
         turned = fits.reduced(math.degrees(math.atan2(hole.y, hole.x)) - nominal, 360)
         yield Measure("rotation", turned, 0.0, unit="deg", touches=numbers(contacts))

@@ -7,10 +7,12 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from mnclab.controls.tnc_620.cycles.addresses import angle, choice, coordinate, count, length
+from mnclab.controls.tnc_620.cycles.addresses import coordinate, length
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.probing import addresses
+from mnclab.controls.tnc_620.probing.addresses import CENTRES, HEIGHTS, LINE
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, needed, numbers
+from mnclab.controls.tnc_620.probing.figures import circle
 from mnclab.controls.tnc_620.probing.misalignment import C, align, cannot_turn, reset, tilted, zeroed
 from mnclab.controls.tnc_620.probing.transfer import store
 from mnclab.controls.tnc_620.state import active_preset
@@ -20,38 +22,24 @@ from mnclab.machine.touching import Contact
 from mnclab.machining.probing import fits
 from mnclab.machining.probing.found import Circle, Line
 from mnclab.machining.probing.sequences import Approach, Pair, around, from_centre, in_one_axis
-from mnclab.machining.probing.sketches import line_sketch, round_sketch
+from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure, Step
 
-CYCLES = CycleTable()
+CYCLES = CycleTable(addresses=addresses, runs="definition")
+OVER_TWO = "preset_rotation_angle row compensation set_to_zero"
 Pairs = tuple[Pair, Pair]
 Touched = Generator[Step, Any, tuple[Line, list[Contact]]]
-COMPENSATION: dict[float, str] = {0: "basic rotation", 1: "the rotary table turns"}
 row = partial(addresses.row, at_most=99999)
-reference = partial(angle, "Q307", meaning="angle of the line that is 0", example=0)
-first_center_axis_1 = partial(coordinate, "Q268", meaning="first center, reference axis", example=20)
-first_center_axis_2 = partial(coordinate, "Q269", meaning="first center, minor axis", example=20)
-second_center_axis_1 = partial(coordinate, "Q270", meaning="second center, reference axis", example=80)
-second_center_axis_2 = partial(coordinate, "Q271", meaning="second center, minor axis", example=20)
-compensation = partial(choice, "Q402", meaning="compensation", choices=COMPENSATION, example=0)
-set_to_zero = partial(choice, "Q337", meaning="set the rotary axis to zero", choices=addresses.SWITCH, example=0)
 
 
-@CYCLES("TCH PROBE 400", "Basic rotation", runs="definition", source="14.7")
+@CYCLES(
+    "TCH PROBE 400", "Basic rotation", source="14.7",
+    takes=f"{LINE} {HEIGHTS} move_to_clearance preset_rotation_angle row",
+)  # fmt: skip
 class BasicRotation(ProbingCycle):
     """Two touches of an edge, which becomes the direction Q307; an active basic rotation is over before."""
 
-    x: float = addresses.first_x()
-    y: float = addresses.first_y()
-    second_x: float = addresses.second_x()
-    second_y: float = addresses.second_y()
     axis: float = addresses.axis(example=2)
-    direction: float = addresses.direction()
-    level: float = addresses.level()
-    clearance: float = addresses.clearance()
-    height: float = addresses.height()
-    move_to_clearance: float = addresses.move_to_clearance()
-    preset_rotation_angle: float = reference()
     row: float = row(note="0: the active row")
 
     def contradictions(self) -> Iterator[Fault]:
@@ -70,24 +58,42 @@ class BasicRotation(ProbingCycle):
         yield from store(m, self.row or active_preset(m), rotation=turned)
 
 
-@CYCLES("TCH PROBE 401", "Basic rotation over two holes", runs="definition", source="14.8")
+def centres(c: ProbingCycle) -> Pairs:
+    """The nominal ones."""
+    return (c.first_center_axis_1, c.first_center_axis_2), (c.second_center_axis_1, c.second_center_axis_2)
+
+
+def faults(c: ProbingCycle, m: Machine) -> Iterator[Fault]:
+    """Of the cycles over two holes or studs."""
+    yield from ProbingCycle.check(c, m)
+    yield from tilted(m)
+    if centres(c)[0] == centres(c)[1]:
+        yield "second_center_axis_1", "and Q271 are those of the first center: two places make a line"
+    if c.compensation == 1:
+        yield from cannot_turn(m, C, "compensation")
+
+
+def compensate(c: ProbingCycle, m: Machine, touched: Sequence[Sequence[Contact]]) -> Iterator[Step]:
+    """The line through both centres becomes the direction Q307: by a basic rotation, or by the rotary table."""
+    places = [circle(c, m, contacts).centre for contacts in touched]
+    for k, (contacts, place, nominal) in enumerate(zip(touched, places, centres(c), strict=True), 1):
+        yield from measured(contacts, **{f"center {k} {axis}": (place[n], nominal[n]) for n, axis in enumerate("XY")})
+    turned = fits.reduced(needed(fits.line, places, m=m, code=c.code).angle - c.preset_rotation_angle, 360)
+    yield Measure("rotation", turned, 0.0, unit="deg", touches=numbers([*touched[0], *touched[1]]))
+    if c.compensation == 0:
+        yield from store(m, c.row, rotation=turned)
+        return
+    yield from align(m, C, turned)
+    if c.set_to_zero:
+        yield from store(m, c.row, **zeroed(m, C))
+
+
+@CYCLES("TCH PROBE 401", "Basic rotation over two holes", source="14.8", takes=f"{CENTRES} level height {OVER_TWO}")
 class OverTwoHoles(ProbingCycle):
     """Four touches of each hole from its programmed center, so that DIST must reach the wall."""
 
-    first_center_axis_1: float = first_center_axis_1()
-    first_center_axis_2: float = first_center_axis_2()
-    second_center_axis_1: float = second_center_axis_1()
-    second_center_axis_2: float = second_center_axis_2()
-    level: float = addresses.level()
-    height: float = addresses.height()
-    preset_rotation_angle: float = reference()
+    check = faults
     row: float = row()
-    compensation: float = compensation()
-    set_to_zero: float = set_to_zero()
-
-    def check(self, m: Machine) -> Iterator[Fault]:
-        yield from super().check(m)
-        yield from faults(self, m)
 
     def moves(self, m: Machine) -> Moves:
         yield from reset(m)
@@ -97,29 +103,20 @@ class OverTwoHoles(ProbingCycle):
         yield from compensate(self, m, touched)
 
 
-@CYCLES("TCH PROBE 402", "Basic rotation over two studs", runs="definition", source="14.9")
+@CYCLES(
+    "TCH PROBE 402", "Basic rotation over two studs", source="14.9",
+    takes="first_center_axis_1 first_center_axis_2 diameter_stud_1 level second_center_axis_1 second_center_axis_2 "
+          f"diameter_stud_2 measuring_height_stud_2 clearance height move_to_clearance {OVER_TWO}",
+)  # fmt: skip
 class OverTwoStuds(ProbingCycle):
     """Four touches round each stud, counter-clockwise."""
 
-    first_center_axis_1: float = first_center_axis_1()
-    first_center_axis_2: float = first_center_axis_2()
+    check = faults
+    row: float = row()
     diameter_stud_1: float = length("Q313", "diameter of the first stud", note="rather too large", example=20)
     level: float = addresses.level(meaning="measuring height at the first stud")
-    second_center_axis_1: float = second_center_axis_1()
-    second_center_axis_2: float = second_center_axis_2()
     diameter_stud_2: float = length("Q314", "diameter of the second stud", note="rather too large", example=20)
     measuring_height_stud_2: float = coordinate("Q315", "measuring height at the second stud", example=-5)
-    clearance: float = addresses.clearance()
-    height: float = addresses.height()
-    move_to_clearance: float = addresses.move_to_clearance()
-    preset_rotation_angle: float = reference()
-    row: float = row()
-    compensation: float = compensation()
-    set_to_zero: float = set_to_zero()
-
-    def check(self, m: Machine) -> Iterator[Fault]:
-        yield from super().check(m)
-        yield from faults(self, m)
 
     def moves(self, m: Machine) -> Moves:
         yield from reset(m)
@@ -128,16 +125,17 @@ class OverTwoStuds(ProbingCycle):
         for centre, (diameter, level) in zip(centres(self), sizes, strict=True):
             a = replace(a, level=level)
             touched.append((yield from around(a, centre, diameter / 2, 0, 90, 4, False, m.programmed[2], arc=False)))
-            yield round_sketch(centre, diameter / 2, circle(self, m, touched[-1]).grown(-a.ball), level, touched[-1])
+            found = circle(self, m, touched[-1]).grown(-a.ball)
+            yield sketch(Circle(*centre, diameter / 2), found, level, touched[-1])
         yield from compensate(self, m, touched)
 
 
-@CYCLES("TCH PROBE 404", "Set basic rotation", runs="definition", source="14.11")
+@CYCLES("TCH PROBE 404", "Set basic rotation", source="14.11", takes="preset_rotation_angle row")
 class SetBasicRotation(ProbingCycle):
     """Nothing moves: the basic rotation of a preset row becomes Q307."""
 
-    preset_rotation_angle: float = angle("Q307", "basic rotation", example=0)
-    row: float = count("Q305", "number in table", at_least=-1, note="-1: the active row; 0: row 0, active then", example=-1)
+    preset_rotation_angle: float = addresses.preset_rotation_angle(meaning="basic rotation")
+    row: float = row(at_least=-1, note="-1: the active row; 0: row 0, active then", example=-1)
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from self.transformed(m)
@@ -158,41 +156,5 @@ def edge(m: Machine, a: Approach, code: str, points: Pairs, axis: float, sense: 
     line = needed(fits.line, [c.point for c in contacts], m=m, code=code)
     direction = (sense, 0.0) if axis == 1 else (0.0, sense)
     touched = fits.off_the_ball([c.point[:2] for c in contacts], direction, a.ball).tolist()
-    yield line_sketch(points, touched, a.level, contacts)
+    yield sketch(points, touched, a.level, contacts)
     return line, contacts
-
-
-# --- two centres: 401 and 402 ---------------------------------------------------------------------------------------------
-
-
-def centres(c: OverTwoHoles | OverTwoStuds) -> Pairs:
-    return (c.first_center_axis_1, c.first_center_axis_2), (c.second_center_axis_1, c.second_center_axis_2)
-
-
-def faults(c: OverTwoHoles | OverTwoStuds, m: Machine) -> Iterator[Fault]:
-    yield from tilted(m)
-    if centres(c)[0] == centres(c)[1]:
-        yield "second_center_axis_1", "and Q271 are those of the first center: two places make a line"
-    if c.compensation == 1:
-        yield from cannot_turn(m, C, "compensation")
-
-
-def circle(c: ProbingCycle, m: Machine, contacts: Sequence[Contact]) -> Circle:
-    """Of the ball's centres."""
-    found: Circle = needed(fits.circle, [each.point for each in contacts], "power", m=m, code=c.code)
-    return found
-
-
-def compensate(c: OverTwoHoles | OverTwoStuds, m: Machine, touched: Sequence[Sequence[Contact]]) -> Iterator[Step]:
-    """The line through both centres becomes the direction Q307: by a basic rotation, or by the rotary table."""
-    places = [circle(c, m, contacts).centre for contacts in touched]
-    for k, (contacts, place, nominal) in enumerate(zip(touched, places, centres(c), strict=True), 1):
-        yield from measured(contacts, **{f"center {k} {axis}": (place[n], nominal[n]) for n, axis in enumerate("XY")})
-    turned = fits.reduced(needed(fits.line, places, m=m, code=c.code).angle - c.preset_rotation_angle, 360)
-    yield Measure("rotation", turned, 0.0, unit="deg", touches=numbers([*touched[0], *touched[1]]))
-    if c.compensation == 0:
-        yield from store(m, c.row, rotation=turned)
-        return
-    yield from align(m, C, turned)
-    if c.set_to_zero:
-        yield from store(m, c.row, **zeroed(m, C))

@@ -13,13 +13,14 @@ from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.probing import addresses, aimed, taken_over
 from mnclab.controls.tnc_620.probing.aimed import Finding, Floats, Found, Given, Judged
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle
+from mnclab.controls.tnc_620.probing.figures import circle
 from mnclab.controls.tnc_620.probing.line import line_results, no_line
-from mnclab.controls.tnc_620.probing.rotation import circle
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import REWORK, SCRAP
+from mnclab.machining.probing.found import Circle
 from mnclab.machining.probing.sequences import Approach, around
-from mnclab.machining.probing.sketches import round_sketch
+from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Say
 
 CYCLES = CycleTable()
@@ -88,7 +89,7 @@ class ProbingTwoCircles(ProbingCycle):
         step = over / (count if abs(over) == 360 else count - 1)
         contacts = yield from around(a, (x, y), radius, self.starting_angle, step, count, hole, now, arc=False, leave=False)
         found = circle(self, m, contacts).grown(a.ball if hole else -a.ball)
-        yield round_sketch((x, y), radius, found, z, contacts)
+        yield sketch(Circle(x, y, radius), found, z, contacts)
         return Found(np.array([found.x, found.y, z]), found.diameter, contacts)
 
     def moves(self, m: Machine) -> Moves:

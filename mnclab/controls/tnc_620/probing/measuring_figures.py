@@ -1,0 +1,193 @@
+"""Inspection of holes, studs, pockets, slots, ridges and bolt hole circles (TNC 620, 16.5 to 16.10, 16.12)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from mnclab.controls.tnc_620.cycles.addresses import coordinate, increment
+from mnclab.controls.tnc_620.cycles.faults import SAME, Fault
+from mnclab.controls.tnc_620.probing import addresses
+from mnclab.controls.tnc_620.probing.addresses import HEIGHTS, INSPECTED, ROUND
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle
+from mnclab.controls.tnc_620.probing.figures import bolt_circle, box, ring
+from mnclab.controls.tnc_620.probing.inspection import AXES, middle, report, size, wear
+from mnclab.controls.tnc_620.probing.log import Value
+from mnclab.machine.cycle import CycleTable
+from mnclab.machine.machine import Machine
+from mnclab.machine.touching import Contact
+from mnclab.machining.probing.found import Circle
+from mnclab.machining.probing.sequences import Aim, between, in_plane
+from mnclab.machining.probing.sketches import sketch
+
+CYCLES = CycleTable(addresses=addresses, runs="definition")
+LIMITS = "maximum_limit minimum_limit"
+CIRCLE = f"middle_x middle_y {ROUND} {LIMITS} {INSPECTED} points traverse reverse_tool angle_of_incidence"
+SIDES = "first_maximum first_minimum second_maximum second_minimum"
+BOX = f"middle_x middle_y length width {HEIGHTS} move_to_clearance {SIDES} {INSPECTED}"
+WIDTH = f"nominal_length {LIMITS} measuring_log program_stop monitored_tool"
+
+
+def ring_measured(c: ProbingCycle, m: Machine) -> Moves:
+    """Touches along the radius: centre and diameter."""
+    found, contacts = yield from ring(c, m, c.approach(m), (c.middle_x, c.middle_y))
+    yield from circle_told(c, m, found, contacts, "hole" if c.inside else "stud", c.inside)
+
+
+@CYCLES("TCH PROBE 421", "Hole measuring", source="16.5", takes=CIRCLE)
+class HoleMeasuring(ProbingCycle):
+    """Touches along the radius, outward: centre and diameter."""
+
+    tilted, entered = True, ("diameter",)
+    maximum_limit: float = addresses.maximum("Q275")
+    minimum_limit: float = addresses.minimum("Q276")
+    moves = ring_measured
+
+
+@CYCLES("TCH PROBE 422", "Stud measuring", source="16.6", takes=CIRCLE)
+class StudMeasuring(ProbingCycle):
+    """Touches along the radius, inward: centre and diameter of a round stud."""
+
+    tilted, inside = True, False
+    maximum_limit: float = addresses.maximum("Q277")
+    minimum_limit: float = addresses.minimum("Q278")
+    moves = ring_measured
+
+
+@CYCLES(
+    "TCH PROBE 430", "Bolt hole circle measuring", source="16.12",
+    takes=f"middle_x middle_y diameter first_angle second_angle third_angle level height {LIMITS} {INSPECTED}",
+)  # fmt: skip
+class BoltHoleCircleMeasuring(ProbingCycle):
+    """The circle through the centres of three holes, each found by four touches from its nominal centre."""
+
+    tilted = True
+    diameter: float = addresses.diameter(meaning="nominal diameter of the bolt hole circle", example=80)
+    monitored_tool: float = addresses.monitored_tool(note="only whether it is broken; 0: none")
+
+    def contradictions(self) -> Iterator[Fault]:
+        angles = self.first_angle, self.second_angle, self.third_angle
+        for k, name in ((1, "second_angle"), (2, "third_angle")):
+            if any(abs(math.remainder(angles[k] - other, 360)) < SAME for other in angles[:k]):
+                yield name, f"names the same hole again, got {angles[k]:g}: three holes make a circle"
+        if self.diameter <= 0:
+            yield "diameter", f"must be greater than 0, got {self.diameter:g}"
+
+    def moves(self, m: Machine) -> Moves:
+        found, contacts = yield from bolt_circle(self, m, self.approach(m))
+        yield from circle_told(self, m, found, contacts, "bolt hole circle", None)
+
+
+def circle_told(
+    c: ProbingCycle, m: Machine, found: Circle, contacts: Sequence[Contact], figure: str, inside: bool | None
+) -> Moves:
+    """The centre and the diameter that were found."""
+    limits = c.minimum_limit, c.maximum_limit
+    wide = size("diameter", "Diameter", "Q153", "Q163", found.diameter, c.diameter, limits, f"dimension for {figure}", inside)
+    change = (0.0, 0.0) if inside is None else wear([wide], inside)
+    yield from report(c, m, [*middle(c, found.x, found.y), wide], contacts, [wide], change)
+
+
+def box_measured(c: ProbingCycle, m: Machine) -> Moves:
+    """What the touches of the four sides find."""
+    found, contacts = yield from box(c, m, c.approach(m), (c.middle_x, c.middle_y))
+    measured = (
+        ("length", found.length, c.length, (c.first_minimum, c.first_maximum)),
+        ("width", found.width, c.width, (c.second_minimum, c.second_maximum)),
+    )
+    sizes = [
+        size(what, f"Length in {AXES[k]}", f"Q15{4 + k}", f"Q16{4 + k}", is_, be, limits, f"length in {AXES[k]}", c.inside)
+        for k, (what, is_, be, limits) in enumerate(measured)
+    ]
+    yield from report(c, m, [*middle(c, found.x, found.y), *sizes], contacts, sizes, wear(sizes, c.inside))
+
+
+@CYCLES("TCH PROBE 423", "Pocket measuring", source="16.7", takes=BOX)
+class PocketMeasuring(ProbingCycle):
+    """Touches in the middle of the four sides of a rectangular pocket: its centre, its length and its width."""
+
+    tilted, entered = True, ("length", "width")
+    length: float = addresses.side("Q282", "length along the reference axis", example=60)
+    width: float = addresses.side("Q283", "length along the minor axis", example=40)
+    moves = box_measured
+
+
+@CYCLES("TCH PROBE 424", "Rectangular stud measuring", source="16.8", takes=BOX)
+class RectangularStudMeasuring(ProbingCycle):
+    """Touches in the middle of the four sides of a rectangular stud: its centre, its length and its width."""
+
+    tilted, inside = True, False
+    length: float = addresses.side("Q282", "length along the reference axis", example=60)
+    width: float = addresses.side("Q283", "length along the minor axis", example=40)
+    moves = box_measured
+
+
+@CYCLES(
+    "TCH PROBE 425", "Slot width measuring", source="16.9",
+    takes=f"x y offset axis level height {WIDTH} clearance move_to_clearance",
+)  # fmt: skip
+class SlotMeasuring(ProbingCycle):
+    """From a starting point in the slot to the wall ahead, then, perhaps from another line, to the wall behind."""
+
+    tilted = True
+    x: float = coordinate("Q328", "starting point, reference axis", example=50)
+    y: float = coordinate("Q329", "starting point, minor axis", example=30)
+    offset: float = increment("Q310", "offset of the second measurement", note="along the other axis", example=0)
+
+    def moves(self, m: Machine) -> Moves:
+        a, k = self.approach(m), int(self.axis) - 1
+        ahead = (1.0, 0.0) if k == 0 else (0.0, 1.0)
+        (far,) = yield from in_plane(a, [Aim(self.x, self.y, ahead, 0.0)], m.programmed[2], leave=False)
+        start = [self.x, self.y]
+        start[1 - k] += self.offset
+        if self.offset:
+            yield from between(a, start[0], start[1], ())
+        start[k] = min(start[k], far.point[k] + a.ball - self.nominal_length + a.away)
+        aim = Aim(start[0], start[1], (-ahead[0], -ahead[1]), 0.0)
+        (near,) = yield from in_plane(a, [aim], a.height)  # as if it stood up there: it stays at the measuring height
+        yield from width_told(self, m, far, near, [far, near])
+
+
+@CYCLES(
+    "TCH PROBE 426", "Ridge width measuring", source="16.10", takes=f"x y second_x second_y axis {HEIGHTS} {WIDTH}"
+)  # fmt: skip
+class RidgeMeasuring(ProbingCycle):
+    """From outside: the wall at the larger coordinate in the negative direction, then the other one in the positive."""
+
+    tilted, inside = True, False
+    nominal_length: float = addresses.nominal_length(example=60)
+
+    @property
+    def along(self) -> int:
+        """The measuring axis, 0 or 1."""
+        return int(self.axis) - 1
+
+    @property
+    def points_by_place(self) -> list[tuple[float, float]]:
+        """The nominal points, the one at the larger coordinate of the measuring axis first."""
+        return sorted([(self.x, self.y), (self.second_x, self.second_y)], key=lambda point: -point[self.along])
+
+    def contradictions(self) -> Iterator[Fault]:
+        far, near = self.points_by_place
+        if far[self.along] - near[self.along] < SAME:
+            yield ("second_x", "second_y")[self.along], "is that of the first touch point: a ridge lies between two"
+
+    def moves(self, m: Machine) -> Moves:
+        a, (far, near) = replace(self.approach(m), over=True), self.points_by_place
+        x, y = (1.0, 0.0) if self.along == 0 else (0.0, 1.0)
+        contacts = yield from in_plane(a, [Aim(*far, (-x, -y)), Aim(*near, (x, y))], m.programmed[2])
+        yield from width_told(self, m, contacts[0], contacts[1], contacts)
+
+
+def width_told(c: ProbingCycle, m: Machine, far: Contact, near: Contact, contacts: Sequence[Contact]) -> Moves:
+    """From the touch of the wall that is farther along the axis, and the other one: width and centre line."""
+    k, ball = int(c.axis) - 1, m.radius if c.inside else -m.radius
+    walls, other, half = (near.point[k] - ball, far.point[k] + ball), near.point[1 - k], c.nominal_length / 2
+    line = sum(walls) / 2
+    nominal, found = ([(x, other) if k == 0 else (other, x) for x in pair] for pair in ((line - half, line + half), walls))
+    yield sketch(nominal, found, c.level, contacts)
+    limits, width = (c.minimum_limit, c.maximum_limit), walls[1] - walls[0]
+    wide = size("width", "Measured length", "Q156", "Q166", width, c.nominal_length, limits, "length", c.inside)
+    centre = Value("XY"[k], f"Centerline in {AXES[k]}", line, "Q157")
+    yield from report(c, m, [wide, centre], contacts, [wide], wear([wide], c.inside))
