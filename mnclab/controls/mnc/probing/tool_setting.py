@@ -66,6 +66,9 @@ class LaserCycle(Cycle):
             if known(m, name) is None:
                 how = "G471" if name == "laser_z" else "G472"
                 yield "", f"needs {name} of the tool setter: {how} finds it, or the setting says it"
+        beam = known(m, "laser_z") if "laser_z" in self.needs else None
+        if beam is not None and m.tip[2] <= beam:
+            yield "", f"begins above the beam, which is at Z{beam:g} of the machine: the tip is at Z{m.tip[2]:g}"
         if self.depth is not None and self.kind != 1 and self.needs == ALL and not m.tool.effective_radius > 0:
             yield "", f"needs the radius of T{m.tool.number} in the tool table"
 
