@@ -113,7 +113,7 @@ def _stock(what: str, given: Any) -> None:
 
 def _part(what: str, given: Any) -> None:
     cut = isinstance(given, str) and given == "cut"
-    _must(given is None or cut or callable(given), what, 'a part, or "cut" for what the program cuts', given)
+    _must(given is None or cut or isinstance(given, Part), what, 'a part, or "cut" for what the program cuts', given)
 
 
 def _fixtures(what: str, given: Any) -> None:
@@ -176,9 +176,9 @@ class Setup:
     `correctors` are offsets along the axes, mm, of the controls whose words D or L name them. Tools given without a
     number get the one they are listed under. `variables` have values before the program begins: what another left
     (`run.variables`). `source` is the file that the setup was read from: an alarm about a setting shows its line.
-    `true_tools` are the tools as they truly are, by the number of their row in the table, where they differ from it: what
-    cuts, and what probing and measuring find. `setter` is the tool setter that measures them, if there is one. `kinematics`
-    is not built yet. An Alarm names what cannot be.
+    `true_tools` are the tools as they truly are, by the number of their row in the table, where they differ from it (what is
+    not said of one is as the table has it): what cuts, and what probing and measuring find. `setter` is the tool setter that
+    measures them, if there is one. `kinematics` is not built yet. An Alarm names what cannot be.
     """
 
     tools: Magazine | None = None
@@ -226,6 +226,8 @@ class Setup:
         it had none."""
         tools = magazine if self.tools is None else self.tools
         found = replace(self, tools=tools, stock=deepcopy(self.stock), fixtures=deepcopy(tuple(self.fixtures)))
+        true = {n: _truly(each, tools[n]) if n in tools else each for n, each in self.true_tools.items()}
+        object.__setattr__(found, "true_tools", true)
         for name in (*ROWS, *NAMED):
             object.__setattr__(found, name, MappingProxyType(getattr(found, name)))
         return found
@@ -245,6 +247,16 @@ class Setup:
     def with_settings(self, **settings: Any) -> Setup:
         """The same machine with some settings changed."""
         return replace(self, settings={**self.settings, **settings}, source=None)
+
+
+def _truly(tool: Tool, row: Tool) -> Tool:
+    """A tool as it is, of which only some is said: the rest is as its row of the table has it."""
+    usual = Tool()
+    said = {name: getattr(tool, name) for name in vars(usual) if getattr(tool, name) != getattr(usual, name)}
+    for size, delta in (("length", "dl"), ("radius", "dr")):
+        if size in said:
+            said[delta] = getattr(tool, delta)
+    return replace(row.of_radius(tool.radius) if "radius" in said else row, **said | {"number": row.number})
 
 
 def _again(values: Mapping[str, Any], kept: bool) -> Setup:

@@ -50,7 +50,7 @@ def _rows(setup: Setup) -> Iterator[tuple[str, str]]:
         yield "stock", f"{place(stock.low)} to {place(stock.high)}" if isinstance(stock, Box) else str(stock)
     if setup.part is not None:
         cut = "what the program has cut so far" if setup.part == "cut" else None
-        yield "part", cut or getattr(setup.part, "__name__", None) or repr(setup.part)
+        yield "part", cut or repr(setup.part)
     yield from (("fixture", str(each)) for each in setup.fixtures)
     yield from ((f"true T{number}", tool_line(tool)) for number, tool in setup.true_tools.items())
     yield "probe", ", ".join(_different(setup.probe, type(setup.probe)())) or "as usual"

@@ -6,13 +6,17 @@ The part of a setup is in machine coordinates, pictures count in those of the pa
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from mnclab.geometry.frames import shift
+from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array
 from mnclab.path.kinds import Kind
 from mnclab.workpiece.part import Part
+from mnclab.workpiece.part.part import Distance
 
 FAR = 4.0  # times as large as the path a part may be to be shown whole
 AROUND = 0.15  # of the greatest side: how far beyond the path a part without an end is shown
@@ -117,8 +121,25 @@ def part_of(run: Any) -> Part | None:
         return part
     if run.stock is None or run.toolpath.lathe or int(run.toolpath.is_motion.sum()) > MOVES:
         return None
-    found: Part = run.workpiece().part.shifted(*run.toolpath.origin)
-    return found
+    left, origin = run.workpiece(), run.toolpath.origin
+    whole: Part = left.part.shifted(*origin)
+    return replace(whole, distance=Sections(whole.distance, left, tuple(origin.tolist())))
+
+
+class Sections(NamedTuple):
+    """The distance from what a program has cut, which knows its level sections: asking all places of a picture takes minutes."""
+
+    distance: Distance
+    left: Any
+    origin: tuple[float, ...]
+
+    def __call__(self, points: Array) -> Array:
+        return self.distance(points)
+
+    def section(self, z: float) -> Region:
+        """What a level plane cuts, machine coordinates."""
+        x, y, up = self.origin
+        return Region(tuple(loop.transformed(shift(x, y)) for loop in self.left.cut("XY", z - up)))
 
 
 def _rows(run: Any, origin: Array) -> list[int]:

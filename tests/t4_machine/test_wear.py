@@ -1,5 +1,7 @@
 """What a tool table holds for measuring a tool: read, printed, checked; a locked tool is not called."""
 
+import math
+
 import pytest
 
 import mnclab as mnc
@@ -50,3 +52,16 @@ def test_a_locked_tool_is_not_called_again():
     run = mnc.run("0 BEGIN PGM A MM\n1 TOOL CALL 2 Z S100\n2 TOOL CALL 1 Z\n3 END PGM A MM\n", "tnc-620", mnc.Setup(tools=tools))
     (alarm,) = run.alarms
     assert str(alarm).splitlines()[0].startswith("program:3:13: alarm: TOOL CALL cannot call T1: it is locked in the tool table")
+
+
+@pytest.mark.parametrize(("true", "lower"), [
+    (mnc.Tool(length=80.25), 0.25), (mnc.Tool(radius=1.5), 0.0), (mnc.Tool(radius=1.5, length=79.5), -0.5),
+])  # fmt: skip
+def test_what_is_not_said_of_a_true_tool_is_as_the_table_has_it(true, lower):
+    """A tool that is longer than its row by `lower` cuts so much deeper than the 2 mm of the program."""
+    tools = {3: mnc.Tool(radius=2, length=80, kind="mill")}
+    setup = mnc.Setup(tools=tools, true_tools={3: true}, stock=((-10, -10, -90), (30, 10, -80)), start=(0, 0, 200))
+    run = mnc.run("T3 S900 M3\nG0 X0 Y0 Z5\nG1 Z-82 F100\nG0 Z5\n", "mnc", setup)
+    radius = true.radius or 2
+    area = math.pi * radius**2
+    assert run.workpiece().removed == pytest.approx(area * (2 + lower), rel=1e-3)

@@ -71,6 +71,21 @@ def test_a_section_just_below_the_top_is_exact():
     assert np.linalg.norm(outer - corners[:, None], axis=2).min(axis=1) == pytest.approx(0, abs=1e-9)
 
 
+def test_what_the_program_has_cut_is_shown_without_asking_every_place():
+    """A slot of 10 by 25 with a round end in a blank of 60 by 40: the wall X25 is touched."""
+    text = (
+        "BLK FORM 0.1 Z X+0 Y+0 Z-20\nBLK FORM 0.2 X+60 Y+40 Z+0\nTOOL CALL 1 Z S1000\nL X-10 Y+20 Z-6 R0 FMAX M3\nL X+20 F200\n"
+        "L Z+50 FMAX\nTOOL CALL 7 Z\nL Z+50 FMAX\nTCH PROBE 419 PRESET\nQ263=25\nQ264=+20\nQ261=-3\nQ320=+0\nQ260=+20\n"
+        "Q272=+1\nQ267=+1\nQ305=+0\nQ333=+0\nQ303=+1\n"
+    )
+    tools = {1: mnclab.Tool(radius=5, kind="mill"), 7: mnclab.Tool(radius=2, kind="probe")}
+    setup = mnclab.Setup(tools=tools, presets={1: (100, 50, 0)}, settings={"preset": 1}, part="cut")
+    run = mnclab.run(text, "tnc-620", setup)
+    assert run.ok, run.alarms
+    (ax,) = run.plot_measured().axes
+    assert area(ax) == pytest.approx(60 * 40 - 20 * 10 - np.pi * 5**2 / 2, rel=1e-3)
+
+
 def test_touches_lie_where_the_part_was_touched_in_coordinates_of_the_path(probed):
     found = felt(probed)
     assert found.places[0] == pytest.approx((62, 30, -5)) and found.texts[0] == ("1   X 62.000", "1")
