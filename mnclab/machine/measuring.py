@@ -152,13 +152,16 @@ class Measurements(Sequence[Measurement]):
         judged = sum(bool(row.verdict) for row in self)
         if not judged:
             return f"{several(len(self), 'measure')}, none with limits"
-        return f"{judged - len(self.outside)} of {several(judged, 'measure')} with limits are within them"
+        return f"within their limits: {judged - len(self.outside)} of {several(judged, 'measure')}"
 
     def __repr__(self) -> str:
         return text_table(HEAD, [row.texts() for row in self]) if self else "nothing was measured"
 
     def _repr_html_(self) -> str:
-        return html_table(HEAD, [row.texts() for row in self], numbers=NUMBERS) if self else "<p>nothing was measured</p>"
+        if not self:
+            return "<p>nothing was measured</p>"
+        bold = [k for k, row in enumerate(self) if row.verdict not in ("", OK)]
+        return html_table(HEAD, [row.texts() for row in self], numbers=NUMBERS, bold=bold)
 
     def as_dicts(self) -> list[dict[str, Any]]:
         """For JSON and for tables of other libraries: nan as None."""
