@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from mnclab.geometry.contours import Contour
-from mnclab.text.alarm import several
+from mnclab.text.alarm import Alarm, several
+from mnclab.text.file import replaced
 from mnclab.text.tables import html_table, text_table
 
 if TYPE_CHECKING:
@@ -32,7 +33,8 @@ SLACK = 1e-6  # mm or degrees, by which a value may be beyond its limit: it stan
 class Touched(NamedTuple):
     """One touch: from where the centre of the ball went (`start`), where it stood (`centre`) and where the part was
     (`surface`, as it is), mm. `programmed` is the centre in the coordinates of the program as the control took it, `found`
-    the touched point, so too. `frame` (4, 4) leads from the program to the machine."""
+    the touched point, so too. `frame` (4, 4) leads from the program to the machine; `names` are the axes of the program, the
+    tool axis last."""
 
     step: int
     line: int
@@ -46,6 +48,11 @@ class Touched(NamedTuple):
     programmed: Point
     found: Point
     frame: Any
+    names: str = "XYZ"
+
+    def coordinate(self, name: str) -> float:
+        """What it found along X, Y or Z."""
+        return self.found[self.names.index(name)]
 
 
 class Touches(tuple[Touched, ...]):
@@ -55,7 +62,7 @@ class Touches(tuple[Touched, ...]):
 
     def texts(self) -> list[tuple[str, ...]]:
         """What the table says, row by row."""
-        numbers = (tuple(_written(value) for value in (*each.found, each.ball)) for each in self)
+        numbers = (tuple(_written(value) for value in (*map(each.coordinate, "XYZ"), each.ball)) for each in self)
         return [(str(k), str(each.line), each.label, *row) for k, (each, row) in enumerate(zip(self, numbers), 1)]
 
     def __repr__(self) -> str:
@@ -165,8 +172,10 @@ class Measurements(Sequence[Measurement]):
         return [{k: None if isinstance(v, float) and math.isnan(v) else v for k, v in row.items()} for row in rows]
 
     def save(self, path: str | Path) -> None:
-        """Write the table as CSV, numbers with all their digits."""
-        with Path(path).open("w", newline="", encoding="utf-8") as file:
+        """Write the table as CSV, numbers with all their digits; an Alarm where the name says another kind of file."""
+        if Path(path).suffix.lower() != ".csv":
+            raise Alarm(f"a measuring record is saved as .csv, got {path}", hint="run.report has it as .html or .pdf")
+        with replaced(path) as beside, beside.open("w", newline="", encoding="utf-8") as file:
             names = ("line", "cycle", "what", "unit", "nominal", "actual", "deviation", "lower", "upper", "verdict")
             out = csv.DictWriter(file, names, extrasaction="ignore")
             out.writeheader()
