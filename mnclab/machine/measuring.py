@@ -6,6 +6,7 @@ Touches and figures are in machine coordinates while the program runs; `runs` gi
 from __future__ import annotations
 
 import csv
+import json
 import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -14,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from mnclab.geometry.contours import Contour
-from mnclab.text.alarm import several
+from mnclab.text.alarm import Alarm, several
 from mnclab.text.tables import html_table, text_table
 
 if TYPE_CHECKING:
@@ -167,13 +168,20 @@ class Measurements(Sequence[Measurement]):
         rows = [{**row._asdict(), "deviation": row.deviation} for row in self]
         return [{k: None if isinstance(v, float) and math.isnan(v) else v for k, v in row.items()} for row in rows]
 
-    def save(self, path: str | Path) -> None:
-        """Write the table as CSV, numbers with all their digits."""
-        with Path(path).open("w", newline="", encoding="utf-8") as file:
+    def save(self, path: str | Path) -> Path:
+        """Write the table as .csv or .json, numbers with all their digits; the file."""
+        path = Path(path)
+        if path.suffix.lower() not in (".csv", ".json"):
+            raise Alarm(f"measurements are written as .csv or .json, got {path.name!r}")
+        if path.suffix.lower() == ".json":
+            path.write_text(json.dumps(self.as_dicts(), indent=1), encoding="utf-8")
+            return path
+        with path.open("w", newline="", encoding="utf-8") as file:
             names = ("line", "cycle", "what", "unit", "nominal", "actual", "deviation", "lower", "upper", "verdict")
             out = csv.DictWriter(file, names, extrasaction="ignore")
             out.writeheader()
             out.writerows(self.as_dicts())
+        return path
 
 
 def record(

@@ -6,7 +6,7 @@ The part of a setup is in machine coordinates, pictures count in those of the pa
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,7 +16,7 @@ from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array
 from mnclab.path.kinds import Kind
 from mnclab.workpiece.part import Part
-from mnclab.workpiece.part.part import Distance
+from mnclab.workpiece.part.part import Distance, Floats
 
 FAR = 4.0  # times as large as the path a part may be to be shown whole
 AROUND = 0.15  # of the greatest side: how far beyond the path a part without an end is shown
@@ -126,14 +126,15 @@ def part_of(run: Any) -> Part | None:
     return replace(whole, distance=Sections(whole.distance, left, tuple(origin.tolist())))
 
 
-class Sections(NamedTuple):
+@dataclass(frozen=True)
+class Sections:
     """The distance from what a program has cut, which knows its level sections: asking all places of a picture takes minutes."""
 
     distance: Distance
     left: Any
     origin: tuple[float, ...]
 
-    def __call__(self, points: Array) -> Array:
+    def __call__(self, points: Floats) -> Floats:
         return self.distance(points)
 
     def section(self, z: float) -> Region:

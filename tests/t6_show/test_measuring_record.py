@@ -138,3 +138,12 @@ def test_what_is_beyond_its_limits_is_bold(measured):
 def test_a_measured_datum_says_what_is_not_zero():
     assert str(mnclab.Datum(50.1, 29.9)) == "X50.1 Y29.9" and str(mnclab.Datum(rotation=2)) == "rotation 2"
     assert str(mnclab.Datum()) == "X0 Y0 Z0"
+
+
+def test_the_record_is_saved_as_csv_or_json_and_as_nothing_else(measured, tmp_path):
+    saved = measured.measurements.save(tmp_path / "record.json")
+    assert [row["what"] for row in json.loads(saved.read_text())] == [row.what for row in measured.measurements]
+    assert measured.measurements.save(tmp_path / "record.csv").read_text().startswith("line,cycle,what")
+    for name in ("record.html", "record"):
+        with pytest.raises(mnclab.Alarm, match="written as .csv or .json, got 'record"):
+            measured.measurements.save(tmp_path / name)

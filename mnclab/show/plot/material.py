@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PathCollection, PolyCollection
-from matplotlib.transforms import Affine2D
 
+from mnclab.geometry.contours import Contour
 from mnclab.geometry.frames import Matrix, apply, inverse, turn
 from mnclab.geometry.regions import Region
 from mnclab.geometry.scanning import scan
@@ -25,22 +26,23 @@ FACE: dict[str, Any] = {"facecolor": "#e9e5da", "edgecolor": "#8c8778", "linewid
 
 
 def draw_material(ax: Axes, part: Part, view: View, frame: Array, level: float) -> None:
-    """What the plane of a view cuts of a part, within the limits of the axes.
+    """What the plane of a view cuts of a part, within the limits of the axes: exact of upright prisms.
 
-    Upright prisms are exact; what a program has cut is shown from above only. The view lies in coordinates that a
-    `frame` (4, 4) leads to those of the part, at a `level` mm along the line of sight.
+    What a program has cut is shown from above only. The view lies in coordinates that a `frame` (4, 4) leads to those of the
+    part, at a `level` mm along the line of sight.
     """
-    if (view.right, view.up) == (0, 1) and _sliced(part, frame):
-        if loops := part.section(level + float(frame[2, 3])):
-            shape = outline(loops).transformed(Affine2D(inverse(frame)[[0, 1, 3]][:, [0, 1, 3]]))
-            look: dict[str, Any] = {"facecolor": "none", "edgecolor": "none", "linewidth": FACE["linewidth"]}
-            for name, order in (("facecolor", 0.6), ("edgecolor", 0.7)):
-                ax.add_collection(PathCollection([shape], **look | {name: FACE[name]}, zorder=order), autolim=False)
-        return
     if isinstance(part.distance, Sections):
+        if (view.right, view.up) == (0, 1) and np.abs(frame[2] - (0, 0, 1, frame[2, 3])).max() < UPRIGHT:
+            cut = part.section(level + float(frame[2, 3]))
+            _draw_loops(ax, [loop.transformed(inverse(frame)) for loop in cut])
         return
-    if view.up == 2 and _upright(part, frame):
-        return _draw_side(ax, part.placed(inverse(frame)), view, level)
+    if view.right < 2 and _upright(part, frame):
+        here = part.placed(inverse(frame))
+        if view.up == 2:
+            _draw_side(ax, here, view, level)
+        else:
+            _draw_loops(ax, here.section(level))
+        return
     (left, right), (below, above) = ax.get_xlim(), ax.get_ylim()
     step = max(right - left, above - below) / CELLS
     across, up = (np.linspace(a, b, max(2, round((b - a) / step) + 1)) for a, b in ((left, right), (below, above)))
@@ -52,6 +54,15 @@ def draw_material(ax: Axes, part: Part, view: View, frame: Array, level: float) 
     ax.contourf(across, up, off, [-np.inf, 0.0], colors=[FACE["facecolor"]], zorder=0.6)
     if (off > 0).any():
         ax.contour(across, up, off, [0.0], colors=[FACE["edgecolor"]], linewidths=FACE["linewidth"], zorder=0.7)
+
+
+def _draw_loops(ax: Axes, loops: Sequence[Contour]) -> None:
+    """Closed contours from above."""
+    if not loops:
+        return
+    look: dict[str, Any] = {"facecolor": "none", "edgecolor": "none", "linewidth": FACE["linewidth"]}
+    for name, order in (("facecolor", 0.6), ("edgecolor", 0.7)):
+        ax.add_collection(PathCollection([outline(loops)], **look | {name: FACE[name]}, zorder=order), autolim=False)
 
 
 def _draw_side(ax: Axes, part: Part, view: View, level: float) -> None:
@@ -96,10 +107,3 @@ def _upright(part: Part, frame: Array) -> bool:
     turn, along = frame[:3, :3], (inverse(frame) @ body.placing)[2, 2]
     rigid = np.allclose(turn.T @ turn, np.eye(3), rtol=0, atol=UPRIGHT) and np.linalg.det(turn) > 0
     return bool(rigid and abs(along - 1) < UPRIGHT)
-
-
-def _sliced(part: Part, frame: Array) -> bool:
-    """Whether a part knows its level sections, and those of a frame are level."""
-    own = part.distance
-    known = (isinstance(own, Prisms) and not own.taper and abs(abs(own.placing[2, 2]) - 1) < UPRIGHT) or isinstance(own, Sections)
-    return bool(known and np.abs(frame[2] - (0, 0, 1, frame[2, 3])).max() < UPRIGHT)

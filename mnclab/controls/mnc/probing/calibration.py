@@ -6,9 +6,12 @@ lie apart by twice the offsets (MNC-G461-180). The probe moves along the axes of
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, ClassVar
+
+import numpy as np
 
 from mnclab.controls.mnc.probing import addresses
 from mnclab.controls.mnc.probing.cycle import TURNS, MeasuringCycle, Moves
@@ -110,6 +113,9 @@ def offsets_and_radius(c: Ring | CalibrationBoss, m: Machine, a: Approach, insid
         found.append(circle(points, "opposite"))
     yield a.go("to the starting point", None, *at(m, start))
     yield Orient("turn the probe back", angle)
+    off = math.dist(start, np.mean([each.centre for each in found], axis=0))
+    if off > MISPLACED:
+        m.warn(f"{c.code} began {off:.4f} mm off the centre of the figure, farther than {MISPLACED:g}")
     radius = (found[0].radius + found[1].radius) / 2
     radius = c.diameter / 2 - radius if inside else radius - c.diameter / 2
     if radius <= 0:

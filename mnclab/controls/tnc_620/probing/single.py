@@ -62,6 +62,14 @@ def unscaled(m: Machine) -> Iterator[Fault]:
         yield "", "cannot run under a scale other than 1: the ball keeps its size"
 
 
+def placed(c: ReferencePlane | PolarPreset, m: Machine) -> Iterator[Fault]:
+    """The same; a program that is half typed names no pre-position."""
+    if c.x is None and c.y is None and c.z is None:
+        last = 1 if isinstance(c, ReferencePlane) else 2
+        yield "", f"needs its pre-position, X, Y or Z in {c.code}.{last}"
+    yield from unscaled(m)
+
+
 def from_place(c: ReferencePlane | PolarPreset, m: Machine, way: Vector) -> Steps:
     """To the pre-position at rapid, a touch as the probe table has it, and back; returns the contact.
 
@@ -94,7 +102,7 @@ class ReferencePlane(ProbingCycle):
         return kept(self)
 
     def check(self, m: Machine) -> Iterator[Fault]:
-        return unscaled(m)
+        return placed(self, m)
 
     def moves(self, m: Machine) -> Moves:
         sense, k, ball = float(f"{self.probing[1]}1"), "XYZ".index(self.probing[0]), m.radius
@@ -115,7 +123,7 @@ class PolarPreset(ProbingCycle):
     z: float | None = pre_z()
 
     def check(self, m: Machine) -> Iterator[Fault]:
-        return unscaled(m)
+        return placed(self, m)
 
     def moves(self, m: Machine) -> Moves:
         contact = yield from from_place(self, m, in_plane_of(self.axis, self.angle))
