@@ -6,6 +6,7 @@ Touches and figures are in machine coordinates while the program runs; `runs` gi
 from __future__ import annotations
 
 import csv
+import json
 import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -171,15 +172,20 @@ class Measurements(Sequence[Measurement]):
         rows = [{**row._asdict(), "deviation": row.deviation} for row in self]
         return [{k: None if isinstance(v, float) and math.isnan(v) else v for k, v in row.items()} for row in rows]
 
-    def save(self, path: str | Path) -> None:
-        """Write the table as CSV, numbers with all their digits; an Alarm where the name says another kind of file."""
-        if Path(path).suffix.lower() != ".csv":
-            raise Alarm(f"a measuring record is saved as .csv, got {path}", hint="run.report has it as .html or .pdf")
+    def save(self, path: str | Path) -> Path:
+        """Write the table as .csv or .json, numbers with all their digits; the file."""
+        path = Path(path)
+        if path.suffix.lower() not in (".csv", ".json"):
+            raise Alarm(f"measurements are written as .csv or .json, got {path.name!r}")
         with replaced(path) as beside, beside.open("w", newline="", encoding="utf-8") as file:
+            if path.suffix.lower() == ".json":
+                json.dump(self.as_dicts(), file, indent=1)
+                return path
             names = ("line", "cycle", "what", "unit", "nominal", "actual", "deviation", "lower", "upper", "verdict")
             out = csv.DictWriter(file, names, extrasaction="ignore")
             out.writeheader()
             out.writerows(self.as_dicts())
+        return path
 
 
 def record(

@@ -51,7 +51,12 @@ class Setting(NamedTuple):
             return "a mapping"
         least = "" if self.at_least is None else f" from {self.at_least:g}"
         most = "" if self.at_most is None else f" to {self.at_most:.10g}"
-        return f"a number{least}{most}"
+        return f"a {'whole ' if self.whole else ''}number{least}{most}"
+
+    @property
+    def whole(self) -> bool:
+        """Whether it counts something: its default, or its least, is whole and has no unit."""
+        return not self.unit and isinstance(self.at_least if self.default is None else self.default, int)
 
     def check(self, value: Any) -> Any:
         """The value as functions read it; an Alarm when it is not allowed."""
@@ -65,6 +70,7 @@ class Setting(NamedTuple):
             good = isinstance(value, Mapping)
         else:
             good = isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
+            good = good and not (self.whole and float(value) % 1)
             good = good and (self.at_least is None or float(value) >= self.at_least)
             good = good and (self.at_most is None or float(value) <= self.at_most)
         if not good:

@@ -6,7 +6,7 @@ The part of a setup is in machine coordinates, pictures count in those of the pa
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,11 +16,12 @@ from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array
 from mnclab.path.kinds import Kind
 from mnclab.workpiece.part import Part
-from mnclab.workpiece.part.part import Distance
+from mnclab.workpiece.part.part import Distance, Floats
 
 FAR = 4.0  # times as large as the path a part may be to be shown whole
 AROUND = 0.15  # of the greatest side: how far beyond the path a part without an end is shown
 UNDER = 0.1  # mm below its highest place is a part cut that nothing has touched
+BEHIND, ALONG = 1.0, 0.7  # mm behind a wall, of walls that were touched from one side only; the cosine of such a touch
 MOVES = 2000  # beyond which what the program has cut is not worked out for a picture
 TINY = 1e-9
 HALVINGS = 12
@@ -28,12 +29,13 @@ HALVINGS = 12
 
 class Felt(NamedTuple):
     """The part (None: not known), where the zero point of the path stands in its coordinates (3,), and of each touch the
-    place (n, 3) in coordinates of the path, the row of the path (n,), and what is written there: with its value, and the
-    number alone. Number 1 is `run.touches[0]`."""
+    place (n, 3) in coordinates of the path and the way (n, 3) that the ball came, the row of the path (n,), and what is written
+    there: with its value, and the number alone. Number 1 is `run.touches[0]`."""
 
     part: Part | None
     origin: Array
     places: Array
+    ways: Array
     rows: list[int]
     texts: list[tuple[str, str]]
 
@@ -59,8 +61,12 @@ class Felt(NamedTuple):
     def level(self, axis: int) -> float:
         """Where a section square to an axis shows what was touched."""
         if len(self.places):
-            found = float(np.median(self.places[:, axis]))
-            return found - UNDER if axis == 2 else found
+            found, along = self.places[:, axis], self.ways[:, axis]
+            if axis == 2:
+                return float(np.median(found)) - UNDER
+            walls = np.abs(along) > ALONG
+            side = float(np.sign(along[walls]).mean()) if walls.any() else 0.0
+            return side * (float((side * found[walls]).max()) + BEHIND) if abs(side) == 1 else float(np.median(found))
         low, high = (0.0, 0.0) if self.part is None else (self.part.bounds - self.origin)[:, axis].tolist()
         if axis == 2:
             return high - UNDER if math.isfinite(high) else 0.0
@@ -104,7 +110,8 @@ def felt(run: Any) -> Felt | None:
             return None
     origin = np.array(run.toolpath.origin, dtype=float)
     places = np.array([touch.surface for touch in run.touches], dtype=float).reshape(-1, 3) - origin
-    return Felt(part, origin, places, _rows(run, origin), _texts(run))
+    ways = np.array([touch.direction for touch in run.touches], dtype=float).reshape(-1, 3)
+    return Felt(part, origin, places, ways, _rows(run, origin), _texts(run))
 
 
 def part_of(run: Any) -> Part | None:
@@ -119,14 +126,15 @@ def part_of(run: Any) -> Part | None:
     return replace(whole, distance=Sections(whole.distance, left, tuple(origin.tolist())))
 
 
-class Sections(NamedTuple):
+@dataclass(frozen=True)
+class Sections:
     """The distance from what a program has cut, which knows its level sections: asking all places of a picture takes minutes."""
 
     distance: Distance
     left: Any
     origin: tuple[float, ...]
 
-    def __call__(self, points: Array) -> Array:
+    def __call__(self, points: Floats) -> Floats:
         return self.distance(points)
 
     def section(self, z: float) -> Region:

@@ -345,3 +345,9 @@ def test_the_shelf_holds_what_the_package_gives():
 def test_points_in_space_are_seen_from_above():
     assert circle([[5, 0, 1], [-5, 0, 2], [0, 5, -3]]).diameter == pytest.approx(10)
     assert width([0, 0, 1], [4, 0, 9]).width == 4
+
+
+@pytest.mark.parametrize("given", [1, [(0, 0), (1, 0)], None])
+def test_a_corner_is_that_of_two_lines(given):
+    with pytest.raises(Alarm, match="a corner is that of two lines, got"):
+        corner(given, line([(0, 1), (0, 2)]))

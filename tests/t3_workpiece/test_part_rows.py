@@ -1,5 +1,6 @@
 """Rows of a probe past the part: where its ball or its stem meets it, by plain arithmetic."""
 
+import time
 from math import nan, sqrt
 
 import numpy as np
@@ -106,3 +107,12 @@ def test_a_touch_and_the_way_back():
 def test_nonsense_is_an_alarm(given, said):
     with pytest.raises(Alarm, match=said):
         BLOCK.blocked(*given)
+
+
+def test_a_stem_of_any_length_is_looked_at_at_once():
+    """It meets what hangs a kilometre above the row; a row of parts a thousandth as long costs the same."""
+    far = box((50, 0, 999_000), (60, 60, 999_010))
+    started = time.process_time()
+    assert (BLOCK | far).blocked((-10, 10, 5), (110, 10, 5), 2, 1.0, 1e6) == pytest.approx(60 - 1, abs=ROUGHLY)
+    assert BLOCK.blocked((-10, 10, 5), (110, 10, 5), 2, 1.0, 1e6) is None
+    assert time.process_time() - started < 2

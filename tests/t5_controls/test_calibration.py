@@ -314,3 +314,11 @@ def test_the_end_of_a_program_ends_fast_probing():
     called = "BEGIN PGM SUB MM\nTCH PROBE 441 F\nQ396=800\nQ397=0\nQ399=0\nQ400=0\nEND PGM SUB MM\n"
     found, _ = feeds("CALL PGM SUB.H\n" + TOUCH, files={"SUB.H": called}, probe={"rapid": 1500.0})
     assert found == {1500}
+
+
+@pytest.mark.parametrize(("away", "warned"), [(4.9, 0), (5.1, 1)])
+def test_a_probe_more_than_5_mm_off_the_centre_is_told(away, warned):
+    """12.25: by hand within 5 mm of the centre."""
+    run = measured(f"G0 X{away}\nG0 Z-8\nG461 D30\n", block((0, 0), 15, inside=False), true_tools=true(3, 150))
+    assert run.ok and len(run.alarms) == warned, run.alarms
+    assert all(f"began {away:.4f} mm off the centre of the figure" in str(alarm) for alarm in run.alarms)

@@ -71,6 +71,41 @@ def test_the_factor_is_round_and_shows_the_worst_as_a_tenth(measured):
     assert [nice(value) for value in (0.3, 1, 4.99, 5, 19, 21, 500)] == [1, 1, 2, 5, 10, 20, 500]
 
 
+def probing(text, part=BORE):
+    """The ball stands at X-5 Y30, and in front of the wall at X0 5 mm below the top."""
+    setup = mnclab.Setup(part=part, tools={7: mnclab.Tool(radius=2, kind="probe")})
+    down = "N30 G0 Z-5\n" if part is BORE else ""
+    return mnclab.run("N10 T7\nN20 G0 X-5 Y30 Z20\n" + down + text, "mnc", setup)
+
+
+def test_a_slanting_touch_says_what_the_record_says_and_draws_no_wall():
+    """G491 gives the centre of the ball: at 30 degrees from X-5 to X-2 it goes up by 3 tan 30 degrees."""
+    ((panel,), _) = panels(probing("N40 G491 L1 E30 P20 Q2\n"), None, None)
+    assert panel.title.startswith("line 4  G491\n") and not panel.pairs
+    assert panel.balls[0].text == f"X \N{MINUS SIGN}2.000  Y {30 + 3 * np.tan(np.radians(30)):.3f}"
+
+
+def test_the_legend_has_a_nominal_line_only_where_one_is_drawn():
+    names = [text.get_text() for text in probing("N40 G499 X1\n").plot_measured().legends[0].get_texts()]
+    assert "measured" in names and "nominal" not in names
+
+
+def test_what_has_no_nominal_place_is_not_magnified():
+    """G415 knows no nominal corner; touches along an axis are off the turned line by radius * (1 / cos 0.4 degrees - 1)."""
+    part = (box((-60, -60, -30), (160, 120, 0)) - box((0, 0, -12), (300, 300, 20))).turned(0.4)
+    run = probing("N40 G415 X8 Y6 A40 B20 C1 Z-5 H20\n", part)
+    assert run.ok, run.alarms
+    ((panel,), _) = panels(run, None, None)
+    assert panel.factor == 1 and "deviation" not in panel.title and len(panel.balls) == 4
+
+
+def test_a_refused_cycle_stands_over_what_it_touched():
+    """Of a slot only one side is there: the ball finds the first wall and nothing at the other."""
+    run = probing("N40 G425 X50 Y30 L1 D20 Z-5 H20\n", box((60, -60, -30), (160, 120, 0)))
+    ((panel,), _) = panels(run, None, None)
+    assert panel.title == "line 3  G425\nfrom above" and len(panel.balls) == 1
+
+
 def test_places_are_those_of_the_program_whatever_the_datum_is():
     """The datum lies at (50, 30): the bore is measured about the origin, and the panel shows it there."""
     run = mnclab.run(

@@ -90,7 +90,7 @@ TECHNOLOGY = (
 PROBING = (
     one_of("corner_spacing", "where points 2 and 4 of G414 lie", "MNC-G414-SPACING",
            positive="towards positive coordinates", away="away from the corner"),
-    Setting("measurements_per_point", 1, "how often G499 touches; it takes the mean", "12.21", at_least=1),
+    Setting("measurements_per_point", 1, "how often G499 touches; it takes the mean", "12.21", at_least=1, at_most=1000),
     one_of("g491_l2_plane", "plane of the angle of G491 L2", "MNC-G491-PLANE",
            YZ="from +Y towards +Z", XY="from +Y counter-clockwise in XY"),
     one_of("raw_z", "Z of G491 and G492", "MNC-G492-RAW",

@@ -114,6 +114,9 @@ def rectangle(points: Points, angle: float = 0.0) -> Rectangle:
 
 def corner(first: Line, second: Line) -> Point:
     """Where two lines cross. TNC 620: 414, 415. MNC: G414, G415."""
+    for given in (first, second):
+        if not isinstance(given, Line):
+            raise Alarm(f"a corner is that of two lines, got {given!r}", hint="corner(line(p[:2]), line(p[2:]))")
     (ax, ay), (bx, by) = first.direction, second.direction
     cross = ax * by - ay * bx
     if abs(cross) < FLAT:

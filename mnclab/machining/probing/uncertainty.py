@@ -38,6 +38,8 @@ def uncertainty(
     number, or numbers that fit the shape of the points, as (0, 0, 0.001) where only Z was probed. Of a touch only the part along
     the surface's normal counts. The same seed shakes alike; a thousand repeats give the uncertainty to some 2 %.
     """
+    if not callable(fit):
+        raise Alarm(f"a fit is a function of points, as circle is, got {fit!r}")
     at, wide = numbers(points, "points"), numbers(spread, "spread")
     if (wide < 0).any():
         raise Alarm(f"spread must be a standard deviation in mm, 0 or more, got {spread!r}")

@@ -2,40 +2,46 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import PathCollection
-from matplotlib.transforms import Affine2D
+from matplotlib.collections import LineCollection, PathCollection, PolyCollection
 
-from mnclab.geometry.frames import apply, inverse
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.frames import Matrix, apply, inverse, turn
+from mnclab.geometry.regions import Region
+from mnclab.geometry.scanning import scan
 from mnclab.path.columns import Array
 from mnclab.show.felt import Sections
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.strategy import outline
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.part.pictures import UPRIGHT
-from mnclab.workpiece.part.prisms import Prisms
+from mnclab.workpiece.part.prisms import Prism, Prisms
 
 CELLS = 160  # along the longer side of a section
 FACE: dict[str, Any] = {"facecolor": "#e9e5da", "edgecolor": "#8c8778", "linewidth": 0.7}
 
 
 def draw_material(ax: Axes, part: Part, view: View, frame: Array, level: float) -> None:
-    """What the plane of a view cuts of a part, within the limits of the axes.
+    """What the plane of a view cuts of a part, within the limits of the axes: exact of upright prisms.
 
-    From above upright prisms are exact; what a program has cut is shown from above only. The view lies in coordinates that a
-    `frame` (4, 4) leads to those of the part, at a `level` mm along the line of sight.
+    What a program has cut is shown from above only. The view lies in coordinates that a `frame` (4, 4) leads to those of the
+    part, at a `level` mm along the line of sight.
     """
-    if (view.right, view.up) == (0, 1) and _sliced(part, frame):
-        if loops := part.section(level + float(frame[2, 3])):
-            shape = outline(loops).transformed(Affine2D(inverse(frame)[[0, 1, 3]][:, [0, 1, 3]]))
-            look: dict[str, Any] = {"facecolor": "none", "edgecolor": "none", "linewidth": FACE["linewidth"]}
-            for name, order in (("facecolor", 0.6), ("edgecolor", 0.7)):
-                ax.add_collection(PathCollection([shape], **look | {name: FACE[name]}, zorder=order), autolim=False)
-        return
     if isinstance(part.distance, Sections):
+        if (view.right, view.up) == (0, 1) and np.abs(frame[2] - (0, 0, 1, frame[2, 3])).max() < UPRIGHT:
+            cut = part.section(level + float(frame[2, 3]))
+            _draw_loops(ax, [loop.transformed(inverse(frame)) for loop in cut])
+        return
+    if view.right < 2 and _upright(part, frame):
+        here = part.placed(inverse(frame))
+        if view.up == 2:
+            _draw_side(ax, here, view, level)
+        else:
+            _draw_loops(ax, here.section(level))
         return
     (left, right), (below, above) = ax.get_xlim(), ax.get_ylim()
     step = max(right - left, above - below) / CELLS
@@ -50,8 +56,54 @@ def draw_material(ax: Axes, part: Part, view: View, frame: Array, level: float) 
         ax.contour(across, up, off, [0.0], colors=[FACE["edgecolor"]], linewidths=FACE["linewidth"], zorder=0.7)
 
 
-def _sliced(part: Part, frame: Array) -> bool:
-    """Whether a part knows its level sections, and those of a frame are level."""
-    own = part.distance
-    known = (isinstance(own, Prisms) and not own.taper and abs(abs(own.placing[2, 2]) - 1) < UPRIGHT) or isinstance(own, Sections)
-    return bool(known and np.abs(frame[2] - (0, 0, 1, frame[2, 3])).max() < UPRIGHT)
+def _draw_loops(ax: Axes, loops: Sequence[Contour]) -> None:
+    """Closed contours from above."""
+    if not loops:
+        return
+    look: dict[str, Any] = {"facecolor": "none", "edgecolor": "none", "linewidth": FACE["linewidth"]}
+    for name, order in (("facecolor", 0.6), ("edgecolor", 0.7)):
+        ax.add_collection(PathCollection([outline(loops)], **look | {name: FACE[name]}, zorder=order), autolim=False)
+
+
+def _draw_side(ax: Axes, part: Part, view: View, level: float) -> None:
+    """Upright prisms from the side: of each slab the stretches that it has there, and lines where neighbours differ."""
+    body = part.distance
+    assert isinstance(body, Prisms)
+    sight = body.placing if view.right == 0 else turn(-np.pi / 2) @ body.placing  # the line of sight is y, or -y
+    rows = [_stretches(slab.region, sight, level if view.right == 0 else -level) for slab in body.slabs]
+    heights = np.array([(slab.low, slab.high) for slab in body.slabs]) + body.placing[2, 3]
+    heights = heights.clip(*sorted(ax.get_ylim()))
+    faces, lines = [], []
+    for row, (low, high) in zip(rows, heights):
+        for left, right in row:
+            faces.append([(left, low), (right, low), (right, high), (left, high)])
+            lines += [[(x, low), (x, high)] for x in (left, right)]
+    for below, above, (_, z) in zip(rows, rows[1:], heights):
+        places = np.unique(np.concatenate([below.ravel(), above.ravel()]))
+        lines += [
+            [(left, z), (right, z)]
+            for left, right in zip(places, places[1:])
+            if _holds(below, (left + right) / 2) != _holds(above, (left + right) / 2)
+        ]
+    ax.add_collection(PolyCollection(faces, facecolor=FACE["facecolor"], edgecolor="none", zorder=0.6), autolim=False)
+    look = {"color": FACE["edgecolor"], "linewidth": FACE["linewidth"], "zorder": 0.7}
+    ax.add_collection(LineCollection(lines, **look), autolim=False)
+
+
+def _stretches(region: Region, frame: Matrix, y: float) -> Array:
+    """From where to where (k, 2) a region under a frame has material along a line."""
+    return scan(Prism(region, 0, 0).moved(frame).region, np.array([y]))[0] if region.loops else np.zeros((0, 2))
+
+
+def _holds(stretches: Array, x: float) -> bool:
+    return bool(((stretches[:, 0] < x) & (x < stretches[:, 1])).any())
+
+
+def _upright(part: Part, frame: Array) -> bool:
+    """Whether a part is of prisms that stand along Z of a frame which turns and shifts, so that its sections are known."""
+    body = part.distance
+    if not isinstance(body, Prisms) or body.taper:
+        return False
+    turn, along = frame[:3, :3], (inverse(frame) @ body.placing)[2, 2]
+    rigid = np.allclose(turn.T @ turn, np.eye(3), rtol=0, atol=UPRIGHT) and np.linalg.det(turn) > 0
+    return bool(rigid and abs(along - 1) < UPRIGHT)

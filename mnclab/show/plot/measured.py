@@ -186,8 +186,11 @@ def _record(picture: Picture, rows: Sequence[Sequence[str]], left: float, top: f
 
 def _legend(picture: Picture, found: Sequence[Panel], part: Any) -> None:
     artists: list[Any] = []
-    if any(panel.pairs for panel in found):
-        artists += [Line2D([], [], **NOMINAL.style()), Line2D([], [], **ACTUAL.style())]
+    pairs = [pair for panel in found for pair in panel.pairs]
+    if any(not np.array_equal(*pair) for pair in pairs):
+        artists.append(Line2D([], [], **NOMINAL.style()))
+    if pairs:
+        artists.append(Line2D([], [], **ACTUAL.style()))
     if any(panel.balls for panel in found):
         artists += [Line2D([], [], **APPROACH.style()), Line2D([], [], **TOUCHED.style())]
     if part is not None:

@@ -7,6 +7,7 @@ the cycle. Balls move with the contour, so that they touch it where it is drawn.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
@@ -25,6 +26,7 @@ ALONG = 0.7  # cosine: a touch nearer to Z than this is seen from the side
 AXIS = 0.999  # cosine from which on a touch goes along an axis
 BELOW = 0.1  # mm under a face that was touched from above is the section that shows it
 MISFIT, SLANT = 0.5, 0.3  # mm that a touch may be off its contour, and the sine of its angle to it at least
+TOUCH = re.compile(" touch.*")  # what stands behind the name of a cycle where a touch is labelled
 TICK = 2.2  # radii of the ball on both sides of a touched point that belongs to no figure
 
 
@@ -91,7 +93,7 @@ def panels(run: Any, line: int | None, factor: float | None, most: int = 10_000)
             left_out += 1
             continue
         of = touches.get(step, []), figures.get(step, []), rows.get(step, [])
-        name = next((each.cycle for each in (*of[2], *of[1])), "") or first.label
+        name = next((each.cycle for each in (*of[2], *of[1])), "") or TOUCH.sub("", first.label)
         where = f"line {first.line}" if len(run.programs) == 1 else run.place_of_line(first.line, first.program)
         again = f", pass {passes[place]}" if passes[place] > 1 else ""
         found += _views(f"{where}{again}  {name}", *of, factor, of[0][0][1].names if of[0] else "XYZ")
@@ -152,6 +154,7 @@ def _panel(
     widths = [_width(nominal, [ways[k] for k in numbers if k in ways]) for numbers, nominal, _ in figures]
     lines = [_samples(nominal, actual) for _, nominal, actual in figures]
     feet, texts = [], []
+    judged = [not np.array_equal(*line) for line in lines]
     for k, touch in touches:
         spot, way = apply(into, apply(np.asarray(touch.frame), touch.found)), into[:3, :3] @ touch.direction
         way /= np.linalg.norm(way)
@@ -160,15 +163,16 @@ def _panel(
         on = [k in each[0] and _touches(each[2], width, foot, way[axes], touch.ball) for each, width in zip(figures, widths)]
         which = on.index(True) if any(on) else None
         owner = None if which is None else figures[which]
-        if across:
+        if across or which is not None and not judged[which]:
             pass
         elif owner is not None:
             foot = _foot(owner[1], owner[2], foot)
         else:
             foot = spot[axes] - _off(k, spot, way, known or rows)[axes]
         out = _outwards(spot[axes], owner[1]) if owner and not across and np.abs(way).max() < AXIS else ""
-        texts.append(out or _text(spot, way, view.names))
-        alone = not across and (which is None or widths[which])
+        told = _told(k, spot, known or rows)
+        texts.append(out or _text(told, way, view.names))
+        alone = not across and (which is None or widths[which]) and np.allclose(told, spot, atol=1e-6)
         feet.append((spot[axes], foot, way[axes], across, alone))
     worst = max([float(np.hypot(*(a - n).T).max()) for n, a in lines] + [math.dist(s, f) for s, f, *_ in feet], default=0.0)
     size = _size([n for n, _ in lines] + [spot[None] for spot, *_ in feet], [touch.ball for _, touch in touches])
@@ -240,6 +244,12 @@ def _off(number: int, spot: Array, way: Array, rows: Sequence[Any]) -> Array:
             if not math.isnan(row.nominal):
                 return np.asarray(np.eye(3)[axis] * row.deviation)
     return np.zeros(3)
+
+
+def _told(number: int, spot: Array, rows: Sequence[Any]) -> Array:
+    """What the record says of a single touch (3,): some cycles give the centre of the ball, or its south pole."""
+    said = {row.what: row.actual for row in rows if tuple(row.touches) == (number,)}
+    return np.array([said.get(axis, value) for axis, value in zip("XYZ", spot)])
 
 
 def _outwards(spot: Array, nominal: Contour) -> str:

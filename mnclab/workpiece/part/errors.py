@@ -78,7 +78,7 @@ def _prisms(part: Part, what: str) -> Prisms:
 
 
 def _burred(part: Part, burr: tuple[float, float]) -> Part:
-    check_point((*burr, 0.0) if isinstance(burr, tuple | list) else burr, "a burr: its height, its width and 0 (mm)")
+    check_point(burr, "a burr, its height and width (mm)", flat=True)
     height, width = burr
     check_number(height, "the height of a burr", above=0)
     check_number(width, "the width of a burr", above=0)

@@ -50,7 +50,11 @@ class Part:
 
     def __call__(self, points: ArrayLike) -> Floats:
         """Signed distance of each of the points `(n, 3)` from the surface, `(n,)`."""
-        return self.distance(np.asarray(points, dtype=float).reshape(-1, 3))
+        try:
+            places = np.asarray(points, dtype=float).reshape(-1, 3)
+        except (TypeError, ValueError):
+            raise Alarm(f"the distance of a part is that of points (x, y, z), got {shown(points)}") from None
+        return self.distance(places)
 
     def __or__(self, other: Part) -> Part:
         return self._with("|", other)

@@ -11,8 +11,7 @@ from mnclab.workpiece.part.shapes import unit
 
 RESTING = 1e-3  # mm: a ball that is no deeper in the material only rests on it
 FINE = 0.01  # mm, within which a place is told
-AT_FIRST = 3  # times that all is quartered before anything is looked at
-CORNERS = np.array([(-1, -1), (-1, 1), (1, -1), (1, 1)]) / 2  # of a quarter of a cell
+AT_FIRST = 6  # times that all is halved before anything is looked at
 
 
 def blocked(
@@ -39,13 +38,12 @@ def _met(part: Part, origin: Floats, ahead: Floats, reach: float, axis: Floats, 
     never does.
 
     The row times the axis is an area; of a cell of it nothing touches if the middle is farther off the part than the corners
-    are from the middle, else it is looked at in quarters.
+    are from the middle, else it is looked at in halves, cut across its longer side.
     """
     halves = np.array([max(reach, FINE), float(axis.any())]) / 2  # of the way, mm, and of the axis
-    corners = CORNERS if axis.any() else CORNERS[[0, 2]]
-    cells, first = halves[None], np.inf
+    sides, cells, first = np.array([1.0, float(np.linalg.norm(axis))]), halves[None], np.inf
     for _ in range(AT_FIRST):
-        cells, halves = (cells[:, None] + corners * halves).reshape(-1, 2), halves / 2
+        cells, halves = _halved(cells, halves, sides)
     while len(cells):
         wide = max(float(np.linalg.norm(halves[0] * ahead + sign * halves[1] * axis)) for sign in (1, -1))
         middles = origin + cells[:, :1] * ahead + cells[:, 1:] * axis
@@ -56,7 +54,13 @@ def _met(part: Part, origin: Floats, ahead: Floats, reach: float, axis: Floats, 
         first = min(first, float(cells[met, 0].min(initial=np.inf)))
         if wide < FINE:
             break
-        cells = cells[(gaps <= wide) & (cells[:, 0] - halves[0] < first)]
-        cells = (cells[:, None] + corners * halves).reshape(-1, 2)
-        halves = halves / 2
+        cells, halves = _halved(cells[(gaps <= wide) & (cells[:, 0] - halves[0] < first)], halves, sides)
     return float(np.clip(first, 0.0, reach)) if np.isfinite(first) else None
+
+
+def _halved(cells: Floats, halves: Floats, sides: Floats) -> tuple[Floats, Floats]:
+    """The middles (2 n, 2) and the halves (2,) of the cells (n, 2) after a cut; `sides` are mm for each unit of a half."""
+    half = halves * (halves * sides == (halves * sides).max()) / 2
+    if half.all():  # as long as wide
+        half[1] = 0.0
+    return (cells[:, None] + half * [[-1], [1]]).reshape(-1, 2), halves - half

@@ -355,7 +355,11 @@ OTHERS = [
     if setting.name not in ("bulk", "peck_clearance")
     for value in (
         [c for c in setting.choices if c != setting.default]
-        or ([not setting.default] if isinstance(setting.default, bool) else [(setting.default or setting.at_least or 0) + 0.5])
+        or (
+            [not setting.default]
+            if isinstance(setting.default, bool)
+            else [(setting.default or setting.at_least or 0) + (1 if setting.whole else 0.5)]
+        )
     )
 ]
 number = st.integers(-20_000, 20_000).map(lambda n: f"{n / 1000:g}")
@@ -388,3 +392,9 @@ def test_both_tiers_obey_a_setting_alike(settings, todo, fed):
             getattr(bulk.toolpath, name), getattr(single.toolpath, name), rtol=0, atol=1e-12, equal_nan=True
         ), name
     assert np.array_equal(bulk.steps.block, single.steps.block) and set(bulk.history) == set(single.history)
+
+
+@pytest.mark.parametrize(("name", "wrong"), [("datum_rows", 6.5), ("measurements_per_point", 1.5), ("laser_axis", 1.5)])
+def test_what_counts_is_whole(name, wrong):
+    with pytest.raises(mnclab.Alarm, match=rf"setting {name} .* must be a whole number from \d.*, got {wrong}"):
+        mnclab.run("", "mnc", mnclab.Setup(settings={name: wrong}))

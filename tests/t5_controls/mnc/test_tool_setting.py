@@ -260,3 +260,14 @@ def test_a_tool_at_the_beam_already_and_one_beside_it():
     assert "the tool has reached the tool setter before it is measured" in alarm.message
     (alarm,) = run("T0\nG53 G0 X500 Y126 Z-150\nT1\nG471 H100\n").alarms
     assert "the tool setter did not trigger within 300 mm" in alarm.message
+
+
+@pytest.mark.parametrize("cycle", ["G480 P1", "G481 H0.1", "G482 D0.1 Q5"])
+def test_a_tool_that_stands_below_the_beam_is_told(cycle):
+    """12.30: it is put above the level of the beam by hand. The beam is at -350.35; the tip of 100 mm at -360.35, at -350.25."""
+    for z, ok in ((-260.35, False), (-250.25, True)):
+        found = run(f"T1\nG53 G0 X100 Y100 Z{z}\n{cycle}\n", **KNOWN)
+        assert found.ok == ok, found.alarms
+    low = run(f"T1\nG53 G0 X100 Y100 Z-260.35\n{cycle}\n", **KNOWN)
+    assert "begins above the beam, which is at Z-350.35 of the machine: the tip is at Z-360.35" in str(low.alarms[0])
+    assert str(low.alarms[0]).startswith("program:3:1: ")

@@ -22,7 +22,7 @@ from mnclab.machine.tool_setting import BEAM, SETS, row_of, unfit, written
 from mnclab.machining.steps import RAPID, Go, Measure, Pause, Say, Spin, Step, Touch, Write
 from mnclab.path.tool import Tool
 
-CYCLES = CycleTable()
+CYCLES = CycleTable(runs="definition")
 SETTINGS = (
     *(Setting(f"laser_{axis}", None, f"{axis.upper()} of the beam of the tool setter, machine coordinates, until G47{n} finds it",
               f"12.{26 + n}", unit="mm") for axis, n in (("x", 2), ("y", 2), ("z", 1))),
@@ -66,6 +66,9 @@ class LaserCycle(Cycle):
             if known(m, name) is None:
                 how = "G471" if name == "laser_z" else "G472"
                 yield "", f"needs {name} of the tool setter: {how} finds it, or the setting says it"
+        beam = known(m, "laser_z") if "laser_z" in self.needs else None
+        if beam is not None and m.tip[2] <= beam:
+            yield "", f"begins above the beam, which is at Z{beam:g} of the machine: the tip is at Z{m.tip[2]:g}"
         if self.depth is not None and self.kind != 1 and self.needs == ALL and not m.tool.effective_radius > 0:
             yield "", f"needs the radius of T{m.tool.number} in the tool table"
 
@@ -139,7 +142,7 @@ class LaserCycle(Cycle):
             yield Pause("worn or broken")
 
 
-@CYCLES("G470", "Laser tool setter: level of the beam", runs="definition", source="MNC 12.27")
+@CYCLES("G470", "Laser tool setter: level of the beam", source="MNC 12.27")
 class Level(LaserCycle):
     """The beam is broken twice, at two places along it."""
 
@@ -165,7 +168,7 @@ class Level(LaserCycle):
         yield from report(m, self.code, values)
 
 
-@CYCLES("G471", "Laser tool setter: calibrate Z", runs="definition", source="MNC 12.28")
+@CYCLES("G471", "Laser tool setter: calibrate Z", source="MNC 12.28")
 class HeightOfBeam(LaserCycle):
     """The beam is broken once from above, by a tool whose length is known."""
 
@@ -179,7 +182,7 @@ class HeightOfBeam(LaserCycle):
         yield from learned(m, laser_z=reference - self.length)
 
 
-@CYCLES("G472", "Laser tool setter: calibrate X and Y", runs="definition", source="MNC 12.29")
+@CYCLES("G472", "Laser tool setter: calibrate X and Y", source="MNC 12.29")
 class Place(LaserCycle):
     """The beam is broken from both sides by a tool that is known; along the beam the place of the call counts."""
 
@@ -207,7 +210,7 @@ class Place(LaserCycle):
         yield from learned(m, laser_x=place[0], laser_y=place[1], laser_axis=self.axis)
 
 
-@CYCLES("G480", "Measure length and radius of a tool", runs="definition", source="MNC 12.30")
+@CYCLES("G480", "Measure length and radius of a tool", source="MNC 12.30")
 class MeasureTool(LaserCycle):
     """What is measured stands in the tool table, without corrections."""
 
@@ -241,7 +244,7 @@ class MeasureTool(LaserCycle):
         yield from written(m, tool)
 
 
-@CYCLES("G481", "Check the length of a tool", runs="definition", source="MNC 12.31")
+@CYCLES("G481", "Check the length of a tool", source="MNC 12.31")
 class CheckLength(LaserCycle):
     """The deviation from the length in the table becomes its correction."""
 
@@ -255,7 +258,7 @@ class CheckLength(LaserCycle):
         yield from self.judged("length", length, row, self.tolerance)
 
 
-@CYCLES("G482", "Check the radius of a tool", runs="definition", source="MNC 12.32")
+@CYCLES("G482", "Check the radius of a tool", source="MNC 12.32")
 class CheckRadius(LaserCycle):
     """The deviation from the radius in the table becomes its correction."""
 
