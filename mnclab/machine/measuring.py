@@ -159,13 +159,16 @@ class Measurements(Sequence[Measurement]):
         judged = sum(bool(row.verdict) for row in self)
         if not judged:
             return f"{several(len(self), 'measure')}, none with limits"
-        return f"{judged - len(self.outside)} of {several(judged, 'measure')} with limits are within them"
+        return f"within their limits: {judged - len(self.outside)} of {several(judged, 'measure')}"
 
     def __repr__(self) -> str:
         return text_table(HEAD, [row.texts() for row in self]) if self else "nothing was measured"
 
     def _repr_html_(self) -> str:
-        return html_table(HEAD, [row.texts() for row in self], numbers=NUMBERS) if self else "<p>nothing was measured</p>"
+        if not self:
+            return "<p>nothing was measured</p>"
+        bold = [k for k, row in enumerate(self) if row.verdict not in ("", OK)]
+        return html_table(HEAD, [row.texts() for row in self], numbers=NUMBERS, bold=bold)
 
     def as_dicts(self) -> list[dict[str, Any]]:
         """For JSON and for tables of other libraries: nan as None."""
@@ -176,7 +179,8 @@ class Measurements(Sequence[Measurement]):
         """Write the table as .csv or .json, numbers with all their digits; the file."""
         path = Path(path)
         if path.suffix.lower() not in (".csv", ".json"):
-            raise Alarm(f"measurements are written as .csv or .json, got {path.name!r}")
+            hint = "run.report has it as .html or .pdf"
+            raise Alarm(f"measurements are written as .csv or .json, got {path.name!r}", hint=hint)
         with replaced(path) as beside, beside.open("w", newline="", encoding="utf-8") as file:
             if path.suffix.lower() == ".json":
                 json.dump(self.as_dicts(), file, indent=1)

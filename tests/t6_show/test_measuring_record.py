@@ -34,7 +34,7 @@ def test_touches_print_what_they_found_number_one_the_first(measured):
 def test_the_verdict_counts_what_has_limits(measured):
     """Of 5 measures the diameter (24.2, limits 23.95 to 24.05) and Z (0 for 0.01, limits -0.02 to 0.02) have limits."""
     assert len(measured.measurements) == 5
-    assert measured.measurements.verdict == "1 of 2 measures with limits are within them"
+    assert measured.measurements.verdict == "within their limits: 1 of 2 measures"
     assert measured.measurements.of("M4").verdict == "1 measure, none with limits"
 
 
@@ -137,6 +137,27 @@ def test_the_record_is_saved_as_csv_or_json_and_as_nothing_else(measured, tmp_pa
             measured.measurements.save(tmp_path / name)
     with pytest.raises(mnclab.Alarm, match="cannot be written"):
         measured.measurements.save(tmp_path / "nowhere" / "record.csv")
+
+
+def test_what_is_beyond_its_limits_is_bold(measured):
+    """Rows of the page: one of the two with limits is out; bold is seen in grey too."""
+    rows = measured.measurements._repr_html_().split("<tr>")
+    bold = [row for row in rows if "font-weight:bold" in row]
+    assert len(bold) == 1 and ">out<" in bold[0]
+
+
+def test_a_measured_datum_says_what_is_not_zero():
+    assert str(mnclab.Datum(50.1, 29.9)) == "X50.1 Y29.9" and str(mnclab.Datum(rotation=2)) == "rotation 2"
+    assert str(mnclab.Datum()) == "X0 Y0 Z0"
+
+
+@pytest.mark.parametrize("name", ["record.xlsx", "record", "nowhere/record.csv"])
+def test_a_record_is_saved_as_csv_or_refused(measured, tmp_path, name):
+    with pytest.raises(mnclab.Alarm):
+        measured.measurements.save(tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
+    measured.measurements.save(tmp_path / "record.csv")
+    assert len((tmp_path / "record.csv").read_text(encoding="utf-8").splitlines()) == 1 + 5
 
 
 def test_with_the_tool_axis_x_pictures_and_touches_name_y_and_z():
