@@ -135,6 +135,8 @@ def test_the_record_is_saved_as_csv_or_json_and_as_nothing_else(measured, tmp_pa
     for name in ("record.html", "record"):
         with pytest.raises(mnclab.Alarm, match="written as .csv or .json, got 'record"):
             measured.measurements.save(tmp_path / name)
+    with pytest.raises(mnclab.Alarm, match="cannot be written"):
+        measured.measurements.save(tmp_path / "nowhere" / "record.csv")
 
 
 def test_what_is_beyond_its_limits_is_bold(measured):
