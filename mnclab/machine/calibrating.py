@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.tool_axis import tool_axis
 from mnclab.machine.touching import Point
-from mnclab.machining.steps import Measure, Step, Write
+from mnclab.machining.probing.sequences import Approach, Steps
+from mnclab.machining.steps import Measure, Step, Touch, Write
 from mnclab.workpiece.part import Part, box, cylinder, hole
 
 if TYPE_CHECKING:
@@ -52,6 +53,16 @@ def offset_written(m: Machine, centre: Pair, turned: Pair, touches: Sequence[int
     yield Measure("offset X", x, probe.offset[0], touches=tuple(touches))
     yield Measure("offset Y", y, probe.offset[1], touches=tuple(touches))
     yield Write("probe", replace(probe, offset=(x, y)))
+
+
+def length_touched(m: Machine, a: Approach, x: float, y: float, surface: float) -> Steps:
+    """A touch downwards on a surface whose height is known, and back; writes the length."""
+    z = m.programmed[2]
+    contact = yield Touch("touch from above", x, y, z - a.reach, a.feed, a.ball)
+    yield a.go("back", z)
+    found = m.tool.effective_length + m.to_program(contact.tip)[2] - surface
+    yield Measure("length", found, m.tool.effective_length, touches=(contact.number,))
+    yield from with_length(m, found)
 
 
 def with_length(m: Machine, length: float) -> Iterator[Step]:

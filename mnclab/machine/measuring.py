@@ -16,6 +16,7 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.text.alarm import Alarm, several
+from mnclab.text.file import replaced
 from mnclab.text.tables import html_table, text_table
 
 if TYPE_CHECKING:
@@ -33,7 +34,8 @@ SLACK = 1e-6  # mm or degrees, by which a value may be beyond its limit: it stan
 class Touched(NamedTuple):
     """One touch: from where the centre of the ball went (`start`), where it stood (`centre`) and where the part was
     (`surface`, as it is), mm. `programmed` is the centre in the coordinates of the program as the control took it, `found`
-    the touched point, so too. `frame` (4, 4) leads from the program to the machine."""
+    the touched point, so too. `frame` (4, 4) leads from the program to the machine; `names` are the axes of the program, the
+    tool axis last."""
 
     step: int
     line: int
@@ -47,6 +49,11 @@ class Touched(NamedTuple):
     programmed: Point
     found: Point
     frame: Any
+    names: str = "XYZ"
+
+    def coordinate(self, name: str) -> float:
+        """What it found along X, Y or Z."""
+        return self.found[self.names.index(name)]
 
 
 class Touches(tuple[Touched, ...]):
@@ -56,7 +63,7 @@ class Touches(tuple[Touched, ...]):
 
     def texts(self) -> list[tuple[str, ...]]:
         """What the table says, row by row."""
-        numbers = (tuple(_written(value) for value in (*each.found, each.ball)) for each in self)
+        numbers = (tuple(_written(value) for value in (*map(each.coordinate, "XYZ"), each.ball)) for each in self)
         return [(str(k), str(each.line), each.label, *row) for k, (each, row) in enumerate(zip(self, numbers), 1)]
 
     def __repr__(self) -> str:
@@ -152,13 +159,16 @@ class Measurements(Sequence[Measurement]):
         judged = sum(bool(row.verdict) for row in self)
         if not judged:
             return f"{several(len(self), 'measure')}, none with limits"
-        return f"{judged - len(self.outside)} of {several(judged, 'measure')} with limits are within them"
+        return f"within their limits: {judged - len(self.outside)} of {several(judged, 'measure')}"
 
     def __repr__(self) -> str:
         return text_table(HEAD, [row.texts() for row in self]) if self else "nothing was measured"
 
     def _repr_html_(self) -> str:
-        return html_table(HEAD, [row.texts() for row in self], numbers=NUMBERS) if self else "<p>nothing was measured</p>"
+        if not self:
+            return "<p>nothing was measured</p>"
+        bold = [k for k, row in enumerate(self) if row.verdict not in ("", OK)]
+        return html_table(HEAD, [row.texts() for row in self], numbers=NUMBERS, bold=bold)
 
     def as_dicts(self) -> list[dict[str, Any]]:
         """For JSON and for tables of other libraries: nan as None."""
@@ -169,11 +179,12 @@ class Measurements(Sequence[Measurement]):
         """Write the table as .csv or .json, numbers with all their digits; the file."""
         path = Path(path)
         if path.suffix.lower() not in (".csv", ".json"):
-            raise Alarm(f"measurements are written as .csv or .json, got {path.name!r}")
-        if path.suffix.lower() == ".json":
-            path.write_text(json.dumps(self.as_dicts(), indent=1), encoding="utf-8")
-            return path
-        with path.open("w", newline="", encoding="utf-8") as file:
+            hint = "run.report has it as .html or .pdf"
+            raise Alarm(f"measurements are written as .csv or .json, got {path.name!r}", hint=hint)
+        with replaced(path) as beside, beside.open("w", newline="", encoding="utf-8") as file:
+            if path.suffix.lower() == ".json":
+                json.dump(self.as_dicts(), file, indent=1)
+                return path
             names = ("line", "cycle", "what", "unit", "nominal", "actual", "deviation", "lower", "upper", "verdict")
             out = csv.DictWriter(file, names, extrasaction="ignore")
             out.writeheader()

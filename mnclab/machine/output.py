@@ -25,7 +25,8 @@ class Piece:
     anew: bool
 
     def __repr__(self) -> str:
-        return repr(self.text)
+        first, _, more = self.text.rstrip().partition("\n")
+        return repr(first) + (f" and {several(more.count(chr(10)) + 1, 'more line')}" if more else "")
 
 
 def put_out(m: Machine, name: str, text: str, anew: bool = False) -> None:

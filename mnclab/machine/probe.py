@@ -60,6 +60,8 @@ class Probe:
                 if value is not None:
                     check_point(value, what, flat=POINTS[name] == 2)
                     object.__setattr__(self, name, tuple(map(float, value)))
+                if name == "deflection" and min(value) < 0:
+                    raise Alarm(f"{what} must be at least 0 along each axis: it goes on by it, got {value}")
             elif name in POSITIVE:
                 check_number(value, what, above=0, endless=name in ENDLESS)
             else:

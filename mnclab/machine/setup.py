@@ -14,8 +14,9 @@ from mnclab.machine.probe import Probe
 from mnclab.machine.setter import Setter
 from mnclab.machine.setup_page import page
 from mnclab.path.limits import Limits
+from mnclab.path.listing import figure
 from mnclab.path.tool import Tool
-from mnclab.text.alarm import Alarm
+from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, check_point, shown
 from mnclab.text.records import written
 from mnclab.text.tables import html_table
@@ -52,6 +53,12 @@ class Datum(_Datum):
         for name, value in zip(cls._fields, found):
             check_number(value, f"{name} of a datum")
         return found
+
+    def __str__(self) -> str:
+        """In few words: what is not zero, as `X50.1 Y29.9 rotation 2`."""
+        names = (name.upper() if len(name) == 1 else f"{name} " for name in self._fields)
+        said = [f"{name}{figure(value, 6)}" for name, value in zip(names, self) if value]
+        return " ".join(said) or "X0 Y0 Z0"
 
 
 ROWS = ("tools", "datums", "presets", "correctors", "true_tools")
@@ -279,4 +286,5 @@ class Tables:
         self.probe = setup.probe
 
     def __repr__(self) -> str:
-        return f"<Tables: {len(self.tools)} tools, {len(self.datums)} datums, {len(self.presets)} presets>"
+        rows = (several(len(getattr(self, name)), name[:-1]) for name in ("tools", "datums", "presets"))
+        return f"<Tables: {', '.join(rows)}>"

@@ -25,6 +25,11 @@ def tool_axis(m: Machine) -> int:
     return int(np.argmax(m.frames[FRAME][:3, 2])) if FRAME in m.frames else PLANES[m.plane][2]
 
 
+def axes_of(m: Machine) -> str:
+    """Which axes of the program the coordinates are just now: YZX inside a cycle with the tool axis X."""
+    return "".join("XYZ"[k] for k in m.frames[FRAME][:3, :3].argmax(axis=0)) if FRAME in m.frames else "XYZ"
+
+
 @contextmanager
 def along_z(m: Machine) -> Iterator[None]:
     """Inside, coordinates are first axis and second axis of the plane, and the tool axis."""

@@ -17,7 +17,7 @@ from mnclab.geometry.vectors import turned
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.cut_so_far import CUT, part_before
 from mnclab.machine.measuring import Touched
-from mnclab.machine.tool_axis import FRAME, tool_axis
+from mnclab.machine.tool_axis import FRAME, axes_of, tool_axis
 from mnclab.text.program import Word
 from mnclab.workpiece.part import Part, contact, foot
 from mnclab.workpiece.part.rows import blocked
@@ -164,7 +164,7 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
         found = m.to_program(_point(np.array(centre) + direction * ball))
         m.touches.append(
             Touched(m.step, m.source_line, m.program, m.label, _point(begin), _point(begin + direction * travel),
-                    _point(direction), true.radius, surface, m.to_program(centre), found, m.matrix)
+                    _point(direction), true.radius, surface, m.to_program(centre), found, m.matrix, axes_of(m))
         )  # fmt: skip
     return Contact(m.to_program(centre), centre, travel is not None, _point(end), number)
 
@@ -220,6 +220,8 @@ def guarded(m: Machine, part: Part, target: Point, feed: float | None) -> None:
             m.line(*m.to_program(_point(start + direction * stopped)), f=feed)
             which = "stylus" if stopped == free else "stem of the probe"
             hint = "the axes stop there; a larger clearance, another height or nominal sizes nearer to the part help"
+            if not part.exact and not foot(part, begin + direction * stopped)[1]:
+                hint = "its distance is only bounded there: what is taken out of it should stick out by more than the ball"
             m.alarm(f"path obstructed: the {which} touches the part at {_place(m.programmed)} while positioning", hint=hint)
     m.line(*target, f=feed)
 

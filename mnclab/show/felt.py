@@ -160,6 +160,6 @@ def _texts(run: Any) -> list[tuple[str, str]]:
     for k, touch in enumerate(run.touches, 1):
         way = np.abs(np.array(touch.found) - touch.programmed)
         axis = int(way.argmax())
-        value = f"{'XYZ'[axis]} {touch.found[axis]:z.3f}".replace("-", "\N{MINUS SIGN}")
+        value = f"{touch.names[axis]} {touch.found[axis]:z.3f}".replace("-", "\N{MINUS SIGN}")
         found.append((f"{k}   {value}" if way[axis] > 0.999 * np.linalg.norm(way) else str(k), str(k)))
     return found

@@ -16,8 +16,9 @@ def html_table(
     *,
     numbers: Collection[int] = (),
     code: Collection[int] = (),
+    bold: Collection[int] = (),
 ) -> str:
-    """A table of HTML; `numbers` are the columns that stand to the right, `code` those of program text.
+    """A table of HTML; `numbers` are the columns that stand to the right, `code` those of program text, `bold` some rows.
 
     A cell of None belongs to the one above it, and the last cell of a short row to all columns that follow.
     """
@@ -25,13 +26,13 @@ def html_table(
     columns = len(head) or max(map(len, rows), default=0)
     tall = [1] * columns  # rows of the next cell of each column, counted from below
     lines = []
-    for row in reversed(rows):
-        cells = []
+    for number, row in reversed([*enumerate(rows)]):
+        cells, weight = [], "; font-weight:bold" * (number in bold)
         for k, text in enumerate(row):
             if text is None:
                 tall[k] += 1
                 continue
-            style = f"text-align:{'right' if k in numbers else 'left'}{'; vertical-align:top' * (tall[k] > 1)}"
+            style = f"text-align:{'right' if k in numbers else 'left'}{'; vertical-align:top' * (tall[k] > 1)}{weight}"
             spans = f' rowspan="{tall[k]}"' if tall[k] > 1 else ""
             spans += f' colspan="{columns - k}"' if k + 1 == len(row) < columns else ""
             said = escape(text).replace("\n", "<br>")

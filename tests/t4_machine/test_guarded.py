@@ -103,3 +103,16 @@ def test_a_way_along_the_upper_side_takes_no_time():
     assert time.perf_counter() - begun < 1
     found = run(text, WALL | mnc.part.cylinder((50, 20, -10), (50, 20, 0.02), 0.05))
     assert "path obstructed: the stylus touches the part at X50.33 Y20 Z0" in found.alarms[0].message
+
+
+def test_a_bounded_distance_is_told_where_it_stops_a_way():
+    """A bore of 30 at X50 Y30, a lying one so that no prisms are left: it sticks out by 1, and a ball of 2 goes down in it."""
+    lying = mnc.part.cylinder((90, -5, -15), (90, 65, -15), 3)
+    part = WALL - lying - mnc.part.cylinder((50, 30, -30), (50, 30, 1), 15)
+    found = run(cycle(Q263=54, Q264=30), part)
+    assert "what is taken out of it should stick out by more than the ball" in found.alarms[0].hint
+
+
+def test_a_deflection_goes_on():
+    with pytest.raises(mnc.Alarm, match="the deflection of a probe must be at least 0 along each axis"):
+        mnc.Probe(deflection=(0, -0.01, 0))

@@ -34,7 +34,7 @@ def test_touches_print_what_they_found_number_one_the_first(measured):
 def test_the_verdict_counts_what_has_limits(measured):
     """Of 5 measures the diameter (24.2, limits 23.95 to 24.05) and Z (0 for 0.01, limits -0.02 to 0.02) have limits."""
     assert len(measured.measurements) == 5
-    assert measured.measurements.verdict == "1 of 2 measures with limits are within them"
+    assert measured.measurements.verdict == "within their limits: 1 of 2 measures"
     assert measured.measurements.of("M4").verdict == "1 measure, none with limits"
 
 
@@ -135,3 +135,42 @@ def test_the_record_is_saved_as_csv_or_json_and_as_nothing_else(measured, tmp_pa
     for name in ("record.html", "record"):
         with pytest.raises(mnclab.Alarm, match="written as .csv or .json, got 'record"):
             measured.measurements.save(tmp_path / name)
+
+
+def test_what_is_beyond_its_limits_is_bold(measured):
+    """Rows of the page: one of the two with limits is out; bold is seen in grey too."""
+    rows = measured.measurements._repr_html_().split("<tr>")
+    bold = [row for row in rows if "font-weight:bold" in row]
+    assert len(bold) == 1 and ">out<" in bold[0]
+
+
+def test_a_measured_datum_says_what_is_not_zero():
+    assert str(mnclab.Datum(50.1, 29.9)) == "X50.1 Y29.9" and str(mnclab.Datum(rotation=2)) == "rotation 2"
+    assert str(mnclab.Datum()) == "X0 Y0 Z0"
+
+
+@pytest.mark.parametrize("name", ["record.xlsx", "record", "nowhere/record.csv"])
+def test_a_record_is_saved_as_csv_or_refused(measured, tmp_path, name):
+    with pytest.raises(mnclab.Alarm):
+        measured.measurements.save(tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
+    measured.measurements.save(tmp_path / "record.csv")
+    assert len((tmp_path / "record.csv").read_text(encoding="utf-8").splitlines()) == 1 + 5
+
+
+def test_with_the_tool_axis_x_pictures_and_touches_name_y_and_z():
+    """A hole of 30 along X about Y10 Z-5, in a plate whose face is X0: the touches lie at Y25, Z10, Y-5, Z-20."""
+    part = mnclab.part.box((-40, -60, -60), (0, 60, 60)) - mnclab.part.cylinder((-20, 10, -5), (10, 10, -5), 15)
+    words = "Q273=+10 Q274=-5 Q262=30 Q325=+0 Q247=+90 Q261=-5 Q320=0 Q260=+20 Q301=0 Q275=0 Q276=0 Q279=0 Q280=0 Q281=1 Q309=0"
+    text = f"TOOL CALL 6 X\nL X+100 R0 FMAX\nTCH PROBE 421\n{words} Q330=0 Q423=4 Q365=1\n".replace(" Q", "\nQ")
+    run = mnclab.run(text, "tnc-620", mnclab.Setup(part=part))
+    (ax,) = run.plot_measured().axes
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("Y, mm", "Z, mm")
+    said = {text.get_text().split(maxsplit=1)[1] for text in ax.texts if "   " in text.get_text()}
+    assert said == {"Y 25.000", "Z 10.000", "Y \N{MINUS SIGN}5.000", "Z \N{MINUS SIGN}20.000"}
+    assert [row[3:6] for row in run.touches.texts()] == [
+        ("-5.0000", "25.0000", "-5.0000"), ("-5.0000", "10.0000", "10.0000"),
+        ("-5.0000", "-5.0000", "-5.0000"), ("-5.0000", "10.0000", "-20.0000"),
+    ]  # fmt: skip
+    more = run.files["TCHPR421.TXT"].strip().count("\n")
+    assert f"Hole measuring' and {more} more lines" in " ".join(str(run.at(line=3)).split())

@@ -82,18 +82,17 @@ from mnclab.controls.tnc_620.printing import output
 from mnclab.controls.tnc_620.probing import (
     aimed,
     calibration,
-    edge,
     fast_probing,
+    line,
     measuring_figures,
     measuring_points,
     preset_figures,
     presets,
-    rotary_table,
     rotation,
     single,
+    three_points,
     tool_measuring,
     tool_setter,
-    two_circles,
 )
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
@@ -170,13 +169,12 @@ CHAPTERS = (
     calibration,
     fast_probing,
     rotation,
-    rotary_table,
     measuring_points,
     measuring_figures,
     tool_setter,
     tool_measuring,
-    edge,
-    two_circles,
+    line,
+    three_points,
     single,
     obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip

@@ -115,6 +115,11 @@ class Line(Flat):
         x, y = self.direction
         return -y, x
 
+    def foot(self, point: Vector) -> tuple[float, float]:
+        """Its place that is nearest to a point."""
+        off, (nx, ny) = float(self.distance(point[:2])), self.normal
+        return float(point[0] - off * nx), float(point[1] - off * ny)
+
 
 @dataclass(frozen=True, repr=False)
 class Circle(Round):

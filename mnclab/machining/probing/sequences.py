@@ -12,7 +12,7 @@ from collections.abc import Generator, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-from mnclab.machining.steps import RAPID, Go, Orient, Say, Step, Touch, Turn
+from mnclab.machining.steps import RAPID, Go, Orient, Say, Step, Touch, Turn, Write
 
 Pair = tuple[float, float]
 Way = Iterable["Pair | Turn"]  # places of the ball's centre, or turns, from one start to the next; none: straight
@@ -158,6 +158,19 @@ def in_one_axis(a: Approach, axis: int, sense: float, points: Sequence[tuple[flo
         yield a.go("back", begin)
     yield a.go("to the clearance height", a.height)
     return contacts
+
+
+# --- what contacts tell --------------------------------------------------------------------------------------------------
+
+
+def numbers(contacts: Iterable[Any]) -> tuple[int, ...]:
+    """Which touches these are, for the measuring record."""
+    return tuple(contact.number for contact in contacts)
+
+
+def results(**values: float) -> Iterable[Step]:
+    """Variables of the program: `results(Q312=x)`."""
+    return [Write("variable", float(value), name) for name, value in values.items()]
 
 
 # --- figures -------------------------------------------------------------------------------------------------------------

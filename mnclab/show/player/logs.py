@@ -17,7 +17,9 @@ Array = NDArray[np.float64]
 
 
 def plain(value: Any) -> Any:
-    """A value of the history as JSON has it: a tool as its fields, points and frames as lists."""
+    """A value of the history as JSON has it: a tool as its fields, points and frames as lists, a datum in words."""
+    if isinstance(value, tuple) and "__str__" in type(value).__dict__:  # it says itself what it is
+        return str(value)
     if is_dataclass(value) and not isinstance(value, type):
         return {name: plain(each) for name, each in asdict(value).items()}
     if isinstance(value, Mapping):

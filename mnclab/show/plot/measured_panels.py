@@ -96,7 +96,7 @@ def panels(run: Any, line: int | None, factor: float | None, most: int = 10_000)
         name = next((each.cycle for each in (*of[2], *of[1])), "") or TOUCH.sub("", first.label)
         where = f"line {first.line}" if len(run.programs) == 1 else run.place_of_line(first.line, first.program)
         again = f", pass {passes[place]}" if passes[place] > 1 else ""
-        found += _views(f"{where}{again}  {name}", *of, factor)
+        found += _views(f"{where}{again}  {name}", *of, factor, of[0][0][1].names if of[0] else "XYZ")
     return found, left_out
 
 
@@ -108,8 +108,10 @@ def _by_step(all_: Iterable[Any]) -> dict[int, list[Any]]:
     return found
 
 
-def _views(title: str, touches: Sequence[Any], figures: Sequence[Any], rows: list[Any], factor: float | None) -> list[Panel]:
-    """From above if anything lies in the plane, from the side what was touched along Z."""
+def _views(
+    title: str, touches: Sequence[Any], figures: Sequence[Any], rows: list[Any], factor: float | None, names: str
+) -> list[Panel]:
+    """From above if anything lies in the plane, from the side what was touched along the tool axis; `names` of the axes."""
     frame = np.asarray((touches[0][1] if touches else figures[0]).frame)
     into = inverse(frame)
     deep = [abs(float((into[:3, :3] @ touch.direction)[2])) > ALONG for _, touch in touches]
@@ -123,10 +125,10 @@ def _views(title: str, touches: Sequence[Any], figures: Sequence[Any], rows: lis
             height = float(apply(into @ figures[0].frame, (0.0, 0.0, figures[0].height))[2])
         else:
             height = float(apply(into, [touch.surface for _, touch in touches])[:, 2].min()) - BELOW
-        found.append(_panel(title, VIEWS["XY"], frame, height, touches, lines, rows, factor))
+        found.append(_panel(title, VIEWS["XY"]._replace(names=names), frame, height, touches, lines, rows, factor))
     if below:
         spots = apply(into, [touch.centre for _, touch in below])
-        view = VIEWS["YZ" if np.ptp(spots[:, 1]) > np.ptp(spots[:, 0]) else "XZ"]
+        view = VIEWS["YZ" if np.ptp(spots[:, 1]) > np.ptp(spots[:, 0]) else "XZ"]._replace(names=names)
         level = float(spots[0, 3 - view.right - view.up])
         found.append(_panel(title, view, frame, level, below, [], [] if found else rows, factor, rows))
     return found
@@ -169,7 +171,7 @@ def _panel(
             foot = spot[axes] - _off(k, spot, way, known or rows)[axes]
         out = _outwards(spot[axes], owner[1]) if owner and not across and np.abs(way).max() < AXIS else ""
         told = _told(k, spot, known or rows)
-        texts.append(out or _text(told, way))
+        texts.append(out or _text(told, way, view.names))
         alone = not across and (which is None or widths[which]) and np.allclose(told, spot, atol=1e-6)
         feet.append((spot[axes], foot, way[axes], across, alone))
     worst = max([float(np.hypot(*(a - n).T).max()) for n, a in lines] + [math.dist(s, f) for s, f, *_ in feet], default=0.0)
@@ -258,10 +260,10 @@ def _outwards(spot: Array, nominal: Contour) -> str:
     return f"{out:+z.3f}".replace("-", "\N{MINUS SIGN}")
 
 
-def _text(spot: Array, way: Array) -> str:
+def _text(spot: Array, way: Array, names: str) -> str:
     """The coordinates that a touch has found."""
     along = np.abs(way) > math.sqrt(1 - AXIS**2)
-    told = "  ".join(f"{axis} {value:z.3f}" for axis, value, some in zip("XYZ", spot, along) if some)
+    told = "  ".join(f"{axis} {value:z.3f}" for axis, value, some in zip(names, spot, along) if some)
     return told.replace("-", "\N{MINUS SIGN}")
 
 

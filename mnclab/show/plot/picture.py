@@ -36,18 +36,19 @@ GAP, BELOW, RIGHT, ROW, LINE, SCALE, NARROW = 0.14, 0.52, 0.18, 0.22, 0.15, 0.34
 
 class View(NamedTuple):
     """Which coordinates (0 X, 1 Y, 2 Z) go to the right and up; `diameter` shows the upward one doubled, `head` inches are
-    kept free above for a title; numbers at the axes count in `unit`."""
+    kept free above for a title; numbers at the axes count in `unit`; `names` are the axes of the three coordinates."""
 
     right: int
     up: int
     diameter: bool = False
     head: float = 0.0
     unit: Unit = MM
+    names: str = "XYZ"
 
     @property
     def labels(self) -> tuple[str, str]:
         unit = self.unit.short
-        return f"{'XYZ'[self.right]}, {unit}", f"{'XYZ'[self.up]}{' (diameter)' if self.diameter else ''}, {unit}"
+        return f"{self.names[self.right]}, {unit}", f"{self.names[self.up]}{' (diameter)' if self.diameter else ''}, {unit}"
 
 
 class Foot(NamedTuple):

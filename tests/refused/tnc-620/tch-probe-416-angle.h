@@ -1,4 +1,4 @@
-; 8:1 alarm: TCH PROBE 416 Q291 (angle of hole 1) must be at least -360 and at most 360, got 361
+; 8:1 alarm: TCH PROBE 416 Q291 (angle of the first hole) must be at least -360 and at most 360, got 361
 1 TOOL CALL 6 Z
 2 L Z+100 R0 FMAX
 5 TCH PROBE 416 PUNCT 0 CENTRU CERC

@@ -7,14 +7,14 @@ from typing import ClassVar
 
 from mnclab.controls.mnc.probing import addresses
 from mnclab.controls.mnc.probing.addresses import SIDE
-from mnclab.controls.mnc.probing.cycle import TURNS, MeasuringCycle, Moves, numbers, on_line, results, unplaced
+from mnclab.controls.mnc.probing.cycle import TURNS, MeasuringCycle, Moves, unplaced
 from mnclab.controls.mnc.probing.datum import base_rotation, store_angle, turn_base
 from mnclab.controls.mnc.probing.protocol import Check, conclude
 from mnclab.machine.cycle import CycleTable, Given, Values
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import NOTHING
 from mnclab.machining.probing.fits import line, reduced
-from mnclab.machining.probing.sequences import Aim, Steps, in_plane
+from mnclab.machining.probing.sequences import Aim, Steps, in_plane, numbers, results
 from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure, Say
 
@@ -35,7 +35,7 @@ def touched(c: MeasuringCycle, m: Machine) -> Steps:
     points = (c.x, c.y), (c.x2, c.y2)
     contacts = yield from in_plane(a, [Aim(x, y, way) for x, y in points], m.programmed[2])
     side = line([contact.point[:2] for contact in contacts]).towards(way, a.ball)
-    yield sketch(points, on_line(side, contacts), a.level, contacts)
+    yield sketch(points, [side.foot(contact.point) for contact in contacts], a.level, contacts)
     return side.angle % 180 if c.axis == 1 else reduced(side.angle), contacts
 
 

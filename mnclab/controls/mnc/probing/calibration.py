@@ -9,13 +9,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
 from mnclab.controls.mnc.probing import addresses
 from mnclab.controls.mnc.probing.cycle import TURNS, MeasuringCycle, Moves
-from mnclab.machine.calibrating import offset_written, ring, stud, with_length, with_radius
+from mnclab.machine.calibrating import length_touched, offset_written, ring, stud, with_radius
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.touching import FEELS
@@ -24,34 +24,28 @@ from mnclab.machining.probing.sequences import Approach, Pair
 from mnclab.machining.steps import Measure, Orient, Touch
 from mnclab.workpiece.part import Part
 
-CYCLES = CycleTable()
+CYCLES = CycleTable(addresses=addresses, runs="definition")
 MISPLACED = 5.0  # mm, by which the probe may stand off the centre (12.25, 12.26)
 
 
-@CYCLES("G460", "Calibrate the length of the probe", runs="definition", source="MNC 12.24")
+@CYCLES("G460", "Calibrate the length of the probe", source="MNC 12.24")
 class Length(MeasuringCycle):
     """One touch downwards on a surface whose height is known; the length gets what it is off, its correction becomes 0."""
 
-    does: ClassVar[str] = FEELS
-    refused: ClassVar[tuple[str, ...]] = TURNS
+    does, refused = FEELS, TURNS
 
     reference_z: float = addresses.coordinate("Z", "height of the reference surface", 0)
 
     def moves(self, m: Machine) -> Moves:
-        a, (x, y, z) = self.approach(m), m.programmed
-        contact = yield Touch("touch", x, y, z - a.reach, a.feed, a.ball)
-        yield a.go("back", z)
-        length = m.tool.effective_length + contact.tip[2] - m.to_machine((x, y, self.reference_z))[2]
-        yield Measure("length", length, m.tool.effective_length, touches=(contact.number,))
-        yield from with_length(m, length)
+        x, y, _ = m.programmed
+        yield from length_touched(m, self.approach(m), x, y, self.reference_z)
 
 
-@CYCLES("G461", "Calibrate the probe in a ring", runs="definition", source="MNC 12.25")
+@CYCLES("G461", "Calibrate the probe in a ring", source="MNC 12.25")
 class Ring(MeasuringCycle):
     """Offsets and radius from a ring, in which the probe stands at the measuring height, at most 5 mm off the centre."""
 
-    does: ClassVar[str] = FEELS
-    refused: ClassVar[tuple[str, ...]] = TURNS
+    does, refused = FEELS, TURNS
 
     diameter: float = addresses.size("D", "diameter of the ring", 50)
 
@@ -67,16 +61,13 @@ class Ring(MeasuringCycle):
         yield from offsets_and_radius(self, m, replace(a, reach=max(a.reach, self.diameter / 2 + MISPLACED)), inside=True)
 
 
-@CYCLES("G462", "Calibrate the probe on a boss", runs="definition", source="MNC 12.26")
+@CYCLES("G462", "Calibrate the probe on a boss", source="MNC 12.26", takes="diameter clearance level")
 class CalibrationBoss(MeasuringCycle):
     """Offsets and radius from a boss, over which the probe stands at a safe height, at most 5 mm off its centre."""
 
-    does: ClassVar[str] = FEELS
-    refused: ClassVar[tuple[str, ...]] = TURNS
+    does, refused = FEELS, TURNS
 
     diameter: float = addresses.size("D", "diameter of the boss", 30)
-    clearance: float = addresses.clearance()
-    level: float = addresses.level()
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         yield from super().check(m)

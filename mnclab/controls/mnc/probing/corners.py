@@ -11,11 +11,11 @@ from collections.abc import Iterator, Sequence
 
 from mnclab.controls.mnc.probing import addresses
 from mnclab.controls.mnc.probing.addresses import APPROACH, TOP
-from mnclab.controls.mnc.probing.cycle import TURNS, MeasuringCycle, Moves, numbers, on_line
+from mnclab.controls.mnc.probing.cycle import TURNS, MeasuringCycle, Moves
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machining.probing.fits import corner, line, reduced
-from mnclab.machining.probing.sequences import Aim, Approach, Pair
+from mnclab.machining.probing.sequences import Aim, Approach, Pair, numbers
 from mnclab.machining.probing.sequences import corner as corner_touches
 from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure
@@ -28,8 +28,7 @@ INTO: dict[float, Pair] = {1: (1, 1), 2: (-1, 1), 3: (-1, -1), 4: (1, -1)}  # fr
 
 
 @CYCLES(
-    "G414", "Datum at an outside corner", source="MNC 12.9",
-    takes=f"x y distance_12 x3 y3 distance_34 {CORNER}",
+    "G414", "Datum at an outside corner", source="MNC 12.9", takes=f"x y distance_12 x3 y3 distance_34 {CORNER}"
 )  # fmt: skip
 class DatumAtOutsideCorner(MeasuringCycle):
     """Two touches of each side; points 1 and 3 say which corner is meant. It gets the coordinates U and V."""
@@ -75,8 +74,7 @@ class DatumAtOutsideCorner(MeasuringCycle):
 
 
 @CYCLES(
-    "G415", "Datum at an inside corner", source="MNC 12.10",
-    takes=f"x y distance_12 distance_14 corner {CORNER}",
+    "G415", "Datum at an inside corner", source="MNC 12.10", takes=f"x y distance_12 distance_14 corner {CORNER}"
 )  # fmt: skip
 class DatumAtInsideCorner(MeasuringCycle):
     """Two touches of each side, the first and the third from one place (MNC-G415-B). The corner gets U and V."""
@@ -118,7 +116,7 @@ def corner_datum(
     except Alarm as alarm:
         m.alarm(f"{cycle.code}: {alarm.message}")
     angle, touches = reduced(lines[0].angle), numbers(contacts)
-    ends = [on_line(side, pair)[1] for side, (pair, _) in zip(lines, pairs, strict=True)]
+    ends = [side.foot(pair[1].point) for side, (pair, _) in zip(lines, pairs, strict=True)]
     actual = ends[0], (found.x, found.y), ends[1]
     yield sketch(nominal or actual, actual, a.level, contacts)
     for name, value, k in (("X", found.x, 0), ("Y", found.y, 1)):

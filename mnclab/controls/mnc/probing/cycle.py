@@ -5,17 +5,16 @@ Coordinates are absolute under G90 and G91; the ball's centre runs on the stated
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Iterator
+from collections.abc import Generator, Iterator
 from typing import Any, ClassVar
 
 from mnclab.controls.mnc.probing.datum import set_datum
 from mnclab.controls.word_address.holes import out_of_place
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
-from mnclab.machine.touching import PROBES, Contact, unfit
-from mnclab.machining.probing.found import Line
+from mnclab.machine.touching import PROBES, unfit
 from mnclab.machining.probing.sequences import Approach, from_above
-from mnclab.machining.steps import Measure, Step, Write
+from mnclab.machining.steps import Measure, Step
 
 Moves = Generator[Step, Any, None]
 Found = dict[int, tuple[float, float]]  # by axis: its measured coordinate and the one that it gets
@@ -118,19 +117,3 @@ def unplaced(m: Machine) -> Iterator[tuple[str, str]]:
     yield from out_of_place(m)
     if m.plane != "XY":
         yield "", f"needs the plane G17, {m.modal.get('plane', m.plane)} is active"
-
-
-def numbers(contacts: Iterable[Contact]) -> tuple[int, ...]:
-    """Which touches these are, for the measuring record."""
-    return tuple(contact.number for contact in contacts)
-
-
-def on_line(side: Line, contacts: Iterable[Contact]) -> list[tuple[float, float]]:
-    """Where the contacts of a line (moved towards the material) touched: their nearest points of it."""
-    (nx, ny), points = side.normal, [contact.point[:2] for contact in contacts]
-    return [(x - off * nx, y - off * ny) for (x, y), off in zip(points, side.distance(points).tolist(), strict=True)]
-
-
-def results(**values: float) -> Iterable[Step]:
-    """Q variables: `results(Q312=x)`."""
-    return [Write("variable", float(value), name) for name, value in values.items()]

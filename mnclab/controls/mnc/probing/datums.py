@@ -6,11 +6,11 @@ from collections.abc import Iterator, Sequence
 
 from mnclab.controls.mnc.probing import addresses
 from mnclab.controls.mnc.probing.addresses import APPROACH, TOP
-from mnclab.controls.mnc.probing.cycle import TURNS, MeasuringCycle, Moves, numbers
+from mnclab.controls.mnc.probing.cycle import TURNS, MeasuringCycle, Moves
 from mnclab.controls.mnc.probing.figures import box, middle, ring
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
-from mnclab.machining.probing.sequences import Aim, Approach, from_above, in_plane
+from mnclab.machining.probing.sequences import Aim, Approach, from_above, in_plane, numbers
 from mnclab.machining.steps import Measure
 
 CYCLES = CycleTable(addresses=addresses, runs="definition")

@@ -7,32 +7,42 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any, ClassVar
+from functools import partial
+from types import SimpleNamespace
+from typing import Any
 
 from mnclab.controls.mnc.cycles.addresses import choice, kind
 from mnclab.controls.mnc.language import absolute
-from mnclab.controls.mnc.probing.cycle import MeasuringCycle, Moves, numbers, results
+from mnclab.controls.mnc.probing.cycle import MeasuringCycle, Moves
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.touching import FEELS
+from mnclab.machining.probing.sequences import numbers, results
 from mnclab.machining.steps import Go, Measure, Touch
 
-CYCLES = CycleTable()
 AXES: dict[float, str] = {1: "X", 2: "Y", 3: "Z"}
 SENSES: dict[float, str] = {-1: "negative", 0: "no measurement", 1: "positive"}
 SYSTEM: dict[float, str] = {0: "active workpiece system", 1: "machine system"}
 to = kind(default=None, default_means="the axis does not move", note="a distance under G91")
 component = kind("ratio", default=0)
 Vector = tuple[float, float, float]
+ALIKE = "max_distance retract feed system"
+CYCLES = CycleTable(addresses=SimpleNamespace(
+    max_distance=partial(param, "P", "greatest distance", incremental=True, note="negative: in the opposite direction",
+                         example=20),
+    retract=partial(param, "Q", "distance back", above=0, incremental=True, note="not beyond the start", example=2),
+    feed=partial(
+        param, "F", "measuring feed", "mm/min", default=None, default_means="that of the probe table", above=0, example=150
+    ),
+    system=partial(choice, "W", "coordinate system of the result", SYSTEM, 0, default=0),
+), runs="definition")  # fmt: skip
 
 
-@CYCLES("G490", "Guarded positioning of the probe", runs="definition", source="MNC 12.20")
+@CYCLES("G490", "Guarded positioning of the probe", source="MNC 12.20")
 class GuardedPositioning(MeasuringCycle):
     """A straight line at the positioning feed of the probe; what is in its way stops axes and program."""
 
-    does: ClassVar[str] = FEELS
-    refused: ClassVar[tuple[str, ...]] = ()
-
+    does, refused = FEELS, ()
     x: float | None = to("X", "coordinate along X", 20)
     y: float | None = to("Y", "coordinate along Y", 10)
     z: float | None = to("Z", "coordinate along Z", 5)
@@ -47,12 +57,11 @@ class GuardedPositioning(MeasuringCycle):
         yield Go("positioning", z, self.approach(m).positioning, x, y)
 
 
-@CYCLES("G499", "Single measurement along one axis", runs="definition", source="MNC 12.21")
+@CYCLES("G499", "Single measurement along one axis", source="MNC 12.21")
 class AlongAxis(MeasuringCycle):
     """One touch along an axis, and back; the result is where the surface is, so that the radius of the ball counts."""
 
-    does: ClassVar[str] = FEELS
-
+    does = FEELS
     dir_x: float = choice("X", "direction along X", SENSES, 0, default=0)
     dir_y: float = choice("Y", "direction along Y", SENSES, 0, default=0)
     dir_z: float = choice("Z", "direction along Z", SENSES, -1, default=0)
@@ -81,33 +90,21 @@ class AlongAxis(MeasuringCycle):
         yield from results(Q312=found)
 
 
-def reach() -> Any:
-    return param("P", "greatest distance", incremental=True, note="negative: in the opposite direction", example=20)
+def somewhere(c: Any) -> Iterator[tuple[str, str]]:
+    """A touch that goes nowhere."""
+    if not c.max_distance:
+        yield "max_distance", "must not be 0: it is the greatest distance of the touch"
 
 
-def retract() -> Any:
-    return param("Q", "distance back", above=0, incremental=True, note="not beyond the start", example=2)
-
-
-def feed() -> Any:
-    return param("F", "measuring feed", "mm/min", default=None, default_means="that of the probe table", above=0, example=150)
-
-
-@CYCLES("G491", "Single measurement at an angle", runs="definition", source="MNC 12.22")
+@CYCLES("G491", "Single measurement at an angle", source="MNC 12.22", takes=f"axis angle {ALIKE}")
 class AtAngle(MeasuringCycle):
     """A touch at an angle to an axis: L1 in XY from +X, L2 in YZ from +Y, L3 in ZX from +Z."""
 
-    does: ClassVar[str] = FEELS
-
+    does = FEELS
     axis: float = choice("L", "axis from which the angle counts", AXES, 3)
     angle: float = param("E", "angle to that axis", "deg", default=0, at_least=-180, at_most=180, example=180)
-    max_distance: float = reach()
-    retract: float = retract()
-    feed: float | None = feed()
-    system: float = choice("W", "coordinate system of the result", SYSTEM, 0, default=0)
 
-    def contradictions(self) -> Iterator[tuple[str, str]]:
-        yield from somewhere(self.max_distance)
+    contradictions = somewhere
 
     def moves(self, m: Machine) -> Moves:
         cos, sin = math.cos(math.radians(self.angle)), math.sin(math.radians(self.angle))
@@ -116,22 +113,17 @@ class AtAngle(MeasuringCycle):
         yield from touched_along(self, m, (-sin, cos, 0.0) if flat else ways[int(self.axis)])
 
 
-@CYCLES("G492", "Single measurement along a vector", runs="definition", source="MNC 12.23")
+@CYCLES("G492", "Single measurement along a vector", source="MNC 12.23", takes=f"vx vy vz {ALIKE}")
 class AlongVector(MeasuringCycle):
     """A touch along a vector, whose length does not matter."""
 
-    does: ClassVar[str] = FEELS
-
+    does = FEELS
     vx: float = component("X", "component along X", 0)
     vy: float = component("Y", "component along Y", 0)
     vz: float = component("Z", "component along Z", -1)
-    max_distance: float = reach()
-    retract: float = retract()
-    feed: float | None = feed()
-    system: float = choice("W", "coordinate system of the result", SYSTEM, 0, default=0)
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        yield from somewhere(self.max_distance)
+        yield from somewhere(self)
         if not any((self.vx, self.vy, self.vz)):
             yield "", "needs a direction: write X, Y or Z other than 0"
 
@@ -139,13 +131,7 @@ class AlongVector(MeasuringCycle):
         yield from touched_along(self, m, (self.vx, self.vy, self.vz))
 
 
-def somewhere(distance: float) -> Iterator[tuple[str, str]]:
-    """A touch that goes nowhere."""
-    if not distance:
-        yield "max_distance", "must not be 0: it is the greatest distance of the touch"
-
-
-def touched_along(c: AtAngle | AlongVector, m: Machine, way: Vector) -> Moves:
+def touched_along(c: Any, m: Machine, way: Vector) -> Moves:
     """Towards a direction, then back at rapid; offsets, radius and length correction do not count."""
     begin, length = m.programmed, math.copysign(math.hypot(*way), c.max_distance)
     unit = [each / length for each in way]

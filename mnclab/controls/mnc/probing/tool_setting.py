@@ -22,7 +22,7 @@ from mnclab.machine.tool_setting import BEAM, SETS, row_of, unfit, written
 from mnclab.machining.steps import RAPID, Go, Measure, Pause, Say, Spin, Step, Touch, Write
 from mnclab.path.tool import Tool
 
-CYCLES = CycleTable()
+CYCLES = CycleTable(runs="definition")
 SETTINGS = (
     *(Setting(f"laser_{axis}", None, f"{axis.upper()} of the beam of the tool setter, machine coordinates, until G47{n} finds it",
               f"12.{26 + n}", unit="mm") for axis, n in (("x", 2), ("y", 2), ("z", 1))),
@@ -142,7 +142,7 @@ class LaserCycle(Cycle):
             yield Pause("worn or broken")
 
 
-@CYCLES("G470", "Laser tool setter: level of the beam", runs="definition", source="MNC 12.27")
+@CYCLES("G470", "Laser tool setter: level of the beam", source="MNC 12.27")
 class Level(LaserCycle):
     """The beam is broken twice, at two places along it."""
 
@@ -168,7 +168,7 @@ class Level(LaserCycle):
         yield from report(m, self.code, values)
 
 
-@CYCLES("G471", "Laser tool setter: calibrate Z", runs="definition", source="MNC 12.28")
+@CYCLES("G471", "Laser tool setter: calibrate Z", source="MNC 12.28")
 class HeightOfBeam(LaserCycle):
     """The beam is broken once from above, by a tool whose length is known."""
 
@@ -182,7 +182,7 @@ class HeightOfBeam(LaserCycle):
         yield from learned(m, laser_z=reference - self.length)
 
 
-@CYCLES("G472", "Laser tool setter: calibrate X and Y", runs="definition", source="MNC 12.29")
+@CYCLES("G472", "Laser tool setter: calibrate X and Y", source="MNC 12.29")
 class Place(LaserCycle):
     """The beam is broken from both sides by a tool that is known; along the beam the place of the call counts."""
 
@@ -210,7 +210,7 @@ class Place(LaserCycle):
         yield from learned(m, laser_x=place[0], laser_y=place[1], laser_axis=self.axis)
 
 
-@CYCLES("G480", "Measure length and radius of a tool", runs="definition", source="MNC 12.30")
+@CYCLES("G480", "Measure length and radius of a tool", source="MNC 12.30")
 class MeasureTool(LaserCycle):
     """What is measured stands in the tool table, without corrections."""
 
@@ -244,7 +244,7 @@ class MeasureTool(LaserCycle):
         yield from written(m, tool)
 
 
-@CYCLES("G481", "Check the length of a tool", runs="definition", source="MNC 12.31")
+@CYCLES("G481", "Check the length of a tool", source="MNC 12.31")
 class CheckLength(LaserCycle):
     """The deviation from the length in the table becomes its correction."""
 
@@ -258,7 +258,7 @@ class CheckLength(LaserCycle):
         yield from self.judged("length", length, row, self.tolerance)
 
 
-@CYCLES("G482", "Check the radius of a tool", runs="definition", source="MNC 12.32")
+@CYCLES("G482", "Check the radius of a tool", source="MNC 12.32")
 class CheckRadius(LaserCycle):
     """The deviation from the radius in the table becomes its correction."""
 

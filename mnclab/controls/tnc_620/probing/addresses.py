@@ -97,3 +97,38 @@ monitored_tool = partial(
 _without_effect = partial(param, default=None, default_means="without effect", modal=True)  # of programs of other controls
 reverse_tool = partial(_without_effect, "Q498", "reverse tool", "choice", type="choice")
 angle_of_incidence = partial(_without_effect, "Q531", "angle of incidence", "deg")
+
+# --- the cycles 14xx (14.2): places, and what becomes of them ---------------------------------------------------------
+DIRECTIONS: dict[float, str] = {
+    sense * (k + 1): f"{'+' if sense > 0 else '-'}{axis}" for k, axis in enumerate("XYZ") for sense in (1, -1)
+}
+MODES: dict[float, str] = {
+    -1: "never", 0: "before and after the cycle", 1: "before and after every object", 2: "before and after every touch",
+}  # fmt: skip
+REACTIONS: dict[float, str] = {0: "none", 1: "an alarm for rework and scrap", 2: "an alarm for scrap"}
+ALIGNING: dict[float, str] = {0: "not at all", 1: "they turn about the tip (MOVE)", 2: "they turn (TURN)"}
+TRANSFERS: dict[float, str] = {0: "none", 1: "point 1", 2: "point 2", 3: "the mean of the points"}
+ROTATIONS: dict[float, str] = {0: "none", 1: "basic rotation", 2: "the rotary table turns"}
+TEXT = "or a text QS… with tolerances, @ or ?"
+FIRST = "first_point_ref_axis first_point_minor_axis first_point_tool_axis"
+SECOND = "second_point_ref_axis second_point_minor_axis second_point_tool_axis"
+TAKEN = "clearance height clearance_height_mode error_reaction align_rotary_axis transfer_position confirm_rotation"
+
+_place = partial(coordinate, note=TEXT)
+first_point_ref_axis = partial(_place, ("Q1100", "QS1100"), meaning="first point, reference axis", example=20)
+first_point_minor_axis = partial(_place, ("Q1101", "QS1101"), meaning="first point, minor axis", example=10)
+first_point_tool_axis = partial(_place, ("Q1102", "QS1102"), meaning="first point, tool axis", example=-5)
+second_point_ref_axis = partial(_place, ("Q1103", "QS1103"), meaning="second point, reference axis", example=80)
+second_point_minor_axis = partial(_place, ("Q1104", "QS1104"), meaning="second point, minor axis", example=10)
+second_point_tool_axis = partial(_place, ("Q1105", "QS1105"), meaning="second point, tool axis", example=-5)
+third_point_ref_axis = partial(_place, ("Q1106", "QS1106"), meaning="third point, reference axis", example=20)
+third_point_minor_axis = partial(_place, ("Q1107", "QS1107"), meaning="third point, minor axis", example=50)
+third_point_tool_axis = partial(_place, ("Q1108", "QS1108"), meaning="third point, tool axis", example=0)
+diameter_1 = partial(length, ("Q1116", "QS1116"), "first diameter", at_most=9999.9999, note=TEXT, example=20)
+diameter_2 = partial(length, ("Q1117", "QS1117"), "second diameter", at_most=9999.9999, note=TEXT, example=20)
+probing_direction = partial(choice, "Q372", "probing direction", DIRECTIONS, example=2)
+clearance_height_mode = partial(choice, "Q1125", "when it goes to the clearance height", MODES, example=1)
+error_reaction = partial(choice, "Q309", "reaction to a violated tolerance", REACTIONS, example=0)
+align_rotary_axis = partial(choice, "Q1126", "how rotary axes are aligned", ALIGNING, example=0)
+transfer_position = partial(choice, "Q1120", "position that corrects the preset", choices=TRANSFERS, example=0)
+confirm_rotation = partial(choice, "Q1121", "rotation that is taken over", choices=ROTATIONS, example=0)

@@ -8,21 +8,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
-from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate
 from mnclab.controls.tnc_620.cycles.faults import Fault
-from mnclab.controls.tnc_620.probing.cycle import numbers
 from mnclab.controls.tnc_620.probing.nominal import Nominal, read
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import OK, REWORK, SCRAP, SLACK
 from mnclab.machine.settings import Setting
 from mnclab.machine.touching import Contact
-from mnclab.machining.probing.sequences import Approach, over_to
+from mnclab.machining.probing.sequences import Approach, numbers, over_to
 from mnclab.machining.steps import Go, Measure, Orient, Pause, Step, Touch, Write
 from mnclab.text.strings import TextFormula
 from mnclab.text.tables import html_table
@@ -35,29 +32,10 @@ SETTINGS = (
     Setting("table_x", 0.0, "X of the center of the rotary table in machine coordinates", "14.2", unit="mm"),
     Setting("table_y", 0.0, "Y of the center of the rotary table in machine coordinates", "14.2", unit="mm"),
 )  # fmt: skip
-DIRECTIONS: dict[float, str] = {
-    sense * (k + 1): f"{'+' if sense > 0 else '-'}{axis}" for k, axis in enumerate("XYZ") for sense in (1, -1)
-}
-MODES: dict[float, str] = {
-    -1: "never", 0: "before and after the cycle", 1: "before and after every object", 2: "before and after every touch",
-}  # fmt: skip
-REACTIONS: dict[float, str] = {0: "none", 1: "an alarm for rework and scrap", 2: "an alarm for scrap"}
-ALIGNING: dict[float, str] = {0: "not at all", 1: "they turn about the tip (MOVE)", 2: "they turn (TURN)"}
-TRANSFERS: dict[float, str] = {0: "none", 1: "point 1", 2: "point 2", 3: "the mean of the points"}
-ROTATIONS: dict[float, str] = {0: "none", 1: "basic rotation", 2: "the rotary table turns"}
 AXES = ("ref_axis", "minor_axis", "tool_axis")
 PLACES = ("first_point", "second_point", "third_point")
 STATUS = {OK: 0, REWORK: 1, SCRAP: 2}
 LOG = "TCHPRAUTO.html"
-
-TEXT = "or a text QS… with tolerances, @ or ?"
-place = partial(coordinate, note=TEXT)
-direction = partial(choice, "Q372", "probing direction", DIRECTIONS)
-clearance_mode = partial(choice, "Q1125", "when it goes to the clearance height", MODES, example=1)
-reaction = partial(choice, "Q309", "reaction to a violated tolerance", REACTIONS, example=0)
-aligning = partial(choice, "Q1126", "how rotary axes are aligned", ALIGNING, example=0)
-transferred = partial(choice, "Q1120", "position that corrects the preset", choices=TRANSFERS, example=0)
-rotation = partial(choice, "Q1121", "rotation that is taken over", choices=ROTATIONS, example=0)
 
 
 class Found(NamedTuple):

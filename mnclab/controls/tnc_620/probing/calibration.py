@@ -10,14 +10,15 @@ from __future__ import annotations
 import math
 from collections.abc import Generator, Iterator
 from dataclasses import replace
-from typing import Any, ClassVar
+from functools import partial
+from typing import Any
 
 from mnclab.controls.tnc_620.clock import time_of_day
-from mnclab.controls.tnc_620.cycles.addresses import angle, choice, coordinate, count, length
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed
-from mnclab.machine.calibrating import offset_written, plane_of, ring, stud, with_length, with_radius
+from mnclab.machine.calibrating import length_touched, offset_written, plane_of, ring, stud, with_radius
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.output import FILE
@@ -28,26 +29,28 @@ from mnclab.machining.probing.sequences import Approach, Pair, around, over_to
 from mnclab.machining.steps import Measure, Orient, Say, Step, Touch, Write
 from mnclab.workpiece.part import Part, ball
 
-CYCLES = CycleTable()
+CYCLES = CycleTable(addresses=addresses, runs="definition")
 LOG = "TCHPRAUTO.html"  # (17.5)
 MOST = 99.9999  # mm, of a radius; that of a ring is printed as 9.9999
 SETTINGS = (
     Setting("tool_comp_3d", True, "software option 92, 3D-ToolComp: cycle 460 can calibrate in three dimensions", "17.6"),
 )
 Found = Generator[Step, Any, Any]
+touches = partial(count, "Q423", "number of touch points", at_least=3, at_most=8)
+first = partial(addresses.reference_angle, at_least=0)
 
 
-@CYCLES("TCH PROBE 460", "Calibration on a sphere", runs="definition", source="17.6")
+@CYCLES(
+    "TCH PROBE 460", "Calibration on a sphere", source="17.6",
+    takes="radius clearance move_to_clearance points reference_angle calibrate_length preset_for_length number_of_points_3d",
+)  # fmt: skip
 class OnSphere(ProbingCycle):
     """Radius and offset at the equator, which three touches of a meridian find; the length on the pole, deviations all over."""
 
-    does: ClassVar[str] = FEELS
-
+    does = FEELS
     radius: float = length("Q407", "exact radius of the calibration sphere", at_least=0.0001, at_most=MOST, example=12.5)
-    clearance: float = addresses.clearance()
-    move_to_clearance: float = addresses.move_to_clearance()
-    points: float = count("Q423", "number of touch points", at_least=3, at_most=8, example=4)
-    reference_angle: float = angle("Q380", "reference angle", at_least=0, example=0)
+    points: float = touches(example=4)
+    reference_angle: float = first()
     calibrate_length: float = choice("Q433", "calibrating the length too", addresses.SWITCH, example=0)
     preset_for_length: float = coordinate("Q434", "height of the center of the sphere", example=-2.5)
     number_of_points_3d: float = count("Q455", "touch points from pole to equator", at_most=30, default=0, example=0)
@@ -69,7 +72,7 @@ class OnSphere(ProbingCycle):
         equator = yield from self.equator(m, a)
         x, y = yield from radius_and_offset(self, m, replace(a, level=equator), about, inside=False)
         if self.calibrate_length:
-            yield from measured_length(m, a, x, y, self.preset_for_length + self.radius)
+            yield from length_touched(m, a, x, y, self.preset_for_length + self.radius)
         if self.number_of_points_3d:
             longer = m.tool.effective_length - before.effective_length
             yield from self.all_over(m, (x, y, equator - a.ball + m.radius - longer))
@@ -112,28 +115,25 @@ class OnSphere(ProbingCycle):
         yield Say(f"writes {name}: its deviations are not taken into account when probing")
 
 
-@CYCLES("TCH PROBE 461", "Calibration of the length", runs="definition", source="17.7")
+@CYCLES("TCH PROBE 461", "Calibration of the length", source="17.7")
 class OfLength(ProbingCycle):
     """One touch downwards from where the probe stands, on a surface whose height is known."""
 
-    does: ClassVar[str] = FEELS
-
+    does = FEELS
     preset_for_length: float = coordinate("Q434", "height of the touched surface", example=5)
 
     def moves(self, m: Machine) -> Moves:
-        yield from logged(self, m, measured_length(m, here(self, m), *m.programmed[:2], self.preset_for_length))
+        yield from logged(self, m, length_touched(m, here(self, m), *m.programmed[:2], self.preset_for_length))
 
 
-@CYCLES("TCH PROBE 462", "Calibration in a ring", runs="definition", source="17.8")
+@CYCLES("TCH PROBE 462", "Calibration in a ring", source="17.8", takes="radius clearance points reference_angle")
 class InRing(ProbingCycle):
     """Radius and offset; the probe stands in the ring at the measuring height, and stays there."""
 
-    does: ClassVar[str] = FEELS
-
+    does = FEELS
     radius: float = length("Q407", "radius of the ring", at_most=MOST, example=25)
-    clearance: float = addresses.clearance()
-    points: float = count("Q423", "number of touch points", at_least=3, at_most=8, example=8)
-    reference_angle: float = angle("Q380", "angle of the first touch point", at_least=0, example=0)
+    points: float = touches(example=8)
+    reference_angle: float = first(meaning="angle of the first touch point")
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
@@ -148,17 +148,16 @@ class InRing(ProbingCycle):
         yield from logged(self, m, radius_and_offset(self, m, a, m.programmed[:2], inside=True))
 
 
-@CYCLES("TCH PROBE 463", "Calibration on a stud", runs="definition", source="17.9")
+@CYCLES(
+    "TCH PROBE 463", "Calibration on a stud", source="17.9", takes="radius clearance move_to_clearance points reference_angle"
+)  # fmt: skip
 class OnStud(ProbingCycle):
     """Radius and offset; the probe stands over the stud, which is touched one ball radius below its top."""
 
-    does: ClassVar[str] = FEELS
-
+    does = FEELS
     radius: float = length("Q407", "radius of the stud", at_most=MOST, example=10)
-    clearance: float = addresses.clearance()
-    move_to_clearance: float = addresses.move_to_clearance()
-    points: float = count("Q423", "number of touch points", at_least=3, at_most=8, example=8)
-    reference_angle: float = angle("Q380", "angle of the first touch point", at_least=0, example=0)
+    points: float = touches(example=8)
+    reference_angle: float = first(meaning="angle of the first touch point")
 
     def figure(self, m: Machine) -> Part:
         return stud(m, self.radius, m.tip[2] - self.approach(m).gap)
@@ -209,16 +208,6 @@ def radius_and_offset(c: Round, m: Machine, a: Approach, about: Pair, inside: bo
         yield from offset_written(m, centre, other, touches)
     yield from with_radius(m, radius)
     return fine.centre
-
-
-def measured_length(m: Machine, a: Approach, x: float, y: float, surface: float) -> Moves:
-    """A touch downwards on a surface whose height is known, and back; writes the length."""
-    z = m.programmed[2]
-    contact = yield Touch("touch from above", x, y, z - a.reach, a.feed, a.ball)
-    yield a.go("back", z)
-    found = m.tool.effective_length + m.to_program(contact.tip)[2] - surface
-    yield Measure("length", found, m.tool.effective_length, touches=(contact.number,))
-    yield from with_length(m, found)
 
 
 def logged(c: ProbingCycle, m: Machine, steps: Moves) -> Moves:

@@ -18,8 +18,8 @@ from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
 from mnclab.machine.tool_axis import FRAME
 from mnclab.machine.touching import PROBES, Contact, unfit
-from mnclab.machining.probing.sequences import Approach
-from mnclab.machining.steps import Measure, Step, Write
+from mnclab.machining.probing.sequences import Approach, numbers, results
+from mnclab.machining.steps import Measure, Step
 from mnclab.text.alarm import Alarm
 
 Moves = Generator[Step, Any, None]
@@ -51,6 +51,7 @@ class ProbingCycle(Cycle):
     probe_z = top_x = top_y = top_z = datum = datum_x = datum_y = datum_z = 0.0
     maximum_limit = minimum_limit = first_maximum = first_minimum = second_maximum = second_minimum = 0.0
     tolerance_x = tolerance_y = 0.0
+    result_parameter = angle = reach = feed = back = system = 0.0
     direction = transfer = traverse = 1.0
     points, stepping_angle = 4.0, 90.0
     monitored_tool: Named = 0.0
@@ -87,19 +88,9 @@ class ProbingCycle(Cycle):
         return Approach(**{**found, **other})
 
 
-def results(**values: float) -> Iterable[Step]:
-    """Q parameters: `results(Q151=x)`."""
-    return [Write("variable", float(value), name) for name, value in values.items()]
-
-
 def lengths(m: Machine, **values: float) -> Iterable[Step]:
     """Q parameters that hold lengths: mm here, the unit of the program there."""
     return results(**{name: value / m.variable_unit for name, value in values.items()})
-
-
-def numbers(contacts: Sequence[Contact]) -> tuple[int, ...]:
-    """Of touches."""
-    return tuple(each.number for each in contacts)
 
 
 def measured(contacts: Sequence[Contact], **found: tuple[float, float]) -> Iterable[Step]:

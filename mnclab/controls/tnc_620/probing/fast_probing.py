@@ -13,14 +13,14 @@ from mnclab.machine.machine import INF, Machine
 from mnclab.machine.probe import Probe
 from mnclab.machining.steps import Step, Write
 
-CYCLES = CycleTable()
+CYCLES = CycleTable(runs="definition")
 SWITCH: dict[float, str] = {0: "no", 1: "yes"}
 PREPOSITION: dict[float, str] = {0: "at the feed rate of Q396", 1: "at the rapid traverse of the machine"}
 TABLE: dict[str, Any] = {"default": None, "default_means": "as the touch probe table has it"}
 OWN: dict[str, Any] = {"default": None, "default_means": "as the measuring cycle says"}
 
 
-@CYCLES("TCH PROBE 441", "Fast probing", runs="definition", source="17.10")
+@CYCLES("TCH PROBE 441", "Fast probing", source="17.10")
 class FastProbing(Cycle):
     """Nothing moves; what is left out stays as the touch probe table has it."""
 

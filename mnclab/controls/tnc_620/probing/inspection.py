@@ -6,15 +6,18 @@ Too much material is rework, too little is scrap, and so is a wrong place. A lim
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
+from dataclasses import replace
+from typing import Any
 
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, numbers, results
+from mnclab.controls.tnc_620.contours.other_tools import Named, named_tool
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle
 from mnclab.controls.tnc_620.probing.log import Value, logged
-from mnclab.controls.tnc_620.probing.monitoring import monitored
 from mnclab.machine.machine import Machine
-from mnclab.machine.measuring import OK, REWORK, SCRAP
+from mnclab.machine.measuring import OK, REWORK, SCRAP, SLACK
 from mnclab.machine.touching import Contact
-from mnclab.machining.steps import Measure
+from mnclab.machining.probing.sequences import numbers, results
+from mnclab.machining.steps import Measure, Step, Write
 
 HEIGHT = "Measuring height"  # in the log
 AXES = ("reference axis", "minor axis", "touch probe axis")
@@ -74,3 +77,20 @@ def size(
    """
     below, above = {True: (REWORK, SCRAP), False: (SCRAP, REWORK), None: (SCRAP, SCRAP)}[inside]
     return Value(what, name, actual, q, nominal, difference, *limits, limit, limits != (0, 0), below, above)
+
+
+def monitored(m: Machine, name: Named, deviation: float, radius: float, length: float) -> Generator[Step, Any, str]:
+    """Adds `radius` to DR and `length` to DL; returns what an alarm says of a broken tool, which is locked instead.
+
+    `deviation` (mm) is the greatest one of a size, broken is a tool whose RBREAK is smaller. What changed counts from the next
+    TOOL CALL on.
+    """
+    tool = named_tool(m, name)
+    assert tool is not None  # `check` has found it
+    number = next(number for number, each in m.tables.tools.items() if each is tool)
+    if 0 < tool.wear.break_radius < deviation - SLACK:
+        yield Write("tools", replace(tool, locked=True), number)
+        return f"tool {number:g} is broken: a deviation of {deviation:.4f} is more than its RBREAK {tool.wear.break_radius:g}"
+    if radius or length:
+        yield Write("tools", replace(tool, dr=tool.dr + radius, dl=tool.dl + length), number)
+    return ""

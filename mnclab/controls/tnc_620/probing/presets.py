@@ -14,7 +14,7 @@ from mnclab.controls.tnc_620.cycles.addresses import choice
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero
 from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.addresses import CENTRE, HEIGHTS
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, lengths, measured, needed, numbers
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, lengths, measured, needed
 from mnclab.controls.tnc_620.probing.transfer import finish, save
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
@@ -22,7 +22,7 @@ from mnclab.machine.tool_axis import tool_axis
 from mnclab.machining.probing import sequences
 from mnclab.machining.probing.fits import corner, line, reduced
 from mnclab.machining.probing.found import Line, Point
-from mnclab.machining.probing.sequences import Aim, Approach, Pair, from_above, in_one_axis
+from mnclab.machining.probing.sequences import Aim, Approach, Pair, from_above, in_one_axis, numbers
 from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure
 
@@ -129,7 +129,7 @@ def both_sides(c: ProbingCycle, m: Machine, a: Approach, *lines: tuple[Sequence[
     yield from measured(contacts, X=(found.x, nominal[0]), Y=(found.y, nominal[1]))
     yield Measure("angle", angle, 0.0, unit="deg", touches=numbers(contacts))
     far = [max(range(2), key=lambda k: math.dist(points[k], nominal)) for points, _ in lines]
-    ends = [foot(side, balls[2 * k + far[k]]) for k, side in enumerate(sides)]
+    ends = [side.foot(balls[2 * k + far[k]]) for k, side in enumerate(sides)]
     ideal = [points[k] for (points, _), k in zip(lines, far)]
     yield sketch([ideal[0], nominal, ideal[1]], [ends[0], found.centre, ends[1]], c.level, contacts)
     yield from lengths(m, Q151=found.x, Q152=found.y)
@@ -141,9 +141,3 @@ def crossing(balls: Sequence[Pair], ways: Sequence[Pair], ball: float) -> tuple[
     """Where the sides cross that were touched each at two points in one direction, and the sides."""
     sides = [line(balls[k : k + 2]).towards(way, ball) for k, way in zip((0, 2), ways)]
     return corner(*sides), sides
-
-
-def foot(side: Line, point: Pair) -> Pair:
-    """The place of a line that is nearest to a point."""
-    off, (nx, ny) = float(side.distance(point)), side.normal
-    return point[0] - off * nx, point[1] - off * ny

@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import partial
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,14 +18,13 @@ from numpy.typing import NDArray
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, increment
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero
 from mnclab.controls.tnc_620.language.parameters import KEPT
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, results
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.touching import Contact, ball_from_axis, deflected, unfit
-from mnclab.machining.probing.sequences import Steps
+from mnclab.machining.probing.sequences import Steps, results
 from mnclab.machining.steps import Touch
 
-CYCLES = CycleTable()
 LAST = 1999  # number of a Q parameter
 FASTEST = 3000  # mm/min
 MACHINE: dict[float, str] = {0: "the active system", 1: "the machine (REF)"}
@@ -31,15 +32,19 @@ SILENT: dict[float, str] = {0: "an alarm", 1: "-1 in the fourth result"}
 Vector = NDArray[np.float64]
 
 result = partial(param, "Q", unit="count", at_least=0, at_most=LAST, type="integer", example=5)
-pre_x = partial(coordinate, "X", "pre-position X", default=None, modal=False, default_means="stays", example=20)
-pre_y = partial(coordinate, "Y", "pre-position Y", default=None, modal=False, default_means="stays", example=10)
-pre_z = partial(coordinate, "Z", "pre-position Z", default=None, modal=False, default_means="stays", example=-5)
-axis = partial(param, "axis", "probing axis", "choice", type="text", example="X")
-angle = partial(param, "ANGLE", "angle from the probing axis", "deg", at_least=-180, at_most=180, example=30)
-reach = partial(increment, "ABST", "farthest way", modal=False, note="negative: the other way", example=10)
-feed = partial(param, "F", "feed of the touch", "mm/min", at_least=0, at_most=FASTEST, example=100)
-back = partial(param, "MB", "way back, at most to the start", at_least=0, at_most=FAR, incremental=True, example=1)
 system = partial(choice, "SYSTEM", modal=False, choices=MACHINE, example=0)
+pre = partial(coordinate, default=None, modal=False, default_means="stays")
+CYCLES = CycleTable(addresses=SimpleNamespace(
+    result_parameter=partial(result, meaning="first Q parameter of the results"),
+    x=partial(pre, "X", "pre-position X", example=20), y=partial(pre, "Y", "pre-position Y", example=10),
+    z=partial(pre, "Z", "pre-position Z", example=-5),
+    axis=partial(param, "axis", "probing axis", "choice", type="text", example="X"),
+    angle=partial(param, "ANGLE", "angle from the probing axis", "deg", at_least=-180, at_most=180, example=30),
+    reach=partial(increment, "ABST", "farthest way", modal=False, note="negative: the other way", example=10),
+    feed=partial(param, "F", "feed of the touch", "mm/min", at_least=0, at_most=FASTEST, example=100),
+    back=partial(param, "MB", "way back, at most to the start", at_least=0, at_most=FAR, incremental=True, example=1),
+    system=partial(system, meaning="system of direction and result"),
+), runs="definition")  # fmt: skip
 
 
 def in_plane_of(letter: str, degrees: float) -> Vector:
@@ -54,7 +59,7 @@ def south_pole(m: Machine) -> Vector:
     return np.array(m.programmed) + (*ball_from_axis(m), 0.0)
 
 
-def unscaled(m: Machine) -> Iterator[Fault]:
+def unscaled(c: ProbingCycle, m: Machine) -> Iterator[Fault]:
     """What refuses a single touch."""
     yield from unfit(m)
     sizes = np.linalg.norm(m.matrix[:3, :3], axis=0)
@@ -62,15 +67,21 @@ def unscaled(m: Machine) -> Iterator[Fault]:
         yield "", "cannot run under a scale other than 1: the ball keeps its size"
 
 
-def placed(c: ReferencePlane | PolarPreset, m: Machine) -> Iterator[Fault]:
+def placed(c: Any, m: Machine) -> Iterator[Fault]:
     """The same; a program that is half typed names no pre-position."""
     if c.x is None and c.y is None and c.z is None:
-        last = 1 if isinstance(c, ReferencePlane) else 2
+        last = 1 if c.code.endswith(" 0") else 2
         yield "", f"needs its pre-position, X, Y or Z in {c.code}.{last}"
-    yield from unscaled(m)
+    yield from unscaled(c, m)
 
 
-def from_place(c: ReferencePlane | PolarPreset, m: Machine, way: Vector) -> Steps:
+def kept(c: Any, count: int = 1) -> Iterator[Fault]:
+    """Results that would overwrite what the control keeps itself."""
+    names = [f"Q{int(c.result_parameter) + k}" for k in range(count)]
+    yield from (("result_parameter", f"cannot be {name}: {KEPT[name][0]}, kept by the control") for name in names if name in KEPT)
+
+
+def from_place(c: ProbingCycle, m: Machine, way: Vector) -> Steps:
     """To the pre-position at rapid, a touch as the probe table has it, and back; returns the contact.
 
     Where it was goes into Q115 to Q119, as the spindle stands, without length and radius.
@@ -88,21 +99,14 @@ def from_place(c: ReferencePlane | PolarPreset, m: Machine, way: Vector) -> Step
     return contact
 
 
-@CYCLES("TCH PROBE 0", "Reference plane", runs="definition", source="16.2")
+@CYCLES("TCH PROBE 0", "Reference plane", source="16.2", takes="result_parameter probing x y z")
 class ReferencePlane(ProbingCycle):
     """A coordinate along an axis, compensated by the ball, for a Q parameter."""
 
     result_parameter: float = result(meaning="Q parameter of the result")
     probing: str = param("axis", "probing axis and direction", "choice", type="text", example="X+")
-    x: float | None = pre_x()
-    y: float | None = pre_y()
-    z: float | None = pre_z()
 
-    def contradictions(self) -> Iterator[Fault]:
-        return kept(self)
-
-    def check(self, m: Machine) -> Iterator[Fault]:
-        return placed(self, m)
+    contradictions, check = kept, placed
 
     def moves(self, m: Machine) -> Moves:
         sense, k, ball = float(f"{self.probing[1]}1"), "XYZ".index(self.probing[0]), m.radius
@@ -112,31 +116,18 @@ class ReferencePlane(ProbingCycle):
         yield from results(**{f"Q{self.result_parameter:.0f}": found / m.variable_unit})
 
 
-@CYCLES("TCH PROBE 1", "Polar preset", runs="definition", source="16.3")
+@CYCLES("TCH PROBE 1", "Polar preset", source="16.3", takes="axis angle x y z")
 class PolarPreset(ProbingCycle):
     """A touch at an angle to an axis: where the ball stood, in Q115 to Q119."""
 
-    axis: str = axis()
-    angle: float = angle()
-    x: float | None = pre_x()
-    y: float | None = pre_y()
-    z: float | None = pre_z()
-
-    def check(self, m: Machine) -> Iterator[Fault]:
-        return placed(self, m)
+    check = placed
 
     def moves(self, m: Machine) -> Moves:
         contact = yield from from_place(self, m, in_plane_of(self.axis, self.angle))
         yield from measured([contact], **{name: (place, math.nan) for name, place in zip("XYZ", contact.point)})
 
 
-def kept(c: ReferencePlane | MeasuringInPlane | MeasuringInSpace, count: int = 1) -> Iterator[Fault]:
-    """Results that would overwrite what the control keeps itself."""
-    names = [f"Q{int(c.result_parameter) + k}" for k in range(count)]
-    yield from (("result_parameter", f"cannot be {name}: {KEPT[name][0]}, kept by the control") for name in names if name in KEPT)
-
-
-def impossible(c: MeasuringInPlane | MeasuringInSpace) -> Iterator[Fault]:
+def impossible(c: Any) -> Iterator[Fault]:
     """What 3 and 4 refuse whatever the machine."""
     yield from kept(c, 4)
     yield from not_zero(c, "feed", purpose="to touch with")
@@ -146,7 +137,7 @@ def impossible(c: MeasuringInPlane | MeasuringInSpace) -> Iterator[Fault]:
         yield "result_parameter", f"must be at most {LAST - 3}, got {c.result_parameter:g}: four parameters get results"
 
 
-def from_here(c: MeasuringInPlane | MeasuringInSpace, m: Machine, way: Vector, silent: bool = False) -> Moves:
+def from_here(c: Any, m: Machine, way: Vector, silent: bool = False) -> Moves:
     """A touch from where the probe stands, and back; four Q parameters get the ball's centre, and 1, or -1 without a contact.
 
     `silent`: a stylus that is deflected before makes no alarm, and no touch.
@@ -166,41 +157,31 @@ def from_here(c: MeasuringInPlane | MeasuringInSpace, m: Machine, way: Vector, s
         yield from measured([contact], **{name: (value, math.nan) for name, value in zip("XYZ", place)})
 
 
-@CYCLES("TCH PROBE 3", "Measuring", runs="definition", source="17.2")
+@CYCLES(
+    "TCH PROBE 3", "Measuring", source="17.2", takes="result_parameter axis angle reach feed back system error_mode"
+)  # fmt: skip
 class MeasuringInPlane(ProbingCycle):
     """A touch at an angle to an axis, in the active system or in that of the machine."""
 
-    result_parameter: float = result(meaning="first Q parameter of the results")
-    axis: str = axis()
-    angle: float = angle()
-    reach: float = reach()
-    feed: float = feed()
-    back: float = back()
-    system: float = system(meaning="system of direction and result")
     error_mode: float = choice("ERRORMODE", "where the stylus is deflected at the start", SILENT, modal=False, example=0)
 
-    def contradictions(self) -> Iterator[Fault]:
-        return impossible(self)
-
-    def check(self, m: Machine) -> Iterator[Fault]:
-        return unscaled(m)
+    contradictions, check = impossible, unscaled
 
     def moves(self, m: Machine) -> Moves:
         way = in_plane_of(self.axis, self.angle)
         return from_here(self, m, m.matrix[:3, :3].T @ way if self.system else way, silent=self.error_mode == 1)
 
 
-@CYCLES("TCH PROBE 4", "Measuring in three dimensions", runs="definition", source="17.3")
+@CYCLES(
+    "TCH PROBE 4", "Measuring in three dimensions", source="17.3",
+    takes="result_parameter direction_x direction_y direction_z reach feed back system",
+)  # fmt: skip
 class MeasuringInSpace(ProbingCycle):
     """A touch along a direction of the active system."""
 
-    result_parameter: float = result(meaning="first Q parameter of the results")
     direction_x: float = increment("IX", "direction, X", modal=False, example=-0.5)
     direction_y: float = increment("IY", "direction, Y", modal=False, example=-1)
     direction_z: float = increment("IZ", "direction, Z", modal=False, example=-1)
-    reach: float = reach()
-    feed: float = feed()
-    back: float = back()
     system: float = system(meaning="system of the result")
 
     def contradictions(self) -> Iterator[Fault]:
@@ -208,8 +189,7 @@ class MeasuringInSpace(ProbingCycle):
         if not (self.direction_x or self.direction_y or self.direction_z):
             yield "direction_x", "must not be 0 with IY and IZ: they are the direction"
 
-    def check(self, m: Machine) -> Iterator[Fault]:
-        return unscaled(m)
+    check = unscaled
 
     def moves(self, m: Machine) -> Moves:
         way = np.array([self.direction_x, self.direction_y, self.direction_z])

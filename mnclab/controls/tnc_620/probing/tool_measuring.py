@@ -10,6 +10,7 @@ import math
 from collections.abc import Generator, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from types import SimpleNamespace
 from typing import Any, ClassVar
 
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate
@@ -23,7 +24,6 @@ from mnclab.machine.tool_setting import SETS, row_of, written
 from mnclab.machining.steps import Go, Measure, Orient, Say, Spin, Step, Touch, Write
 from mnclab.path.tool import Tool
 
-CYCLES = CycleTable()
 Lengths = Generator[Step, Any, list[float]]
 CHECK: dict[float, str] = {
     0: "write what is measured, without deltas",
@@ -167,75 +167,61 @@ class ToolMeasuring(Cycle):
             yield from written(m, replace(tool, locked=row.locked or worst > 0))
 
 
-mode = partial(choice, "Q340", "what becomes of the measured values", CHECK, example=1)
-height = partial(coordinate, "Q260", "clearance height", example=100)
-teeth = partial(choice, "Q341", "whether each tooth is measured", TEETH, example=0)
-old_mode = partial(choice, "CHECK", "what becomes of the measured values", CHECK, modal=False, example=1)
-old_height = partial(coordinate, "HEIGHT", "clearance height", modal=False, example=100)
-old_teeth = partial(choice, "PROBING THE TEETH", "whether each tooth is measured", TEETH, modal=False, example=0)
-target = partial(
-    param, "status parameter", "Q parameter of the status", "choice", type="text", default=None, default_means="none"
-)
+measured_values = partial(choice, meaning="what becomes of the measured values", choices=CHECK, example=1)
+each_tooth = partial(choice, meaning="whether each tooth is measured", choices=TEETH, example=0)
+NEW = CycleTable(addresses=SimpleNamespace(
+    mode=partial(measured_values, "Q340"), height=partial(coordinate, "Q260", "clearance height", example=100),
+    teeth=partial(each_tooth, "Q341"),
+), runs="definition")  # fmt: skip
+OLD = CycleTable(addresses=SimpleNamespace(
+    mode=partial(measured_values, "CHECK", modal=False), teeth=partial(each_tooth, "PROBING THE TEETH", modal=False),
+    height=partial(coordinate, "HEIGHT", "clearance height", modal=False, example=100),
+    target=partial(
+        param, "status parameter", "Q parameter of the status", "choice", type="text", default=None, default_means="none"
+    ),
+), runs="definition")  # fmt: skip
 
 
-@CYCLES("TCH PROBE 481", "Measuring the tool length", runs="definition", source="19.4")
+@NEW("TCH PROBE 481", "Measuring the tool length", source="19.4", takes="mode height teeth")
 class Length(ToolMeasuring):
     """From above."""
 
     measures = ("length",)
-    mode: float = mode()
-    height: float = height()
-    teeth: float = teeth()
 
 
-@CYCLES("TCH PROBE 482", "Measuring the tool radius", runs="definition", source="19.5")
+@NEW("TCH PROBE 482", "Measuring the tool radius", source="19.5", takes="mode height teeth")
 class Radius(ToolMeasuring):
     """From the side."""
 
     measures = ("radius",)
-    mode: float = mode()
-    height: float = height()
-    teeth: float = teeth()
 
 
-@CYCLES("TCH PROBE 483", "Measuring the tool length and radius", runs="definition", source="19.6")
+@NEW("TCH PROBE 483", "Measuring the tool length and radius", source="19.6", takes="mode height teeth")
 class LengthAndRadius(ToolMeasuring):
     """The radius first, then the length."""
 
     measures = ("radius", "length")
-    mode: float = mode()
-    height: float = height()
-    teeth: float = teeth()
 
 
-@CYCLES("TCH PROBE 31", "Measuring the tool length, old format", runs="definition", source="19.4")
+@OLD("TCH PROBE 31", "Measuring the tool length, old format", source="19.4", takes="mode target height teeth")
 class OldLength(ToolMeasuring):
     """As 481; the status is a parameter that the block names."""
 
     measures = ("length",)
-    mode: float = old_mode()
-    target: str | None = target()
-    height: float = old_height()
-    teeth: float = old_teeth()
 
 
-@CYCLES("TCH PROBE 32", "Measuring the tool radius, old format", runs="definition", source="19.5")
+@OLD("TCH PROBE 32", "Measuring the tool radius, old format", source="19.5", takes="mode target height teeth")
 class OldRadius(ToolMeasuring):
     """As 482; the status is a parameter that the block names."""
 
     measures = ("radius",)
-    mode: float = old_mode()
-    target: str | None = target()
-    height: float = old_height()
-    teeth: float = old_teeth()
 
 
-@CYCLES("TCH PROBE 33", "Measuring the tool length and radius, old format", runs="definition", source="19.6")
+@OLD("TCH PROBE 33", "Measuring the tool length and radius, old format", source="19.6", takes="mode target height teeth")
 class OldLengthAndRadius(ToolMeasuring):
     """As 483; the status is a parameter that the block names."""
 
     measures = ("radius", "length")
-    mode: float = old_mode()
-    target: str | None = target()
-    height: float = old_height()
-    teeth: float = old_teeth()
+
+
+CYCLES = NEW | OLD

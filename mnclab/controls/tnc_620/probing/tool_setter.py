@@ -24,7 +24,7 @@ from mnclab.machine.tool_setting import PLATE, SETS, unfit
 from mnclab.machining.probing.fits import circle
 from mnclab.machining.steps import Go, Measure, Orient, Pause, Say, Step, Touch, Write
 
-CYCLES = CycleTable()
+CYCLES = CycleTable(runs="definition")
 SETTINGS = (
     Setting("probing_feed", 100.0, "feed of a standing tool to the TT (probingFeed, no. 122709)", "19.1", {}, "mm/min", 1),
     Setting(
@@ -148,21 +148,21 @@ def calibrated(m: Machine, x: float, y: float, high: float) -> Generator[Step, A
     return tt
 
 
-@CYCLES("TCH PROBE 480", "Calibrating the TT", runs="definition", source="19.2")
+@CYCLES("TCH PROBE 480", "Calibrating the TT", source="19.2")
 class Calibrate(Calibrating):
     """From the clearance height."""
 
     height: float = coordinate("Q260", "clearance height", example=100)
 
 
-@CYCLES("TCH PROBE 30", "Calibrating the TT, old format", runs="definition", source="19.2")
+@CYCLES("TCH PROBE 30", "Calibrating the TT, old format", source="19.2")
 class OldCalibrate(Calibrating):
     """As 480."""
 
     height: float = coordinate("HEIGHT", "clearance height", modal=False, example=100)
 
 
-@CYCLES("TCH PROBE 484", "Calibrating a wireless TT", runs="definition", source="19.3")
+@CYCLES("TCH PROBE 484", "Calibrating a wireless TT", source="19.3")
 class CalibrateWireless(Calibrating):
     """From where the tool stands above the TT; it ends above its middle, where it began."""
 
