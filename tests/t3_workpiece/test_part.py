@@ -1,5 +1,7 @@
 """Touching parts: closed forms for planes, bars and bores, and a touch worked out for a probing cycle."""
 
+import pickle
+
 import numpy as np
 import pytest
 from hypothesis import example, given
@@ -125,3 +127,13 @@ def test_planes_are_met_exactly(normal, direction, gap, radius):
 def test_nonsense_is_an_alarm(given, said):
     with pytest.raises(Alarm, match=said):
         contact(BLOCK, *given)
+
+
+def test_a_part_of_thousands_of_solids_nests_no_deeper_than_one_of_two():
+    """A row of balls of radius 3 along X, less one of 2 at its end: 1 mm under the top of the last there is nothing."""
+    row = ball((0, 0, 0), 3)
+    for x in range(1, 1500):
+        row = row | ball((x, 0, 0), 3)
+    assert row((700, 0, 5)) == pytest.approx(2, abs=1e-9)
+    less = pickle.loads(pickle.dumps(row - ball((1499, 0, 3), 2)))
+    assert less((1499, 0, 2)) == pytest.approx(1, abs=1e-9) and less((0, 0, 5)) == pytest.approx(2, abs=1e-9)

@@ -78,7 +78,8 @@ class Part:
             if both is not None:
                 return Part(both, name, bounds=bounds)
         exact = operation == "|" and self.exact and other.exact
-        distance = partial(_combined, operation, self, other)
+        before = self.distance.args if isinstance(self.distance, partial) and self.distance.func is _combined else (("|", self),)
+        distance = partial(_combined, *before, (operation, other))
         return Part(distance, name, min(self.at_once, other.at_once), bounds, exact, max(self.steep, other.steep))
 
     def placed(self, frame: ArrayLike) -> Part:
@@ -145,9 +146,14 @@ class Part:
 # Distances of points p (n, 3); functions of the file, so that a part can go from one process to another.
 
 
-def _combined(operation: Operation, one: Part, other: Part, p: Floats) -> Floats:
-    which, sign = WHICH[operation]
-    return np.asarray(which(one(p), sign * other(p)))
+def _combined(*given: Any) -> Floats:
+    """Of all steps from left to right, (operation, part) each, and then the points: a part of thousands nests no deeper."""
+    *steps, p = given
+    found = steps[0][1](p)
+    for operation, other in steps[1:]:
+        which, sign = WHICH[operation]
+        found = which(found, sign * other(p))
+    return np.asarray(found)
 
 
 def _placed(distance: Distance, turn: Floats, shift: Floats, p: Floats) -> Floats:
