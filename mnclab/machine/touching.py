@@ -200,7 +200,7 @@ def stem_meets(m: Machine, part: Part, ball: Ball, begin: Floats, end: Floats) -
 def is_free(part: Part, begin: Floats, end: Floats, radius: float) -> bool:
     """Whether a ball surely touches nothing on a straight way: a few places whose gaps reach over those between them."""
     step = float(np.linalg.norm(end - begin)) / (PLACES - 1)
-    gaps = (part(begin + (end - begin) * SHARES[:, None]) - radius) / part.steep
+    gaps = ((part.bound or part)(begin + (end - begin) * SHARES[:, None]) - radius) / part.steep
     return bool((gaps[:-1] + gaps[1:] >= step - DEEP / 2).all() and (gaps > 0).all())
 
 
@@ -212,8 +212,8 @@ def guarded(m: Machine, part: Part, target: Point, feed: float | None) -> None:
         ball, direction = true_ball(m, m.tool.effective_radius), (goal - start) / way
         begin, radius = start + ball.beside, max(ball.radius - DEEP - slack(m), DEEP)
         end = begin + direction * way
-        few = part.at_once < PLACES  # places at once, where each takes long: the ball is traced
-        free = None if not few and is_free(part, begin, end, radius) else contact(part, begin, direction, radius, way, GRAZE)
+        far = is_free(part, begin, end, radius)
+        free = None if far else contact(part, begin, direction, radius, way, GRAZE)
         stem = stem_meets(m, part, ball, begin, end)
         stopped = min((each for each in (free, stem) if each is not None), default=None)
         if stopped is not None:

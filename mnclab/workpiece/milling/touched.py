@@ -41,19 +41,34 @@ class Touched:
 
     @property
     def part(self) -> Part:
-        return Part(self.distance, "what is left of the blank", AT_ONCE, np.array(self.stock.bounds))
+        bounds = np.array(self.stock.bounds)
+        return Part(self.distance, "what is left of the blank", AT_ONCE, bounds, bound=self.at_least)
 
     def distance(self, points: Array) -> Array:
         """Signed distances (m,) of points (m, 3) from the material; from `FAR` on they may be too small."""
-        low, high = self.stock.bounds
-        beyond = np.maximum(low - points, points - high)
-        found = np.linalg.norm(np.maximum(beyond, 0.0), axis=1) + np.minimum(beyond.max(axis=1), 0.0)
+        found = self._off_blank(points)
         near = np.flatnonzero(found < FAR)
         if not len(near):
             return found
         moves = _about(self.moves, points[near], FAR)
         found[near] = self._among(moves, points[near], found[near])
         return found
+
+    def at_least(self, points: Array) -> Array:
+        """The same without looking round: where several moves have cut, a distance that may be too small."""
+        found = self._off_blank(points)
+        near = np.flatnonzero(found < FAR)
+        if len(near):
+            moves = _about(self.moves, points[near], FAR)
+            for depth, _ in chain([depths(moves, points[near])] if len(moves) else [], self._before(points[near])):
+                found[near] = np.maximum(found[near], depth.max(axis=0))
+        return found
+
+    def _off_blank(self, points: Array) -> Array:
+        """Signed distances from the box about the blank."""
+        low, high = self.stock.bounds
+        beyond = np.maximum(low - points, points - high)
+        return np.asarray(np.linalg.norm(np.maximum(beyond, 0.0), axis=1) + np.minimum(beyond.max(axis=1), 0.0))
 
     def _before(self, points: Array) -> Iterator[tuple[Array, Array]]:
         """As `depths` has it of the moves that cut the blank in former clampings."""

@@ -36,7 +36,8 @@ WHICH: dict[Operation, tuple[np.ufunc, float]] = {"|": (np.minimum, 1.0), "&": (
 class Part:
     """Material, given by its signed distance; `name` says what it is, `at_once` at how many places a ball is tried in
     one go. `bounds` (2, 3) are the corners of a box around it, mm, infinite where it has no end. `exact` tells whether the
-    distance is so off all edges, `steep` by how much more than the way it may change along a way."""
+    distance is so off all edges, `steep` by how much more than the way it may change along a way. `bound` tells sooner, where
+    the distance takes long, one that is never larger."""
 
     distance: Distance
     name: str = "part"
@@ -44,6 +45,7 @@ class Part:
     bounds: Floats = field(default_factory=ENDLESS.copy, compare=False, repr=False)
     exact: bool = True
     steep: float = 1.0
+    bound: Distance | None = field(default=None, compare=False, repr=False)
 
     def __repr__(self) -> str:
         return f"<Part: {self.name}>"
