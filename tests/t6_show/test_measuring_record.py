@@ -176,10 +176,3 @@ def test_with_the_tool_axis_x_pictures_and_touches_name_y_and_z():
     ]  # fmt: skip
     more = run.files["TCHPR421.TXT"].strip().count("\n")
     assert f"Hole measuring' and {more} more lines" in " ".join(str(run.at(line=3)).split())
-def test_the_record_is_saved_as_csv_or_json_and_as_nothing_else(measured, tmp_path):
-    saved = measured.measurements.save(tmp_path / "record.json")
-    assert [row["what"] for row in json.loads(saved.read_text())] == [row.what for row in measured.measurements]
-    assert measured.measurements.save(tmp_path / "record.csv").read_text().startswith("line,cycle,what")
-    for name in ("record.html", "record"):
-        with pytest.raises(mnclab.Alarm, match="written as .csv or .json, got 'record"):
-            measured.measurements.save(tmp_path / name)
