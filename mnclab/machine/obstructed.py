@@ -28,10 +28,10 @@ MOST = 5000  # rows that are judged
 def stop_at_part(m: Machine) -> None:
     """Cut the run at the first block that leads the ball of a probe into the part of the setup: an Alarm.
 
-    Judged are programs that probe, from where the place of the tool is known, with the probe upright.
+    Judged is a tool of the kind "probe", from where its place is known, as long as it stands upright.
     """
     part = m.setup.part
-    if not isinstance(part, Part) or not m.touches or not m.settled:
+    if not isinstance(part, Part) or not m.settled:
         return
     path = concatenate(m.settled)
     probes = [number for number, tool in m.tables.tools.items() if tool.kind == "probe"]

@@ -69,7 +69,11 @@ def feels(m: Machine, does: str) -> dict[str, Felt]:
     """What a cycle feels while it runs, if it probes or sets tools."""
     if does == SETS:
         return {"felt": Felt(None, by_ball=False, setter=True)}
-    return {"felt": Felt(part_to_touch(m), does == PROBES)} if does in (PROBES, FEELS) else {}
+    if does not in (PROBES, FEELS):
+        return {}
+    if m.turning:
+        m.warn("the spindle turns with a touch probe in it", hint="M5 before a touch probe moves")
+    return {"felt": Felt(part_to_touch(m), does == PROBES)}
 
 
 def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = None) -> Any:

@@ -97,7 +97,7 @@ def test_a_way_along_the_upper_side_takes_no_time():
 
     A pin of radius 0.05 that stands out by 0.02: a ball of 2 meets its edge at 0.05 + sqrt(2² - 1.98²) = 0.332.
     """
-    text = f"{HEAD}L X+90 F1000\n{cycle(Q263=0, Q260=0)[len(HEAD):]}".replace("Z+50", "Z+0")
+    text = f"{HEAD}L X+90 F1000\nL Z+0\n{cycle(Q263=0, Q260=0)[len(HEAD):]}"
     begun = time.perf_counter()
     assert run(text).ok
     assert time.perf_counter() - begun < 1

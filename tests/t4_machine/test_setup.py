@@ -86,7 +86,7 @@ def test_a_probe_that_cannot_be(named):
         ({"stock": Revolved(((-5.0, 0.0), (-5.0, 9.0)))}, "stock must be two corners"),
         ({"stock": Revolved(((INF, 0.0), (INF, 5.0)), "Z", (0.0, 0.0, 0.0), 0.0)}, "stock must be two corners"),
         ({"part": 5}, "part must be a part"),
-        ({"part": lambda points: 5.0}, "part must be a part"),
+        ({"part": print}, "part must be a part"),
         ({"probe": 5}, "probe must be a Probe"),
         ({"limits": 5}, "limits must be a Limits"),
         ({"files": {"A": 5}}, r"files\['A'\] must be a text or a Path"),
