@@ -106,7 +106,8 @@ def plain_program(cycle: type[Cycle], mine: Sequence[str], words: TrialWords) ->
     height = next((abs(value) for address, value in words if address == "SETUP"), 50)
     mills = "PECKG:F" in written or ("Q207" in written and "Q239" not in written)
     tool = TOOLS.get(cycle.does) or (1 if mills else 2)  # an end mill; for holes and their threads the drill
-    start = ["BEGIN PGM TRIAL MM", f"TOOL CALL {tool} Z S1000", f"L X+0 Y+0 Z{klartext(height)} R0 FMAX M3"]
+    speed, turning = ("", "") if tool == TOOLS[PROBES] else (" S1000", " M3")  # a probe stands still
+    start = ["BEGIN PGM TRIAL MM", f"TOOL CALL {tool} Z{speed}", f"L X+0 Y+0 Z{klartext(height)} R0 FMAX{turning}"]
     if cycle.does == FEELS:  # it begins where it stands
         start[2:] = ["L X+20 Y+10 Z+20 R0 FMAX"]
     before = HOLES if cycle.code in ("CYCL DEF 220", "CYCL DEF 221") else ()  # which run the cycle before them
