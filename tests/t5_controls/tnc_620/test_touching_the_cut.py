@@ -10,7 +10,7 @@ from mnclab import Probe, Setup, Tool
 ORIGIN = (100, 200, -300)  # the preset, machine coordinates
 TOOLS = {1: Tool(radius=5, length=60, kind="mill"), 7: Tool(radius=2, length=80, kind="probe")}
 FORM = "BLK FORM 0.1 Z X+0 Y+0 Z-20\nBLK FORM 0.2 X+60 Y+40 Z+0\n"
-SLOT = "TOOL CALL 1 Z S1000\nL X-10 Y+20 Z+5 R0 FMAX M3\nL Z-6 R0 FMAX\nL X+20 R0 F200\nL Z+50 R0 FMAX\n"
+SLOT = "TOOL CALL 1 Z S1000\nL X-10 Y+20 Z+5 R0 FMAX M3\nL Z-6 R0 FMAX\nL X+20 R0 F200\nL Z+50 R0 FMAX M5\n"
 
 
 def probe(x=25, z=-2, row=0, axis=1, y=20):
