@@ -123,12 +123,13 @@ def test_a_part_in_the_way(number):
 
 
 def test_a_figure_that_is_too_small():
-    """A hole of the ball's diameter less 0.2, and one of that diameter, in which the ball cannot move."""
+    """A hole of the ball's diameter less 0.2; in one of that diameter the ball touches where it stands."""
     hole_there = box((-60, -60, -30), (220, 220, 0)) - hole((50, 50, 0), 3.8, 20)
     small = {"Q262": 3.8, "Q260": 20}
     refused(412, "path obstructed", part=hole_there, text=example(case_of(412), **small))
     tight = box((-60, -60, -30), (220, 220, 0)) - hole((50, 50, 0), 4, 20)
-    refused(412, "TCH PROBE 412: the points of a circle are all one", part=tight, text=example(case_of(412), Q262=4))
+    run = probing(example(case_of(412), Q262=4) + "\n", tight)
+    assert run.ok and run.measured["diameter"] == pytest.approx(4, abs=1e-5)
 
 
 def test_a_stem_that_is_too_thick():
