@@ -8,7 +8,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from mnclab.text.alarm import Alarm
-from mnclab.workpiece.part import ball, box, contact, cylinder, plane
+from mnclab.workpiece.part import ball, box, cone, contact, cylinder, plane
 
 BLOCK = box((0, 0, 0), (100, 60, 20))
 BORED = BLOCK - cylinder((50, 30, -10), (50, 30, 30), 12)
@@ -137,3 +137,21 @@ def test_a_part_of_thousands_of_solids_nests_no_deeper_than_one_of_two():
     assert row((700, 0, 5)) == pytest.approx(2, abs=1e-9)
     less = pickle.loads(pickle.dumps(row - ball((1499, 0, 3), 2)))
     assert less((1499, 0, 2)) == pytest.approx(1, abs=1e-9) and less((0, 0, 5)) == pytest.approx(2, abs=1e-9)
+
+
+def test_what_stands_far_off_is_left_out_and_changes_nothing():
+    """A box with 30 cones out of it and 30 balls on it, against minima and maxima of all of them; inside only the sign."""
+    random = np.random.default_rng(3)
+    parts = [box((0, 0, -20), (100, 60, 0))]
+    for k in range(60):
+        x, y = random.uniform((0, 0), (100, 60))
+        parts.append(ball((x, y, 0), 3) if k % 2 else cone((x, y, -10), (x, y, 5), 2, 6))
+    whole, points = parts[0], random.uniform((-20, -20, -30), (120, 80, 20), (4000, 3))
+    wanted = whole(points)
+    for k, other in enumerate(parts[1:]):
+        whole = whole | other if k % 2 else whole - other
+        wanted = np.minimum(wanted, other(points)) if k % 2 else np.maximum(wanted, -other(points))
+    found = whole(points)
+    assert np.array_equal(found > 0, wanted > 0)
+    assert found[wanted > 0] == pytest.approx(wanted[wanted > 0], abs=1e-12)
+    assert (found[wanted < 0] >= wanted[wanted < 0] - 1e-12).all()

@@ -45,7 +45,7 @@ def with_errors(
         body = _prisms(part, "a taper")
         wide = abs(np.tan(np.radians(taper))) * (part.bounds[1, 2] - part.bounds[0, 2]) * np.array([1.0, 1.0, 0.0])
         bounds = part.bounds + np.array([-wide, wide])
-        part = replace(part, distance=replace(body, taper=float(np.tan(np.radians(taper)))), bounds=bounds)
+        part = replace(part, distance=replace(body, taper=float(np.tan(np.radians(taper)))), bounds=bounds, bound=None)
     if bow:
         along, out = BOWED[choice(bowed, "how a part is bowed", BOWED)]
         low, high = part.bounds[:, along].tolist()
@@ -67,7 +67,7 @@ def _steeper(part: Part, distance: Distance, by: float, more: float) -> Part:
     """A part with an error of at most `by` mm, which changes by `more` mm for each mm."""
     if more > STEEPEST:
         raise Alarm(f"an error of {by:g} mm is too steep for this part", hint="make it smaller, or longer")
-    return replace(part, distance=distance, bounds=part.bounds + np.array([[-by], [by]]), steep=part.steep + more)
+    return replace(part, distance=distance, bounds=part.bounds + np.array([[-by], [by]]), steep=part.steep + more, bound=None)
 
 
 def _prisms(part: Part, what: str) -> Prisms:
@@ -86,7 +86,8 @@ def _burred(part: Part, burr: tuple[float, float]) -> Part:
     face = body.solid[-1].region
     ridge = Prism(less(face, [face.inset(float(width))]), body.top, body.top + float(height))
     own = replace(body, body=Joint("|", (body.body, ridge)))
-    return replace(part, distance=own, bounds=part.bounds + np.array([[-1.0], [1.0]]) * height * np.abs(body.placing[:3, 2]))
+    bounds = part.bounds + np.array([[-1.0], [1.0]]) * height * np.abs(body.placing[:3, 2])
+    return replace(part, distance=own, bound=None, bounds=bounds)
 
 
 # Distances of points p (n, 3).

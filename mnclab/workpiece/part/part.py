@@ -101,7 +101,7 @@ class Part:
         with np.errstate(invalid="ignore"):  # 0 times infinity is left out
             ends = np.where(turn[:, None] == 0, 0.0, turn[:, None] * self.bounds)
         bounds = np.array([ends.min(axis=1).sum(axis=1), ends.max(axis=1).sum(axis=1)]) + shift
-        return replace(self, distance=distance, bounds=bounds, name=f"{self.name} placed elsewhere")
+        return replace(self, distance=distance, bounds=bounds, name=f"{self.name} placed elsewhere", bound=None)
 
     def shifted(self, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Part:
         """The same part moved along the axes, mm."""
@@ -154,8 +154,20 @@ def _combined(*given: Any) -> Floats:
     found = steps[0][1](p)
     for operation, other in steps[1:]:
         which, sign = WHICH[operation]
-        found = which(found, sign * other(p))
+        near = _near(operation, other, found, p)
+        if near.all():
+            found = which(found, sign * other(p))
+        elif near.any():
+            found[near] = which(found[near], sign * other(p[near]))
     return np.asarray(found)
+
+
+def _near(operation: str, other: Part, found: Floats, p: Floats) -> NDArray[np.bool_]:
+    """For which points the other part can matter: its box tells of most that it stands too far off."""
+    if operation == "&" or other.steep > 1:
+        return np.ones(len(p), dtype=bool)
+    off = np.linalg.norm(np.maximum(np.maximum(other.bounds[0] - p, p - other.bounds[1]), 0.0), axis=1)
+    return np.asarray(off < found if operation == "|" else off <= np.maximum(-found, 0.0))
 
 
 def _placed(distance: Distance, turn: Floats, shift: Floats, p: Floats) -> Floats:
