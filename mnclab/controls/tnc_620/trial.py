@@ -25,6 +25,7 @@ HOLES = ("CYCL DEF 200 DRILLING", *"Q200=2 Q201=-15 Q206=120 Q202=5 Q210=0 Q203=
 #: Cycles that machine an area or say which.
 AREA = tuple(f"CYCL DEF {n}" for n in (14, 20, 21, 22, 23, 24))
 CALL = "CYCL CALL"
+WHERE_IT_STANDS = ("TCH PROBE 3", "TCH PROBE 4")  # the touch of these begins there
 TOOLS = {SETS: 7, PROBES: 6, FEELS: 6}  # by what a cycle does
 SETUP = at_setter(Setter(x=10, y=5, z=-40), tt_calibrated=True)
 
@@ -37,8 +38,10 @@ def klartext(value: float | str) -> str:
 def as_sub_blocks(cycle: type[Cycle], words: Sequence[tuple[str, Any]]) -> list[str]:
     """The lines of a cycle that has no Q parameters."""
     if cycle.code not in obsolete_blocks.CODES:
-        texts = {address: value if isinstance(value, str) else klartext(value) for address, value in words}
-        return list(sub_blocks.written(cycle.code, cycle.title.upper(), texts))
+        plain: tuple[str, ...] = sub_blocks.UNSIGNED if cycle.code.startswith("TCH PROBE") else ()
+        texts = {a: value if isinstance(value, str) else (number if a in plain else klartext)(value) for a, value in words}
+        head = f" Q{texts['Q']} {texts['axis']}" if cycle.code == "TCH PROBE 0" else ""
+        return list(sub_blocks.written(cycle.code, cycle.title.upper() + head, texts))
     plain = ("DWELL", "F", "PECKG:F")
     texts = {address: number(value) if address in plain else klartext(value) for address, value in words}
     if "DR" in texts:
@@ -75,8 +78,8 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str | None:
         return program([*around(cycle, mine), CALL], figures.CONTOURS)
     if cycle.code == "CYCL DEF 12":
         return program([*mine, "L X+20 Y+10 R0 FMAX M99", "L X+60 Y+30 R0 FMAX M99"])
-    obsolete = cycle.code in obsolete_blocks.CODES
-    if not obsolete and (not words or not all(address.startswith("Q") for address, _ in words)):
+    older = cycle.code in obsolete_blocks.CODES or cycle.code.startswith("TCH PROBE") and cycle.code in sub_blocks.LINES
+    if not older and (not words or not all(address.startswith("Q") for address, _ in words)):
         return None
     return plain_program(cycle, mine, words)
 
@@ -108,7 +111,7 @@ def plain_program(cycle: type[Cycle], mine: Sequence[str], words: TrialWords) ->
     tool = TOOLS.get(cycle.does) or (1 if mills else 2)  # an end mill; for holes and their threads the drill
     speed, turning = ("", "") if tool == TOOLS[PROBES] else (" S1000", " M3")  # a probe stands still
     start = ["BEGIN PGM TRIAL MM", f"TOOL CALL {tool} Z{speed}", f"L X+0 Y+0 Z{klartext(height)} R0 FMAX{turning}"]
-    if cycle.does == FEELS:  # it begins where it stands
+    if cycle.does == FEELS or cycle.code in WHERE_IT_STANDS:
         start[2:] = ["L X+20 Y+10 Z+20 R0 FMAX"]
     before = HOLES if cycle.code in ("CYCL DEF 220", "CYCL DEF 221") else ()  # which run the cycle before them
     return "\n".join([*start, *before, *mine, *call, "END PGM TRIAL MM", ""])

@@ -149,13 +149,22 @@ LINES: dict[str, tuple[str, ...]] = {
     "CYCL DEF 7": tuple("XYZABC#"), "CYCL DEF 8": ("axes",), "CYCL DEF 10": ("ROT",), "CYCL DEF 11": ("SCL",),
     "CYCL DEF 12": ("PGM",), "CYCL DEF 14": ("LBL",), "CYCL DEF 19": ("A B C F ABST",),
     "CYCL DEF 26": ("X Y Z CCX CCY CCZ",),
+    "TCH PROBE 0": ("X Y Z",), "TCH PROBE 1": ("axis ANGLE", "X Y Z"),
+    "TCH PROBE 3": ("Q", "axis ANGLE", "ABST F MB SYSTEM", "ERRORMODE"), "TCH PROBE 4": ("Q", "IX IY IZ", "ABST F MB SYSTEM"),
+    "TCH PROBE 30": ("HEIGHT",),
+    **{f"TCH PROBE {n}": ("CHECK", "HEIGHT", "PROBING THE TEETH") for n in (31, 32, 33)},
 }  # fmt: skip
-_HEADS = {"axes": "", "LBL": "CONTOUR LABEL ", "SCL": "SCL ", "PGM": "PGM "}
+_HEADS = {
+    "axes": "", "axis": "", "LBL": "CONTOUR LABEL ", "SCL": "SCL ", "PGM": "PGM ", "SYSTEM": "REFERENCE SYSTEM: ",
+    **{address: f"{address}: " for address in ("ANGLE", "CHECK", "HEIGHT", "PROBING THE TEETH")},
+}  # fmt: skip
+#: Addresses of touch probe cycles whose numbers have no sign.
+UNSIGNED = ("Q", "F", "MB", "SYSTEM", "ERRORMODE", "CHECK", "PROBING THE TEETH")
 
 
 def written(code: str, title: str, words: Mapping[str, str]) -> Iterator[str]:
     """The lines of a definition, of the values that are there as they are written."""
     yield f"{code}.0 {title}"
-    lines = [[address for address in part.split() if address in words] for part in LINES[code]]
+    lines = [[a for a in ([part] if part in words else part.split()) if a in words] for part in LINES[code]]
     for number, addresses in enumerate(filter(None, lines), 1):
         yield f"{code}.{number} " + " ".join(_HEADS.get(address, address) + words[address] for address in addresses)
