@@ -60,7 +60,7 @@ FACING = {"G320": -5, "G321": -5, "CYCL DEF 233": -5, "CYCL DEF 232": -5}  # the
 STUDS = {"CYCL DEF 256": -5, "CYCL DEF 257": -5, "CYCL DEF 258": -5}  # which are approached from beside their blank
 NOT_IN_SOLID = {"G304", "G204", "CYCL DEF 204", "G307", "G241", "CYCL DEF 241", "G74"}
 CUT_NOTHING = {*(f"GLOBAL DEF {number}" for number in (100, 105, 110, 111, 120, 125)), "CYCL DEF 20", "CYCL DEF 22",
-               "CYCL DEF 247", "CYCL DEF 239", "TCH PROBE 419", "CYCL DEF 12"}  # alone
+               "CYCL DEF 247", "CYCL DEF 239", "CYCL DEF 12"}  # alone
 NOT_JUDGED = {f"CYCL DEF {number}" for number in (27, 28, 29, 39)}  # on a cylinder
 PILOT = {"CYCL DEF 21"}  # whose few variants are too small for the tool: with its mill in the tests of roughing
 CYCLES = [
@@ -68,7 +68,7 @@ CYCLES = [
     for name in MILL_CONTROLS
     for code, cycle in mnclab.controls[name].cycles.items()
     if code == cycle.code and code not in NOT_IN_SOLID | CUT_NOTHING | NOT_JUDGED | PILOT
-    and "MNC 12" not in cycle.source and trial.program(mnclab.controls[name], cycle, {})
+    and "MNC 12" not in cycle.source and not code.startswith("TCH PROBE") and trial.program(mnclab.controls[name], cycle, {})
 ]
 VARIANTS = 9
 

@@ -40,7 +40,7 @@ def as_sub_blocks(cycle: type[Cycle], words: Sequence[tuple[str, Any]]) -> list[
     if cycle.code not in obsolete_blocks.CODES:
         plain: tuple[str, ...] = sub_blocks.UNSIGNED if cycle.code.startswith("TCH PROBE") else ()
         texts = {a: value if isinstance(value, str) else (number if a in plain else klartext)(value) for a, value in words}
-        head = f" Q{texts['Q']} {texts['axis']}" if cycle.code == "TCH PROBE 0" else ""
+        head = f" Q{texts.get('Q', '')} {texts.get('axis', '')}" if cycle.code == "TCH PROBE 0" else ""
         return list(sub_blocks.written(cycle.code, cycle.title.upper() + head, texts))
     plain = ("DWELL", "F", "PECKG:F")
     texts = {address: number(value) if address in plain else klartext(value) for address, value in words}
