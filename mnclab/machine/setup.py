@@ -233,9 +233,7 @@ class Setup:
         it had none."""
         tools = magazine if self.tools is None else self.tools
         found = replace(self, tools=tools, stock=deepcopy(self.stock), fixtures=deepcopy(tuple(self.fixtures)))
-        if unknown := [number for number in self.true_tools if number not in tools]:
-            raise Alarm(f"true_tools has T{unknown[0]}, which is not in the tool table", hint="tools={…} is the table")
-        true = {n: _truly(each, tools[n]) for n, each in self.true_tools.items()}
+        true = {n: _truly(each, tools[n]) if n in tools else each for n, each in self.true_tools.items()}
         object.__setattr__(found, "true_tools", true)
         for name in (*ROWS, *NAMED):
             object.__setattr__(found, name, MappingProxyType(getattr(found, name)))
