@@ -6,6 +6,7 @@ Lengths in mm, angles in degrees. A result shows its numbers with three decimals
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
@@ -61,9 +62,9 @@ class Flat(Found):
     """A line or a plane."""
 
     @property
+    @abstractmethod
     def normal(self) -> Numbers:
         """The unit vector square to it."""
-        raise NotImplementedError
 
     def distance(self, points: Vector | Points) -> Floats:
         """How far points (…, 2) or (…, 3) are off it (…), positive on the side of the normal."""

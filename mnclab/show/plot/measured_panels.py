@@ -163,12 +163,8 @@ def _panel(
         on = [k in each[0] and _touches(each[2], width, foot, way[axes], touch.ball) for each, width in zip(figures, widths)]
         which = on.index(True) if any(on) else None
         owner = None if which is None else figures[which]
-        if across or which is not None and not judged[which]:
-            pass
-        elif owner is not None:
-            foot = _foot(owner[1], owner[2], foot)
-        else:
-            foot = spot[axes] - _off(k, spot, way, known or rows)[axes]
+        if not across and (which is None or judged[which]):
+            foot = _foot(owner[1], owner[2], foot) if owner else spot[axes] - _off(k, spot, way, known or rows)[axes]
         out = _outwards(spot[axes], owner[1]) if owner and not across and np.abs(way).max() < AXIS else ""
         told = _told(k, spot, known or rows)
         texts.append(out or _text(told, way, view.names))
