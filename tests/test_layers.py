@@ -159,7 +159,7 @@ DOOR = "def plot(self):\n    'A door.'\n    from mnclab.show.plot import path\n 
         ("show/scene.py", "def f():\n    import pyvista", None),
         ("show/player.py", "from matplotlib.figure import Figure", "only show.plot"),
         ("show/player.py", "from ..runs.run import Run", "pictures know data"),
-        ("show/forms.py", "import ipywidgets, mnclab\nfrom mnclab.controls import mnc", None),
+        ("show/forms/cycle_form.py", "import ipywidgets, mnclab\nfrom mnclab.controls import mnc", None),
         ("controls/__init__.py", "from . import mnc, nc_31", None),
         ("controls/mnc/drilling.py", "from ..word_address import motion\nfrom . import polar", None),
         ("controls/mnc/drilling.py", "from mnclab.controls.nc_31 import grooving", "never another"),

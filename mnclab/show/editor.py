@@ -15,7 +15,7 @@ from typing import Any
 from mnclab.controls.choice import choose, read_text
 from mnclab.controls.choice import run as run_text
 from mnclab.machine.setup import Setup
-from mnclab.show.forms import DRAWING, SIZE, verdict
+from mnclab.show.forms.following import DRAWING, SIZE, verdict
 from mnclab.text.alarm import Alarm
 from mnclab.text.code_pages import decode
 from mnclab.text.extras import require

@@ -13,7 +13,7 @@ from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.trial import number
 from mnclab.machining.steps import Go
 from mnclab.show import forms, magic
-from mnclab.show.forms import DRAWING
+from mnclab.show.forms.following import DRAWING
 from mnclab.show.plot import colours
 
 FUNCTIONS, CYCLES = FunctionTable(), CycleTable()
