@@ -81,7 +81,7 @@ HOLE = "Q200=2 Q201=-5 Q206=150 Q202={} Q210=0 Q203=0 Q204=50 Q211=0"
     ("control", "text", "expected"),
     [
         ("mnc", STOP + "S500 M3 F0", [(2, 9, "F (feed rate) must be greater than 0, got 0")]),
-        ("mnc", STOP + "S-5 M3", [(2, 1, "S (spindle speed) must be at least 0 and at most 99999.9999, got -5")]),
+        ("mnc", STOP + "S-5 M3", [(2, 1, "S (spindle speed) must be at least 0, got -5")]),
         ("mnc", STOP + "T88", [(2, 1, "T88 has no row in the tool table")]),
         ("mnc", STOP + "G4", [(2, 1, "G4 P (dwell) is missing")]),
         ("mnc", STOP + "G4 P0", [(2, 4, "G4 P (dwell) must be at least 0.01 and at most 99999.999 s, got 0")]),
