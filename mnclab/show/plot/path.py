@@ -21,7 +21,7 @@ from mnclab.path.toolpath import Toolpath
 from mnclab.show.felt import Felt
 from mnclab.show.felt import felt as felt_of
 from mnclab.show.plot import arrows as heads
-from mnclab.show.plot import colours
+from mnclab.show.plot import colours, ghost
 from mnclab.show.plot.classes import Classes, classes
 from mnclab.show.plot.classes import lines as lines_of
 from mnclab.show.plot.colours import Line, Mark
@@ -84,6 +84,8 @@ def plot_path(
     part: Workpiece | None = None,
     home: bool = False,
     felt: Felt | None = None,
+    under: Toolpath | None = None,
+    limits: ghost.Box | None = None,
 ) -> Figure:
     """Views of a path: rapids dashed red, cuts solid; start and end marked. Returns the figure, which Jupyter shows.
 
@@ -111,6 +113,8 @@ def plot_path(
     - `part`: what is left of the blank, drawn under the path.
     - `home`: the path begins where the tool arrives from home.
     - `felt`: what a probe meets, drawn behind the path (see `show.felt`).
+    - `under`: another path, whose moves that this one has not are drawn thin and grey behind it.
+    - `limits`: the `box` of the picture before, which is kept while this path fits into it (see `show.plot.ghost`).
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
     drawn = strokes(path)
@@ -130,6 +134,7 @@ def plot_path(
         high = np.fmax(high, path.end[-1] + (room, 0.0, room))
     if felt is not None and frame != "cuts":
         low, high = felt.box(low, high)
+    box = low, high = ghost.held(low, high, limits)
     views = _views(view, path, low, high, single=ax is not None)
     if stock is not None and not path.lathe and frame != "cuts":
         low, high = np.fmin(low, stock.bounds[0]), np.fmax(high, stock.bounds[1])
@@ -141,8 +146,11 @@ def plot_path(
     if felt is not None and len(felt.places):
         found_marks.append((colours.TOUCH, felt.places))
     drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, beside, part, home, felt)
+    former = None if under is None else ghost.gone(under, path)
     if ax is not None:
         _draw(ax, views[0], drawing)
+        if former is not None:
+            ghost.draw_ghost(ax, views[0], former)
         dress(ax, views[0])
         if beyond:
             wide = roomy(low, high)
@@ -164,8 +172,11 @@ def plot_path(
     names += [PART] if behind else []
     said = _in_words(path, low, high, stop)
     picture, axes = arrange(views, low, high, names, _foot(stop, beyond), said, size, found.scale is not None)
+    picture.box = box
     artists: dict[str, Any] = {PART: Patch(**FACE, label=PART)} if behind else {}
     for one, which in zip(axes, views):
+        if former is not None:
+            ghost.draw_ghost(one, which, former)
         for artist in _draw(one, which, drawing):
             artists.setdefault(str(artist.get_label()), artist)
         _write(one, which, drawing, low, high)
@@ -191,6 +202,7 @@ def plot_run(
     comes from home, unless the setup says from where.
     """
     cuts = (run.toolpath.kind == Kind.LINE) | (run.toolpath.kind == Kind.ARC)
+    followed = {name: options.pop(name, None) for name in ("under", "limits")}
     rolled = view == "auto" and options.keys() <= {"size"} and bool(cuts.any() and (run.toolpath.cylinder[cuts] >= 0).all())
     if view == "unrolled" or rolled:
         from mnclab.show.plot.unrolled import plot_unrolled
@@ -214,7 +226,7 @@ def plot_run(
         path, given["home"] = path[first:], True
         if isinstance(insert, int) and not isinstance(insert, bool) and insert >= 0:
             options["insert"] = max(insert - first, 0)
-    return plot_path(path, ax, view, **{**given, **options}, marks=marks)
+    return plot_path(path, ax, view, **{**given, **options, **followed}, marks=marks)
 
 
 # --- what is drawn ---------------------------------------------------------------------------------------------------
