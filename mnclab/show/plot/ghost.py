@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
@@ -31,6 +34,20 @@ def held(low: Array, high: Array, limits: Box | None) -> Box:
     if (least <= low).all() and (high <= most).all():
         return limits
     return np.fmin(low, limits[0]), np.fmax(high, limits[1])
+
+
+def held_axes(rows: Sequence[Axes], before: Sequence[Any] | None) -> list[Any]:
+    """Set axes to the limits that they had before where what is drawn fits, else so that both fit; returns the limits."""
+    if before is not None and len(before) == len(rows):
+        for ax, kept in zip(rows, before):
+            ax.set_xlim(_both(ax.get_xlim(), kept[0]))
+            ax.set_ylim(_both(ax.get_ylim(), kept[1]))
+    return [(ax.get_xlim(), ax.get_ylim()) for ax in rows]
+
+
+def _both(now: tuple[float, float], kept: tuple[float, float]) -> tuple[float, float]:
+    """Limits that hold both, unless those before were far larger."""
+    return now if kept[1] - kept[0] > SHRINKS * (now[1] - now[0]) else (min(now[0], kept[0]), max(now[1], kept[1]))
 
 
 def gone(former: Toolpath, path: Toolpath) -> Toolpath:

@@ -134,7 +134,8 @@ def plot_path(
         high = np.fmax(high, path.end[-1] + (room, 0.0, room))
     if felt is not None and frame != "cuts":
         low, high = felt.box(low, high)
-    box = low, high = ghost.held(low, high, limits)
+    own, (low, high) = (low, high), ghost.held(low, high, limits)
+    box = low, high
     views = _views(view, path, low, high, single=ax is not None)
     if stock is not None and not path.lathe and frame != "cuts":
         low, high = np.fmin(low, stock.bounds[0]), np.fmax(high, stock.bounds[1])
@@ -170,7 +171,7 @@ def plot_path(
         names.append(colours.POLE.name)
     behind = felt is not None and felt.part is not None
     names += [PART] if behind else []
-    said = _in_words(path, low, high, stop)
+    said = _in_words(path, *(own if limits else (low, high)), stop)
     picture, axes = arrange(views, low, high, names, _foot(stop, beyond), said, size, found.scale is not None)
     picture.box = box
     artists: dict[str, Any] = {PART: Patch(**FACE, label=PART)} if behind else {}
