@@ -176,7 +176,7 @@ def test_the_fields_of_a_long_form_stand_in_groups():
     """Where the manual's words put them: sides in the plane, Q201 down, F of milling, climb or conventional a strategy."""
     live = mnclab.form("CYCL DEF 251", "tnc-620")
     group = {name: field.head.description for name, field in live.fields.items()}
-    wanted = {"first_side_length": "Shape", "depth": "Depths", "infeed": "Depths", "milling_feed": "Feeds", "milling_type": "Strat"}
+    wanted = {"first_side_length": "Shape", "depth": "Depths", "milling_feed": "Feeds", "overlap": "Strat"}
     assert all(group[name].startswith(head) for name, head in wanted.items())
     heads = list(dict.fromkeys(group.values()))
     assert all(int(re.search(r"\((\d+)\)", head)[1]) == list(group.values()).count(head) for head in heads)
