@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from mnclab.path.kinds import Kind
+from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.show.felt import Felt
@@ -31,6 +32,7 @@ from mnclab.show.plot.material import FACE
 from mnclab.show.plot.picture import SCALE, SIZE, arrange, dress, roomy, write_legend
 from mnclab.show.plot.scale import write_scale
 from mnclab.show.plot.strokes import line_of, strokes
+from mnclab.show.rapids import rapids_of
 from mnclab.text.alarm import ALARM, Alarm
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.workpiece import Workpiece
@@ -59,6 +61,7 @@ def plot_path(
     part: Workpiece | None = None,
     home: bool = False,
     felt: Felt | None = None,
+    rapids: Limits | None = None,
 ) -> Figure:
     """Views of a path: rapids dashed red, cuts solid; start and end marked. Returns the figure, which Jupyter shows.
 
@@ -86,9 +89,10 @@ def plot_path(
     - `part`: what is left of the blank, drawn under the path.
     - `home`: the path begins where the tool arrives from home.
     - `felt`: what a probe meets, drawn behind the path (see `show.felt`).
+    - `rapids`: limits of the machine, under which axes that do not wait for each other bend a rapid; else it is straight.
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
-    drawn = strokes(path)
+    drawn = strokes(path, rapids)
     if colour == "speed" and len(drawn.row):
         drawn = speed_strokes(path, drawn)
     found = classes(path, drawn, colour)
@@ -172,7 +176,7 @@ def plot_run(
 
         return plot_unrolled(run.toolpath, ax, **options)
     given = {"programmed": None if run.programmed is run.toolpath else run.programmed, "alarms": run.alarms}
-    given["stock"] = run.stock if stock else None
+    given |= {"stock": run.stock if stock else None, "rapids": rapids_of(run)}
     path, insert = run.toolpath, options.get("insert", True)
     if path.lathe:
         given["tools"], numbers = run.tools_that_cut
