@@ -13,13 +13,15 @@ from mnclab.path.toolpath import Toolpath
 from mnclab.show.felt import Felt
 from mnclab.show.plot import arrows as heads
 from mnclab.show.plot import colours
+from mnclab.show.plot.beside import beside
 from mnclab.show.plot.classes import Classes
 from mnclab.show.plot.colours import Line, Mark
-from mnclab.show.plot.datums import Place, crosses, write_names
+from mnclab.show.plot.datums import Place, crosses, segments, write_names
 from mnclab.show.plot.felt import draw_felt
 from mnclab.show.plot.lathe import Lathe, draw_blank, draw_insert
 from mnclab.show.plot.picture import View
-from mnclab.show.plot.strokes import Array, Strokes
+from mnclab.show.plot.strokes import Array, Strokes, parted
+from mnclab.show.plot.symbols import spread
 from mnclab.show.plot.under import draw_under
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.workpiece import Workpiece
@@ -55,10 +57,13 @@ def marks_of(path: Toolpath, stopped: bool, home: bool) -> list[tuple[Mark, Arra
 
 
 def plunges_of(path: Toolpath, view: View) -> Array:
-    """Where cuts run along the tool and the line of sight, and would be invisible (m, 2)."""
+    """Where cuts go down along the tool and the line of sight, and would be invisible (m, 2)."""
     rows = np.flatnonzero(path.start[:, view.right] == path.end[:, view.right])
     rows = rows[(path.start[rows, view.up] == path.end[rows, view.up]) & (path.kind[rows] == Kind.LINE)]
     rows = rows[(np.abs(path.axis[rows][:, [view.right, view.up]]) < 1e-9).all(axis=1)]
+    deep = 3 - view.right - view.up
+    above = path.axis[rows, deep] if deep != 2 else 1.0  # a spindle stands above the table
+    rows = rows[(path.end[rows, deep] - path.start[rows, deep]) * above < 0]
     return np.unique(path.end[rows][:, [view.right, view.up]], axis=0)
 
 
@@ -85,8 +90,17 @@ def draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
 
 
 def write(ax: Axes, view: View, drawing: Drawing, low: Array, high: Array) -> None:
-    """Add what depends on the scale: arrowheads and names."""
-    occupied = [xyz[:, [view.right, view.up]] for _, xyz in drawing.marks]
+    """Add what depends on the scale: rapids beside cuts, symbols beside each other, arrowheads and names."""
+    axes = [view.right, view.up]
+    moved, divided = beside(ax, drawing.strokes, drawing.classes, axes)
+    for line in ax.lines if moved is not drawing.strokes else ():
+        if line.get_label() == colours.RAPID.name:
+            line.set_data(*parted(moved.xyz, divided.group, 1)[0][:, axes].T)
+    occupied = [xyz[:, axes] for mark, xyz in drawing.marks if mark is colours.TOUCH]
+    strokes = parted(moved.xyz, np.minimum(divided.group, 0), 1)
+    if drawing.home:
+        strokes.append(heads.arrival(view, drawing.strokes.xyz[0], float((high - low).max())))
+    occupied.append(spread(ax, list(ax.lines), *segments(ax, view, strokes)))
     if drawing.home:
         heads.draw_arrival(ax, view, drawing.strokes.xyz[0], float((high - low).max()))
     if drawing.felt is not None:
@@ -94,7 +108,7 @@ def write(ax: Axes, view: View, drawing: Drawing, low: Array, high: Array) -> No
     if drawing.lathe is not None:
         draw_insert(ax, drawing.lathe, INSERT * float((high - low).max()))
     if drawing.arrows:
-        occupied.append(heads.draw(ax, view, drawing.strokes, drawing.classes, low, high))
+        occupied.append(heads.draw(ax, view, moved, divided, low, high))
     if drawing.places:
         around = np.concatenate([np.empty((0, 2)), *occupied])
         write_names(ax, view, drawing.places, around, [xyz for _, xyz in drawing.lines])
