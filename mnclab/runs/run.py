@@ -208,7 +208,8 @@ class Run:
     def collisions(self, stock: Any = None, *, step: float | None = None) -> Collisions:
         """What meets what it must not: rapids in material, shank, holder, fixtures, a still spindle, …, by rows.
 
-        The kinds are those of `workpiece.collision.KINDS`; `stock` and `step` as in `workpiece`.
+        The kinds are those of `workpiece.collision.KINDS`; `stock` and `step` as in `workpiece`. A rapid is judged along the
+        straight line between its ends, though pictures bend it as its axes go; with the setting `rapid_path="broken"` as it is.
         """
         return material.collisions(self, stock, step)
 
