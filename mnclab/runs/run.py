@@ -34,7 +34,7 @@ from mnclab.path.tool import Tool
 from mnclab.path.travel import Stopped
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
-from mnclab.runs import card, material, outcome, still_spindle
+from mnclab.runs import card, lint, material, outcome
 from mnclab.runs.explanation import Explanation
 from mnclab.runs.history import History
 from mnclab.runs.largest_radius import LargestRadius, largest_radius
@@ -78,10 +78,6 @@ class Run:
         self.programs = tuple(flow.programs)
         self.steps = Steps._make(fixed(column) for column in flow.steps())
         self.programmed, self.toolpath = paths(machine)
-        self.alarms = by_place([*alarms, *still_spindle.remarks(machine, self.toolpath)])
-        for alarm in self.alarms:
-            if alarm.source is None:
-                alarm.source = self.programs[alarm.span.program if alarm.span else 0]
         if machine.cut is not None:
             self.steps = Steps(self.steps.block[: machine.cut], self.steps.program[: machine.cut])
         self.history = History(machine.logs, len(self.steps.block))
@@ -95,6 +91,11 @@ class Run:
         self.stopped: Stopped | None = machine.stopped
         self.settings = dict(machine.settings)
         self.made: dict[Any, Any] = {}  # the last parts and collisions that were asked for
+        self.alarms = by_place(alarms)
+        self.alarms = by_place([*self.alarms, *lint.remarks(self, machine)])
+        for alarm in self.alarms:
+            if alarm.source is None:
+                alarm.source = self.programs[alarm.span.program if alarm.span else 0]
         self._nesting, self.missed, self.started = flow.nesting, MissedOnes(), (0, 0, 0)  # see `start_at`: what it skips, where
 
     def _as_of_end(self, prefix: str, values: dict[str, Any]) -> dict[str, Any]:
