@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from mnclab.path.kinds import Kind
+from mnclab.path.limits import Limits
 from mnclab.path.toolpath import Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.picture import View, roomy
@@ -56,10 +57,10 @@ def gone(former: Toolpath, path: Toolpath) -> Toolpath:
     return motion[~np.isin(_moves(motion), _moves(path.motion))]
 
 
-def draw_ghost(ax: Axes, view: View, rows: Toolpath) -> None:
+def draw_ghost(ax: Axes, view: View, rows: Toolpath, rapids: Limits | None = None) -> None:
     """Former moves in one view, behind everything else: cuts and rapids by their dashes, both thin and grey."""
     for look, kinds in ((colours.GHOST, (Kind.LINE, Kind.ARC, Kind.PROBE)), (colours.GHOST_RAPID, (Kind.RAPID,))):
-        line = line_of(rows, kinds)
+        line = line_of(rows, kinds, rapids)
         if len(line):
             ax.add_line(Line2D(line[:, view.right], line[:, view.up], **look.style()))
 
