@@ -26,12 +26,14 @@ class Work(NamedTuple):
     """What a change makes: what draws the picture, what is said below it, and the alarm that stopped it.
 
     `draw` takes `under` and `limits`, what the picture before was made of and its `box`; `made` is that for the next one.
+    A picture that `shows` the fault itself takes the place of the last good one.
     """
 
     draw: Callable[..., Any]
     said: str
     stop: Alarm | None = None
     made: Any = None
+    shows: bool = False
 
 
 def following(
@@ -67,13 +69,15 @@ def following(
         try:
             done = work(live)
             stop = done.stop if done else None
-            if done and not (stop and live.good):
+            if done and (stop is None or not live.good or done.shows):
                 live.shown, live.box = DRAWING.submit(_drawn, done, live.former, live.box).result()
-                live.good, live.former = stop is None, done.made if stop is None else None
+                if stop is None:
+                    live.good, live.former = True, done.made
         except Alarm as alarm:
             stop = alarm
         tell(stop)
-        picture.value = greyed(live.shown) if stop and live.good else live.shown
+        past = stop is not None and live.good and not (done and done.shows)
+        picture.value = greyed(live.shown) if past else live.shown
         alarms.value = done.said if done else stop.html() if stop else ""
 
     changed()

@@ -41,7 +41,8 @@ def compensation_panel(run: Run, **options: Any) -> Any:
         if corners:
             setup = setup.with_settings(outside_corners=boxes["corners"].value)
         live.run = again = run.again(setup)
-        return of_run(again, lambda **kept: again.plot_compensation(**{"size": SIZE} | kept | options))
+        work = of_run(again, lambda **kept: again.plot_compensation(**{"size": SIZE} | kept | options))
+        return work._replace(shows=True)  # hatched, where the tool does not fit
 
     def field_of(alarm: Alarm) -> str:
         return "radius" if "radius" in alarm.message else ""
