@@ -79,6 +79,7 @@ def following(
         past = stop is not None and live.good and not (done and done.shows)
         picture.value = greyed(live.shown) if past else live.shown
         alarms.value = done.said if done else stop.html() if stop else ""
+        live.renew()
 
     changed()
     for box in (*boxes.values(), *also):

@@ -21,6 +21,7 @@ from mnclab.machine.trial import number
 def live_class() -> type:
     """The class of live boxes; ipywidgets is imported when the first is made."""
     import ipywidgets
+    from IPython.display import display
 
     class Live(ipywidgets.VBox):
         """Boxes and what follows them; `still()` is what stands in their place where no widget can."""
@@ -28,6 +29,7 @@ def live_class() -> type:
         def __init__(self, children: Sequence[Any], classes: str = "", **known: Any) -> None:
             super().__init__([ipywidgets.HTML(style()), *children])
             self.title, self.shown, self.run = "panel", "", None
+            self.place: Any = None  # of the still picture in the notebook
             self.boxes: dict[str, Any] = {}
             for name in ("mnclab-live", *classes.split()):
                 self.add_class(name)
@@ -44,8 +46,18 @@ def live_class() -> type:
             still = {"text/html": f'<div class="mnclab-still">{page}</div>', "text/plain": f"<{self.title}; {words}>"}
             return still | ({"image/png": data} if data else {})
 
+        def renew(self) -> None:
+            """Bring the still picture of the notebook up to date."""
+            if self.place is not None:
+                self.place.update(self.still(), raw=True)
+
         def _repr_mimebundle_(self, **options: Any) -> dict[str, Any]:
             return super()._repr_mimebundle_(**options) | self.still()
+
+        def _ipython_display_(self) -> None:
+            widget = super()._repr_mimebundle_() | {"text/plain": ""}
+            display(widget, raw=True)
+            self.place = display(self.still(), raw=True, display_id=True)
 
     return Live
 
