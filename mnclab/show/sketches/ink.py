@@ -100,7 +100,7 @@ class Sheet:
 
     def _cross(self, points: list[Point]) -> None:
         for (x, y), (u, v) in zip(points, points[1:]):
-            steps = max(1, math.ceil(math.dist((x, y), (u, v)) / CELL * 1.5))
+            steps = max(1, math.ceil(math.dist((x, y), (u, v)) / CELL))
             for k in range(steps + 1):
                 column, row = int((x + (u - x) * k / steps) // CELL), int((y + (v - y) * k / steps) // CELL)
                 if 0 <= column < WIDTH // CELL and 0 <= row < HEIGHT // CELL:
