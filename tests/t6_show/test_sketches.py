@@ -108,6 +108,7 @@ def test_every_sketch_is_whole_named_and_has_its_address_in_the_clear(control):
             assert left >= 0 and right <= 96 and top >= 0 and low <= 64, f"{cycle.code} {parameter.address} leaves the sheet"
             for style in ("edge", "tool", "thin", "dash", "tail", "measure"):
                 for u, v in ink(root, style):
+                    assert -0.5 <= u <= 96.5 and -0.5 <= v <= 64.5, f"{cycle.code} {parameter.address} is cut off: {style}"
                     assert not (left < u < right and top < v < low), f"{cycle.code} {parameter.address}: {style}"
 
 

@@ -1,16 +1,34 @@
 """Pictures that are always the same, in words: `edge 5,31 52,31; dim 30,31 30,54`.
 
 After a style, or `part` (tint and edge), stand pieces: `x,y` a point, `x,y,r,a,b` an arc, `o:x,y,r` a circle,
-`b:left,top,right,bottom` a box, `z` closes. The other words are those of the pen: `dim a b [feet]`, `rad c r angle`,
-`ang c r from to [rays]`, `go pieces`, `ball c r`, `stem c r`, `dot c r`, `datum c`, `new c`, `spin c`, `clock c`; `figure` and
-`side` draw the work of the cycle from above and in section, `at c` is where the address is wanted, `say ±{}` how it is written.
+`b:left,top,right,bottom` a box; `z` closes a line. `PENS` has the other words; `say ±{}` is how the address is written.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 from mnclab.show.sketches import plan, sections
-from mnclab.show.sketches.ink import STYLES, Piece, Sheet, box, circle
+from mnclab.show.sketches.ink import Piece, Sheet, box, circle
 from mnclab.show.sketches.kinds import Draw, Kind
+
+#: word -> what it does with the sheet and the pieces after it, in which a number alone is a piece of one
+PENS: dict[str, Callable[..., Any]] = {
+    "part": lambda s, kind, *pieces: s.part(*pieces),
+    "side": lambda s, kind: sections.work(s, kind.section),  # the work of the cycle in section
+    "figure": lambda s, kind, *pieces: plan.work(s, kind, *pieces),  # and from above, or another figure in its place
+    "stem": lambda s, kind, at: sections.probe(s, at),  # a ball with its stem
+    "dim": lambda s, kind, *pieces: s.measure(*pieces),  # from one point to another, and from where thin lines lead to them
+    "go": lambda s, kind, *pieces: s.move(*pieces),
+    "rad": lambda s, kind, centre, *how: s.radius(centre, *(number for number, in how)),
+    "ang": lambda s, kind, centre, *how: s.angle(centre, *(number for number, in how)),
+    "spin": lambda s, kind, at: s.spin(*at),
+    "clock": lambda s, kind, at: s.clock(*at),
+    "datum": lambda s, kind, at: s.datum(*at),
+    "new": lambda s, kind, at: s.datum(*at, "head"),  # a datum that is set
+    "at": lambda s, kind, at: setattr(s, "anchor", at),  # where the address is wanted
+}
 
 
 def pieces_of(words: list[str]) -> list[Piece]:
@@ -29,36 +47,13 @@ def drawn(text: str) -> Draw:
     def draw(s: Sheet, kind: Kind) -> None:
         for sentence in text.split(";"):
             verb, *words = sentence.split()
-            closed = "z" in words or any(word[:2] in ("o:", "b:") for word in words)
             if verb == "say":
                 s.address = words[0].format(s.address)
-                continue
-            if verb == "figure":
-                plan.work(s, kind)
-                continue
-            if verb == "side":
-                sections.work(s, kind.section)
-                continue
-            pieces = pieces_of([word for word in words if word != "z"])
-            at: tuple[float, float] = (pieces[0][0], pieces[0][1])
-            rest = [piece[0] for piece in pieces[1:] if len(piece) == 1]
-            if verb in STYLES:
-                s.draw(verb, *pieces, closed=closed)
-            elif verb == "dot":
-                s.draw("head", *circle(at, rest[0]), closed=True)
-            elif verb == "ball":
-                s.draw("tool", *circle(at, rest[0]), closed=True)
-            elif verb == "stem":
-                sections.probe(s, at, rest[0])
-            elif verb == "at":
-                s.anchor = at
-            elif verb in ("spin", "clock", "datum"):
-                getattr(s, verb)(*at)
-            elif verb == "new":
-                s.datum(*at, "head")
-            elif verb in ("rad", "ang"):
-                getattr(s, {"rad": "radius", "ang": "angle"}[verb])(at, *rest)
+            elif verb in PENS:
+                PENS[verb](s, kind, *pieces_of(words))
             else:
-                getattr(s, {"dim": "measure", "go": "move"}.get(verb, verb))(*pieces)
+                for line in [[word] for word in words] if words[0][:2] == "o:" else [words]:
+                    open_line = [word for word in line if word != "z"]
+                    s.draw(verb, *pieces_of(open_line), closed=open_line != line or ":" in line[0])
 
     return draw

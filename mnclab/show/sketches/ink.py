@@ -124,8 +124,8 @@ class Sheet:
         for end, other in ((a, b), (b, a)):
             out = math.degrees(math.atan2(other[1] - end[1], end[0] - other[0]))
             if math.dist(a, b) < SHORT:
-                self.draw("tail", polar(end, 9, out), polar(end, 4, out))
-            self.head(end, other if math.dist(a, b) >= SHORT else polar(end, 9, out))
+                self.draw("tail", polar(end, 7, out), polar(end, 4, out))
+            self.head(end, other if math.dist(a, b) >= SHORT else polar(end, 7, out))
         self.anchor = (a[0] + b[0]) / 2, (a[1] + b[1]) / 2
 
     def radius(self, centre: Point, radius: float, angle: float) -> None:

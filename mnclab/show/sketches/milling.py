@@ -11,6 +11,15 @@ from mnclab.show.sketches.rules import TABLE, Rule, axes, points
 from mnclab.show.sketches.sections import level, spins, wait, way
 
 LETTERS = "edge 22,20 22,46 33,46; edge 46,20 46,46; edge 46,33 60,33; edge 60,20 60,46; edge 70,20 85,20; edge 77.5,20 77.5,46"
+LINES = "part b:19,14,81,50; dash 12,44 88,44; dash 12,32 88,32; dash 12,20 88,20; "
+HOLES = "dash o:48,33,25; edge o:71.5,24.4,3.4 o:56.6,9.5,3.4 o:35.5,11.3,3.4 o:23.4,28.7,3.4 o:28.8,49.1,3.4; "
+ROW = "edge o:24,47,3.2 o:44,47,3.2 o:64,47,3.2 o:84,47,3.2; "
+ROWS = ROW.replace(",47,", ",30,") + ROW.replace(",47,", ",13,")
+SLOT = "part 48,56,42,40,110 35.7,22.2,6,110,290 48,56,30,110,40 75.6,32.9,6,220,400; dash 48,56,36,0,180; "
+SLOTS = (
+    "part 48,56,42,25,65 63.2,23.4,6,65,245 48,56,30,65,25 80.6,40.8,6,205,385; "
+    "part 48,56,42,95,135 22.5,30.5,6,135,315 48,56,30,135,95 44.9,20.1,6,275,455; dash 48,56,36,0,180; "
+)
 SHIFT = "thin 11,3 11,55 93,55; datum 11,55; thin 62,3 62,24 93,24; new 62,24; "
 
 
@@ -40,7 +49,7 @@ MILLS: tuple[Rule, ...] = (
     ("back boring", "off-centre distance of the (tool|bar)",
      drawn("side; tool 53,1 53,58 63,58 63,54 69,50 63,50 63,1; dash 62,4 62,63; dash 58,20 58,63; dim 58,24 62,24")),
     ("back boring", "height of the edge above the end of the bar",
-     drawn("side; tool 57,1 57,60 67,60 67,56 74,51 67,51 67,1; dim 84,60 84,51 67,60 74,51")),
+     drawn("side; tool 57,1 57,56 67,56 67,52 74,46 67,46 67,1; dim 84,56 84,46 67,56 74,46")),
     ("thread", "depth of the thread from where the tool stands", level("clear", "bottom", "clear")),
     (".+", "(milling |thread )?depth( of the thread)?( from the surface( to the (bottom|floor|tip))?)?",
      level("surface", "bottom")),
@@ -105,10 +114,10 @@ MILLS: tuple[Rule, ...] = (
      way("bottom", "clear")),
     # faces
     ("face", "clearance (at|to) the side", drawn("part b:42,10,95,54; tool o:17,32,10; dim 27,32 42,32")),
-    ("face|ruled", "milling feed|feed rate for milling|finishing feed( rate)?", plan.face("mill")),
-    ("face", "feed to the next line|feed rate for the stepover", plan.face("step")),
-    ("face", "positioning feed|feed rate for pre-positioning", plan.face("approach")),
-    ("face|ruled", "number of (lines|cuts)", plan.face("count")),
+    ("face|ruled", "milling feed|feed rate for milling|finishing feed( rate)?", drawn(LINES + "go 12,44 70,44; at 48,38")),
+    ("face", "feed to the next line|feed rate for the stepover", drawn(LINES + "go 88,44 88,33; at 48,38")),
+    ("face", "positioning feed|feed rate for pre-positioning", drawn(LINES + "go 88,44 88,33; go 4,60 12,45; at 12,56")),
+    ("face|ruled", "number of (lines|cuts)", drawn(LINES.replace("dash", "measure") + "at 48,38")),
     *points("ruled", "starting point, {1st}", 1),
     *points("ruled", "second point, {1st}", 2),
     *points("ruled", "third point, {1st}", 3),
@@ -117,12 +126,12 @@ MILLS: tuple[Rule, ...] = (
     ("face", "corner radius between limits", drawn("part 4,4 20,4 36,32,16,180,270 93,48 93,61 4,61; rad 36,32 16 225")),
     # figures from above
     (".*", "(greatest )?path overlap factor",
-     drawn("fill b:3,3,93,61; dash 4,22 92,22; dash 4,42 92,42; tool o:66,22,15; tool o:66,42,15; say {}·R; dim 34,42 34,22")),
+     drawn("fill b:3,3,93,61; dash 4,22 92,22; dash 4,42 92,42; tool o:66,22,15 o:66,42,15; say {}·R; dim 34,42 34,22")),
     ("rectangle|slot|face", "(pocket )?length along X|first side length|slot length|side along X", size("x")),
-    ("rectangle|slot|face|ring|ridge", "(pocket )?length along Y|second side length|(slot|ridge) width|side along Y", size("y")),
+    ("rectangle|slot|face|ridge", "(pocket )?length along Y|second side length|(slot|ridge) width|side along Y", size("y")),
     ("rectangle", "first side of the blank", size("x", 6)),
     ("rectangle", "second side of the blank", size("y", 6)),
-    ("rectangle", "corner radius|rounding .* of the corners", plan.corner),
+    ("rectangle", "corner radius|rounding .* of the corners", drawn("figure b:21,12,79,52,13; rad 66,25 13 45")),
     ("polygon", "rounding .* of the corners", drawn("part 6,60 6,10 44.4,10 44.4,30,20,90,30 79,60; rad 44.4,30 20 60")),
     ("circle", "circle diameter|diameter of the finished (pocket|stud)", size("x")),
     ("circle|polygon", "diameter of the blank", size("x", 6)),
@@ -130,31 +139,38 @@ MILLS: tuple[Rule, ...] = (
     ("circle", "radius of the pocket", drawn("figure; rad 50,32 20 30")),
     ("circle", "starting angle", drawn("figure; tool o:70.7,14.7,6; ang 50,32 13 0 40 20")),
     ("polygon", "number of corners",
-     drawn("figure; dot 73.1,32 3; dot 61.5,12 3; dot 38.5,12 3; dot 26.9,32 3; dot 38.5,52 3; dot 61.5,52 3")),
+     drawn("figure; head o:73.1,32,3 o:61.5,12,3 o:38.5,12,3 o:26.9,32,3 o:38.5,52,3 o:61.5,52,3")),
     ("rectangle|slot|polygon", "angle of (rotation|the pocket|the first corner)", plan.rotation),
-    ("rectangle|circle|slot|ring|polygon|contour|ridge",
+    ("rectangle|circle|slot|polygon|contour|ridge",
      "(finishing )?allowance (for side|of the walls|that stays at the side)|allowance in the first axis", plan.allowance),
     ("face", "finishing allowance for side",
      drawn("part b:4,4,26,60; fill b:26,40,93,60; dash 36,4 36,60; tool o:56,30,14; dim 26,16 36,16")),
     *axes(".*", "(hole position|centre of the scaling) along {X}|(centre|starting point) (along|in) the {1st}", middle),
     (".*", "increment to the hole along X", drawn("dash o:24,48,7; edge o:72,16,7; dim 24,32 72,32 24,48 72,16")),
     (".*", "increment to the hole along Y", drawn("dash o:24,48,7; edge o:72,16,7; dim 48,48 48,16 24,48 72,16")),
-    (".*", "number of holes", plan.grid("all")),
-    ("pattern", "diameter of the pitch circle", plan.holes(diameter=True)),
-    ("pattern", "starting angle", plan.holes(0, 20)),
-    ("pattern", "stopping angle", plan.holes(0, 220)),
-    ("pattern", "stepping angle", plan.holes(20, 70)),
-    ("pattern", "number of operations", plan.holes()),
-    ("grid", "spacing along a line", plan.grid("x")),
-    ("grid", "spacing of the lines", plan.grid("y")),
-    ("grid", "number of operations on a line", plan.grid("columns")),
-    ("grid", "number of lines", plan.grid("lines")),
-    ("grid", "rotation about the starting point", plan.grid("turn")),
+    (".*", "number of holes", drawn("head o:18,32,4 o:38,32,4 o:58,32,4 o:78,32,4; at 48,46")),
+    ("pattern", "diameter of the pitch circle", drawn(HOLES + "dim 24.5,24.4 71.5,41.6")),
+    ("pattern", "starting angle", drawn(HOLES + "ang 48,33 17 0 20 8")),
+    ("pattern", "stopping angle", drawn(HOLES + "ang 48,33 17 0 220 8")),
+    ("pattern", "stepping angle", drawn(HOLES + "ang 48,33 17 20 70 8")),
+    ("pattern", "number of operations", drawn(HOLES.replace("edge", "measure") + "at 48,33")),
+    ("grid", "spacing along a line", drawn(ROW + ROWS + "dim 24,57 44,57 24,47 44,47")),
+    ("grid", "spacing of the lines", drawn(ROW + ROWS + "dim 12,47 12,30 24,47 24,30")),
+    ("grid", "number of operations on a line", drawn(ROW.replace("edge", "measure") + ROWS + "at 54,58")),
+    ("grid", "number of lines", drawn(ROW + ROWS + "measure 24,47 24,13; at 10,30")),
+    ("grid", "rotation about the starting point", drawn(
+        "edge o:18,52,3.2 o:38.1,47.6,3.2 o:58.1,43.1,3.2 o:78.2,38.7,3.2; "
+        "edge o:14.4,35.8,3.2 o:34.5,31.4,3.2 o:54.5,26.9,3.2 o:74.6,22.5,3.2; ang 18,52 48 0 12.5 24")),
+    ("ring", "slot width", drawn("figure; dim 55.8,27 58.9,15.4")),
+    ("ring", "finishing allowance for side",
+     drawn("figure; dash 48,56,38,40,110 35.7,22.2,2,110,290 48,56,34,110,40 75.6,32.9,2,220,400 z; dim 57.8,19.3 58.9,15.4")),
+    ("ring", "feed rate for milling", drawn("figure; go 48,56,36,48,104; at 55,30")),
+    ("ring", "finishing feed rate", drawn("figure; dash 48,56,36,40,110; go 48,56,39,48,104; at 55,30")),
     ("ring", "diameter of the pitch circle|pitch circle diameter", drawn("figure; dash 48,56,36,0,180; dim 12,56 84,56")),
-    ("ring", "starting angle", plan.slots(0, 45)),
-    ("ring", "(opening angle|angular length) of the slot", plan.slots(45, 115)),
-    ("ring", "stepping angle", plan.slots(25, 95, several=True)),
-    ("ring", "number of slots", plan.slots(several=True)),
+    ("ring", "starting angle", drawn(SLOT + "ang 48,56 23 0 40 13")),
+    ("ring", "(opening angle|angular length) of the slot", drawn(SLOT + "ang 48,56 23 40 110 13")),
+    ("ring", "stepping angle", drawn(SLOTS + "ang 48,56 23 25 95 13")),
+    ("ring", "number of slots", drawn(SLOTS.replace("part", "measure").replace(";", " z;", 2) + "at 48,56")),
     (".*", "angle of the spindle( stop| before tapping)?|spindle angle for .*",
      drawn("edge o:50,32,12; edge 57.7,22.8 62.9,16.7; ang 50,32 24 0 50 4")),
     ("bore", "shift off the wall|shift along X", drawn(
@@ -165,9 +181,9 @@ MILLS: tuple[Rule, ...] = (
         "tool 50,31 50,21; dim 50,32 50,44")),
     ("back boring", "shift off the axis",
      drawn("fill b:3,3,93,61; fill o:50,32,24; edge o:50,32,24; dash o:50,32,11; tool o:40,32,11; dim 50,32 40,32")),
-    ("rectangle|circle|slot|ring|polygon|contour|ridge", "milling feed|feed (rate for (mill|rough)ing|on the helix)",
+    ("rectangle|circle|slot|polygon|contour|ridge", "milling feed|feed (rate for (mill|rough)ing|on the helix)",
      plan.mills()),
-    ("rectangle|circle|slot|ring|polygon|contour", "finishing feed( rate)?|feed rate for finishing", plan.mills(True)),
+    ("rectangle|circle|slot|polygon|contour", "finishing feed( rate)?|feed rate for finishing", plan.mills(True)),
     ("thread", "feed rate for approaching", drawn("figure; dash 50,32 60,32; go 60,32,10,180,360")),
     ("outside thread", "feed rate for approaching", drawn("figure; go 80,32,10,0,180; at 85,48")),
     ("thread", "feed rate for countersinking", drawn("figure; edge o:50,32,25; go 50,32,22.5,200,330; at 50,32")),
@@ -188,7 +204,7 @@ MILLS: tuple[Rule, ...] = (
     ("contour", "radius at inside corners",
      drawn("fill 4,50 80,50 80,4 92,4 92,60 4,60; edge 4,50 80,50 80,4; dash 4,40 50,20,20,270,360 70,4; rad 50,20 20 315")),
     ("slot", "infeed per revolution",
-     drawn("edge 4,12 92,12; edge 4,52 92,52; dash o:22,32,15; dash o:40,32,15; dash o:58,32,15; dim 55,32 73,32; at 84,32")),
+     drawn("edge 4,12 92,12; edge 4,52 92,52; dash o:22,32,15 o:40,32,15 o:58,32,15; dim 55,32 73,32; at 84,32")),
     ("cylinder|cylinder ridge", "radius of the cylinder", drawn("part o:48,34,24; rad 48,34 24 30")),
     # letters
     ("letters", "character height", drawn(LETTERS + "; dim 12,46 12,20 22,46 22,20")),
@@ -208,7 +224,7 @@ MILLS: tuple[Rule, ...] = (
     ("", "(tilt angle|datum shift of) A", turned_axes("Y", "Z")),
     ("", "(tilt angle|datum shift of) B", turned_axes("Z", "X")),
     ("", "(tilt angle|datum shift of) C|rotation angle|angle of the base rotation", turned_axes("X", "Y")),
-    ("", "feed of the rotary axes", drawn("edge o:48,34,20; edge 48,34 48,14; go 48,34,26,20,160; dot 48,34 2")),
+    ("", "feed of the rotary axes", drawn("edge o:48,34,20; edge 48,34 48,14; go 48,34,26,20,160; head o:48,34,2")),
     ("", "scaling factor", drawn("datum 10,58; dash b:10,34,42,58; edge b:10,10,74,58; go 42,34 74,10; say ×{}")),
     ("", "factor along X", drawn("datum 10,54; dash b:10,22,42,54; edge b:10,22,74,54; go 42,38 74,38; say ×{}")),
     ("", "factor along (Y|Z)", drawn("datum 10,58; dash b:10,34,42,58; edge b:10,8,42,58; go 26,34 26,8; say ×{}")),

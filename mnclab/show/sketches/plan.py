@@ -10,7 +10,6 @@ C = (50, 32)  # middle of a figure
 DATUM = (11, 55)  # from where places are measured
 PLACE = (62, 24)  # what has a place
 HALVES = {"rectangle": (29, 20), "circle": (20, 20), "slot": (31, 10), "ridge": (31, 10), "polygon": (20, 20), "face": (31, 18)}
-RING = (48, 56)  # middle of circular slots
 POINTS: dict[str, tuple[Point, ...]] = {
     "edge": ((36, 33), (72, 24)), "corner": ((50, 44), (72, 44), (34, 30), (34, 12)), "plane": ((36, 40), (80, 34), (56, 12)),
     "ruled": ((34, 42), (82, 38), (74, 10), (40, 16)), "four": ((38, 40), (80, 36), (76, 12), (42, 16)),
@@ -21,6 +20,8 @@ POINTS: dict[str, tuple[Point, ...]] = {
 def outline(figure: str, grow: float = 0, at: Point = C, part: float = 1) -> tuple[Piece, ...]:
     """A figure about a middle, grown on all sides."""
     wide, high = (part * half + grow for half in HALVES.get(figure, (8, 8)))
+    if figure == "ring":  # a slot on a circle about (48, 56)
+        return (48, 56, 42, 40, 110), (35.7, 22.2, 6, 110, 290), (48, 56, 30, 110, 40), (75.6, 32.9, 6, 220, 400)
     if figure in ("rectangle", "face", "slot", "ridge"):
         radius = {"rectangle": 6 * part, "face": 0}.get(figure, high)
         return box(at[0] - wide, at[1] - high, at[0] + wide, at[1] + high, radius)
@@ -32,15 +33,9 @@ def outline(figure: str, grow: float = 0, at: Point = C, part: float = 1) -> tup
     return circle(at, wide)
 
 
-def ring(a: float, b: float, half: float = 6) -> tuple[Piece, ...]:
-    """A slot on a circle between two angles of the middles of its ends."""
-    one, two = polar(RING, 36, a), polar(RING, 36, b)
-    return (*RING, 36 + half, a, b), (*two, half, b, b + 180), (*RING, 36 - half, b, a), (*one, half, a + 180, a + 360)
-
-
 def work(s: Sheet, kind: Kind, *pieces: Piece) -> None:
     """The figure in its plate, or as what is left of it."""
-    s.part(*(pieces or (ring(40, 110) if kind.figure == "ring" else outline(kind.figure))))
+    s.part(*(pieces or outline(kind.figure)))
     if kind.inside:
         s.draw("fill", *box(3, 3, 93, 61), closed=True)
 
@@ -52,21 +47,13 @@ def size(axis: str, grow: float = 0) -> Draw:
         if kind.section == "touch" and kind.figure not in HALVES:
             kind = kind._replace(figure="circle")
         work(s, kind)
-        if kind.figure == "ring":
-            return s.measure(polar(RING, 30, 75), polar(RING, 42, 75))
         if grow:
             s.draw("dash", *outline(kind.figure, grow), closed=True)
         half = HALVES[kind.figure]["xy".index(axis)] + grow
         x, y, beside = (half, 0, 0) if axis == "x" else (0, half, 14 if kind.figure == "rectangle" else 0)
-        return s.measure((C[0] - x + beside, C[1] + y), (C[0] + x + beside, C[1] - y))
+        s.measure((C[0] - x + beside, C[1] + y), (C[0] + x + beside, C[1] - y))
 
     return draw
-
-
-def corner(s: Sheet, kind: Kind) -> None:
-    """The radius of a corner."""
-    work(s, kind, *box(21, 12, 79, 52, 13))
-    s.radius((66, 25), 13, 45)
 
 
 def rotation(s: Sheet, kind: Kind) -> None:
@@ -80,10 +67,9 @@ def allowance(s: Sheet, kind: Kind) -> None:
     """What is left at the wall: the finished figure, and the dashed one before it."""
     grow = -7 if kind.inside else 7
     work(s, kind)
-    s.draw("dash", *(ring(40, 110, 2) if kind.figure == "ring" else outline(kind.figure, grow)), closed=True)
+    s.draw("dash", *outline(kind.figure, grow), closed=True)
     x = C[0] - HALVES.get(kind.figure, (29, 0))[0]
-    ends = [polar(RING, far, 75) for far in (38, 42)] if kind.figure == "ring" else [(x, 31), (x - grow, 31)]
-    s.measure(*ends)
+    s.measure((x, 31), (x - grow, 31))
 
 
 def place(axis: str, number: int = 1, new: bool = False, middle: bool = False, inset: str = "") -> Draw:
@@ -142,57 +128,6 @@ def middle(axis: str) -> Draw:
     return place(axis, middle=True)
 
 
-def holes(*angles: float, diameter: bool = False) -> Draw:
-    """Holes on a pitch circle: its diameter, the angle from one direction to another, or without any how many there are."""
-
-    def draw(s: Sheet, kind: Kind) -> None:
-        s.draw("dash", *circle((48, 33), 25), closed=True)
-        for a in range(20, 221, 50):
-            s.draw("edge" if angles or diameter else "head", *circle(polar((48, 33), 25, a), 3.4), closed=True)
-        if diameter:
-            s.measure(polar((48, 33), 25, 160), polar((48, 33), 25, 340))
-        elif angles:
-            s.angle((48, 33), 17, angles[0], angles[1], 8)
-
-    return draw
-
-
-def grid(what: str) -> Draw:
-    """Holes in lines: spacings, numbers, and the turn about the first."""
-
-    def draw(s: Sheet, kind: Kind) -> None:
-        spots = tuple((24.0 + 20 * k, 46.0 - 17 * row) for row in range(1 if what == "all" else 3) for k in range(4))
-        counted = {"columns": spots[:4], "lines": spots[::4], "all": spots}.get(what, ())
-        first = spots[0]
-        for hole in turned(spots, first, 12) if what == "turn" else spots:
-            s.draw("head" if hole in counted else "edge", *circle(hole, 3.2), closed=True)
-        s.anchor = (10, 29) if what == "lines" else (60, 57)
-        if what == "x":
-            s.measure((24, 56), (44, 56), first, (44, 46))
-        elif what == "y":
-            s.measure((12, 46), (12, 29), first, (24, 29))
-        elif what == "turn":
-            s.angle(first, 40, 0, 12, rays=24)
-
-    return draw
-
-
-def slots(*angles: float, several: bool = False) -> Draw:
-    """Slots on a circle: the angle from one direction to another, or without any how many there are."""
-
-    def draw(s: Sheet, kind: Kind) -> None:
-        for a, b in ((25, 65), (95, 135)) if several else ((45, 115),):
-            s.draw("fill", *ring(a, b), closed=True)
-            s.draw("edge" if angles else "measure", *ring(a, b), closed=True)
-        s.draw("dash", (*RING, 36, 0, 180))
-        s.draw("solid", *circle(RING, 1.6), closed=True)
-        s.anchor = RING
-        if angles:
-            s.angle(RING, 24, angles[0], angles[1], 12)
-
-    return draw
-
-
 def mills(finish: bool = False) -> Draw:
     """The feed along the figure, or along its wall, by climb milling."""
 
@@ -201,10 +136,8 @@ def mills(finish: bool = False) -> Draw:
         wide, high = HALVES.get(kind.figure, (29, 20))
         grow = -9 if kind.inside else 6
         if finish:
-            s.draw("dash", *(ring(40, 110, 3) if kind.figure == "ring" else outline(kind.figure, grow / 3)), closed=True)
-        if kind.figure == "ring":
-            s.move((*RING, 36, 48, 104))
-        elif kind.figure in ("circle", "polygon"):
+            s.draw("dash", *outline(kind.figure, grow / 3), closed=True)
+        if kind.figure in ("circle", "polygon"):
             start, end = (200, 340) if kind.inside else (190, 60)
             s.draw("tool", *circle(polar(C, high + grow, start), 5), closed=True)
             s.move((*C, high + grow, start, end))
@@ -213,24 +146,6 @@ def mills(finish: bool = False) -> Draw:
             s.draw("tool", *circle((C[0] - wide + 11, y), 5), closed=True)
             s.move((C[0] - wide + 11, y), (C[0] + wide * 0.5, y))
         s.anchor = C
-
-    return draw
-
-
-def face(what: str) -> Draw:
-    """A face milled line by line: the feeds of its parts, or its lines."""
-
-    def draw(s: Sheet, kind: Kind) -> None:
-        work(s, Kind("face", "face", False))
-        for y in (44, 32, 20):
-            s.draw("measure" if what == "count" else "dash", (12, y), (88, y))
-        if what == "mill":
-            s.move((12, 44), (70, 44))
-        if what == "approach":
-            s.move((4, 60), (12, 45))
-        if what in ("step", "approach"):
-            s.move((88, 44), (88, 33))
-        s.anchor = (12, 56) if what == "approach" else (48, 38)
 
     return draw
 

@@ -50,7 +50,7 @@ def mirrored(points: tuple[Point, ...], about: float) -> tuple[Point, ...]:
 WORKS = {
     "hole": Work(notch((52, 31), (52, 49), (62, 54), (72, 49), (72, 31)), 62, 10, "drill", (52, 72)),
     "bore": Work(notch((52, 31), (52, 54), (72, 54), (72, 31)), 62, 8, "mill", (52, 72)),
-    "centring": Work(notch((46, 31), (62, 54), (78, 31)), 62, 9, "spot", (46, 78)),
+    "centring": Work(notch((46, 31), (62, 54), (78, 31)), 62, 5, "spot", (46, 78)),
     "thread": Work(notch(*WALL, (52, 57), (72, 57), *mirrored(WALL, 62)), 62, 8, "mill", (52, 72)),
     "outside thread": Work(notch((48, 54), *STUD, *mirrored(STUD, 58), (68, 54)), 79, 6, "mill", (48, 68)),
     "back boring": Work(((LEFT, 31), (52, 31), (52, 41), (45, 41), (45, 49), (LEFT, 49)), 62, 5, "bar", (52, 72)),

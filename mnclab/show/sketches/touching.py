@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from mnclab.show.sketches import plan
 from mnclab.show.sketches.drawn import drawn
 from mnclab.show.sketches.ink import Sheet, box, polar
 from mnclab.show.sketches.kinds import Draw, Kind
 from mnclab.show.sketches.plan import middle, place, size, touched
 from mnclab.show.sketches.rules import TABLE, Rule, axes, points
 
+HOLES = "dash o:48,33,25; edge o:71.5,24.4,3.4 o:56.6,9.5,3.4 o:35.5,11.3,3.4; "
 WALL = "fill 58,4 92,4 92,60 58,60; edge 58,4 58,60; "
 PART = "fill 42,34 91,34 91,62 42,62; edge 42,62 42,34 91,34; datum 68,34; "
-CORNER = "fill 34,40 92,40 92,3 34,3; edge 92,40 34,40 34,3; ball 48,44.5 4.5; ball 80,44.5 4.5; ball 29.5,32 4.5; "
-CORNER += "ball 29.5,10 4.5; "
+CORNER = "fill 34,40 92,40 92,3 34,3; edge 92,40 34,40 34,3; tool o:48,44.5,4.5 o:80,44.5,4.5 o:29.5,32,4.5; "
+CORNER += "tool o:29.5,10,4.5; "
 TWO = "part o:26,40,17; part o:70,24,17; "
 WAY = "dash 14,52 67.7,21; "
 HOLDER = "edge b:28,3,68,12; fill b:38,12,58,{0}; tool b:38,12,58,{0}; "
@@ -48,13 +48,13 @@ def tolerance(axis: str) -> Draw:
 
 TOUCHES: tuple[Rule, ...] = (
     ("top|plane", "(set-up|extra) clearance",
-     drawn("fill b:5,46,91,62; edge 5,46 91,46; stem 56,22 5; say +{}; dim 36,46 36,27 36,46 56,27")),
-    (".*", "(set-up|extra) clearance", drawn(WALL + "ball 26,26 8; say +{}; dim 34,26 58,26")),
-    (".*", "(safe|clearance) height", drawn(PART + "stem 56,12 5; dim 82,34 82,17 72,34 58,17")),
+     drawn("fill b:5,46,91,62; edge 5,46 91,46; stem 56,22; say +{}; dim 36,46 36,27 36,46 56,27")),
+    (".*", "(set-up|extra) clearance", drawn(WALL + "tool o:26,26,8; say +{}; dim 34,26 58,26")),
+    (".*", "(safe|clearance) height", drawn(PART + "stem 56,12; dim 82,34 82,17 72,34 58,17")),
     ("sphere", "height of the center of the sphere",
      drawn("part o:58,28,14; edge 58,42 58,61; edge 46,61 70,61; datum 12,57; dim 26,57 26,28 16,57 58,28")),
     (".*", "measuring height (of the ball's cent(re|er)|at the (first|second) stud)|(first|second) measuring height",
-     drawn(PART + "stem 37,50 5; dim 84,50 84,34 41,50 72,34")),
+     drawn(PART + "stem 37,50; dim 84,50 84,34 41,50 72,34")),
     (".*", "number in table|row of the datum table", TABLE),
     *axes(".*", "{X} of the centre|center, {ref}|coordinate along {X}|pre-position {X}", middle),
     *axes(".*", "{X} of the( measured)? point in the new system|new coordinate in the {ref}",
@@ -68,7 +68,7 @@ TOUCHES: tuple[Rule, ...] = (
     ("rectangle", "nominal length along X|length along the reference axis", size("x")),
     ("rectangle", "nominal length along Y|length along the minor axis", size("y")),
     ("slot", "(slot|ridge|nominal) width|width of the (slot|ridge), .*|nominal length", walls()),
-    ("pattern", "nominal diameter of the bolt hole circle", plan.holes(diameter=True)),
+    ("pattern", "nominal diameter of the bolt hole circle", drawn(HOLES + "dim 24.5,24.4 71.5,41.6")),
     ("circle", "nominal diameter|diameter of the (ring|boss)", size("x")),
     ("circle", "radius of the (ring|stud)", drawn("figure; rad 50,32 20 30")),
     ("sphere", "exact radius of the calibration sphere",
@@ -78,10 +78,10 @@ TOUCHES: tuple[Rule, ...] = (
     ("two", "angle over which the touches are spread", touched(20, 170, spread=50)),
     ("circle|two|sphere", "number of (touches|touch points)", touched()),
     ("sphere", "touch points from pole to equator",
-     drawn("part o:48,40,18; edge 48,58 48,63; dot 48,18.5 3.5; dot 63.2,24.8 3.5; dot 69.5,40 3.5; at 22,20")),
-    ("pattern", "angle of the first hole", plan.holes(0, 20)),
-    ("pattern", "angle of the second hole", plan.holes(0, 70)),
-    ("pattern", "angle of the third hole", plan.holes(0, 120)),
+     drawn("part o:48,40,18; edge 48,58 48,63; head o:48,18.5,3.5 o:63.2,24.8,3.5 o:69.5,40,3.5; at 22,20")),
+    ("pattern", "angle of the first hole", drawn(HOLES + "ang 48,33 17 0 20 8")),
+    ("pattern", "angle of the second hole", drawn(HOLES + "ang 48,33 17 0 70 8")),
+    ("pattern", "angle of the third hole", drawn(HOLES + "ang 48,33 17 0 120 8")),
     ("slot", "greatest permissible size|maximum limit", walls(6)),
     ("slot", "least permissible size|minimum limit", walls(-6)),
     ("point", "maximum limit", drawn(WALL + "dash 70,4 70,60; datum 12,50; dim 12,34 70,34 12,50 70,34")),
@@ -104,7 +104,7 @@ TOUCHES: tuple[Rule, ...] = (
     ("corner", "(distance )?from point 1 to (point )?2 along X", drawn(CORNER + "dim 48,56 80,56 48,44.5 80,44.5")),
     ("corner", "(distance )?from point (3|1) to (point )?4 along Y", drawn(CORNER + "dim 16,32 16,10 29.5,32 29.5,10")),
     ("slot", "shift of the second touch across the axis|offset of the second measurement",
-     drawn("fill b:4,4,14,60; edge 14,4 14,60; fill b:82,4,92,60; edge 82,4 82,60; ball 19,46 5; ball 77,20 5; "
+     drawn("fill b:4,4,14,60; edge 14,4 14,60; fill b:82,4,92,60; edge 82,4 82,60; tool o:19,46,5 o:77,20,5; "
         "dim 48,46 48,20 24,46 72,20")),
     ("two", "diameter of the first stud|first diameter", drawn(TWO + "dim 9,40 43,40")),
     ("two", "diameter of the second stud|second diameter", drawn(TWO + "dim 53,24 87,24")),
@@ -112,14 +112,14 @@ TOUCHES: tuple[Rule, ...] = (
      drawn(WAY + "edge 14,52 90,52; ang 14,52 44 0 30 10")),
     (".*", "basic rotation|angle of the base rotation",
      drawn("part 14,52 72.2,37.5 65.5,10.3 7.3,24.9; dash 14,52 92,52; ang 14,52 66 0 14 8")),
-    ("point", "angle (to that|from the probing) axis", drawn(WAY + "edge 14,52 90,52; ball 14,52 5; ang 14,52 44 0 30 10")),
-    ("point", "greatest distance|farthest way", drawn("ball 14,52 5; solid o:67.7,21,2; dim 14,52 67.7,21")),
+    ("point", "angle (to that|from the probing) axis", drawn(WAY + "edge 14,52 90,52; tool o:14,52,5; ang 14,52 44 0 30 10")),
+    ("point", "greatest distance|farthest way", drawn("tool o:14,52,5; solid o:67.7,21,2; dim 14,52 67.7,21")),
     ("point", "distance back|way back, at most to the start",
-     drawn(WAY + "edge 79.2,32.9 63.2,5.1; ball 66.8,21.5 5; dim 66.8,21.5 43.4,35")),
-    ("point", "measuring feed|feed of the touch", drawn("edge 79.2,32.9 63.2,5.1; ball 14,52 5; go 14,52 66.8,21.5")),
+     drawn(WAY + "edge 79.2,32.9 63.2,5.1; tool o:66.8,21.5,5; dim 66.8,21.5 43.4,35")),
+    ("point", "measuring feed|feed of the touch", drawn("edge 79.2,32.9 63.2,5.1; tool o:14,52,5; go 14,52 66.8,21.5")),
     ("point", "component along X|direction, X", drawn("go 14,52 67.7,52; tool 14,52 67.7,21; thin 67.7,52 67.7,21")),
     ("point", "(component along|direction,) (Y|Z)", drawn("go 14,52 14,21; tool 14,52 67.7,21; thin 14,21 67.7,21")),
-    (".*", "positioning feed rate", drawn("fill b:5,46,91,62; edge 5,46 91,46; stem 22,28 5; go 32,28 76,28")),
+    (".*", "positioning feed rate", drawn("fill b:5,46,91,62; edge 5,46 91,46; stem 22,28; go 32,28 76,28")),
 )
 
 TOOLS: tuple[Rule, ...] = (
