@@ -157,7 +157,7 @@ MILLS: tuple[Rule, ...] = (
     ("grid", "spacing along a line", drawn(ROW + ROWS + "dim 24,57 44,57 24,47 44,47")),
     ("grid", "spacing of the lines", drawn(ROW + ROWS + "dim 12,47 12,30 24,47 24,30")),
     ("grid", "number of operations on a line", drawn(ROW.replace("edge", "measure") + ROWS + "at 54,58")),
-    ("grid", "number of lines", drawn(ROW + ROWS + "measure 24,47 24,13; at 10,30")),
+    ("grid", "number of lines", drawn(ROW + ROWS + "measure o:24,47,3.2 o:24,30,3.2 o:24,13,3.2; at 10,30")),
     ("grid", "rotation about the starting point", drawn(
         "edge o:18,52,3.2 o:38.1,47.6,3.2 o:58.1,43.1,3.2 o:78.2,38.7,3.2; "
         "edge o:14.4,35.8,3.2 o:34.5,31.4,3.2 o:54.5,26.9,3.2 o:74.6,22.5,3.2; ang 18,52 48 0 12.5 24")),

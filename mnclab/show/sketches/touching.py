@@ -87,6 +87,8 @@ TOUCHES: tuple[Rule, ...] = (
     ("point", "maximum limit", drawn(WALL + "dash 70,4 70,60; datum 12,50; dim 12,34 70,34 12,50 70,34")),
     ("point", "minimum limit", drawn(WALL + "dash 46,4 46,60; datum 12,50; dim 12,34 46,34 12,50 46,34")),
 
+    ("pattern", "maximum limit", drawn(HOLES + "thin o:48,33,29; dim 19,33 77,33")),
+    ("pattern", "minimum limit", drawn(HOLES + "thin o:48,33,20; dim 28,33 68,33")),
     (".*", "greatest permissible (size|length along X)|maximum limit( of the first side)?", size("x", 6)),
     (".*", "least permissible (size|length along X)|minimum limit( of the first side)?", size("x", -6)),
     (".*", "greatest permissible length along Y|maximum limit of the second side", size("y", 6)),
