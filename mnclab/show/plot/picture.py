@@ -88,6 +88,7 @@ class Picture(Figure):
         super().__init__(figsize=size, facecolor=colours.PAPER)
         FigureCanvasAgg(self)
         self.alt = alt
+        self.box: Any = None  # what a picture that follows it keeps of this one, see `show.plot.ghost`
 
     def png(self, scale: float = 1.0) -> bytes:
         """The picture as PNG; at `scale` 1 an inch has 100 pixels."""
@@ -224,7 +225,7 @@ def roomy(low: Array, high: Array) -> tuple[Array, Array]:
     largest = max(float(span.max()), 1e-3, 1e-6 * float(np.abs([low, high]).max()))
     if span.max() == 0:
         largest = max(largest, 10.0)
-    margin = np.maximum(0.06 * largest, (0.22 * largest - span) / 2)
+    margin = np.maximum(0.08 * largest, (0.22 * largest - span) / 2)
     return low - margin, high + margin
 
 
