@@ -62,7 +62,8 @@ def _tools(run: Run) -> Iterator[Alarm]:
     """Tools that are changed again before anything is done with them; the last one may wait for the next part."""
     changes = [(step, tool.number) for step, tool in run.history.changed("tool")]
     taken = [change for k, change in enumerate(changes) if not k or change[1] != changes[k - 1][1]]
-    rows = np.searchsorted(run.toolpath.step, [step for step, _ in taken])
+    steps = np.array([step for step, _ in taken], dtype=run.toolpath.step.dtype)  # another type would copy them all
+    rows = np.searchsorted(run.toolpath.step, steps)
     pairs = zip(taken, rows[:-1].tolist(), rows[1:].tolist())
     idle = [(step, number) for (step, number), a, b in pairs if number and step >= 0 and not _works(run.toolpath, a, b)]
     if idle:
