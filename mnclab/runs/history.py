@@ -38,6 +38,9 @@ class History(Mapping[str, Any]):
             return values[index]
         return [values[i] if i >= 0 else None for i in index]
 
+    def __contains__(self, name: object) -> bool:
+        return name in self._open  # a Mapping would make all its values to know
+
     def __iter__(self) -> Iterator[str]:
         return iter(self._open)
 
