@@ -236,6 +236,7 @@ def test_a_circle_centre_of_a_conversational_program_is_a_pole():
         "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F100\n2 L X+20 Y+0\n3 CC X+0 Y+0\n4 C X+0 Y+20 DR+\n5 END PGM A MM\n"
     )
     shown = crosses(mnclab.run(text, "tnc-620").plot(view="XY").axes[0])
+    assert shown.pop("radius 20") == (10, 0)  # beside the middle of the way from the start X20 to the pole
     assert set(shown.values()) == {(0, 0)} and "preset" in shown
 
 

@@ -29,6 +29,8 @@ from mnclab.show.plot.datums import Place, crosses, near, places_of, write_names
 from mnclab.show.plot.felt import draw_felt
 from mnclab.show.plot.lathe import Lathe, draw_blank, draw_insert, lathe, speed_strokes, with_blank
 from mnclab.show.plot.material import FACE
+from mnclab.show.plot.overlay import Overlay
+from mnclab.show.plot.overlays import overlays_of
 from mnclab.show.plot.picture import SCALE, SIZE, VIEWS, Foot, View, arrange, dress, roomy, write_legend
 from mnclab.show.plot.scale import write_scale
 from mnclab.show.plot.strokes import Array, Strokes, corners, line_of, strokes
@@ -63,6 +65,7 @@ class Drawing(NamedTuple):
     part: Workpiece | None
     home: bool
     felt: Felt | None
+    overlays: Sequence[Overlay] = ()
 
 
 def plot_path(
@@ -84,6 +87,7 @@ def plot_path(
     part: Workpiece | None = None,
     home: bool = False,
     felt: Felt | None = None,
+    overlays: Sequence[Overlay] = (),
 ) -> Figure:
     """Views of a path: rapids dashed red, cuts solid; start and end marked. Returns the figure, which Jupyter shows.
 
@@ -111,6 +115,7 @@ def plot_path(
     - `part`: what is left of the blank, drawn under the path.
     - `home`: the path begins where the tool arrives from home.
     - `felt`: what a probe meets, drawn behind the path (see `show.felt`).
+    - `overlays`: centres of arcs, mirror lines, holes and the like (see `show.plot.overlay`).
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
     drawn = strokes(path)
@@ -125,6 +130,9 @@ def plot_path(
     for place in shown:
         low, high = np.fmin(low, place.xyz), np.fmax(high, place.xyz)
     low, high = with_blank(path, stock, low, high)
+    if not beyond:
+        for over in overlays:
+            low, high = over.box(low, high)
     if path.lathe and len(path) and insert is not False and not beyond:
         room = 2.8 * INSERT * float((high - low).max())
         high = np.fmax(high, path.end[-1] + (room, 0.0, room))
@@ -140,7 +148,8 @@ def plot_path(
     found_marks, outline = _marks(path, stop is not None, home), None if beside else stock
     if felt is not None and len(felt.places):
         found_marks.append((colours.TOUCH, felt.places))
-    drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, beside, part, home, felt)
+    rest = (beside, part, home, felt, overlays)
+    drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, *rest)
     if ax is not None:
         _draw(ax, views[0], drawing)
         dress(ax, views[0])
@@ -160,6 +169,7 @@ def plot_path(
         names.append(colours.PLUNGE.name)
     if any(line.get_label() == colours.POLE.name for each in views for line in crosses(shown, each)):
         names.append(colours.POLE.name)
+    names += [name for over in overlays for name in over.names(views)]
     behind = felt is not None and felt.part is not None
     names += [PART] if behind else []
     said = _in_words(path, low, high, stop)
@@ -179,13 +189,17 @@ def plot_path(
 
 def plot_run(
     run: Any, ax: Axes | None = None, view: str = "auto",
-    *, marks: bool = True, stock: bool = True, part: bool = False, probed: bool = True, **options: Any,
+    *, marks: bool = True, stock: bool = True, part: bool = False, probed: bool = True, centres: bool | None = None,
+    original: bool = True, holes: bool = True, fixtures: bool = True, **options: Any,
 ) -> Figure:  # fmt: skip
     """Views of the path of a run, with its programmed contour, blank, zero points, poles and the place of its alarm.
 
     The options are those of `plot_path`; `stock=False` leaves out the blank of the setup or the program, `part=True`
     draws what the run leaves of it, as a lathe's picture does unless its path is long; `probed=False` leaves out the part
-    that a probe meets, a section at the height of its touches, and their numbers. `view="unrolled"` shows what lies on a
+    that a probe meets, a section at the height of its touches, and their numbers. `centres` draws the centres of arcs as the
+    program says them (None: where they are few), `original` the contour before it was turned, mirrored or scaled,
+    `holes` those that are drilled at their diameter, `fixtures` what holds the blank; False leaves it out.
+    `view="unrolled"` shows what lies on a
     cylinder on its developed surface (`show.plot.unrolled`; of the options it takes `size`), and so does "auto" without other
     options where every cut lies on one. Beside a blank the first approach
     comes from home, unless the setup says from where.
@@ -210,6 +224,7 @@ def plot_run(
         given["part"] = run.workpiece()
     if probed and "felt" not in options:
         given["felt"] = felt_of(run)
+    given["overlays"] = overlays_of(run, centres, original, holes, fixtures)
     if first := run.rows_from_home:
         path, given["home"] = path[first:], True
         if isinstance(insert, int) and not isinstance(insert, bool) and insert >= 0:
@@ -293,6 +308,7 @@ def _draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
     artists += crosses(drawing.places, view)
     for artist in artists:
         ax.add_line(artist)
+    artists += [artist for over in drawing.overlays for artist in over.draw(ax, view)]
     if drawing.part is not None:
         draw_under(ax, view, drawing.part)
     elif drawing.lathe is not None:
@@ -313,6 +329,8 @@ def _write(ax: Axes, view: View, drawing: Drawing, low: Array, high: Array) -> N
         draw_insert(ax, drawing.lathe, INSERT * float((high - low).max()))
     if drawing.arrows:
         occupied.append(heads.draw(ax, view, drawing.strokes, drawing.classes, low, high))
+    for over in drawing.overlays:
+        over.write(ax, view, [xyz for _, xyz in drawing.lines])
     if drawing.places:
         around = np.concatenate([np.empty((0, 2)), *occupied])
         write_names(ax, view, drawing.places, around, [xyz for _, xyz in drawing.lines])
