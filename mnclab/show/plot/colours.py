@@ -109,3 +109,5 @@ SPOKE = Line("_spoke", "#8a5a00", (0, (4, 2)), 0.8, 2.4)
 LEG = Line("_leg", "#8a5a00", "-", 1.1, 2.45)
 ORIGINAL = Line("as written", "#6b6b6b", (0, (2, 1.4)), 1.1, 2.15)
 MIRROR = Line("mirror line", "#6a1b9a", (0, (10, 2.5, 1.5, 2.5)), 1.0, 2.1)
+#: A hole at its diameter: its circle from above, its walls from the side.
+HOLE = Line("hole", "#37474f", (0, (3, 1.6)), 0.9, 2.3)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from mnclab.show.plot.centres import centres_of
+from mnclab.show.plot.fixtures import fixtures_of
+from mnclab.show.plot.holes import holes_of
 from mnclab.show.plot.original import original_of
 from mnclab.show.plot.overlay import Overlay
 from mnclab.show.plot.polar import polar_of
@@ -17,5 +19,6 @@ def overlays_of(run: Any, centres: bool | None, original: bool, holes: bool, fix
     for name, given in {"centres": centres, "original": original, "holes": holes, "fixtures": fixtures}.items():
         if not isinstance(given, bool | None):
             raise Alarm(f"{name} must be True or False, got {shown(given)}")
-    found: list[Overlay | None] = [original_of(run) if original else None, polar_of(run), centres_of(run, centres)]
+    found: list[Overlay | None] = [fixtures_of(run) if fixtures else None, original_of(run) if original else None]
+    found += [holes_of(run) if holes else None, polar_of(run), centres_of(run, centres)]
     return [each for each in found if each is not None]

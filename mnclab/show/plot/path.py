@@ -27,6 +27,7 @@ from mnclab.show.plot.classes import lines as lines_of
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, crosses, near, places_of, write_names
 from mnclab.show.plot.felt import draw_felt
+from mnclab.show.plot.holes import Holes
 from mnclab.show.plot.lathe import Lathe, draw_blank, draw_insert, lathe, speed_strokes, with_blank
 from mnclab.show.plot.material import FACE
 from mnclab.show.plot.overlay import Overlay
@@ -142,7 +143,7 @@ def plot_path(
     if stock is not None and not path.lathe and frame != "cuts":
         low, high = np.fmin(low, stock.bounds[0]), np.fmax(high, stock.bounds[1])
     plunge = colours.PLUNGE if colour == "kind" else colours.PLUNGE._replace(colour=colours.INK)
-    plunges = {each: _plunges(path, each) for each in views}
+    plunges = {each: _beside_holes(overlays, each, _plunges(path, each)) for each in views}
     arrows = arrows and int(path.is_motion.sum()) <= heads.MANY
     beside = lathe(path, stock, tools, insert) if path.lathe and views[0].diameter else None
     found_marks, outline = _marks(path, stop is not None, home), None if beside else stock
@@ -164,7 +165,7 @@ def plot_path(
         return cast(Figure, ax.get_figure(root=True))
     names = [line.name for line, _ in lines if not found.scale or line in UNSCALED]
     names += [colours.BLANK.name] if drawing.stock is not None else []
-    names += [mark.name for mark, _ in drawing.marks]
+    names += [mark.name for mark, _ in drawing.marks if any(len(_places(drawing, mark, each)) for each in views)]
     if any(map(len, drawing.plunges.values())):
         names.append(colours.PLUNGE.name)
     if any(line.get_label() == colours.POLE.name for each in views for line in crosses(shown, each)):
@@ -251,6 +252,19 @@ def _plunges(path: Toolpath, view: View) -> Array:
     return np.unique(path.end[rows][:, [view.right, view.up]], axis=0)
 
 
+def _places(drawing: Drawing, mark: Mark, view: View) -> Array:
+    """Where a mark stands in a view (m, 2); a hole that is seen from above needs none for its dwell."""
+    found = np.concatenate([xyz[:, [view.right, view.up]] for one, xyz in drawing.marks if one is mark])
+    return _beside_holes(drawing.overlays, view, found) if mark is colours.DWELL else found
+
+
+def _beside_holes(overlays: Sequence[Overlay], view: View, places: Array) -> Array:
+    for over in overlays:
+        if isinstance(over, Holes):
+            places = places[~over.hides(view, places)]
+    return places
+
+
 def _box(path: Toolpath, pieces: Sequence[tuple[Line, Array]], frame: str) -> tuple[Array, Array, bool]:
     """The corners (3,) of the box that is shown, and whether rapids go beyond it; a lathe's holds the centre line."""
     frame = choice(frame, "frame", ("auto", "all", "cuts"))
@@ -304,7 +318,7 @@ def _draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
     plunges = drawing.plunges[view]
     if len(plunges):
         artists.append(Line2D(plunges[:, 0], plunges[:, 1], **drawing.plunge.style()))
-    artists += [Line2D(xyz[:, view.right], xyz[:, view.up], **mark.style()) for mark, xyz in drawing.marks]
+    artists += [Line2D(*_places(drawing, mark, view).T, **mark.style()) for mark, _ in drawing.marks]
     artists += crosses(drawing.places, view)
     for artist in artists:
         ax.add_line(artist)
