@@ -275,6 +275,25 @@ class Run:
 
         return plot_speed_of(self, **options)
 
+    def plot_depth(self, **options: Any) -> Figure:
+        """Z over time: pecks, dwells and retractions of a hole, by `line`; see `mnclab.show.plot.depth`."""
+        from mnclab.show.plot.depth import plot_depth
+
+        return plot_depth(self, **options)
+
+    def plot_datums(self, **options: Any) -> Figure:
+        """Machine zero and the zero points of the program as vectors from it; see `mnclab.show.plot.datum_plan`."""
+        from mnclab.show.plot.datum_plan import plot_datums
+
+        return plot_datums(self, **options)
+
+    def plot_lengths(self, line: int, **options: Any) -> Figure:
+        """Spindle nose, tool and tip with their heights after a line: a wrong length offset is seen; see
+        `mnclab.show.plot.lengths`."""
+        from mnclab.show.plot.lengths import plot_lengths
+
+        return plot_lengths(self, line, **options)
+
     def player(self, limits: Limits | str | None = None, *, machine: Limits | str | None = None, **options: Any) -> Player:
         """A page to play the run in: forwards and backwards, by block, move or time; orbit, pan and zoom.
 

@@ -111,3 +111,4 @@ ORIGINAL = Line("as written", "#6b6b6b", (0, (2, 1.4)), 1.1, 2.15)
 MIRROR = Line("mirror line", "#6a1b9a", (0, (10, 2.5, 1.5, 2.5)), 1.0, 2.1)
 #: A hole at its diameter: its circle from above, its walls from the side.
 HOLE = Line("hole", "#37474f", (0, (3, 1.6)), 0.9, 2.3)
+MACHINE_ZERO = Mark("machine zero", "#00695c", "o", 9, True, 4.0)
