@@ -205,7 +205,8 @@ class Run:
     def collisions(self, stock: Any = None, *, step: float | None = None) -> Collisions:
         """What meets what it must not: rapids in material, shank, holder, fixtures, a still spindle, …, by rows.
 
-        The kinds are those of `workpiece.collision.KINDS`; `stock` and `step` as in `workpiece`.
+        The kinds are those of `workpiece.collision.KINDS`; `stock` and `step` as in `workpiece`. A rapid is judged along the
+        straight line between its ends, though pictures bend it as its axes go; with the setting `rapid_path="broken"` as it is.
         """
         return material.collisions(self, stock, step)
 
@@ -286,6 +287,12 @@ class Run:
         from mnclab.show.plot.datum_plan import plot_datums
 
         return plot_datums(self, **options)
+
+    def plot_face(self, **options: Any) -> Figure:
+        """The spirals that a lathe cuts in a face, seen from the tailstock; see `mnclab.show.plot.face`."""
+        from mnclab.show.plot.face import plot_face
+
+        return plot_face(self, **options)
 
     def plot_lengths(self, line: int, **options: Any) -> Figure:
         """Spindle nose, tool and tip with their heights after a line: a wrong length offset is seen; see

@@ -62,7 +62,7 @@ class Centres(NamedTuple):
                 ax.add_patch(FancyArrowPatch(*flat, **HEAD))
                 line(ax, view, np.array([begin, end]), colours.LEG)
         places = np.array([arc.centre for arc in seen]).reshape(-1, 3)
-        return [line(ax, view, places, colours.CENTRE)] if seen else []  # type: ignore[arg-type]
+        return [line(ax, view, places, colours.CENTRE)] if seen else []
 
     def write(self, ax: Axes, view: View, lines: Sequence[Array]) -> None:
         said, places, wishes = [], [], []

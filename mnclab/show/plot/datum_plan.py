@@ -11,8 +11,7 @@ from typing import Any, cast
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import FancyArrowPatch, Wedge
+from matplotlib.patches import FancyArrowPatch
 
 from mnclab.path.columns import Array
 from mnclab.path.listing import Unit
@@ -26,8 +25,7 @@ from mnclab.text.given import choice
 
 FAR = 3.0  # times the size of what lies on the table: a machine zero beyond that is drawn at the border
 GAP = 0.35  # of that size: how far from it the border is
-SIGN = 5.5  # points: radius of the sign of a zero point
-BREAK = 5.0  # points: half the length of a stroke of a break
+ZERO_POINT = colours.DATUM._replace(name="zero point")
 ARROW: dict[str, Any] = {"arrowstyle": "-|>", "mutation_scale": 11, "shrinkA": 6, "shrinkB": 6, "linewidth": 1.3}
 
 
@@ -70,19 +68,15 @@ def plot_datums(run: Any, ax: Axes | None = None, *, view: str = "XY", size: tup
         begin = _parent(place, places, spots, zero)
         vectors.append(np.array([begin, spot]))
         _vector(ax, looked, begin, spot, broken and begin is zero)
-        _sign(ax, looked, spot, colours.INK)
-    _sign(ax, looked, zero, colours.MACHINE_ZERO.colour)
+    handles += [line(ax, looked, each, look) for each, look in ((zero[None], colours.MACHINE_ZERO), (spots, ZERO_POINT))]
     names = ["machine zero, not to scale" if broken else "machine zero"]
     middle = (low + high) / 2
     wishes = np.array([(0.7, -0.7), *(_way(spot, middle, looked) for spot in spots)])
     labels = [_told(place, spot, path.unit) for place, spot in zip(places, spots)]
-    texts(ax, looked, [*names, *labels], np.vstack([zero[None], spots]), wishes, [cuts, *vectors])
+    texts(ax, looked, [*names, *labels], np.vstack([zero[None], spots]), wishes, [cuts, *vectors], mark=7.0)
     if picture is None:
         return cast(Figure, ax.get_figure(root=True))
-    marks = [(colours.MACHINE_ZERO.colour, "machine zero"), (colours.INK, "zero point")]
-    signs = [Line2D([], [], linestyle="none", marker="o", fillstyle="left", color=shade, label=name, markersize=8,
-                    markerfacecoloralt=colours.PAPER) for shade, name in marks]  # fmt: skip
-    write_legend(picture, [*signs, *handles])
+    write_legend(picture, handles)
     return picture
 
 
@@ -122,18 +116,3 @@ def _vector(ax: Axes, view: View, begin: Array, end: Array, broken: bool) -> Non
         middle = a + 0.45 * (b - a)
         ax.annotate("//", tuple(middle), fontsize=9, rotation=angle, color=colours.MACHINE_ZERO.colour, bbox=box, **look)
 
-
-def _sign(ax: Axes, view: View, place: Array, colour: str) -> None:
-    """The sign of a zero point: a circle in quarters, two of them filled; its size does not depend on the scale."""
-    from matplotlib.collections import PatchCollection
-    from matplotlib.transforms import IdentityTransform
-
-    points = SIGN * cast(Figure, ax.get_figure(root=True)).dpi / 72
-    quarters = [Wedge((0, 0), points, begin, begin + 90) for begin in (0, 90, 180, 270)]
-    fills = [colour, colours.PAPER, colour, colours.PAPER]
-    sign = PatchCollection(
-        quarters, offsets=[place[[view.right, view.up]]], offset_transform=ax.transData, facecolors=fills, edgecolors=colour,
-        linewidths=1.0, zorder=4.0, label="_zero",
-    )  # fmt: skip
-    sign.set_transform(IdentityTransform())
-    ax.add_collection(sign, autolim=False)

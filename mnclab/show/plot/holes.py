@@ -22,7 +22,7 @@ from mnclab.path.kinds import Kind
 from mnclab.path.listing import Unit
 from mnclab.path.toolpath import Toolpath
 from mnclab.show.plot import colours
-from mnclab.show.plot.overlay import across, grown, line
+from mnclab.show.plot.overlay import Overlay, across, grown, line
 from mnclab.show.plot.picture import View
 
 STEPS = re.compile(r" (peck|drill|ream|bore|centre|countersink|cut the thread)( \d+ of \d+)?$")
@@ -171,3 +171,11 @@ def _widest(holes: list[Hole]) -> list[Hole]:
 
 def _called(path: Toolpath, pattern: re.Pattern[str]) -> Mask:
     return np.isin(path.label, [number for number, label in enumerate(path.labels) if pattern.search(label)])
+
+
+def beside_holes(overlays: Sequence[Overlay], view: View, places: Array) -> Array:
+    """Those of some places (m, 2) in a view that are not the middle of a hole."""
+    for over in overlays:
+        if isinstance(over, Holes):
+            places = places[~over.hides(view, places)]
+    return places

@@ -79,7 +79,7 @@ class Original(NamedTuple):
             for arm in (each.before, each.after):
                 line(ax, view, np.array([each.pole, each.pole + reach * arm]), colours.SPOKE)
             line(ax, view, _arc(each, WAY * reach), colours.LEG)
-            found.append(line(ax, view, each.pole[None], colours.TURN_POLE))  # type: ignore[arg-type]
+            found.append(line(ax, view, each.pole[None], colours.TURN_POLE))
         return found
 
     def write(self, ax: Axes, view: View, lines: Sequence[Array]) -> None:

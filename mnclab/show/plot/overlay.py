@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 
 from mnclab.path.columns import Array
 from mnclab.show.plot import colours
-from mnclab.show.plot.colours import Line
+from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.placing import write_beside
 
@@ -56,7 +56,7 @@ def fits(low: Array, high: Array, points: Array) -> bool:
     return bool((wide_high - wide_low).max() <= ROOM * max((high - low).max(), 1e-9))
 
 
-def line(ax: Axes, view: View, points: Array, look: Line, **more: Any) -> Line2D:
+def line(ax: Axes, view: View, points: Array, look: Line | Mark, **more: Any) -> Line2D:
     """Points (m, 3) as a line of one view."""
     found = Line2D(points[:, view.right], points[:, view.up], **{**look.style(), **more})
     ax.add_line(found)
@@ -65,15 +65,19 @@ def line(ax: Axes, view: View, points: Array, look: Line, **more: Any) -> Line2D
 
 def texts(
     ax: Axes, view: View, said: Sequence[str | Sequence[str]], places: Array, wishes: Array, lines: Sequence[Array],
-    colour: str = colours.INK,
+    colour: str = colours.INK, mark: float = 0.0,
 ) -> int:  # fmt: skip
-    """Write beside places (n, 3), best in the directions `wishes` (n, 2); how many had no room is returned."""
+    """Write beside places (n, 3), best in the directions `wishes` (n, 2), off a mark of a radius in points; how many had no
+    room is returned."""
     if not said:
         return 0
     axes = [view.right, view.up]
     choices = [(one,) if isinstance(one, str) else tuple(one) for one in said]
     drawn = [_dense(each[:, axes]) for each in lines if 1 < len(each) < 2000]
-    return write_beside(ax, choices, places[:, axes], [0.0] * len(places), wishes, drawn, colour)
+    figure = ax.get_figure(root=True)
+    pixels = float(np.ptp(ax.transData.transform([(0.0, 0.0), (1.0, 0.0)])[:, 0]))  # of a mm
+    radius = mark * (figure.dpi if figure else 72.0) / 72 / pixels
+    return write_beside(ax, choices, places[:, axes], [radius] * len(places), wishes, drawn, colour)
 
 
 def _dense(points: Array) -> Array:
