@@ -16,7 +16,7 @@ from mnclab.show.plot.path import plot_path
 
 FIRST = (Path(__file__).parents[2] / "data/programs/mnc/first_path.mnc").read_text("utf-8")
 SQUARE = "G90 G54\nG0 X0 Y0 Z5\nG1 Z-2 F100\nX40\nY40\nX0\nY0\nG0 Z5\n"
-FIXED = ("rapid", "probing", "programmed", "start", "end", "plunge", "tool change", "_datum", "_pole")
+FIXED = ("rapid", "probing", "programmed", "start", "end", "plunge", "tool change", "_datum", "_pole", "_holes", "_hole centres")
 
 run = partial(running.run, ok=None)
 

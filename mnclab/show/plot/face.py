@@ -70,7 +70,7 @@ def plot_face(run: Any, ax: Axes | None = None, *, size: tuple[float, float] = (
         picture = Picture(size, said)
         ax = picture.add_axes((0.14, 0.1, 0.82, 0.78))
     handles = []
-    for height, shade, width in zip(heights, ramp(len(heights)), np.linspace(3.4, 1.0, len(heights))):
+    for height, shade, width in zip(heights, ramp(len(heights)), np.linspace(2.0, 0.7, len(heights))):
         mine = [spiral(path, row) for row in rows if path.end[row, 2] == height]
         points = np.concatenate([np.vstack([each, np.full((1, 3), np.nan)]) for each in mine])
         name = f"Z {unit.figure(height, 1)}".replace("-", "\N{MINUS SIGN}")
@@ -79,9 +79,11 @@ def plot_face(run: Any, ax: Axes | None = None, *, size: tuple[float, float] = (
     reach = 1.08 * most / unit.length
     ax.axhline(0.0, **{**colours.CENTRE_LINE.style(), "label": "_centre"})
     ax.axvline(0.0, **{**colours.CENTRE_LINE.style(), "label": "_centre"})
-    ax.annotate("zero mark", (reach, 0), (-2, 3), textcoords="offset points", fontsize=SMALL, ha="right", zorder=5)
+    ax.annotate("zero mark", (reach, 0), (-2, 3), textcoords="offset points", fontsize=SMALL, ha="right", zorder=5,
+                bbox={"boxstyle": "square,pad=0.1", "facecolor": colours.PAPER, "edgecolor": "none"})  # fmt: skip
     ax.set(aspect="equal", xlim=(-reach, reach), ylim=(-reach, reach))
     ax.set_xlabel(f"X (radius), {unit.short}", fontsize=SMALL + 1)
+    ax.set_ylabel(f"Y, {unit.short}", fontsize=SMALL + 1)
     calm(ax)
     if picture is None:
         return cast(Figure, ax.get_figure(root=True))

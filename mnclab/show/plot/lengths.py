@@ -99,13 +99,13 @@ def plot_lengths(
     room = high - low
     ax.set(xlim=(0, 11.2), ylim=(low - 0.1 * room, high + 0.36 * room))
     _body(ax, found, room)
-    for level, name, colour, at, side in (
+    for level, name, colour, at, edge in (
         (zero, "machine zero" + (", not to scale" if far else ""), colours.MACHINE_ZERO.colour, 0.1, "left"),
         (found.zero, f"{found.name} Z0", colours.INK, 11.1, "right"),
     ):
         ax.plot([0.1, 11.1], [level, level], color=colour, linewidth=0.9, linestyle=(0, (10, 3, 1.5, 3)), zorder=1.5)
         below = level < found.nose  # on the side where no arrow stands
-        look: dict[str, Any] = {"fontsize": SMALL, "color": colour, "ha": side, "va": "top" if below else "bottom", "zorder": 5}
+        look: dict[str, Any] = {"fontsize": SMALL, "color": colour, "ha": edge, "va": "top" if below else "bottom", "zorder": 5}
         ax.annotate(name, (at, level), (0, -3 if below else 3), textcoords="offset points", parse_math=False, **look)
     _dimension(ax, 1.3, zero, found.nose, f"machine Z {_f(unit, found.nose)}", colours.MACHINE_ZERO.colour, far)
     _dimension(ax, 6.4, found.tip, found.nose, f"tool T{found.number} {_f(unit, found.length)}", colours.INK)
