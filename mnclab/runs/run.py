@@ -40,6 +40,7 @@ from mnclab.runs.history import History
 from mnclab.runs.largest_radius import LargestRadius, largest_radius
 from mnclab.runs.moment import Moment
 from mnclab.runs.moments import Moments, when
+from mnclab.runs.pictures import Pictures
 from mnclab.runs.start import MissedOnes, start_at
 from mnclab.runs.tables import tables_at_end
 from mnclab.text.alarm import ALARM, Alarm, by_place, quoted
@@ -64,7 +65,7 @@ if TYPE_CHECKING:
 EXAMPLE = "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
 
 
-class Run:
+class Run(Pictures):
     """The result of running a program: both paths, alarms, history, the `files` it wrote, and where the machine stands.
 
     `measured` is what probing found, by name, `measurements` the record; `touches`, `figures`: machine coordinates.
@@ -288,31 +289,6 @@ class Run:
         from mnclab.show.plot.lathe import plot_speed_of
 
         return plot_speed_of(self, **options)
-
-    def plot_depth(self, **options: Any) -> Figure:
-        """Z over time: pecks, dwells and retractions of a hole, by `line`; see `mnclab.show.plot.depth`."""
-        from mnclab.show.plot.depth import plot_depth
-
-        return plot_depth(self, **options)
-
-    def plot_datums(self, **options: Any) -> Figure:
-        """Machine zero and the zero points of the program as vectors from it; see `mnclab.show.plot.datum_plan`."""
-        from mnclab.show.plot.datum_plan import plot_datums
-
-        return plot_datums(self, **options)
-
-    def plot_face(self, **options: Any) -> Figure:
-        """The spirals that a lathe cuts in a face, seen from the tailstock; see `mnclab.show.plot.face`."""
-        from mnclab.show.plot.face import plot_face
-
-        return plot_face(self, **options)
-
-    def plot_lengths(self, line: int, **options: Any) -> Figure:
-        """Spindle nose, tool and tip with their heights after a line: a wrong length offset is seen; see
-        `mnclab.show.plot.lengths`."""
-        from mnclab.show.plot.lengths import plot_lengths
-
-        return plot_lengths(self, line, **options)
 
     def player(self, limits: Limits | str | None = None, *, machine: Limits | str | None = None, **options: Any) -> Player:
         """A page to play the run in: forwards and backwards, by block, move or time; orbit, pan and zoom.
