@@ -8,7 +8,8 @@ from xml.etree import ElementTree
 import pytest
 
 from mnclab.controls import CONTROLS
-from mnclab.show.sketches import sketch
+from mnclab.show.sketches import MILLS, RULES, kinds, sketch
+from mnclab.show.sketches.ink import Sheet
 
 SVG = "{http://www.w3.org/2000/svg}"
 EVERY = [(control, cycle) for control in CONTROLS for cycle in dict.fromkeys(CONTROLS[control].cycles.values())]
@@ -287,3 +288,14 @@ def test_cycles_of_others_are_drawn_by_the_words_of_their_declaration():
 
     parameter = next(p for p in CONTROLS["mnc"].cycles["G300"].parameters() if p.address == "H")
     assert "<title>depth from the surface to the bottom</title>" in sketch(Peck, parameter)
+
+
+@pytest.mark.parametrize("table", ["MILLED", "TOUCHED", "TURNED"])
+def test_every_rule_draws_for_every_kind_of_work_that_it_names(table):
+    """Cycles of others may join any kind with any meaning."""
+    for kind in {kind for _, kind in getattr(kinds, table)} | ({kinds.OTHER} if table == "MILLED" else set()):
+        for named, words, draw in RULES.get(kind.section, MILLS):
+            if re.fullmatch(named, kind.section) or re.fullmatch(named, kind.figure):
+                sheet = Sheet("Q1")
+                draw(sheet, kind)
+                assert any(sheet.paths[style] for style in ("measure", "head")), f"{kind} {words} highlights nothing"
