@@ -37,7 +37,7 @@ class Drawing:
 
     @property
     def address(self):
-        return next(text.text for text in self.root.iter(f"{SVG}text") if text.get("class") == "address")
+        return next(text.text for text in self.root.iter(f"{SVG}text") if text.get("data-style") == "address")
 
     @property
     def surface(self):
@@ -53,7 +53,7 @@ class Drawing:
 def strokes(root, style):
     found = []
     for path in root.iter(f"{SVG}path"):
-        if path.get("class") == style:
+        if path.get("data-style") == style:
             for one in path.get("d").split("M")[1:]:
                 points = [re.findall(NUMBERS, part)[-2:] for part in re.split("[LA]", one)]
                 found.append([(float(x), float(y)) for x, y in points])
@@ -63,7 +63,7 @@ def strokes(root, style):
 def ink(root, style):
     """Points less than 1 apart on all strokes of a style; arcs by their middle, as SVG defines them."""
     for path in root.iter(f"{SVG}path"):
-        if path.get("class") != style:
+        if path.get("data-style") != style:
             continue
         at = start = (0.0, 0.0)
         for command, values in re.findall(r"([MLAZ])([^MLAZ]*)", path.get("d")):
@@ -102,7 +102,7 @@ def test_every_sketch_is_whole_named_and_has_its_address_in_the_clear(control):
                 continue
             root = ElementTree.fromstring(text)
             assert root.get("role") == "img" and root.find(f"{SVG}title").text == parameter.meaning
-            (label,) = [element for element in root.iter(f"{SVG}text") if element.get("class") == "address"]
+            (label,) = [element for element in root.iter(f"{SVG}text") if element.get("data-style") == "address"]
             assert parameter.address in label.text, f"{cycle.code} {parameter.address}"
             x, y, wide, high = (float(label.get(key)) for key in ("x", "y", "textLength", "font-size"))
             left, right, top, low = x - wide / 2, x + wide / 2, y - 0.7 * high, y
