@@ -36,6 +36,7 @@ from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs import card, lint, material, outcome
 from mnclab.runs.explanation import Explanation
+from mnclab.runs.faults_ahead import faults_ahead
 from mnclab.runs.history import History
 from mnclab.runs.largest_radius import LargestRadius, largest_radius
 from mnclab.runs.moment import Moment
@@ -376,7 +377,8 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
             finish()
         except Alarm as alarm:
             alarms.append(alarm)
-    told = [interpreter.flow.said(alarm) for alarm in (*alarms, *machine.alarms)]
+    ahead = faults_ahead(interpreter) if broken else []
+    told = [interpreter.flow.said(alarm) for alarm in (*alarms, *machine.alarms, *ahead)]
     result = Run(program, setup, control, machine, interpreter.alarms + told)
     if strict and not result.ok:
         raise next(found for found in result.alarms if found.severity == ALARM)

@@ -73,6 +73,9 @@ FEED = Line("feed", "#1259a8", "-", 1.9, 2.6)
 THREAD = Line("thread", "#00695c", (0, (7, 1.2, 1.5, 1.2)), 1.9, 2.7)
 PROBING = Line("probing", "#7b1fa2", (0, (1, 1.2)), 1.6, 2.8)
 PROGRAMMED = Line("programmed", "#8c8c8c", "-", 0.9, 2.2)
+#: What was there before a number was changed, behind all that is there now.
+GHOST = Line("_before", "#8c8c8c", "-", 1.1, 1.9)
+GHOST_RAPID = Line("_before, rapid", "#8c8c8c", (0, (1, 2)), 0.8, 1.9)
 BLANK = Line("blank", "#9a8f6e", "-", 0.8, 1.4)
 LEADER = Line("_leader", "#6b6b6b", "-", 0.7, 3.05)  # from a symbol to its place
 CENTRE_LINE = Line("", "#6b6b6b", (0, (10, 3, 1.5, 3)), 0.8, 1.5)

@@ -21,7 +21,7 @@ from mnclab.path.toolpath import Toolpath
 from mnclab.show.felt import Felt
 from mnclab.show.felt import felt as felt_of
 from mnclab.show.plot import arrows as heads
-from mnclab.show.plot import colours
+from mnclab.show.plot import colours, ghost
 from mnclab.show.plot.classes import classes
 from mnclab.show.plot.classes import lines as lines_of
 from mnclab.show.plot.datums import Place, crosses, near, places_of
@@ -62,6 +62,8 @@ def plot_path(
     home: bool = False,
     felt: Felt | None = None,
     rapids: Limits | None = None,
+    under: Toolpath | None = None,
+    limits: ghost.Box | None = None,
 ) -> Figure:
     """Views of a path: rapids dashed red, cuts solid; start and end marked. Returns the figure, which Jupyter shows.
 
@@ -90,6 +92,8 @@ def plot_path(
     - `home`: the path begins where the tool arrives from home.
     - `felt`: what a probe meets, drawn behind the path (see `show.felt`).
     - `rapids`: limits of the machine, under which axes that do not wait for each other bend a rapid; else it is straight.
+    - `under`: another path, whose moves that this one has not are drawn thin and grey behind it.
+    - `limits`: the `box` of the picture before, which is kept while this path fits into it (see `show.plot.ghost`).
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
     drawn = strokes(path, rapids)
@@ -109,6 +113,8 @@ def plot_path(
         high = np.fmax(high, path.end[-1] + (room, 0.0, room))
     if felt is not None and frame != "cuts":
         low, high = felt.box(low, high)
+    own, (low, high) = (low, high), ghost.held(low, high, limits)
+    box = low, high
     views = views_of(view, path, low, high, single=ax is not None)
     if stock is not None and not path.lathe and frame != "cuts":
         low, high = np.fmin(low, stock.bounds[0]), np.fmax(high, stock.bounds[1])
@@ -120,8 +126,11 @@ def plot_path(
     if felt is not None and len(felt.places):
         found_marks.append((colours.TOUCH, felt.places))
     drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, beside, part, home, felt)
+    former = None if under is None else ghost.gone(under, path)
     if ax is not None:
         draw(ax, views[0], drawing)
+        if former is not None:
+            ghost.draw_ghost(ax, views[0], former, rapids)
         dress(ax, views[0])
         if beyond:
             wide = roomy(low, high)
@@ -141,10 +150,13 @@ def plot_path(
         names.append(colours.POLE.name)
     behind = felt is not None and felt.part is not None
     names += [PART] if behind else []
-    said = in_words(path, low, high, stop)
+    said = in_words(path, *(own if limits else (low, high)), stop)
     picture, axes = arrange(views, low, high, names, foot_of(stop, beyond), said, size, found.scale is not None)
+    picture.box = box
     artists: dict[str, Any] = {PART: Patch(**FACE, label=PART)} if behind else {}
     for one, which in zip(axes, views):
+        if former is not None:
+            ghost.draw_ghost(one, which, former, rapids)
         for artist in draw(one, which, drawing):
             artists.setdefault(str(artist.get_label()), artist)
         write(one, which, drawing, low, high)
@@ -170,6 +182,7 @@ def plot_run(
     comes from home, unless the setup says from where.
     """
     cuts = (run.toolpath.kind == Kind.LINE) | (run.toolpath.kind == Kind.ARC)
+    followed = {name: options.pop(name, None) for name in ("under", "limits")}
     rolled = view == "auto" and options.keys() <= {"size"} and bool(cuts.any() and (run.toolpath.cylinder[cuts] >= 0).all())
     if view == "unrolled" or rolled:
         from mnclab.show.plot.unrolled import plot_unrolled
@@ -193,4 +206,4 @@ def plot_run(
         path, given["home"] = path[first:], True
         if isinstance(insert, int) and not isinstance(insert, bool) and insert >= 0:
             options["insert"] = max(insert - first, 0)
-    return plot_path(path, ax, view, **{**given, **options}, marks=marks)
+    return plot_path(path, ax, view, **{**given, **options, **followed}, marks=marks)
