@@ -193,8 +193,9 @@ class Sheet:
                 if not any(self.rows[row + k] >> column & (1 << columns) - 1 for k in range(rows)):
                     x, y = (column + columns / 2) * CELL, (row + rows / 2) * CELL + 0.36 * high
                     return (
-                        f'<text data-style="address" x="{written(x)}" y="{written(y)}" font-size="{written(high)}" font-weight="700" '
-                        f'textLength="{written(wide)}" lengthAdjust="spacingAndGlyphs">{escape(self.address)}</text>'
+                        f'<text data-style="address" x="{written(x)}" y="{written(y)}" font-size="{written(high)}" '
+                        f'font-weight="700" textLength="{written(wide)}" lengthAdjust="spacingAndGlyphs">'
+                        f"{escape(self.address)}</text>"
                     )
         return ""
 
