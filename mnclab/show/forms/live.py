@@ -64,6 +64,7 @@ def live_class() -> type:
 
 
 def cell(text: str) -> str:
+    """A cell of a table, its text on the left."""
     return f'<td style="text-align: left">{escape(text)}</td>'
 
 
