@@ -31,6 +31,7 @@ from mnclab.show.plot.layers import INSERT, Drawing, draw, marks_of, plunges_of,
 from mnclab.show.plot.material import FACE
 from mnclab.show.plot.picture import SCALE, SIZE, arrange, dress, roomy, write_legend
 from mnclab.show.plot.scale import write_scale
+from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import line_of, strokes
 from mnclab.show.rapids import rapids_of
 from mnclab.text.alarm import ALARM, Alarm
@@ -39,9 +40,11 @@ from mnclab.workpiece.workpiece import Workpiece
 
 UNSCALED = (colours.PROGRAMMED, colours.RAPID, colours.PROBING)  # look the same whatever the colour shows
 PART = "part"
+AROUND = 0.02  # of the greatest side: more room, for symbols that stand beside a corner
 MOST = 2000  # rows of a lathe's path whose part is shown unasked
 
 
+@sized()
 def plot_path(
     path: Toolpath,
     ax: Axes | None = None,
@@ -142,7 +145,8 @@ def plot_path(
     behind = felt is not None and felt.part is not None
     names += [PART] if behind else []
     said = in_words(path, low, high, stop)
-    picture, axes = arrange(views, low, high, names, foot_of(stop, beyond), said, size, found.scale is not None)
+    more = AROUND * float((high - low).max())
+    picture, axes = arrange(views, low - more, high + more, names, foot_of(stop, beyond), said, size, found.scale is not None)
     artists: dict[str, Any] = {PART: Patch(**FACE, label=PART)} if behind else {}
     for one, which in zip(axes, views):
         for artist in draw(one, which, drawing):
@@ -156,6 +160,7 @@ def plot_path(
     return picture
 
 
+@sized(also=plot_path)
 def plot_run(
     run: Any, ax: Axes | None = None, view: str = "auto",
     *, marks: bool = True, stock: bool = True, part: bool = False, probed: bool = True, **options: Any,
