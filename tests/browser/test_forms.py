@@ -28,7 +28,7 @@ PLACES = """() => {
         if (select.clientWidth && free.clientWidth > select.clientWidth + 1) clipped.push(select);
         free.remove();
     }
-    return {first: box(rows[0]), last: box(heads.at(-1) || rows.at(-1)), picture: box(form.querySelector('.mnclab-picture img')),
+    return {first: box(rows[0]), last: box(heads.at(-1) || rows.at(-1)), picture: box(form.querySelector('.mnclab-drawn img')),
             wide: form.clientWidth, clipped: clipped.map(e => e.textContent)};
 }"""
 
