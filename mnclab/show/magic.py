@@ -5,7 +5,8 @@
     …
 
 The run is bound to `run` (or to another name), its card with the alarms and their carets stands under the cell, and
-the picture below. What a name such as `my_tools` means is looked up in the notebook; `--setup` also takes a file.
+the picture below, if anything moved. What a name such as `my_tools` means is looked up in the notebook; `--setup` also
+takes a file.
 """
 
 from __future__ import annotations
@@ -93,6 +94,7 @@ def load_ipython_extension(shell: Any) -> None:
                 display(alarm)
             return
         display(run)
-        display(run.plot(colour=chosen.colour))
+        if run.toolpath.is_motion.any():  # an early fault leaves nothing to draw: the card says it all
+            display(run.plot(colour=chosen.colour))
 
     shell.register_magic_function(mnc, "cell", "mnc")

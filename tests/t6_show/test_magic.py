@@ -35,9 +35,14 @@ def test_a_cell_shows_card_and_picture_and_binds_the_run(shell):
 
 
 def test_alarms_stand_under_the_cell_with_their_caret(shell):
-    card, _ = shown(shell, "--control mnc --name first", "G90\nG1 X4,5 F100\n")
+    (card,) = shown(shell, "--control mnc --name first", "G90\nG1 X4,5 F100\n")
     assert 'role="alert"' in card["text/html"] and "^" in card["text/html"]
     assert not shell.user_ns["first"].ok and "run" not in shell.user_ns
+
+
+def test_a_program_that_moved_before_its_fault_has_a_picture(shell):
+    _, picture = shown(shell, "--control mnc", "G90\nG0 X5\nG1 X4,5 F100\n")
+    assert "stopped in line 3" in picture["text/html"]
 
 
 def test_tools_and_setup_come_from_the_notebook(shell, tmp_path):

@@ -24,12 +24,14 @@ from mnclab.show.plot import arrows as heads
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import Classes, classes
 from mnclab.show.plot.classes import lines as lines_of
+from mnclab.show.plot.clickable import told_by
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, crosses, near, places_of, write_names
 from mnclab.show.plot.felt import draw_felt
 from mnclab.show.plot.lathe import Lathe, draw_blank, draw_insert, lathe, speed_strokes, with_blank
 from mnclab.show.plot.material import FACE
-from mnclab.show.plot.picture import SCALE, SIZE, VIEWS, Foot, View, arrange, dress, roomy, write_legend
+from mnclab.show.plot.no_moves import no_moves
+from mnclab.show.plot.picture import SCALE, SIZE, VIEWS, Foot, Picture, View, arrange, dress, roomy, write_legend
 from mnclab.show.plot.scale import write_scale
 from mnclab.show.plot.strokes import Array, Strokes, corners, line_of, strokes
 from mnclab.show.plot.under import draw_under
@@ -113,6 +115,8 @@ def plot_path(
     - `felt`: what a probe meets, drawn behind the path (see `show.felt`).
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
+    if ax is None and stock is None and felt is None and not path.is_motion.any():
+        return no_moves(stop)
     drawn = strokes(path)
     if colour == "speed" and len(drawn.row):
         drawn = speed_strokes(path, drawn)
@@ -164,6 +168,7 @@ def plot_path(
     names += [PART] if behind else []
     said = _in_words(path, low, high, stop)
     picture, axes = arrange(views, low, high, names, _foot(stop, beyond), said, size, found.scale is not None)
+    picture.seen = [(one, which, path) for one, which in zip(axes, views)]
     artists: dict[str, Any] = {PART: Patch(**FACE, label=PART)} if behind else {}
     for one, which in zip(axes, views):
         for artist in _draw(one, which, drawing):
@@ -214,7 +219,10 @@ def plot_run(
         path, given["home"] = path[first:], True
         if isinstance(insert, int) and not isinstance(insert, bool) and insert >= 0:
             options["insert"] = max(insert - first, 0)
-    return plot_path(path, ax, view, **{**given, **options}, marks=marks)
+    figure = plot_path(path, ax, view, **{**given, **options}, marks=marks)
+    if isinstance(figure, Picture):
+        figure.told = told_by(run)
+    return figure
 
 
 # --- what is drawn ---------------------------------------------------------------------------------------------------

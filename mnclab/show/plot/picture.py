@@ -24,7 +24,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from mnclab.path.listing import MM, Unit
-from mnclab.show.plot import colours
+from mnclab.show.plot import clickable, colours
 from mnclab.show.plot.strokes import Array
 from mnclab.text.alarm import Alarm
 
@@ -88,6 +88,8 @@ class Picture(Figure):
         super().__init__(figsize=size, facecolor=colours.PAPER)
         FigureCanvasAgg(self)
         self.alt = alt
+        self.seen: clickable.Seen = ()  # what can be clicked on, and what is said of it
+        self.told: clickable.Told | None = None
 
     def png(self, scale: float = 1.0) -> bytes:
         """The picture as PNG; at `scale` 1 an inch has 100 pixels."""
@@ -99,8 +101,10 @@ class Picture(Figure):
         return self._image(base64.b64encode(self.png(scale)).decode())
 
     def _image(self, data: str) -> str:
-        style = f"width:{round(100 * self.get_figwidth())}px;max-width:100%"
-        return f'<img alt="{escape(self.alt)}" style="{style}" src="data:image/png;base64,{data}">'
+        width = f"width:{round(100 * self.get_figwidth())}px;max-width:100%"
+        moves = clickable.over(self, self.seen, self.told) if self.seen else ""
+        image = f'<img alt="{escape(self.alt)}" style="{width}" src="data:image/png;base64,{data}">'
+        return f'<div style="position:relative;{width}">{image}{moves}</div>' if moves else image
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
         data = base64.b64encode(self.png(2.0)).decode()
