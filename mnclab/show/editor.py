@@ -92,10 +92,13 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
     size = {"width": "34em", "height": "26em"}
     text = ipywidgets.Textarea(document.text, description="part program", layout=size, continuous_update=True)
     button = ipywidgets.Button(description="Save", tooltip=f"write {path}")
-    status, picture, alarms = ipywidgets.HTML(), ipywidgets.HTML(), ipywidgets.HTML()
-    left = ipywidgets.VBox([ipywidgets.HTML(STYLE), text, ipywidgets.HBox([button, status])])
+    picture = ipywidgets.HTML(layout={"flex": "1 1 380px"})  # at least so wide beside the text, or it goes below
+    status, alarms = ipywidgets.HTML(), ipywidgets.HTML()
+    kept = ipywidgets.Textarea(layout={"display": "none"})  # what an editor saves: a click would overtake what was typed last
+    left = ipywidgets.VBox([ipywidgets.HTML(STYLE), text, ipywidgets.HBox([button, status, kept])])
     live: Any = ipywidgets.VBox([ipywidgets.HBox([left, picture], layout={"flex_flow": "row wrap"}), alarms])
-    for box, name in ((text, "editor"), (button, "save"), (picture, "picture"), (alarms, "alarms"), (live, "live")):
+    named = {"editor": text, "save": button, "kept": kept, "picture": picture, "alarms": alarms, "live": live}
+    for name, box in named.items():
         box.add_class(f"mnclab-{name}")
 
     def say(sentence: str, fault: bool = False) -> None:
@@ -140,9 +143,14 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
             picture.value = drawn or picture.value  # what was good last stays in sight, dimmed
             (picture.remove_class if drawn else picture.add_class)(PAST)
 
-    def save(_: Any = None) -> None:
+    def keep(change: dict[str, Any]) -> None:
+        if change["new"]:  # behind a sign: an empty program can be saved too
+            save(change["new"][1:])
+            kept.value = ""
+
+    def save(source: str) -> None:
         try:
-            document.save(text.value)
+            document.save(source)
         except Alarm as alarm:
             say(alarm.message, fault=True)
         else:
@@ -152,7 +160,8 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
     live.run, live.document, live.source = None, document, ""
     check()
     text.observe(check, "value")
-    button.on_click(save)
+    button.on_click(lambda _: save(text.value))
+    kept.observe(keep, "value")
     return live
 
 

@@ -12,6 +12,7 @@ from mnclab.text.alarm import first_of
 from mnclab.text.extras import require
 
 MATCHER = "mnclab words"
+LONGEST = 60  # letters of a meaning beside a word
 
 
 def load_ipython_extension(shell: Any) -> None:
@@ -57,7 +58,7 @@ def complete_words(shell: Any) -> None:
         lines = context.full_text.split("\n")[: context.cursor_line]
         at = sum(len(line) + 1 for line in lines) + context.cursor_position
         fragment, choices = suggestions(context.full_text, at, shell.user_ns) or (context.token, [])
-        found = [SimpleCompletion(word, type=meaning) for word, meaning in choices]
+        found = [SimpleCompletion(word, type=meaning[:LONGEST]) for word, meaning in choices]
         return {"completions": found, "matched_fragment": fragment, "ordered": True, "suppress": bool(found)}
 
     matchers.append(match)

@@ -103,7 +103,8 @@ class Picture(Figure):
     def _image(self, data: str) -> str:
         width = f"width:{round(100 * self.get_figwidth())}px;max-width:100%"
         moves = clickable.over(self, self.seen, self.told) if self.seen else ""
-        image = f'<img alt="{escape(self.alt)}" style="{width}" src="data:image/png;base64,{data}">'
+        block = f"display:block;{width}" if moves else width  # an inline one has room below it, and strokes would not fit
+        image = f'<img alt="{escape(self.alt)}" style="{block}" src="data:image/png;base64,{data}">'
         return f'<div style="position:relative;{width}">{image}{moves}</div>' if moves else image
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:

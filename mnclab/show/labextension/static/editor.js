@@ -106,6 +106,12 @@ export const watchEditors = ({ services, CodeEditor, view, state }) => {
       if (mime && model.mimeType !== mime) model.mimeType = mime;
       shown.dispatch({ effects: setFaults.of(JSON.parse(verdict.dataset.faults)) });
     };
+    /** Through a box of its own: a click on the button would overtake what was typed last. */
+    const save = () => {
+      const kept = root.querySelector('.mnclab-kept textarea');
+      kept.value = '=' + shown.state.doc.toString();
+      kept.dispatchEvent(new Event('input', { bubbles: true }));
+    };
     const watch = (selector, done) => {
       const part = root.querySelector(selector);
       if (part) new MutationObserver(done).observe(part, { childList: true, subtree: true });
@@ -116,8 +122,13 @@ export const watchEditors = ({ services, CodeEditor, view, state }) => {
     host.addEventListener('keydown', event => {
       if (event.key.toLowerCase() !== 's' || !(event.ctrlKey || event.metaKey)) return;
       event.preventDefault();
-      root.querySelector('button.mnclab-save').click();
+      save();
     });
+    root.addEventListener('click', event => {
+      if (!event.target.closest?.('.mnclab-save')) return;
+      event.stopPropagation();
+      save();
+    }, true);
     root.addEventListener('click', event => {
       const move = event.target.closest?.('.mnclab-moves g');
       if (!move || move.dataset.program) return;

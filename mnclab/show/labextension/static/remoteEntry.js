@@ -119,8 +119,8 @@
   };
 
   const plugin = (
-    { IEditorLanguageRegistry }, { LanguageSupport, StreamLanguage }, { INotebookTracker }, { IEditorTracker },
-    { CodeEditor, IEditorServices }, view, state, { hover }, { watchEditors },
+    { IEditorLanguageRegistry }, { HighlightStyle, LanguageSupport, StreamLanguage, syntaxHighlighting },
+    { INotebookTracker }, { IEditorTracker }, { CodeEditor, IEditorServices }, view, state, { tags }, { hover }, { watchEditors },
   ) => ({
     id: 'mnclab:languages',
     description: 'Colours, words and the editor for part programs of CNC controls',
@@ -128,8 +128,12 @@
     requires: [IEditorLanguageRegistry, IEditorServices],
     optional: [INotebookTracker, IEditorTracker],
     activate: (app, languages, services, notebooks, editors) => {
+      // that of JupyterLab is too dim on a dark page
+      const grey = 'color-mix(in srgb, #408080 65%, var(--jp-content-font-color0, #000)) !important';
+      const readable = HighlightStyle.define([{ tag: tags.comment, color: grey, fontStyle: 'italic' }]);
       for (const { name, control, mime, extensions, rules } of LANGUAGES) {
-        const support = new LanguageSupport(StreamLanguage.define({ name, token: tokenOf(rules) }), [hover(view, control)]);
+        const language = StreamLanguage.define({ name, token: tokenOf(rules) });
+        const support = new LanguageSupport(language, [hover(view, control), syntaxHighlighting(readable)]);
         languages.addLanguage({ name, displayName: name, mime, extensions, support });
         app.docRegistry.addFileType({
           name: mime.replace('text/x-', ''), displayName: name, mimeTypes: [mime],
@@ -162,7 +166,7 @@
     get: async () => {
       const names = [
         '@jupyterlab/codemirror', '@codemirror/language', '@jupyterlab/notebook', '@jupyterlab/fileeditor',
-        '@jupyterlab/codeeditor', '@codemirror/view', '@codemirror/state',
+        '@jupyterlab/codeeditor', '@codemirror/view', '@codemirror/state', '@lezer/highlight',
       ];
       const made = plugin(...(await Promise.all([...names.map(load), beside('hover.js'), beside('editor.js')])));
       return () => ({ __esModule: true, default: made });

@@ -72,4 +72,4 @@ export const meaningAt = (lines, column, known) => {
 
 /** A meaning as a sentence: `K depth of one peck, mm (G83 Deep-hole drilling)`. */
 export const inWords = (found, known) =>
-  `${found.name}  ${found.says}` + (found.code && found.code !== found.name ? ` (${found.code} ${known.codes[found.code][0]})` : '');
+  `${found.name} ${found.says}` + (found.code && found.code !== found.name ? ` (${found.code} ${known.codes[found.code][0]})` : '');
