@@ -32,11 +32,12 @@ OUTSIDE = {  # package -> the only modules of mnclab that import it
     "vtkmodules": ("show.scene", "show.part_scene", "workpiece.difference.mesh"),
     "ezdxf": ("geometry.dxf",),
     "ipywidgets": ("show.forms", "show.editor"),
-    "IPython": ("show.magic",),
+    "IPython": ("show.magic", "show.forms.live"),
     "tqdm": ("text.progress",),
+    "pandas": ("comparison.table",),
 }
 SEES_ALL = ("show.forms", "show.editor", "show.magic")
-HEAVY = {"shapely", "matplotlib", "pyvista", "vtkmodules", "ipywidgets", "IPython", "tqdm"}
+HEAVY = {"shapely", "matplotlib", "pyvista", "vtkmodules", "ipywidgets", "IPython", "tqdm", "pandas"}
 VAGUE = {"util", "utils", "helper", "helpers", "common", "base", "core", "misc"}
 LONGEST = 400
 

@@ -17,9 +17,9 @@ from mnclab.controls import CONTROLS
 from mnclab.controls.choice import choose, help
 from mnclab.controls.completion import Choices, completions, rest_of
 from mnclab.controls.vocabulary import meaning_at, vocabulary
-from mnclab.machine import machine_file
 from mnclab.machine.control import Control
 from mnclab.machine.setup import Setup
+from mnclab.path.machine_file import machines
 from mnclab.show.magic.calls import Call, call_at
 from mnclab.show.magic.cell import options
 from mnclab.text.alarm import Alarm
@@ -63,7 +63,7 @@ def suggestions(source: str, at: int, names: Mapping[str, Any]) -> tuple[str, Ch
     if kind == "control":
         return typed, _beginning(typed, {name: one.title for name, one in CONTROLS.items()})
     if kind == "machine":
-        return typed, _beginning(typed, {name: machine_file.load(name).title for name in machine_file.names()})
+        return typed, _beginning(typed, {one.name: one.title for one in machines()})
     if kind in ("file", "program"):
         in_folder = typed, [(name, "folder" if name.endswith("/") else "program") for name in files(typed)]
         codes = _of_program(place) if place and not in_folder[1] and not re.search(r"[/\\.]", typed) else None

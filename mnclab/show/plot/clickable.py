@@ -2,13 +2,14 @@
 
 Where the pointer is over a stroke, or clicked on it, the moves of its line light up in every view and the line stands below;
 style sheets alone do that, so that it works wherever HTML is shown, without any script. What has scripts (the Lab extension)
-finds the line in `data-line`. A picture of more than `MOST` points has none: it is no easy target, and costs.
+finds the line in `data-line`. A picture of more than `MOST` moves has none: it is no easy target, and costs.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from html import escape
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -16,9 +17,11 @@ from matplotlib.axes import Axes
 
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
+from mnclab.show.plot.strokes import Strokes
 from mnclab.text.alarm import quoted
 
-MOST = 3000  # points
+MOST, MANY = 3000, 8000  # moves; points in all views
+COARSE = 6  # units between the points of an arc
 FINE = 200  # units to an inch: half a pixel on the screen
 LETTER = 13.3  # units, the width of one of the line that is named
 STYLE = (
@@ -34,7 +37,7 @@ STYLE = (
 )
 
 Told = Callable[[int, int], str]  # what is said of a line: its number, and which program
-Seen = Sequence[tuple[Axes, Any, Toolpath]]  # axes, their view, and the path that is drawn in it
+Seen = Sequence[tuple[Axes, Any, Toolpath, Strokes]]  # axes, their view, the path and the strokes that are drawn there
 
 
 def told_by(run: Any) -> Told:
@@ -52,11 +55,11 @@ def over(figure: Any, seen: Seen, told: Told | None) -> str:
     strokes: dict[tuple[int, int], list[str]] = {}
     cut: set[tuple[int, int]] = set()
     count = 0
-    for ax, view, path in seen:
-        if (count := count + int(path.is_motion.sum())) > MOST:
+    for ax, view, path, drawn in seen:
+        if int(path.is_motion.sum()) > MOST:
             return ""
-        for key, points, cuts in _rows(figure, ax, view, path):
-            if (count := count + len(points)) > 2 * MOST:
+        for key, points, cuts in _rows(figure, ax, view, path, drawn):
+            if (count := count + len(points)) > MANY:
                 return ""
             begin, *rest = (f"{x} {y}" for x, y in points)
             known = strokes.setdefault(key, [])
@@ -74,34 +77,24 @@ def over(figure: Any, seen: Seen, told: Told | None) -> str:
         said = told(line, program) if told else f"line {line}"
         said = escape(said if len(said) <= most else said[: most - 1] + "…")
         place = f'data-line="{line}"' + (f' data-program="{program}"' if program else "")
-        drawn = f'<path d="{"".join(strokes[program, line])}"/><text x="12" y="{high - 10}">{said}</text>'
-        parts.append(f'<g tabindex="-1" {place}>{drawn}</g>')
+        inside = f'<path d="{"".join(strokes[program, line])}"/><text x="12" y="{high - 10}">{said}</text>'
+        parts.append(f'<g tabindex="-1" {place}>{inside}</g>')
     box = f'viewBox="0 0 {wide} {high}" preserveAspectRatio="none"'
     return f'<svg class="mnclab-moves" {box} aria-hidden="true"><style>{STYLE}</style>{"".join(parts)}</svg>'
 
 
-def _rows(figure: Any, ax: Axes, view: Any, path: Toolpath) -> Any:
+def _rows(figure: Any, ax: Axes, view: Any, path: Toolpath, drawn: Strokes) -> Any:
     """For each move within the axes: (program, line), whole points (m, 2) from the upper left corner, whether it cuts."""
-    rows = np.flatnonzero(path.is_motion)
-    if not len(rows):
-        return
-    per_mm = abs(ax.transData.transform([(1.0, 0.0), (0.0, 0.0)])[:, 0] @ (1, -1)) * FINE / figure.dpi
-    xyz, row = path.points(1.0 / max(per_mm, 1e-9))
-    if len(xyz) > MOST:
-        return
-    scale = FINE / figure.dpi
-
-    def placed(points: Any) -> Any:
-        at = ax.transData.transform(points[:, [view.right, view.up]]) * scale
-        return np.rint(at).astype(int) * (1, -1) + (0, round(FINE * figure.get_figheight()))
-
-    points, starts = placed(xyz), placed(path.start[rows])
-    low, high = (ax.bbox.get_points() * scale).tolist()
-    top = FINE * figure.get_figheight()
-    room = np.array([[low[0] - 2, top - high[1] - 2], [high[0] + 2, top - low[1] + 2]])
-    ends = np.searchsorted(row[1:], rows, "right") + 1
-    for k, (one, first, last) in enumerate(zip(rows.tolist(), [1, *ends[:-1].tolist()], ends.tolist(), strict=True)):
-        way = np.concatenate([starts[k : k + 1], points[first:last]])
-        if ((way >= room[0]) & (way <= room[1])).all():  # what is cut off at the border has no place to point at
-            way = way[np.r_[True, (np.diff(way, axis=0) != 0).any(axis=1)]]
-            yield (int(path.program[one]), int(path.line[one])), way.tolist(), path.kind[one] != Kind.RAPID
+    scale, high = FINE / figure.dpi, round(FINE * figure.get_figheight())
+    at = ax.transData.transform(drawn.xyz[:, [view.right, view.up]]) * scale
+    points = np.rint(at).astype(int) * (1, -1) + (0, high)
+    (left, bottom), (right, top) = (ax.bbox.get_points() * scale).tolist()
+    least, most = (left - 2, high - top - 2), (right + 2, high - bottom + 2)
+    begins = np.flatnonzero(np.diff(drawn.row, prepend=-2))
+    for first, last in pairwise([*begins.tolist(), len(points)]):
+        row, way = int(drawn.row[first]), points[max(first - 1, 0) : last]
+        if row < 0 or (way < least).any() or (way > most).any():  # what is cut off at the border has no place to point at
+            continue
+        ways = np.abs(np.diff(way, axis=0)).max(axis=1).cumsum() // COARSE
+        way = way[np.r_[True, np.diff(ways, prepend=0)[:-1] > 0, True]] if len(way) > 2 else way
+        yield (int(path.program[row]), int(path.line[row])), way.tolist(), path.kind[row] != Kind.RAPID

@@ -90,6 +90,7 @@ class Picture(Figure):
         self.alt = alt
         self.seen: clickable.Seen = ()  # what can be clicked on, and what is said of it
         self.told: clickable.Told | None = None
+        self.box: Any = None  # what a picture that follows it keeps of this one, see `show.plot.ghost`
 
     def png(self, scale: float = 1.0) -> bytes:
         """The picture as PNG; at `scale` 1 an inch has 100 pixels."""
@@ -229,7 +230,7 @@ def roomy(low: Array, high: Array) -> tuple[Array, Array]:
     largest = max(float(span.max()), 1e-3, 1e-6 * float(np.abs([low, high]).max()))
     if span.max() == 0:
         largest = max(largest, 10.0)
-    margin = np.maximum(0.06 * largest, (0.22 * largest - span) / 2)
+    margin = np.maximum(0.08 * largest, (0.22 * largest - span) / 2)
     return low - margin, high + margin
 
 

@@ -36,7 +36,7 @@ def begin(m: Machine, words: Words) -> None:
         m.log("unit", unit)
 
 
-@FUNCTIONS("END PGM,", "Program end", takes="name unit", phase="last", source="4.11, example")
+@FUNCTIONS("END PGM,", "Program end", takes="name unit", leads_away=True, phase="last", source="4.11, example")
 def end(m: Machine, words: Words) -> None:
     """The last block of a program; a program that was called goes back to the one that calls."""
     name, unit = words["name"].value if "name" in words else "", words["unit"]
@@ -89,7 +89,7 @@ def stop(m: Machine, words: Words) -> None:
     m.stop()
 
 
-@FUNCTIONS("M2 M30", "Program end", group="program end", phase="last", modal=False, source="4.11, example")
+@FUNCTIONS("M2 M30", "Program end", group="program end", phase="last", modal=False, leads_away=True, source="4.11, example")
 def program_end(m: Machine, words: Words) -> None:
     """The run ends after this block; subprograms may follow it."""
     if m.flow.called:
