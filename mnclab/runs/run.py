@@ -41,6 +41,7 @@ from mnclab.runs.history import History
 from mnclab.runs.largest_radius import LargestRadius, largest_radius
 from mnclab.runs.moment import Moment
 from mnclab.runs.moments import Moments, when
+from mnclab.runs.pictures import Pictures
 from mnclab.runs.start import MissedOnes, start_at
 from mnclab.runs.tables import tables_at_end
 from mnclab.text.alarm import ALARM, Alarm, by_place, quoted
@@ -65,7 +66,7 @@ if TYPE_CHECKING:
 EXAMPLE = "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
 
 
-class Run:
+class Run(Pictures):
     """The result of running a program: both paths, alarms, history, the `files` it wrote, and where the machine stands.
 
     `measured` is what probing found, by name, `measurements` the record; `touches`, `figures`: machine coordinates.
