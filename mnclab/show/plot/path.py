@@ -24,15 +24,17 @@ from mnclab.show.plot import arrows as heads
 from mnclab.show.plot import colours, ghost
 from mnclab.show.plot.classes import classes
 from mnclab.show.plot.classes import lines as lines_of
+from mnclab.show.plot.clickable import told_by
 from mnclab.show.plot.datums import Place, crosses, near, places_of
 from mnclab.show.plot.framing import box_of, foot_of, in_words, views_of
 from mnclab.show.plot.holes import beside_holes
 from mnclab.show.plot.lathe import lathe, speed_strokes, with_blank
 from mnclab.show.plot.layers import INSERT, Drawing, draw, marks_of, plunges_of, write
 from mnclab.show.plot.material import FACE
+from mnclab.show.plot.no_moves import no_moves
 from mnclab.show.plot.overlay import Overlay
 from mnclab.show.plot.overlays import overlays_of
-from mnclab.show.plot.picture import SCALE, SIZE, arrange, dress, roomy, write_legend
+from mnclab.show.plot.picture import SCALE, SIZE, Picture, arrange, dress, roomy, write_legend
 from mnclab.show.plot.scale import write_scale
 from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import line_of, strokes
@@ -104,6 +106,8 @@ def plot_path(
     - `overlays`: centres of arcs, mirror lines, holes and the like (see `show.plot.overlay`).
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
+    if ax is None and stock is None and felt is None and not path.is_motion.any():
+        return no_moves(stop)
     drawn = strokes(path, rapids)
     if colour == "speed" and len(drawn.row):
         drawn = speed_strokes(path, drawn)
@@ -167,6 +171,7 @@ def plot_path(
     more = AROUND * float((high - low).max())
     picture, axes = arrange(views, low - more, high + more, names, foot_of(stop, beyond), said, size, found.scale is not None)
     picture.box = box
+    picture.seen = [(one, which, path, drawn) for one, which in zip(axes, views)]
     artists: dict[str, Any] = {PART: Patch(**FACE, label=PART)} if behind else {}
     for one, which in zip(axes, views):
         if former is not None:
@@ -226,4 +231,7 @@ def plot_run(
         path, given["home"] = path[first:], True
         if isinstance(insert, int) and not isinstance(insert, bool) and insert >= 0:
             options["insert"] = max(insert - first, 0)
-    return plot_path(path, ax, view, **{**given, **options, **followed}, marks=marks)
+    figure = plot_path(path, ax, view, **{**given, **options, **followed}, marks=marks)
+    if isinstance(figure, Picture):
+        figure.told = told_by(run)
+    return figure
