@@ -65,12 +65,9 @@ def plot_path(
     home: bool = False,
     felt: Felt | None = None,
     rapids: Limits | None = None,
-<<<<<<< HEAD
-    overlays: Sequence[Overlay] = (),
-=======
     under: Toolpath | None = None,
     limits: ghost.Box | None = None,
->>>>>>> pictures
+    overlays: Sequence[Overlay] = (),
 ) -> Figure:
     """Views of a path: rapids dashed red, cuts solid; start and end marked. Returns the figure, which Jupyter shows.
 
@@ -99,12 +96,9 @@ def plot_path(
     - `home`: the path begins where the tool arrives from home.
     - `felt`: what a probe meets, drawn behind the path (see `show.felt`).
     - `rapids`: limits of the machine, under which axes that do not wait for each other bend a rapid; else it is straight.
-<<<<<<< HEAD
-    - `overlays`: centres of arcs, mirror lines, holes and the like (see `show.plot.overlay`).
-=======
     - `under`: another path, whose moves that this one has not are drawn thin and grey behind it.
     - `limits`: the `box` of the picture before, which is kept while this path fits into it (see `show.plot.ghost`).
->>>>>>> pictures
+    - `overlays`: centres of arcs, mirror lines, holes and the like (see `show.plot.overlay`).
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
     drawn = strokes(path, rapids)
@@ -119,8 +113,9 @@ def plot_path(
     for place in shown:
         low, high = np.fmin(low, place.xyz), np.fmax(high, place.xyz)
     low, high = with_blank(path, stock, low, high)
-    for over in overlays if not beyond else ():
-        low, high = over.box(low, high)
+    for over in overlays:
+        wide = over.box(low, high)
+        low, high = (low, high) if beyond else wide
     if path.lathe and len(path) and insert is not False and not beyond:
         room = 2.8 * INSERT * float((high - low).max())
         high = np.fmax(high, path.end[-1] + (room, 0.0, room))
@@ -138,13 +133,9 @@ def plot_path(
     found_marks, outline = marks_of(path, stop is not None, home), None if beside else stock
     if felt is not None and len(felt.places):
         found_marks.append((colours.TOUCH, felt.places))
-<<<<<<< HEAD
     rest = (beside, part, home, felt, overlays)
     drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, *rest)
-=======
-    drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, beside, part, home, felt)
     former = None if under is None else ghost.gone(under, path)
->>>>>>> pictures
     if ax is not None:
         draw(ax, views[0], drawing)
         if former is not None:
