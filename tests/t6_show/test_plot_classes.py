@@ -49,7 +49,7 @@ def waves(n, **columns):
 def test_few_values_are_a_class_each_and_named(colour, names):
     picture = run(FIRST).plot(colour=colour)
     assert list(divided(picture.axes[1])) == names
-    legend = [text.get_text() for text in picture.legends[0].get_texts()]
+    legend = [text.get_text() for each in picture.legends for text in each.get_texts()]
     assert [name for name in legend if name not in (*FIXED, "hole \N{DIAMETER SIGN}8")] == names
     assert divided(picture.axes[0]).keys() == divided(picture.axes[1]).keys()
 

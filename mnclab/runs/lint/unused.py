@@ -12,7 +12,7 @@ from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
 from mnclab.runs.lint.once import once
 from mnclab.runs.written import blocks_with
-from mnclab.text.alarm import Alarm
+from mnclab.text.alarm import WARNING, Alarm
 
 if TYPE_CHECKING:
     from mnclab.runs.run import Run
@@ -21,7 +21,11 @@ WORK = (Kind.LINE, Kind.ARC, Kind.PROBE, Kind.DWELL, Kind.STOP)  # at a stop som
 
 
 def remarks(run: Run) -> Iterator[Alarm]:
-    """A warning for the cycles, and one for the tools, of a program that came to its end."""
+    """A warning for the cycles, and one for the tools, of a program that came to its end; one about the setup."""
+    if strange := [f"T{number}" for number in run.setup.true_tools if number not in run.tables.tools]:
+        hint = "a true tool says how a tool of the table really is; write it in Setup(tools=…) too"
+        message = f"the setup knows {', '.join(strange)} as true tools, which have no row in the tool table"
+        yield Alarm(message, None, WARNING, hint)
     if run.ok:
         yield from _cycles(run)
         yield from _tools(run)

@@ -21,6 +21,7 @@ from mnclab.path.toolpath import Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.insert import insert_patches
 from mnclab.show.plot.picture import SMALL, Picture
+from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import Array, Strokes
 from mnclab.text.alarm import Alarm
 from mnclab.workpiece.blank import Blank
@@ -126,11 +127,7 @@ def speed_strokes(path: Toolpath, drawn: Strokes) -> Strokes:
                    np.insert(drawn.row, places, np.repeat(drawn.row[behind], PARTS - 1)))  # fmt: skip
 
 
-def plot_speed_of(run: Any, most: float = np.inf, **options: Any) -> Picture:
-    """As `plot_speed`, for a run; not above the greatest speed of the machine's limits."""
-    return plot_speed(run.toolpath, min(most, run.setup.limits.spindle), **options)
-
-
+@sized()
 def plot_speed(path: Toolpath, most: float = np.inf, size: tuple[float, float] = (7.0, 4.2)) -> Picture:
     """Spindle speed and diameter over the way of the tool; `most` is the greatest speed of the spindle, rev/min."""
     way, speed, diameter = speeds(path, most)
@@ -153,3 +150,9 @@ def plot_speed(path: Toolpath, most: float = np.inf, size: tuple[float, float] =
         above.set_ylim(0, 1.18 * most)
     ax.set_xlabel("path, mm", fontsize=SMALL + 1)
     return picture
+
+
+@sized(also=plot_speed)
+def plot_speed_of(run: Any, most: float = np.inf, **options: Any) -> Picture:
+    """As `plot_speed`, for a run; not above the greatest speed of the machine's limits."""
+    return plot_speed(run.toolpath, min(most, run.setup.limits.spindle), **options)

@@ -34,6 +34,7 @@ from mnclab.show.plot.overlay import Overlay
 from mnclab.show.plot.overlays import overlays_of
 from mnclab.show.plot.picture import SCALE, SIZE, arrange, dress, roomy, write_legend
 from mnclab.show.plot.scale import write_scale
+from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import line_of, strokes
 from mnclab.show.rapids import rapids_of
 from mnclab.text.alarm import ALARM, Alarm
@@ -42,9 +43,11 @@ from mnclab.workpiece.workpiece import Workpiece
 
 UNSCALED = (colours.PROGRAMMED, colours.RAPID, colours.PROBING)  # look the same whatever the colour shows
 PART = "part"
+AROUND = 0.02  # of the greatest side: more room, for symbols that stand beside a corner
 MOST = 2000  # rows of a lathe's path whose part is shown unasked
 
 
+@sized()
 def plot_path(
     path: Toolpath,
     ax: Axes | None = None,
@@ -161,7 +164,8 @@ def plot_path(
     behind = felt is not None and felt.part is not None
     names += [PART] if behind else []
     said = in_words(path, *(own if limits else (low, high)), stop)
-    picture, axes = arrange(views, low, high, names, foot_of(stop, beyond), said, size, found.scale is not None)
+    more = AROUND * float((high - low).max())
+    picture, axes = arrange(views, low - more, high + more, names, foot_of(stop, beyond), said, size, found.scale is not None)
     picture.box = box
     artists: dict[str, Any] = {PART: Patch(**FACE, label=PART)} if behind else {}
     for one, which in zip(axes, views):
@@ -178,6 +182,7 @@ def plot_path(
     return picture
 
 
+@sized(also=plot_path)
 def plot_run(
     run: Any, ax: Axes | None = None, view: str = "auto",
     *, marks: bool = True, stock: bool = True, part: bool = False, probed: bool = True, centres: bool | None = None,

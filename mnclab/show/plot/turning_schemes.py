@@ -20,6 +20,7 @@ from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line
 from mnclab.show.plot.insert import insert_patches
 from mnclab.show.plot.picture import SMALL, Picture, write_legend
+from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strategy import hatch, hatched
 from mnclab.show.plot.trials import side_by_side
 
@@ -38,6 +39,7 @@ CHORD = 0.01
 INSERT = 0.09  # length of the insert's edges, of the width of what is drawn
 
 
+@sized()
 def plot_schemes(found: TurningComparison | TurningTrial, width: float = 9.0, columns: int | None = None) -> Picture:
     """One view of each trial at one scale: material, strokes by their role, what is left; `width` in inches."""
     trials = found.trials if isinstance(found, TurningComparison) else (found,)

@@ -12,6 +12,7 @@ from mnclab.controls.tnc_620.tables.free_tables import put_out_tables
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
+from mnclab.running.flow import course
 from mnclab.running.performing import perform
 
 FUNCTIONS = FunctionTable()
@@ -95,4 +96,7 @@ def program_end(m: Machine, words: Words) -> None:
     if m.flow.called:
         what = f"{words.code} ends the run and cannot stand in a program that was called"
         m.alarm(what, words.words[0], "a called program ends with END PGM")
+    if course(m).calls:
+        hint = "LBL 0 ends a subprogram; M30 stands above the first of them"
+        m.warn(f"{words.code} stands in a subprogram: the whole run ends here", words.words[0], hint)
     finish(m)
