@@ -28,11 +28,25 @@ EDGE = 12.0  # length of an edge that the table does not give
 USUAL = (95.0, 5.0)  # degrees: an insert of 80 degrees, where a picture needs angles and the table has none
 SAME = 1e-12
 FACE = "face grooving"  # a blade across: what is Z of another one is its r
+THREAD = 60.0  # degrees between the flanks of a metric or a unified thread
 
 
 def turns(tool: Tool) -> bool:
     """Whether a tool has an insert; else it turns about its own axis, as a drill does."""
     return tool.kind in LATHE or not tool.kind
+
+
+def as_drawn(tool: Tool, lead: float = 0.0) -> Tool:
+    """A tool with the shape that pictures give it: one without any that cuts a thread (`lead` mm) has the V of its profile.
+
+    The profile has the tool's `angle`, else `THREAD`; its flanks are as long as the lead: a sharp thread of 60 degrees.
+    """
+    known = tool.width or tool.main_angle or tool.auxiliary_angle or tool.kind not in ("", "thread")
+    if known or not (lead > 0 or tool.kind == "thread"):
+        return tool
+    lean = 90 - (tool.angle if 0 < tool.angle < 180 else THREAD) / 2
+    edges = tool.cutting_length or (lead if lead > 0 else 0.0)
+    return replace(tool, kind="thread", main_angle=lean, auxiliary_angle=lean, cutting_length=edges)
 
 
 def angles_of(tool: Tool) -> tuple[float, float]:

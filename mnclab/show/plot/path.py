@@ -27,7 +27,16 @@ from mnclab.show.plot.classes import lines as lines_of
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, crosses, near, places_of, write_names
 from mnclab.show.plot.felt import draw_felt
-from mnclab.show.plot.lathe import Lathe, draw_blank, draw_insert, lathe, speed_strokes, with_blank
+from mnclab.show.plot.lathe import (
+    FINISHED,
+    Lathe,
+    draw_blank,
+    draw_chucks,
+    draw_insert,
+    lathe,
+    speed_strokes,
+    with_blank,
+)
 from mnclab.show.plot.material import FACE
 from mnclab.show.plot.picture import SCALE, SIZE, VIEWS, Foot, View, arrange, dress, roomy, write_legend
 from mnclab.show.plot.scale import write_scale
@@ -124,7 +133,7 @@ def plot_path(
     shown = near(places, low, high) if marks else []
     for place in shown:
         low, high = np.fmin(low, place.xyz), np.fmax(high, place.xyz)
-    low, high = with_blank(path, stock, low, high)
+    low, high = with_blank(path, stock, low, high, part)
     if path.lathe and len(path) and insert is not False and not beyond:
         room = 2.8 * INSERT * float((high - low).max())
         high = np.fmax(high, path.end[-1] + (room, 0.0, room))
@@ -136,7 +145,7 @@ def plot_path(
     plunge = colours.PLUNGE if colour == "kind" else colours.PLUNGE._replace(colour=colours.INK)
     plunges = {each: _plunges(path, each) for each in views}
     arrows = arrows and int(path.is_motion.sum()) <= heads.MANY
-    beside = lathe(path, stock, tools, insert) if path.lathe and views[0].diameter else None
+    beside = lathe(path, stock, tools, insert, part) if path.lathe and views[0].diameter else None
     found_marks, outline = _marks(path, stop is not None, home), None if beside else stock
     if felt is not None and len(felt.places):
         found_marks.append((colours.TOUCH, felt.places))
@@ -162,9 +171,12 @@ def plot_path(
         names.append(colours.POLE.name)
     behind = felt is not None and felt.part is not None
     names += [PART] if behind else []
+    held = beside.names + ([Patch(**FINISHED, label=PART)] if part is not None else []) if beside else []
+    names += [str(each.get_label()) for each in held]
     said = _in_words(path, low, high, stop)
     picture, axes = arrange(views, low, high, names, _foot(stop, beyond), said, size, found.scale is not None)
     artists: dict[str, Any] = {PART: Patch(**FACE, label=PART)} if behind else {}
+    artists |= {str(each.get_label()): each for each in held}
     for one, which in zip(axes, views):
         for artist in _draw(one, which, drawing):
             artists.setdefault(str(artist.get_label()), artist)
@@ -297,6 +309,8 @@ def _draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
         draw_under(ax, view, drawing.part)
     elif drawing.lathe is not None:
         draw_blank(ax, drawing.lathe)
+    if drawing.lathe is not None:
+        draw_chucks(ax, drawing.lathe.chucks)
     if view.diameter:
         ax.axhline(0.0, **{**colours.CENTRE_LINE.style(), "label": "_centre line"})
     return artists
