@@ -26,7 +26,7 @@ from mnclab.show.plot.classes import Classes, classes
 from mnclab.show.plot.classes import lines as lines_of
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, crosses, near, places_of, write_names
-from mnclab.show.plot.felt import draw_felt
+from mnclab.show.plot.felt import draw_felt, names_of
 from mnclab.show.plot.lathe import (
     FINISHED,
     Lathe,
@@ -37,7 +37,6 @@ from mnclab.show.plot.lathe import (
     speed_strokes,
     with_blank,
 )
-from mnclab.show.plot.material import FACE
 from mnclab.show.plot.picture import SCALE, SIZE, VIEWS, Foot, View, arrange, dress, roomy, write_legend
 from mnclab.show.plot.scale import write_scale
 from mnclab.show.plot.strokes import Array, Strokes, corners, line_of, strokes
@@ -169,14 +168,12 @@ def plot_path(
         names.append(colours.PLUNGE.name)
     if any(line.get_label() == colours.POLE.name for each in views for line in crosses(shown, each)):
         names.append(colours.POLE.name)
-    behind = felt is not None and felt.part is not None
-    names += [PART] if behind else []
     held = beside.names + ([Patch(**FINISHED, label=PART)] if part is not None else []) if beside else []
+    held += names_of(felt) if felt is not None else []
     names += [str(each.get_label()) for each in held]
     said = _in_words(path, low, high, stop)
     picture, axes = arrange(views, low, high, names, _foot(stop, beyond), said, size, found.scale is not None)
-    artists: dict[str, Any] = {PART: Patch(**FACE, label=PART)} if behind else {}
-    artists |= {str(each.get_label()): each for each in held}
+    artists: dict[str, Any] = {str(each.get_label()): each for each in held}
     for one, which in zip(axes, views):
         for artist in _draw(one, which, drawing):
             artists.setdefault(str(artist.get_label()), artist)
