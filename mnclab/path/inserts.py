@@ -22,7 +22,10 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.vectors import at_angle, length_of
+from mnclab.path.columns import Mask
+from mnclab.path.kinds import Kind
 from mnclab.path.tool import LATHE, Tool
+from mnclab.path.toolpath import Toolpath
 
 EDGE = 12.0  # length of an edge that the table does not give
 USUAL = (95.0, 5.0)  # degrees: an insert of 80 degrees, where a picture needs angles and the table has none
@@ -47,6 +50,14 @@ def as_drawn(tool: Tool, lead: float = 0.0) -> Tool:
     lean = 90 - (tool.angle if 0 < tool.angle < 180 else THREAD) / 2
     edges = tool.cutting_length or (lead if lead > 0 else 0.0)
     return replace(tool, kind="thread", main_angle=lean, auxiliary_angle=lean, cutting_length=edges)
+
+
+def lead_of(path: Toolpath, rows: Mask) -> float:
+    """The lead, mm, of the thread that the last cut of some rows (n,) makes; 0 where it makes none."""
+    cuts = np.flatnonzero(((path.kind == Kind.LINE) | (path.kind == Kind.ARC)) & rows)
+    if not len(cuts) or not path.synchronous[cuts[-1]]:
+        return 0.0
+    return float(np.nan_to_num(path.per_rev[cuts[-1]], posinf=0.0))
 
 
 def angles_of(tool: Tool) -> tuple[float, float]:

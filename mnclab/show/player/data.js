@@ -150,6 +150,7 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
     this.rotary = header.rotary && header.rotary.map(k => columns[k].map(v => v / header.degrees));
     this.turned = this.rotary ? this.rotary.map(column => column.some(angle => angle !== 0)) : [];
     this.stock = header.stock;
+    this.inserts = header.inserts && {which: new Log(columns, header.inserts.which), tools: header.inserts.tools};
     this.arrange();
   }
 

@@ -24,7 +24,7 @@ from mnclab.show.player.felt import felt_part, felt_touches
 from mnclab.show.player.logs import changes, columns, log, parted, parts_of
 from mnclab.show.player.packing import Packer
 from mnclab.show.player.part import part
-from mnclab.show.player.section import section
+from mnclab.show.player.section import inserts, section
 from mnclab.show.solids import cylinder_body
 from mnclab.text.alarm import Alarm, amounts, several
 from mnclab.text.program import Program
@@ -62,7 +62,7 @@ def payload(
         "title": run.program.title,
         "control": run.control.title,
         "lathe": path.lathe,
-        "unit": {"short": path.unit.short, "length": path.unit.length, "decimals": path.unit.decimals - 1},
+        "unit": {"short": path.unit.short, "length": path.unit.length, "decimals": 3 if path.unit.length == 1 else 4},
         "alarms": [
             alarm.as_dict()
             | {"text": str(alarm), "program": alarm.span.program if alarm.span else 0}
@@ -95,6 +95,7 @@ def payload(
         "profile": _profile(pack, profile, scale),
         "part": part(pack, cutting, path) if cutting and not path.lathe else felt_part(pack, shown, path) if shown else None,
         "section": section(pack, cutting) if cutting and path.lathe else None,
+        "inserts": inserts(pack, run) if path.lathe else None,
         "felt": felt_touches(probed, path),
         "collisions": [
             {"line": each.line, "program": each.program, "row": each.row, "kind": each.kind, "message": each.message}

@@ -13,9 +13,8 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Patch, Polygon
 from numpy.typing import NDArray
 
-from mnclab.path.columns import Mask
 from mnclab.path.cutting_speed import spindle_speed
-from mnclab.path.inserts import angles_of, as_drawn
+from mnclab.path.inserts import angles_of, as_drawn, lead_of
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
@@ -71,15 +70,6 @@ def lathe(
         tip, tool = (float(path.end[row, 2]), float(path.end[row, 0])), tools.get(number, Tool())
         tool = as_drawn(tool, lead_of(path[: row + 1], path.tool[: row + 1] == number))
     return Lathe(blank, tool, tip, chucks_of(part.cutting.fixtures) if part else [])
-
-
-def lead_of(path: Toolpath, rows: Mask) -> float:
-    """The lead, mm, of the thread that the last cut of some rows (n,) makes; 0 where it makes none."""
-    cuts = np.flatnonzero(np.isin(path.kind, CUTS) & rows)
-    if not len(cuts) or not path.synchronous[cuts[-1]]:
-        return 0.0
-    lead = float(path.per_rev[cuts[-1]])
-    return lead if np.isfinite(lead) else 0.0
 
 
 def chucks_of(fixtures: Sequence[Any]) -> list[Array]:

@@ -16,12 +16,12 @@ from matplotlib.patches import Patch, PathPatch, Polygon
 
 from mnclab.geometry.contours import Contour
 from mnclab.path.columns import Array
-from mnclab.path.inserts import as_drawn
+from mnclab.path.inserts import as_drawn, lead_of
 from mnclab.path.tool import Tool
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import number, ramp
 from mnclab.show.plot.insert import insert_patches, named_insert
-from mnclab.show.plot.lathe import BAR, CHUCK, FINISHED, chucks_of, lead_of
+from mnclab.show.plot.lathe import BAR, CHUCK, FINISHED, chucks_of
 from mnclab.show.plot.part_words import in_words, told
 from mnclab.show.plot.picture import SIZE, SMALL, VIEWS, Foot, arrange, dress, write_legend
 from mnclab.show.plot.sections import CARD, CHORD, FACE, HATCH, outline_of
