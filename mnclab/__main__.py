@@ -19,8 +19,8 @@ from typing import Any
 import mnclab
 from mnclab.controls import ALSO
 from mnclab.controls.renumber import renumber_file
-from mnclab.machine.machine_file import load as load_machine
 from mnclab.machine.setup_file import FORMAT, load
+from mnclab.path.machine_file import load as load_machine
 from mnclab.shell.checking import check
 from mnclab.shell.lessons import lab
 from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, USAGE, describe, program, say, sensible, with_blank

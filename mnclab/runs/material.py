@@ -18,7 +18,7 @@ from mnclab.runs.cycle_tools import cycle_tools
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.given import check_number, shown, whole
 from mnclab.text.program import NUMBER, Program
-from mnclab.workpiece.blank import Revolved, blank
+from mnclab.workpiece.blank import Revolved, blank, from_datum
 from mnclab.workpiece.collision import Collision, Collisions
 from mnclab.workpiece.cutting import Cutting, numbers_of
 from mnclab.workpiece.part import Part
@@ -42,7 +42,7 @@ def cutting_of(run: Run, stock: Any = None) -> Cutting:
         raise no_blank() if stock is None else Alarm(f"stock must be two corners or a blank, got {shown(stock)}")
     if not body.volume > 0:
         raise Alarm(f"there is nothing to cut: the blank is {shown(body)}")
-    body = body if stock is None else body.moved(-origin)
+    body = body if stock is None else from_datum(body, origin)
     tools, which, lift = _held(run)
     start, changed = run.setup.start, run.history.changed
     tilted = tilted_rows(path.step, changed(TILT), changed(LOG), path.cylinder)
