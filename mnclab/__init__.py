@@ -61,6 +61,7 @@ if TYPE_CHECKING:  # what OPENED says, for editors and for mypy
     from mnclab.show.forms import panel as panel
     from mnclab.show.forms import profile_panel as profile_panel
     from mnclab.show.magic import load_ipython_extension as load_ipython_extension
+    from mnclab.show.plot.profiles import plot_profiles as plot_profiles
     from mnclab.workpiece.design import Design as Design
     from mnclab.workpiece.design import TurnedDesign as TurnedDesign
 
@@ -75,6 +76,7 @@ OPENED = Shelf("mnclab", "the names that need more than numpy", {
     "mnclab.show.editor": "editor",
     "mnclab.show.forms": "compensation_panel, form, panel, profile_panel",
     "mnclab.show.magic": "load_ipython_extension",
+    "mnclab.show.plot.profiles": "plot_profiles",
     "mnclab.workpiece.design": "Design, TurnedDesign",
 })  # fmt: skip
 
@@ -172,6 +174,7 @@ __all__ = [
     "modern",
     "panel",
     "part",
+    "plot_profiles",
     "probing",
     "profile_panel",
     "read",

@@ -34,8 +34,11 @@ KEPT = 6  # parts and lists of collisions that a run keeps
 JUDGED = 3000  # rows up to which a player asks for collisions
 
 
-def cutting_of(run: Run, stock: Any = None) -> Cutting:
-    """What a run cuts; `stock` in machine coordinates instead of its own blank. An Alarm without any."""
+def cutting_of(run: Run, stock: Any = None, named: bool = True) -> Cutting:
+    """What a run cuts; `stock` in machine coordinates instead of its own blank. An Alarm without any.
+
+    Without `named` the tool's place is known where every axis has moved, not where each was named: that takes less time.
+    """
     path, origin = run.toolpath, run.toolpath.origin
     body = run.stock if stock is None else blank(stock)
     if body is None:
@@ -46,7 +49,7 @@ def cutting_of(run: Run, stock: Any = None) -> Cutting:
     tools, which, lift = _held(run)
     start, changed = run.setup.start, run.history.changed
     tilted = tilted_rows(path.step, changed(TILT), changed(LOG), path.cylinder)
-    known = start_known(path, start, *(() if any(start) else _named(run)))
+    known = start_known(path, start, *(() if any(start) or not named else _named(run)))
     fixtures = tuple(_placed(run, each) for each in run.setup.fixtures)
     return Cutting(lifted(path, lift), tools, which, body, *known, tilted, fixtures, run.place_of_line, tuple(origin.tolist()))
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import gc
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,6 +25,7 @@ from mnclab.machine.settling import paths, shifted, stop_at_travel
 from mnclab.machine.setup import Setup, Tables
 from mnclab.path.columns import Index
 from mnclab.path.compensation import Gouge
+from mnclab.path.holes import Holes, holes
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.machine_file import limits_of
@@ -32,9 +34,10 @@ from mnclab.path.tool import Tool
 from mnclab.path.travel import Stopped
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
-from mnclab.runs import card, material, outcome, still_spindle
+from mnclab.runs import card, lint, material, outcome
 from mnclab.runs.explanation import Explanation
 from mnclab.runs.history import History
+from mnclab.runs.largest_radius import LargestRadius, largest_radius
 from mnclab.runs.moment import Moment
 from mnclab.runs.moments import Moments, when
 from mnclab.runs.start import MissedOnes, start_at
@@ -50,8 +53,6 @@ from mnclab.workpiece.removal import Removal
 from mnclab.workpiece.workpiece import Workpiece
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     import pyvista
     from matplotlib.figure import Figure
 
@@ -77,10 +78,6 @@ class Run:
         self.programs = tuple(flow.programs)
         self.steps = Steps._make(fixed(column) for column in flow.steps())
         self.programmed, self.toolpath = paths(machine)
-        self.alarms = by_place([*alarms, *still_spindle.remarks(machine, self.toolpath)])
-        for alarm in self.alarms:
-            if alarm.source is None:
-                alarm.source = self.programs[alarm.span.program if alarm.span else 0]
         if machine.cut is not None:
             self.steps = Steps(self.steps.block[: machine.cut], self.steps.program[: machine.cut])
         self.history = History(machine.logs, len(self.steps.block))
@@ -94,6 +91,11 @@ class Run:
         self.stopped: Stopped | None = machine.stopped
         self.settings = dict(machine.settings)
         self.made: dict[Any, Any] = {}  # the last parts and collisions that were asked for
+        self.alarms = by_place(alarms)
+        self.alarms = by_place([*self.alarms, *lint.remarks(self, machine)])
+        for alarm in self.alarms:
+            if alarm.source is None:
+                alarm.source = self.programs[alarm.span.program if alarm.span else 0]
         self._nesting, self.missed, self.started = flow.nesting, MissedOnes(), (0, 0, 0)  # see `start_at`: what it skips, where
 
     def _as_of_end(self, prefix: str, values: dict[str, Any]) -> dict[str, Any]:
@@ -184,8 +186,10 @@ class Run:
         if "supervision" in self.history:
             waits[spindle] = [self.history.value("supervision", int(step)) != "G25" for step in path.step[spindle]]
         motion = str(self.settings.get("rapid_motion", "line"))
+        named = next((each for each in (limits, machine) if isinstance(each, str)), "")
+        name = f"{self.program.title} on {Path(named).stem}" if named else str(self.program.title)
         limits = limits_of(limits, machine) or self.setup.limits
-        return Profile(path, limits, override=override, rapid_motion=motion, waits=waits, source=self.program)
+        return Profile(path, limits, override=override, rapid_motion=motion, waits=waits, source=self.program, name=name)
 
     def place_of_line(self, line: int, program: int = 0) -> str:
         """`FILE:LINE`, as alarms have it."""
@@ -205,7 +209,8 @@ class Run:
     def collisions(self, stock: Any = None, *, step: float | None = None) -> Collisions:
         """What meets what it must not: rapids in material, shank, holder, fixtures, a still spindle, …, by rows.
 
-        The kinds are those of `workpiece.collision.KINDS`; `stock` and `step` as in `workpiece`.
+        The kinds are those of `workpiece.collision.KINDS`; `stock` and `step` as in `workpiece`. A rapid is judged along the
+        straight line between its ends, though pictures bend it as its axes go; with the setting `rapid_path="broken"` as it is.
         """
         return material.collisions(self, stock, step)
 
@@ -245,6 +250,15 @@ class Run:
             raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
         run = run_program(self.program, self.control, setup)
         return run.start_at(*self.started) if self.started[0] else run
+
+    def holes(self) -> Holes:
+        """The drilled holes as a table: place, heights, diameter, tool and lines, a row for each place and tool."""
+        return holes(self.toolpath, *self.tools_that_cut)
+
+    def largest_radius(self) -> LargestRadius:
+        """The largest tool radius, mm, that has room at all compensated contours: "6 mm", or "below 6 mm" where this itself has
+        none; with the lines between which it is narrowest."""
+        return largest_radius(self)
 
     start_at = start_at
 

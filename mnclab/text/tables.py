@@ -5,9 +5,12 @@ Words stand to the left and numbers to the right, also where a notebook would se
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Collection, Iterable, Sequence
 from html import escape
 from itertools import zip_longest
+from typing import Any
 
 
 def html_table(
@@ -45,6 +48,13 @@ def html_table(
     )
     top = f"<tr>{''.join(heads)}</tr>" if head else ""
     return f"<table>{top}{''.join(reversed(lines))}</table>"
+
+
+def csv_text(head: Sequence[Any], *rows: Sequence[Any]) -> str:
+    """A table as comma-separated values, a line each."""
+    out = io.StringIO()
+    csv.writer(out, lineterminator="\n").writerows([head, *rows])
+    return out.getvalue()
 
 
 def text_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

@@ -133,7 +133,8 @@ def test_the_part_can_be_left_out(probed):
 def test_a_part_without_an_end_is_shown_as_far_as_the_picture_goes():
     run = toy_run("M4 X60 Y30 Z-5", plane((60, 0, 0), (-1, 0, 0)))
     ax = run.plot(frame="all").axes[0]
-    filled = np.vstack([path.vertices for path in ax.collections[0].get_paths()])
+    (body,) = [each for each in ax.collections if each.get_zorder() == 0.6]
+    filled = np.vstack([path.vertices for path in body.get_paths()])
     assert filled[:, 0].min() == pytest.approx(60, abs=1e-6) and filled[:, 0].max() >= ax.get_xlim()[1]
 
 
