@@ -32,7 +32,7 @@ OUTSIDE = {  # package -> the only modules of mnclab that import it
     "vtkmodules": ("show.scene", "show.part_scene", "workpiece.difference.mesh"),
     "ezdxf": ("geometry.dxf",),
     "ipywidgets": ("show.forms", "show.editor"),
-    "IPython": ("show.magic",),
+    "IPython": ("show.magic", "show.forms.live"),
     "tqdm": ("text.progress",),
     "pandas": ("comparison.table",),
 }

@@ -45,6 +45,7 @@ if (!window.mnclabPlayers) {
     .observe(document.body, {attributes: true, attributeFilter: ["class", "data-jp-theme-light"]});
 }
 """
+HIDE = 'document.querySelectorAll(".mnclab-player-still").forEach(each => { each.hidden = true; });'
 #: What a browser lets the page do: run its own script in its own style, and ask nobody for anything.
 POLICY = (
     "default-src 'none'; script-src 'sha256-{script}'; style-src 'sha256-{style}'; img-src data:; "
@@ -123,6 +124,12 @@ class Player:
 
     def write(self, path: Path) -> None:
         path.write_text(self.page, "utf-8", newline="\n")
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        """The page, and for where no script runs a picture of the path: it is seen until a script hides it."""
+        still = self.run.plot()._repr_mimebundle_()
+        picture = f'<div class="mnclab-player-still">{still["text/html"]}</div><script>{HIDE}</script>'
+        return {"text/html": picture + self._repr_html_(), "image/png": still["image/png"], "text/plain": repr(self)}
 
     def _repr_html_(self) -> str:
         name = escape(f"player of {self.name}", quote=True)

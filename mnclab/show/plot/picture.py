@@ -88,6 +88,7 @@ class Picture(Figure):
         super().__init__(figsize=size, facecolor=colours.PAPER)
         FigureCanvasAgg(self)
         self.alt = alt
+        self.box: Any = None  # what a picture that follows it keeps of this one, see `show.plot.ghost`
 
     def png(self, scale: float = 1.0) -> bytes:
         """The picture as PNG; at `scale` 1 an inch has 100 pixels."""

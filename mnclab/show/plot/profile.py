@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from mnclab.path.kinds import Kind
 from mnclab.path.profile import Profile
 from mnclab.path.profile.bends import divided
-from mnclab.show.plot import colours
+from mnclab.show.plot import colours, ghost
 from mnclab.show.plot.path import plot_path
 from mnclab.show.plot.picture import SMALL, Picture, calm, write_legend
 from mnclab.show.plot.strokes import Array
@@ -99,6 +99,8 @@ def plot_profile(
     limits: bool = True,
     whole: bool = False,
     size: tuple[float, float] = SIZE,
+    under: Profile | None = None,
+    held: Any = None,
 ) -> Figure:
     """Feed, acceleration and, under a limit, jerk along the path. Returns the figure, which Jupyter shows.
 
@@ -110,6 +112,8 @@ def plot_profile(
     - `whole`: show the rapids up to their full speed. Otherwise the scale ends a little above the fastest cut where
       rapids are more than three times as fast and would flatten it, and a note says how far they go.
     - `size`: width and height in inches.
+    - `under`: another profile, thin and grey behind this one; `held`: the `box` of the picture before, whose axes are kept
+      while this profile fits into them.
 
     Bars on the time axis are stops, triangles corners that slow the tool.
     """
@@ -161,6 +165,11 @@ def plot_profile(
     for each in rows[:-1]:
         each.tick_params(labelbottom=False)
     rows[-1].set_xlabel(below, fontsize=SMALL + 1)
+    if under is not None:
+        before = curve(under, over)
+        for each, values in zip(rows, (before.v * 60, before.a, before.j)[: 3 if len(profile.plan.rows.j) else 2]):
+            each.plot(before.t if over == "time" else before.s, values, **colours.GHOST.style(), scaley=False)
+    picture.box = ghost.held_axes(rows, held)
     write_legend(picture, handles, 0.01, 2.2)
     return picture
 
