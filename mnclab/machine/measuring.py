@@ -67,7 +67,7 @@ class Touches(tuple[Touched, ...]):
         return [(str(k), str(each.line), each.label, *row) for k, (each, row) in enumerate(zip(self, numbers), 1)]
 
     def __repr__(self) -> str:
-        return text_table(TOUCH_HEAD, self.texts()) if self else "nothing was touched"
+        return text_table(TOUCH_HEAD, self.texts(), TOUCH_NUMBERS) if self else "nothing was touched"
 
     def _repr_html_(self) -> str:
         return html_table(TOUCH_HEAD, self.texts(), numbers=TOUCH_NUMBERS) if self else "<p>nothing was touched</p>"
@@ -162,7 +162,7 @@ class Measurements(Sequence[Measurement]):
         return f"within their limits: {judged - len(self.outside)} of {several(judged, 'measure')}"
 
     def __repr__(self) -> str:
-        return text_table(HEAD, [row.texts() for row in self]) if self else "nothing was measured"
+        return text_table(HEAD, [row.texts() for row in self], NUMBERS) if self else "nothing was measured"
 
     def _repr_html_(self) -> str:
         if not self:
