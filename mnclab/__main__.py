@@ -170,6 +170,8 @@ def parser() -> argparse.ArgumentParser:
     sub = command("report", report, "run a program and write a report: figures, tools, times, picture, alarms, listing")
     output(sub, "an .html or a .pdf file")
     sub.add_argument("--title", help="default: the name of the file")
+    says = "one sheet alone: the set-up (zero points, blank, fixtures, tools), the tools, or the measuring record"
+    sub.add_argument("--sheet", choices=("setup", "tools", "measuring"), help=says)
     options(sub, starts=True)
     sub = command("time", time, "say how long a program takes on a machine, and where the time goes")
     options(sub, "the times on stdout as one object instead", starts=True)
@@ -270,9 +272,10 @@ def drawing(chosen: argparse.Namespace) -> int:
 
 
 def report(chosen: argparse.Namespace) -> int:
-    """Write a report of a run."""
+    """Write a report of a run, or one of its sheets."""
     result = obey(chosen)
-    sensible(result.report, chosen.output, chosen.title)
+    write = getattr(result, f"{'tool' if chosen.sheet == 'tools' else chosen.sheet}_sheet") if chosen.sheet else result.report
+    sensible(write, chosen.output, chosen.title)
     return verdict(result)
 
 

@@ -1,8 +1,8 @@
 """A path as text, one row a line, for tests and people; and as a table for notebooks.
 
-Positions of the text have four decimals (a tenth of a micrometre), of the table three; angles are in degrees; a listing shows what the columns hold, so
-the X of a lathe is a radius. The path of a program in inches is told in inches, with six decimals, so that the numbers of
-the program come back; its columns are in mm all the same.
+Positions of the text have four decimals (a tenth of a micrometre), of the table three; angles are in degrees. A listing
+shows what the columns hold, so the X of a lathe is a radius. The path of a program in inches is told in inches, with six
+decimals, so that the numbers of the program come back; its columns are in mm all the same.
 """
 
 from __future__ import annotations

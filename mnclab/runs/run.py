@@ -34,6 +34,7 @@ from mnclab.path.travel import Stopped
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs import material, outcome, still_spindle
+from mnclab.runs.cutting_data import cutting_data, measuring_sheet, setup_sheet, tool_sheet
 from mnclab.runs.explanation import Explanation
 from mnclab.runs.history import History
 from mnclab.runs.moment import Moment
@@ -246,7 +247,8 @@ class Run:
         run = run_program(self.program, self.control, setup)
         return run.start_at(*self.started) if self.started[0] else run
 
-    start_at = start_at
+    start_at, cutting_data = start_at, cutting_data
+    setup_sheet, tool_sheet, measuring_sheet = setup_sheet, tool_sheet, measuring_sheet
 
     # --- doors -------------------------------------------------------------------------------------------------------
 
@@ -278,9 +280,7 @@ class Run:
     def player(self, limits: Limits | str | None = None, **options: Any) -> Player:
         """A page to play the run in: forwards and backwards, by block, move or time; orbit, pan and zoom.
 
-        Where there is a blank the page cuts it as it plays, on a lathe in section; of runs that are not too long it marks
-        the collisions.
-
+        Where there is a blank the page cuts it as it plays; of runs that are not too long it marks the collisions.
         `limits` are those of `profile`. `height` in pixels, `theme` "auto", "light" or "dark", `speed` 1
         for real time. `.save(path)` writes it as a file that needs no network, as `run.save("part.html")` does.
         """
@@ -319,11 +319,11 @@ class Run:
         return save(self, path, **options)
 
     def report(self, path: str | Path, title: str | None = None, **options: Any) -> Path:
-        """Write a report, .html or .pdf: figures, tools, time, picture, alarms, the program; `options` of `plot`.
+        """Write a report, .html or .pdf: figures, path, tools, time, cutting data, alarms, set-up, programs; `options` of `plot`.
 
         `design=`, or what else `Workpiece.compare` takes, adds a measuring record; `tolerance=0.05` mm.
         """
-        from mnclab.show.report import save_report
+        from mnclab.show.report.saving import save_report
 
         return save_report(self, path, title, **options)
 

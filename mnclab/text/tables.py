@@ -55,7 +55,8 @@ def html_table(
         lines.append(f"<tr>{''.join(cells)}</tr>")
     sides = ("right" if k in numbers else "left" for k in range(columns))
     heads = (
-        f'<th style="text-align:{side}; white-space:normal">{escape(name)}</th>' for side, name in zip(sides, head)
+        f'<th style="text-align:{side}; white-space:normal">{escape(name).replace(chr(10), "<br>")}</th>'
+        for side, name in zip(sides, head)
     )
     top = f"<tr>{''.join(heads)}</tr>" if head else ""
     return f"<table>{top}{''.join(reversed(lines))}</table>"
@@ -65,7 +66,8 @@ def text_table(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Coll
     """A table of text, with a rule below its heads; the columns `numbers` stand to the right."""
     rows = list(rows)
     longest = {k: max((len(tail(row[k]) or "") for row in rows), default=0) for k in numbers}
-    lines = [tuple(head)]
+    lines = [*zip_longest(*(name.split("\n") for name in head), fillvalue="")]
+    below = len(lines)
     for row in rows:
         cells = [
             text + " " * (longest[k] - len(end)) if k in longest and (end := tail(text)) is not None else text
@@ -73,6 +75,6 @@ def text_table(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Coll
         ]
         lines += zip_longest(*(cell.split("\n") for cell in cells), fillvalue="")
     widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-    lines.insert(1, tuple("-" * width for width in widths))
+    lines.insert(below, tuple("-" * width for width in widths))
     sides = [str.rjust if k in longest else str.ljust for k in range(len(widths))]
-    return "\n".join("  ".join(side(*cell) for side, *cell in zip(sides, line, widths)).rstrip() for line in lines)
+    return "\n".join("  ".join(side(text, width) for side, text, width in zip(sides, line, widths)).rstrip() for line in lines)
