@@ -40,10 +40,11 @@ class Place(NamedTuple):
     xyz: tuple[float, float, float]
 
 
-def places_of(run: Any) -> list[Place]:
-    """The zero points and poles of a run, in the order of the program; what lies at one place shares a cross."""
+def places_of(run: Any, leave: str = "") -> list[Place]:
+    """The zero points and poles of a run, in the order of the program; what lies at one place shares a cross. A frame to
+    `leave` out is that of tool lengths, where the place is asked for without a tool."""
     history, path = run.history, run.toolpath
-    names = [name for name in history if name.startswith("frame ") or name == "pole"]
+    names = [name for name in history if (name.startswith("frame ") and name != leave) or name == "pole"]
     log = [(step, name == "pole", name, value) for name in names for step, value in history.changed(name)]
     chain = FrameChain(run.frames.slots)
     found: dict[tuple[Mark, tuple[float | None, ...]], list[str]] = {}

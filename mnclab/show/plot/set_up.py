@@ -19,6 +19,7 @@ from mnclab.show.plot.picture import SMALL, VIEWS, Picture, View, arrange, write
 from mnclab.workpiece.blank import blank
 from mnclab.workpiece.part import Part
 
+LENGTH = "frame length"  # of a control that compensates the length of tools
 SIZE = (6.8, 4.6)  # inches, at most
 BLANK: dict[str, Any] = {"facecolor": "#f4f1e8", "edgecolor": "#8c8778", "linewidth": 1.0}
 FIXTURE: dict[str, Any] = {"facecolor": "#d0d0d0", "edgecolor": "#6b6b6b", "linewidth": 0.8, "hatch": "////"}
@@ -29,8 +30,11 @@ DIMENSION |= {"shrinkA": 0, "shrinkB": 0}
 
 
 def zero_points(run: Any) -> list[tuple[str, Array]]:
-    """The zero points of a program by name, (3,) mm in the coordinates of its path, each once."""
-    found = [(each.name, np.array(each.xyz)) for each in places_of(run) if each.mark.name == colours.DATUM.name]
+    """The zero points of a program by name, (3,) mm in the coordinates of its path, each once; the nearest to the blank first."""
+    found = [(each.name, np.array(each.xyz)) for each in places_of(run, LENGTH) if each.mark is colours.DATUM]
+    if run.stock is not None:  # one that was active at power-on alone stands at the machine's zero, far away
+        low, high = run.stock.bounds
+        found.sort(key=lambda each: float(np.linalg.norm(np.fmax(np.fmax(low - each[1], each[1] - high), 0.0))))
     return found or [("zero", np.zeros(3))]
 
 
