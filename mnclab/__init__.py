@@ -35,6 +35,7 @@ from mnclab.machine.setter import Setter
 from mnclab.machine.setup import Datum, Setup
 from mnclab.path.kinds import RULE_NAMES, Kind
 from mnclab.path.limits import Limits
+from mnclab.path.machine_file import machines
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
@@ -44,6 +45,7 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.nearest import nearest as _nearest
 from mnclab.text.opening import Shelf
 from mnclab.text.program import Program
+from mnclab.workpiece.blank import box, cylinder
 from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.removal import Removal
 from mnclab.workpiece.workpiece import Workpiece
@@ -59,6 +61,7 @@ if TYPE_CHECKING:  # what OPENED says, for editors and for mypy
     from mnclab.show.forms import panel as panel
     from mnclab.show.forms import profile_panel as profile_panel
     from mnclab.show.magic import load_ipython_extension as load_ipython_extension
+    from mnclab.show.plot.profiles import plot_profiles as plot_profiles
     from mnclab.workpiece.design import Design as Design
     from mnclab.workpiece.design import TurnedDesign as TurnedDesign
 
@@ -73,6 +76,7 @@ OPENED = Shelf("mnclab", "the names that need more than numpy", {
     "mnclab.show.editor": "editor",
     "mnclab.show.forms": "compensation_panel, form, panel, profile_panel",
     "mnclab.show.magic": "load_ipython_extension",
+    "mnclab.show.plot.profiles": "plot_profiles",
     "mnclab.workpiece.design": "Design, TurnedDesign",
 })  # fmt: skip
 
@@ -81,7 +85,7 @@ part = Shelf("mnclab.part", "what a probe touches, for Setup(part=…); parts co
 })  # fmt: skip
 
 blank = Shelf("mnclab.blank", "what a program cuts from, for Setup(stock=…), and what holds it, for Setup(fixtures=…)", {
-    "mnclab.workpiece.blank": "Box, Revolved, chuck, cylinder",
+    "mnclab.workpiece.blank": "Box, Revolved, box, chuck, cylinder",
 })  # fmt: skip
 
 design = Shelf("mnclab.design", "a part as drawn, Design(blank, features) or TurnedDesign(profile, features), and features", {
@@ -155,18 +159,22 @@ __all__ = [
     "Workpiece",
     "area",
     "blank",
+    "box",
     "check",
     "compare",
     "compare_turning",
     "compensation_panel",
     "controls",
+    "cylinder",
     "design",
     "diff",
     "editor",
     "form",
+    "machines",
     "modern",
     "panel",
     "part",
+    "plot_profiles",
     "probing",
     "profile_panel",
     "read",
@@ -183,9 +191,9 @@ def __getattr__(name: str) -> Any:
         return getattr(OPENED, name)
     shelves = {each: shelf for shelf in (part, blank, design, area, strategies, schemes, probing) for each in shelf.__all__}
     near = [] if name.startswith("_") else _nearest(name, dict.fromkeys([*__all__, *OPENED.__all__, *shelves]))
-    said = ", ".join(f"{shelves[each].__name__}.{each}" if each in shelves else each for each in near)
+    said = ", ".join(f"{shelves[each].__name__}.{each}" if each in shelves and each not in __all__ else each for each in near)
     raise AttributeError(f"mnclab has no {name!r}" + (f" (near: {said})" if said else ""))
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *OPENED.__all__})
+    return sorted({*__all__, *OPENED.__all__, "help", "__version__"} - {"load_ipython_extension"})

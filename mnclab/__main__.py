@@ -19,12 +19,11 @@ from typing import Any
 import mnclab
 from mnclab.controls import ALSO
 from mnclab.controls.renumber import renumber_file
-from mnclab.machine.machine_file import load as load_machine
 from mnclab.machine.setup_file import FORMAT, load
 from mnclab.shell.checking import check
 from mnclab.shell.lessons import lab
 from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, USAGE, describe, program, say, sensible, with_blank
-from mnclab.show import times
+from mnclab.shell.timing import time
 from mnclab.show.export import BODIES, save
 from mnclab.text.alarm import Alarm
 
@@ -83,7 +82,7 @@ def obeyed(arguments: Sequence[str] | None) -> int:
     try:
         return int(chosen.do(chosen))
     except Alarm as alarm:  # there is no program in the file
-        say(alarm, chosen.file)
+        say(alarm, getattr(chosen, "file", ""))
         return ALARMS
 
 
@@ -171,11 +170,16 @@ def parser() -> argparse.ArgumentParser:
     output(sub, "an .html or a .pdf file")
     sub.add_argument("--title", help="default: the name of the file")
     says = "one sheet alone: the set-up (zero points, blank, fixtures, tools), the tools, or the measuring record"
+    sub.add_argument("--machine", "--limits", metavar="M", help="a named machine, or a .toml file (default: limits of the setup)")
     sub.add_argument("--sheet", choices=("setup", "tools", "measuring"), help=says)
     options(sub, starts=True)
-    sub = command("time", time, "say how long a program takes on a machine, and where the time goes")
-    options(sub, "the times on stdout as one object instead", starts=True)
-    sub.add_argument("--machine", metavar="M", help="a named machine, or a .toml file (default: limits of the setup)")
+    does = "say how long a program takes on a machine, and where the time goes; of several or a folder, a table"
+    sub = command("time", time, does, "files", nargs="+")
+    options(sub, "the times on stdout as one object instead, of several programs a list", starts=True)
+    says = "a named machine, or a .toml file (default: limits of the setup)"
+    sub.add_argument("--machine", "--limits", metavar="M", help=says)
+    says = "the table as comma-separated values, to a file or to stdout, with a column that says which are complete"
+    sub.add_argument("--csv", nargs="?", const="", metavar="OUT.csv", help=says)
     sub.add_argument("--override", type=float, default=100.0, metavar="PERCENT", help="feed override (default: 100)")
     sub = command("help", explain, "show the parameters of a cycle or the meaning of a function", "")
     codes = "such as G83 or CYCL DEF 200; the name of a control: all its codes; design: the file of a design"
@@ -274,22 +278,11 @@ def drawing(chosen: argparse.Namespace) -> int:
 def report(chosen: argparse.Namespace) -> int:
     """Write a report of a run, or one of its sheets."""
     result = obey(chosen)
-    write = getattr(result, f"{'tool' if chosen.sheet == 'tools' else chosen.sheet}_sheet") if chosen.sheet else result.report
-    sensible(write, chosen.output, chosen.title)
-    return verdict(result)
-
-
-def time(chosen: argparse.Namespace) -> int:
-    """Print how long a program takes: in all, by cause, by tool, and the lines that cost most."""
-    machine = None if chosen.machine is None else sensible(load_machine, chosen.machine)
-    result = obey(chosen)
-    limits = machine.limits if machine else result.setup.limits
-    profile = sensible(lambda: result.profile(limits, override=chosen.override / 100))
-    if chosen.json:
-        print(json.dumps(times.document(profile, machine), indent=1))
+    if chosen.sheet:
+        sensible(getattr(result, f"{chosen.sheet.removesuffix('s')}_sheet"), chosen.output, chosen.title)
     else:
-        print(times.report(profile, machine))
-    return verdict(result, quiet=chosen.json)
+        sensible(partial(result.report, machine=chosen.machine), chosen.output, chosen.title)
+    return verdict(result)
 
 
 def words(text: str) -> list[str]:

@@ -6,7 +6,7 @@ import os
 import pytest
 
 import mnclab
-from mnclab.runs import still_spindle
+from mnclab.runs import lint
 
 os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
 os.environ.setdefault("MPLBACKEND", "agg")
@@ -41,10 +41,10 @@ def rewrite(request) -> bool:
 
 @pytest.fixture(autouse=True)
 def fragments(request, monkeypatch) -> None:
-    """Most tests of machines and controls run fragments that start no spindle: only those marked so hear of it."""
+    """Most tests of machines and controls run fragments that start no spindle: only those marked so hear what lint says."""
     folder = request.path.relative_to(request.config.rootpath / "tests").parts[0]
-    if folder[:2] in ("t2", "t3", "t4", "t5") and not request.node.get_closest_marker("spindle"):
-        monkeypatch.setattr(still_spindle, "remarks", lambda m, path: ())
+    if folder[:2] in ("t2", "t3", "t4", "t5") and not request.node.get_closest_marker("lint"):
+        monkeypatch.setattr(lint, "remarks", lambda run, m: ())
 
 
 @pytest.fixture(scope="module")

@@ -34,9 +34,10 @@ OUTSIDE = {  # package -> the only modules of mnclab that import it
     "ipywidgets": ("show.forms", "show.editor"),
     "IPython": ("show.magic",),
     "tqdm": ("text.progress",),
+    "pandas": ("comparison.table",),
 }
 SEES_ALL = ("show.forms", "show.editor", "show.magic")
-HEAVY = {"shapely", "matplotlib", "pyvista", "vtkmodules", "ipywidgets", "IPython", "tqdm"}
+HEAVY = {"shapely", "matplotlib", "pyvista", "vtkmodules", "ipywidgets", "IPython", "tqdm", "pandas"}
 VAGUE = {"util", "utils", "helper", "helpers", "common", "base", "core", "misc"}
 LONGEST = 400
 

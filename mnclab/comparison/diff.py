@@ -5,13 +5,15 @@ A run is known here by what is compared of it: its path, its name and its time.
 
 from __future__ import annotations
 
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, Protocol, overload, runtime_checkable
 
 from mnclab.comparison.deviation import Deviation, deviation
+from mnclab.comparison.holes import TOLERANCE, HolesCompared, compare_holes
+from mnclab.path.holes import Holes, holes
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import shown
+from mnclab.text.given import check_number, choice, shown
 
 
 @runtime_checkable
@@ -22,19 +24,39 @@ class Ran(Protocol):
     program: Any
     control: Any
 
+    def holes(self) -> Holes:
+        """What is drilled."""
+
     def profile(self) -> Profile:
         """When the tool is where, under the limits of its setup."""
 
 
-def diff(one: Ran | Toolpath, other: Ran | Toolpath, step: float | None = None) -> Deviation:
+@overload
+def diff(one: Ran | Toolpath, other: Ran | Toolpath, step: float | None = None) -> Deviation: ...
+
+
+@overload
+def diff(
+    one: Ran | Toolpath, other: Ran | Toolpath, step: float | None = None, *, what: str, tolerance: float = TOLERANCE
+) -> Deviation | HolesCompared: ...
+
+
+def diff(
+    one: Ran | Toolpath, other: Ran | Toolpath, step: float | None = None, *, what: str = "path", tolerance: float = TOLERANCE
+) -> Deviation | HolesCompared:
     """Two runs, or two paths, laid over one another: the largest deviation (mm) and where; `.plot()` shows both.
 
     Two programs, two controls, two tool radii, two limits (of their setups: the times differ); `step` mm is how
-    closely the paths are looked at.
+    closely the paths are looked at. With `what="holes"` their drilled holes are compared instead, whatever the order and the
+    heights: places and diameters within `tolerance` mm; `.same` says whether they are the same.
     """
     for each in (one, other):
         if not isinstance(each, Ran | Toolpath):
             raise Alarm(f"two runs or two paths can be compared, got {shown(each)}", hint="diff(run(…), run(…))")
+    check_number(tolerance, "the tolerance (mm)", at_least=0)
+    if choice(what, "what", ("path", "holes")) == "holes":
+        found = [holes(each) if isinstance(each, Toolpath) else each.holes() for each in (one, other)]
+        return compare_holes(found[0], found[1], _names(one, other), tolerance)
     times = None
     if not isinstance(one, Toolpath) and not isinstance(other, Toolpath):
         times = one.profile().time, other.profile().time

@@ -30,6 +30,7 @@ from mnclab.machining.milling.layers import toolpath
 from mnclab.machining.milling.rest import reached, rest, rest_passes
 from mnclab.machining.milling.strategies import STRATEGIES, clear
 from mnclab.path.limits import Limits
+from mnclab.path.machine_file import limits_of
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, choice, faults_as_alarms, plain, shown
@@ -130,24 +131,32 @@ class Comparison(Table[Trial]):
 
 @faults_as_alarms()
 def compare(
-    region: Region, tool: Tool | float, strategies: Strategies | None = None, *, overlap: float = 0.5,
+    region: Region, tool: Tool | float, strategies: Strategies | None = None, *more: str, overlap: float = 0.5,
     stepover: float | None = None, allowance: float = 0.0, depth: float = 1.0, feed: float = 500.0,
     plunge_feed: float = 150.0, rapid: float = 10000.0, entry: Entry = VERTICAL, climb: bool = True,
-    limit: float = 90.0, limits: Limits | None = None, coarse: Tool | float | None = None,
+    limit: float = 90.0, limits: Limits | str | None = None, machine: Limits | str | None = None,
+    coarse: Tool | float | None = None,
 ) -> Comparison:  # fmt: skip
-    """Try strategies on an area with one tool (a `Tool`, or its radius) and put what comes of it side by side.
+    """Try strategies on an area with one tool (a `Tool`, or its radius) and put what comes of it side by side:
+    `compare(region, mnclab.Tool(diameter=8), "rings", "spiral", machine="small-mill")`.
 
-    `strategies` are names of `STRATEGIES` (None: all of them), or a mapping from names to a strategy, a `Clearing`, or a
+    `strategies` are names, one after the other or a list: "rings", "spiral", "zigzag", "one way", "trochoidal" (None: all of
+    `mnclab.strategies.STRATEGIES`), or a mapping from names to a strategy, a `Clearing`, or a
     function of region, tool radius and stepover. With a `coarse` tool, which has been there before, there is also "fine", what
     this one has to do after it; the others do everything with the one tool.
 
     `overlap` is the share of the tool diameter that two passes have in common; `stepover` says it in mm instead. `limit` is
-    the engagement in degrees above which the share is counted. With axis `limits` the time comes from the feed-rate profile.
-    An Alarm where the tool does not fit.
+    the engagement in degrees above which the share is counted. With axis `limits` (or those of a `machine` by its name,
+    `mnclab.machines()`) the time comes from the feed-rate profile, else it is length over feed. `depth` of the level and
+    `allowance` in mm, `feed`, `plunge_feed` and `rapid` in mm/min, `entry` an `Entry`, `climb` or conventional milling.
+    The table has `best("time")`, `save("t.csv")` or "t.svg", `to_pandas()`, `plot()`. An Alarm where the tool does not fit.
     """
+    limits = limits_of(limits, machine)
+    if isinstance(strategies, str) or more:
+        strategies = (*([strategies] if isinstance(strategies, str) else strategies or ()), *more)
     known = (*STRATEGIES, FINE) if coarse is not None else tuple(STRATEGIES)
     strategies = known if strategies is None else strategies
-    _check(region, strategies, known, limits)
+    _check(region, strategies, known)
     _check_numbers(depth, feed, plunge_feed, rapid, allowance, limit)
     if not isinstance(entry, Entry):
         raise Alarm(f"the entry must be an Entry, got {shown(entry)}", hint='mnclab.strategies.Entry("helix", 3)')
@@ -201,12 +210,12 @@ def _fine(
     return clearing, reached(region, coarse, allowance), rest(region, radius, coarse, allowance)
 
 
-def _check(region: Region, strategies: Strategies, known: Sequence[str], limits: Limits | None) -> None:
+def _check(region: Region, strategies: Strategies, known: Sequence[str]) -> None:
     if not isinstance(region, Region):
         example = "mnclab.area.Region.of(mnclab.area.rectangle(60, 40))"
         raise Alarm(f"strategies are compared on a Region, got {shown(region)}", hint=example)
     named = strategies.values() if isinstance(strategies, Mapping) else strategies
-    if isinstance(strategies, str) or not isinstance(named, Iterable):
+    if not isinstance(named, Iterable):
         example = f'["rings", "spiral"], or a dict of names; known: {", ".join(known)}'
         raise Alarm(f"strategies must be a list of names, got {shown(strategies)}", hint=example)
     for how in named:
@@ -214,8 +223,6 @@ def _check(region: Region, strategies: Strategies, known: Sequence[str], limits:
             if how == FINE and FINE not in known:
                 raise Alarm("the strategy fine needs to know which coarse tool was there before", hint="coarse=10.0, its radius")
             choice(how, "a strategy", known)
-    if not isinstance(limits, Limits | None):
-        raise Alarm(f"limits must be Limits, got {shown(limits)}", hint="mnclab.Limits(acceleration=1000)")
 
 
 def _check_numbers(

@@ -41,6 +41,7 @@ from mnclab.machining.turning.zones import CLOSED, COMBINED, OPEN, SEMI_OPEN, zo
 from mnclab.path.inserts import edges_of
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
+from mnclab.path.machine_file import limits_of
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
@@ -174,7 +175,7 @@ def compare(
     profile: Contour, blank: float, tool: Tool | tuple[Tool, ...] = TURNER, schemes: Schemes | None = None, *, depth: float = 2.0,
     step: float | None = None, feed: float = 0.3, feeds: Mapping[str, float] | None = None, spindle: float = 800.0,
     surface: float | None = None, rapid: float = 10_000.0, lift: float = LIFT, front: float = FRONT,
-    limits: Limits | None = None,
+    limits: Limits | str | None = None, machine: Limits | str | None = None,
 ) -> TurningComparison:  # fmt: skip
     """Try roughing schemes on a profile (z, r) under a blank of a radius and put what comes of it side by side.
 
@@ -182,8 +183,9 @@ def compare(
     scheme, a `Plan`, or a function of profile, blank, depth and tool; a plan for two tools needs both. `depth` of a pass
     and `step` of the descent (by default the width of the tool, or the depth) in mm; `feed` in mm/rev, `feeds` by
     role; `spindle` in rev/min: with a cutting speed `surface` in m/min it is the greatest speed. With axis `limits`
-    the time comes from the feed-rate profile.
+    (or those of a `machine` by its name) the time comes from the feed-rate profile.
     """
+    limits = limits_of(limits, machine)
     tools = tool if isinstance(tool, tuple) else (tool,)
     if not isinstance(profile, Contour):
         example = "mnclab.area.Contour([(0, 20), (-40, 20), (-50, 30)], closed=False): points (z, r) from the face on"
@@ -196,8 +198,6 @@ def compare(
     check_number(feed, "the feed (mm/rev)", above=0)
     if not isinstance(feeds, Mapping | None):
         raise Alarm(f"feeds must be a dict of roles and feeds, got {shown(feeds)}", hint=f"roles: {', '.join(ROLES)}")
-    if not isinstance(limits, Limits | None):
-        raise Alarm(f"limits must be Limits, got {shown(limits)}", hint="mnclab.Limits(acceleration=1000)")
     blank, depth, step, feed, spindle, surface, rapid, lift, front = plain(
         [blank, depth, step, feed, spindle, surface, rapid, lift, front]
     )

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Mapping
+from dataclasses import fields, replace
 from html import escape
 from itertools import islice
 from pathlib import Path, PurePath
+from typing import Any
 
 from mnclab.controls import CONTROLS
 from mnclab.controls.recognition import looks_like, recognise
@@ -15,7 +18,8 @@ from mnclab.machine.cycle import Cycle
 from mnclab.machine.parameter_table import help_html, help_text
 from mnclab.machine.settings import Setting, settings_html, settings_text
 from mnclab.machine.setup import Setup
-from mnclab.runs.run import Run, run_program
+from mnclab.path.tool import Tool
+from mnclab.runs.run import EXAMPLE, Run, run_program
 from mnclab.text.alarm import ALARM, Alarm
 from mnclab.text.code_pages import decode
 from mnclab.text.file import read as read_file
@@ -28,15 +32,27 @@ MOST_FILES = 1000  # of a folder, looked through for a name
 
 
 def run(
-    source: str | Path | Program, control: str | None = None, setup: Setup | None = None, *, strict: bool = False
-) -> Run:
-    """Read and run a part program.
+    source: str | Path | Program, control: str | None = None, setup: Setup | None = None,
+    *, strict: bool = False, tools: Mapping[int, Tool] | None = None, stock: Any = None, **parts: Any,
+) -> Run:  # fmt: skip
+    """Read and run a part program: `run("G0 X5\\n", "mnc", tools={1: mnclab.Tool(diameter=8)}, stock=(80, 60, 20))`.
 
     `source`: a text, or the path of a file. `control`: a name of `mnclab.controls`; None asks the file's suffix and the
     signs in the text (see `controls.recognition`), and refuses to guess when two fit. Faults are collected in
     `run.alarms`; `strict` raises the first.
+
+    `tools` by their numbers, the `stock` (three sizes in mm have their corner at the datum and their top at Z0) and any other
+    part of a `Setup` may be given without one, or beside one, whose parts they replace.
     """
+    given = {name: part for name, part in (("tools", tools), ("stock", stock), *parts.items()) if part is not None}
     program = source if isinstance(source, Program) else read(source, control)
+    if given and not isinstance(setup, Setup | None):
+        raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
+    known = [each.name for each in fields(Setup) if each.name != "source"]
+    for name in (name for name in given if name not in known):
+        hinted = hint(name, known) or f"parts of a setup: {', '.join(known)}"
+        raise Alarm(f"run has no option {name!r}", hint=hinted)
+    setup = replace(setup or Setup(), **given, source=None) if given else setup
     return run_program(program, CONTROLS[program.control], setup, strict=strict)
 
 

@@ -226,6 +226,11 @@ def checked(file: Path, name: str, control: str | None = None, setup: Setup | No
     return Checked(name, status, result.control.name, blocks, moves, alarms, warnings, first)
 
 
+def files_of(place: Path) -> list[Path]:
+    """The programs of a folder and those below it, by their usual suffixes; of a file itself."""
+    return list(_files(place, _suffixes(None)))
+
+
 def _suffixes(given: Iterable[str] | None) -> frozenset[str] | None:
     """The suffixes of the files that are wanted; None: all."""
     if given is None:

@@ -19,7 +19,7 @@ from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
-from mnclab.workpiece.blank import Blank, Box, blank, is_blank
+from mnclab.workpiece.blank import Blank, Box, blank, from_datum, is_blank
 
 UPRIGHT = 1 - 1e-12  # the cosine between the axes of a tool and of the machine from which on it is not tilted
 TILT = "frame tilt"  # the frame of a tilted working plane: the tool stands along its Z
@@ -109,7 +109,7 @@ def stock_of(given: Any, changes: Changes, origin: Array) -> Blank | None:
     """
     if given is not None:
         found = blank(given)
-        return found and found.moved(-origin)
+        return found and from_datum(found, origin)
     last = changes[-1][1] if len(changes) else None
     if last is None or is_blank(last):
         found = last

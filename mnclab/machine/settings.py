@@ -87,6 +87,10 @@ def one_of(name: str, meaning: str, source: str = "", /, **choices: str) -> Sett
 #: What every control has, unless it declares the same name itself.
 EVERY = (
     Setting(
+        "lint", "on", "what a teacher would say of a program that runs", "every control",
+        {"on": "warnings, none of which stops a run", "off": "no word"},
+    ),
+    Setting(
         "stopped_spindle", "warn", "moves at feed while the spindle stands", "every control",
         {"warn": "one warning, at the first of them", "accept": "no word"},
     ),

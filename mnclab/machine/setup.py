@@ -15,12 +15,13 @@ from mnclab.machine.setter import Setter
 from mnclab.machine.setup_page import page
 from mnclab.path.limits import Limits
 from mnclab.path.listing import figure
+from mnclab.path.machine_file import limits_of
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, check_point, shown
 from mnclab.text.records import written
 from mnclab.text.tables import html_table
-from mnclab.workpiece.blank import blank
+from mnclab.workpiece.blank import Sized, blank
 from mnclab.workpiece.part import Part
 
 
@@ -115,7 +116,7 @@ def _variable(what: str, given: Any) -> None:
 
 
 def _stock(what: str, given: Any) -> None:
-    _must(given is None or blank(given) is not None, what, "two corners (x, y, z), or a blank", given)
+    _must(given is None or blank(given) is not None, what, "three sizes, two corners (x, y, z), or a blank", given)
 
 
 def _part(what: str, given: Any) -> None:
@@ -128,12 +129,20 @@ def _fixtures(what: str, given: Any) -> None:
     for number, each in enumerate(given):
         if not isinstance(each, Part):
             _stock(f"{what}[{number}]", each)
-            _must(each is not None, f"{what}[{number}]", "two corners, a blank or a part", each)
+            placed = each is not None and not isinstance(blank(each), Sized)
+            _must(placed, f"{what}[{number}]", "two corners, a blank that has a place, or a part", each)
 
 
 def _tools(what: str, given: Any) -> None:
     if given is not None:
-        _rows(_a(Tool, "a Tool"))(what, given)
+        _rows(_tool)(what, given)
+
+
+def _tool(what: str, given: Any) -> None:
+    bare = isinstance(given, int | float)
+    hint = f"{shown(given)} may be a radius or a diameter: mnclab.Tool(radius=…) or mnclab.Tool(diameter=…)" if bare else ""
+    if not isinstance(given, Tool):
+        raise Alarm(f"{what} must be a Tool, got {shown(given)}", hint=hint)
 
 
 def _not_built(what: str, given: Any) -> None:
@@ -145,17 +154,19 @@ def _not_built(what: str, given: Any) -> None:
 MEANT: Mapping[str, tuple[Check, str]] = {
     "tools": (_tools,
               "a tool is its radius and length in mm, and what else is known of it: "
-              'Setup(tools={1: mnclab.Tool(radius=4, length=80, kind="drill")})'),
+              'Setup(tools={1: mnclab.Tool(diameter=8, length=80, kind="drill")})'),
     "datums": (_rows(_datum), "a datum is a zero point in machine coordinates, mm: Setup(datums={1: (100, 50, -200)})"),
     "presets": (_rows(_datum), "a preset is a zero point in machine coordinates, mm: Setup(presets={1: (100, 50, -200)})"),
     "correctors": (_rows(_datum), "a corrector is an offset along the axes, mm: Setup(correctors={1: (0, 0, 80)})"),
-    "stock": (_stock, "the blank is two corners, or mnclab.blank.cylinder(…): Setup(stock=((0, 0, -20), (60, 40, 0)))"),
+    "stock": (_stock, "the blank is two corners, or mnclab.cylinder(diameter=50, length=60), or three sizes, with its corner at "
+              "the datum and its top at Z0: Setup(stock=(60, 40, 20))"),
     "part": (_part, "a part is what a probe touches: Setup(part=mnclab.part.box((0, 0, -20), (60, 40, 0)))"),
     "fixtures": (_fixtures, "fixtures hold the blank, on a lathe the chuck: Setup(fixtures=(((0, 0, -20), (10, 40, 15)),))"),
     "probe": (_a(Probe, "a Probe"), "how a touch probe moves: Setup(probe=mnclab.Probe(clearance=2, reach=10, feed=100))"),
     "setter": (_a(Setter | None, "a Setter"),
                "a plate or a beam that measures tools: Setup(setter=mnclab.Setter(x=300, y=200, z=-400, diameter=40))"),
-    "limits": (_a(Limits, "a Limits"), "what the axes can do: Setup(limits=mnclab.Limits(rapid=10000, acceleration=1000))"),
+    "limits": (_a(Limits, "a Limits, or the name of a machine"),
+               'what the axes can do: Setup(limits="small-mill") or Setup(limits=mnclab.Limits(rapid=10000, acceleration=1000))'),
     "start": (lambda what, given: check_point(given, what),
               "where the spindle stands before the program, machine coordinates, mm: Setup(start=(0, 0, 300))"),
     "files": (_names(_a(str | Path, "a text or a Path")),
@@ -177,9 +188,11 @@ class Setup:
 
     `tools` None: those of the magazine of the control. `start` is the spindle reference, mm; it, `part`, `stock` and
     `fixtures` are in machine coordinates. `part` "cut" is what the program itself has cut so far. `fixtures` are pairs of
-    corners, blanks and parts; on a lathe, the chuck. `stock` is the blank: two
-    corners, or a body of revolution (`mnclab.workpiece.blank.cylinder`). `files` maps names to texts or paths of other
-    programs and tables. `settings` overrides the declared choices of the control (`mnclab.help("settings", control)`).
+    corners, blanks and parts; on a lathe, the chuck. `stock` is the blank:
+    three sizes, with its corner at the datum from which the path counts and its top at Z0, two corners, or a body of
+    revolution (`mnclab.cylinder`). `limits` may be the name of a machine (`mnclab.machines()`). `files` maps names to texts or
+    paths of other programs and tables. `settings` overrides the declared choices of the control
+    (`mnclab.help("settings", control)`).
     `correctors` are offsets along the axes, mm, of the controls whose words D or L name them. Tools given without a
     number get the one they are listed under. `variables` have values before the program begins: what another left
     (`run.variables`). `source` is the file that the setup was read from: an alarm about a setting shows its line.
@@ -209,6 +222,11 @@ class Setup:
     def __post_init__(self) -> None:
         if isinstance(own := getattr(self.part, "part", None), Part):  # of a workpiece or a design
             object.__setattr__(self, "part", own)
+        if isinstance(self.limits, str):
+            try:
+                object.__setattr__(self, "limits", limits_of(self.limits))
+            except Alarm as alarm:
+                raise Alarm(f"limits: {alarm.message}", hint=alarm.hint) from None
         for name, (check, means) in MEANT.items():
             try:
                 check(name, getattr(self, name))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -12,10 +11,11 @@ from mnclab.machine.probe import Probe
 from mnclab.machine.setter import Setter
 from mnclab.machine.setup import NOT_BUILT, Datum, Setup
 from mnclab.path.limits import Limits
+from mnclab.path.machine_file import limits_of
+from mnclab.path.record_file import record
 from mnclab.path.tool import Tool
-from mnclab.path.wear import Wear
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, shown
+from mnclab.text.given import shown
 from mnclab.text.toml_file import File, as_table, as_tables, check_names, parse
 from mnclab.workpiece.blank_file import blank_of, point_of
 
@@ -52,7 +52,8 @@ high = [0, 40, 15]
 [correctors]                   # offsets along the axes, written like datums, where words D or L name them
 [limits]                       # rapid, acceleration, jerk, corner_speed, corner_tolerance, corner_jump, rapid_motion,
                                # spindle, spindle_acceleration, tool_change; a number, or [x, y, z] per axis;
-                               # travel = [[0, 400], [0, 300], [-200, 0]]: how far the axes go, machine coordinates
+                               # travel = [[0, 400], [0, 300], [-200, 0]]: how far the axes go, machine coordinates;
+                               # or, above all tables, limits = "small-mill", a machine that has a name
 [probe]                        # clearance, reach, feed, rapid, positioning, track, angle, offset [x, y]: as its table has it;
                                # true_offset, deflection [x, y, z], spread, seed, stem, stem_length: as it is
 [setter]                       # what measures tools, machine coordinates: x, y, z, diameter of a plate; or axis "X" or "Y" of a
@@ -66,7 +67,6 @@ high = [0, 40, 15]
 
 ROWS = {"tools": Tool, "datums": Datum, "presets": Datum, "correctors": Datum, "true_tools": Tool}
 RECORDS = {"limits": Limits, "probe": Probe, "setter": Setter}
-TEXTS = ("name", "kind", "hand", "corner_speed", "rapid_motion", "positioning", "axis")  # of a tool; of the limits; …
 KNOWN = ("start", "stock", "part", "fixtures", *ROWS, *RECORDS, "settings", "files", "variables")
 
 
@@ -87,8 +87,10 @@ def _setup(table: Mapping[str, Any], file: File) -> Setup:
             elif name == "fixtures":
                 each = enumerate(as_tables(value, name))
                 found[name] = tuple(blank_of(as_table(table, name), name, file, name, str(k)) for k, table in each)
+            elif name == "limits" and isinstance(value, str):
+                found[name] = limits_of(value)
             elif name in RECORDS:
-                found[name] = record(RECORDS[name], value, file, name)
+                found[name] = _record(RECORDS[name], value, file, name)
             elif name in NOT_BUILT:
                 found[name] = value or True
             else:
@@ -107,7 +109,7 @@ def _rows(table: Mapping[str, Any], name: str, file: File) -> dict[int, Any]:
             row = int(key)
             if row in found:
                 raise Alarm(f"{name} has the row {row} twice")
-        found[row] = record(ROWS[name], value, file, name, key)
+        found[row] = _record(ROWS[name], value, file, name, key)
         if isinstance(found[row], Tool) and "number" in value and found[row].number != row:
             with file.at(name, key, "number"):
                 told = f"{name}.{key}.number must be {row}, that of its row, got {found[row].number:g}"
@@ -115,35 +117,12 @@ def _rows(table: Mapping[str, Any], name: str, file: File) -> dict[int, Any]:
     return found
 
 
-def record(kind: Any, value: Any, file: File, *keys: str) -> Any:
-    """A Tool, Datum, Limits or Probe from a table of its fields, or a datum from a list; `keys` lead to it in the file."""
-    where = ".".join(keys)
-    with file.at(*keys):
-        if kind is Datum and isinstance(value, list):
-            return Datum(*point_of(value, where))
-        names = kind._fields if hasattr(kind, "_fields") else [field.name for field in fields(kind)]
-        check_names(as_table(value, where), names, where, file, *keys)
-        found = {name: _field(item) for name, item in value.items()}
-        if "wear" in found:
-            found["wear"] = record(Wear, value["wear"], file, *keys, "wear")
-        for name, item in found.items():
-            with file.at(*keys, name):
-                _check_kind(value[name], f"{where}.{name}", name)
-                kind(**{name: item})
-        return kind(**found)
-
-
-def _field(value: Any) -> Any:
-    return tuple(map(_field, value)) if isinstance(value, list) else value
-
-
-def _check_kind(value: Any, where: str, name: str) -> None:
-    """An Alarm unless a field is a text where it must be one, else a number or a list of them."""
-    if name in TEXTS and not isinstance(value, str):
-        raise Alarm(f"{where} must be a text, got {shown(value)}")
-    for each in value if isinstance(value, list) else [] if isinstance(value, bool) else [value]:
-        if name not in (*TEXTS, "wear") and not isinstance(each, list):
-            check_number(each, where, endless=True)
+def _record(kind: Any, value: Any, file: File, *keys: str) -> Any:
+    """What `record` reads, and a datum from a list."""
+    if kind is Datum and isinstance(value, list):
+        with file.at(*keys):
+            return Datum(*point_of(value, ".".join(keys)))
+    return record(kind, value, file, *keys)
 
 
 def _stock(table: Mapping[str, Any], stock: str, file: File) -> Any:

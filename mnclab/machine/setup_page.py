@@ -12,7 +12,7 @@ from mnclab.path.listing import figure
 from mnclab.path.tool import Tool
 from mnclab.path.wear import Wear
 from mnclab.text.given import shown
-from mnclab.workpiece.blank import Box, blank
+from mnclab.workpiece.blank import Box, Sized, blank
 
 if TYPE_CHECKING:
     from mnclab.machine.setup import Setup
@@ -47,7 +47,11 @@ def _rows(setup: Setup) -> Iterator[tuple[str, str]]:
         yield from ((f"{title} {row}", place(each)) for row, each in getattr(setup, name).items())
     if setup.stock is not None:
         stock = blank(setup.stock)
-        yield "stock", f"{place(stock.low)} to {place(stock.high)}" if isinstance(stock, Box) else str(stock)
+        if isinstance(stock, Sized):
+            wide, deep, high = (figure(float(size)) for size in stock.bounds[1] - stock.bounds[0])
+            yield "stock", f"{wide} x {deep} x {high} mm, its corner at the datum, its top at Z0"
+        else:
+            yield "stock", f"{place(stock.low)} to {place(stock.high)}" if isinstance(stock, Box) else str(stock)
     if setup.part is not None:
         cut = "what the program has cut so far" if setup.part == "cut" else None
         yield "part", cut or repr(setup.part)

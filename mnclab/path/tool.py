@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
-from typing import Any
+from dataclasses import InitVar, dataclass, fields, replace
+from functools import wraps
+from inspect import Parameter, signature
+from typing import TYPE_CHECKING, Any
 
 from mnclab.path.wear import Wear
 from mnclab.text.alarm import Alarm
@@ -25,7 +27,8 @@ SIZES = ("radius", "corner", "teeth", "cutting_length", "width", "number", "angl
 
 @dataclass(frozen=True)
 class Tool:
-    """Dimensions in mm, angles in degrees; `kind` is one of `KINDS`, "" where it does not matter.
+    """Dimensions in mm, angles in degrees; `diameter=10` may be said for `radius=5`. `kind` is one of `KINDS`, "" where it does
+    not matter.
 
     `angle` is the point angle, `plunge_angle` the steepest plunge, `dl` and `dr` are deltas added to length and
     radius, `corner` is the corner radius, `cutting_length` the length of the edges, `pitch` that of a tap.
@@ -70,10 +73,12 @@ class Tool:
     locked: bool = False
     runout: tuple[float, float] = (0.0, 0.0)
     edges: tuple[tuple[float, float], ...] = ()
+    if TYPE_CHECKING:  # what `_with_diameter` adds
+        diameter: InitVar[float | None] = None
 
     __repr__ = written
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, diameter: float | None = None) -> None:  # `diameter` for type checkers alone
         for each in fields(self):
             value, what = getattr(self, each.name), f"the {each.name.replace('_', ' ')} of a tool"
             if each.name in BODIES:
@@ -143,3 +148,26 @@ def _pair(name: str, given: Any) -> tuple[float, float]:
         check_number(each, f"the {what} of the {name} of a tool", at_least=0)
     radius, height = map(float, given)
     return radius, height
+
+
+def _with_diameter(made: type[Tool]) -> None:
+    """A tool takes and has its diameter too: a field beside the radius would be the same fact twice."""
+    init: Any = made.__init__
+
+    @wraps(init)
+    def __init__(self: Tool, *sizes: Any, diameter: Any = None, **named: Any) -> None:
+        if diameter is not None:
+            check_number(diameter, "the diameter of a tool", at_least=0, at_most=2 * MOST)
+            if sizes or "radius" in named:
+                raise Alarm("a tool has a radius or a diameter, not both: they are the same measure")
+            named["radius"] = diameter / 2
+        init(self, *sizes, **named)
+
+    order = list(signature(init).parameters.values())
+    also = Parameter("diameter", Parameter.KEYWORD_ONLY, default=None, annotation="float | None")
+    setattr(__init__, "__signature__", signature(init).replace(parameters=[*order, also]))  # noqa: B010
+    setattr(made, "__init__", __init__)  # noqa: B010
+    setattr(made, "diameter", property(lambda tool: 2 * tool.radius, doc="Twice the radius, mm."))  # noqa: B010
+
+
+_with_diameter(Tool)

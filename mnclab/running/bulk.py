@@ -48,9 +48,9 @@ class PlainWords:
     plain motion now, `absolute` whether positions are absolute. Addresses other than `LETTERS` change nothing in
     a plain block (R0 of Klartext): its reader calls no other block plain. `helices` says whether arcs with a third
     coordinate need no word of their own now, and hears how many more were made. `letters` are the addresses that the
-    control has; `straight_arcs`: an arc without R and centre is a straight line, `whole_circles`: one without
-    coordinates is a circle; where they are not, that is a fault. `zero_along`: a centre may be 0 along the axis of the arc.
-    `unit` is what its lengths and feeds are multiplied with.
+    control has; `straight_arcs` says whether an arc without R and centre is a straight line without a word,
+    `whole_circles`: one without coordinates is a circle; where they are not, that is a fault. `zero_along`: a centre may be
+    0 along the axis of the arc. `unit` is what its lengths and feeds are multiplied with.
     """
 
     motions: Mapping[float | None, tuple[str, int]]
@@ -61,7 +61,7 @@ class PlainWords:
     helices: Callable[[Machine, int], bool] = lambda m, count: False
     zero_along: bool = False
     letters: str = LETTERS
-    straight_arcs: bool = False
+    straight_arcs: Callable[[Machine], bool] = lambda m: False
     whole_circles: bool = True
     unit: Callable[[Machine], float] = lambda m: 1.0
 
@@ -201,7 +201,7 @@ class Bulk:
             fault |= shaped & ~arc
             fault |= arc & ~moves & (not rule.whole_circles)
             moves |= arc
-        fault |= moves & (np.abs(motion) == 2) & ~shaped & (not rule.straight_arcs)
+        fault |= moves & (np.abs(motion) == 2) & ~shaped & (not rule.straight_arcs(machine))
         go = int(np.argmax(moves)) if moves.any() else n  # until then the tool stands where it stood
         begin = tuple(tips[0].tolist())
         if begin != machine.tip:  # a transformation was switched, or the register was turned there and back

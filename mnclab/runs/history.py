@@ -24,7 +24,7 @@ class History(Mapping[str, Any]):
         self._open = {name: log for name, log in logs.by_name.items() if log.first < max(steps, 1)}
         self._closed: dict[str, tuple[NDArray[np.integer[Any]], Values]] = {}
 
-    def _log(self, name: str) -> tuple[NDArray[np.integer[Any]], Values]:
+    def log(self, name: str) -> tuple[NDArray[np.integer[Any]], Values]:
         """Steps and values of a name; put together when first asked for, since a million positions take time."""
         if name not in self._closed:
             self._closed[name] = self._open[name].close(max(self.steps - 1, 0))
@@ -32,7 +32,7 @@ class History(Mapping[str, Any]):
 
     def __getitem__(self, name: str) -> Values:
         """One value per step; None before the first."""
-        at, values = self._log(name)
+        at, values = self.log(name)
         index = np.searchsorted(at, np.arange(self.steps), "right") - 1
         if isinstance(values, np.ndarray) and (index >= 0).all():
             return values[index]
@@ -48,7 +48,7 @@ class History(Mapping[str, Any]):
         """What `name` was after a step; None if it had no value yet."""
         if name not in self._open:
             return None
-        at, values = self._log(name)
+        at, values = self.log(name)
         index = int(np.searchsorted(at, step, "right")) - 1
         return _plain(values[index]) if index >= 0 else None
 
@@ -56,7 +56,7 @@ class History(Mapping[str, Any]):
         """The steps at which a name changed, and its value from there on; empty for a name without a log."""
         if name not in self._open:
             return []
-        at, values = self._log(name)
+        at, values = self.log(name)
         return [(int(step), _plain(value)) for step, value in zip(at, values)]
 
     def at(self, step: int) -> dict[str, Any]:
@@ -67,7 +67,7 @@ class History(Mapping[str, Any]):
         """What this step changed; a value that was written again as it was is no change."""
         found = {}
         for name in self._open:
-            at, values = self._log(name)
+            at, values = self.log(name)
             index = int(np.searchsorted(at, step, "right")) - 1
             if index >= 0 and at[index] == step:
                 value = _plain(values[index])

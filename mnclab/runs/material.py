@@ -18,7 +18,7 @@ from mnclab.runs.cycle_tools import cycle_tools
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.given import check_number, shown, whole
 from mnclab.text.program import NUMBER, Program
-from mnclab.workpiece.blank import Revolved, blank
+from mnclab.workpiece.blank import Revolved, blank, from_datum
 from mnclab.workpiece.collision import Collision, Collisions
 from mnclab.workpiece.cutting import Cutting, numbers_of
 from mnclab.workpiece.part import Part
@@ -34,19 +34,22 @@ KEPT = 6  # parts and lists of collisions that a run keeps
 JUDGED = 3000  # rows up to which a player asks for collisions
 
 
-def cutting_of(run: Run, stock: Any = None) -> Cutting:
-    """What a run cuts; `stock` in machine coordinates instead of its own blank. An Alarm without any."""
+def cutting_of(run: Run, stock: Any = None, named: bool = True) -> Cutting:
+    """What a run cuts; `stock` in machine coordinates instead of its own blank. An Alarm without any.
+
+    Without `named` the tool's place is known where every axis has moved, not where each was named: that takes less time.
+    """
     path, origin = run.toolpath, run.toolpath.origin
     body = run.stock if stock is None else blank(stock)
     if body is None:
         raise no_blank() if stock is None else Alarm(f"stock must be two corners or a blank, got {shown(stock)}")
     if not body.volume > 0:
         raise Alarm(f"there is nothing to cut: the blank is {shown(body)}")
-    body = body if stock is None else body.moved(-origin)
+    body = body if stock is None else from_datum(body, origin)
     tools, which, lift = _held(run)
     start, changed = run.setup.start, run.history.changed
     tilted = tilted_rows(path.step, changed(TILT), changed(LOG), path.cylinder)
-    known = start_known(path, start, *(() if any(start) else _named(run)))
+    known = start_known(path, start, *(() if any(start) or not named else _named(run)))
     fixtures = tuple(_placed(run, each) for each in run.setup.fixtures)
     return Cutting(lifted(path, lift), tools, which, body, *known, tilted, fixtures, run.place_of_line, tuple(origin.tolist()))
 

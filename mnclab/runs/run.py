@@ -9,7 +9,7 @@ from __future__ import annotations
 import gc
 from dataclasses import replace
 from functools import partial
-from html import escape
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from mnclab.machine.control import Control
 from mnclab.machine.cutting_rows import stock_of
 from mnclab.machine.machine import Machine
-from mnclab.machine.machine_file import load
 from mnclab.machine.measuring import record
 from mnclab.machine.obstructed import stop_at_part
 from mnclab.machine.output import written
@@ -26,26 +25,28 @@ from mnclab.machine.settling import paths, shifted, stop_at_travel
 from mnclab.machine.setup import Setup, Tables
 from mnclab.path.columns import Index
 from mnclab.path.compensation import Gouge
+from mnclab.path.holes import Holes, holes
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
+from mnclab.path.machine_file import limits_of
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.travel import Stopped
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
-from mnclab.runs import material, outcome, still_spindle
+from mnclab.runs import card, lint, material, outcome
 from mnclab.runs.cutting_data import cutting_data, measuring_sheet, setup_sheet, tool_sheet
 from mnclab.runs.explanation import Explanation
 from mnclab.runs.history import History
+from mnclab.runs.largest_radius import LargestRadius, largest_radius
 from mnclab.runs.moment import Moment
 from mnclab.runs.moments import Moments, when
 from mnclab.runs.start import MissedOnes, start_at
 from mnclab.runs.tables import tables_at_end
-from mnclab.text.alarm import ALARM, Alarm, by_place, card_html, first_of, quoted, several
+from mnclab.text.alarm import ALARM, Alarm, by_place, quoted
 from mnclab.text.columns import fixed
 from mnclab.text.given import shown, whole
 from mnclab.text.program import Program
-from mnclab.text.tables import html_table
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.collision import Collisions
 from mnclab.workpiece.outcome import Outcome
@@ -53,8 +54,6 @@ from mnclab.workpiece.removal import Removal
 from mnclab.workpiece.workpiece import Workpiece
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     import pyvista
     from matplotlib.figure import Figure
 
@@ -80,10 +79,6 @@ class Run:
         self.programs = tuple(flow.programs)
         self.steps = Steps._make(fixed(column) for column in flow.steps())
         self.programmed, self.toolpath = paths(machine)
-        self.alarms = by_place([*alarms, *still_spindle.remarks(machine, self.toolpath)])
-        for alarm in self.alarms:
-            if alarm.source is None:
-                alarm.source = self.programs[alarm.span.program if alarm.span else 0]
         if machine.cut is not None:
             self.steps = Steps(self.steps.block[: machine.cut], self.steps.program[: machine.cut])
         self.history = History(machine.logs, len(self.steps.block))
@@ -97,6 +92,11 @@ class Run:
         self.stopped: Stopped | None = machine.stopped
         self.settings = dict(machine.settings)
         self.made: dict[Any, Any] = {}  # the last parts and collisions that were asked for
+        self.alarms = by_place(alarms)
+        self.alarms = by_place([*self.alarms, *lint.remarks(self, machine)])
+        for alarm in self.alarms:
+            if alarm.source is None:
+                alarm.source = self.programs[alarm.span.program if alarm.span else 0]
         self._nesting, self.missed, self.started = flow.nesting, MissedOnes(), (0, 0, 0)  # see `start_at`: what it skips, where
 
     def _as_of_end(self, prefix: str, values: dict[str, Any]) -> dict[str, Any]:
@@ -173,9 +173,11 @@ class Run:
         """A block (named as for `at`) in plain words: what each word means and changed, and the way to the tool."""
         return Explanation(self, self.at(line, pass_, step, program))
 
-    def profile(self, limits: Limits | str | None = None, *, override: float = 1.0) -> Profile:
+    def profile(
+        self, limits: Limits | str | None = None, *, machine: Limits | str | None = None, override: float = 1.0
+    ) -> Profile:
         """When the tool is where, and how fast, under the limits of the setup, others, or those of a named machine
-        ("small-mill"; see `data/machines`).
+        ("small-mill"; `mnclab.machines()` lists them), given as `limits` or as `machine`.
 
         `override` is the feed override, 1 for 100 %, from 0.001 to 100. How a rapid goes is the control's (its setting
         `rapid_motion`) unless the limits say; the program waits for the spindle unless its supervision is off (MNC G25).
@@ -185,10 +187,10 @@ class Run:
         if "supervision" in self.history:
             waits[spindle] = [self.history.value("supervision", int(step)) != "G25" for step in path.step[spindle]]
         motion = str(self.settings.get("rapid_motion", "line"))
-        limits = self.setup.limits if limits is None else load(limits).limits if isinstance(limits, str) else limits
-        if not isinstance(limits, Limits):
-            raise Alarm(f"limits must be Limits or the name of a machine, got {shown(limits)}", hint='"small-mill"')
-        return Profile(path, limits, override=override, rapid_motion=motion, waits=waits, source=self.program)
+        named = next((each for each in (limits, machine) if isinstance(each, str)), "")
+        name = f"{self.program.title} on {Path(named).stem}" if named else str(self.program.title)
+        limits = limits_of(limits, machine) or self.setup.limits
+        return Profile(path, limits, override=override, rapid_motion=motion, waits=waits, source=self.program, name=name)
 
     def place_of_line(self, line: int, program: int = 0) -> str:
         """`FILE:LINE`, as alarms have it."""
@@ -208,7 +210,8 @@ class Run:
     def collisions(self, stock: Any = None, *, step: float | None = None) -> Collisions:
         """What meets what it must not: rapids in material, shank, holder, fixtures, a still spindle, …, by rows.
 
-        The kinds are those of `workpiece.collision.KINDS`; `stock` and `step` as in `workpiece`.
+        The kinds are those of `workpiece.collision.KINDS`; `stock` and `step` as in `workpiece`. A rapid is judged along the
+        straight line between its ends, though pictures bend it as its axes go; with the setting `rapid_path="broken"` as it is.
         """
         return material.collisions(self, stock, step)
 
@@ -232,9 +235,11 @@ class Run:
         """How many rows of the path bring the tool from home to a blank, from where nobody has said; pictures leave them out."""
         return material.rows_from_home(self)
 
-    def removal(self, limits: Limits | str | None = None, *, step: float | None = None) -> Removal:
+    def removal(
+        self, limits: Limits | str | None = None, *, machine: Limits | str | None = None, step: float | None = None
+    ) -> Removal:
         """How much material goes by row, line and tool, and how fast; `limits` as in `profile`, `step` as in `workpiece`."""
-        return Removal(self.workpiece(step=step), self.profile(limits))
+        return Removal(self.workpiece(step=step), self.profile(limits, machine=machine))
 
     def outcome(self) -> Outcome | None:
         """What became of the blank, for a report: removal and collisions, or why they are not known; None without one."""
@@ -246,6 +251,15 @@ class Run:
             raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
         run = run_program(self.program, self.control, setup)
         return run.start_at(*self.started) if self.started[0] else run
+
+    def holes(self) -> Holes:
+        """The drilled holes as a table: place, heights, diameter, tool and lines, a row for each place and tool."""
+        return holes(self.toolpath, *self.tools_that_cut)
+
+    def largest_radius(self) -> LargestRadius:
+        """The largest tool radius, mm, that has room at all compensated contours: "6 mm", or "below 6 mm" where this itself has
+        none; with the lines between which it is narrowest."""
+        return largest_radius(self)
 
     start_at, cutting_data = start_at, cutting_data
     setup_sheet, tool_sheet, measuring_sheet = setup_sheet, tool_sheet, measuring_sheet
@@ -277,7 +291,7 @@ class Run:
 
         return plot_speed_of(self, **options)
 
-    def player(self, limits: Limits | str | None = None, **options: Any) -> Player:
+    def player(self, limits: Limits | str | None = None, *, machine: Limits | str | None = None, **options: Any) -> Player:
         """A page to play the run in: forwards and backwards, by block, move or time; orbit, pan and zoom.
 
         Where there is a blank the page cuts it as it plays; of runs that are not too long it marks the collisions.
@@ -286,7 +300,7 @@ class Run:
         """
         from mnclab.show.player import player
 
-        return player(self, self.profile(limits), *material.played(self), **options)
+        return player(self, self.profile(limits, machine=machine), *material.played(self), **options)
 
     def plot_compensation(self, **options: Any) -> Figure:
         """The contour, the tool-centre path beside it, and how its corners were found.
@@ -321,7 +335,8 @@ class Run:
     def report(self, path: str | Path, title: str | None = None, **options: Any) -> Path:
         """Write a report, .html or .pdf: figures, path, tools, time, cutting data, alarms, set-up, programs; `options` of `plot`.
 
-        `design=`, or what else `Workpiece.compare` takes, adds a measuring record; `tolerance=0.05` mm.
+        `design=`, or what else `Workpiece.compare` takes, adds a measuring record; `tolerance=0.05` mm. Times and limits are
+        those of `machine=`, "small-mill" or limits; default the ones of the setup.
         """
         from mnclab.show.report.saving import save_report
 
@@ -330,44 +345,14 @@ class Run:
     # --- shown -------------------------------------------------------------------------------------------------------
 
     def summary(self) -> dict[str, Any]:
-        path = self.toolpath
-        lengths, rapid = path.lengths, path.kind == Kind.RAPID
-        with np.errstate(divide="ignore", invalid="ignore"):
-            cutting_time = np.where(~rapid & (lengths > 0), lengths / path.feed * 60, 0.0)
-        dwell = np.nansum(np.where(path.kind == Kind.DWELL, path.time, 0.0))
-        return {
-            "program": self.program.title,
-            "control": self.control.title,
-            "blocks": len(self.program),
-            "moves": int(path.is_motion.sum()),
-            "cutting length": float(lengths[~rapid].sum()),
-            "rapid length": float(lengths[rapid].sum()),
-            "time at feed": float(np.nansum(cutting_time) + dwell),
-            "alarms": sum(alarm.count for alarm in self.alarms if alarm.severity == ALARM),
-            "warnings": sum(alarm.count for alarm in self.alarms if alarm.severity != ALARM),
-        }
-
-    def _lengths(self, summary: dict[str, Any]) -> list[str]:
-        """How long the moves at feed and at rapid are, in the unit of the program."""
-        unit = self.toolpath.unit
-        return [f"{summary[name] / unit.length:.3f} {unit.short}" for name in ("cutting length", "rapid length")]
+        """Program, control, counts of blocks, moves, alarms and warnings, lengths in mm, seconds at feed."""
+        return card.summary(self)
 
     def __repr__(self) -> str:
-        s = self.summary()
-        counts = f"{several(s['blocks'], 'block')}, {several(s['moves'], 'move')}"
-        cutting, rapid = self._lengths(s)
-        lengths = f"cutting {cutting}, rapid {rapid}"
-        head = f"<Run {s['program']} on {self.control.name}: {counts}, {lengths}, {s['time at feed']:.1f} s at feed>"
-        shown, more = first_of(self.alarms)
-        return "\n".join([head, *map(str, shown), *filter(None, [more])])
+        return card.in_words(self)
 
     def _repr_html_(self) -> str:
-        s = self.summary()
-        cells = str(s["blocks"]), str(s["moves"]), *self._lengths(s), f"{s['time at feed']:.1f} s"
-        table = html_table(("blocks", "moves", "cutting", "rapid", "time at feed"), [cells], numbers=range(len(cells)))
-        title = f"<strong>{escape(s['program'])}</strong> on {escape(s['control'])}"
-        verdict = "" if self.alarms else "<p>no alarms</p>"
-        return f"<div>{title}{table}{verdict}{card_html(self.alarms)}{outcome.card(self)}</div>"
+        return card.html(self)
 
 
 def run_program(program: Program, control: Control, setup: Setup | None = None, *, strict: bool = False) -> Run:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from numbers import Real
 from reprlib import Repr
@@ -48,6 +48,16 @@ def whole(value: Any, what: str) -> int:
     if value != int(value):
         raise Alarm(f"{what} must be a whole number, got {shown(value)}")
     return int(value)
+
+
+def either(one: Any, other: Any, name: str, other_name: str, turned: Callable[[float], float]) -> Any:
+    """What is given under one name or, as another measure of the same, under another; an Alarm for both or neither."""
+    if (one is None) == (other is None):
+        raise Alarm(f"give {name} or {other_name}, {'not both' if one is not None else 'one of them'}")
+    if one is not None:
+        return one
+    check_number(other, f"the {other_name}")
+    return turned(other)
 
 
 def choice(value: Any, what: str, known: Collection[str]) -> str:

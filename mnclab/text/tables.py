@@ -6,10 +6,13 @@ have different decimals stand under each other by their points.
 
 from __future__ import annotations
 
+import csv
+import io
 import re
 from collections.abc import Collection, Iterable, Sequence
 from html import escape
 from itertools import zip_longest
+from typing import Any
 
 NUMBER = re.compile(r"[-+\N{MINUS SIGN}]?\d+(\.\d*)?")
 
@@ -60,6 +63,13 @@ def html_table(
     )
     top = f"<tr>{''.join(heads)}</tr>" if head else ""
     return f"<table>{top}{''.join(reversed(lines))}</table>"
+
+
+def csv_text(head: Sequence[Any], *rows: Sequence[Any]) -> str:
+    """A table as comma-separated values, a line each."""
+    out = io.StringIO()
+    csv.writer(out, lineterminator="\n").writerows([head, *rows])
+    return out.getvalue()
 
 
 def text_table(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Collection[int] = ()) -> str:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, check_point
+from mnclab.text.given import check_number, check_point, either, shown
 from mnclab.text.records import written
 
 CORNERS = 96  # of a circle in a picture
@@ -60,6 +60,12 @@ class Box(NamedTuple):
         """What a view along an axis shows: closed lines (k, 2) in the coordinates `right` and `up` (0 to 2)."""
         (x0, y0), (x1, y1) = self.bounds[:, [right, up]]
         return [np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)])]
+
+
+class Sized(Box):
+    """A box by its sizes: its corner at the datum from which a path counts, its top at Z0."""
+
+    __slots__ = ()
 
 
 class Revolved(NamedTuple):
@@ -180,11 +186,30 @@ class Blank(Protocol):
         """Lines (k, 3) that show it in space."""
 
 
+def box(length: Any, width: Any, height: float | None = None) -> Box:
+    """A box by three sizes in mm, `box(80, 60, 20)`: its corner at the datum of the program, its top at Z0; or by two opposite
+    corners in machine coordinates, `box((0, 0, -20), (80, 60, 0))`."""
+    sizes = (length, width) if height is None else (length, width, height)
+    found = blank(sizes)
+    if not isinstance(found, Box):
+        hint = "box(80, 60, 20), or by two corners: box((0, 0, -20), (80, 60, 0))"
+        raise Alarm(f"a box is three sizes greater than 0, or two corners (x, y, z), got {shown(sizes)}", hint=hint)
+    return found
+
+
 def cylinder(
-    radius: float, low: float, high: float, axis: str = "Z", at: tuple[float, ...] = (0.0, 0.0, 0.0), bore: float = 0.0
-) -> Revolved:
-    """A cylinder from `low` to `high` along an axis through `at`, mm; a tube with a `bore` radius."""
-    for name, number in (("radius", radius), ("bore", bore), ("low", low), ("high", high)):
+    radius: float | None = None, low: float | None = None, high: float = 0.0,
+    axis: str = "Z", at: tuple[float, ...] = (0.0, 0.0, 0.0), bore: float = 0.0,
+    *, diameter: float | None = None, length: float | None = None,
+) -> Revolved:  # fmt: skip
+    """A cylinder from `low` to `high` along an axis through `at`, mm; a tube with a `bore` radius.
+
+    A bar by its sizes is `cylinder(diameter=50, length=60)`: from Z-60 to Z0.
+    """
+    check_number(high, "the high of a cylinder (mm)")
+    radius = either(radius, diameter, "radius", "diameter", lambda given: given / 2)
+    low = either(low, length, "low", "length", lambda given: high - given)
+    for name, number in (("radius", radius), ("bore", bore), ("low", low)):
         check_number(number, f"the {name} of a cylinder (mm)")
     check_point(at, "the point on the axis of a cylinder (mm)")
     if not radius > bore >= 0 or not high > low or axis not in ("X", "Y", "Z"):
@@ -213,17 +238,23 @@ def is_blank(body: Any) -> TypeGuard[Blank]:
 
 
 def blank(given: Any) -> Blank | None:
-    """What a Setup calls its stock: two corners (3,), a blank, or what has one, a workpiece or a design (`as_blank`).
+    """What a Setup calls its stock: three sizes, two corners (3,), a blank, or what has one, a workpiece or a design
+    (`as_blank`).
 
     None for what is none of it, or stands nowhere.
     """
     try:
         body = given.as_blank() if hasattr(given, "as_blank") else given
         if not is_blank(body):
-            if not isinstance(given, tuple | list | np.ndarray) or np.shape(given) != (2, 3):
+            if not isinstance(given, tuple | list | np.ndarray) or np.shape(given) not in ((2, 3), (3,)):
                 return None
-            low, high = np.asarray(given, dtype=np.float64).tolist()
-            body = Box(tuple(low), tuple(high))
+            numbers = np.asarray(given, dtype=np.float64)
+            if numbers.ndim == 1:
+                if not (numbers > 0).all():
+                    return None
+                body = Sized((0.0, 0.0, -float(numbers[2])), (*numbers[:2].tolist(), 0.0))
+            else:
+                body = Box(*map(tuple, numbers.tolist()))
         good = body.bounds.shape == (2, 3) and bool((np.abs(body.bounds) <= FARTHEST).all())
         if isinstance(body, Revolved):
             profile = np.array(body.profile, dtype=np.float64)
@@ -231,6 +262,11 @@ def blank(given: Any) -> Blank | None:
     except (TypeError, ValueError, IndexError, OverflowError):  # of numpy, of what is no number
         return None
     return body if good else None
+
+
+def from_datum(body: Blank, origin: Array) -> Blank:
+    """A blank of a setup in the coordinates of a path that counts from `origin` (3,), machine coordinates."""
+    return Box(*body) if isinstance(body, Sized) else body.moved(-origin)
 
 
 def _widest(profile: Array, along: Array) -> Array:

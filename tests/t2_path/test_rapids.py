@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mnclab import Kind
+from mnclab import Kind, Limits
+from mnclab.path.profile.rapids import courses
 from mnclab.path.rapids import broken
 from mnclab.path.toolpath import Toolpath
 
@@ -55,3 +56,29 @@ def test_every_axis_keeps_its_own_time(todo, speed):
             clock += (abs(piece.end - piece.start) / speed).max()
             reach = np.minimum(clock * np.array(speed), abs(row.end - row.start))
             assert piece.end == pytest.approx(row.start + np.sign(row.end - row.start) * reach, abs=1e-9)
+
+
+def test_the_course_of_a_picture_is_that_of_the_axes():
+    """98 mm of X and 34 of Y at 10,000 mm/min (500/3 mm/s) and 1000 mm/s²: each axis takes way / speed + speed / acceleration,
+    Y so 34 / v + v / a; X has gone v t - v² / 2a by then. Until Y brakes, at 34 / v, both are equally far."""
+    whole = path_of([(78, 14, 20), (-20, -20, 20)], [Kind.RAPID])
+    row, places = courses(whole, Limits(rapid_motion="axes"), fine=0.01)
+    v, a = 10_000 / 60, 1000
+    arrived = places[np.isclose(places[:, 1], -20)]
+    assert arrived[:, 0].max() == pytest.approx(78 - (v * (34 / v + v / a) - v**2 / 2 / a))
+    gone = np.abs(places - whole.start)[:, :2]
+    together = gone[gone[:, 0] <= 34 - v**2 / 2 / a]
+    assert len(together) > 4 and together[:, 0] == pytest.approx(together[:, 1])
+    assert (row == 0).all() and (np.diff(gone, axis=0) >= -1e-9).all() and (places[:, 2] == 20).all()
+
+
+@pytest.mark.parametrize("limits", [Limits(), Limits(rapid_motion="line")])
+def test_coordinated_axes_have_a_straight_course(limits):
+    assert not len(courses(path_of([(0, 0, 0), (30, 10, 0)], [Kind.RAPID]), limits, fine=0.01)[0])
+
+
+def test_only_rapids_leave_their_line_and_only_where_the_axes_differ():
+    points = [(0, 0, 0), (30, 10, 0), (60, 40, 0), (0, 40, 0), (0.3, 40.1, 0), (50, 0, 0)]
+    kinds = [Kind.LINE, Kind.RAPID, Kind.RAPID, Kind.RAPID, Kind.RAPID]
+    row, _ = courses(path_of(points, kinds), Limits(rapid_motion="axes"), fine=0.01, least=1)
+    assert set(row.tolist()) == {4}  # a cut, 45 degrees, along X, too short

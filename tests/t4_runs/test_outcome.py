@@ -4,7 +4,7 @@ import pytest
 
 import mnclab
 from mnclab import Setup, Tool
-from mnclab.runs.outcome import CARD
+from mnclab.runs.card import MOST as CARD
 from mnclab.workpiece.removal import volume
 
 BLANK = ((0, 0, -20), (60, 40, 0))

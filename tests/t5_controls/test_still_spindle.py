@@ -4,7 +4,7 @@ import pytest
 
 import mnclab
 
-pytestmark = pytest.mark.spindle
+pytestmark = pytest.mark.lint
 
 SENTENCE = "the tool moves at feed while the spindle stands"
 HOLE = "G83 Z-10 R2 K5 F100"

@@ -229,3 +229,11 @@ def test_without_a_blank_a_report_is_as_it_was(run, tmp_path):
     found = report(run)
     assert not found.removal and not {"removed", "collisions"} & dict(found.facts).keys()
     assert "Collisions" not in run.report(tmp_path / "a.html").read_text("utf-8")
+
+
+def test_a_report_for_a_named_machine(run, tmp_path):
+    """Its time is that of the profile on this machine; a machine that nobody knows is refused."""
+    page = run.report(tmp_path / "a.html", machine="small-mill").read_text("utf-8")
+    assert f"{run.profile(machine='small-mill').time:.2f} s" in page and "46.20 s" not in page.split("<h2>")[0]
+    with pytest.raises(Alarm, match="small-mil"):
+        run.report(tmp_path / "b.html", machine="small-mil")

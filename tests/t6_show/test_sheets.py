@@ -11,8 +11,10 @@ from mnclab.show.plot.set_up import plot_set_up
 from mnclab.show.report import sheets
 from mnclab.show.report.contents import Table
 
-PROGRAM = "T1 M6\nG90 G55\nS2000 M3\nG43 H11 D3 G0 X-10 Y10 Z5\nG1 Z-2 F100\nX90 F300\nT2 M6\nG43 H2 G0 Z5\nG81 X5 Y5 Z-9 R2 F80\n"
-TOOLS = {1: Tool(5, 80, name="end mill 10", kind="mill", teeth=4, centre_cutting=True), 2: Tool(3, 95, kind="drill", angle=118, teeth=2)}
+PROGRAM = "T1 M6\nG90 G55\nS2000 M3\nG43 H11 D3 G0 X-10 Y10 Z5\nG1 Z-2 F100\nX90 F300\n"
+PROGRAM += "T2 M6\nG43 H2 G0 Z5\nG81 X5 Y5 Z-9 R2 F80\n"
+MILL = Tool(5, 80, name="end mill 10", kind="mill", teeth=4, centre_cutting=True)
+TOOLS = {1: MILL, 2: Tool(3, 95, kind="drill", angle=118, teeth=2)}
 SETUP = Setup(
     tools={**TOOLS, 3: Tool(8), 11: Tool(5, 80)}, datums={2: (103, 52, -200)}, stock=((100, 50, -221), (180, 90, -201)),
     fixtures=(((90, 50, -230), (100, 90, -210)),), start=(0, 0, 100),
@@ -25,7 +27,8 @@ def plate():
 
 
 def tables(pieces):
-    return [dict(zip(each.head, row)) if each.head else tuple(row) for each in pieces if isinstance(each, Table) for row in each.rows]
+    found = [each for each in pieces if isinstance(each, Table)]
+    return [dict(zip(each.head, row)) if each.head else tuple(row) for each in found for row in each.rows]
 
 
 def test_the_set_up_says_where_the_datum_stands(plate):
@@ -59,7 +62,7 @@ def test_tiny_and_huge_blanks(size, unit):
 def test_the_tools_with_their_sizes_and_correctors(plate):
     """Diameters, not radii: 10 and 6; the numbers H that the program calls."""
     first, second = tables([sheets.tools_table(plate, sheets.used_tools(plate), plate.profile())])
-    assert (first["tool"], first["diameter, mm"], first["length, mm"], first["teeth"], first["H"]) == ("T1", "10", "80", "4", "11")
+    assert [first[name] for name in ("tool", "diameter, mm", "length, mm", "teeth", "H")] == ["T1", "10", "80", "4", "11"]
     assert (second["diameter, mm"], second["point angle, °"], second["H"]) == ("6", "118", "2")
     assert "corner radius, mm" not in first  # no tool has one
 

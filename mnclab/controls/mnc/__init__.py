@@ -104,7 +104,7 @@ CONTROL = Control(
         ready=lambda m: m.modal.get("motion") in ("G0", "G1", "G2", "G3"),
         absolute=language.absolute,
         helices=more_helices,
-        straight_arcs=True,
+        straight_arcs=lambda m: m.settings["lint"] == "off",  # else each has a remark
     ),
     trial=trial_program,
     trial_setup=at_setter(Setter(x=20, y=10, z=-40, axis="X"), laser_x=20, laser_y=10, laser_z=-40, laser_axis=1),

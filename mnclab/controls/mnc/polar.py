@@ -12,7 +12,7 @@ from typing import Any
 
 from mnclab.controls.mnc.language import absolute
 from mnclab.controls.mnc.state import Polar, memory
-from mnclab.controls.word_address.motion import AXES, coordinates, first_word, helix, uncompensated
+from mnclab.controls.word_address.motion import AXES, as_a_line, coordinates, first_word, helix, uncompensated
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import Machine
@@ -114,6 +114,7 @@ def polar_arc(m: Machine, words: Words) -> None:
     begin = polar_of(m, m.pole or (0.0, 0.0))[0]
     to = target(m, words)
     if "K" not in words and m.settings["polar_arc_without_k"] == "line":
+        as_a_line(m, words, "K")
         m.line(**to, word=first_word(words))
         return
     last = memory(m).polar

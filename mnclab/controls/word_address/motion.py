@@ -56,6 +56,7 @@ def arc_to(
         if to and not line_without_centre:
             m.alarm("an arc needs R or I J K", first_word(words))
         if to:
+            as_a_line(m, words, "R and without I J K")
             m.line(**to, word=first_word(words))
         return
     first, second, normal = PLANES[m.plane]
@@ -81,6 +82,13 @@ def arc_to(
     start = (0.0, 0.0, 0.0) if absolute_centre else m.programmed
     centre = None if by_radius else {k: start[k] + m.length(word) for k, word in offsets.items()}
     m.arc(**to, sense=sense, centre=centre, radius=radius, word=head, tolerance=tolerance, turns=turns)
+
+
+def as_a_line(m: Machine, words: Words, lacks: str) -> None:
+    """Say that an arc that nothing gives a shape is a straight line, which its manual allows and few mean."""
+    if m.settings["lint"] != "off":
+        hint = "an arc needs its radius or its centre in every block; for a line write G1"
+        m.warn(f"{words.code} without {lacks} is obeyed as a straight line", first_word(words), hint)
 
 
 def helix(m: Machine, words: Words) -> None:

@@ -71,10 +71,11 @@ class Profile:
 
     def __init__(
         self, path: Toolpath, limits: Limits | None = None, *, override: float = 1.0, rapid_motion: str = "line",
-        waits: Mask | None = None, source: Any = None,
+        waits: Mask | None = None, source: Any = None, name: str = "",
     ) -> None:  # fmt: skip
         self.path, self.limits, self.override = path, limits or Limits(), override
         self.source = source  # the Program, for pictures that show its lines
+        self.name = name  # what a picture of several calls it
         self._more: dict[str, Any] = {"rapid_motion": rapid_motion, "waits": waits, "source": source}
         self.plan: Plan = plan(path, self.limits, override, rapid_motion, waits)
         self.seconds: Array = fixed(self._of_rows(self.plan.seconds))

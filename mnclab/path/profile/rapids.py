@@ -9,11 +9,14 @@ from __future__ import annotations
 import numpy as np
 
 from mnclab.path.columns import Array, Index
+from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import ramps
 from mnclab.path.toolpath import Toolpath
 
 SAME = 1e-12  # s
+PARTS = 4  # of the time in which no axis changes its phase, for a picture
+MANY = 2000  # rapids that are sampled at once
 
 
 class Rapids:
@@ -65,3 +68,34 @@ class Rapids:
         speed = np.where(done, 0.0, v + dt * (a + dt * j / 2))
         rate = np.where(done, 0.0, a + dt * j)
         return self.start[which] + sign * place, sign * speed, sign * rate, sign * np.where(done, 0.0, j)
+
+
+def courses(path: Toolpath, limits: Limits, fine: float, least: float = 0.0) -> tuple[Index, Array]:
+    """Places (k, 3) that rapids pass between their ends, and the row (k,) of each, for pictures of their true course.
+
+    `limits.rapid_motion` says how they go. A rapid that stays within `fine` mm of its straight line has none, nor has one
+    shorter than `least` mm.
+    """
+    if limits.rapid_motion in (None, "line"):
+        return np.empty(0, np.int64), np.empty((0, 3))
+    travel = path.end - path.start
+    far = np.einsum("ij,ij->i", travel, travel) > least**2
+    rows = np.flatnonzero((path.kind == Kind.RAPID) & far & (np.count_nonzero(travel, axis=1) > 1))
+    found = [_course(path, rows[k : k + MANY], limits, fine) for k in range(0, len(rows), MANY)]
+    which, places = zip(*found) if found else ([np.empty(0, np.int64)], [np.empty((0, 3))])
+    return np.concatenate(which), np.concatenate(places)
+
+
+def _course(path: Toolpath, rows: Index, limits: Limits, fine: float) -> tuple[Index, Array]:
+    rapids = Rapids(path, rows, limits, str(limits.rapid_motion))
+    breaks = rapids.breaks()
+    times = breaks[:, :-1, None] + np.diff(breaks, axis=1)[:, :, None] * np.arange(1, PARTS + 1) / PARTS
+    times = times.reshape(len(rows), -1)
+    which, at = np.nonzero((np.diff(times, axis=1, prepend=0.0) > SAME) & (times < rapids.seconds[:, None] - SAME))
+    place = rapids.state(which, times[which, at])[0]
+    straight = rapids.travel[which] / rapids.length[which, None]
+    beside = np.linalg.norm(np.cross(place - rapids.start[which], straight), axis=1)
+    off = np.zeros(len(rows))
+    np.maximum.at(off, which, beside)
+    keep = off[which] > fine
+    return rows[which[keep]], place[keep]

@@ -1,14 +1,15 @@
 """Drawing with matplotlib: a file for each thing that is drawn.
 
 `colours` is the one table of lines and marks, `picture` the figure that shows itself in Jupyter and how views stand
-in it, `path` the tool path: `strokes` are its points, `classes` which of them share a colour, `scale` explains
-the colours, `arrows` and `datums` are arrowheads and the crosses at zero points and poles; `compensation` is the
-contour and the tool centre beside it, `equidistant` one view of that; `part` is what is left of a blank, `relief`
-its light and shadow, `sections` cut faces, `turned` the half section of a lathe, `under` the part under a path; `profile`
-is the feed over time, `measured` what a probe found (`measured_panels` is what it shows, `material` the part behind it,
-`placing` where its texts have room), `strategy` compared ways of clearing an area. The only folder that imports matplotlib,
-and of that never `pyplot`: figures are plain objects, so that they can be drawn in any thread. A new picture is a file here,
-takes `ax=None` and draws with `colours`; it may import every floor but `machine` and `controls`.
+in it, `path` the tool path: `framing` is what is shown of it, `layers` what one view draws, `strokes` are its points,
+`classes` which of them share a colour, `scale` explains the colours, `arrows` and `datums` are arrowheads and the crosses
+at zero points and poles; `compensation` is the contour and the tool centre beside it, `equidistant` one view of that;
+`part` is what is left of a blank, `relief` its light and shadow, `sections` cut faces, `turned` the half section of a
+lathe, `under` the part under a path; `profile` is the feed over time, `measured` what a probe found (`measured_panels` is
+what it shows, `material` the part behind it, `placing` where its texts have room), `strategy` compared ways of clearing
+an area. The only folder that imports matplotlib, and of that never `pyplot`: figures are plain objects, so that they can
+be drawn in any thread. A new picture is a file here, takes `ax=None` and draws with `colours`; it may import every floor
+but `machine` and `controls`.
 """
 
 from mnclab.text.extras import require

@@ -69,11 +69,17 @@ def places(
     return np.array(at).reshape(-1, 2), np.array(angle), look
 
 
+def arrival(view: View, place: Array, size: float) -> Array:
+    """A short way (2, 3) to a place (3,) from home: from above, on a lathe from the right too."""
+    home = place.copy()
+    home[[view.right, view.up]] += ARRIVAL * size * np.array([1.0 if view.diameter else 0.0, 1.0])
+    return np.stack([home, place])
+
+
 def draw_arrival(ax: Axes, view: View, place: Array, size: float) -> None:
-    """A short way to a place (3,) from home: from above, on a lathe from the right too; from above it is not seen."""
+    """The way to a place (3,) from home; seen from above there is none."""
     if 2 not in (view.right, view.up):
         return
-    end = place[[view.right, view.up]]
-    home = end + ARRIVAL * size * np.array([1.0 if view.diameter else 0.0, 1.0])
+    home, end = arrival(view, place, size)[:, [view.right, view.up]].tolist()
     look = {"arrowstyle": "-|>", "color": colours.RAPID.colour, "linewidth": 1.2, "linestyle": (0, (3, 1.5)), "shrinkB": 4}
-    ax.annotate("", tuple(end), tuple(home), arrowprops=look, zorder=3.3, annotation_clip=False)
+    ax.annotate("", end, home, arrowprops=look, zorder=3.3, annotation_clip=False)

@@ -8,6 +8,9 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+import numpy as np
+from matplotlib.path import Path
+
 PAPER, INK, FAINT = "#ffffff", "#1a1a1a", "#e3e3e3"
 
 Dashes = str | tuple[float, tuple[float, ...]]
@@ -32,16 +35,36 @@ class Mark(NamedTuple):
 
     name: str
     colour: str
-    marker: str
+    marker: str | Path
     size: float
     filled: bool
     order: float
 
     def style(self) -> dict[str, Any]:
         look = {"color": self.colour, "linestyle": "none", "marker": self.marker, "markersize": self.size}
-        look |= {"markerfacecolor": self.colour if self.filled else "none", "markeredgewidth": 1.4}
+        edge = 1.4 if isinstance(self.marker, str) else 1.0
+        look |= {"markerfacecolor": self.colour if self.filled else "none", "markeredgewidth": edge}
         return look | {"zorder": self.order, "label": self.name}
 
+
+
+
+def _quarters() -> Path:
+    """The sign of a zero point: a circle in quarters, two opposite ones filled. Arcs there and back enclose nothing."""
+    pieces = []
+    for begin in (0, 90, 180, 270):
+        arc = Path.arc(begin, begin + 90)
+        there, how = np.asarray(arc.vertices), np.asarray(arc.codes)
+        middle = np.zeros((1, 2))
+        if begin % 180:
+            pieces.append(Path(np.concatenate([there, there[-2::-1]]), np.append(how, how[1:])))
+        else:
+            pieces.append(Path(np.concatenate([middle, there, middle]), [Path.MOVETO, Path.LINETO, *how[1:], Path.CLOSEPOLY]))
+    cross = Path([(-1.45, 0), (1.45, 0), (0, -1.45), (0, 1.45)], [Path.MOVETO, Path.LINETO] * 2)
+    return Path.make_compound_path(*pieces, cross)
+
+
+QUARTERS = _quarters()
 
 #: Rapids are thinner than cuts and lie above them: where both run on one line (pecking), both are seen.
 RAPID = Line("rapid", "#c62828", (0, (5, 3)), 0.9, 3.0)
@@ -51,13 +74,14 @@ THREAD = Line("thread", "#00695c", (0, (7, 1.2, 1.5, 1.2)), 1.9, 2.7)
 PROBING = Line("probing", "#7b1fa2", (0, (1, 1.2)), 1.6, 2.8)
 PROGRAMMED = Line("programmed", "#8c8c8c", "-", 0.9, 2.2)
 BLANK = Line("blank", "#9a8f6e", "-", 0.8, 1.4)
+LEADER = Line("_leader", "#6b6b6b", "-", 0.7, 3.05)  # from a symbol to its place
 CENTRE_LINE = Line("", "#6b6b6b", (0, (10, 3, 1.5, 3)), 0.8, 1.5)
 
 PLUNGE = Mark("plunge", "#1259a8", "+", 7, True, 3.2)
 DWELL = Mark("dwell", "#8a5a00", "d", 6, False, 3.4)
 TOOL = Mark("tool change", "#00695c", "^", 6, False, 3.4)
 STOP = Mark("stop", "#8a5a00", "D", 6, False, 3.4)
-DATUM = Mark("datum", INK, "+", 12, True, 3.6)
+DATUM = Mark("datum", INK, QUARTERS, 14, True, 3.6)
 POLE = Mark("pole", "#8a5a00", "+", 8, True, 3.5)
 TOUCH = Mark("touch", "#7b1fa2", "o", 3.5, True, 3.45)
 START = Mark("start", INK, "o", 9, False, 4.0)

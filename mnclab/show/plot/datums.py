@@ -146,7 +146,7 @@ def write_names(
     if not spots:
         return left
     unit = cast(Figure, ax.get_figure(root=True)).dpi / 72
-    begin, end = _segments(ax, view, drawn)
+    begin, end = segments(ax, view, drawn)
     crowd = ax.transData.transform(np.concatenate([occupied, [at for _, at in spots]]))
     taken = [*np.hstack([crowd - 6 * unit, crowd + 6 * unit]), *map(_extent, ax.texts)]
     inner = np.array(ax.bbox.extents) + np.array([2, 2, -2, -2]) * unit
@@ -162,7 +162,7 @@ def write_names(
             box = _extent(text)
             if (box[:2] < inner[:2]).any() or (box[2:] > inner[2:]).any() or any(_overlap(box, t) for t in taken):
                 continue
-            covered = _crossing(box, begin, end)
+            covered = crossing(box, begin, end)
             if best is None or covered < best[0]:
                 best = covered, side, off
         if best is None or best[0] > covering:
@@ -191,7 +191,7 @@ def _overlap(one: Array, other: Array) -> bool:
     return bool((one[:2] < other[2:]).all() and (other[:2] < one[2:]).all())
 
 
-def _segments(ax: Axes, view: View, drawn: Sequence[Array]) -> tuple[Array, Array]:
+def segments(ax: Axes, view: View, drawn: Sequence[Array]) -> tuple[Array, Array]:
     """Begin and end (n, 2) of the drawn strokes in pixels; none if they are too many to look at."""
     if not drawn or sum(map(len, drawn)) > LOOKED_AT:
         return np.empty((0, 2)), np.empty((0, 2))
@@ -201,7 +201,7 @@ def _segments(ax: Axes, view: View, drawn: Sequence[Array]) -> tuple[Array, Arra
     return begin[seen], end[seen]
 
 
-def _crossing(box: Array, begin: Array, end: Array) -> int:
+def crossing(box: Array, begin: Array, end: Array) -> int:
     """How many strokes run through a box (left, bottom, right, top)."""
     way = end - begin
     with np.errstate(divide="ignore", invalid="ignore"):

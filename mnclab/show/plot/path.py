@@ -7,62 +7,39 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, NamedTuple, cast
+from typing import Any, cast
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from mnclab.path.kinds import Kind
+from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.show.felt import Felt
 from mnclab.show.felt import felt as felt_of
 from mnclab.show.plot import arrows as heads
 from mnclab.show.plot import colours
-from mnclab.show.plot.classes import Classes, classes
+from mnclab.show.plot.classes import classes
 from mnclab.show.plot.classes import lines as lines_of
-from mnclab.show.plot.colours import Line, Mark
-from mnclab.show.plot.datums import Place, crosses, near, places_of, write_names
-from mnclab.show.plot.felt import draw_felt
-from mnclab.show.plot.lathe import Lathe, draw_blank, draw_insert, lathe, speed_strokes, with_blank
+from mnclab.show.plot.datums import Place, crosses, near, places_of
+from mnclab.show.plot.framing import box_of, foot_of, in_words, views_of
+from mnclab.show.plot.lathe import lathe, speed_strokes, with_blank
+from mnclab.show.plot.layers import INSERT, Drawing, draw, marks_of, plunges_of, write
 from mnclab.show.plot.material import FACE
-from mnclab.show.plot.picture import SCALE, SIZE, VIEWS, Foot, View, arrange, dress, roomy, write_legend
+from mnclab.show.plot.picture import SCALE, SIZE, arrange, dress, roomy, write_legend
 from mnclab.show.plot.scale import write_scale
-from mnclab.show.plot.strokes import Array, Strokes, corners, line_of, strokes
-from mnclab.show.plot.under import draw_under
-from mnclab.text.alarm import ALARM, Alarm, several
-from mnclab.text.given import choice
+from mnclab.show.plot.strokes import line_of, strokes
+from mnclab.show.rapids import rapids_of
+from mnclab.text.alarm import ALARM, Alarm
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.workpiece import Workpiece
 
-MARKS = {Kind.DWELL: colours.DWELL, Kind.TOOL: colours.TOOL, Kind.STOP: colours.STOP}
 UNSCALED = (colours.PROGRAMMED, colours.RAPID, colours.PROBING)  # look the same whatever the colour shows
 PART = "part"
-INSERT = 0.09  # edges of an insert, of the greatest side of the picture
 MOST = 2000  # rows of a lathe's path whose part is shown unasked
-MOSTLY = 0.9  # the cosine between two directions from which on they are taken for the same
-FAR = 5  # a box of all moves this many times that of the cuts is not shown whole
-
-
-class Drawing(NamedTuple):
-    """What is drawn of a path in every view: lines (m, 3) broken by nan, marks (m, 3), crosses with names."""
-
-    strokes: Strokes
-    classes: Classes
-    lines: list[tuple[Line, Array]]
-    marks: list[tuple[Mark, Array]]
-    places: list[Place]
-    plunges: dict[View, Array]
-    plunge: Mark
-    arrows: bool
-    stock: Blank | None
-    lathe: Lathe | None
-    part: Workpiece | None
-    home: bool
-    felt: Felt | None
 
 
 def plot_path(
@@ -84,6 +61,7 @@ def plot_path(
     part: Workpiece | None = None,
     home: bool = False,
     felt: Felt | None = None,
+    rapids: Limits | None = None,
 ) -> Figure:
     """Views of a path: rapids dashed red, cuts solid; start and end marked. Returns the figure, which Jupyter shows.
 
@@ -111,16 +89,17 @@ def plot_path(
     - `part`: what is left of the blank, drawn under the path.
     - `home`: the path begins where the tool arrives from home.
     - `felt`: what a probe meets, drawn behind the path (see `show.felt`).
+    - `rapids`: limits of the machine, under which axes that do not wait for each other bend a rapid; else it is straight.
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
-    drawn = strokes(path)
+    drawn = strokes(path, rapids)
     if colour == "speed" and len(drawn.row):
         drawn = speed_strokes(path, drawn)
     found = classes(path, drawn, colour)
     lines = lines_of(drawn, found)
     if programmed is not None and len(contour := line_of(programmed, (Kind.LINE, Kind.ARC))):
         lines.insert(0, (colours.PROGRAMMED, contour))
-    low, high, beyond = _box(path, lines, frame)
+    low, high, beyond = box_of(path, lines, frame)
     shown = near(places, low, high) if marks else []
     for place in shown:
         low, high = np.fmin(low, place.xyz), np.fmax(high, place.xyz)
@@ -130,19 +109,19 @@ def plot_path(
         high = np.fmax(high, path.end[-1] + (room, 0.0, room))
     if felt is not None and frame != "cuts":
         low, high = felt.box(low, high)
-    views = _views(view, path, low, high, single=ax is not None)
+    views = views_of(view, path, low, high, single=ax is not None)
     if stock is not None and not path.lathe and frame != "cuts":
         low, high = np.fmin(low, stock.bounds[0]), np.fmax(high, stock.bounds[1])
     plunge = colours.PLUNGE if colour == "kind" else colours.PLUNGE._replace(colour=colours.INK)
-    plunges = {each: _plunges(path, each) for each in views}
+    plunges = {each: plunges_of(path, each) for each in views}
     arrows = arrows and int(path.is_motion.sum()) <= heads.MANY
     beside = lathe(path, stock, tools, insert) if path.lathe and views[0].diameter else None
-    found_marks, outline = _marks(path, stop is not None, home), None if beside else stock
+    found_marks, outline = marks_of(path, stop is not None, home), None if beside else stock
     if felt is not None and len(felt.places):
         found_marks.append((colours.TOUCH, felt.places))
     drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, beside, part, home, felt)
     if ax is not None:
-        _draw(ax, views[0], drawing)
+        draw(ax, views[0], drawing)
         dress(ax, views[0])
         if beyond:
             wide = roomy(low, high)
@@ -151,7 +130,7 @@ def plot_path(
         else:
             ax.autoscale_view()
         ax.apply_aspect()
-        _write(ax, views[0], drawing, low, high)
+        write(ax, views[0], drawing, low, high)
         return cast(Figure, ax.get_figure(root=True))
     names = [line.name for line, _ in lines if not found.scale or line in UNSCALED]
     names += [colours.BLANK.name] if drawing.stock is not None else []
@@ -162,13 +141,13 @@ def plot_path(
         names.append(colours.POLE.name)
     behind = felt is not None and felt.part is not None
     names += [PART] if behind else []
-    said = _in_words(path, low, high, stop)
-    picture, axes = arrange(views, low, high, names, _foot(stop, beyond), said, size, found.scale is not None)
+    said = in_words(path, low, high, stop)
+    picture, axes = arrange(views, low, high, names, foot_of(stop, beyond), said, size, found.scale is not None)
     artists: dict[str, Any] = {PART: Patch(**FACE, label=PART)} if behind else {}
     for one, which in zip(axes, views):
-        for artist in _draw(one, which, drawing):
+        for artist in draw(one, which, drawing):
             artists.setdefault(str(artist.get_label()), artist)
-        _write(one, which, drawing, low, high)
+        write(one, which, drawing, low, high)
     if not names:
         axes[0].text(0.5, 0.5, "no moves", transform=axes[0].transAxes, ha="center", color=colours.PROGRAMMED.colour)
     if found.scale:
@@ -197,7 +176,7 @@ def plot_run(
 
         return plot_unrolled(run.toolpath, ax, **options)
     given = {"programmed": None if run.programmed is run.toolpath else run.programmed, "alarms": run.alarms}
-    given["stock"] = run.stock if stock else None
+    given |= {"stock": run.stock if stock else None, "rapids": rapids_of(run)}
     path, insert = run.toolpath, options.get("insert", True)
     if path.lathe:
         given["tools"], numbers = run.tools_that_cut
@@ -215,114 +194,3 @@ def plot_run(
         if isinstance(insert, int) and not isinstance(insert, bool) and insert >= 0:
             options["insert"] = max(insert - first, 0)
     return plot_path(path, ax, view, **{**given, **options}, marks=marks)
-
-
-# --- what is drawn ---------------------------------------------------------------------------------------------------
-
-
-def _marks(path: Toolpath, stopped: bool, home: bool) -> list[tuple[Mark, Array]]:
-    """Marks and where they stand (m, 3)."""
-    found = [(mark, path.end[path.kind == kind]) for kind, mark in MARKS.items()]
-    found += [(colours.HOME if home else colours.START, path.start[:1])]
-    found += [(colours.ALARM if stopped else colours.END, path.end[-1:])]
-    return [(mark, places) for mark, places in found if len(places)]
-
-
-def _plunges(path: Toolpath, view: View) -> Array:
-    """Where cuts run along the tool and the line of sight, and would be invisible (m, 2)."""
-    rows = np.flatnonzero(path.start[:, view.right] == path.end[:, view.right])
-    rows = rows[(path.start[rows, view.up] == path.end[rows, view.up]) & (path.kind[rows] == Kind.LINE)]
-    rows = rows[(np.abs(path.axis[rows][:, [view.right, view.up]]) < 1e-9).all(axis=1)]
-    return np.unique(path.end[rows][:, [view.right, view.up]], axis=0)
-
-
-def _box(path: Toolpath, pieces: Sequence[tuple[Line, Array]], frame: str) -> tuple[Array, Array, bool]:
-    """The corners (3,) of the box that is shown, and whether rapids go beyond it; a lathe's holds the centre line."""
-    frame = choice(frame, "frame", ("auto", "all", "cuts"))
-    cuts = corners([points for line, points in pieces if line is not colours.RAPID], path.lathe)
-    rest = [points for line, points in pieces if line is colours.RAPID] + [path.start[:1], path.end[-1:]]
-    everything = corners([*rest, np.array(cuts).reshape(-1, 3)] if cuts else rest, path.lathe)
-    if everything is None:
-        return np.zeros(3), np.zeros(3), False
-    if cuts is None or frame == "all":
-        return *everything, False
-    spans = [float((high - low).max()) for low, high in (everything, cuts)]
-    if frame == "cuts" or spans[0] > FAR * spans[1] > 0:
-        return *cuts, spans[0] > spans[1]
-    return *everything, False
-
-
-def _foot(stop: Alarm | None, beyond: bool) -> Foot | None:
-    if stop:
-        return Foot.of(stop)
-    return Foot('rapids from far away are cut off; frame="all" shows them') if beyond else None
-
-
-def _views(view: str, path: Toolpath, low: Array, high: Array, single: bool) -> list[View]:
-    view = choice(view, "view", ("auto", *VIEWS))
-    names = [view] if view != "auto" else ["ZX"] if path.lathe else _needed(path, high - low)
-    return [VIEWS[name]._replace(unit=path.unit) for name in names[: 1 if single else None]]
-
-
-def _needed(path: Toolpath, span: Array) -> list[str]:
-    """The views of a mill's path: along the tool, from the side, and on each plane that has arcs."""
-    cuts = np.flatnonzero((path.kind == Kind.LINE) | (path.kind == Kind.ARC))
-    arcs = cuts[path.kind[cuts] == Kind.ARC]
-    on_x, on_y = (bool((np.abs(path.axis[arcs][:, k]) > MOSTLY).any()) for k in (0, 1))
-    if len(cuts) and abs(path.axis[cuts[0], 2]) < 1 - MOSTLY:
-        for k, names in ((0, ["YZ", "XZ"]), (1, ["XZ", "XY"])):
-            if (np.abs(path.axis[cuts][:, k]) > MOSTLY).all():
-                return names if span[k] > 0 else names[:1]
-    if not span[2] > 0:
-        return ["XY"]
-    if on_x != on_y:
-        return ["XY", "YZ" if on_x else "XZ"]
-    return ["XY", "XZ", "YZ"] if on_x else ["XY", "YZ" if span[0] == 0 and span[1] > 0 else "XZ"]
-
-
-def _draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
-    """Add lines, marks and crosses to an axes; returns those that a legend names."""
-    artists = [Line2D(xyz[:, view.right], xyz[:, view.up], **line.style()) for line, xyz in drawing.lines]
-    for outline in drawing.stock.outline(view.right, view.up) if drawing.stock else ():
-        line = np.maximum(outline, [-np.inf, 0]) if view.diameter else outline  # a lathe's picture ends at its axis
-        artists.append(Line2D(line[:, 0], line[:, 1], **colours.BLANK.style()))
-    plunges = drawing.plunges[view]
-    if len(plunges):
-        artists.append(Line2D(plunges[:, 0], plunges[:, 1], **drawing.plunge.style()))
-    artists += [Line2D(xyz[:, view.right], xyz[:, view.up], **mark.style()) for mark, xyz in drawing.marks]
-    artists += crosses(drawing.places, view)
-    for artist in artists:
-        ax.add_line(artist)
-    if drawing.part is not None:
-        draw_under(ax, view, drawing.part)
-    elif drawing.lathe is not None:
-        draw_blank(ax, drawing.lathe)
-    if view.diameter:
-        ax.axhline(0.0, **{**colours.CENTRE_LINE.style(), "label": "_centre line"})
-    return artists
-
-
-def _write(ax: Axes, view: View, drawing: Drawing, low: Array, high: Array) -> None:
-    """Add what depends on the scale: arrowheads and names."""
-    occupied = [xyz[:, [view.right, view.up]] for _, xyz in drawing.marks]
-    if drawing.home:
-        heads.draw_arrival(ax, view, drawing.strokes.xyz[0], float((high - low).max()))
-    if drawing.felt is not None:
-        draw_felt(ax, view, drawing.felt, [xyz for _, xyz in drawing.lines], [xyz for _, xyz in drawing.marks])
-    if drawing.lathe is not None:
-        draw_insert(ax, drawing.lathe, INSERT * float((high - low).max()))
-    if drawing.arrows:
-        occupied.append(heads.draw(ax, view, drawing.strokes, drawing.classes, low, high))
-    if drawing.places:
-        around = np.concatenate([np.empty((0, 2)), *occupied])
-        write_names(ax, view, drawing.places, around, [xyz for _, xyz in drawing.lines])
-
-
-def _in_words(path: Toolpath, low: Array, high: Array, stop: Alarm | None) -> str:
-    """What a person who cannot see the picture is told."""
-    moves, factors = int(path.is_motion.sum()), (2 if path.lathe else 1, 1, 1)
-    said = several(moves, "move") if moves else "no moves"
-    ends = zip("XYZ", factors, low / path.unit.length, high / path.unit.length)
-    ranges = [f"{axis} {f * a:.4g} to {f * b:.4g}" for axis, f, a, b in ends if b > a]
-    said += f", {', '.join(ranges)} {path.unit.short}" if ranges and moves else ""
-    return f"tool path: {said}{f'; stopped in line {stop.span.line}' if stop and stop.span else ''}"

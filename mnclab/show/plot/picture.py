@@ -224,7 +224,7 @@ def roomy(low: Array, high: Array) -> tuple[Array, Array]:
     largest = max(float(span.max()), 1e-3, 1e-6 * float(np.abs([low, high]).max()))
     if span.max() == 0:
         largest = max(largest, 10.0)
-    margin = np.maximum(0.06 * largest, (0.22 * largest - span) / 2)
+    margin = np.maximum(0.08 * largest, (0.22 * largest - span) / 2)
     return low - margin, high + margin
 
 

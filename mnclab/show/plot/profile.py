@@ -183,7 +183,8 @@ def plot_lost(profile: Profile, ax: Axes | None = None, *, most: int = MOST, wid
 
     Of a long program the `most` lines that lose the most; `width` in inches.
     """
-    path, lost = profile.path, profile.lost
+    path = profile.path
+    lost = profile.lost + np.where(path.kind == Kind.TOOL, profile.seconds, 0.0)  # a tool change cuts nothing
     own = path.program == 0
     lines, where = np.unique(path.line[own], return_inverse=True)
     extra = np.bincount(where, lost[own], len(lines))

@@ -13,9 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.path.kinds import Kind
+from mnclab.path.limits import Limits
+from mnclab.path.profile.rapids import courses
 from mnclab.path.toolpath import Toolpath
 
 FINENESS = 10_000  # chord errors in the length of a path's box: about ten in a pixel
+BENT, SHORT = 1 / 2000, 1 / 200  # of the box: rapids that leave their line by less, or are shorter, are drawn straight
 
 Array = NDArray[np.float64]
 
@@ -27,14 +30,18 @@ class Strokes(NamedTuple):
     row: NDArray[np.int64]
 
 
-def strokes(path: Toolpath) -> Strokes:
-    """All motion of a path, arcs cut finely enough for a picture; a tool change parts the strokes."""
+def strokes(path: Toolpath, rapids: Limits | None = None) -> Strokes:
+    """All motion of a path, arcs cut finely enough for a picture; a tool change parts the strokes.
+
+    Under the limits of `rapids` axes that do not wait for each other leave the straight line (see `path.profile.rapids`).
+    """
     motion = path.is_motion
     whole = bool(motion.all())
     if not motion.any():
         return Strokes(np.empty((0, 3)), np.empty(0, dtype=np.int64))
     rows = np.arange(len(path)) if whole else np.flatnonzero(motion)
-    xyz, row = path.points(_size(path, rows) / FINENESS if (path.kind == Kind.ARC).any() else 1.0)
+    size = _size(path, rows)
+    xyz, row = path.points(size / FINENESS)
     row = row.copy()
     row[0] = -1
     start, end = (path.start, path.end) if whole else (path.start[rows], path.end[rows])
@@ -45,6 +52,12 @@ def strokes(path: Toolpath) -> Strokes:
     if len(jumps):  # between them stands a tool change, or what was left out: the move begins elsewhere
         at = np.searchsorted(row, jumps)
         xyz, row = np.insert(xyz, at, path.start[jumps], axis=0), np.insert(row, at, -1)
+    if rapids is not None:
+        which, places = courses(path, rapids, BENT * size, SHORT * size)
+        if len(which):
+            stroke = np.zeros(len(path), dtype=np.int64)
+            stroke[row[row >= 0]] = np.flatnonzero(row >= 0)
+            xyz, row = np.insert(xyz, stroke[which], places, axis=0), np.insert(row, stroke[which], which)
     return Strokes(xyz, row)
 
 
@@ -85,7 +98,7 @@ def _size(path: Toolpath, rows: NDArray[np.intp]) -> float:
     size = float((np.maximum(high, begin) - np.minimum(low, begin)).max())
     arc = path.kind == Kind.ARC
     radius = np.linalg.norm(path.start[arc] - path.centre[arc], axis=1)
-    size += float((np.minimum(2.0, np.abs(path.sweep[arc])) * radius).max())
+    size += float((np.minimum(2.0, np.abs(path.sweep[arc])) * radius).max(initial=0.0))
     return max(size, 1e-3)
 
 

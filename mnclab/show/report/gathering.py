@@ -73,10 +73,10 @@ class Report:
         return Words(", ".join(said), BAD if counts[ALARM] or self.collisions else GOOD if not counts[WARNING] else "")
 
 
-def report(run: Any, title: str | None = None) -> Report:
-    """Gather what a report says of a run."""
-    profile, became = run.profile(), run.outcome()
-    facts = [*_facts(run, run.toolpath.unit), *(became.facts() if became else [])]
+def report(run: Any, title: str | None = None, machine: Any = None) -> Report:
+    """Gather what a report says of a run, its times on a machine as in `Run.profile`."""
+    profile, became = run.profile(machine=machine), run.outcome()
+    facts = [*_facts(run, run.toolpath.unit, profile.time), *(became.facts() if became else [])]
     removal = became.removal.rows() if became and became.removal else []
     causes = sorted(profile.time_by("cause").items(), key=lambda item: -item[1])
     times: Rows = [(str(name), clock(s), f"{100 * s / profile.time:.1f} %") for name, s in causes if s > 0]
@@ -84,15 +84,15 @@ def report(run: Any, title: str | None = None) -> Report:
     return Report(
         title or run.program.title, run.control.title, facts, tools_table(run, used_tools(run), profile), times,
         tuple(map(named, run.alarms)), main, removal=removal, collisions=became.collisions if became else None,
-        called=tuple(called), measured=run.measurements, cutting=run.cutting_data(),
+        called=tuple(called), measured=run.measurements, cutting=run.cutting_data(machine=machine),
     )  # fmt: skip
 
 
-def _facts(run: Any, unit: Unit) -> Iterator[tuple[str, str]]:
+def _facts(run: Any, unit: Unit, time: float) -> Iterator[tuple[str, str]]:
     summary, path = run.summary(), run.toolpath
     yield from ((name, str(summary[name])) for name in ("blocks", "moves"))
     yield from ((name, f"{unit.figure(summary[name], 1)} {unit.short}") for name in ("cutting length", "rapid length"))
-    yield "time", clock(run.profile().time)
+    yield "time", clock(time)
     low, high = path.bounds
     for axis, least, most in zip("XYZ", low, high) if np.isfinite(low).all() else ():
         double = 2 if path.lathe and axis == "X" else 1

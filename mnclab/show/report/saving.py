@@ -17,17 +17,19 @@ SHEETS = ("setup", "tools", "measuring")
 
 
 def save_report(
-    run: Any, path: str | Path, title: str | None = None, *, design: Any = None, tolerance: float = 0.05, **options: Any
-) -> Path:
+    run: Any, path: str | Path, title: str | None = None,
+    *, design: Any = None, tolerance: float = 0.05, machine: Any = None, **options: Any,
+) -> Path:  # fmt: skip
     """Write a report to one file, .html or .pdf; `options` are those of the picture (`Run.plot`).
 
     With a `design`, or whatever else a part is compared with, it has a measuring record of the part; `tolerance` in mm.
+    Times and limits are those of a `machine`, as in `Run.profile`.
     """
     path = checked(path, title)
     with replaced(path) as beside:
         picture = run.plot(**{"size": PICTURE} | options)
         difference = None if design is None else run.workpiece().compare(design, tolerance)
-        write(gathering.document(run, gathering.report(run, title), picture, difference), beside)
+        write(gathering.document(run, gathering.report(run, title, machine), picture, difference), beside)
     return path
 
 

@@ -42,6 +42,7 @@ REMARKS = {"alpha", "AB", "I", "arc", "elements"}  # they say in words or angles
 START = (3, -7, 11)  # away from zero, so that a first move to zero shows
 NOTICES = {  # what a program is told about although it runs
     "N30 X40": "G83 K (depth of one peck) is not modal: this hole is drilled in one pass",
+    "N20 G02 X10 Y5 F100": "G2 without R and without I J K is obeyed as a straight line",
 }
 
 

@@ -70,7 +70,7 @@ def test_the_datum_function_ends_g92():
 
 def test_the_number_of_the_feed_is_kept_and_read_anew():
     """MNC-G95-SWITCH: F2 is 2 mm/min, then 2 mm/rev at 300 rev/min, then 2 mm/rev at 50 rev/min, then 2 mm/min."""
-    program = "S300 M4\nG1 X1 F2\nG95 X2\nS50 X3\nG3 X4 R5\nG94 X5\n"
+    program = "S300 M4\nG1 X1 F2\nG95 X2\nS50 X3\nG3 X4 R5\nG94 G1 X5\n"
     path = obeyed(program).toolpath
     assert path.feed[path.is_motion].tolist() == [2, 600, 100, 100, 2]
     assert path.per_rev[path.is_motion].tolist() == pytest.approx([math.nan, 2, 2, 2, math.nan], nan_ok=True)

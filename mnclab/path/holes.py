@@ -1,0 +1,129 @@
+"""The holes of a path: where a tool goes straight down along Z at feed and comes out again where it went in.
+
+A visit is a stretch of rows along Z alone. It is a hole if it begins and ends at least as high as its first cut begins: a
+plunge into a pocket ends below. What is milled round (a bore on a helix) is no hole here; `Run.design` names it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.path.columns import Array, Index
+from mnclab.path.kinds import Kind
+from mnclab.path.listing import MM, Unit
+from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Toolpath
+from mnclab.text.tables import csv_text, html_table, text_table
+
+SAME = 1e-6  # mm: places nearer than this are one
+HEAD = ("hole", "x", "y", "from z", "to z", "diameter", "tool", "lines")
+
+
+class HoleMade(NamedTuple):
+    """What one tool does at one place: mm; `top` is where the first cut begins, above the material by the set-up clearance,
+    `bottom` the lowest place of the tip. `lines` are those of the program, in its order."""
+
+    x: float
+    y: float
+    top: float
+    bottom: float
+    diameter: float
+    tool: int
+    lines: tuple[int, ...]
+
+
+class Holes(Sequence[HoleMade]):
+    """The holes of a path in the order of drilling: a row for each place and tool; a table when shown."""
+
+    def __init__(self, rows: Sequence[HoleMade], unit: Unit = MM) -> None:
+        self.rows, self.unit = tuple(rows), unit
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __getitem__(self, which: Any) -> Any:
+        return Holes(self.rows[which], self.unit) if isinstance(which, slice) else self.rows[which]
+
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """The table as arrays, mm, without the lines."""
+        return {name: np.array([getattr(row, name) for row in self]) for name in HoleMade._fields[:-1]}
+
+    def texts(self) -> list[tuple[str, ...]]:
+        """The rows as they are shown, lengths in the unit of the program."""
+        return list(self._texts())
+
+    def _texts(self) -> Iterator[tuple[str, ...]]:
+        for number, row in enumerate(self, 1):
+            sizes = (self.unit.figure(size) for size in row[:4])
+            wide = self.unit.figure(row.diameter) if row.diameter else ""
+            lines = ", ".join(map(str, row.lines[:3])) + (" …" if len(row.lines) > 3 else "")
+            yield str(number), *sizes, wide, f"T{row.tool}" if row.tool else "", lines
+
+    @property
+    def _head(self) -> tuple[str, ...]:
+        return tuple(f"{name}, {self.unit.short}" if 0 < k < 6 else name for k, name in enumerate(HEAD))
+
+    def csv(self) -> str:
+        """The table as comma-separated values."""
+        return csv_text(self._head, *self.texts())
+
+    def __repr__(self) -> str:
+        return text_table(self._head, self.texts()) if self else "no holes"
+
+    def _repr_html_(self) -> str:
+        return html_table(self._head, self.texts(), numbers=range(6)) if self else "<p>no holes</p>"
+
+
+def holes(path: Toolpath, tools: Mapping[int, Tool] | None = None, numbers: Index | None = None) -> Holes:
+    """The holes of a path; `tools` by their numbers and the number of each row (n,) give the diameters."""
+    numbers = path.tool.astype(np.int64) if numbers is None else numbers
+    rows = np.flatnonzero(path.is_motion & ((path.start != path.end).any(axis=1)))
+    along = (np.abs(path.start[rows, :2] - path.end[rows, :2]) < SAME).all(axis=1)
+    change = np.diff(along.astype(np.int8), prepend=0, append=0)
+    tool = numbers[rows]
+    made: dict[tuple[float, float, int], HoleMade] = {}
+    for begin, end in zip(np.flatnonzero(change == 1).tolist(), np.flatnonzero(change == -1).tolist()):
+        changes = np.flatnonzero(np.diff(tool[begin:end])) + 1
+        for visit in np.split(rows[begin:end], changes):
+            found = _hole(path, visit, numbers, tools or {})
+            if found is None:
+                continue
+            key = round(found.x / SAME), round(found.y / SAME), found.tool
+            before = made.get(key)
+            made[key] = found if before is None else before._replace(
+                top=max(before.top, found.top), bottom=min(before.bottom, found.bottom),
+                lines=tuple(dict.fromkeys(before.lines + found.lines)),
+            )  # fmt: skip
+    return Holes(list(made.values()), path.unit)
+
+
+def _hole(path: Toolpath, visit: NDArray[np.int64], numbers: Index, tools: Mapping[int, Tool]) -> HoleMade | None:
+    """What a stretch of rows along Z makes; None for a plunge, a retract, a way through the air."""
+    start, end = path.start[visit, 2], path.end[visit, 2]
+    cuts = (path.kind[visit] == Kind.LINE) & (end < start)
+    if not cuts.any():
+        return None
+    first = int(cuts.argmax())
+    top, bottom = float(start[first]), float(end[cuts].min())
+    if end[-1] < top - SAME:
+        return None
+    number = int(numbers[visit[first]])
+    x, y = path.end[visit[0], :2].tolist()
+    diameter = 2 * tools[number].effective_radius if number in tools else 0.0
+    lines = tuple(dict.fromkeys(path.line[visit[cuts]].tolist()))
+    return HoleMade(x + 0.0, y + 0.0, top, bottom, diameter, number, lines)
+
+
+def places(found: Holes) -> Array:
+    """Where holes stand and how wide they are, each place once with its widest tool (n, 3), mm."""
+    widest: dict[tuple[int, int], tuple[float, float, float]] = {}
+    for row in found:
+        key = round(row.x / SAME), round(row.y / SAME)
+        before = widest.get(key)
+        if before is None or row.diameter > before[2]:
+            widest[key] = row.x, row.y, row.diameter
+    return np.array(list(widest.values()), dtype=np.float64).reshape(-1, 3)

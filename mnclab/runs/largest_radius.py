@@ -1,0 +1,76 @@
+"""The largest tool radius with which a compensated contour can be run, without a run that fails."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from mnclab.path.compensation import Gouge
+from mnclab.path.listing import figure
+from mnclab.text.alarm import Alarm
+
+if TYPE_CHECKING:
+    from mnclab.runs.run import Run
+
+GROWTH, EXACT = 2.0, 1e-9
+
+
+@dataclass(frozen=True, repr=False)
+class LargestRadius:
+    """`radius` mm (inf: any fits); `below`: this radius itself does not fit, every smaller one does. `line` and `other` are
+    those of the elements between which a larger one has no room, None without any."""
+
+    radius: float
+    below: bool = False
+    line: int | None = None
+    other: int | None = None
+
+    def __str__(self) -> str:
+        if math.isinf(self.radius):
+            return "any radius fits"
+        if self.radius <= EXACT:
+            return f"no tool fits{self._where}"
+        return f"{'below ' if self.below else ''}{figure(self.radius)} mm{self._where}"
+
+    def __repr__(self) -> str:
+        return str(self)
+
+    def __float__(self) -> float:
+        return self.radius
+
+    @property
+    def _where(self) -> str:
+        lines = sorted({line for line in (self.line, self.other) if line is not None})
+        return f" (line{'s' * (len(lines) > 1)} {' and '.join(map(str, lines))})" if lines else ""
+
+
+def largest_radius(run: Run) -> LargestRadius:
+    """Try the contours of a run with tools that grow until one has no room, and ask which would have had it.
+
+    An Alarm where nothing is compensated, or the control does not know.
+    """
+    if all(setting.name != "gouge" for setting in run.control.settings):
+        raise Alarm(f"the largest radius is not known on {run.control.name}: it does not look where a tool has no room")
+    if not (run.programmed.side != 0).any():
+        raise Alarm("nothing is compensated, so any radius fits", hint="G41, G42 or RL, RR ask for compensation")
+    low, high = run.programmed.bounds
+    most = 4 * float((high - low).max()) + 1.0
+    radius = min(1.0, most)
+    while True:
+        found = _gouges(run, radius)
+        if found:
+            break
+        if radius > most:
+            return LargestRadius(math.inf)
+        radius *= GROWTH
+    worst = min(found, key=lambda gouge: gouge.largest)
+    below = not worst.largest > EXACT or any(
+        gouge.largest <= worst.largest + EXACT for gouge in _gouges(run, worst.largest)
+    )
+    return LargestRadius(worst.largest, below, worst.line, worst.other)
+
+
+def _gouges(run: Run, radius: float) -> list[Gouge]:
+    """Where a tool of this radius has no room."""
+    return list(run.again(run.setup.with_radius(radius).with_settings(gouge="mark")).gouges)

@@ -1,0 +1,27 @@
+"""What a teacher says of a program that its control obeys without a word: warnings, none of which stops a run.
+
+Each rule stands in a file of its own and says only what is certain: a rule that must guess is silent. The setting `lint`
+switches them off together, `stopped_spindle` the one of the spindle alone. An arc without a radius, which is found word by
+word, is remarked where its control obeys it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from mnclab.runs.lint import above_blank, left_on, rapid_in_blank, still_spindle, unused
+from mnclab.text.alarm import Alarm
+
+if TYPE_CHECKING:
+    from mnclab.machine.machine import Machine
+    from mnclab.runs.run import Run
+
+
+def remarks(run: Run, m: Machine) -> Iterator[Alarm]:
+    """The warnings about a run, one for each cause."""
+    if run.settings["lint"] == "off" or not len(run.steps.block):
+        return
+    yield from still_spindle.remarks(m, run.toolpath)
+    for rule in (rapid_in_blank, above_blank, left_on, unused):
+        yield from rule.remarks(run)

@@ -1,0 +1,119 @@
+"""The command `time`: how long a program takes and where the time goes, or how long all programs of folders take."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from mnclab.controls.choice import run
+from mnclab.controls.survey import files_of
+from mnclab.machine.setup import Setup
+from mnclab.machine.setup_file import load
+from mnclab.path.limits import Limits
+from mnclab.path.machine_file import load as load_machine
+from mnclab.runs.run import Run
+from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, program, say, sensible
+from mnclab.show import times
+from mnclab.text.alarm import ALARM, Alarm
+from mnclab.text.file import replaced
+from mnclab.text.progress import progress
+from mnclab.text.tables import csv_text, text_table
+
+HEAD = ("file", "control", "complete", "time, s", "at feed, s", "rapid, s", "cutting, mm", "rapid, mm", "stopped in line", "why")
+
+
+def time(chosen: argparse.Namespace) -> int:
+    """Print how long a program takes: in all, by cause, by tool, and the lines that cost most; of several, a table."""
+    machine = None if chosen.machine is None else sensible(load_machine, chosen.machine)
+    setup = None if chosen.setup is None else sensible(load, chosen.setup)
+    if chosen.csv is not None or len(chosen.files) > 1 or any(map(os.path.isdir, filter(None, chosen.files))):
+        return _many(chosen, setup, machine.limits if machine else None)
+    chosen.file = chosen.files[0]
+    result = run(program(chosen.file), chosen.control, setup)
+    result = result if chosen.start_at is None else sensible(result.start_at, chosen.start_at)
+    limits = machine.limits if machine else result.setup.limits
+    profile = sensible(lambda: result.profile(limits, override=chosen.override / 100))
+    stop = _stop(result)
+    if chosen.json:
+        print(json.dumps({"complete": stop is None} | times.document(profile, machine), indent=1))
+    else:
+        said = f" in line {stop.span.line}" if stop and stop.span else ""
+        print(f"not complete: the program stopped{said}; the times are those until then\n" if stop else "", end="")
+        print(times.report(profile, machine))
+        for alarm in result.alarms:
+            say(alarm)
+    return ALARMS if stop else CLEAN
+
+
+def _many(chosen: argparse.Namespace, setup: Setup | None, limits: Limits | None) -> int:
+    """A row for each program of files and folders."""
+    if chosen.start_at is not None:
+        sensible(_refuse, "--start-at is for one program")
+    rows, status = [], CLEAN
+    try:
+        for row in _rows(chosen, setup, limits):
+            rows.append(row)
+    except KeyboardInterrupt:
+        status = INTERRUPTED
+    status = status or (CLEAN if all(row["complete"] for row in rows) else ALARMS)
+    cells = [tuple(_text(row[name]) for name in HEAD) for row in rows]
+    if chosen.csv:
+        sensible(_write, Path(chosen.csv), csv_text(HEAD, *cells))
+        print(f"{chosen.csv}: {len(rows)} programs, {sum(row['complete'] for row in rows)} complete", file=sys.stderr)
+    elif chosen.csv is not None:
+        print(csv_text(HEAD, *cells), end="")
+    elif chosen.json:
+        print(json.dumps(rows, indent=1))
+    else:
+        print(text_table(HEAD, cells))
+        whole = sum(row["time, s"] or 0.0 for row in rows)
+        print(f"\n{len(rows)} programs, {sum(row['complete'] for row in rows)} complete, {times.clock(whole)} in all")
+    return status
+
+
+def _rows(chosen: argparse.Namespace, setup: Setup | None, limits: Limits | None) -> Iterator[dict[str, Any]]:
+    places = list(map(program, chosen.files))
+    found = list(dict.fromkeys(file for place in places for file in sensible(files_of, place)))
+    with progress("timing", len(found), "files") as at:
+        for number, file in enumerate(found):
+            at(number)
+            try:
+                yield _row(str(file), run(file, chosen.control, setup), limits, chosen.override / 100)
+            except Alarm as alarm:  # what cannot be read, or planned
+                yield dict.fromkeys(HEAD) | {"file": str(file), "complete": False, "why": alarm.message}
+
+
+def _row(file: str, result: Run, limits: Limits | None, override: float) -> dict[str, Any]:
+    profile, path, stop = result.profile(limits, override=override), result.toolpath, _stop(result)
+    rapid = float(profile.time_by("kind").get("rapid", 0.0))
+    lengths = result.summary()
+    return dict(zip(HEAD, (
+        file, result.control.name, stop is None, profile.time, float(profile.seconds[path.is_motion].sum()) - rapid, rapid,
+        lengths["cutting length"], lengths["rapid length"], stop.span.line if stop and stop.span else None,
+        stop.message if stop else None,
+    ), strict=True))  # fmt: skip
+
+
+def _stop(result: Run) -> Alarm | None:
+    """The alarm that stopped a program."""
+    return next((alarm for alarm in result.alarms if alarm.severity == ALARM), None)
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return f"{value:.3f}" if isinstance(value, float) else "" if value is None else " ".join(str(value).split())
+
+
+def _write(path: Path, text: str) -> None:
+    with replaced(path) as beside:
+        beside.write_text(text, "utf-8", newline="")
+
+
+def _refuse(said: str) -> None:
+    raise Alarm(said)

@@ -1,0 +1,236 @@
+"""What is compared: strategies by name, profiles of machines, holes apart from order and heights, the largest radius."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+
+import mnclab as mnc
+from mnclab.__main__ import main
+
+AREA = mnc.area.Region.of(mnc.area.rectangle(60, 40, 6))
+HOLES_MNC = "N10 G90 G54 T2 S1000 M3\nN20 G0 X{0} Y10 Z5\nN30 G83 X{0} Y10 Z-12 R2 K4 F120\nN40 X{1} Y10\nN50 G80\nN60 G0 Z50\n"
+HOLES_TNC = """0 BEGIN PGM A MM
+1 TOOL CALL 2 Z S1000
+2 L Z+100 R0 FMAX M3
+3 CYCL DEF 200 DRILLING Q200=2 Q201=-20 Q206=150 Q202=5 Q210=0 Q203=+7 Q204=20 Q211=0 Q395=0
+4 L X+{0} Y+10 R0 FMAX M99
+5 L X+{1} Y+10 R0 FMAX M99
+6 L Z+100 R0 FMAX M30
+7 END PGM A MM
+"""
+
+
+def alarm_of(act):
+    with pytest.raises(mnc.Alarm) as raised:
+        act()
+    return raised.value
+
+
+@pytest.fixture(scope="module")
+def compared():
+    return mnc.compare(AREA, mnc.Tool(diameter=8), "rings", "zigzag", machine="small-mill")
+
+
+def test_strategies_by_their_names(compared):
+    assert [trial.name for trial in compared.trials] == ["rings", "zigzag"]
+    same = mnc.compare(AREA, 4.0, ["rings", "zigzag"], limits=compared["rings"].limits)
+    assert [trial.time for trial in same.trials] == [trial.time for trial in compared.trials]
+    assert compared["rings"].limits == mnc.Setup(limits="small-mill").limits
+    assert "spiral" in alarm_of(lambda: mnc.compare(AREA, 4.0, "rings", "spirl")).hint
+
+
+def test_the_best_by_a_column(compared):
+    for column in ("time", "length", "most"):
+        values = compared.columns()[column]
+        assert compared.best(column).row[column] == values.min()
+    assert compared.best("covered, %").row["covered"] == compared.columns()["covered"].max()
+    assert "time" in alarm_of(lambda: compared.best("tim")).hint
+
+
+def test_a_comparison_is_saved(compared, tmp_path):
+    rows = list(csv.reader(compared.save(tmp_path / "t.csv").open(encoding="utf-8")))
+    assert rows[0][:2] == ["strategy", "cutting length, mm"]
+    assert [row[0] for row in rows[1:]] == ["rings", "zigzag"]
+    assert float(rows[1][1]) == pytest.approx(compared["rings"].length(rapid=False), abs=0.5)
+    assert "<svg" in compared.save(tmp_path / "t.svg").read_text(encoding="utf-8")
+    assert ".svg" in alarm_of(lambda: compared.save(tmp_path / "t.xls")).message
+    assert "without options" in alarm_of(lambda: compared.save(tmp_path / "t.csv", size=(5, 5))).message
+
+
+def test_schemes_on_a_machine_by_its_name():
+    profile = mnc.area.Contour([(0, 20), (-40, 20), (-50, 30)], closed=False)
+    found = mnc.compare_turning(profile, 30, schemes=["loop"], machine="old-lathe")
+    assert found.trials[0].limits == mnc.Setup(limits="old-lathe").limits
+
+
+# --- holes -----------------------------------------------------------------------------------------------------------
+
+
+def test_the_holes_of_a_run():
+    found = mnc.run(HOLES_MNC.format(20, 60), "mnc").holes()
+    assert [(row.x, row.y, row.top, row.bottom, row.diameter, row.tool) for row in found] == [
+        (20, 10, 2, -12, 8, 2), (60, 10, 2, -12, 8, 2),
+    ]  # fmt: skip
+    assert [row.lines for row in found] == [(3,), (4,)]
+    assert "diameter, mm" in repr(found) and "<table" in found._repr_html_()
+    assert found.columns()["x"].tolist() == [20, 60]
+    assert len(found.csv().splitlines()) == 3
+
+
+def test_a_plunge_into_a_pocket_is_no_hole_and_a_second_tool_is_a_second_row():
+    text = "G90 G54 T1 S1000 M3\nG0 X0 Y0 Z5\nG1 Z-2 F100\nX40\nG0 Z5\nX60\nG1 Z-3\nG0 Z5\nT2\nG1 Z-9\nG0 Z5\n"
+    found = mnc.run(text, "mnc").holes()
+    assert [(row.x, row.tool, row.bottom) for row in found] == [(60, 1, -3), (60, 2, -9)]
+
+
+def test_holes_are_the_same_whatever_their_order_heights_and_control():
+    one, other = mnc.run(HOLES_MNC.format(20, 60), "mnc"), mnc.run(HOLES_TNC.format(60, 20), "tnc-620")
+    found = mnc.diff(one, other, what="holes")
+    assert found.same and len(found.both) == 2
+    assert "the same 2 holes" in repr(found)
+    assert mnc.diff(one, other).largest > 1
+
+
+@pytest.mark.parametrize(("shift", "same"), [(0.0, True), (0.0009, True), (0.0011, False), (5.0, False)])
+def test_holes_elsewhere_differ(shift, same):
+    one, other = (mnc.run(HOLES_MNC.format(20, 60 + by), "mnc") for by in (0, shift))
+    found = mnc.diff(one, other, what="holes")
+    assert found.same is same
+    assert [len(rows) for rows in found.only] == ([0, 0] if same else [1, 1])
+    if not same:
+        assert found.only[1][0, 0] == pytest.approx(60 + shift)
+        assert "only in" in repr(found) and "only in" in found._repr_html_()
+    assert found.plot().alt.startswith("holes:")
+    assert mnc.diff(one, other, what="holes", tolerance=6).same
+
+
+def test_diameters_count_and_wrong_words_are_named():
+    one, other = (mnc.run(HOLES_MNC.format(20, 60), "mnc", tools={2: mnc.Tool(diameter=d)}) for d in (8, 6.6))
+    assert not mnc.diff(one, other, what="holes").same
+    assert "path or holes" in alarm_of(lambda: mnc.diff(one, other, what="hole")).message
+    assert mnc.diff(mnc.run("G0 X1\n", "mnc"), mnc.run("G0 X1\n", "mnc"), what="holes").sentence == "no holes in either"
+
+
+def test_as_many_holes_as_a_grid_has_in_any_order():
+    random = np.random.default_rng(5)
+    spots = [(x, y) for x in range(0, 200, 10) for y in range(0, 100, 10)]
+    runs = []
+    for _ in range(2):
+        random.shuffle(spots)
+        drill = "".join(f"G0 X{x} Y{y}\nG1 Z-{random.integers(1, 9)}\nG0 Z5\n" for x, y in spots)
+        runs.append(mnc.run(f"G90 G54 T2 S900 M3 F100\nG0 Z5\n{drill}", "mnc"))
+    assert len(runs[0].holes()) == 200
+    assert mnc.diff(*runs, what="holes").same
+
+
+# --- the largest radius ----------------------------------------------------------------------------------------------
+
+#: The inside of a box 40 x 30 with corners of radius `r`, entered from the middle of its lower side.
+BOX = """G17 G90 G54 T1 S900 M3
+G0 X20 Y15 Z5
+G1 Z-2 F100
+G41 X20 Y0
+X{b}
+G3 X40 Y{r} R{r}
+G1 Y{c}
+G3 X{b} Y30 R{r}
+G1 X{r}
+G3 X0 Y{c} R{r}
+G1 Y{r}
+G3 X{r} Y0 R{r}
+G1 X20
+G40 X20 Y15
+"""
+
+
+@pytest.mark.parametrize("radius", [3, 6, 10])
+def test_the_largest_radius_is_below_that_of_the_corners(radius):
+    text = BOX.format(r=radius, b=40 - radius, c=30 - radius)
+    found = mnc.run(text, "mnc", tools={1: mnc.Tool(radius=1)}).largest_radius()
+    assert found.radius == pytest.approx(radius, abs=1e-9)
+    assert str(found).startswith(f"below {radius} mm") == found.below
+    fits = [mnc.run(text, "mnc", tools={1: mnc.Tool(radius=each)}).ok for each in (radius - 1e-6, radius, radius + 1e-6)]
+    assert fits == [True, not found.below, False]
+    failed = mnc.run(text, "mnc", tools={1: mnc.Tool(radius=14)})
+    assert not failed.ok and failed.largest_radius() == found
+
+
+def test_the_way_to_the_contour_is_as_long_as_the_radius_at_least():
+    straight = "G17 G90 G54 T1 S900 M3\nG0 X0 Y-90\nG1 G41 X0 Y0 F100\nY30\nY60\nG40 Y150\n"
+    assert str(mnc.run(straight, "mnc").largest_radius()) == "90 mm (lines 3 and 4)"  # MNC manual: the approach is Y-90 to Y0
+
+
+def test_where_nothing_is_compensated():
+    assert "nothing is compensated" in alarm_of(lambda: mnc.run("G0 X1\n", "mnc").largest_radius()).message
+    assert "not known on jnc-t01" in alarm_of(lambda: mnc.run("N1 G0 X1 Z1\n", "jnc-t01").largest_radius()).message
+
+
+# --- profiles --------------------------------------------------------------------------------------------------------
+
+
+def test_profiles_of_machines_in_one_figure():
+    run = mnc.run(HOLES_MNC.format(20, 60), "mnc")
+    slow, fast = run.profile("hobby-router"), run.profile("fast-mill")
+    picture = mnc.plot_profiles(slow, fast)
+    assert [ax.get_xlim() for ax in picture.axes] == [(0, pytest.approx(max(slow.time, fast.time)))] * 2
+    assert len({ax.get_ylim() for ax in picture.axes}) == 1
+    texts = [text.get_text() for ax in picture.axes for text in ax.texts]
+    assert texts == [f"program on hobby-router: {slow.time:.2f} s", f"program on fast-mill: {fast.time:.2f} s"]
+    assert "hobby-router" in picture.alt
+    for wrong in (lambda: mnc.plot_profiles(5), lambda: mnc.plot_profiles(slow, names=["a", "b"])):
+        alarm_of(wrong)
+    assert len(mnc.plot_profiles(run, slow, names=["a", "b"], over="path").axes) == 2
+
+
+def test_a_tool_change_is_lost_time():
+    profile = mnc.run("G90 G54 S1000 M3\nG0 X0 Z5\nT2\nG1 X40 F100\n", "mnc").profile("small-mill")
+    change = mnc.Setup(limits="small-mill").limits.tool_change
+    ax = profile.plot_lost().axes[0]
+    labels = [label.get_text().split()[-1] for label in ax.get_yticklabels()]
+    lost = next(bars for bars in ax.containers if bars.get_label() == "lost")
+    assert lost[labels.index("T2")].get_width() == pytest.approx(change)
+
+
+# --- folders ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def folder(tmp_path):
+    jobs = tmp_path / "jobs"
+    jobs.mkdir()
+    jobs.joinpath("good.mnc").write_text(HOLES_MNC.format(20, 60))
+    jobs.joinpath("stopped.mnc").write_text("N10 G0 X10\nN20 G999\nN30 G0 X20\n")
+    return jobs
+
+
+def test_the_times_of_a_folder(folder, capsys):
+    out = folder.parent / "out.csv"
+    assert main(["time", str(folder), "--machine", "small-mill", "--csv", str(out)]) == 1
+    good, stopped = csv.DictReader(out.open(encoding="utf-8"))
+    assert (good["complete"], stopped["complete"]) == ("yes", "no")
+    expected = mnc.run(folder / "good.mnc").profile("small-mill").time
+    assert float(good["time, s"]) == pytest.approx(expected, abs=0.001)
+    assert stopped["stopped in line"] == "2" and "G999" in stopped["why"]
+    assert "2 programs, 1 complete" in capsys.readouterr().err
+
+
+def test_the_times_as_a_table_and_as_json(folder, capsys):
+    assert main(["time", str(folder), "--limits", "small-mill"]) == 1
+    assert "2 programs, 1 complete" in capsys.readouterr().out
+    assert main(["time", str(folder / "good.mnc"), str(folder / "good.mnc"), "--json"]) == 0
+    assert [row["complete"] for row in json.loads(capsys.readouterr().out)] == [True]
+
+
+def test_a_program_that_stopped_is_marked(folder, capsys):
+    assert main(["time", str(folder / "stopped.mnc")]) == 1
+    assert "not complete: the program stopped in line 2" in capsys.readouterr().out
+    assert main(["time", str(folder / "stopped.mnc"), "--json"]) == 1
+    assert json.loads(capsys.readouterr().out)["complete"] is False
+
+
+def test_what_a_folder_does_not_take(folder, capsys):
+    with pytest.raises(SystemExit):
+        main(["time", str(folder), "--start-at", "3"])
+    assert "for one program" in capsys.readouterr().err
