@@ -23,11 +23,11 @@ def cutting_data(
     run: Run, limits: Limits | str | None = None, *, machine: Limits | str | None = None,
     vc: Most = None, fz: Most = None, kc: float | None = None,
 ) -> CuttingData:  # fmt: skip
-    """Spindle speed, cutting speed, feed a tooth, depth and width of cut, mean chip thickness and removal rate of each tool.
-
     """Spindle and cutting speed, feed a tooth, depth and width of cut, mean chip thickness and removal rate of each tool.
-    number; with `kc` N/mm², the specific cutting force of the material, it has the power at the spindle. The formulas are in
-    `mnclab.workpiece.cutting_data`.
+
+    `limits` or `machine` as in `profile`; `vc` m/min and `fz` mm are the greatest that a tool bears, a number for all or a
+    dict by tool number; with `kc` N/mm², the specific cutting force of the material, it has the power at the spindle. The
+    formulas are in `mnclab.workpiece.cutting_data`.
     """
     (tools, numbers), profile = run.tools_that_cut, run.profile(limits, machine=machine)
     most = {name: _of_tools(given, name, tools) for name, given in (("vc", vc), ("fz", fz)) if given is not None}
