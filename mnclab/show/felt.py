@@ -15,7 +15,7 @@ from mnclab.geometry.frames import shift
 from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array
 from mnclab.path.kinds import Kind
-from mnclab.path.listing import MM
+from mnclab.path.listing import MM, Unit
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.part.part import Distance, Floats
 
@@ -174,12 +174,17 @@ def _rows(run: Any, origin: Array) -> list[int]:
     return found
 
 
+def touched_decimals(unit: Unit) -> int:
+    """How many decimals a touched coordinate has in a picture."""
+    return 3 if unit is MM else 4
+
+
 def _texts(run: Any) -> list[tuple[str, str]]:
     found, unit = [], run.toolpath.unit
-    digits = 3 if unit is MM else 4
     for k, touch in enumerate(run.touches, 1):
         way = np.abs(np.array(touch.found) - touch.programmed)
         axis = int(way.argmax())
-        value = f"{touch.names[axis]} {touch.found[axis] / unit.length:z.{digits}f}".replace("-", "\N{MINUS SIGN}")
+        counts = touch.found[axis] / unit.length
+        value = f"{touch.names[axis]} {counts:z.{touched_decimals(unit)}f}".replace("-", "\N{MINUS SIGN}")
         found.append((f"{k}   {value}" if way[axis] > 0.999 * np.linalg.norm(way) else str(k), str(k)))
     return found
