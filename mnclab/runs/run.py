@@ -35,12 +35,14 @@ from mnclab.path.travel import Stopped
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs import card, lint, material, outcome
+from mnclab.runs.cutting_data import cutting_data, measuring_sheet, setup_sheet, tool_sheet
 from mnclab.runs.explanation import Explanation
 from mnclab.runs.faults_ahead import faults_ahead
 from mnclab.runs.history import History
 from mnclab.runs.largest_radius import LargestRadius, largest_radius
 from mnclab.runs.moment import Moment
 from mnclab.runs.moments import Moments, when
+from mnclab.runs.pictures import Pictures
 from mnclab.runs.start import MissedOnes, start_at
 from mnclab.runs.tables import tables_at_end
 from mnclab.text.alarm import ALARM, Alarm, by_place, quoted
@@ -65,7 +67,7 @@ if TYPE_CHECKING:
 EXAMPLE = "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
 
 
-class Run:
+class Run(Pictures):
     """The result of running a program: both paths, alarms, history, the `files` it wrote, and where the machine stands.
 
     `measured` is what probing found, by name, `measurements` the record; `touches`, `figures`: machine coordinates.
@@ -261,7 +263,8 @@ class Run:
         none; with the lines between which it is narrowest."""
         return largest_radius(self)
 
-    start_at = start_at
+    start_at, cutting_data = start_at, cutting_data
+    setup_sheet, tool_sheet, measuring_sheet = setup_sheet, tool_sheet, measuring_sheet
 
     # --- doors -------------------------------------------------------------------------------------------------------
 
@@ -293,9 +296,7 @@ class Run:
     def player(self, limits: Limits | str | None = None, *, machine: Limits | str | None = None, **options: Any) -> Player:
         """A page to play the run in: forwards and backwards, by block, move or time; orbit, pan and zoom.
 
-        Where there is a blank the page cuts it as it plays, on a lathe in section; of runs that are not too long it marks
-        the collisions.
-
+        Where there is a blank the page cuts it as it plays; of runs that are not too long it marks the collisions.
         `limits` are those of `profile`. `height` in pixels, `theme` "auto", "light" or "dark", `speed` 1
         for real time. `.save(path)` writes it as a file that needs no network, as `run.save("part.html")` does.
         """
@@ -334,11 +335,12 @@ class Run:
         return save(self, path, **options)
 
     def report(self, path: str | Path, title: str | None = None, **options: Any) -> Path:
-        """Write a report, .html or .pdf: figures, tools, time, picture, alarms, the program; `options` of `plot`.
+        """Write a report, .html or .pdf: figures, path, tools, time, cutting data, alarms, set-up, programs; `options` of `plot`.
 
-        `design=`, or what else `Workpiece.compare` takes, adds a measuring record; `tolerance=0.05` mm.
+        `design=`, or what else `Workpiece.compare` takes, adds a measuring record; `tolerance=0.05` mm. Times and limits are
+        those of `machine=`, "small-mill" or limits; default the ones of the setup.
         """
-        from mnclab.show.report import save_report
+        from mnclab.show.report.saving import save_report
 
         return save_report(self, path, title, **options)
 

@@ -205,7 +205,7 @@ def test_everything_live_has_a_still_picture_and_its_values(made):
     assert bundle["image/png"].startswith("iVBORw0KGgo"), "PNG in base64"
     assert bundle["image/png"] in bundle["text/html"] and re.search(r'<img alt="[^"]{10}', bundle["text/html"])
     for name, box in live.boxes.items():
-        assert f"<td>{box.description or name}</td>" in bundle["text/html"]
+        assert f">{box.description or name}</td>" in bundle["text/html"]
     assert "VBox" not in bundle["text/plain"]
 
 
@@ -213,7 +213,9 @@ def test_the_still_values_are_the_last_ones_in_words():
     live = mnclab.form("CYCL DEF 251", "tnc-620")
     live.boxes["depth"].value = -12.5
     live.ticks["finishing_feed"].value = False
-    still = live.still()["text/html"]
+    still = live.still()["text/plain"]
     for name, value in (("Q201 depth [mm]", "-12.5"), ("Q215 machining operation", "0 roughing and finishing")):
-        assert f"<td>{name}</td><td>{value}</td>" in still
-    assert "<td>Q385 finishing feed rate [mm/min]</td><td>left out</td>" in still
+        assert f"{name}: {value}" in still
+    assert "Q385 finishing feed rate [mm/min]: left out" in still
+    live.boxes["infeed"].value = -5
+    assert "last good picture" in live.still()["text/html"] and 'role="alert"' in live.still()["text/html"]

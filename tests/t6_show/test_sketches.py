@@ -8,7 +8,8 @@ from xml.etree import ElementTree
 import pytest
 
 from mnclab.controls import CONTROLS
-from mnclab.show.sketches import sketch
+from mnclab.show.sketches import MILLS, RULES, kinds, sketch
+from mnclab.show.sketches.ink import Sheet
 
 SVG = "{http://www.w3.org/2000/svg}"
 EVERY = [(control, cycle) for control in CONTROLS for cycle in dict.fromkeys(CONTROLS[control].cycles.values())]
@@ -36,7 +37,7 @@ class Drawing:
 
     @property
     def address(self):
-        return next(text.text for text in self.root.iter(f"{SVG}text") if text.get("class") == "address")
+        return next(text.text for text in self.root.iter(f"{SVG}text") if text.get("data-style") == "address")
 
     @property
     def surface(self):
@@ -52,7 +53,7 @@ class Drawing:
 def strokes(root, style):
     found = []
     for path in root.iter(f"{SVG}path"):
-        if path.get("class") == style:
+        if path.get("data-style") == style:
             for one in path.get("d").split("M")[1:]:
                 points = [re.findall(NUMBERS, part)[-2:] for part in re.split("[LA]", one)]
                 found.append([(float(x), float(y)) for x, y in points])
@@ -62,7 +63,7 @@ def strokes(root, style):
 def ink(root, style):
     """Points less than 1 apart on all strokes of a style; arcs by their middle, as SVG defines them."""
     for path in root.iter(f"{SVG}path"):
-        if path.get("class") != style:
+        if path.get("data-style") != style:
             continue
         at = start = (0.0, 0.0)
         for command, values in re.findall(r"([MLAZ])([^MLAZ]*)", path.get("d")):
@@ -101,7 +102,7 @@ def test_every_sketch_is_whole_named_and_has_its_address_in_the_clear(control):
                 continue
             root = ElementTree.fromstring(text)
             assert root.get("role") == "img" and root.find(f"{SVG}title").text == parameter.meaning
-            (label,) = [element for element in root.iter(f"{SVG}text") if element.get("class") == "address"]
+            (label,) = [element for element in root.iter(f"{SVG}text") if element.get("data-style") == "address"]
             assert parameter.address in label.text, f"{cycle.code} {parameter.address}"
             x, y, wide, high = (float(label.get(key)) for key in ("x", "y", "textLength", "font-size"))
             left, right, top, low = x - wide / 2, x + wide / 2, y - 0.7 * high, y
@@ -287,3 +288,14 @@ def test_cycles_of_others_are_drawn_by_the_words_of_their_declaration():
 
     parameter = next(p for p in CONTROLS["mnc"].cycles["G300"].parameters() if p.address == "H")
     assert "<title>depth from the surface to the bottom</title>" in sketch(Peck, parameter)
+
+
+@pytest.mark.parametrize("table", ["MILLED", "TOUCHED", "TURNED"])
+def test_every_rule_draws_for_every_kind_of_work_that_it_names(table):
+    """Cycles of others may join any kind with any meaning."""
+    for kind in {kind for _, kind in getattr(kinds, table)} | ({kinds.OTHER} if table == "MILLED" else set()):
+        for named, words, draw in RULES.get(kind.section, MILLS):
+            if re.fullmatch(named, kind.section) or re.fullmatch(named, kind.figure):
+                sheet = Sheet("Q1")
+                draw(sheet, kind)
+                assert any(sheet.paths[style] for style in ("measure", "head")), f"{kind} {words} highlights nothing"

@@ -11,14 +11,16 @@ from html import escape
 from mnclab.machine.cycle import Cycle, Parameter
 from mnclab.machine.parameter_table import left_out
 from mnclab.show.forms.groups import groups
+from mnclab.show.sketches import sketch
 
 
 def about(cycle: type[Cycle], parameters: Sequence[Parameter]) -> str:
     """The cards of all parameters and the rules that show one of them, the first where no field is meant."""
-    cards = "".join(f'<div class="mnclab-about mnclab-a{k}">{card(cycle, p)}</div>' for k, p in enumerate(parameters))
-    meant = ":is(:focus-within, :hover)"
-    first = parameters.index(next(iter(groups(parameters).values()))[0]) if parameters else 0
-    rules = [f".mnclab-form:not(:has(.mnclab-row{meant})) .mnclab-a{first}"]
+    shown = next(iter(groups(parameters).values()), [])[:1]
+    cards = ""
+    for k, p in enumerate(parameters):
+        cards += f'<div class="mnclab-about mnclab-a{k}{" mnclab-shown" * (p in shown)}">{card(cycle, p)}</div>'
+    rules = [".mnclab-form:not(:has(.mnclab-row:is(:focus-within, :hover))) .mnclab-shown"]
     for k in range(len(parameters)):
         rules += [
             f".mnclab-form:has(.mnclab-p{k}:focus-within) .mnclab-a{k}",
@@ -32,9 +34,4 @@ def card(cycle: type[Cycle], p: Parameter) -> str:
     otherwise = left_out(p)
     facts = [p.allowed if not p.choices else "", p.note, f"left out: {otherwise}" if otherwise else ""]
     said = "<br>".join(escape(fact) for fact in facts if fact)
-    return f"{sketched(cycle, p)}<p><strong>{escape(p.address)}</strong> {escape(p.meaning)}<br>{said}</p>"
-
-
-def sketched(cycle: type[Cycle], p: Parameter) -> str:
-    """A little drawing of what a parameter measures; empty where there is none."""
-    return ""
+    return f"{sketch(cycle, p)}<p><strong>{escape(p.address)}</strong> {escape(p.meaning)}<br>{said}</p>"

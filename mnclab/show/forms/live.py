@@ -30,8 +30,9 @@ def live_class() -> type:
             super().__init__([ipywidgets.HTML(style()), *children])
             self.title, self.shown, self.run = "panel", "", None
             self.place: Any = None  # of the still picture in the notebook
+            self.picture, self.alarms = ipywidgets.HTML(), ipywidgets.HTML()
             self.boxes: dict[str, Any] = {}
-            for name in ("mnclab-live", *classes.split()):
+            for name in ("mnclab-following", *classes.split()):
                 self.add_class(name)
             for name, value in known.items():
                 setattr(self, name, value)
@@ -40,8 +41,8 @@ def live_class() -> type:
             """The last picture and the values, as a page shows them, as a picture alone, and in words."""
             values = {box.description or name: value_of(box) for name, box in self.boxes.items()}
             words = "; ".join(f"{name}: {value}" for name, value in values.items())
-            rows = "".join(f"<tr><td>{escape(name)}</td><td>{escape(value)}</td></tr>" for name, value in values.items())
-            page = f"<p><strong>{escape(self.title)}</strong></p>{self.shown}<table>{rows}</table>"
+            rows = "".join(f"<tr>{cell(name)}{cell(value)}</tr>" for name, value in values.items())
+            page = f"<p><strong>{escape(self.title)}</strong></p>{self.picture.value}{self.alarms.value}<table>{rows}</table>"
             data = self.shown.partition("base64,")[2].partition('"')[0]
             still = {"text/html": f'<div class="mnclab-still">{page}</div>', "text/plain": f"<{self.title}; {words}>"}
             return still | ({"image/png": data} if data else {})
@@ -60,6 +61,11 @@ def live_class() -> type:
             self.place = display(self.still(), raw=True, display_id=True)
 
     return Live
+
+
+def cell(text: str) -> str:
+    """A cell of a table, its text on the left."""
+    return f'<td style="text-align: left">{escape(text)}</td>'
 
 
 def style() -> str:

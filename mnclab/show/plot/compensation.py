@@ -23,7 +23,21 @@ from mnclab.path.kinds import RULE_NAMES, Rule
 from mnclab.path.toolpath import Toolpath
 from mnclab.show.plot import colours, ghost
 from mnclab.show.plot.equidistant import CORNERS, Panel, draw, write
-from mnclab.show.plot.picture import BELOW, ROW, SIZE, VIEWS, Foot, Picture, View, columns, dress, roomy, write_legend
+from mnclab.show.plot.picture import (
+    BELOW,
+    ROW,
+    SIZE,
+    VIEWS,
+    Foot,
+    Picture,
+    View,
+    dress,
+    legend_height,
+    legend_rows,
+    roomy,
+    write_legend,
+)  # fmt: skip
+from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import Array, corners
 from mnclab.show.plot.trials import TITLE, grid
 from mnclab.text.alarm import Alarm, several
@@ -44,6 +58,7 @@ WIDE = (12.0, 7.0)  # several pictures side by side
 GAP, RIGHT = 0.5, 0.16  # inches
 
 
+@sized()
 def compensation(
     run: Any,
     ax: Axes | None = None,
@@ -170,7 +185,7 @@ def _picture(
 
     def room(count: int) -> tuple[float, float]:
         """Inches a millimetre, and the height of the legend, for so many panels in a row."""
-        lines, above = math.ceil(len(panels) / count), 0.06 + ROW * math.ceil(len(words) / columns(words, size[0]))
+        lines, above = math.ceil(len(panels) / count), 0.06 + legend_height(len(legend_rows(words, size[0])))
         free = size[0] - count * (left + RIGHT), size[1] - above - bottom - lines * TITLE - (lines - 1) * GAP
         return min(free[0] / count / wide, free[1] / lines / tall), above
 
@@ -178,9 +193,9 @@ def _picture(
     count = max(full, key=lambda n: (room(n)[0] * (1.5 if n == len(panels) < 4 else 1.0), n))
     scale = room(count)[0]
     across, height = max(scale * wide, 1.6), max(scale * tall, 1.6)
-    lines, width = math.ceil(len(panels) / count), max(4.6, count * (left + RIGHT + across))
+    lines, width = math.ceil(len(panels) / count), min(size[0], max(4.6, count * (left + RIGHT + across)))
     across = width / count - left - RIGHT
-    above = 0.06 + ROW * math.ceil(len(words) / columns(words, width))
+    above = 0.06 + legend_height(len(legend_rows(words, width)))
     total = above + bottom + lines * (TITLE + height) + (lines - 1) * GAP
     picture = Picture((width, total), _in_words(panels))
     titles, views = [panel.title for panel in panels], [panel.view for panel in panels]

@@ -193,14 +193,15 @@ class Sheet:
                 if not any(self.rows[row + k] >> column & (1 << columns) - 1 for k in range(rows)):
                     x, y = (column + columns / 2) * CELL, (row + rows / 2) * CELL + 0.36 * high
                     return (
-                        f'<text class="address" x="{written(x)}" y="{written(y)}" font-size="{written(high)}" font-weight="700" '
-                        f'textLength="{written(wide)}" lengthAdjust="spacingAndGlyphs">{escape(self.address)}</text>'
+                        f'<text data-style="address" x="{written(x)}" y="{written(y)}" font-size="{written(high)}" '
+                        f'font-weight="700" textLength="{written(wide)}" lengthAdjust="spacingAndGlyphs">'
+                        f"{escape(self.address)}</text>"
                     )
         return ""
 
     def svg(self, title: str) -> str:
         """The sketch as a text, the address in the largest letters that have a place."""
-        drawn = "".join(f'<path class="{k}" {STYLES[k]} d="{"".join(paths)}"/>' for k, paths in self.paths.items() if paths)
+        drawn = "".join(f'<path data-style="{k}" {STYLES[k]} d="{"".join(paths)}"/>' for k, paths in self.paths.items() if paths)
         letters = "".join(self.words) + (self._label(12) or self._label(10) or self._label(8))
         return (
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" width="{WIDTH}" height="{HEIGHT}" '

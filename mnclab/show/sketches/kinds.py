@@ -44,7 +44,7 @@ MILLED = (
     ("pocket", Kind("pocket", "rectangle")),
     ("line-by-line|multipass", Kind("level face", "face", False)),
     ("face milling", Kind("face", "face", False)),
-    ("ruled surface", Kind("face", "ruled", False)),
+    ("ruled surface", Kind("level face", "ruled", False)),
     ("contour|rough-out|(floor|side) finishing", Kind("pocket", "contour")),
     ("engraving", Kind("engraving", "letters")),
 )

@@ -132,5 +132,5 @@ LATHE = (
     ("thread", "depth of the thread on radius", step((75, 21), (80, 12))),
     ("thread", "depth of cut per pass on radius", step((75, 21), (75, 17), "", ((STOP, 17), (FACE, 17)))),
     ("thread", "taper on diameter", step((FACE, OUTER), (FACE, INNER), "/2", ((STOP, OUTER), (FACE, OUTER)), "taper")),
-    (".*", "feed of the (cycle|roughing passes)", feed),
+    ("along|across|(face )?groove|(radial )?hole", "feed of the (cycle|roughing passes)", feed),
 )
