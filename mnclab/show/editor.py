@@ -35,6 +35,7 @@ MARKED = 100  # faults that are underlined at most
 STYLE = (
     "<style>.mnclab-editor textarea{font-family:monospace;font-size:13px;line-height:1.35;white-space:pre}"
     ".mnclab-editor label{position:absolute;width:1px!important;height:1px;overflow:hidden;clip-path:inset(50%)}"
+    ".mnclab-picture .widget-html-content{min-width:0}"  # a wide picture shrinks
     f".{PAST}{{opacity:.4}}</style>"
 )
 
@@ -92,7 +93,7 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
     size = {"width": "34em", "height": "26em"}
     text = ipywidgets.Textarea(document.text, description="part program", layout=size, continuous_update=True)
     button = ipywidgets.Button(description="Save", tooltip=f"write {path}")
-    picture = ipywidgets.HTML(layout={"flex": "1 1 380px"})  # at least so wide beside the text, or it goes below
+    picture = ipywidgets.HTML(layout={"flex": "1 1 380px", "min_width": "380px"})  # so wide at least, or below
     status, alarms = ipywidgets.HTML(), ipywidgets.HTML()
     kept = ipywidgets.Textarea(layout={"display": "none"})  # what an editor saves: a click would overtake what was typed last
     left = ipywidgets.VBox([ipywidgets.HTML(STYLE), text, ipywidgets.HBox([button, status, kept])])
