@@ -23,6 +23,7 @@ for, with its own signature; `part`, `blank`, `design`, `area`, `strategies`, `s
 one to see what is on it.
 """
 
+import sys as _sys
 from typing import TYPE_CHECKING, Any
 
 from mnclab.controls import CONTROLS as controls
@@ -62,6 +63,7 @@ if TYPE_CHECKING:  # what OPENED says, for editors and for mypy
     from mnclab.show.forms import profile_panel as profile_panel
     from mnclab.show.magic import load_ipython_extension as load_ipython_extension
     from mnclab.show.plot.profiles import plot_profiles as plot_profiles
+    from mnclab.show.plot.variants import plot_runs as plot_runs
     from mnclab.workpiece.design import Design as Design
     from mnclab.workpiece.design import TurnedDesign as TurnedDesign
 
@@ -77,6 +79,7 @@ OPENED = Shelf("mnclab", "the names that need more than numpy", {
     "mnclab.show.forms": "compensation_panel, form, panel, profile_panel",
     "mnclab.show.magic": "load_ipython_extension",
     "mnclab.show.plot.profiles": "plot_profiles",
+    "mnclab.show.plot.variants": "plot_runs",
     "mnclab.workpiece.design": "Design, TurnedDesign",
 })  # fmt: skip
 
@@ -127,6 +130,7 @@ schemes = Shelf("mnclab.schemes", "ways to turn, groove and thread; mnclab.compa
     "mnclab.machining.turning.groove_schemes": "Groove",
     "mnclab.comparison.turning_schemes": "toolpath",
     "mnclab.show.plot.turning_schemes": "plot_threads",
+    "mnclab.show.plot.zones": "plot_zones",
 })  # fmt: skip
 
 probing = Shelf("mnclab.probing", "what measured points are: circle(points), and how sure that is", {
@@ -175,6 +179,7 @@ __all__ = [
     "panel",
     "part",
     "plot_profiles",
+    "plot_runs",
     "probing",
     "profile_panel",
     "read",
@@ -197,3 +202,8 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return sorted({*__all__, *OPENED.__all__, "help", "__version__"} - {"load_ipython_extension"})
+
+
+# In a notebook Tab completes the codes of a control from the first import on: who needs that does not know %load_ext mnclab.
+if (_shell := getattr(_sys.modules.get("IPython"), "get_ipython", lambda: None)()) is not None:
+    OPENED.load_ipython_extension(_shell)

@@ -32,7 +32,7 @@ OUTSIDE = {  # package -> the only modules of mnclab that import it
     "vtkmodules": ("show.scene", "show.part_scene", "workpiece.difference.mesh"),
     "ezdxf": ("geometry.dxf",),
     "ipywidgets": ("show.forms", "show.editor"),
-    "IPython": ("show.magic",),
+    "IPython": ("show.magic", "show.forms.live"),
     "tqdm": ("text.progress",),
     "pandas": ("comparison.table",),
 }
@@ -88,7 +88,7 @@ def fault(module, found):
     here, there = module.split("."), name.split(".")
     if there[0] not in FLOORS:
         return "inside the package a name is imported from its own file, not from the front door"
-    of_all = here[1:2] and here[1] in ("choice", "cycle_steps", "recognition", "survey", "renumber", "trial_part")
+    of_all = here[1:2] and here[1] in ("choice", "completion", "cycle_steps", "recognition", "survey", "renumber", "trial_part")
     if here[0] == there[0] == "controls" and len(here) > 1 and not of_all:
         alike = there[1:2] in (here[1:2], ["word_address"])
         return None if alike else "a control imports word_address and itself, never another"

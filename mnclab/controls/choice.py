@@ -235,9 +235,10 @@ def _only_one_with(code: str) -> Control:
     if code.strip() and len(having) == 1:
         return having[0]
     whose = f"a code of {', '.join(one.name for one in having)}" if having else "no code of any control"
+    example = f'help("{code.strip()}", "{having[0].name}")' if having else 'help("G83", "mnc")'
     raise Alarm(
         f"{code} is {whose}: name the control" if code.strip() else "help needs a code and a control",
-        hint=f'help("G83", "mnc"), or help("mnc") for all its codes; controls: {", ".join(CONTROLS)}',
+        hint=f'{example}, or help("mnc") for all its codes; controls: {", ".join(CONTROLS)}',
     )
 
 

@@ -74,7 +74,7 @@ class Function:
     `moves`: belongs to the motion of the block, and runs for later blocks while it is modal. `still`: a block with it
     moves nothing. `ends_cycle`: an active cycle is over before the motion of the block. `owns`: the words of the block
     are its own, and a motion function beside it only becomes active. `collects`: motion that waits for later blocks may
-    go on waiting; before any other function it is made.
+    go on waiting; before any other function it is made. `leads_away`: what comes next is not the block below, or not always.
     """
 
     code: str
@@ -90,6 +90,7 @@ class Function:
     ends_cycle: bool = False
     owns: bool = False
     collects: bool = False
+    leads_away: bool = False
     source: str = ""
     doc: str = ""
 

@@ -72,7 +72,8 @@ class Ball(NamedTuple):
 def unfit(m: Machine, *, still: bool = False) -> Iterator[tuple[str, str]]:
     """Why a probing cycle cannot run with what is in the spindle: faults without a parameter; `still`: it must not turn."""
     if not m.tool.number:
-        yield "", "needs a tool call before it, which names the probe and its axis"
+        axis = " and its axis" if "TOOL CALL" in m.control.functions else ""
+        yield "", f"needs a tool call before it, which names the probe{axis}"
     elif m.tool.kind not in FOLLOWED:
         yield "", f"needs a touch probe in the spindle, T{m.tool.number} is a {m.tool.kind}"
     elif not m.tool.effective_radius > 0:

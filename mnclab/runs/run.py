@@ -37,10 +37,12 @@ from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs import card, lint, material, outcome
 from mnclab.runs.cutting_data import cutting_data, measuring_sheet, setup_sheet, tool_sheet
 from mnclab.runs.explanation import Explanation
+from mnclab.runs.faults_ahead import faults_ahead
 from mnclab.runs.history import History
 from mnclab.runs.largest_radius import LargestRadius, largest_radius
 from mnclab.runs.moment import Moment
 from mnclab.runs.moments import Moments, when
+from mnclab.runs.pictures import Pictures
 from mnclab.runs.start import MissedOnes, start_at
 from mnclab.runs.tables import tables_at_end
 from mnclab.text.alarm import ALARM, Alarm, by_place, quoted
@@ -65,7 +67,7 @@ if TYPE_CHECKING:
 EXAMPLE = "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
 
 
-class Run:
+class Run(Pictures):
     """The result of running a program: both paths, alarms, history, the `files` it wrote, and where the machine stands.
 
     `measured` is what probing found, by name, `measurements` the record; `touches`, `figures`: machine coordinates.
@@ -377,7 +379,8 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
             finish()
         except Alarm as alarm:
             alarms.append(alarm)
-    told = [interpreter.flow.said(alarm) for alarm in (*alarms, *machine.alarms)]
+    ahead = faults_ahead(interpreter) if broken else []
+    told = [interpreter.flow.said(alarm) for alarm in (*alarms, *machine.alarms, *ahead)]
     result = Run(program, setup, control, machine, interpreter.alarms + told)
     if strict and not result.ok:
         raise next(found for found in result.alarms if found.severity == ALARM)

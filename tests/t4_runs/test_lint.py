@@ -170,6 +170,31 @@ def test_a_long_program_is_not_judged_to_its_end():
     assert told(mnclab.run(text.replace(cut, cut[:1100]), MNC, Setup(stock=BLANK)))
 
 
+def test_the_end_of_the_program_in_a_subprogram():
+    """A label of the TNC 620 ends with LBL 0: M30 there ends everything, and what stands below the call is not obeyed."""
+    text = klartext("CALL LBL 1|L X+9 R0 FMAX|M30|LBL 1|L X+5 R0 FMAX M30|LBL 0", blank=False)
+    (alarm,) = run(text, TNC).alarms
+    assert (alarm.severity, alarm.span.line, alarm.span.column) == ("warning", 7, 15) and "in a subprogram" in alarm.message
+    assert not run(text.replace("FMAX M30", "FMAX"), TNC).alarms
+
+
+def test_a_true_tool_without_a_row_in_the_table():
+    setup = {"true_tools": {1: Tool(radius=4.9), 77: Tool(radius=3)}}
+    (alarm,) = mnclab.run("T1 S500 M3\nG1 X5 F100\n", MNC, Setup(**setup)).alarms
+    assert alarm.severity == "warning" and "T77 as true tools" in alarm.message and "T1 " not in alarm.message
+
+
+def test_help_names_the_code_that_was_asked_for():
+    with pytest.raises(mnclab.Alarm) as raised:
+        mnclab.help("G412")
+    assert 'help("G412", "mnc")' in raised.value.hint and "G83" not in raised.value.hint
+
+
+def test_a_run_of_letters_is_no_word():
+    (alarm,) = run("SETVN|G0 X5", MNC).alarms
+    assert (alarm.span.line, alarm.span.column) == (1, 1) and "SETVN is no word of this control" in alarm.hint
+
+
 #: Programs that truly have the fault, and why.
 TRUE = {
     "secondary_m91.h": (AIR, "the arc runs on the top of the blank, Z+0, to show where M91 leads"),

@@ -322,3 +322,13 @@ def test_a_probe_more_than_5_mm_off_the_centre_is_told(away, warned):
     run = measured(f"G0 X{away}\nG0 Z-8\nG461 D30\n", block((0, 0), 15, inside=False), true_tools=true(3, 150))
     assert run.ok and len(run.alarms) == warned, run.alarms
     assert all(f"began {away:.4f} mm off the centre of the figure" in str(alarm) for alarm in run.alarms)
+
+
+@pytest.mark.parametrize(("diameter", "found"), [(30, None), (30.8, None), (32, 4), (28, 2)])
+def test_a_ring_of_another_diameter_is_told(diameter, found):
+    """Ring 30, ball of radius 3: the spindle goes 12 to each side, so D32 makes a ball of 16 - 12 = 4, and D28 one of 2."""
+    run = measured(f"G0 Z-8\nG461 D{diameter}\n", block((0, 0), 15, inside=False), true_tools=true(3, 150))
+    said = [alarm.message for alarm in run.alarms]
+    sentence = f"G461 finds a ball of radius {found or 0:.4f}, and its row says 3: is the ring of the diameter {diameter:g}?"
+    assert run.ok and said == ([sentence] if found else []), said
+    assert all(alarm.severity == "warning" and alarm.span for alarm in run.alarms)

@@ -75,5 +75,6 @@ def test_a_probe_does_not_turn():
     assert not told(text, "mnc", tools={0: mnclab.Tool(radius=2, kind="probe")})
 
 
-def test_a_run_that_stops_before_the_cut_says_nothing_of_it():
-    assert not told("G0 X5\nG999\nG1 X10 F100\n", "mnc")
+def test_a_run_that_stops_before_the_cut_says_it_where_nothing_in_the_program_starts_the_spindle():
+    assert told("G0 X5\nG999\nG1 X10 F100\n", "mnc") == [(3, "warning")]
+    assert not told("G0 X5\nG999\nS500 M3\nG1 X10 F100\n", "mnc")

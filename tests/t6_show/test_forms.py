@@ -12,6 +12,7 @@ import pytest
 import mnclab
 from mnclab import Alarm
 from mnclab.show import forms
+from mnclab.show.forms.groups import groups
 from mnclab.show.plot import path as plot_of_path
 
 TEMPLATE = "G90 G54 S500 M3\nG0 X0 Y0 Z5\nG1 X{side} F{feed}\nY{side}\nX0\nY0\n"
@@ -19,7 +20,7 @@ TEMPLATE = "G90 G54 S500 M3\nG0 X0 Y0 Z5\nG1 X{side} F{feed}\nY{side}\nX0\nY0\n"
 
 def picture(live):
     """The pixels that are shown, and what they are called."""
-    found = re.fullmatch(r'<img alt="([^"]+)" style="[^"]*" src="data:image/png;base64,([^"]+)">', live.picture.value)
+    found = re.search(r'<img alt="([^"]+)" style="[^"]*" src="data:image/png;base64,([^"]+)">', live.picture.value)
     data = base64.b64decode(found[2])
     assert data.startswith(b"\x89PNG")
     return data, found[1]
@@ -42,14 +43,28 @@ def test_a_panel_follows_its_boxes_at_once():
     assert np.array_equal(live.run.toolpath.bounds[1], [12.5, 12.5, 5])
 
 
-def test_a_number_that_the_control_refuses_is_told_and_the_picture_stops_there():
+def told(live):
+    """The fields with a fault, and what stands there."""
+    return {name: field.fault.value for name, field in live.fields.items() if field.fault in field.row.children}
+
+
+def test_a_number_that_the_control_refuses_is_told_at_its_field_and_the_last_good_picture_stays():
     live = mnclab.panel(TEMPLATE, "mnc", side=40.0, feed=100)
+    pixels, _ = picture(live)
     live.boxes["feed"].value = 0
-    assert '<div role="alert">' in live.alarms.value
-    assert "F (feed rate) must be greater than 0, got 0" in live.alarms.value
-    assert "stopped in line 3" in picture(live)[1]
+    assert list(told(live)) == ["feed"] and 'role="alert"' in told(live)["feed"]
+    for place in (told(live)["feed"], live.alarms.value):
+        assert "F (feed rate) must be greater than 0, got 0" in place
+    again, name = picture(live)
+    assert again == pixels and name.startswith("last good picture; tool path") and "mnclab-past" in live.picture.value
     live.boxes["feed"].value = 50
-    assert "alert" not in live.alarms.value and "stopped" not in picture(live)[1]
+    assert not told(live) and "alert" not in live.alarms.value and "last good" not in live.picture.value
+
+
+def test_a_program_that_never_was_good_shows_how_far_it_came():
+    """Nothing can be the last good picture of a panel whose first numbers are refused."""
+    live = mnclab.panel(TEMPLATE, "mnc", side=40.0, feed=0)
+    assert "stopped in line 3" in picture(live)[1] and list(told(live)) == ["feed"]
 
 
 def test_numbers_decide_the_kind_of_box_and_are_written_as_programs_write_them():
@@ -116,6 +131,79 @@ def test_a_form_shows_the_alarm_of_its_cycle():
     live = mnclab.form("G300", "mnc")
     live.boxes["infeed"].value = 0
     assert 'role="alert"' in live.alarms.value and "G300 P" in live.alarms.value
+
+
+@pytest.mark.parametrize(
+    ("control", "code", "name", "value", "sentence"),
+    [
+        ("mnc", "G83", "peck_depth", 0, "must be greater than 0, got 0"),
+        ("tnc-620", "CYCL DEF 251", "infeed", -5, "must be"),  # Q202 is how far down a layer goes, and never negative
+        ("tnc-620", "CYCL DEF 200", "infeed", 1e12, "smaller than 1e"),  # the reader points into the word
+        ("jnc-t01", "G77", "depth", -1, "without sign"),
+        ("nc-31", "G77", "stock", -1, ""),
+    ],
+)
+def test_a_fault_stands_at_its_field(control, code, name, value, sentence):
+    live = mnclab.form(code, control)
+    if name not in live.boxes:  # the second of two words P: it is told by its meaning
+        name = next(p.name for p in mnclab.controls[control].cycles[code].parameters() if name in p.meaning)
+    before = live.boxes[name].value
+    live.boxes[name].value = value
+    assert live.boxes[name].value == value, "a box pushes nothing back in silence"
+    assert list(told(live)) == [name] and sentence in told(live)[name]
+    assert live.boxes[name].tooltip.startswith(re.sub("<[^>]*>", "", told(live)[name])[:20])
+    live.boxes[name].value = before
+    assert not told(live)
+
+
+def test_a_fault_that_is_of_no_field_stands_above_them():
+    live = mnclab.panel(lambda side: f"G0 X{1 / side}\n", "mnc", side=2.0)
+    live.boxes["side"].value = 0
+    assert not told(live) and "ZeroDivisionError" in live.alarms.value
+    first = live.children[-1].children[0].children[0]
+    assert "ZeroDivisionError" in first.value and 'role="alert"' in first.value
+
+
+def test_a_folded_group_opens_for_its_fault():
+    live = mnclab.form("CYCL DEF 251", "tnc-620")
+    head = live.fields["milling_feed"].head
+    assert "Feeds" in head.description and head.value is False
+    live.boxes["milling_feed"].value = -1
+    assert head.value is True
+
+
+def test_the_fields_of_a_long_form_stand_in_groups():
+    """Where the manual's words put them: sides in the plane, Q201 down, F of milling, climb or conventional a strategy."""
+    live = mnclab.form("CYCL DEF 251", "tnc-620")
+    group = {name: field.head.description for name, field in live.fields.items()}
+    wanted = {"first_side_length": "Shape", "depth": "Depths", "milling_feed": "Feeds", "overlap": "Strat"}
+    assert all(group[name].startswith(head) for name, head in wanted.items())
+    heads = list(dict.fromkeys(group.values()))
+    assert all(int(re.search(r"\((\d+)\)", head)[1]) == list(group.values()).count(head) for head in heads)
+
+
+def test_a_short_form_has_no_groups():
+    assert not any(field.head for field in mnclab.form("G77", "jnc-t01").fields.values())
+
+
+@pytest.mark.parametrize("control", mnclab.controls)
+def test_every_field_stands_in_one_group_and_in_the_order_of_the_manual(control):
+    for code, cycle in mnclab.controls[control].cycles.items():
+        declared = cycle.parameters()
+        found = groups(declared)
+        assert sorted(p.name for those in found.values() for p in those) == sorted(p.name for p in declared), code
+        assert all([p for p in declared if p in those] == those for those in found.values()), code
+        assert len(declared) <= 8 or len(found) > 1, f"{code} has one long group"
+
+
+def test_the_steps_of_a_form_follow_it():
+    """Lesson 6: infeeds 6, then shrinking by 3 but not below 2, of 15 mm: to -6, -9, -11, -13, -15."""
+    live = mnclab.form("G303", "mnc")
+    cells = lambda: re.sub("<[^>]*>", " ", live.steps_view.value)  # noqa: E731
+    assert "peck 1 of 5" in cells() and "-11" in cells()
+    live.boxes["infeed"].value = 15
+    live.boxes["min_infeed"].value = 15
+    assert "drill" in cells() and "peck" not in cells() and "-11" not in cells()
 
 
 EVERY = [(name, code) for name in mnclab.controls for code in mnclab.controls[name].cycles]
@@ -224,20 +312,13 @@ def test_labels_and_axes_are_typed_as_a_program_has_them():
     assert [row.step.value for row in mirror.steps().rows if hasattr(row.step, "value")]
 
 
-def test_names_have_room():
-    """A choice shows its first 19 letters, a tick its address; a count has no unit; alarms stand with the picture."""
-    live = mnclab.form("CYCL DEF 275", "tnc-620")
-    em = lambda size: float(size.removesuffix("em"))  # noqa: E731
-    choice = next(box for box in live.boxes.values() if hasattr(box, "options"))
-    assert em(choice.layout.width) - em(choice.style.description_width) > 0.55 * len("0 roughing and finishing")
-    assert all(em(tick.layout.width) > 0.55 * len(tick.description) + 1 for tick in live.ticks.values()) and live.ticks
+def test_a_count_has_no_unit():
     named = [box.description for n in (7, 21, 22, 24) for box in mnclab.form(f"CYCL DEF {n}", "tnc-620").boxes.values()]
     assert not [name for name in named if "[count]" in name or "[text]" in name]
-    assert live.children[0].children[1].children == (live.picture, live.alarms)
 
 
 def test_a_probe_does_not_turn_in_the_program_of_a_form():
     """A control refuses to turn a touch probe; a drill turns."""
     live = mnclab.form("TCH PROBE 421", "tnc-620")
-    assert live.run.ok and "M3" not in live.children[0].children[0].children[-1].value
-    assert "M3" in mnclab.form("CYCL DEF 200", "tnc-620").children[0].children[0].children[-1].value
+    assert live.run.ok and "M3" not in live.program.value
+    assert "M3" in mnclab.form("CYCL DEF 200", "tnc-620").program.value

@@ -107,7 +107,7 @@ def test_an_arc_is_drawn_as_an_arc():
 
 
 def test_what_runs_along_the_line_of_sight_is_a_cross():
-    above, side = run(DRILL).plot().axes
+    above, side = run(DRILL).plot(holes=False).axes
     assert lines(above)["plunge"].get_xydata().tolist() == [[20, 10]]
     assert "plunge" not in lines(side)
 

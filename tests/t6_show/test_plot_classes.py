@@ -16,7 +16,7 @@ from mnclab.show.plot.path import plot_path
 
 FIRST = (Path(__file__).parents[2] / "data/programs/mnc/first_path.mnc").read_text("utf-8")
 SQUARE = "G90 G54\nG0 X0 Y0 Z5\nG1 Z-2 F100\nX40\nY40\nX0\nY0\nG0 Z5\n"
-FIXED = ("rapid", "probing", "programmed", "start", "end", "plunge", "tool change", "_datum", "_pole")
+FIXED = ("rapid", "probing", "programmed", "start", "end", "plunge", "tool change", "_datum", "_pole", "_holes", "_hole centres")
 
 run = partial(running.run, ok=None)
 
@@ -49,8 +49,8 @@ def waves(n, **columns):
 def test_few_values_are_a_class_each_and_named(colour, names):
     picture = run(FIRST).plot(colour=colour)
     assert list(divided(picture.axes[1])) == names
-    legend = [text.get_text() for text in picture.legends[0].get_texts()]
-    assert [name for name in legend if name not in FIXED] == names
+    legend = [text.get_text() for each in picture.legends for text in each.get_texts()]
+    assert [name for name in legend if name not in (*FIXED, "hole \N{DIAMETER SIGN}8")] == names
     assert divided(picture.axes[0]).keys() == divided(picture.axes[1]).keys()
 
 
@@ -236,6 +236,7 @@ def test_a_circle_centre_of_a_conversational_program_is_a_pole():
         "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F100\n2 L X+20 Y+0\n3 CC X+0 Y+0\n4 C X+0 Y+20 DR+\n5 END PGM A MM\n"
     )
     shown = crosses(mnclab.run(text, "tnc-620").plot(view="XY").axes[0])
+    assert shown.pop("radius 20") == (10, 0)  # beside the middle of the way from the start X20 to the pole
     assert set(shown.values()) == {(0, 0)} and "preset" in shown
 
 

@@ -282,6 +282,7 @@ def test_the_panel_follows_radius_and_rule():
     assert live.boxes["radius"].value == 3 and "alert" not in live.alarms.value and "gouge" not in live.picture.value
     live.boxes["radius"].value = 4.26  # the mouth is 8.5 wide
     assert "largest radius for the whole contour is 4.25 mm" in live.alarms.value and "gouges" in live.picture.value
+    assert "largest radius" in live.fields["radius"].fault.value and "last good" not in live.picture.value
     live.boxes["radius"].value = 4.24
     assert "alert" not in live.alarms.value
     live.boxes["corners"].value = "G161"

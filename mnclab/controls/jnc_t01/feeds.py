@@ -142,7 +142,7 @@ def passed_over(m: Machine, words: Words) -> None:
     foreign(m, words, "it is passed over")
 
 
-@FUNCTIONS("M2 M30", "Program end", phase="end", modal=False, source="not in the manual")
+@FUNCTIONS("M2 M30", "Program end", phase="end", modal=False, leads_away=True, source="not in the manual")
 def program_end(m: Machine, words: Words) -> None:
     """Refused, or the end of the program, by the setting `foreign`."""
     foreign(m, words, "the program ends")

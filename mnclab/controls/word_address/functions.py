@@ -82,7 +82,7 @@ def functions(remark: Obey, source: str, **sources: str) -> FunctionTable:
         remark(m, words)
         m.stop()
 
-    @table("M2 M30", "Program end", phase="end", modal=False, source=source)
+    @table("M2 M30", "Program end", phase="end", modal=False, leads_away=True, source=source)
     def program_end(m: Machine, words: Words) -> None:
         """The program ends here, after the motion of the block; without it, at the end of the text."""
         remark(m, words)

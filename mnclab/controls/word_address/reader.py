@@ -21,6 +21,7 @@ from mnclab.text.words import Scan, scan
 
 PIECE = 1 << 16
 LARGEST = 1e9  # no coordinate, feed or number of a program is as large
+LONGEST_NAME = 24  # letters of a word that is none
 PLAIN_LETTERS = "GXYZIJKRF"
 Labels = list[tuple[int, int]]  # offset and number of the N words
 Other = Callable[[ProgramBuilder, str, int, int], int]
@@ -203,6 +204,8 @@ def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int, mark: Marks)
         following = text[at + 1 : stop].lstrip(" \t")[:1]
         hint = _digit_meant(text, at, stop)
         found = f", found {following!r}" if following and not hint else ""
+        if (letters := re.match(r"[A-Z]{4,}", text[at : min(stop, at + LONGEST_NAME)], re.IGNORECASE)) and not hint:
+            hint = f"{letters.group().upper()} is no word of this control: a word is one letter and its number"
         builder.alarm(f"{c.upper()} needs a number{found}", at, hint=hint)
     elif c in LATIN or c in DIGITS and c.isalpha():
         latin = f"write the Latin letter {LATIN[c]}" if c in LATIN else ""

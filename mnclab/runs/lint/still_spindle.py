@@ -14,6 +14,9 @@ from mnclab.text.alarm import WARNING, Alarm
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
+SENTENCE = "the tool moves at feed while the spindle stands"
+HINT = "a speed (S) and the sense of turning (M3 or M4) come before the first cut; setting stopped_spindle"
+
 
 def remarks(m: Machine, path: Toolpath) -> Iterator[Alarm]:
     """A warning at the first block of a path that moves at feed without a turning spindle.
@@ -32,5 +35,4 @@ def remarks(m: Machine, path: Toolpath) -> Iterator[Alarm]:
     place = m.flow.span_of_step(int(path.step[np.argmax(still)]))
     said = {(alarm.span.line, alarm.span.program) for alarm in m.alarms if alarm.span and "spindle" in alarm.message}
     if place and (place.line, place.program) not in said:
-        hint = "a speed (S) and the sense of turning (M3 or M4) come before the first cut; setting stopped_spindle"
-        yield Alarm("the tool moves at feed while the spindle stands", place, WARNING, hint)
+        yield Alarm(SENTENCE, place, WARNING, HINT)

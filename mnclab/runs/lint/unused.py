@@ -11,8 +11,8 @@ from mnclab.path.columns import Mask
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
 from mnclab.runs.lint.once import once
-from mnclab.text.alarm import Alarm
-from mnclab.text.program import NUMBER, Program
+from mnclab.runs.written import blocks_with
+from mnclab.text.alarm import WARNING, Alarm
 
 if TYPE_CHECKING:
     from mnclab.runs.run import Run
@@ -21,7 +21,11 @@ WORK = (Kind.LINE, Kind.ARC, Kind.PROBE, Kind.DWELL, Kind.STOP)  # at a stop som
 
 
 def remarks(run: Run) -> Iterator[Alarm]:
-    """A warning for the cycles, and one for the tools, of a program that came to its end."""
+    """A warning for the cycles, and one for the tools, of a program that came to its end; one about the setup."""
+    if strange := [f"T{number}" for number in run.setup.true_tools if number not in run.tables.tools]:
+        hint = "a true tool says how a tool of the table really is; write it in Setup(tools=…) too"
+        message = f"the setup knows {', '.join(strange)} as true tools, which have no row in the tool table"
+        yield Alarm(message, None, WARNING, hint)
     if run.ok:
         yield from _cycles(run)
         yield from _tools(run)
@@ -49,19 +53,8 @@ def _executed(run: Run, codes: set[str]) -> Mask:
     """Which steps (s,) executed a block with one of some codes."""
     found = np.zeros(len(run.steps.block), dtype=bool)
     for index, program in enumerate(run.programs):
-        blocks, here = _blocks(program, codes), run.steps.program == index
+        blocks, here = blocks_with(program, codes), run.steps.program == index
         found |= here & blocks[np.where(here, run.steps.block, 0)] if len(blocks) else False
-    return found
-
-
-def _blocks(program: Program, codes: set[str]) -> Mask:
-    """The blocks (b,) of a program with one of some codes, as their keyword or as a word."""
-    found = np.isin(program.keyword, [k for k, keyword in enumerate(program.keywords) if keyword in codes])
-    for k, address in enumerate(program.addresses):
-        if address in ("G", "M"):
-            values = [float(code[1:]) for code in codes if code[0] == address and code[1:].isdigit()]
-            words = (program.address == k) & (program.form == NUMBER) & np.isin(program.value, values)
-            found[np.searchsorted(program.first, np.flatnonzero(words), "right") - 1] = True
     return found
 
 

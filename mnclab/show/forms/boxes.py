@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from mnclab.machine import trial
 from mnclab.machine.cycle import Parameter
@@ -11,33 +11,81 @@ from mnclab.machine.parameter_table import left_out
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
 
-EM = 0.58  # of the height of letters: how wide they are
+LONG = 50  # letters of a choice that have no room in a form in letters of the usual size
+STEPS = 100  # of a slider that was given none
 NO_UNITS = ("choice", "count", "text")
+ORDERS = "(value, least, greatest) or (least, greatest, step)"
 
 Number = float | tuple[float, float, float]
 
 
-def check_number_of_place(name: str, number: Any) -> None:
-    """An Alarm unless a place has a number, or a number and its limits."""
+class Place(NamedTuple):
+    """A number that may be changed: its first value, its limits and the step of its slider, where there are any."""
+
+    value: float
+    limits: tuple[float, float] | None = None
+    step: float | None = None
+
+
+def place_of(name: str, number: Any) -> Place:
+    """A number, `(value, least, greatest)`, or `(least, greatest, step)`, which begins on a step in the middle.
+
+    Which of the two orders is meant is never in doubt: the first of (40, 10, 60) lies between the others, that of
+    (-10, -1, 0.5) does not.
+    """
     parts = number if isinstance(number, tuple) else (number,)
     if len(parts) not in (1, 3):
-        raise Alarm(f"{name} takes a number, or (value, least, greatest), got {shown(number)}")
+        raise Alarm(f"{name} takes a number, {ORDERS}, got {shown(number)}")
     for part in parts:
         check_number(part, name)
-    if len(parts) == 3 and not parts[1] <= parts[0] <= parts[2]:
-        raise Alarm(f"{name} must lie between its least and its greatest value, got {shown(number)}")
+    if len(parts) == 1:
+        return Place(parts[0])
+    first, second, third = parts
+    if second <= first <= third:
+        return Place(first, (second, third))
+    if first < second and 0 < third <= second - first:
+        return Place(on_step(first + (second - first) / 2, first, second, third), (first, second), third)
+    hint = f"{name}=(5, 0, 10) is 5 between 0 and 10; {name}=(0, 10, 0.5) is 0 to 10 in steps of 0.5"
+    raise Alarm(f"{name} must be {ORDERS}, and the value must lie between its limits, got {shown(number)}", hint=hint)
 
 
-def looks_of(name: str, width: float, room: float = 8) -> dict[str, Any]:
-    """How a box looks: its name `width` em wide, and so much room beside it."""
-    widths = f"{width:.1f}em", f"{width + room:.1f}em"
-    return {"description": name, "style": {"description_width": widths[0]}, "layout": {"width": widths[1]}}
+def on_step(value: float, least: float, greatest: float, step: float) -> float:
+    """The nearest value that lies whole steps above the least one, not beyond the greatest, without a rest of digits."""
+    steps = min(round((value - least) / step), int((greatest - least) / step + 1e-9))
+    found = least + max(steps, 0) * step
+    return found if isinstance(found, int) else round(found, 9)
 
 
-def number_box(name: str, number: Number, width: float = 8) -> Any:
-    """A box for a number or for (value, least, greatest); whole numbers stay whole."""
-    value, *limits = number if isinstance(number, tuple) else (number,)
-    return box_of(int if isinstance(value, int) else float, value, limits, looks_of(name, width))
+def number_box(name: str, place: Place) -> Any:
+    """A box for a number; whole numbers stay whole."""
+    whole = all(isinstance(each, int) for each in (place.value, place.step or 0))
+    looks = {"description": name} | ({} if place.step is None else {"step": place.step})
+    return box_of(int if whole else float, place.value, place.limits or (), looks)
+
+
+def slider_of(box: Any, place: Place) -> Any:
+    """A slider for a box with limits, which follow each other.
+
+    It has no name for a screen reader: the box has, and is the one that the keyboard goes to. A slider says
+    10.000000000000002 for 10 when it appears; only another step than that of the box is a change.
+    """
+    import ipywidgets
+
+    low, high = place.limits or (0.0, 1.0)
+    whole = isinstance(box.value, int)
+    step = place.step or (1 if whole else (high - low) / STEPS or 1.0)
+    kind = ipywidgets.IntSlider if whole else ipywidgets.FloatSlider
+    slider = kind(value=box.value, min=low, max=high, step=step, readout=False, tabbable=False)
+    slider.add_class("mnclab-slider")
+
+    def slid(change: Any) -> None:
+        wanted = on_step(change["new"], low, high, step)
+        if wanted != on_step(box.value, low, high, step):
+            box.value = wanted
+
+    slider.observe(slid, "value")
+    box.observe(lambda change: setattr(slider, "value", change["new"]), "value")
+    return slider
 
 
 def box_of(kind: type, value: Any, limits: Sequence[float], looks: Mapping[str, Any]) -> Any:
@@ -56,33 +104,35 @@ def name_of(p: Parameter) -> str:
     return f"{p.address} {p.meaning}" + (f" [{p.unit}]" if p.unit and p.unit not in NO_UNITS and not p.mark else "")
 
 
-def parameter_box(p: Parameter, width: float) -> Any:
-    """The box that fits the kind and limits of a parameter, its name `width` em wide; the tooltip says the rest."""
+def parameter_box(p: Parameter) -> Any:
+    """The box that fits the kind of a parameter; the tooltip says the rest.
+
+    It takes any number: one outside the limits is not pushed back in silence but refused at its field.
+    """
     import ipywidgets
 
     value = trial.first_value(p)
     otherwise = left_out(p)
     facts = [p.meaning, p.allowed, p.note, f"left out: {otherwise}" if otherwise else ""]
-    looks = looks_of(name_of(p), width) | {"tooltip": "; ".join(fact for fact in facts if fact)}
+    looks = {"description": name_of(p), "tooltip": "; ".join(fact for fact in facts if fact)}
     if trial.is_text(p) or p.several:
         return ipywidgets.Text(value=value, **looks)
     if p.choices:
         options = [(f"{choice:g} {meaning}", choice) for choice, meaning in p.choices.items()]
-        wide = EM * max(len(name) for name, _ in options) + 3  # and the arrow
-        return ipywidgets.Dropdown(options=options, value=value, **looks | looks_of(name_of(p), width, min(max(wide, 8), 14)))
-    lowest = [limit for limit in (p.above, p.at_least) if limit is not None]
-    highest = [limit for limit in (p.below, p.at_most) if limit is not None]
-    limits = (max(lowest, default=-1e9), min(highest, default=1e9)) if lowest or highest else ()
-    return box_of(int if p.type == "integer" else float, value, limits, looks)
+        box = ipywidgets.Dropdown(options=options, value=value, **looks)
+        if max(len(name) for name, _ in options) > LONG:
+            box.add_class("mnclab-long")
+        return box
+    return box_of(int if p.type == "integer" else float, value, (), looks)
 
 
 def tick_of(p: Parameter, box: Any) -> Any:
-    """The tick that writes a word which may be left out."""
+    """The tick that writes a word which may be left out; its name is heard, and seen where the mouse rests."""
     import ipywidgets
 
     written = trial.written_first(p)
-    name = f"write {p.address}"
-    tick = ipywidgets.Checkbox(written, description=name, indent=False, layout={"width": f"{EM * len(name) + 3:.1f}em"})
+    tick = ipywidgets.Checkbox(written, description=f"write {p.address}", indent=False, tooltip=f"write {p.address}")
+    tick.add_class("mnclab-tick")
     box.disabled = not written
     tick.observe(lambda change: setattr(box, "disabled", not change["new"]), "value")
     return tick

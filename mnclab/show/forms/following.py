@@ -1,50 +1,85 @@
 """What follows the boxes of a form or a panel: the picture, the alarms, the figures of the run.
 
 JupyterLab calls widgets from another thread than cells, so figures are drawn in **one** thread, `DRAWING`, and without
-pyplot; nobody else starts threads.
+pyplot; nobody else starts threads. A picture keeps the limits of the one before and shows its path as a ghost; where a
+value is refused the last good picture stays, greyed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from html import escape
-from typing import Any
+from typing import Any, NamedTuple
 
-from mnclab.controls.choice import run as run_text
-from mnclab.machine.setup import Setup
 from mnclab.runs.run import Run
-from mnclab.text.alarm import Alarm, card_html
+from mnclab.show.forms.faults import at_field
+from mnclab.show.forms.fields import Field
+from mnclab.show.forms.live import live_class
+from mnclab.text.alarm import ALARM, Alarm, card_html
 
 DRAWING = ThreadPoolExecutor(1, thread_name_prefix="drawing")
 SIZE = (6.4, 4.4)  # inches, of a picture beside boxes
+PAST = "last good picture"
 
-Work = tuple[Callable[[], Any], str]  # what draws the picture, and what is said below it
+
+class Work(NamedTuple):
+    """What a change makes: what draws the picture, what is said below it, and the alarm that stopped it.
+
+    `draw` takes `under` and `limits`, what the picture before was made of and its `box`; `made` is that for the next one.
+    A picture that `shows` the fault itself takes the place of the last good one.
+    """
+
+    draw: Callable[..., Any]
+    said: str
+    stop: Alarm | None = None
+    made: Any = None
+    shows: bool = False
 
 
 def following(
-    boxes: dict[str, Any], rows: Any, work: Callable[[Any], Work | None], *also: Any, beside: bool = False
-) -> Any:
-    """Rows of boxes, with a picture and alarms below or beside them; `work` is done when a box, or one `also`, changes."""
+    boxes: Mapping[str, Any], fields: Mapping[str, Field], left: Any, work: Callable[[Any], Work | None],
+    field_of: Callable[[Alarm], str] = lambda alarm: "", *also: Any, title: str = "panel", classes: str = "",
+    below: Iterable[Any] = (), above: Iterable[Any] = (),
+) -> Any:  # fmt: skip
+    """What is `left` with the picture and the alarms beside it; `work` is done when a box, or one `also`, changes.
+
+    A fault stands at the field that `field_of` names, one of no field above them all.
+    """
     import ipywidgets
 
-    picture, alarms = ipywidgets.HTML(), ipywidgets.HTML()
-    live: Any = ipywidgets.VBox([rows, picture, alarms])
-    if beside:
-        right = ipywidgets.VBox([picture, alarms], layout={"flex": "1 1 460px"})  # at least so wide, or it goes below
-        live = ipywidgets.VBox([ipywidgets.HBox([rows, right], layout={"flex_flow": "row wrap"})])
-    live.boxes, live.picture, live.alarms, live.run = boxes, picture, alarms, None
+    picture, alarms, first = ipywidgets.HTML(), ipywidgets.HTML(), ipywidgets.HTML()
+    right = ipywidgets.VBox([picture, alarms, *below])
+    column = ipywidgets.VBox([first, left])
+    for part, name in ((right, "right"), (column, "left"), (first, "first"), (picture, "drawn"), (alarms, "said")):
+        part.add_class(f"mnclab-{name}")
+    body = ipywidgets.HBox([column, right])
+    body.add_class("mnclab-body")
+    live = live_class()([*above, body], classes)
+    live.title, live.boxes, live.fields, live.picture, live.alarms = title, dict(boxes), dict(fields), picture, alarms
+    live.good, live.former, live.box = False, None, None
+
+    def tell(stop: Alarm | None) -> None:
+        name = field_of(stop) if stop else ""
+        for each, field in live.fields.items():
+            field.tell(at_field(stop, field.parameter) if stop and each == name else "")
+        first.value = stop.html() if stop and name not in live.fields else ""
 
     def changed(_: Any = None) -> None:
+        done, stop = None, None
         try:
             done = work(live)
+            stop = done.stop if done else None
+            if done and (stop is None or not live.good or done.shows):
+                live.shown, live.box = DRAWING.submit(_drawn, done, live.former, live.box).result()
+                if stop is None:
+                    live.good, live.former = True, done.made
         except Alarm as alarm:
-            alarms.value = alarm._repr_html_()
-            return
-        if done is not None:
-            draw, said = done
-            picture.value = DRAWING.submit(lambda: draw().html()).result()
-            alarms.value = said
+            stop = alarm
+        tell(stop)
+        past = stop is not None and live.good and not (done and done.shows)
+        picture.value = greyed(live.shown) if past else live.shown
+        alarms.value = done.said if done else stop.html() if stop else ""
+        live.renew()
 
     changed()
     for box in (*boxes.values(), *also):
@@ -52,27 +87,22 @@ def following(
     return live
 
 
-def following_program(
-    boxes: dict[str, Any], rows: list[Any], text: Callable[[], str | None], control: str | None,
-    setup: Callable[[], Setup | None], view: str, ticks: Mapping[str, Any] | None = None,
-) -> Any:  # fmt: skip
-    """Boxes with the picture of a program beside them; those of a form have `ticks`, and the program below."""
-    import ipywidgets
+def _drawn(done: Work, former: Any, box: Any) -> tuple[str, Any]:
+    """A picture as HTML, and what the next one keeps of it."""
+    figure = done.draw(under=former, limits=box)
+    return figure.html(), figure.box
 
-    program = ipywidgets.HTML()
 
-    def work(live: Any) -> Work | None:
-        source = text()
-        if source is None:
-            what = f"a program around this cycle of {escape(str(control))} is not built"
-            live.picture.value = f"<p>no picture yet: {what}</p>"
-            return None
-        program.value = f"<pre>{escape(source)}</pre>"
-        live.run = run = run_text(source, control, setup())
-        return lambda: run.plot(view=view, size=SIZE), verdict(run)
+def greyed(picture: str) -> str:
+    """A picture that is not of the values beside it."""
+    said = picture.replace('alt="', f'alt="{PAST}; ', 1)
+    return f'<figure class="mnclab-past"><div>{said}</div><figcaption>{PAST}</figcaption></figure>'
 
-    left = ipywidgets.VBox(rows if ticks is None else [*rows, program])
-    return following(boxes, left, work, *(ticks or {}).values(), beside=True)
+
+def of_run(run: Run, draw: Callable[..., Any]) -> Work:
+    """The work of a run: its picture, its verdict, the alarm that stopped it, and the path that the next picture shows."""
+    stop = None if run.ok else next((alarm for alarm in run.alarms if alarm.severity == ALARM), None)
+    return Work(draw, verdict(run), stop, run.toolpath)
 
 
 def verdict(run: Run) -> str:

@@ -9,9 +9,13 @@ import numpy as np
 
 from mnclab.path.profile import Profile
 from mnclab.runs.run import Run
-from mnclab.show.forms.boxes import looks_of, number_box
-from mnclab.show.forms.following import Work, following, verdict
+from mnclab.show.forms.boxes import Place, number_box
+from mnclab.show.forms.fields import Field
+from mnclab.show.forms.following import Work, following, of_run
+from mnclab.text.alarm import Alarm
 from mnclab.text.extras import require
+
+SIZE = (6.4, 4.9)  # inches, below a row of boxes
 
 
 def compensation_panel(run: Run, **options: Any) -> Any:
@@ -24,21 +28,27 @@ def compensation_panel(run: Run, **options: Any) -> Any:
     import ipywidgets
 
     used = abs(run.programmed.radius[run.programmed.side != 0])
-    boxes = {"radius": number_box("tool radius [mm]", (float(used.max()) if len(used) else 5.0, 0.01, 1e4))}
+    boxes = {"radius": number_box("tool radius [mm]", Place(float(used.max()) if len(used) else 5.0, (0.01, 1e4)))}
     corners = next((one for one in run.control.settings if one.name == "outside_corners"), None)
     if corners:
         choices = [(f"{name}: {meaning.split(',')[0]}", name) for name, meaning in corners.choices.items()]
-        first, looks = run.settings["outside_corners"], looks_of("outside corners", 8, 18)
-        boxes["corners"] = ipywidgets.Dropdown(options=choices, value=first, **looks)
+        first = run.settings["outside_corners"]
+        boxes["corners"] = ipywidgets.Dropdown(options=choices, value=first, description="outside corners")
+    fields = {name: Field(box) for name, box in boxes.items()}
 
     def work(live: Any) -> Work:
         setup = run.setup.with_radius(boxes["radius"].value)
         if corners:
             setup = setup.with_settings(outside_corners=boxes["corners"].value)
         live.run = again = run.again(setup)
-        return lambda: again.plot_compensation(size=(6.4, 5.2), **options), verdict(again)
+        work = of_run(again, lambda **kept: again.plot_compensation(**{"size": SIZE} | kept | options))
+        return work._replace(shows=True)  # hatched, where the tool does not fit
 
-    return following(boxes, ipywidgets.HBox([*boxes.values()]), work)
+    def field_of(alarm: Alarm) -> str:
+        return "radius" if "radius" in alarm.message else ""
+
+    rows = ipywidgets.HBox([field.row for field in fields.values()])
+    return following(boxes, fields, rows, work, field_of, title="radius compensation", classes="mnclab-across")
 
 
 def profile_panel(profile: Profile, **options: Any) -> Any:
@@ -52,15 +62,22 @@ def profile_panel(profile: Profile, **options: Any) -> Any:
 
     limits = profile.limits
     units = {"acceleration": "mm/s²", "jerk": "mm/s³", "corner_tolerance": "mm", "override": "%"}
-    first = {name: float(np.min(getattr(limits, name, None) or 0.0)) for name in units}
-    first["override"] = 100 * profile.override
+    first = {name: round(float(np.min(getattr(limits, name, None) or 0.0)), 3) for name in units}
+    first["override"] = round(100 * profile.override, 3)
     names = {name: f"{name.replace('_', ' ')} [{unit}]" for name, unit in units.items()}
-    boxes = {name: number_box(names[name], value, 13) for name, value in first.items()}
+    boxes = {name: number_box(names[name], Place(value)) for name, value in first.items()}
+    fields = {name: Field(box) for name, box in boxes.items()}
 
     def work(live: Any) -> Work:
         wanted = {name: box.value for name, box in boxes.items()}
         part = wanted.pop("override") / 100
         live.profile = again = profile.again(replace(limits, **wanted | {"jerk": wanted["jerk"] or None}), part)
-        return lambda: again.plot(**options), f'<div role="status">{again._repr_html_()}</div>'
+        said = f'<div role="status">{again._repr_html_()}</div>'
+        kept = {"size": SIZE, "under": live.former, "held": live.box} | options
+        return Work(lambda **_: again.plot(**kept), said, made=again)
 
-    return following(boxes, ipywidgets.VBox([*boxes.values()]), work)
+    def field_of(alarm: Alarm) -> str:
+        return next((name for name in boxes if name.replace("_", " ") in alarm.message.replace("_", " ")), "")
+
+    rows = ipywidgets.VBox([field.row for field in fields.values()])
+    return following(boxes, fields, rows, work, field_of, title="feed-rate profile", classes="mnclab-panel")

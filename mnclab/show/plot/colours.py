@@ -73,6 +73,9 @@ FEED = Line("feed", "#1259a8", "-", 1.9, 2.6)
 THREAD = Line("thread", "#00695c", (0, (7, 1.2, 1.5, 1.2)), 1.9, 2.7)
 PROBING = Line("probing", "#7b1fa2", (0, (1, 1.2)), 1.6, 2.8)
 PROGRAMMED = Line("programmed", "#8c8c8c", "-", 0.9, 2.2)
+#: What was there before a number was changed, behind all that is there now.
+GHOST = Line("_before", "#8c8c8c", "-", 1.1, 1.9)
+GHOST_RAPID = Line("_before, rapid", "#8c8c8c", (0, (1, 2)), 0.8, 1.9)
 BLANK = Line("blank", "#9a8f6e", "-", 0.8, 1.4)
 LEADER = Line("_leader", "#6b6b6b", "-", 0.7, 3.05)  # from a symbol to its place
 CENTRE_LINE = Line("", "#6b6b6b", (0, (10, 3, 1.5, 3)), 0.8, 1.5)
@@ -125,3 +128,15 @@ ENTRY = Line("entry", "#2e7d32", (0, (6, 1.5, 1.5, 1.5)), 1.6, 2.9)
 EXIT = Line("exit", "#b24700", (0, (6, 1.5, 1.5, 1.5, 1.5, 1.5)), 1.6, 2.9)
 CHANGE = Line("change of side", "#ad1457", (0, (4, 1.5)), 1.6, 2.9)
 DISC, GOUGE = "#5f7d9c", "#b3261e"
+
+#: What the words of a program mean: centres with their legs, poles with angles, the contour before it was turned.
+CENTRE = Mark("arc centre", "#8a5a00", "+", 8, True, 3.5)
+TURN_POLE = Mark("pole of a turn", "#8a5a00", "x", 6, True, 3.5)
+SPOKE = Line("_spoke", "#8a5a00", (0, (4, 2)), 0.8, 2.4)
+LEG = Line("_leg", "#8a5a00", "-", 1.1, 2.45)
+ORIGINAL = Line("as written", "#6b6b6b", (0, (2, 1.4)), 1.1, 2.15)
+MIRROR = Line("mirror line", "#6a1b9a", (0, (10, 2.5, 1.5, 2.5)), 1.0, 2.1)
+#: A hole at its diameter: its circle from above, its walls from the side.
+HOLE = Line("hole", "#37474f", (0, (3, 1.6)), 0.9, 2.3)
+#: Machine zero and the vectors from it.
+MACHINE_ZERO = Mark("machine zero", "#00695c", QUARTERS, 14, True, 4.0)

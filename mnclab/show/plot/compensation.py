@@ -20,9 +20,24 @@ from matplotlib.patches import Patch
 from mnclab.path.compensation.construction import construct
 from mnclab.path.compensation.fit import NO_TOOL
 from mnclab.path.kinds import RULE_NAMES, Rule
-from mnclab.show.plot import colours
+from mnclab.path.toolpath import Toolpath
+from mnclab.show.plot import colours, ghost
 from mnclab.show.plot.equidistant import CORNERS, Panel, draw, write
-from mnclab.show.plot.picture import BELOW, ROW, SIZE, VIEWS, Foot, Picture, View, columns, dress, roomy, write_legend
+from mnclab.show.plot.picture import (
+    BELOW,
+    ROW,
+    SIZE,
+    VIEWS,
+    Foot,
+    Picture,
+    View,
+    dress,
+    legend_height,
+    legend_rows,
+    roomy,
+    write_legend,
+)  # fmt: skip
+from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import Array, corners
 from mnclab.show.plot.trials import TITLE, grid
 from mnclab.text.alarm import Alarm, several
@@ -43,6 +58,7 @@ WIDE = (12.0, 7.0)  # several pictures side by side
 GAP, RIGHT = 0.5, 0.16  # inches
 
 
+@sized()
 def compensation(
     run: Any,
     ax: Axes | None = None,
@@ -54,6 +70,8 @@ def compensation(
     names: bool = True,
     view: str = "auto",
     size: tuple[float, float] | None = None,
+    under: Toolpath | None = None,
+    limits: ghost.Box | None = None,
 ) -> Figure:
     """The contour of a run and the path of the tool centre; returns the figure, which Jupyter shows.
 
@@ -66,6 +84,8 @@ def compensation(
     - `vectors`: offset vectors at the corners; `names`: what was done there, written beside.
     - `view`: "XY", "XZ", "YZ" or "ZX"; "auto" is the plane of the first contour.
     - `size`: the greatest width and height in inches.
+    - `under`: another path, whose moves that this one has not are drawn thin and grey; `limits`: the `box` of the picture
+      before, which is kept while this one fits into it.
 
     A run that was stopped because the tool does not fit is run again with the setting `gouge = "mark"`, so that the
     place is seen.
@@ -81,7 +101,7 @@ def compensation(
         ax.apply_aspect()
         write(ax, panels[0], outlines, names)
         return cast(Figure, ax.get_figure(root=True))
-    return _picture(panels, discs, vectors, names, size or (WIDE if len(panels) > 1 else SIZE))
+    return _picture(panels, discs, vectors, names, size or (WIDE if len(panels) > 1 else SIZE), under, limits)
 
 
 # --- the runs ---------------------------------------------------------------------------------------------------------
@@ -150,8 +170,12 @@ def _box(panels: Sequence[Panel], discs: Any) -> tuple[Array, Array]:
 # --- the figure -------------------------------------------------------------------------------------------------------
 
 
-def _picture(panels: Sequence[Panel], discs: Any, vectors: bool, names: bool, size: tuple[float, float]) -> Picture:
-    low, high = roomy(*_box(panels, discs))
+def _picture(
+    panels: Sequence[Panel], discs: Any, vectors: bool, names: bool, size: tuple[float, float], under: Toolpath | None,
+    limits: ghost.Box | None,
+) -> Picture:  # fmt: skip
+    box = ghost.held(*_box(panels, discs), limits)
+    low, high = roomy(*box)
     seen = panels[0].view
     wide, tall = float((high - low)[seen.right]), float((high - low)[seen.up])
     handles = _handles(panels)
@@ -161,24 +185,27 @@ def _picture(panels: Sequence[Panel], discs: Any, vectors: bool, names: bool, si
 
     def room(count: int) -> tuple[float, float]:
         """Inches a millimetre, and the height of the legend, for so many panels in a row."""
-        lines, above = math.ceil(len(panels) / count), 0.06 + ROW * math.ceil(len(words) / columns(words, size[0]))
+        lines, above = math.ceil(len(panels) / count), 0.06 + legend_height(len(legend_rows(words, size[0])))
         free = size[0] - count * (left + RIGHT), size[1] - above - bottom - lines * TITLE - (lines - 1) * GAP
         return min(free[0] / count / wide, free[1] / lines / tall), above
 
     full = [n for n in range(1, len(panels) + 1) if len(panels) % n == 0 or len(panels) > 4]
     count = max(full, key=lambda n: (room(n)[0] * (1.5 if n == len(panels) < 4 else 1.0), n))
     scale = room(count)[0]
-    box, height = max(scale * wide, 1.6), max(scale * tall, 1.6)
-    lines, width = math.ceil(len(panels) / count), max(4.6, count * (left + RIGHT + box))
-    box = width / count - left - RIGHT
-    above = 0.06 + ROW * math.ceil(len(words) / columns(words, width))
+    across, height = max(scale * wide, 1.6), max(scale * tall, 1.6)
+    lines, width = math.ceil(len(panels) / count), min(size[0], max(4.6, count * (left + RIGHT + across)))
+    across = width / count - left - RIGHT
+    above = 0.06 + legend_height(len(legend_rows(words, width)))
     total = above + bottom + lines * (TITLE + height) + (lines - 1) * GAP
     picture = Picture((width, total), _in_words(panels))
     titles, views = [panel.title for panel in panels], [panel.view for panel in panels]
-    for panel, ax in zip(panels, grid(picture, titles, views, count, left, above, GAP, (box, height))):
-        _limit(ax, panel.view, low, high, (box, height))
+    for panel, ax in zip(panels, grid(picture, titles, views, count, left, above, GAP, (across, height))):
+        _limit(ax, panel.view, low, high, (across, height))
         ax.apply_aspect()
+        if under is not None:
+            ghost.draw_ghost(ax, panel.view, ghost.gone(under, panel.run.toolpath))
         write(ax, panel, draw(ax, panel, discs, vectors), names)
+    picture.box = box
     write_legend(picture, handles)
     if foot:
         foot.write(picture)

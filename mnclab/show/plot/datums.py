@@ -6,7 +6,7 @@ The places come out of the history of a run: its frames are put together again s
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import groupby, product
+from itertools import product
 from typing import Any, NamedTuple, cast
 
 import numpy as np
@@ -18,12 +18,11 @@ from matplotlib.text import Annotation, Text
 from mnclab.geometry import frames
 from mnclab.geometry.frames import FrameChain
 from mnclab.show.plot import colours
+from mnclab.show.plot.chains import ORIGINS, replayed
 from mnclab.show.plot.colours import Mark
 from mnclab.show.plot.picture import SMALL, View
 from mnclab.show.plot.strokes import Array
 
-#: Frames that set a zero point; a control that keeps the shifts of G52 and G92 apart has `local` and `set`.
-ORIGINS = {"datum": "", "preset": "preset", "local": "G92", "set": "G92", "shift": "datum shift"}
 SHIFTS = ("local", "set", "shift")
 NEAR = 1.5  # places that would make the box longer than this many times are not shown
 MANY = 8  # places beyond which only zero points have names
@@ -40,16 +39,11 @@ class Place(NamedTuple):
     xyz: tuple[float, float, float]
 
 
-def places_of(run: Any, leave: str = "") -> list[Place]:
-    """The zero points and poles of a run, in the order of the program; what lies at one place shares a cross. A frame to
-    `leave` out is that of tool lengths, where the place is asked for without a tool."""
+def places_of(run: Any) -> list[Place]:
+    """The zero points and poles of a run, in the order of the program; what lies at one place shares a cross."""
     history, path = run.history, run.toolpath
-    names = [name for name in history if (name.startswith("frame ") and name != leave) or name == "pole"]
-    log = [(step, name == "pole", name, value) for name in names for step, value in history.changed(name)]
-    chain = FrameChain(run.frames.slots)
     found: dict[tuple[Mark, tuple[float | None, ...]], list[str]] = {}
     apart = "set" in run.frames.slots
-    nested = run.settings.get("transformation_order") == "nested"
 
     def add(mark: Mark, name: str, xyz: Array) -> None:
         # nan is no key: it equals nothing
@@ -58,21 +52,12 @@ def places_of(run: Any, leave: str = "") -> list[Place]:
         if name not in names:
             names.append(name)
 
-    for step, changes in groupby(sorted(log, key=lambda each: each[:2]), key=lambda each: each[0]):
-        selected = []
-        for _, is_pole, name, value in changes:
-            if is_pole:
-                plane = history.value("pole plane", step)
-                if value is not None and (pole := _pole(path, chain, step, value, plane)) is not None:
-                    add(colours.POLE, "pole", pole)
-                continue
-            frame, matrix = name.removeprefix("frame "), np.array(value)
-            neutral = np.array_equal(matrix, frames.IDENTITY)
-            if nested and frame not in ORIGINS and not np.array_equal(matrix, chain[frame]):
-                chain.innermost(frame)
-            chain.set(frame, None if neutral else matrix)
-            if frame in ORIGINS and not (neutral and frame in SHIFTS):
-                selected.append(frame)
+    for step, set_here, poles, chain in replayed(run, "pole"):
+        for _, value in poles:
+            plane = history.value("pole plane", step)
+            if value is not None and (pole := _pole(path, chain, step, value, plane)) is not None:
+                add(colours.POLE, "pole", pole)
+        selected = [frame for frame in set_here if frame in ORIGINS and not (frame not in chain and frame in SHIFTS)]
         for frame in selected:
             inner = "local" if frame == "set" else frame  # G52 counts inside G92, which may end a part of it
             said = "G52" if frame == "local" and apart else ORIGINS[frame] or _code(history, step)

@@ -9,6 +9,7 @@ from matplotlib.lines import Line2D
 
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.picture import SIZE, VIEWS, Foot, Picture, arrange, write_legend
+from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import corners, line_of
 from mnclab.text.given import choice
 
@@ -18,6 +19,7 @@ APART = Mark("largest deviation", "#b3261e", "o", 9, False, 4.2)
 SHOWN = 1e-6  # mm: less is called the same
 
 
+@sized()
 def plot_deviation(found: Any, view: str = "auto", size: tuple[float, float] = SIZE) -> Picture:
     """The first path wide and grey, the second thin and blue over it; a ring and a line where they are farthest apart."""
     one, other = found.paths

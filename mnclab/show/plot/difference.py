@@ -25,6 +25,7 @@ from mnclab.show.plot.difference_sections import FULL, Magnified, draw_magnified
 from mnclab.show.plot.difference_table import draw_table, lines_of, wide_of
 from mnclab.show.plot.picture import LINE, SCALE, SIZE, SMALL, VIEWS, Foot, Picture, arrange, dress, write_legend
 from mnclab.show.plot.sections import CARD, FACE, HATCH, mark_section, outline_of
+from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
 from mnclab.workpiece.difference.difference import Difference
@@ -39,6 +40,7 @@ DOTS = 9.0  # points², of a place of a wall
 NAMES = ("gouge", "rest")
 
 
+@sized()
 def plot_difference(
     difference: Difference,
     ax: Axes | None = None,

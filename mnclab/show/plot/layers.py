@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -18,7 +19,9 @@ from mnclab.show.plot.classes import Classes
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, crosses, segments, write_names
 from mnclab.show.plot.felt import draw_felt
-from mnclab.show.plot.lathe import Lathe, draw_blank, draw_insert
+from mnclab.show.plot.holes import beside_holes
+from mnclab.show.plot.lathe import Lathe, draw_blank, draw_chucks, draw_insert
+from mnclab.show.plot.overlay import Overlay
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.strokes import Array, Strokes, parted
 from mnclab.show.plot.symbols import spread
@@ -46,6 +49,12 @@ class Drawing(NamedTuple):
     part: Workpiece | None
     home: bool
     felt: Felt | None
+    overlays: Sequence[Overlay] = ()
+
+    def seen(self, mark: Mark, view: View) -> Array:
+        """Where a mark stands in a view (m, 2); a hole that is seen from above needs none for its dwell."""
+        found = np.concatenate([xyz[:, [view.right, view.up]] for one, xyz in self.marks if one is mark])
+        return beside_holes(self.overlays, view, found) if mark is colours.DWELL else found
 
 
 def marks_of(path: Toolpath, stopped: bool, home: bool) -> list[tuple[Mark, Array]]:
@@ -76,14 +85,17 @@ def draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
     plunges = drawing.plunges[view]
     if len(plunges):
         artists.append(Line2D(plunges[:, 0], plunges[:, 1], **drawing.plunge.style()))
-    artists += [Line2D(xyz[:, view.right], xyz[:, view.up], **mark.style()) for mark, xyz in drawing.marks]
+    artists += [Line2D(*drawing.seen(mark, view).T, **mark.style()) for mark, _ in drawing.marks]
     artists += crosses(drawing.places, view)
     for artist in artists:
         ax.add_line(artist)
+    artists += [artist for over in drawing.overlays for artist in over.draw(ax, view)]
     if drawing.part is not None:
         draw_under(ax, view, drawing.part)
     elif drawing.lathe is not None:
         draw_blank(ax, drawing.lathe)
+    if drawing.lathe is not None:
+        draw_chucks(ax, drawing.lathe.chucks)
     if view.diameter:
         ax.axhline(0.0, **{**colours.CENTRE_LINE.style(), "label": "_centre line"})
     return artists
@@ -109,6 +121,8 @@ def write(ax: Axes, view: View, drawing: Drawing, low: Array, high: Array) -> No
         draw_insert(ax, drawing.lathe, INSERT * float((high - low).max()))
     if drawing.arrows:
         occupied.append(heads.draw(ax, view, moved, divided, low, high))
+    for over in drawing.overlays:
+        over.write(ax, view, [xyz for _, xyz in drawing.lines])
     if drawing.places:
         around = np.concatenate([np.empty((0, 2)), *occupied])
         write_names(ax, view, drawing.places, around, [xyz for _, xyz in drawing.lines])

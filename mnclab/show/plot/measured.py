@@ -19,6 +19,7 @@ from mnclab.show.plot.material import FACE, draw_material
 from mnclab.show.plot.measured_panels import Panel, panels
 from mnclab.show.plot.picture import LINE, SMALL, Foot, Picture, dress, write_legend
 from mnclab.show.plot.placing import write_beside
+from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, shown, whole
 
@@ -40,6 +41,7 @@ COLUMNS = (2, 3, 4, 5, 8)  # of the record
 LETTER, BETWEEN_COLUMNS = 0.071, 0.14  # inches
 
 
+@sized()
 def plot_measured(
     run: Any, *, line: int | None = None, factor: float | None = None, part: bool = True, width: float = WIDTH
 ) -> Picture:

@@ -21,6 +21,7 @@ from mnclab.show.plot.part_words import in_words, told
 from mnclab.show.plot.picture import SCALE, SIZE, SMALL, VIEWS, Foot, Picture, arrange, dress, write_legend
 from mnclab.show.plot.relief import Relief, relief
 from mnclab.show.plot.sections import FIXTURE, draw_fixtures, draw_section, held, mark_section, sections_of
+from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import choice, shown
 from mnclab.workpiece.collision import Collision
@@ -40,6 +41,7 @@ FEW = 8  # tools or lines that a legend names one by one
 EDGES = ((0.0, "#55524a", 0.35), (0.02, colours.INK, 0.75))  # from which part of the depth on, colour, width in points
 
 
+@sized()
 def plot_part(
     workpiece: Workpiece,
     ax: Axes | None = None,

@@ -21,16 +21,22 @@ from mnclab.path.toolpath import Toolpath
 from mnclab.show.felt import Felt
 from mnclab.show.felt import felt as felt_of
 from mnclab.show.plot import arrows as heads
-from mnclab.show.plot import colours
+from mnclab.show.plot import colours, ghost
 from mnclab.show.plot.classes import classes
 from mnclab.show.plot.classes import lines as lines_of
+from mnclab.show.plot.clickable import told_by
 from mnclab.show.plot.datums import Place, crosses, near, places_of
+from mnclab.show.plot.felt import names_of
 from mnclab.show.plot.framing import box_of, foot_of, in_words, views_of
-from mnclab.show.plot.lathe import lathe, speed_strokes, with_blank
+from mnclab.show.plot.holes import beside_holes
+from mnclab.show.plot.lathe import FINISHED, lathe, speed_strokes, with_blank
 from mnclab.show.plot.layers import INSERT, Drawing, draw, marks_of, plunges_of, write
-from mnclab.show.plot.material import FACE
-from mnclab.show.plot.picture import SCALE, SIZE, arrange, dress, roomy, write_legend
+from mnclab.show.plot.no_moves import no_moves
+from mnclab.show.plot.overlay import Overlay
+from mnclab.show.plot.overlays import overlays_of
+from mnclab.show.plot.picture import SCALE, SIZE, Picture, arrange, dress, roomy, write_legend
 from mnclab.show.plot.scale import write_scale
+from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import line_of, strokes
 from mnclab.show.rapids import rapids_of
 from mnclab.text.alarm import ALARM, Alarm
@@ -39,9 +45,11 @@ from mnclab.workpiece.workpiece import Workpiece
 
 UNSCALED = (colours.PROGRAMMED, colours.RAPID, colours.PROBING)  # look the same whatever the colour shows
 PART = "part"
+AROUND = 0.02  # of the greatest side: more room, for symbols that stand beside a corner
 MOST = 2000  # rows of a lathe's path whose part is shown unasked
 
 
+@sized()
 def plot_path(
     path: Toolpath,
     ax: Axes | None = None,
@@ -62,6 +70,9 @@ def plot_path(
     home: bool = False,
     felt: Felt | None = None,
     rapids: Limits | None = None,
+    under: Toolpath | None = None,
+    limits: ghost.Box | None = None,
+    overlays: Sequence[Overlay] = (),
 ) -> Figure:
     """Views of a path: rapids dashed red, cuts solid; start and end marked. Returns the figure, which Jupyter shows.
 
@@ -90,8 +101,13 @@ def plot_path(
     - `home`: the path begins where the tool arrives from home.
     - `felt`: what a probe meets, drawn behind the path (see `show.felt`).
     - `rapids`: limits of the machine, under which axes that do not wait for each other bend a rapid; else it is straight.
+    - `under`: another path, whose moves that this one has not are drawn thin and grey behind it.
+    - `limits`: the `box` of the picture before, which is kept while this path fits into it (see `show.plot.ghost`).
+    - `overlays`: centres of arcs, mirror lines, holes and the like (see `show.plot.overlay`).
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
+    if ax is None and stock is None and felt is None and not path.is_motion.any():
+        return no_moves(stop)
     drawn = strokes(path, rapids)
     if colour == "speed" and len(drawn.row):
         drawn = speed_strokes(path, drawn)
@@ -103,25 +119,34 @@ def plot_path(
     shown = near(places, low, high) if marks else []
     for place in shown:
         low, high = np.fmin(low, place.xyz), np.fmax(high, place.xyz)
-    low, high = with_blank(path, stock, low, high)
+    low, high = with_blank(path, stock, low, high, part)
+    for over in overlays:
+        wide = over.box(low, high)
+        low, high = (low, high) if beyond else wide
     if path.lathe and len(path) and insert is not False and not beyond:
         room = 2.8 * INSERT * float((high - low).max())
         high = np.fmax(high, path.end[-1] + (room, 0.0, room))
     if felt is not None and frame != "cuts":
         low, high = felt.box(low, high)
+    own, (low, high) = (low, high), ghost.held(low, high, limits)
+    box = low, high
     views = views_of(view, path, low, high, single=ax is not None)
     if stock is not None and not path.lathe and frame != "cuts":
         low, high = np.fmin(low, stock.bounds[0]), np.fmax(high, stock.bounds[1])
     plunge = colours.PLUNGE if colour == "kind" else colours.PLUNGE._replace(colour=colours.INK)
-    plunges = {each: plunges_of(path, each) for each in views}
+    plunges = {each: beside_holes(overlays, each, plunges_of(path, each)) for each in views}
     arrows = arrows and int(path.is_motion.sum()) <= heads.MANY
-    beside = lathe(path, stock, tools, insert) if path.lathe and views[0].diameter else None
+    beside = lathe(path, stock, tools, insert, part) if path.lathe and views[0].diameter else None
     found_marks, outline = marks_of(path, stop is not None, home), None if beside else stock
     if felt is not None and len(felt.places):
         found_marks.append((colours.TOUCH, felt.places))
-    drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, beside, part, home, felt)
+    rest = (beside, part, home, felt, overlays)
+    drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, *rest)
+    former = None if under is None else ghost.gone(under, path)
     if ax is not None:
         draw(ax, views[0], drawing)
+        if former is not None:
+            ghost.draw_ghost(ax, views[0], former, rapids)
         dress(ax, views[0])
         if beyond:
             wide = roomy(low, high)
@@ -134,17 +159,24 @@ def plot_path(
         return cast(Figure, ax.get_figure(root=True))
     names = [line.name for line, _ in lines if not found.scale or line in UNSCALED]
     names += [colours.BLANK.name] if drawing.stock is not None else []
-    names += [mark.name for mark, _ in drawing.marks]
+    names += [mark.name for mark, _ in drawing.marks if any(len(drawing.seen(mark, each)) for each in views)]
     if any(map(len, drawing.plunges.values())):
         names.append(colours.PLUNGE.name)
     if any(line.get_label() == colours.POLE.name for each in views for line in crosses(shown, each)):
         names.append(colours.POLE.name)
-    behind = felt is not None and felt.part is not None
-    names += [PART] if behind else []
-    said = in_words(path, low, high, stop)
-    picture, axes = arrange(views, low, high, names, foot_of(stop, beyond), said, size, found.scale is not None)
-    artists: dict[str, Any] = {PART: Patch(**FACE, label=PART)} if behind else {}
+    held = beside.names + ([Patch(**FINISHED, label=PART)] if part is not None else []) if beside else []
+    held += names_of(felt) if felt is not None else []
+    names += [str(each.get_label()) for each in held]
+    names += [name for over in overlays for name in over.names(views)]
+    said = in_words(path, *(own if limits else (low, high)), stop)
+    more = AROUND * float((high - low).max())
+    picture, axes = arrange(views, low - more, high + more, names, foot_of(stop, beyond), said, size, found.scale is not None)
+    picture.box = box
+    picture.seen = [(one, which, path, drawn) for one, which in zip(axes, views)]
+    artists: dict[str, Any] = {str(each.get_label()): each for each in held}
     for one, which in zip(axes, views):
+        if former is not None:
+            ghost.draw_ghost(one, which, former, rapids)
         for artist in draw(one, which, drawing):
             artists.setdefault(str(artist.get_label()), artist)
         write(one, which, drawing, low, high)
@@ -156,20 +188,26 @@ def plot_path(
     return picture
 
 
+@sized(also=plot_path)
 def plot_run(
     run: Any, ax: Axes | None = None, view: str = "auto",
-    *, marks: bool = True, stock: bool = True, part: bool = False, probed: bool = True, **options: Any,
+    *, marks: bool = True, stock: bool = True, part: bool = False, probed: bool = True, centres: bool | None = None,
+    original: bool = True, holes: bool = True, fixtures: bool = True, **options: Any,
 ) -> Figure:  # fmt: skip
     """Views of the path of a run, with its programmed contour, blank, zero points, poles and the place of its alarm.
 
     The options are those of `plot_path`; `stock=False` leaves out the blank of the setup or the program, `part=True`
     draws what the run leaves of it, as a lathe's picture does unless its path is long; `probed=False` leaves out the part
-    that a probe meets, a section at the height of its touches, and their numbers. `view="unrolled"` shows what lies on a
+    that a probe meets, a section at the height of its touches, and their numbers. `centres` draws the centres of arcs as the
+    program says them (None: where they are few), `original` the contour before it was turned, mirrored or scaled,
+    `holes` those that are drilled at their diameter, `fixtures` what holds the blank; False leaves it out.
+    `view="unrolled"` shows what lies on a
     cylinder on its developed surface (`show.plot.unrolled`; of the options it takes `size`), and so does "auto" without other
     options where every cut lies on one. Beside a blank the first approach
     comes from home, unless the setup says from where.
     """
     cuts = (run.toolpath.kind == Kind.LINE) | (run.toolpath.kind == Kind.ARC)
+    followed = {name: options.pop(name, None) for name in ("under", "limits")}
     rolled = view == "auto" and options.keys() <= {"size"} and bool(cuts.any() and (run.toolpath.cylinder[cuts] >= 0).all())
     if view == "unrolled" or rolled:
         from mnclab.show.plot.unrolled import plot_unrolled
@@ -189,8 +227,12 @@ def plot_run(
         given["part"] = run.workpiece()
     if probed and "felt" not in options:
         given["felt"] = felt_of(run)
+    given["overlays"] = overlays_of(run, centres, original, holes, fixtures)
     if first := run.rows_from_home:
         path, given["home"] = path[first:], True
         if isinstance(insert, int) and not isinstance(insert, bool) and insert >= 0:
             options["insert"] = max(insert - first, 0)
-    return plot_path(path, ax, view, **{**given, **options}, marks=marks)
+    figure = plot_path(path, ax, view, **{**given, **options, **followed}, marks=marks)
+    if isinstance(figure, Picture):
+        figure.told = told_by(run)
+    return figure

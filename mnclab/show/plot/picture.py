@@ -24,14 +24,16 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from mnclab.path.listing import MM, Unit
-from mnclab.show.plot import colours
+from mnclab.show.plot import clickable, colours
 from mnclab.show.plot.strokes import Array
 from mnclab.text.alarm import Alarm
 
 SIZE = (7.0, 6.0)  # the greatest width and height, unless something else is said
 LEAST = (4.6, 2.4)
 SMALL = 8.0  # points: ticks, legend, alarm
-GAP, BELOW, RIGHT, ROW, LINE, SCALE, NARROW = 0.14, 0.52, 0.18, 0.22, 0.15, 0.34, 1.4
+SHARE = 0.2  # of a picture that its legend takes at most
+SPARE = ("part", "blank", "tool change", "from home", "plunge")  # what a legend that is too long leaves out first
+GAP, BELOW, RIGHT, ROW, NEXT_ROW, LINE, SCALE, NARROW = 0.14, 0.52, 0.18, 0.22, 0.17, 0.15, 0.34, 1.4
 
 
 class View(NamedTuple):
@@ -49,6 +51,10 @@ class View(NamedTuple):
     def labels(self) -> tuple[str, str]:
         unit = self.unit.short
         return f"{self.names[self.right]}, {unit}", f"{self.names[self.up]}{' (diameter)' if self.diameter else ''}, {unit}"
+
+    def fits(self, height: float) -> str:
+        """The label of the upward axis, shorter where `height` inches have no room for it."""
+        return self.labels[1] if height > 0.08 * len(self.labels[1]) else self.labels[1].replace("(diameter)", "⌀")
 
 
 class Foot(NamedTuple):
@@ -88,6 +94,9 @@ class Picture(Figure):
         super().__init__(figsize=size, facecolor=colours.PAPER)
         FigureCanvasAgg(self)
         self.alt = alt
+        self.seen: clickable.Seen = ()  # what can be clicked on, and what is said of it
+        self.told: clickable.Told | None = None
+        self.box: Any = None  # what a picture that follows it keeps of this one, see `show.plot.ghost`
 
     def png(self, scale: float = 1.0) -> bytes:
         """The picture as PNG; at `scale` 1 an inch has 100 pixels."""
@@ -99,8 +108,11 @@ class Picture(Figure):
         return self._image(base64.b64encode(self.png(scale)).decode())
 
     def _image(self, data: str) -> str:
-        style = f"width:{round(100 * self.get_figwidth())}px;max-width:100%"
-        return f'<img alt="{escape(self.alt)}" style="{style}" src="data:image/png;base64,{data}">'
+        width = f"width:{round(100 * self.get_figwidth())}px;max-width:100%"
+        moves = clickable.over(self, self.seen, self.told) if self.seen else ""
+        block = f"display:block;{width}" if moves else width  # an inline one has room below it, and strokes would not fit
+        image = f'<img alt="{escape(self.alt)}" style="{block}" src="data:image/png;base64,{data}">'
+        return f'<div style="position:relative;{width}">{image}{moves}</div>' if moves else image
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
         data = base64.b64encode(self.png(2.0)).decode()
@@ -140,7 +152,7 @@ def arrange(
     bottom, (most_wide, most_high) = BELOW + (ROW + LINE * (len(foot.lines) - 1) if foot else 0), size
 
     def top(width: float) -> float:
-        return 0.12 + (SCALE if scale_above else 0.0) + ROW * math.ceil(len(names) / columns(names, width))
+        return 0.12 + (SCALE if scale_above else 0.0) + legend_height(len(legend_rows(names, width)))
 
     free = most_high - bottom - top(most_wide)
     layout, scale = _layout(views, span, most_wide, left + RIGHT, free)
@@ -156,13 +168,15 @@ def arrange(
     for place, column in enumerate(layout):
         ups = [max(scale * float(span[views[k].up]), row) + views[k].head for k in column]
         gaps = _gaps(views, column)
-        share = max(1.0, (LEAST[1] - bottom - top(width) - sum(gaps)) / sum(ups))
+        share = max(1.0, (min(LEAST[1], most_high) - bottom - top(width) - sum(gaps)) / sum(ups))
         begin, under = left * (place + 1) + RIGHT * place + sum(widths[:place]), 0.0
         for k, up, gap in zip(column, ups, (0.0, *gaps)):
             under += gap + up * share
             boxes[k] = begin, under, widths[place], up * share
     deep = max(under for _, under, _, _ in boxes.values())
-    height = bottom + top(width) + deep
+    rest = bottom + 0.12 + (SCALE if scale_above else 0.0) + deep
+    rows = min(len(legend_rows(names, width)), rows_within(SHARE / (1 - SHARE) * rest))
+    height = rest + legend_height(rows)
 
     picture = Picture((width, height), alt)
     joined = {k for column in layout for k, gap in zip(column, _gaps(views, column)) if gap == GAP}
@@ -224,7 +238,7 @@ def roomy(low: Array, high: Array) -> tuple[Array, Array]:
     largest = max(float(span.max()), 1e-3, 1e-6 * float(np.abs([low, high]).max()))
     if span.max() == 0:
         largest = max(largest, 10.0)
-    margin = np.maximum(0.08 * largest, (0.22 * largest - span) / 2)
+    margin = np.maximum(0.06 * largest, (0.22 * largest - span) / 2)
     return low - margin, high + margin
 
 
@@ -233,7 +247,7 @@ def dress(ax: Axes, view: View, box: tuple[float, float] | None = None, digits: 
     ax.set_aspect("equal", adjustable="datalim")
     for axis, label, doubled, length, room in (
         (ax.xaxis, view.labels[0], False, box and box[0], 0.3 + 0.08 * digits),
-        (ax.yaxis, view.labels[1], view.diameter, box and box[1], 0.32),
+        (ax.yaxis, view.fits(box[1]) if box else view.labels[1], view.diameter, box and box[1], 0.32),
     ):
         axis.set_label_text(label, fontsize=SMALL + 1)
         counts = view.unit.length / (2 if doubled else 1)  # mm of the path to 1 at the axis
@@ -274,17 +288,66 @@ def columns(names: Sequence[str], width: float) -> int:
         rows, taller = divmod(len(names), count)  # the first columns get what is left over
         begin = [k * rows + min(k, taller) for k in range(count + 1)]
         longest = [max(map(len, names[a:b])) for a, b in pairwise(begin)]
-        if sum(0.54 + 0.062 * letters for letters in longest) < width - 0.1:
+        if sum(map(_wide, longest)) < width - 0.1:
             return count
     return 1
 
 
+def _wide(letters: int) -> float:
+    """Inches of an entry of a legend with its sample."""
+    return 0.54 + 0.062 * letters
+
+
+def legend_rows(names: Sequence[str], width: float) -> list[list[int]]:
+    """The rows of a legend, by numbers of its entries: in columns where that needs no more rows than one after another."""
+    rows: list[list[int]] = []
+    free = 0.0
+    for k, name in enumerate(names):
+        wide = _wide(len(name))
+        if wide > free or not rows:
+            rows.append([])
+            free = width - 0.25
+        rows[-1].append(k)
+        free -= wide
+    lines = math.ceil(len(names) / columns(names, width))
+    return [list(range(k, len(names), lines)) for k in range(lines)] if lines <= len(rows) else rows
+
+
+def legend_height(rows: int) -> float:
+    """Inches of so many rows of a legend."""
+    return ROW + NEXT_ROW * (rows - 1) if rows else 0.0
+
+
+def rows_within(height: float) -> int:
+    """How many rows of a legend so many inches hold; one at least."""
+    return 1 + max(0, int((height - ROW) / NEXT_ROW + 1e-6))
+
+
+def _shortened(names: Sequence[str], width: float, most: int) -> list[int]:
+    """The entries for which a legend of at most so many rows has room: what explains itself or is nowhere hidden goes first."""
+    kept = list(range(len(names)))
+    spare = sorted(kept, key=lambda k: (SPARE.index(names[k]) if names[k] in SPARE else len(SPARE), -k))
+    while len(legend_rows([names[k] for k in kept], width)) > most and len(kept) > 1:
+        kept.remove(spare.pop(0))
+    return kept
+
+
 def write_legend(picture: Picture, artists: Sequence[Any], below: float = 0.0, sample: float = 2.6) -> None:
-    """The names of lines and marks in the room above the views, `below` inches from the top; `sample` letters of each."""
-    width, height = picture.get_size_inches()
-    if artists:
+    """The names of lines and marks in the room above the views, `below` inches from the top; `sample` letters of each.
+
+    It takes a fifth of the picture at most, but one row at least; what it has no room for is told in words.
+    """
+    width, height = picture.get_size_inches().tolist()
+    names = [str(artist.get_label()) for artist in artists]
+    kept = _shortened(names, width, rows_within(SHARE * height))
+    if left := [name for k, name in enumerate(names) if k not in kept]:
+        picture.alt += f"; not in the legend: {', '.join(left)}"
+    shown = [names[k] for k in kept]
+    rows, across = legend_rows(shown, width), columns(shown, width)
+    pieces = [(list(range(len(kept))), across)] if across * len(rows) >= len(kept) else [(row, len(row)) for row in rows]
+    for line, (entries, count) in enumerate(pieces if kept else []):
         picture.legend(
-            handles=list(artists), loc="upper left", bbox_to_anchor=(0.06 / width, 1 - (0.03 + below) / height),
-            ncols=columns([str(artist.get_label()) for artist in artists], width), fontsize=SMALL, frameon=False,
+            handles=[artists[kept[k]] for k in entries], loc="upper left", ncols=count, fontsize=SMALL, frameon=False,
+            bbox_to_anchor=(0.06 / width, 1 - (0.03 + below + NEXT_ROW * line) / height),
             borderaxespad=0, borderpad=0.2, handlelength=sample, columnspacing=1.2,
         )  # fmt: skip

@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 from mnclab.path.kinds import Kind
 from mnclab.path.profile import Profile
 from mnclab.path.profile.bends import divided
-from mnclab.show.plot import colours
+from mnclab.show.plot import colours, ghost
 from mnclab.show.plot.path import plot_path
-from mnclab.show.plot.picture import SMALL, Picture, calm, write_legend
+from mnclab.show.plot.picture import SHARE, SMALL, Picture, calm, legend_height, legend_rows, rows_within, write_legend
+from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import Array
 from mnclab.text.given import choice
 
@@ -90,6 +91,7 @@ def _of_rows(profile: Profile, values: Array) -> Array:
     return values if row is None else values[np.searchsorted(row, np.arange(len(profile.path)))]
 
 
+@sized(tall=SIZE[1] / SIZE[0])
 def plot_profile(
     profile: Profile,
     ax: Axes | None = None,
@@ -99,6 +101,8 @@ def plot_profile(
     limits: bool = True,
     whole: bool = False,
     size: tuple[float, float] = SIZE,
+    under: Profile | None = None,
+    held: Any = None,
 ) -> Figure:
     """Feed, acceleration and, under a limit, jerk along the path. Returns the figure, which Jupyter shows.
 
@@ -110,6 +114,8 @@ def plot_profile(
     - `whole`: show the rapids up to their full speed. Otherwise the scale ends a little above the fastest cut where
       rapids are more than three times as fast and would flatten it, and a note says how far they go.
     - `size`: width and height in inches.
+    - `under`: another profile, thin and grey behind this one; `held`: the `box` of the picture before, whose axes are kept
+      while this profile fits into them.
 
     Bars on the time axis are stops, triangles corners that slow the tool.
     """
@@ -128,13 +134,12 @@ def plot_profile(
     heights = [2.2 if k == 0 else 1.35 for k in range(len(titles))]  # inches, at least
     causes = ", ".join(f"{cause} {seconds:.3g} s" for cause, seconds in profile.time_by("cause").items())
     said = f"feed-rate profile: {profile.time:.4g} s; {causes}"
-    picture = Picture((size[0], max(size[1], 1.2 + 1.05 * sum(heights))), said)
+    usual = 1.2 + 1.05 * sum(heights) if size == SIZE else 0.0
+    picture = Picture((size[0], max(size[1], usual, 1.2 + 0.6 * len(titles))), said)
     width, height = picture.get_size_inches()
-    names = list(colours.HOLDS) if limits else []
-    above = 0.3 + 0.2 * (1 + (len(names) > 0))
     grid = picture.add_gridspec(
         len(titles), 1, height_ratios=heights, left=0.85 / width, right=1 - 0.15 / width, bottom=0.5 / height,
-        top=1 - above / height, hspace=0.1,
+        top=1 - 0.7 / height, hspace=0.1,
     )  # fmt: skip
     rows = [picture.add_subplot(grid[0, 0])]
     rows += [picture.add_subplot(grid[k, 0], sharex=rows[0]) for k in range(1, len(titles))]
@@ -161,10 +166,18 @@ def plot_profile(
     for each in rows[:-1]:
         each.tick_params(labelbottom=False)
     rows[-1].set_xlabel(below, fontsize=SMALL + 1)
+    if under is not None:
+        before = curve(under, over)
+        for each, values in zip(rows, (before.v * 60, before.a, before.j)[: 3 if len(profile.plan.rows.j) else 2]):
+            each.plot(before.t if over == "time" else before.s, values, **colours.GHOST.style(), scaley=False)
+    picture.box = ghost.held_axes(rows, held)
+    lines = legend_rows([str(each.get_label()) for each in handles], width)
+    grid.update(top=1 - (0.12 + legend_height(min(len(lines), rows_within(SHARE * height)))) / height)
     write_legend(picture, handles, 0.01, 2.2)
     return picture
 
 
+@sized(also=plot_path)
 def plot_reached(profile: Profile, **options: Any) -> Figure:
     """The path coloured by the feed that is reached; the options are those of `mnclab.show.plot.path.plot_path`."""
     path, drawn = profile.path, curve(profile)
@@ -178,6 +191,7 @@ def plot_reached(profile: Profile, **options: Any) -> Figure:
     return plot_path(shown, **{"colour": "feed", "arrows": False, **options})
 
 
+@sized()
 def plot_lost(profile: Profile, ax: Axes | None = None, *, most: int = MOST, width: float = 7.0) -> Figure:
     """Seconds of each line beside its text: what feed and rapid need, dwells and changes, and what the machine adds.
 

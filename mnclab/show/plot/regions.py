@@ -10,6 +10,7 @@ import numpy as np
 from mnclab.geometry.regions import Region
 from mnclab.show.plot import colours
 from mnclab.show.plot.picture import SMALL, Picture
+from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strategy import area
 from mnclab.show.plot.trials import side_by_side
 from mnclab.text.alarm import Alarm
@@ -19,6 +20,7 @@ MOST_COLUMNS = 4
 TOP, GAP, BELOW = 0.06, 0.55, 0.45  # inches
 
 
+@sized()
 def plot_regions(
     regions: Mapping[str, Region], over: Sequence[Region] = (), width: float = 9.0, columns: int | None = None
 ) -> Picture:

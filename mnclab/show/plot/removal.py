@@ -11,6 +11,7 @@ from matplotlib.ticker import MaxNLocator
 from mnclab.show.plot import colours
 from mnclab.show.plot.picture import SMALL, Picture, calm
 from mnclab.show.plot.profile import plot_profile
+from mnclab.show.plot.sizes import sized
 
 SIZE = (7.0, 4.6)  # inches
 SHADE = 0.28  # of the area under the rate
@@ -18,6 +19,7 @@ FAST = 2.5  # times the largest rate at feed, beyond which what rapids take away
 CARD = {"facecolor": colours.PAPER, "edgecolor": "none", "pad": 1.5, "alpha": 0.85}
 
 
+@sized()
 def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
     """Feed (mm/min) and removal rate (mm³/min, the mean of each row) over time (s); the largest at feed is marked with its line.
 

@@ -31,7 +31,7 @@ DIMENSION |= {"shrinkA": 0, "shrinkB": 0}
 
 def zero_points(run: Any) -> list[tuple[str, Array]]:
     """The zero points of a program by name, (3,) mm in the coordinates of its path, each once; the nearest to the blank first."""
-    found = [(each.name, np.array(each.xyz)) for each in places_of(run, LENGTH) if each.mark is colours.DATUM]
+    found = [(each.name, np.array(each.xyz)) for each in places_of(run) if each.mark is colours.DATUM]
     if run.stock is not None:  # one that was active at power-on alone stands at the machine's zero, far away
         low, high = run.stock.bounds
         found.sort(key=lambda each: float(np.linalg.norm(np.fmax(np.fmax(low - each[1], each[1] - high), 0.0))))

@@ -22,6 +22,7 @@ from mnclab.geometry.regions import Region
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Mark
 from mnclab.show.plot.picture import SMALL, Picture, write_legend
+from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.trials import side_by_side
 
 ENTRY = Mark("entry", colours.INK, "v", 5, False, 4.0)
@@ -34,6 +35,7 @@ CHORD = 0.02
 GAP, SCALE_ROOM, TOP = 0.55, 0.62, 0.36  # inches
 
 
+@sized()
 def plot_strategies(found: Comparison | Trial, width: float = 9.0, columns: int | None = None) -> Picture:
     """One view of each trial, all at one scale, with one scale of colours below; `width` of the picture in inches."""
     trials = found.trials if isinstance(found, Comparison) else (found,)

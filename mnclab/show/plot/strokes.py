@@ -71,9 +71,9 @@ def parted(xyz: Array, group: NDArray[np.integer], count: int) -> list[Array]:
     return [_line(xyz, order[a:b]) for a, b in zip(bounds[:-1], bounds[1:])]
 
 
-def line_of(path: Toolpath, kinds: tuple[Kind, ...] = tuple(Kind)) -> Array:
+def line_of(path: Toolpath, kinds: tuple[Kind, ...] = tuple(Kind), rapids: Limits | None = None) -> Array:
     """The moves of some kinds as one line (k, 3), broken by nan where others come between."""
-    drawn = strokes(path)
+    drawn = strokes(path, rapids)
     wanted = (drawn.row >= 0) & np.isin(path.kind[drawn.row], kinds)
     return parted(drawn.xyz, np.where(wanted, 0, -1), 1)[0]
 

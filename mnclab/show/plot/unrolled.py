@@ -22,6 +22,7 @@ from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.picture import SIZE, SMALL, VIEWS, Picture, arrange, dress, write_legend
+from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import Array, line_of
 from mnclab.text.alarm import Alarm
 
@@ -30,6 +31,7 @@ ANGLES, MOST = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 90, 18
 SEEN = 1e-6  # mm: shorter lines are the noise of turning, not moves
 
 
+@sized()
 def plot_unrolled(path: Toolpath, ax: Axes | None = None, size: tuple[float, float] = SIZE) -> Figure:
     """The rows of a path that lie on a cylinder, unrolled; of several cylinders the first one. An Alarm without any.
 

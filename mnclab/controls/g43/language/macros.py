@@ -82,7 +82,7 @@ def assign(m: Machine, words: Words) -> None:
         variables.give(m, target, name, value, str(message.value) if message else "")
 
 
-@FUNCTIONS("IF,", "Condition", takes="condition GOTO target* value* message", source=SOURCE)
+@FUNCTIONS("IF,", "Condition", takes="condition GOTO target* value* message", leads_away=True, source=SOURCE)
 def condition(m: Machine, words: Words) -> None:
     """GOTO a block, or THEN an assignment, if the condition holds."""
     holds = decide(m, words["condition"])
@@ -95,7 +95,7 @@ def condition(m: Machine, words: Words) -> None:
             m.flow.jump(m, label, m.span_of(words["GOTO"]))
 
 
-@FUNCTIONS("GOTO,", "Jump to a block", takes="GOTO", source=SOURCE)
+@FUNCTIONS("GOTO,", "Jump to a block", takes="GOTO", leads_away=True, source=SOURCE)
 def go_to(m: Machine, words: Words) -> None:
     """The program goes on at the block with this N: the next one below, or else the first one of the program."""
     m.flow.jump(m, target(m, words["GOTO"]), m.span_of(words["GOTO"]))
@@ -107,19 +107,19 @@ def target(m: Machine, word: Word) -> str:
     return sections.block_label(m, number(m, word) or 0.0, word)
 
 
-@FUNCTIONS("WHILE,", "Loop", takes="condition END", source=SOURCE)
+@FUNCTIONS("WHILE,", "Loop", takes="condition END", leads_away=True, source=SOURCE)
 def repeat(m: Machine, words: Words) -> None:
     """The blocks up to END are obeyed as long as the condition holds."""
     if not decide(m, words["condition"]):
         m.flow.jump(m, str(words["END"].value), m.span_of(words["END"]))
 
 
-@FUNCTIONS("DO,", "Loop without a condition", takes="END", source=SOURCE)
+@FUNCTIONS("DO,", "Loop without a condition", takes="END", leads_away=True, source=SOURCE)
 def begin_loop(m: Machine, words: Words) -> None:
     """Without WHILE a loop is left by GOTO alone."""
 
 
-@FUNCTIONS("END,", "End of a loop", takes="DO", source=SOURCE)
+@FUNCTIONS("END,", "End of a loop", takes="DO", leads_away=True, source=SOURCE)
 def end_loop(m: Machine, words: Words) -> None:
     """Back to the block of DO."""
     m.flow.jump(m, str(words["DO"].value), m.span_of(words["DO"]))

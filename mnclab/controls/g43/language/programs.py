@@ -88,7 +88,7 @@ def call(m: Machine, words: Words) -> None:
     run(m, program, times, "M98", words["P"])
 
 
-@FUNCTIONS("M99", "End of a subprogram", phase="end", takes="P", modal=False, source=SOURCE)
+@FUNCTIONS("M99", "End of a subprogram", phase="end", takes="P", modal=False, leads_away=True, source=SOURCE)
 def end(m: Machine, words: Words) -> None:
     """Back to the block after the call, or with P to that of this number; in the main program as `main_m99` has it."""
     word, flow = words.words[0], course(m)

@@ -25,6 +25,7 @@ from mnclab.machining.steps import Measure, Orient, Touch
 from mnclab.workpiece.part import Part
 
 CYCLES = CycleTable(addresses=addresses, runs="definition")
+WORN = 0.5  # mm, by which no ball wears: the figure is another than the program says
 MISPLACED = 5.0  # mm, by which the probe may stand off the centre (12.25, 12.26)
 
 
@@ -111,6 +112,9 @@ def offsets_and_radius(c: Ring | CalibrationBoss, m: Machine, a: Approach, insid
     radius = c.diameter / 2 - radius if inside else radius - c.diameter / 2
     if radius <= 0:
         m.alarm(f"{c.code} finds a ball of radius {radius:.4f}: the diameter {c.diameter:g} is not that of the figure")
+    if abs(radius - m.tool.effective_radius) > WORN:
+        asked, kind = f"{radius:.4f}, and its row says {m.tool.effective_radius:g}", "ring" if inside else "boss"
+        m.warn(f"{c.code} finds a ball of radius {asked}: is the {kind} of the diameter {c.diameter:g}?")
     yield Measure("radius", radius, m.tool.effective_radius, touches=tuple(touches))
     yield from offset_written(m, found[0].centre, found[1].centre, touches)
     yield from with_radius(m, radius)

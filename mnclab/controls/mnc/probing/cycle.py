@@ -23,6 +23,8 @@ TURNS = (*SCALES, "rotation")
 LIMITS = (("min_size", "max_size"), ("min_size_x", "max_size_x"), ("min_size_y", "max_size_y"))
 NEEDED_WITH_F = ("z_probe_x", "z_probe_y", "z_probe_z")
 
+ROWS = 99  # of the datum table, at least (MNC-DATUM-ROWS)
+
 
 class MeasuringCycle(Cycle):
     """Base of the cycles of chapter 12: who inherits declares the parameters, Q and H among them."""
@@ -70,6 +72,9 @@ class MeasuringCycle(Cycle):
         for name in self.refused:
             if name in m.frames:
                 yield "", f"cannot run while a {name} is active"
+        rows = max(int(m.settings["datum_rows"]), ROWS)
+        if self.row > rows and int(self.row) not in m.tables.datums:
+            yield "row", f"must be at most {rows}, the rows that the datum table has, got {self.row:g}"
         yield from self.low(self.approach(m))
         yield from self.fits(m, **{name: getattr(self, name) for name in self.entered})
 

@@ -166,10 +166,14 @@ def of_parts(m: Machine, words: Words) -> list[tuple[Word, Word, Word | None]]:
         numbers.add(number)
         if not made and head.address == "I":
             m.alarm(f"CONTOUR DEF {name}: the first part must be a pocket, the deepest one", head)
+        if not made and number != 1:
+            m.alarm(f"CONTOUR DEF {name}: the first part is P1, the deepest pocket", head)
         if not rest or rest[0].address == "DEPTH":
             m.alarm(f"CONTOUR DEF {name} needs the name of a program, or LBL and a label", head)
         strange = next((word for word in rest[1:] if word.address != "DEPTH"), rest[2] if len(rest) > 2 else None)
         if strange:
-            m.alarm(f"CONTOUR DEF {name}: {strange} has no meaning here", strange)
+            twice = strange.address == "DEPTH" and strange is not rest[1]
+            said = "the depth stands twice" if twice else f"{strange} has no meaning here"
+            m.alarm(f"CONTOUR DEF {name}: {said}", strange)
         made.append((head, rest[0], rest[1] if len(rest) > 1 else None))
     return made

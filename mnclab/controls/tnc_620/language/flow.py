@@ -51,7 +51,7 @@ JUMPS = {
 }  # fmt: skip
 
 
-@FUNCTIONS(", ".join(JUMPS), JUMPS, takes="first second parameter state label", source="Klartext, not described")
+@FUNCTIONS(", ".join(JUMPS), JUMPS, takes="first second parameter state label", leads_away=True, source="Klartext, not described")
 def jump(m: Machine, words: Words) -> None:
     """Goes on at a label if the condition holds; numbers are equal when they are exactly so."""
     word = words["label"]

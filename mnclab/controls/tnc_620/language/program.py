@@ -12,6 +12,7 @@ from mnclab.controls.tnc_620.tables.free_tables import put_out_tables
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
+from mnclab.running.flow import course
 from mnclab.running.performing import perform
 
 FUNCTIONS = FunctionTable()
@@ -36,7 +37,7 @@ def begin(m: Machine, words: Words) -> None:
         m.log("unit", unit)
 
 
-@FUNCTIONS("END PGM,", "Program end", takes="name unit", phase="last", source="4.11, example")
+@FUNCTIONS("END PGM,", "Program end", takes="name unit", leads_away=True, phase="last", source="4.11, example")
 def end(m: Machine, words: Words) -> None:
     """The last block of a program; a program that was called goes back to the one that calls."""
     name, unit = words["name"].value if "name" in words else "", words["unit"]
@@ -89,10 +90,13 @@ def stop(m: Machine, words: Words) -> None:
     m.stop()
 
 
-@FUNCTIONS("M2 M30", "Program end", group="program end", phase="last", modal=False, source="4.11, example")
+@FUNCTIONS("M2 M30", "Program end", group="program end", phase="last", modal=False, leads_away=True, source="4.11, example")
 def program_end(m: Machine, words: Words) -> None:
     """The run ends after this block; subprograms may follow it."""
     if m.flow.called:
         what = f"{words.code} ends the run and cannot stand in a program that was called"
         m.alarm(what, words.words[0], "a called program ends with END PGM")
+    if course(m).calls:
+        hint = "LBL 0 ends a subprogram; M30 stands above the first of them"
+        m.warn(f"{words.code} stands in a subprogram: the whole run ends here", words.words[0], hint)
     finish(m)

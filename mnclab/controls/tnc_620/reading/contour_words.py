@@ -48,7 +48,7 @@ class DeclaredWords:
             match self.waits:
                 case "designator":
                     found = cursor.expect(_QC, "DECLARE CONTOUR needs a designator QC and its number", hint)
-                    cursor.add("target", f"QC{int(found.group(1))}", found.start())
+                    cursor.add("target", f"QC{designator(found.group(1), found.start(), len(found.group()))}", found.start())
                     cursor.expect(_EQUALS, "= is missing", hint)
                     self.waits = "contour"
                 case "contour":
@@ -59,7 +59,17 @@ class DeclaredWords:
                         raise cursor.unexpected()
                     self.waits = ""
                 case _:
+                    begin = cursor.blanks()
+                    if depth(cursor):
+                        raise Fault("the depth stands twice", begin, cursor.at - begin, "keep one of them")
                     raise cursor.unexpected()
+
+
+def designator(number: str, begin: int, length: int) -> int:
+    """The number of a designator; a Fault at 0."""
+    if not int(number):
+        raise Fault("QC0: the designators of contours count from QC1", begin, length)
+    return int(number)
 
 
 def described_by(cursor: Cursor, what: str, needs: str, hint: str, labels: bool = True) -> None:
@@ -116,7 +126,7 @@ class FormulaWords:
     """Reads the lines of `QC10 = …`; the target was read already, at `begin`. That it is complete is seen when it is obeyed."""
 
     def __init__(self, target: int, begin: int, length: int) -> None:
-        self.target = (target, begin, length)
+        self.target = (designator(str(target), begin, length), begin, length)
         self.begun = False
         self.operand = True  # whether one comes next, or a bracket before one
         self.opened = 0  # brackets that are not closed yet
@@ -131,7 +141,7 @@ class FormulaWords:
             if found := cursor.match(_QC):
                 if not self.operand:
                     raise Fault("an operator is missing", at, len(found.group()), f"one of {' '.join(JOINS)}")
-                cursor.add("QC", float(found.group(1)), at)
+                cursor.add("QC", float(designator(found.group(1), at, len(found.group()))), at)
                 self.operand = False
             elif found := cursor.match(_JOIN):
                 if self.operand:

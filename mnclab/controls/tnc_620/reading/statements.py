@@ -192,6 +192,7 @@ _CYCLE = re.compile(
 )
 _FN = re.compile(r"FN[ \t]*(\d{1,3})[ \t]*:?", FLAGS)
 _TARGET = re.compile(r"Q([LRSC]?)[ \t]?(\d{1,6})[ \t]*=", FLAGS)
+_SIGNED = re.compile(r"Q[LRSC]?[ \t]?([+-][ \t]?\d{1,6})[ \t]*=", FLAGS)
 _M = re.compile(r"M[ \t]*\d", FLAGS)
 _PARAMETER_HEAD = re.compile(r"\bQ([LRS]?)[ \t]*(\d{1,4})[ \t]*=[ \t]*", FLAGS)
 _FEED_WORD = re.compile(rf"[ \t]*(?:(?:F[ \t]*)?(?:AUTO|MAX)|F[UZ][ \t]*{NUMBER}|PREDEF)(?![A-Z])", FLAGS)
@@ -233,6 +234,9 @@ def recognize(cursor: Cursor) -> Statement | None:
             return Statement("QC", contour_words.FormulaWords(int(found.group(2)), begin, found.end() - begin))
         name = f"Q{kind}{int(found.group(2))}"
         return Statement("QS", text_assignment(name, begin)) if kind == "S" else Statement("Q", assignment(name, begin))
+    if found := cursor.match(_SIGNED):
+        what = "the number of a parameter, or of a contour, has no sign"
+        raise Fault(what, found.start(1), len(found.group(1)), "for example QC10 =")
     if _M.match(cursor.text, cursor.at, cursor.stop):
         return Statement("", plain)
     return None

@@ -1,0 +1,181 @@
+"""Holes that are drilled, at their diameter: circles with a centre cross from above, dashed walls from the side.
+
+A hole is where a tool goes straight down at feed along Z: a drill, reamer or tap, or any tool in a step of a cycle that is
+called so; and where a cycle mills a bore. Its diameter is that of the tool (of a bore, of what it sweeps). Walls begin
+at the top of the blank, or where nobody has said where that is at the height from which the tool goes at feed.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import EllipseCollection
+from matplotlib.lines import Line2D
+
+from mnclab.path.columns import Array, Mask
+from mnclab.path.kinds import Kind
+from mnclab.path.listing import Unit
+from mnclab.path.toolpath import Toolpath
+from mnclab.show.plot import colours
+from mnclab.show.plot.overlay import Overlay, across, grown, line
+from mnclab.show.plot.picture import View
+
+STEPS = re.compile(r" (peck|drill|ream|bore|centre|countersink|cut the thread)( \d+ of \d+)?$")
+BORED = re.compile(r" circle at the bottom$")
+KINDS = ("drill", "reamer", "countersink", "tap")
+POINTED = ("", "drill", "countersink")
+MOST, NAMED = 2000, 3  # holes of a picture, diameters that the legend names one by one
+CROSS = 1.3  # of the radius: how far the centre lines of a hole go
+SAME = 1e-4  # mm: holes at one place
+
+
+class Hole(NamedTuple):
+    """Its axis, the heights of mouth, end of the wall and tip, and its radius at the mouth, all mm."""
+
+    x: float
+    y: float
+    top: float
+    wall: float
+    tip: float
+    radius: float
+
+
+class Holes(NamedTuple):
+    """The holes of a run, and the unit that it counts in."""
+
+    holes: list[Hole]
+    unit: Unit
+
+    def box(self, low: Array, high: Array) -> tuple[Array, Array]:
+        around = [(h.x + s * CROSS * h.radius, h.y + s * CROSS * h.radius, h.tip) for h in self.holes for s in (1, -1)]
+        return grown(low, high, np.array([np.min(around, axis=0), np.max(around, axis=0)]))
+
+    def names(self, views: Sequence[View]) -> list[str]:
+        return self._called if any(2 in (view.up, across(view)) for view in views) else []
+
+    @property
+    def _called(self) -> list[str]:
+        sizes = dict.fromkeys(self.unit.figure(2 * hole.radius, 1) for hole in self.holes)
+        return [f"hole \N{DIAMETER SIGN}{size}" for size in sizes] if len(sizes) <= NAMED else ["hole"]
+
+    def hides(self, view: View, places: Array) -> Mask:
+        """Which places (n, 2) of a view from above are the middle of a hole, and need no mark of their own."""
+        if across(view) != 2 or not len(places):
+            return np.zeros(len(places), bool)
+        middles = np.array([(hole.x, hole.y) for hole in self.holes])
+        order = np.lexsort(middles.T)
+        known = {tuple(each) for each in np.round(middles[order] / SAME).astype(np.int64).tolist()}
+        return np.array([tuple(each) in known for each in np.round(places / SAME).astype(np.int64).tolist()], bool)
+
+    def draw(self, ax: Axes, view: View) -> list[Any]:
+        if across(view) == 2:
+            self._from_above(ax)
+        elif view.up == 2:
+            self._from_the_side(ax, view)
+        else:
+            return []
+        style = {"marker": "o", "markerfacecolor": "none", "markersize": 7, "color": colours.HOLE.colour}
+        return [Line2D([], [], **{**style, "linestyle": "none", "label": name}) for name in self._called]  # type: ignore[arg-type]
+
+    def write(self, ax: Axes, view: View, lines: Sequence[Array]) -> None:
+        return None
+
+    def _from_above(self, ax: Axes) -> None:
+        middles, radii = np.array([hole[:2] for hole in self.holes]), np.array([hole.radius for hole in self.holes])
+        ax.add_collection(EllipseCollection(
+            2 * radii, 2 * radii, np.zeros(len(radii)), units="xy", offsets=middles, offset_transform=ax.transData,
+            facecolors="none", edgecolors=colours.HOLE.colour, linewidths=1.2, zorder=colours.HOLE.order, label="_holes",
+        ), autolim=False)  # fmt: skip
+        ends = np.array([[(-1, 0), (1, 0), (np.nan, np.nan), (0, -1), (0, 1), (np.nan, np.nan)]])
+        crosses = middles[:, None] + CROSS * radii[:, None, None] * ends
+        look = {**colours.CENTRE_LINE.style(), "zorder": colours.HOLE.order, "label": "_hole centres", "linewidth": 0.6}
+        ax.add_line(Line2D(*crosses.reshape(-1, 2).T, **look))
+
+    def _from_the_side(self, ax: Axes, view: View) -> None:
+        seen = np.unique([(hole[view.right], *hole[2:]) for hole in self.holes], axis=0)
+        place, top, wall, tip, radius = seen.T
+        left, right, none = place - radius, place + radius, np.full(len(seen), np.nan)
+        across_ = np.stack([left, left, place, right, right, none, left, right, none], axis=1)
+        heights = np.stack([top, wall, tip, wall, top, none, wall, wall, none], axis=1)
+        points = np.full((across_.size, 3), np.nan)
+        points[:, view.right], points[:, 2] = across_.ravel(), heights.ravel()
+        line(ax, view, points, colours.HOLE, label="_holes")
+
+
+def holes_of(run: Any) -> Holes | None:
+    """The holes of a run; None without any, on a lathe, or with more than a picture has room for."""
+    path: Toolpath = run.toolpath
+    if path.lathe:
+        return None
+    straight = (path.kind == Kind.LINE) & (path.start[:, :2] == path.end[:, :2]).all(axis=1)
+    down = straight & (path.end[:, 2] < path.start[:, 2]) & (path.axis[:, 2] > 1 - 1e-9)
+    bored = (path.kind == Kind.ARC) & _called(path, BORED) & (path.axis[:, 2] > 1 - 1e-9)
+    if not down.any() and not bored.any():
+        return None
+    tools, numbers = run.tools_that_cut
+    drilling = [number for number, tool in tools.items() if tool.kind in KINDS]
+    rows = np.flatnonzero(down & (_called(path, STEPS) | np.isin(numbers, drilling)))
+    stock = run.stock
+    top = float(stock.bounds[1, 2]) if stock is not None else math.inf
+    where = np.column_stack([np.round(path.end[rows, :2] / SAME), numbers[rows]])
+    each, first, group = np.unique(where, axis=0, return_index=True, return_inverse=True)
+    if len(each) + int(bored.sum()) > MOST:
+        return None
+    lowest, highest = np.full(len(each), np.inf), np.full(len(each), -np.inf)
+    np.minimum.at(lowest, group.ravel(), path.end[rows, 2])
+    np.maximum.at(highest, group.ravel(), path.start[rows, 2])
+    found = []
+    for k, row in enumerate(rows[first].tolist()):
+        tool = tools.get(int(numbers[row]))
+        radius = float(path.radius[row]) or (tool.effective_radius if tool else 0.0)
+        pointed = tool is not None and tool.kind in POINTED and 0 < tool.angle < 180
+        slope = math.tan(math.radians(tool.angle / 2)) if tool and pointed else math.inf
+        mouth, tip = min(top, float(highest[k])), float(lowest[k])
+        if pointed and stock is not None:
+            radius = min(radius, (mouth - tip) * slope)
+        elif path.labels[path.label[row]].endswith((" centre", " countersink")):
+            continue  # how wide it becomes is known with the height of the blank alone
+        if radius > 0 and mouth > tip:
+            x, y = path.end[row, :2].tolist()
+            found.append(Hole(x, y, mouth, min(mouth, tip + radius / slope), tip, radius))
+    found += [_bore(path, row, top) for row in np.flatnonzero(bored).tolist()]
+    return Holes(_widest(found), path.unit) if found else None
+
+
+def _bore(path: Toolpath, row: int, top: float) -> Hole:
+    """A bore that a mill makes on a helix: as wide as what the tool sweeps."""
+    centre, bottom = path.centre[row], float(path.end[row, 2])
+    radius = float(np.hypot(*(path.start[row] - centre)[:2]) + path.radius[row])
+    begin = row
+    while begin and path.step[begin - 1] == path.step[row] and np.isfinite(path.feed[begin - 1]):
+        begin -= 1
+    high = float(path.start[begin : row + 1, 2].max())
+    return Hole(float(centre[0]), float(centre[1]), min(top, high), bottom, bottom, radius)
+
+
+def _widest(holes: list[Hole]) -> list[Hole]:
+    """A hole that is drilled twice with one diameter is one hole: the deepest."""
+    found: dict[tuple[float, ...], Hole] = {}
+    for hole in holes:
+        key = round(hole.x / SAME), round(hole.y / SAME), round(hole.radius / SAME)
+        known = found.get(key)
+        if known is None or known.tip > hole.tip:
+            found[key] = hole
+    return list(found.values())
+
+
+def _called(path: Toolpath, pattern: re.Pattern[str]) -> Mask:
+    return np.isin(path.label, [number for number, label in enumerate(path.labels) if pattern.search(label)])
+
+
+def beside_holes(overlays: Sequence[Overlay], view: View, places: Array) -> Array:
+    """Those of some places (m, 2) in a view that are not the middle of a hole."""
+    for over in overlays:
+        if isinstance(over, Holes):
+            places = places[~over.hides(view, places)]
+    return places
