@@ -10,7 +10,7 @@ from toy_probing import toy_run
 import mnclab
 from mnclab import __main__ as shell
 from mnclab.show.plot.pages.setting import sheets
-from mnclab.show.report.contents import Document
+from mnclab.show.report.contents import Document, Image
 from mnclab.show.report.gathering import measuring
 from mnclab.workpiece.part import box, hole
 
@@ -61,6 +61,15 @@ def test_a_long_measuring_has_a_report_of_few_pictures(tmp_path, monkeypatch):
     monkeypatch.setattr("mnclab.show.report.gathering.MOST_PANELS", 4)
     text = toy_run("M4 X0 Y30 Z-5\n" * 9, PART).report(tmp_path / "a.html").read_text("utf-8")
     assert text.count('alt="measured: 2 panels') == 2 and "cycles without a picture: 5" in text
+
+
+def test_of_many_cycles_those_beyond_their_limits_have_the_pictures(tmp_path, monkeypatch):
+    """The bore of 24.2 in line 8 is out, the wall of the eight lines around it has no limits."""
+    monkeypatch.setattr("mnclab.show.report.gathering.MOST_PANELS", 1)
+    run = toy_run("M4 X0 Y30 Z-5\n" * 5 + "M1 X50 Y30 D24 Z-5\n" + "M4 X0 Y30 Z-5\n" * 3, PART)
+    (picture,) = (piece.picture for piece in measuring(run, "a").pieces if isinstance(piece, Image))
+    (title,) = (ax.get_title(loc="left") for ax in picture.axes)
+    assert title.startswith(f"line {next(row.line for row in run.measurements.outside)} ") and "M1" in title
 
 
 def test_a_report_without_measuring_has_no_record(tmp_path):

@@ -74,8 +74,9 @@ def plot_measured(
 
 
 def pages(run: Any, count: int, most: int) -> tuple[list[Picture], int]:
-    """Pictures of `count` panels each for a report, of about `most` panels; and how many executions of cycles have none."""
-    found, more = panels(run, None, None, most)
+    """Pictures of `count` panels each for a report, of about `most` panels, first of what is beyond its limits; and how many
+    executions of cycles have none."""
+    found, more = panels(run, None, None, most, frozenset(row.step for row in run.measurements.outside))
     part = part_of(run) if found else None
     return [_picture(found[k : k + count], part, WIDTH, 0) for k in range(0, len(found), count)], more
 

@@ -78,20 +78,24 @@ class Panel(NamedTuple):
         return np.vstack([*(line for pair in self.pairs for line in (pair.nominal, pair.actual)), *discs, *starts])
 
 
-def panels(run: Any, line: int | None, factor: float | None, most: int = 10_000) -> tuple[list[Panel], int]:
+def panels(
+    run: Any, line: int | None, factor: float | None, most: int = 10_000, prior: frozenset[int] = frozenset()
+) -> tuple[list[Panel], int]:
     """The panels of a run in the order of its blocks, or of one line, about `most` of them; without a `factor` each has its
-    own. And how many executions of cycles have none."""
+    own. And how many executions of cycles have none: where there are too many, the steps in `prior` have theirs."""
     found: list[Panel] = []
     touches, figures, rows = _by_step([*enumerate(run.touches)]), _by_step(run.figures), _by_step(run.measurements)
     passes: dict[tuple[int, int], int] = {}
     left_out = 0
-    for step in sorted({*touches, *figures}):
+    steps = sorted({*touches, *figures})
+    chosen = set(sorted(steps, key=lambda step: (step not in prior, step))[:most]) if prior else set(steps)
+    for step in steps:
         first = figures[step][0] if step in figures else touches[step][0][1]
         place = first.program, first.line
         passes[place] = passes.get(place, 0) + 1
         if line is not None and first.line != line:
             continue
-        if len(found) >= most:
+        if len(found) >= most or step not in chosen:
             left_out += 1
             continue
         of = touches.get(step, []), figures.get(step, []), rows.get(step, [])

@@ -33,7 +33,7 @@ from mnclab.workpiece.removal import HEAD
 Rows = list[tuple[str, ...]]
 Lines = list[tuple[int, str, str]]
 BLANKS = ("part", "date", "measured by")  # lines of a measuring record that a person fills in
-PANELS, MOST_PANELS = 6, 24  # of measuring: in a picture, in all of them
+PANELS, MOST_PANELS = 6, 12  # of measuring: in a picture, in all of them
 LONGEST = 76  # letters of a fact beside another
 
 
@@ -168,5 +168,5 @@ def measuring(run: Any, title: str) -> Section:
     pictures, left_out = pages(run, PANELS, MOST_PANELS)
     pieces += [Image(picture, "what was measured, deviations magnified as each panel says") for picture in pictures]
     if left_out:
-        pieces.append(Words(f"cycles without a picture: {left_out}"))
+        pieces.append(Words(f"cycles without a picture: {left_out}; run.plot_measured(line=…) draws them"))
     return Section("Measured by the probe", pieces)

@@ -10,7 +10,8 @@ from mnclab.show.report.contents import Table
 from mnclab.text.tables import tail
 
 SIZES = (8.5, 8.0, 7.5, 7.0, 6.5, 6.0)  # points, the first that has room
-GAP, LINE, AIR = 13.0, 1.32, 3.0  # between columns; lines apart, in ems; above and below the rules
+GAP, NARROW_GAP, MANY = 13.0, 8.0, 8  # between columns, and between those of a table of more
+LINE, AIR = 1.32, 3.0  # lines apart, in ems; above and below the rules
 NARROW = 46.0  # a column of words is folded to this width at least
 
 
@@ -39,11 +40,11 @@ def tabled(table: Table, room: float) -> Setting:
     heads = 1 if any(table.head) else 0
     bold = {0} if heads else set[int]()
     bold |= {heads + k for k in table.bold}
+    gap = GAP if count <= MANY else NARROW_GAP
     for size in SIZES:
         widths = _widths(texts, size, bold)
-        if sum(widths) + GAP * (count - 1) <= room:
+        if sum(widths) + gap * (count - 1) <= room:
             break
-    gap = GAP if sum(widths) + GAP * (count - 1) <= room else GAP / 2
     widths = _folded_widths(widths, room - gap * (count - 1), set(table.numbers))
     longest = {k: max((width(tail(row[k]) or "", size) for row in texts[heads:]), default=0.0) for k in table.numbers}
     left = [sum(widths[:k]) + gap * k for k in range(count)]
