@@ -103,8 +103,9 @@ def table(path: Toolpath) -> str:
     rows = [_cells(i, path[i], path.unit) for i in range(n) if n <= HEAD + TAIL or not HEAD <= i < n - TAIL]
     if n > HEAD + TAIL:
         rows.insert(HEAD, (f"… {n - HEAD - TAIL} rows …",))
-    head = ("row", "line", "kind", "x", "y", "z", "feed", "spindle", "tool", "label")
-    return f"{html_table(head, rows, numbers=NUMBERS)}<p>{several(n, 'row')}, positions in {path.unit.name}</p>"
+    x, radii = ("x (radius)", ", x as radius") if path.lathe else ("x", "")
+    head = ("row", "line", "kind", x, "y", "z", "feed", "spindle", "tool", "label")
+    return f"{html_table(head, rows, numbers=NUMBERS)}<p>{several(n, 'row')}, positions in {path.unit.name}{radii}</p>"
 
 
 def _cells(i: int, move: Move, unit: Unit) -> tuple[str, ...]:

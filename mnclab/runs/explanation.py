@@ -36,6 +36,7 @@ class Explanation:
         last = int(self.program.lines()[1][run.steps.block[moment.step]])
         self.alarms = tuple(_alarms(run, self.program, span.line, last))
         self.unit = unit_of(moment.state)
+        self.radii = ", X as radius" if run.toolpath.lathe else ""
         self.changed = []
         for name, value in moment.changed.items():
             unit = MM if name == "feed" and moment.state.get("per_time") else self.unit
@@ -72,11 +73,11 @@ class Explanation:
             lines.append(f"  {m.word.ljust(wide)}  {m.says}{changed}{source}")
         wide = max(len(stage.name) for stage in self.stages)
         parts = {
-            "moves": self._moves_told(),
+            f"moves{self.radii}": self._moves_told(),
             "changed": [
                 f"{name}: {before} -> {now}" if before else f"{name}: {now}" for name, before, now in self.changed
             ],
-            "from the program to the tool": [
+            f"from the program to the tool{self.radii}": [
                 f"{s.name.ljust(wide)}  {point(np.array(s.point), self.unit)}  {s.note}".rstrip() for s in self.stages
             ],
         }
@@ -97,7 +98,7 @@ class Explanation:
             html_table(("word", "means", "changed", "section"), words) if words else "",
             f"<pre>{escape(moves)}</pre>" if moves else "",
             html_table(("value", "before", "after"), self.changed) if self.changed else "",
-            html_table(("from the program to the tool", "X", "Y", "Z", ""), stages, numbers=(1, 2, 3)),
+            html_table((f"from the program to the tool{self.radii}", "X", "Y", "Z", ""), stages, numbers=(1, 2, 3)),
         ]
         return f"<div>{''.join(parts)}</div>"
 

@@ -12,6 +12,7 @@ from toy_probing import toy_run
 import mnclab
 from mnclab.show.felt import felt
 from mnclab.show.player.payload import payload
+from mnclab.show.plot.datums import places_of
 from mnclab.show.plot.material import draw_material
 from mnclab.show.plot.picture import VIEWS, Picture
 from mnclab.workpiece.part import ball, box, hole, plane
@@ -224,3 +225,12 @@ def test_touches_of_a_program_in_inches_count_in_inches():
     run = mnclab.run(text, "tnc-620", mnclab.Setup(tools=tools, part=box((25.4, -50, -20), (60, 50, 20))))
     assert run.ok, run.alarms
     assert felt(run).texts[0][0] == "1   X 1.0000"
+
+
+def test_a_datum_that_a_cycle_shifts_says_from_which_line_on_it_counts():
+    """G419 in line 3 finds the wall 1 mm beside the datum and makes it zero: the second G54 counts from there."""
+    part, probe = box((1, 0, -20), (60, 50, 0)), {20: mnclab.Tool(2, kind="probe")}
+    text = "G54 G17 G90 T20\nG0 Z20\nG419 X0 Y30 L1 K1 Z-5 H20 S1\nG0 X10\n"
+    run = mnclab.run(text, "mnc", mnclab.Setup(tools=probe, part=part, start=(-20, 0, 50)))
+    assert run.ok, run.alarms
+    assert {"G54", "G54, line 3"} == {place.name for place in places_of(run)}

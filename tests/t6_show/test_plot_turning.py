@@ -102,6 +102,12 @@ def test_what_an_insert_has_cut_is_seen_through_it():
         assert [each[:7] for each in re.findall(rf"--{name}: (#\w+)", page)] == [shade, shade]
 
 
+def test_tables_of_a_lathe_say_that_x_is_a_radius():
+    turned, milled = run("G00 X20 Z5\nX10\n", "jnc-t01"), run("G0 X20\nX10\n", "mnc")
+    assert "x (radius)" in turned.toolpath._repr_html_() and "radius" not in milled.toolpath._repr_html_()
+    assert "moves, X as radius" in str(turned.explain(line=1)) and "as radius" not in str(milled.explain(line=1))
+
+
 def test_an_insert_never_turns_inside_out():
     """The edge on the left stays on the left of the other one, whatever the table leaves out."""
     for tool in (
@@ -171,4 +177,4 @@ def test_a_tool_that_cannot_be_is_named():
 @pytest.mark.parametrize("stock", [None, blank.cylinder(10, -20, 0)])
 def test_a_program_that_moves_nothing_has_a_picture(control, text, stock):
     found = run(text, control, Setup(stock=stock))
-    assert found.ok and found.rows_from_home == 0 and found.plot().axes
+    assert found.ok and found.rows_from_home == 0 and "no moves" in found.plot().alt

@@ -10,7 +10,7 @@ from functools import cached_property
 from html import escape
 from importlib.resources import files
 from pathlib import Path
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from mnclab.path.profile import Profile
 from mnclab.show.felt import felt
@@ -21,6 +21,9 @@ from mnclab.text.file import replaced
 from mnclab.text.given import check_number, choice
 from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.cutting import Cutting
+
+if TYPE_CHECKING:
+    from mnclab.show.plot.picture import Picture
 
 SCRIPTS = (
     "data", "shapes", "camera", "strokes", "curves", "touches", "picture", "curve", "listing", "state", "points", "measure",
@@ -105,16 +108,22 @@ class Player:
         return whole(re.sub("@([a-z]+)@", lambda place: parts[place[1]], text["page.html"]))
 
     @cached_property
-    def still(self) -> str:
-        """The path as a picture, for where no scripts run; empty where a figure of it is refused."""
+    def picture(self) -> Picture | None:
+        """The path as a figure, for where no scripts run; None where a figure of it is refused."""
         from mnclab.show.plot.path import plot_run
-        from mnclab.show.plot.picture import Picture
 
         try:
-            picture = cast(Picture, plot_run(self.run))
+            return cast("Picture", plot_run(self.run))
         except Alarm:
+            return None
+
+    @cached_property
+    def still(self) -> str:
+        """The same in the page."""
+        if self.picture is None:
             return ""
-        return f'<img alt="{escape(picture.alt)}" src="data:image/png;base64,{base64.b64encode(picture.png()).decode()}">'
+        data = base64.b64encode(self.picture.png()).decode()
+        return f'<img alt="{escape(self.picture.alt)}" src="data:image/png;base64,{data}">'
 
     def save(self, path: str | Path) -> Path:
         """Write the page to a file and return its path; an Alarm if it cannot be written."""
@@ -127,7 +136,9 @@ class Player:
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         """The page, and for where no script runs a picture of the path: it is seen until a script hides it."""
-        still = self.run.plot()._repr_mimebundle_()
+        if self.picture is None:
+            return {"text/html": self._repr_html_(), "text/plain": repr(self)}
+        still = self.picture._repr_mimebundle_()
         picture = f'<div class="mnclab-player-still">{still["text/html"]}</div><script>{HIDE}</script>'
         return {"text/html": picture + self._repr_html_(), "image/png": still["image/png"], "text/plain": repr(self)}
 

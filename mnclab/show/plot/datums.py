@@ -40,14 +40,21 @@ class Place(NamedTuple):
 
 
 def places_of(run: Any) -> list[Place]:
-    """The zero points and poles of a run, in the order of the program; what lies at one place shares a cross."""
+    """The zero points and poles of a run, in the order of the program; what lies at one place shares a cross.
+
+    A zero point that a cycle shifts has a second one, which says from which line on it counts.
+    """
     history, path = run.history, run.toolpath
     found: dict[tuple[Mark, tuple[float | None, ...]], list[str]] = {}
-    apart = "set" in run.frames.slots
+    apart, seen = "set" in run.frames.slots, dict[str, tuple[float | None, ...]]()
 
-    def add(mark: Mark, name: str, xyz: Array) -> None:
+    def add(mark: Mark, name: str, xyz: Array, step: int) -> None:
         # nan is no key: it equals nothing
         place = tuple(None if np.isnan(v) else round(v, 6) + 0.0 for v in xyz.tolist())
+        if mark is colours.DATUM and seen.setdefault(name, place) != place:
+            if any(each.startswith(f"{name}, line") or each == name for each in found.get((mark, place), [])):
+                return
+            name = f"{name}, line {run.at(step=step).line}"
         names = found.setdefault((mark, place), [])
         if name not in names:
             names.append(name)
@@ -56,13 +63,13 @@ def places_of(run: Any) -> list[Place]:
         for _, value in poles:
             plane = history.value("pole plane", step)
             if value is not None and (pole := _pole(path, chain, step, value, plane)) is not None:
-                add(colours.POLE, "pole", pole)
+                add(colours.POLE, "pole", pole, step)
         selected = [frame for frame in set_here if frame in ORIGINS and not (frame not in chain and frame in SHIFTS)]
         for frame in selected:
             inner = "local" if frame == "set" else frame  # G52 counts inside G92, which may end a part of it
             said = "G52" if frame == "local" and apart else ORIGINS[frame] or _code(history, step)
             if frame != "local" or "set" not in selected:
-                add(colours.DATUM, said, (chain.before(inner) @ chain[inner])[:3, 3] - path.origin)
+                add(colours.DATUM, said, (chain.before(inner) @ chain[inner])[:3, 3] - path.origin, step)
     return [
         Place(mark, ", ".join(names), tuple(np.nan if v is None else v for v in place))  # type: ignore[arg-type]
         for (mark, place), names in found.items()
