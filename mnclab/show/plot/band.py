@@ -16,8 +16,8 @@ from mnclab.show.plot.strokes import Array, Strokes, parted
 
 NAME, SHADE, ORDER = "width of the tool", "#d6e3f1", 1.2
 THIN = 0.45  # of the usual width of a line: where passes lie close
-CELL, DENSE, SHARE = 6.0, 1.7, 0.25  # points; ways through a cell that is dense; share of such cells in a dense path
-MOST, SAMPLES = 20_000, 400_000  # strokes under which a band is drawn unasked, and points that are looked at
+CELL, DENSE, SHARE = 6, 1.7, 0.25  # points; ways through a cell that is dense; share of such cells in a dense path
+MOST, SAMPLES, CELLS = 20_000, 400_000, 100_000  # strokes under which a band is drawn unasked; points and cells looked at
 MANY = 12  # radii of tools that have a band each
 
 
@@ -71,6 +71,12 @@ def dense(xy: Array, cuts: Mask, scale: float) -> bool:
         return True
     which = np.repeat(np.arange(len(end)), count)
     share = (np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)) / count[which]
-    points = np.unique(np.floor((begin[which] + share[:, None] * way[which]) * scale).astype(np.int64), axis=0)
-    _, held = np.unique(points // int(CELL), axis=0, return_counts=True)
-    return bool((held > DENSE * CELL).mean() > SHARE) if len(held) else False
+    low = np.nanmin(xy, axis=0)
+    wide, tall = (int(side) // CELL + 1 for side in (np.nanmax(xy, axis=0) - low) * scale)
+    if wide * tall > CELLS:
+        return True
+    x, y = (((begin[which, k] + share * way[which, k]) - low[k]) * scale for k in (0, 1))
+    ink = np.zeros((wide * CELL, tall * CELL), bool)
+    ink[x.astype(np.int64), y.astype(np.int64)] = True
+    held = ink.reshape(wide, CELL, tall, CELL).sum(axis=(1, 3))
+    return bool((held[held > 0] > DENSE * CELL).mean() > SHARE) if held.any() else False

@@ -194,7 +194,8 @@ class Sheet:
                     x, y = (column + columns / 2) * CELL, (row + rows / 2) * CELL + 0.36 * high
                     return (
                         f'<text data-style="address" x="{written(x)}" y="{written(y)}" font-size="{written(high)}" '
-                        f'font-weight="700" textLength="{written(wide)}" lengthAdjust="spacingAndGlyphs">{escape(self.address)}</text>'
+                        f'font-weight="700" textLength="{written(wide)}" lengthAdjust="spacingAndGlyphs">'
+                        f"{escape(self.address)}</text>"
                     )
         return ""
 
