@@ -132,7 +132,7 @@ def test_a_move_without_a_feed_is_drawn_and_says_so():
 
 
 def test_an_unknown_colour_is_refused_with_those_known():
-    with pytest.raises(Alarm, match="colour must be kind, feed, speed, tool, line or z"):
+    with pytest.raises(Alarm, match="colour must be kind, feed, speed, tool, step, line or z"):
         run(SQUARE).plot(colour="weight")
 
 

@@ -1,8 +1,8 @@
-"""Which moves share a colour: by kind, feed, spindle speed, tool, source line or height, and the scale that explains it.
+"""Which moves share a colour: by kind, feed, spindle speed, tool, step, source line or height, and the scale that says it.
 
 Rapids and probing always keep their own look; `colour` divides the cuts. Few different values are a class each, named
 in the legend; many are put into at most `BINS` bins between round numbers, explained by a scale. The colours grow
-lighter with the value, so that grey print keeps the order.
+lighter with the value, so that grey print keeps the order; the slower a feed, the wider its line.
 """
 
 from __future__ import annotations
@@ -18,16 +18,21 @@ from numpy.typing import NDArray
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
 from mnclab.show.plot import colours
-from mnclab.show.plot.colours import Line
+from mnclab.show.plot.colours import Dashes, Line
 from mnclab.show.plot.lathe import speed_at
+from mnclab.show.plot.step_names import ROUGHING, steps_of
 from mnclab.show.plot.strokes import Array, Strokes, parted
 from mnclab.text.given import choice
 
-COLOURS = ("kind", "feed", "speed", "tool", "line", "z")
+COLOURS = ("kind", "feed", "speed", "tool", "step", "line", "z")
 FEW, TOOLS, BINS = 6, 10, 14  # classes that the legend names one by one, tools likewise; bins of a scale at most
 LIGHTEST = 0.58  # of the map: beyond it the contrast on white falls below 3 to 1
 TITLES = {"feed": "feed, {unit}/min", "speed": "spindle, rev/min", "tool": "tool", "line": "line", "z": "Z, {unit}"}
-NAMES = {"feed": "{} {unit}/min", "speed": "{} rev/min", "tool": "tool {}", "line": "line {}", "z": "Z {} {unit}"}
+NAMES = {"feed": "{} {unit}/min", "speed": "{} rev/min", "tool": "tool {}", "step": "{}", "line": "line {}", "z": "Z {} {unit}"}
+#: Few classes: hues far apart, dark to light.
+HUES = ("#2d0a5e", "#7d1128", "#1259a8", "#2f7d32", "#bf5ab0", "#c47a00")
+DASHES: tuple[Dashes, ...] = ("-", (0, (7, 1)), (0, (3, 0.8)), (0, (6, 1, 1.2, 1)), (0, (1.6, 0.7)), (0, (4, 1, 1.2, 1, 1.2, 1)))
+SLOW, FAST = 4.5, 1.5  # points: how wide the slowest and the fastest feed are drawn
 LENGTHS = ("feed", "z")  # what counts in the unit of the program
 
 Values = NDArray[Any]
@@ -68,6 +73,8 @@ def classes(path: Toolpath, drawn: Strokes, colour: str) -> Classes:
         return _with_threads(path, drawn, fixed, group)
     if colour == "kind" or not cuts.any():
         return Classes(fixed, group)
+    if colour == "step":
+        return _by_step(path, drawn, fixed, group)
     values = _values(path, drawn, colour)
     if colour in LENGTHS and path.inches:
         values = np.round(values / path.unit.length, 9)
@@ -92,6 +99,19 @@ def _with_threads(path: Toolpath, drawn: Strokes, fixed: list[Line], group: NDAr
     looks = [colours.THREAD._replace(name=f"thread, lead {lead:.4g} mm") for lead in found]
     group[thread] = len(fixed) + np.searchsorted(found, leads[thread])
     return Classes([*fixed, *looks], group)
+
+
+def _by_step(path: Toolpath, drawn: Strokes, fixed: list[Line], group: NDArray[np.int16]) -> Classes:
+    """What each stroke does in its cycle: the less is left to take off, the thinner."""
+    numbers, names = steps_of(path)
+    cuts = group == 2
+    seen = np.unique(numbers[drawn.row[cuts]])
+    group[cuts] = 2 + np.searchsorted(seen, numbers[drawn.row[cuts]])
+    looks = [
+        look._replace(name=names[k], dashes=dashes, width=1.9 if names[k] == ROUGHING else 1.5)
+        for look, dashes, k in zip(_looks([""] * len(seen), "step", ""), DASHES, seen.tolist())
+    ]
+    return Classes([*fixed[:2], *looks], group)
 
 
 def lines(drawn: Strokes, found: Classes) -> list[tuple[Line, Array]]:
@@ -135,7 +155,7 @@ def _divide(values: Values, colour: str, unit: str) -> tuple[NDArray[np.int16], 
     limits = np.round(limits, 9)
     single = colour in ("tool", "line") and limits[1] - limits[0] == 1
     bins = [number(a) if single else f"{number(a)} to {number(b)}" for a, b in zip(limits[:-1], limits[1:])]
-    looks = _looks(bins, colour, unit)
+    looks = _looks(bins, colour, unit, few=False)
     shades = tuple(look.colour for look in looks)
     looks.append(without)
     share = (np.where(missing, limits[0], values) - limits[0]) / (limits[1] - limits[0])
@@ -152,14 +172,21 @@ def _few(values: Values, most: int) -> Values | None:
     return found if len(found) <= most else None
 
 
-def _looks(values: list[str], colour: str, unit: str) -> list[Line]:
-    """Cuts of rising values: the greater are drawn later, but the deeper where the colour shows Z."""
+def _looks(values: list[str], colour: str, unit: str, few: bool = True) -> list[Line]:
+    """Cuts of rising values: the greater are drawn later, but the deeper where the colour shows Z, and the slower."""
     count, base, name = len(values), colours.FEED, NAMES[colour]
-    order = range(count, 0, -1) if colour == "z" else range(count)
+    order = range(count, 0, -1) if colour in ("z", "feed") else range(count)
+    shades = hues(count) if few and colour != "z" and count <= len(HUES) else ramp(count)
+    wide = np.linspace(SLOW, FAST, count).tolist() if colour == "feed" and count > 1 else [base.width] * count
     return [
-        base._replace(name=name.format(value, unit=unit), colour=shade, order=base.order + 0.01 * k)
-        for value, shade, k in zip(values, ramp(count), order)
+        base._replace(name=name.format(value, unit=unit), colour=shade, width=width, order=base.order + 0.01 * k)
+        for value, shade, width, k in zip(values, shades, wide, order)
     ]
+
+
+def hues(count: int) -> tuple[str, ...]:
+    """As many of `HUES`, as far apart as they can be."""
+    return tuple(HUES[round(k * (len(HUES) - 1) / max(count - 1, 1))] for k in range(count))
 
 
 def ramp(count: int) -> tuple[str, ...]:

@@ -77,6 +77,7 @@ PROGRAMMED = Line("programmed", "#8c8c8c", "-", 0.9, 2.2)
 GHOST = Line("_before", "#8c8c8c", "-", 1.1, 1.9)
 GHOST_RAPID = Line("_before, rapid", "#8c8c8c", (0, (1, 2)), 0.8, 1.9)
 BLANK = Line("blank", "#9a8f6e", "-", 0.8, 1.4)
+BLANK_FACE = "#f6f3ea"  # behind everything
 LEADER = Line("_leader", "#6b6b6b", "-", 0.7, 3.05)  # from a symbol to its place
 CENTRE_LINE = Line("", "#6b6b6b", (0, (10, 3, 1.5, 3)), 0.8, 1.5)
 

@@ -23,6 +23,7 @@ from mnclab.path.kinds import RULE_NAMES, Rule
 from mnclab.path.toolpath import Toolpath
 from mnclab.show.plot import colours, ghost
 from mnclab.show.plot.equidistant import CORNERS, Panel, draw, write
+from mnclab.show.plot.layers import draw_stock
 from mnclab.show.plot.picture import (
     BELOW,
     ROW,
@@ -56,6 +57,7 @@ GOUGES = {
 }
 WIDE = (12.0, 7.0)  # several pictures side by side
 GAP, RIGHT = 0.5, 0.16  # inches
+LARGER = 3.0  # a blank of so many times the size of the picture is left out
 
 
 @sized()
@@ -68,6 +70,7 @@ def compensation(
     discs: bool | float | Sequence[int] = False,
     vectors: bool = True,
     names: bool = True,
+    stock: bool = True,
     view: str = "auto",
     size: tuple[float, float] | None = None,
     under: Toolpath | None = None,
@@ -82,6 +85,7 @@ def compensation(
     - `discs`: the tool at the end of each compensated row; a number: every so many mm; a list: where the blocks in
       these lines end.
     - `vectors`: offset vectors at the corners; `names`: what was done there, written beside.
+    - `stock`: the blank behind the contour, where there is one that is not much larger.
     - `view`: "XY", "XZ", "YZ" or "ZX"; "auto" is the plane of the first contour.
     - `size`: the greatest width and height in inches.
     - `under`: another path, whose moves that this one has not are drawn thin and grey; `limits`: the `box` of the picture
@@ -96,12 +100,13 @@ def compensation(
             raise Alarm("axes of one's own have room for one rule and one radius")
         low, high = roomy(*_box(panels, discs))
         outlines = draw(ax, panels[0], discs, vectors)
+        _blank(ax, panels[0], low, high, stock)
         dress(ax, panels[0].view)
         _limit(ax, panels[0].view, low, high)
         ax.apply_aspect()
         write(ax, panels[0], outlines, names)
         return cast(Figure, ax.get_figure(root=True))
-    return _picture(panels, discs, vectors, names, size or (WIDE if len(panels) > 1 else SIZE), under, limits)
+    return _picture(panels, discs, vectors, names, size or (WIDE if len(panels) > 1 else SIZE), under, limits, stock)
 
 
 # --- the runs ---------------------------------------------------------------------------------------------------------
@@ -172,13 +177,15 @@ def _box(panels: Sequence[Panel], discs: Any) -> tuple[Array, Array]:
 
 def _picture(
     panels: Sequence[Panel], discs: Any, vectors: bool, names: bool, size: tuple[float, float], under: Toolpath | None,
-    limits: ghost.Box | None,
+    limits: ghost.Box | None, stock: bool,
 ) -> Picture:  # fmt: skip
     box = ghost.held(*_box(panels, discs), limits)
     low, high = roomy(*box)
     seen = panels[0].view
     wide, tall = float((high - low)[seen.right]), float((high - low)[seen.up])
     handles = _handles(panels)
+    if stock and any(_shown(panel, low, high) for panel in panels):
+        handles.append(Line2D([], [], **colours.BLANK.style()))
     words = [str(handle.get_label()) for handle in handles]
     foot = _foot(panels)
     left, bottom = 0.72, BELOW + (ROW if foot else 0)
@@ -204,12 +211,27 @@ def _picture(
         ax.apply_aspect()
         if under is not None:
             ghost.draw_ghost(ax, panel.view, ghost.gone(under, panel.run.toolpath))
-        write(ax, panel, draw(ax, panel, discs, vectors), names)
+        outlines = draw(ax, panel, discs, vectors)
+        _blank(ax, panel, low, high, stock)
+        write(ax, panel, outlines, names)
     picture.box = box
     write_legend(picture, handles)
     if foot:
         foot.write(picture)
     return picture
+
+
+def _shown(panel: Panel, low: Array, high: Array) -> bool:
+    """Whether the blank is of about the size of the picture."""
+    blank = panel.run.stock
+    axes = [panel.view.right, panel.view.up]
+    return blank is not None and bool((np.ptp(blank.bounds, axis=0)[axes] <= LARGER * (high - low)[axes].max()).all())
+
+
+def _blank(ax: Axes, panel: Panel, low: Array, high: Array, stock: bool) -> None:
+    if stock and _shown(panel, low, high):
+        for outline in draw_stock(ax, panel.view, panel.run.stock):
+            ax.add_line(outline)
 
 
 def _limit(ax: Axes, view: View, low: Array, high: Array, box: tuple[float, float] | None = None) -> None:

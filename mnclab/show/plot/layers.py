@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from matplotlib.patches import Polygon
 
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
@@ -76,12 +77,20 @@ def plunges_of(path: Toolpath, view: View) -> Array:
     return np.unique(path.end[rows][:, [view.right, view.up]], axis=0)
 
 
+def draw_stock(ax: Axes, view: View, stock: Blank) -> list[Line2D]:
+    """Fill the blank behind everything; returns its outlines, which are not added yet. A lathe's picture ends at its axis."""
+    found = []
+    for outline in stock.outline(view.right, view.up):
+        line = np.maximum(outline, [-np.inf, 0]) if view.diameter else outline
+        ax.add_patch(Polygon(line, facecolor=colours.BLANK_FACE, edgecolor="none", zorder=0.5, label="_blank"))
+        found.append(Line2D(line[:, 0], line[:, 1], **colours.BLANK.style()))
+    return found
+
+
 def draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
     """Add lines, marks and crosses to an axes; returns those that a legend names."""
     artists = [Line2D(xyz[:, view.right], xyz[:, view.up], **line.style()) for line, xyz in drawing.lines]
-    for outline in drawing.stock.outline(view.right, view.up) if drawing.stock else ():
-        line = np.maximum(outline, [-np.inf, 0]) if view.diameter else outline  # a lathe's picture ends at its axis
-        artists.append(Line2D(line[:, 0], line[:, 1], **colours.BLANK.style()))
+    artists += draw_stock(ax, view, drawing.stock) if drawing.stock else []
     plunges = drawing.plunges[view]
     if len(plunges):
         artists.append(Line2D(plunges[:, 0], plunges[:, 1], **drawing.plunge.style()))

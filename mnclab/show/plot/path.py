@@ -21,8 +21,9 @@ from mnclab.path.toolpath import Toolpath
 from mnclab.show.felt import Felt
 from mnclab.show.felt import felt as felt_of
 from mnclab.show.plot import arrows as heads
+from mnclab.show.plot import band as bands
 from mnclab.show.plot import colours, ghost
-from mnclab.show.plot.classes import classes
+from mnclab.show.plot.classes import Classes, classes
 from mnclab.show.plot.classes import lines as lines_of
 from mnclab.show.plot.clickable import told_by
 from mnclab.show.plot.datums import Place, crosses, near, places_of
@@ -37,7 +38,7 @@ from mnclab.show.plot.overlays import overlays_of
 from mnclab.show.plot.picture import SCALE, SIZE, Picture, arrange, dress, roomy, write_legend
 from mnclab.show.plot.scale import write_scale
 from mnclab.show.plot.sizes import sized
-from mnclab.show.plot.strokes import line_of, strokes
+from mnclab.show.plot.strokes import Array, Strokes, line_of, strokes
 from mnclab.show.rapids import rapids_of
 from mnclab.text.alarm import ALARM, Alarm
 from mnclab.workpiece.blank import Blank
@@ -45,6 +46,7 @@ from mnclab.workpiece.workpiece import Workpiece
 
 UNSCALED = (colours.PROGRAMMED, colours.RAPID, colours.PROBING)  # look the same whatever the colour shows
 PART = "part"
+CUTS = 2  # the first class of cuts; before them rapids and probing
 AROUND = 0.02  # of the greatest side: more room, for symbols that stand beside a corner
 MOST = 2000  # rows of a lathe's path whose part is shown unasked
 
@@ -73,6 +75,7 @@ def plot_path(
     under: Toolpath | None = None,
     limits: ghost.Box | None = None,
     overlays: Sequence[Overlay] = (),
+    band: bool | None = None,
 ) -> Figure:
     """Views of a path: rapids dashed red, cuts solid; start and end marked. Returns the figure, which Jupyter shows.
 
@@ -81,10 +84,10 @@ def plot_path(
     - `ax`: draw one view into these axes of one's own, without legend and scale.
     - `view`: "XY" from above, "XZ" or "YZ" from the side, "ZX" of a lathe; "auto" takes what the path needs: the plane
       that it works in, how deep it goes, and each plane that has arcs.
-    - `colour`: what the colour of the cuts shows: "kind" (all blue), "feed" (a minute), "speed" (of the spindle, rev/min;
-      it follows X at constant cutting speed), "tool" (its number), "line" (of the source) or "z" (lower end of each
-      stroke). Few values are named in the legend, many are put into at most 14 steps of a scale, dark to light.
-      Rapids and probing look the same in all of them.
+    - `colour`: what the colour of the cuts shows: "kind" (all blue), "feed" (a minute; the slower the wider), "speed" (of
+      the spindle, rev/min; it follows X at constant cutting speed), "tool" (its number), "step" (of a cycle: roughing,
+      finishing, entry, …), "line" (of the source) or "z" (lower end of each stroke). Few values are named in the legend,
+      many are put into at most 14 steps of a scale, dark to light. Rapids and probing look the same in all of them.
     - `arrows`: arrowheads on a few long moves; none on a path of more than 300 moves.
     - `marks`: crosses at zero points that the program selects and at poles, with their names, unless far from the
       path; only `plot_run` knows them.
@@ -103,6 +106,8 @@ def plot_path(
     - `rapids`: limits of the machine, under which axes that do not wait for each other bend a rapid; else it is straight.
     - `under`: another path, whose moves that this one has not are drawn thin and grey behind it.
     - `limits`: the `box` of the picture before, which is kept while this path fits into it (see `show.plot.ghost`).
+    - `band`: from above, the width of the tool as a light band under a thin line of its centre; None: where the passes lie
+      so close that they would run into a blot.
     - `overlays`: centres of arcs, mirror lines, holes and the like (see `show.plot.overlay`).
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
@@ -133,6 +138,11 @@ def plot_path(
     views = views_of(view, path, low, high, single=ax is not None)
     if stock is not None and not path.lathe and frame != "cuts":
         low, high = np.fmin(low, stock.bounds[0]), np.fmax(high, stock.bounds[1])
+    above = next((each for each in views if not path.lathe and (each.right, each.up) == (0, 1)), None)
+    crowded = above is not None and band is not False and (band or _crowded(drawn, found, high - low, size))
+    banded = above if crowded and (band or len(drawn.row) <= bands.MOST) else None
+    if crowded:
+        lines = [(line._replace(width=bands.THIN * line.width) if line in found.lines[2:] else line, xyz) for line, xyz in lines]
     plunge = colours.PLUNGE if colour == "kind" else colours.PLUNGE._replace(colour=colours.INK)
     plunges = {each: beside_holes(overlays, each, plunges_of(path, each)) for each in views}
     arrows = arrows and int(path.is_motion.sum()) <= heads.MANY
@@ -144,6 +154,8 @@ def plot_path(
     drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, *rest)
     former = None if under is None else ghost.gone(under, path)
     if ax is not None:
+        if banded is not None:
+            bands.draw_bands(ax, banded, path, drawn, found.group >= CUTS)
         draw(ax, views[0], drawing)
         if former is not None:
             ghost.draw_ghost(ax, views[0], former, rapids)
@@ -168,13 +180,16 @@ def plot_path(
     held += names_of(felt) if felt is not None else []
     names += [str(each.get_label()) for each in held]
     names += [name for over in overlays for name in over.names(views)]
+    names += [bands.NAME] if banded is not None and bands.radii_of(path, drawn, found.group >= CUTS) else []
     said = in_words(path, *(own if limits else (low, high)), stop)
     more = AROUND * float((high - low).max())
     picture, axes = arrange(views, low - more, high + more, names, foot_of(stop, beyond), said, size, found.scale is not None)
     picture.box = box
     picture.seen = [(one, which, path, drawn) for one, which in zip(axes, views)]
-    artists: dict[str, Any] = {str(each.get_label()): each for each in held}
+    artists: dict[str, Any] = {str(each.get_label()): each for each in (*held, bands.sample())}
     for one, which in zip(axes, views):
+        if which is banded:
+            bands.draw_bands(one, which, path, drawn, found.group >= CUTS)
         if former is not None:
             ghost.draw_ghost(one, which, former, rapids)
         for artist in draw(one, which, drawing):
@@ -186,6 +201,12 @@ def plot_path(
         write_scale(picture, found.scale)
     write_legend(picture, [artists[name] for name in names], SCALE if found.scale else 0.0)
     return picture
+
+
+def _crowded(drawn: Strokes, found: Classes, span: Array, size: tuple[float, float]) -> bool:
+    """Whether passes run into each other from above, in a picture of about this size."""
+    scale = min(72 * inches / max(side, 1e-9) for inches, side in zip(size, span[:2].tolist()))
+    return bands.dense(drawn.xyz[:, :2], found.group >= CUTS, 0.85 * scale)
 
 
 @sized(also=plot_path)

@@ -20,13 +20,14 @@ from mnclab.show.plot import colours, ghost
 from mnclab.show.plot.path import plot_path
 from mnclab.show.plot.picture import SHARE, SMALL, Picture, calm, legend_height, legend_rows, rows_within, write_legend
 from mnclab.show.plot.sizes import sized
+from mnclab.show.plot.slow_corners import MOST, slow_at, slow_corners
 from mnclab.show.plot.strokes import Array
 from mnclab.text.given import choice
 
 SIZE = (7.0, 6.0)  # inches
 FINE, MANY = 9, 20_000  # points of a piece, as long as all of them are not more than so many
 BAND, FEW = 500, 60  # steps of the band that says what holds the speed; boxes of it that are hatched
-MOST = 30  # lines of a program beside their bars
+LINES = 30  # of a program beside their bars
 RAPIDS = 3  # times the fastest cut, beyond which rapids are cut off
 PARTS = 3000  # of a path that is coloured by the speed reached
 HIDDEN_LIMIT = colours.LIMIT.style() | {"label": "_limit"}  # not in the legend
@@ -179,7 +180,10 @@ def plot_profile(
 
 @sized(also=plot_path)
 def plot_reached(profile: Profile, **options: Any) -> Figure:
-    """The path coloured by the feed that is reached; the options are those of `mnclab.show.plot.path.plot_path`."""
+    """The path coloured by the feed that is reached, wide where it is slow, corners marked with their feed.
+
+    The options are those of `mnclab.show.plot.path.plot_path`.
+    """
     path, drawn = profile.path, curve(profile)
     total = max(path.length, 1e-9)
     counts = np.where(np.isin(path.kind, (Kind.LINE, Kind.ARC)), np.ceil(path.lengths / total * PARTS), 1)
@@ -188,11 +192,11 @@ def plot_reached(profile: Profile, **options: Any) -> Figure:
     reached = np.interp(middle, drawn.s, drawn.v) * 60 if len(drawn.s) else np.zeros(len(parts))
     cut = np.isfinite(parts.feed)
     shown = parts.replace(feed=np.where(cut, reached, parts.feed))
-    return plot_path(shown, **{"colour": "feed", "arrows": False, **options})
+    return plot_path(shown, **{"colour": "feed", "arrows": False, "overlays": (slow_corners(profile),), **options})
 
 
 @sized()
-def plot_lost(profile: Profile, ax: Axes | None = None, *, most: int = MOST, width: float = 7.0) -> Figure:
+def plot_lost(profile: Profile, ax: Axes | None = None, *, most: int = LINES, width: float = 7.0) -> Figure:
     """Seconds of each line beside its text: what feed and rapid need, dwells and changes, and what the machine adds.
 
     Of a long program the `most` lines that lose the most; `width` in inches.
@@ -261,9 +265,8 @@ def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits:
     stops = at[np.flatnonzero(p.v <= 1e-9)]
     if len(stops) <= 300:
         lines += ax.plot(stops, 0 * stops, **colours.STANDS.style())
-    turn = np.zeros(len(p.v), dtype=bool)
-    turn[1:-1] = (p.row[1:] != p.row[:-1]) & (p.v[1:-1] > 1e-9) & (p.v[1:-1] < p.v[:-2]) & (p.v[1:-1] < p.v[2:])
-    if 0 < turn.sum() <= 60:
+    turn = slow_at(profile)
+    if 0 < len(turn) <= MOST:
         lines += ax.plot(at[turn], p.v[turn] * 60, **colours.SLOW_CORNER.style())
     if not limits or not len(p.row):
         return lines

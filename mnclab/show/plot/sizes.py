@@ -118,7 +118,7 @@ def check_options(options: Mapping[str, Any], known: Mapping[str, Parameter]) ->
             near = hint(name, names, 2)
             raise Alarm(f"this figure has no option {name}", hint=near or f"it has {', '.join(names[1:])}")
         what = known[name].annotation if name in known else "bool"
-        if what == "bool" and value not in (True, False):
+        if what in ("bool", "bool | None") and not (value in (True, False) or (value is None and "None" in str(what))):
             raise Alarm(f"{name} must be True or False, got {shown(value)}")
         if what in ("float", "int"):
             check_number(value, name, endless=True)
