@@ -23,6 +23,7 @@ for, with its own signature; `part`, `blank`, `design`, `area`, `strategies`, `s
 one to see what is on it.
 """
 
+import sys as _sys
 from typing import TYPE_CHECKING, Any
 
 from mnclab.controls import CONTROLS as controls
@@ -201,3 +202,8 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return sorted({*__all__, *OPENED.__all__, "help", "__version__"} - {"load_ipython_extension"})
+
+
+# In a notebook Tab completes the codes of a control from the first import on: who needs that does not know %load_ext mnclab.
+if (_shell := getattr(_sys.modules.get("IPython"), "get_ipython", lambda: None)()) is not None:
+    OPENED.load_ipython_extension(_shell)

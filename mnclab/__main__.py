@@ -172,6 +172,9 @@ def parser() -> argparse.ArgumentParser:
     sub = command("report", report, "run a program and write a report: figures, tools, times, picture, alarms, listing")
     output(sub, "an .html or a .pdf file")
     sub.add_argument("--title", help="default: the name of the file")
+    says = "one sheet alone: the set-up (zero points, blank, fixtures, tools), the tools, or the measuring record"
+    sub.add_argument("--machine", "--limits", metavar="M", help="a named machine, or a .toml file (default: limits of the setup)")
+    sub.add_argument("--sheet", choices=("setup", "tools", "measuring"), help=says)
     options(sub, starts=True)
     does = "say how long a program takes on a machine, and where the time goes; of several or a folder, a table"
     sub = command("time", time, does, "files", nargs="+")
@@ -281,9 +284,12 @@ def drawing(chosen: argparse.Namespace) -> int:
 
 
 def report(chosen: argparse.Namespace) -> int:
-    """Write a report of a run."""
+    """Write a report of a run, or one of its sheets."""
     result = obey(chosen)
-    sensible(result.report, chosen.output, chosen.title)
+    if chosen.sheet:
+        sensible(getattr(result, f"{chosen.sheet.removesuffix('s')}_sheet"), chosen.output, chosen.title)
+    else:
+        sensible(partial(result.report, machine=chosen.machine), chosen.output, chosen.title)
     return verdict(result)
 
 

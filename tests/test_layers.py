@@ -88,7 +88,7 @@ def fault(module, found):
     here, there = module.split("."), name.split(".")
     if there[0] not in FLOORS:
         return "inside the package a name is imported from its own file, not from the front door"
-    of_all = here[1:2] and here[1] in ("choice", "cycle_steps", "recognition", "survey", "renumber", "trial_part")
+    of_all = here[1:2] and here[1] in ("choice", "completion", "cycle_steps", "recognition", "survey", "renumber", "trial_part")
     if here[0] == there[0] == "controls" and len(here) > 1 and not of_all:
         alike = there[1:2] in (here[1:2], ["word_address"])
         return None if alike else "a control imports word_address and itself, never another"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from mnclab.machine.control import Function, Modal
+from mnclab.machine.control import Control, Function, Modal
 from mnclab.machine.cycle import Cycle
 from mnclab.path.listing import figure
 from mnclab.running.handing_out import Action, Plan, Planner
@@ -143,11 +143,15 @@ def _plan(run: Run, moment: Moment) -> Plan | None:
         return None
 
 
+def meant(control: Control, code: str, address: str) -> str:
+    """What the tables of a control say of a word of a function; empty where they are silent."""
+    return control.meanings.get(f"{code} {address}") or control.meanings.get(address) or ""
+
+
 def _meaning(here: _Here, what: Function, word: Word) -> str:
     """What a word of a function is in this block."""
     address, own, control = word.address, f"{what.code} {word.address}", here.control
-    says = control.meanings.get(own) or control.meanings.get(address)
-    if says:
+    if says := meant(control, what.code, address):
         relative = word.incremental or (here.incremental and own in control.relative)
         return _increment(says) if relative else says
     if address in ("X", "Y", "Z"):

@@ -1,5 +1,9 @@
 """A part program to type in: its text, its alarms and its picture, all of them while one types; and a file to save to.
 
+The text box is a plain one wherever widgets are shown. In JupyterLab the Lab extension puts an editor in its place
+(`labextension/static/editor.js`): line numbers, colours, faults underlined, words explained, Ctrl+S, a click on a move goes
+to its line. For that the alarms carry their places as data.
+
 The front end holds typing back while the kernel is busy, so that nothing need be delayed here; a change that comes back
 to the same text draws nothing. Programs are run and figures drawn in the one drawing thread of `show.forms`:
 where that takes long, one types on beside the last good picture, and texts typed over in the meantime are not run.
@@ -7,6 +11,7 @@ where that takes long, one types on beside the last good picture, and texts type
 
 from __future__ import annotations
 
+import json
 import os
 from html import escape
 from pathlib import Path
@@ -15,6 +20,7 @@ from typing import Any
 from mnclab.controls.choice import choose, read_text
 from mnclab.controls.choice import run as run_text
 from mnclab.machine.setup import Setup
+from mnclab.runs.run import Run
 from mnclab.show.forms.following import DRAWING, SIZE, verdict
 from mnclab.text.alarm import Alarm
 from mnclab.text.code_pages import decode
@@ -25,8 +31,10 @@ from mnclab.text.given import shown
 FIRST = 10.0  # s for the first picture, which has none before it
 PATIENCE = 0.5  # s; work that takes longer goes on elsewhere, and what was good last stays in sight
 PAST = "mnclab-past"  # alarms of a text that was typed over
+MARKED = 100  # faults that are underlined at most
 STYLE = (
     "<style>.mnclab-editor textarea{font-family:monospace;font-size:13px;line-height:1.35;white-space:pre}"
+    ".mnclab-editor label{position:absolute;width:1px!important;height:1px;overflow:hidden;clip-path:inset(50%)}"
     f".{PAST}{{opacity:.4}}</style>"
 )
 
@@ -81,12 +89,17 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
     document = Document(Path(path))
     if control is not None:
         choose(control, "", "")
-    text = ipywidgets.Textarea(document.text, layout={"width": "32em", "height": "24em"}, continuous_update=True)
-    text.add_class("mnclab-editor")
+    size = {"width": "34em", "height": "26em"}
+    text = ipywidgets.Textarea(document.text, description="part program", layout=size, continuous_update=True)
     button = ipywidgets.Button(description="Save", tooltip=f"write {path}")
-    status, picture, alarms = ipywidgets.HTML(), ipywidgets.HTML(), ipywidgets.HTML()
-    left = ipywidgets.VBox([ipywidgets.HTML(STYLE), text, ipywidgets.HBox([button, status])])
+    picture = ipywidgets.HTML(layout={"flex": "1 1 380px"})  # at least so wide beside the text, or it goes below
+    status, alarms = ipywidgets.HTML(), ipywidgets.HTML()
+    kept = ipywidgets.Textarea(layout={"display": "none"})  # what an editor saves: a click would overtake what was typed last
+    left = ipywidgets.VBox([ipywidgets.HTML(STYLE), text, ipywidgets.HBox([button, status, kept])])
     live: Any = ipywidgets.VBox([ipywidgets.HBox([left, picture], layout={"flex_flow": "row wrap"}), alarms])
+    named = {"editor": text, "save": button, "kept": kept, "picture": picture, "alarms": alarms, "live": live}
+    for name, box in named.items():
+        box.add_class(f"mnclab-{name}")
 
     def say(sentence: str, fault: bool = False) -> None:
         status.value = f'<span role="{"alert" if fault else "status"}">{escape(sentence)}</span>'
@@ -118,18 +131,26 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
             return
         try:
             run = run_text(read_text(source, document.path.name, control, str(document.path.parent)), None, setup)
-            figure: Any = run.plot(view=view, size=SIZE)
-            drawn, told = figure.html(), verdict(run)
+            moved = bool(run.toolpath.is_motion.any())
+            drawn = run.plot(view=view, size=SIZE).html() if moved or live.run is None else ""  # type: ignore[attr-defined]
+            told = marked(run)
         except Alarm as alarm:
             if live.source == source:
                 alarms.value = alarm._repr_html_()
             return
         if live.source == source:
-            live.run, picture.value, alarms.value = run, drawn, told
+            live.run, alarms.value = run, told
+            picture.value = drawn or picture.value  # what was good last stays in sight, dimmed
+            (picture.remove_class if drawn else picture.add_class)(PAST)
 
-    def save(_: Any = None) -> None:
+    def keep(change: dict[str, Any]) -> None:
+        if change["new"]:  # behind a sign: an empty program can be saved too
+            save(change["new"][1:])
+            kept.value = ""
+
+    def save(source: str) -> None:
         try:
-            document.save(text.value)
+            document.save(source)
         except Alarm as alarm:
             say(alarm.message, fault=True)
         else:
@@ -139,5 +160,14 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
     live.run, live.document, live.source = None, document, ""
     check()
     text.observe(check, "value")
-    button.on_click(save)
+    button.on_click(lambda _: save(text.value))
+    kept.observe(keep, "value")
     return live
+
+
+def marked(run: Run) -> str:
+    """The alarms of a run and its figures, with the places in its text for what underlines them."""
+    here = [alarm for alarm in run.alarms if alarm.span and not alarm.span.program][:MARKED]
+    kept = ("line", "column", "length", "severity", "message")
+    faults = json.dumps([{name: alarm.as_dict()[name] for name in kept} for alarm in here])
+    return f'<div data-control="{run.control.name}" data-faults="{escape(faults)}">{verdict(run)}</div>'

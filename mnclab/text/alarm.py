@@ -131,7 +131,8 @@ class Alarm(Exception):
         """The alarm as HTML, with at most so many characters of its line."""
         text, caret = self.lines(width)
         colour = "#b3261e" if self.severity == ALARM else "#8a5a00"
-        head = f'<span style="color:{colour};font-weight:600">{escape(self.severity)}</span> '
+        near = f"color-mix(in srgb,{colour} 70%,currentColor)"  # lighter where the page is dark
+        head = f'<span style="color:{colour};color:{near};font-weight:600">{escape(self.severity)}</span> '
         said = self.message + self.others
         body = escape(f"{self.place}: {said}" if self.place else said)
         hint = f"<br><em>{escape(self.hint)}</em>" if self.hint else ""

@@ -1,5 +1,9 @@
 """The editor: text, alarms and picture follow each other; a file is saved as it was found."""
 
+import json
+import re
+from html import unescape
+
 import pytest
 
 import mnclab
@@ -125,3 +129,44 @@ def test_a_long_run_does_not_stop_the_typing(tmp_path, monkeypatch):
     assert [source.split()[2] for source in ran] == ["X2", "X4"]
     assert "mnclab-past" not in live.alarms._dom_classes
     assert picture.value != good and live.run.toolpath.end[-1].tolist()[:2] == [4, 4]
+
+
+def test_faults_come_with_their_places(file):
+    box = mnclab.editor(str(file))
+    box.text.value = "G90 G54\nG1 X4,5 F100\n"
+    (fault,) = json.loads(unescape(re.search(r'data-faults="([^"]*)"', box.alarms.value)[1]))
+    assert (fault["line"], fault["column"], fault["severity"]) == (2, "G1 X4,".index(",") + 1, "alarm")
+    assert 'data-control="mnc"' in box.alarms.value
+    box.text.value = "G90 G54 S500 M3\nG1 X4 F100\n"
+    assert 'data-faults="[]"' in box.alarms.value
+
+
+def test_a_text_that_moves_nothing_leaves_the_last_picture_dimmed(file):
+    box = mnclab.editor(str(file))
+    good = box.picture.value
+    box.text.value = "G90\nG1 X\n"
+    assert box.picture.value == good and "mnclab-past" in box.picture._dom_classes
+    box.text.value = "G90\nG0 X7\n"
+    assert "X 0 to 7" in box.picture.value and "mnclab-past" not in box.picture._dom_classes
+
+
+def test_half_a_program_is_never_a_fault_of_python(file):
+    """Typed key by key, as far as any key goes; every text has its picture or its alarm."""
+    box = mnclab.editor(str(file))
+    for text in ("G83 X1 Z-3 R2 K", "BEGIN PGM A", "(", "%", "G2 X1 R", "N", "L X+Q"):
+        box.text.value = text
+        assert box.run is not None and "data-faults" in box.alarms.value or 'role="alert"' in box.alarms.value
+
+
+def test_what_an_editor_keeps_is_saved_whatever_the_box_holds(file):
+    box = mnclab.editor(str(file))
+    (kept,) = (each for each in box.children[0].children[0].children[2].children if "mnclab-kept" in each._dom_classes)
+    kept.value = "=G0 X1\n"
+    assert file.read_bytes() == b"G0 X1\r\n" and kept.value == ""
+    kept.value = "="
+    assert file.read_bytes() == b""
+
+
+def test_the_box_has_a_name_that_is_heard_and_not_seen(file):
+    box = mnclab.editor(str(file))
+    assert box.text.description == "part program" and "clip-path" in box.children[0].children[0].children[0].value

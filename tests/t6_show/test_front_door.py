@@ -183,7 +183,8 @@ SHELVES = ["area", "blank", "part", "probing", "schemes", "strategies"]
 
 def imports_for_types():
     """What the front door imports for editors and mypy alone: name here -> module and name there."""
-    (types,) = (node for node in ast.parse(HOME.read_text("utf-8")).body if isinstance(node, ast.If))
+    branches = (node for node in ast.parse(HOME.read_text("utf-8")).body if isinstance(node, ast.If))
+    (types,) = (branch for branch in branches if ast.unparse(branch.test) == "TYPE_CHECKING")
     return {name.asname: (line.module, name.name) for line in types.body for name in line.names}
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import mnclab
+from mnclab.controls.vocabulary import vocabulary
 
 ROOT = Path(__file__).parent.parent.parent
 FOLDER = ROOT / "mnclab" / "show" / "labextension"
@@ -30,8 +31,29 @@ def test_every_control_has_its_suffix_coloured():
             assert f"'{suffix[1:]}'" in script or f"\\{suffix}$" in script, suffix
 
 
-def test_the_script_is_javascript():
+def test_the_words_are_those_that_the_controls_declare(rewrite):
+    """`python3 tests tests/t6_show/test_labextension.py --rewrite` writes them anew after a cycle has changed."""
+    file = FOLDER / "static" / "words.json"
+    told = {}
+    for name, control in mnclab.controls.items():
+        known = vocabulary(control)
+        told[name] = known._asdict() | {"codes": {code: list(one) for code, one in known.codes.items()}}
+    if rewrite:
+        file.write_text(json.dumps(told, ensure_ascii=False, separators=(",", ":"), indent=0) + "\n", "utf-8")
+    assert json.loads(file.read_text("utf-8")) == told
+
+
+def test_every_control_has_words_to_point_at():
+    script = (FOLDER / "static" / "remoteEntry.js").read_text("utf-8")
+    assert {f"control: '{name}'" in script for name in mnclab.controls} == {True}
+
+
+@pytest.mark.parametrize("name", ["remoteEntry.js", "words.js", "hover.js", "editor.js"])
+def test_the_script_is_javascript(name, tmp_path):
     node = shutil.which("node")
     if node is None:
         pytest.skip("node is not installed; the browser tests run the script")
-    subprocess.run([node, "--check", FOLDER / "static" / "remoteEntry.js"], check=True)
+    script = FOLDER / "static" / name
+    if name != "remoteEntry.js":  # the others are modules
+        script = shutil.copy(script, tmp_path / name.replace(".js", ".mjs"))
+    subprocess.run([node, "--check", script], check=True)

@@ -35,9 +35,14 @@ def test_a_cell_shows_card_and_picture_and_binds_the_run(shell):
 
 
 def test_alarms_stand_under_the_cell_with_their_caret(shell):
-    card, _ = shown(shell, "--control mnc --name first", "G90\nG1 X4,5 F100\n")
+    (card,) = shown(shell, "--control mnc --name first", "G90\nG1 X4,5 F100\n")
     assert 'role="alert"' in card["text/html"] and "^" in card["text/html"]
     assert not shell.user_ns["first"].ok and "run" not in shell.user_ns
+
+
+def test_a_program_that_moved_before_its_fault_has_a_picture(shell):
+    _, picture = shown(shell, "--control mnc", "G90\nG0 X5\nG1 X4,5 F100\n")
+    assert "stopped in line 3" in picture["text/html"]
 
 
 def test_tools_and_setup_come_from_the_notebook(shell, tmp_path):
@@ -77,3 +82,60 @@ def test_quiet_shows_alarms_alone(shell):
 def test_options_that_make_no_sense_are_alarms(shell, line, sentence):
     with pytest.raises(mnclab.Alarm, match=sentence):
         shown(shell, line)
+
+
+def completed(shell, source):
+    """What IPython offers at the end of a source: word -> what is said of it, and the range that is replaced."""
+    from IPython.core.completer import provisionalcompleter
+
+    with provisionalcompleter():
+        found = list(shell.Completer.completions(source, len(source)))
+    return {each.text: each.type for each in found}, {(each.start, each.end) for each in found}
+
+
+def test_tab_offers_codes_of_a_control_and_nothing_else(shell):
+    words, places = completed(shell, "%%mnc --control mnc\nN40 G8")
+    assert words["G83"] == "Deep-hole drilling" and {word[:2] for word in words} == {"G8"} and places == {(24, 26)}
+    shell.user_ns["mnc"] = mnclab
+    assert "G83" in completed(shell, 'mnc.help("G8')[0]
+    words, places = completed(shell, 'mnc.help("CYCL DEF 20')
+    assert "200" in words and places == {(19, 21)}
+    assert "append" in completed(shell, "x = []\nx.app")[0]  # Python is as it was
+
+
+def test_loading_twice_offers_once(shell):
+    from mnclab.show.magic import load_ipython_extension
+
+    before = len(shell.Completer.custom_matchers)
+    load_ipython_extension(shell)
+    assert len(shell.Completer.custom_matchers) == before
+
+
+def test_importing_mnclab_is_enough(monkeypatch):
+    """In a running IPython; each import of its own takes a process of its own."""
+    import subprocess
+    import sys
+
+    script = (
+        "from IPython.core.interactiveshell import InteractiveShell as S; s = S.instance(); import sys, mnclab as mnc;"
+        "s.user_ns['mnc'] = mnc; heavy = {'matplotlib', 'ipywidgets', 'pyvista', 'shapely'} & {*sys.modules};"
+        "print(heavy or 'light', 'mnc' in s.magics_manager.magics['cell'], len(s.Completer.custom_matchers))"
+    )
+    result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert result.stdout.split() == ["light", "True", "1"], result.stderr
+
+
+def test_the_kernel_is_asked_for_words_of_programs_and_answers_all_others_as_before(shell):
+    from mnclab.show.magic import explain_words
+
+    class Kernel:
+        def do_inspect(self, code, cursor_pos, detail_level=0, omit_sections=()):
+            return {"found": False}
+
+    kernel = Kernel()
+    explain_words(kernel, shell)
+    explain_words(kernel, shell)
+    cell = "%%mnc --control mnc\nN40 G83 K5"
+    found = kernel.do_inspect(cell, cell.index("K5"), detail_level=0)
+    assert found["found"] and "depth of one peck" in found["data"]["text/plain"]
+    assert kernel.do_inspect("len", 2, 0) == {"found": False}

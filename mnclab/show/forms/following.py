@@ -50,7 +50,7 @@ def following(
     picture, alarms, first = ipywidgets.HTML(), ipywidgets.HTML(), ipywidgets.HTML()
     right = ipywidgets.VBox([picture, alarms, *below])
     column = ipywidgets.VBox([first, left])
-    for part, name in ((right, "right"), (column, "left"), (first, "first"), (picture, "picture"), (alarms, "alarms")):
+    for part, name in ((right, "right"), (column, "left"), (first, "first"), (picture, "drawn"), (alarms, "said")):
         part.add_class(f"mnclab-{name}")
     body = ipywidgets.HBox([column, right])
     body.add_class("mnclab-body")

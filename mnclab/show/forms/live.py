@@ -32,7 +32,7 @@ def live_class() -> type:
             self.place: Any = None  # of the still picture in the notebook
             self.picture, self.alarms = ipywidgets.HTML(), ipywidgets.HTML()
             self.boxes: dict[str, Any] = {}
-            for name in ("mnclab-live", *classes.split()):
+            for name in ("mnclab-following", *classes.split()):
                 self.add_class(name)
             for name, value in known.items():
                 setattr(self, name, value)

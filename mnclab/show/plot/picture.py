@@ -24,7 +24,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from mnclab.path.listing import MM, Unit
-from mnclab.show.plot import colours
+from mnclab.show.plot import clickable, colours
 from mnclab.show.plot.strokes import Array
 from mnclab.text.alarm import Alarm
 
@@ -94,6 +94,8 @@ class Picture(Figure):
         super().__init__(figsize=size, facecolor=colours.PAPER)
         FigureCanvasAgg(self)
         self.alt = alt
+        self.seen: clickable.Seen = ()  # what can be clicked on, and what is said of it
+        self.told: clickable.Told | None = None
         self.box: Any = None  # what a picture that follows it keeps of this one, see `show.plot.ghost`
 
     def png(self, scale: float = 1.0) -> bytes:
@@ -106,8 +108,11 @@ class Picture(Figure):
         return self._image(base64.b64encode(self.png(scale)).decode())
 
     def _image(self, data: str) -> str:
-        style = f"width:{round(100 * self.get_figwidth())}px;max-width:100%"
-        return f'<img alt="{escape(self.alt)}" style="{style}" src="data:image/png;base64,{data}">'
+        width = f"width:{round(100 * self.get_figwidth())}px;max-width:100%"
+        moves = clickable.over(self, self.seen, self.told) if self.seen else ""
+        block = f"display:block;{width}" if moves else width  # an inline one has room below it, and strokes would not fit
+        image = f'<img alt="{escape(self.alt)}" style="{block}" src="data:image/png;base64,{data}">'
+        return f'<div style="position:relative;{width}">{image}{moves}</div>' if moves else image
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
         data = base64.b64encode(self.png(2.0)).decode()

@@ -1,4 +1,4 @@
-/* Colours for part programs in JupyterLab: in files, and in cells that begin with %%mnc.
+/* Part programs in JupyterLab: colours and the meaning of words, in files and in cells that begin with %%mnc; the editor.
 
    Written by hand, no build: this is what JupyterLab asks of an extension at run time. `init` gets the modules that all
    extensions share, `get` hands over the plugin. A language is a list of [pattern, token] tried at each place of a
@@ -27,13 +27,13 @@
   const INSIDE = /(IF|GOTO|EQU|NE|GT|LT|(IS )?(UN)?DEFINED|PREDEF|SCREEN)(?![\w=])|(LBL|RND|CHF|REP)(?![A-Z_=])/iy;
   const ISO = comment => [[comment, 'comment'], [/%\S*/y, 'meta'], ...WORDS];
   const LANGUAGES = [
-    { name: 'MNC', mime: 'text/x-mnc', extensions: ['mnc', 'nc', 'ngc'], rules: ISO(/\/\/.*|;.*|\(.*?\)/y) },
-    { name: 'ISO (G43)', mime: 'text/x-g43', extensions: ['g43', 'iso'], rules: ISO(/;.*|\(.*?\)/y) },
-    { name: 'NC-31 (lathe)', mime: 'text/x-nc31', extensions: ['nc31'], rules: [[/;.*/y, 'comment'], ...WORDS] },
-    { name: 'DIN/ISO (TNC)', mime: 'text/x-din-iso', extensions: ['i'], rules: ISO(/;.*/y) },
-    { name: 'JNC-T01 (lathe)', mime: 'text/x-jnc', extensions: ['jnc'], rules: ISO(/'.*/y) },
+    { name: 'MNC', control: 'mnc', mime: 'text/x-mnc', extensions: ['mnc', 'nc', 'ngc'], rules: ISO(/\/\/.*|;.*|\(.*?\)/y) },
+    { name: 'ISO (G43)', control: 'g43', mime: 'text/x-g43', extensions: ['g43', 'iso'], rules: ISO(/;.*|\(.*?\)/y) },
+    { name: 'NC-31 (lathe)', control: 'nc-31', mime: 'text/x-nc31', extensions: ['nc31'], rules: [[/;.*/y, 'comment'], ...WORDS] },
+    { name: 'DIN/ISO (TNC)', control: 'tnc-620', mime: 'text/x-din-iso', extensions: ['i'], rules: ISO(/;.*/y) },
+    { name: 'JNC-T01 (lathe)', control: 'jnc-t01', mime: 'text/x-jnc', extensions: ['jnc'], rules: ISO(/'.*/y) },
     {
-      name: 'Klartext (TNC)', mime: 'text/x-klartext', extensions: ['klartext'],
+      name: 'Klartext (TNC)', control: 'tnc-620', mime: 'text/x-klartext', extensions: ['klartext'],
       rules: [
         [/\s+/y, null],
         [/;.*/y, 'comment'],
@@ -118,15 +118,22 @@
     });
   };
 
-  const plugin = ({ IEditorLanguageRegistry }, { LanguageSupport, StreamLanguage }, { INotebookTracker }, { IEditorTracker }) => ({
+  const plugin = (
+    { IEditorLanguageRegistry }, { HighlightStyle, LanguageSupport, StreamLanguage, syntaxHighlighting },
+    { INotebookTracker }, { IEditorTracker }, { CodeEditor, IEditorServices }, view, state, { tags }, { hover }, { watchEditors },
+  ) => ({
     id: 'mnclab:languages',
-    description: 'Colours for part programs of CNC controls',
+    description: 'Colours, words and the editor for part programs of CNC controls',
     autoStart: true,
-    requires: [IEditorLanguageRegistry],
+    requires: [IEditorLanguageRegistry, IEditorServices],
     optional: [INotebookTracker, IEditorTracker],
-    activate: (app, languages, notebooks, editors) => {
-      for (const { name, mime, extensions, rules } of LANGUAGES) {
-        const support = new LanguageSupport(StreamLanguage.define({ name, token: tokenOf(rules) }));
+    activate: (app, languages, services, notebooks, editors) => {
+      // that of JupyterLab is too dim on a dark page
+      const grey = 'color-mix(in srgb, #408080 65%, var(--jp-content-font-color0, #000)) !important';
+      const readable = HighlightStyle.define([{ tag: tags.comment, color: grey, fontStyle: 'italic' }]);
+      for (const { name, control, mime, extensions, rules } of LANGUAGES) {
+        const language = StreamLanguage.define({ name, token: tokenOf(rules) });
+        const support = new LanguageSupport(language, [hover(view, control), syntaxHighlighting(readable)]);
         languages.addLanguage({ name, displayName: name, mime, extensions, support });
         app.docRegistry.addFileType({
           name: mime.replace('text/x-', ''), displayName: name, mimeTypes: [mime],
@@ -141,9 +148,12 @@
         editors.forEach(watchFile);
         editors.widgetAdded.connect((_, widget) => watchFile(widget));
       }
+      watchEditors({ services, CodeEditor, view, state });
     },
   });
 
+  const beside = name => import(new URL(name, here));
+  const here = document.currentScript.src;
   let shared = {};
   const load = async name => {
     const versions = Object.values(shared[name] || {});
@@ -154,8 +164,11 @@
   window._JUPYTERLAB.mnclab = {
     init: scope => { shared = scope; },
     get: async () => {
-      const names = ['@jupyterlab/codemirror', '@codemirror/language', '@jupyterlab/notebook', '@jupyterlab/fileeditor'];
-      const made = plugin(...(await Promise.all(names.map(load))));
+      const names = [
+        '@jupyterlab/codemirror', '@codemirror/language', '@jupyterlab/notebook', '@jupyterlab/fileeditor',
+        '@jupyterlab/codeeditor', '@codemirror/view', '@codemirror/state', '@lezer/highlight',
+      ];
+      const made = plugin(...(await Promise.all([...names.map(load), beside('hover.js'), beside('editor.js')])));
       return () => ({ __esModule: true, default: made });
     },
   };

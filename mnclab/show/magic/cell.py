@@ -1,11 +1,12 @@
-"""`%load_ext mnclab` and then `%%mnc`: a cell that is a part program. The only file that imports IPython.
+"""A cell that is a part program.
 
     %%mnc --control tnc-620 --tools my_tools --name first
     BEGIN PGM FIRST MM
     …
 
 The run is bound to `run` (or to another name), its card with the alarms and their carets stands under the cell, and
-the picture below. What a name such as `my_tools` means is looked up in the notebook; `--setup` also takes a file.
+the picture below, if anything moved. What a name such as `my_tools` means is looked up in the notebook; `--setup` also
+takes a file.
 """
 
 from __future__ import annotations
@@ -23,8 +24,7 @@ from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import load
 from mnclab.path.tool import Tool
 from mnclab.runs.run import Run
-from mnclab.text.alarm import Alarm, first_of
-from mnclab.text.extras import require
+from mnclab.text.alarm import Alarm
 
 
 class _Options(argparse.ArgumentParser):
@@ -76,23 +76,3 @@ def _setup(chosen: argparse.Namespace, names: Mapping[str, Any]) -> Setup:
             raise Alarm(what, hint="t = {1: Tool(radius=5)}")
         setup = replace(setup, tools=tools)
     return setup
-
-
-def load_ipython_extension(shell: Any) -> None:
-    """Make %%mnc known to the running IPython."""
-    require("IPython", "cells of programs (%%mnc)")
-    from IPython.display import display
-
-    def mnc(line: str, cell: str) -> None:
-        """Obey the cell as a part program; see `mnclab.show.magic`."""
-        name, run, chosen = run_cell(line, cell, shell.user_ns)
-        shell.push({name: run})
-        if chosen.quiet:
-            shown, more = first_of(run.alarms)
-            for alarm in (*shown, *filter(None, [more])):
-                display(alarm)
-            return
-        display(run)
-        display(run.plot(colour=chosen.colour))
-
-    shell.register_magic_function(mnc, "cell", "mnc")
