@@ -183,7 +183,7 @@ def _nearest(places: Array, start: Array, end: Array) -> Array:
         near = _on_strokes(here, start, end, best)
         reach = np.linalg.norm(here - near, axis=1)
         needed = np.flatnonzero((gap < reach[:, None] + 1e-12).any(axis=0))
-        found[at : at + CHUNK] = _on_strokes(here, start, end, needed) if len(needed) > len(best) else near
+        found[at : at + CHUNK] = _on_strokes(here, start, end, needed) if not np.isin(needed, best).all() else near
     return found
 
 

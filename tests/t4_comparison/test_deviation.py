@@ -1,6 +1,7 @@
 """Two paths over one another: distances in closed form, and against every stroke tried."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ import mnclab
 from mnclab import Alarm
 from mnclab.comparison.deviation import _nearest, deviation
 
+SAMPLES = Path(__file__).parents[2] / "data" / "programs"
 PATH = "G90 G54 G17\nG0 X-20 Y0 Z0\nG41 G1 X-10 Y-20 F300\nX0\nG3 I0 J20\nG40 G1 X10 Y0\n"
 
 
@@ -93,6 +95,12 @@ def test_nearest_is_the_nearest_of_all_strokes(corners, places):
     share = np.clip((((here[:, None] - line[:-1]) * along).sum(axis=2)) / square, 0, 1)
     feet = line[:-1] + share[:, :, None] * along
     assert found == pytest.approx(np.linalg.norm(feet - here[:, None], axis=2).min(axis=1), abs=1e-6)
+
+
+def test_one_part_for_two_controls_is_one_path():
+    """The programs of a lesson: a pocket of short strokes, and long rapids that the starts of strokes do not tell of."""
+    runs = [mnclab.run(SAMPLES / name) for name in ("mnc/one_part.mnc", "tnc-620/one_part.h")]
+    assert mnclab.diff(*runs).largest < 1e-9
 
 
 def test_a_step_must_be_positive():
