@@ -54,7 +54,7 @@ def following(
         part.add_class(f"mnclab-{name}")
     body = ipywidgets.HBox([column, right])
     body.add_class("mnclab-body")
-    live = live_class()([*above, body], classes)
+    live = live_class()([*above, body], f"mnclab-following {classes}")
     live.title, live.boxes, live.fields, live.picture, live.alarms = title, dict(boxes), dict(fields), picture, alarms
     live.good, live.former, live.box = False, None, None
 

@@ -27,12 +27,12 @@ def live_class() -> type:
         """Boxes and what follows them; `still()` is what stands in their place where no widget can."""
 
         def __init__(self, children: Sequence[Any], classes: str = "", **known: Any) -> None:
-            super().__init__([ipywidgets.HTML(style()), *children])
+            super().__init__([*children, ipywidgets.HTML(style())])
             self.title, self.shown, self.run = "panel", "", None
             self.place: Any = None  # of the still picture in the notebook
             self.picture, self.alarms = ipywidgets.HTML(), ipywidgets.HTML()
             self.boxes: dict[str, Any] = {}
-            for name in ("mnclab-following", *classes.split()):
+            for name in classes.split():
                 self.add_class(name)
             for name, value in known.items():
                 setattr(self, name, value)
@@ -43,7 +43,7 @@ def live_class() -> type:
             words = "; ".join(f"{name}: {value}" for name, value in values.items())
             rows = "".join(f"<tr>{cell(name)}{cell(value)}</tr>" for name, value in values.items())
             page = f"<p><strong>{escape(self.title)}</strong></p>{self.picture.value}{self.alarms.value}<table>{rows}</table>"
-            data = self.shown.partition("base64,")[2].partition('"')[0]
+            data = self.picture.value.partition("base64,")[2].partition('"')[0]
             still = {"text/html": f'<div class="mnclab-still">{page}</div>', "text/plain": f"<{self.title}; {words}>"}
             return still | ({"image/png": data} if data else {})
 
@@ -65,7 +65,7 @@ def live_class() -> type:
 
 def cell(text: str) -> str:
     """A cell of a table, its text on the left."""
-    return f'<td style="text-align: left">{escape(text)}</td>'
+    return f'<td style="text-align: left; white-space: pre-wrap">{escape(text)}</td>'
 
 
 def style() -> str:
