@@ -26,7 +26,7 @@ def live_class() -> type:
     class Live(ipywidgets.VBox):
         """Boxes and what follows them; `still()` is what stands in their place where no widget can."""
 
-        def __init__(self, children: Sequence[Any], classes: str = "", **known: Any) -> None:
+        def __init__(self, children: Sequence[Any], classes: str = "") -> None:
             super().__init__([*children, ipywidgets.HTML(style())])
             self.title, self.shown, self.run = "panel", "", None
             self.place: Any = None  # of the still picture in the notebook
@@ -34,8 +34,6 @@ def live_class() -> type:
             self.boxes: dict[str, Any] = {}
             for name in classes.split():
                 self.add_class(name)
-            for name, value in known.items():
-                setattr(self, name, value)
 
         def still(self) -> dict[str, str]:
             """The last picture and the values, as a page shows them, as a picture alone, and in words."""
