@@ -14,12 +14,11 @@ from typing import Any, NamedTuple
 from mnclab.runs.run import Run
 from mnclab.show.forms.faults import at_field
 from mnclab.show.forms.fields import Field
-from mnclab.show.forms.live import live_class
+from mnclab.show.forms.live import PAST, live_class
 from mnclab.text.alarm import ALARM, Alarm, card_html
 
 DRAWING = ThreadPoolExecutor(1, thread_name_prefix="drawing")
 SIZE = (6.4, 4.4)  # inches, of a picture beside boxes
-PAST = "last good picture"
 
 
 class Work(NamedTuple):

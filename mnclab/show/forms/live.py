@@ -7,6 +7,7 @@ style of the widget hides, holds the picture and is replaced after each change.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from functools import cache
@@ -15,6 +16,9 @@ from pathlib import Path
 from typing import Any
 
 from mnclab.machine.trial import number
+
+PAST = "last good picture"
+IMAGE = re.compile('<img [^>]*base64,([^"]*)"[^>]*>')
 
 
 @cache
@@ -40,8 +44,10 @@ def live_class() -> type:
             values = {box.description or name: value_of(box) for name, box in self.boxes.items()}
             words = "; ".join(f"{name}: {value}" for name, value in values.items())
             rows = "".join(f"<tr>{cell(name)}{cell(value)}</tr>" for name, value in values.items())
-            page = f"<p><strong>{escape(self.title)}</strong></p>{self.picture.value}{self.alarms.value}<table>{rows}</table>"
-            data = self.picture.value.partition("base64,")[2].partition('"')[0]
+            found = IMAGE.search(self.picture.value)  # without what can be clicked
+            image, data = (found[0], found[1]) if found else ("", "")
+            past = f"<p>{PAST}</p>" if PAST in image else ""
+            page = f"<p><strong>{escape(self.title)}</strong></p>{image}{past}{self.alarms.value}<table>{rows}</table>"
             still = {"text/html": f'<div class="mnclab-still">{page}</div>', "text/plain": f"<{self.title}; {words}>"}
             return still | ({"image/png": data} if data else {})
 
