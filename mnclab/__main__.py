@@ -1,4 +1,6 @@
-"""mnclab from a shell: check, run, renumber, plot, part, compare, drawing, report, time, help, lab; `python -m mnclab` too.
+"""mnclab from a shell: check, run, renumber, plot, part, compare, drawing, report, time, help, handout, lab.
+
+`python -m mnclab` is the same.
 
 Exit status: 0 clean, 1 alarms or a part that is not as drawn, 2 a command line that makes no sense, 130 stopped by
 Ctrl-C. Alarms go to stderr, one line each, in the form that editors understand: `FILE:LINE:COLUMN: alarm: message (hint)`.
@@ -21,6 +23,7 @@ from mnclab.controls import ALSO
 from mnclab.controls.renumber import renumber_file
 from mnclab.machine.setup_file import FORMAT, load
 from mnclab.shell.checking import check
+from mnclab.shell.handout import handout
 from mnclab.shell.lessons import lab
 from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, USAGE, describe, program, say, sensible, with_blank
 from mnclab.shell.timing import time
@@ -169,6 +172,9 @@ def parser() -> argparse.ArgumentParser:
     sub = command("report", report, "run a program and write a report: figures, tools, times, picture, alarms, listing")
     output(sub, "an .html or a .pdf file")
     sub.add_argument("--title", help="default: the name of the file")
+    says = "one sheet alone: the set-up (zero points, blank, fixtures, tools), the tools, or the measuring record"
+    sub.add_argument("--machine", "--limits", metavar="M", help="a named machine, or a .toml file (default: limits of the setup)")
+    sub.add_argument("--sheet", choices=("setup", "tools", "measuring"), help=says)
     options(sub, starts=True)
     does = "say how long a program takes on a machine, and where the time goes; of several or a folder, a table"
     sub = command("time", time, does, "files", nargs="+")
@@ -182,6 +188,11 @@ def parser() -> argparse.ArgumentParser:
     codes = "such as G83 or CYCL DEF 200; the name of a control: all its codes; design: the file of a design"
     sub.add_argument("code", nargs="+", metavar="CODE", help=codes)
     sub.add_argument("--control", choices=[*mnclab.controls, *ALSO], help="default: the only one that has the code")
+    sub = command("handout", handout, "run lessons and write them as pages to print, with ruled room below the exercises", "")
+    sub.add_argument("lesson", nargs="+", metavar="LESSON", help="numbers such as 05 or 5, or names of files")
+    says = "an .html or a .pdf file (default: handout_05.html where the lesson is 05)"
+    sub.add_argument("-o", "--output", metavar="OUT", help=says)
+    sub.add_argument("--pdf", action="store_true", help="a PDF too, printed by Chromium")
     command("lab", lab, "open the lessons in JupyterLab, which gets all options that follow", "")
     return top
 
@@ -273,9 +284,12 @@ def drawing(chosen: argparse.Namespace) -> int:
 
 
 def report(chosen: argparse.Namespace) -> int:
-    """Write a report of a run."""
+    """Write a report of a run, or one of its sheets."""
     result = obey(chosen)
-    sensible(result.report, chosen.output, chosen.title)
+    if chosen.sheet:
+        sensible(getattr(result, f"{chosen.sheet.removesuffix('s')}_sheet"), chosen.output, chosen.title)
+    else:
+        sensible(partial(result.report, machine=chosen.machine), chosen.output, chosen.title)
     return verdict(result)
 
 

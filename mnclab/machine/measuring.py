@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from mnclab.geometry.contours import Contour
+from mnclab.path.listing import INCHES, MM, Unit
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.file import replaced
 from mnclab.text.tables import html_table, text_table
@@ -26,8 +27,9 @@ Point = tuple[float, float, float]
 OK, OUT, REWORK, SCRAP = "ok", "out", "rework", "scrap"
 TOUCH_HEAD = ("number", "line", "what", "X", "Y", "Z", "ball")
 HEAD = ("line", "cycle", "what", "nominal", "actual", "deviation", "lower", "upper", "verdict")
-NUMBERS, TOUCH_NUMBERS = range(3, 8), (0, 1, 3, 4, 5, 6)
+NUMBERS, TOUCH_NUMBERS, TOUCH_LENGTHS = range(3, 8), (0, 1, 3, 4, 5, 6), range(3, 7)
 DIGITS = 4
+DECIMALS = {MM: DIGITS, INCHES: 5}
 SLACK = 1e-6  # mm or degrees, by which a value may be beyond its limit: it stands on it (MNC 12)
 
 
@@ -57,20 +59,28 @@ class Touched(NamedTuple):
 
 
 class Touches(tuple[Touched, ...]):
-    """The touches of a run; they print as a table of what they found, as the control took it, number 1 the first."""
+    """The touches of a run; they print as a table of what they found, as the control took it, number 1 the first.
 
-    __slots__ = ()
+    The table counts in the `unit` of the program; the numbers of a touch are mm.
+    """
+
+    unit: Unit = MM
+
+    @property
+    def head(self) -> tuple[str, ...]:
+        return tuple(f"{name}, {self.unit.short}" if k in TOUCH_LENGTHS else name for k, name in enumerate(TOUCH_HEAD))
 
     def texts(self) -> list[tuple[str, ...]]:
         """What the table says, row by row."""
-        numbers = (tuple(_written(value) for value in (*map(each.coordinate, "XYZ"), each.ball)) for each in self)
+        lengths = ((*map(each.coordinate, "XYZ"), each.ball) for each in self)
+        numbers = (tuple(_written(value, unit=self.unit) for value in row) for row in lengths)
         return [(str(k), str(each.line), each.label, *row) for k, (each, row) in enumerate(zip(self, numbers), 1)]
 
     def __repr__(self) -> str:
-        return text_table(TOUCH_HEAD, self.texts()) if self else "nothing was touched"
+        return text_table(self.head, self.texts(), TOUCH_NUMBERS) if self else "nothing was touched"
 
     def _repr_html_(self) -> str:
-        return html_table(TOUCH_HEAD, self.texts(), numbers=TOUCH_NUMBERS) if self else "<p>nothing was touched</p>"
+        return html_table(self.head, self.texts(), numbers=TOUCH_NUMBERS) if self else "<p>nothing was touched</p>"
 
 
 class Figure(NamedTuple):
@@ -124,34 +134,44 @@ class Measurement(NamedTuple):
         """The limits as deviations from the nominal value."""
         return self.lower - self.nominal, self.upper - self.nominal
 
-    def texts(self) -> tuple[str, ...]:
-        """What the table says, column by column."""
+    def texts(self, unit: Unit = MM) -> tuple[str, ...]:
+        """What the table says, column by column, lengths in a unit."""
         numbers = (self.nominal, self.actual, self.deviation, self.lower, self.upper)
-        said = (_written(number, sign) for number, sign in zip(numbers, (False, False, True, False, False)))
-        unit = "" if self.unit == "mm" else f" [{self.unit}]"
-        return self.where or str(self.line), self.cycle, self.what + unit, *said, self.verdict
+        counts = unit if self.unit == "mm" else MM
+        said = (_written(number, sign, counts) for number, sign in zip(numbers, (False, False, True, False, False)))
+        own = "" if self.unit == "mm" else f" [{self.unit}]"
+        return self.where or str(self.line), self.cycle, self.what + own, *said, self.verdict
 
 
 class Measurements(Sequence[Measurement]):
-    """The measuring record of a run; it prints as a table."""
+    """The measuring record of a run; it prints as a table, in the `unit` of the program. The numbers of its rows are mm."""
 
-    def __init__(self, rows: Sequence[Measurement]) -> None:
-        self._rows = tuple(rows)
+    def __init__(self, rows: Sequence[Measurement], unit: Unit = MM) -> None:
+        self._rows, self.unit = tuple(rows), unit
 
     def __len__(self) -> int:
         return len(self._rows)
 
     def __getitem__(self, which: Any) -> Any:
-        return Measurements(self._rows[which]) if isinstance(which, slice) else self._rows[which]
+        return Measurements(self._rows[which], self.unit) if isinstance(which, slice) else self._rows[which]
 
     def of(self, what: str) -> Measurements:
         """The rows of a cycle ("G421") or of a measure ("diameter")."""
-        return Measurements([row for row in self if what in (row.cycle, row.what)])
+        return Measurements([row for row in self if what in (row.cycle, row.what)], self.unit)
 
     @property
     def outside(self) -> Measurements:
         """The rows beyond their limits."""
-        return Measurements([row for row in self if row.verdict not in ("", OK)])
+        return Measurements([row for row in self if row.verdict not in ("", OK)], self.unit)
+
+    @property
+    def head(self) -> tuple[str, ...]:
+        """The heads of the table; a measure that is no length says its unit itself."""
+        return tuple(f"{name}, {self.unit.short}" if k in NUMBERS else name for k, name in enumerate(HEAD))
+
+    def texts(self) -> list[tuple[str, ...]]:
+        """What the table says, row by row."""
+        return [row.texts(self.unit) for row in self]
 
     @property
     def verdict(self) -> str:
@@ -162,21 +182,28 @@ class Measurements(Sequence[Measurement]):
         return f"within their limits: {judged - len(self.outside)} of {several(judged, 'measure')}"
 
     def __repr__(self) -> str:
-        return text_table(HEAD, [row.texts() for row in self]) if self else "nothing was measured"
+        return text_table(self.head, self.texts(), NUMBERS) if self else "nothing was measured"
 
     def _repr_html_(self) -> str:
         if not self:
             return "<p>nothing was measured</p>"
         bold = [k for k, row in enumerate(self) if row.verdict not in ("", OK)]
-        return html_table(HEAD, [row.texts() for row in self], numbers=NUMBERS, bold=bold)
+        return html_table(self.head, self.texts(), numbers=NUMBERS, bold=bold)
 
     def as_dicts(self) -> list[dict[str, Any]]:
         """For JSON and for tables of other libraries: nan as None."""
         rows = [{**row._asdict(), "deviation": row.deviation} for row in self]
         return [{k: None if isinstance(v, float) and math.isnan(v) else v for k, v in row.items()} for row in rows]
 
+    def _in_unit(self, row: dict[str, Any]) -> dict[str, Any]:
+        """A row of mm in the unit of the program."""
+        if row["unit"] != "mm" or self.unit is MM:
+            return row
+        lengths = {name: row[name] / self.unit.length for name in (*HEAD[3:8],) if row[name] is not None}
+        return row | lengths | {"unit": self.unit.short}
+
     def save(self, path: str | Path) -> Path:
-        """Write the table as .csv or .json, numbers with all their digits; the file."""
+        """Write the table as .csv, in the unit of the program, or as .json, in mm, numbers with all their digits; the file."""
         path = Path(path)
         if path.suffix.lower() not in (".csv", ".json"):
             hint = "run.report has it as .html or .pdf"
@@ -188,7 +215,7 @@ class Measurements(Sequence[Measurement]):
             names = ("line", "cycle", "what", "unit", "nominal", "actual", "deviation", "lower", "upper", "verdict")
             out = csv.DictWriter(file, names, extrasaction="ignore")
             out.writeheader()
-            out.writerows(self.as_dicts())
+            out.writerows(map(self._in_unit, self.as_dicts()))
         return path
 
 
@@ -196,10 +223,12 @@ def record(
     m: Machine, steps: int, place_of_line: Callable[[int, int], str]
 ) -> tuple[Touches, tuple[Figure, ...], Measurements]:
     """What was touched and measured in the first steps of a run."""
+    unit = MM if m.variable_unit == 1 else INCHES
     touches = Touches(each for each in m.touches if each.step < steps)
+    touches.unit = unit
     figures = tuple(each for each in m.figures if each.step < steps)
     rows = [each._replace(where=place_of_line(each.line, each.program)) for each in m.measurements if each.step < steps]
-    return touches, figures, Measurements(rows)
+    return touches, figures, Measurements(rows, unit)
 
 
 def judged(actual: float, lower: float, upper: float) -> str:
@@ -209,8 +238,8 @@ def judged(actual: float, lower: float, upper: float) -> str:
     return OUT if actual < lower - SLACK or actual > upper + SLACK else OK
 
 
-def _written(number: float, sign: bool = False) -> str:
+def _written(number: float, sign: bool = False, unit: Unit = MM) -> str:
     if math.isnan(number):
         return "–"
-    found = f"{number:+.{DIGITS}f}" if sign else f"{number:.{DIGITS}f}"
-    return found.replace("-0.0000", "0.0000").replace("+0.0000", "0.0000")
+    found = f"{number / unit.length:{'+' if sign else ''}.{DECIMALS[unit]}f}"
+    return found if float(found) else found.lstrip("+-")

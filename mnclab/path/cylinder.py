@@ -134,6 +134,11 @@ def on_workpiece(path: Toolpath) -> Toolpath:
 
 def divided(path: Toolpath, turn: float) -> Toolpath:
     """The path with its rapids that turn on a cylinder parted where the axis has turned by so many rad."""
+    return parted_rapids(path, turn)[0]
+
+
+def parted_rapids(path: Toolpath, turn: float) -> tuple[Toolpath, Index]:
+    """The same, and the row (m,) of the path that each of its rows is a piece of."""
     before = np.where(np.isfinite(path.from_angle), path.from_angle, 0.0)
     last = np.zeros(len(path))
     for number, one in enumerate(path.cylinders):
@@ -154,7 +159,7 @@ def divided(path: Toolpath, turn: float) -> Toolpath:
     rotary[many, of] = begin + (last - before)[row[many]] * step[many, 0]
     start = path.start[row] + share * travel
     end = np.where(pieces[row][:, None] > 1, start + step * travel, path.end[row])
-    return found.replace(start=start, end=end, rotary=rotary, from_angle=from_angle)
+    return found.replace(start=start, end=end, rotary=rotary, from_angle=from_angle), row
 
 
 def _cylinder_of(path: Toolpath) -> Index:

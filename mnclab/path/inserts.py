@@ -22,17 +22,42 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.vectors import at_angle, length_of
+from mnclab.path.columns import Mask
+from mnclab.path.kinds import Kind
 from mnclab.path.tool import LATHE, Tool
+from mnclab.path.toolpath import Toolpath
 
 EDGE = 12.0  # length of an edge that the table does not give
 USUAL = (95.0, 5.0)  # degrees: an insert of 80 degrees, where a picture needs angles and the table has none
 SAME = 1e-12
 FACE = "face grooving"  # a blade across: what is Z of another one is its r
+THREAD = 60.0  # degrees between the flanks of a metric or a unified thread
 
 
 def turns(tool: Tool) -> bool:
     """Whether a tool has an insert; else it turns about its own axis, as a drill does."""
     return tool.kind in LATHE or not tool.kind
+
+
+def as_drawn(tool: Tool, lead: float = 0.0) -> Tool:
+    """A tool with the shape that pictures give it: one without any that cuts a thread (`lead` mm) has the V of its profile.
+
+    The profile has the tool's `angle`, else `THREAD`; its flanks are as long as the lead: a sharp thread of 60 degrees.
+    """
+    known = tool.width or tool.main_angle or tool.auxiliary_angle or tool.kind not in ("", "thread")
+    if known or not (lead > 0 or tool.kind == "thread"):
+        return tool
+    lean = 90 - (tool.angle if 0 < tool.angle < 180 else THREAD) / 2
+    edges = tool.cutting_length or (lead if lead > 0 else 0.0)
+    return replace(tool, kind="thread", main_angle=lean, auxiliary_angle=lean, cutting_length=edges)
+
+
+def lead_of(path: Toolpath, rows: Mask) -> float:
+    """The lead, mm, of the thread that the last cut of some rows (n,) makes; 0 where it makes none."""
+    cuts = np.flatnonzero(((path.kind == Kind.LINE) | (path.kind == Kind.ARC)) & rows)
+    if not len(cuts) or not path.synchronous[cuts[-1]]:
+        return 0.0
+    return float(np.nan_to_num(path.per_rev[cuts[-1]], posinf=0.0))
 
 
 def angles_of(tool: Tool) -> tuple[float, float]:

@@ -1,8 +1,8 @@
 """A path as text, one row a line, for tests and people; and as a table for notebooks.
 
-Positions have four decimals (a tenth of a micrometre), angles are in degrees; a listing shows what the columns hold, so
-the X of a lathe is a radius. The path of a program in inches is told in inches, with six decimals, so that the numbers of
-the program come back; its columns are in mm all the same.
+Positions of the text have four decimals (a tenth of a micrometre), of the table three; angles are in degrees. A listing
+shows what the columns hold, so the X of a lathe is a radius. The path of a program in inches is told in inches, with six
+decimals, so that the numbers of the program come back; its columns are in mm all the same.
 """
 
 from __future__ import annotations
@@ -74,10 +74,10 @@ def _feed(move: Move, unit: Unit) -> str:
     return f" F{feed}" if (feed := _rate(move, unit)) else ""
 
 
-def _rate(move: Move, unit: Unit) -> str:
+def _rate(move: Move, unit: Unit, fewer: int = 0) -> str:
     if np.isfinite(move.per_rev):
-        return f"{unit.figure(move.per_rev)}/rev"
-    return unit.figure(move.feed) if np.isfinite(move.feed) else ""
+        return f"{unit.figure(move.per_rev, fewer)}/rev"
+    return unit.figure(move.feed, fewer) if np.isfinite(move.feed) else ""
 
 
 def listing(path: Toolpath) -> str:
@@ -109,5 +109,5 @@ def table(path: Toolpath) -> str:
 
 def _cells(i: int, move: Move, unit: Unit) -> tuple[str, ...]:
     told = move.label if move.kind <= Kind.PROBE else f"{words(move, unit)} {move.label}".strip()
-    kind, place = Kind(move.kind).name.lower(), map(unit.figure, move.end)
-    return str(i), line(move), kind, *place, _rate(move, unit), figure(move.spindle), str(move.tool), told
+    kind, place = Kind(move.kind).name.lower(), (unit.figure(value, 1) for value in move.end)
+    return str(i), line(move), kind, *place, _rate(move, unit, 1), figure(move.spindle, 3), str(move.tool), told

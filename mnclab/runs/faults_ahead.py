@@ -214,4 +214,10 @@ def label_of(words: list[Word]) -> str:
 
 def faults_ahead(stopped: Interpreter) -> list[Alarm]:
     """The alarms in the main program below where a run has stopped."""
-    return [*Ahead(stopped).faults()] if len(stopped.flow.programs[0]) else []
+    if not len(stopped.flow.programs[0]):
+        return []
+    try:
+        ahead = Ahead(stopped)
+    except Alarm:  # the control does not start on this machine: that is what stopped the run
+        return []
+    return [*ahead.faults()]

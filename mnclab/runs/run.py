@@ -35,6 +35,7 @@ from mnclab.path.travel import Stopped
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs import card, lint, material, outcome
+from mnclab.runs.cutting_data import cutting_data, measuring_sheet, setup_sheet, tool_sheet
 from mnclab.runs.explanation import Explanation
 from mnclab.runs.faults_ahead import faults_ahead
 from mnclab.runs.history import History
@@ -262,7 +263,8 @@ class Run(Pictures):
         none; with the lines between which it is narrowest."""
         return largest_radius(self)
 
-    start_at = start_at
+    start_at, cutting_data = start_at, cutting_data
+    setup_sheet, tool_sheet, measuring_sheet = setup_sheet, tool_sheet, measuring_sheet
 
     # --- doors -------------------------------------------------------------------------------------------------------
 
@@ -294,9 +296,7 @@ class Run(Pictures):
     def player(self, limits: Limits | str | None = None, *, machine: Limits | str | None = None, **options: Any) -> Player:
         """A page to play the run in: forwards and backwards, by block, move or time; orbit, pan and zoom.
 
-        Where there is a blank the page cuts it as it plays, on a lathe in section; of runs that are not too long it marks
-        the collisions.
-
+        Where there is a blank the page cuts it as it plays; of runs that are not too long it marks the collisions.
         `limits` are those of `profile`. `height` in pixels, `theme` "auto", "light" or "dark", `speed` 1
         for real time. `.save(path)` writes it as a file that needs no network, as `run.save("part.html")` does.
         """
@@ -335,11 +335,12 @@ class Run(Pictures):
         return save(self, path, **options)
 
     def report(self, path: str | Path, title: str | None = None, **options: Any) -> Path:
-        """Write a report, .html or .pdf: figures, tools, time, picture, alarms, the program; `options` of `plot`.
+        """Write a report, .html or .pdf: figures, path, tools, time, cutting data, alarms, set-up, programs; `options` of `plot`.
 
-        `design=`, or what else `Workpiece.compare` takes, adds a measuring record; `tolerance=0.05` mm.
+        `design=`, or what else `Workpiece.compare` takes, adds a measuring record; `tolerance=0.05` mm. Times and limits are
+        those of `machine=`, "small-mill" or limits; default the ones of the setup.
         """
-        from mnclab.show.report import save_report
+        from mnclab.show.report.saving import save_report
 
         return save_report(self, path, title, **options)
 

@@ -8,8 +8,9 @@ import numpy as np
 
 from mnclab.path.columns import Array
 from mnclab.show import scene as scenes
-from mnclab.show.part_scene import ANGLE, BALL, BESIDE, EDGE, LOOK, PIN
+from mnclab.show.part_scene import ANGLE, BALL, EDGE, LOOK, PIN
 from mnclab.show.plot.difference import GONE, LEFT, SHADES, usual_limit
+from mnclab.show.rulers import frame
 from mnclab.text.given import check_number
 from mnclab.workpiece.difference.columns import distances
 from mnclab.workpiece.difference.difference import Difference
@@ -39,16 +40,14 @@ def scene(
     solid = difference.workpiece.solid()
     mesh = pyvista.PolyData.from_regular_faces(solid.points, solid.triangles)
     mesh.cell_data[TITLE] = deviations_of(difference, solid.points[solid.triangles])
-    bar = scenes.BAR | BESIDE | {"title": TITLE + "\n", "fmt": "%.3g"}
+    bar = scenes.BAR | {"title": TITLE + "\n", "fmt": "%.3g"}
     plotter.add_mesh(mesh, scalars=TITLE, cmap=SHADES, clim=(-most, most), nan_color="#dddddd", scalar_bar_args=bar, **LOOK)
     edges = mesh.extract_feature_edges(feature_angle=ANGLE, boundary_edges=False, non_manifold_edges=False, manifold_edges=False)
     if edges.n_cells:
         plotter.add_mesh(edges, color=EDGE, line_width=1.3, name="edges of the part")
     _pins(plotter, difference, solid, 0 if lathe else 2)
-    if axes:
-        plotter.add_axes(line_width=3, color="black")
-        scenes.add_rulers(plotter, np.stack([solid.points.min(axis=0), solid.points.max(axis=0)]))
-    scenes.view_from(plotter, (0.35, 1.0, 0.6) if lathe else (-0.5, -1.0, 1.0), lathe, zoom=0.95)
+    towards = (0.35, 1.0, 0.6) if lathe else (-0.5, -1.0, 1.0)
+    frame(plotter, solid.points, towards, lathe, unit=difference.workpiece.cutting.path.unit, axes=axes)
     return plotter
 
 

@@ -10,7 +10,7 @@ from inspect import signature
 from pathlib import Path
 from typing import Any
 
-from mnclab.show.report import POLICY
+from mnclab.show.report.page import page
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import named, replaced
 from mnclab.workpiece.difference.difference import Difference
@@ -52,13 +52,9 @@ def write_json(difference: Difference, path: Path) -> None:
 
 def write_html(difference: Difference, path: Path, **options: Any) -> None:
     """The record on a page that stands alone: verdict, worst places, picture, table."""
-    style = Path(__file__).with_name("report.css").read_text("utf-8")
-    title = escape(f"Difference from {difference.target}")
-    policy = f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
-    head = f'<meta charset="utf-8">{policy}<title>{title}</title><style>{style}</style>'
-    body = f"<h1>{title}</h1>{record(difference, **options)}"
-    page = f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head><body>\n{body}\n</body></html>\n'
-    path.write_text(page, "utf-8", errors="replace", newline="\n")
+    title = f"Difference from {difference.target}"
+    body = f"<h1>{escape(title)}</h1>{record(difference, **options)}"
+    path.write_text(page(title, body), "utf-8", errors="replace", newline="\n")
 
 
 def record(difference: Difference, **options: Any) -> str:

@@ -15,6 +15,7 @@ from mnclab.geometry.frames import shift
 from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array
 from mnclab.path.kinds import Kind
+from mnclab.path.listing import MM, Unit
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.part.part import Distance, Floats
 
@@ -25,12 +26,15 @@ BEHIND, ALONG = 1.0, 0.7  # mm behind a wall, of walls that were touched from on
 MOVES = 2000  # beyond which what the program has cut is not worked out for a picture
 TINY = 1e-9
 HALVINGS = 12
+PART, SETTER, BEAM = "part", "tool setter", "beam of the tool setter"  # what legends call it
+REACH = 40.0  # mm to both sides of its point that a beam is shown
 
 
 class Felt(NamedTuple):
     """The part (None: not known), where the zero point of the path stands in its coordinates (3,), and of each touch the
     place (n, 3) in coordinates of the path and the way (n, 3) that the ball came, the row of the path (n,), and what is written
-    there: with its value, and the number alone. Number 1 is `run.touches[0]`."""
+    there: with its value, and the number alone. Number 1 is `run.touches[0]`. `name` is what the part is; `beam` are the ends
+    (2, 3) of the laser beam that tools break, in coordinates of the path."""
 
     part: Part | None
     origin: Array
@@ -38,10 +42,17 @@ class Felt(NamedTuple):
     ways: Array
     rows: list[int]
     texts: list[tuple[str, str]]
+    name: str = PART
+    beam: Array | None = None
+
+    @property
+    def found(self) -> Array:
+        """The touches and the ends of the beam (n, 3)."""
+        return self.places if self.beam is None else np.vstack([self.places, self.beam])
 
     def box(self, low: Array, high: Array) -> tuple[Array, Array]:
         """A box (3,), (3,) around the path, widened by the touches, and by the part unless it is much larger."""
-        for corner in self.places:
+        for corner in self.found:
             low, high = np.fmin(low, corner), np.fmax(high, corner)
         if self.part is None or not np.isfinite(self.part.bounds).all():
             return low, high
@@ -52,7 +63,7 @@ class Felt(NamedTuple):
 
     def ends(self, path: Array) -> Array:
         """The corners (2, 3) of the part; where it has no end, of what lies around the path's box (2, 3) and the touches."""
-        around = np.vstack([path, self.places])
+        around = np.vstack([path, self.found])
         low, high = around.min(axis=0), around.max(axis=0)
         more = AROUND * float((high - low).max()) + 1.0
         own = np.array([low, high]) if self.part is None else self.part.bounds - self.origin
@@ -104,14 +115,22 @@ def felt(run: Any) -> Felt | None:
     """What the probe of a run meets, or the tool setter where tools are measured; None where nothing is to be touched."""
     setup, measured = run.setup, (run.toolpath.kind == Kind.PROBE).any()
     part = setup.part if isinstance(setup.part, Part) else None  # what is cut is shown as the blank is
-    if setup.part is None:
-        part = setup.setter.part if setup.setter and measured else None
-        if part is None:
-            return None
+    setter = setup.setter if setup.part is None and measured else None
+    if setup.part is None and setter is None:
+        return None
     origin = np.array(run.toolpath.origin, dtype=float)
     places = np.array([touch.surface for touch in run.touches], dtype=float).reshape(-1, 3) - origin
     ways = np.array([touch.direction for touch in run.touches], dtype=float).reshape(-1, 3)
-    return Felt(part, origin, places, ways, _rows(run, origin), _texts(run))
+    told = (SETTER, _beam(setter, origin)) if setter else (PART, None)
+    return Felt(setter.part if setter else part, origin, places, ways, _rows(run, origin), _texts(run), *told)
+
+
+def _beam(setter: Any, origin: Array) -> Array | None:
+    """The ends (2, 3) of the beam of a tool setter where it truly is; None of a plate."""
+    if not setter.axis:
+        return None
+    way = np.array([setter.axis == "X", setter.axis == "Y", setter.slope])
+    return np.array([np.array(setter.place) + REACH * side * way for side in (-1, 1)]) - origin
 
 
 def part_of(run: Any) -> Part | None:
@@ -155,11 +174,17 @@ def _rows(run: Any, origin: Array) -> list[int]:
     return found
 
 
+def touched_decimals(unit: Unit) -> int:
+    """How many decimals a touched coordinate has in a picture."""
+    return 3 if unit is MM else 4
+
+
 def _texts(run: Any) -> list[tuple[str, str]]:
-    found = []
+    found, unit = [], run.toolpath.unit
     for k, touch in enumerate(run.touches, 1):
         way = np.abs(np.array(touch.found) - touch.programmed)
         axis = int(way.argmax())
-        value = f"{touch.names[axis]} {touch.found[axis]:z.3f}".replace("-", "\N{MINUS SIGN}")
+        counts = touch.found[axis] / unit.length
+        value = f"{touch.names[axis]} {counts:z.{touched_decimals(unit)}f}".replace("-", "\N{MINUS SIGN}")
         found.append((f"{k}   {value}" if way[axis] > 0.999 * np.linalg.norm(way) else str(k), str(k)))
     return found

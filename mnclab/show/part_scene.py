@@ -10,6 +10,7 @@ import numpy as np
 from mnclab.path.columns import Array, Mask
 from mnclab.show import scene as scenes
 from mnclab.show.export_mesh import RAPID, STOCK
+from mnclab.show.rulers import frame
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import choice, shown
 from mnclab.workpiece.collision import Collision
@@ -22,7 +23,6 @@ COLOURS = ("depth", "tool", "line", "none")
 DEPTHS = "YlGnBu"  # pale above, dark below, in grey print too
 EDGE, ANGLE = "#33312b", 25.0  # degrees between two faces from which their edge is drawn
 BALL, PIN = 0.012, 0.1  # where something collides: radius, and how far its pin stands out, of the greatest side of the part
-BESIDE = {"position_x": 0.89}  # the scale, clear of the rulers
 LOOK: dict[str, Any] = {
     "smooth_shading": True, "split_sharp_edges": True, "feature_angle": ANGLE, "ambient": 0.22, "diffuse": 0.82,
     "specular": 0.1, "name": "part",
@@ -50,10 +50,8 @@ def scene(
     solid = workpiece.solid()
     add_part(plotter, workpiece, solid, colour)
     add_collisions(plotter, collisions, solid.points, lathe)
-    if axes:
-        plotter.add_axes(line_width=3, color="black")
-        scenes.add_rulers(plotter, np.stack([solid.points.min(axis=0), solid.points.max(axis=0)]))
-    scenes.view_from(plotter, (0.35, 1.0, 0.6) if lathe else (-0.5, -1.0, 1.0), lathe, zoom=0.95)
+    towards = (0.35, 1.0, 0.6) if lathe else (-0.5, -1.0, 1.0)
+    frame(plotter, solid.points, towards, lathe, unit=workpiece.cutting.path.unit, axes=axes)
     return plotter
 
 
@@ -72,14 +70,13 @@ def add_part(plotter: Any, workpiece: Workpiece, solid: Solid, colour: str) -> N
         mesh.point_data[title] = np.where(uncut, np.nan, values)
         cut = values[~uncut]
         deep = not workpiece.cutting.lathe and cut.size and cut.max() > 0
-        limits = (0.0, float(cut.max() if deep else values.max()))
-        bar = scenes.BAR | BESIDE | {"title": title + "\n", "fmt": "%.3g"}
+        bar, limits = scenes.bar_of(title, np.array([0.0, float(cut.max() if deep else values.max())]))
         plotter.add_mesh(mesh, scalars=title, cmap=DEPTHS, clim=limits, nan_color=plain, scalar_bar_args=bar, **LOOK)
     else:
         values = workpiece.cutting.of_rows(getattr(workpiece.cutting.path, colour), solid.row).astype(np.float64)
         mesh.cell_data[colour] = np.where(solid.row >= 0, values, np.nan)
-        bar = scenes.bar_of(colour, values[solid.row >= 0]) | BESIDE
-        plotter.add_mesh(mesh, scalars=colour, cmap=scenes.MAP, nan_color=plain, scalar_bar_args=bar, **LOOK)
+        bar, limits = scenes.bar_of(colour, values[solid.row >= 0], whole=True)
+        plotter.add_mesh(mesh, scalars=colour, cmap=scenes.MAP, clim=limits, nan_color=plain, scalar_bar_args=bar, **LOOK)
     if edges.n_cells:
         plotter.add_mesh(edges, color=EDGE, line_width=1.3, name="edges of the part")
 

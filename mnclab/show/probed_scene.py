@@ -10,7 +10,7 @@ from mnclab.path.columns import Array
 from mnclab.show.export_mesh import PROBING
 from mnclab.show.felt import felt
 
-FACE, EDGE, ANGLE = "#d9d5c8", "#7d7664", 25.0
+FACE, EDGE, ANGLE, BEAM = "#d9d5c8", "#7d7664", 25.0, "#2e7d32"
 BALL = 0.011  # radius of a mark, of the greatest side of the scene
 MOST, FEW = 60, 8  # touches with numbers, with values too
 LOOK: dict[str, Any] = {
@@ -34,6 +34,8 @@ def add_probed(plotter: Any, run: Any) -> Array | None:
             edges = mesh.extract_feature_edges(feature_angle=ANGLE, boundary_edges=False, non_manifold_edges=False)
             if edges.n_cells:
                 plotter.add_mesh(edges, color=EDGE, line_width=1.2, name="edges of the part to touch")
+    if found.beam is not None:
+        plotter.add_mesh(pyvista.Line(*found.beam), color=BEAM, line_width=3, name="beam")
     if len(found.places):
         ball = pyvista.Sphere(radius=BALL * float((ends[1] - ends[0]).max()))
         balls = pyvista.PolyData(found.places).glyph(geom=ball, scale=False, orient=False)

@@ -22,9 +22,13 @@ from numpy.typing import ArrayLike
 
 from mnclab.path.cylinder import divided
 from mnclab.path.kinds import Kind
+from mnclab.path.limits import Limits
+from mnclab.path.profile.rapids import courses
 from mnclab.path.toolpath import Toolpath
 from mnclab.show import solids
 from mnclab.show.export_mesh import CHORD, FEED, PROBING, RAPID, STOCK, TOOL
+from mnclab.show.rapids import rapids_of
+from mnclab.show.rulers import frame, rounded, turning_rulers
 from mnclab.text.alarm import Alarm
 from mnclab.text.extras import require
 from mnclab.text.given import shown
@@ -35,7 +39,8 @@ if TYPE_CHECKING:
     import pyvista
 
 COLOURS = ("kind", "feed", "tool", "z", "line")
-TITLES = {"feed": "feed, mm/min", "tool": "tool", "z": "Z, mm", "line": "line"}
+TITLES = {"feed": "feed, {unit}/min", "tool": "tool", "z": "Z, {unit}", "line": "line"}
+LENGTHS = ("feed", "z")  # what counts in the unit of the program
 WINDOW = "VTK_DEFAULT_OPENGL_WINDOW"
 #: Library of the system -> window class of VTK that draws with it, without a screen.
 OFF_SCREEN = {"EGL": "vtkEGLRenderWindow", "OSMesa": "vtkOSOpenGLRenderWindow"}
@@ -43,10 +48,13 @@ SIZE = (800, 600)
 MAP = "viridis"
 BAR: dict[str, Any] = {
     "color": "black", "fmt": "%.6g", "title_font_size": 16, "label_font_size": 14,
-    "vertical": True, "position_x": 0.86, "position_y": 0.25, "height": 0.5, "width": 0.07,
+    "vertical": True, "position_x": 0.88, "position_y": 0.25, "height": 0.5, "width": 0.07,
 }  # fmt: skip
+LABELS = 6  # of a scale, at most
 TURN = 0.05  # rad, of rapids over a cylinder
-NARROWED, ASIDE = 0.88, 0.13  # how much smaller and how far to the left (of half the width) a body stands beside a scale
+FAR = 5.0  # what is so many times larger than the rest is cut off (rapids) or left out (a tool)
+FOOT = 0.5  # of the size of the rest: how much of a tool above its tip is always in sight
+BENT, SHORT = 1 / 2000, 1 / 200  # of the size of a path: rapids that leave their line by less, or are shorter, are straight
 
 
 def scene(
@@ -61,7 +69,7 @@ def scene(
     axes: bool = True,
     size: tuple[int, int] = SIZE,
 ) -> pyvista.Plotter:
-    """The path of a run with its tool and blank, seen from the front, right and above.
+    """The path of a run with its tool and blank, seen from the front, left and above; of a lathe from the side, with its chuck.
 
     `colour` of the cuts: "kind", "feed" (mm/min), "tool", "z" (mm) or "line"; rapids are thin and red in all of them.
     Beside a blank the first approach, from a place that nobody has said, is left out. `row`: where the tool stands, by
@@ -69,7 +77,8 @@ def scene(
     coordinates of the path: two opposite corners (3,) or a body of
     `workpiece.blank`. `part` shows what is left of the blank after `row` in place of it, `probed` the part that a probe
     meets, and its touches with their numbers. `size` in pixels. What
-    lies on a cylinder is shown on it as it lies on the workpiece, without the tool.
+    lies on a cylinder is shown on it as it lies on the workpiece, without the tool. Rapids from far away go beyond the
+    picture; a tool many times larger than all else is left out. Rulers count in the unit of the program, on a lathe diameters.
 
     An Alarm says in a sentence what is missing: pyvista, or something for VTK to draw with.
     """
@@ -82,25 +91,22 @@ def scene(
     if turning:
         add_cylinders(plotter, path)
         path, towards = _on_cylinders(path)
-        _add_path(plotter, path, colour)
+        drawn = _add_path(plotter, path, colour, None)
     else:
-        _add_path(plotter, path[run.rows_from_home :], colour)
-    if tool and not turning and (body := solids.tool_of(run, row)):
-        look: dict[str, Any] = {"specular": 0.4, "smooth_shading": True, "split_sharp_edges": True}
-        plotter.add_mesh(_surface(body), color=TOOL, name="tool", **look)
+        drawn = _add_path(plotter, path[run.rows_from_home :], colour, rapids_of(run))
     given = run.stock if stock is True else as_blank(stock) if stock is not False else None
     if stock is not True and stock is not False and given is None:
         raise Alarm(f"stock must be True, False, two corners (3,) or a body of workpiece.blank, got {shown(stock)}")
     blank = solids.body_of(given) if given else None
-    corners = blank.points if blank else None
+    bodies = [blank.points] if blank else []
     if turning and blank is None:
-        corners = np.concatenate([solids.cylinder_body(run.toolpath, k).points for k in range(len(run.toolpath.cylinders))])
+        bodies = [solids.cylinder_body(run.toolpath, k).points for k in range(len(run.toolpath.cylinders))]
     if part:
         from mnclab.show.part_scene import add_part
 
         left = run.workpiece(row=row) if len(path) else run.workpiece()
         solid = left.solid()
-        corners = solid.points
+        bodies = [solid.points]
         add_part(plotter, left, solid, "none")
     elif blank:
         plotter.add_mesh(_surface(blank), color=STOCK, opacity=0.25, name="blank")
@@ -109,14 +115,47 @@ def scene(
     if probed and (run.setup.part is not None or run.setup.setter is not None):
         from mnclab.show.probed_scene import add_probed
 
-        ends = add_probed(plotter, run)
-        corners = ends if corners is None or ends is None else np.concatenate([corners, ends])
-    if axes:
-        plotter.add_axes(line_width=3, color="black")
-        if len(path):
-            add_rulers(plotter, path.bounds if corners is None else np.concatenate([path.bounds, corners]))
-    view_from(plotter, (0.0, 1.0, 0.0) if path.lathe else towards, path.lathe)
+        bodies += [ends for ends in [add_probed(plotter, run)] if ends is not None]
+    if given:
+        bodies += [_add_fixture(plotter, body, k) for k, body in enumerate(solids.fixtures_of(run))]
+    ruled = np.concatenate([*_fitted(drawn), *bodies, np.empty((0, 3))])
+    seen = ruled
+    if tool and not turning and len(path) and len(ruled):
+        seen = np.concatenate([ruled, _add_tool(plotter, run, row, float(np.ptp(ruled, axis=0).max()))])
+    frame(plotter, seen, (0, 1, 0) if path.lathe else towards, path.lathe, unit=run.toolpath.unit, axes=axes, ruled=ruled)
     return plotter
+
+
+def _fitted(drawn: dict[str, np.ndarray]) -> list[np.ndarray]:
+    """The points (n, 3) of a path that the picture shows whole: all of them, unless its rapids come from far away."""
+    cuts = [points for name, points in drawn.items() if name != "rapids"]
+    every = np.concatenate([*drawn.values(), np.empty((0, 3))])
+    if "rapids" not in drawn or not cuts:
+        return [every]
+    near = np.concatenate(cuts)
+    whole, size = (float(np.ptp(points, axis=0).max()) for points in (every, near))
+    return [near] if whole > FAR * size > 0 else [every]
+
+
+def _add_tool(plotter: Any, run: Any, row: int, size: float) -> np.ndarray:
+    """Add the tool after a row beside something of a `size`, mm; what of it (n, 3) the picture holds."""
+    found = solids.turning_tool_of(run, row, size) if run.toolpath.lathe else {"tool": solids.tool_of(run, row)}
+    shades: dict[str, Any] = {"tool": "#e9c46a", "holder": "#c9ccd1"} if run.toolpath.lathe else {"tool": TOOL}
+    tip, held = run.toolpath.end[row], [np.empty((0, 3))]
+    for name, body in found.items():
+        if body is None or np.ptp(body.points, axis=0).max() > 2 * FAR * max(size, 1e-9):
+            continue
+        look: dict[str, Any] = {"specular": 0.4, "smooth_shading": True, "split_sharp_edges": True}
+        plotter.add_mesh(_surface(body), color=shades[name], name=name, **look)
+        held.append(body.points[np.linalg.norm(body.points - tip, axis=1) < max(FOOT, 1.5 * run.toolpath.lathe) * size])
+    return np.concatenate(held)
+
+
+def _add_fixture(plotter: Any, body: solids.Body, number: int) -> np.ndarray:
+    plotter.add_mesh(_surface(body), color="#a9b0b7", opacity=0.45, name=f"fixture {number}")
+    edges = _surface(body).extract_feature_edges()
+    plotter.add_mesh(edges, color="#5c6166", line_width=1, name=f"edges of fixture {number}")
+    return body.points
 
 
 def add_cylinders(plotter: Any, path: Toolpath) -> None:
@@ -151,15 +190,6 @@ def new_plotter(alt: str, size: tuple[int, int]) -> Any:
     return plotter
 
 
-def view_from(plotter: Any, towards: tuple[float, float, float], lathe: bool, zoom: float = 0.85) -> None:
-    """Look from a side without perspective; on a lathe X stands upright."""
-    plotter.view_vector(towards, (1, 0, 0) if lathe else (0, 0, 1))
-    plotter.enable_parallel_projection()
-    bars = len(plotter.scalar_bars) > 0
-    plotter.camera.zoom(zoom * (NARROWED if bars else 1.0))
-    plotter.camera.SetWindowCenter(ASIDE if bars else 0.0, 0.0)
-
-
 def check_drawing() -> None:
     """Choose what VTK draws with; an Alarm where it would find nothing, since VTK itself would end the process."""
     require("pyvista", "3D scenes", instead="run.plot() and run.player() do without")
@@ -181,14 +211,16 @@ def _class() -> Any:
     import pyvista
 
     class Scene(pyvista.Plotter):
-        """A `pyvista.Plotter` whose picture is shown by Jupyter; `alt` says in words what it shows."""
+        """A `pyvista.Plotter` whose picture is shown by Jupyter; `alt` says in words what it shows, `titles` are its rulers'."""
 
         alt = "scene"
+        titles: tuple[str, ...] = ()
 
         def show(self, *arguments: Any, **options: Any) -> Any:
             """Show the scene; in Jupyter as a still picture unless `jupyter_backend` says otherwise."""
             if options.setdefault("jupyter_backend", "static") in ("html", "client", "server", "trame"):
                 require("trame_pyvista", "scenes that turn", "html", 'jupyter_backend="static" does without')
+                turning_rulers(self)
             return super().show(*arguments, **options)
 
         def png(self) -> bytes:
@@ -213,51 +245,45 @@ def _surface(body: solids.Body) -> Any:
     return pyvista.PolyData.from_regular_faces(body.points, body.triangles)
 
 
-def _add_path(plotter: Any, path: Toolpath, colour: str) -> None:
-    strokes, row = solids.strokes(path, CHORD)
+def _add_path(plotter: Any, path: Toolpath, colour: str, rapids: Limits | None) -> dict[str, np.ndarray]:
+    """Add the moves of a path; their points (n, 3) by "rapids", "probing" and "cuts"."""
+    size = solids.size_of(path)
+    strokes, row = solids.strokes(path, min(CHORD, size / 2000))
+    if rapids is not None:
+        strokes, row = solids.bent(strokes, row, *courses(path, rapids, BENT * size, SHORT * size))
     kind = path.kind[row]
-    cuts = np.isin(kind, (Kind.LINE, Kind.ARC))
+    cuts, drawn = np.isin(kind, (Kind.LINE, Kind.ARC)), dict[str, np.ndarray]()
     for name, one, look, width in (("rapids", Kind.RAPID, RAPID, 1.0), ("probing", Kind.PROBE, PROBING, 2.0)):
         if (kind == one).any():
             plotter.add_mesh(_lines(strokes[kind == one]), color=look, line_width=width, name=name)
+            drawn[name] = strokes[kind == one].reshape(-1, 3)
     if not cuts.any():
-        return
+        return drawn
+    drawn["cuts"] = strokes[cuts].reshape(-1, 3)
     mesh = _lines(strokes[cuts])
     if colour == "kind":
         plotter.add_mesh(mesh, color=FEED, line_width=2.5, name="cuts")
-        return
+        return drawn
     values = strokes[cuts][:, :, 2].ravel() if colour == "z" else getattr(path, colour)[row[cuts]]
-    bar = bar_of(colour, values)
+    if colour in LENGTHS and path.inches:
+        values = values / path.unit.length
+    bar, limits = bar_of(TITLES[colour].format(unit=path.unit.short), values, colour in ("tool", "line"))
     (mesh.point_data if colour == "z" else mesh.cell_data)[colour] = values.astype(np.float64)
-    plotter.add_mesh(mesh, scalars=colour, cmap=MAP, line_width=2.5, scalar_bar_args=bar, name="cuts")
+    plotter.add_mesh(mesh, scalars=colour, cmap=MAP, clim=limits, line_width=2.5, scalar_bar_args=bar, name="cuts")
+    return drawn
 
 
-def bar_of(colour: str, values: np.ndarray) -> dict[str, Any]:
-    """How the scale of a colour looks."""
-    bar = BAR | {"title": TITLES[colour] + "\n"}  # clear of the highest number
-    spread = float(np.ptp(values)) if len(values) else 0.0
-    if colour in ("tool", "line"):  # whole numbers alone
-        bar |= {"fmt": "%.0f", "n_labels": int(spread) + 1 if spread < 6 else 5}
-    return bar
-
-
-def add_rulers(plotter: Any, corners: np.ndarray) -> None:
-    """Rulers around points (n, 3), from one round number to another."""
-    low, high = corners.min(axis=0), corners.max(axis=0)
-    if not np.isfinite(low).all():
-        return
-    coarse = max(float((high - low).max()), 1e-3) / 4
-    power = 10.0 ** np.floor(np.log10(coarse))
-    step = power * next(factor for factor in (1, 2, 5, 10) if factor * power >= coarse * (1 - 1e-9))
-    low, high = np.floor(low / step + 1e-9) * step, np.ceil(high / step - 1e-9) * step
-    high = np.where(high > low, high, low + step)
-    x, y, z = (np.round((high - low) / step).astype(int) + 1).tolist()
-    ranges = np.stack([low, high], axis=1).ravel().tolist()
-    plotter.show_bounds(
-        bounds=ranges, axes_ranges=ranges,
-        xtitle="X, mm", ytitle="Y, mm", ztitle="Z, mm", grid="back", location="outer", ticks="outside",
-        color="#555555", font_size=9, fmt="%.6g", bold=False, use_3d_text=False, n_xlabels=x, n_ylabels=y, n_zlabels=z,
-    )  # fmt: skip
+def bar_of(title: str, values: np.ndarray, whole: bool = False) -> tuple[dict[str, Any], tuple[float, float]]:
+    """How a scale looks, and its ends: it has round numbers; `whole` ones alone where it counts."""
+    bar = BAR | {"title": title + "\n"}  # clear of the highest number
+    known = values[np.isfinite(values)]
+    low, high = (float(known.min()), float(known.max())) if len(known) else (0.0, 1.0)
+    if not high > low:
+        return bar | {"n_labels": 1}, (low, high)
+    step = rounded(max((high - low) / (LABELS - 1), 1.0 if whole else 0.0))
+    low, high = step * np.floor(low / step + 1e-9), step * np.ceil(high / step - 1e-9)
+    digits = max(0, -int(np.floor(np.log10(step) + 1e-9)))
+    return bar | {"fmt": f"%.{digits}f", "n_labels": round((high - low) / step) + 1}, (float(low), float(high))
 
 
 def _lines(strokes: np.ndarray) -> Any:

@@ -11,16 +11,19 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mnclab.path.inserts import as_drawn, holder, insert, lead_of
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
-from mnclab.workpiece.blank import Box, Revolved
+from mnclab.workpiece.blank import Box, Revolved, blank
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.milled import Milled
+from mnclab.workpiece.part import Part
 
 SIDES = 48  # of a tool
 TUBE_SIDES = 6
 SHANK = 3.0  # diameters, of a tool whose cutting length is not known
+EDGES, THICK = 0.09, 0.35  # edges of an insert, of what stands beside it; half as thick, of its edges
 DRILL_POINT = 118.0  # degrees, of a drill without an angle
 
 
@@ -155,6 +158,52 @@ def body_of(stock: Any) -> Body:
 def stock_of(run: Any) -> Body | None:
     """The blank of a run in the coordinates of its path."""
     return body_of(run.stock) if run.stock else None
+
+
+def fixtures_of(run: Any) -> list[Body]:
+    """What holds the blank of a run, in the coordinates of its path; a part that only a probe knows has no body here."""
+    held = [blank(each) for each in run.setup.fixtures if not isinstance(each, Part)]
+    return [body_of(each.moved(-run.toolpath.origin)) for each in held if each is not None]
+
+
+def bent(strokes: NDArray[np.float64], row: NDArray[np.int64], which: NDArray[np.int64], places: NDArray[np.float64]) -> Any:
+    """The strokes (n, 2, 3) and their rows, where those of the rows `which` (k,), one each, go through `places` (k, 3)."""
+    if not len(which):
+        return strokes, row
+    vertices = np.concatenate([strokes[:, 0], places])
+    of = np.concatenate([row, which])
+    order = np.argsort(of, kind="stable")
+    start, of = vertices[order], of[order]
+    last = np.append(of[1:] != of[:-1], True)
+    end = np.concatenate([start[1:], start[-1:]])
+    kept = np.append(row[1:] != row[:-1], True)
+    end[last] = strokes[kept, 1]
+    return np.stack([start, end], axis=1), of
+
+
+def turning_tool_of(run: Any, row: int, size: float) -> dict[str, Body]:
+    """The insert, as "tool", and the holder of a lathe where a row ends, beside something of a `size`, mm: flat bodies."""
+    path, (table, numbers) = run.toolpath, run.tools_that_cut
+    number, up_to = int(numbers[row]), np.arange(len(path)) <= (row if row >= 0 else len(path) + row)
+    tool = as_drawn(table.get(number, Tool()), lead_of(path, up_to & (numbers == number)))
+    edges = EDGES * size
+    outlines = {"tool": insert(tool, edges).points_within(edges / 100), "holder": holder(tool, edges)}
+    thick = {"tool": THICK * edges, "holder": 0.8 * THICK * edges}
+    return {name: prism(corners, thick[name]).at(path.end[row]) for name, corners in outlines.items()}
+
+
+def prism(corners: ArrayLike, thick: float) -> Body:
+    """A body over a convex outline (k, 2) of z and r, as thick to both sides of the plane of X and Z."""
+    flat = np.asarray(corners, dtype=np.float64)
+    flat = flat[np.linalg.norm(np.roll(flat, -1, axis=0) - flat, axis=1) > 0]
+    if (flat[:, 0] * np.roll(flat[:, 1], -1) - flat[:, 1] * np.roll(flat[:, 0], -1)).sum() < 0:
+        flat = flat[::-1]
+    count = len(flat)
+    points = np.concatenate([np.column_stack([flat[:, 1], np.full(count, y), flat[:, 0]]) for y in (-thick, thick)])
+    here, there, fan = np.arange(count), np.roll(np.arange(count), -1), np.arange(1, count - 1)
+    walls = [np.stack([here, there, count + there], 1), np.stack([here, count + there, count + here], 1)]
+    lids = [np.stack([0 * fan, fan + 1, fan], 1), np.stack([0 * fan, fan, fan + 1], 1) + count]
+    return Body(points, np.concatenate([*walls, *lids]))
 
 
 def tool_of(run: Any, row: int = -1) -> Body | None:

@@ -13,6 +13,7 @@ from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.text.given import choice
 from mnclab.text.records import written
+from mnclab.text.rounded import Rounded
 from mnclab.text.tables import html_table
 from mnclab.workpiece.workpiece import Workpiece
 
@@ -87,7 +88,7 @@ class Removal:
         cutting = self.workpiece.cutting
         own, line = cutting.path.program.tolist(), cutting.path.line.tolist()
         keys = cutting.numbers.tolist() if what == "tool" else [at if not of else (of, at) for of, at in zip(own, line)]
-        found: dict[Any, float] = {}
+        found = Rounded()
         for row in np.flatnonzero(self.volumes):
             found[keys[row]] = found.get(keys[row], 0.0) + float(self.volumes[row])
         return found

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_point, choice
+from mnclab.text.rounded import Rounded
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.clamped import Clamped, Placement
 from mnclab.workpiece.cutting import Cutting
@@ -155,7 +156,7 @@ class Workpiece(ABC):
             keys = self.cutting.path.line.astype(np.int64)
         known, index = np.unique(keys, return_inverse=True)
         sums = np.bincount(index, volumes, minlength=len(known))
-        return {int(key): float(total) for key, total in zip(known, sums) if total != 0}
+        return Rounded({int(key): float(total) for key, total in zip(known, sums) if total != 0})
 
     def compare(self, target: Any, tolerance: float = 0.05) -> Difference:
         """How it differs from a design, or from that of a TOML file; see `workpiece.difference`. `tolerance` in mm."""

@@ -52,6 +52,21 @@ FRAME = """() => {
 }"""
 
 
+#: Every text that is seen, with its colour and that of what lies behind it.
+GROUNDS = """() => {
+    const parts = colour => colour.match(/[0-9.]+/g).map(Number), found = [];
+    for (const each of document.querySelectorAll("main *")) {
+        const own = [...each.childNodes].some(node => node.nodeType === 3 && node.data.trim());
+        if (!own || !each.checkVisibility() || each.closest(".hidden, svg, option")) continue;
+        let behind = each;
+        while (behind && !(parts(getComputedStyle(behind).backgroundColor)[3] !== 0)) behind = behind.parentElement;
+        const [ink, ground] = [getComputedStyle(each).color, getComputedStyle(behind || document.body).backgroundColor];
+        found.push([each.textContent.trim().slice(0, 30), parts(ink).slice(0, 3), parts(ground).slice(0, 3)]);
+    }
+    return found;
+}"""
+
+
 @pytest.fixture
 def open_file(browser, tmp_path):
     """open_file(run) saves the page and opens it in a browser that is offline; faults of the page fail the test."""
@@ -402,6 +417,46 @@ REFUSED = """() => new Promise(told => {
     script.textContent = "window.foreign = 1";
     document.body.append(script);
 })"""
+
+
+def test_without_scripts_the_path_is_a_picture(browser, tmp_path):
+    run = mnclab.run(PROGRAM, "mnc")
+    page = browser.new_context(java_script_enabled=False).new_page()
+    page.goto(run.save(tmp_path / "part.html").as_uri())
+    still = page.get_by_role("img", name=run.plot().alt)
+    assert still.bounding_box()["width"] > 300 and not page.get_by_role("button", name="play").count()
+    page.context.close()
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_text_stands_out_from_its_ground(open_file, theme):
+    """4.5 to 1 by the formula of WCAG 2.1 for all that is written, in both themes."""
+    page = open_file(mnclab.run("G0 X1 ' far\nG1 X4,5 F100\n", "jnc-t01"), color_scheme=theme)
+    page.get_by_role("option", name="line 1:").click()
+    pairs = page.evaluate(GROUNDS)
+    assert len(pairs) > 30
+    for text, ink, ground in pairs:
+        light, dark = sorted((luminance(ink), luminance(ground)), reverse=True)
+        assert (light + 0.05) / (dark + 0.05) >= 4.5, (text, ink, ground)
+
+
+def luminance(colour):
+    red, green, blue = (c / 12.92 if (c := each / 255) <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for each in colour)
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+
+def test_line_numbers_are_a_gutter(open_file):
+    """The numbers of the file stand apart from those of the blocks, and stay where the text is shifted."""
+    page = open_file(mnclab.run("0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S800 ; " + 60 * "long " + "\n2 END PGM A MM\n", "tnc-620"))
+    number, code = page.locator("#line-1 span"), page.locator("#line-1 code")
+    assert (number.inner_text(), code.inner_text()) == ("1", "0 BEGIN PGM A MM")
+    before, text = number.bounding_box(), code.bounding_box()
+    assert text["x"] >= before["x"] + before["width"] + 6
+    look = "each => { const own = getComputedStyle(each); return [own.backgroundColor, own.borderRightStyle]; }"
+    ground, line = number.evaluate(look)
+    assert line == "solid" and ground != code.evaluate(look)[0]
+    page.locator("#listing").evaluate("each => each.scrollLeft = 200")
+    assert number.bounding_box()["x"] == before["x"] and code.bounding_box()["x"] == text["x"] - 200
 
 
 def test_the_page_runs_no_other_script_and_asks_for_nothing(browser, tmp_path):

@@ -191,6 +191,16 @@ def test_the_slot_of_a_ball_is_measured_at_places_between_cells(opened):
     assert corner["what"] == "corner" and corner["at"] == pytest.approx([0, 10 + math.sqrt(8), 0], abs=1e-6)
 
 
+def test_a_program_in_inches_is_measured_in_inches(opened):
+    """Two inches of X and one of Y between two ends of moves; the page and the keyboard's voice say the unit."""
+    page = opened(mnclab.run("G20 G90 G54 T1 S800 M3\nG0 X0 Y0 Z0.1\nG1 Z-0.1 F10\nX2\nY1\nG0 Z1\n", "iso"))
+    page.get_by_role("button", name="Top", exact=True).click()
+    clicked(page, (0, 0, -2.54), (50.8, 25.4, -2.54))
+    rows = values(page)
+    assert rows[0][0] == "in" and rows[3][1:3] == ["2.0000", "1.0000"]
+    assert re.match(r"distance \d\.\d{4} in", rows[3][4]) and "mm" not in page.get_by_role("status").inner_text()
+
+
 def test_a_round_blank_is_measured_within_a_cell(opened):
     page = opened(mill(cylinder(25, -20, 0, at=(45, 22, 0)), "T1 S800 M3\nG0 X45 Y22 Z5\nG1 Z-3 F100\nG0 Z60\n"))
     page.get_by_role("button", name="Top", exact=True).click()
@@ -199,7 +209,7 @@ def test_a_round_blank_is_measured_within_a_cell(opened):
     assert rim["off"] == pytest.approx(step) and rim["round"]["off"] == pytest.approx(step)
     assert rim["round"]["d"] == pytest.approx(50, abs=step)
     assert rim["round"]["centre"][:2] == pytest.approx([45, 22], abs=step)
-    assert re.match(r"edge ± 0\.1667, ⌀ \d+\.\d{3} ± 0\.1667, centre", values(page)[1][4])
+    assert re.match(r"edge ± 0\.167, ⌀ \d+\.\d{3} ± 0\.167, centre", values(page)[1][4])
 
 
 def test_points_of_the_path_are_ends_middles_and_centres(opened):

@@ -2,7 +2,9 @@
 
 import math
 import re
+from pathlib import Path
 
+import numpy as np
 import pytest
 
 import mnclab
@@ -225,3 +227,28 @@ def test_the_rulers_of_an_inch_program_count_in_inches(opened):
           return said;
         }""")
         assert wanted <= set(said), said
+
+
+WINDOW = Path(__file__).parents[2] / "data" / "programs" / "tnc-620" / "drum_window.h"
+
+
+def test_on_a_drum_the_feed_is_that_along_the_workpiece_and_rapids_that_turn_are_arcs(opened):
+    """F250 where the drum stands; where X stands and the drum of radius 30 turns, the tip at 30 - 3 has 27 / 30 of it, at 24 / 30
+    on the second level. While a rapid turns the drum its distance from the axis changes evenly, as Z does."""
+    run = mnclab.run(WINDOW)
+    page = opened(run)
+    path = run.toolpath
+    still = np.ptp([path.start, path.end], axis=0).max(axis=1) < 1e-9
+    lines = np.flatnonzero((path.kind == mnclab.Kind.LINE) & still & (path.lengths == 0))
+    speed = """row => { const {run} = window.player, item = run.itemOfRow[row];
+        return 60 * run.tool(item, (run.begin[item] + run.end[item]) / 2).speed; }"""
+    found = sorted({round(page.evaluate(speed, int(row)), 1) for row in lines})
+    assert found == pytest.approx([200, 225], rel=2e-3)
+    turned = """() => { const {path} = window.player.run;
+        return [...path.bends].map(([row, bends]) => [path.vertex(row), ...bends, path.vertex(row + 1)]); }"""
+    rapids = page.evaluate(turned)
+    assert rapids
+    for places in rapids:
+        away = [math.hypot(y, z) for _, y, z in places]
+        assert np.diff(away) == pytest.approx(np.full(len(away) - 1, (away[-1] - away[0]) / (len(away) - 1)), abs=2e-3)
+        assert min(away) >= 30

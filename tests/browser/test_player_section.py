@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import mnclab
-from mnclab import Setup
+from mnclab import Setup, Tool
 from mnclab.workpiece.blank import chuck, cylinder
 
 BAR = cylinder(31, -90, 1)
@@ -87,4 +87,40 @@ def test_within_a_row_the_tool_has_cut_up_to_where_it_stands(browser, tmp_path, 
         seen = page.evaluate(SEEN, [item, share, places])
         z = page.evaluate("() => window.player.now().point[2]")
         assert seen == [[place < z for place, _ in places]] * 2
+    page.close()
+
+
+def test_the_insert_stands_at_the_tip_and_what_it_cut_is_seen_through_it(browser, tmp_path, run):
+    """The colours of the page have an alpha below 1, and the shapes are those of the figures: their tips are at (0, 0)."""
+    page = browser.new_page(viewport={"width": 1366, "height": 768})
+    page.goto(run.save(tmp_path / "part.html").as_uri())
+    page.wait_for_function("window.player")
+    drawn = page.evaluate("""() => {
+        const found = [];
+        window.drawInsert = (pen, tool, tip, project, colours) => found.push([tool, tip, colours.insert, colours.holder]);
+        player.go(player.afterItem(player.run.itemOfRow[player.run.path.n - 2]));
+        player.draw();
+        return found.at(-1);
+    }""")
+    (tool, tip, *glass), row = drawn, len(run.toolpath) - 2
+    assert tip == pytest.approx(run.toolpath.end[row])
+    assert all(len(colour) == 9 and int(colour[7:], 16) < 200 for colour in glass)
+    corners = np.array(tool["insert"])
+    assert corners.min(axis=0) == pytest.approx((0, 0), abs=0.02)  # T2: the nose touches the z and the r of its tip
+    page.close()
+
+
+def test_without_a_blank_a_thread_is_cut_by_a_pointed_insert(browser, tmp_path):
+    """The tool table knows no shape: 60 degrees between the flanks, the tip in their middle."""
+    setup = Setup(tools={9: Tool(number=9)}, start=(30, 0, 20))
+    bare = mnclab.run("M3\nT9\nG97 S300\nG00 X12 Z4\nG32 Z-20 F2\n", "jnc-t01", setup)
+    page = browser.new_page()
+    page.goto(bare.save(tmp_path / "bare.html").as_uri())
+    page.wait_for_function("window.player")
+    tools = page.evaluate("player.run.inserts.tools")
+    corners = np.unique(tools[-1]["insert"], axis=0)
+    (tip,) = corners[corners[:, 1] < 1e-6]
+    left, right = corners[[corners[:, 0].argmin(), corners[:, 0].argmax()]] - tip
+    assert tip == pytest.approx((0, 0)) and left[0] == pytest.approx(-right[0])
+    assert np.degrees(np.arctan2(right[0], right[1])) == pytest.approx(30, abs=0.1)
     page.close()

@@ -45,3 +45,29 @@ def test_the_part_is_the_map(page):
     page, _ = page
     found = [page.evaluate(HEIGHT, place) for place in ([10, 10], [50, 30], [90, 50])]
     assert found == pytest.approx([0, -10, 0], abs=1e-3)
+
+
+def test_letters_of_the_axes_cover_no_number(browser, tmp_path):
+    """The wall X0 is touched at Z-5: at 1.5 pixels a mm the number beside the touch would lie on the letter X, 43 pixels from
+    zero."""
+    page = browser.new_page(viewport={"width": 1000, "height": 700})
+    page.goto(toy_run("M4 X0 Y30 Z-5", PART).save(tmp_path / "part.html").as_uri())
+    page.wait_for_function("window.player")
+    texts = page.evaluate("""() => {
+        const found = [], write = CanvasRenderingContext2D.prototype.fillText, {player} = window;
+        player.go(player.afterItem(player.run.items - 1));
+        player.view("front");
+        player.change(camera => camera.zoom = 1.5);
+        CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+            const wide = this.measureText(text).width, left = x - (this.textAlign === "center" ? wide / 2 : 0);
+            found.push([text, left, y - 5, left + wide, y + 5]);
+        };
+        player.draw();
+        CanvasRenderingContext2D.prototype.fillText = write;
+        return found;
+    }""")
+    (letter,) = [each for each in texts if each[0] == "X"]
+    (number,) = [each for each in texts if each[0].startswith("1   X")]
+    apart = letter[3] <= number[1] or number[3] <= letter[1] or letter[4] <= number[2] or number[4] <= letter[2]
+    assert apart, (letter, number)
+    page.close()

@@ -91,7 +91,7 @@ def test_pictures_and_reports_have_the_tool_of_the_cycle():
     run = mnclab.run(HEAD + CYCLES["G74"][0], "nc-31", Setup(stock=BAR))
     tools, numbers = run.tools_that_cut
     assert set(numbers[run.toolpath.label > 0].tolist()) == {7} and tools[7].kind == "face grooving"
-    assert [row[:2] for row in report(run).tools][-1] == ("T7", LATHES[7].name)
+    assert [tuple(row[:2]) for row in report(run).tools.rows][-1] == ("T7", LATHES[7].name)
 
 
 def test_a_hole_from_the_side_is_left_out_and_noted():

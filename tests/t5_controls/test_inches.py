@@ -60,7 +60,8 @@ def test_cards_and_reports_are_in_inches():
     page = report(run)
     facts = dict(page.facts)
     assert facts["cutting length"] == "3 in" and facts["X from, to"] == "0, 3 in" and facts["blank"] == "2 x 1 x 1 in"
-    assert page.tool_head[3] == "radius, in" and page.tools[0][3] == "0.5"
+    (tool,) = (dict(zip(page.tools.head, row)) for row in page.tools.rows)
+    assert tool["diameter, in"] == "1"
 
 
 def test_a_program_in_millimetres_after_all():

@@ -9,8 +9,9 @@ from toy_probing import toy_run
 
 import mnclab
 from mnclab import __main__ as shell
-from mnclab.show.plot import report as pages
-from mnclab.show.report import report
+from mnclab.show.plot.pages.setting import sheets
+from mnclab.show.report.contents import Document
+from mnclab.show.report.gathering import measuring
 from mnclab.workpiece.part import box, hole
 
 README = Path(__file__).parents[2] / "README.md"
@@ -24,7 +25,7 @@ def measured():
 
 
 def test_touches_print_what_they_found_number_one_the_first(measured):
-    assert repr(measured.touches).splitlines()[0].split() == ["number", "line", "what", "X", "Y", "Z", "ball"]
+    assert repr(measured.touches).splitlines()[0].split() == "number line what X, mm Y, mm Z, mm ball, mm".split()
     assert measured.touches.texts()[4] == ("5", "4", "M4 touch 1", "0.0000", "30.0000", "-5.0000", "2.0000")
     assert measured.touches._repr_html_().count("<tr>") == 1 + len(measured.touches) == 7
     assert repr(toy_run("", PART).touches) == "nothing was touched"
@@ -49,16 +50,15 @@ def test_the_report_has_the_record_its_blanks_and_its_pictures(measured, tmp_pat
 def test_the_pages_have_the_record_too(measured, tmp_path):
     one, other = (measured.report(tmp_path / f"{name}.pdf").read_bytes() for name in "ab")
     assert one == other and one.startswith(b"%PDF")
-    lines = [text for text, _ in pages.measuring(report(measured))]
-    assert lines[0] == "Measured by the probe" and max(map(len, lines)) <= pages.WIDTH
-    (diameter,) = (line.split() for line in lines if line.startswith("diameter"))
-    assert diameter == ["diameter", "24.0000", "24.2000", "+0.2000", "23.9500", "24.0500", "out"]
-    assert sum(line.endswith("  M1") for line in lines) == 1  # a heading for each cycle
+    page, *_ = sheets(Document("a", "b", [measuring(measured, "a")]))
+    (y,) = (each.y for each in page.texts_on_it if each.text == "diameter")
+    row = [each.text for each in sorted(page.texts_on_it) if each.y == y]
+    assert row[1:] == ["M1", "diameter", "24.0000", "24.2000", "+0.2000", "23.9500", "24.0500", "out"]
 
 
 def test_a_long_measuring_has_a_report_of_few_pictures(tmp_path, monkeypatch):
-    monkeypatch.setattr("mnclab.show.report.PANELS", 2)
-    monkeypatch.setattr("mnclab.show.report.MOST_PANELS", 4)
+    monkeypatch.setattr("mnclab.show.report.gathering.PANELS", 2)
+    monkeypatch.setattr("mnclab.show.report.gathering.MOST_PANELS", 4)
     text = toy_run("M4 X0 Y30 Z-5\n" * 9, PART).report(tmp_path / "a.html").read_text("utf-8")
     assert text.count('alt="measured: 2 panels') == 2 and "cycles without a picture: 5" in text
 

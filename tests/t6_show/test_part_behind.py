@@ -133,7 +133,8 @@ def test_the_part_can_be_left_out(probed):
 def test_a_part_without_an_end_is_shown_as_far_as_the_picture_goes():
     run = toy_run("M4 X60 Y30 Z-5", plane((60, 0, 0), (-1, 0, 0)))
     ax = run.plot(frame="all").axes[0]
-    filled = np.vstack([path.vertices for path in ax.collections[0].get_paths()])
+    (body,) = [each for each in ax.collections if each.get_zorder() == 0.6]
+    filled = np.vstack([path.vertices for path in body.get_paths()])
     assert filled[:, 0].min() == pytest.approx(60, abs=1e-6) and filled[:, 0].max() >= ax.get_xlim()[1]
 
 
@@ -171,7 +172,7 @@ def test_the_player_has_the_map_and_the_touches(probed):
     assert rows == np.flatnonzero(probed.toolpath.kind == mnclab.Kind.PROBE).tolist()  # every touch of these hit
     assert "class Touches" in probed.player().page and "class Carving" in probed.player().page
     bare = mnclab.run("G0 X1\n", "mnc")
-    assert unpack(payload(bare, bare.profile()))[0]["felt"] == {"corners": [], "touches": []}
+    assert unpack(payload(bare, bare.profile()))[0]["felt"] == {"corners": [], "touches": [], "beam": []}
 
 
 def unpack(text):
@@ -192,3 +193,34 @@ def unpack(text):
             column.append(before)
         columns.append(column)
     return header, columns
+
+
+@pytest.mark.parametrize(("axis", "named"), [("", "tool setter"), ("X", "beam of the tool setter")])
+def test_a_tool_setter_is_no_part_and_its_beam_is_a_line(axis, named):
+    """The beam lies along X through its place, 0.5 mm beside where the control takes it to be, and rises by 0.01 a mm."""
+    setter = mnclab.Setter(x=40, y=25, z=-10, axis=axis, slope=0.01 if axis else 0, off=(0, 0.5, 0))
+    tools = {1: mnclab.Tool(radius=6, length=80)}
+    text = {"": "TOOL CALL 1 Z\nTCH PROBE 480 Q260=+50\n", "X": "G17 G90 T1 S3000 M3\nG0 Z50\nG471 H80\n"}[axis]
+    beamed = {"laser_x": 40, "laser_y": 25, "laser_z": -10, "laser_axis": 1} if axis else {}
+    setup = mnclab.Setup(tools=tools, setter=setter, settings=beamed, start=(40, 25, 150))
+    run = mnclab.run(text, "mnc" if axis else "tnc-620", setup)
+    assert run.ok and (run.toolpath.kind == mnclab.Kind.PROBE).any(), run.alarms
+    found, names = felt(run), [each.get_text() for each in run.plot().legends[0].get_texts()]
+    assert named in names and "part" not in names
+    if axis:
+        assert found.part is None and found.beam == pytest.approx(np.array([(0, 25.5, -10.4), (80, 25.5, -9.6)]))
+        lines = [line for ax in run.plot().axes for line in ax.lines if line.get_label() == named]
+        assert [np.ptp(line.get_xdata()) for line in lines][0] == pytest.approx(80)
+        assert unpack(payload(run, run.profile(), None, (), found))[0]["felt"]["beam"][1] == pytest.approx([80, 25.5, -9.6])
+    else:
+        assert found.beam is None and found.name == named
+
+
+def test_touches_of_a_program_in_inches_count_in_inches():
+    """A wall at X25.4 mm is 1 inch away."""
+    text = "BEGIN PGM A INCH\nTOOL CALL 7 Z\nL X-1 Y+0 Z+3 R0 FMAX\nTCH PROBE 427 MEASURE COORDINATE\n"
+    text += "Q263=1 Q264=0 Q261=0 Q320=0 Q272=1 Q267=1 Q260=3 Q281=0 Q288=0 Q289=0 Q309=0 Q330=0\nEND PGM A INCH\n"
+    tools = {7: mnclab.Tool(radius=2, kind="probe")}
+    run = mnclab.run(text, "tnc-620", mnclab.Setup(tools=tools, part=box((25.4, -50, -20), (60, 50, 20))))
+    assert run.ok, run.alarms
+    assert felt(run).texts[0][0] == "1   X 1.0000"

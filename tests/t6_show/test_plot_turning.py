@@ -1,6 +1,8 @@
 """Figures of a lathe: schemes side by side, blank and part, the insert, threads, the spindle speed."""
 
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,8 +12,10 @@ from mnclab import Alarm, Limits, Setup, Tool, blank, run
 from mnclab.comparison.turning_schemes import compare, toolpath
 from mnclab.geometry.contours import Contour
 from mnclab.machining.turning import thread_schemes as threads
-from mnclab.path.inserts import insert
+from mnclab.path.inserts import as_drawn, insert
+from mnclab.show.plot import insert as module
 from mnclab.show.plot.classes import classes
+from mnclab.show.plot.insert import CARBIDE, INSERT, STEEL
 from mnclab.show.plot.lathe import plot_speed, speed_strokes, speeds
 from mnclab.show.plot.path import plot_path
 from mnclab.show.plot.strokes import strokes
@@ -61,6 +65,41 @@ def test_what_the_cuts_leave_of_a_blank():
     assert len(inserts) == 2 and not [
         p for p in plot_path(done.toolpath, insert=False).axes[0].patches if p.get_zorder() > 4
     ]
+
+
+def test_bar_chuck_and_finished_profile_stand_beside_the_path():
+    """Jaws of 15 mm over the last 10 mm of a bar of radius 30, and a body of radius 30 + 1.5 * 15 behind it."""
+    chuck = blank.chuck(30, -60, grip=10, jaws=15, body=20)
+    done = run(SQUARE, "nc-31", Setup(stock=blank.cylinder(30, -60, 0), fixtures=(chuck,)))
+    picture = done.plot()
+    assert {"blank", "chuck", "part"} <= {text.get_text() for text in picture.legends[0].get_texts()}
+    ax = picture.axes[0]
+    shown = {str(each.get_label()): each.get_path().vertices for each in ax.patches}
+    assert np.ptp(shown["chuck"], axis=0) == pytest.approx((30, 22.5)) and shown["chuck"][:, 1].min() == 30
+    assert shown["chuck"][:, 0].min() == -80 >= ax.get_xlim()[0]  # the whole of it is in sight
+    assert {(0.0, 15.0), (-20.0, 30.0)} <= {(float(z), float(r)) for z, r in shown["part"].round(6)}
+
+
+def test_a_thread_without_a_tool_is_cut_by_the_point_of_its_profile():
+    """Flanks of 60 degrees, as long as the lead of 3 mm; a tool with a shape of its own keeps it."""
+    point = as_drawn(Tool(), lead=3)
+    (tip, right, *_, left) = insert(point, 1.0).points
+    for side in (right, left):
+        assert abs(math.degrees(math.atan2(side[1] - tip[1], side[0] - tip[0])) - 90) == pytest.approx(30)
+    assert point.cutting_length == 3 and as_drawn(Tool(angle=55), lead=3).main_angle == pytest.approx(62.5)
+    for own in (Tool(), Tool(width=3), Tool(main_angle=93), Tool(kind="drill", radius=4)):
+        assert as_drawn(own, lead=0.0 if own == Tool() else 3) is own
+    path = toolpath(threads.thread(2, -20, 10, (0.5, 0.9)), {"thread": 1.75})
+    _, drawn = [p.get_xy() for p in path.plot().axes[0].patches if isinstance(p, Polygon) and p.get_zorder() > 4]
+    assert drawn[drawn[:, 1].argmin()] == pytest.approx(path.end[-1, [2, 0]])  # its point is the tip, in its middle
+    assert drawn[:, 0].min() + drawn[:, 0].max() == pytest.approx(2 * path.end[-1, 2])
+
+
+def test_what_an_insert_has_cut_is_seen_through_it():
+    assert INSERT["facecolor"][3] < 0.6
+    page = (Path(module.__file__).parent.parent / "player" / "page.css").read_text("utf-8")
+    for name, shade in (("insert", CARBIDE), ("holder", STEEL)):  # one colour in plots and player, light and dark
+        assert [each[:7] for each in re.findall(rf"--{name}: (#\w+)", page)] == [shade, shade]
 
 
 def test_an_insert_never_turns_inside_out():

@@ -6,8 +6,11 @@ import pytest
 
 import mnclab
 from mnclab import Alarm
-from mnclab.show.plot import report as pages
-from mnclab.show.report import report
+from mnclab.show.plot.pages.letters import width
+from mnclab.show.plot.pages.setting import sheets
+from mnclab.show.plot.pages.sheet import A4, LEFT, RIGHT
+from mnclab.show.report.gathering import document, report
+from mnclab.show.report.saving import PICTURE
 
 PROGRAM = "G90 G54 T1 S1000 M3\nG0 X10 Y0 Z5\nG1 Z-2 F100 // down <here>\nX30\nT2\nG4 P30\nG1 X4,5\n"
 SETUP = mnclab.Setup(limits=mnclab.Limits(acceleration=1e9, rapid=1e7))
@@ -32,12 +35,28 @@ class Page(HTMLParser):
         self.text.append(data)
 
 
+def printed(run, title=None):
+    """The pages of a report."""
+    return sheets(document(run, report(run, title), run.plot(size=PICTURE)))
+
+
+def lines_of(pages):
+    """The texts of pages, line by line, from left to right."""
+    found = []
+    for page in pages:
+        rows = {}
+        for each in page.texts_on_it:
+            rows.setdefault(each.y, []).append(each)
+        found += [" ".join(each.text for each in sorted(rows[y])) for y in sorted(rows)]
+    return found
+
+
 def test_the_figures_are_those_of_the_run(run):
     found = report(run, "Part 7")
     facts = dict(found.facts)
     assert found.title == "Part 7" and facts["cutting length"] == "27 mm"  # 7 down, 20 along
     assert facts["time"] == "46.20 s"  # 27 mm at 100 mm/min and 30 s
-    assert [(row[0], row[-1]) for row in found.tools] == [("T1", "16.20 s"), ("T2", "30.00 s")]
+    assert [(row[0], row[-1]) for row in found.tools.rows] == [("T1", "16.20 s"), ("T2", "30.00 s")]
     assert ("dwell", "30.00 s", "64.9 %") in found.times
     assert [number for number, _, faulty in found.listing if faulty] == [7]
 
@@ -50,19 +69,81 @@ def test_the_page_stands_alone_and_is_well_formed(run, tmp_path):
     for piece in ("end mill 10", "G1 Z-2 F100 // down <here>", "is no part of a number", "27 mm"):
         assert piece in text, piece
     body = (tmp_path / "a.html").read_text("utf-8").split("<body>")[1].split("<h2>Program")[0]
-    assert 'alt="tool path: 3 moves' in body
+    assert "<figcaption>Figure 1: " in body and 'alt="tool path: 3 moves' in body
 
 
 def test_the_pages_are_the_same_every_time(run, tmp_path):
     one, other = (run.report(tmp_path / f"{name}.pdf", colour="feed").read_bytes() for name in "ab")
-    assert one == other and one.startswith(b"%PDF") and one.count(b"/Type /Page\n") + one.count(b"/Type /Page ") == 3
+    assert one == other and one.startswith(b"%PDF")
+    assert one.count(b"/Type /Page\n") + one.count(b"/Type /Page ") == len(printed(run))
 
 
-def test_a_long_program_goes_on_over_pages():
-    found = report(mnclab.run("G0 X1\n" * 200 + "// " + "x" * 300 + "\n", "mnc"))
-    lines = list(pages.listing(found.listing))
-    assert len(lines) == 200 + 4 and max(map(len, lines)) <= pages.WIDTH
-    assert sum(map(len, pages.chunks([(line, False) for line in lines]))) == 204
+LONG = "G17 G90 G54 T1 S1000 M3\nG0 X0 Y0 Z5\n" + "G1 X9 F100\n" * 200 + "// " + "x" * 300 + "\nG1 X,5\n"
+
+
+@pytest.mark.parametrize("title", [None, "A very long title of a report " * 7, "Корпус редуктора, вторая установка"])
+def test_every_page_has_head_foot_and_number_and_nothing_runs_into_the_margin(title):
+    pages = printed(mnclab.run(LONG, "mnc"), title)
+    for number, page in enumerate(pages, 1):
+        texts = [each.text for each in page.texts_on_it]
+        assert texts[-1] == f"{number} of {len(pages)}" and "Mechatronics MNC (2015)" in texts
+        for each in page.texts_on_it:
+            assert each.x > LEFT - 0.1 and each.x + each.wide < A4[0] - RIGHT + 0.5, each
+            assert 0 < each.y < A4[1] - 20
+
+
+def test_no_two_lines_of_a_page_overlap(run):
+    """Texts of one base line stand side by side, and base lines are at least the height of the smaller letters apart."""
+    for page in printed(run):
+        for a in page.texts_on_it:
+            for b in page.texts_on_it:
+                beside = a.x + a.wide <= b.x + 0.01 or b.x + b.wide <= a.x + 0.01
+                assert a is b or beside or abs(a.y - b.y) >= 0.9 * min(a.size, b.size), (a, b)
+
+
+def test_a_long_program_goes_on_over_pages_with_its_line_numbers():
+    """204 lines; the one of 303 letters is folded and has its number once."""
+    pages = printed(mnclab.run(LONG, "mnc"))
+    numbers = [each.text for page in pages for each in page.texts_on_it if each.size == 7.8 and each.text.isdigit()]
+    assert numbers == [str(k) for k in range(1, 205)]
+    joined = "".join(each.text for page in pages for each in page.texts_on_it if set(each.text) <= set("x/ "))
+    assert joined.count("x") == 300
+
+
+def test_numbers_of_a_table_stand_under_each_other_by_their_points():
+    """The point of 12.25 and the end of 8 stand at one place, and the letters of both are as wide as the font says."""
+    from mnclab.show.plot.pages.tables import tabled
+    from mnclab.show.report.contents import Table
+
+    made = tabled(Table(("n",), [("12.25",), ("8",), ("-0.5",)], (0,)), 400)
+    points = [x + width(text.partition(".")[0], made.size) for row in made.rows for text, x in row.cells[0]]
+    assert max(points) - min(points) < 1e-9
+
+
+def test_a_table_too_wide_for_the_page_is_folded():
+    from mnclab.show.plot.pages.tables import tabled
+    from mnclab.show.report.contents import Table
+
+    made = tabled(Table(("a", "b"), [("word " * 60, "1"), ("w" * 200, "2")], (1,)), 300)
+    assert made.wide <= 300.01
+    ends = [x + width(text, made.size) for row in made.rows for text, x in row.cells[0]]
+    assert max(ends) <= 300 and "".join(text for text, _ in made.rows[1].cells[0]) == "w" * 200
+
+
+def test_a_picture_lies_within_its_page_and_its_caption_below_it(run):
+    (page, picture, x, y) = next((page, *each) for page in printed(run) for each in page.pictures_on_it)
+    wide, tall = picture.get_size_inches() * 72
+    (caption,) = (each for each in page.texts_on_it if each.text.startswith("Figure 1: "))
+    assert x >= LEFT and x + wide <= A4[0] - RIGHT + 0.5 and caption.y - caption.size > y + tall
+
+
+def test_a_picture_that_is_drawn_on_a_page_is_as_it_was(run):
+    """Its box begins at its own corner again, and its own file has the same bytes before and after."""
+    picture = run.plot()
+    before, box = picture.png(), picture.bbox_inches.get_points().copy()
+    (page, *_) = sheets(document(run, report(run), picture))
+    page.canvas.draw()
+    assert picture.png() == before and (picture.bbox_inches.get_points() == box).all()
 
 
 def test_every_place_of_a_warning_is_marked_as_one(tmp_path):
@@ -71,7 +152,8 @@ def test_every_place_of_a_warning_is_marked_as_one(tmp_path):
     assert [mark for _, _, mark in found.listing] == ["", "warning", "warning", "alarm"]
     text = run.report(tmp_path / "a.html").read_text("utf-8")
     assert text.count('<span class="warning">') == 2 and text.count('<span class="alarm">') == 1
-    assert [line[2] for line in pages.listing(found.listing)] == list(" ??!")
+    texts = [each.text for page in printed(run) for each in page.texts_on_it]
+    assert texts.count("?") == 2 and texts.count("!") == 1
 
 
 def test_a_flood_of_alarms_has_a_short_report(tmp_path):
@@ -79,18 +161,19 @@ def test_a_flood_of_alarms_has_a_short_report(tmp_path):
     run = mnclab.run("X,1\n" * 5000, "mnc")
     text = run.report(tmp_path / "a.html").read_text("utf-8")
     assert text.count('role="alert"') == 20 and "4980 more alarms, 5000 in all" in text
-    lines = [line for line, _ in (*pages.front(report(run)), *pages.texts(report(run)))]
-    assert len(lines) < 2100 and "… and 4980 more alarms, 5000 in all" in lines
-    assert lines[-1].startswith("… 3000 of 5000 lines are left out")
+    lines = lines_of(printed(run))
+    assert "… and 4980 more alarms, 5000 in all" in lines
+    assert sum(line.startswith("… 3000 of 5000 lines are left out") for line in lines) == 1
 
 
 def test_quotes_are_not_folded(tmp_path):
     """The caret stands below its word only where the quoted line is one."""
     run = mnclab.run("G1 " + "X1 " * 100 + "X,1 " + "Y1 " * 100 + "\n", "mnc")
-    lines = [line for line, _ in pages.front(report(run))]
-    (caret,) = (k for k, line in enumerate(lines) if set(line.strip()) == {"^"})
-    assert lines[caret - 1].startswith("    … ") and lines[caret - 1].endswith(" …")
-    assert lines[caret - 1][lines[caret].index("^") :].startswith("X,1")
+    texts = [each for page in printed(run) for each in page.texts_on_it]
+    (caret,) = (k for k, each in enumerate(texts) if set(each.text.strip()) == {"^"})
+    quote = texts[caret - 1]
+    assert quote.text.startswith("    … ") and quote.text.endswith(" …") and quote.family == texts[caret].family
+    assert quote.text[texts[caret].text.index("^") :].startswith("X,1")
     text = run.report(tmp_path / "a.html").read_text("utf-8").split('role="alert"')[1].split("</pre>")[0]
     assert max(map(len, text.split("<pre")[1].partition(">")[2].split("\n"))) <= 88
 
@@ -138,12 +221,19 @@ def test_removal_and_collisions_stand_in_it(tmp_path, text, collided):
     page = run.report(tmp_path / "a.html").read_text("utf-8")
     assert page.count("rapid motion in material") == collided
     assert ("<h2>Collisions</h2><p>none</p>" in page) is not collided
-    lines = [line for line, _ in pages.front(found)]
-    told = lines[lines.index("Collisions") + 1 :]
-    assert told[0].startswith("program:5: collision: rapid motion" if collided else "none")
+    lines = lines_of(printed(run))
+    assert lines[lines.index("Collisions") + 1].startswith("program:5: collision: rapid motion" if collided else "none")
 
 
 def test_without_a_blank_a_report_is_as_it_was(run, tmp_path):
     found = report(run)
     assert not found.removal and not {"removed", "collisions"} & dict(found.facts).keys()
     assert "Collisions" not in run.report(tmp_path / "a.html").read_text("utf-8")
+
+
+def test_a_report_for_a_named_machine(run, tmp_path):
+    """Its time is that of the profile on this machine; a machine that nobody knows is refused."""
+    page = run.report(tmp_path / "a.html", machine="small-mill").read_text("utf-8")
+    assert f"{run.profile(machine='small-mill').time:.2f} s" in page and "46.20 s" not in page.split("<h2>")[0]
+    with pytest.raises(Alarm, match="small-mil"):
+        run.report(tmp_path / "b.html", machine="small-mil")

@@ -21,6 +21,7 @@ from mnclab.path.toolpath import Toolpath
 from mnclab.text.columns import fixed
 from mnclab.text.given import choice
 from mnclab.text.records import shapes
+from mnclab.text.rounded import Rounded
 from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
@@ -189,22 +190,22 @@ class Profile:
             return self._causes()
         if key == "kind":
             found = np.bincount(path.kind, self.seconds, max(Kind) + 1)
-            return {kind.name.lower(): float(found[kind]) for kind in Kind if (path.kind == kind).any()}
+            return Rounded({kind.name.lower(): float(found[kind]) for kind in Kind if (path.kind == kind).any()})
         if key == "tool":
             tools, where = np.unique(path.tool, return_inverse=True)
-            return dict(zip(tools.tolist(), np.bincount(where, self.seconds, len(tools)).tolist()))
+            return Rounded(zip(tools.tolist(), np.bincount(where, self.seconds, len(tools)).tolist()))
         place = path.program.astype(np.int64) << 32 | path.line
         places, where = np.unique(place, return_inverse=True)
         total = np.bincount(where, self.seconds, len(places)).tolist()
         names = zip((places >> 32).tolist(), (places & 0xFFFFFFFF).tolist())
-        return {(line if program == 0 else (program, line)): time for (program, line), time in zip(names, total)}
+        return Rounded({(line if program == 0 else (program, line)): time for (program, line), time in zip(names, total)})
 
     def _causes(self) -> dict[Any, float]:
         of_kind = np.bincount(self.path.kind, self.seconds - self.lost, max(Kind) + 1)
         found = dict.fromkeys(CAUSES, 0.0) | {"acceleration": float(self.lost.sum())}
         for kind, cause in CAUSE.items():
             found[cause] += float(of_kind[kind])
-        return {cause: seconds for cause, seconds in found.items() if seconds > 0}
+        return Rounded({cause: seconds for cause, seconds in found.items() if seconds > 0})
 
     def __repr__(self) -> str:
         causes = ", ".join(f"{cause} {seconds:.3f}" for cause, seconds in self.time_by("cause").items())

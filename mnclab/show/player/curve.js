@@ -7,7 +7,7 @@ class Curve {
     const {course, path} = run;
     let cuts = 0, all = 0;
     for (let i = 0; i < course.n; i++) {
-      const top = Math.max(course.v[i], course.v[i + 1]);
+      const top = run.over(course.row[i], Math.max(course.v[i], course.v[i + 1]));
       all = Math.max(all, top);
       if (path.kind[course.row[i]] !== RAPID) cuts = Math.max(cuts, top);
     }
@@ -29,11 +29,12 @@ class Curve {
       for (let i = 0; i < course.n; i++) {
         if ((path.kind[course.row[i]] === RAPID) !== rapid) continue;
         const a = course.t[i] / total * w, b = course.t[i + 1] / total * w, from = Math.floor(a), to = Math.min(w, Math.ceil(b));
-        note(from, course.v[i]);
-        note(Math.min(w, Math.floor(b)), course.v[i + 1]);
+        const [before, behind] = [course.v[i], course.v[i + 1]].map(v => run.over(course.row[i], v));
+        note(from, before);
+        note(Math.min(w, Math.floor(b)), behind);
         for (let x = from + 1; x < to; x++) {
           const u = (x - a) / (b - a);
-          note(x, course.v[i] + u * (course.v[i + 1] - course.v[i]));
+          note(x, before + u * (behind - before));
         }
       }
       pen.strokeStyle = pen.fillStyle = colour;

@@ -53,13 +53,18 @@ class Log {  // places where a value changes, and the values from there on
 }
 
 class Path {  // kinds, vertices and arcs; positions in mm
-  constructor(columns, packed, scale, angles) {
+  constructor(columns, packed, scale, angles, bent = null) {
     this.kind = Uint8Array.from(columns[packed.kind]);
     this.n = this.kind.length;
     [this.x, this.y, this.z] = packed.vertex.map(k => columns[k].map(v => v / scale));
     this.centre = packed.centre.map(k => columns[k].map(v => v / scale));
     this.sweep = columns[packed.sweep].map(v => v / angles);
     this.axis = new Log(columns, packed.axis);
+    this.bends = new Map();  // of rapids that turn the workpiece: the places between their ends
+    if (bent) columns[bent.row].forEach((row, k) => {
+      if (!this.bends.has(row)) this.bends.set(row, []);
+      this.bends.get(row).push(bent.at.map(id => columns[id][k] / scale));
+    });
     this.arc = new Int32Array(this.n);  // which arc a row is
     for (let i = 0, k = 0; i < this.n; i++) this.arc[i] = this.kind[i] === ARC ? k++ : -1;
   }
@@ -71,6 +76,12 @@ class Path {  // kinds, vertices and arcs; positions in mm
   }
   // The point of a row at a share of its way. What an arc misses of its end is spread along it, like the pitch.
   point(row, share) {
+    const bends = this.bends.get(row);
+    if (bends) {
+      const all = [this.vertex(row), ...bends, this.vertex(row + 1)], at = Math.min(Math.max(share, 0), 1) * (all.length - 1);
+      const i = Math.min(Math.floor(at), all.length - 2);
+      return all[i].map((v, axis) => v + (at - i) * (all[i + 1][axis] - v));
+    }
     const a = this.vertex(row), b = this.vertex(row + 1), k = this.arc[row];
     if (k < 0) return a.map((start, i) => start + share * (b[i] - start));
     const n = this.axis.value(k), c = this.centre.map(column => column[k]);
@@ -82,6 +93,12 @@ class Path {  // kinds, vertices and arcs; positions in mm
     const here = turned(this.sweep[k] * share), full = turned(this.sweep[k]);
     return a.map((start, i) => start - u[i] + here[i] + share * (b[i] - (start - u[i] + full[i])));
   }
+  length(row) {
+    const arc = this.arc[row], end = this.vertex(row + 1), way = this.vertex(row).map((v, k) => end[k] - v);
+    if (arc < 0) return Math.hypot(...way);
+    const rises = this.axis.value(arc).reduce((sum, n, k) => sum + n * way[k], 0);
+    return Math.hypot(this.radius(row) * this.sweep[arc], rises);
+  }
   radius(row) {
     const k = this.arc[row], n = this.axis.value(k);
     const u = this.vertex(row).map((start, i) => start - this.centre[i][k]);
@@ -91,7 +108,7 @@ class Path {  // kinds, vertices and arcs; positions in mm
 }
 
 class Course {  // nodes of the feed-rate profile: when, how fast, and where in a row
-  constructor(columns, packed, scale) {
+  constructor(columns, packed, scale, turning) {
     this.row = columns[packed.row];
     this.t = columns[packed.t].map(v => v / packed.seconds);
     this.v = columns[packed.v].map(v => v / packed.speeds);  // mm/s
@@ -101,14 +118,16 @@ class Course {  // nodes of the feed-rate profile: when, how fast, and where in 
     for (let i = 0; i < this.n; i++)
       this.way[i] = s ? (s[i + 1] - s[i]) / scale : (this.v[i] + this.v[i + 1]) / 2 * (this.t[i + 1] - this.t[i]);
     this.done = new Float64Array(this.n);  // length of the row before a piece
-    this.length = new Map();  // of rows of several pieces
+    this.length = new Map();  // of rows, and their duration
+    this.seconds = new Map();
     for (let i = 0; i < this.n; i++) {
       const same = i > 0 && this.row[i - 1] === this.row[i];
       this.done[i] = same ? this.done[i - 1] + this.way[i - 1] : 0;
       this.length.set(this.row[i], this.done[i] + this.way[i]);
+      this.seconds.set(this.row[i], (same ? this.seconds.get(this.row[i]) : 0) + this.t[i + 1] - this.t[i]);
     }
     this.loose = new Map();  // pieces of rapids that leave their straight line
-    if (packed.loose) {
+    if (packed.loose && !turning) {
       const {piece, p0, p1, v0, v1} = packed.loose;
       const at = (ids, k, parts) => ids.map(id => columns[id][k] / parts);
       columns[piece].forEach((i, k) =>
@@ -132,9 +151,9 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
     this.lathe = header.lathe;
     this.unit = header.unit;  // in what the program counts: its name, how many mm it has, decimals of a position
     this.origin = header.origin;
-    this.path = new Path(columns, header.path, scale, header.angles);
+    this.path = new Path(columns, header.path, scale, header.angles, header.bent);
     this.programmed = header.programmed && new Path(columns, header.programmed, scale, header.angles);
-    this.course = new Course(columns, header.profile, scale);
+    this.course = new Course(columns, header.profile, scale, header.turning);
     this.texts = header.programs.map(program => program.text.replace(/\r\n?/g, "\n").split("\n"));
     this.lines = header.lines.map(k => columns[k]);
     this.lasts = header.lasts.map((k, p) => columns[k].map((more, b) => this.lines[p][b] + more));
@@ -150,6 +169,7 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
     this.rotary = header.rotary && header.rotary.map(k => columns[k].map(v => v / header.degrees));
     this.turned = this.rotary ? this.rotary.map(column => column.some(angle => angle !== 0)) : [];
     this.stock = header.stock;
+    this.inserts = header.inserts && {which: new Log(columns, header.inserts.which), tools: header.inserts.tools};
     this.arrange();
   }
 
@@ -210,13 +230,20 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
     const T = course.t[i + 1] - course.t[i], since = Math.min(Math.max(t - course.t[i], 0), T);
     const way = Course.cubic(since, T, 0, course.v[i], course.way[i], course.v[i + 1]);
     const u = since / T, w = 1 - u;
-    const speed = 6 * u * w * course.way[i] / T + w * (1 - 3 * u) * course.v[i] + u * (3 * u - 2) * course.v[i + 1];
+    const speed = this.over(row, 6 * u * w * course.way[i] / T + w * (1 - 3 * u) * course.v[i] + u * (3 * u - 2) * course.v[i + 1]);
     const loose = course.loose.get(i), length = course.length.get(row), share = length > 0 ? (course.done[i] + way) / length : passed;
     if (loose) {
       const [p0, v0, p1, v1] = loose;
       return {point: p0.map((p, k) => Course.cubic(since, T, p, v0[k], p1[k], v1[k])), speed: Math.max(speed, 0), share};
     }
     return {point: path.point(row, share), speed: Math.max(speed, 0), share};
+  }
+  // How fast the tool cuts along a workpiece that turns, where its linear axes run at `speed`; where these stand, the mean.
+  over(row, speed) {
+    const {path, course} = this, kind = path.kind[row];
+    if (!this.header.turning || (kind !== LINE && kind !== ARC)) return speed;
+    const own = course.length.get(row), seconds = course.seconds.get(row);
+    return own > 1e-6 ? speed * path.length(row) / own : seconds > 0 ? path.length(row) / seconds : speed;
   }
   // Rotary axes A, B and C at a share of a row, degrees; null in a run that turns none.
   angles(row, share) {
@@ -227,7 +254,7 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
   }
   speedAfter(row) {
     const i = last(this.course.row, row);
-    return i >= 0 && this.course.row[i] === row ? this.course.v[i + 1] : 0;
+    return i >= 0 && this.course.row[i] === row ? this.over(row, this.course.v[i + 1]) : 0;
   }
   // The item that is going on at a time; of several that take no time the last.
   itemAt(t) {

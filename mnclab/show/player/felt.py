@@ -44,12 +44,14 @@ def felt_part(pack: Packer, found: Felt, path: Toolpath) -> dict[str, Any]:
 
 
 def felt_touches(found: Felt | None, path: Toolpath) -> dict[str, Any]:
-    """The corners of what is to be seen, and of each touch its row, its place and what is written there."""
+    """The corners of what is to be seen, the ends of a beam, and of each touch its row, its place and what is written there."""
     if found is None:
-        return {"corners": [], "touches": []}
+        return {"corners": [], "touches": [], "beam": []}
     touches = zip(found.rows, found.places.round(DIGITS).tolist(), found.texts)
-    corners = _ends(found, path).round(DIGITS).tolist() if found.part is not None else []
-    return {"corners": corners, "touches": [{"row": row, "at": at, "text": text} for row, at, (text, _) in touches]}
+    corners = _ends(found, path).round(DIGITS).tolist() if found.part is not None or found.beam is not None else []
+    beam = [] if found.beam is None else found.beam.round(DIGITS).tolist()
+    told = [{"row": row, "at": at, "text": text} for row, at, (text, _) in touches]
+    return {"corners": corners, "touches": told, "beam": beam}
 
 
 def _ends(found: Felt, path: Toolpath) -> Any:

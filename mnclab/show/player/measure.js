@@ -82,38 +82,45 @@ class Measure {
 
   // --- what is written ------------------------------------------------------------------------------------------------
 
-  columns(at) {
-    return this.run.lathe ? [2 * Math.abs(at[0]), at[0], at[2]] : at;
+  columns(at) {  // in the unit of the program
+    return (this.run.lathe ? [2 * Math.abs(at[0]), at[0], at[2]] : at).map(value => value / this.run.unit.length);
+  }
+  length(mm) {
+    return number(mm / this.run.unit.length, this.run.unit.decimals);
   }
   text({what, at, off, round}) {
     const names = this.run.lathe ? ["⌀", "radius", "Z"] : ["X", "Y", "Z"];
-    return `${what} ${this.columns(at).map((v, k) => `${names[k]} ${number(v, 3)}`).join(" ")}${off ? ` ± ${short(off)}` : ""}${round ? ", " + this.round(round) : ""}`;
+    return `${what} ${this.columns(at).map((v, k) => `${names[k]} ${number(v, this.run.unit.decimals)}`).join(" ")}${this.doubt(off)}${round ? ", " + this.round(round) : ""}`;
+  }
+  doubt(off) {
+    return off ? ` ± ${lengthText(off, this.run.unit.length)}` : "";
   }
   round({d, centre, off, path}) {
-    const size = this.run.lathe ? `R ${number(d / 2, 3)}` : `⌀ ${number(d, 3)}`, at = this.columns(centre);
-    const about = this.run.lathe ? `⌀ ${number(at[0], 3)} Z ${number(at[2], 3)}` : `X ${number(at[0], 3)} Y ${number(at[1], 3)}`;
-    return `${size}${off ? ` ± ${short(off)}` : ""}${path ? " of the path" : ""}, centre ${about}`;
+    const {lathe, unit} = this.run, size = lathe ? `R ${this.length(d / 2)}` : `⌀ ${this.length(d)}`;
+    const at = this.columns(centre).map(value => number(value, unit.decimals));
+    const about = lathe ? `⌀ ${at[0]} Z ${at[2]}` : `X ${at[0]} Y ${at[1]}`;
+    return `${size}${this.doubt(off)}${path ? " of the path" : ""}, centre ${about}`;
   }
   summary() {
-    const [a, b] = this.points, apart = (p, q) => number(Math.hypot(...p.map((v, k) => q[k] - v)), 3), off = (a.off || 0) + (b.off || 0);
+    const [a, b] = this.points, unit = this.run.unit.short, apart = (p, q) => this.length(Math.hypot(...p.map((v, k) => q[k] - v))), off = (a.off || 0) + (b.off || 0);
     const flat = ([x, y, z]) => this.run.lathe ? [x, z] : [x, y];
-    const text = `distance ${apart(a.at, b.at)}${off ? ` ± ${short(off)}` : ""} mm`;
-    if (a.round && b.round) return `${text}, centres ${apart(flat(a.round.centre), flat(b.round.centre))} mm apart`;
+    const text = `distance ${apart(a.at, b.at)}${this.doubt(off)} ${unit}`;
+    if (a.round && b.round) return `${text}, centres ${apart(flat(a.round.centre), flat(b.round.centre))} ${unit} apart`;
     const gap = this.gap();
-    return gap && gap !== apart(a.at, b.at) ? `${text}, ${gap} mm between the edges` : text;
+    return gap && gap !== apart(a.at, b.at) ? `${text}, ${gap} ${unit} between the edges` : text;
   }
   gap() {  // between two straight edges that are parallel in the plane
     const [a, b] = this.points, [dx, dy] = [0, this.run.lathe ? 2 : 1].map(k => b.at[k] - a.at[k]);
     if (!a.along || !b.along || Math.abs(a.along[0] * b.along[1] - a.along[1] * b.along[0]) > 1e-6) return "";
     const gap = Math.abs(dx * a.along[1] - dy * a.along[0]);
-    return gap > 1e-6 ? number(gap, 3) : "";
+    return gap > 1e-6 ? this.length(gap) : "";
   }
   write() {
     const {points, run} = this, [a, b] = points.map(({at}) => this.columns(at));
-    const rows = [["mm", ...run.lathe ? ["⌀", "radius", "Z"] : ["X", "Y", "Z"], points.length ? "" : "click on two places of the part or of the path"]];
-    points.forEach(({what, at, off, round}, k) => rows.push([`${k + 1}`, ...this.columns(at).map(v => number(v, 3)),
-      `${what}${off ? ` ± ${short(off)}` : ""}${round ? `, ${this.round(round)}` : ""}`]));
-    if (b) rows.push(["Δ", ...b.map((v, k) => number(v - a[k], 3)), this.summary()]);
+    const rows = [[run.unit.short, ...run.lathe ? ["⌀", "radius", "Z"] : ["X", "Y", "Z"], points.length ? "" : "click on two places of the part or of the path"]];
+    points.forEach(({what, at, off, round}, k) => rows.push([`${k + 1}`, ...this.columns(at).map(v => number(v, run.unit.decimals)),
+      `${what}${this.doubt(off)}${round ? `, ${this.round(round)}` : ""}`]));
+    if (b) rows.push(["Δ", ...b.map((v, k) => number(v - a[k], run.unit.decimals)), this.summary()]);
     this.find("values").replaceChildren(...rows.map((row, i) => {
       const line = document.createElement("tr");
       line.append(...row.map((text, k) => {
@@ -166,7 +173,7 @@ class Measure {
   lengths([[ax, ay], [bx, by]], add) {  // at the middle of the line, or below it where it is short
     const long = Math.hypot(bx - ax, by - ay) > 110, x = Math.min(Math.max((ax + bx) / 2, 90), this.camera.size[0] - 90);
     const y = Math.min((long ? (ay + by) / 2 : Math.max(ay, by) + 8) + 16, this.camera.size[1] - 28);
-    this.summary().split(", ").forEach((text, k) => add("text", k ? "more" : "length", {x, y: y + 16 * k}, text.replace(/^distance| mm/g, "").trim()));
+    this.summary().split(", ").forEach((text, k) => add("text", k ? "more" : "length", {x, y: y + 16 * k}, text.replace(/^distance| (mm|in)\b/g, "").trim()));
   }
   ring({d, centre}, line) {
     const [a, b] = this.run.lathe ? [0, 2] : [0, 1], places = [];

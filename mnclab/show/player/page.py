@@ -10,13 +10,13 @@ from functools import cached_property
 from html import escape
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from mnclab.path.profile import Profile
 from mnclab.show.felt import felt
 from mnclab.show.given_away import whole
 from mnclab.show.player.payload import payload
-from mnclab.text.alarm import several
+from mnclab.text.alarm import Alarm, several
 from mnclab.text.file import replaced
 from mnclab.text.given import check_number, choice
 from mnclab.workpiece.collision import Collision
@@ -100,8 +100,21 @@ class Player:
             "style": style,
             "data": payload(self.run, self.profile, self.cutting, self.collisions, probed),
             "script": script,
+            "still": self.still,
         }
         return whole(re.sub("@([a-z]+)@", lambda place: parts[place[1]], text["page.html"]))
+
+    @cached_property
+    def still(self) -> str:
+        """The path as a picture, for where no scripts run; empty where a figure of it is refused."""
+        from mnclab.show.plot.path import plot_run
+        from mnclab.show.plot.picture import Picture
+
+        try:
+            picture = cast(Picture, plot_run(self.run))
+        except Alarm:
+            return ""
+        return f'<img alt="{escape(picture.alt)}" src="data:image/png;base64,{base64.b64encode(picture.png()).decode()}">'
 
     def save(self, path: str | Path) -> Path:
         """Write the page to a file and return its path; an Alarm if it cannot be written."""

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.cylinder import parted_rapids
 from mnclab.path.kinds import Kind
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
@@ -24,7 +25,7 @@ from mnclab.show.player.felt import felt_part, felt_touches
 from mnclab.show.player.logs import changes, columns, log, parted, parts_of
 from mnclab.show.player.packing import Packer
 from mnclab.show.player.part import part
-from mnclab.show.player.section import section
+from mnclab.show.player.section import inserts, section
 from mnclab.show.solids import cylinder_body
 from mnclab.text.alarm import Alarm, amounts, several
 from mnclab.text.program import Program
@@ -38,6 +39,7 @@ DEGREES = 1e6  # parts of a degree, of rotary axes
 #: The columns that the page has as logs.
 SHOWN = ("feed", "per_rev", "surface", "speed_limit", "spindle_x", "spindle", "side")
 SECONDS, SPEEDS = 1e6, 1e3  # parts of a second, of a millimetre in a second
+TURN = 0.05  # rad between two places of a rapid that turns
 OFF = 0.02  # mm that a rapid leaves its straight line before its true course is sent
 
 Array = NDArray[np.float64]
@@ -62,7 +64,7 @@ def payload(
         "title": run.program.title,
         "control": run.control.title,
         "lathe": path.lathe,
-        "unit": {"short": path.unit.short, "length": path.unit.length, "decimals": path.unit.decimals - 1},
+        "unit": {"short": path.unit.short, "length": path.unit.length, "decimals": 3 if path.unit.length == 1 else 4},
         "alarms": [
             alarm.as_dict()
             | {"text": str(alarm), "program": alarm.span.program if alarm.span else 0}
@@ -90,11 +92,13 @@ def payload(
         "degrees": degrees,
         "stock": _edges([run.stock] if run.stock else []) + _cylinders(run.toolpath),
         "turning": bool(run.toolpath.cylinders),
+        "bent": _bent(pack, run.toolpath, scale) if run.toolpath.cylinders else None,
         "fixtures": _edges(cutting.fixtures) if cutting and not path.lathe else [],
         "history": {name: changes(pack, *_parted(run, name)) for name in run.history if name != "position"},
         "profile": _profile(pack, profile, scale),
         "part": part(pack, cutting, path) if cutting and not path.lathe else felt_part(pack, shown, path) if shown else None,
         "section": section(pack, cutting) if cutting and path.lathe else None,
+        "inserts": inserts(pack, run) if path.lathe else None,
         "felt": felt_touches(probed, path),
         "collisions": [
             {"line": each.line, "program": each.program, "row": each.row, "kind": each.kind, "message": each.message}
@@ -157,6 +161,13 @@ def _geometry(pack: Packer, path: Toolpath, scale: float, angles: float) -> dict
         "sweep": pack.add(parted(path.sweep[arc], angles)),
         "axis": log(pack, path.axis[arc]),
     }
+
+
+def _bent(pack: Packer, path: Toolpath, scale: float) -> dict[str, Any]:
+    """The places between the ends of rapids that turn a workpiece, and the row of each: arcs and spirals about its axis."""
+    pieces, row = parted_rapids(path, TURN)
+    within = np.append(row[1:] == row[:-1], False)
+    return {"row": pack.add(row[within]), "at": columns(pack, parted(pieces.on_workpiece().end[within], scale))}
 
 
 def _tips(path: Toolpath, steps: list[int], scale: float) -> NDArray[np.int64]:

@@ -4,6 +4,8 @@
 
 const FAR = 5;  // rapids that make the box this many times larger than that of the cuts are not fitted in
 
+const BESIDES = 0.12;  // of the size of the picture: how far a chuck may widen it
+
 const LONG = 8000;  // points of a path from which on it is drawn in hairlines
 
 class Picture {
@@ -19,11 +21,17 @@ class Picture {
     const fine = [this.strokes.box(RAPIDS, CUTS, PROBINGS), this.strokes.box(CUTS)];
     this.box = cuts && size(all) > FAR * size(cuts) && size(cuts) > 0 ? fine[1] : fine[0];
     this.box = this.box || [run.path.vertex(0).map(v => v - 10), run.path.vertex(0).map(v => v + 10)];
-    for (const point of [...run.stock.flat(), ...run.header.felt.corners])
-      point.forEach((value, k) => {
-        this.box[0][k] = Math.min(this.box[0][k], value);
-        this.box[1][k] = Math.max(this.box[1][k], value);
-      });
+    const {axis, chuck} = run.header.section || {axis: 0, chuck: []};
+    const held = chuck.flat().flatMap(([z, r]) => [[axis + r, 0, z], [axis - r, 0, z]]), widen = (points, most) => {
+      const [low, high] = this.box.map(corner => corner.slice());
+      for (const point of points)
+        point.forEach((value, k) => {
+          this.box[0][k] = Math.min(this.box[0][k], Math.max(value, low[k] - most));
+          this.box[1][k] = Math.max(this.box[1][k], Math.min(value, high[k] + most));
+        });
+    };
+    widen([...run.stock.flat(), ...run.header.felt.corners], Infinity);
+    widen(held, BESIDES * size(this.box));
     this.extent = Math.max(size(this.box), 1);
     this.long = this.strokes.n > LONG;
     this.fewRapids = this.strokes.kind.reduce((n, kind) => n + (kind === RAPIDS), 0) < 3000;
@@ -40,7 +48,7 @@ class Picture {
   recolour() {
     const style = getComputedStyle(document.documentElement);
     this.colours = Object.fromEntries(["paper", "ink", "faint", "rapid", "cut", "probing", "contour", "blank", "now", "cutter", "shank",
-      "edge", "quiet", "raw", "metal", "deep", "crash", "alarm", "chuck"].map(name => [name, style.getPropertyValue("--" + name).trim()]));
+      "edge", "quiet", "raw", "metal", "deep", "crash", "alarm", "chuck", "insert", "holder", "beam"].map(name => [name, style.getPropertyValue("--" + name).trim()]));
     this.stale = true;
   }
   resize() {
@@ -84,7 +92,7 @@ class Picture {
     pen.globalAlpha = 1;
   }
 
-  // One frame: `at` is {row, tip, tool, side}, the row going on (or -1) and what stands at its tip.
+  // One frame: `at` is {row, tip, tool, along, at}, the row going on (or -1) and what stands at its tip.
   draw(at, rowsDone) {
     const {camera, strokes} = this, [w, h] = camera.size;
     if (this.stale) {
@@ -118,13 +126,13 @@ class Picture {
     top.clearRect(0, 0, this.canvas.width, this.canvas.height);
     top.drawImage(this.ahead, 0, 0);
     top.drawImage(this.done, 0, 0);
-    this.touches.draw(this.pen(this.canvas), camera, this.colours, rowsDone);
-    this.moment(this.pen(this.canvas), at);
+    const taken = this.moment(this.pen(this.canvas), at);
+    this.touches.draw(this.pen(this.canvas), camera, this.colours, rowsDone, taken);
   }
 
   blank(pen) {  // and what holds it
     pen.lineWidth = 1;
-    for (const [lines, colour] of [[this.run.header.fixtures, "edge"], [this.run.stock, "blank"]]) {
+    for (const [lines, colour] of [[this.run.header.fixtures, "edge"], [this.run.stock, "blank"], [[this.run.header.felt.beam], "beam"]]) {
       pen.strokeStyle = this.colours[colour];
       pen.beginPath();
       for (const edge of lines) edge.forEach((point, k) => pen[k ? "lineTo" : "moveTo"](...this.camera.project(point)));
@@ -132,16 +140,17 @@ class Picture {
     }
   }
 
-  moment(pen, {row, tip, tool, along, side, at}) {
+  // Returns the boxes of what is written.
+  moment(pen, {row, tip, tool, along, at}) {
     const {camera, colours, strokes, run} = this, project = point => camera.project(point);
     if (row >= 0 && run.path.isMotion(row)) {
       pen.strokeStyle = colours.now;
       pen.lineWidth = 2.6;
       for (const kind of [RAPIDS, CUTS, PROBINGS]) strokes.stroke(pen, kind, strokes.after[row], strokes.after[row + 1]);
     }
-    if (run.lathe && this.part) this.part.insert(pen, row < 0 ? at : row, tip);
-    else if (run.lathe) drawInsert(pen, tool || {}, tip, side, project, colours, this.extent);
-    else if (tool && (tool.number || tool.radius)) drawTool(pen, tool, tip, along, project, colours, this.extent);
+    const held = run.lathe && run.inserts.tools[run.inserts.which.value(row < 0 ? at : row) || 0];
+    if (held) drawInsert(pen, held, tip, project, colours);
+    else if (!run.lathe && tool && (tool.number || tool.radius)) drawTool(pen, tool, tip, along, project, colours, this.extent);
     const [x, y] = project(tip);
     pen.beginPath();
     pen.arc(x, y, 3.2, 0, 7);
@@ -150,13 +159,13 @@ class Picture {
     pen.lineWidth = 1;
     pen.fill();
     pen.stroke();
-    this.triad(pen);
+    return [[x - 5, y - 5, x + 5, y + 5], ...this.triad(pen)];
   }
 
   // Axes of the work offset at its zero point.
   triad(pen) {
     const {camera, colours} = this, size = 34 / camera.zoom, zero = camera.project([0, 0, 0]);
-    const names = this.run.lathe ? ["X", "", "Z"] : ["X", "Y", "Z"];
+    const names = this.run.lathe ? ["X", "", "Z"] : ["X", "Y", "Z"], boxes = [];
     pen.font = "600 11px system-ui, sans-serif";
     pen.textAlign = "center";
     pen.textBaseline = "middle";
@@ -175,7 +184,9 @@ class Picture {
       pen.lineWidth = 3;
       pen.strokeText(name, lx, ly);
       pen.fillText(name, lx, ly);
+      boxes.push([lx - 6, ly - 7, lx + 6, ly + 7]);
     });
+    return boxes;
   }
 
   // Along the axes: a grid with numbers. Else: a bar of a round length. Returns what writes the numbers over the rest.
@@ -197,7 +208,7 @@ class Picture {
         pen.strokeStyle = k === 0 ? colours.quiet : colours.faint;
         pen.setLineDash(k === 0 && run.lathe && !flat ? [14, 4, 2, 4] : []);
         pen.beginPath();
-        pen.moveTo(flat ? x : 0, flat ? 0 : y);
+        pen.moveTo(flat ? x : k === 0 ? 20 : 0, flat ? 0 : y);  // clear of the number: it would read as its sign
         pen.lineTo(flat ? x : w, flat ? h : y);
         pen.stroke();
         const text = number(Math.abs(k * step * parts) * (run.lathe && axis === 0 ? 1 : Math.sign(k)), digits);

@@ -133,7 +133,7 @@ class ShownSection {
     const own = to - from - this.section.fallen.filter(k => k >= from && k < to).length;
     if (!own || !this.cuts.value(row)) return;
     if (own > 2) return this.take(pen, from, from + Math.floor(own * share));
-    const {path} = this.run, {axis, tools} = this.section, {blade} = tools[this.which.value(row)];
+    const {path} = this.run, {axis, blades} = this.section, blade = blades[this.which.value(row)];
     const steps = path.arc[row] < 0 ? 1 : Math.max(1, Math.ceil(Math.abs(path.sweep[path.arc[row]]) * share * 12)), areas = [];
     for (let k = 0; k < steps; k++) {
       const corners = [k, k + 1].flatMap(i => {
@@ -158,19 +158,6 @@ class ShownSection {
         pen.fill(body);
         pen.stroke(body);
       });
-    }
-  }
-  // The tool with its tip at a point, as the kernel has it.
-  insert(pen, row, tip) {
-    const {tools} = this.section, tool = tools[this.which.value(row) || 0], {colours, camera} = this.picture;
-    for (const [corners, fill] of [[tool.holder, colours.shank], [tool.insert, colours.cutter]]) {
-      trace(pen, corners.map(([z, r]) => camera.project([tip[0] + r, tip[1], tip[2] + z])));
-      pen.fillStyle = fill;
-      pen.strokeStyle = colours.edge;
-      pen.lineWidth = 1.2;
-      pen.lineJoin = "round";
-      pen.fill();
-      pen.stroke();
     }
   }
 }

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour, steps_within
-from mnclab.path.inserts import cutting_part, holder, insert, turns
+from mnclab.path.inserts import angles_of, as_drawn, cutting_part, holder, insert, lead_of
 from mnclab.path.tool import Tool
 from mnclab.show.player.logs import columns, log, parted
 from mnclab.show.player.packing import Packer
@@ -28,6 +28,7 @@ from mnclab.workpiece.turning.turned import half_section, room_of
 OFF = 0.01  # mm
 PARTS = 1e4  # of a millimetre
 BEHIND, JAWS = 0.3, 1.55  # of the radius of the bar: how long and how high a chuck is that nobody gave, behind the bar
+LONG, FINE = 0.09, 0.01  # edges of an insert, of the greatest side of what is shown; chords of its nose, of its edges
 MOST = 200_000  # corners of all areas; the page of more would be too large
 
 Array = NDArray[np.float64]
@@ -56,11 +57,20 @@ def section(pack: Packer, cutting: Cutting) -> dict[str, Any]:
         "corners": columns(pack, parted(corners, PARTS)),
         "which": log(pack, cutting.which),
         "cuts": log(pack, cutting.cuts & ~cutting.from_home),
-        "tools": [_tool(tool, reach, radius) for tool in cutting.tools],
+        "blades": [_corners(cutting_part(tool, reach).points_within(OFF)) for tool in cutting.tools],
         "chuck": [_corners(loop.points) for each in cutting.fixtures if _turns(each) for loop in half_section(each)[0]]
         or [[[low - BEHIND * radius, 0.0], [low, 0.0], [low, JAWS * radius], [low - BEHIND * radius, JAWS * radius]]],
         "note": "; ".join(told),
     }
+
+
+def _shape(tool: Tool, lead: float) -> Tool:
+    """What of a tool is drawn; one whose angles cannot be is drawn as one without any."""
+    try:
+        angles_of(tool)
+    except ValueError:
+        return Tool()
+    return as_drawn(tool, lead)
 
 
 def _areas(strokes: Strokes, bar: Sequence[Contour], low: float) -> tuple[list[int], list[Array], list[int]]:
@@ -95,15 +105,19 @@ def _turns(body: Any) -> bool:
     return isinstance(body, Revolved) and body.axis == "Z"
 
 
-def _tool(tool: Tool, reach: float, radius: float) -> dict[str, Any]:
-    """What of a tool cuts, its insert and its holder, about its tip."""
-    size = radius / 3 if not tool.cutting_length else 0.0
-    return {
-        "blade": _corners(cutting_part(tool, reach).points_within(OFF)),
-        "insert": _corners(insert(tool, size).points_within(OFF)),
-        "holder": _corners(holder(tool, size)),
-        "turns": turns(tool),
-    }
+def inserts(pack: Packer, run: Any) -> dict[str, Any]:
+    """The insert and the holder of each row about its tip, as long as those of the figures of the run."""
+    path, (table, numbers) = run.toolpath, run.tools_that_cut
+    ends = [path.bounds] if len(path) else []
+    ends += [run.stock.bounds] if run.stock else []
+    size = LONG * float(np.ptp(np.concatenate(ends), axis=0).max()) if ends else 1.0
+    known = np.unique(numbers).tolist()
+    shapes = [_shape(table.get(number, Tool()), lead_of(path, numbers == number)) for number in known]
+    tools = [
+        {"insert": _corners(insert(tool, size).points_within(FINE * size)), "holder": _corners(holder(tool, size))}
+        for tool in shapes
+    ]
+    return {"which": log(pack, np.searchsorted(known, numbers)), "tools": tools}
 
 
 def _corners(points: Array | Sequence[Any]) -> list[list[float]]:

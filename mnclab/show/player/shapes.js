@@ -84,23 +84,13 @@ function drawTool(pen, tool, tip, along, project, colours, extent) {
   }
 }
 
-// The insert of a lathe tool, seen on the plane of X and Z: its point looks to the axis and to the chuck.
-function drawInsert(pen, tool, tip, side, project, colours, extent) {
-  const size = extent / 14, nose = Math.min(tool.corner || (side ? tool.radius : 0) || 0, size / 4);
-  const at = side ? [tip[0] - nose, tip[1], tip[2] - nose] : tip;  // a compensated path is that of the nose's centre
-  // edges at the angles of the tool table; without them an insert of 80 degrees, with a width a blade
-  const trailing = tool.auxiliary_angle || Math.min(5, (180 - (tool.main_angle || 0)) / 2);
-  const leading = tool.main_angle || Math.min(95, 0.9 * (180 - trailing));
-  const [main, other] = [leading, trailing].map(angle => angle * Math.PI / 180);
-  const lead = [Math.sin(main), -Math.cos(main)], trail = [Math.sin(other), Math.cos(other)], wide = (tool.width || 0) / size;
-  const corners = wide ? [[0, 0], [1.6, 0], [1.6, wide], [0, wide]] : [[0, 0], lead, [lead[0] + trail[0], lead[1] + trail[1]], trail];
-  const edge = corners.map(([x, z]) => [at[0] + x * size, at[1], at[2] + z * size]);
-  const holder = [[0.62, 0.4], [0.78, 1.06], [2.7, 1.06], [2.7, 0.4]].map(([x, z]) => [at[0] + x * size, at[1], at[2] + z * size]);
-  for (const [part, fill] of [[holder, colours.shank], [edge, colours.cutter]]) {
-    trace(pen, part.map(project));
+// The insert of a lathe tool and its holder, corners (z, r) about the tip, in the plane of X and Z. Both are like glass.
+function drawInsert(pen, {insert, holder}, tip, project, colours) {
+  for (const [corners, fill] of [[holder, colours.holder], [insert, colours.insert]]) {
+    trace(pen, corners.map(([z, r]) => project([tip[0] + r, tip[1], tip[2] + z])));
     pen.fillStyle = fill;
     pen.strokeStyle = colours.edge;
-    pen.lineWidth = 1.2;
+    pen.lineWidth = fill === colours.insert ? 1.2 : 0.7;
     pen.lineJoin = "round";
     pen.fill();
     pen.stroke();

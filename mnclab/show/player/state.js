@@ -5,7 +5,7 @@ const APART = ["position", "feed", "per_rev", "speed", "turning", "tool"];  // s
 function frameText(rows, mm) {
   const at = rows.slice(0, 3).map(row => row[3]), parts = [], m = rows.map(row => row.slice(0, 3));
   const near = (a, b) => Math.abs(a - b) < 1e-9;
-  at.forEach((value, k) => { if (!near(value, 0)) parts.push("XYZ"[k] + short(value / mm)); });
+  at.forEach((value, k) => { if (!near(value, 0)) parts.push("XYZ"[k] + lengthText(value, mm)); });
   const scale = [0, 1, 2].map(k => Math.hypot(m[0][k], m[1][k], m[2][k]));
   const determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
     + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
@@ -18,12 +18,19 @@ function frameText(rows, mm) {
     else parts.push("turned");
   }
   if (scale.some(value => !near(value, 1)))
-    parts.push("scale " + (scale.every(value => near(value, scale[0])) ? short(scale[0]) : scale.map(short).join(" × ")));
+    parts.push("scale " + (scale.every(value => near(value, scale[0])) ? short(scale[0], 6) : scale.map(each => short(each, 6)).join(" × ")));
   return parts.join(" ") || "none";
 }
 
-function short(value) {
-  return number(value, 4).replace(/\.?0+$/, "");
+// At most three decimals, as displays have them; what these would not show has its first two figures.
+function short(value, decimals = 3) {
+  const bare = text => text.includes(".") ? text.replace(/\.?0+$/, "") : text, text = bare(number(value, decimals));
+  return text === "0" && value ? bare(number(Number(value.toPrecision(2)), 12)) : text;
+}
+
+// A length of mm in the unit of the program: inches have a digit more.
+function lengthText(value, mm) {
+  return short(value / mm, mm > 1 ? 4 : 3);
 }
 
 // Rotary axes in degrees, those that a run turns: "A 15° C −90°".
@@ -32,13 +39,13 @@ function anglesText(angles, turned) {
 }
 
 function stockText([axis, low, high], mm) {
-  const corner = point => point.map((value, k) => "XYZ"[k] + short(value / mm)).join(" ");
+  const corner = point => point.map((value, k) => "XYZ"[k] + lengthText(value, mm)).join(" ");
   return typeof axis === "string" && low ? `${corner(low)}${high ? " to " + corner(high) : ""}` : "turned body";
 }
 
 function toolText(tool, mm) {
   if (!tool || (!tool.number && !tool.radius)) return "none";
-  const size = tool.radius ? `R${short((tool.radius + (tool.dr || 0)) / mm)}` : "";
+  const size = tool.radius ? `R${lengthText(tool.radius + (tool.dr || 0), mm)}` : "";
   return [`T${tool.number}`, tool.name, size].filter(Boolean).join(" ");
 }
 
@@ -48,9 +55,9 @@ function valueText(name, value, mm) {
   if (name.startsWith("frame ")) return frameText(value, mm);
   if (value && value.radius !== undefined) return toolText(value, mm);
   if (name === "rotary") return anglesText(value.map(angle => angle * 180 / Math.PI), value.map(angle => angle !== 0)) || "0°";
-  if (name === "feed") return short(value / mm);
+  if (name === "feed") return lengthText(value, mm);
   if (name === "stock") return stockText(value, mm);
-  if (name === "pole") return value.map(each => short(each / mm)).join(" ");
+  if (name === "pole") return value.map(each => lengthText(each, mm)).join(" ");
   if (name === "side") return ["right", "none", "left"][value + 1];
   if (typeof value === "number") return short(value);
   if (typeof value === "boolean") return value ? "on" : "off";
@@ -101,7 +108,7 @@ class Board {
     this.positions("machine", run.header.turning ? null : point.map((value, k) => value + run.origin[k]));
     const feed = run.row.feed.value(at), perRev = run.row.per_rev.value(at), spindle = this.turning(at, point);
     const kind = row >= 0 ? run.path.kind[row] : -1, own = item >= 0 && run.itemRow[item] === row;
-    const programmed = perRev ? `${short(perRev / unit.length)} ${unit.short}/rev` : kind === RAPID ? "rapid" : typeof feed === "number" ? `F ${short(feed / unit.length)}` : "";
+    const programmed = perRev ? `${lengthText(perRev, unit.length)} ${unit.short}/rev` : kind === RAPID ? "rapid" : typeof feed === "number" ? `F ${lengthText(feed, unit.length)}` : "";
     find("feed").textContent = number(speed * 60 / unit.length, unit.length > 1 ? 1 : 0);
     find("feed-programmed").textContent = own && kind <= PROBE ? programmed : "";
     find("spindle").textContent = number(Math.abs(spindle), 0);

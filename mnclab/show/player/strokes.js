@@ -12,7 +12,7 @@ class Strokes {
     const counts = new Int32Array(path.n);
     let total = 1;
     for (let row = 0; row < path.n; row++) {
-      counts[row] = path.arc[row] >= 0 ? this.pieces(row, chord) : loose.has(row) ? 4 * loose.get(row).length : 1;
+      counts[row] = path.arc[row] >= 0 ? this.pieces(row, chord) : loose.has(row) ? 4 * loose.get(row).length : (path.bends.get(row) || []).length + 1;
       total += counts[row];
     }
     this.x = new Float64Array(total);
@@ -26,7 +26,7 @@ class Strokes {
     for (let row = 0, at = 1; row < path.n; row++) {
       const kind = path.kind[row], count = counts[row];
       const drawn = kind === RAPID ? RAPIDS : kind === PROBE ? PROBINGS : kind <= ARC ? CUTS : NOTHING;
-      if (path.arc[row] >= 0) this.bend(row, at, count);
+      if (path.arc[row] >= 0 || path.bends.has(row)) this.bend(row, at, count);
       else if (loose.has(row)) this.course(course, loose.get(row), at);
       const end = at + count - 1;
       this.x[end] = path.x[row + 1];

@@ -6,8 +6,8 @@ class Touches {
   constructor(run) {
     this.all = run.header.felt.touches;
   }
-  draw(pen, camera, colours, rowsDone) {
-    const done = this.all.filter(({row}) => row < rowsDone), places = done.map(({at}) => camera.project(at)), taken = [];
+  draw(pen, camera, colours, rowsDone, taken = []) {  // `taken` are the boxes of what is written already
+    const done = this.all.filter(({row}) => row < rowsDone), places = done.map(({at}) => camera.project(at));
     pen.fillStyle = colours.probing;
     pen.strokeStyle = colours.paper;
     pen.lineWidth = 1;

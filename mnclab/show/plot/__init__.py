@@ -7,9 +7,11 @@ at zero points and poles; `compensation` is the contour and the tool centre besi
 `part` is what is left of a blank, `relief` its light and shadow, `sections` cut faces, `turned` the half section of a
 lathe, `under` the part under a path; `profile` is the feed over time, `measured` what a probe found (`measured_panels` is
 what it shows, `material` the part behind it, `placing` where its texts have room), `strategy` compared ways of clearing
-an area. The only folder that imports matplotlib, and of that never `pyplot`: figures are plain objects, so that they can
-be drawn in any thread. A new picture is a file here, takes `ax=None` and draws with `colours`; it may import every floor
-but `machine` and `controls`.
+an area. `overlay` says how an idea is drawn over a path: `centres` of arcs, `polar` rays, the `original` of what is turned,
+`holes`, `fixtures`; pictures of one idea each are `depth` over time, `datum_plan`, `lengths` of tools, `zones` of turning, the
+`face` of a lathe's part and `variants`, runs side by side. The only folder that imports matplotlib, and of that
+never `pyplot`: figures are plain objects, so that they can be drawn in any thread. A new picture is a file here, takes
+`ax=None` and draws with `colours`; it may import every floor but `machine` and `controls`.
 """
 
 from mnclab.text.extras import require

@@ -20,6 +20,7 @@ from mnclab.show.plot.chains import LENGTH, ORIGINS
 from mnclab.show.plot.datums import Place, places_of
 from mnclab.show.plot.overlay import line, texts
 from mnclab.show.plot.picture import SIZE, VIEWS, View, arrange, dress, roomy, write_legend
+from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import corners, line_of
 from mnclab.text.given import choice
 
@@ -29,6 +30,7 @@ ZERO_POINT = colours.DATUM._replace(name="zero point")
 ARROW: dict[str, Any] = {"arrowstyle": "-|>", "mutation_scale": 11, "shrinkA": 6, "shrinkB": 6, "linewidth": 1.3}
 
 
+@sized()
 def plot_datums(run: Any, ax: Axes | None = None, *, view: str = "XY", size: tuple[float, float] = SIZE) -> Figure:
     """Machine zero, the zero points of a run and the cuts, in machine coordinates.
 

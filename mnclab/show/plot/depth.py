@@ -13,8 +13,8 @@ from mnclab.path.kinds import Kind
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line
 from mnclab.show.plot.picture import SMALL, Picture, calm, write_legend
+from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number
 
 POINTS = 24  # of a row, along which the speed changes
 WAITS = Line("dwell", colours.DWELL.colour, "-", 3.2, 3.1)
@@ -23,6 +23,7 @@ MOST, LABELLED = 5000, 24  # rows, and depths that are written
 APART = 0.028  # of the picture's width between two depths that are written
 
 
+@sized()
 def plot_depth(
     run: Any, ax: Axes | None = None, *, line: int | None = None, pass_: int = 1, size: tuple[float, float] = (7.0, 3.6)
 ) -> Figure:
@@ -38,8 +39,6 @@ def plot_depth(
         raise Alarm(f"line {line} moves nothing" if line is not None else "nothing moves")
     if len(rows) > MOST:
         raise Alarm(f"{len(rows)} rows are too many for a picture of depths", hint="run.plot_depth(line=5)")
-    for side in size if isinstance(size, tuple | list) and len(size) == 2 else ("size",):
-        check_number(side, "the size of a picture (inches)", above=0, at_most=100)
     unit, begin = path.unit, profile.starts[rows[0]]
     picture = None
     if ax is None:

@@ -20,8 +20,8 @@ from mnclab.path.toolpath import Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import ramp
 from mnclab.show.plot.picture import SMALL, Picture, calm, write_legend
+from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number
 
 STEPS, MOST = 72, 200  # points of a turn, turns of a picture
 NAMED = 6
@@ -48,6 +48,7 @@ def faces(path: Toolpath) -> list[int]:
     return [int(row) for row in np.flatnonzero(cuts & np.isin(path.label, begun) & (path.start[:, 0] != path.end[:, 0]))]
 
 
+@sized()
 def plot_face(run: Any, ax: Axes | None = None, *, size: tuple[float, float] = (5.2, 5.4)) -> Figure:
     """The spirals that a run cuts in a face, from the tailstock: each height in its own shade, the first below.
 
@@ -57,8 +58,6 @@ def plot_face(run: Any, ax: Axes | None = None, *, size: tuple[float, float] = (
     rows = faces(path)
     if not rows:
         raise Alarm("no cut across a face begins at the zero mark of the spindle: where it begins is not known")
-    for side in size if isinstance(size, tuple | list) and len(size) == 2 else ("size",):
-        check_number(side, "the size of a picture (inches)", above=0, at_most=100)
     unit = path.unit
     heights = list(dict.fromkeys(float(path.end[row, 2]) for row in rows))
     turns = float(path.lengths[rows[0]] / path.per_rev[rows[0]])

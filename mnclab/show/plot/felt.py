@@ -2,19 +2,31 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from mnclab.geometry.frames import shift
 from mnclab.path.columns import Array
+from mnclab.show import felt
 from mnclab.show.felt import Felt
 from mnclab.show.plot import colours
-from mnclab.show.plot.material import draw_material
+from mnclab.show.plot.material import FACE, draw_material
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.placing import write_beside
 
+BEAM = colours.Line(felt.BEAM, "#2e7d32", (0, (6, 1.5, 1.5, 1.5)), 1.6, 2.4)
 MOST = 60  # touches that have a number in a view
 SAME = 6  # decimals of mm: touches that are one in a view
+
+
+def names_of(found: Felt) -> list[Any]:
+    """What a legend says of it: the part or the plate, and the beam."""
+    bodies: list[Any] = [Patch(**FACE, label=found.name)] if found.part is not None else []
+    return bodies + ([Line2D([], [], **BEAM.style())] if found.beam is not None else [])
 
 
 def draw_felt(ax: Axes, view: View, found: Felt, lines: list[Array], marks: list[Array]) -> None:
@@ -22,6 +34,10 @@ def draw_felt(ax: Axes, view: View, found: Felt, lines: list[Array], marks: list
     axes = [view.right, view.up]
     if found.part is not None and not view.diameter:
         draw_material(ax, found.part, view, shift(*found.origin), found.level(3 - view.right - view.up))
+    if found.beam is not None:
+        x, y = found.beam[:, axes].T
+        end = {"marker": "o", "markersize": 4, "markevery": [0]} if np.ptp([x, y], axis=1).max() < 1e-6 else {}  # seen along it
+        ax.add_line(Line2D(x, y, **BEAM.style() | end))
     if not len(found.places):
         return
     spots, texts = found.places[:, axes], dict[tuple[float, float], tuple[str, str]]()

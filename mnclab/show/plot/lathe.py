@@ -5,40 +5,56 @@ Views have Z to the right and X up; positions are those of the path: X a radius,
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patches import Polygon
+from matplotlib.patches import Patch, Polygon
 from numpy.typing import NDArray
 
 from mnclab.path.cutting_speed import spindle_speed
-from mnclab.path.inserts import angles_of
+from mnclab.path.inserts import angles_of, as_drawn, lead_of
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.show.plot import colours
-from mnclab.show.plot.insert import insert_patches
+from mnclab.show.plot.insert import STEEL, insert_patches
 from mnclab.show.plot.picture import SMALL, Picture
 from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import Array, Strokes
 from mnclab.text.alarm import Alarm
 from mnclab.workpiece.blank import Blank
+from mnclab.workpiece.part import Part
+from mnclab.workpiece.turning.turned import half_section
+from mnclab.workpiece.workpiece import Workpiece
 
 CUTS = (Kind.LINE, Kind.ARC)
+CHORD = 0.01  # mm, of arcs in what is filled
+BAR: dict[str, Any] = {"facecolor": "#f4f1e8", "edgecolor": "#8c8061", "linewidth": 0.8}
+FINISHED: dict[str, Any] = {"facecolor": "#d9d5c8", "edgecolor": "#55503f", "linewidth": 1.3}
+CHUCK: dict[str, Any] = {"facecolor": STEEL, "edgecolor": colours.INK, "linewidth": 0.9}
 PARTS = 24  # of a row along which the speed changes
 
 
 class Lathe(NamedTuple):
-    """A blank (z from, z to, radius), the tool and where its tip stands (z, r)."""
+    """A blank (z from, z to, radius), the tool and where its tip stands (z, r), the rings (k, 2) of the chuck."""
 
     blank: tuple[float, float, float] | None
     tool: Tool
     tip: tuple[float, float] | None
+    chucks: list[Array]
+
+    @property
+    def names(self) -> list[Patch]:
+        """What a legend says of what stands beside the path."""
+        found = [Patch(**BAR, label="blank")] if self.blank else []
+        return found + ([Patch(**CHUCK, label="chuck")] if self.chucks else [])
 
 
-def lathe(path: Toolpath, stock: Blank | None, tools: Mapping[int, Tool], insert: bool | int) -> Lathe:
+def lathe(
+    path: Toolpath, stock: Blank | None, tools: Mapping[int, Tool], insert: bool | int, part: Workpiece | None = None
+) -> Lathe:
     """What is drawn beside the path; `stock` stands in the coordinates of the path, the insert stands after a row.
 
     An Alarm names a tool of the path whose angles or width cannot be.
@@ -51,8 +67,16 @@ def lathe(path: Toolpath, stock: Blank | None, tools: Mapping[int, Tool], insert
     blank, tip, tool = _blank(stock), None, Tool()
     if len(path) and insert is not False:
         row = len(path) - 1 if insert is True else range(len(path))[int(insert)]
-        tip, tool = (float(path.end[row, 2]), float(path.end[row, 0])), tools.get(int(path.tool[row]), Tool())
-    return Lathe(blank, tool, tip)
+        number = int(path.tool[row])
+        tip, tool = (float(path.end[row, 2]), float(path.end[row, 0])), tools.get(number, Tool())
+        tool = as_drawn(tool, lead_of(path[: row + 1], path.tool[: row + 1] == number))
+    return Lathe(blank, tool, tip, chucks_of(part.cutting.fixtures) if part else [])
+
+
+def chucks_of(fixtures: Sequence[Any]) -> list[Array]:
+    """The half sections of what holds a bar, rings (k, 2) of z and r; a part that only a probe knows has none."""
+    loops = [loop for each in fixtures if not isinstance(each, Part) for loop in half_section(each)[0]]
+    return [loop.points_within(CHORD) for loop in loops]
 
 
 def _blank(stock: Blank | None) -> tuple[float, float, float] | None:
@@ -62,13 +86,18 @@ def _blank(stock: Blank | None) -> tuple[float, float, float] | None:
     return float(low[2]), float(high[2]), float(max(abs(low[0]), abs(high[0])))
 
 
-def with_blank(path: Toolpath, stock: Blank | None, low: Array, high: Array) -> tuple[Array, Array]:
-    """The box (3,) and (3,) of a picture with the blank of a lathe in it."""
+def with_blank(
+    path: Toolpath, stock: Blank | None, low: Array, high: Array, part: Workpiece | None = None
+) -> tuple[Array, Array]:
+    """The box (3,) and (3,) of a picture with the blank of a lathe and its chuck in it."""
     blank = _blank(stock) if path.lathe else None
-    if blank is None:
-        return low, high
-    left, right, radius = blank
-    return np.fmin(low, (0.0, low[1], left)), np.fmax(high, (radius, high[1], right))
+    if blank is not None:
+        left, right, radius = blank
+        low, high = np.fmin(low, (0.0, low[1], left)), np.fmax(high, (radius, high[1], right))
+    for ring in chucks_of(part.cutting.fixtures) if part and path.lathe else ():
+        (z0, _), (z1, r1) = ring.min(axis=0), ring.max(axis=0)
+        low, high = np.fmin(low, (0.0, low[1], z0)), np.fmax(high, (r1, high[1], z1))
+    return low, high
 
 
 def draw_blank(ax: Axes, found: Lathe) -> None:
@@ -77,7 +106,13 @@ def draw_blank(ax: Axes, found: Lathe) -> None:
         return
     left, right, radius = found.blank
     corners = [(left, 0), (left, radius), (right, radius), (right, 0)]
-    ax.add_patch(Polygon(corners, facecolor="#f4f1e8", edgecolor="#b8b09a", linewidth=0.8, zorder=0.6, label="blank"))
+    ax.add_patch(Polygon(corners, **BAR, zorder=0.6, label="blank"))
+
+
+def draw_chucks(ax: Axes, rings: Sequence[Array]) -> None:
+    """What holds the bar, above the centre line."""
+    for ring in rings:
+        ax.add_patch(Polygon(ring, **CHUCK, zorder=1.0, label="chuck"))
 
 
 def draw_insert(ax: Axes, found: Lathe, size: float) -> None:

@@ -20,7 +20,7 @@ from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, crosses, segments, write_names
 from mnclab.show.plot.felt import draw_felt
 from mnclab.show.plot.holes import beside_holes
-from mnclab.show.plot.lathe import Lathe, draw_blank, draw_insert
+from mnclab.show.plot.lathe import Lathe, draw_blank, draw_chucks, draw_insert
 from mnclab.show.plot.overlay import Overlay
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.strokes import Array, Strokes, parted
@@ -94,6 +94,8 @@ def draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
         draw_under(ax, view, drawing.part)
     elif drawing.lathe is not None:
         draw_blank(ax, drawing.lathe)
+    if drawing.lathe is not None:
+        draw_chucks(ax, drawing.lathe.chucks)
     if view.diameter:
         ax.axhline(0.0, **{**colours.CENTRE_LINE.style(), "label": "_centre line"})
     return artists

@@ -18,8 +18,8 @@ from mnclab.path.listing import Unit
 from mnclab.show.plot import colours
 from mnclab.show.plot.chains import LENGTH, Chains
 from mnclab.show.plot.picture import SMALL, Picture
+from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number
 
 SAME = 1e-3  # mm between tip and program that are no fault
 FAR = 3.0  # a machine zero so many times as far away as all else is high is drawn at the border
@@ -70,6 +70,7 @@ def heights_of(run: Any, line: int, pass_: int = 1) -> Heights:
     return Heights(tip + length, tip, wanted, float(matrix[2, 3]), datum, number)
 
 
+@sized()
 def plot_lengths(
     run: Any, line: int, ax: Axes | None = None, *, pass_: int = 1, size: tuple[float, float] = (5.4, 5.0)
 ) -> Figure:
@@ -78,8 +79,6 @@ def plot_lengths(
 
     Of a mill whose tool stands along Z; an Alarm for others.
     """
-    for side in size if isinstance(size, tuple | list) and len(size) == 2 else ("size",):
-        check_number(side, "the size of a picture (inches)", above=0, at_most=100)
     found, unit = heights_of(run, line, pass_), run.toolpath.unit
     off = found.tip - found.wanted
     fault = abs(off) > SAME

@@ -11,6 +11,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch
 
+from mnclab.path.listing import MM, Unit
 from mnclab.show.felt import part_of
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line, Mark
@@ -81,7 +82,7 @@ def pages(run: Any, count: int, most: int) -> tuple[list[Picture], int]:
 
 def _picture(found: Sequence[Panel], part: Any, width: float, more: int) -> Picture:
     """The panels row by row, each over its lines of the record."""
-    texts = [_texts(panel) for panel in found]
+    texts = [_texts(panel, found[0].view.unit) for panel in found]
     count = max(1, min(len(found), int(width / max(3.3, *map(_wide, texts)))))
     box = min(width / count - LEFT - RIGHT, WIDEST)
     width = count * (box + LEFT + RIGHT)
@@ -158,12 +159,13 @@ def _balls(ax: Axes, panel: Panel) -> int:
     return write_beside(ax, texts, places, [ball.radius for ball in panel.balls], wishes, lines)
 
 
-def _texts(panel: Panel) -> list[tuple[str, ...]]:
+def _texts(panel: Panel, unit: Unit) -> list[tuple[str, ...]]:
     """The head and the lines of the record below a panel; empty columns are left out."""
     if not panel.rows:
         return []
-    rows = [[row.texts()[k] for k in COLUMNS] for row in panel.rows]
-    return [HEAD, *((what, *(text.replace("-", "\N{MINUS SIGN}") for text in numbers)) for what, *numbers in rows)]
+    rows = [[row.texts(unit)[k] for k in COLUMNS] for row in panel.rows]
+    head = HEAD if unit is MM else (f"in {unit.name}", *HEAD[1:])
+    return [head, *((what, *(text.replace("-", "\N{MINUS SIGN}") for text in numbers)) for what, *numbers in rows)]
 
 
 def _wide(rows: Sequence[Sequence[str]]) -> float:

@@ -16,6 +16,8 @@ import numpy as np
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.frames import apply, inverse
 from mnclab.path.columns import Array
+from mnclab.path.listing import Unit
+from mnclab.show.felt import touched_decimals
 from mnclab.show.plot.picture import VIEWS, View
 
 SAMPLES = 48  # of an element of a contour
@@ -96,7 +98,8 @@ def panels(run: Any, line: int | None, factor: float | None, most: int = 10_000)
         name = next((each.cycle for each in (*of[2], *of[1])), "") or TOUCH.sub("", first.label)
         where = f"line {first.line}" if len(run.programs) == 1 else run.place_of_line(first.line, first.program)
         again = f", pass {passes[place]}" if passes[place] > 1 else ""
-        found += _views(f"{where}{again}  {name}", *of, factor, of[0][0][1].names if of[0] else "XYZ")
+        names = of[0][0][1].names if of[0] else "XYZ"
+        found += _views(f"{where}{again}  {name}", *of, factor, names, run.toolpath.unit)
     return found, left_out
 
 
@@ -109,7 +112,7 @@ def _by_step(all_: Iterable[Any]) -> dict[int, list[Any]]:
 
 
 def _views(
-    title: str, touches: Sequence[Any], figures: Sequence[Any], rows: list[Any], factor: float | None, names: str
+    title: str, touches: Sequence[Any], figures: Sequence[Any], rows: list[Any], factor: float | None, names: str, unit: Unit
 ) -> list[Panel]:
     """From above if anything lies in the plane, from the side what was touched along the tool axis; `names` of the axes."""
     frame = np.asarray((touches[0][1] if touches else figures[0]).frame)
@@ -125,10 +128,10 @@ def _views(
             height = float(apply(into @ figures[0].frame, (0.0, 0.0, figures[0].height))[2])
         else:
             height = float(apply(into, [touch.surface for _, touch in touches])[:, 2].min()) - BELOW
-        found.append(_panel(title, VIEWS["XY"]._replace(names=names), frame, height, touches, lines, rows, factor))
+        found.append(_panel(title, VIEWS["XY"]._replace(names=names, unit=unit), frame, height, touches, lines, rows, factor))
     if below:
         spots = apply(into, [touch.centre for _, touch in below])
-        view = VIEWS["YZ" if np.ptp(spots[:, 1]) > np.ptp(spots[:, 0]) else "XZ"]._replace(names=names)
+        view = VIEWS["YZ" if np.ptp(spots[:, 1]) > np.ptp(spots[:, 0]) else "XZ"]._replace(names=names, unit=unit)
         level = float(spots[0, 3 - view.right - view.up])
         found.append(_panel(title, view, frame, level, below, [], [] if found else rows, factor, rows))
     return found
@@ -165,9 +168,9 @@ def _panel(
         owner = None if which is None else figures[which]
         if not across and (which is None or judged[which]):
             foot = _foot(owner[1], owner[2], foot) if owner else spot[axes] - _off(k, spot, way, known or rows)[axes]
-        out = _outwards(spot[axes], owner[1]) if owner and not across and np.abs(way).max() < AXIS else ""
+        out = _outwards(spot[axes], owner[1], view.unit) if owner and not across and np.abs(way).max() < AXIS else ""
         told = _told(k, spot, known or rows)
-        texts.append(out or _text(told, way, view.names))
+        texts.append(out or _text(told, way, view))
         alone = not across and (which is None or widths[which]) and np.allclose(told, spot, atol=1e-6)
         feet.append((spot[axes], foot, way[axes], across, alone))
     worst = max([float(np.hypot(*(a - n).T).max()) for n, a in lines] + [math.dist(s, f) for s, f, *_ in feet], default=0.0)
@@ -248,18 +251,19 @@ def _told(number: int, spot: Array, rows: Sequence[Any]) -> Array:
     return np.array([said.get(axis, value) for axis, value in zip("XYZ", spot)])
 
 
-def _outwards(spot: Array, nominal: Contour) -> str:
+def _outwards(spot: Array, nominal: Contour, unit: Unit) -> str:
     """How far a touched point lies out of a closed contour; where a touch goes along no axis this says more than X and Y."""
     if not nominal.closed:
         return ""
     out = float(nominal.distance(spot)[0]) * (-1 if nominal.winding(spot)[0] else 1)
-    return f"{out:+z.3f}".replace("-", "\N{MINUS SIGN}")
+    return f"{out / unit.length:+z.{touched_decimals(unit)}f}".replace("-", "\N{MINUS SIGN}")
 
 
-def _text(spot: Array, way: Array, names: str) -> str:
+def _text(spot: Array, way: Array, view: View) -> str:
     """The coordinates that a touch has found."""
     along = np.abs(way) > math.sqrt(1 - AXIS**2)
-    told = "  ".join(f"{axis} {value:z.3f}" for axis, value, some in zip(names, spot, along) if some)
+    digits = touched_decimals(view.unit)
+    told = "  ".join(f"{axis} {v / view.unit.length:z.{digits}f}" for axis, v, some in zip(view.names, spot, along) if some)
     return told.replace("-", "\N{MINUS SIGN}")
 
 

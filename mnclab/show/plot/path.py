@@ -26,11 +26,11 @@ from mnclab.show.plot.classes import classes
 from mnclab.show.plot.classes import lines as lines_of
 from mnclab.show.plot.clickable import told_by
 from mnclab.show.plot.datums import Place, crosses, near, places_of
+from mnclab.show.plot.felt import names_of
 from mnclab.show.plot.framing import box_of, foot_of, in_words, views_of
 from mnclab.show.plot.holes import beside_holes
-from mnclab.show.plot.lathe import lathe, speed_strokes, with_blank
+from mnclab.show.plot.lathe import FINISHED, lathe, speed_strokes, with_blank
 from mnclab.show.plot.layers import INSERT, Drawing, draw, marks_of, plunges_of, write
-from mnclab.show.plot.material import FACE
 from mnclab.show.plot.no_moves import no_moves
 from mnclab.show.plot.overlay import Overlay
 from mnclab.show.plot.overlays import overlays_of
@@ -119,7 +119,7 @@ def plot_path(
     shown = near(places, low, high) if marks else []
     for place in shown:
         low, high = np.fmin(low, place.xyz), np.fmax(high, place.xyz)
-    low, high = with_blank(path, stock, low, high)
+    low, high = with_blank(path, stock, low, high, part)
     for over in overlays:
         wide = over.box(low, high)
         low, high = (low, high) if beyond else wide
@@ -136,7 +136,7 @@ def plot_path(
     plunge = colours.PLUNGE if colour == "kind" else colours.PLUNGE._replace(colour=colours.INK)
     plunges = {each: beside_holes(overlays, each, plunges_of(path, each)) for each in views}
     arrows = arrows and int(path.is_motion.sum()) <= heads.MANY
-    beside = lathe(path, stock, tools, insert) if path.lathe and views[0].diameter else None
+    beside = lathe(path, stock, tools, insert, part) if path.lathe and views[0].diameter else None
     found_marks, outline = marks_of(path, stop is not None, home), None if beside else stock
     if felt is not None and len(felt.places):
         found_marks.append((colours.TOUCH, felt.places))
@@ -164,15 +164,16 @@ def plot_path(
         names.append(colours.PLUNGE.name)
     if any(line.get_label() == colours.POLE.name for each in views for line in crosses(shown, each)):
         names.append(colours.POLE.name)
+    held = beside.names + ([Patch(**FINISHED, label=PART)] if part is not None else []) if beside else []
+    held += names_of(felt) if felt is not None else []
+    names += [str(each.get_label()) for each in held]
     names += [name for over in overlays for name in over.names(views)]
-    behind = felt is not None and felt.part is not None
-    names += [PART] if behind else []
     said = in_words(path, *(own if limits else (low, high)), stop)
     more = AROUND * float((high - low).max())
     picture, axes = arrange(views, low - more, high + more, names, foot_of(stop, beyond), said, size, found.scale is not None)
     picture.box = box
     picture.seen = [(one, which, path, drawn) for one, which in zip(axes, views)]
-    artists: dict[str, Any] = {PART: Patch(**FACE, label=PART)} if behind else {}
+    artists: dict[str, Any] = {str(each.get_label()): each for each in held}
     for one, which in zip(axes, views):
         if former is not None:
             ghost.draw_ghost(one, which, former, rapids)

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from mnclab.path.columns import Array
@@ -33,7 +32,7 @@ def write_beside(
     rather not cover, `marks` (m, 2) what it must not. The limits of the axes must be those of the finished picture.
     """
     figure = ax.get_figure(root=True)
-    assert isinstance(figure, Figure) and isinstance(figure.canvas, FigureCanvasAgg)
+    assert isinstance(figure, Figure)
     pixels = figure.dpi / 72
     spots = ax.transData.transform(places) / pixels
     unit = float(np.hypot(*(ax.transData.transform([[1.0, 0.0]]) - ax.transData.transform([[0.0, 0.0]]))[0])) / pixels
@@ -46,7 +45,7 @@ def write_beside(
         taken = np.vstack([taken, np.column_stack([others - MARK, others + MARK])])
     for other in ax.texts:
         if other.get_text():
-            taken = np.vstack([taken, np.ravel(other.get_window_extent(figure.canvas.get_renderer()).extents) / pixels])
+            taken = np.vstack([taken, np.ravel(other.get_window_extent().extents) / pixels])
     left_out = 0
     for spot, disc, wish, choices in zip(spots, discs, wishes, texts):
         written = False
@@ -56,7 +55,7 @@ def write_beside(
                 zorder=6, annotation_clip=False, bbox=CARD,
             )  # fmt: skip
             label.set_parse_math(False)
-            box = label.get_window_extent(figure.canvas.get_renderer())
+            box = label.get_window_extent()
             half = np.array([box.width, box.height]) / pixels / 2 + APART / 2
             middle = _free(spot, disc, half, wish, taken, frame, drawn)
             if middle is None:

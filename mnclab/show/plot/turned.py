@@ -16,18 +16,18 @@ from matplotlib.patches import Patch, PathPatch, Polygon
 
 from mnclab.geometry.contours import Contour
 from mnclab.path.columns import Array
+from mnclab.path.inserts import as_drawn, lead_of
 from mnclab.path.tool import Tool
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import number, ramp
-from mnclab.show.plot.insert import CARBIDE, insert_patches
+from mnclab.show.plot.insert import insert_patches, named_insert
+from mnclab.show.plot.lathe import BAR, CHUCK, FINISHED, chucks_of
 from mnclab.show.plot.part_words import in_words, told
 from mnclab.show.plot.picture import SIZE, SMALL, VIEWS, Foot, arrange, dress, write_legend
 from mnclab.show.plot.sections import CARD, CHORD, FACE, HATCH, outline_of
 from mnclab.workpiece.cutting import CUTS
-from mnclab.workpiece.part import Part
-from mnclab.workpiece.turning.turned import Turned, half_section
+from mnclab.workpiece.turning.turned import Turned
 
-CHUCK: dict[str, Any] = {"facecolor": "#c9ccd1", "edgecolor": colours.INK, "linewidth": 0.9}
 OUTSIDE = "#e9e5d8"
 JAW = (0.3, 0.55)  # length and height of a jaw that nobody gave, in radii of the bar
 INSERT = 0.09  # edges of the insert, of the greatest side of the picture
@@ -43,11 +43,11 @@ def plot_turned(
     """Section and view of a turned part; `marks` (n, 3) are drawn as `mark`; `colour` "tool" or "line" on its outline."""
     radius, span = part.radius, part.high - part.low
     low, high = np.array([-radius, 0.0, part.low]), np.array([radius, 0.0, part.high])
-    chucks = [loop for each in part.cutting.fixtures if not isinstance(each, Part) for loop in half_section(each)[0]]
+    chucks = chucks_of(part.cutting.fixtures)
     known = bool(chucks) or not len(part.cutting)  # a part as drawn hangs in no chuck
     chucks = chucks if known else [_jaw(part)]
     for each in chucks:
-        (z0, _), (z1, r1) = each.bounds
+        (z0, _), (z1, r1) = each.min(axis=0), each.max(axis=0)
         low, high = np.fmin(low, (-r1, 0, z0)), np.fmax(high, (r1, 0, z1))
     tip, tool = _last_cut(part)
     if tip is not None:
@@ -56,7 +56,7 @@ def plot_turned(
     handles: list[Any] = [
         Line2D([], [], **_BLANK),
         *([Patch(**CHUCK, label="chuck")] if chucks else []),
-        *([Patch(facecolor=CARBIDE, edgecolor=colours.INK, linewidth=0.9, label="insert")] if tip is not None else []),
+        *([named_insert()] if tip is not None else []),
         *(Line2D([], [], color=shade, linewidth=2.2, label=name) for name, shade, _ in names),
         *([Line2D([], [], **mark)] if len(marks) else []),
     ]
@@ -90,29 +90,30 @@ def _last_cut(part: Turned) -> tuple[Array | None, Tool]:
     rows = np.flatnonzero(cutting.cuts & np.isin(cutting.path.kind, CUTS))
     if not len(rows):
         return None, Tool()
-    return cutting.path.end[rows[-1]] - (part.axis, 0.0, 0.0), cutting.tool(int(rows[-1]))
+    row = int(rows[-1])
+    tool = as_drawn(cutting.tool(row), lead_of(cutting.path, np.arange(len(cutting)) == row))
+    return cutting.path.end[row] - (part.axis, 0.0, 0.0), tool
 
 
 def draw_half(ax: Axes, part: Turned) -> None:
-    """The half section under a path, pale."""
+    """The bar under a path, pale, and the finished profile in it."""
     for line in part.cutting.stock.outline(2, 0):
         line = np.maximum(line, [-np.inf, 0.0])
-        ax.add_patch(Polygon(line, facecolor="#f4f1e8", edgecolor="#b8b09a", linewidth=0.8, zorder=0.6, label="blank"))
+        ax.add_patch(Polygon(line, **BAR, zorder=0.6, label="blank"))
     if part.section:
         shape = outline_of(part.section)
-        ax.add_patch(PathPatch(shape, facecolor="#d9d5c8", edgecolor="#7d7664", linewidth=0.9, zorder=0.8, label="part"))
+        ax.add_patch(PathPatch(shape, **FINISHED, zorder=0.8, label="part"))
 
 
-def _jaw(part: Turned) -> Contour:
+def _jaw(part: Turned) -> Array:
     """A jaw outside the left end of the bar, where the setup has no chuck."""
     long, high = JAW[0] * part.radius, JAW[1] * part.radius
     left, inner = part.low - long, part.grip
-    return Contour([(left, inner), (part.low, inner), (part.low, inner + high), (left, inner + high)])
+    return np.array([(left, inner), (part.low, inner), (part.low, inner + high), (left, inner + high)])
 
 
-def _draw(ax: Axes, part: Turned, chucks: list[Contour], known: bool) -> None:
-    for chuck in chucks:
-        ring = chuck.points_within(CHORD)
+def _draw(ax: Axes, part: Turned, chucks: list[Array], known: bool) -> None:
+    for ring in chucks:
         for side in (1, -1):
             ax.add_patch(Polygon(ring * (1, side), **CHUCK, zorder=2.0, label="chuck"))
     stub = part.low - (0.0 if known else JAW[0] * part.radius)  # in a chuck that nobody gave the bar goes on

@@ -14,7 +14,7 @@ from matplotlib.patches import Polygon
 from mnclab.comparison.turning_schemes import TurningComparison, TurningTrial
 from mnclab.machining.turning.clearance import OUT
 from mnclab.machining.turning.strokes import CLEANUP, FINISH, PICK_UP, PLUNGE, RAPID, ROUGH, THREAD
-from mnclab.path.inserts import insert
+from mnclab.path.inserts import holder, insert
 from mnclab.path.tool import Tool
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line
@@ -64,7 +64,8 @@ def _box(trials: Sequence[TurningTrial]) -> tuple[np.ndarray, np.ndarray]:
     every = np.vstack([_places(trial) for trial in trials])
     size = INSERT * float(np.ptp(every[:, 0]))
     stands = [stand for trial in trials for stand in _stand(trial)]
-    every = np.vstack([every, *(tip + insert(tool, size, reach).points for tool, tip, reach in stands)])
+    for tool, tip, reach in stands:
+        every = np.vstack([every, tip + insert(tool, size, reach).points, tip + holder(tool, size, reach)])
     low, high = every.min(axis=0), every.max(axis=0)
     margin = 0.05 * float((high - low).max())
     return np.array([low[0] - margin, max(low[1] - 3 * margin, 0.0)]), high + margin

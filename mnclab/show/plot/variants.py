@@ -16,6 +16,7 @@ from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line
 from mnclab.show.plot.path import plot_run
 from mnclab.show.plot.picture import VIEWS, Picture, write_legend
+from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import line_of
 from mnclab.show.plot.trials import side_by_side
 from mnclab.text.alarm import Alarm
@@ -27,6 +28,7 @@ MARGIN = 0.12  # of the greatest side
 GAP, TOP, BOTTOM = 0.5, 0.1, 0.46  # inches
 
 
+@sized(also=plot_run)
 def plot_runs(
     runs: Mapping[str, Any], view: str = "XY", *, columns: int | None = None, width: float = 9.0, **options: Any
 ) -> Picture:

@@ -13,6 +13,7 @@ from mnclab.machining.turning.zones import CLOSED, KINDS, Zone, zones
 from mnclab.path.listing import figure
 from mnclab.show.plot import colours
 from mnclab.show.plot.picture import SMALL, VIEWS, Foot, Picture, arrange, write_legend
+from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
 
@@ -21,6 +22,7 @@ PART, CHORD = "#d9d5c8", 0.01
 LOOKS = {"open": ("#cfe3f5", ""), "semi-open": ("#f6dfae", "////"), "closed": ("#f3c6c0", "xxxx"), "combined": (PART, "")}
 
 
+@sized()
 def plot_zones(profile: Contour, blank: float, ax: Axes | None = None, *, size: tuple[float, float] = (7.0, 4.5)) -> Picture:
     """The zones of a profile (z, r) under a blank of a radius, mm: numbered, with the steepest rise (main angle) and fall
     (auxiliary angle) in degrees. Z to the right, X up as a diameter.

@@ -100,7 +100,7 @@ def test_codes_that_are_equally_near_are_named_in_the_order_of_help():
         ("G1 Х10", 4, "write the Latin letter X"),
         ("G I5", 1, ""),  # I5 is a word
         ("T l", 1, ""),
-        ("TOOL CALL", 1, ""),  # a word, no number
+        ("TOOL CALL", 1, "TOOL is no word of this control: a word is one letter and its number"),  # a word, no number
         ("GOO X5", 1, "the letter O stands where the digit 0 was meant"),
         ("G0OX5", 3, "the letter O stands where the digit 0 was meant"),
     ],

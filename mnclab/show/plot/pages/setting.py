@@ -1,0 +1,252 @@
+"""A document set on pages of A4: what belongs together stays together, long tables and programs go on with their heads."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import singledispatchmethod
+
+from mnclab.show.given_away import whole
+from mnclab.show.plot import colours
+from mnclab.show.plot.pages.letters import MONO, fitted, folded, width
+from mnclab.show.plot.pages.sheet import A4, BOTTOM, LEFT, POINTS, QUIET, RIGHT, TALL, TOP, WIDE, Sheet
+from mnclab.show.plot.pages.tables import AIR, LINE, Line, Setting, tabled
+from mnclab.show.report.contents import (
+    BAD,
+    QUOTED,
+    Alarms,
+    Blanks,
+    Compared,
+    Document,
+    Image,
+    Listing,
+    Piece,
+    Section,
+    Table,
+    Words,
+)  # fmt: skip
+from mnclab.text.alarm import ALARM, WARNING, first_of
+
+TITLE, LONG_TITLE, HEADING, BODY, CAPTION, CODE, FOOT = 19.0, 12.0, 11.5, 9.0, 8.0, 7.8, 8.0  # points
+LONG = 70  # letters of a title from which on it is set smaller
+TITLE_LINES = 5
+GAP, AFTER = 16.0, 7.0  # above a heading and between pieces
+TONES = {"": colours.INK, BAD: "#a3221a", "good": "#1b5e20"}
+SHADES = {ALARM: "#f9d9d6", WARNING: "#fbebc4"}
+SIGNS = {ALARM: "!", WARNING: "?"}
+LISTED = 2000  # lines of the programs
+
+
+def sheets(document: Document) -> list[Sheet]:
+    """The pages of a document."""
+    return _Setter(document).pages
+
+
+class _Setter:
+    """Puts one piece after the other below what is there, on a new page where there is no room."""
+
+    def __init__(self, document: Document) -> None:
+        self.document = document
+        self.pages: list[Sheet] = []
+        self.figures, self.listed = 0, 0
+        self.begin()
+        self.title()
+        for section in document.sections:
+            self.section(section)
+        for number, page in enumerate(self.pages, 1):
+            self.frame(page, number)
+
+    @property
+    def page(self) -> Sheet:
+        return self.pages[-1]
+
+    @property
+    def fresh(self) -> bool:
+        """Whether nothing stands on the page yet."""
+        return self.y <= TOP
+
+    @property
+    def bottom(self) -> float:
+        return self.page.size[1] - BOTTOM
+
+    def begin(self, size: tuple[float, float] = A4) -> None:
+        self.pages.append(Sheet(size))
+        self.y = TOP
+
+    def room(self, tall: float) -> None:
+        """A new page unless there is room for so much."""
+        if self.y + tall > self.bottom and not self.fresh:
+            self.begin()
+
+    def frame(self, page: Sheet, number: int) -> None:
+        """Head and foot of a page: the program and the control above, the number of the page below."""
+        wide, tall = page.size
+        wide -= LEFT + RIGHT
+        control = fitted(self.document.subtitle, wide * 0.45, FOOT)
+        page.write(LEFT + wide, TOP - 26, control, FOOT, colour=QUIET, side="right")
+        room = wide - width(control, FOOT) - 20
+        page.write(LEFT, TOP - 26, fitted(_line(self.document.title), room, FOOT), FOOT, colour=QUIET)
+        page.rule(LEFT, TOP - 19, wide)
+        page.rule(LEFT, tall - BOTTOM + 19, wide)
+        page.write(LEFT + wide, tall - BOTTOM + 31, f"{number} of {len(self.pages)}", FOOT, colour=QUIET, side="right")
+
+    def title(self) -> None:
+        size = TITLE if len(self.document.title) < LONG else LONG_TITLE
+        lines = folded(_line(self.document.title), WIDE, size, True)
+        if len(lines) > TITLE_LINES:
+            lines = [*lines[: TITLE_LINES - 1], fitted(" ".join(lines[TITLE_LINES - 1 :]), WIDE, size, True)]
+        for line in lines:
+            self.y += size * 1.2
+            self.page.write(LEFT, self.y - size * 0.25, line, size, bold=True)
+        self.y += 12
+        self.page.write(LEFT, self.y, fitted(self.document.subtitle, WIDE, BODY + 1), BODY + 1, colour=QUIET)
+        self.y += 10
+
+    def section(self, section: Section) -> None:
+        if section.breaks and not self.fresh:
+            self.begin()
+        if section.title:
+            first = section.pieces[0] if section.pieces else Words("")
+            self.room(GAP + HEADING + min(self.least(first), TALL - 40))
+            self.y += 0 if self.fresh else GAP
+            self.y += HEADING
+            self.page.write(LEFT, self.y - 2, fitted(_line(section.title), WIDE, HEADING, True), HEADING, bold=True)
+            self.y += AFTER
+        for piece in section.pieces:
+            self.put(piece)
+            self.y += AFTER
+
+    def least(self, piece: Piece) -> float:
+        """How much of a piece is to stand below its heading."""
+        if isinstance(piece, Image):
+            return float(piece.picture.get_figheight()) * POINTS + 2.2 * CAPTION
+        return 5 * BODY * LINE
+
+    @singledispatchmethod
+    def put(self, piece: Piece) -> None:
+        raise TypeError(piece)
+
+    @put.register
+    def _(self, piece: Words) -> None:
+        lines = folded(whole(piece.text), WIDE, BODY)
+        for line in lines:
+            self.room(BODY * LINE)
+            self.y += BODY * LINE
+            self.page.write(LEFT, self.y - 3, line, BODY, colour=TONES[piece.tone], bold=bool(piece.tone))
+
+    @put.register
+    def _(self, piece: Blanks) -> None:
+        left = max(width(name, BODY) for name, _ in piece.rows) + 14
+        for name, known in piece.rows:
+            self.room(2 * BODY)
+            self.y += 2 * BODY
+            self.page.write(LEFT, self.y - 3, name, BODY)
+            self.page.write(LEFT + left, self.y - 3, fitted(_line(known), WIDE - left, BODY), BODY)
+            self.page.rule(LEFT + left, self.y, WIDE * 0.62 - left)
+
+    @put.register
+    def _(self, piece: Table) -> None:
+        if not piece.rows:
+            return
+        made = tabled(piece._replace(rows=[[whole(cell) for cell in row] for row in piece.rows]), WIDE)
+        head = made.head.tall + AIR if made.head else 0.0
+        self.room(head + made.rows[0].tall + (made.rows[1].tall if len(made.rows) > 1 else 0) + 2)
+        self._head(made)
+        for row in made.rows:
+            if self.y + row.tall > self.bottom and not self.fresh:
+                self._close(made)
+                self.begin()
+                self._head(made)
+            self._row(made, row)
+        self._close(made)
+
+    def _head(self, made: Setting) -> None:
+        if made.head:
+            self.page.rule(LEFT, self.y, made.wide, 0.9, colours.INK)
+            self.y += 1
+            self._row(made, made.head)
+            self.page.rule(LEFT, self.y + 1, made.wide, 0.5, colours.INK)
+            self.y += AIR
+
+    def _close(self, made: Setting) -> None:
+        if made.head:
+            self.page.rule(LEFT, self.y + 2, made.wide, 0.9, colours.INK)
+            self.y += 3
+
+    def _row(self, made: Setting, row: Line) -> None:
+        for cell in row.cells:
+            for k, (text, x) in enumerate(cell):
+                y = self.y + AIR / 2 + made.size * (LINE * k + 1)
+                self.page.write(LEFT + x, y, text, made.size, bold=row.bold)
+        self.y += row.tall
+
+    @put.register
+    def _(self, piece: Image) -> None:
+        wide, tall = (piece.picture.get_size_inches() * POINTS).tolist()
+        self.figures += 1
+        caption = folded(f"Figure {self.figures}: {whole(piece.caption)}", WIDE, CAPTION)
+        under = 6 + CAPTION * LINE * len(caption)
+        if wide > WIDE + 1 or tall + under > TALL:  # of a size that somebody chose: a page as large as it needs
+            self.begin((max(A4[0], wide + LEFT + RIGHT), max(A4[1], tall + under + TOP + BOTTOM)))
+        self.room(tall + under)
+        self.page.put(piece.picture, LEFT + max(0.0, (WIDE - wide) / 2), self.y)
+        self.y += tall + 6
+        for line in caption:
+            self.y += CAPTION * LINE
+            self.page.write(LEFT, self.y - 3, line, CAPTION, colour=QUIET)
+
+    @put.register
+    def _(self, piece: Compared) -> None:
+        self.put(Image(piece.difference.plot(table=True), "where the part is off, in colours, and its measures"))
+
+    @put.register
+    def _(self, piece: Alarms) -> None:
+        shown, more = first_of(piece.alarms)
+        for alarm in shown:
+            head, *quoted = alarm.text(QUOTED).split("\n")
+            for line in folded(whole(head), WIDE, BODY):
+                self.room(BODY * LINE * (1 + len(quoted)))
+                self.y += BODY * LINE
+                self.page.write(LEFT, self.y - 3, line, BODY, colour=TONES[BAD] if alarm.severity == ALARM else colours.INK)
+            for line in quoted:
+                self.y += CODE * LINE
+                self.page.write(LEFT, self.y - 3, line, CODE, family=MONO)
+            self.y += 4
+        if more:
+            self.put(Words(more))
+
+    @put.register
+    def _(self, piece: Listing) -> None:
+        marked = {mark for *_, mark in piece.lines}
+        if marked - {""}:
+            self.put(Words("! an alarm, ? a warning stands in the line"))
+            self.y += AFTER / 2
+        wide = width("0" * len(str(len(piece.lines))), CODE, family=MONO)
+        left = wide + 16
+        letters = int((WIDE - left) / width("0", CODE, family=MONO))
+        room = LISTED - self.listed
+        for number, text, mark in piece.lines[:room]:
+            for k, part in enumerate(_parts(whole(text.expandtabs(4)), letters)):
+                self.room(CODE * LINE)
+                if mark:
+                    self.page.band(LEFT + wide + 3, self.y, WIDE - wide - 3, CODE * LINE, SHADES[mark])
+                    self.page.write(LEFT + wide + 4.5, self.y + CODE, SIGNS[mark], CODE, bold=True, family=MONO)
+                self.page.rule(LEFT + wide + 3, self.y + CODE * LINE / 2, 0.5, CODE * LINE, "#b5b5b5")
+                self.y += CODE * LINE
+                if not k:
+                    self.page.write(LEFT + wide, self.y - 2.6, str(number), CODE, colour=QUIET, family=MONO, side="right")
+                self.page.write(LEFT + left, self.y - 2.6, part, CODE, family=MONO)
+        self.listed += min(room, len(piece.lines))
+        if room < len(piece.lines):
+            left_out = f"… {len(piece.lines) - room} of {len(piece.lines)} lines are left out; an .html report has them all"
+            self.put(Words(left_out))
+
+
+def _parts(text: str, letters: int) -> Iterator[str]:
+    """A line of a program, folded where it is too long."""
+    yield text[:letters]
+    yield from (text[k : k + letters] for k in range(letters, len(text), letters))
+
+
+def _line(text: str) -> str:
+    """A text as one line."""
+    return " ".join(whole(text).split())

@@ -1,0 +1,243 @@
+"""Cutting data, tool by tool: cutting speed, feed per tooth, depth and width of cut, chip thickness, removal rate.
+
+    vc = π D n / 1000 m/min        fz = vf / (n z) mm        hm = fz ae / (R φ) mm        Pc = Q kc / 60e6 kW
+
+hm is the mean thickness of the chip over the engaged angle φ of a mill whose edges stand along its axis: that of ISO 3002-3,
+h = fz sin κ cos θ with κ = 90°, averaged; for a small width of cut about fz √(ae / D). Of a drill h = fz sin(σ / 2) with the
+point angle σ. On a lathe vc is that at the tip, and ap follows from the volume V that a row takes away, V = π L ap (2 r ± ap)
+along the axis and V = 2 π r L ap across it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mnclab.path.columns import Array, Index
+from mnclab.path.cutting_speed import spindle_speed
+from mnclab.path.kinds import Kind
+from mnclab.path.limits import Limits
+from mnclab.path.listing import INCHES, Unit, figure
+from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Toolpath
+from mnclab.text.tables import html_table, text_table
+from mnclab.workpiece.milling.engaged import engaged
+from mnclab.workpiece.milling.milled import Milled
+from mnclab.workpiece.removal import Removal
+
+Pair = tuple[float, float]
+DRILLS, UNJUDGED = ("drill", "reamer", "countersink"), ("probe", "tap", "thread mill", "thread")
+MORE = 1 + 1e-9
+
+
+class Cut(NamedTuple):
+    """How one tool cuts, from the least to the greatest value that occurs; None where it is not known.
+
+    `speed` n rev/min, `surface` vc m/min, `feed` vf mm/min, `per_rev` and `per_tooth` mm, `depth` ap, `width` ae and `chip`
+    hm mm, `rate` mm³/min (mean, greatest), `power` kW at the greatest rate. `beyond` says what is above its limit.
+    """
+
+    tool: int
+    name: str
+    speed: Pair
+    surface: Pair
+    feed: Pair
+    per_rev: Pair
+    per_tooth: Pair | None = None
+    depth: Pair | None = None
+    width: Pair | None = None
+    chip: Pair | None = None
+    rate: Pair | None = None
+    power: float | None = None
+    beyond: tuple[str, ...] = ()
+
+
+class CuttingData(Sequence[Cut]):
+    """The cutting data of a run, one `Cut` a tool; it prints as a table, in the unit of the program."""
+
+    def __init__(self, cuts: Sequence[Cut], unit: Unit, notes: Sequence[str] = ()) -> None:
+        self._cuts, self.unit, self.notes = tuple(cuts), unit, tuple(notes)
+
+    def __len__(self) -> int:
+        return len(self._cuts)
+
+    def __getitem__(self, which: Any) -> Any:
+        return CuttingData(self._cuts[which], self.unit, self.notes) if isinstance(which, slice) else self._cuts[which]
+
+    def table(self) -> tuple[tuple[str, ...], list[tuple[str, ...]], range]:
+        """Heads, rows of texts, and which columns are numbers; columns in which nothing stands are left out."""
+        inch, length = self.unit is INCHES, self.unit.length
+        short, surface, rate = ("in", "ft/min", "in³/min") if inch else ("mm", "m/min", "cm³/min")
+        per = 3 + 2 * inch
+        head = (
+            "tool", "n\nrev/min", f"vc\n{surface}", f"vf\n{short}/min", f"f\n{short}/rev", f"fz\n{short}", f"ap\n{short}",
+            f"ae\n{short}", f"hm\n{short}", f"Q mean\n{rate}", f"Q most\n{rate}", "Pc\nkW", "above\nits limit",
+        )  # fmt: skip
+        feet, volume = (0.3048, length**3) if inch else (1.0, 1000.0)
+        rows = []
+        for cut in self:
+            mean, most = cut.rate or (None, None)
+            rows.append((
+                f"T{cut.tool} {cut.name}".rstrip(),
+                said(cut.speed, 1.0, 0), said(cut.surface, feet, 1), said(cut.feed, length, 1),
+                *(said(pair, length, digits) for pair, digits in (
+                    (cut.per_rev, per), (cut.per_tooth, per), (cut.depth, 2 + inch), (cut.width, 2 + inch), (cut.chip, per))),
+                *("" if each is None else figure(each / volume, 2) for each in (mean, most)),
+                "" if cut.power is None else figure(cut.power, 2), "; ".join(cut.beyond),
+            ))  # fmt: skip
+        kept = [k for k in range(len(head)) if not k or any(row[k] for row in rows)]
+        numbers = range(1, len(kept) - (len(head) - 1 in kept))
+        return tuple(head[k] for k in kept), [tuple(row[k] for k in kept) for row in rows], numbers
+
+    def rows(self) -> list[tuple[str, ...]]:
+        """The table's rows of texts."""
+        return self.table()[1]
+
+    def __repr__(self) -> str:
+        if not self:
+            return "nothing is cut"
+        head, rows, numbers = self.table()
+        return "\n".join([text_table(head, rows, numbers), *self.notes])
+
+    def _repr_html_(self) -> str:
+        head, rows, numbers = self.table()
+        notes = "".join(f"<p>{note}</p>" for note in self.notes)
+        return f"{html_table(head, rows, numbers=numbers)}{notes}" if self else "<p>nothing is cut</p>"
+
+
+def said(pair: Pair | None, unit: float, digits: int) -> str:
+    """A range as a person writes it, `600–800`, or the one number that it is."""
+    if pair is None:
+        return ""
+    low, high = (figure(value / unit, digits) for value in pair)
+    return low if low == high else f"{low}–{high}"
+
+
+def cutting_data(
+    path: Toolpath, tools: Mapping[int, Tool], numbers: Index, limits: Limits, removal: Removal | None = None,
+    *, most: Mapping[str, Mapping[int, float]] | None = None, kc: float | None = None,
+) -> CuttingData:  # fmt: skip
+    """The data of each tool of a path; `numbers` (n,) are the tools of its rows.
+
+    With a `removal` only what takes material away counts, and depth, width, chip and rate are known. `most` holds the greatest
+    "vc" m/min and "fz" mm by the number of a tool, `kc` N/mm² the specific cutting force, for the power.
+    """
+    kinds = np.isin(path.kind, (Kind.LINE, Kind.ARC)) & (path.lengths > 0)
+    found: list[Cut] = []
+    for number in dict.fromkeys(numbers[kinds].tolist()):
+        tool, rows = tools.get(number, Tool()), np.flatnonzero(kinds & (numbers == number))
+        if number and tool.kind not in UNJUDGED:
+            found += _cut(path, number, tool, rows, limits, removal, most or {}, kc)
+    return CuttingData(found, path.unit, [*_notes(found, path, removal, limits)])
+
+
+def _notes(found: Sequence[Cut], path: Toolpath, removal: Removal | None, limits: Limits) -> Iterator[str]:
+    """How the numbers are to be read."""
+    if not found:
+        return
+    if path.lathe:
+        yield "vc is that at the diameter of the tip; ap is the mean over a row, air before the material too."
+    if any(cut.chip for cut in found):
+        yield "hm is the mean chip thickness over the engaged angle (ISO 3002-3, κ = 90°; of a drill at its point angle)."
+    if removal is None:
+        yield "Without a blank ap, ae, hm and Q are not known, and moves in the air count."
+    if not any(cut.beyond for cut in found):
+        fastest = figure(float(limits.axes("rapid").min()) * 60 / path.unit.length, 1)
+        spindle = f"{figure(limits.spindle, 0)} rev/min and " if math.isfinite(limits.spindle) else ""
+        yield f"All within the limits of the machine, {spindle}{fastest} {path.unit.short}/min."
+
+
+def _cut(
+    path: Toolpath, number: int, tool: Tool, rows: Index, limits: Limits, removal: Removal | None,
+    most: Mapping[str, Mapping[int, float]], kc: float | None,
+) -> Iterator[Cut]:  # fmt: skip
+    if removal is not None:
+        rows = rows[removal.volumes[rows] > 0]
+    drilled = tool.kind in DRILLS
+    if not path.lathe and not drilled:
+        along = np.abs(((path.end - path.start)[rows] * path.axis[rows]).sum(axis=1))
+        sideways = rows[path.lengths[rows] > 2 * along]  # a plunge has another feed, and no chip thickness
+        rows = sideways if len(sideways) else rows
+    speed, feed = _speeds(path, rows, limits)
+    told = (speed > 0).all(axis=1) & np.isfinite(feed).all(axis=1)
+    rows, speed, feed = rows[told], speed[told], feed[told]
+    if not len(rows):
+        return
+    radii: Any = tool.effective_radius
+    if path.lathe and not drilled:
+        radii = np.abs(np.stack([path.start[rows, 0], path.end[rows, 0]], axis=1) - path.spindle_x[rows][:, None])
+    surface, per_rev = 2 * np.pi * radii * speed / 1000, feed / speed
+    per_tooth = per_rev / tool.teeth if tool.teeth and not path.lathe else None
+    cut = Cut(number, tool.name, _pair(speed), _pair(surface), _pair(feed), _pair(per_rev))
+    if per_tooth is not None:
+        cut = cut._replace(per_tooth=_pair(per_tooth))
+        if tool.kind == "drill" and tool.angle:
+            cut = cut._replace(chip=_pair(per_tooth * math.sin(math.radians(tool.angle / 2))))
+    if removal is not None:
+        cut = _with_material(cut, path, tool, rows, per_tooth, removal, kc)
+    yield cut._replace(beyond=tuple(_beyond(cut, limits, most)))
+
+
+def _speeds(path: Toolpath, rows: Index, limits: Limits) -> tuple[Array, Array]:
+    """Spindle speed, rev/min, and feed, mm/min, at the start and the end of rows (k, 2)."""
+    x = np.stack([path.start[rows, 0], path.end[rows, 0]], axis=1) - path.spindle_x[rows][:, None]
+    most = np.minimum(path.speed_limit[rows], limits.spindle)[:, None]
+    constant = spindle_speed(path.surface[rows][:, None], x, most)
+    speed = np.where(np.isnan(path.surface[rows])[:, None], np.abs(path.spindle[rows])[:, None], constant)
+    speed = np.where(path.spindle[rows][:, None] == 0, 0.0, speed)
+    per_rev, time = path.per_rev[rows][:, None], path.time[rows][:, None]
+    feed = np.where(np.isnan(per_rev), path.feed[rows][:, None], per_rev * speed)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return speed, np.where(np.isnan(time), feed, 60 * path.lengths[rows][:, None] / time)
+
+
+def _with_material(
+    cut: Cut, path: Toolpath, tool: Tool, rows: Index, per_tooth: Array | None, removal: Removal, kc: float | None
+) -> Cut:  # fmt: skip
+    """What is known of the material that the rows meet."""
+    seconds, volumes = float(removal.seconds[rows].sum()), removal.volumes[rows]
+    greatest = float(removal.rate[rows].max())
+    cut = cut._replace(rate=(60 * float(volumes.sum()) / seconds if seconds else 0.0, greatest))
+    if kc is not None:
+        cut = cut._replace(power=greatest * kc / 60e6)
+    if path.lathe:
+        return cut._replace(depth=_pair(_depth_of_turning(path, rows, volumes))) if tool.kind in ("turning", "boring") else cut
+    part = removal.workpiece
+    if not isinstance(part, Milled) or part.many or tool.corner or tool.kind in DRILLS:
+        return cut
+    met = engaged(part, rows)
+    if not len(met.row):
+        return cut
+    cut = cut._replace(depth=_pair(met.depth), width=_pair(met.width))
+    if per_tooth is None:
+        return cut
+    chip = per_tooth.max(axis=1)[np.searchsorted(rows, met.row)] * met.width / (tool.effective_radius * met.angle)
+    return cut._replace(chip=_pair(chip))
+
+
+def _depth_of_turning(path: Toolpath, rows: Index, volumes: Array) -> Array:
+    """The depth of cut (k,) that takes a volume away, mm."""
+    length = path.lengths[rows]
+    r = np.abs(path.start[rows, 0] + path.end[rows, 0]) / 2
+    way = np.abs(path.end[rows] - path.start[rows])
+    area = volumes / (np.pi * length)
+    across = area / np.maximum(2 * r, 1e-9)
+    return np.where(way[:, 2] >= way[:, 0], np.sqrt(r**2 + area) - r, across)
+
+
+def _beyond(cut: Cut, limits: Limits, most: Mapping[str, Mapping[int, float]]) -> Iterator[str]:
+    """What is above its limit."""
+    judged = [("n", cut.speed, limits.spindle), ("vf", cut.feed, float(limits.axes("rapid").min()) * 60)]
+    for name, pair in (("vc", cut.surface), ("fz", cut.per_tooth)):
+        if pair is not None and cut.tool in most.get(name, {}):
+            judged.append((name, pair, most[name][cut.tool]))
+    for name, (_, high), limit in judged:
+        if high > limit * MORE:
+            yield f"{name} above {figure(limit, 3)}"
+
+
+def _pair(values: Array) -> Pair:
+    return float(np.min(values)), float(np.max(values))
