@@ -33,6 +33,7 @@ class Work(NamedTuple):
     stop: Alarm | None = None
     made: Any = None
     shows: bool = False
+    after: Callable[[], None] | None = None  # what can wait until the picture is seen
 
 
 def following(
@@ -78,6 +79,8 @@ def following(
         past = stop is not None and live.good and not (done and done.shows)
         picture.value = greyed(live.shown) if past else live.shown
         alarms.value = done.said if done else stop.html() if stop else ""
+        if done and done.after:
+            done.after()
         live.renew()
 
     changed()
