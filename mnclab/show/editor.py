@@ -22,6 +22,7 @@ from mnclab.controls.choice import run as run_text
 from mnclab.machine.setup import Setup
 from mnclab.runs.run import Run
 from mnclab.show.forms.following import DRAWING, SIZE, verdict
+from mnclab.show.forms.live import live_class
 from mnclab.text.alarm import Alarm
 from mnclab.text.code_pages import decode
 from mnclab.text.extras import require
@@ -97,7 +98,8 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
     status, alarms = ipywidgets.HTML(), ipywidgets.HTML()
     kept = ipywidgets.Textarea(layout={"display": "none"})  # what an editor saves: a click would overtake what was typed last
     left = ipywidgets.VBox([ipywidgets.HTML(STYLE), text, ipywidgets.HBox([button, status, kept])])
-    live: Any = ipywidgets.VBox([ipywidgets.HBox([left, picture], layout={"flex_flow": "row wrap"}), alarms])
+    live: Any = live_class()([ipywidgets.HBox([left, picture], layout={"flex_flow": "row wrap"}), alarms])
+    live.title, live.boxes = document.path.name, {"text": text}
     named = {"editor": text, "save": button, "kept": kept, "picture": picture, "alarms": alarms, "live": live}
     for name, box in named.items():
         box.add_class(f"mnclab-{name}")
@@ -143,6 +145,7 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
             live.run, alarms.value = run, told
             picture.value = drawn or picture.value  # what was good last stays in sight, dimmed
             (picture.remove_class if drawn else picture.add_class)(PAST)
+            live.renew()
 
     def keep(change: dict[str, Any]) -> None:
         if change["new"]:  # behind a sign: an empty program can be saved too

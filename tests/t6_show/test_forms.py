@@ -160,7 +160,7 @@ def test_a_fault_that_is_of_no_field_stands_above_them():
     live = mnclab.panel(lambda side: f"G0 X{1 / side}\n", "mnc", side=2.0)
     live.boxes["side"].value = 0
     assert not told(live) and "ZeroDivisionError" in live.alarms.value
-    first = live.children[-1].children[0].children[0]
+    first = live.children[-2].children[0].children[0]
     assert "ZeroDivisionError" in first.value and 'role="alert"' in first.value
 
 

@@ -196,6 +196,7 @@ def test_a_profile_keeps_its_axes_and_shows_the_former_one():
         lambda: mnclab.panel(TEMPLATE, "mnc", side=40.0, feed=100),
         lambda: mnclab.compensation_panel(square(40)),
         lambda: mnclab.profile_panel(square(40).profile()),
+        lambda: mnclab.editor("data/programs/mnc/square.mnc"),
     ],
 )
 def test_everything_live_has_a_still_picture_and_its_values(made):

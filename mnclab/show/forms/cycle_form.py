@@ -81,15 +81,20 @@ def form(code: str, control: str) -> Any:
         if source is None:
             live.shown = f"<p>no picture yet: a program around this cycle of {escape(name)} is not built</p>"
             return None
-        program.value = f"<pre>{escape(source)}</pre>"
-        machine, listed = setup, None
-        with suppress(Alarm):
-            listed = found()
-            if chosen.does in (PROBES, FEELS):  # something to touch
-                machine = replace(setup, part=touched_part(listed, setup.probe.clearance))
+        machine = setup
+        if chosen.does in (PROBES, FEELS):  # something to touch
+            with suppress(Alarm):
+                machine = replace(setup, part=touched_part(found(), setup.probe.clearance))
         live.run = run = run_text(source, name, machine)
-        table.value = steps_html(listed) if listed else "<p>its steps need a program, or other values</p>"
-        return of_run(run, lambda **kept: run.plot(size=SIZE, **kept))
+
+        def after() -> None:
+            program.value = f"<pre>{escape(source)}</pre>"
+            try:
+                table.value = steps_html(found())
+            except Alarm:
+                table.value = "<p>its steps need a program, or other values</p>"
+
+        return of_run(run, lambda **kept: run.plot(size=SIZE, **kept))._replace(after=after)
 
     card = ipywidgets.HTML(about(chosen, parameters))
     rows = ipywidgets.VBox(grouped(parameters, fields))

@@ -14,12 +14,11 @@ from typing import Any, NamedTuple
 from mnclab.runs.run import Run
 from mnclab.show.forms.faults import at_field
 from mnclab.show.forms.fields import Field
-from mnclab.show.forms.live import live_class
+from mnclab.show.forms.live import PAST, live_class
 from mnclab.text.alarm import ALARM, Alarm, card_html
 
 DRAWING = ThreadPoolExecutor(1, thread_name_prefix="drawing")
 SIZE = (6.4, 4.4)  # inches, of a picture beside boxes
-PAST = "last good picture"
 
 
 class Work(NamedTuple):
@@ -34,6 +33,7 @@ class Work(NamedTuple):
     stop: Alarm | None = None
     made: Any = None
     shows: bool = False
+    after: Callable[[], None] | None = None  # what can wait until the picture is seen
 
 
 def following(
@@ -54,7 +54,7 @@ def following(
         part.add_class(f"mnclab-{name}")
     body = ipywidgets.HBox([column, right])
     body.add_class("mnclab-body")
-    live = live_class()([*above, body], classes)
+    live = live_class()([*above, body], f"mnclab-following {classes}")
     live.title, live.boxes, live.fields, live.picture, live.alarms = title, dict(boxes), dict(fields), picture, alarms
     live.good, live.former, live.box = False, None, None
 
@@ -79,6 +79,8 @@ def following(
         past = stop is not None and live.good and not (done and done.shows)
         picture.value = greyed(live.shown) if past else live.shown
         alarms.value = done.said if done else stop.html() if stop else ""
+        if done and done.after:
+            done.after()
         live.renew()
 
     changed()

@@ -7,6 +7,7 @@ style of the widget hides, holds the picture and is replaced after each change.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from functools import cache
@@ -15,6 +16,9 @@ from pathlib import Path
 from typing import Any
 
 from mnclab.machine.trial import number
+
+PAST = "last good picture"
+IMAGE = re.compile('<img [^>]*base64,([^"]*)"[^>]*>')
 
 
 @cache
@@ -26,24 +30,24 @@ def live_class() -> type:
     class Live(ipywidgets.VBox):
         """Boxes and what follows them; `still()` is what stands in their place where no widget can."""
 
-        def __init__(self, children: Sequence[Any], classes: str = "", **known: Any) -> None:
-            super().__init__([ipywidgets.HTML(style()), *children])
+        def __init__(self, children: Sequence[Any], classes: str = "") -> None:
+            super().__init__([*children, ipywidgets.HTML(style())])
             self.title, self.shown, self.run = "panel", "", None
             self.place: Any = None  # of the still picture in the notebook
             self.picture, self.alarms = ipywidgets.HTML(), ipywidgets.HTML()
             self.boxes: dict[str, Any] = {}
-            for name in ("mnclab-following", *classes.split()):
+            for name in classes.split():
                 self.add_class(name)
-            for name, value in known.items():
-                setattr(self, name, value)
 
         def still(self) -> dict[str, str]:
             """The last picture and the values, as a page shows them, as a picture alone, and in words."""
             values = {box.description or name: value_of(box) for name, box in self.boxes.items()}
             words = "; ".join(f"{name}: {value}" for name, value in values.items())
             rows = "".join(f"<tr>{cell(name)}{cell(value)}</tr>" for name, value in values.items())
-            page = f"<p><strong>{escape(self.title)}</strong></p>{self.picture.value}{self.alarms.value}<table>{rows}</table>"
-            data = self.shown.partition("base64,")[2].partition('"')[0]
+            found = IMAGE.search(self.picture.value)  # without what can be clicked
+            image, data = (found[0], found[1]) if found else ("", "")
+            past = f"<p>{PAST}</p>" if PAST in image else ""
+            page = f"<p><strong>{escape(self.title)}</strong></p>{image}{past}{self.alarms.value}<table>{rows}</table>"
             still = {"text/html": f'<div class="mnclab-still">{page}</div>', "text/plain": f"<{self.title}; {words}>"}
             return still | ({"image/png": data} if data else {})
 
@@ -65,7 +69,7 @@ def live_class() -> type:
 
 def cell(text: str) -> str:
     """A cell of a table, its text on the left."""
-    return f'<td style="text-align: left">{escape(text)}</td>'
+    return f'<td style="text-align: left; white-space: pre-wrap">{escape(text)}</td>'
 
 
 def style() -> str:
