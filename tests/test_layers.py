@@ -35,9 +35,14 @@ OUTSIDE = {  # package -> the only modules of mnclab that import it
     "IPython": ("show.magic", "show.forms.live"),
     "tqdm": ("text.progress",),
     "pandas": ("comparison.table",),
+    "nbclient": ("shell.handout",),
+    "nbconvert": ("shell.handout",),
+    "nbformat": ("shell.handout",),
+    "pygments": ("shell.handout",),
 }
 SEES_ALL = ("show.forms", "show.editor", "show.magic")
-HEAVY = {"shapely", "matplotlib", "pyvista", "vtkmodules", "ipywidgets", "IPython", "tqdm", "pandas"}
+HEAVY = {"shapely", "matplotlib", "pyvista", "vtkmodules", "ipywidgets", "IPython", "tqdm", "pandas", "nbclient", "nbconvert", "nbformat",
+         "pygments"}
 VAGUE = {"util", "utils", "helper", "helpers", "common", "base", "core", "misc"}
 LONGEST = 400
 
