@@ -221,7 +221,7 @@ def test_a_rapid_of_two_axes_goes_as_the_plot_draws_it(open_file):
     found = page.evaluate("times => times.map(t => window.player.run.tool(window.player.run.itemAt(t), t).point)", times)
     count = np.arange(len(line.get_xydata()))
     drawn = np.column_stack([np.interp(np.linspace(0, count[-1], 4000), count, each) for each in line.get_xydata().T])
-    assert max(np.hypot(*(drawn - point[:2]).T).min() for point in found) < 0.3  # less than a pixel; the straight line lies 20 mm away
+    assert max(np.hypot(*(drawn - point[:2]).T).min() for point in found) < 0.3  # less than a pixel
     v, a = 10_000 / 60, 1000
     arrives = 78 - (v * (34 / v + v / a) - v**2 / 2 / a)
     assert max(x for x, y, _ in found if y < -19.99) == pytest.approx(arrives, abs=1)
