@@ -15,7 +15,7 @@ from itertools import product
 from typing import Any
 
 from mnclab.controls.choice import help
-from mnclab.controls.cycle_table import CycleSteps, Point, Row
+from mnclab.controls.cycle_table import DECIMALS, CycleSteps, Point, Row
 from mnclab.machine.control import Control
 from mnclab.machine.cycle import Cycle, Definition, Parameter
 from mnclab.machine.machine import Machine
@@ -164,9 +164,9 @@ def noting(m: Machine, cycle: type[Cycle], rows: list[Row]) -> Callable[[Iterabl
         moved = isinstance(step, Go | Turn | Along | Thread | Swivel | Touch)
         own = getattr(step, "feed", None)
         feed = m.feed if own is None else own
-        words = "rapid" if feed == math.inf else "" if feed is None or math.isnan(feed) else figure(feed)
+        words = "rapid" if feed == math.inf else "" if feed is None or math.isnan(feed) else figure(feed, DECIMALS)
         if isinstance(step, Thread):
-            words = figure(step.pitch) + " mm/rev" * (not m.per_rev)
+            words = figure(step.pitch, DECIMALS) + " mm/rev" * (not m.per_rev)
         rows.append(Row(step, m.programmed, words) if moved else Row(step))
 
     def through(steps: Iterable[Step], about: Place) -> Generator[Step, Any, Any]:

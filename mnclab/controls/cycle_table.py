@@ -17,6 +17,7 @@ from mnclab.text.tables import html_table, text_table
 from mnclab.workpiece.part import Part
 
 Point = tuple[float, float, float]
+DECIMALS = 3  # of a length and of a feed, as a control shows them
 SPINDLE = {1: "clockwise", -1: "counter-clockwise", 0: "stopped"}
 SIDES = {1: "left", -1: "right", 0: "off"}
 
@@ -59,7 +60,7 @@ class CycleSteps(Sequence[Step]):
     @property
     def head(self) -> tuple[str, ...]:
         feed = f"feed, {'mm/rev' if self.per_rev else 'mm/min'}"
-        return "step", "label", *("xz" if self.lathe else "xyz"), feed, ""
+        return "step", "label", *(("x (radius)", "z") if self.lathe else "xyz"), feed, ""
 
     def cells(self) -> list[tuple[str, ...]]:
         """The table's rows; where nothing but bookkeeping would stand in them, one that names it."""
@@ -78,7 +79,7 @@ class CycleSteps(Sequence[Step]):
                 if not detail or (step.what in ("memory", "history") and name in names):
                     continue  # bookkeeping, or what another row has told
                 names.add(name)
-            places = [""] * 3 if end is None else [*map(figure, end)]
+            places = [""] * 3 if end is None else [figure(value, DECIMALS) for value in end]
             yield type(step).__name__.lower(), step.label, *places[:: 2 if self.lathe else 1], feed, detail
 
     def __str__(self) -> str:

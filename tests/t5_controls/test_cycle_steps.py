@@ -104,10 +104,18 @@ def test_the_title_is_written_as_the_table_is() -> None:
     assert "Q500=&lt;b&gt;A &amp; B" in mnc.steps("CYCL DEF 225", "tnc-620", Q500="<b>A & B")._repr_html_()
 
 
+def test_the_table_has_the_decimals_of_a_control() -> None:
+    """No number of the table has more than three."""
+    for code, control in (("G343", "mnc"), ("CYCL DEF 254", "tnc-620"), ("TCH PROBE 481", "tnc-620")):
+        cells = [cell for row in mnc.steps(code, control).cells() for cell in row[2:-1]]
+        assert not [cell for cell in cells if len(cell.partition(".")[2]) > 3]
+    assert "-13.333" in {row[4] for row in mnc.steps("200", "tnc-620", Q201=-40 / 3).cells()}
+
+
 def test_a_lathe_has_no_y_and_feeds_per_revolution() -> None:
     """From the diameter of 40 to the one of 30, 2 a pass: five passes, which end at the radius 15."""
     found = mnc.steps("G77", "nc-31")
-    assert found.head == ("step", "label", "x", "z", "feed, mm/rev", "")
+    assert found.head == ("step", "label", "x (radius)", "z", "feed, mm/rev", "")
     assert found.cells()[0] == ("go", "pass 1 of 5, infeed", "19", "2", "rapid", "")
     assert mnc.steps("G77", "jnc-t01").head[4] == "feed, mm/min"
     diameters = mnc.Setup(settings={"diameter": True})

@@ -153,6 +153,13 @@ def test_a_mill_that_plunges_makes_no_hole():
     assert "dwell" not in legend(picture) and "plunge" not in legend(picture)  # the circles say it
 
 
+def test_a_thread_on_a_helix_is_no_hole_of_its_tool():
+    """The form of 267 goes round a stud with the drill of the trial; that of 264 pecks its core hole first."""
+    assert holes_of(mnc.form("CYCL DEF 267", "tnc-620").run) is None
+    (core,) = holes_of(mnc.form("CYCL DEF 264", "tnc-620").run).holes
+    assert (core.x, core.y, core.tip) == (20, 10, -20)
+
+
 def test_clamps_are_drawn_in_every_view():
     clamp = ((45, 0, 0), (55, 20, 15))
     picture = sample("mnc/row_of_holes.mnc", fixtures=(clamp,), stock=((0, 0, -22), (100, 20, 0))).plot()
@@ -187,6 +194,14 @@ def test_vectors_from_machine_zero_end_at_the_zero_points():
     broken = sample("mnc/two_parts.mnc", datums=far, start=(4000, 3000, 60)).plot_datums()
     assert "machine zero, not to scale" in said(broken) and "//" in said(broken)
     assert np.ptp(broken.axes[0].get_xlim()) < 400
+
+
+def test_a_rapid_bends_beside_the_zero_points_as_it_does_in_the_plot():
+    """From X110 Y60 to X0 Y0 both axes set out together at one speed: Y is there first, 50 mm before X."""
+    there = sample("mnc/machine_coordinates.mnc", datums={1: (100, 50, 20)}, start=(100, 50, 60))
+    (line,) = [line for line in there.plot_datums().axes[0].lines if line.get_label() == "cuts and rapids"]
+    bent = line.get_xydata()
+    assert abs(bent - (50, 0)).sum(axis=1).min() < 5
 
 
 def test_a_zero_point_does_not_move_with_the_length_of_a_tool():

@@ -22,6 +22,7 @@ from mnclab.show.plot.overlay import line, texts
 from mnclab.show.plot.picture import SIZE, VIEWS, View, arrange, dress, roomy, write_legend
 from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import corners, line_of
+from mnclab.show.rapids import rapids_of
 from mnclab.text.given import choice
 
 FAR = 3.0  # times the size of what lies on the table: a machine zero beyond that is drawn at the border
@@ -42,7 +43,7 @@ def plot_datums(run: Any, ax: Axes | None = None, *, view: str = "XY", size: tup
     origin = np.asarray(path.origin)
     places = [place for place in places_of(run) if place.mark is colours.DATUM and np.isfinite(place.xyz).all()]
     spots = np.array([place.xyz for place in places]).reshape(-1, 3) + origin
-    cuts = line_of(path) + origin
+    cuts = line_of(path, rapids=rapids_of(run)) + origin
     around = corners([each for each in (cuts, spots) if len(each)], False) or (np.zeros(3), np.ones(3))
     zero, broken = np.zeros(3), False
     axes = [looked.right, looked.up]

@@ -119,7 +119,8 @@ def holes_of(run: Any) -> Holes | None:
         return None
     tools, numbers = run.tools_that_cut
     drilling = [number for number, tool in tools.items() if tool.kind in KINDS]
-    rows = np.flatnonzero(down & (_called(path, STEPS) | np.isin(numbers, drilling)))
+    milling = np.isin(path.step, path.step[(path.kind == Kind.ARC) & np.isfinite(path.feed)])  # threads, on their helix
+    rows = np.flatnonzero(down & (_called(path, STEPS) | (np.isin(numbers, drilling) & ~milling)))
     stock = run.stock
     top = float(stock.bounds[1, 2]) if stock is not None else math.inf
     where = np.column_stack([np.round(path.end[rows, :2] / SAME), numbers[rows]])
