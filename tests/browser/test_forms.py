@@ -58,7 +58,7 @@ def test_a_number_box_redraws_the_picture_and_says_the_alarm_at_its_field(run_ce
 def test_a_slider_makes_no_change_by_itself_and_moves_its_box(run_cells):
     page = run_cells(PANEL, "live = _\nlive.boxes['side'].value, len(live.fields['side'].parts)")
     page.get_by_text("(40.0, 2)").wait_for(timeout=5000)
-    handle = page.locator(".noUi-handle").bounding_box()
+    handle = page.get_by_role("slider", name="side").bounding_box()
     page.mouse.move(handle["x"] + 5, handle["y"] + 5)
     page.mouse.down()
     page.mouse.move(handle["x"] + 40, handle["y"] + 5)
@@ -109,6 +109,18 @@ def test_first_field_last_head_and_picture_stand_on_one_screen(run_cells, code, 
         assert left >= 0 and top >= 0 and right <= places["wide"] + 1 and bottom <= room, (name, places)
     assert places["picture"][0] >= places["first"][2], ("the picture stands beside the fields", places)
     assert places["clipped"] == []
+
+
+def test_a_sketch_is_dark_on_white_in_the_dark_theme_too(run_cells):
+    page = run_cells("import mnclab as mnc\nmnc.form('CYCL DEF 251', 'tnc-620')")
+    theme = "name => window.jupyterapp.commands.execute('apputils:change-theme', {theme: name})"
+    page.evaluate(theme, "JupyterLab Dark")
+    try:
+        page.wait_for_function("() => document.body.dataset.jpThemeLight === 'false'", timeout=5000)
+        look = "e => [getComputedStyle(e).color, getComputedStyle(e).backgroundColor]"
+        assert page.locator(".mnclab-about svg").first.evaluate(look) == ["rgb(26, 26, 26)", "rgb(255, 255, 255)"]
+    finally:
+        page.evaluate(theme, "JupyterLab Light")
 
 
 def test_what_a_changed_form_leaves_behind_is_its_last_picture(run_cells, browser, tmp_path):

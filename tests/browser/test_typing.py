@@ -110,7 +110,7 @@ def test_a_fault_is_underlined_where_it_stands_and_leaves_when_it_is_mended(open
     page.get_by_role("textbox", name="part program").click()
     page.keyboard.press("Control+End")
     page.keyboard.type("G1 X4,5 F100")
-    fault = page.locator(".mnclab-code .mnclab-alarm")
+    fault = page.locator(".mnclab-code .mnclab-alarm").filter(has_text=",")  # not one of half a word
     fault.wait_for(timeout=30_000)
     assert "," in fault.inner_text() and "X" not in fault.inner_text()[1:]
     place = fault.evaluate("each => [...document.querySelectorAll('.mnclab-code .cm-line')].indexOf(each.closest('.cm-line'))")
@@ -129,6 +129,15 @@ def test_the_word_at_the_cursor_is_explained_and_tab_leaves(opened):
     page.get_by_text("G90 Absolute dimensions").wait_for(timeout=20_000)
     page.keyboard.press("Tab")
     assert page.evaluate("() => document.activeElement.textContent") == "Save"
+
+
+def test_hover_help_goes_with_its_editor(opened):
+    page, _ = opened
+    word = page.locator(".mnclab-code .cm-line").filter(has_text="G1").first.bounding_box()
+    page.mouse.move(word["x"] + 8, word["y"] + 8)
+    page.locator(".mnclab-word").wait_for(timeout=5000)
+    page.evaluate("() => document.querySelector('.mnclab-editor').closest('.mnclab-live').remove()")
+    page.wait_for_function("() => !document.querySelector('.mnclab-word')", timeout=5000)
 
 
 def test_control_s_saves_the_file(opened):

@@ -34,6 +34,13 @@ def test_a_band_is_drawn_where_passes_crowd_or_where_it_is_wanted(apart, wanted,
     assert (len(bands(above)), len(bands(side))) == (found, 0)
 
 
+def test_the_picture_has_room_for_the_band():
+    """Passes from X0 Y0 to X60 with a tool of radius R cut from -R to 60 + R."""
+    run = mnc.run(passes(1), "mnc", mnc.Setup(tools={1: mnc.Tool(radius=20)}))
+    radius, (left, right) = run.toolpath.radius.max(), run.plot(view="XY", band=True).axes[0].get_xlim()
+    assert left <= -radius and right >= run.toolpath.end[:, 0].max() + radius
+
+
 def test_a_band_is_as_wide_as_the_tool_and_its_line_is_thin():
     figure = mnc.run(passes(1), "mnc", SETUP).plot(view="XY")
     figure.canvas.draw()

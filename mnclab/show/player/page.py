@@ -34,6 +34,7 @@ CUTTING = {
     False: ("swept", "heights", "carving", "relief", "shaded", "surface", "shown_part"),
     True: ("section", "rims"),
 }
+ROOM = "clamp(480px, 100vh - 210px, 640px)"  # below a cell of three lines in JupyterLab, down to its buttons
 THEMES = ("auto", "light", "dark")
 #: Tells the frames of a notebook whether its theme is dark (JupyterLab, VS Code), when they ask and when it changes.
 #: Where the scripts of outputs do not run, a page follows the system's choice.
@@ -74,12 +75,13 @@ class Player:
 
     def __init__(
         self, run: Any, profile: Profile, cutting: Cutting | None = None, collisions: Sequence[Collision] = (),
-        *, height: int = 640, theme: str = "auto", speed: float = 1.0,
+        *, height: int | None = None, theme: str = "auto", speed: float = 1.0,
     ) -> None:  # fmt: skip
-        for name, number in (("speed", speed), ("height", height)):
+        for name, number in (("speed", speed), ("height", 1 if height is None else height)):
             check_number(number, name, above=0)
         self.run, self.profile, self.cutting, self.collisions = run, profile, cutting, collisions
-        self.height, self.theme, self.speed = int(height), choice(theme, "theme", THEMES), speed
+        self.height = ROOM if height is None else f"{int(height):d}px"
+        self.theme, self.speed = choice(theme, "theme", THEMES), speed
 
     @property
     def name(self) -> str:
@@ -147,7 +149,7 @@ class Player:
         return (
             f"<script>{FOLLOW}</script>"
             f'<iframe class="mnclab-player" title="{name}" sandbox="allow-scripts" loading="eager" '
-            f'style="width: 100%; height: {self.height:d}px; border: 0; border-radius: 6px" '
+            f'style="width: 100%; height: {self.height}; border: 0; border-radius: 6px" '
             f'srcdoc="{escape(self.page, quote=True)}"></iframe>'
         )
 
@@ -163,6 +165,7 @@ def player(
     """The player of a run under a feed-rate profile (that of its own setup if none is given).
 
     With a `cutting` the page cuts the blank as it plays; `collisions` are marked in the text and over time.
-    `height` in pixels of the frame in a notebook, `theme` "auto", "light" or "dark", `speed` 1 for real time.
+    `height` in pixels of the frame in a notebook (else what a screen has room for), `theme` "auto", "light" or "dark",
+    `speed` 1 for real time.
     """
     return Player(run, profile or run.profile(), cutting, collisions, **options)

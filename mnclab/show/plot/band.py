@@ -52,6 +52,14 @@ def radii_of(path: Toolpath, drawn: Strokes, cuts: Mask) -> list[float]:
     return list(found)
 
 
+def around(low: Array, high: Array, path: Toolpath, drawn: Strokes, cuts: Mask) -> tuple[Array, Array]:
+    """A box (3,), mm, with the bands in it."""
+    if not cuts.any():
+        return low, high
+    room = np.nan_to_num(path.radius[drawn.row[cuts]])[:, None] * (1, 1, 0)
+    return np.fmin(low, (drawn.xyz[cuts] - room).min(axis=0)), np.fmax(high, (drawn.xyz[cuts] + room).max(axis=0))
+
+
 def sample() -> Patch:
     """What the legend shows."""
     return Patch(facecolor=SHADE, edgecolor="none", label=NAME)

@@ -141,6 +141,8 @@ def plot_path(
     above = next((each for each in views if not path.lathe and (each.right, each.up) == (0, 1)), None)
     crowded = above is not None and band is not False and (band or _crowded(drawn, found, high - low, size))
     banded = above if crowded and (band or len(drawn.row) <= bands.MOST) else None
+    if banded is not None and not beyond:
+        low, high = bands.around(low, high, path, drawn, found.group >= CUTS)
     if crowded:
         lines = [(line._replace(width=bands.THIN * line.width) if line in found.lines[2:] else line, xyz) for line, xyz in lines]
     plunge = colours.PLUNGE if colour == "kind" else colours.PLUNGE._replace(colour=colours.INK)

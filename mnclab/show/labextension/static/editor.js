@@ -21,6 +21,7 @@ let count = 0;
 /** Upgrade every editor of mnclab that comes into the page. */
 export const watchEditors = ({ services, CodeEditor, view, state }) => {
   const known = new WeakSet();
+  const pointed = new Map(); // hosts that the pointer was on, with their views
   const setFaults = state.StateEffect.define();
 
   /** The ranges of faults in a document: the last letter of a line where a fault lies behind it, the line where it is empty. */
@@ -74,6 +75,7 @@ export const watchEditors = ({ services, CodeEditor, view, state }) => {
       extensions: [faultsField, view.EditorView.updateListener.of(moved), view.EditorView.contentAttributes.of(name)],
     });
     const shown = editor.editor;
+    host.addEventListener('pointerenter', () => pointed.set(host, shown));
     shown.setTabFocusMode?.(true); // Tab leaves the editor; programs have no tabs
     Object.defineProperty(area, 'value', {
       get: () => native.get.call(area),
@@ -138,11 +140,19 @@ export const watchEditors = ({ services, CodeEditor, view, state }) => {
     });
   };
 
-  const look = () => document.querySelectorAll('.mnclab-editor textarea').forEach(area => {
-    if (known.has(area)) return;
-    known.add(area);
-    upgrade(area);
-  });
+  const look = () => {
+    for (const [host, shown] of pointed) if (!host.isConnected) { // its hover help hangs elsewhere in the page
+      pointed.delete(host);
+      shown.dispatch({ effects: view.closeHoverTooltips });
+    }
+    document.querySelectorAll('.mnclab-editor textarea').forEach(area => {
+      if (known.has(area)) return;
+      known.add(area);
+      upgrade(area);
+    });
+    document.querySelectorAll('.mnclab-row .noUi-handle:not([aria-label])').forEach(
+      handle => handle.setAttribute('aria-label', handle.closest('.mnclab-row').querySelector('label').textContent));
+  };
   document.head.append(Object.assign(document.createElement('style'), { textContent: STYLE }));
   new MutationObserver(look).observe(document.body, { childList: true, subtree: true });
   look();
