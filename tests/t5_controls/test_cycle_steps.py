@@ -142,3 +142,11 @@ def test_what_is_wrong_is_said(code: str, values: dict[str, float], message: str
     with pytest.raises(mnc.Alarm) as refused:
         mnc.steps(code, "tnc-620", **values)
     assert message in refused.value.message
+
+
+def test_a_lathe_says_whether_x_is_a_radius_or_a_diameter() -> None:
+    """NC-31 counts on the diameter; JNC-T01 on the radius, unless its setting says otherwise: each parameter says it."""
+    for code in ("G75", "G77", "G78"):
+        across = [p for p in mnc.controls["jnc-t01"].cycles[code].parameters() if p.address in ("X", "U")]
+        assert across and all(p.note.startswith("a radius, under the setting diameter a diameter") for p in across)
+    assert mnc.controls["nc-31"].cycles["G77"].parameters()[0].unit == "0.01 mm on diameter"

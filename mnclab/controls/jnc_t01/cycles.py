@@ -20,11 +20,13 @@ from mnclab.machining.turning.roughing import Crosswise, Shoulder, remove_stock
 
 CYCLES = CycleTable()
 INCREMENT = "under G91 from the start"
+ACROSS = f"a radius, under the setting diameter a diameter; {INCREMENT}"  # of X and U
 
 
 def optional(address: str, meaning: str, left_out: str, example: float) -> Any:
     """A coordinate, and in words what it is where it is left out."""
-    return param(address, meaning, default=None, default_means=left_out, note=INCREMENT, example=example)
+    note = ACROSS if address in "XU" else INCREMENT
+    return param(address, meaning, default=None, default_means=left_out, note=note, example=example)
 
 
 def pass_of(meaning: str, left_out: str, example: float = 6) -> Any:
@@ -109,7 +111,7 @@ class FaceGrooves(LatheCycle):
 class CylindricalGrooves(LatheCycle):
     """Plunges along X at Z1 and at places D apart, the last one at Z; between them it returns to X1 at rapid."""
 
-    bottom: float = param("X", "bottom of the groove", note=INCREMENT, example=25)
+    bottom: float = param("X", "bottom of the groove", note=ACROSS, example=25)
     last_z: float | None = optional("Z", "place of the last groove or cut", "one groove at the present Z", -15)
     step: float | None = pass_of("step between the cuts", "two cuts, at Z1 and at Z")
 
@@ -153,7 +155,7 @@ class LongitudinalTurning(LatheCycle):
     both ways; the infeeds, the way from (U, Z) to (X1, Z) and the returns are at rapid.
     """
 
-    end_x: float = param("X", "end of the cut along X", note=INCREMENT, example=20)
+    end_x: float = param("X", "end of the cut along X", note=ACROSS, example=20)
     end_z: float = param("Z", "end of the cut along Z", note=INCREMENT, example=-75)
     taper_x: float | None = optional("U", "X of the bevel", "X of the start", 30)
     taper_z: float | None = optional("W", "Z of the bevel", "Z of the start", -60)
@@ -170,7 +172,7 @@ class Facing(LatheCycle):
     both ways; the infeeds, the way from (X, W) to (X, Z1) and the returns are at rapid.
     """
 
-    end_x: float = param("X", "end of the cut along X", note=INCREMENT, example=20)
+    end_x: float = param("X", "end of the cut along X", note=ACROSS, example=20)
     end_z: float = param("Z", "end of the cut along Z", note=INCREMENT, example=-75)
     taper_x: float | None = optional("U", "X of the bevel", "X of the start", 30)
     taper_z: float | None = optional("W", "Z of the bevel", "Z of the start", -60)
