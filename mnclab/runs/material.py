@@ -42,7 +42,8 @@ def cutting_of(run: Run, stock: Any = None, named: bool = True) -> Cutting:
     path, origin = run.toolpath, run.toolpath.origin
     body = run.stock if stock is None else blank(stock)
     if body is None:
-        raise no_blank() if stock is None else Alarm(f"stock must be two corners or a blank, got {shown(stock)}")
+        wanted = "three sizes, two corners (x, y, z), or a blank"
+        raise no_blank() if stock is None else Alarm(f"stock must be {wanted}, got {shown(stock)}")
     if not body.volume > 0:
         raise Alarm(f"there is nothing to cut: the blank is {shown(body)}")
     body = body if stock is None else from_datum(body, origin)

@@ -16,7 +16,7 @@ places = st.tuples(*[st.floats(-50, 50)] * 3)
 
 def test_two_corners_are_a_box_and_other_things_are_none():
     assert blank(((0, 0, -5), (10, 20, 0))) == Box((0, 0, -5), (10, 20, 0))
-    assert blank(None) is None and blank("steel") is None and blank((1, 2, 3)) is None
+    assert blank(None) is None and blank("steel") is None and blank((1, 2)) is None
     rod = cylinder(10, -30, 2)
     assert blank(rod) is rod
 
@@ -63,9 +63,9 @@ def test_a_tube_has_its_volume_along_every_axis(radius, length, share, axis, at)
 ], ids=str)  # fmt: skip
 def test_what_stands_nowhere_is_no_blank(given):
     assert blank(given) is None
-    with pytest.raises(Alarm, match="stock must be two corners"):
+    with pytest.raises(Alarm, match="stock must be three sizes, two corners"):
         mnclab.Setup(stock=given)
-    with pytest.raises(Alarm, match="stock must be two corners or a blank"):
+    with pytest.raises(Alarm, match="stock must be three sizes, two corners"):
         mnclab.run("G0 X1\n", "mnc").workpiece(stock=given)
 
 

@@ -12,8 +12,9 @@ from mnclab.machine.control import Control, FunctionTable
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.trial import number
 from mnclab.machining.steps import Go
-from mnclab.show import forms, magic
+from mnclab.show import forms
 from mnclab.show.forms.following import DRAWING
+from mnclab.show.magic import cell
 from mnclab.show.plot import colours
 
 FUNCTIONS, CYCLES = FunctionTable(), CycleTable()
@@ -75,7 +76,7 @@ def test_its_moves_have_the_colours_of_all_moves():
 
 def test_it_can_be_named_wherever_a_control_is_named():
     """Cells list it among their options, the editor and a panel read programs of it, files are known by their suffix."""
-    assert "toy" in magic.options().format_help() and magic.run_cell("--control toy", "G81 P3", {})[1].ok
+    assert "toy" in cell.options().format_help() and cell.run_cell("--control toy", "G81 P3", {})[1].ok
     assert mnclab.panel("G81 P{depth}\n", "toy", depth=4).run.toolpath.bounds[0, 2] == -4
     assert "toy" in list(mnclab.controls) and "G81" in mnclab.help("toy")._repr_html_()
 

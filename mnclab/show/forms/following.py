@@ -16,6 +16,7 @@ from mnclab.show.forms.faults import at_field
 from mnclab.show.forms.fields import Field
 from mnclab.show.forms.live import PAST, live_class
 from mnclab.text.alarm import ALARM, Alarm, card_html
+from mnclab.text.extras import require
 
 DRAWING = ThreadPoolExecutor(1, thread_name_prefix="drawing")
 SIZE = (6.4, 4.4)  # inches, of a picture beside boxes
@@ -45,6 +46,7 @@ def following(
 
     A fault stands at the field that `field_of` names, one of no field above them all.
     """
+    require("matplotlib", "pictures")
     import ipywidgets
 
     picture, alarms, first = ipywidgets.HTML(), ipywidgets.HTML(), ipywidgets.HTML()
