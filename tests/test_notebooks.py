@@ -26,6 +26,25 @@ def test_notebook_is_a_lesson(path):
     prose = "\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
     headings = re.findall(r"^##? +(.+?) *$", prose, re.M)
     assert headings and headings[-1] == "Exercises", "the last section is headed Exercises"
+    exercises = re.findall(r"^\d+\. ", prose.rpartition("## Exercises")[2], re.M)
+    assert exercises == ["1. ", "2. ", "3. "], "three exercises"
+
+
+SLIDES = {"slide", "subslide", "fragment", "-", "skip", "notes"}  # of JupyterLab, which `jupyter nbconvert --to slides` reads
+
+
+@each_notebook
+def test_a_heading_begins_a_slide_and_nothing_follows_the_exercises(path):
+    cells = nbformat.read(path, as_version=4).cells
+    kinds = [cell.metadata.get("slideshow", {}).get("slide_type") for cell in cells]
+    assert set(kinds) <= SLIDES
+    for cell, kind in zip(cells, kinds, strict=True):
+        if cell.cell_type == "markdown":
+            headed = re.match(r"##? ", cell.source) is not None
+            assert (kind == "slide") is headed, cell.source[:60]
+            assert not re.search(r"\n##? ", cell.source), f"a heading inside a cell:\n{cell.source}"
+    last = next(k for k, cell in enumerate(cells) if cell.source.startswith("## Exercises"))
+    assert set(kinds[last + 1 :]) <= {"skip"}, "the empty cells for the reader's programs"
 
 
 @pytest.mark.deep
