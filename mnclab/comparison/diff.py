@@ -13,6 +13,7 @@ from mnclab.path.holes import Holes, holes
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting
 from mnclab.text.given import check_number, choice, shown
 
 
@@ -41,6 +42,7 @@ def diff(
 ) -> Deviation | HolesCompared: ...
 
 
+@fitting
 def diff(
     one: Ran | Toolpath, other: Ran | Toolpath, step: float | None = None, *, what: str = "path", tolerance: float = TOLERANCE
 ) -> Deviation | HolesCompared:

@@ -33,6 +33,7 @@ from mnclab.path.limits import Limits
 from mnclab.path.machine_file import limits_of
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting
 from mnclab.text.given import check_number, choice, faults_as_alarms, plain, shown
 from mnclab.text.progress import progress
 
@@ -129,6 +130,7 @@ class Comparison(Table[Trial]):
         return plot_strategies(self, **options)
 
 
+@fitting
 @faults_as_alarms()
 def compare(
     region: Region, tool: Tool | float, strategies: Strategies | None = None, *more: str, overlap: float = 0.5,

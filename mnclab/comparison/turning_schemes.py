@@ -45,6 +45,7 @@ from mnclab.path.machine_file import limits_of
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting
 from mnclab.text.given import check_number, choice, faults_as_alarms, plain, shown
 
 if TYPE_CHECKING:
@@ -170,6 +171,7 @@ class TurningComparison(Table[TurningTrial]):
         return plot_schemes(self, **options)
 
 
+@fitting
 @faults_as_alarms()
 def compare(
     profile: Contour, blank: float, tool: Tool | tuple[Tool, ...] = TURNER, schemes: Schemes | None = None, *, depth: float = 2.0,

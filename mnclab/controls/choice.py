@@ -21,6 +21,7 @@ from mnclab.machine.setup import Setup
 from mnclab.path.tool import Tool
 from mnclab.runs.run import EXAMPLE, Run, run_program
 from mnclab.text.alarm import ALARM, Alarm
+from mnclab.text.calls import fitting, near_option
 from mnclab.text.code_pages import decode
 from mnclab.text.file import read as read_file
 from mnclab.text.given import shown
@@ -31,6 +32,7 @@ from mnclab.text.program import Program
 MOST_FILES = 1000  # of a folder, looked through for a name
 
 
+@fitting
 def run(
     source: str | Path | Program, control: str | None = None, setup: Setup | None = None,
     *, strict: bool = False, tools: Mapping[int, Tool] | None = None, stock: Any = None, **parts: Any,
@@ -50,12 +52,12 @@ def run(
         raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
     known = [each.name for each in fields(Setup) if each.name != "source"]
     for name in (name for name in given if name not in known):
-        hinted = hint(name, known) or f"parts of a setup: {', '.join(known)}"
-        raise Alarm(f"run has no option {name!r}", hint=hinted)
+        raise Alarm(f"run has no option {name!r}", hint=near_option(name, known))
     setup = replace(setup or Setup(), **given, source=None) if given else setup
     return run_program(program, CONTROLS[program.control], setup, strict=strict)
 
 
+@fitting
 def read(source: str | Path, control: str | None = None) -> Program:
     """Read a part program into blocks without running it; see `run` for the arguments."""
     text, name, encoding = _text_of(source, control)
@@ -85,6 +87,7 @@ def _point_out_another(program: Program) -> None:
         first.hint = f"{said}; {first.hint}" if first.hint else said
 
 
+@fitting
 def modern(source: str | Path | Program | Run, control: str | None = None) -> Notation:
     """A program beside itself in modern notation: one command a line, millimetres, decimal points (NC-31).
 
@@ -200,6 +203,7 @@ class Help:
         return help_html(self.entry) + (f"<p>DIN/ISO {iso}</p>" if iso else "")
 
 
+@fitting
 def help(code: str | Control = "", control: str | None = None) -> Help:
     """The parameter table of a cycle, the meaning of a function or setting; "settings" is the table of all settings, and
     the name of a control alone the table of its codes.

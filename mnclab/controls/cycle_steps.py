@@ -28,6 +28,7 @@ from mnclab.running.binding import instance, store, value_of
 from mnclab.running.interpreter import Interpreter
 from mnclab.running.performing import Place, run_cycle
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting
 from mnclab.text.given import check_number, plain, shown
 from mnclab.text.nearest import hint
 from mnclab.text.program import Word, place_of
@@ -37,6 +38,7 @@ from mnclab.machining.steps import (  # isort: skip
 )  # fmt: skip
 
 
+@fitting
 def steps(code: str, control: str, /, setup: Setup | None = None, **values: Any) -> CycleSteps:
     """The steps of a cycle as a table, without a program: `mnclab.steps("CYCL DEF 200", "tnc-620", Q201=-20)`.
 

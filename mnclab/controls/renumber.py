@@ -7,6 +7,7 @@ from pathlib import Path
 from mnclab.controls import CONTROLS
 from mnclab.controls.choice import read
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting
 from mnclab.text.code_pages import encode_like
 from mnclab.text.file import read as read_file
 from mnclab.text.file import replaced
@@ -15,6 +16,7 @@ from mnclab.text.numbering import renumbered
 from mnclab.text.program import Program
 
 
+@fitting
 def renumber(
     source: str | Path | Program, control: str | None = None, *, start: int | None = None, step: int | None = None
 ) -> str:

@@ -17,6 +17,7 @@ from mnclab.controls.choice import run
 from mnclab.machine.control import Control
 from mnclab.machine.setup import Setup
 from mnclab.text.alarm import ALARM, WARNING, Alarm, amounts, several
+from mnclab.text.calls import fitting
 from mnclab.text.given import shown
 from mnclab.text.progress import progress
 from mnclab.text.tables import html_table, text_table
@@ -181,6 +182,7 @@ def _cells(row: Checked) -> tuple[str, ...]:
     return row.file, row.control, *counts, " ".join(said.split())
 
 
+@fitting
 def check(
     where: str | Path | Iterable[str | Path], control: str | None = None, setup: Setup | None = None,
     *, suffixes: Iterable[str] | None = None,

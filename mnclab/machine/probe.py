@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting_class
 from mnclab.text.given import check_number, check_point, choice
 from mnclab.text.records import written
 
@@ -18,6 +19,7 @@ POSITIVE = ("reach", "feed", "rapid", "stem_length")
 POINTS = {"offset": 2, "true_offset": 2, "deflection": 3}
 
 
+@fitting_class
 @dataclass(frozen=True)
 class Probe:
     """A touch probe, lengths in mm, angles in degrees, feeds in mm/min.

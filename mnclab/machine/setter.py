@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting_class
 from mnclab.text.given import check_number, check_point, shown
 from mnclab.text.records import written
 from mnclab.workpiece.part import Part, cylinder
@@ -14,6 +15,7 @@ THICK = 10.0  # mm, of the body of a plate
 Place = tuple[float, float, float]
 
 
+@fitting_class
 @dataclass(frozen=True)
 class Setter:
     """A tool setter, mm, machine coordinates.

@@ -18,6 +18,7 @@ from mnclab.path.listing import figure
 from mnclab.path.machine_file import limits_of
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm, several
+from mnclab.text.calls import fitting_class
 from mnclab.text.given import check_number, check_point, shown
 from mnclab.text.records import written
 from mnclab.text.tables import html_table
@@ -182,6 +183,7 @@ MEANT: Mapping[str, tuple[Check, str]] = {
 }  # fmt: skip
 
 
+@fitting_class
 @dataclass(frozen=True)
 class Setup:
     """Everything a program finds on the machine; never changed by a run, which keeps a copy that nobody can write to.

@@ -10,6 +10,7 @@ import numpy as np
 
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting_class
 from mnclab.text.given import check_number, plain, shown
 from mnclab.text.records import written
 
@@ -29,6 +30,7 @@ LEAST, MOST = 1e-3, 1e9  # of every limit, in its unit: beyond them a time is no
 TRAVEL = "travel=((0, 400), (0, 300), (-200, 0)): from and to of X, Y and Z, machine coordinates of the spindle, mm"
 
 
+@fitting_class
 @dataclass(frozen=True)
 class Limits:
     """Per axis, or one number for all: `rapid` mm/min, `acceleration` mm/s², `jerk` mm/s³ (None: no limit).

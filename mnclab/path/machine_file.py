@@ -15,6 +15,7 @@ from mnclab.path.limits import Limits
 from mnclab.path.listing import figure
 from mnclab.path.record_file import record
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting
 from mnclab.text.given import shown
 from mnclab.text.nearest import hint as near
 from mnclab.text.tables import html_table
@@ -60,6 +61,7 @@ def _per_axis(value: Any) -> str:
     return "no limit" if value == math.inf else figure(float(value))
 
 
+@fitting
 def machines() -> Machines:
     """The machines whose name may stand for limits: `run.profile("small-mill")`, `Setup(limits="small-mill")`."""
     return Machines(map(load, names()))

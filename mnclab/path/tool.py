@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from mnclab.path.wear import Wear
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting
 from mnclab.text.given import check_number, check_point, shown
 from mnclab.text.nearest import hint
 from mnclab.text.records import written
@@ -166,7 +167,7 @@ def _with_diameter(made: type[Tool]) -> None:
     order = list(signature(init).parameters.values())
     also = Parameter("diameter", Parameter.KEYWORD_ONLY, default=None, annotation="float | None")
     setattr(__init__, "__signature__", signature(init).replace(parameters=[*order, also]))  # noqa: B010
-    setattr(made, "__init__", __init__)  # noqa: B010
+    setattr(made, "__init__", fitting(__init__))  # noqa: B010
     setattr(made, "diameter", property(lambda tool: 2 * tool.radius, doc="Twice the radius, mm."))  # noqa: B010
 
 

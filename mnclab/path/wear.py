@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
+from mnclab.text.calls import fitting_class
 from mnclab.text.given import check_number
 from mnclab.text.records import written
 
@@ -11,6 +12,7 @@ MOST = 0.9999  # mm, of a tolerance (TNC 620 19.1)
 OFFSETS = ("offset_length", "offset_radius")
 
 
+@fitting_class
 @dataclass(frozen=True)
 class Wear:
     """Tolerances and offsets in mm, the columns of TOOL.T in TNC 620 19.1; a tolerance of 0 is not watched.

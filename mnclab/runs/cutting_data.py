@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from mnclab.path.limits import Limits
 from mnclab.runs.outcome import REPORT
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting
 from mnclab.text.given import check_number, shown
 from mnclab.workpiece.cutting_data import CuttingData
 from mnclab.workpiece.cutting_data import cutting_data as data_of
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 Most = float | Mapping[int, float] | None
 
 
+@fitting
 def cutting_data(
     run: Run, limits: Limits | str | None = None, *, machine: Limits | str | None = None,
     vc: Most = None, fz: Most = None, kc: float | None = None,
@@ -56,6 +58,7 @@ def _of_tools(given: Any, name: str, tools: Mapping[int, Any]) -> dict[int, floa
     return {int(number): float(value) for number, value in given.items()}
 
 
+@fitting
 def setup_sheet(run: Run, path: str | Path, title: str | None = None) -> Path:
     """Write the set-up sheet, .html or .pdf: zero points, blank with a drawing, fixtures, tools."""
     from mnclab.show.report.saving import save_sheet
@@ -63,6 +66,7 @@ def setup_sheet(run: Run, path: str | Path, title: str | None = None) -> Path:
     return save_sheet(run, "setup", path, title)
 
 
+@fitting
 def tool_sheet(run: Run, path: str | Path, title: str | None = None) -> Path:
     """Write the tool sheet, .html or .pdf: the tools with their sizes, and how they cut."""
     from mnclab.show.report.saving import save_sheet
@@ -70,6 +74,7 @@ def tool_sheet(run: Run, path: str | Path, title: str | None = None) -> Path:
     return save_sheet(run, "tools", path, title)
 
 
+@fitting
 def measuring_sheet(run: Run, path: str | Path, title: str | None = None) -> Path:
     """Write the measuring record, .html or .pdf, with its pictures; an Alarm where nothing was measured."""
     from mnclab.show.report.saving import save_sheet

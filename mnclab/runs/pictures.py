@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from mnclab.text.calls import fitting_class
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+@fitting_class
 class Pictures:
     """What a run shows beside its path."""
 

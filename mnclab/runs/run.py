@@ -46,6 +46,7 @@ from mnclab.runs.pictures import Pictures
 from mnclab.runs.start import MissedOnes, start_at
 from mnclab.runs.tables import tables_at_end
 from mnclab.text.alarm import ALARM, Alarm, by_place, quoted
+from mnclab.text.calls import fitting_class
 from mnclab.text.columns import fixed
 from mnclab.text.given import shown, whole
 from mnclab.text.program import Program
@@ -67,6 +68,7 @@ if TYPE_CHECKING:
 EXAMPLE = "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
 
 
+@fitting_class
 class Run(Pictures):
     """The result of running a program: both paths, alarms, history, the `files` it wrote, and where the machine stands.
 

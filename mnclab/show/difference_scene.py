@@ -11,6 +11,7 @@ from mnclab.show import scene as scenes
 from mnclab.show.part_scene import ANGLE, BALL, EDGE, LOOK, PIN
 from mnclab.show.plot.difference import GONE, LEFT, SHADES, usual_limit
 from mnclab.show.rulers import frame
+from mnclab.text.calls import fitting
 from mnclab.text.given import check_number
 from mnclab.workpiece.difference.columns import distances
 from mnclab.workpiece.difference.difference import Difference
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 TITLE = "deviation, mm"
 
 
+@fitting
 def scene(
     difference: Difference, *, limit: float | None = None, axes: bool = True, size: tuple[int, int] = scenes.SIZE
 ) -> pyvista.Plotter:

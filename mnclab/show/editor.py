@@ -24,6 +24,7 @@ from mnclab.runs.run import Run
 from mnclab.show.forms.following import DRAWING, SIZE, verdict
 from mnclab.show.forms.live import live_class
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting
 from mnclab.text.code_pages import decode
 from mnclab.text.extras import require
 from mnclab.text.file import read, reason, replaced
@@ -76,6 +77,7 @@ class Document:
             raise Alarm(f"{letter!r} cannot be written in {self.encoding}, the code page of {self.path}") from None
 
 
+@fitting
 def editor(path: str | Path, control: str | None = None, setup: Setup | None = None, *, view: str = "auto") -> Any:
     """Text, alarms and picture of a part program side by side (needs ipywidgets and matplotlib).
 

@@ -12,6 +12,7 @@ from mnclab.show import scene as scenes
 from mnclab.show.export_mesh import RAPID, STOCK
 from mnclab.show.rulers import frame
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting
 from mnclab.text.given import choice, shown
 from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.workpiece import Solid, Workpiece
@@ -29,6 +30,7 @@ LOOK: dict[str, Any] = {
 }  # fmt: skip
 
 
+@fitting
 def scene(
     workpiece: Workpiece,
     colour: str = "depth",

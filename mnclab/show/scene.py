@@ -30,6 +30,7 @@ from mnclab.show.export_mesh import CHORD, FEED, PROBING, RAPID, STOCK, TOOL
 from mnclab.show.rapids import rapids_of
 from mnclab.show.rulers import frame, rounded, turning_rulers
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting
 from mnclab.text.extras import require
 from mnclab.text.given import shown
 from mnclab.workpiece.blank import Blank
@@ -57,6 +58,7 @@ FOOT = 0.5  # of the size of the rest: how much of a tool above its tip is alway
 BENT, SHORT = 1 / 2000, 1 / 200  # of the size of a path: rapids that leave their line by less, or are shorter, are straight
 
 
+@fitting
 def scene(
     run: Any,
     colour: str = "kind",

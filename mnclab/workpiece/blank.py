@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting
 from mnclab.text.given import check_number, check_point, either, shown
 from mnclab.text.records import written
 
@@ -186,6 +187,7 @@ class Blank(Protocol):
         """Lines (k, 3) that show it in space."""
 
 
+@fitting
 def box(length: Any, width: Any, height: float | None = None) -> Box:
     """A box by three sizes in mm, `box(80, 60, 20)`: its corner at the datum of the program, its top at Z0; or by two opposite
     corners in machine coordinates, `box((0, 0, -20), (80, 60, 0))`."""
@@ -197,6 +199,7 @@ def box(length: Any, width: Any, height: float | None = None) -> Box:
     return found
 
 
+@fitting
 def cylinder(
     radius: float | None = None, low: float | None = None, high: float = 0.0,
     axis: str = "Z", at: tuple[float, ...] = (0.0, 0.0, 0.0), bore: float = 0.0,
@@ -218,6 +221,7 @@ def cylinder(
     return Revolved(((radius, low), (radius, high)), axis, at, bore)
 
 
+@fitting
 def chuck(radius: float, back: float, grip: float = 20.0, jaws: float = 25.0, body: float = 60.0) -> Revolved:
     """What holds a bar of a radius whose back end is at Z `back`: jaws around it over `grip`, mm, and the body behind.
 

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting_class
 from mnclab.text.given import check_point, choice
 from mnclab.text.rounded import Rounded
 from mnclab.workpiece.blank import Blank
@@ -47,6 +48,7 @@ class Solid(NamedTuple):
         return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
 
 
+@fitting_class
 class Workpiece(ABC):
     """What is left of `cutting.stock`, in the coordinates of the path. It does not change; a copy is itself.
 

@@ -18,6 +18,7 @@ from mnclab.path.profile.lookahead import running_sum
 from mnclab.path.profile.pieces import Pieces, pieces
 from mnclab.path.profile.timing import Plan, plan
 from mnclab.path.toolpath import Toolpath
+from mnclab.text.calls import fitting_class
 from mnclab.text.columns import fixed
 from mnclab.text.given import choice
 from mnclab.text.records import shapes
@@ -61,6 +62,7 @@ class Instant(NamedTuple):
         return f"<Instant at {self.t:.3f} s: {point(self.position)}, {self.v:.3f} mm/s, line {self.line}>"
 
 
+@fitting_class
 class Profile:
     """A path under limits, as pieces of constant jerk, or of constant acceleration without a jerk limit.
 

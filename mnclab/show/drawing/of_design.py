@@ -16,6 +16,7 @@ from mnclab.show.drawing.ledger import Dimensioned, Draft, Ledger
 from mnclab.show.drawing.sheet import Title
 from mnclab.show.plot.picture import Picture
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting
 from mnclab.text.given import shown
 from mnclab.workpiece.design.design import Design
 from mnclab.workpiece.design.turned_design import TurnedDesign
@@ -83,11 +84,13 @@ def _drafts(design: Design | TurnedDesign, ledger: Ledger, tabled: int, beside: 
     return milled.drafts(design, ledger, tabled, beside)
 
 
+@fitting
 def plot(design: Any, *, size: str | None = None, scale: float | None = None, sheet: int = 1) -> Picture:
     """The drawing of a design as a figure in true size; `sheet` where there are several."""
     return drawing(design, size=size, scale=scale).figure(sheet)
 
 
+@fitting
 def save(
     design: Any, path: str | Path, *, size: str | None = None, scale: float | None = None, sheet: int | None = None
 ) -> Path:

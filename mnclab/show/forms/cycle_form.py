@@ -23,6 +23,7 @@ from mnclab.show.forms.faults import field_of
 from mnclab.show.forms.fields import Field, folded, grouped
 from mnclab.show.forms.following import Work, following, of_run
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting
 from mnclab.text.extras import require
 from mnclab.text.tables import html_table
 
@@ -30,6 +31,7 @@ SIZE = (4.9, 3.7)  # inches: beside the fields there is so much room in JupyterL
 MOST = 60  # steps of the table
 
 
+@fitting
 def form(code: str, control: str) -> Any:
     """The parameters of a cycle as boxes, in groups, with a picture and the steps of the cycle run alone.
 

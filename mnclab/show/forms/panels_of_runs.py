@@ -13,11 +13,13 @@ from mnclab.show.forms.boxes import Place, number_box
 from mnclab.show.forms.fields import Field
 from mnclab.show.forms.following import Work, following, of_run
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting
 from mnclab.text.extras import require
 
 SIZE = (6.4, 4.9)  # inches, below a row of boxes
 
 
+@fitting
 def compensation_panel(run: Run, **options: Any) -> Any:
     """A box for the tool radius and a choice for outside corners, with contour and tool-centre path that follow.
 
@@ -51,6 +53,7 @@ def compensation_panel(run: Run, **options: Any) -> Any:
     return following(boxes, fields, rows, work, field_of, title="radius compensation", classes="mnclab-across")
 
 
+@fitting
 def profile_panel(profile: Profile, **options: Any) -> Any:
     """Number boxes for the limits of a machine, with the profile and its times following.
 

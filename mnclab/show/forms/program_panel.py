@@ -14,6 +14,7 @@ from mnclab.show.forms.boxes import ORDERS, Number, number_box, place_of, slider
 from mnclab.show.forms.fields import Field
 from mnclab.show.forms.following import SIZE, Work, following, of_run
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting
 from mnclab.text.extras import require
 from mnclab.text.given import shown
 from mnclab.text.nearest import hint
@@ -21,6 +22,7 @@ from mnclab.text.nearest import hint
 PLACE = re.compile(r"\{(\w+)\}")
 
 
+@fitting
 def panel(
     template: str | Callable[..., str], control: str | None = None, /, *, setup: Setup | None = None, view: str = "auto",
     sliders: bool = False, **numbers: Number,

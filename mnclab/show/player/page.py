@@ -17,6 +17,7 @@ from mnclab.show.felt import felt
 from mnclab.show.given_away import whole
 from mnclab.show.player.payload import payload
 from mnclab.text.alarm import Alarm, several
+from mnclab.text.calls import fitting_class
 from mnclab.text.file import replaced
 from mnclab.text.given import check_number, choice
 from mnclab.workpiece.collision import Collision
@@ -66,6 +67,7 @@ def _short(script: str) -> str:
     return re.sub(r"(?m)^ *//.*\n|^ +", "", script)
 
 
+@fitting_class
 class Player:
     """A run to be played; shows itself in a notebook, `save` writes it as a page of its own.
 

@@ -16,6 +16,7 @@ from mnclab.path.profile import Profile
 from mnclab.show.plot.picture import SMALL, Picture, calm, write_legend
 from mnclab.show.plot.profile import curve
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting
 from mnclab.text.given import choice, shown
 
 SIZE = (7.0, 1.75)  # inches: the width, and the height of one profile
@@ -24,6 +25,7 @@ LOOKS = ("#12304f", "#c26a12")  # dark and pale in turn
 RAPID = "#e9c9c5"
 
 
+@fitting
 def plot_profiles(
     profile: Any, *others: Any, names: Sequence[str] = (), over: str = "time", size: tuple[float, float] = SIZE
 ) -> Picture:

@@ -18,8 +18,8 @@ from matplotlib.figure import Figure
 from mnclab.show.plot.enlarging import enlarge, reframe
 from mnclab.show.plot.picture import SIZE, SMALL
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import near_option
 from mnclab.text.given import check_number, choice, shown
-from mnclab.text.nearest import hint
 
 MM = 1 / 25.4  # inches
 #: Width and height in mm (None: what the figure needs), and the points of its letters.
@@ -115,8 +115,7 @@ def check_options(options: Mapping[str, Any], known: Mapping[str, Parameter]) ->
     names = list(dict.fromkeys([*known, *ADDED]))
     for name, value in options.items():
         if name not in names:
-            near = hint(name, names, 2)
-            raise Alarm(f"this figure has no option {name}", hint=near or f"it has {', '.join(names[1:])}")
+            raise Alarm(f"this figure has no option {name}", hint=near_option(name, names[1:]))
         what = known[name].annotation if name in known else "bool"
         if what in ("bool", "bool | None") and not (value in (True, False) or (value is None and "None" in str(what))):
             raise Alarm(f"{name} must be True or False, got {shown(value)}")

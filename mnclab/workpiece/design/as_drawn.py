@@ -6,6 +6,8 @@ from abc import ABC, abstractmethod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from mnclab.text.calls import fitting_class
+
 if TYPE_CHECKING:
     import pyvista
     from matplotlib.figure import Figure
@@ -13,6 +15,7 @@ if TYPE_CHECKING:
     from mnclab.workpiece.workpiece import Workpiece
 
 
+@fitting_class
 class AsDrawn(ABC):
     """A part as drawn, milled or turned: its doors."""
 

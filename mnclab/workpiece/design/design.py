@@ -15,6 +15,7 @@ from mnclab.geometry.filling import filled
 from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting_class
 from mnclab.text.given import check_number, check_point, choice, shown
 from mnclab.text.records import exactly
 from mnclab.text.tables import html_table
@@ -42,6 +43,7 @@ class Taken(NamedTuple):
     body: Removal
 
 
+@fitting_class
 @dataclass(frozen=True, repr=False)
 class Design(AsDrawn):
     """A part as drawn. `blank`: two corners, a box or an upright cylinder, in the frame of the toolpath, mm; `features`:

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from mnclab.geometry.contours import Contour
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting_class
 from mnclab.text.given import check_point, faults_as_alarms, plain, shown
 from mnclab.text.records import exactly
 from mnclab.text.tables import html_table
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
 EXAMPLE = "TurnedDesign([(0, 10), (-30, 10), (-30, 20), (-50, 20)])"
 
 
+@fitting_class
 @dataclass(frozen=True, repr=False)
 class TurnedDesign(AsDrawn):
     """A turned part as drawn, in the frame of the toolpath, mm.
