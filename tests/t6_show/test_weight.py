@@ -11,6 +11,7 @@ import mnclab as mnc
 from mnclab.show.plot import band
 from mnclab.show.plot.step_names import BLOCKS, step_name
 
+PROGRAMS = Path(__file__).parents[2] / "data" / "programs"
 #: Passes 1 mm apart with a tool of radius 4, and the same 20 mm apart.
 HEAD = "G90 G54 T1 S1000 M3\nG0 X0 Y0 Z5\nG1 Z-2 F100\n"
 SETUP = mnc.Setup(tools={1: mnc.Tool(radius=4)}, stock=((-10, -10, -10), (70, 70, 0)))
@@ -32,6 +33,13 @@ def named(ax, name):
 def test_a_band_is_drawn_where_passes_crowd_or_where_it_is_wanted(apart, wanted, found):
     above, side = mnc.run(passes(apart), "mnc", SETUP).plot(band=wanted).axes
     assert (len(bands(above)), len(bands(side))) == (found, 0)
+
+
+def test_pockets_seen_small_above_their_depths_have_bands():
+    """A facing and two pockets share half of the picture with the view from the side: a line of 2 points is a blot there."""
+    above, side = mnc.run(PROGRAMS / "mnc" / "milled_plate.mnc").plot().axes
+    assert bands(above)
+    assert not bands(side)
 
 
 def test_a_band_is_as_wide_as_the_tool_and_its_line_is_thin():
