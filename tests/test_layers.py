@@ -41,8 +41,8 @@ OUTSIDE = {  # package -> the only modules of mnclab that import it
     "pygments": ("shell.handout",),
 }
 SEES_ALL = ("show.forms", "show.editor", "show.magic")
-HEAVY = {"shapely", "matplotlib", "pyvista", "vtkmodules", "ipywidgets", "IPython", "tqdm", "pandas", "nbclient", "nbconvert", "nbformat",
-         "pygments"}
+HEAVY = {"shapely", "matplotlib", "pyvista", "vtkmodules", "ipywidgets", "IPython", "tqdm", "pandas", "nbclient", "nbconvert",
+         "nbformat", "pygments"}
 VAGUE = {"util", "utils", "helper", "helpers", "common", "base", "core", "misc"}
 LONGEST = 400
 

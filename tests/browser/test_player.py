@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import mnclab
@@ -209,6 +210,21 @@ def test_at_any_time_the_tool_is_where_the_profile_says(open_file, limits):
     instant = run.profile().at(times)
     assert abs([each["point"] for each in found] - instant.position).max() < 2e-3
     assert abs([each["speed"] for each in found] - instant.v).max() < 0.1
+
+
+def test_a_rapid_of_two_axes_goes_as_the_plot_draws_it(open_file):
+    """98 mm of X and 34 of Y at 10,000 mm/min and 1000 mm/s²: Y needs 34 / v + v / a, and then X has gone v t - v² / 2a."""
+    run = mnclab.run("G90 G54 S1000 M3\nG0 X78 Y14\nX-20 Y-20\n", "mnc", mnclab.Setup(start=(78, 14, 0)))
+    (line,) = (each for each in run.plot(view="XY").axes[0].lines if each.get_label() == "rapid")
+    page, total = open_file(run), run.profile().time
+    times = [total * k / 200 for k in range(201)]
+    found = page.evaluate("times => times.map(t => window.player.run.tool(window.player.run.itemAt(t), t).point)", times)
+    count = np.arange(len(line.get_xydata()))
+    drawn = np.column_stack([np.interp(np.linspace(0, count[-1], 4000), count, each) for each in line.get_xydata().T])
+    assert max(np.hypot(*(drawn - point[:2]).T).min() for point in found) < 0.3  # less than a pixel
+    v, a = 10_000 / 60, 1000
+    arrives = 78 - (v * (34 / v + v / a) - v**2 / 2 / a)
+    assert max(x for x, y, _ in found if y < -19.99) == pytest.approx(arrives, abs=1)
 
 
 def test_fingers_tap_and_pinch(open_file):
