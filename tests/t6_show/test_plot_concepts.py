@@ -129,6 +129,13 @@ def test_rays_say_radius_and_angle():
 # --- holes and what holds the blank ------------------------------------------------------------------------------------
 
 
+def test_an_angle_that_is_nearly_nothing_is_nothing():
+    """The first corner of the hexagon lies on the X axis of its pole: 0 degrees, whatever the arithmetic leaves."""
+    texts = said(sample("tnc-620/hexagon_and_bore.h").plot())
+    assert "0°" in texts
+    assert not [text for text in texts if "e" in text.removeprefix("pole").removeprefix("preset")]
+
+
 def test_every_hole_is_a_circle_of_the_tool():
     found = holes_of(sample("mnc/row_of_holes.mnc")).holes  # drill 8, X10 30 70 90, Z-18
     assert [(hole.x, hole.y, hole.radius, hole.tip) for hole in found] == [(x, 10, 4, -18) for x in (10, 30, 70, 90)]

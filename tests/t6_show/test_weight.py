@@ -11,6 +11,7 @@ import mnclab as mnc
 from mnclab.show.plot import band
 from mnclab.show.plot.step_names import BLOCKS, step_name
 
+PROGRAMS = Path(__file__).parents[2] / "data" / "programs"
 #: Passes 1 mm apart with a tool of radius 4, and the same 20 mm apart.
 HEAD = "G90 G54 T1 S1000 M3\nG0 X0 Y0 Z5\nG1 Z-2 F100\n"
 SETUP = mnc.Setup(tools={1: mnc.Tool(radius=4)}, stock=((-10, -10, -10), (70, 70, 0)))
@@ -39,6 +40,13 @@ def test_the_picture_has_room_for_the_band():
     run = mnc.run(passes(1), "mnc", mnc.Setup(tools={1: mnc.Tool(radius=20)}))
     radius, (left, right) = run.toolpath.radius.max(), run.plot(view="XY", band=True).axes[0].get_xlim()
     assert left <= -radius and right >= run.toolpath.end[:, 0].max() + radius
+
+
+def test_pockets_seen_small_above_their_depths_have_bands():
+    """A facing and two pockets share half of the picture with the view from the side: a line of 2 points is a blot there."""
+    above, side = mnc.run(PROGRAMS / "mnc" / "milled_plate.mnc").plot().axes
+    assert bands(above)
+    assert not bands(side)
 
 
 def test_a_band_is_as_wide_as_the_tool_and_its_line_is_thin():

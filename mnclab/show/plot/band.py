@@ -16,7 +16,7 @@ from mnclab.show.plot.strokes import Array, Strokes, parted
 
 NAME, SHADE, ORDER = "width of the tool", "#d6e3f1", 1.2
 THIN = 0.45  # of the usual width of a line: where passes lie close
-CELL, DENSE, SHARE = 6, 1.7, 0.25  # points; ways through a cell that is dense; share of such cells in a dense path
+CELL, DENSE, SHARE = 6, 1.7, 0.11  # points; ways through a cell that is dense; share of such cells in a dense path
 MOST, SAMPLES, CELLS = 20_000, 400_000, 100_000  # strokes under which a band is drawn unasked; points and cells looked at
 MANY = 12  # radii of tools that have a band each
 

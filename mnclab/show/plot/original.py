@@ -13,7 +13,7 @@ from mnclab.geometry import frames
 from mnclab.geometry.frames import FrameChain
 from mnclab.path.columns import Array
 from mnclab.path.kinds import Kind
-from mnclab.path.listing import Unit
+from mnclab.path.listing import Unit, figure
 from mnclab.show.plot import colours
 from mnclab.show.plot.chains import Chains, without
 from mnclab.show.plot.overlay import across, fits, grown, line, texts
@@ -100,7 +100,7 @@ class Original(NamedTuple):
         for each in self._turns(view):
             middle = _arc(each, WAY * REACH * self.size[-1])[8]
             away = (middle - each.pole)[axes]
-            said.append(f"{math.degrees(each.angle):.5g}°".replace("-", "\N{MINUS SIGN}"))
+            said.append(f"{figure(math.degrees(each.angle), 3)}°".replace("-", "\N{MINUS SIGN}"))
             places.append(middle)
             wishes.append(tuple(away / np.hypot(*away)))
         drawn = [*lines, self.points]

@@ -207,7 +207,8 @@ def plot_path(
 
 def _crowded(drawn: Strokes, found: Classes, span: Array, size: tuple[float, float]) -> bool:
     """Whether passes run into each other from above, in a picture of about this size."""
-    scale = min(72 * inches / max(side, 1e-9) for inches, side in zip(size, span[:2].tolist()))
+    sides = float(span[0]), float(span[1] + span[2])  # the views from above and from the side stand above one another
+    scale = min(72 * inches / max(side, 1e-9) for inches, side in zip(size, sides))
     return bands.dense(drawn.xyz[:, :2], found.group >= CUTS, 0.85 * scale)
 
 

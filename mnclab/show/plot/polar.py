@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 
 from mnclab.geometry import frames
 from mnclab.path.columns import Array
-from mnclab.path.listing import Unit
+from mnclab.path.listing import Unit, figure
 from mnclab.show.plot import colours
 from mnclab.show.plot.chains import Chains
 from mnclab.show.plot.overlay import across, fits, grown, line, texts
@@ -62,7 +62,7 @@ class Polar(NamedTuple):
         said, places, wishes, told = [], [], [], None
         for ray in self.rays if across(view) == 2 else ():
             radius = f"R{self.unit.figure(ray.radius, 1)}"
-            angle = f"{ray.angle:.5g}°".replace("-", "\N{MINUS SIGN}")
+            angle = f"{figure(ray.angle, 3)}°".replace("-", "\N{MINUS SIGN}")
             said.append(angle if radius == told else f"{radius}, {angle}")
             told = radius
             places.append(ray.pole + PLACE * (ray.point - ray.pole))
