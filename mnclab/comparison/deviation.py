@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from html import escape
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -107,11 +108,11 @@ class Deviation:
     def _repr_html_(self) -> str:
         return f"<p>{escape(self.sentence)}</p>{html_table(('', *self.names), self.rows())}"
 
-    def plot(self, view: str = "auto") -> object:
-        """Both paths in one view, with the largest deviation marked."""
+    def plot(self, view: str = "auto", **options: Any) -> object:
+        """Both paths in one `view`, with the largest deviation marked."""
         from mnclab.show.plot.deviation import plot_deviation
 
-        return plot_deviation(self, view)
+        return plot_deviation(self, view, **options)
 
 
 def deviation(

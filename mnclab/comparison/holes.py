@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from html import escape
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -58,11 +58,11 @@ class HolesCompared:
         more = f"<p>{len(rows) - MOST} more: <code>.rows()</code></p>" if len(rows) > MOST else ""
         return f"<p>{escape(' and '.join(self.names))}: {escape(self.sentence)}</p>{table}{more}"
 
-    def plot(self, size: tuple[float, float] = (7.0, 6.0)) -> Picture:
+    def plot(self, **options: Any) -> Picture:
         """The holes from above at their diameters, told apart by what has them."""
         from mnclab.show.plot.holes_compared import plot_holes
 
-        return plot_holes(self, size)
+        return plot_holes(self, **options)
 
 
 def compare_holes(one: Holes, other: Holes, names: tuple[str, str], tolerance: float = TOLERANCE) -> HolesCompared:

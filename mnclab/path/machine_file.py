@@ -43,6 +43,10 @@ class Machines(tuple[MachineFile, ...]):
         """What the table says of each."""
         return [(each.name, each.title, *(_per_axis(getattr(each.limits, one)) for one in SAID)) for each in self]
 
+    def __getitem__(self, which: Any) -> Any:
+        """A machine by its name or its number."""
+        return load(which) if isinstance(which, str) else super().__getitem__(which)
+
     def __repr__(self) -> str:
         rows = [self.HEAD, *self.rows()]
         widths = [max(len(row[k]) for row in rows) for k in range(len(self.HEAD))]
@@ -72,6 +76,7 @@ def limits_of(limits: Limits | str | None, machine: Limits | str | None = None) 
     if limits is not None and machine is not None:
         raise Alarm("limits and machine say the same: give one of them")
     given = machine if limits is None else limits
+    given = given.limits if isinstance(given, MachineFile) else given
     if isinstance(given, str | Path):
         return load(given).limits
     if not isinstance(given, Limits | None):

@@ -19,9 +19,13 @@ class Named(NamedTuple):
         return self.source.line_text(line)
 
 
+CONTROLS = {code: "\N{REPLACEMENT CHARACTER}" for code in (*range(9), *range(14, 32), *range(127, 160))}
+
+
 def whole(text: str) -> str:
-    """A text that can be written: half a pair of surrogates, which is no letter, becomes a question mark."""
-    return text.encode("utf-8", "replace").decode()
+    """A text that can be written: half a pair of surrogates, which is no letter, becomes a question mark, and a control
+    character, which no font has, the sign for what cannot be shown."""
+    return text.encode("utf-8", "replace").decode().translate(CONTROLS)
 
 
 def named(alarm: Alarm) -> Alarm:

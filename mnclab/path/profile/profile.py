@@ -13,14 +13,16 @@ from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.listing import point
+from mnclab.path.machine_file import limits_of
 from mnclab.path.profile.bends import Bends
 from mnclab.path.profile.lookahead import running_sum
 from mnclab.path.profile.pieces import Pieces, pieces
 from mnclab.path.profile.timing import Plan, plan
 from mnclab.path.toolpath import Toolpath
+from mnclab.text.alarm import Alarm
 from mnclab.text.calls import fitting_class
 from mnclab.text.columns import fixed
-from mnclab.text.given import choice
+from mnclab.text.given import choice, shown
 from mnclab.text.records import shapes
 from mnclab.text.rounded import Rounded
 from mnclab.text.tables import html_table
@@ -72,20 +74,22 @@ class Profile:
     """
 
     def __init__(
-        self, path: Toolpath, limits: Limits | None = None, *, override: float = 1.0, rapid_motion: str = "line",
+        self, path: Toolpath, limits: Limits | str | None = None, *, override: float = 1.0, rapid_motion: str = "line",
         waits: Mask | None = None, source: Any = None, name: str = "",
     ) -> None:  # fmt: skip
-        self.path, self.limits, self.override = path, limits or Limits(), override
+        if not isinstance(path, Toolpath):
+            raise Alarm(f"a profile is that of a toolpath, got {shown(path)}", hint="Profile(run.toolpath)")
+        self.path, self.limits, self.override = path, limits_of(limits) or Limits(), override
         self.source = source  # the Program, for pictures that show its lines
         self.name = name  # what a picture of several calls it
         self._more: dict[str, Any] = {"rapid_motion": rapid_motion, "waits": waits, "source": source}
         self.plan: Plan = plan(path, self.limits, override, rapid_motion, waits)
         self.seconds: Array = fixed(self._of_rows(self.plan.seconds))
 
-    def again(self, limits: Limits | None = None, override: float | None = None) -> Profile:
+    def again(self, limits: Limits | str | None = None, override: float | None = None) -> Profile:
         """The same path planned under other limits, or with another feed override."""
         chosen = self.override if override is None else override
-        return Profile(self.path, limits or self.limits, override=chosen, **self._more)
+        return Profile(self.path, self.limits if limits is None else limits, override=chosen, **self._more)
 
     def _of_rows(self, values: Array) -> Array:
         """Sums (n,) for the rows of the path from values for planned rows."""
@@ -122,7 +126,10 @@ class Profile:
 
     def at(self, t: ArrayLike) -> Instant:
         """The tool at `t` seconds (a number or an array (k,)); before the start and after the end it stands."""
-        times = np.atleast_1d(np.asarray(t, dtype=np.float64))
+        try:
+            times = np.atleast_1d(np.asarray(t, dtype=np.float64)).ravel()
+        except (TypeError, ValueError, OverflowError):
+            raise Alarm(f"t must be seconds, a number or an array, got {shown(t)}") from None
         p = self.pieces
         if not len(p.row):
             nothing = np.zeros((len(times), 3)) + (self.path.end[-1] if len(self.path) else 0.0)

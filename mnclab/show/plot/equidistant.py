@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from numbers import Integral, Real
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,8 @@ from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, write_names
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.strokes import Array, parted, strokes
-from mnclab.text.given import check_number
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, shown
 
 #: How rows look by their rule; rows along the contour are called after the corner at their end and look alike.
 ROWS: dict[Rule, Line] = {
@@ -38,6 +40,7 @@ CORNERS = ROWS | {Rule.OUTSIDE_STRAIGHT: colours.STRAIGHT_CORNER, Rule.INSIDE: c
 NAMED = 8  # corners beyond which only the first of each rule has its name beside it
 MANY = 400  # offset vectors beyond which they say nothing and are not drawn
 COARSE, FINE = 90, 300  # points along the longer side of a box in which the cut-away area is looked for
+MOST_DISCS = 10_000  # along a path
 SQUARE = 0.16  # of the radius: the mark of a right angle
 
 
@@ -140,15 +143,19 @@ def _draw_discs(ax: Axes, panel: Panel, discs: Any) -> None:
 def disc_places(path: Toolpath, discs: bool | float | Sequence[int]) -> tuple[Array, Array]:
     """Where discs stand (m, 3), and their radii (m,): see `show.plot.compensation.compensation`."""
     rows = np.flatnonzero((path.rule != Rule.NONE) & path.is_motion)
-    if discs is True or not isinstance(discs, int | float):
+    if discs is True or not isinstance(discs, Real):
         if discs is not True:
+            if not isinstance(discs, Collection) or isinstance(discs, str) or not all(isinstance(n, Integral) for n in discs):
+                raise Alarm(f"discs must be True, a distance in mm or lines, got {shown(discs)}")
             rows = rows[np.isin(path.line[rows], list(discs))]
         at, of = path.end[rows], rows
     else:
-        check_number(discs, "the distance of discs (mm)", above=0)
+        check_number(discs, "the distance of discs (mm)", above=path.length / MOST_DISCS)
+        if not len(rows):
+            return np.empty((0, 3)), np.empty(0)
         drawn = strokes(path[rows])
         way = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(drawn.xyz, axis=0), axis=1) * (drawn.row[1:] >= 0)))
-        stations = np.arange(0.0, way[-1] + 1e-9, discs) if len(rows) else np.empty(0)
+        stations = np.arange(0.0, way[-1] + 1e-9, float(discs))
         at = np.stack([np.interp(stations, way, column) for column in drawn.xyz.T], axis=1)
         of = rows[np.maximum(drawn.row[np.searchsorted(way, stations).clip(0, len(way) - 1)], 0)]
     radius = np.abs(path.radius[of])

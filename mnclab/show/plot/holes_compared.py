@@ -9,7 +9,8 @@ from matplotlib.collections import EllipseCollection
 from matplotlib.lines import Line2D
 
 from mnclab.show.plot import colours
-from mnclab.show.plot.picture import VIEWS, Foot, Picture, arrange, write_legend
+from mnclab.show.plot.picture import SIZE, VIEWS, Foot, Picture, arrange, write_legend
+from mnclab.show.plot.sizes import sized
 
 LOOKS: tuple[tuple[str, str, Any, float], ...] = (
     ("in both", "#8c8c8c", "-", 1.6), ("only in {}", colours.ALARM.colour, "-", 2.2), ("only in {}", "#1259a8", "--", 2.2),
@@ -17,7 +18,8 @@ LOOKS: tuple[tuple[str, str, Any, float], ...] = (
 POINT = 0.01  # of the picture: how wide a hole is whose diameter nobody knows
 
 
-def plot_holes(found: Any, size: tuple[float, float]) -> Picture:
+@sized()
+def plot_holes(found: Any, size: tuple[float, float] = SIZE) -> Picture:
     """Circles at their diameters with a cross; grey those of both, red and blue dashed those of one."""
     every = [found.both, *found.only]
     rows = np.concatenate(every)

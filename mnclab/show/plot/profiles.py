@@ -15,35 +15,37 @@ from mnclab.path.kinds import Kind
 from mnclab.path.profile import Profile
 from mnclab.show.plot.picture import SMALL, Picture, calm, write_legend
 from mnclab.show.plot.profile import curve
+from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
 from mnclab.text.calls import fitting
 from mnclab.text.given import choice, shown
 
-SIZE = (7.0, 1.75)  # inches: the width, and the height of one profile
+WIDTH, HIGH = 7.0, 1.75  # inches: of the figure, and of one profile at most
 MOST = 8
 LOOKS = ("#12304f", "#c26a12")  # dark and pale in turn
 RAPID = "#e9c9c5"
 
 
+@sized()
 @fitting
 def plot_profiles(
-    profile: Any, *others: Any, names: Sequence[str] = (), over: str = "time", size: tuple[float, float] = SIZE
+    profile: Any, *others: Any, names: Sequence[str] = (), over: str = "time", width: float = WIDTH
 ) -> Picture:
     """The feed of several profiles, or runs, under one another: `plot_profiles(run.profile("small-mill"), run)`.
 
     All begin at 0 and have the same scales; bands stand for rapids. `names` are what they are called (default: program and
-    machine), each with its time; `over` "time" (s) or "path" (mm); `size`: the width, and the height of each, inches.
+    machine), each with its time; `over` "time" (s) or "path" (mm); `width` in inches.
     """
     over = choice(over, "over", ("time", "path"))
     found = [_profile(each) for each in (profile, *others)]
     if len(found) > MOST:
         hint = 'plot_profiles(run.profile("small-mill"), run.profile("fast-mill"))'
         raise Alarm(f"a picture has 1 to {MOST} profiles, got {len(found)}", hint=hint)
-    if isinstance(names, str) or names and len(names) != len(found):
+    named = isinstance(names, tuple | list) and all(isinstance(name, str) for name in names)
+    if not named or names and len(names) != len(found):
         raise Alarm(f"there must be a name for each of {len(found)} profiles, got {shown(names)}")
     called = [f"{name}: {each.time:.2f} s" for name, each in zip(names or _names(found), found)]
-    width, each_high = size
-    height = each_high * len(found) + 0.75
+    height = min(HIGH, 0.5 * width) * len(found) + 0.75
     picture = Picture((width, height), f"feed over {over}: {'; '.join(called)}")
     left, low, above = 0.72 / width, 0.48 / height, 0.27 / height
     grid = picture.add_gridspec(len(found), 1, left=left, right=1 - 0.15 / width, bottom=low, top=1 - above, hspace=0.12)

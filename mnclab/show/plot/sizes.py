@@ -1,7 +1,7 @@
 """Figures in the sizes of a report: `size="a4" | "column" | "slide" | (width, height) inches`, `size_mm=(85, None)`, `legend`.
 
 A figure is composed for letters of 8 points and then enlarged or reduced as a whole, so that its letters, lines and marks
-keep their proportions whatever the paper. The options of every figure are checked here: what is unknown is an Alarm.
+keep their proportions whatever the paper.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mnclab.show.plot.enlarging import enlarge, reframe
+from mnclab.show.plot.options import check_options
 from mnclab.show.plot.picture import SIZE, SMALL
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import near_option
 from mnclab.text.given import check_number, choice, shown
 
 MM = 1 / 25.4  # inches
@@ -31,7 +31,6 @@ SIZES: dict[str, tuple[float, float | None, float]] = {
 NARROW, LETTERS = 100.0, 7.0  # mm: figures below have letters of so many points
 TALL = 1.4  # height to width at most, where the height is free
 LEAST, MOST, TRIES = 40.0, 2000.0, 6  # mm of a side; times a figure is drawn to fit its height
-ADDED = ("size", "size_mm", "legend")
 HINT = 'size="a4", size="column", size="slide", size=(7, 5), size_mm=(85, None)'
 
 
@@ -84,8 +83,8 @@ def sized(*, also: Any = None, tall: float | None = None) -> Callable[[Callable[
     """
 
     def made(draw: Callable[..., AnyFigure]) -> Callable[..., AnyFigure]:
-        parameters = dict(signature(draw).parameters)
-        known = {name: each for name, each in parameters.items() if each.kind != Parameter.VAR_KEYWORD}
+        parameters = [*signature(draw).parameters.items()][1:]  # the first is what is drawn
+        known = {name: each for name, each in parameters if each.kind not in (Parameter.VAR_KEYWORD, Parameter.VAR_POSITIONAL)}
         known = {**getattr(also, "options", {}), **known}
 
         @wraps(draw)
@@ -108,21 +107,6 @@ def sized(*, also: Any = None, tall: float | None = None) -> Callable[[Callable[
         return door
 
     return made
-
-
-def check_options(options: Mapping[str, Any], known: Mapping[str, Parameter]) -> None:
-    """An Alarm for an option that a figure does not have, with the nearest, or one that is no True, False or number."""
-    names = list(dict.fromkeys([*known, *ADDED]))
-    for name, value in options.items():
-        if name not in names:
-            raise Alarm(f"this figure has no option {name}", hint=near_option(name, names[1:]))
-        what = known[name].annotation if name in known else "bool"
-        if what in ("bool", "bool | None") and not (value in (True, False) or (value is None and "None" in str(what))):
-            raise Alarm(f"{name} must be True or False, got {shown(value)}")
-        if what in ("float", "int"):
-            check_number(value, name, endless=True)
-        if name == "ax" and value is not None and not isinstance(value, Axes):
-            raise Alarm(f"ax must be axes of matplotlib, got {shown(value)}")
 
 
 def _inches(known: Mapping[str, Parameter], asked: Room | None, tall: float | None) -> dict[str, Any]:

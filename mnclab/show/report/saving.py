@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from mnclab.path.machine_file import limits_of
 from mnclab.show.report import gathering, sheets
 from mnclab.show.report.contents import Document
 from mnclab.show.report.page import html
@@ -18,14 +19,14 @@ SHEETS = ("setup", "tools", "measuring")
 
 def save_report(
     run: Any, path: str | Path, title: str | None = None,
-    *, design: Any = None, tolerance: float = 0.05, machine: Any = None, **options: Any,
+    *, design: Any = None, tolerance: float = 0.05, limits: Any = None, machine: Any = None, **options: Any,
 ) -> Path:  # fmt: skip
     """Write a report to one file, .html or .pdf; `options` are those of the picture (`Run.plot`).
 
     With a `design`, or whatever else a part is compared with, it has a measuring record of the part; `tolerance` in mm.
-    Times and limits are those of a `machine`, as in `Run.profile`.
+    Times and limits are those of `limits` or of a `machine`, as in `Run.profile`.
     """
-    path = checked(path, title)
+    path, machine = checked(path, title), limits_of(limits, machine)
     with replaced(path) as beside:
         picture = run.plot(**{"size": PICTURE} | options)
         difference = None if design is None else run.workpiece().compare(design, tolerance)
