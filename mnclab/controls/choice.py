@@ -160,6 +160,8 @@ def choose(control: str | None, name: str, text: str) -> Control:
     """The control that was named, or the one that the suffix or the text points to; an Alarm when none or two do."""
     if control is not None:
         if not isinstance(control, str) or control not in CONTROLS:
+            if isinstance(control, Setup):
+                raise Alarm("the control comes before the setup", hint="run(text, setup=…) where it is known from the program")
             near = hint(str(control)[:40], CONTROLS, 1)
             known = f"known: {', '.join(CONTROLS)}"
             raise Alarm(f"there is no control {shown(control)}", hint=f"{known}; {near}" if near else known)

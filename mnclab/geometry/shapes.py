@@ -31,9 +31,9 @@ def rectangle(
         raise Alarm(f"a rectangle begins at the axis 0 (X) or 1 (Y), got {shown(begin)}")
     a, b = length / 2, width / 2
     if not (a > 0 and b > 0):
-        raise ValueError(f"the sides of a rectangle must be greater than 0, got {length:g} and {width:g}")
+        raise Alarm(f"the sides of a rectangle must be greater than 0, got {length:g} and {width:g}")
     if not 0 <= corner <= min(a, b) + 1e-9:
-        raise ValueError(f"a corner radius of {corner:g} does not fit into {length:g} by {width:g}")
+        raise Alarm(f"a corner radius of {corner:g} does not fit into {length:g} by {width:g}")
     corner = min(corner, a, b)
     points = np.roll(np.array([(a, b), (-a, b), (-a, -b), (a, -b)]), -begin, axis=0)
     ahead = np.roll(np.array([(0, 1), (-1, 0), (0, -1), (1, 0)]), -begin, axis=0)
@@ -56,10 +56,10 @@ def slot(line: Contour, width: float) -> Contour:
         raise Alarm(f"the centre line of a slot must be a Contour, got {shown(line)}")
     check_number(width, "the width of a slot (mm)")
     if not is_smooth(line):
-        raise ValueError("a slot has a centre line of one straight line or one arc")
+        raise Alarm("a slot has a centre line of one straight line or one arc")
     half, bulge = width / 2, line.bulge[:-1]
     if not 0 < half < line.radii.min():
-        raise ValueError(f"a slot {width:g} wide does not fit its centre line")
+        raise Alarm(f"a slot {width:g} wide does not fit its centre line")
     begins, ends = line.tangents()
     aside = half * left(np.vstack([begins, ends[-1:]]))
     beyond, before = line.points[-1] + half * ends[-1], line.points[0] - half * begins[0]
@@ -93,7 +93,7 @@ def polygon(corners: int, radius: float, *, centre: ArrayLike = (0, 0), angle: f
     check_number(radius, "the radius of a polygon (mm)")
     _check_place("a polygon", centre, angle)
     if corners < 3 or not radius > 0:
-        raise ValueError(f"a polygon has at least 3 corners and a radius above 0, got {corners} and {radius:g}")
+        raise Alarm(f"a polygon has at least 3 corners and a radius above 0, got {corners} and {radius:g}")
     way = angle + 2 * np.pi * np.arange(corners) / corners
     return Contour(placed(radius * at_angle(way), centre, 0.0))
 

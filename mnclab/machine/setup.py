@@ -22,7 +22,7 @@ from mnclab.text.calls import fitting_class
 from mnclab.text.given import check_number, check_point, shown
 from mnclab.text.records import written
 from mnclab.text.tables import html_table
-from mnclab.workpiece.blank import Sized, blank
+from mnclab.workpiece.blank import Box, Revolved, Sized, blank
 from mnclab.workpiece.part import Part
 
 
@@ -126,7 +126,8 @@ def _part(what: str, given: Any) -> None:
 
 
 def _fixtures(what: str, given: Any) -> None:
-    _must(isinstance(given, tuple | list), what, "a tuple of boxes and parts", given)
+    listed = isinstance(given, tuple | list) and not isinstance(given, Box | Revolved)
+    _must(listed, what, "a list, fixtures=[…], of boxes and parts", given)
     for number, each in enumerate(given):
         if not isinstance(each, Part):
             _stock(f"{what}[{number}]", each)

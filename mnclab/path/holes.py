@@ -7,6 +7,7 @@ plunge into a pocket ends below. What is milled round (a bore on a helix) is no 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,6 +18,9 @@ from mnclab.path.kinds import Kind
 from mnclab.path.listing import MM, Unit
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
+from mnclab.text.alarm import Alarm
+from mnclab.text.file import replaced
+from mnclab.text.given import shown
 from mnclab.text.tables import csv_text, html_table, text_table
 
 SAME = 1e-6  # mm: places nearer than this are one
@@ -66,6 +70,14 @@ class Holes(Sequence[HoleMade]):
     @property
     def _head(self) -> tuple[str, ...]:
         return tuple(f"{name}, {self.unit.short}" if 0 < k < 6 else name for k, name in enumerate(HEAD))
+
+    def save(self, path: str | Path) -> Path:
+        """Write the table (.csv)."""
+        if not isinstance(path, str | Path) or Path(path).suffix.lower() != ".csv":
+            raise Alarm(f"holes are saved as .csv, got {shown(path)}", hint='run.holes().save("holes.csv")')
+        with replaced(Path(path)) as beside:
+            beside.write_text(self.csv(), "utf-8", newline="")
+        return Path(path)
 
     def csv(self) -> str:
         """The table as comma-separated values."""

@@ -28,7 +28,7 @@ from mnclab.text.program import Word
 MOST = 5000  # blocks that are judged
 INCH = 25.4
 #: Functions that judge their numbers whatever the machine does; arcs only do so where nothing gives them a shape.
-ALWAYS, TOOLS, ARCS, SHAPES = ("F", "S", "G4"), ("T", "TOOL CALL"), ("G2", "G3"), frozenset("IJKR")
+ALWAYS, TOOLS, ARCS, SHAPES = ("F", "S", "G4"), ("T", "TOOL CALL"), ("G2", "G3", "CR"), frozenset("IJKR")
 WRITE_TOOLS = ("TOOL DEF", "G10", "FN 17")
 CALL_OTHERS = ("CALL PGM", "CALL SELECTED PGM", "M98", "G65", "G66", "CYCL DEF 12")
 STRAIGHT = ("G1", "G2", "G3", "L", "C", "CR", "CT", "LP", "CP", "CTP")

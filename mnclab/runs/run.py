@@ -65,7 +65,7 @@ if TYPE_CHECKING:
     from mnclab.workpiece.recognition.turned import TurnedProposal
 
 
-EXAMPLE = "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
+EXAMPLE = 'a machine is its limits: run(…, limits="small-mill"); a setup: ' "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
 
 
 @fitting_class

@@ -217,7 +217,8 @@ def cylinder(
     check_point(at, "the point on the axis of a cylinder (mm)")
     if not radius > bore >= 0 or not high > low or axis not in ("X", "Y", "Z"):
         found = f"radius {radius:g}, bore {bore:g}, {low:g} to {high:g}, axis {axis!r}"
-        raise Alarm(f"a cylinder needs radius > bore >= 0, high > low and axis X, Y or Z; got {found}")
+        needed = "a cylinder needs radius > bore >= 0, high > low and axis X, Y or Z"
+        raise Alarm(f"{needed}; got {found}", hint="by its sizes: cylinder(diameter=50, length=60)")
     return Revolved(((radius, low), (radius, high)), axis, at, bore)
 
 

@@ -15,6 +15,7 @@ from mnclab.show.forms.following import Work, following, of_run
 from mnclab.text.alarm import Alarm
 from mnclab.text.calls import fitting
 from mnclab.text.extras import require
+from mnclab.text.given import shown
 
 SIZE = (6.4, 4.9)  # inches, below a row of boxes
 
@@ -26,6 +27,8 @@ def compensation_panel(run: Run, **options: Any) -> Any:
     `options` are those of `show.plot.compensation.compensation`. The result has `boxes` ("radius", and
     "corners" where the control has a choice) and `run`, the last run.
     """
+    if not isinstance(run, Run):
+        raise Alarm(f"a run is compensated, got {shown(run)}", hint='compensation_panel(mnclab.run("part.mnc"))')
     require("ipywidgets", "forms")
     import ipywidgets
 
@@ -54,12 +57,15 @@ def compensation_panel(run: Run, **options: Any) -> Any:
 
 
 @fitting
-def profile_panel(profile: Profile, **options: Any) -> Any:
-    """Number boxes for the limits of a machine, with the profile and its times following.
+def profile_panel(profile: Profile | Run, **options: Any) -> Any:
+    """Number boxes for the limits of a machine, with the profile (that of a run too) and its times following.
 
     A jerk of 0 means no limit. `options` are those of `show.plot.profile.plot_profile`. The result has
     `boxes` (by name) and `profile`, the last one planned.
     """
+    profile = profile.profile() if isinstance(profile, Run) else profile
+    if not isinstance(profile, Profile):
+        raise Alarm(f"a profile is that of a run, got {shown(profile)}", hint='run.profile("small-mill")')
     require("ipywidgets", "forms")
     import ipywidgets
 

@@ -71,7 +71,7 @@ def plot_path(
     part: Workpiece | None = None,
     home: bool = False,
     felt: Felt | None = None,
-    rapids: Limits | None = None,
+    rapids: Limits | str | None = None,
     under: Toolpath | None = None,
     limits: ghost.Box | None = None,
     overlays: Sequence[Overlay] = (),
@@ -103,13 +103,15 @@ def plot_path(
     - `part`: what is left of the blank, drawn under the path.
     - `home`: the path begins where the tool arrives from home.
     - `felt`: what a probe meets, drawn behind the path (see `show.felt`).
-    - `rapids`: limits of the machine, under which axes that do not wait for each other bend a rapid; else it is straight.
+    - `rapids`: limits of the machine, or its name, under which axes that do not wait for each other bend a rapid; else it is
+      straight.
     - `under`: another path, whose moves that this one has not are drawn thin and grey behind it.
     - `limits`: the `box` of the picture before, which is kept while this path fits into it (see `show.plot.ghost`).
     - `band`: from above, the width of the tool as a light band under a thin line of its centre; None: where the passes lie
       so close that they would run into a blot.
     - `overlays`: centres of arcs, mirror lines, holes and the like (see `show.plot.overlay`).
     """
+    rapids = limits_of(rapids)
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
     if ax is None and stock is None and felt is None and not path.is_motion.any():
         return no_moves(stop)

@@ -27,11 +27,14 @@ from mnclab.path.listing import MM, Unit
 from mnclab.show.plot import clickable, colours
 from mnclab.show.plot.strokes import Array
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import replaced
+from mnclab.text.given import shown
 
 SIZE = (7.0, 6.0)  # the greatest width and height, unless something else is said
 LEAST = (4.6, 2.4)
 SMALL = 8.0  # points: ticks, legend, alarm
 SHARE = 0.2  # of a picture that its legend takes at most
+SUFFIXES = (".svg", ".pdf", ".png")
 SPARE = ("part", "blank", "tool change", "from home", "plunge")  # what a legend that is too long leaves out first
 GAP, BELOW, RIGHT, ROW, NEXT_ROW, LINE, SCALE, NARROW = 0.14, 0.52, 0.18, 0.22, 0.17, 0.15, 0.34, 1.4
 
@@ -97,6 +100,14 @@ class Picture(Figure):
         self.seen: clickable.Seen = ()  # what can be clicked on, and what is said of it
         self.told: clickable.Told | None = None
         self.box: Any = None  # what a picture that follows it keeps of this one, see `show.plot.ghost`
+
+    def save(self, path: str | Path) -> Path:
+        """Write the picture: .svg, .pdf or .png."""
+        if not isinstance(path, str | Path) or Path(path).suffix.lower() not in SUFFIXES:
+            raise Alarm(f"a picture is saved as {', '.join(SUFFIXES)}, got {shown(path)}", hint='.save("figure.pdf")')
+        with replaced(Path(path)) as beside:
+            write(self, beside)
+        return Path(path)
 
     def png(self, scale: float = 1.0) -> bytes:
         """The picture as PNG; at `scale` 1 an inch has 100 pixels."""
