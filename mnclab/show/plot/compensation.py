@@ -32,6 +32,8 @@ from mnclab.show.plot.picture import (
     Foot,
     Picture,
     View,
+    beside_ticks,
+    digits_of,
     dress,
     legend_height,
     legend_rows,
@@ -98,7 +100,7 @@ def compensation(
     if ax is not None:
         if len(panels) > 1:
             raise Alarm("axes of one's own have room for one rule and one radius")
-        low, high = roomy(*_box(panels, discs))
+        low, high = roomy(*_box(panels, discs), [panels[0].view])
         outlines = draw(ax, panels[0], discs, vectors)
         _blank(ax, panels[0], low, high, stock)
         dress(ax, panels[0].view)
@@ -130,10 +132,11 @@ def _runs(run: Any, rules: Sequence[str] | None, radii: Sequence[float] | None) 
             again = again.again(setup.with_settings(gouge="mark"))
         said = [rule] if rule else []
         used = np.unique(np.abs(again.programmed.radius[again.programmed.side != 0]))
-        said += [f"radius {each:.4g} mm" for each in used[:3].tolist()]
+        unit = again.toolpath.unit
+        said += [f"radius {unit.figure(each, 1)} {unit.short}" for each in used[:3].tolist()]
         if again.gouges:
             largest = min(gouge.largest for gouge in again.gouges)
-            said.append(f"largest {largest:.4g} mm" if largest >= NO_TOOL else "no tool fits")
+            said.append(f"largest {unit.figure(largest, 1)} {unit.short}" if largest >= NO_TOOL else "no tool fits")
         found.append((", ".join(said), again))
     return found
 
@@ -145,7 +148,7 @@ def _panel(run: Any, title: str, view: str) -> Panel:
         rows = np.flatnonzero(made.compensated)
         normal = int(np.argmax(np.abs(made.path.axis[rows[0]]))) if len(rows) else 2
         view = "ZX" if run.toolpath.lathe else ("YZ", "XZ", "XY")[normal]
-    return Panel(title, run, made, VIEWS[view])
+    return Panel(title, run, made, VIEWS[view]._replace(unit=run.toolpath.unit))
 
 
 def _list(name: str, given: Any, example: str) -> list[Any]:
@@ -180,7 +183,7 @@ def _picture(
     limits: ghost.Box | None, stock: bool,
 ) -> Picture:  # fmt: skip
     box = ghost.held(*_box(panels, discs), limits)
-    low, high = roomy(*box)
+    low, high = roomy(*box, [panels[0].view])
     seen = panels[0].view
     wide, tall = float((high - low)[seen.right]), float((high - low)[seen.up])
     handles = _handles(panels)
@@ -188,7 +191,7 @@ def _picture(
         handles.append(Line2D([], [], **colours.BLANK.style()))
     words = [str(handle.get_label()) for handle in handles]
     foot = _foot(panels)
-    left, bottom = 0.72, BELOW + (ROW if foot else 0)
+    left, bottom = max(0.72, beside_ticks(digits_of(low, high, [seen]))), BELOW + (ROW if foot else 0)
 
     def room(count: int) -> tuple[float, float]:
         """Inches a millimetre, and the height of the legend, for so many panels in a row."""
@@ -265,11 +268,14 @@ def _foot(panels: Sequence[Panel]) -> Foot | None:
         stop = next((alarm for alarm in panel.run.alarms if not panel.run.ok and alarm.severity == "alarm"), None)
         if stop is not None:
             return Foot.of(stop)
+        unit = panel.run.toolpath.unit
         for gouge in panel.run.gouges:
-            what = f"line {gouge.line}: {GOUGES[gouge.kind].format(other=gouge.other)}, {gouge.missing:.4g} mm missing"
+            lacks = f"{unit.figure(gouge.missing)} {unit.short} missing"
+            what = f"line {gouge.line}: {GOUGES[gouge.kind].format(other=gouge.other)}, {lacks}"
             more = len(panel.run.gouges) - 1
             rest = f"; {several(more, 'more place')}" if more else ""
-            fits = f"the largest radius is {gouge.largest:.4g} mm" if gouge.largest >= NO_TOOL else "no tool fits here"
+            largest = f"the largest radius is {unit.figure(gouge.largest, 1)} {unit.short}"
+            fits = largest if gouge.largest >= NO_TOOL else "no tool fits here"
             return Foot(f"{what}; {fits}{rest}", colours.GOUGE)
     return None
 

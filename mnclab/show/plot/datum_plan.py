@@ -60,7 +60,7 @@ def plot_datums(run: Any, ax: Axes | None = None, *, view: str = "XY", size: tup
         picture, (ax,) = arrange([looked], low, high, ["machine zero", "zero point", "cuts and rapids"], None, said, size)
     else:
         dress(ax, looked)
-        wide = roomy(low, high)
+        wide = roomy(low, high, [looked])
         for limits, k in ((ax.set_xlim, looked.right), (ax.set_ylim, looked.up)):
             limits(wide[0][k], wide[1][k])
         ax.apply_aspect()

@@ -164,18 +164,20 @@ def speed_strokes(path: Toolpath, drawn: Strokes) -> Strokes:
 
 @sized()
 def plot_speed(path: Toolpath, most: float = np.inf, size: tuple[float, float] = (7.0, 4.2)) -> Picture:
-    """Spindle speed and diameter over the way of the tool; `most` is the greatest speed of the spindle, rev/min."""
-    way, speed, diameter = speeds(path, most)
+    """Spindle speed and, on a lathe, diameter over the way of the tool; `most` is the greatest speed of the spindle, rev/min."""
+    unit, (way, speed, diameter) = path.unit, speeds(path, most)
+    way, diameter = way / unit.length, diameter / unit.length
     picture = Picture(size, alt="spindle speed over the path")
     shown = np.where(np.isfinite(speed), speed, np.nan)
-    curves = (shown, "spindle, rev/min", colours.FEED.colour, 0.56), (diameter, "X (diameter), mm", "#7d7664", 0.12)
+    curves = [(shown, "spindle, rev/min", colours.FEED.colour, 0.56), (diameter, f"X (diameter), {unit.short}", "#7d7664", 0.12)]
+    curves, tall = (curves, 0.4) if path.lathe else ([(shown, *curves[0][1:3], 0.12)], 0.84)
     for values, label, shade, bottom in curves:
-        ax = picture.add_axes((0.11, bottom, 0.86, 0.4))
+        ax = picture.add_axes((0.11, bottom, 0.85, tall))
         ax.plot(way, values, color=shade, linewidth=1.5)
         ax.set_ylabel(label, fontsize=SMALL + 1)
         ax.set_xlim(0, max(float(way[-1]), 1e-9) if len(way) else 1)
         ax.set_ylim(bottom=0)
-        ax.tick_params(labelsize=SMALL, labelbottom=values is diameter)
+        ax.tick_params(labelsize=SMALL, labelbottom=bottom < 0.5)
         ax.grid(True, color=colours.FAINT, linewidth=0.6)
     if np.isfinite(most) and (speed >= most).any():
         above = picture.axes[0]
@@ -183,7 +185,7 @@ def plot_speed(path: Toolpath, most: float = np.inf, size: tuple[float, float] =
         above.annotate("greatest speed", (0.01, most), (0, 2), xycoords=("axes fraction", "data"),
                        textcoords="offset points", fontsize=SMALL, color=colours.LIMIT.colour)  # fmt: skip
         above.set_ylim(0, 1.18 * most)
-    ax.set_xlabel("path, mm", fontsize=SMALL + 1)
+    ax.set_xlabel(f"path, {unit.short}", fontsize=SMALL + 1)
     return picture
 
 

@@ -165,7 +165,7 @@ def plot_path(
             ghost.draw_ghost(ax, views[0], former, rapids)
         dress(ax, views[0])
         if beyond:
-            wide = roomy(low, high)
+            wide = roomy(low, high, views)
             right, up = views[0][:2]
             ax.set(xlim=(wide[0][right], wide[1][right]), ylim=(wide[0][up], wide[1][up]))
         else:

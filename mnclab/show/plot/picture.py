@@ -155,11 +155,9 @@ def arrange(
     The views stand above one another, side by side or in columns, whichever is largest. `names` get room for a legend above,
     and `scale_above` keeps room for a scale of colours above that; `foot` is text below.
     """
-    low, high = roomy(low, high)
-    span, length = high - low, views[0].unit.length
-    sides = [(value / length, side / length) for value, side in zip((*low, *high), (*span, *span))]
-    digits = max(len(f"{value:.{_decimals(side)}f}") for value, side in sides)
-    left = 0.42 + 0.068 * digits
+    low, high = roomy(low, high, views)
+    span, digits = high - low, digits_of(low, high, views)
+    left = beside_ticks(digits)
     bottom, (most_wide, most_high) = BELOW + (ROW + LINE * (len(foot.lines) - 1) if foot else 0), size
 
     def top(width: float) -> float:
@@ -238,14 +236,31 @@ def _gaps(views: Sequence[View], column: Sequence[int]) -> list[float]:
     return [GAP if views[a].right == views[b].right else BELOW for a, b in pairwise(column)]
 
 
+def digits_of(low: Array, high: Array, views: Sequence[View]) -> int:
+    """How many characters the longest number at the axes has."""
+    low, high = low / views[0].unit.length, high / views[0].unit.length
+    return max(len(f"{end[k]:.{_decimals(high[k] - low[k])}f}") for k in _seen(views) for end in (low, high))
+
+
+def beside_ticks(digits: int) -> float:
+    """Inches to the left of an axis whose numbers have so many characters."""
+    return 0.42 + 0.068 * digits
+
+
 def _decimals(span: float) -> int:
     """How many decimals ticks need at most on an axis of this length."""
     return max(0, math.ceil(-math.log10(span / 9)))
 
 
-def roomy(low: Array, high: Array) -> tuple[Array, Array]:
-    """A box with a margin around it, and no side much thinner than the others."""
-    span = high - low
+def _seen(views: Sequence[View]) -> list[int]:
+    """The coordinates that go to the right or up in a view; all three where there is none."""
+    return sorted({k for view in views for k in (view.right, view.up)}) or [0, 1, 2]
+
+
+def roomy(low: Array, high: Array, views: Sequence[View] = ()) -> tuple[Array, Array]:
+    """A box with a margin around it, and no side much thinner than the others that are seen."""
+    span = np.zeros(3)
+    span[_seen(views)] = (high - low)[_seen(views)]
     largest = max(float(span.max()), 1e-3, 1e-6 * float(np.abs([low, high]).max()))
     if span.max() == 0:
         largest = max(largest, 10.0)

@@ -14,6 +14,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from mnclab.path.kinds import Kind
+from mnclab.path.listing import figure
 from mnclab.path.profile import Profile
 from mnclab.path.profile.bends import divided
 from mnclab.show.plot import colours, ghost
@@ -27,7 +28,7 @@ from mnclab.text.given import choice
 SIZE = (7.0, 6.0)  # inches
 FINE, MANY = 9, 20_000  # points of a piece, as long as all of them are not more than so many
 BAND, FEW = 500, 60  # steps of the band that says what holds the speed; boxes of it that are hatched
-LINES = 30  # of a program beside their bars
+LINES, LETTERS = 30, 36  # of a program beside their bars, and what is shown of one
 RAPIDS = 3  # times the fastest cut, beyond which rapids are cut off
 PARTS = 3000  # of a path that is coloured by the speed reached
 HIDDEN_LIMIT = colours.LIMIT.style() | {"label": "_limit"}  # not in the legend
@@ -42,6 +43,10 @@ class Curve(NamedTuple):
     a: Array
     j: Array
     piece: NDArray[np.int64]
+
+    def counted(self, length: float) -> Curve:
+        """The same in units of so many mm."""
+        return Curve(self.t, self.s / length, self.v / length, self.a / length, self.j / length, self.piece)
 
 
 def curve(profile: Profile, over: str = "path") -> Curve:
@@ -108,7 +113,7 @@ def plot_profile(
     """Feed, acceleration and, under a limit, jerk along the path. Returns the figure, which Jupyter shows.
 
     - `ax`: draw only the feed, into these axes of one's own.
-    - `over`: "time" (s) or "path" (mm of path length).
+    - `over`: "time" (s) or "path" (its length). Lengths count in the unit of the program.
     - `axes`: also the speed and acceleration of X, Y and Z.
     - `limits`: dotted lines at the limits, and a band below the feed that says what holds the speed: the acceleration,
       the jerk, a corner, the turning on an arc, the speed of an axis, or nothing but the programmed feed.
@@ -121,20 +126,21 @@ def plot_profile(
     Bars on the time axis are stops, triangles corners that slow the tool.
     """
     over = choice(over, "over", ("time", "path"))
-    drawn = curve(profile, over)
-    x, below = (drawn.t, "time, s") if over == "time" else (drawn.s, "path, mm")
+    length, unit = profile.path.unit.length, profile.path.unit.short
+    drawn = curve(profile, over).counted(length)
+    x, below = (drawn.t, "time, s") if over == "time" else (drawn.s, f"path, {unit}")
     if ax is not None:
         _feed(ax, profile, drawn, x, over, limits, whole)
         ax.set_xlabel(below, fontsize=SMALL + 1)
         if not ax.get_ylabel():
-            ax.set_ylabel("feed, mm/min", fontsize=SMALL + 1)
+            ax.set_ylabel(f"feed, {unit}/min", fontsize=SMALL + 1)
         return cast(Figure, ax.get_figure(root=True))
-    titles = ["feed, mm/min", "acceleration, mm/s²"]
-    titles += ["jerk, mm/s³"] if len(profile.plan.rows.j) else []
-    titles += ["axis speed, mm/min", "axis acc., mm/s²"] if axes else []
+    titles = [f"feed, {unit}/min", f"acceleration, {unit}/s²"]
+    titles += [f"jerk, {unit}/s³"] if len(profile.plan.rows.j) else []
+    titles += [f"axis speed, {unit}/min", f"axis acc., {unit}/s²"] if axes else []
     heights = [2.2 if k == 0 else 1.35 for k in range(len(titles))]  # inches, at least
-    causes = ", ".join(f"{cause} {seconds:.3g} s" for cause, seconds in profile.time_by("cause").items())
-    said = f"feed-rate profile: {profile.time:.4g} s; {causes}"
+    causes = ", ".join(f"{cause} {figure(seconds, 2)} s" for cause, seconds in profile.time_by("cause").items())
+    said = f"feed-rate profile: {figure(profile.time, 2)} s; {causes}"
     usual = 1.2 + 1.05 * sum(heights) if size == SIZE else 0.0
     picture = Picture((size[0], max(size[1], usual, 1.2 + 0.6 * len(titles))), said)
     width, height = picture.get_size_inches()
@@ -155,7 +161,7 @@ def plot_profile(
         unknown |= kind == Kind.RAPID
     if plan.ramps is not None:  # it changes along arcs
         unknown |= kind == Kind.ARC
-    most = np.where(unknown, np.nan, _of_rows(profile, plan.rows.a))[profile.move[drawn.piece]]
+    most = np.where(unknown, np.nan, _of_rows(profile, plan.rows.a) / length)[profile.move[drawn.piece]]
     rows[1].plot(x, drawn.a, **{**colours.REACHED.style(), "label": "_a"})
     if limits:
         handles += rows[1].plot(x, most, **colours.LIMIT.style())
@@ -168,7 +174,7 @@ def plot_profile(
         each.tick_params(labelbottom=False)
     rows[-1].set_xlabel(below, fontsize=SMALL + 1)
     if under is not None:
-        before = curve(under, over)
+        before = curve(under, over).counted(length)
         for each, values in zip(rows, (before.v * 60, before.a, before.j)[: 3 if len(profile.plan.rows.j) else 2]):
             each.plot(before.t if over == "time" else before.s, values, **colours.GHOST.style(), scaley=False)
     picture.box = ghost.held_axes(rows, held)
@@ -242,7 +248,8 @@ def plot_lost(profile: Profile, ax: Axes | None = None, *, most: int = LINES, wi
 
 def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits: bool, whole: bool) -> list[Any]:
     """Programmed and reached feed, stops, corners, and the band of what holds the speed; returns legend entries."""
-    feed = _of_pieces(profile, profile.plan.rows.feed)
+    unit = profile.path.unit
+    feed = _of_pieces(profile, profile.plan.rows.feed) / unit.length
     known = np.isfinite(feed) & (profile.path.kind[profile.move] <= Kind.PROBE)
     wanted, reached = np.where(known, feed * 60, np.nan)[drawn.piece], drawn.v * 60
     lines: list[Any] = ax.plot(x, wanted, **colours.WANTED.style()) + ax.plot(x, reached, **colours.REACHED.style())
@@ -254,12 +261,12 @@ def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits:
     if not whole and fast > RAPIDS * cut > 0:
         top = 1.15 * min(max(cut, most), RAPIDS * cut)
         ax.text(
-            0.995, 0.98, f"cut off: rapids reach {fast:.5g} mm/min", transform=ax.transAxes, ha="right", va="top",
+            0.995, 0.98, f"cut off: rapids reach {fast:.0f} {unit.short}/min", transform=ax.transAxes, ha="right", va="top",
             fontsize=SMALL - 1, color=colours.RAPID.colour, zorder=5,
             bbox={"facecolor": colours.PAPER, "edgecolor": "none", "pad": 1.5, "alpha": 0.85},
         )  # fmt: skip
     p = profile.pieces
-    at = p.t if over == "time" else p.s
+    at = p.t if over == "time" else p.s / unit.length
     ax.set_xlim(0, max(float(at[-1]), 1e-9) if len(at) else 1.0)
     ax.set_ylim(-0.14 * top if limits else -0.03 * top, top)
     stops = at[np.flatnonzero(p.v <= 1e-9)]
@@ -267,7 +274,7 @@ def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits:
         lines += ax.plot(stops, 0 * stops, **colours.STANDS.style())
     turn = slow_at(profile)
     if 0 < len(turn) <= MOST:
-        lines += ax.plot(at[turn], p.v[turn] * 60, **colours.SLOW_CORNER.style())
+        lines += ax.plot(at[turn], p.v[turn] * 60 / unit.length, **colours.SLOW_CORNER.style())
     if not limits or not len(p.row):
         return lines
     which, edges = holds(profile), at
@@ -290,13 +297,14 @@ def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits:
 def _axes(rows: list[Axes], profile: Profile, drawn: Curve, x: Array, limits: bool) -> list[Line2D]:
     begin, end = profile.t[:-1][drawn.piece], profile.t[1:][drawn.piece]
     now = profile.at(np.clip(drawn.t, begin + 1e-9 * (end - begin), end - 1e-9 * (end - begin)))  # within the piece
-    limit = profile.limits.axes("rapid") * 60, profile.limits.axes("acceleration")
+    length = profile.path.unit.length
+    limit = profile.limits.axes("rapid") * 60 / length, profile.limits.axes("acceleration") / length
     handles = []
     for k, look in enumerate(colours.AXES):
         if not np.abs(now.velocity[:, k]).max(initial=0.0) > 1e-9:
             continue
-        handles += rows[0].plot(x, now.velocity[:, k] * 60, **look.style())
-        rows[1].plot(x, now.acceleration[:, k], **{**look.style(), "label": f"_{look.name}"})
+        handles += rows[0].plot(x, now.velocity[:, k] * 60 / length, **look.style())
+        rows[1].plot(x, now.acceleration[:, k] / length, **{**look.style(), "label": f"_{look.name}"})
         for row, most in zip(rows if limits else [], limit):
             low, high = row.get_ylim()
             for value in (most[k], -most[k]):
@@ -307,4 +315,4 @@ def _axes(rows: list[Axes], profile: Profile, drawn: Curve, x: Array, limits: bo
 
 def _text(profile: Profile, line: int) -> str:
     text = " ".join(profile.source.line_text(line).split()) if profile.source is not None else ""
-    return f"{line:>4}  {text[:36]}"
+    return f"{line:>4}  {text if len(text) <= LETTERS else text[: LETTERS - 1] + '…'}"

@@ -12,6 +12,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from mnclab.path.kinds import Kind
+from mnclab.path.listing import MM, Unit
 from mnclab.path.profile import Profile
 from mnclab.show.plot.picture import SMALL, Picture, calm, write_legend
 from mnclab.show.plot.profile import curve
@@ -34,7 +35,8 @@ def plot_profiles(
     """The feed of several profiles, or runs, under one another: `plot_profiles(run.profile("small-mill"), run)`.
 
     All begin at 0 and have the same scales; bands stand for rapids. `names` are what they are called (default: program and
-    machine), each with its time; `over` "time" (s) or "path" (mm); `width` in inches.
+    machine), each with its time; `over` "time" (s) or "path"; `width` of the figure in inches. Lengths are in inches where all
+    programs are, else in mm.
     """
     over = choice(over, "over", ("time", "path"))
     found = [_profile(each) for each in (profile, *others)]
@@ -52,7 +54,9 @@ def plot_profiles(
     rows: list[Axes] = []
     for k in range(len(found)):
         rows.append(picture.add_subplot(grid[k, 0], sharex=rows[0] if rows else None, sharey=rows[0] if rows else None))
-    drawn = [_draw(ax, each, over, LOOKS[k % 2]) for k, (ax, each) in enumerate(zip(rows, found))]
+    units = {each.path.unit for each in found}
+    unit = units.pop() if len(units) == 1 else MM
+    drawn = [_draw(ax, each, over, LOOKS[k % 2], unit) for k, (ax, each) in enumerate(zip(rows, found))]
     top = 1.3 * max(most for _, most in drawn) or 1.0
     rows[0].set(xlim=(0, max(*(end for end, _ in drawn), 1e-9)), ylim=(0, top))
     for ax, name in zip(rows, called):
@@ -61,15 +65,16 @@ def plot_profiles(
         ax.tick_params(labelbottom=ax is rows[-1])
         ax.text(0.005, 0.96, name, transform=ax.transAxes, va="top", fontsize=SMALL, parse_math=False,
                 bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5, "alpha": 0.85})  # fmt: skip
-    rows[-1].set_xlabel("time, s" if over == "time" else "path, mm", fontsize=SMALL + 1)
-    picture.text(0.16 / width, (low + 1 - above) / 2, "feed, mm/min", rotation=90, va="center", ha="center", fontsize=SMALL + 1)
+    rows[-1].set_xlabel("time, s" if over == "time" else f"path, {unit.short}", fontsize=SMALL + 1)
+    said = f"feed, {unit.short}/min"
+    picture.text(0.16 / width, (low + 1 - above) / 2, said, rotation=90, va="center", ha="center", fontsize=SMALL + 1)
     write_legend(picture, [Line2D([], [], color=LOOKS[0], label="feed"), Patch(facecolor=RAPID, label="rapid")])
     return picture
 
 
-def _draw(ax: Axes, profile: Profile, over: str, shade: str) -> tuple[float, float]:
+def _draw(ax: Axes, profile: Profile, over: str, shade: str, unit: Unit) -> tuple[float, float]:
     """The feed of one profile and its rapids as bands; returns where it ends and its greatest feed."""
-    drawn = curve(profile, over)
+    drawn = curve(profile, over).counted(unit.length)
     x, v = (drawn.t if over == "time" else drawn.s), drawn.v * 60
     if not len(x):
         return 0.0, 0.0

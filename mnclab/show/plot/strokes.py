@@ -92,7 +92,9 @@ def _line(xyz: Array, ends: NDArray[np.intp]) -> Array:
 
 
 def _size(path: Toolpath, rows: NDArray[np.intp]) -> float:
-    """The greatest side of a box around some rows, mm, not less than 1 µm."""
+    """The greatest side of a box around the cuts of some rows, or all of them where none cuts, mm, not less than 1 µm."""
+    cuts = rows[path.kind[rows] != Kind.RAPID]  # rapids that come from far away are cut off in pictures
+    rows = cuts if len(cuts) else rows
     low, high = extremes(path.end[rows])
     begin = path.start[rows[0]]
     size = float((np.maximum(high, begin) - np.minimum(low, begin)).max())
