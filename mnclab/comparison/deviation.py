@@ -97,7 +97,8 @@ class Deviation:
             return "no motion on either path" if self.largest == 0 else "only one of the paths has motion"
         if self.largest < SAME:
             return "the paths are the same"
-        return f"largest deviation {figure(self.largest, 3 if self.largest >= 0.001 else 6)} mm at line {where[2]} of {self.names[where[3]]}"
+        largest = figure(self.largest, 3 if self.largest >= 0.001 else 6)
+        return f"largest deviation {largest} mm at line {where[2]} of {self.names[where[3]]}"
 
     def __str__(self) -> str:
         head = f"{self.names[0]} and {self.names[1]}: {self.sentence}"

@@ -21,7 +21,7 @@ def run():
         ({"legend": np.array([1.0, 2.0])}, "legend must be True or False"),
         ({"marks": 0.5}, "marks must be True or False, got 0.5"),
         ({"limits": "small-mill"}, "limits must be two corners of a picture, got 'small-mill'"),
-        ({"rapids": "small-mill"}, "rapids must be limits of a machine, got 'small-mill'"),
+        ({"rapids": 5}, "limits must be Limits or the name of a machine, got 5"),
         ({"under": 5}, "under must be a toolpath, got 5"),
         ({"overlays": [5]}, "overlays must be overlays, got [5]"),
         ({"alarms": "none"}, "alarms must be alarms, got 'none'"),

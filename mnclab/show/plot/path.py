@@ -16,6 +16,7 @@ from matplotlib.patches import Patch
 
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
+from mnclab.path.machine_file import limits_of
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.show.felt import Felt
@@ -111,11 +112,11 @@ def plot_path(
       so close that they would run into a blot.
     - `overlays`: centres of arcs, mirror lines, holes and the like (see `show.plot.overlay`).
     """
-    rapids = limits_of(rapids)
+    bent = limits_of(rapids)
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
     if ax is None and stock is None and felt is None and not path.is_motion.any():
         return no_moves(stop)
-    drawn = strokes(path, rapids)
+    drawn = strokes(path, bent)
     if colour == "speed" and len(drawn.row):
         drawn = speed_strokes(path, drawn)
     found = classes(path, drawn, colour)
@@ -162,7 +163,7 @@ def plot_path(
             bands.draw_bands(ax, banded, path, drawn, found.group >= CUTS)
         draw(ax, views[0], drawing)
         if former is not None:
-            ghost.draw_ghost(ax, views[0], former, rapids)
+            ghost.draw_ghost(ax, views[0], former, bent)
         dress(ax, views[0])
         if beyond:
             wide = roomy(low, high, views)
@@ -195,7 +196,7 @@ def plot_path(
         if which is banded:
             bands.draw_bands(one, which, path, drawn, found.group >= CUTS)
         if former is not None:
-            ghost.draw_ghost(one, which, former, rapids)
+            ghost.draw_ghost(one, which, former, bent)
         for artist in draw(one, which, drawing):
             artists.setdefault(str(artist.get_label()), artist)
         write(one, which, drawing, low, high)
