@@ -13,7 +13,7 @@ Choices = list[tuple[str, str]]  # a word, and what it means
 _FILE = re.compile(r"\b(?:(?:CALL|SEL) +PGM|SEL +(?:CONTOUR|PATTERN|TABLE)|QC\d+ *=|CONTOUR +DEF.*=) +[\"']?([^\s\"']*)$", re.I)
 _LABEL = re.compile(r"(?:CALL|GOTO) +LBL +([\"']?[^\s\"']*)$", re.I)
 _LABELS = re.compile(r"^\s*(?:\d+\s+)?LBL +(\"[^\"]+\"|[1-9]\d*)", re.I | re.M)
-_WORD = re.compile(r"[,#%]?[A-Za-z]*[\d.]*$")
+_TYPED = re.compile(r"[\d.]*+[A-Za-z]*+[,#%]?")  # a word read from its end
 
 
 def completions(text: str, at: int, control: Control, files: Iterable[str] = ()) -> tuple[str, Choices]:
@@ -31,8 +31,8 @@ def completions(text: str, at: int, control: Control, files: Iterable[str] = ())
         return begun, [(label, "label") for label in labels if label.startswith(begun)]
     if known.keywords and up_to(text, at, known)[1] == 1 and (found := _keywords(before, known)):
         return found
-    typed = _WORD.search(before)
-    begun = typed[0] if typed else ""
+    typed = _TYPED.match(before[::-1])
+    begun = typed[0][::-1] if typed else ""
     if not begun and (before.endswith(("+", "-", "=")) or before[-1:].isalnum()):  # a number comes; a letter of no word
         return "", []
     words = [*_words(text, at, known, at - len(begun))]

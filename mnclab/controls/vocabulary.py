@@ -15,7 +15,7 @@ from mnclab.machine.cycle import Cycle
 from mnclab.runs.meanings import meant
 
 BACK = 200  # lines that are looked through for what is still on
-_WORD = re.compile(r"([,#%]?[A-Z]+)(?:[ \t]*(\d+(?:\.\d+)?))?")
+_WORDS = re.compile(r"([,#%]?[A-Z]+)(?:[ \t]*(\d+(?:\.\d+)?))?")
 _ADDRESS = re.compile(r",?[A-Z]+[0-9]?")
 GENERAL = {
     **{axis: f"coordinate {axis}" for axis in "XYZ"}, **{axis: f"rotary axis {axis}, degrees" for axis in "ABC"},
@@ -95,14 +95,14 @@ def found_in(line: str, known: Vocabulary) -> Iterator[Found]:
     """The words of a line before its comment; a code of keywords stands at its beginning, after the number."""
     mark = re.search(known.comment, line)
     text = (line[: mark.start()] if mark else line).upper()
-    text = re.sub(r'"[^"]*"?|\([^()]*[A-Z]{2}[^()]*\)', lambda quoted: " " * len(quoted[0]), text)
+    text = re.sub(r'"[^"]*+"?|\((?=[^()]*[A-Z]{2})[^()]*+\)', lambda quoted: " " * len(quoted[0]), text)
     first = re.match(r"\s*/?(\d+(?=\s))?\s*", text)
     at = first.end() if first else 0
     if keyword := keyword_at(text[at:], known):
         end = at + len(keyword[1])
         yield Found(keyword[0], at, end, keyword[0])
         at = end
-    for word in _WORD.finditer(text, at):
+    for word in _WORDS.finditer(text, at):
         letters, number = word[1], word[2] or ""
         whole = letters + (str(int(number)) if number.isdigit() else number)
         names = (whole,) if known.keywords else (whole, letters)

@@ -47,7 +47,7 @@ def test_a_fault_inside_stays_what_it_is() -> None:
         (lambda: mnc.Limits(acelleration=3), "Limits has no option 'acelleration'", "near: acceleration"),
         (lambda: mnc.diff(RUN, RUN, tol=1), "diff has no option 'tol'", "write tolerance"),
         (lambda: mnc.diff(RUN), "diff: missing a required argument: 'other'", "diff(one, other, step=…, what=…, tolerance=…)"),
-        (lambda: mnc.plot_profiles(RUN, machines=[]), "plot_profiles has no option 'machines'", ""),
+        (lambda: mnc.plot_profiles(RUN, machines=[]), "this figure has no option machines", ""),
         (lambda: mnc.form("G83", "mnc", X=20), "form has no option 'X'", "it takes code, control"),
         (lambda: mnc.editor(), "editor: missing a required argument: 'path'", "editor(path,"),
         (lambda: RUN.at(lin=1), "at has no option 'lin'", "near: line"),

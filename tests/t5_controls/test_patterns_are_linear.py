@@ -33,6 +33,12 @@ PUT_TOGETHER = {
     "programs.py": (r"O?0*1000(\.\w{1,8})?", "fullmatch"),
     "reader.py": (r"/[ \t]?/|;", "search"),
     "program.py": (r"/[ \t]?/", "search"),
+    "vocabulary.py": (r";|\(|\*[ \t]*-", "search"),
+    "completion.py": (r";|\(|\*[ \t]*-", "search"),
+    "faults.py": (r"\b251 Q215\b", "search"),
+    "groups.py": (r"position|corner|\bangle\b(?! reference)", "search"),
+    "kinds.py": (r"straight side|\bangle\b|^measuring( in three dimensions)?$", "search"),
+    "__init__.py": (r"(pocket|stud) (length|width)", "fullmatch"),
     "toml_file.py": (r"""(?:^|[\s.{,])(["']?start["']?)\s*=""", "search"),
 }
 

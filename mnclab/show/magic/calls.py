@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-_NAME = re.compile(r"([\w.]*)\s*$")
+_NAME = re.compile(r"\s*+([\w.]*+)")  # of a function, read from its end
 _KEYWORD = re.compile(r"[(,]\s*(\w+)\s*$")
 
 
@@ -55,8 +55,8 @@ def call_at(source: str, at: int) -> Call | None:
         if sign == "#":
             k = source.find("\n", k) if "\n" in source[k:] else at
         elif sign in "([{":
-            found = _NAME.search(source[:k]) if sign == "(" else None
-            frames.append(_Frame(found[1] if found else ""))
+            found = _NAME.match(source[:k][::-1]) if sign == "(" else None
+            frames.append(_Frame(found[1][::-1] if found else ""))
         elif sign in ")]}" and frames:
             frames.pop()
         elif sign == "," and frames:

@@ -113,10 +113,10 @@ class Player:
 
     @cached_property
     def picture(self) -> Picture | None:
-        """The path as a figure, for where no scripts run; None where a figure of it is refused."""
-        from mnclab.show.plot.path import plot_run
-
+        """The path as a figure, for where no scripts run; None where a figure of it is refused or matplotlib is not there."""
         try:
+            from mnclab.show.plot.path import plot_run
+
             return cast("Picture", plot_run(self.run))
         except Alarm:
             return None

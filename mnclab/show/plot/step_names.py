@@ -14,7 +14,7 @@ from mnclab.path.toolpath import Toolpath
 
 BLOCKS, OTHERS, ROUGHING, FINISHING, ENTRY = "blocks of the program", "other steps", "roughing", "finishing", "entry"
 CODE = re.compile(r"(?:CYCL (?:DEF|CALL)(?: PAT| POS)?|G)\s?\d*\s*")
-NUMBERS = re.compile(r" ?\d+ of \d+| \d+(?=,|$)")
+NUMBERS = re.compile(r" ?(?<!\d)\d++ of \d++| \d++(?=,|$)")
 COARSE = ("layer", "level", "pass", "line", "opening")
 FINE = ("contour", "clean-up", "finishing")
 MOST = 6  # names; what makes the shortest way goes together beyond

@@ -333,7 +333,7 @@ def test_face_milling_is_the_sequence_of_the_manual(v, radius, z0):
         ),
         (
             "G320 X0 Y0 Z0 A50 B40 K1 V150 F400 Q2",
-            "G320 K1 lines leave strips uncut: they lie 30 mm apart, the tool is 10",
+            "G320 one line leaves strips uncut: B40 is wider than the tool, 10 mm",
         ),
         ("G321 X0 Y0 Z5 W5 A50 B40 Q2 P2 K1 F400 V900 I2", "G321 Z and W are the same height: nothing is milled"),
         ("G343 M2 A60 B40 Z0 H-5 P5 Q2 K1 F400 V150", "G343 M2 finishes nothing: neither U nor W is given"),

@@ -76,7 +76,9 @@ class LineMilling(MillingCycle):
             yield "K (number of lines) is 0: nothing is milled"
         elif count > 1 and width <= 2 * radius:
             yield f"one line is as wide as B{width:g}: K{count} lines are not needed"
-        elif (step := width - 2 * radius if count == 1 else (width - 2 * radius) / (count - 1)) > 2 * radius:
+        elif count == 1 and width > 2 * radius:
+            yield f"one line leaves strips uncut: B{width:g} is wider than the tool, {2 * radius:g} mm"
+        elif count > 1 and (step := (width - 2 * radius) / (count - 1)) > 2 * radius:
             yield f"K{count} lines leave strips uncut: they lie {step:g} mm apart, the tool is {2 * radius:g} mm wide"
 
     def about(self, m: Machine) -> tuple[float, float]:
