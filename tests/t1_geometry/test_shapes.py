@@ -68,7 +68,7 @@ def test_polygon():
     ],
 )
 def test_what_is_no_figure(make, message):
-    with pytest.raises(ValueError, match=message):
+    with pytest.raises(Alarm, match=message):
         make()
 
 

@@ -169,7 +169,7 @@ def test_the_record_stands_below_what_is_out_in_red(measured):
     "options, said",
     [
         ({"line": 99}, "nothing was measured in line 99"),
-        ({"line": "x"}, "the line must be a number, got 'x'"),
+        ({"line": "x"}, "line must be a number, got 'x'"),
         ({"factor": 0}, "the factor of deviations must be greater than 0, got 0"),
         ({"part": 3}, "part must be True or False, got 3"),
         ({"width": 1}, "the width of a picture (inches) must be at least 3, got 1"),

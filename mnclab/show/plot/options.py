@@ -26,7 +26,7 @@ KINDS = {
     "Sequence[Alarm]": ("severity", "alarms"),
     "Sequence[Place]": ("xyz", "places"),
     "Sequence[Overlay]": ("draw", "overlays"),
-    "Iterable[Collision]": ("place", "collisions"),
+    "Iterable[Collision]": ("place", "those of a run"),
 }
 
 
