@@ -18,6 +18,8 @@ from mnclab.machine.cycle import Cycle
 from mnclab.machine.parameter_table import help_html, help_text
 from mnclab.machine.settings import Setting, settings_html, settings_text
 from mnclab.machine.setup import Setup
+from mnclab.machine.setup_file import load
+from mnclab.path.machine_file import limits_of
 from mnclab.path.tool import Tool
 from mnclab.runs.run import EXAMPLE, Run, run_program
 from mnclab.text.alarm import ALARM, Alarm
@@ -34,7 +36,7 @@ MOST_FILES = 1000  # of a folder, looked through for a name
 
 @fitting
 def run(
-    source: str | Path | Program, control: str | None = None, setup: Setup | None = None,
+    source: str | Path | Program, control: str | None = None, setup: Setup | str | Path | None = None,
     *, strict: bool = False, tools: Mapping[int, Tool] | None = None, stock: Any = None, **parts: Any,
 ) -> Run:  # fmt: skip
     """Read and run a part program: `run("G0 X5\\n", "mnc", tools={1: mnclab.Tool(diameter=8)}, stock=(80, 60, 20))`.
@@ -44,11 +46,16 @@ def run(
     `run.alarms`; `strict` raises the first.
 
     `tools` by their numbers, the `stock` (three sizes in mm have their corner at the datum and their top at Z0) and any other
-    part of a `Setup` may be given without one, or beside one, whose parts they replace.
+    part of a `Setup` may be given without one, or beside one, whose parts they replace; `machine="small-mill"` stands for
+    its limits. `setup` may be the name of a .toml file, which `mnclab --help` shows.
     """
+    if isinstance(setup, str | Path) and PurePath(setup).suffix.lower() == ".toml":
+        setup = load(setup)
+    if "machine" in parts:
+        parts["limits"] = limits_of(parts.get("limits"), parts.pop("machine"))
     given = {name: part for name, part in (("tools", tools), ("stock", stock), *parts.items()) if part is not None}
     program = source if isinstance(source, Program) else read(source, control)
-    if given and not isinstance(setup, Setup | None):
+    if not isinstance(setup, Setup | None):
         raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
     known = [each.name for each in fields(Setup) if each.name != "source"]
     for name in (name for name in given if name not in known):

@@ -41,7 +41,7 @@ class Ahead:
         self.control, self.program, self.skips = stopped.control, stopped.flow.programs[0], stopped.skips
         self.faulty, self.good = stopped.loaded[0].faulty, dict[Any, Plan]()
         self.states = list(self._states(stopped))
-        self.sections = self._sections(stopped.flow)
+        self.sections, self.stop = self._sections(stopped.flow), stopped.flow.current
         self.scratch = Machine(self.control, stopped.machine.setup, Course(self.program))
         for group, code in self.control.power_on().items():
             self.scratch.set_modal(group, code)
@@ -109,11 +109,11 @@ class Ahead:
     def faults(self) -> Iterator[Alarm]:
         """The alarms below, and a warning where a cut comes and nothing in the program turns the spindle."""
         cuts: Span | None = None
-        understood = not self.faulty
+        understood = not any(map(self.may_turn, {*self.faulty, self.stop}))
         for block, keyword, words, plan in self.blocks():
             place = self.program.span_of_block(block)
             if isinstance(plan, Alarm):
-                found, understood = [plan], False
+                found, understood = [plan], understood and not self.may_turn(block)
             else:
                 found = [*self.of_actions(plan, words), *self.of_label(keyword, words)]
             for alarm in found:
@@ -123,6 +123,10 @@ class Ahead:
             cuts = cuts or (place if feeds and not codes.isdisjoint(STRAIGHT) else None)
         if cuts and understood and self.nothing_turns():
             yield Alarm(SENTENCE, cuts, WARNING, HINT)
+
+    def may_turn(self, block: int) -> bool:
+        """Whether a block that is not understood may have been meant to turn the spindle."""
+        return "M" in self.program.line_text(self.program.span_of_block(block).line).upper()
 
     def nothing_turns(self) -> bool:
         """Whether no block of the program turns the spindle, itself, by a cycle, or by another program."""

@@ -97,7 +97,7 @@ class Run(Pictures):
         self.settings = dict(machine.settings)
         self.made: dict[Any, Any] = {}  # the last parts and collisions that were asked for
         self.alarms = by_place(alarms)
-        self.alarms = by_place([*self.alarms, *lint.remarks(self, machine)])
+        self.alarms = by_place(lint.remarked(self, machine))
         for alarm in self.alarms:
             if alarm.source is None:
                 alarm.source = self.programs[alarm.span.program if alarm.span else 0]

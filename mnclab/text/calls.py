@@ -14,7 +14,7 @@ from mnclab.text.nearest import hint
 MEANT = {
     "machine": "limits", "blank": "stock", "chuck": "fixtures", "magazine": "tools", "tol": "tolerance", "dia": "diameter",
     "d": "diameter", "r": "radius", "type": "kind", "z": "teeth", "flutes": "teeth", "figsize": "size", "width": "size_mm",
-    "height": "size_mm", "dpi": "size_mm", "color": "colour", "v": "vc", "f": "fz",
+    "height": "size_mm", "width_mm": "size_mm", "dpi": "size_mm", "color": "colour", "v": "vc", "f": "fz",
 }  # fmt: skip
 EXAMPLES = {"size_mm": "size_mm=(85, None)", "limits": 'limits="small-mill"'}
 

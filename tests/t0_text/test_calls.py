@@ -43,7 +43,7 @@ def test_a_fault_inside_stays_what_it_is() -> None:
         (lambda: mnc.Setup(tool={}), "Setup has no option 'tool'", "near: tools"),
         (lambda: mnc.Setup(blank=(80, 60, 20)), "Setup has no option 'blank'", "write stock"),
         (lambda: mnc.Setup(machine="small-mill"), "Setup has no option 'machine'", 'write limits="small-mill"'),
-        (lambda: mnc.run("G0 X5\n", "mnc", machine="small-mill"), "run has no option 'machine'", 'write limits="small-mill"'),
+        (lambda: mnc.run("G0 X5\n", "mnc", maschine="small-mill"), "run has no option 'maschine'", ""),
         (lambda: mnc.Limits(acelleration=3), "Limits has no option 'acelleration'", "near: acceleration"),
         (lambda: mnc.diff(RUN, RUN, tol=1), "diff has no option 'tol'", "write tolerance"),
         (lambda: mnc.diff(RUN), "diff: missing a required argument: 'other'", "diff(one, other, step=…, what=…, tolerance=…)"),

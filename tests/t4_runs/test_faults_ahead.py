@@ -141,6 +141,12 @@ def test_a_spindle_that_nothing_starts_is_told_though_the_run_never_came_there()
     assert not told("G4|G1 X5 F100", "mnc", "warning", settings={"lint": "off"})
 
 
+@pytest.mark.parametrize(("block", "count"), [("G1 X1O", 1), ("G1 X10 Q5", 1), ("M33", 0), ("S500 MO3", 0)])
+def test_a_faulty_block_that_may_have_been_meant_to_turn_the_spindle(block, count):
+    found = told(f"T1|{block}|G1 X5 F100|M30", "mnc", "warning")
+    assert [each[:2] for each in found] == [(3, 1)] * count, found
+
+
 def test_the_first_alarm_is_still_the_one_that_is_raised():
     with pytest.raises(mnclab.Alarm, match="G999 is not a function"):
         mnclab.run("G999\nG998\n", "mnc", strict=True)

@@ -117,6 +117,21 @@ def test_a_setup_file_names_its_machine(tmp_path):
     assert load(file).limits == mnc.Setup(limits="small-mill").limits
     file.write_text('limits = "small"\n')
     assert alarm_of(lambda: load(file)).span.line == 1
+    assert alarm_of(lambda: mnc.run(GROOVE, "mnc", str(file))).span.line == 1
+
+
+def test_a_setup_file_stands_for_the_setup(tmp_path):
+    file = tmp_path / "s.toml"
+    file.write_text("start = [1, 2, 30]\n")
+    assert mnc.run(GROOVE, "mnc", file).setup.start == mnc.run(GROOVE, "mnc", str(file)).setup.start == (1, 2, 30)
+    assert mnc.run(GROOVE, "mnc", file, stock=(60, 40, 20)).setup.start == (1, 2, 30)
+    assert "no such file" in str(alarm_of(lambda: mnc.run(GROOVE, "mnc", "other.toml"))).lower()
+    assert "setup must be a Setup" in alarm_of(lambda: mnc.run(GROOVE, "mnc", "small-mill")).message
+
+
+def test_a_machine_is_its_limits():
+    assert mnc.run(GROOVE, "mnc", machine="small-mill").setup.limits == mnc.Setup(limits="small-mill").limits
+    assert "give one of them" in alarm_of(lambda: mnc.run(GROOVE, "mnc", machine="small-mill", limits="small-mill")).message
 
 
 def test_what_a_user_calls_is_what_tab_shows():

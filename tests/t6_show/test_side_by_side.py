@@ -179,9 +179,9 @@ def test_profiles_of_machines_in_one_figure():
     texts = [text.get_text() for ax in picture.axes for text in ax.texts]
     assert texts == [f"program on hobby-router: {slow.time:.2f} s", f"program on fast-mill: {fast.time:.2f} s"]
     assert "hobby-router" in picture.alt
-    for wrong in (lambda: mnc.plot_profiles(5), lambda: mnc.plot_profiles(slow, names=["a", "b"])):
+    for wrong in (lambda: mnc.plot_profiles(5), lambda: mnc.plot_profiles([]), lambda: mnc.plot_profiles(slow, names=["a", "b"])):
         alarm_of(wrong)
-    assert len(mnc.plot_profiles(run, slow, names=["a", "b"], over="path").axes) == 2
+    assert len(mnc.plot_profiles(run, slow, names=["a", "b"], over="path").axes) == len(mnc.plot_profiles([run, slow]).axes) == 2
 
 
 def test_a_tool_change_is_lost_time():

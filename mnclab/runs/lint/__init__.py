@@ -18,6 +18,13 @@ if TYPE_CHECKING:
     from mnclab.runs.run import Run
 
 
+def remarked(run: Run, m: Machine) -> list[Alarm]:
+    """The alarms of a run and these warnings; what was told of blocks that it did not come to is not told twice."""
+    found = [*remarks(run, m)]
+    said = {alarm.message for alarm in found}
+    return [*(alarm for alarm in run.alarms if alarm.message not in said), *found]
+
+
 def remarks(run: Run, m: Machine) -> Iterator[Alarm]:
     """The warnings about a run, one for each cause."""
     if run.settings["lint"] == "off" or not len(run.steps.block):

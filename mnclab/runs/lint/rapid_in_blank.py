@@ -74,7 +74,7 @@ class Taken(NamedTuple):
 
 def _full(cutting: Cutting, rows: Index) -> Index:
     """Which of some rapids go through material that nothing can have taken."""
-    judged = cutting.cuts & (np.arange(len(cutting)) >= cutting.known)
+    judged = cutting.cuts & (np.arange(len(cutting)) >= cutting.known - 1)  # of the row that arrives from home its end
     if cutting.tilted is not None:
         judged &= ~np.logical_or.accumulate(cutting.tilted)
     judged = judged & ~np.logical_or.accumulate(cutting.bare)
@@ -110,7 +110,8 @@ def _within(points: Array, taken: Taken) -> Mask:
 
 def _places(cutting: Cutting, rows: Index) -> tuple[Array, Mask]:
     """Places of rapids in the box around the blank (k, PLACES, 3), and which of them are in the blank, not just at it."""
-    stock, start, end = cutting.stock, cutting.path.start[rows], cutting.path.end[rows]
+    stock, end = cutting.stock, cutting.path.end[rows]
+    start = np.where(cutting.from_home[rows, None], end, cutting.path.start[rows])
     low, high = stock.bounds + [[DEEP], [-DEEP]]
     way = end - start
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -34,13 +34,13 @@ def plot_profiles(
 ) -> Picture:
     """The feed of several profiles, or runs, under one another: `plot_profiles(run.profile("small-mill"), run)`.
 
-    All begin at 0 and have the same scales; bands stand for rapids. `names` are what they are called (default: program and
-    machine), each with its time; `over` "time" (s) or "path"; `width` of the figure in inches. Lengths are in inches where all
-    programs are, else in mm.
+    They may be a list, too. All begin at 0 and have the same scales; bands stand for rapids. `names` are what they are called
+    (default: program and machine), each with its time; `over` "time" (s) or "path"; `width` of the figure in inches. Lengths
+    are in inches where all programs are, else in mm.
     """
     over = choice(over, "over", ("time", "path"))
-    found = [_profile(each) for each in (profile, *others)]
-    if len(found) > MOST:
+    found = [_profile(each) for each in (*(profile if isinstance(profile, list | tuple) else [profile]), *others)]
+    if not 0 < len(found) <= MOST:
         hint = 'plot_profiles(run.profile("small-mill"), run.profile("fast-mill"))'
         raise Alarm(f"a picture has 1 to {MOST} profiles, got {len(found)}", hint=hint)
     named = isinstance(names, tuple | list) and all(isinstance(name, str) for name in names)

@@ -79,7 +79,7 @@ class LineMilling(MillingCycle):
         elif count == 1 and width > 2 * radius:
             yield f"one line leaves strips uncut: B{width:g} is wider than the tool, {2 * radius:g} mm"
         elif count > 1 and (step := (width - 2 * radius) / (count - 1)) > 2 * radius:
-            yield f"K{count} lines leave strips uncut: they lie {step:g} mm apart, the tool is {2 * radius:g} mm wide"
+            yield f"K{count} lines leave strips uncut: they lie {round(step, 3):g} mm apart, the tool is {2 * radius:g} mm wide"
 
     def about(self, m: Machine) -> tuple[float, float]:
         return ORIGIN
