@@ -13,12 +13,11 @@ class Listing {
     box.append(this.sheet);
     this.height = 20;
     box.style.setProperty("--digits", Math.max(3, ...run.texts.map(text => String(text.length).length)));
-    this.alarms = new Map();  // an alarm stands above a warning, the first above others
-    for (const severity of ["alarm", "warning"])
-      for (const alarm of run.header.alarms.filter(alarm => alarm.severity === severity))
-        for (const place of alarm.places) this.alarms.has(place.join(" ")) || this.alarms.set(place.join(" "), alarm);
-    for (const {program, line, message} of run.header.collisions)
-      this.alarms.has(`${program} ${line}`) || this.alarms.set(`${program} ${line}`, {severity: "collision", message});
+    this.alarms = new Map();  // an alarm stands above a collision, that above a warning, the first above others
+    const {alarms, collisions} = run.header, said = severity => alarms.filter(alarm => alarm.severity === severity);
+    const crashes = collisions.map(({program, line, message}) => ({severity: "collision", message, places: [[program, line]]}));
+    for (const alarm of [...said("alarm"), ...crashes, ...said("warning")])
+      for (const place of alarm.places) this.alarms.has(place.join(" ")) || this.alarms.set(place.join(" "), alarm);
     choice.hidden = run.texts.length < 2;
     run.texts.forEach((_, k) => choice.add(new Option(this.name(k), k)));
     choice.addEventListener("change", () => this.turnTo(Number(choice.value)));
