@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from html import escape
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -61,7 +60,7 @@ def over(figure: Any, seen: Seen, told: Told | None) -> str:
         for key, points, cuts in _rows(figure, ax, view, path, drawn):
             if (count := count + len(points)) > MANY:
                 return ""
-            begin, *rest = (f"{x} {y}" for x, y in points)
+            begin, *rest = points
             known = strokes.setdefault(key, [])
             if not (known and known[-1].endswith(f" {begin}")):
                 known.append(f"M{begin} {begin}")  # a dot, if nothing follows
@@ -84,17 +83,22 @@ def over(figure: Any, seen: Seen, told: Told | None) -> str:
 
 
 def _rows(figure: Any, ax: Axes, view: Any, path: Toolpath, drawn: Strokes) -> Any:
-    """For each move within the axes: (program, line), whole points (m, 2) from the upper left corner, whether it cuts."""
+    """For each move within the axes: (program, line), whole points `x y` from the upper left corner, whether it cuts."""
     scale, high = FINE / figure.dpi, round(FINE * figure.get_figheight())
     at = ax.transData.transform(drawn.xyz[:, [view.right, view.up]]) * scale
     points = np.rint(at).astype(int) * (1, -1) + (0, high)
     (left, bottom), (right, top) = (ax.bbox.get_points() * scale).tolist()
-    least, most = (left - 2, high - top - 2), (right + 2, high - bottom + 2)
+    off = ((points < (left - 2, high - top - 2)) | (points > (right + 2, high - bottom + 2))).any(axis=1)
     begins = np.flatnonzero(np.diff(drawn.row, prepend=-2))
-    for first, last in pairwise([*begins.tolist(), len(points)]):
-        row, way = int(drawn.row[first]), points[max(first - 1, 0) : last]
-        if row < 0 or (way < least).any() or (way > most).any():  # what is cut off at the border has no place to point at
-            continue
-        ways = np.abs(np.diff(way, axis=0)).max(axis=1).cumsum() // COARSE
-        way = way[np.r_[True, np.diff(ways, prepend=0)[:-1] > 0, True]] if len(way) > 2 else way
-        yield (int(path.program[row]), int(path.line[row])), way.tolist(), path.kind[row] != Kind.RAPID
+    first, last, row = np.maximum(begins - 1, 0), np.append(begins[1:], len(points)), drawn.row[begins]
+    before = np.append(0, off.cumsum())
+    seen = (row >= 0) & (before[last] == before[first])  # what is cut off at the border has no place to point at
+    first, last, row = first[seen], last[seen], row[seen]
+    texts = [f"{x} {y}" for x, y in points.tolist()]
+    keys = zip(path.program[row].tolist(), path.line[row].tolist(), strict=True)
+    for key, cuts, begin, end in zip(keys, path.kind[row] != Kind.RAPID, first.tolist(), last.tolist(), strict=True):
+        way = texts[begin:end]
+        if len(way) > 2:
+            ways = np.abs(np.diff(points[begin:end], axis=0)).max(axis=1).cumsum() // COARSE
+            way = [each for each, far in zip(way, np.r_[True, np.diff(ways, prepend=0)[:-1] > 0, True], strict=True) if far]
+        yield key, way, cuts
