@@ -95,6 +95,16 @@ class Course:
     def program(self) -> Program:
         return self.programs[self.running[-1]]
 
+    @property
+    def entered_from(self) -> int | None:
+        """The block of the main program from which what runs now was called, repeated or recorded; None: it runs itself."""
+        entries = np.frombuffer(self.nesting, np.int64).reshape(-1, 3)[:, 1]
+        depth = np.where(entries == LEFT, -1, 1).cumsum()
+        if not len(depth) or not depth[-1]:
+            return None
+        outermost = int(np.flatnonzero(depth == 0)[-1]) + 1 if (depth == 0).any() else 0
+        return int(entries[outermost]) & 0xFFFFFFFF
+
     # --- running -----------------------------------------------------------------------------------------------------
 
     def section(self, m: Machine, first: int, stop: int, least: int = 0) -> None:

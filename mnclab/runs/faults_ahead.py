@@ -41,7 +41,7 @@ class Ahead:
         self.control, self.program, self.skips = stopped.control, stopped.flow.programs[0], stopped.skips
         self.faulty, self.good = stopped.loaded[0].faulty, dict[Any, Plan]()
         self.states = list(self._states(stopped))
-        self.sections, self.stop = self._sections(stopped.flow), stopped.flow.current
+        self.sections, self.stop = self._sections(stopped.flow)
         self.scratch = Machine(self.control, stopped.machine.setup, Course(self.program))
         for group, code in self.control.power_on().items():
             self.scratch.set_modal(group, code)
@@ -61,10 +61,15 @@ class Ahead:
         for motion, call, pole, active in product(dict.fromkeys(motions), dict.fromkeys(calls), (polar, not polar), actives):
             yield Modal(motion, call, pole, active, stopped.ends)
 
-    def _sections(self, flow: Course) -> list[int]:
-        """Where the blocks begin that come next: the rest of a running sub-program, then what stands below its call."""
-        calls = [loop.block for loop in flow.loops.running if loop.program == 0]
-        return [*([flow.current + 1] if calls and flow.running == [0] else []), (calls[0] if calls else flow.current) + 1]
+    def _sections(self, flow: Course) -> tuple[list[int], int]:
+        """Where the blocks begin that come next: the rest of a running sub-program, then what stands below its call.
+
+        And the block where the run stopped, or in the course of which it did.
+        """
+        at, here = flow.entered_from, flow.running == [0]
+        below = flow.current if at is None else at
+        inside = here and any(loop.program == 0 for loop in flow.loops.running)
+        return [*([flow.current + 1] if inside else []), below + 1], flow.current if here else below
 
     def blocks(self) -> Iterator[tuple[int, str, list[Word], Plan | Alarm]]:
         """The blocks that the program comes to, with the labels that they call, each once."""

@@ -147,6 +147,26 @@ def test_a_faulty_block_that_may_have_been_meant_to_turn_the_spindle(block, coun
     assert [each[:2] for each in found] == [(3, 1)] * count, found
 
 
+CONTOUR = """0 BEGIN PGM MODEL MM
+1 DECLARE CONTOUR QC1 = "SHAPE"
+2 QC10 = QC1
+3 END PGM MODEL MM
+"""
+SHAPE = "0 BEGIN PGM SHAPE MM\n" + "1 L X+5\n" * 30 + "2 L X+5 Q5\n3 END PGM SHAPE MM\n"
+
+
+def test_below_a_stop_in_another_program_that_is_no_call():
+    """The place of the stop is one of the other program, far beyond the end of this one."""
+    text = (
+        '0 BEGIN PGM A MM|1 TOOL CALL 1 Z S1000|2 CALL LBL 1|3 CYCL DEF 999|4 STOP M30|5 LBL 1|6 SEL CONTOUR "MODEL"'
+        "|7 CYCL DEF 20 CONTOUR DATA Q1=-5 Q2=1 Q3=0 Q4=0 Q5=0 Q6=2 Q7=50 Q8=1 Q9=1|8 CYCL CALL M3|9 L X+1 P5|10 LBL 0"
+        "|11 END PGM A MM"
+    )
+    files = {"MODEL.H": CONTOUR, "SHAPE.H": SHAPE}
+    run = mnclab.run(text.replace("|", "\n") + "\n", "tnc-620", files=files)
+    assert [alarm.span.line for alarm in run.alarms if alarm.severity == "alarm" and not alarm.span.program][:2] == [4, 10]
+
+
 def test_the_first_alarm_is_still_the_one_that_is_raised():
     with pytest.raises(mnclab.Alarm, match="G999 is not a function"):
         mnclab.run("G999\nG998\n", "mnc", strict=True)
