@@ -3,6 +3,7 @@
 import re
 from functools import partial
 from html import unescape
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -116,3 +117,30 @@ def test_without_a_move_words_stand_in_the_place_of_the_picture():
     wide, high = figure.get_size_inches() * figure.dpi
     assert all(0 <= box.x0 and box.x1 <= wide and 0 <= box.y0 and box.y1 <= high for box in boxes)
     assert not any(a.overlaps(b) for k, a in enumerate(boxes) for b in boxes[:k])
+
+
+def test_a_feed_over_time_names_its_lines():
+    """From standing over the programmed feed to standing, as long as the whole takes."""
+    profile = run(ELL, limits="small-mill").profile()
+    figure = profile.plot()
+    found, place = strokes(figure.html()), shown(figure)
+    _, (first,) = found[0, 3]
+    _, (last,) = found[0, 4]
+    (left, stands), (right, feed) = place((0, 0), (profile.time, 100))
+    assert np.allclose(first[0], (left, stands), atol=0.005) and np.allclose(last[-1], (right, stands), atol=0.005)
+    assert abs(min(first[:, 1]) - feed) < 0.005 and abs(min(last[:, 1]) - feed) < 0.005
+
+
+def test_a_compensated_contour_and_the_path_of_the_centre_name_their_lines():
+    text = "G90 G54 T1 S500 M3\nG0 X-20 Y0\nG41 G1 X0 Y0 F100\nX40\nX80\nG40 Y-20\n"
+    figure = run(text, tools={1: mnclab.Tool(radius=5)}).plot_compensation()
+    _, ways = strokes(figure.html())[0, 4]
+    place = shown(figure)
+    assert len(ways) == 2
+    for way, y in zip(ways, (5, 0), strict=True):  # to the left of the contour, and the contour
+        assert np.allclose(way, place((0, y), (40, y)), atol=0.005)
+
+
+def test_what_lies_on_a_cylinder_names_its_lines():
+    found = mnclab.run(Path(__file__).parents[2] / "data/programs/tnc-620/drum_cam.h").plot(view="unrolled")
+    assert any(said.startswith("line ") and ": " in said for said, _ in strokes(found.html()).values())

@@ -22,6 +22,7 @@ from mnclab.path.compensation.fit import NO_TOOL
 from mnclab.path.kinds import RULE_NAMES, Rule
 from mnclab.path.toolpath import Toolpath
 from mnclab.show.plot import colours, ghost
+from mnclab.show.plot.clickable import told_by
 from mnclab.show.plot.equidistant import CORNERS, Panel, draw, write
 from mnclab.show.plot.layers import draw_stock
 from mnclab.show.plot.picture import (
@@ -209,7 +210,10 @@ def _picture(
     total = above + bottom + lines * (TITLE + height) + (lines - 1) * GAP
     picture = Picture((width, total), _in_words(panels))
     titles, views = [panel.title for panel in panels], [panel.view for panel in panels]
-    for panel, ax in zip(panels, grid(picture, titles, views, count, left, above, GAP, (across, height))):
+    axes = grid(picture, titles, views, count, left, above, GAP, (across, height))
+    picture.seen = [(ax, panel.view, path, drawn) for ax, panel in zip(axes, panels) for path, drawn in panel.drawn]
+    picture.told = told_by(panels[0].run)
+    for panel, ax in zip(panels, axes):
         _limit(ax, panel.view, low, high, (across, height))
         ax.apply_aspect()
         if under is not None:

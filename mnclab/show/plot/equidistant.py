@@ -21,7 +21,7 @@ from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, write_names
 from mnclab.show.plot.picture import View
-from mnclab.show.plot.strokes import Array, parted, strokes
+from mnclab.show.plot.strokes import Array, Strokes, parted, strokes
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
 
@@ -58,12 +58,16 @@ class Panel:
         return np.asarray(points[:, [self.view.right, self.view.up]])
 
     @cached_property
+    def drawn(self) -> list[tuple[Toolpath, Strokes]]:
+        """The tool-centre path and the programmed one, with their strokes."""
+        return [(path, strokes(path)) for path in (self.run.toolpath, self.made.path)]
+
+    @cached_property
     def rows(self) -> list[tuple[Line, Array]]:
         """The tool-centre path by rule, points (m, 3) broken by nan."""
-        path = self.run.toolpath
+        path, drawn = self.drawn[0]
         looks = [*dict.fromkeys(ROWS.values()), colours.RAPID]
         look = np.array([looks.index(ROWS[Rule(rule)]) for rule in range(len(Rule))])
-        drawn = strokes(path)
         group = look[path.rule[drawn.row]] if len(drawn.row) else drawn.row
         group[(path.kind[drawn.row] == Kind.RAPID) & (group == look[Rule.NONE])] = len(looks) - 1
         group[drawn.row < 0] = -1
@@ -75,10 +79,9 @@ class Panel:
         """The programmed contour, and the programmed lines that lead to it and away."""
         if self.made.found is None:
             return []
-        el, path = self.made.found.el, self.made.path
+        el, (path, drawn) = self.made.found.el, self.drawn[1]
         group_of = np.full(len(path) + 1, -1)
         group_of[el.rows[el.wall]], group_of[el.rows[el.entry | el.change | el.exit]] = 0, 1
-        drawn = strokes(path)
         pieces = parted(drawn.xyz, np.where(drawn.row < 0, -1, group_of[drawn.row]), 2)
         return [(line, xyz) for line, xyz in zip((colours.CONTOUR, colours.LEAD), pieces) if len(xyz)]
 

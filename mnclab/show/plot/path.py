@@ -239,7 +239,7 @@ def plot_run(
     if view == "unrolled" or rolled:
         from mnclab.show.plot.unrolled import plot_unrolled
 
-        return plot_unrolled(run.toolpath, ax, **options)
+        return _telling(run, plot_unrolled(run.toolpath, ax, **options))
     given = {"programmed": None if run.programmed is run.toolpath else run.programmed, "alarms": run.alarms}
     given |= {"stock": run.stock if stock else None, "rapids": rapids_of(run)}
     path, insert = run.toolpath, options.get("insert", True)
@@ -259,7 +259,11 @@ def plot_run(
         path, given["home"] = path[first:], True
         if isinstance(insert, int) and not isinstance(insert, bool) and insert >= 0:
             options["insert"] = max(insert - first, 0)
-    figure = plot_path(path, ax, view, **{**given, **options, **followed}, marks=marks)
+    return _telling(run, plot_path(path, ax, view, **{**given, **options, **followed}, marks=marks))
+
+
+def _telling(run: Any, figure: Figure) -> Figure:
+    """The figure, whose moves name the blocks of a run."""
     if isinstance(figure, Picture):
         figure.told = told_by(run)
     return figure

@@ -19,16 +19,27 @@ from mnclab.path.profile import Profile
 from mnclab.path.profile.bends import divided
 from mnclab.show.plot import colours, ghost
 from mnclab.show.plot.path import plot_path
-from mnclab.show.plot.picture import SHARE, SMALL, Picture, calm, legend_height, legend_rows, rows_within, write_legend
+from mnclab.show.plot.picture import (
+    SHARE,
+    SMALL,
+    Picture,
+    View,
+    calm,
+    legend_height,
+    legend_rows,
+    rows_within,
+    write_legend,
+)
 from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.slow_corners import MOST, slow_at, slow_corners
-from mnclab.show.plot.strokes import Array
+from mnclab.show.plot.strokes import Array, Strokes
 from mnclab.text.given import choice
 
 SIZE = (7.0, 6.0)  # inches
 FINE, MANY = 9, 20_000  # points of a piece, as long as all of them are not more than so many
 BAND, FEW = 500, 60  # steps of the band that says what holds the speed; boxes of it that are hatched
 LINES, LETTERS = 30, 36  # of a program beside their bars, and what is shown of one
+FLAT = View(0, 1)  # of points (time or path, feed), whose rows can be clicked on
 RAPIDS = 3  # times the fastest cut, beyond which rapids are cut off
 PARTS = 3000  # of a path that is coloured by the speed reached
 HIDDEN_LIMIT = colours.LIMIT.style() | {"label": "_limit"}  # not in the legend
@@ -178,6 +189,7 @@ def plot_profile(
         for each, values in zip(rows, (before.v * 60, before.a, before.j)[: 3 if len(profile.plan.rows.j) else 2]):
             each.plot(before.t if over == "time" else before.s, values, **colours.GHOST.style(), scaley=False)
     picture.box = ghost.held_axes(rows, held)
+    picture.seen = [(rows[0], FLAT, profile.path, Strokes(np.c_[x, drawn.v * 60, 0 * x], profile.move[drawn.piece]))]
     lines = legend_rows([str(each.get_label()) for each in handles], width)
     grid.update(top=1 - (0.12 + legend_height(min(len(lines), rows_within(SHARE * height)))) / height)
     write_legend(picture, handles, 0.01, 2.2)

@@ -23,7 +23,7 @@ from mnclab.path.toolpath import Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.picture import SIZE, SMALL, VIEWS, Picture, arrange, dress, write_legend
 from mnclab.show.plot.sizes import sized
-from mnclab.show.plot.strokes import Array, line_of
+from mnclab.show.plot.strokes import Array, line_of, strokes
 from mnclab.text.alarm import Alarm
 
 SWATH = "swept by the tool"
@@ -71,6 +71,7 @@ def plot_unrolled(path: Toolpath, ax: Axes | None = None, size: tuple[float, flo
     if figure is None:
         return ax.figure  # type: ignore[return-value]
     picture: Picture = figure
+    picture.seen = [(ax, view, flat, strokes(flat))]
     write_legend(picture, artists)
     return picture
 
