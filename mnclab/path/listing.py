@@ -46,8 +46,10 @@ def figure(value: float, decimals: int = 4) -> str:
     return "0" if text in ("-0", "") else text
 
 
-def point(xyz: np.ndarray | tuple[float, ...], unit: Unit = MM) -> str:
-    """`X1 Y2 Z3`."""
+def point(xyz: np.ndarray | tuple[float, ...], unit: Unit = MM, lathe: bool = False) -> str:
+    """`X1 Y2 Z3`; on a lathe `X1 (radius) Z3`."""
+    if lathe:
+        return f"X{unit.figure(xyz[0])} (radius) Z{unit.figure(xyz[2])}"
     return " ".join(f"{axis}{unit.figure(value)}" for axis, value in zip("XYZ", xyz, strict=True))
 
 

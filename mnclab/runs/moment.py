@@ -6,8 +6,6 @@ from html import escape
 from textwrap import wrap
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from mnclab.path.listing import point
 from mnclab.runs.values import does_nothing, told, unit_of, with_feed
 from mnclab.text.program import Block
@@ -35,6 +33,7 @@ class Moment(NamedTuple):
     share: float = 1.0
     point: tuple[float, float, float] = (0.0, 0.0, 0.0)
     text: str = ""
+    lathe: bool = False
 
     @property
     def title(self) -> str:
@@ -49,8 +48,8 @@ class Moment(NamedTuple):
         rows = "none" if first == stop else f"{first}" if stop == first + 1 else f"{first} to {stop - 1}"
         inside = f", {100 * self.share:.4g} % of row {self.row}" if self.share != 1 else ""
         return [
-            ("programmed point", point(np.array(self.position), unit_of(self.state))),
-            ("tool tip", point(np.array(self.point), unit_of(self.state))),
+            ("programmed point", point(self.position, unit_of(self.state), self.lathe)),
+            ("tool tip", point(self.point, unit_of(self.state), self.lathe)),
             ("rows of the path", rows + inside),
             ("changed", _listed(told(changed, self.state))),
             ("active", _listed(told(active, self.state))),

@@ -63,7 +63,7 @@ class Moments(tuple["Moment", ...]):
 
     def rows(self) -> list[tuple[str, ...]]:
         shares = (f"{100 * moment.share:.4g} %" if moment.row >= 0 else "" for moment in self)
-        return [(str(m.line), str(m.block), point(np.array(m.point)), share) for m, share in zip(self, shares)]
+        return [(str(m.line), str(m.block), point(m.point, lathe=m.lathe), share) for m, share in zip(self, shares)]
 
     def __str__(self) -> str:
         if not self:

@@ -138,7 +138,7 @@ class Run(Pictures):
         state, changed, row = self.history.at(step), self.history.changes(step), b - 1 if b > a else -1
         line, point = block.span.line, tuple(tip.tolist())
         text = quoted(self.programs[which].line_text(line).strip())[0]
-        return Moment(step, line, block, position, state, changed, slice(a, b), row, point=point, text=text)
+        return Moment(step, line, block, position, state, changed, slice(a, b), row, 1.0, point, text, path.lathe)
 
     @property
     def stock(self) -> Blank | None:

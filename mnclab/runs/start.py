@@ -126,7 +126,7 @@ def _missed(run: Run, step: int) -> Iterator[Missed]:
     if before.get("coolant", power_on.get("coolant")) != power_on.get("coolant"):
         yield Missed("coolant", f"switch on {before['coolant']}", line_of("coolant"))
     if step:
-        yield Missed("position", f"go to {point(position, run.toolpath.unit)}", line_of("position"))
+        yield Missed("position", f"go to {point(position, run.toolpath.unit, run.toolpath.lathe)}", line_of("position"))
     active = {
         name: value for name, value in before.items()
         if name not in UNTOLD and name not in run.variables and not name.startswith(("measured ", *WRITTEN))

@@ -159,3 +159,11 @@ def test_a_spindle_that_turns_left_is_negative():
     run = mnclab.run(FACING.format(turn="M4"), "jnc-t01", mnclab.Setup(start=(40, 0, 20)))
     assert run.when("spindle >= 1500") == ()
     assert run.when("spindle <= -1500")[0].point[0] == pytest.approx(120_000 / (2 * math.pi * 1500), abs=1e-9)
+
+
+def test_a_lathe_says_that_x_is_a_radius():
+    """A diameter of 40 mm is 20 mm from the axis."""
+    run = mnclab.run("G94 F100\nT1 S500 M3\nG0 X40 Z5\nG1 Z-20\nG0 X50\n", "jnc-t01", settings={"diameter": True})
+    assert "programmed point  X20 (radius) Z-20" in str(run.at(line=4))
+    assert "X20 (radius) Z-7" in str(run.when("z < -7"))
+    assert "go to X20 (radius) Z-20" in str(run.start_at(5).alarms[0])
