@@ -33,7 +33,7 @@ def motion_of(program, check, plunge_angle=3.0, **change):
         program = program.replace(old, new)
     tool = Tool(radius=check["R"], plunge_angle=plunge_angle)
     found = run(program.rstrip("\n"), before="T1\n", tools={1: tool}, start=(0, 0, check.get("z0", 40)))
-    known = ("lie 13.3333 mm apart", "L1 leaves 117.013 mm² of the surface uncut")
+    known = ("lie 13.333 mm apart", "L1 leaves 117.013 mm² of the surface uncut")
     assert all(any(part in alarm.message for part in known) for alarm in found.alarms), found.alarms
     path = found.toolpath
     return path[(path.line == path.line.max()) & path.is_motion]
