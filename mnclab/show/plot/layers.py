@@ -22,6 +22,7 @@ from mnclab.show.plot.datums import Place, crosses, segments, write_names
 from mnclab.show.plot.felt import draw_felt
 from mnclab.show.plot.holes import beside_holes
 from mnclab.show.plot.lathe import Lathe, draw_blank, draw_chucks, draw_insert
+from mnclab.show.plot.once import once
 from mnclab.show.plot.overlay import Overlay
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.strokes import Array, Strokes, parted
@@ -114,9 +115,9 @@ def write(ax: Axes, view: View, drawing: Drawing, low: Array, high: Array) -> No
     """Add what depends on the scale: rapids beside cuts, symbols beside each other, arrowheads and names."""
     axes = [view.right, view.up]
     moved, divided = beside(ax, drawing.strokes, drawing.classes, axes)
-    for line in ax.lines if moved is not drawing.strokes else ():
+    for line in ax.lines:
         if line.get_label() == colours.RAPID.name:
-            line.set_data(*parted(moved.xyz, divided.group, 1)[0][:, axes].T)
+            line.set_data(*once(ax, moved, divided, axes).T)
     occupied = [xyz[:, axes] for mark, xyz in drawing.marks if mark is colours.TOUCH]
     strokes = parted(moved.xyz, np.minimum(divided.group, 0), 1)
     if drawing.home:
