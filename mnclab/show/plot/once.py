@@ -13,7 +13,8 @@ from mnclab.show.plot.classes import Classes
 from mnclab.show.plot.strokes import Array, Strokes, parted
 
 RAPID = 0  # the class of rapids
-LONG, SHARED = 5.0, 3.0  # points: of a rapid at least, of bent ones each piece is shorter; of the way over another at least
+LONG = 5.0  # points, of a rapid at least; pieces of a bent one are shorter
+SHARED = 3.0  # points of the way over another at least
 TURN, ASIDE = 1e-3, 0.15  # rad and points, by which strokes on one line may differ
 
 
