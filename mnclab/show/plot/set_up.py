@@ -113,7 +113,7 @@ def _datum(ax: Axes, view: View, name: str, xyz: Array) -> None:
         look: dict[str, Any] = {"marker": marker, "markerfacecolor": fill, "markeredgewidth": edge}
         look |= {"markeredgecolor": colours.INK}
         ax.add_line(Line2D([x], [y], linestyle="none", markersize=11, zorder=order, **look))
-    card: dict[str, Any] = {"facecolor": colours.PAPER, "edgecolor": "none", "pad": 0.6, "alpha": 0.85}  # over the lines beside it
+    card: dict[str, Any] = {"facecolor": colours.PAPER, "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
     below = view.diameter and y <= 0.0  # there the blank ends, and a dimension stands to the right
     off, side = ((0, -9), "center") if below else ((8, 8), "left")
     where: dict[str, Any] = {"textcoords": "offset points", "ha": side, "va": "top" if below else "baseline"}
