@@ -32,7 +32,7 @@ from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.workpiece import Workpiece
 
 MARKS = {Kind.DWELL: colours.DWELL, Kind.TOOL: colours.TOOL, Kind.STOP: colours.STOP}
-MANY, SMALL = 30, 3  # plunges, of which more have small crosses, points: those of an engraving would cover its letters
+MANY, SMALL, THIN = 30, 4.0, 0.7  # plunges; points of the crosses of more: those of an engraving would cover its letters
 INSERT = 0.09  # edges of an insert, of the greatest side of the picture
 
 
@@ -95,8 +95,8 @@ def draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
     artists += draw_stock(ax, view, drawing.stock) if drawing.stock else []
     plunges = drawing.plunges[view]
     if len(plunges):
-        mark = drawing.plunge if len(plunges) <= MANY else drawing.plunge._replace(size=SMALL)
-        artists.append(Line2D(plunges[:, 0], plunges[:, 1], **mark.style()))
+        small = {"markersize": SMALL, "markeredgewidth": THIN} if len(plunges) > MANY else {}
+        artists.append(Line2D(plunges[:, 0], plunges[:, 1], **drawing.plunge.style() | small))
     artists += [Line2D(*drawing.seen(mark, view).T, **mark.style()) for mark, _ in drawing.marks]
     artists += crosses(drawing.places, view)
     for artist in artists:
