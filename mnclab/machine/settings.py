@@ -138,7 +138,8 @@ def rows(settings: Iterable[Setting]) -> list[tuple[str, str, str, str, str]]:
     for one in settings:
         default = str(one.default).lower() if isinstance(one.default, bool) else str(one.default)
         default = "unknown" if one.default is None else default
-        unit = f" {one.unit}" if one.unit else ""
+        counted = one.unit[:1].isdigit()  # a unit such as 0.01 mm would be read as a second number
+        unit = f" × {one.unit}" if counted else f" {one.unit}" if one.unit else ""
         table.append((one.name, default + unit, "" if one.choices else one.allowed, one.meaning, one.source))
         for choice, meaning in one.choices.items():
             others = ", ".join(f"{name}={value}" for name, value in one.chooses.get(choice, {}).items())

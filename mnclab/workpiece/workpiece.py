@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from mnclab.workpiece.part import Part
 
 SHARES = ("line", "tool", "row")
+ROUNDING = 1e-6  # mm: errors up to here are those of numbers, not of a method
 
 
 class Solid(NamedTuple):
@@ -186,9 +187,14 @@ class Workpiece(ABC):
 
         return save(self, path, **options)
 
+    @property
+    def error_told(self) -> str:
+        """How far a surface may be off, in words; nothing where it is no more than the rounding of numbers."""
+        return f", within {1000 * self.error:.3g} µm" if self.error > ROUNDING else ""
+
     def __repr__(self) -> str:
         told = f"{self.volume:.3f} mm³ left, {self.removed:.3f} mm³ removed"
-        head = f"<{type(self).__name__}: {told}; {self.method}, within {self.error:.3g} mm>"
+        head = f"<{type(self).__name__}: {told}; {self.method}{self.error_told}>"
         return "\n".join([head, *(f"  note: {note}" for note in self.notes)])
 
 

@@ -194,6 +194,24 @@ def test_the_place_of_an_alarm_is_marked_and_named():
     assert "stopped in line 5" in picture.alt
 
 
+def test_rapids_on_one_line_are_drawn_once_so_that_their_dashes_stay_apart():
+    back = "G90 G54\nG0 X0 Y0 Z5\nX40\nX10\nX60\nX0\nY30\nX30 Y0\nX0 Y30\nX30\nX45\n"
+    ax = mnclab.run(back, "mnc", Setup(start=(0, 0, 5))).plot(view="XY").axes[0]
+    rapid = next(line for line in ax.lines if line.get_label() == "rapid").get_xydata()
+    seen = np.concatenate([rapid[:-1], rapid[1:]], axis=1)
+    seen = seen[~np.isnan(seen).any(axis=1)]
+    lengths = np.hypot(*(seen[:, 2:] - seen[:, :2]).T)
+    assert lengths.sum() == pytest.approx(60 + 30 + 30 * 2**0.5 + 45), "along X, up, slanting, and along X again"
+    assert lengths.max() == pytest.approx(60)
+
+
+def test_many_plunges_have_small_crosses_so_that_letters_are_read():
+    cuts = [f"G0 X{9 * k} Y0\nG1 Z-1\nG1 Y{k + 2}\nG0 Z2\n" for k in range(40)]
+    texts = ("G90 G54 T1 S900 M3 F100\n" + "".join(cuts[:count]) for count in (5, 40))
+    sizes = [lines(mnclab.run(text, "mnc").plot(view="XY").axes[0])["plunge"].get_markersize() for text in texts]
+    assert sizes[1] < 0.6 * sizes[0]
+
+
 def test_rapids_from_far_away_do_not_make_the_part_a_dot():
     near = run(LONG_WAY).plot().axes[0]
     assert np.ptp(near.get_xlim()) < 10

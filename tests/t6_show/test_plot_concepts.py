@@ -63,6 +63,7 @@ def test_a_radius_is_called_as_the_program_writes_it():
     assert sorted(arc.centre[1] for arc in found) == pytest.approx([-15, 15])
     (arc,) = centres_of(sample("mnc/scaled.mnc")).arcs  # twice as large as written
     assert arc.radius == "R5, scaled to 10"
+    assert "R14.142" in [arc.radius for arc in centres_of(sample("jnc-t01/recess.jnc")).arcs]  # written R14.142136
 
 
 def test_many_arcs_and_those_of_cycles_have_no_centres_unasked():

@@ -74,6 +74,15 @@ def test_a_lathe_tells_diameters():
     assert "⌀60" in [each.get_text() for each in plot_set_up(run).axes[0].texts]
 
 
+def test_the_name_of_a_zero_point_on_the_face_is_clear_of_the_dimension_beside_it():
+    run = mnclab.run("data/programs/jnc-t01/shaft.jnc", setup="data/setups/jnc-t01/shaft.toml")
+    picture = plot_set_up(run, (6.0, 3.2))
+    picture.draw_without_rendering()
+    name = next(each for each in picture.axes[0].texts if each.get_text() == "zero").get_window_extent()
+    upright = [each for each in picture.axes[0].texts if not each.get_text() and each.xy[0] == each.xyann[0]]
+    assert [name.overlaps(each.arrow_patch.get_window_extent()) for each in upright] == [False]
+
+
 @pytest.mark.parametrize("suffix", ["html", "pdf"])
 def test_sheets_are_files_and_the_same_every_time(plate, tmp_path, suffix):
     for write in (plate.setup_sheet, plate.tool_sheet):

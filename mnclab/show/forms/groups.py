@@ -26,8 +26,8 @@ WORDS = (
     (SHAPE, r"position|corner|angle|slot|axis|direction along|factor along|number of"),
 )  # fmt: skip
 BY_UNIT = {
-    "choice": STRATEGY, "mark": STRATEGY, "ratio": STRATEGY, "count": STRATEGY, "": STRATEGY, "mm/min": FEED, "s": FEED,
-    "ms": FEED, "rev/min": FEED, "0.0001 mm/rev": FEED,
+    "choice": STRATEGY, "mark": STRATEGY, "ratio": STRATEGY, "%": STRATEGY, "count": STRATEGY, "": STRATEGY,
+    "mm/min": FEED, "s": FEED, "ms": FEED, "rev/min": FEED, "0.0001 mm/rev": FEED,
 }  # fmt: skip
 
 

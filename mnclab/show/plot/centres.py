@@ -116,6 +116,12 @@ def _merged(arcs: list[Arc]) -> list[Arc]:
     return list(found.values())
 
 
+def _short(word: Any) -> str:
+    """A word as the program has it, but of a number with many decimals three: R14.142."""
+    written = str(word)
+    return written if len(written.partition(".")[2]) <= 3 else f"{word.address}{word.value:.3f}"
+
+
 def _arc(path: Any, row: int, words: dict[str, Any], linear: Array, unit: Unit) -> Arc:
     start, centre, normal = path.start[row], path.centre[row].copy(), path.axis[row]
     centre += normal * float(normal @ (start - centre))  # of a helix: at the height of its start
@@ -126,12 +132,12 @@ def _arc(path: Any, row: int, words: dict[str, Any], linear: Array, unit: Unit) 
         for letter, part in zip("IJK", np.diag(told)):
             if part.any():
                 there = here + linear @ part
-                legs.append((here, there, str(words[letter])))
+                legs.append((here, there, _short(words[letter])))
                 here = there
     size = float(np.linalg.norm(way))
     by_radius = [w for a, w in words.items() if a in ("R", "K") and abs(abs(w.value) * unit.length - size) < SAME]
     true = unit.figure(float(np.linalg.norm(centre - start)), 1)
-    called = str(by_radius[0]) if by_radius else f"radius {true}"
+    called = _short(by_radius[0]) if by_radius else f"radius {true}"
     if by_radius and unit.figure(size, 1) != true:  # scaled
         called += f", scaled to {true}"
     return Arc(start, centre, tuple(legs), "" if legs else called, normal)

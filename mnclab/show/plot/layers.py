@@ -22,6 +22,7 @@ from mnclab.show.plot.datums import Place, crosses, segments, write_names
 from mnclab.show.plot.felt import draw_felt
 from mnclab.show.plot.holes import beside_holes
 from mnclab.show.plot.lathe import Lathe, draw_blank, draw_chucks, draw_insert
+from mnclab.show.plot.once import once
 from mnclab.show.plot.overlay import Overlay
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.strokes import Array, Strokes, parted
@@ -31,6 +32,7 @@ from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.workpiece import Workpiece
 
 MARKS = {Kind.DWELL: colours.DWELL, Kind.TOOL: colours.TOOL, Kind.STOP: colours.STOP}
+MANY, SMALL, THIN = 30, 4.0, 0.7  # plunges; points of the crosses of more: those of an engraving would cover its letters
 INSERT = 0.09  # edges of an insert, of the greatest side of the picture
 
 
@@ -93,7 +95,8 @@ def draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
     artists += draw_stock(ax, view, drawing.stock) if drawing.stock else []
     plunges = drawing.plunges[view]
     if len(plunges):
-        artists.append(Line2D(plunges[:, 0], plunges[:, 1], **drawing.plunge.style()))
+        small = {"markersize": SMALL, "markeredgewidth": THIN} if len(plunges) > MANY else {}
+        artists.append(Line2D(plunges[:, 0], plunges[:, 1], **drawing.plunge.style() | small))
     artists += [Line2D(*drawing.seen(mark, view).T, **mark.style()) for mark, _ in drawing.marks]
     artists += crosses(drawing.places, view)
     for artist in artists:
@@ -114,9 +117,9 @@ def write(ax: Axes, view: View, drawing: Drawing, low: Array, high: Array) -> No
     """Add what depends on the scale: rapids beside cuts, symbols beside each other, arrowheads and names."""
     axes = [view.right, view.up]
     moved, divided = beside(ax, drawing.strokes, drawing.classes, axes)
-    for line in ax.lines if moved is not drawing.strokes else ():
+    for line in ax.lines:
         if line.get_label() == colours.RAPID.name:
-            line.set_data(*parted(moved.xyz, divided.group, 1)[0][:, axes].T)
+            line.set_data(*once(ax, moved, divided, axes).T)
     occupied = [xyz[:, axes] for mark, xyz in drawing.marks if mark is colours.TOUCH]
     strokes = parted(moved.xyz, np.minimum(divided.group, 0), 1)
     if drawing.home:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from mnclab.show.plot.classes import number
 from mnclab.workpiece.workpiece import Workpiece
 
 
 def told(part: Workpiece) -> str:
     """How a part was found, how exact it is, what was removed, and what is to be noted."""
-    exact = f", within {number(1000 * part.error)} µm" if part.error > 1e-6 else ""
-    return "\n".join([f"{part.method}{exact}; {part.removed:.3f} mm³ removed", *part.notes])
+    return "\n".join([f"{part.method}{part.error_told}; {part.removed:.3f} mm³ removed", *part.notes])
 
 
 def in_words(part: Workpiece) -> str:

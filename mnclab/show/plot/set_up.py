@@ -113,4 +113,8 @@ def _datum(ax: Axes, view: View, name: str, xyz: Array) -> None:
         look: dict[str, Any] = {"marker": marker, "markerfacecolor": fill, "markeredgewidth": edge}
         look |= {"markeredgecolor": colours.INK}
         ax.add_line(Line2D([x], [y], linestyle="none", markersize=11, zorder=order, **look))
-    ax.annotate(name, (x, y), (8, 8), textcoords="offset points", fontsize=SMALL, zorder=4.2)
+    card: dict[str, Any] = {"facecolor": colours.PAPER, "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
+    below = view.diameter and y <= 0.0  # there the blank ends, and a dimension stands to the right
+    off, side = ((0, -9), "center") if below else ((8, 8), "left")
+    where: dict[str, Any] = {"textcoords": "offset points", "ha": side, "va": "top" if below else "baseline"}
+    ax.annotate(name, (x, y), off, fontsize=SMALL, zorder=4.2, bbox=card, **where)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import zip_longest
 from typing import Any
 
 import numpy as np
@@ -140,10 +141,13 @@ def document(run: Any, found: Report, picture: Any, difference: Any = None) -> D
 
 
 def _card(facts: Rows) -> Table:
-    """Facts in two columns, long ones below them."""
+    """Facts in two columns, long ones below them; the extents along the axes stand in one column."""
     short = [each for each in facts if len("".join(each)) <= LONGEST // 2]
     half = (len(short) + 1) // 2
-    rows = [(*a, *b) for a, b in zip(short[:half], [*short[half:], ("", "")])]
+    extents = [k for k, (name, _) in enumerate(short) if name.endswith("from, to")]
+    if extents and extents[0] < half <= extents[-1]:
+        half = extents[0]
+    rows = [(*a, *b) for a, b in zip_longest(short[:half], short[half:], fillvalue=("", ""))]
     return Table((), rows + [each for each in facts if each not in short])
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from mnclab.path.columns import Array
 from mnclab.text.tables import html_table
 from mnclab.workpiece.difference.table import Features
+from mnclab.workpiece.workpiece import ROUNDING
 
 if TYPE_CHECKING:
     import pyvista
@@ -105,8 +106,9 @@ class Difference:
 
     def _lines(self) -> list[tuple[str, str]]:
         verdict = "as drawn" if self.ok else "not as drawn"
+        told = f", found within {1000 * self.error:.1g} µm" if self.error > ROUNDING else ""
         return [
-            (f"compared with {self.target}", f"{verdict}, tolerance {self.tolerance:g} mm, error {self.error:.1g} mm"),
+            (f"compared with {self.target}", f"{verdict}, tolerance {self.tolerance:g} mm{told}"),
             ("worst gouge", str(self.worst_gouge)),
             ("worst rest", str(self.worst_rest)),
             ("gouged away", f"{self.gouge_volume:.3f} mm³"),

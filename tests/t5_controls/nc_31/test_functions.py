@@ -115,6 +115,7 @@ def test_the_control_explains_itself():
         "parameter_6": 0, "parameter_7": 0, "parameter_8": 100, "parameter_10": 0, "parameter_11": 50,
     }  # fmt: skip
     assert "stock removed per pass" in str(mnclab.help("G77", "nc-31"))
+    assert "100 × 0.01 mm" in str(mnclab.help("settings", "nc-31"))  # not one number after another
     with pytest.raises(mnclab.Alarm, match="G2: arcs stand in a chapter that the source does not have"):
         mnclab.help("G2", "nc-31")
 

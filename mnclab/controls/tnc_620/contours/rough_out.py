@@ -12,7 +12,7 @@ from mnclab.controls.tnc_620.contours.data import ContourData, contour_data, pre
 from mnclab.controls.tnc_620.contours.leaving import leave
 from mnclab.controls.tnc_620.contours.other_tools import Named, in_table, named_tool
 from mnclab.controls.tnc_620.cycles import addresses
-from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, count, increment, ratio
+from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, count, increment, percent
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates, rate
 from mnclab.geometry.regions import Region
@@ -44,7 +44,7 @@ class RoughOut(Cycle):
     coarse_tool: Named = count(("Q18", "QS18"), "coarse roughing tool", type="text", default=0, note="0: none")
     swing_feed: float = addresses.feed("Q19", "feed rate for reciprocation", also=addresses.PLANE, at_most=FAR, example=0)
     retract_feed: float | str = addresses.retract_feed(at_most=None, default=INF, default_means="FMAX", note="", example=None)
-    factor: float = ratio("Q401", "feed rate factor at full engagement", at_most=100, default=100)
+    factor: float = percent("Q401", "feed rate factor at full engagement", at_most=100, default=100)
     fine_strategy: float = choice("Q404", "fine roughing strategy", STRATEGIES, default=0)
 
     def check(self, m: Machine) -> Iterator[Fault]:

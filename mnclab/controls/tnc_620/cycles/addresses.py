@@ -40,6 +40,7 @@ angle = partial(param, unit="deg", modal=True, at_least=-360, at_most=360)
 feed = partial(param, unit="mm/min", modal=True, at_least=0, at_most=FAST)
 seconds = partial(param, unit="s", modal=True, at_least=0, at_most=LONG)
 ratio = partial(param, unit="ratio", modal=True, at_least=0.0001)
+percent = partial(ratio, unit="%")
 count = partial(param, unit="count", modal=True, at_least=0, at_most=99999, type="integer")
 number = partial(count, at_least=1)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles import addresses
-from mnclab.controls.tnc_620.cycles.addresses import choice, count, distance, ratio
+from mnclab.controls.tnc_620.cycles.addresses import choice, count, distance, percent
 from mnclab.controls.tnc_620.cycles.faults import Fault, less_than_depth, not_zero
 from mnclab.controls.tnc_620.cycles.planes import AtSurface, rate
 from mnclab.machine.cycle import CycleTable, too_many
@@ -94,7 +94,7 @@ class SingleLipDrilling(AtSurface):
     coolant_on: float = count("Q429", "M function for coolant on", at_most=999, unit="choice", note="0: none", example=8)
     coolant_off: float = count("Q430", "M function for coolant off", at_most=999, unit="choice", note="0: none", example=9)
     dwell_depth: float = distance("Q435", "depth of a dwell on the way", default=0, note="0: none", example=10)
-    factor: float = ratio("Q401", "feed rate factor after the dwell", at_least=0, at_most=100, default=100, example=50)
+    factor: float = percent("Q401", "feed rate factor after the dwell", at_least=0, at_most=100, default=100, example=50)
     infeed: float | None = addresses.infeed(default=None, default_means="one pass")
     decrement: float = addresses.decrement(default=0)
     min_infeed: float = addresses.min_infeed(default=0)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import singledispatchmethod
+from itertools import takewhile
 
 from mnclab.show.given_away import whole
 from mnclab.show.plot import colours
@@ -34,6 +35,7 @@ TONES = {"": colours.INK, BAD: "#a3221a", "good": "#1b5e20"}
 SHADES = {ALARM: "#f9d9d6", WARNING: "#fbebc4"}
 SIGNS = {ALARM: "!", WARNING: "?"}
 LISTED = 2000  # lines of the programs
+SHORT = 12  # rows of a table that stays with the words below it
 
 
 def sheets(document: Document) -> list[Sheet]:
@@ -105,8 +107,7 @@ class _Setter:
         if section.breaks and not self.fresh:
             self.begin()
         if section.title:
-            first = section.pieces[0] if section.pieces else Words("")
-            self.room(GAP + HEADING + min(self.least(first), TALL - 40))
+            self.room(GAP + HEADING + min(self.least(section.pieces), TALL - 40))
             self.y += 0 if self.fresh else GAP
             self.y += HEADING
             self.page.write(LEFT, self.y - 2, fitted(_line(section.title), WIDE, HEADING, True), HEADING, bold=True)
@@ -115,10 +116,17 @@ class _Setter:
             self.put(piece)
             self.y += AFTER
 
-    def least(self, piece: Piece) -> float:
-        """How much of a piece is to stand below its heading."""
-        if isinstance(piece, Image):
-            return float(piece.picture.get_figheight()) * POINTS + 2.2 * CAPTION
+    def least(self, pieces: Sequence[Piece]) -> float:
+        """How much of the pieces is to stand below their heading: of a short table all, with the words that explain it."""
+        first, *others = pieces or [Words("")]
+        if isinstance(first, Image):
+            return float(first.picture.get_figheight()) * POINTS + 2.2 * CAPTION
+        under = list(takewhile(lambda piece: isinstance(piece, Words), others))
+        if isinstance(first, Table) and under and len(first.rows) <= SHORT:
+            made = tabled(first, WIDE)
+            lines = sum(len(folded(whole(each.text), WIDE, BODY)) for each in under if isinstance(each, Words))
+            tall = sum(row.tall for row in (*made.rows, *([made.head] if made.head else [])))
+            return tall + 2 * AIR + AFTER * (1 + len(under)) + lines * BODY * LINE
         return 5 * BODY * LINE
 
     @singledispatchmethod
