@@ -60,7 +60,7 @@ class CycleSteps(Sequence[Step]):
     @property
     def head(self) -> tuple[str, ...]:
         feed = f"feed, {'mm/rev' if self.per_rev else 'mm/min'}"
-        return "step", "label", *(("x (radius)", "z") if self.lathe else "xyz"), feed, ""
+        return "step", "label", *(("x (radius)", "z") if self.lathe else "xyz"), feed, "detail"
 
     def cells(self) -> list[tuple[str, ...]]:
         """The table's rows; where nothing but bookkeeping would stand in them, one that names it."""

@@ -115,7 +115,7 @@ def test_the_table_has_the_decimals_of_a_control() -> None:
 def test_a_lathe_has_no_y_and_feeds_per_revolution() -> None:
     """From the diameter of 40 to the one of 30, 2 a pass: five passes, which end at the radius 15."""
     found = mnc.steps("G77", "nc-31")
-    assert found.head == ("step", "label", "x (radius)", "z", "feed, mm/rev", "")
+    assert found.head == ("step", "label", "x (radius)", "z", "feed, mm/rev", "detail")
     assert found.cells()[0] == ("go", "pass 1 of 5, infeed", "19", "2", "rapid", "")
     assert mnc.steps("G77", "jnc-t01").head[4] == "feed, mm/min"
     diameters = mnc.Setup(settings={"diameter": True})
