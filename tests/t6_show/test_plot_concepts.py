@@ -95,6 +95,14 @@ def test_the_original_of_a_mirrored_contour_is_its_reflection_and_the_line_lies_
     assert point[0] == pytest.approx(25) and name == "mirror X25" and np.abs(way[:, 0]).max() == 0
 
 
+def test_a_mirror_line_beside_a_shifted_zero_has_no_number_that_the_scale_contradicts():
+    """The line X0 of the shifted program stands at 90 on the scale."""
+    text = "0 BEGIN PGM A MM|1 TOOL CALL 1 Z S1000|2 CYCL DEF 7.0 DATUM SHIFT|3 CYCL DEF 7.1 X+90|4 CYCL DEF 8.0 MIRRORING"
+    text += "|5 CYCL DEF 8.1 X|6 L X+10 Y+5 R0 F500 M3|7 L X+30|8 END PGM A MM"
+    (line,) = original_of(mnc.run(text.replace("|", "\n") + "\n", "tnc-620")).mirrors
+    assert line.point[0] == pytest.approx(90) and line.name == "mirror X"
+
+
 def test_the_pole_and_the_angle_of_a_turn_and_the_rectangle_as_written():
     found = original_of(sample("mnc/turned.mnc"))  # G39 X10 Y10 A35 of X30 Y20, X50, Y10, X30
     (turn,) = found.turns

@@ -182,9 +182,9 @@ def _mirrors(chain: FrameChain, origin: Array, unit: Unit) -> list[Mirror]:
     for k in np.flatnonzero(matrix.diagonal()[:3] < 0).tolist():
         point = np.zeros(3)
         point[k] = matrix[k, 3] / 2
-        name = f"mirror {'XYZ'[k]}{unit.figure(point[k], 1)}"
-        arms = np.delete(outer[:3, :3], k, axis=1).T
-        found.append(Mirror(frames.apply(outer, point) - origin, arms, name))
+        arms, place = np.delete(outer[:3, :3], k, axis=1).T, frames.apply(outer, point) - origin
+        scale = abs(place[k] - point[k]) < SAME  # that of the picture; under a shift the number would be another
+        found.append(Mirror(place, arms, f"mirror {'XYZ'[k]}{unit.figure(point[k], 1) if scale else ''}"))
     return found
 
 
