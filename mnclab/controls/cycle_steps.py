@@ -51,7 +51,7 @@ def steps(code: str, control: str, /, setup: Setup | None = None, **values: Any)
     cycle: Any = found.entry
     if not (isinstance(cycle, type) and issubclass(cycle, Cycle)):
         known = ", ".join(found.control.cycles)
-        raise Alarm(f"{code} is no cycle of {found.control.name}: only a cycle has steps", hint=f"cycles: {known}")
+        raise Alarm(f"{shown(code)} is no cycle of {found.control.name}: only a cycle has steps", hint=f"cycles: {known}")
     given = chosen(cycle, values)
     faults = []
     for machine in situations(found.control, cycle, setup or found.control.trial_setup or Setup()):

@@ -120,7 +120,7 @@ class Ahead:
             if isinstance(plan, Alarm):
                 found, understood = [plan], understood and not self.may_turn(block)
             else:
-                found = [*self.of_actions(plan, words), *self.of_label(keyword, words)]
+                found = [*self.of_actions(plan, keyword, words), *self.of_label(keyword, words)]
             for alarm in found:
                 yield alarm.changed(span=alarm.span or place)
             codes = {keyword, *(f"{word.address}{word.value:g}" for word in words if type(word.value) is float)}
@@ -143,16 +143,19 @@ class Ahead:
 
     # --- one block ----------------------------------------------------------------------------------------------------
 
-    def of_actions(self, plan: Plan, words: list[Word]) -> Iterator[Alarm]:
+    def of_actions(self, plan: Plan, keyword: str, words: list[Word]) -> Iterator[Alarm]:
         for (_, what, code, head, _), pick in plan.actions:
             if isinstance(what, Function):
-                yield from self.of_function(what, code, pick(words))
+                yield from self.of_function(what, code, pick(words), head >= 0 or code == keyword)
             else:
                 yield from self.of_cycle(what, code, words[head] if head >= 0 else None, pick(words))
 
-    def of_function(self, what: Function, code: str, words: tuple[Word, ...]) -> Iterator[Alarm]:
-        """What a function says of its numbers, on a machine of its own."""
-        bare = code in ARCS and what.group == "motion" and SHAPES.isdisjoint(word.address for word in words)
+    def of_function(self, what: Function, code: str, words: tuple[Word, ...], written: bool) -> Iterator[Alarm]:
+        """What a function says of its numbers, on a machine of its own.
+
+        An arc that stands in no word of the block is none for certain: a block above may have begun straight lines.
+        """
+        bare = written and code in ARCS and what.group == "motion" and SHAPES.isdisjoint(word.address for word in words)
         known = all(isinstance(word.value, float | None) or word.address == "axis" for word in words)
         if not known or not (bare or code in self.judges):
             return

@@ -14,7 +14,7 @@ from mnclab.controls.survey import Survey
 from mnclab.controls.survey import check as survey
 from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import load
-from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, describe, program, say, sensible, with_blank
+from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, describe, nothing_in, program, say, sensible, with_blank
 from mnclab.text.alarm import ALARM, Alarm
 from mnclab.workpiece.collision import Collisions
 
@@ -27,6 +27,8 @@ def check(chosen: argparse.Namespace) -> int:
     setup = None if chosen.setup is None else sensible(load, chosen.setup)
     if chosen.csv or chosen.suffixes or any(map(os.path.isdir, filter(None, chosen.files))):
         found = sensible(survey_of, chosen, setup)
+        if not (found.rows or found.interrupted):
+            sensible(nothing_in, chosen.files)
         width = max(shutil.get_terminal_size().columns, NARROWEST) if sys.stdout.isatty() else None  # a pipe gets all of it
         told = json.dumps(found.as_dict(), indent=1) if chosen.json else found.csv() if chosen.csv else f"{found.text(width)}\n"
         print(told, end="")

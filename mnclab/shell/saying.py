@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, NoReturn, TypeVar
 
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm
@@ -42,6 +42,12 @@ def sensible(do: Callable[..., Result], *arguments: Any) -> Result:
     except Alarm as alarm:
         say(alarm)
         sys.exit(USAGE)
+
+
+def nothing_in(places: Iterable[str]) -> NoReturn:
+    """Refuse folders without a program: a mistyped one would look like one where all is well."""
+    known = "programs are known by their suffix: .mnc, .jnc, .nc31, .h, .i, .nc, …; mnclab check takes --suffixes"
+    raise Alarm(f"there is no program in {', '.join(places)}", hint=known)
 
 
 def with_blank(result: Run) -> Run:

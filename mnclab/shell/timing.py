@@ -17,7 +17,7 @@ from mnclab.machine.setup_file import load
 from mnclab.path.limits import Limits
 from mnclab.path.machine_file import load as load_machine
 from mnclab.runs.run import Run
-from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, program, say, sensible
+from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, nothing_in, program, say, sensible
 from mnclab.show import times
 from mnclab.text.alarm import ALARM, Alarm
 from mnclab.text.file import replaced
@@ -79,6 +79,8 @@ def _many(chosen: argparse.Namespace, setup: Setup | None, limits: Limits | None
 def _rows(chosen: argparse.Namespace, setup: Setup | None, limits: Limits | None) -> Iterator[dict[str, Any]]:
     places = list(map(program, chosen.files))
     found = list(dict.fromkeys(file for place in places for file in sensible(files_of, place)))
+    if not found:
+        sensible(nothing_in, chosen.files)
     with progress("timing", len(found), "files") as at:
         for number, file in enumerate(found):
             at(number)

@@ -128,6 +128,14 @@ def test_what_reading_does_not_tell(control, text):
     assert {line for line, *_ in more} <= read, more
 
 
+@pytest.mark.parametrize(("control", "severity"), [("g43", "alarm"), ("mnc", "warning")])
+def test_an_arc_in_force_where_the_run_stopped_says_nothing_of_straight_lines_below(control, severity):
+    begin = "G17 G90 G54|T1|G0 X0 Y0 S500 M3|G2 X10 Y10 R10 F100|G999|" + ("" if control == "mnc" else "G43 H1|")
+    where = begin.count("|")
+    assert all(line < where + 1 for line, *_ in told(begin + "G1 X20|X30|Y30", control, severity))
+    assert where + 3 in [line for line, *_ in told(begin + "G1 X20|X30|G3 X40 Y20|Y30", control, severity)]
+
+
 def test_a_skipped_block_is_no_fault():
     text = STOP + "/ G998|G0 X5"
     assert len(told(text, "mnc")) == 2 and len(told(text, "mnc", settings={"block_skip": True})) == 1

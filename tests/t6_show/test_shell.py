@@ -251,6 +251,16 @@ def test_an_empty_name_is_said_to_be_empty(folder, capsys, arguments):
     assert capsys.readouterr() == ("", "mnclab: alarm: the name of the program is empty\n")
 
 
+@pytest.mark.parametrize("arguments", [["check"], ["check", "--json"], ["time"], ["time", "--csv", "times.csv"]])
+def test_a_folder_without_programs_is_not_one_where_all_is_well(folder, capsys, arguments):
+    (folder / "elsewhere").mkdir()
+    (folder / "elsewhere" / "notes.md").write_text("no program")
+    assert mnclab(arguments[0], "elsewhere", *arguments[1:]) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and err.startswith("mnclab: alarm: there is no program in elsewhere (") and err.count("\n") == 1
+    assert not (folder / "times.csv").exists()
+
+
 @pytest.mark.parametrize(
     ("option", "says"),
     [("--setup", "the setup must be the name of a file"), ("--machine", "no machine has the name ''")],

@@ -41,6 +41,11 @@ def test_the_call_around_a_cursor(source, function, position, keyword, typed):
     assert (call.function, call.position, call.keyword, text) == (function, position, keyword, typed)
 
 
+def test_a_cursor_beyond_the_source_stands_at_its_end():
+    assert call_at('f(1, [2], x', 99) == call_at('f(1, [2], x', 11)
+    assert (call_at('f("ab', 99).text, call_at("", 5)) == ("ab", None)
+
+
 @pytest.mark.parametrize("source", ['f("a")|', "x = (1 + |", 'x = "|', "|", 'f("a\n|'[:-1], '# f("|', "d[|", ")))|"])
 def test_no_call(source):
     call = call_at(source.replace("|", ""), len(source) - 1)

@@ -25,6 +25,7 @@ from mnclab.show.forms.following import Work, following, of_run
 from mnclab.text.alarm import Alarm
 from mnclab.text.calls import fitting
 from mnclab.text.extras import require
+from mnclab.text.given import shown
 from mnclab.text.tables import html_table
 
 SIZE = (4.9, 3.7)  # inches: beside the fields there is so much room in JupyterLab on a small laptop
@@ -45,7 +46,7 @@ def form(code: str, control: str) -> Any:
     cycle = help_page.entry
     if not (isinstance(cycle, type) and issubclass(cycle, Cycle)):
         known = ", ".join(help_page.control.cycles)
-        raise Alarm(f"{code} has no parameters to make a form of", hint=f"cycles of {control}: {known}")
+        raise Alarm(f"{shown(code)} has no parameters to make a form of", hint=f"cycles of {control}: {known}")
     chosen: type[Cycle] = cycle
     parameters = chosen.parameters()
     boxes, ticks, fields = {}, {}, {}

@@ -37,9 +37,9 @@ class _Frame:
 
 
 def call_at(source: str, at: int) -> Call | None:
-    """The innermost call around a cursor; None outside of calls."""
+    """The innermost call around a cursor; None outside of calls. A cursor beyond the source stands at its end."""
     frames: list[_Frame] = []
-    k = 0
+    k, at = 0, min(at, len(source))
     while k < at:
         sign = source[k]
         if sign in "\"'":
