@@ -37,6 +37,8 @@ from mnclab.machining.steps import (  # isort: skip
     Along, Blocks, Call, Each, Go, Record, Step, Swivel, Thread, Touch, Turn, Wait,
 )  # fmt: skip
 
+NOWHERE = place_of(1, 1, 1)  # of a word that stands in no program
+
 
 @fitting
 def steps(code: str, control: str, /, setup: Setup | None = None, **values: Any) -> CycleSteps:
@@ -147,7 +149,7 @@ def define(m: Machine, cycle: type[Cycle], given: dict[str, Any]) -> Definition:
 
 
 def word_of(parameter: Parameter, value: Any) -> Word:
-    return Word(parameter.address, float(value) if isinstance(value, int) else value, place_of(1, 1, 1))
+    return Word(parameter.address, float(value) if isinstance(value, int) else value, NOWHERE)
 
 
 def read(m: Machine, parameter: Parameter, cycle: type[Cycle], word: Word) -> Any:

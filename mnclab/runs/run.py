@@ -123,6 +123,8 @@ class Run(Pictures):
         if step is None:
             line, pass_ = whole(line, "the line"), whole(pass_, "pass_")
             found = self.executions(line, whole(program, "the number of the program"))
+            if not len(found):
+                raise Alarm(f"line {line} holds no block that was executed")
             if not 1 <= pass_ <= len(found):
                 raise Alarm(f"line {line} was executed {len(found)} times, pass_ {pass_} does not exist")
             step = int(found[pass_ - 1])

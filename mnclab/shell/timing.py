@@ -19,7 +19,7 @@ from mnclab.path.machine_file import load as load_machine
 from mnclab.runs.run import Run
 from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, nothing_in, program, say, sensible
 from mnclab.show import times
-from mnclab.text.alarm import ALARM, Alarm
+from mnclab.text.alarm import ALARM, Alarm, several
 from mnclab.text.file import replaced
 from mnclab.text.progress import progress
 from mnclab.text.tables import csv_text, text_table
@@ -62,9 +62,10 @@ def _many(chosen: argparse.Namespace, setup: Setup | None, limits: Limits | None
         status = INTERRUPTED
     status = status or (CLEAN if all(row["complete"] for row in rows) else ALARMS)
     cells = [tuple(_text(row[name]) for name in HEAD) for row in rows]
+    done = f"{several(len(rows), 'program')}, {sum(row['complete'] for row in rows)} complete"
     if chosen.csv:
         sensible(_write, Path(chosen.csv), csv_text(HEAD, *cells))
-        print(f"{chosen.csv}: {len(rows)} programs, {sum(row['complete'] for row in rows)} complete", file=sys.stderr)
+        print(f"{chosen.csv}: {done}", file=sys.stderr)
     elif chosen.csv is not None:
         print(csv_text(HEAD, *cells), end="")
     elif chosen.json:
@@ -72,7 +73,7 @@ def _many(chosen: argparse.Namespace, setup: Setup | None, limits: Limits | None
     else:
         print(text_table(HEAD, cells))
         whole = sum(row["time, s"] or 0.0 for row in rows)
-        print(f"\n{len(rows)} programs, {sum(row['complete'] for row in rows)} complete, {times.clock(whole)} in all")
+        print(f"\n{done}, {times.clock(whole)} in all")
     return status
 
 

@@ -134,7 +134,7 @@ def test_a_thread_says_its_pitch_as_its_feed() -> None:
         ("CYCL DEF 200", {"Q201": -5, "depth": -6}, "Q201 is given twice"),
         ("CYCL DEF 200", {"Q202": -5}, "Q202 (infeed depth) must be at least 0 and at most 99999.9999, got -5"),
         ("CYCL DEF 200", {"Q202": "deep"}, "Q202 (infeed depth) must be a number"),
-        ("L", {}, "L is no cycle"),
+        ("L", {}, "'L' is no cycle"),
         ("CYCL DEF 999", {}, "has no code"),
     ],
 )

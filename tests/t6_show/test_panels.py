@@ -186,6 +186,28 @@ def test_a_profile_keeps_its_axes_and_shows_the_former_one():
     assert "last good picture" in live.picture.value and live.fields["acceleration"].fault.value
 
 
+def test_a_profile_begins_as_it_was_planned_though_its_axes_differ():
+    """The box of X, Y and Z has the least of 400, 900 and 300; none counts for all before it is changed."""
+    profile = square(40).again(mnclab.Setup(limits=mnclab.Limits(acceleration=(400, 900, 300)))).profile()
+    live = mnclab.profile_panel(profile)
+    assert live.boxes["acceleration"].value == 300 and live.profile.time == profile.time
+    live.boxes["acceleration"].value = 200
+    assert live.profile.time > profile.time and live.profile.limits.acceleration == 200
+
+
+@pytest.mark.parametrize(
+    ("made", "says"),
+    [
+        (lambda: mnclab.profile_panel(square(40).profile(), foo=1), "no option foo"),
+        (lambda: mnclab.compensation_panel(square(40), radius=5), "no option radius"),
+        (lambda: mnclab.panel("G0 X{x}\n", "foo", x=5), "no control 'foo'"),
+    ],
+)
+def test_what_no_box_can_mend_is_refused_at_once(made, says):
+    with pytest.raises(mnclab.Alarm, match=says):
+        made()
+
+
 # --- what is left where no widget is ---------------------------------------------------------------------------------
 
 

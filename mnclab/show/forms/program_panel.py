@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from mnclab.controls.choice import choose
 from mnclab.controls.choice import run as run_text
 from mnclab.machine import trial
 from mnclab.machine.setup import Setup
@@ -45,6 +46,8 @@ def panel(
     if not (isinstance(template, str) or callable(template)):
         wanted = "a panel is made of the text of a program, or of a function that makes it"
         raise Alarm(f"{wanted}, got {shown(template)}", hint='panel("G0 X{x}\\n", "mnc", x=5)')
+    if control is not None:
+        choose(control, "", "")
     if not isinstance(sliders, bool):
         raise Alarm(f"sliders must be True or False, got {shown(sliders)}")
     places = {name: place_of(name, number) for name, number in numbers.items()}
