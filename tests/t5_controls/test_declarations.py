@@ -259,6 +259,7 @@ EXPLAINED = {
     ("tnc-620", "TCH PROBE 405", "Q337", "limits"): ({">=": 0, "<=": 99999}, "0, or a row"),
     ("tnc-620", "TCH PROBE 405", "Q337", "choices"): (set(), "0, or a row"),
     ("tnc-620", "CYCL DEF 21", "Q13", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
+    **{("tnc-620", f"CYCL DEF {n}", "Q401", "unit"): ("%", "100 is all of the feed rate") for n in (22, 241)},
     ("tnc-620", "CYCL DEF 24", "Q438", "default"): (-1, "in a sentence there"),
     **{("tnc-620", f"CYCL DEF {n}", "Q18", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name") for n in (22, 25, 276)},
     **{

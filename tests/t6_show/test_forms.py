@@ -226,7 +226,7 @@ def test_every_cycle_has_a_form(control, code):
 
 
 def test_a_function_has_no_form():
-    with pytest.raises(Alarm, match="G1 has no parameters"):
+    with pytest.raises(Alarm, match="'G1' has no parameters"):
         forms.form("G1", "mnc")
 
 
