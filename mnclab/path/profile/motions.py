@@ -133,12 +133,16 @@ def measure(path: Toolpath, limits: Limits, override: float = 1.0, caps: Array |
         np.minimum(w, rows.cap[second], out=rows.corner[second])
         last = [each[-1:].copy() for each in before]
     if jerky:
-        if limits.corner_speed == "tolerance" and np.any(slack):
+        if limits.corner_speed in ("tolerance", "deviation") and np.any(slack):
             lines = (path.kind == Kind.LINE) & (rows.length > 0)
             with np.errstate(divide="ignore", invalid="ignore"):
                 tangent = (path.end - path.start) / rows.length[:, None]
             w = corner_speeds.curves(tangent, rows.length, lines, limits, slack)
-            np.maximum(rows.corner[1:-1], np.minimum(w, np.minimum(rows.cap[1:], rows.cap[:-1])), out=rows.corner[1:-1])
+            corner = rows.corner[1:-1]
+            if limits.corner_speed == "tolerance":
+                np.maximum(corner, np.minimum(w, np.minimum(rows.cap[1:], rows.cap[:-1])), out=corner)
+            else:
+                np.minimum(corner, w, out=corner, where=w > 0)
         _bend_joints(path, rows, limits, slack)
     _stops(path, rows)
     return rows
