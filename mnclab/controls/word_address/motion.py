@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
@@ -66,7 +67,6 @@ def arc_to(
     third = AXES[normal].lower()
     if third in to and to[third] != m.programmed[normal]:
         helix(m, words)
-    tolerance = m.settings.get("arc_tolerance", 0.01)
     by_radius = "R" in words and not (offsets and m.settings.get("arc_by_both") == "centre")
     if "R" in words and offsets:
         both = "R and I J K stand in one block"
@@ -81,7 +81,19 @@ def arc_to(
         m.alarm(f"the centre of the arc lacks {missing[0]}", head, hint="G90.1 is active: it counts from the origin")
     start = (0.0, 0.0, 0.0) if absolute_centre else m.programmed
     centre = None if by_radius else {k: start[k] + m.length(word) for k, word in offsets.items()}
+    middle = [(centre or {}).get(k, m.programmed[k]) for k in (first, second)]
+    end = [to.get(ARGUMENTS[k][1], m.programmed[k]) for k in (first, second)]
+    tolerance = arc_tolerance(m, max(math.dist(end, middle), math.dist((m.programmed[first], m.programmed[second]), middle)))
     m.arc(**to, sense=sense, centre=centre, radius=radius, word=head, tolerance=tolerance, turns=turns)
+
+
+def arc_tolerance(m: Machine, radius: float = 0.0) -> float:
+    """By how much the radii at both ends of an arc may differ, mm; of LinuxCNC a part of the larger one, too."""
+    allowed, share = m.settings.get("arc_tolerance", 0.01), m.settings.get("arc_tolerance_share", 0.0)
+    if share:
+        allowed *= 2.54 if m.variable_unit > 1 else 1.0
+        return float(min(max(allowed, share * radius), 100 * allowed))
+    return float(allowed)
 
 
 def as_a_line(m: Machine, words: Words, lacks: str) -> None:
