@@ -12,7 +12,7 @@ from mnclab.machine.control import Words
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import Machine
 from mnclab.path.tool import Tool
-from mnclab.text.alarm import PLACES
+from mnclab.text.alarm import PLACES, Alarm
 from mnclab.text.program import Word
 
 AXES = "XYZ"
@@ -84,7 +84,25 @@ def arc_to(
     middle = [(centre or {}).get(k, m.programmed[k]) for k in (first, second)]
     end = [to.get(ARGUMENTS[k][1], m.programmed[k]) for k in (first, second)]
     tolerance = arc_tolerance(m, max(math.dist(end, middle), math.dist((m.programmed[first], m.programmed[second]), middle)))
-    m.arc(**to, sense=sense, centre=centre, radius=radius, word=head, tolerance=tolerance, turns=turns)
+    try:
+        m.arc(**to, sense=sense, centre=centre, radius=radius, word=head, tolerance=tolerance, turns=turns)
+    except Alarm as alarm:
+        if centre and "arc_centres" in m.settings and not alarm.hint:
+            alarm.hint = other_centre(m, to, centre, start, tolerance)
+        raise
+
+
+def other_centre(m: Machine, to: dict[str, Any], centre: dict[int, float], start: Iterable[float], tolerance: float) -> str:
+    """The hint that I J K fit where they count from the origin instead of the start of the arc, or the other way round."""
+    first, second, _ = PLANES[m.plane]
+    begun, here, absolute = m.programmed, list(start), not any(start)
+    middle = [centre.get(k, here[k]) - here[k] + (begun[k] if absolute else 0.0) for k in (first, second)]
+    end = [to.get(ARGUMENTS[k][1], begun[k]) for k in (first, second)]
+    radius = math.dist((begun[first], begun[second]), middle)
+    if radius < tolerance or abs(radius - math.dist(end, middle)) > tolerance:
+        return ""
+    choice = 'G91.1, or the setting arc_centres="start"' if absolute else 'G90.1, or the setting arc_centres="origin"'
+    return f"counted from the {'start of the arc' if absolute else 'origin'} they fit, radius {radius:.4g}: {choice}"
 
 
 def arc_tolerance(m: Machine, radius: float = 0.0) -> float:

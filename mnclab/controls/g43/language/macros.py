@@ -17,7 +17,8 @@ FUNCTIONS = FunctionTable()
 SOURCE = "Macro B"
 MEANINGS = {
     "target": "the variable that takes a value", "value": "the value", "message": "the comment that is shown",
-    "beside": "words stand in the same line", "condition": "the condition", "GOTO": "the block to go on at", "END": "where the loop ends", "DO": "where it begins",
+    "beside": "words stand in the same line",
+    "condition": "the condition", "GOTO": "the block to go on at", "END": "where the loop ends", "DO": "where it begins",
 }  # fmt: skip
 #: Addresses whose numbers count things, and of them those that say where the program goes on and what it does there.
 COUNTS, COURSE = "DGHLMNOPST", "GMP"

@@ -80,13 +80,17 @@ def place_of(m: Machine, name: str, word: Word) -> int:
     for index in (m.program, *range(len(flow.programs))):
         if label in flow.programs[index].labels:
             return index
-    file = programs.file_of(m, re.escape(name), f"O{name} call", word)
+    file = programs.file_of(m, re.escape(name), f"O{name}", f"O{name} call", word)
     if file is None:
         hint = f"neither this file nor Setup(files=…) nor the folder has O{name} sub"
         m.alarm(f"there is no subprogram O{name}", word, hint)
     index = files.called(m, file, f"O{name} call", m.span_of(word))
     if label not in flow.programs[index].labels:
-        m.alarm(f"the file {programs.last(file)} has no subprogram O{name}", word, f"its first line is O<{spelled(name)}> sub")
+        m.alarm(
+            f"the file {programs.last(file)} has no subprogram O{name}",
+            word,
+            f"its first line is O<{spelled(name)}> sub",
+        )
     return index
 
 

@@ -162,11 +162,12 @@ def fetch(variables: Mapping[str, Any], token: Token, dialect: str) -> float | N
     if name == "#0" and dialect == LINUXCNC:
         _refuse("LinuxCNC has no variable", token)
     known = variables.get(name)
-    if known is None and name[1:2] != "<" and int(name[1:]) > ORDINARY:
+    if known is None and (name.startswith("#<_") or name[1:2] != "<" and int(name[1:]) > ORDINARY):
         try:
             known = variables[name]
         except KeyError:
-            raise Alarm(f"{name} is a variable of the control that is not built, or has no value", token.span) from None
+            if name[1] != "<":
+                raise Alarm(f"{name} is a variable of the control that is not built, or has no value", token.span) from None
     if known is None and name[1:2] == "<":
         _refuse("no value was given to", token)
     return 0.0 if known is None and dialect == LINUXCNC else None if known is None else float(known)

@@ -19,7 +19,7 @@ O_WORD = re.compile(r"O[ \t]*(\d+|<[^<>]{0,80}>|(?=[\[#]))", re.IGNORECASE)
 _KEYWORD = re.compile(r"[ \t]*([A-Z]{2,})[ \t]*", re.IGNORECASE)
 LOOPS = {"while": "endwhile", "do": "while", "repeat": "endrepeat"}
 CLOSES = {"endsub": "sub", "endif": "if", "endwhile": "while", "endrepeat": "repeat"}
-KEYWORDS = ("sub", "endsub", "call", "return", "if", "elseif", "else", "endif", *LOOPS, "endwhile", "endrepeat", "break", "continue")
+KEYWORDS = ("sub", "call", "return", "if", "elseif", "else", *LOOPS, "break", "continue", *CLOSES)
 CONDITIONS = ("if", "elseif", "while", "repeat")
 
 
@@ -61,10 +61,14 @@ class OWords:
             return False
         line, kind, computed = line.rstrip(), keyword.group(1).lower(), not name.group(1)
         place, length = keyword.start(1), len(kind)
+        if kind not in KEYWORDS or computed and kind != "call":
+            self.block(start, "", skip)
         if kind not in KEYWORDS:
             raise Fault(f"{keyword.group(1)} is no O word", place, length, hint(kind, KEYWORDS))
         if computed and kind != "call":
-            raise Fault(f"only a call may work out the name of {kind}", at, place + length - at, "write a number or O<name>")
+            raise Fault(
+                f"only a call may work out the name of {kind}", at, place + length - at, "write a number or O<name>"
+            )
         own = "" if computed else spelled(name.group(1))
         closes = kind == "while" and any(o.name == own and o.kind == "do" for o in self.opened[-1:])
         self.block(start, "O LOOP" if closes else "O SKIP" if kind in ("else", "elseif") else f"O {kind.upper()}", skip)
@@ -86,7 +90,9 @@ class OWords:
             at = self.formula(line, begin, at, "value", kind)
         elif kind == "call":
             if computed:
-                self.word("name", formulas.parse(line[name.end() : end], self.builder.span(begin + name.end())), *whole[1:])
+                self.word(
+                    "name", formulas.parse(line[name.end() : end], self.builder.span(begin + name.end())), *whole[1:]
+                )
             else:
                 self.word("name", own, *whole[1:])
             while line[at : at + 1] == "[":
@@ -94,7 +100,9 @@ class OWords:
                 at += len(line[at:]) - len(line[at:].lstrip(" \t"))
         if line[at:].strip():
             rest = line[at:].lstrip(" \t")
-            raise Fault(f"{rest[:1]!r} is too much behind {kind}", len(line) - len(rest), hint="a value stands in brackets")
+            raise Fault(
+                f"{rest[:1]!r} is too much behind {kind}", len(line) - len(rest), hint="a value stands in brackets"
+            )
         self.last = self.builder.blocks[-1][0]
         return True
 

@@ -91,7 +91,8 @@ class _Reader:
         first, last = self.tape(found)
         special = found.count > MOST_WORDS
         letter, value = found.letter, found.value
-        odd = (letter == ord("O")) | ((letter == ord("G")) & np.isin(value, CALLS)) | ((letter == ord("N")) & ((value == 0) | (value % 1 > 0)))
+        odd = (letter == ord("O")) | ((letter == ord("G")) & np.isin(value, CALLS))
+        odd |= (letter == ord("N")) & ((value == 0) | (value % 1 > 0))
         if odd.any():
             special[found.line[odd]] = True
         special[:first] = special[last:] = True
