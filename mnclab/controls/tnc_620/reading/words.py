@@ -120,6 +120,11 @@ class Cursor:
         if self.builder.blocks and self.builder.full == self.builder.blocks[-1][0]:
             self.at = self.stop
 
+    def has(self, address: str) -> bool:
+        """Whether the block has a word of this address so far."""
+        names = self.builder.addresses
+        return address in names and any(word[0] == names[address] for word in self.builder.block_words)
+
     def number(self) -> float | None:
         """A number with its sign; None if there is none here."""
         begin = self.at
@@ -164,6 +169,7 @@ class Cursor:
         begin = self.at
         if self.match(_EMPTY):
             return
+        radius = radius and not self.has("R")  # behind the radius R0 is what it is elsewhere
         if found := self.match(_FEEDS):
             self.add("F" + found.group(1).upper(), None, begin)
         elif not (radius and self.text[begin + 1 : begin + 2] in "0Oo") and (found := self.match(_SIDES)):
