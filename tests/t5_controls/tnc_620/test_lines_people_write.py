@@ -93,6 +93,14 @@ def test_trans_datum_shifts_as_cycle_7_does(inside) -> None:
     assert ends(inside("2 CYCL DEF 7.0 X\n3 CYCL DEF 7.1 Z+9\n4 TRANS DATUM RESET\n5 L Z+1 FMAX")) == [(0, 0, 1)]
 
 
+@pytest.mark.parametrize("feed", ["R F500", "R FMAX", "R F MAX", "R F+500", "R FQ1", "R F500 M3"])
+def test_r_without_a_value_before_a_feed_is_no_word(feed: str, inside) -> None:
+    """As TNC 145 to 355 write their blocks, R F M of an L that changes the feed alone: the compensation stays as it is."""
+    run = inside(f"2 Q1 = 500\n3 L X+5 Y+0 {feed}\n4 L X+9")
+    assert ends(run)[-1] == (9, 0, 0) and not [alarm for alarm in run.alarms if alarm.severity == "alarm"]
+    assert run.toolpath.motion.feed[0] == (float("inf") if "M" in feed.replace("M3", "") else 500)
+
+
 # --- what an editor or a mailer wrapped out of a comment -----------------------------------------------------------------
 
 
@@ -114,7 +122,11 @@ def test_the_rest_of_a_comment_within_a_definition(inside) -> None:
     assert run.toolpath.end[:, 2].min() == pytest.approx(-15, abs=1e-9)
 
 
-@pytest.mark.parametrize("line", ["of two passes X+5", "with FMAX", "stops here", "CYCLO DEF 200", "X +5", "Q1 +5", "R0 to here"])
+@pytest.mark.parametrize(
+    "line",
+    ["of two passes X+5", "with FMAX", "stops here", "CYCLO DEF 200", "X +5", "Q1 +5", "R0 to here", "IF Q1 = Q2 GOTO LBL 2",
+     "go to LBL two", "see Q5"],
+)  # fmt: skip
 def test_a_line_that_may_be_a_block_is_no_rest_of_a_comment(line: str, inside) -> None:
     """A word of a block in it, or a statement that it is nearly: it is refused where it stands."""
     run = inside(f"2 ; to be\n{line}\n3 L Y+7 FMAX")

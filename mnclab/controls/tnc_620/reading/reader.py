@@ -46,7 +46,12 @@ _WORD = re.compile(r"[A-Z]+|\S", re.IGNORECASE)
 _CYCLE = re.compile(r"CYCLE(?![A-Z])", FLAGS)
 _PROSE = re.compile(r"[^\W\d_]{2,}(?![\w+=-])")  # a word of a sentence
 WRAPPED = "begin it with ; or join it to the comment with ~"
-_MEANT = {"DWELL": "a dwell is FUNCTION DWELL TIME2 or cycle 9", "PROGRAM": "a program begins with BEGIN PGM"}
+#: What to write for words that are no statement.
+_MEANT = {
+    "DWELL": "a dwell is FUNCTION DWELL TIME2 or cycle 9", "PROGRAM": "a program begins with BEGIN PGM",
+    "ERROR": "a control writes ERROR = before a block that it could not read: write the block anew, formulas in one of their own",
+    "IF": "a jump is FN 9: IF +Q1 EQU +Q3 GOTO LBL 5", "SPINDLE": "M3, M4 and M5 are the spindle", "COOLANT": "write M8 or M9",
+}  # fmt: skip
 _PLAIN = "FRXYZ"  # letters of plain lines
 MOST_LETTERS = 30  # of a word that may have been meant as a statement
 PIECE = 1 << 14  # lines whose words are looked at together
@@ -157,7 +162,7 @@ class _Lines:
                 return False
         except Fault:
             return False
-        if like_a_block(self.text, at, stop) or near(self.text[at:stop]):
+        if like_a_block(self.text, at, stop) or near(self.text[at:stop], 0.75):
             return False
         self.wrapped = line
         self.builder.alarm("this line is read as the rest of the comment above", at, stop - at, WRAPPED, "warning")
@@ -240,23 +245,22 @@ class _Lines:
             return cursor.unexpected()
         if len(word) == 1:
             return Fault(f"{word} begins no statement", cursor.at, hint="a straight line begins with L")
-        hints = []
-        if self.builder.alarms.total < KEPT:  # those that follow are only counted
+        hints = [_MEANT[word]] if word in _MEANT else []
+        if not hints and self.builder.alarms.total < KEPT:  # those that follow are only counted
             hints = [f"near: {', '.join(found_near)}"] if (found_near := near(cursor.rest())) else []
             if not self.numbered and self.below_comment(self.last):
                 hints.append("if it is the rest of the comment above, begin it with ;")
-        hint = "; ".join(hints) or _MEANT.get(word, "")
-        return Fault(f"{word} is no statement of this control", cursor.at, len(word), hint)
+        return Fault(f"{word} is no statement of this control", cursor.at, len(word), "; ".join(hints))
 
 
-def near(text: str) -> list[str]:
-    """The statements that the first words of a line are nearly."""
+def near(text: str, least: float = 0.6) -> list[str]:
+    """The statements that the first words of a line are nearly; a single word is alike by `least`, 0 to 1."""
     first = " ".join(text.upper().split(maxsplit=2)[:2])[: 2 * MOST_LETTERS]
     word = found.group().upper() if (found := _WORD.match(text)) else ""
     if not 0 < len(word) <= MOST_LETTERS:
         return []
     known = [*WORDS, *KEYWORDS_ONLY]
-    return get_close_matches(first, [*known, "CYCL DEF", "TCH PROBE"], 1, 0.7) or get_close_matches(word, known, 2, 0.6)
+    return get_close_matches(first, [*known, "CYCL DEF", "TCH PROBE"], 1, 0.7) or get_close_matches(word, known, 2, least)
 
 
 def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_], BulkBlocks]:

@@ -156,8 +156,8 @@ def without_equals(cursor: Cursor) -> Fault:
 
 
 def like_a_block(text: str, begin: int, stop: int) -> bool:
-    """Whether a word there looks like one of a block."""
-    return _LIKE_A_WORD.search(text, begin, stop) is not None
+    """Whether a word there looks like one of a block, a parameter or a jump."""
+    return bool(_LIKE_A_WORD.search(text, begin, stop) or _LIKE_A_STATEMENT.search(text, begin, stop))
 
 
 def passed_over(cursor: Cursor, stop: int | None = None, what: str = "the cycle's name") -> None:
@@ -247,6 +247,7 @@ _STRING = re.compile(r"[ \t]*QS[ \t]*\d{1,4}", FLAGS)
 _LIKE_A_WORD = re.compile(
     r"(?<![\w.-])(?:I?[XYZUVWABC][+-]?\d|[A-Z]{1,4}[+-]\d|[MFS]\d|FMAX|R[0LR]\b)(?:[\d.,]*\d)?", FLAGS
 )
+_LIKE_A_STATEMENT = re.compile(r"=|(?<![A-Z])(?:Q[LRS]?\d|(?:GOTO|LBL|CALL|PGM|DEF)(?![A-Z]))", FLAGS)
 _WAIT = re.compile(r"(?:TIME|REV)[ \t]*(?![A-PR-Z])", FLAGS)
 _BEHAVIOUR = re.compile(r"(?:STAY|MOVE|TURN)(?![A-Z])|MB(?=[ \t]*MAX(?![A-Z])|(?![A-Z]))", FLAGS)
 _FAR = re.compile(r"(?<=MB)[ \t]*MAX(?![A-Z])", FLAGS)

@@ -1,10 +1,10 @@
 """An address and its value, as conversational blocks write them: `X+10`, `IY-Q5`, `FMAX`, `RL`, `DR-`.
 
 Values are numbers with a decimal point or comma, or a Q parameter with a sign (then the word holds an expression).
-What stands without a number is a word without a value (`FMAX`, `FAUTO`, `RL`, `RR`, `R0`); `R F M` at the end of a block, as
-older controls write what stays as it is, are none; a sense of rotation is the word `DR` with the text `+` or `-`. Values
-without an address in the text get one in lower case: `tool`, `label`, `axis`, `name`, `unit`, `length`, `number`, `target`,
-`value`. Lengths of an INCH program become mm here.
+What stands without a number is a word without a value (`FMAX`, `FAUTO`, `RL`, `RR`, `R0`); `R F M` at the end of a block
+and `R` before a feed, as older controls write what stays as it is, are none; a sense of rotation is the word `DR` with the
+text `+` or `-`. Values without an address in the text get one in lower case: `tool`, `label`, `axis`, `name`, `unit`,
+`length`, `number`, `target`, `value`. Lengths of an INCH program become mm here.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ WHOLE = re.compile(r"[ \t]*(\d{1,9})(?![\d.,])", FLAGS)
 TEXT = re.compile(r'[ \t]*"([^"]*)"')
 
 FEEDS = ("FMAX", "FAUTO")
-_EMPTY = re.compile(r"(?:R[ \t]+)?(?:F[ \t]+)?M[ \t]*$", FLAGS)
+_EMPTY = re.compile(r"(?:R[ \t]+)?(?:F[ \t]+)?M[ \t]*$|R[ \t]+(?=F[ \t]*(?:[\d.,Q+]|MAX(?![A-Z])))", FLAGS)
 _OPERATION = re.compile(r"[*/^][ \t]*[\dQ(]", FLAGS)
 _LETTERS = re.compile("[A-Z]{2,}", FLAGS)
 _FEEDS = re.compile(r"F[ \t]*(MAX|AUTO)(?![A-Z])", FLAGS)
