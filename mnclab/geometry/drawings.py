@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable, Sequence
 from functools import reduce
 
@@ -11,29 +12,40 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.vectors import length_of
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, shown
+from mnclab.text.given import check_number, faults_as_alarms, shown
 
 EXAMPLE = "mnclab.area.area_of(mnclab.area.svg('drawing.svg'))"
 SAME = 1e-3  # mm, below which ends of a drawing count as one point
+FARTHEST = 1e6  # mm, of a place in a drawing
+MOST = 200_000  # chords of the curves of a drawing; its entities
 
 
 def area_of(contours: Iterable[Contour], tolerance: float = SAME) -> Region:
     """The area that contours describe: those within none are pockets, those in a pocket islands, and so on inwards.
 
-    Open contours are joined where their ends meet within `tolerance`. Raises ValueError where nothing is closed, or
-    contours cross each other.
+    Open contours are joined where their ends meet within `tolerance`; what stays open bounds nothing, and a warning says
+    where it is. An Alarm where nothing is closed, or a contour crosses itself.
     """
     contours = list(contours) if isinstance(contours, Iterable) else [contours]
     if wrong := [each for each in contours if not isinstance(each, Contour)]:
         raise Alarm(f"an area is made of a list of contours, got {shown(wrong[0])}", hint=EXAMPLE)
     check_number(tolerance, "the tolerance (mm)", above=0)
-    loops = [contour for contour in joined(contours, tolerance) if contour.closed and abs(contour.area) > tolerance**2]
+    strung = joined(contours, tolerance)
+    loops = [contour for contour in strung if contour.closed and abs(contour.area) > tolerance**2]
+    gaps = [contour for contour in strung if not contour.closed]
+    ends = [f"from ({a:.3f}, {b:.3f}) to ({c:.3f}, {d:.3f})" for ((a, b), (c, d)) in (each.points[[0, -1]] for each in gaps)]
+    more = f" and {len(ends) - 3} more" if len(ends) > 3 else ""
+    left = f"{len(ends)} open contour{'s' * (len(ends) != 1)}, {'; '.join(ends[:3])}{more}"
     if not loops:
-        raise ValueError("the drawing has no closed contour")
+        raise Alarm(f"the drawing has no closed contour{f', but {left}' if ends else ''}",
+                    hint=f"tolerance={tolerance:g} mm joins ends that are so near each other" if ends else "")  # fmt: skip
+    if ends:
+        warnings.warn(f"the area is bounded without {left}", stacklevel=2)
     within = np.array([loop.winding([other.points[0] for other in loops]) != 0 for loop in loops])
     depth = within.sum(axis=0) - np.diag(within)
     levels = [[loop for loop, d in zip(loops, depth, strict=True) if d == level] for level in range(depth.max() + 2)]
-    pieces = [Region.of(*outer, holes=holes) for outer, holes in zip(levels[::2], levels[1::2])]
+    with faults_as_alarms():
+        pieces = [Region.of(*outer, holes=holes) for outer, holes in zip(levels[::2], levels[1::2])]
     return reduce(Region.union, pieces)
 
 

@@ -374,7 +374,9 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
         interpreter.run()
     except (Stop, Alarm) as stop:
         broken = True
-        alarms += [stop] if isinstance(stop, Alarm) else []
+        if isinstance(stop, Alarm):
+            stop.span = stop.span or interpreter.flow.span_of_step(machine.step)
+            alarms.append(stop)
     finally:
         if collecting:
             gc.enable()

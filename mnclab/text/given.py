@@ -12,6 +12,8 @@ from typing import Any
 from mnclab.text.alarm import Alarm
 from mnclab.text.nearest import hint
 
+#: No coordinate, feed, speed or other number is as large, whether it is written or worked out.
+LARGEST = 1e9
 _QUOTED = Repr()
 _QUOTED.maxstring = _QUOTED.maxother = 60
 

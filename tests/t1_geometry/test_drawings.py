@@ -95,9 +95,9 @@ def test_transformations():
     ],
 )
 def test_what_is_no_drawing(text, message):
-    with pytest.raises(ValueError, match=message):
+    with pytest.raises(Alarm, match=message):
         svg.contours(text)
-    with pytest.raises(ValueError, match="tolerance"):
+    with pytest.raises(Alarm, match="tolerance"):
         svg.contours("<svg/>", tolerance=0)
 
 
@@ -107,7 +107,7 @@ def test_what_lies_in_what():
     found = area_of([*boxes[::-1], rectangle(8, 8, centre=(50, 0))])
     assert found.area == pytest.approx(3600 - 900 + 100 + 64)
     assert len(found.parts) == 3
-    with pytest.raises(ValueError, match="no closed contour"):
+    with pytest.raises(Alarm, match="no closed contour"):
         area_of([Contour([(0, 0), (9, 0)], closed=False)])
 
 
@@ -148,7 +148,7 @@ def test_a_dxf_file(tmp_path):
     slot = 8 + np.pi - np.pi / 4
     assert area_of(found).area == pytest.approx((slot + 4 + np.pi / 2 + 2 * np.pi) * inch2, rel=1e-4)
     (tmp_path / "no.dxf").write_text("nothing")
-    with pytest.raises(ValueError, match="no DXF"):
+    with pytest.raises(Alarm, match="no DXF"):
         dxf.contours(tmp_path / "no.dxf")
     with pytest.raises(Alarm, match="cannot be read: No such file"):
         dxf.contours(tmp_path / "gone.dxf")

@@ -33,8 +33,9 @@ from mnclab.controls.tnc_620.reading.statements import (
     passed_over,
     recognize,
 )
-from mnclab.controls.tnc_620.reading.words import FLAGS, INCH, LARGEST, Cursor, Fault
+from mnclab.controls.tnc_620.reading.words import FLAGS, INCH, Cursor, Fault
 from mnclab.text.alarm import KEPT, Alarm
+from mnclab.text.given import LARGEST
 from mnclab.text.program import NONE, Program
 from mnclab.text.program_builder import BulkBlocks, ProgramBuilder, first_words
 from mnclab.text.words import Scan, characters, scan

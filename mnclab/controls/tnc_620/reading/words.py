@@ -16,11 +16,11 @@ from typing import Any
 
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
 from mnclab.text.expression import Expression, parse
+from mnclab.text.given import LARGEST
 from mnclab.text.nearest import hint as near
 from mnclab.text.program import INCREMENTAL
 from mnclab.text.program_builder import ProgramBuilder
 
-LARGEST = 1e9  # no coordinate, feed or number of a program is as large
 INCH = 25.4  # mm
 
 FLAGS = re.IGNORECASE | re.ASCII
