@@ -72,7 +72,7 @@ def test_an_example_of_the_catalogue(example):
     assert gaps(run, part.placed(at(DATUM)), BALL).min() > -1e-6
 
 
-@pytest.mark.parametrize("example", [e for e in EXAMPLES if "workpiece" in e["check"]], ids=lambda each: f"{each['code']} {each['title']}")
+@pytest.mark.parametrize("example", [e for e in EXAMPLES if "workpiece" in e["check"]], ids=lambda e: f"{e['code']} {e['title']}")
 def test_an_example_measures_with_the_probe_that_every_setup_has(example):
     """Whose longest way is half of the 20 that the checks adopt: each touch meets what it met with that."""
     part = feature(example["check"]["workpiece"][0])
