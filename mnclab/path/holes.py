@@ -7,6 +7,7 @@ plunge into a pocket ends below. What is milled round (a bore on a helix) is no 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from html import escape
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -41,16 +42,19 @@ class HoleMade(NamedTuple):
 
 
 class Holes(Sequence[HoleMade]):
-    """The holes of a path in the order of drilling: a row for each place and tool; a table when shown."""
+    """The holes of a path in the order of drilling: a row for each place and tool; a table when shown.
 
-    def __init__(self, rows: Sequence[HoleMade], unit: Unit = MM) -> None:
-        self.rows, self.unit = tuple(rows), unit
+    `reach` is "up to line 12, where the run stopped" if the path ends before its program, else empty.
+    """
+
+    def __init__(self, rows: Sequence[HoleMade], unit: Unit = MM, reach: str = "") -> None:
+        self.rows, self.unit, self.reach = tuple(rows), unit, reach
 
     def __len__(self) -> int:
         return len(self.rows)
 
     def __getitem__(self, which: Any) -> Any:
-        return Holes(self.rows[which], self.unit) if isinstance(which, slice) else self.rows[which]
+        return Holes(self.rows[which], self.unit, self.reach) if isinstance(which, slice) else self.rows[which]
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """The table as arrays, mm, without the lines."""
@@ -84,13 +88,19 @@ class Holes(Sequence[HoleMade]):
         return csv_text(self._head, *self.texts())
 
     def __repr__(self) -> str:
-        return text_table(self._head, self.texts()) if self else "no holes"
+        return "\n".join(filter(None, [text_table(self._head, self.texts()) if self else "", self._told]))
 
     def _repr_html_(self) -> str:
-        return html_table(self._head, self.texts(), numbers=range(6)) if self else "<p>no holes</p>"
+        table = html_table(self._head, self.texts(), numbers=range(6)) if self else ""
+        return table + (f"<p>{escape(self._told)}</p>" if self._told else "")
+
+    @property
+    def _told(self) -> str:
+        """What is said below the table, or for it."""
+        return self.reach if self else f"no holes {self.reach}".rstrip()
 
 
-def holes(path: Toolpath, tools: Mapping[int, Tool] | None = None, numbers: Index | None = None) -> Holes:
+def holes(path: Toolpath, tools: Mapping[int, Tool] | None = None, numbers: Index | None = None, reach: str = "") -> Holes:
     """The holes of a path; `tools` by their numbers and the number of each row (n,) give the diameters."""
     numbers = path.tool.astype(np.int64) if numbers is None else numbers
     rows = np.flatnonzero(path.is_motion & ((path.start != path.end).any(axis=1)))
@@ -110,7 +120,7 @@ def holes(path: Toolpath, tools: Mapping[int, Tool] | None = None, numbers: Inde
                 top=max(before.top, found.top), bottom=min(before.bottom, found.bottom),
                 lines=tuple(dict.fromkeys(before.lines + found.lines)),
             )  # fmt: skip
-    return Holes(list(made.values()), path.unit)
+    return Holes(list(made.values()), path.unit, reach)
 
 
 def _hole(path: Toolpath, visit: NDArray[np.int64], numbers: Index, tools: Mapping[int, Tool]) -> HoleMade | None:

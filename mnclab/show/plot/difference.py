@@ -239,9 +239,8 @@ def _handles(difference: Difference, cuts: Sequence[Magnified]) -> list[Any]:
 
 
 def _told(difference: Difference) -> list[str]:
-    verdict = "as drawn" if difference.ok else "not as drawn"
     volumes = f"gouged away {difference.gouge_volume:.3f} mm³, left over {difference.rest_volume:.3f} mm³"
-    return [f"{verdict} within {number(difference.tolerance)} mm; {volumes}"]
+    return [f"{difference.verdict} within {number(difference.tolerance)} mm; {volumes}"]
 
 
 def _words(difference: Difference) -> str:
