@@ -50,8 +50,8 @@ def diff(
     """Two runs, or two paths, laid over one another: the largest deviation (mm) and where; `.plot()` shows both.
 
     Two programs, two controls, two tool radii, two limits (of their setups: the times differ); `step` mm is how
-    closely the paths are looked at. With `what="holes"` their drilled holes are compared instead, whatever the order and the
-    heights: places and diameters within `tolerance` mm; `.same` says whether they are the same.
+    closely the paths are looked at. With `what="holes"` their holes (see `path.holes`) are compared instead, whatever the
+    order and the heights: places and diameters within `tolerance` mm; `.same` says whether they are the same.
     """
     for each in (one, other):
         if not isinstance(each, Ran | Toolpath):

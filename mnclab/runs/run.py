@@ -267,7 +267,7 @@ class Run(Pictures):
         return run.start_at(*self.started) if self.started[0] else run
 
     def holes(self) -> Holes:
-        """The drilled holes as a table: place, heights, diameter, tool and lines, a row for each place and tool."""
+        """The holes (see `path.holes`) as a table: place, heights, diameter, tool and lines, a row for each place and tool."""
         return holes(self.toolpath, *self.tools_that_cut, self.reach)
 
     def largest_radius(self) -> LargestRadius:
