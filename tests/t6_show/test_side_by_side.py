@@ -277,3 +277,36 @@ def test_a_turning_pass_is_no_hole():
     path = run.toolpath
     assert path.lathe
     assert [(row.x, row.bottom) for row in run.holes()] == [(0, -20)]
+
+
+# --- two paths in a picture --------------------------------------------------------------------------------------------
+
+ONE = "G90 G54 T1 S1000 M3\nG0 X10 Y10 Z5\nG1 Z-5 F100\nX50\nG0 Z5\nX10 Y30\n"
+
+
+def test_rapids_are_dashed_where_two_paths_are_laid_over_one_another():
+    """By the text: at Z-5 the tool cuts, it comes and leaves at rapid. No line that is drawn through holds a place of a rapid."""
+    picture = mnc.diff(mnc.run(ONE, "mnc"), mnc.run(ONE.replace("X50", "X50 Y12"), "mnc")).plot(view="XZ")
+    lines = [line for line in picture.axes[0].lines if len(line.get_xdata()) > 2 or line.get_linestyle() == "--"]
+    through = [line for line in lines if line.get_linestyle() == "-"]
+    dashed = [line for line in lines if line.get_linestyle() == "--"]
+    assert len(through) == len(dashed) == 2
+    for line in through:
+        x, z = (np.asarray(column) for column in line.get_data())
+        assert {tuple(each) for each in np.column_stack([x, z])[np.isfinite(x)].tolist()} == {(10, 5), (10, -5), (50, -5)}
+    for line in dashed:
+        x, z = line.get_data()
+        assert {(50, 5), (10, 5)} <= set(zip(np.asarray(x).tolist(), np.asarray(z).tolist()))
+    assert "rapid" in [text.get_text() for text in picture.legends[0].get_texts()]
+
+
+@pytest.mark.parametrize("size", ["column", "a4", None])
+def test_no_caption_loses_its_end(size):
+    """A caption that does not fit into a line goes on in the next one: it ends with what its sentence ends with, the unit."""
+    part = mnc.run(ONE, "mnc", stock=((0, 0, -12), (60, 40, 0))).workpiece()
+    found = part.compare(mnc.Design(((0, 0, -12), (60, 40, 0))))
+    for picture, end in ((part.plot(size=size), "removed"), (found.plot(size=size), "mm³")):
+        said = [text.get_text() for text in picture.texts]
+        assert any(text.endswith(end) for text in said) and not any("…" in text for text in said)
+        right = picture.get_window_extent().x1
+        assert all(text.get_window_extent().x1 <= right for text in picture.texts)

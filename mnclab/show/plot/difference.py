@@ -73,8 +73,9 @@ def plot_difference(
     low, high = difference.compared.bounds_3d if lathe else _bounds(difference)
     views = [VIEWS["ZX" if lathe else "XY"], *(each.section.view for each in cuts)]
     marks = marks_of(difference)
-    said = [*_told(difference), *(f"{each.number}  {each.text}" for each in marks)]
     rows = [(), *lines_of(difference, marks)] if table and len(difference.features) else []
+    told = [*_told(difference), *(f"{each.number}  {each.text}" for each in marks)]
+    said = Foot("\n".join(told)).within(max(size[0], wide_of(rows))).lines
     size = size[0], size[1] + LINE * (len(rows) + len(said))
     handles = _handles(difference, cuts)
     foot = Foot("\n" * (len(rows) + len(said) - 1))
