@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -138,16 +139,16 @@ def workpiece(
 
 
 def _workpiece(run: Run, last: int | None, step: float | None, stock: Any) -> Workpiece:
-    cutting = cutting_of(run, stock)
+    cutting, whole = cutting_of(run, stock), None
     if last is not None:
-        cutting = cutting.until(last)
+        cutting, whole = cutting.until(last), cache(lambda: workpiece(run, step=step, stock=stock))
     if cutting.lathe:
         from mnclab.workpiece.turning.turned import Turned
 
-        return Turned(cutting, step)
+        return Turned(cutting, step, whole)
     from mnclab.workpiece.milling.milled import Milled
 
-    return Milled(cutting, step)
+    return Milled(cutting, step, whole)
 
 
 def design(run: Run, stock: Any = None) -> Proposal | TurnedProposal:
