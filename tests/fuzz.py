@@ -27,7 +27,7 @@ from pathlib import Path
 import numpy as np
 
 import mnclab
-from mnclab import Alarm, controls
+from mnclab import Alarm
 from mnclab.machine import trial
 
 sys.path.insert(0, str(Path(__file__).parent / "authorities"))
@@ -248,7 +248,7 @@ ABSURD = [
 
 def cases(control, only=""):
     """Every cycle of a control, each of its parameters, each absurd value: (code, name, value)."""
-    for code, cycle in controls.CONTROLS[control].cycles.items():
+    for code, cycle in mnclab.controls[control].cycles.items():
         if only in ("", code) and code == cycle.code:
             for parameter in cycle.parameters():
                 for value in ABSURD:
@@ -268,7 +268,7 @@ def program_survives(control, code, name, value):
     """The same cycle in a program: as the form of the cycle would write it."""
     if not isinstance(value, int | float) or value != value or abs(value) >= 1e16:
         return
-    of, cycle = controls.CONTROLS[control], controls.CONTROLS[control].cycles[code]
+    of, cycle = mnclab.controls[control], mnclab.controls[control].cycles[code]
     given = {p.name: trial.first_value(p) for p in cycle.parameters() if p.required or p.name == name or trial.written_first(p)}
     text = trial.program(of, cycle, given | {name: float(value)})
     if text is not None:
