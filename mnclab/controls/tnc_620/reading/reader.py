@@ -42,6 +42,7 @@ _HEAD = re.compile(r"[ \t]*(/?)[ \t]*(?:N(?=\d))?(\d*)[ \t]*(/?)[ \t]*", FLAGS)
 _SPACED = re.compile(r"Q(\d+)[ \t]+=", FLAGS)
 _WORD = re.compile(r"[A-Z]+|\S", re.IGNORECASE)
 _PLAIN = "FRXYZ"  # letters of plain lines
+_FEED = _PLAIN.index("F")
 MOST_LETTERS = 30  # of a word that may have been meant as a statement
 PIECE = 1 << 14  # lines whose words are looked at together
 
@@ -260,7 +261,7 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
     return plain, BulkBlocks(
         addresses=tuple("R0" if c == "R" else c for c in _PLAIN),
         address=address,
-        value=found.value * INCH if inch else found.value,
+        value=np.where(address == _FEED, found.value, found.value * INCH) if inch else found.value,
         offset=found.offset,
         length=found.length,
         keyword="L",
