@@ -24,7 +24,7 @@ from mnclab.machine.touching import FEELS, PROBES, Contact
 from mnclab.machine.trial import is_text
 from mnclab.machine.true_size import MILLS
 from mnclab.path.listing import figure
-from mnclab.running.binding import instance, store, value_of
+from mnclab.running.binding import instance, store, units_of, value_of
 from mnclab.running.interpreter import Interpreter
 from mnclab.running.performing import Place, run_cycle
 from mnclab.text.alarm import Alarm
@@ -143,7 +143,7 @@ def define(m: Machine, cycle: type[Cycle], given: dict[str, Any]) -> Definition:
     parameters = {p.name: p for p in cycle.parameters()}
     words = {name: word_of(parameters[name], value) for name, value in given.items()}
     values = {name: read(m, parameters[name], cycle, word) for name, word in words.items()}
-    definition = Definition(cycle, cycle.code, values, words, None)
+    definition = Definition(cycle, cycle.code, values, words, None, units=units_of(m))
     definition.values = cycle.prepare(values, words, m, definition.extra)
     if m.control.storage == "variables" and cycle.in_variables:
         store(m, definition)

@@ -256,6 +256,12 @@ class Definition:
     head: Word | None
     extra: dict[str, Any] = field(default_factory=dict)
     program: int = 0  # which of Run.programs the words stand in
+    units: tuple[float, float] = (1.0, 1.0)  # mm of a length and mm/min of a feed that the program writes as 1
+
+    def typed(self, parameter: Parameter, value: float) -> float:
+        """A value as the program writes it: what is allowed is said in that unit, as the manual prints it."""
+        unit = self.units[parameter.unit == "mm/min"] if parameter.in_units else 1.0
+        return value if unit == 1 else float(f"{value / unit:.12g}")
 
     def __repr__(self) -> str:
         return f"<Definition {' '.join([self.code, *map(str, self.words.values())])}>"

@@ -93,6 +93,12 @@ class Machine(Placed):
         """The number of a word that is a length or a feed, mm: of a control that says in its program what it counts in."""
         return self.value(word) * self.variable_unit
 
+    @property
+    def feed_unit(self) -> float:
+        """mm/min that a feed of 1 of the program stands for: 2.54 where F counts tenths of an inch (setting "inch_feed")."""
+        tenth = self.variable_unit != 1 and self.settings.get("inch_feed") == "tenth"
+        return self.variable_unit / 10 if tenth else self.variable_unit
+
     def change(self, name: str, value: Any) -> None:
         """Set an attribute (feed, side, plane, …) and note it in the history, where the table of `State` says so.
 

@@ -35,6 +35,11 @@ def set_angles(m: Machine, to: Angles) -> None:
     m.change("rotary", tuple(map(math.radians, to)))
 
 
+def turning_feed(m: Machine) -> float:
+    """The modal feed for axes that turn alone: the number of the program is degrees a minute, in inches too."""
+    return m.feed_of(None) / (m.variable_unit if m.per_rev else m.feed_unit)
+
+
 def turn_axes(m: Machine, to: Angles, f: float | None) -> None:
     """Turn to angles (degrees) while the tip stands; `f` is in degrees a minute, infinite at rapid, None the modal feed.
 
@@ -42,7 +47,7 @@ def turn_axes(m: Machine, to: Angles, f: float | None) -> None:
     """
     way = max(abs(new - old) for new, old in zip(to, angles(m), strict=True))
     set_angles(m, to)
-    rate = m.feed_of(f)
+    rate = turning_feed(m) if f is None else f
     kind = Kind.LINE if math.isfinite(rate) else Kind.RAPID
     m.add_row(kind, m.tip, feed=math.radians(rate), time=60 * way / rate if kind == Kind.LINE else math.nan)
 

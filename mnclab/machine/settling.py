@@ -121,7 +121,8 @@ def _shown(m: Machine, path: Toolpath) -> Toolpath:
             path = path.replace(spindle_x=path.spindle_x - origin[0])
     notes = {"labels": tuple(m.recorder.labels), "joints": tuple(m.recorder.joints), "origin": tuple(origin)}
     notes["cylinders"] = tuple(one.moved(-origin) for one in m.recorder.cylinders)
-    return path.annotated(**notes, lathe=m.control.lathe, inches=m.variable_unit != 1)
+    unit = {"inches": m.variable_unit != 1, "tenths": m.feed_unit != m.variable_unit}
+    return path.annotated(**notes, **unit, lathe=m.control.lathe)
 
 
 def shifted(m: Machine) -> Iterator[compensation.Gouge]:

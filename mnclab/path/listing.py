@@ -7,7 +7,7 @@ decimals, so that the numbers of the program come back; its columns are in mm al
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -24,19 +24,29 @@ NUMBERS = (0, 1, 3, 4, 5, 6, 7, 8)
 
 
 class Unit(NamedTuple):
-    """In what lengths are told: its name in a text and behind a number, how many mm it has, and decimals of a position."""
+    """In what lengths are told: its name in a text and behind a number, how many mm it has, and decimals of a position.
+
+    And in what feeds are: their name behind a number, and how many mm/min they have.
+    """
 
     name: str
     short: str
     length: float
     decimals: int
+    rate: str
+    feed: float
+
+    def for_feed(self, per_rev: Any) -> Unit:
+        """In what a feed is told that counts per revolution, or per minute."""
+        return self._replace(rate=f"{self.short}/rev", feed=self.length) if per_rev else self
 
     def figure(self, length: float, fewer: int = 0) -> str:
         """A length in mm as a number of this unit, with so many decimals fewer."""
         return figure(length / self.length, self.decimals - fewer)
 
 
-MM, INCHES = Unit("mm", "mm", 1.0, 4), Unit("inches", "in", 25.4, 6)
+MM, INCHES = Unit("mm", "mm", 1.0, 4, "mm/min", 1.0), Unit("inches", "in", 25.4, 6, "in/min", 25.4)
+TENTHS = INCHES._replace(rate="0.1 in/min", feed=2.54)  # of controls whose F counts tenths of an inch
 
 
 def figure(value: float, decimals: int = 4) -> str:
@@ -79,7 +89,7 @@ def _feed(move: Move, unit: Unit) -> str:
 def _rate(move: Move, unit: Unit, fewer: int = 0) -> str:
     if np.isfinite(move.per_rev):
         return f"{unit.figure(move.per_rev, fewer)}/rev"
-    return unit.figure(move.feed, fewer) if np.isfinite(move.feed) else ""
+    return figure(move.feed / unit.feed, unit.decimals - fewer) if np.isfinite(move.feed) else ""
 
 
 def listing(path: Toolpath) -> str:
@@ -107,7 +117,8 @@ def table(path: Toolpath) -> str:
         rows.insert(HEAD, (f"… {n - HEAD - TAIL} rows …",))
     x, radii = ("x (radius)", ", x as radius") if path.lathe else ("x", "")
     head = ("row", "line", "kind", x, "y", "z", "feed", "spindle", "tool", "label")
-    return f"{html_table(head, rows, numbers=NUMBERS)}<p>{several(n, 'row')}, positions in {path.unit.name}{radii}</p>"
+    rate = f", feeds in {path.unit.rate}" if path.tenths else ""
+    return f"{html_table(head, rows, numbers=NUMBERS)}<p>{several(n, 'row')}, positions in {path.unit.name}{radii}{rate}</p>"
 
 
 def _cells(i: int, move: Move, unit: Unit) -> tuple[str, ...]:

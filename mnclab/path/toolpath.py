@@ -35,13 +35,14 @@ class Toolpath(Columns):
 
     `labels`, `joints` and `cylinders` are what columns index; `origin` (3,) is the machine position, mm,
     that all positions are relative to; `lathe` says that pictures and listings show X (a radius) and Z, `inches` that
-    listings and tables are in inches. The columns are always in mm.
+    listings and tables are in inches, `tenths` that their feeds are in tenths of an inch a minute. The columns are always
+    in mm.
     """
 
     def __init__(
         self, columns: dict[str, NDArray[Any]], labels: Sequence[str] = ("",), joints: Sequence[Any] = (),
         origin: Iterable[float] = (0.0, 0.0, 0.0), lathe: bool = False, inches: bool = False,
-        cylinders: Sequence[Cylinder] = (),
+        cylinders: Sequence[Cylinder] = (), tenths: bool = False,
     ) -> None:  # fmt: skip
         self._n = len(columns["kind"])
         for name, each in COLUMNS.items():
@@ -53,7 +54,7 @@ class Toolpath(Columns):
             setattr(self, name, fixed(np.asarray(column, dtype=each.dtype)))
         self.labels, self.joints, self.cylinders = tuple(labels), tuple(joints), tuple(cylinders)
         self.origin = fixed(np.asarray(tuple(origin), dtype=np.float64))
-        self.lathe, self.inches = lathe, inches
+        self.lathe, self.inches, self.tenths = lathe, inches, tenths
 
     @classmethod
     def chain(cls, vertices: Array, columns: dict[str, NDArray[Any]], **more: Any) -> Toolpath:
@@ -67,14 +68,14 @@ class Toolpath(Columns):
 
     def notes(self) -> dict[str, Any]:
         """What is known of the path as a whole."""
-        return {"origin": self.origin, "lathe": self.lathe, "inches": self.inches, "cylinders": self.cylinders}
+        return {name: getattr(self, name) for name in ("origin", "lathe", "inches", "cylinders", "tenths")}
 
     @property
     def unit(self) -> Unit:
         """In what it is told."""
-        from mnclab.path.listing import INCHES, MM
+        from mnclab.path.listing import INCHES, MM, TENTHS
 
-        return INCHES if self.inches else MM
+        return TENTHS if self.tenths else INCHES if self.inches else MM
 
     def all_but_ends(self) -> dict[str, NDArray[Any]]:
         """The columns by their names, without those that `chain` makes."""
@@ -106,7 +107,7 @@ class Toolpath(Columns):
         return Toolpath(whole, self.labels, self.joints, **self.notes())
 
     def annotated(self, **more: Any) -> Toolpath:
-        """The same columns with other `labels`, `joints`, `origin`, `lathe`, `inches` or `cylinders`."""
+        """The same columns with other `labels`, `joints`, `origin`, `lathe`, `inches`, `cylinders` or `tenths`."""
         kept = {"labels": self.labels, "joints": self.joints, **self.notes()}
         return Toolpath({name: getattr(self, name) for name in COLUMNS}, **{**kept, **more})
 

@@ -59,12 +59,19 @@ def value_of(m: Machine, parameter: Parameter, code: str, word: Word, in_variabl
 
 
 def unit_of(m: Machine, parameter: Parameter) -> float:
-    """What a number of a parameter is multiplied with: 25.4 for lengths and feeds in inches.
+    """What a number of a parameter is multiplied with: 25.4 for lengths in inches, the unit of F for feeds.
 
-    Where cycles live in variables, the reader has done so with those that are none.
+    Where cycles live in variables, the reader has done so with lengths that are none.
     """
+    if parameter.unit == "mm/min":
+        return m.feed_unit
     written = parameter.is_variable or m.control.storage != "variables"
     return m.variable_unit if parameter.in_units and written else 1.0
+
+
+def units_of(m: Machine) -> tuple[float, float]:
+    """What a length and a feed of 1 are now, mm and mm/min; per revolution a feed is a length."""
+    return m.variable_unit, m.feed_unit
 
 
 def store(m: Machine, definition: Definition) -> None:
@@ -98,7 +105,7 @@ def as_it_stands(m: Machine, definition: Definition) -> Definition:
             for p in definition.cycle.parameters()
             if p.is_variable and p.address in m.variables
         }
-        return replace(definition, values=definition.values | numbers)
+        return replace(definition, values=definition.values | numbers, units=units_of(m))
     return definition
 
 
@@ -133,9 +140,9 @@ def instance(definition: Definition) -> Cycle:
         if value is None and parameter.required and definition.values.get(parameter.instead) is None:
             other = named(definition, parameter.instead)
             raise fault(definition, parameter, "is missing" + (f", and so is {other.address}" if other else ""))
+        check_value(definition, parameter, value)
         if value is None:
             value = parameter.default
-        check_value(definition, parameter, value)
         values[parameter.name] = value
     made = cycle(**values)
     for name, sentence in made.contradictions():
@@ -149,10 +156,10 @@ def named(definition: Definition, name: str) -> Parameter | None:
 
 
 def check_value(definition: Definition, parameter: Parameter, value: Any) -> None:
-    """An Alarm when a number, or one of several, is outside what its parameter allows."""
+    """An Alarm when a number, or one of several, is outside what its parameter allows, in the unit of the program."""
     for number in value if isinstance(value, tuple) else (value,):
-        if isinstance(number, int | float) and parameter.refuses(number):
-            raise fault(definition, parameter, f"must be {parameter.allowed}, got {number:.10g}")
+        if isinstance(number, int | float) and parameter.refuses(typed := definition.typed(parameter, number)):
+            raise fault(definition, parameter, f"must be {parameter.allowed}, got {typed:.10g}")
 
 
 def refuse_marks(cycle: type[Cycle], code: str, head: Word) -> None:

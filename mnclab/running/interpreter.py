@@ -21,7 +21,7 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.settings import switches
 from mnclab.machine.setup import Setup
 from mnclab.machine.waiting import determine
-from mnclab.running.binding import assign, instance, refuse_marks, store, verify
+from mnclab.running.binding import assign, instance, refuse_marks, store, units_of, verify
 from mnclab.running.bulk import Bulk
 from mnclab.running.files import alarms_of
 from mnclab.running.flow import Course
@@ -227,7 +227,7 @@ class Interpreter:
             refuse_marks(cycle, code, head)
         marks = {p.name: head for p in cycle.parameters() if head.flag & p.mark}
         values, words = values | dict.fromkeys(marks, 1.0), words | marks
-        definition = Definition(cycle, code, values, words, head, program=machine.program)
+        definition = Definition(cycle, code, values, words, head, program=machine.program, units=units_of(machine))
         again = machine.position_cycle
         if again and (again.cycle is cycle or (cycle.shares and again.cycle.shares)):  # what is modal holds
             modal = {p.name for p in cycle.parameters() if p.modal}

@@ -39,7 +39,7 @@ class Explanation:
         self.radii = ", X as radius" if run.toolpath.lathe else ""
         self.changed = []
         for name, value in moment.changed.items():
-            unit = MM if name == "feed" and moment.state.get("per_time") else self.unit
+            unit = MM if name == "feed" and moment.state.get("per_time") else self.unit.for_feed(moment.state.get("per_rev"))
             old = said(name, run.history.value(name, moment.step - 1), unit) if moment.step else ""
             if (new := said(name, value, unit)) != old:
                 self.changed.append((name, old, new))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mnclab.machine.control import Control, Function, Modal
 from mnclab.machine.cycle import Cycle
-from mnclab.path.listing import figure
+from mnclab.path.listing import Unit, figure
 from mnclab.running.handing_out import Action, Plan, Planner
 from mnclab.runs.values import unit_of
 from mnclab.text.alarm import Alarm
@@ -102,12 +102,12 @@ class _Here:
     def feed(self) -> str:
         if self.active("per_time"):
             return "time of the move, s"
-        return f"feed, {self.length}/{'rev' if self.active('per_rev') else 'min'}"
+        return f"feed, {self.unit.for_feed(self.active('per_rev')).rate}"
 
     @property
-    def length(self) -> str:
-        """The unit of lengths."""
-        return unit_of({"unit": self.active("unit")}).short
+    def unit(self) -> Unit:
+        """What lengths and feeds count in."""
+        return unit_of({"unit": self.active("unit")})
 
     @property
     def speed(self) -> str:
@@ -176,7 +176,8 @@ def _parameter(here: _Here, cycle: type[Cycle], code: str, word: Word, which: in
     if relative != parameter.note:
         meaning = f"{parameter.meaning}, {relative}"
     unit = "mm/rev" if parameter.unit == "mm/min" and here.active("per_rev") else parameter.unit
-    unit = unit.replace("mm", here.length) if parameter.in_units else unit
+    if parameter.in_units:
+        unit = here.unit.rate if unit == "mm/min" else unit.replace("mm", here.unit.short)
     return f"{meaning}{f', {unit}' if unit else ''} ({code})"
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import frames
-from mnclab.path.listing import INCHES, MM, Unit, figure, point
+from mnclab.path.listing import INCHES, MM, TENTHS, Unit, figure, point
 from mnclab.workpiece.blank import is_blank
 
 Matrix = NDArray[np.float64]
@@ -25,13 +25,14 @@ WORDS = {
     "turning": ("spindle", {1: "clockwise", -1: "counter-clockwise", 0: "stopped"}),
     "side": ("compensation", {1: "left", -1: "right", 0: "off"}),
 }
-IN_INCHES = ("G20", "G70", "INCH")  # values of the unit of a program
+#: By what the history holds of the unit of a program.
+UNITS = {"G20": INCHES, "G70": INCHES, "INCH": TENTHS, "INCH, F in inches": INCHES}
 UNTOLD = ("position", "per_rev", "per_time")  # the place is told anyway, how the feed counts is told by its unit
 
 
 def unit_of(state: Mapping[str, Any]) -> Unit:
     """What lengths of the program counted in then."""
-    return INCHES if state.get("unit") in IN_INCHES else MM
+    return UNITS.get(str(state.get("unit")), MM)
 
 
 def told(values: Mapping[str, Any], state: Mapping[str, Any]) -> list[str]:
@@ -51,9 +52,9 @@ def _told(name: str, value: Any, state: Mapping[str, Any]) -> str:
         return f"{title} {words[int(value)]}"
     title, unit = MEASURED.get(name, (name, ""))
     if name == "feed":
-        own = unit_of(state)
-        value = value if value is None or state.get("per_time") else value / own.length
-        unit = "s" if state.get("per_time") else f"{own.short}/{'rev' if state.get('per_rev') else 'min'}"
+        own = unit_of(state).for_feed(state.get("per_rev"))
+        value = value if value is None or state.get("per_time") else value / own.feed
+        unit = "s" if state.get("per_time") else own.rate
     if value is None or does_nothing(name, value):
         return f"{title} none"
     if isinstance(value, int | float):
@@ -75,7 +76,7 @@ def short(value: float) -> str:
 def said(name: str, value: Any, unit: Unit = MM) -> str:
     """A value of the history in words: angles of the rotary axes in degrees."""
     if name == "feed" and value is not None:
-        value /= unit.length
+        value /= unit.feed
     if name == "rotary" and value is not None:
         return " ".join(f"{axis}{figure(np.degrees(angle), 6)}" for axis, angle in zip("ABC", value, strict=True))
     return _plain(value, unit if name in ("position", "pole") or name.startswith("frame ") else MM)

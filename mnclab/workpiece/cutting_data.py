@@ -20,7 +20,7 @@ from mnclab.path.columns import Array, Index
 from mnclab.path.cutting_speed import spindle_speed
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
-from mnclab.path.listing import INCHES, Unit, figure
+from mnclab.path.listing import Unit, figure
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.tables import html_table, text_table
@@ -69,7 +69,7 @@ class CuttingData(Sequence[Cut]):
 
     def table(self) -> tuple[tuple[str, ...], list[tuple[str, ...]], range]:
         """Heads, rows of texts, and which columns are numbers; columns in which nothing stands are left out."""
-        inch, length = self.unit is INCHES, self.unit.length
+        inch, length = self.unit.length != 1, self.unit.length
         short, surface, rate = ("in", "ft/min", "in³/min") if inch else ("mm", "m/min", "cm³/min")
         per = 3 + 2 * inch
         head = (

@@ -14,13 +14,14 @@ TNC = "BEGIN PGM A INCH\nTOOL CALL 1 Z S500\nL X+1.23456 Y-.5 R0 FMAX M3\nL Z-.1
 BOTH = pytest.mark.parametrize(("control", "text"), [("g43", ISO), ("tnc-620", TNC)])
 
 
-@BOTH
-def test_the_listing_has_the_numbers_of_the_program(control, text):
+@pytest.mark.parametrize(("control", "text", "unit"), [("g43", ISO, 25.4), ("tnc-620", TNC, 2.54)])
+def test_the_listing_has_the_numbers_of_the_program(control, text, unit):
+    """F of the TNC counts tenths of an inch a minute (HEIDENHAIN)."""
     path = mnclab.run(text, control).toolpath
     rows = str(path).splitlines()
     assert rows[2].split() == ["3", "rapid", "X1.23456", "Y-0.5", "Z0"]
     assert rows[3].split() == ["4", "line", "X1.23456", "Y-0.5", "Z-0.1001", "F12.5"]
-    assert path.end[3] == pytest.approx([1.23456 * 25.4, -12.7, -0.1001 * 25.4], abs=1e-12) and path.feed[3] == 12.5 * 25.4
+    assert path.end[3] == pytest.approx([1.23456 * 25.4, -12.7, -0.1001 * 25.4], abs=1e-12) and path.feed[3] == 12.5 * unit
     assert "positions in inches" in path._repr_html_()
     assert str(path[2:4]).splitlines() == rows[2:4]  # of a part of the path, too
 

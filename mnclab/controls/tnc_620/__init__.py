@@ -133,7 +133,7 @@ SETTINGS = (
         "thread_wait", 0.0, "how long the spindle stands at the bottom of a tapped thread (thrdWaitingTime, no. 113601)", "5.2",
         unit="s", at_least=0,
     ),
-    *tools.SETTINGS, *no_effect.SETTINGS, *retraction.SETTINGS, *tilting.SETTINGS, *engraving.SETTINGS,
+    *feeds.SETTINGS, *tools.SETTINGS, *no_effect.SETTINGS, *retraction.SETTINGS, *tilting.SETTINGS, *engraving.SETTINGS,
     *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS, *output.SETTINGS,
     *tool_setter.SETTINGS,
     *aimed.SETTINGS,

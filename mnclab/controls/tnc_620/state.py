@@ -88,6 +88,13 @@ def memory(m: Machine) -> Memory:
     return kept
 
 
+def count_in(m: Machine, length: float) -> None:
+    """What the running program counts in from here on: mm of a length of 1."""
+    m.variable_unit = length
+    own = "" if length == 1 or m.feed_unit != length else ", F in inches"
+    m.log("unit", f"{memory(m).unit}{own}")
+
+
 def active_preset(m: Machine) -> int:
     """The active row of the preset table."""
     row = memory(m).preset

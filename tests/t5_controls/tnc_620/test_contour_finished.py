@@ -213,7 +213,7 @@ def test_inches():
     arc = arc[arc.kind == Kind.ARC]
     assert (arc.end - arc.start)[0, 2] == near(-(0.02 * 25.4 + 1))
     wall = of(found, "CYCL DEF 24")
-    assert wall[wall.feed == 350 * 25.4].bounds[:, :2] == near(np.array([[5, 5], [3 * 25.4 - 5] * 2]))
+    assert wall[wall.feed == 350 * 2.54].bounds[:, :2] == near(np.array([[5, 5], [3 * 25.4 - 5] * 2]))
 
 
 def test_a_tool_axis_other_than_z_is_refused():

@@ -244,7 +244,7 @@ def test_upwards():
 
 def test_inches():
     found = run("L X+1 Y+1 RL\nL X+2", unit="INCH", Q1=-0.5, Q10=0.5, Q7=2, Q11=10, Q12=20)
-    path = found.toolpath[np.isclose(found.toolpath.feed, 20 * 25.4)]
+    path = found.toolpath[np.isclose(found.toolpath.feed, 20 * 2.54)]
     assert path.end == pytest.approx(np.array([(50.8, 30.4, -12.7)]))
 
 

@@ -47,11 +47,11 @@ def test_global_def_writes_no_q_parameter(tnc) -> None:
 
 
 def test_in_inches(tnc, drilled) -> None:
-    """Q200 = 0.5 in = 12.7 mm; the parameter of the cycle is 0.5 again."""
+    """Q200 = 0.5 in = 12.7 mm; the parameter of the cycle is 0.5 again; 250 tenths of an inch are 635 mm."""
     globals_ = GLOBAL_100.replace("Q200=3", "Q200=0.5").replace("Q204=40", "Q204=2")
     definition = cycle(Q200="PREDEF", Q204="PREDEF").replace("-15", "-1").replace("Q202=10", "Q202=0")
     run = tnc(f"0 BEGIN PGM A INCH\n1 TOOL CALL 1 Z S1000 F20\n2 {globals_}3 {definition}4 CYCL CALL M3\n")
-    assert drilled(run) == ["Z12.7 FMAX", "Z-25.4 F6350", "Z50.8 FMAX"] and run.variables["Q200"] == 0.5
+    assert drilled(run) == ["Z12.7 FMAX", "Z-25.4 F635", "Z50.8 FMAX"] and run.variables["Q200"] == 0.5
 
 
 @pytest.mark.parametrize("address", ["Q345", "Q352"])

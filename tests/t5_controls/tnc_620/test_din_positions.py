@@ -151,7 +151,7 @@ def test_a_line_in_which_one_block_ends_and_another_begins(din) -> None:
 def test_inches(tnc) -> None:
     run = tnc("%A G70 *\nT1 G17 S1000 F10*\nG01 X+1 Y+0.5 M3*\nG91 X+1*\nN9 %A G70*\n")
     assert run.toolpath.motion.end.tolist() == [[25.4, 12.7, 0], [50.8, 12.7, 0]]
-    assert run.toolpath.motion.feed.tolist() == [254, 254]
+    assert run.toolpath.motion.feed.tolist() == [25.4, 25.4]
 
 
 # --- other programs, recognition --------------------------------------------------------------------------------------

@@ -86,10 +86,10 @@ def test_fauto_is_bound_at_the_definition(tnc, drilled) -> None:
 
 
 def test_in_inches(tnc, drilled) -> None:
-    """Q parameters stay inches; the moves are mm: A = 2 in = 50.8, one pass to -1 in, feed 10 in/min = 254."""
+    """Q parameters stay inches; the moves are mm: A = 2 in = 50.8, one pass to -1 in, feed 10 x 0.1 in/min = 25.4."""
     definition = DEFINITION.replace("Q201=-15", "Q201=-1").replace("Q206=250", "Q206=10").replace("Q204=20", "Q204=3")
     run = tnc(f"0 BEGIN PGM I INCH\n1 TOOL CALL 1 Z S1000 F20\n2 {definition}3 CYCL CALL M3\n")
-    assert drilled(run) == ["Z50.8 FMAX", "Z-25.4 F254", "Z76.2 FMAX"] and run.variables["Q200"] == 2
+    assert drilled(run) == ["Z50.8 FMAX", "Z-25.4 F25.4", "Z76.2 FMAX"] and run.variables["Q200"] == 2
 
 
 def test_in_shifted_coordinates(inside, drilled) -> None:

@@ -33,11 +33,11 @@ def test_they_follow_the_speed_and_the_tool(inside) -> None:
 
 
 def test_inches_and_q_parameters(tnc) -> None:
-    """0.01 inch per revolution at 100 rev/min are 25.4 mm/min."""
+    """0.01 inch per revolution at 100 rev/min are 25.4 mm/min; F0.01 is 0.001 inch a minute."""
     run = tnc(
         "0 BEGIN PGM I INCH\n1 TOOL CALL 1 Z S100 F10\n2 Q1 = 0.01\n3 L X+1 FUQ1 M3\n4 L X+2 FQ1\n5 END PGM I INCH\n"
     )
-    assert feeds(run) == [25.4, 0.254]
+    assert feeds(run) == [25.4, 0.0254]
 
 
 @pytest.mark.parametrize(("written", "feed"), [("FAUTO", 100), ("FU0.2", 200), ("FU ,2", 200), ("250", 250)])

@@ -66,10 +66,10 @@ def test_the_clearance_counts_from_where_the_tool_stands(tnc, rows) -> None:
 
 
 def test_in_inches(tnc, rows) -> None:
-    """SET UP 0.1, DEPTH -1 and F 10 in inches: the bottom is (0.5 - 0.1 - 1) inch down."""
+    """SET UP 0.1 and DEPTH -1 in inches, F 10 in tenths: the bottom is (0.5 - 0.1 - 1) inch down."""
     text = pecking(-1, 1, 0.1, z=0.5).replace("A MM", "A INCH").replace("F80", "F10")
     path = rows(tnc(text))
-    assert path.end[:, 2] == pytest.approx([-0.6 * 25.4, 0.5 * 25.4]) and path.feed[0] == pytest.approx(254)
+    assert path.end[:, 2] == pytest.approx([-0.6 * 25.4, 0.5 * 25.4]) and path.feed[0] == pytest.approx(25.4)
 
 
 def tapping(depth: float = -20, dwell: float = 0.4, feed: float = 500, m: str = "M3") -> str:

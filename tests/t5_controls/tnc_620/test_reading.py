@@ -177,7 +177,7 @@ def test_inches_become_millimetres(tnc) -> None:
     assert run.ok
     moves = run.toolpath.motion
     assert moves.end.ravel().tolist() == pytest.approx([25.4, -12.7, 0, 50.8, 0, 0])
-    assert moves.feed.tolist() == pytest.approx([254, 508])
+    assert moves.feed.tolist() == pytest.approx([25.4, 50.8])
     assert run.variables == {"Q1": 2}
 
 

@@ -31,9 +31,9 @@ def test_without_a_feed_it_is_rapid(spelt: str, inside) -> None:
 
 
 def test_inches(tnc) -> None:
-    """MB2 and F10 of a program in inches are 50.8 mm and 254 mm/min."""
+    """MB2 and F10 of a program in inches are 50.8 mm and 25.4 mm/min."""
     run = tnc("0 BEGIN PGM A INCH\n1 TOOL CALL 1 Z S1 F4\n2 M140 MB2 F10\n3 END PGM A INCH\n", stopped_spindle="accept")
-    assert ends(run) == [("LINE", 0, 0, 50.8, 254)]
+    assert ends(run) == [("LINE", 0, 0, 50.8, pytest.approx(25.4))]
 
 
 def test_mb_max_goes_to_the_end_of_the_travel(inside) -> None:

@@ -43,7 +43,7 @@ def test_machine_coordinates_are_those_of_x_alone(inside) -> None:
 
 def test_inches_and_a_feed_along_the_sum(tnc) -> None:
     run = tnc("BEGIN PGM A INCH\nTOOL CALL 1 Z S100 F10\nL U+1 R0 FMAX M3\nL X+1 IU+1\nEND PGM A INCH\n")
-    assert ends(run) == [(25.4, 0, 0), (76.2, 0, 0)] and run.toolpath.motion.feed[-1] == pytest.approx(254)
+    assert ends(run) == [(25.4, 0, 0), (76.2, 0, 0)] and run.toolpath.motion.feed[-1] == pytest.approx(25.4)
 
 
 def test_a_machine_without_them(inside) -> None:

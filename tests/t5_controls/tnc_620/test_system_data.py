@@ -90,7 +90,7 @@ def test_lengths_are_metric_in_a_program_in_inches(tnc) -> None:
     run = tnc(text, mnc.Setup(tools={1: mnc.Tool(radius=2.54, length=50.8)}))
     assert run.ok, run.alarms
     found = [run.variables[f"Q{k}"] for k in range(1, 7)]
-    assert found == pytest.approx([50.8, 2, 50.8, 1, 254, -25.4], rel=1e-15)
+    assert found == pytest.approx([50.8, 2, 50.8, 1, 25.4, -25.4], rel=1e-15)
 
 
 def test_the_travel_leads_to_the_end_of_the_axis(inside) -> None:

@@ -171,8 +171,8 @@ class TestAllOfThem:
         assert (wait.time, wait.end[2], wait.spindle) == (0.4, 5, 0)
 
     def test_in_inches(self, called, rows, number) -> None:
-        """Lengths, feed and pitch are inches: 20 threads an inch are 1.27 mm."""
-        more = {"Q206": 25} if number == 206 else {"Q239": 0.05}
+        """Lengths and pitch are inches, the feed tenths of an inch: 20 threads an inch are 1.27 mm."""
+        more = {"Q206": 250} if number == 206 else {"Q239": 0.05}
         path = rows(called(number, unit="INCH", pitch=1.27, Q200=0.1, Q201=-0.8, Q203=0, Q204=0, **more))
         levels = path.end[path.is_motion, 2]
         assert (levels.min(), levels.max()) == pytest.approx((-20.32, 2.54))

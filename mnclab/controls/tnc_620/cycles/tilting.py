@@ -53,7 +53,7 @@ class WorkingPlane(Cycle):
     angle_a: float | None = tilt("A", "tilt angle A")
     angle_b: float | None = tilt("B", "tilt angle B", example=30)
     angle_c: float | None = tilt("C", "tilt angle C")
-    rotary_feed: float | None = feed("F", "feed of the rotary axes", **STILL, note="degrees a minute")
+    rotary_feed: float | None = feed("F", "feed of the rotary axes", unit="deg/min", **STILL)
     set_up_clearance: float | None = distance(
         "ABST", "set-up clearance", **STILL, note="how far below the tip the point is that stands still"
     )

@@ -1,7 +1,8 @@
 """The feed of a block in all its forms: F, FMAX, FAUTO, FU, FZ, and M103, M109 to M111 (3.1; catalogue: F, TOOL CALL, M103).
 
-FU is a feed per revolution and FZ one per tooth; both follow the speed of the spindle. Where a cycle is defined they
-become mm/min with the speed and the tool of that moment, as FAUTO does; FMAX stays a word.
+In a program in inches F counts tenths of an inch a minute (setting "inch_feed"), as the posts for these controls write it.
+FU is a feed per revolution and FZ one per tooth, in inches there; both follow the speed of the spindle. Where a cycle is
+defined they become mm/min with the speed and the tool of that moment, as FAUTO does; FMAX stays a word.
 """
 
 from __future__ import annotations
@@ -12,10 +13,17 @@ from mnclab.controls.tnc_620.language.checks import above_zero, one_of
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import INF, Machine
+from mnclab.machine.settings import Setting
 from mnclab.path.feed_rules import FeedRule
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
+SETTINGS = (
+    Setting(
+        "inch_feed", "tenth", "what F counts in where the program is in inches", "HEIDENHAIN: F in 0.1 inch/min",
+        {"tenth": "tenths of an inch a minute: F100 is 254 mm/min", "inch": "inches a minute"},
+    ),
+)  # fmt: skip
 FEED_WORDS = "F FMAX FAUTO FU FZ"
 MEANINGS = {"F": "feed rate", "FU": "feed per revolution", "FZ": "feed per tooth"}
 EDGES = {"M109": "everywhere", "M110": "inside", "M111": ""}
@@ -36,12 +44,18 @@ def feed(m: Machine, words: Words) -> float | None:
     if word.address == "FAUTO":
         set_feed(m, auto_feed(m, word))
         return None
-    value = above_zero(m, word, f"{word.address} ({MEANINGS[word.address]})")
+    name = f"{word.address} ({MEANINGS[word.address]})"
+    value = above_zero(m, word, name) if word.address != "F" else rate(m, word, name)
     if word.address == "FZ":
         memory(m).feed_per_tooth = value
         value *= teeth(m, word)
     set_feed(m, value, per_rev=word.address != "F")
     return None
+
+
+def rate(m: Machine, word: Word, name: str) -> float:
+    """The number of an F, mm/min."""
+    return above_zero(m, word, name) * m.feed_unit
 
 
 def set_feed(m: Machine, value: float | None, per_rev: bool = False) -> None:

@@ -6,7 +6,7 @@ import operator
 
 from mnclab.controls.tnc_620.language.checks import whole
 from mnclab.controls.tnc_620.language.parameters import PREASSIGNED, text
-from mnclab.controls.tnc_620.state import memory
+from mnclab.controls.tnc_620.state import count_in, memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.running import files
@@ -83,8 +83,7 @@ def call_program(m: Machine, name: str, what: str, word: Word | None = None) -> 
         m.flow.call_program(m, index, place)
     memory(m).name, memory(m).unit = kept
     if length != m.variable_unit:
-        m.variable_unit = length
-        m.log("unit", memory(m).unit)
+        count_in(m, length)
 
 
 @FUNCTIONS("CALL PGM,", "Program call", takes="name", source="3.4")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from mnclab.controls.tnc_620.language.checks import above_zero
+from mnclab.controls.tnc_620.language.feeds import rate
 from mnclab.controls.tnc_620.language.motion import heading, scaled
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
@@ -31,7 +32,7 @@ def join(m: Machine, words: Words, make: type[Rounding] | type[Chamfer], address
     if address not in words:
         m.alarm(f"{words.code} needs the {'radius R' if address == 'R' else meaning}")
     size = scaled(m, above_zero(m, words[address], f"{shown} ({meaning})"))
-    own_feed = above_zero(m, words["F"], f"{words.code} F (feed rate)") if "F" in words else math.nan
+    own_feed = rate(m, words["F"], f"{words.code} F (feed rate)") if "F" in words else math.nan
     if not m.mark_joint(make(size, m.step, own_feed)):
         last = m.recorder.last()
         hint = "M97 or M98 stands there" if last and isinstance(last[1], Prolonged | Open) else ""

@@ -18,7 +18,7 @@ from mnclab.controls.tnc_620.language.tool_axis import refuse_other
 from mnclab.geometry import tilting
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import INF, Machine
-from mnclab.machine.rotary import STILL
+from mnclab.machine.rotary import STILL, turning_feed
 from mnclab.machining.steps import Step, Write
 from mnclab.running.performing import perform
 from mnclab.text.program import Word
@@ -113,9 +113,9 @@ def turn(m: Machine, words: Words, how: Word) -> None:
     refuse_rotary(m, how)
     word = one_of(m, words, ("F", "FMAX", "FAUTO"), "one feed")
     if word is None:
-        rate = m.feed_of(None)
+        rate = turning_feed(m)
     elif word.address == "FMAX":
         rate = INF
     else:
-        rate = auto_feed(m, word) if word.address == "FAUTO" else above_zero(m, word, f"{words.code} F (feed rate)")
+        rate = auto_feed(m, word) / m.feed_unit if word.address == "FAUTO" else above_zero(m, word, f"{words.code} F (feed rate)")
     perform(m, words.code, position(m, to, rate, distance), ORIGIN)

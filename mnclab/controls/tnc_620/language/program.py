@@ -7,7 +7,7 @@ from mnclab.controls.tnc_620.language import parameters
 from mnclab.controls.tnc_620.language.blank import half_given
 from mnclab.controls.tnc_620.language.checks import not_negative
 from mnclab.controls.tnc_620.reading.words import INCH
-from mnclab.controls.tnc_620.state import memory
+from mnclab.controls.tnc_620.state import count_in, memory
 from mnclab.controls.tnc_620.tables.free_tables import put_out_tables
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
@@ -28,13 +28,12 @@ def start(m: Machine) -> None:
 
 @FUNCTIONS("BEGIN PGM,", "Program begin", takes="name unit", source="4.11, example")
 def begin(m: Machine, words: Words) -> None:
-    """Names the program and its unit; lengths and feeds of an INCH program become mm where they are read."""
+    """Names the program and its unit; lengths of an INCH program become mm where they are read."""
     kept, unit = memory(m), str(words["unit"].value)
     kept.name, kept.unit = str(words["name"].value) if "name" in words else "", unit
     kept.main_unit = kept.main_unit or unit  # the first one is that of the main program
     if (length := INCH if unit == "INCH" else 1.0) != m.variable_unit:
-        m.variable_unit = length
-        m.log("unit", unit)
+        count_in(m, length)
 
 
 @FUNCTIONS("END PGM,", "Program end", takes="name unit", leads_away=True, phase="last", source="4.11, example")

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 
 from mnclab.controls.tnc_620.cycles.chain import TILT
-from mnclab.controls.tnc_620.language.checks import above_zero, not_negative, one_of, warn_once
+from mnclab.controls.tnc_620.language.checks import not_negative, one_of, warn_once
+from mnclab.controls.tnc_620.language.feeds import rate
 from mnclab.controls.tnc_620.language.machine_datum import above_tip
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
@@ -75,4 +76,4 @@ def own_feed(m: Machine, words: Words) -> float:
         return INF
     if word.value is None:
         m.alarm("M140 F needs a number", word, "for example M140 MB 50 F750")
-    return above_zero(m, word, "M140 F (feed rate of the retraction)")
+    return rate(m, word, "M140 F (feed rate of the retraction)")

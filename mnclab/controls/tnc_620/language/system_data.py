@@ -25,6 +25,7 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.settings import Setting
 from mnclab.machine.setup import Datum
 from mnclab.path.tool import Tool
+from mnclab.running.binding import unit_of
 
 SETTINGS = (
     Setting("execution", True, "a program that asks (ID992 NR16) is executed, and not simulated", "System data, ID992"),
@@ -105,17 +106,18 @@ def with_deltas(name: str, delta: str) -> Read:
 
 
 def parameter(name: str) -> Read:
-    """A Q parameter of the active machining cycle: lengths and feeds in mm."""
+    """A Q parameter of the active machining cycle: lengths in mm, feeds in mm/min."""
 
     def read(m: Machine, asked: Asked) -> float:
         if m.cycle is None:
             raise Missing("no machining cycle is defined")
         cycle = m.cycle.cycle
-        if not any(name in (p.address, *p.aliases) for p in cycle.parameters()):
+        own = next((p for p in cycle.parameters() if name in (p.address, *p.aliases)), None)
+        if own is None:
             raise Missing(f"{cycle.code} has no {name}")
         if not isinstance(value := m.variables.get(name), float):
             raise Missing(f"{name} is {value}")
-        return value * m.variable_unit
+        return value * unit_of(m, own)
 
     return read
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from mnclab.controls.tnc_620.language.checks import above_zero, first, not_negative
-from mnclab.controls.tnc_620.language.feeds import set_feed, with_another_tool
+from mnclab.controls.tnc_620.language.checks import first, not_negative
+from mnclab.controls.tnc_620.language.feeds import rate, set_feed, with_another_tool
 from mnclab.controls.tnc_620.language.tool_axis import change_axis
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
@@ -33,7 +33,7 @@ def tool_call(m: Machine, words: Words) -> None:
     if m.side:
         m.alarm("TOOL CALL cannot change the tool under radius compensation", first(words), "write R0 first")
     speed = not_negative(m, words["S"], "TOOL CALL S (spindle speed)") if "S" in words else None
-    feed = above_zero(m, words["F"], "TOOL CALL F (feed rate)") if "F" in words else None
+    feed = rate(m, words["F"], "TOOL CALL F (feed rate)") if "F" in words else None
     deltas = {DELTAS[name]: m.value(words[name]) for name in DELTAS if name in words}
     word = words.get("tool", words.get("text"))
     tool = find(m, word, "TOOL CALL") if word else None

@@ -54,6 +54,7 @@ _MEANT = {
     "IF": "a jump is FN 9: IF +Q1 EQU +Q3 GOTO LBL 5", "SPINDLE": "M3, M4 and M5 are the spindle", "COOLANT": "write M8 or M9",
 }  # fmt: skip
 _PLAIN = "FRXYZ"  # letters of plain lines
+_FEED = _PLAIN.index("F")
 MOST_LETTERS = 30  # of a word that may have been meant as a statement
 PIECE = 1 << 14  # lines whose words are looked at together
 
@@ -306,7 +307,7 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
     return plain, BulkBlocks(
         addresses=tuple("R0" if c == "R" else c for c in _PLAIN),
         address=address,
-        value=found.value * INCH if inch else found.value,
+        value=np.where(address == _FEED, found.value, found.value * INCH) if inch else found.value,
         offset=found.offset,
         length=found.length,
         keyword="L",

@@ -4,7 +4,8 @@ Values are numbers with a decimal point or comma, or a Q parameter with a sign (
 What stands without a number is a word without a value (`FMAX`, `FAUTO`, `RL`, `RR`, `R0`); `R F M` at the end of a block
 and `R` before a feed, as older controls write what stays as it is, are none; a sense of rotation is the word `DR` with the
 text `+` or `-`. Values without an address in the text get one in lower case: `tool`, `label`, `axis`, `name`, `unit`,
-`length`, `number`, `target`, `value`. Lengths of an INCH program become mm here.
+`length`, `number`, `target`, `value`. Lengths of an INCH program become mm here, feeds where they are obeyed
+(`Machine.feed_unit`).
 """
 
 from __future__ import annotations
@@ -47,10 +48,10 @@ _ADDRESSES = (
 ).split()
 _NAMED = re.compile(rf"(I?)(DR2(?=[ \t]*[+-])|{'|'.join(sorted(_ADDRESSES, key=len, reverse=True))})", FLAGS)
 
-#: Addresses of lengths and of feeds along a path: inches in a program that begins with INCH.
+#: Addresses of lengths and of feeds per revolution or tooth: inches in a program that begins with INCH.
 LENGTHS = frozenset(
-    "X Y Z U V W R RI DI DIST LEN PR F FU FZ DL DR DR2 L CCX CCY CCZ CCPR ABST D P1X P1Y P2X P2Y P3X P3Y PDX PDY DX DY "
-    "DP DEPTH PITCH SETUP PECKG PECKG:F RADIUS HEIGHT length M140:MB M140:F M128:F".split()
+    "X Y Z U V W R RI DI DIST LEN PR FU FZ DL DR DR2 L CCX CCY CCZ CCPR ABST D P1X P1Y P2X P2Y P3X P3Y PDX PDY DX DY "
+    "DP DEPTH PITCH SETUP PECKG RADIUS HEIGHT length M140:MB".split()
 )
 
 #: Addresses that belong to an M function when they stand directly behind it: `M103 F20` beside a feed F of the block.
