@@ -44,6 +44,9 @@ def settle(m: Machine, unfinished: bool = False) -> None:
     except PathFault as fault:
         m.cut = fault.step
         m.settled.append(_before(m, piece[piece.step < fault.step]))
+        for gouge in report.gouges:  # that the control does not see
+            if gouge.step < fault.step:
+                m.alarms.append(Alarm(gouge.message, m.flow.span_of_step(gouge.step), WARNING, gouge.hint))
         raise Alarm(fault.message, m.flow.span_of_step(fault.step), hint=fault.hint) from None
     finally:
         m.gouges += report.gouges

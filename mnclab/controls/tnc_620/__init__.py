@@ -118,8 +118,10 @@ SETTINGS = (
     Setting("controlled_spindle", True, "the spindle's angle is controlled, as 202, 204, 207, 209 need it", "4.5, 5.3"),
     Setting("plunge_error", True, "a helix narrower than twice the tool is an alarm (suppressPlungeErr, no. 201006)", "6.2"),
     Setting(
-        "gouge", "refuse", "what happens where a compensated tool does not fit", "",
-        {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
+        "gouge", "control", "what happens where a compensated tool does not fit", "",
+        {"control": "an alarm where an element and its neighbours have no room, as the control has it; what it does not see"
+                    " is marked and warned of", "refuse": "an alarm, before the tool goes there, anywhere",
+         "mark": "it cuts anyway: marked rows and warnings"},
     ),
     Setting("feed_needed", True, "a move before any feed rate is an alarm; without, it is at rapid with a warning", "6.10"),
     Setting("m6_stop", False, "M6 stops the program for a change of the tool by hand", "5.11"),

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from copy import copy
+from dataclasses import replace
+
 import numpy as np
 
 from mnclab.geometry.vectors import left
@@ -40,6 +43,12 @@ class Equidistant:
         self._remain(slice(n - 1, n))
         free = np.flatnonzero(~el.wall)
         self.sweep[free] = el.sweep[free]
+
+    def looking_ahead(self) -> Equidistant:
+        """The same for rules that look at the whole contour: what they find to be a gouge is more, the path is the same."""
+        twin = copy(self)
+        twin.rules = replace(self.rules, look_ahead=True)
+        return twin
 
     def _remain(self, k: slice) -> None:
         found = remaining(self.el, k, self.begin[k], self.end[k], self.el.R[k])

@@ -28,7 +28,7 @@ from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.heights import at_height, meet
 from mnclab.path.compensation.joining import ends, remaining
-from mnclab.path.compensation.passes import crossed, given_up, run_past
+from mnclab.path.compensation.passes import crossed, cuts, given_up, run_past
 from mnclab.path.compensation.rules import CLEAR, Compensation, Gouge, Report
 from mnclab.path.compensation.tips import clearance, near_tips
 from mnclab.path.fault import PathFault
@@ -56,24 +56,37 @@ class Places(NamedTuple):
 
 
 def check(found: Equidistant, path: Toolpath, view: PlaneView, gouge: str, report: Report) -> Mask:
-    """Which elements (n,) cut into the contour. PathFault at the first, unless `gouge` is "mark"."""
+    """Which elements (n,) cut into the contour; the whole of it is looked at on every control. PathFault at the first that
+    `gouge` refuses: "mark" none, "control" those that the control itself finds, "refuse" all."""
     el = found.el
     marked = np.zeros(len(el.rows), dtype=bool)
     contour = np.cumsum(el.lead | el.exit, dtype=np.int64)  # one number from each entry or change to the next
-    places = _places(found, contour)
+    own = gouge == "control" and not found.rules.look_ahead
+    whole = found if found.rules.look_ahead else found.looking_ahead()
+    places = _places(whole, contour)
     if not places:
         return marked
-    least = _least(found, contour, places)
+    refused = {"mark": [], "control": _places(found, contour) if own else places}.get(gouge, places)
+    least = _least(whole, contour, places)
     for place in places:
         marked[place.k] = True
-    every = [(int(k), float(place.largest[m]), n, m) for n, place in enumerate(places) for m, k in enumerate(place.k)]
-    order = sorted({one[0]: one for one in sorted(every, reverse=True)}.values())  # of each element the narrowest
-    refuse = gouge != "mark"
-    for k, _, n, m in order[:1] if refuse else order:
-        report.gouges.append(_worded(places[n], m, k, el, path, view, float(least[contour[places[n].other[m]]])))
-    if refuse:
-        first = report.gouges[-1]
-        raise PathFault(first.message, first.step, first.hint)
+
+    def worded(among: list[Places]) -> list[tuple[int, Gouge]]:
+        """Of each element the narrowest place, in their order."""
+        every = [(int(k), float(one.largest[m]), n, m) for n, one in enumerate(among) for m, k in enumerate(one.k)]
+        order = sorted({one[0]: one for one in sorted(every, reverse=True)}.values())
+        if among is refused:
+            order = order[:1]
+        return [
+            (k, _worded(among[n], m, k, el, path, view, float(least[contour[among[n].other[m]]]))) for k, _, n, m in order
+        ]
+
+    first = worded(refused)
+    if own or not first:
+        report.gouges += [gouge for k, gouge in worded(places) if not first or k < first[0][0]]
+    if first:
+        report.gouges.append(first[0][1])
+        raise PathFault(first[0][1].message, first[0][1].step, first[0][1].hint)
     return marked
 
 
@@ -235,6 +248,8 @@ def _bottlenecks(found: Equidistant, contour: Index, k: Index, walls: Walls, coa
     i, j, slack = k[chords.i], k[chords.j], _misfit(el)
     bad = (chords.length < 2 * el.R[i] - EXACT - slack[i] - slack[j]) & meet(el, i, j)
     bad[bad] = ~run_past(el, i[bad], j[bad])
+    allowed = CLEAR + slack[i[bad]] + slack[j[bad]]
+    bad[bad] = cuts(found, i[bad], j[bad], allowed) | cuts(found, j[bad], i[bad], allowed)  # and does not only pass by
     bad[bad] = ~given_up(found, contour, i[bad], j[bad])
     i, j, width = i[bad], j[bad], chords.length[bad]
     text = "the tool of radius {R:.4g} does not fit between this element and that of line {other}: they are {r:.6g} mm apart"

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from mnclab.geometry.boxes import near
-from mnclab.geometry.curves import Curves, crossings, distance, part, share
+from mnclab.geometry.curves import Curves, crossings, distance, gap, part, share
 from mnclab.geometry.vectors import cross, dot, left
 from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.compensation.elements import Elements
@@ -25,6 +25,20 @@ BEHIND = 1e-3  # mm behind a wall: there its material begins
 MOST = 400  # places along a wall
 ENOUGH = 64  # pairs that cut into what stands: of such a contour the later ones are not asked, they count as well
 TAIL = 4  # tool radii from a crossing: a tail stands for nothing there
+
+
+def cuts(found: Equidistant, i: Index, j: Index, allowed: Array) -> Mask:
+    """Whether the tool on its way beside elements i (m,), and about their ends, comes nearer to walls j (m,) than its
+    radius less what is `allowed` (m,)."""
+    el, result = found.el, np.zeros(len(i), dtype=bool)
+    there = np.flatnonzero((found.left_over[i] > 0) & ~found.apart[i])
+    result[there] = gap(_rows(found, i[there]), el.curves(j[there])) < (el.R[i] - allowed)[there]
+    for after in (i, np.minimum(i + 1, len(el.rows) - 1)):  # the arcs about the start and the end of an element
+        k = np.flatnonzero(found.insert[after] & ~result)
+        c, r = after[k], el.R[i[k]]
+        about = Curves(found.end[c - 1], found.begin[c], el.end[c - 1], r, found.turn[c])
+        result[k] = gap(about, el.curves(j[k])) < r - allowed[k]
+    return result
 
 
 def run_past(el: Elements, i: Index, j: Index) -> Mask:
