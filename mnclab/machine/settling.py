@@ -78,8 +78,8 @@ def stop_at_travel(m: Machine) -> None:
 def _passes(m: Machine, piece: Toolpath, unfinished: bool, report: compensation.Report | None = None) -> Toolpath:
     turned, gouge = corners.apply(piece, unfinished), str(m.settings.get("gouge", "refuse"))
     rules = m.control.compensation
-    if rules is not None and m.look_ahead:
-        rules = replace(rules, look_ahead=True)
+    if rules is not None:
+        rules = replace(rules.chosen(m.settings), look_ahead=rules.look_ahead or m.look_ahead)
     path = compensation.apply(turned, rules, unfinished, gouge, report)
     path = leads.apply(path, turned, unfinished)
     path = feed_rules.apply(path, m.feed_rules)

@@ -27,7 +27,8 @@ DIALECTS: dict[str, dict[str, Any]] = {
         "dwell_p": "seconds", "peck_clearance": 0.254, "below_r": "straight", "arc_by_both": "refuse",
         "length_acts": "at_once", "g52_g92": "one", "g53_motion": "modal", "g53_increment": "refuse",
         "g10_p0": "active", "g10_l20": "position", "g10_increment": "replaces", "g51_factor": "as_written",
-        "hole_axis": "normal", "hole_data": "numbers", "return_at_start": "G99", "axis_words": "refuse", "g61": "corners",
+        "hole_axis": "normal", "hole_data": "numbers", "compensation_leads": "linuxcnc",
+        "return_at_start": "G99", "axis_words": "refuse", "g61": "corners",
         "arc_tolerance": 0.02 * 2**0.5, "arc_tolerance_share": 1e-3,
     },
 }  # fmt: skip
@@ -54,6 +55,9 @@ MOTION = (
            radius="R counts, with a warning", centre="I J K count, with a warning", refuse="an alarm (LinuxCNC)"),
     one_of("helix", "a word of the third axis in an arc block", ALL,
            accept="a helix, without a word", warn="a helix, with a warning", refuse="an alarm"),
+    one_of("compensation_leads", "how radius compensation begins and ends", FANUC,
+           corners="in straight lines, with corners at the contour like any other",
+           linuxcnc="also with an arc; the way after G40 leads straight from the end of the last element (LinuxCNC)"),
     one_of("gouge", "what happens where a compensated tool does not fit",
            refuse="an alarm, before the tool goes there", mark="it cuts anyway: marked rows and warnings"),
 )  # fmt: skip

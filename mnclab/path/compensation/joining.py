@@ -54,6 +54,8 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
     outside = bent & out & ~change
     if rules.approach == "perpendicular":
         outside &= ~lead & ~leave
+    elif rules.straight_exit:
+        outside &= ~leave
     k = np.flatnonzero(outside & (lead ^ leave) & (along < np.cos(CUSP)) & np.where(lead, el.arc[a], el.arc[b]))
     if len(k):
         outside[k] = ~rolls_through(el, c[k], R[k], s[k], lead[k])

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from mnclab.geometry.vectors import cross, dot
-from mnclab.path.columns import Array, Mask, gathered
+from mnclab.path.columns import Array, Index, Mask, gathered
 from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.fit import check
@@ -54,8 +54,9 @@ def _check_leads(path: Toolpath, el: Elements, rules: Compensation) -> None:
     kind = path.kind[el.rows]
     bent = (kind != Kind.LINE) & ~(rules.rapid & (kind == Kind.RAPID))
     for bad, message, hint in (
-        (el.entry & bent, "radius compensation begins only in a straight line at feed",
+        (el.entry & bent & ~(rules.arc_entry & el.arc), "radius compensation begins only in a straight line at feed",
          "write the entry as a linear move, then the contour"),
+        (el.entry & el.arc & (el.s * el.sweep > 0) & (el.r <= el.R), "the tool is not smaller than the arc of the entry", ""),
         (el.exit & bent, "radius compensation ends only in a straight line at feed", ""),
         (el.change & (not rules.change), "the side of the compensation cannot change from one element to the next",
          "write a straight line without compensation between them"),
@@ -108,6 +109,11 @@ def _tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marke
     columns = path.all_but_ends()
     columns |= {"sweep": path.sweep.copy(), "rule": np.zeros(n, np.uint8), "gouge": np.zeros(n, bool)}
     columns["sweep"][rows], columns["rule"][rows], columns["gouge"][rows] = found.sweep, found.rule, marked
+    k = np.flatnonzero(el.entry & el.arc)
+    if len(k):
+        centre, columns["sweep"][rows[k]] = _entry_arcs(el, k, found.end[k])
+        columns["centre"] = columns["centre"].copy()
+        columns["centre"][rows[k]] = view.to_space(rows[k], _joined(centre, view.start[rows[k], 2]))
     labels = path.labels if CORNER in path.labels else (*path.labels, CORNER)
     k = np.flatnonzero(found.insert)
     if len(k):
@@ -139,6 +145,16 @@ def _tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marke
         ends = ends.take(source, axis=0, mode="clip")
         ends[inserted] = view.to_space(like, _joined(found.begin[k], w))
     return path.through(np.concatenate([path.start[:1], ends]), columns, CORNER)
+
+
+def _entry_arcs(el: Elements, k: Index, end: Array) -> tuple[Array, Array]:
+    """Centres (m, 2) and sweeps (m,) of the arcs from where entries k (m,) begin to their offset ends, which run into the
+    contour as the programmed ones do: about a point of the line from the end to the programmed centre, as far from both."""
+    chord, toward = el.start[k] - end, el.centre[k] - end
+    toward /= np.hypot(*toward.T)[:, None]
+    centre = end + toward * (dot(chord, chord) / (2 * dot(chord, toward)))[:, None]
+    a, b, sense = el.start[k] - centre, end - centre, np.sign(el.sweep[k])
+    return centre, sense * ((sense * np.arctan2(cross(a, b), dot(a, b))) % (2 * np.pi))
 
 
 def _joined(flat: Array, w: Array) -> Array:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import NamedTuple
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -26,8 +27,9 @@ class Compensation:
 
     `approach` "perpendicular": the entry ends, and the exit begins, square to the contour; "corner": outside, the
     first and last corners are built like any other (MNC tables 7.1 and 7.3). `rapid`: entry and exit may run at
-    rapid. `change`: the side may change on the way, by a straight line that leads over like an entry. `timing`:
-    the whole contour is looked at, else each element with its neighbours only (and always what a cusp leads back to). A joint
+    rapid. `change`: the side may change on the way, by a straight line that leads over like an entry. `arc_entry`: it
+    may begin with an arc, which becomes one about another centre that ends square to the contour. `straight_exit`: the exit
+    begins where the offset of the last element ends, whatever the corner. `look_ahead`: the whole contour is looked at, else each element with its neighbours only (and always what a cusp leads back to). A joint
     counts as tangent below `TANGENT`, 0.001 degrees; any greater turn is a corner and is built exactly.
     """
 
@@ -35,6 +37,13 @@ class Compensation:
     rapid: bool = False
     change: bool = False
     look_ahead: bool = False
+    arc_entry: bool = False
+    straight_exit: bool = False
+
+    def chosen(self, settings: Mapping[str, Any]) -> Compensation:
+        """These rules as the settings of a control have them."""
+        own = settings.get("compensation_leads") == "linuxcnc"
+        return replace(self, arc_entry=True, straight_exit=True) if own else self
 
 
 class Gouge(NamedTuple):

@@ -143,7 +143,8 @@ def _runs(run: Any, rules: Sequence[str] | None, radii: Sequence[float] | None) 
 
 
 def _panel(run: Any, title: str, view: str) -> Panel:
-    made = construct(run.programmed, run.control.compensation, not run.ok)
+    rules = run.control.compensation
+    made = construct(run.programmed, rules and rules.chosen(run.settings), not run.ok)
     view = choice(view, "view", ("auto", *VIEWS))
     if view == "auto":
         rows = np.flatnonzero(made.compensated)
