@@ -13,12 +13,13 @@ import logging
 import warnings
 from collections import Counter
 from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour
+from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.drawings import FARTHEST, MOST
 from mnclab.geometry.vectors import at_angle
 from mnclab.text.alarm import Alarm
@@ -35,6 +36,7 @@ WRITTEN = {
     "PDFUNDERLAY", "DWFUNDERLAY", "DGNUNDERLAY", "GEOPOSITIONMARKER", "ACAD_PROXY_ENTITY",
 }  # fmt: skip
 FRAME = 16  # flag of a vertex that only steers a fitted curve
+DEGREE = 15  # of a spline
 DEEPEST = 50  # blocks within blocks
 
 
@@ -164,18 +166,43 @@ def _contours(entity: Any, tolerance: float, farthest: float) -> Iterator[Contou
             side = 1.0 if entity.is_3d_polyline else _side(entity)
             yield Contour(rows[:, :2] * (side, 1.0), side * rows[:, 2], closed=bool(entity.is_closed))
     else:
-        if kind == "ELLIPSE":
-            reach = entity.dxf.major_axis.magnitude + entity.dxf.center.vec2.magnitude
-        else:
-            spots = [_flat(point) for point in (*entity.control_points, *entity.fit_points)]
-            reach = np.abs(spots).max() if spots else 0.0
-        if not reach <= farthest:
-            raise Alarm(f"{_named(entity)} reaches farther than {FARTHEST / 1000:g} m")
-        if np.sqrt(reach / tolerance) > MOST:
-            raise Alarm(f"{_named(entity)} would be more than {MOST} chords at this tolerance")
-        points = np.array([_flat(point) for point in entity.flattening(tolerance)])
+        points = _ellipse(entity, tolerance, farthest) if kind == "ELLIPSE" else _spline(entity, tolerance, farthest)
         closed = bool(np.hypot(*(points[-1] - points[0])) < 1e-9 * (1 + np.abs(points).max()))
         yield Contour(points[:-1] if closed else points, closed=closed)
+
+
+def _ellipse(entity: Any, tolerance: float, farthest: float) -> Floats:
+    """Chords (n, 2): over an angle d the curve rises by at most R d² / 8 above one, R its longer half axis."""
+    middle, long, short = (np.array(_flat(each)) for each in (entity.dxf.center, entity.dxf.major_axis, entity.minor_axis))
+    size = max(float(entity.dxf.major_axis.magnitude), float(entity.minor_axis.magnitude))
+    first, last = float(entity.dxf.start_param), float(entity.dxf.end_param)
+    if not np.abs(middle).max() + size <= farthest:
+        raise Alarm(f"{_named(entity)} reaches farther than {FARTHEST / 1000:g} m")
+    sweep = np.mod(last - first, 2 * np.pi) or 2 * np.pi
+    count = _count(entity, sweep * np.sqrt(size / (8 * tolerance)))
+    angle = (first + sweep * np.arange(count + 1) / count)[:, None]
+    return np.asarray(middle + np.cos(angle) * long + np.sin(angle) * short)
+
+
+def _spline(entity: Any, tolerance: float, farthest: float) -> Floats:
+    """Chords (n, 2), which ezdxf finds between knots that go up."""
+    knots, weights = np.array(entity.knots, dtype=float), np.array(entity.weights, dtype=float)
+    spots = np.array([tuple(point) for point in (*entity.control_points, *entity.fit_points)], dtype=float)
+    if not len(spots) or not np.abs(spots).max() <= farthest:
+        raise Alarm(f"{_named(entity)} " + (f"reaches farther than {FARTHEST / 1000:g} m" if len(spots) else "has no points"))
+    steps = np.diff(knots)
+    if len(knots) and not ((steps >= 0).all() and 1e-9 < steps.max(initial=0.0) < 1e9 and steps[steps > 0].min() > 1e-9):
+        raise Alarm(f"{_named(entity)} has knots that do not go up")
+    if not ((weights > 1e-6) & (weights < 1e6)).all() or not 1 <= entity.dxf.degree <= DEGREE:
+        raise Alarm(f"{_named(entity)} has weights or a degree that no curve has")
+    _count(entity, len(spots) * np.sqrt(np.ptp(spots, axis=0).max() / tolerance))
+    return np.array([_flat(point) for point in islice(entity.flattening(tolerance), MOST)])
+
+
+def _count(entity: Any, pieces: float) -> int:
+    if not pieces <= MOST:
+        raise Alarm(f"{_named(entity)} would be more than {MOST} chords at this tolerance", hint="a greater tolerance")
+    return max(2, int(np.ceil(pieces)))
 
 
 def _side(entity: Any) -> float:

@@ -63,7 +63,7 @@ def refuse_large(
 ) -> None:  # fmt: skip
     """An Alarm where a row would have a number too large for a program to write, or none at all."""
     for name, end, middle in zip("XYZ", tip, centre, strict=True):
-        if not -LARGEST < end < LARGEST:
+        if not -LARGEST < end < LARGEST and not (m.recorded_only and end != end):  # where it begins is not known yet
             _too_large(m, f"{name} of the tool in the machine", end, "mm")
         if not np.isnan(middle) and not -LARGEST < middle < LARGEST:
             _too_large(m, f"{name} of the centre of the arc in the machine", middle, "mm")

@@ -81,7 +81,7 @@ class Placed(State):
         """Give the programmed point exact values; the tip stays where it is."""
         x, y, z = map(float, point)
         for axis, value in zip("XYZ", (x, y, z)):
-            if not -LARGEST < value < LARGEST:
+            if abs(value) >= LARGEST:  # nan: not known yet, where a contour is recorded
                 message = f"{axis} of the tool must be smaller than {LARGEST:g} mm, and would be {value:.7g} in this frame"
                 raise Alarm(message)
         self.programmed = (x, y, z)

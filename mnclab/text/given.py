@@ -28,7 +28,7 @@ def check_number(
     endless: bool = False,
 ) -> None:  # fmt: skip
     """An Alarm unless `value` is a number within its limits; infinity is one where it is `endless`."""
-    if isinstance(value, bool) or not isinstance(value, Real):
+    if type(value) is not float and (isinstance(value, bool) or not isinstance(value, Real)):  # Real is asked slowly
         raise Alarm(f"{what} must be a number, got {shown(value)}")
     try:
         size = float(value)

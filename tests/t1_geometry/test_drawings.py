@@ -155,3 +155,24 @@ def test_a_dxf_file(tmp_path):
     for wrong in (None, 5, b"part.dxf"):
         with pytest.raises(Alarm, match="the path of a file"):
             dxf.contours(wrong)
+
+
+def test_a_contour_that_touches_the_one_about_it():
+    """An island in the corner of a pocket, 60 × 40 less 20 × 20: whichever point is where they touch."""
+    corner = rectangle(20, 20, centre=(20, 10))
+    for k in range(4):
+        island = Contour(np.roll(corner.points, k, axis=0))
+        assert area_of([rectangle(60, 40), island]).area == pytest.approx(2400 - 400)
+
+
+def test_what_is_drawn_twice_counts_once():
+    again = rectangle(60, 40).reversed()
+    with pytest.warns(UserWarning, match="1 contour drawn again"):
+        assert area_of([rectangle(60, 40), rectangle(10, 10), again]).area == pytest.approx(2300)
+
+
+def test_islands_in_islands():
+    """Squares of 10, 20, … 70 in each other: every other ring between them belongs to the area."""
+    squares = [rectangle(10 * k, 10 * k) for k in range(1, 8)]
+    found = area_of(squares[::2] + squares[1::2])
+    assert found.area == pytest.approx(sum((-1) ** (7 - k) * (10 * k) ** 2 for k in range(1, 8)))

@@ -46,7 +46,8 @@ def test_holes_step_by_step_stop_at_the_bound():
     [
         "L X+Q1\n", "L IX+Q1 R0 FMAX\n", "CC X+0 Y+0\nLP PR+Q1 PA+30\n", "CC X+Q1 Y+0\nC X+10 Y+0 DR+\n", "L C+Q1 FMAX\n",
         "CR X+10 Y+0 R+Q1 DR+\n", "CC X+10 Y+0\nCP IPA+Q1 IZ+5 DR+\n", "TRANS DATUM AXIS X+Q1\nL X+1\n", "L X+1 FQ1\n",
-        "L X+10 FZ Q1\n", "TOOL CALL 1 Z SQ1\n", "TOOL CALL 1 Z DL+Q1\n", "TOOL DEF 5 L+Q1 R+1\n", "L X+Q1 M91\n", "L M140 MB Q1\n",
+        "L X+10 FZ Q1\n", "TOOL CALL 1 Z SQ1\n", "TOOL CALL 1 Z DL+Q1\n", "TOOL DEF 5 L+Q1 R+1\n", "L X+Q1 M91\n",
+        "L M140 MB Q1\n",
         "CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+Q1\n", "FPOL X+0 Y+0\nFL X+10 Y+Q1\n", "APPR LT X+20 Y+20 LENQ1 RL\nL X+50\n",
         "Q2 = 1 / Q1 / Q1\nL X+1 FQ2\n",
     ],
@@ -81,7 +82,8 @@ def test_scales_that_pile_up(control):
 @pytest.mark.parametrize(
     "given",
     [
-        {"start": (80, 0, 1e308)}, {"datums": {1: (1e300, 0, 0)}}, {"presets": {1: (0, -1e10, 0)}}, {"correctors": {1: (0, 0, 1e200)}},
+        {"start": (80, 0, 1e308)}, {"datums": {1: (1e300, 0, 0)}}, {"presets": {1: (0, -1e10, 0)}},
+        {"correctors": {1: (0, 0, 1e200)}},
         {"stock": ((0, 0, 0), (1e12, 1, 1))}, {"fixtures": (((0, 0, 0), (1e300, 1, 1)),)},
     ],
 )  # fmt: skip
