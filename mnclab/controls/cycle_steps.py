@@ -37,6 +37,8 @@ from mnclab.machining.steps import (  # isort: skip
     Along, Blocks, Call, Each, Go, Record, Step, Swivel, Thread, Touch, Turn, Wait,
 )  # fmt: skip
 
+MOST = 5_000  # steps of a table
+FEWER = "take values that make fewer infeeds, passes or repeats; a program runs them all: mnclab.run(…)"
 NOWHERE = place_of(1, 1, 1)  # of a word that stands in no program
 
 
@@ -66,6 +68,8 @@ def steps(code: str, control: str, /, setup: Setup | None = None, **values: Any)
             return CycleSteps(cycle, given, start, rows, lathe=found.control.lathe, per_rev=machine.per_rev, part=part)
         except Alarm as alarm:
             faults.append(Alarm(alarm.message, hint=alarm.hint))  # without its place in a program
+            if len(rows) > MOST:
+                raise faults[-1] from None
     raise faults[0]
 
 
@@ -145,6 +149,8 @@ def define(m: Machine, cycle: type[Cycle], given: dict[str, Any]) -> Definition:
         store(m, definition)
     if cycle.runs == "position":
         m.position_cycle = definition
+    elif cycle.runs == "call":
+        m.cycle = definition
     return definition
 
 
@@ -172,6 +178,8 @@ def noting(m: Machine, cycle: type[Cycle], rows: list[Row]) -> Callable[[Iterabl
         if isinstance(step, Thread):
             words = figure(step.pitch, DECIMALS) + " mm/rev" * (not m.per_rev)
         rows.append(Row(step, m.programmed, words) if moved else Row(step))
+        if len(rows) > MOST:
+            raise Alarm(f"{cycle.code} has more than {MOST} steps with these values: nobody would read their table", hint=FEWER)
 
     def through(steps: Iterable[Step], about: Place) -> Generator[Step, Any, Any]:
         asking = steps if isinstance(steps, Generator) else (step for step in steps)

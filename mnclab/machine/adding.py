@@ -9,7 +9,7 @@ the speed on the way follows from.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,11 +18,13 @@ from mnclab.machine.coordinates import NORMALS, PLANES, normal
 from mnclab.path.cutting_speed import mean_turn, spindle_speed
 from mnclab.path.kinds import Kind
 from mnclab.path.recorder import NAN, State
+from mnclab.text.given import LARGEST
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 Point = tuple[float, float, float]
+LEAST_FEED = 1e-18  # mm/min: below, the time of a move is no number any more
 PARTS = 64  # of an arc, within each of which the radius is taken as changing evenly
 
 
@@ -43,6 +45,10 @@ def add_row(
             assert m.feed is not None
             feed = m.feed / mean_turn(m.surface, radii(m, kind, tip, centre, angle), m.speed_limit)
         m.change("speed", speed_at(m, tip))
+    x, y, z = tip
+    here = -LARGEST < x < LARGEST and -LARGEST < y < LARGEST and -LARGEST < z < LARGEST and -LARGEST < angle < LARGEST
+    if not here or LARGEST <= feed < math.inf or feed < LEAST_FEED or time >= LARGEST or kind == Kind.ARC:
+        refuse_large(m, tip, centre, angle, feed, time)
     state = row_state(m) if m.row_state is None else m.row_state
     if m.exact_here and not m.exact:
         state = recorder.state(recorder.states[state]._replace(exact=True))
@@ -52,9 +58,36 @@ def add_row(
     recorder.add((kind, m.source_line, m.step, label, *tip, *centre, angle, feed, time, number, state))
 
 
+def refuse_large(
+    m: Machine, tip: Point, centre: Point = (NAN, NAN, NAN), angle: float = 0.0, feed: float = NAN, time: float = NAN
+) -> None:  # fmt: skip
+    """An Alarm where a row would have a number too large for a program to write, or none at all."""
+    for name, end, middle in zip("XYZ", tip, centre, strict=True):
+        if not -LARGEST < end < LARGEST and not (m.recorded_only and end != end):  # where it begins is not known yet
+            _too_large(m, f"{name} of the tool in the machine", end, "mm")
+        if not np.isnan(middle) and not -LARGEST < middle < LARGEST:
+            _too_large(m, f"{name} of the centre of the arc in the machine", middle, "mm")
+    if not -LARGEST < angle < LARGEST:
+        _too_large(m, "the angle of the arc", math.degrees(angle), "degrees")
+    if LARGEST <= feed < math.inf or feed < LEAST_FEED:
+        _too_large(m, "the feed rate", feed, "mm/min")
+    if time >= LARGEST:
+        _too_large(m, "the time", time, "s")
+
+
+def _too_large(m: Machine, what: str, found: float, unit: str) -> NoReturn:
+    allowed = f"at least {LEAST_FEED:g}" if 0 <= found < LEAST_FEED else f"smaller than {LARGEST:g}"
+    m.alarm(f"{what} must be {allowed} {unit}, and would be {found:.7g}")
+
+
 def row_state(m: Machine) -> int:
     """The state that rows made now share."""
     if m.row_state is None:
+        for name, angle in zip("ABC", m.rotary, strict=True):
+            if not -LARGEST < angle < LARGEST:
+                _too_large(m, f"the angle of {name}", math.degrees(angle), "degrees")
+        if not abs(m.spindle_speed) < LARGEST:
+            _too_large(m, "the spindle speed", abs(m.spindle_speed), "rev/min")
         axis = NORMALS[m.plane] if m.shift is not None else normal(m.matrix, *PLANES[m.plane][:2])
         per_rev = m.feed if m.per_rev and m.feed is not None else NAN
         cutting = {}

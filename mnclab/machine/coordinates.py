@@ -16,6 +16,8 @@ from mnclab.geometry import frames
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.setup import Datum
 from mnclab.machine.state import Place, State
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import LARGEST
 
 PLANES = {"XY": (0, 1, 2), "ZX": (2, 0, 1), "YZ": (1, 2, 0), "XZ": (0, 2, 1)}  # first axis, second axis, normal
 
@@ -77,8 +79,12 @@ class Placed(State):
 
     def set_register(self, point: Iterable[float]) -> None:
         """Give the programmed point exact values; the tip stays where it is."""
-        x, y, z = point
-        self.programmed = (float(x), float(y), float(z))
+        x, y, z = map(float, point)
+        for axis, value in zip("XYZ", (x, y, z)):
+            if abs(value) >= LARGEST:  # nan: not known yet, where a contour is recorded
+                message = f"{axis} of the tool must be smaller than {LARGEST:g} mm, and would be {value:.7g} in this frame"
+                raise Alarm(message)
+        self.programmed = (x, y, z)
         self.log("position", self.programmed)
 
     def target(self, x: float | None, y: float | None, z: float | None) -> Place:

@@ -193,7 +193,7 @@ class Cycle:
         return None
 
 
-MOST_PASSES = 20_000  # of one cycle, all its levels together
+MOST_PASSES = 5_000  # of one cycle, all its levels together
 AnyCycle = TypeVar("AnyCycle", bound=type[Cycle])
 
 

@@ -25,6 +25,7 @@ from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import WARNING, Alarm, Span
 from mnclab.text.expression import Expression
+from mnclab.text.given import LARGEST
 from mnclab.text.program import Word
 from mnclab.text.strings import NumberFromText
 
@@ -80,10 +81,13 @@ class Machine(Placed):
         try:
             if isinstance(value, Expression) and len(value.tokens) > LONG:
                 self.flow.spend(len(value.tokens) // LONG)
-            return value.evaluate(self.variables)
+            found = value.evaluate(self.variables)
         except Alarm as alarm:
             alarm.span = alarm.span and alarm.span._replace(program=self.program)
             raise
+        if not -LARGEST < found < LARGEST and word.address.isupper():  # of an address, no value of a parameter
+            self.alarm(f"{word.address} must be smaller than {LARGEST:g}, got {found:.7g}", word)
+        return found
 
     def length(self, word: Word) -> float:
         """The number of a word that is a length or a feed, mm: of a control that says in its program what it counts in."""

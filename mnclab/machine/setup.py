@@ -19,7 +19,7 @@ from mnclab.path.machine_file import limits_of
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.calls import fitting_class
-from mnclab.text.given import check_number, check_point, shown
+from mnclab.text.given import LARGEST, check_number, check_point, shown
 from mnclab.text.records import written
 from mnclab.text.tables import html_table
 from mnclab.workpiece.blank import Box, Revolved, Sized, blank
@@ -53,7 +53,7 @@ class Datum(_Datum):
     def __new__(cls, *values: float, **named: float) -> Datum:
         found = super().__new__(cls, *values, **named)
         for name, value in zip(cls._fields, found):
-            check_number(value, f"{name} of a datum")
+            check_number(value, f"{name} of a datum", at_least=-LARGEST, at_most=LARGEST)
         return found
 
     def __str__(self) -> str:
@@ -109,6 +109,12 @@ def _datum(what: str, given: Any) -> None:
     few = isinstance(given, tuple | list) and len(given) <= len(Datum._fields)
     _must(few, what, "a Datum or its numbers", given)
     Datum(*given)
+
+
+def _start(what: str, given: Any) -> None:
+    check_point(given, what)
+    for value in given:
+        check_number(value, f"a coordinate of {what}", at_least=-LARGEST, at_most=LARGEST)
 
 
 def _variable(what: str, given: Any) -> None:
@@ -169,7 +175,7 @@ MEANT: Mapping[str, tuple[Check, str]] = {
                "a plate or a beam that measures tools: Setup(setter=mnclab.Setter(x=300, y=200, z=-400, diameter=40))"),
     "limits": (_a(Limits, "a Limits, or the name of a machine"),
                'what the axes can do: Setup(limits="small-mill") or Setup(limits=mnclab.Limits(rapid=10000, acceleration=1000))'),
-    "start": (lambda what, given: check_point(given, what),
+    "start": (_start,
               "where the spindle stands before the program, machine coordinates, mm: Setup(start=(0, 0, 300))"),
     "files": (_names(_a(str | Path, "a text or a Path")),
               "other programs and tables by name, each a text or a path: "

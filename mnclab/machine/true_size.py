@@ -107,6 +107,7 @@ def with_the_spindle(m: Machine, steps: Iterable[Step], frame: Matrix = IDENTITY
     for step in steps:
         if isinstance(step, Go) and step.x is not None and step.y is not None and (step.x or step.y):
             way = np.linalg.solve(whole, frame[:3, :2] @ (step.x, step.y))[:2]
+            way /= np.abs(way).max()  # whose square is no number where it is very short
             x, y = (way * (math.hypot(step.x, step.y) / np.linalg.norm(whole[:, :2] @ way))).tolist()
             step = step._replace(x=x, y=y)
         yield step

@@ -20,10 +20,11 @@ from numpy.typing import NDArray
 
 from mnclab.geometry import frames
 from mnclab.geometry.arcs import centre_from_radius, sweep
-from mnclab.machine.adding import row_state
+from mnclab.machine.adding import LEAST_FEED, row_state
 from mnclab.machine.coordinates import PLANES
 from mnclab.path.kinds import Kind
 from mnclab.running.repeating import repeat_hole
+from mnclab.text import given
 from mnclab.text.program import Program
 
 if TYPE_CHECKING:
@@ -213,7 +214,10 @@ class Bulk:
 
         fault |= moves & (motion != 0) & np.isnan(feed)  # without a feed
         if "F" in words:
-            fault |= words["F"] <= 0
+            fault |= (words["F"] < LEAST_FEED) | (words["F"] >= given.LARGEST)
+        for places in (points, tips)[: 1 if points is tips else 2]:
+            if not (places.max() < given.LARGEST and places.min() > -given.LARGEST):
+                fault |= ~(np.abs(places[1:]) < given.LARGEST).all(axis=1)
         run = _Run(points, tips, motion, feed, moves, fault, arc)
         if arc.any():
             self.arcs(run, words)
@@ -253,7 +257,7 @@ class Bulk:
         c = s + np.nan_to_num(to_centre[:, [first, second]])
         at_start, at_end = np.hypot(*(s - c).T), np.hypot(*(e - c).T)
         along = to_centre[:, normal]
-        fault = (at_start < 1e-9) | (np.abs(at_start - at_end) > tolerance)
+        fault = (np.abs(c) >= given.LARGEST).any(axis=1) | (at_start < 1e-9) | (np.abs(at_start - at_end) > tolerance)
         fault |= ~(np.isnan(along) | (along == 0) & rule.zero_along)
         if (by := np.flatnonzero(~np.isnan(radii))).size:
             radius, chord = radii[by], np.hypot(*(e - s)[by].T)

@@ -27,6 +27,7 @@ from mnclab.machine.touching import FEELS, PROBES, Contact, Felt, ball_from_axis
 from mnclab.machine.true_size import MILLS
 from mnclab.machining.depths import TooMany
 from mnclab.running.binding import as_it_stands, bind, fault
+from mnclab.running.flow import course
 from mnclab.running.repeating import at_each
 
 from mnclab.machining.steps import (  # isort: skip
@@ -35,6 +36,7 @@ from mnclab.machining.steps import (  # isort: skip
 )  # fmt: skip
 
 AXES = ("X", "Y", "Z")
+AGAIN = 8  # blocks of the limit that a cycle counts as in a loop
 Place = tuple[float, float]
 Through = Callable[[Iterable[Step], Place], Iterable[Step]]
 
@@ -50,6 +52,9 @@ def run_cycle(m: Machine, definition: Definition, through: Through | None = None
 
 
 def _run(m: Machine, definition: Definition, through: Through | None, instead: Mapping[str, float]) -> None:
+    flow = course(m)
+    if flow.begun > sum(map(len, flow.programs)):  # it is called again and again
+        flow.spend(AGAIN)
     definition = as_it_stands(m, definition)
     elsewhere = definition.cycle.does == MILLS and m.plane != "XY"  # than where m.radius and m.scale count
     try:

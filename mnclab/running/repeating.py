@@ -19,11 +19,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import frames
+from mnclab.machine.adding import refuse_large
 from mnclab.machine.snapshot import Snapshot
 from mnclab.machine.state import COMPARED, HOLES, PATTERN
 from mnclab.path.kinds import Kind
 from mnclab.path.recorder import PLACES, ROW
 from mnclab.running.flow import Course, course
+from mnclab.text.given import LARGEST
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -197,6 +199,7 @@ def _places(bulk: Bulk, first: int, end: int) -> tuple[Array, NDArray[np.bool_]]
         else:
             places[:, k] = np.cumsum(np.concatenate([[start], np.nan_to_num(column)]))
         alike |= places[1:, k] != places[:-1, k]
+    alike &= (np.abs(places[1:]) < LARGEST).all(axis=1)
     for column in words.values():
         alike &= (column == column[0]) | (np.isnan(column) & np.isnan(column[0]))
     return places[1:], alike
@@ -217,6 +220,8 @@ def _moved(
     room = m.recorder.room(n * r)[1:]
     ends = room.reshape(n, r, 3)
     np.add(base, model.ends, out=ends)
+    if not (room.max() < LARGEST and room.min() > -LARGEST):
+        refuse_large(m, room[np.argmax((np.abs(room) >= LARGEST).any(axis=1))].tolist())
     if m.shift is not None:
         ends[:, :, 2] = column["end_z"]  # exactly the levels of the first hole
     columns: dict[str, NDArray[Any]] = {

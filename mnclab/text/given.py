@@ -12,6 +12,8 @@ from typing import Any
 from mnclab.text.alarm import Alarm
 from mnclab.text.nearest import hint
 
+#: No coordinate, feed, speed or other number is as large, whether it is written or worked out.
+LARGEST = 1e9
 _QUOTED = Repr()
 _QUOTED.maxstring = _QUOTED.maxother = 60
 
@@ -26,7 +28,7 @@ def check_number(
     endless: bool = False,
 ) -> None:  # fmt: skip
     """An Alarm unless `value` is a number within its limits; infinity is one where it is `endless`."""
-    if isinstance(value, bool) or not isinstance(value, Real):
+    if type(value) is not float and (isinstance(value, bool) or not isinstance(value, Real)):  # Real is asked slowly
         raise Alarm(f"{what} must be a number, got {shown(value)}")
     try:
         size = float(value)

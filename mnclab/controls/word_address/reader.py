@@ -14,13 +14,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.text.given import LARGEST
 from mnclab.text.nearest import DIGITS, LATIN
 from mnclab.text.program import Program
 from mnclab.text.program_builder import MOST_WORDS, BulkBlocks, ProgramBuilder, first_words
 from mnclab.text.words import Scan, scan
 
 PIECE = 1 << 16
-LARGEST = 1e9  # no coordinate, feed or number of a program is as large
 LONGEST_NAME = 24  # letters of a word that is none
 PLAIN_LETTERS = "GXYZIJKRF"
 Labels = list[tuple[int, int]]  # offset and number of the N words

@@ -50,9 +50,9 @@ def helices(depth: float, pitch: float, bottom: float, upwards: bool, a_step: in
     >>> helices(20, 1.5, 10, True, 4)
     [(10.0, 11.5), (16.0, 17.5), (22.0, 23.5), (28.0, 29.5)]
     """
-    count = max(1, math.ceil((depth - DRIFT) / (max(a_step, 1) * pitch))) if a_step else 1
-    if count > MOST:
+    if a_step and depth > MOST * max(a_step, 1) * pitch:
         raise TooMany(f"{pitch:g} divides {depth:g} into more than {MOST} turns")
+    count = max(1, math.ceil((depth - DRIFT) / (max(a_step, 1) * pitch))) if a_step else 1
     lowest = [bottom + k * a_step * pitch for k in range(count)] if a_step > 1 else [bottom]
     length = pitch * (count if a_step == 1 else 1)
     found = [(float(low), low + length) for low in lowest]

@@ -100,6 +100,9 @@ class Beside(NamedTuple):
     place: tuple[float, float] = (0.0, 0.0)
 
 
+WIDEST = 1000.0  # mm, of a radius for which rooms are looked for; circles so large have very many chords
+
+
 class Crossed(PathFault):
     """A contour that crosses itself has no way beside it."""
 
@@ -127,7 +130,7 @@ def beside(
     except Crossed:
         raise
     except PathFault as fault:
-        if np.ptp(level) > SAME:
+        if np.ptp(level) > SAME or size > WIDEST:
             raise
         ways = (_rooms if contour.closed else _room)(contour, size, outwards, fault)
         thickness, (x, y) = _left(contour, size, ways)
@@ -137,25 +140,26 @@ def beside(
 def cuts_into(contour: Contour, way: Way, distance: float) -> tuple[float, float] | None:
     """The place (x, y) of a way that lies nearest to a contour, if the tool centre comes nearer there than `distance`."""
     chords = way.contour.points_within(CUTS)
-    count = np.maximum(1, np.ceil(length_of(np.diff(chords, axis=0)) / max(distance / 8, CUTS))).astype(int)
-    first = np.repeat(np.cumsum(count) - count, count)
-    share = (np.arange(count.sum()) - first) / np.repeat(count, count)
-    spots = np.repeat(chords[:-1], count, axis=0) + share[:, None] * np.repeat(np.diff(chords, axis=0), count, axis=0)
-    spots = np.vstack([spots, chords[-1:]])
-    room = away([contour], spots)
+    pieces = shapely.linestrings(np.stack([chords[:-1], chords[1:]], axis=1))
+    nearest, room = _nearest([contour], pieces)
     k = int(room.argmin())
-    x, y = spots[k].tolist()
-    return (x, y) if room[k] < distance - 3 * CUTS else None
+    if room[k] >= distance - 3 * CUTS:
+        return None
+    x, y = shapely.get_coordinates(shapely.shortest_line(pieces[k], nearest[k]))[0].tolist()
+    return x, y
 
 
 def away(contours: Sequence[Contour], spots: Floats) -> Floats:
     """How far spots (k, 2) are from the nearest of some contours, but for `CUTS`, `(k,)`; of many elements fast."""
-    chords = [contour.points_within(CUTS) for contour in contours]
-    pieces = np.concatenate([np.stack([line[:-1], line[1:]], axis=1) for line in chords])
-    found = shapely.STRtree(shapely.linestrings(pieces)).query_nearest(
-        shapely.points(spots), return_distance=True, all_matches=False
-    )
-    return np.asarray(found[1])
+    return _nearest(contours, shapely.points(spots))[1]
+
+
+def _nearest(contours: Sequence[Contour], shapes: NDArray[np.object_]) -> tuple[NDArray[np.object_], Floats]:
+    """The chord of some contours nearest to each of k shapes, and how far away it is, each `(k,)`."""
+    lines = [contour.points_within(CUTS) for contour in contours]
+    chords = shapely.linestrings(np.concatenate([np.stack([line[:-1], line[1:]], axis=1) for line in lines]))
+    (_, found), room = shapely.STRtree(chords).query_nearest(shapes, return_distance=True, all_matches=False)
+    return chords[found], np.asarray(room)
 
 
 def _opened(contour: Contour, heights: Floats) -> Way:
@@ -252,7 +256,7 @@ def _room(contour: Contour, distance: float, side: int, fault: PathFault) -> lis
         np.vstack([contour.points, back.points[1:-1]]), np.concatenate([contour.bulge[:-1], back.bulge[:-1]])
     )
     discs = (Contour.circle(point, distance) for point in (contour.points[0], contour.points[-1]))
-    near = Region.of(*bands_beside(there, distance), *discs)
+    near = Region.union_of(*bands_beside(there, distance), *discs)
     loop = next((loop for loop in near.loops if loop.distance([first, last]).max() < 1e-4), None)
     if loop is None:
         raise fault

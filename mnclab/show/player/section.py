@@ -108,9 +108,9 @@ def _turns(body: Any) -> bool:
 def inserts(pack: Packer, run: Any) -> dict[str, Any]:
     """The insert and the holder of each row about its tip, as long as those of the figures of the run."""
     path, (table, numbers) = run.toolpath, run.tools_that_cut
-    ends = [path.bounds] if len(path) else []
+    ends = [path.bounds] if len(path.motion) else []
     ends += [run.stock.bounds] if run.stock else []
-    size = LONG * float(np.ptp(np.concatenate(ends), axis=0).max()) if ends else 1.0
+    size = (LONG * float(np.ptp(np.concatenate(ends), axis=0).max()) if ends else 0.0) or 1.0
     known = np.unique(numbers).tolist()
     shapes = [_shape(table.get(number, Tool()), lead_of(path, numbers == number)) for number in known]
     tools = [

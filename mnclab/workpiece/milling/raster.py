@@ -20,7 +20,7 @@ TILE, SMALL = 32, 8  # cells of a tile's side, and of one where the moves go in 
 AT_ONCE = 1 << 17  # points times moves that are looked at together
 FEW, PAIRS = 64, 1 << 14  # points, and points times moves, beyond which points are looked at quarter by quarter
 NOISE = 1e-9  # mm: less than this is rounding, and nothing taken away
-CELLS = 25_000_000  # at most
+CELLS, ROW = 25_000_000, 25_000  # at most
 
 
 @dataclass(frozen=True)
@@ -42,6 +42,9 @@ class Raster:
             found = f"{step:g} mm makes {wanted[0] * wanted[1]:.3g} over {x1 - x0:g} × {y1 - y0:g} mm"
             hint = f"step={2 * least:.2g} is possible"
             raise Alarm(f"a workpiece has at most {CELLS:,} cells, and a step of {found}", hint=hint)
+        if max(wanted) > ROW:
+            found = f"{max(wanted):.3g} cells of {step:g} mm in a row over {x1 - x0:g} × {y1 - y0:g} mm"
+            raise Alarm(f"a workpiece has at most {ROW:,} cells in a row, and would have {found}", hint="take a wider blank")
         count = [int(number) for number in wanted]
         return cls((x0, y0), step, (count[0], count[1]))
 

@@ -1,4 +1,4 @@
-; 25:1 alarm: CYCL DEF 275 Q436 (infeed per revolution) makes 400 levels of 301 passes, more than 20000 together
+; 25:1 alarm: CYCL DEF 275 Q436 (infeed per revolution) makes 400 levels of 301 passes, more than 5000 together
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
 2 L Z+50 R0 FMAX M3

@@ -80,7 +80,7 @@ REFUSED = [
     (254, 1, "Q375=12", "Q375", "must be greater than the slot width Q219, 12, got 12"),
     (254, 1, "Q377=0", "Q377", "must be a whole number and at least 1 and at most 99999, got 0"),
     (254, 1, "Q377=1.5", "Q377", "must be a whole number and at least 1 and at most 99999, got 1.5"),
-    (254, 1, "Q377=99999", "Q202", "makes 4 levels of 199998 passes, more than 20000 together"),
+    (254, 1, "Q377=99999", "Q202", "makes 4 levels of 199998 passes, more than 5000 together"),
 ]  # fmt: skip
 
 

@@ -239,8 +239,9 @@ AnyStud: TypeAlias = RectangularStud | CircularStud | PolygonStud
 
 def check_passes(c: AnyStud, m: Machine) -> Iterator[Fault]:
     """A number of passes that somebody would wait for."""
-    yield from too_many("overlap", lambda: c.clearing(m.radius, c.side_allowance, True))
-    passes = c.clearing(m.radius, c.side_allowance, True).passes
+    made: list[Clearing] = []
+    yield from too_many("overlap", lambda: made.append(c.clearing(m.radius, c.side_allowance, True)))
+    passes = made[0].passes
     yield from few_passes("infeed", len(milling.levels(c, m)), sum(len(contour.starts) for contour in passes) // 4)
 
 

@@ -24,6 +24,7 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.touching import Contact, ball_from_axis, deflected, unfit
 from mnclab.machining.probing.sequences import Steps, results
 from mnclab.machining.steps import Touch
+from mnclab.text.given import shown
 
 LAST = 1999  # number of a Q parameter
 FASTEST = 3000  # mm/min
@@ -52,6 +53,12 @@ def in_plane_of(letter: str, degrees: float) -> Vector:
     found, k = np.zeros(3), "XYZ".index(letter)
     found[k], found[(k + 1) % 3] = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     return found
+
+
+def one_of(name: str, given: str, allowed: tuple[str, ...]) -> Iterator[Fault]:
+    """A fault of a text that names nothing; a program that says it is refused where it is read."""
+    if given not in allowed:
+        yield name, f"must be one of {', '.join(allowed)}, got {shown(given)}"
 
 
 def south_pole(m: Machine) -> Vector:
@@ -106,7 +113,11 @@ class ReferencePlane(ProbingCycle):
     result_parameter: float = result(meaning="Q parameter of the result")
     probing: str = param("axis", "probing axis and direction", "choice", type="text", example="X+")
 
-    contradictions, check = kept, placed
+    check = placed
+
+    def contradictions(self) -> Iterator[Fault]:
+        yield from kept(self)
+        yield from one_of("probing", self.probing, tuple(letter + sign for letter in "XYZ" for sign in "+-"))
 
     def moves(self, m: Machine) -> Moves:
         sense, k, ball = float(f"{self.probing[1]}1"), "XYZ".index(self.probing[0]), m.radius
@@ -121,6 +132,9 @@ class PolarPreset(ProbingCycle):
     """A touch at an angle to an axis: where the ball stood, in Q115 to Q119."""
 
     check = placed
+
+    def contradictions(self) -> Iterator[Fault]:
+        yield from one_of("axis", self.axis, tuple("XYZ"))
 
     def moves(self, m: Machine) -> Moves:
         contact = yield from from_place(self, m, in_plane_of(self.axis, self.angle))
@@ -165,7 +179,11 @@ class MeasuringInPlane(ProbingCycle):
 
     error_mode: float = choice("ERRORMODE", "where the stylus is deflected at the start", SILENT, modal=False, example=0)
 
-    contradictions, check = impossible, unscaled
+    check = unscaled
+
+    def contradictions(self) -> Iterator[Fault]:
+        yield from impossible(self)
+        yield from one_of("axis", self.axis, tuple("XYZ"))
 
     def moves(self, m: Machine) -> Moves:
         way = in_plane_of(self.axis, self.angle)

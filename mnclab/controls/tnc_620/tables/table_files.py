@@ -15,9 +15,10 @@ import re
 from collections.abc import Callable, Iterator
 from typing import TypeVar
 
-from mnclab.controls.tnc_620.reading.words import INCH, LARGEST
+from mnclab.controls.tnc_620.reading.words import INCH
 from mnclab.machine.machine import Machine
 from mnclab.running.files import found
+from mnclab.text.given import LARGEST
 from mnclab.text.program import Word
 
 UNITS = {"MM": 1.0, "INCH": INCH}
