@@ -14,9 +14,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 SAMPLE = [
-    "tests/t1_geometry/test_regions.py", "tests/t1_geometry/test_dxf_blocks.py", "tests/t2_path/test_profile.py",
-    "tests/t3_workpiece/test_part_mesh.py", "tests/t3_workpiece/test_collisions_lathe.py", "tests/t4_comparison/test_compare.py",
-    "tests/t6_show/test_plot_regions.py", "tests/t6_show/test_plot_strategy.py", "tests/t6_show/test_export_read_back.py",
+    "tests/t1_geometry/test_dxf_blocks.py", "tests/t3_workpiece/test_part_mesh.py",
+    "tests/t3_workpiece/test_collisions_lathe.py", "tests/t6_show/test_plot_regions.py",
+    "tests/t6_show/test_plot_strategy.py", "tests/t6_show/test_export_read_back.py",
 ]  # fmt: skip
 INSTALLED_ALONE = "jupyterlab"  # no module of it is imported: it finds the extension by itself
 

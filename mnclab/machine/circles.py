@@ -40,7 +40,7 @@ def centre_by_radius(
     if shortage > tolerance:
         chord, address = 2 * (shortage + abs(radius)), word.address if word else "R"
         between = f"the distance {chord:.7g} mm between start and end: at least {chord / 2:.7g} is needed"
-        m.alarm(f"{address}{abs(radius):g} is too small for {between}", word, f"too short by {shortage:.4g} mm")
+        m.alarm(f"{address}{abs(radius) / m.variable_unit:g} is too small for {between}", word, f"too short by {shortage:.4g} mm")
     return c
 
 

@@ -67,7 +67,8 @@ def stop_at_travel(m: Machine) -> None:
     m.cut = int(path.step[found.row])
     m.settled = [path[path.step < m.cut]]
     axis, (low, high) = "XYZ"[found.axis], travel[found.axis].tolist()
-    place = f"{axis}{found.position:.3f} in machine coordinates, and goes from {low:g} to {high:g}"
+    mm = " mm" if m.variable_unit != 1 else ""
+    place = f"{axis}{found.position:.3f} in machine coordinates, and goes from {low:g} to {high:g}{mm}"
     hint = "Limits(travel=…) says how far the axes go, and counts the spindle reference, not the tip of the tool"
     message = f"{axis} leaves the travel of the machine: the spindle would be at {place}"
     alarm = Alarm(message, m.flow.span_of_step(m.cut), hint=hint)

@@ -6,6 +6,7 @@ a frozen cycle when it runs.
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -16,6 +17,8 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.expression import Expression
 from mnclab.text.program import GROUP_MARK, INCREMENTAL, RAPID_MARK, Word
 from mnclab.text.strings import TextFormula
+
+LOOSE = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?![\w.]*[A-Za-z])")  # a number that is no part of a name
 
 
 def assign(
@@ -118,6 +121,7 @@ def bind(definition: Definition, m: Machine) -> Cycle:
     refuse_frame(definition, m)
     for name, sentence in bound.check(m):
         sentence += true_size.remark(m) if "the tool" in sentence else ""
+        sentence = with_unit(definition, named(definition, name), sentence)
         if not name and definition.cycle.runs == "call":
             m.alarm(f"{definition.code} {sentence}")
         raise fault(definition, named(definition, name), sentence)
@@ -130,6 +134,15 @@ def refuse_frame(definition: Definition, m: Machine) -> None:
         if definition.cycle.runs == "call":
             m.alarm(f"{definition.code} {sentence}")
         raise fault(definition, None, sentence)
+
+
+def with_unit(definition: Definition, parameter: Parameter | None, sentence: str) -> str:
+    """What a cycle says of its values: it knows them in mm, so in a program in inches it names that, and what was written."""
+    if definition.units[0] == 1 or not LOOSE.search(sentence):
+        return sentence
+    value = definition.values.get(parameter.name) if parameter and parameter.in_units else None
+    said = f", the program says {definition.typed(parameter, value):.10g}" if parameter and type(value) is float else ""
+    return f"{sentence} (lengths in mm{said})"
 
 
 def instance(definition: Definition) -> Cycle:
@@ -146,7 +159,8 @@ def instance(definition: Definition) -> Cycle:
         values[parameter.name] = value
     made = cycle(**values)
     for name, sentence in made.contradictions():
-        raise fault(definition, named(definition, name), sentence)
+        of = named(definition, name)
+        raise fault(definition, of, with_unit(definition, of, sentence))
     return made
 
 

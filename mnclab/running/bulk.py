@@ -51,7 +51,7 @@ class PlainWords:
     coordinate need no word of their own now, and hears how many more were made. `letters` are the addresses that the
     control has; `straight_arcs` says whether an arc without R and centre is a straight line without a word,
     `whole_circles`: one without coordinates is a circle; where they are not, that is a fault. `zero_along`: a centre may be
-    0 along the axis of the arc. `unit` is what its lengths and feeds are multiplied with.
+    0 along the axis of the arc. `unit` is what its lengths and feeds are multiplied with, `feed` what feeds are besides.
     """
 
     motions: Mapping[float | None, tuple[str, int]]
@@ -65,6 +65,7 @@ class PlainWords:
     straight_arcs: Callable[[Machine], bool] = lambda m: False
     whole_circles: bool = True
     unit: Callable[[Machine], float] = lambda m: 1.0
+    feed: Callable[[Machine], float] = lambda m: 1.0
 
 
 @dataclass
@@ -164,6 +165,8 @@ class Bulk:
                     block = np.repeat(np.arange(n), np.diff(program.first[first : end + 1]))
                 found[name] = np.full(n, np.nan)
                 found[name][block[words]] = value[words]
+        if "F" in found and self.rule and (feed := self.rule.feed(self.machine)) != 1:
+            found["F"] *= feed
         return found
 
     def work_out(self, first: int, end: int) -> _Run:

@@ -13,7 +13,7 @@ from itertools import product
 from typing import Any
 
 from mnclab.machine.control import Function, Modal, Words
-from mnclab.machine.cycle import Cycle, Definition
+from mnclab.machine.cycle import Cycle, Definition, Parameter
 from mnclab.machine.machine import Machine
 from mnclab.running.binding import check_value, fault, value_of
 from mnclab.running.flow import Course
@@ -26,7 +26,6 @@ from mnclab.text.expression import Expression
 from mnclab.text.program import Word
 
 MOST = 5000  # blocks that are judged
-INCH = 25.4
 #: Functions that judge their numbers whatever the machine does; arcs only do so where nothing gives them a shape.
 ALWAYS, TOOLS, ARCS, SHAPES = ("F", "S", "G4"), ("T", "TOOL CALL"), ("G2", "G3", "CR"), frozenset("IJKR")
 WRITE_TOOLS = ("TOOL DEF", "G10", "FN 17")
@@ -40,6 +39,7 @@ class Ahead:
     def __init__(self, stopped: Interpreter) -> None:
         self.control, self.program, self.skips = stopped.control, stopped.flow.programs[0], stopped.skips
         self.faulty, self.good = stopped.loaded[0].faulty, dict[Any, Plan]()
+        self.in_inches = stopped.machine.variable_unit != 1
         self.states = list(self._states(stopped))
         self.sections, self.stop = self._sections(stopped.flow)
         self.scratch = Machine(self.control, stopped.machine.setup, Course(self.program))
@@ -194,14 +194,19 @@ class Ahead:
             value = values.get(parameter.name)
             try:
                 if value is not None and prepared.get(parameter.name) == value:  # no level that counts from another
-                    if not parameter.in_units or parameter.refuses(value * INCH):
-                        check_value(definition, parameter, value)
+                    check_value(definition, parameter, value / self.read_as(parameter))
                 kept = parameter.name in given or parameter.name in prepared or parameter.instead or cycle.runs == "position"
                 if parameter.required and not kept and not cycle.shares:
                     raise fault(definition, parameter, "is missing")
             except Alarm as alarm:
                 yield alarm
                 return
+
+    def read_as(self, parameter: Parameter) -> float:
+        """What the reader has made of 1: where cycles live in variables it turns lengths that are none into mm."""
+        in_words = self.control.storage == "variables" and not parameter.is_variable
+        lengths = parameter.in_units and parameter.unit != "mm/min"
+        return 25.4 if in_words and lengths and self.in_inches else 1.0
 
     def of_label(self, keyword: str, words: list[Word]) -> Iterator[Alarm]:
         """A label that is called and does not exist; not where a fault may hide it."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NoReturn
 
@@ -80,9 +80,13 @@ class Expression:
         return self.scale * values[0]
 
 
-def parse(text: str, span: Span) -> Expression:
-    """Read an expression that starts at `span`; an Alarm at the first character that is no part of one."""
-    tokens = split(text, _TOKEN, KINDS, span, "an expression", lambda part: part.upper().replace(",", "."))
+def parse(text: str, span: Span, further: Sequence[tuple[str, Span]] = ()) -> Expression:
+    """Read an expression that starts at `span`, and goes on in `further` lines with their places; an Alarm at the first
+    character that is no part of one."""
+    tokens: list[Token] = []
+    for part, place in ((text, span), *further):
+        tokens += split(part, _TOKEN, KINDS, place, "an expression", lambda part: part.upper().replace(",", "."))
+    text = " ".join((text.strip(), *(part.strip() for part, _ in further)))
     reader = _Reader(tokens)
     reader.climb()
     if reader.at < len(tokens):

@@ -89,3 +89,45 @@ def test_measures():
     assert found.share_above(np.radians(100)) == pytest.approx(80 / 120, abs=0.02)
     with pytest.raises(ValueError, match="radius"):
         engagement([line(0)], 0.0)
+
+
+# --- the greatest value ------------------------------------------------------------------------------------------------
+
+STATED = 0.3  # degrees: the accuracy that the module states
+
+
+def ring(a, b, first=0, turned=0.0, parts=1):
+    """A rectangle 2a x 2b counter-clockwise from its `first` corner on, each side in `parts`, turned about its middle."""
+    corners = np.roll(np.array([(-a, -b), (a, -b), (a, b), (-a, b)], dtype=float), -first, axis=0)
+    share = np.arange(parts)[:, None] / parts
+    points = np.vstack([p + share * (q - p) for p, q in zip(corners, np.roll(corners, -1, axis=0))])
+    c, s = np.cos(turned), np.sin(turned)
+    return Contour(points @ np.array([[c, s], [-s, c]]), closed=True)
+
+
+def most(a, b, stepover, **how):
+    """The greatest angle on a ring about another that is smaller by `stepover`, and begins elsewhere."""
+    rings = [ring(a - stepover, b - stepover, 2, how.get("turned", 0.0)), ring(a, b, **how)]
+    found = engagement(rings, R)
+    return np.degrees(found.chosen(found.move == 1).most())
+
+
+@pytest.mark.parametrize("stepover", [0.5, 1, 2.5, 4])
+def test_the_greatest_angle_of_a_ring_stands_in_its_corner(stepover):
+    """Coming into the corner the tool has all of its outer quarter in the material and, on the inside, arccos(1 - ae/R)."""
+    expected = 90 + np.degrees(np.arccos(1 - stepover / R))
+    assert most(17.3, 12.1, stepover) == pytest.approx(expected, abs=STATED)
+
+
+@given(st.floats(12, 25), st.floats(0.5, 4), st.integers(0, 3), st.floats(-3, 3), st.integers(1, 7))
+def test_the_greatest_angle_is_the_same_however_the_ring_is_told(a, stepover, first, turned, parts):
+    expected = 90 + np.degrees(np.arccos(1 - stepover / R))
+    assert most(a, 12.1, stepover, first=first, turned=turned, parts=parts) == pytest.approx(expected, abs=STATED)
+
+
+@given(st.integers(1, 9), st.floats(0, 1))
+def test_the_greatest_angle_of_a_straight_cut_is_that_of_its_middle(parts, shift):
+    x = np.linspace(0, 40 + shift, parts + 1)
+    whole = engagement([line(0, -20, 80), *(line(2.5, a, b) for a, b in zip(x, x[1:]))], R)
+    assert np.degrees(whole.chosen(whole.move > 0).angle[-20:].max()) == pytest.approx(60, abs=STATED)
+    assert np.degrees(engagement([line(0)], R).most()) == pytest.approx(180, abs=STATED)

@@ -275,7 +275,7 @@ def test_limits_of_the_drawing_count():
 def test_threads_are_not_measured():
     design = Design(BLOCK, (Hole(30, 20, None, 10, thread="M8"),))
     found = part("G0 X30 Y20 Z2\nG1 Z-10", MILL).compare(design)
-    assert row(found, "hole", "thread").verdict == "not measured"
+    assert row(found, "hole", "thread").verdict == "not cut"  # no tap, nothing that climbs round
     assert any("thread" in note for note in found.notes)
 
 

@@ -229,7 +229,7 @@ CONTROL = Control(
     named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again, turned=tool_axis.turned,
     compensation=Compensation(approach="perpendicular", rapid=True),
     bulk=PlainWords(
-        motions={None: ("L", 1)}, keyword="L",
+        motions={None: ("L", 1)}, keyword="L", feed=lambda m: m.feed_unit,
         ready=lambda m: m.side == 0 and not m.modal.get("call") and m.memory.developed is None,
     ),
 )  # fmt: skip

@@ -9,6 +9,10 @@ So the engaged part is exact for discs, and no grid is needed. The way itself is
 R/16. To close the cusps between them each is taken greater by spacing²/(4·R), that is R/1024: engagement angles are too
 small by at most a tenth of that over sin(angle), 0.3° at an angle of 10° and less than 0.1° from 40° on. Where a stock is given
 its outline is found on the rim to a quarter of a degree.
+
+The greatest angle often stands where an element ends, in a corner: there the tool is looked at as well, as it comes in, whatever
+the phase of the discs. Such a place stands for no length of the way, clears nothing, and the disc just behind it is not taken
+greater: it would stick out in front.
 """
 
 from __future__ import annotations
@@ -28,12 +32,13 @@ BLOCK = 500
 RIM = np.radians(np.arange(-90, 90.01, 0.25))
 QUARTER = np.pi / 2
 FULL = np.radians(178)  # from here on the tool cuts with its whole circumference
+SHARP = np.radians(1)  # a turn between two elements from which on it is a corner
 SHORT = 0.25  # of the tool radius: a shorter gap between two full stretches is full as well
 
 
 class Engagement(NamedTuple):
     """Samples along a way: `points` (n, 2), `heading` (n,) rad, `angle` (n,) engaged, `width` (n,) of cut across the
-    heading, `step` (n,) the length each stands for, `move` (n,) the index of its contour."""
+    heading, `step` (n,) the length each stands for (0: a corner, or an end), `move` (n,) the index of its contour."""
 
     points: Floats
     heading: Floats
@@ -66,27 +71,28 @@ class Engagement(NamedTuple):
 
 
 def engagement(
-    moves: Sequence[Contour], radius: float, *, spacing: float | None = None, stock: Region | None = None
-) -> Engagement:
+    moves: Sequence[Contour], radius: float, *, spacing: float | None = None, stock: Region | None = None,
+    corners: bool = True,
+) -> Engagement:  # fmt: skip
     """The engagement along contours cut one after the other; without a `stock` there is material everywhere.
 
-    A contour of no length is a plunge: it only clears. So does the start of every contour.
+    A contour of no length is a plunge: it only clears. So does the start of every contour. Without `corners` places are looked
+    at in equal steps alone.
     """
     if not radius > 0:
         raise ValueError(f"the tool radius must be greater than 0, got {radius:g}")
     step = radius / FINE if spacing is None else spacing
-    points, heading, size, move = _sampled(moves, step)
+    points, heading, size, move, told = _sampled(moves, step, corners)
     angle, width = np.zeros(len(points)), np.zeros(len(points))
     cells = _Cells(points, 2 * radius)
     for first in range(0, len(points), BLOCK):
         here = np.arange(first, min(first + BLOCK, len(points)))
-        sample, low, high = _taken(points, heading, here, cells, radius, step)
+        sample, low, high = _taken(points, heading, here, cells, radius, step, told & (size == 0), move)
         if stock is not None:
             more = _outside(points[here], heading[here], radius, stock)
             sample, low, high = (np.concatenate(pair) for pair in zip((sample, low, high), more, strict=True))
         angle[here], width[here] = _open(sample, low, high, len(here), radius)
-    cut = size > 0
-    return Engagement(points[cut], heading[cut], angle[cut], width[cut], size[cut], move[cut])
+    return Engagement(points[told], heading[told], angle[told], width[told], size[told], move[told])
 
 
 class Stretch(NamedTuple):
@@ -104,7 +110,7 @@ def stretches(
     All that the tool runs through belongs to `moves`: links, and a contour of no length where it plunged. A contour that is
     the same all along stays whole, and closed. Without a `stock` there is material everywhere.
     """
-    found = engagement(moves, radius, stock=stock)
+    found = engagement(moves, radius, stock=stock, corners=False)
     full, first = found.angle >= limit, np.searchsorted(found.move, np.arange(len(moves) + 1))
     return tuple(
         _parted(contour, full[a:b], SHORT * radius) for contour, a, b in zip(moves, first, first[1:], strict=False)
@@ -130,19 +136,31 @@ def _parted(contour: Contour, full: NDArray[np.bool_], short: float) -> tuple[St
     )
 
 
-def _sampled(moves: Sequence[Contour], step: float) -> tuple[Floats, Floats, Floats, NDArray[np.intp]]:
-    """Discs along contours: one at the start of each, of no length, then one in the middle of every step."""
+def _sampled(
+    moves: Sequence[Contour], step: float, corners: bool
+) -> tuple[Floats, Floats, Floats, NDArray[np.intp], NDArray[np.bool_]]:
+    """Discs along contours: one at the start of each, which only clears, then one in the middle of every step and, of no
+    length, one in each of its `corners` and at its end, as the tool comes in; the last column says what is looked at."""
     points, heading, size, move = [np.zeros((0, 2))], [np.zeros(0)], [np.zeros(0)], [np.zeros(0, dtype=np.intp)]
+    told = [np.zeros(0, dtype=bool)]
     for k, contour in enumerate(moves):
         length = contour.length
         count = int(np.ceil(length / step - 1e-9)) if length > 1e-9 else 0
         ways = (np.arange(count) + 0.5) * length / max(count, 1)
         places, along = contour.point_at(ways) if count else (np.zeros((0, 2)), np.zeros((0, 2)))
+        sizes = np.full(count, length / max(count, 1))
+        if count and corners:
+            ends = np.append(np.flatnonzero(np.abs(contour.turns()[1:]) > SHARP), len(contour.lengths) - 1)
+            order = np.argsort(np.concatenate([np.cumsum(contour.lengths)[ends] - 1e-9, ways]), kind="stable")
+            places = np.vstack([contour.ends[ends], places])[order]
+            along = np.vstack([contour.tangents()[1][ends], along])[order]
+            sizes = np.concatenate([np.zeros(len(ends)), sizes])[order]
         points += [contour.points[:1], places]
         heading += [np.zeros(1), np.arctan2(along[:, 1], along[:, 0])]
-        size += [np.zeros(1), np.full(count, length / max(count, 1))]
-        move.append(np.full(count + 1, k, dtype=np.intp))
-    return np.vstack(points), np.concatenate(heading), np.concatenate(size), np.concatenate(move)
+        size += [np.zeros(1), sizes]
+        move.append(np.full(len(sizes) + 1, k, dtype=np.intp))
+        told += [np.zeros(1, dtype=bool), np.ones(len(sizes), dtype=bool)]
+    return np.vstack(points), np.concatenate(heading), np.concatenate(size), np.concatenate(move), np.concatenate(told)
 
 
 class _Cells:
@@ -172,20 +190,23 @@ class _Cells:
 
 
 def _taken(
-    points: Floats, heading: Floats, here: NDArray[np.intp], cells: _Cells, radius: float, step: float
+    points: Floats, heading: Floats, here: NDArray[np.intp], cells: _Cells, radius: float, step: float,
+    corner: NDArray[np.bool_], move: NDArray[np.intp],
 ) -> tuple[NDArray[np.intp], Floats, Floats]:
-    """The stretches of the rims, as angles from the heading, that earlier discs have cleared."""
+    """The stretches of the rims, as angles from the heading, that earlier discs have cleared; a `corner` clears nothing."""
     mine, other = cells.near(here)
+    mine, other = mine[~corner[other]], other[~corner[other]]
     x, y = (points[other] - points[here[mine]]).T
     away2 = x * x + y * y
-    wide = radius + step**2 / (4 * radius)
+    behind = corner[here[mine]] & (move[other] == move[here[mine]]) & (away2 < step**2)
+    wide = np.where(behind, radius, radius + step**2 / (4 * radius))
     near = away2 < (radius + wide) ** 2
-    mine, x, y, away2 = mine[near], x[near], y[near], away2[near]
+    mine, x, y, away2, wide = mine[near], x[near], y[near], away2[near], wide[near]
     cosine, sine = np.cos(heading[here])[mine], np.sin(heading[here])[mine]
     ahead, aside = x * cosine + y * sine, y * cosine - x * sine
     half2 = 1.02 - away2 / (radius + wide) ** 2  # sin² of half the stretch, and a little more
     front = (ahead >= 0) | (ahead * ahead <= away2 * half2)  # some of it lies in front
-    mine, ahead, aside, away2 = mine[front], ahead[front], aside[front], away2[front]
+    mine, ahead, aside, away2, wide = mine[front], ahead[front], aside[front], away2[front], wide[front]
     with np.errstate(divide="ignore", invalid="ignore"):
         cosine = (away2 + radius**2 - wide**2) / (2 * radius * np.sqrt(away2))
     half = np.arccos(np.clip(np.where(away2 > 0, cosine, -1.0), -1.0, 1.0))

@@ -101,6 +101,33 @@ def test_r_without_a_value_before_a_feed_is_no_word(feed: str, inside) -> None:
     assert run.toolpath.motion.feed[0] == (float("inf") if "M" in feed.replace("M3", "") else 500)
 
 
+# --- a formula on several lines ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "formula", ["2 * ( 3 ~\n    + 4 ) ~\n - 1", "2 * ( 3~\n+ 4 ) - 1 ;width", "2 * ( 3 + 4 ) ~\n- 1 ;wide~\n and so on"]
+)
+@pytest.mark.parametrize("name", ["Q7", "QL7", "QR7"])
+def test_a_formula_goes_on_behind_its_mark(name: str, formula: str, inside) -> None:
+    """As the control breaks a long one: 2 (3 + 4) - 1 = 13; the block behind it counts as ever."""
+    run = inside(f"2 {name} = {formula}\n3 L X+{name} FMAX\n4 L Y+2 FMAX")
+    assert ends(run) == [(13, 0, 0), (13, 2, 0)] and not run.alarms
+
+
+@pytest.mark.parametrize(
+    ("formula", "place", "message"),
+    [
+        ("2 * ( 3 ~\n  + $ )", (4, 5), "'$' is no part of an expression"),
+        ("2 * ~\n ( 3 + 4 ) 5", (4, 12), "an operator was expected before 5"),
+        ("2 + ~\n", (3, 11), "the expression ends where a number or a variable was expected"),
+        ("2 + ~\n 1 / 0", (4, 4), "division by zero"),
+    ],
+)
+def test_a_fault_of_a_formula_is_told_where_it_stands(formula: str, place: tuple[int, int], message: str, inside) -> None:
+    (alarm,) = inside(f"2 Q15 = {formula}\n3 L Y+2 FMAX").alarms
+    assert alarm.message.startswith(message) and alarm.span[:2] == place
+
+
 # --- what an editor or a mailer wrapped out of a comment -----------------------------------------------------------------
 
 

@@ -19,7 +19,7 @@ def corner(m: Machine, words: Words) -> None:
     word, made = words.words[0], m.recorder.made
     size = m.length(word)
     if size <= 0:
-        m.alarm(f"{word.address} ({TITLES[word.address].lower()}) must be greater than 0, got {size:g}", word)
+        m.alarm(f"{word.address} ({TITLES[word.address].lower()}) must be greater than 0, got {m.value(word):g}", word)
     m.at_block_end(lambda: mark(m, word, size, made))
 
 

@@ -174,7 +174,7 @@ def write_tool(m: Machine, number: int, name: str, value: float, word: Word) -> 
     row = m.tables.tools.get(number) or Tool(number=number)
     value += getattr(row, name) if adds(m) else 0.0
     if name == "radius" and value < 0:
-        m.alarm(f"R (radius) must be at least 0, got {value:g}", word)
+        m.alarm(f"R (radius) must be at least 0, got {value / m.variable_unit:g}", word)
     change: dict[str, Any] = {name: value}
     m.write_table("tools", number, replace(row, **change))
     if name in RADII:

@@ -56,7 +56,7 @@ def blending(m: Machine, words: Words) -> None:
     m.change("tolerance", NAN)
     if "P" in words:
         if (reach := m.length(words["P"])) < 0:
-            m.alarm(f"G64 P (how far a corner may be cut) must be at least 0, got {reach:g}", words["P"])
+            m.alarm(f"G64 P (how far a corner may be cut) must be at least 0, got {m.value(words['P']):g}", words["P"])
         m.change("tolerance", reach)
     if "Q" in words:
         m.warn("G64 Q allows that short moves are joined: they are left as they are", words["Q"])

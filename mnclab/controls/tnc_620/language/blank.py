@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.controls.tnc_620.language.checks import above_zero, counted, first, not_negative
+from mnclab.controls.tnc_620.language.checks import above_zero, counted, first, not_negative, written
 from mnclab.controls.tnc_620.language.flow import label_name
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
@@ -94,7 +94,8 @@ def greatest_corner(m: Machine, words: Words) -> None:
     greatest = corner(m, words, blank.minimum)
     for axis, low, high in zip("XYZ", blank.minimum, greatest, strict=True):
         if not high > low:
-            m.alarm(f"BLK FORM 0.2 {axis} (greatest corner) must be greater than {low:g}, got {high:g}", words[axis])
+            least, found = (written(m, words[axis], at) for at in (low, high))
+            m.alarm(f"BLK FORM 0.2 {axis} (greatest corner) must be greater than {least:g}, got {found:g}", words[axis])
     give(m, blank._replace(maximum=greatest))
 
 
@@ -123,7 +124,8 @@ def round_blank(m: Machine, words: Words) -> None:
     bore = radius_of(m, words, "RI", "DI", "of the bore")
     if bore is not None and bore >= radius:
         word = words.get("RI", words.get("DI"))
-        m.alarm(f"{words.code}: the bore must be smaller than the cylinder, radius {bore:g} in {radius:g}", word)
+        sizes = f"radius {bore / m.variable_unit:g} in {radius / m.variable_unit:g}"
+        m.alarm(f"{words.code}: the bore must be smaller than the cylinder, {sizes}", word)
     if "L" not in words:
         m.alarm(f"{words.code} needs L (length)", words["axis"])
     length = above_zero(m, words["L"], f"{words.code} L (length)")

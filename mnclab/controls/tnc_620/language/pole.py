@@ -11,7 +11,7 @@ import math
 from contextlib import AbstractContextManager
 from typing import Any
 
-from mnclab.controls.tnc_620.language.checks import counted, refuse_on_cylinder
+from mnclab.controls.tnc_620.language.checks import counted, refuse_on_cylinder, written
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
@@ -100,7 +100,7 @@ def polar_point(m: Machine, words: Words) -> dict[str, Any]:
         m.alarm(f"{words.code} needs PR (polar radius) or PA (polar angle)")
     radius = math.hypot(*away(m, plane, (u, v)))
     if "PR" in words and (radius := counted(m, words["PR"], radius)) < 0:
-        m.alarm(f"{words.code} PR (polar radius) must be at least 0, got {radius:g}", words["PR"])
+        m.alarm(f"{words.code} PR (polar radius) must be at least 0, got {written(m, words['PR'], radius):g}", words["PR"])
     if "PA" not in words or words["PA"].incremental:
         turn = m.value(words["PA"]) if "PA" in words else 0.0
         angle = math.degrees(angle_here(m, words)) + turn if radius else 0.0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from mnclab.controls.tnc_620.language.checks import first, not_negative
+from mnclab.controls.tnc_620.language.checks import first, not_negative, written
 from mnclab.controls.tnc_620.language.feeds import rate, set_feed, with_another_tool
 from mnclab.controls.tnc_620.language.tool_axis import change_axis
 from mnclab.controls.tnc_620.state import memory
@@ -60,7 +60,8 @@ def put_in(m: Machine, tool: Tool | None, deltas: dict[str, float], words: Words
     kept = {} if tool else {name: getattr(m.tool, name) - getattr(base, name) for name in DELTAS.values()}
     changed = {name: getattr(base, name) + value for name, value in (kept | deltas).items()}
     if changed.get("corner", 0) < 0:
-        least = f"{0 - base.corner:g}, got {m.value(words['DR2']):g}: the corner radius is {base.corner:g}"
+        corner, found = base.corner / m.variable_unit, written(m, words["DR2"], m.value(words["DR2"]))
+        least = f"{0 - corner:g}, got {found:g}: the corner radius is {corner:g}"
         m.alarm(f"TOOL CALL DR2 (delta corner radius) must be at least {least}", words["DR2"])
     if tool:
         memory(m).tool_before = m.tool

@@ -44,6 +44,7 @@ _UNIT = re.compile(r"(?<![^\r\n])[ \t\ufeff]*(?:/[ \t]*)?(?:N?\d+[ \t]*)?BEGIN[ 
 _HEAD = re.compile(r"[ \t]*(/?)[ \t]*(?:N(?=\d))?(\d*)[ \t]*(/?)[ \t]*", FLAGS)
 _SPACED = re.compile(r"Q(\d+)[ \t]+=", FLAGS)
 _WORD = re.compile(r"[A-Z]+|\S", re.IGNORECASE)
+_ASSIGNED = re.compile(r"Q[LR]?[ \t]?\d+[ \t]*=", FLAGS)
 _CYCLE = re.compile(r"CYCLE(?![A-Z])", FLAGS)
 _PROSE = re.compile(r"[^\W\d_]{2,}(?![\w+=-])")  # a word of a sentence
 WRAPPED = "begin it with ; or join it to the comment with ~"
@@ -100,6 +101,7 @@ class _Lines:
         self.over = False  # the last line of a block was joined by a ~ and has none itself
         self.skip = self.faulty = self.begun = self.bracketed = self.numbered = False
         self.tight = False  # a parameter of the block is written without blanks
+        self.taken = -1  # the last line that was read with one before it
         self.wrapped = -1  # the line that was read last as the rest of a comment
         self.end: int | None = None  # place of END PGM
 
@@ -108,6 +110,8 @@ class _Lines:
         if line != self.last + 1:
             self.statement, self.tilde, self.over, self.remark = None, False, False, False  # plain lines stand between
         self.last = line
+        if line <= self.taken:
+            return
         begin, stop, comment, tilde = bounds(self.builder, line)
         joined, self.tilde = self.tilde, tilde
         remark, self.remark = self.remark, tilde and comment >= 0
@@ -137,7 +141,10 @@ class _Lines:
             else:
                 self.over = False
                 start = begin + len(head.group()) - len(head.group().lstrip(" \t"))
-                self.block(start, bool(head.group(1) or head.group(3)), Cursor(self.builder, at, stop, self.inch))
+                cursor = Cursor(self.builder, at, stop, self.inch)
+                if tilde and comment < 0 and _ASSIGNED.match(self.text, at, stop):
+                    self.take_further(cursor, line)
+                self.block(start, bool(head.group(1) or head.group(3)), cursor)
         except Fault as fault:
             self.faulty = True
             self.builder.alarm(fault.message, fault.offset, fault.length, fault.hint)
@@ -153,6 +160,17 @@ class _Lines:
             message, hint = "lines that begin with a bracket are read as comments", "a comment of this control begins with ;"
             self.builder.alarm(message, at, stop - at, hint, "warning")
         self.bracketed = True
+
+    def take_further(self, cursor: Cursor, line: int) -> None:
+        """The lines on which a formula goes on, up to one that does not end in ~."""
+        tilde = True
+        while tilde and line + 1 < len(self.builder.line_starts):
+            line += 1
+            begin, stop, comment, tilde = bounds(self.builder, line)
+            cursor.further.append((begin, stop))
+            if comment >= 0:  # which may go on itself
+                break
+        self.taken, self.tilde, self.remark = line, tilde, tilde
 
     def rest_of_comment(self, line: int, at: int, stop: int) -> bool:
         """Whether the line, without a number, is passed over as what was wrapped out of the comment above it."""

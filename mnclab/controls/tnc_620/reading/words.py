@@ -37,6 +37,7 @@ FEEDS = ("FMAX", "FAUTO")
 _EMPTY = re.compile(r"(?:R[ \t]+)?(?:F[ \t]+)?M[ \t]*$|R[ \t]+(?=F[ \t]*(?:[\d.,Q+]|MAX(?![A-Z])))", FLAGS)
 _OPERATION = re.compile(r"[*/^][ \t]*[\dQ(]", FLAGS)
 _LETTERS = re.compile("[A-Z]{2,}", FLAGS)
+_LOST = re.compile(r"[ \t]*[+-]?(nan|inf)(?![A-Z])", FLAGS)
 _FEEDS = re.compile(r"F[ \t]*(MAX|AUTO)(?![A-Z])", FLAGS)
 _SIDES = re.compile(r"(?:(RL|RR|RO)(?![A-Z])|(R0)(?![\d.,]))", FLAGS)
 _SIGN = re.compile("[+-]")
@@ -50,8 +51,8 @@ _NAMED = re.compile(rf"(I?)(DR2(?=[ \t]*[+-])|{'|'.join(sorted(_ADDRESSES, key=l
 
 #: Addresses of lengths and of feeds per revolution or tooth: inches in a program that begins with INCH.
 LENGTHS = frozenset(
-    "X Y Z U V W R RI DI DIST LEN PR FU FZ DL DR DR2 L CCX CCY CCZ CCPR ABST D P1X P1Y P2X P2Y P3X P3Y PDX PDY DX DY "
-    "DP DEPTH PITCH SETUP PECKG RADIUS HEIGHT length M140:MB".split()
+    "X Y Z IX IY IZ U V W R RI DI DIST LEN PR FU FZ DL DR DR2 L CCX CCY CCZ CCPR ABST D P1X P1Y P2X P2Y P3X P3Y PDX PDY "
+    "DX DY DP DEPTH PITCH SETUP PECKG RADIUS HEIGHT length M140:MB".split()
 )
 
 #: Addresses that belong to an M function when they stand directly behind it: `M103 F20` beside a feed F of the block.
@@ -83,6 +84,7 @@ class Cursor:
 
     def __init__(self, builder: ProgramBuilder, at: int, stop: int, inch: bool) -> None:
         self.builder, self.text, self.at, self.stop, self.inch = builder, builder.text, at, stop, inch
+        self.further: list[tuple[int, int]] = []  # begin and end of the lines on which a formula goes on
         self.blanks()
 
     def blanks(self) -> int:
@@ -149,7 +151,8 @@ class Cursor:
 
     def expression(self, begin: int, end: int) -> Expression:
         formula = self.text[begin:end].lstrip()
-        return parse(formula, self.builder.span(end - len(formula)))
+        further = [(self.text[at:stop], self.builder.span(at)) for at, stop in self.further]
+        return parse(formula, self.builder.span(end - len(formula)), further)
 
     def needed(self, fault: str, begin: int, length: int = 1) -> float | Expression:
         """A number or a Q parameter that must be here; `fault` says so at the place `begin`."""
@@ -237,6 +240,8 @@ class Cursor:
             hint = LETTER_O
         elif after == "=":
             hint = "no = between an address and its number"
+        elif lost := _LOST.match(self.text, found.end(), self.stop):
+            hint = f"what wrote the program could not compute this number and wrote {lost.group(1)}"
         elif letters := _LETTERS.match(self.text, self.at, self.stop):
             hint = near(letters.group(), FEEDS, 1)
         what = f", found {after!r}" if after else ""
