@@ -179,7 +179,7 @@ def _collisions(run: Run, stock: Any, step: float | None) -> Collisions:
     if run.settings["stopped_spindle"] == "accept":
         kept = (each for each in found if each.kind != "spindle" or run.toolpath.spindle[each.row])
         found = Collisions(kept, found.notes)
-    return Collisions([*found, *_beyond_travel(run)], found.notes)
+    return Collisions([*found, *_beyond_travel(run)], [*found.notes, *cutting.edgeless()])
 
 
 def _beyond_travel(run: Run) -> Iterator[Collision]:

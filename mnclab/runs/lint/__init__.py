@@ -10,7 +10,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from mnclab.runs.lint import above_blank, feed_of_another_unit, left_on, rapid_in_blank, still_spindle, thread_beyond_axis, unused
+from mnclab.runs.lint import (
+    above_blank,
+    feed_of_another_unit,
+    left_on,
+    rapid_in_blank,
+    still_spindle,
+    thread_beyond_axis,
+    unused,
+)
 from mnclab.text.alarm import Alarm
 
 if TYPE_CHECKING:
