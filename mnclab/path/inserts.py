@@ -24,14 +24,15 @@ from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.vectors import at_angle, length_of
 from mnclab.path.columns import Mask
 from mnclab.path.kinds import Kind
-from mnclab.path.tool import LATHE, Tool
+from mnclab.path.tool import LATHE, POINTED, Tool
 from mnclab.path.toolpath import Toolpath
 
 EDGE = 12.0  # length of an edge that the table does not give
-USUAL = (95.0, 5.0)  # degrees: an insert of 80 degrees, where a picture needs angles and the table has none
+USUAL = (95.0, 5.0)  # degrees, where the table has none: an insert of 80 degrees (ISO 1832, C) in its holder (ISO 5608, L)
 SAME = 1e-12
 FACE = "face grooving"  # a blade across: what is Z of another one is its r
-THREAD = 60.0  # degrees between the flanks of a metric or a unified thread
+BLADES = ("grooving", FACE)
+THREAD = 60.0  # degrees between the flanks of a metric or a unified thread (ISO 68-1)
 
 
 def turns(tool: Tool) -> bool:
@@ -40,16 +41,43 @@ def turns(tool: Tool) -> bool:
 
 
 def as_drawn(tool: Tool, lead: float = 0.0) -> Tool:
-    """A tool with the shape that pictures give it: one without any that cuts a thread (`lead` mm) has the V of its profile.
+    """A tool with the shape that it cuts and is drawn with, where it makes a thread of a `lead`, mm (0: not known).
 
-    The profile has the tool's `angle`, else `THREAD`; its flanks are as long as the lead: a sharp thread of 60 degrees.
+    A threading insert is a V of its `angle`, else of `THREAD`, about the axis of the thread, or beside the one angle that
+    it gives. As wide as its `width`, else its flanks are as long as `cutting_length` or the lead: a sharp thread of 60
+    degrees. With both angles and a width it is a trapezoid. A tool without kind and shape that cuts a thread has this V.
     """
-    known = tool.width or tool.main_angle or tool.auxiliary_angle or tool.kind not in ("", "thread")
-    if known or not (lead > 0 or tool.kind == "thread"):
+    main, auxiliary = tool.main_angle, tool.auxiliary_angle
+    shaped = main and auxiliary if tool.kind == "thread" else tool.kind or tool.width or main or auxiliary or not lead > 0
+    if shaped:
         return tool
-    lean = 90 - (tool.angle if 0 < tool.angle < 180 else THREAD) / 2
-    edges = tool.cutting_length or (lead if lead > 0 else 0.0)
-    return replace(tool, kind="thread", main_angle=lean, auxiliary_angle=lean, cutting_length=edges)
+    rest = 180 - (tool.angle if 0 < tool.angle < 180 else THREAD)
+    if main or auxiliary:
+        other = 180 - (main or auxiliary)
+        main, auxiliary = (each or max(rest - (main or auxiliary), min(USUAL[1], other / 2)) for each in (main, auxiliary))
+    else:
+        main = auxiliary = rest / 2
+    across = math.cos(math.radians(main)) + math.cos(math.radians(auxiliary))
+    wide = tool.width / across if tool.width and across > SAME else 0.0
+    edges = wide or tool.cutting_length or (lead if lead > 0 else 0.0)
+    return replace(tool, kind="thread", main_angle=main, auxiliary_angle=auxiliary, cutting_length=edges, width=0.0)
+
+
+def usual(tool: Tool) -> Tool:
+    """An insert with the angles that its table leaves out: those of `USUAL`, or of the V of a thread; blades have none."""
+    tool = as_drawn(tool)
+    if not turns(tool) or tool.width or tool.kind in (*BLADES, "thread") or tool.main_angle and tool.auxiliary_angle:
+        return tool
+    auxiliary = tool.auxiliary_angle or min(USUAL[1], (180 - tool.main_angle) / 2)
+    return replace(tool, main_angle=tool.main_angle or min(USUAL[0], 0.9 * (180 - auxiliary)), auxiliary_angle=auxiliary)
+
+
+def edgeless(tool: Tool, lathe: bool) -> str:
+    """What a tool lacks so that it has no edge to cut with, in words; empty where it has one."""
+    if lathe and turns(tool):
+        blade = tool.kind in BLADES and not (tool.width or tool.corner or tool.main_angle or tool.auxiliary_angle)
+        return "no width" if blade else ""
+    return "" if tool.effective_radius > 0 or tool.kind == "probe" else "no radius"
 
 
 def lead_of(path: Toolpath, rows: Mask) -> float:
@@ -89,11 +117,12 @@ def edges_of(tool: Tool, height: float) -> Floats:
 def cutting_part(tool: Tool, height: float) -> Contour:
     """What of a tool takes material away, prolonged away from the part up to a height above its tip: convex.
 
-    An edge is as long as `Tool.cutting_length`, else `EDGE`; beyond it the insert goes straight up. Without angles, width
-    and nose it is a line, a contour of two points.
+    An edge is as long as `Tool.cutting_length`, else `EDGE`; beyond it the insert goes straight up. A blade without width
+    and nose is a line, a contour of two points.
     """
     if not turns(tool):
         return _round(tool, height)
+    tool = usual(tool)
     main, auxiliary = angles_of(tool)
     edge = tool.cutting_length or EDGE
     points, bulges = _nose(tool, main, auxiliary)
@@ -107,18 +136,18 @@ def cutting_part(tool: Tool, height: float) -> Contour:
 
 def insert(tool: Tool, size: float = 0.0, reach: float = 0.0) -> Contour:
     """The insert itself, its edges `size` long (0: as in `cutting_part`), a blade at least `reach`; a drill that long."""
+    tool = usual(tool)
     size = size or tool.cutting_length or EDGE
     if not turns(tool):
         return _round(tool, max(size, reach))
-    if tool.width:
+    if tool.width or tool.kind in BLADES:
         high = max(1.6 * size, min(1.5 * tool.width, 2.4 * size), reach)
         return cutting_part(replace(tool, cutting_length=max(high, 1.0)), high)
     if tool.kind == "thread" and tool.cutting_length:  # ground down beside its teeth, so that it comes near a shoulder
         return cutting_part(tool, max(size, 1.5 * tool.cutting_length))
-    usual = tool.auxiliary_angle or min(USUAL[1], (180 - tool.main_angle) / 2)
-    main = math.radians(tool.main_angle or min(USUAL[0], 0.9 * (180 - usual)))
-    points, bulges = _nose(tool, main, math.radians(usual))
-    lead, trail = size * at_angle(math.pi - main), size * at_angle(math.radians(usual))
+    main, auxiliary = angles_of(tool)
+    points, bulges = _nose(tool, main, auxiliary)
+    lead, trail = size * at_angle(math.pi - main), size * at_angle(auxiliary)
     return _placed(tool, np.vstack([points, points[-1] + trail, points[0] + lead + trail, points[0] + lead]), bulges)
 
 
@@ -127,11 +156,12 @@ def holder(tool: Tool, size: float = 0.0, reach: float = 0.0) -> Floats:
 
     Of an outside tool it stands across the axis, of a boring bar it lies along it.
     """
+    tool = usual(tool)
     size = size or tool.cutting_length or EDGE
     if not turns(tool):
         wide = tool.shank[0] if tool.shank else tool.effective_radius
         return np.array([(0.0, -wide), (size, -wide), (size, wide), (0.0, wide)]) + (max(size, reach), 0.0)
-    if tool.width:
+    if tool.width or tool.kind in BLADES:
         high = max(1.6 * size, min(1.5 * tool.width, 2.4 * size), reach)
         left, right = np.array([0.0, high]), np.array([tool.width, high])
         corners = np.array([left, right, right + (0.7 * size, 0.3 * size), right + (0.7 * size, size), left + (0.0, size)])
@@ -178,7 +208,8 @@ def _ray(start: Floats, angle: float, side: float, edge: float, height: float) -
 def _round(tool: Tool, height: float) -> Contour:
     """Half a section of a tool that turns about its own axis, on both sides of it: its tip, its point, straight back."""
     radius = tool.effective_radius
-    point = radius / math.tan(math.radians(tool.angle) / 2) if 0 < tool.angle < 180 else 0.0
+    angle = tool.angle or POINTED.get(tool.kind, 0.0)
+    point = radius / math.tan(math.radians(angle) / 2) if 0 < angle < 180 else 0.0
     long = max(height, point + 1.0)
     corners = [(point, -radius), (long, -radius), (long, radius), (point, radius)]
     return Contour([*corners, (0.0, 0.0)] if point else corners)

@@ -21,6 +21,7 @@ KINDS = (
     "turning", "boring", "grooving", "face grooving", "thread",
 )  # fmt: skip
 LATHE = ("turning", "boring", "grooving", "face grooving", "thread")  # their corner is the nose, whatever the radius
+POINTED = {"drill": 118.0, "countersink": 90.0, "chamfer": 90.0}  # degrees, the included angle where a tool gives none
 MOST = 1e9  # of every number of a tool
 BODIES = ("centre_cutting", "shank", "holder", "wear", "locked", "runout", "edges")  # no plain numbers
 SIZES = ("radius", "corner", "teeth", "cutting_length", "width", "number", "angle", "plunge_angle")  # never negative
@@ -34,9 +35,10 @@ class Tool:
     `angle` is the point angle, `plunge_angle` the steepest plunge, `dl` and `dr` are deltas added to length and
     radius, `corner` is the corner radius, `cutting_length` the length of the edges, `pitch` that of a tap.
     Of a lathe tool `main_angle` and `auxiliary_angle` lie between the cutting edges and the axis (0: not given),
-    `width` is that of a grooving tool, whose tip is its left corner (of one for faces the corner nearer to the axis), and
-    `corner` the nose radius. The programmed tip
-    of a lathe tool is the imaginary sharp point.
+    `width` is that of a grooving tool, whose tip is its left corner (of one for faces the corner nearer to the axis), or of
+    the V of a threading insert, whose included `angle` is 60 where none is given; `corner` the nose radius. Turning inserts
+    and points of drills have usual angles where none are given (`path.inserts.USUAL`, `POINTED`); a blade without
+    a width has no edge, and a part that it cuts says so. The programmed tip of a lathe tool is the imaginary sharp point.
 
     Collisions are judged by `centre_cutting` (None: whether it may plunge is not judged), `hand` ("right" turns with
     M3), `shank`, the radius of what is behind the edges and how far above the tip it begins, and `holder`, such pairs

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from mnclab.path.columns import Index, Mask
+from mnclab.path.inserts import edgeless
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import LATHE, Tool
 from mnclab.path.toolpath import Toolpath
@@ -106,11 +107,16 @@ class Cutting:
     @property
     def bare(self) -> Mask:
         """Rows (n,) that go through the box of the blank at feed and cut nothing: they have no tool, or one without a body."""
+        bodies = np.array([tool.kind == "probe" or tool_exists(tool) for tool in self.tools], dtype=bool)
+        return np.asarray(self._inside & (~bodies[self.which] if len(bodies) else True))
+
+    @cached_property
+    def _inside(self) -> Mask:
+        """Rows (n,) at feed that go through the box of the blank."""
         path, (low, high) = self.path, self.stock.bounds
         ends = np.stack([path.start, path.end])
         inside = ((ends.min(axis=0) < high) & (ends.max(axis=0) > low)).all(axis=1)
-        bodies = np.array([tool.kind == "probe" or tool_exists(tool) for tool in self.tools], dtype=bool)
-        return np.asarray(inside & np.isin(path.kind, CUTS) & (~bodies[self.which] if len(bodies) else True))
+        return np.asarray(inside & np.isin(path.kind, CUTS))
 
     def of_rows(self, column: Any, rows: Index) -> Any:
         """The values of a column (n,) in some rows, as large as these; of -1, no row, any value."""
@@ -133,6 +139,15 @@ class Cutting:
         """That rows have no tool to cut or to collide with, if some have none."""
         if (bare := self.bare).any():
             yield f"rows without a tool cut nothing ({self.lines(bare)})"
+        yield from self.edgeless()
+
+    def edgeless(self) -> Iterator[str]:
+        """What is said of tools that have no edge and go through the box of the blank at feed: they cut nothing there."""
+        inside = self._inside & self.cuts
+        for k, tool in enumerate(self.tools):
+            if (lacks := edgeless(tool, self.lathe)) and (rows := inside & (self.which == k)).any():
+                as_line = " but as a line along its way" if lacks == "no width" else ""
+                yield f"T{tool.number} ({tool.kind or 'mill'}) has {lacks}: it cuts nothing{as_line} ({self.lines(rows)})"
 
     @property
     def lathe(self) -> bool:

@@ -21,7 +21,7 @@ from mnclab.path.cutting_speed import spindle_speed
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.listing import Unit, figure
-from mnclab.path.tool import Tool
+from mnclab.path.tool import POINTED, Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.tables import html_table, text_table
 from mnclab.workpiece.milling.engaged import engaged
@@ -175,8 +175,9 @@ def _cut(
     cut = Cut(number, tool.name, _pair(speed), _pair(surface), _pair(feed), _pair(per_rev))
     if per_tooth is not None:
         cut = cut._replace(per_tooth=_pair(per_tooth))
-        if tool.kind == "drill" and tool.angle:
-            cut = cut._replace(chip=_pair(per_tooth * math.sin(math.radians(tool.angle / 2))))
+        if tool.kind == "drill":
+            point = math.radians(tool.angle or POINTED[tool.kind])
+            cut = cut._replace(chip=_pair(per_tooth * math.sin(point / 2)))
     if removal is not None:
         cut = _with_material(cut, path, tool, rows, per_tooth, removal, kc)
     yield cut._replace(beyond=tuple(_beyond(cut, limits, most)))

@@ -47,6 +47,8 @@ def section(pack: Packer, cutting: Cutting) -> dict[str, Any]:
         told.append(f"the section is shown up to row {rows[kept]} only")
     corners = np.concatenate(areas[:kept]) if kept else np.empty((0, 2))
     reach = high - low + radius
+    leads = [lead_of(cutting.path, cutting.which == k) for k in range(len(cutting.tools))]
+    shaped = [as_drawn(tool, lead) for tool, lead in zip(cutting.tools, leads, strict=True)]
     return {
         "bar": [_corners(loop.points_within(OFF)) for loop in bar],
         "axis": axis,
@@ -57,7 +59,7 @@ def section(pack: Packer, cutting: Cutting) -> dict[str, Any]:
         "corners": columns(pack, parted(corners, PARTS)),
         "which": log(pack, cutting.which),
         "cuts": log(pack, cutting.cuts & ~cutting.from_home),
-        "blades": [_corners(cutting_part(tool, reach).points_within(OFF)) for tool in cutting.tools],
+        "blades": [_corners(cutting_part(tool, reach).points_within(OFF)) for tool in shaped],
         "chuck": [_corners(loop.points) for each in cutting.fixtures if _turns(each) for loop in half_section(each)[0]]
         or [[[low - BEHIND * radius, 0.0], [low, 0.0], [low, JAWS * radius], [low - BEHIND * radius, JAWS * radius]]],
         "note": "; ".join(told),

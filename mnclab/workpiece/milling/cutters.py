@@ -12,9 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mnclab.path.columns import Array
-from mnclab.path.tool import Tool
-
-POINTED = {"drill": 118.0, "countersink": 90.0, "chamfer": 90.0}  # degrees, the included angle where a tool gives none
+from mnclab.path.tool import POINTED, Tool
 
 
 class Cutter(NamedTuple):

@@ -23,7 +23,7 @@ import numpy as np
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Floats
 from mnclab.geometry.sweeps import broad
-from mnclab.path.inserts import FACE, angles_of, mirror_of
+from mnclab.path.inserts import FACE, angles_of, mirror_of, usual
 from mnclab.path.tool import Tool
 
 ALONG = math.radians(15)  # between feed and edge: below, the edge rubs
@@ -65,7 +65,8 @@ def taken_by_back(tool: Tool, shape: Floats, way: Floats, left: Any) -> Back | N
 
 def left_by_lean(tool: Tool, way: Floats, taken: Any) -> Any:
     """What nose and lean of an edge leave on the wall where a straight cut ends that took an area: a wedge, or nothing."""
-    if tool.width or tool.kind not in ("turning", "boring") or taken.is_empty:
+    tool = usual(tool)
+    if tool.width or tool.kind not in ("", "turning", "boring") or taken.is_empty:
         return shapely.Polygon()
     mirror, (main, auxiliary) = mirror_of(tool), angles_of(tool)
     start, end = way * mirror

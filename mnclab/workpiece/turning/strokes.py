@@ -16,7 +16,7 @@ import numpy as np
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.vectors import length_of
 from mnclab.path.columns import Array
-from mnclab.path.inserts import FACE, angles_of, cutting_part, turns
+from mnclab.path.inserts import FACE, angles_of, as_drawn, cutting_part, turns
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
@@ -24,7 +24,7 @@ from mnclab.text.alarm import Alarm, several
 from mnclab.workpiece.cutting import CUTS, Cutting
 from mnclab.workpiece.turning.sweeping import Edge, Point, along_arc, along_line, edges, placed
 
-ON_AXIS = 1e-6  # mm: a tool without a kind that moves there is a drill
+ON_AXIS = 1e-6  # mm: a tool without a kind that moves there drills
 OUTSIDE = 1.0  # mm: how far a tool reaches out of the blank
 MOST_TEETH = 20_000  # of one row
 FLANK, CREST = 5 / 8, 1 / 8  # of the sharp depth and of the pitch: an ISO thread of 60 degrees
@@ -133,11 +133,11 @@ def _of_row(
     """The contours of a row; `thread` its pitch and the turns before it."""
     path, tool = cutting.path, cutting.tool(row)
     if not tool.kind and tool.radius and max(abs(start[1]), abs(end[1])) < ON_AXIS and start[0] != end[0]:
-        tool = replace(tool, kind="drill")
+        tool = replace(tool, kind="mill")  # as flat as on a mill: nothing is known of its point
     if cutting.from_home[row]:
         start = end
     if path.synchronous[row] and start != end:
-        yield from _thread(tool, start, end, *thread, body_of)
+        yield from _thread(as_drawn(tool, thread[0]), start, end, *thread, body_of)
         return
     body = body_of(tool, start, end)
     sweep = float(path.sweep[row] * path.axis[row, 1]) if path.kind[row] == Kind.ARC else 0.0
