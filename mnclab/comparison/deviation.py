@@ -47,7 +47,11 @@ class Traces:
 
 @dataclass(frozen=True)
 class Deviation:
-    """Where two paths differ: `one` and `other` are the traces, `names` and `paths` what was compared, `times` s of both."""
+    """Where two paths differ: `one` and `other` are the traces, `names` and `paths` what was compared, `times` s of both.
+
+    `reaches` are "up to line 12, where the run stopped" for a path that ends before its program, else empty: `complete` is
+    whether both are whole, for two that stop alike have not shown that they are the same.
+    """
 
     paths: tuple[Toolpath, Toolpath]
     names: tuple[str, str]
@@ -55,6 +59,12 @@ class Deviation:
     other: Traces
     step: float
     times: tuple[float, float] | None = None
+    reaches: tuple[str, str] = ("", "")
+
+    @property
+    def complete(self) -> bool:
+        """Whether both programs ran to their ends."""
+        return not any(self.reaches)
 
     @property
     def largest(self) -> float:
@@ -92,6 +102,10 @@ class Deviation:
 
     @property
     def sentence(self) -> str:
+        return self._found + "".join(f"; {name} {reach}" for name, reach in zip(self.names, self.reaches) if reach)
+
+    @property
+    def _found(self) -> str:
         where = self.where
         if where is None:
             return "no motion on either path" if self.largest == 0 else "only one of the paths has motion"
@@ -119,6 +133,7 @@ class Deviation:
 def deviation(
     one: Toolpath, other: Toolpath, names: tuple[str, str] = ("first", "second"),
     step: float | None = None, chord_error: float = 1e-4, times: tuple[float, float] | None = None,
+    reaches: tuple[str, str] = ("", ""),
 ) -> Deviation:  # fmt: skip
     """Lay two paths over one another; `step` mm, by default a four-thousandth of the longer one."""
     longest = max(one.length, other.length, 1e-3)
@@ -127,7 +142,7 @@ def deviation(
     strokes = [_strokes(path, chord_error) for path in (one, other)]
     looks = [_places(*parts, step) for parts in strokes]
     first, second = (Traces(*look, _nearest(look[0], *against[:2])) for look, against in zip(looks, strokes[::-1]))
-    return Deviation((one, other), names, first, second, step, times)
+    return Deviation((one, other), names, first, second, step, times, reaches)
 
 
 def _strokes(path: Toolpath, chord_error: float) -> tuple[Array, Array, NDArray[np.int64]]:

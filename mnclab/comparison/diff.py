@@ -24,6 +24,7 @@ class Ran(Protocol):
     toolpath: Toolpath
     program: Any
     control: Any
+    reach: str
 
     def holes(self) -> Holes:
         """What is drilled."""
@@ -49,8 +50,8 @@ def diff(
     """Two runs, or two paths, laid over one another: the largest deviation (mm) and where; `.plot()` shows both.
 
     Two programs, two controls, two tool radii, two limits (of their setups: the times differ); `step` mm is how
-    closely the paths are looked at. With `what="holes"` their drilled holes are compared instead, whatever the order and the
-    heights: places and diameters within `tolerance` mm; `.same` says whether they are the same.
+    closely the paths are looked at. With `what="holes"` their holes (see `path.holes`) are compared instead, whatever the
+    order and the heights: places and diameters within `tolerance` mm; `.same` says whether they are the same.
     """
     for each in (one, other):
         if not isinstance(each, Ran | Toolpath):
@@ -63,7 +64,12 @@ def diff(
     if not isinstance(one, Toolpath) and not isinstance(other, Toolpath):
         times = one.profile().time, other.profile().time
     paths = [each if isinstance(each, Toolpath) else each.toolpath for each in (one, other)]
-    return deviation(paths[0], paths[1], _names(one, other), step, times=times)
+    return deviation(paths[0], paths[1], _names(one, other), step, times=times, reaches=(_reach(one), _reach(other)))
+
+
+def _reach(one: Ran | Toolpath) -> str:
+    """How far a run went that stopped before its end."""
+    return "" if isinstance(one, Toolpath) else one.reach
 
 
 def _names(one: Ran | Toolpath, other: Ran | Toolpath) -> tuple[str, str]:

@@ -30,18 +30,20 @@ class HolesCompared:
     both: Array
     only: tuple[Array, Array]
     tolerance: float
+    reaches: tuple[str, str] = ("", "")
 
     @property
     def same(self) -> bool:
-        """Whether both have the same holes."""
-        return not any(map(len, self.only))
+        """Whether both have the same holes; not known of a run that stopped before its end, so False."""
+        return not any(map(len, self.only)) and not any(self.reaches)
 
     @property
     def sentence(self) -> str:
-        if self.same:
-            return f"the same {several(len(self.both), 'hole')}" if len(self.both) else "no holes in either"
+        stops = "".join(f"; {name} {reach}" for name, reach in zip(self.names, self.reaches) if reach)
+        if not any(map(len, self.only)):
+            return (f"the same {several(len(self.both), 'hole')}" if len(self.both) else "no holes in either") + stops
         told = (f"{len(rows)} only in {name}" for rows, name in zip(self.only, self.names) if len(rows))
-        return f"{several(len(self.both), 'hole')} in both, {', '.join(told)}"
+        return f"{several(len(self.both), 'hole')} in both, {', '.join(told)}{stops}"
 
     def rows(self) -> list[tuple[str, ...]]:
         """The holes that only one of the two has."""
@@ -50,7 +52,7 @@ class HolesCompared:
 
     def __repr__(self) -> str:
         head = f"{self.names[0]} and {self.names[1]}: {self.sentence}"
-        return head if self.same else f"{head}\n{text_table(HEAD, self.rows())}"
+        return f"{head}\n{text_table(HEAD, self.rows())}" if self.rows() else head
 
     def _repr_html_(self) -> str:
         rows = self.rows()
@@ -80,4 +82,4 @@ def compare_holes(one: Holes, other: Holes, names: tuple[str, str], tolerance: f
             taken[fit[0]] = True
             both.append(k)
     found = np.isin(np.arange(len(first)), both)
-    return HolesCompared(names, first[found], (first[~found], second[~taken]), tolerance)
+    return HolesCompared(names, first[found], (first[~found], second[~taken]), tolerance, (one.reach, other.reach))

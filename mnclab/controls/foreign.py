@@ -77,13 +77,6 @@ FOREIGN: dict[str, tuple[Sign, ...]] = {
         ),
         sign(r"'", -6, "comments behind apostrophes"),
     ),
-    "a LinuxCNC program with O words": (
-        sign(
-            r"^[ \t]*O(?:<[\w.-]+>|\d+)[ \t]*(?:sub|endsub|call|if|while|repeat|do|return|endif|endwhile)\b",
-            40, "an O word",
-        ),
-        sign(r"#<[\w ]+>", 12, "a variable with a name"),
-    ),
     "a program of a 3D printer": (
         sign(r"(?<![A-Z])M10[49][ \t]*S\d|(?<![A-Z])M1[49]0[ \t]*S\d", 12, "a temperature"),
         sign(r"(?<![A-Z])G[01]\b[^\n]*E-?[\d.]", 5, "a filament that moves", 3),

@@ -2,39 +2,84 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable, Sequence
 from functools import reduce
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.geometry.vectors import length_of
+from mnclab.geometry.vectors import Floats, length_of
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, shown
+from mnclab.text.given import check_number, faults_as_alarms, shown
 
 EXAMPLE = "mnclab.area.area_of(mnclab.area.svg('drawing.svg'))"
 SAME = 1e-3  # mm, below which ends of a drawing count as one point
+FARTHEST = 1e6  # mm, of a place in a drawing
+SAMPLES = 50  # elements of a contour that tell where it lies
+MOST = 200_000  # chords of the curves of a drawing; its entities
 
 
 def area_of(contours: Iterable[Contour], tolerance: float = SAME) -> Region:
     """The area that contours describe: those within none are pockets, those in a pocket islands, and so on inwards.
 
-    Open contours are joined where their ends meet within `tolerance`. Raises ValueError where nothing is closed, or
-    contours cross each other.
+    Open contours are joined where their ends meet within `tolerance`; what stays open bounds nothing, and a warning says
+    where it is. An Alarm where nothing is closed, or a contour crosses itself.
     """
     contours = list(contours) if isinstance(contours, Iterable) else [contours]
     if wrong := [each for each in contours if not isinstance(each, Contour)]:
         raise Alarm(f"an area is made of a list of contours, got {shown(wrong[0])}", hint=EXAMPLE)
     check_number(tolerance, "the tolerance (mm)", above=0)
-    loops = [contour for contour in joined(contours, tolerance) if contour.closed and abs(contour.area) > tolerance**2]
+    strung = joined(contours, tolerance)
+    loops = [contour for contour in strung if contour.closed and abs(contour.area) > tolerance**2]
+    gaps = [contour for contour in strung if not contour.closed]
+    ends = [f"from ({a:.3f}, {b:.3f}) to ({c:.3f}, {d:.3f})" for ((a, b), (c, d)) in (each.points[[0, -1]] for each in gaps)]
+    more = f" and {len(ends) - 3} more" if len(ends) > 3 else ""
+    left = f"{len(ends)} open contour{'s' * (len(ends) != 1)}, {'; '.join(ends[:3])}{more}"
     if not loops:
-        raise ValueError("the drawing has no closed contour")
-    within = np.array([loop.winding([other.points[0] for other in loops]) != 0 for loop in loops])
+        raise Alarm(f"the drawing has no closed contour{f', but {left}' if ends else ''}",
+                    hint=f"tolerance={tolerance:g} mm joins ends that are so near each other" if ends else "")  # fmt: skip
+    if ends:
+        warnings.warn(f"the area is bounded without {left}", stacklevel=2)
+    loops = _once(loops, tolerance)
+    within = np.array([_inside(loop, loops, tolerance) for loop in loops])
     depth = within.sum(axis=0) - np.diag(within)
     levels = [[loop for loop, d in zip(loops, depth, strict=True) if d == level] for level in range(depth.max() + 2)]
-    pieces = [Region.of(*outer, holes=holes) for outer, holes in zip(levels[::2], levels[1::2])]
+    with faults_as_alarms():
+        pieces = [Region.of(*outer, holes=holes) for outer, holes in zip(levels[::2], levels[1::2])]
     return reduce(Region.union, pieces)
+
+
+def _once(loops: list[Contour], tolerance: float) -> list[Contour]:
+    """The loops without those that are drawn again over another one, which a warning tells."""
+    kept: list[Contour] = []
+    boxes = np.array([loop.bounds for loop in loops]).reshape(-1, 4)
+    for k, loop in enumerate(loops):
+        near = np.flatnonzero((np.abs(boxes[:k] - boxes[k]) <= tolerance).all(axis=1))
+        if not any(loops[i].distance(_places(loop)).max() <= tolerance for i in near.tolist()):
+            kept.append(loop)
+    if twice := len(loops) - len(kept):
+        warnings.warn(f"{twice} contour{'s' * (twice != 1)} drawn again over another one, counted once", stacklevel=3)
+    return kept
+
+
+def _inside(loop: Contour, others: Sequence[Contour], tolerance: float) -> NDArray[np.bool_]:
+    """Which of some contours lie within a loop: by a place of each that is not on the loop."""
+    spots = np.array([other.points[0] for other in others])
+    for k in np.flatnonzero(loop.distance(spots) <= tolerance).tolist():
+        if others[k] is loop:
+            continue
+        places = _places(others[k])
+        spots[k] = places[loop.distance(places).argmax()]
+    return np.asarray(loop.winding(spots) != 0)
+
+
+def _places(contour: Contour) -> Floats:
+    """Corners of a contour and middles of its elements, all of them or `SAMPLES` of either."""
+    some = np.unique(np.linspace(0, len(contour.starts) - 1, SAMPLES).astype(np.int64))
+    return np.concatenate([contour.points[some], contour.at(0.5, some)[0]])
 
 
 def joined(contours: Iterable[Contour], tolerance: float = SAME) -> list[Contour]:

@@ -23,6 +23,7 @@ from mnclab.geometry.cutting import Outlines, boxes, outlines_of
 from mnclab.geometry.insets import inset
 from mnclab.geometry.tracing import GRID, SAME, Drawing
 from mnclab.geometry.vectors import cross, length_of
+from mnclab.text.alarm import Alarm
 
 
 class CrossesItself(ValueError):
@@ -51,14 +52,30 @@ class Region:
     def of(cls, *outer: Contour, holes: Iterable[Contour] = ()) -> Region:
         """The union of what the outer contours enclose, less what the holes enclose; their sense is free.
 
-        A single contour is kept as it is. Raises ValueError where a contour is open or crosses itself.
+        A single contour is kept as it is. Raises ValueError where a contour is open or crosses itself; an Alarm for an outer
+        contour that lies within another one, where it changes nothing.
         """
+        return cls._of(outer, tuple(holes), nested=False)
+
+    @classmethod
+    def union_of(cls, *contours: Contour) -> Region:
+        """The union of what contours enclose, whatever lies within what."""
+        return cls._of(contours, (), nested=True)
+
+    @classmethod
+    def _of(cls, outer: Sequence[Contour], holes: Sequence[Contour], nested: bool) -> Region:
         drawing = Drawing([_tidy(contour) for contour in (*outer, *holes)])
         areas = [shapely.Polygon(ring) for ring in drawing.rings]
         for area in areas:
             if not area.is_valid:
                 place = shapely.is_valid_reason(area).partition("[")[2].rstrip("]").split()
                 raise CrossesItself((float(place[0]), float(place[1])) if len(place) >= 2 else None)
+        if not nested and len(outer) > 1:
+            inner, around = shapely.STRtree(areas[: len(outer)]).query(areas[: len(outer)], "covered_by")
+            for k in inner[inner != around][:1].tolist():
+                (x, y), number = outer[k].points[0].tolist(), len(outer)
+                raise Alarm(f"outer contour {k + 1} of {number}, from X{x:.3f} Y{y:.3f}, lies within another one",
+                            hint="holes=[…] cuts it out; area_of(contours) finds what lies in what")  # fmt: skip
         if len(areas) == len(outer) == 1:
             contour = drawing.contours[0]
             return cls((contour if contour.area > 0 else contour.reversed(),))
@@ -119,7 +136,9 @@ class Region:
 
     @cached_property
     def bounds(self) -> Floats:
-        """Lower left and upper right corner `(2, 2)`, which an empty area has not."""
+        """Lower left and upper right corner `(2, 2)`; an Alarm for an empty area, which has none."""
+        if not self.loops:
+            raise Alarm("an empty area has no bounds", hint="Region.loops and Region.area tell whether there is any")
         return np.array([self._boxes[:, 0].min(axis=0), self._boxes[:, 1].max(axis=0)])
 
     @cached_property

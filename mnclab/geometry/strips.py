@@ -21,7 +21,7 @@ def strip(line: Contour, reach: float) -> Region:
     """What lies within `reach` of a line, which may cross itself; a ValueError where `reach` is not greater than 0."""
     if not reach > 0:
         raise ValueError(f"a strip reaches more than 0 to either side of its line, got {reach:g}")
-    return Region.of(*_pieces(line, reach))
+    return Region.union_of(*_pieces(line, reach))
 
 
 def _pieces(line: Contour, reach: float) -> Iterator[Contour]:

@@ -1,7 +1,8 @@
 """Contours out of an SVG drawing: paths with lines, arcs and Bezier curves, and the simple figures. Lengths in mm.
 
 Circular arcs stay arcs; elliptical ones and curves become chords, nowhere farther off than the tolerance. Y runs upwards in
-what is returned. A drawing with a viewBox and a width in mm, cm or in has that size; else a unit is a millimetre.
+what is returned. A drawing with a viewBox and a width in mm, cm or in has that size; else a unit is a millimetre. What draws
+no lines (text, pictures) is left out, and a warning names it; copies (`use`) and drawings within the drawing are an Alarm.
 
     a cubic curve cut into n pieces is off by at most 6·L / (8·n²), L = max |second difference of its points|
 """
@@ -9,6 +10,8 @@ what is returned. A drawing with a viewBox and a width in mm, cm or in has that 
 from __future__ import annotations
 
 import re
+import warnings
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree
@@ -16,6 +19,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from mnclab.geometry.contours import Contour, Floats, keeps_circles
+from mnclab.geometry.drawings import FARTHEST, MOST
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import read
 from mnclab.text.given import check_number, shown
@@ -25,69 +29,108 @@ NUMBER = re.compile(rf"\s*(?:,\s*)?({FIGURE.pattern})")
 SIZE = re.compile(rf"({FIGURE.pattern})\s*([a-z]*)")
 FLAG = re.compile(r"\s*(?:,\s*)?([01])")
 LETTER = re.compile(r"\s*(?:,\s*)?([MmLlHhVvCcSsQqTtAaZz])")
+REST = re.compile(r"[\s,]*")
 COUNT = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
 UNITS = {"": 1.0, "px": 1.0, "mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72, "pc": 25.4 / 6}
 SKIPPED = {"defs", "clipPath", "mask", "symbol", "marker", "pattern"}
+WRITTEN = {"text", "image", "foreignObject"}
+LARGEST = 1e12  # of a number in a drawing, whatever its unit
 
 
 def contours(source: str | Path, tolerance: float = 0.01) -> list[Contour]:
     """All contours of a drawing, open and closed; `source` is its text or the path of its file.
 
-    Raises ValueError where the text is no SVG or a path is misspelt.
+    An Alarm where the text is no SVG, a path is misspelt or a place is farther away than a kilometre.
     """
     if not isinstance(source, str | Path):
         raise Alarm(f"an SVG drawing is its text or the path of a file, got {shown(source)}")
-    check_number(tolerance, "the tolerance (mm)")
-    if not tolerance > 0:
-        raise ValueError(f"the tolerance must be greater than 0, got {tolerance:g}")
-    text = source if isinstance(source, str) and "<" in source else read(source, source).decode("utf-8")
+    check_number(tolerance, "the tolerance (mm)", above=0)
+    text = source if isinstance(source, str) and "<" in source else read(source, source)
     try:
         root = ElementTree.fromstring(text)
-    except ElementTree.ParseError as error:
-        raise ValueError(f"this is no SVG: {error}") from None
-    return list(_drawn(root, _page(root), tolerance))
+    except (ElementTree.ParseError, ValueError, LookupError) as error:
+        raise Alarm(f"this is no SVG: {error}") from None
+    left: Counter[str] = Counter()
+    found = list(_drawn(root, _page(root), tolerance, left))
+    if left:
+        names = ", ".join(f"{count} {name}" for name, count in sorted(left.items()))
+        warnings.warn(f"the drawing has {names} left out, which draw no lines", stacklevel=2)
+    return found
+
+
+def _number(text: str, what: str) -> float:
+    """A number of the drawing; an Alarm where it is none that a drawing has."""
+    value = float(text)
+    if not abs(value) <= LARGEST:
+        raise Alarm(f"{what}: {text[:40]} is out of range, at most {LARGEST:g}")
+    return value
 
 
 def _page(root: ElementTree.Element) -> Floats:
     """The 2×3 matrix from drawing units, Y down, to mm, Y up."""
-    box = [float(v) for v in FIGURE.findall(root.get("viewBox", ""))]
-    size = [SIZE.fullmatch(root.get(name, "").strip()) for name in ("width", "height")]
-    given = [float(m[1]) * UNITS[m[2]] if m and m[2] in UNITS else None for m in size]
-    x, y, wide, tall = box if len(box) == 4 else (0.0, 0.0, given[0] or 0.0, given[1] or 0.0)
+    written = root.get("viewBox")
+    box = [_number(v, "viewBox") for v in FIGURE.findall(written or "")]
+    if written is not None and (len(box) != 4 or not (box[2] > 0 and box[3] > 0)):
+        raise Alarm(f"viewBox takes x, y and a width and height greater than 0, got {shown(written)}")
+    size = [(name, SIZE.fullmatch(root.get(name, "").strip())) for name in ("width", "height")]
+    given = [_number(m[1], name) * UNITS[m[2]] if m and m[2] in UNITS else None for name, m in size]
+    x, y, wide, tall = box or (0.0, 0.0, given[0] or 0.0, given[1] or 0.0)
     scale = next((g / side for g, side in zip(given, (wide, tall)) if g and side), 1.0)
+    if not (0 < scale <= LARGEST and tall * scale <= LARGEST):
+        raise Alarm(f"a unit of the drawing would be {scale:g} mm")
     return np.array([[scale, 0.0, -x * scale], [0.0, -scale, (y + tall) * scale]])
 
 
-def _drawn(element: ElementTree.Element, matrix: Floats, tolerance: float) -> Iterator[Contour]:
-    name = element.tag.rpartition("}")[2]
-    if name in SKIPPED:
-        return
-    matrix = _times(matrix, _transform(element.get("transform", "")))
-    text = element.get("d", "") if name == "path" else _as_path(name, element)
-    yield from _Pen(matrix, tolerance).contours(text)
-    for child in element:
-        yield from _drawn(child, matrix, tolerance)
+def _drawn(root: ElementTree.Element, page: Floats, tolerance: float, left: Counter[str]) -> Iterator[Contour]:
+    """The contours of an element and of all in it, in their order; `left` counts what draws none."""
+    stack, pen = [(root, page)], _Pen(tolerance)
+    while stack:
+        element, matrix = stack.pop()
+        name = element.tag.rpartition("}")[2] if isinstance(element.tag, str) else ""
+        if name in SKIPPED:
+            continue
+        if name in WRITTEN:
+            left[name] += 1
+            continue
+        if name == "use" or (name == "svg" and element is not root):
+            raise Alarm(f"<{name}> within a drawing is not read", hint="write its lines there; Inkscape: Unlink Clone, Ungroup")
+        if transform := element.get("transform"):
+            matrix = _times(matrix, _transform(transform))
+            if not (np.isfinite(matrix).all() and 0 < abs(np.linalg.det(matrix[:, :2])) < LARGEST**2):
+                raise Alarm(f"the transformation {transform[:60]!r} leaves no area, or one without an end")
+        text = element.get("d", "") if name == "path" else _as_path(name, element, page[0, 0])
+        yield from pen.contours(text, matrix)
+        stack += [(child, matrix) for child in reversed(element)]
 
 
-def _as_path(name: str, element: ElementTree.Element) -> str:
-    """A simple figure in the words of a path."""
+def _as_path(name: str, element: ElementTree.Element, scale: float) -> str:
+    """A simple figure in the words of a path; `scale` mm are a unit."""
 
-    def value(key: str, default: float = 0.0) -> float:
-        found = NUMBER.match(element.get(key, ""))
-        return float(found[1]) if found else default
+    def value(key: str, default: float = 0.0, least: float = -LARGEST) -> float:
+        written = element.get(key)
+        if written is None or written == "auto":
+            return default
+        found = SIZE.fullmatch(written.strip())
+        if not found or found[2] not in UNITS:
+            raise Alarm(f"{key} of a {name} must be a number, got {shown(written)}")
+        size = _number(found[1], f"{key} of a {name}") * (1 if found[2] in ("", "px") else UNITS[found[2]] / scale)
+        if size < least:
+            raise Alarm(f"{key} of a {name} must be at least {least:g}, got {size:g}")
+        return size
 
     if name in ("polygon", "polyline"):
-        return f"M{element.get('points', '')}" + ("Z" if name == "polygon" else "")
+        points = element.get("points", "")
+        return f"M{points}" + ("Z" if name == "polygon" else "") if points.strip() else ""
     if name == "line":
         return f"M{value('x1')} {value('y1')}L{value('x2')} {value('y2')}"
     if name in ("circle", "ellipse"):
-        rx, ry = (value("r"), value("r")) if name == "circle" else (value("rx"), value("ry"))
+        rx, ry = (value(key, least=0.0) for key in (("r", "r") if name == "circle" else ("rx", "ry")))
         x, y = value("cx"), value("cy")
         return f"M{x + rx} {y}A{rx} {ry} 0 1 1 {x - rx} {y}A{rx} {ry} 0 1 1 {x + rx} {y}Z" if rx and ry else ""
     if name == "rect":
-        x, y, w, h = value("x"), value("y"), value("width"), value("height")
-        rx = min(value("rx", value("ry")), w / 2)
-        ry = min(value("ry", value("rx")), h / 2)
+        x, y, w, h = value("x"), value("y"), value("width", least=0.0), value("height", least=0.0)
+        rx = min(value("rx", value("ry"), least=0.0), w / 2)
+        ry = min(value("ry", value("rx"), least=0.0), h / 2)
         if not (rx and ry):
             return f"M{x} {y}H{x + w}V{y + h}H{x}Z"
         corner = f"A{rx} {ry} 0 0 1"
@@ -98,24 +141,31 @@ def _as_path(name: str, element: ElementTree.Element) -> str:
 
 def _transform(text: str) -> Floats:
     matrix = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-    for name, inside in re.findall(r"(?<!\w)(\w+)\s*\(([^()]*)\)", text):
-        v = [float(number) for number in FIGURE.findall(inside)]
+    end = 0
+    for found in re.finditer(r"(?<!\w)(\w+)\s*\(([^()]*)\)", text):
+        name, inside = found[1], found[2]
+        between, end = text[end : found.start()], found.end()
+        v = [_number(number, name) for number in FIGURE.findall(inside)]
+        if between.strip(" \t\r\n,") or FIGURE.sub("", inside).strip(" \t\r\n,"):
+            raise Alarm(f"a transformation cannot be read: {text[:60]!r}")
         if name == "matrix" and len(v) == 6:
             step = np.array([[v[0], v[2], v[4]], [v[1], v[3], v[5]]])
-        elif name == "translate" and v:
+        elif name == "translate" and len(v) in (1, 2):
             step = np.array([[1, 0, v[0]], [0, 1, v[1] if len(v) > 1 else 0.0]])
-        elif name == "scale" and v:
+        elif name == "scale" and len(v) in (1, 2):
             step = np.array([[v[0], 0, 0], [0, v[-1], 0]])
         elif name == "rotate" and len(v) in (1, 3):
             c, s = np.cos(np.radians(v[0])), np.sin(np.radians(v[0]))
             x, y = v[1:] or (0.0, 0.0)
             step = np.array([[c, -s, x - c * x + s * y], [s, c, y - s * x - c * y]])
-        elif name in ("skewX", "skewY") and v:
+        elif name in ("skewX", "skewY") and len(v) == 1:
             t = np.tan(np.radians(v[0]))
             step = np.array([[1, t if name == "skewX" else 0, 0], [t if name == "skewY" else 0, 1, 0]])
         else:
-            raise ValueError(f"unknown transformation {name}({inside})")
+            raise Alarm(f"unknown transformation {name}({inside[:60]})")
         matrix = _times(matrix, step)
+    if text[end:].strip(" \t\r\n,"):
+        raise Alarm(f"a transformation cannot be read: {text[:60]!r}")
     return matrix
 
 
@@ -124,12 +174,16 @@ def _times(a: Floats, b: Floats) -> Floats:
 
 
 class _Pen:
-    """Draws the words of one path; coordinates of the drawing as complex numbers."""
+    """Draws the words of paths; coordinates of the drawing as complex numbers."""
 
-    def __init__(self, matrix: Floats, tolerance: float) -> None:
-        self.matrix, self.tolerance = matrix, tolerance
+    matrix: Floats
 
-    def contours(self, text: str) -> Iterator[Contour]:
+    def __init__(self, tolerance: float) -> None:
+        self.tolerance = tolerance
+        self.chords = 0
+
+    def contours(self, text: str, matrix: Floats) -> Iterator[Contour]:
+        self.matrix, self.rows = matrix, matrix.tolist()
         here = first = handle = 0j
         points, bulges, last = list[Floats](), list[float](), "M"
         for letter, v in _commands(text):
@@ -162,7 +216,11 @@ class _Pen:
         yield from self._done(points, bulges, False)
 
     def _at(self, place: complex) -> Floats:
-        return self.matrix @ np.array([place.real, place.imag, 1.0])
+        (a, b, c), (d, e, f) = self.rows
+        x, y = a * place.real + b * place.imag + c, d * place.real + e * place.imag + f
+        if not (abs(x) <= FARTHEST and abs(y) <= FARTHEST):
+            raise Alarm(f"the drawing reaches farther than {FARTHEST / 1000:g} m: X{x:g} Y{y:g} mm")
+        return np.array([x, y])
 
     def _done(self, points: list[Floats], bulges: list[float], closed: bool) -> Iterator[Contour]:
         if len(points) < 2:
@@ -173,13 +231,20 @@ class _Pen:
             return
         yield Contour(points, [*bulges, 0.0], closed=closed)
 
+    def _count(self, pieces: float, least: int) -> int:
+        if not self.chords + pieces <= MOST:
+            raise Alarm(f"curves would be more than {MOST} chords within {self.tolerance:g} mm", hint="a greater tolerance")
+        count = max(least, int(np.ceil(pieces)))
+        self.chords += count
+        return count
+
     def _curve(self, control: list[complex]) -> list[tuple[Floats, float]]:
         if len(control) == 3:  # a parabola is a cubic as well
             a, q, b = control
             control = [a, a + (q - a) * 2 / 3, b + (q - b) * 2 / 3, b]
         p = np.array([self._at(c) for c in control])
         bend = np.hypot(*(p[:-2] - 2 * p[1:-1] + p[2:]).T).max()
-        count = max(1, int(np.ceil(np.sqrt(0.75 * bend / self.tolerance))))
+        count = self._count(np.sqrt(0.75 * bend / self.tolerance), 1)
         t = (np.arange(1, count + 1) / count)[:, None]
         spots = (1 - t) ** 3 * p[0] + 3 * (1 - t) ** 2 * t * p[1] + 3 * (1 - t) * t**2 * p[2] + t**3 * p[3]
         return [(spot, 0.0) for spot in spots]
@@ -189,8 +254,9 @@ class _Pen:
         rx, ry, phi = abs(v[0]), abs(v[1]), np.radians(v[2])
         if here == goal:
             return []
-        if not (rx and ry):
-            return [(self._at(goal), 0.0)]
+        end = self._at(goal)
+        if min(rx, ry) < 1 / LARGEST:
+            return [(end, 0.0)]
         turn = np.exp(-1j * phi)
 
         def unit(z: complex) -> complex:
@@ -198,6 +264,8 @@ class _Pen:
             return complex(w.real / rx, w.imag / ry)
 
         a, b = unit(here), unit(goal)
+        if abs(b - a) < 1 / LARGEST:
+            return [(end, 0.0)]
         size = max(1.0, abs(b - a) / 2)  # radii too small for the chord grow
         rise = np.sqrt(max(0.0, size**2 - abs(b - a) ** 2 / 4)) * 1j * (b - a) / abs(b - a)
         centre = (a + b) / 2 + (rise if bool(v[3]) != bool(v[4]) else -rise)
@@ -207,32 +275,31 @@ class _Pen:
         shape = self.matrix[:, :2] @ np.array([[c, -s], [s, c]]) @ np.diag([rx, ry])
         is_round = keeps_circles(shape)
         largest = 4 * np.arcsin(min(1.0, np.sqrt(self.tolerance / (2 * size * np.linalg.norm(shape, 2)))))
-        count = 2 if is_round else max(2, int(np.ceil(abs(sweep) / largest)))
+        count = 2 if is_round else self._count(abs(sweep) / largest, 2)
         part = sweep / count
         bulge = np.tan(part / 4) * np.sign(np.linalg.det(shape)) if is_round else 0.0
-        places = []
-        for k in range(1, count + 1):
-            w = centre + (a - centre) * np.exp(1j * part * k)
-            spot = complex(w.real * rx, w.imag * ry) / turn if k < count else goal
-            places.append((self._at(spot), float(bulge)))
-        return places
+        w = centre + (a - centre) * np.exp(1j * part * np.arange(1, count))
+        spots = (w.real * rx + 1j * w.imag * ry) / turn
+        return [(each, float(bulge)) for each in (*(self._at(spot) for spot in spots.tolist()), end)]
 
 
 def _commands(text: str) -> Iterator[tuple[str, list[float]]]:
     """The commands of a path one by one; further numbers repeat the last one, after M as L."""
     at, letter = 0, ""
-    while text[at:].strip(" \t\r\n,"):
+    while (start := REST.match(text, at)) and start.end() < len(text):  # it always matches
         found = LETTER.match(text, at)
         if found:
+            if not letter and found[1] not in "Mm":
+                raise Alarm(f"a path begins with M, got {text[at : at + 12].strip()!r}")
             letter, at = found[1], found.end()
         elif not letter or letter in "Zz":
-            raise ValueError(f"a path cannot go on with {text[at:].strip()[:12]!r}")
+            raise Alarm(f"a path cannot go on with {text[at : at + 12].strip()!r}")
         values: list[float] = []
         for k in range(COUNT[letter.upper()]):
             word = (FLAG if letter in "Aa" and k in (3, 4) else NUMBER).match(text, at)
             if not word:
-                raise ValueError(f"a number is missing after {letter!r} in a path, at {text[at:].strip()[:12]!r}")
-            values.append(float(word[1]))
+                raise Alarm(f"a number is missing after {letter!r} in a path, at {text[at : at + 12].strip()!r}")
+            values.append(_number(word[1], f"{letter} in a path"))
             at = word.end()
         yield letter, values
         letter = {"M": "L", "m": "l"}.get(letter, letter)

@@ -9,6 +9,7 @@ import csv
 import json
 import math
 from collections.abc import Callable, Sequence
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -144,25 +145,31 @@ class Measurement(NamedTuple):
 
 
 class Measurements(Sequence[Measurement]):
-    """The measuring record of a run; it prints as a table, in the `unit` of the program. The numbers of its rows are mm."""
+    """The measuring record of a run; it prints as a table, in the `unit` of the program. The numbers of its rows are mm.
 
-    def __init__(self, rows: Sequence[Measurement], unit: Unit = MM) -> None:
-        self._rows, self.unit = tuple(rows), unit
+    `reach` is "up to line 12, where the run stopped" if the run stopped before its end, else empty.
+    """
+
+    def __init__(self, rows: Sequence[Measurement], unit: Unit = MM, reach: str = "") -> None:
+        self._rows, self.unit, self.reach = tuple(rows), unit, reach
+
+    def _some(self, rows: Sequence[Measurement]) -> Measurements:
+        return Measurements(rows, self.unit, self.reach)
 
     def __len__(self) -> int:
         return len(self._rows)
 
     def __getitem__(self, which: Any) -> Any:
-        return Measurements(self._rows[which], self.unit) if isinstance(which, slice) else self._rows[which]
+        return self._some(self._rows[which]) if isinstance(which, slice) else self._rows[which]
 
     def of(self, what: str) -> Measurements:
         """The rows of a cycle ("G421") or of a measure ("diameter")."""
-        return Measurements([row for row in self if what in (row.cycle, row.what)], self.unit)
+        return self._some([row for row in self if what in (row.cycle, row.what)])
 
     @property
     def outside(self) -> Measurements:
         """The rows beyond their limits."""
-        return Measurements([row for row in self if row.verdict not in ("", OK)], self.unit)
+        return self._some([row for row in self if row.verdict not in ("", OK)])
 
     @property
     def head(self) -> tuple[str, ...]:
@@ -175,20 +182,27 @@ class Measurements(Sequence[Measurement]):
 
     @property
     def verdict(self) -> str:
-        """How many of the measures that have limits are within them."""
+        """How many of the measures that have limits are within them, and how far the run went if it stopped."""
         judged = sum(bool(row.verdict) for row in self)
         if not judged:
-            return f"{several(len(self), 'measure')}, none with limits"
-        return f"within their limits: {judged - len(self.outside)} of {several(judged, 'measure')}"
+            return f"{several(len(self), 'measure')}, none with limits{self._as_far}"
+        return f"within their limits: {judged - len(self.outside)} of {several(judged, 'measure')}{self._as_far}"
+
+    @property
+    def _as_far(self) -> str:
+        return f", {self.reach}" if self.reach else ""
 
     def __repr__(self) -> str:
-        return text_table(self.head, self.texts(), NUMBERS) if self else "nothing was measured"
+        if not self:
+            return f"nothing was measured{self._as_far}"
+        return "\n".join([text_table(self.head, self.texts(), NUMBERS), *filter(None, [self.reach])])
 
     def _repr_html_(self) -> str:
         if not self:
-            return "<p>nothing was measured</p>"
+            return f"<p>nothing was measured{escape(self._as_far)}</p>"
         bold = [k for k, row in enumerate(self) if row.verdict not in ("", OK)]
-        return html_table(self.head, self.texts(), numbers=NUMBERS, bold=bold)
+        told = f"<p>{escape(self.reach)}</p>" if self.reach else ""
+        return html_table(self.head, self.texts(), numbers=NUMBERS, bold=bold) + told
 
     def as_dicts(self) -> list[dict[str, Any]]:
         """For JSON and for tables of other libraries: nan as None."""
@@ -220,7 +234,7 @@ class Measurements(Sequence[Measurement]):
 
 
 def record(
-    m: Machine, steps: int, place_of_line: Callable[[int, int], str]
+    m: Machine, steps: int, place_of_line: Callable[[int, int], str], reach: str = ""
 ) -> tuple[Touches, tuple[Figure, ...], Measurements]:
     """What was touched and measured in the first steps of a run."""
     unit = MM if m.variable_unit == 1 else INCHES
@@ -228,7 +242,7 @@ def record(
     touches.unit = unit
     figures = tuple(each for each in m.figures if each.step < steps)
     rows = [each._replace(where=place_of_line(each.line, each.program)) for each in m.measurements if each.step < steps]
-    return touches, figures, Measurements(rows, unit)
+    return touches, figures, Measurements(rows, unit, reach)
 
 
 def judged(actual: float, lower: float, upper: float) -> str:

@@ -1,19 +1,25 @@
 """The holes of a path: where a tool goes straight down along Z at feed and comes out again where it went in.
 
-A visit is a stretch of rows along Z alone. It is a hole if it begins and ends at least as high as its first cut begins: a
-plunge into a pocket ends below. What is milled round (a bore on a helix) is no hole here; `Run.design` names it.
+This is what a hole is, for the table, for pictures and for comparing two programs. A visit is a stretch of rows along Z
+alone. It is a hole, whatever the tool (a drill, a tap, an end mill; not a probe), if it begins and ends at least as high as
+its first cut begins: a plunge into a pocket ends below. A step of a cycle that is called drilling is one even if the tool goes
+on from there, to mill a thread. On a lathe it lies on the axis. A bore that a cycle mills on a helix
+is a hole as well, as wide as what the mill sweeps in its circle at the bottom; one milled in single blocks is none here:
+`Run.design` names it, from what is left of the blank.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
+from html import escape
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.columns import Array, Index
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.kinds import Kind
 from mnclab.path.listing import MM, Unit
 from mnclab.path.tool import Tool
@@ -23,6 +29,8 @@ from mnclab.text.file import replaced
 from mnclab.text.given import shown
 from mnclab.text.tables import csv_text, html_table, text_table
 
+BORED = re.compile(r" circle at the bottom$")  # labels of cycles that mill a bore
+DRILLED = re.compile(r" (peck|drill|ream|bore|centre|countersink|cut the thread)( \d+ of \d+)?$")
 SAME = 1e-6  # mm: places nearer than this are one
 HEAD = ("hole", "x", "y", "from z", "to z", "diameter", "tool", "lines")
 
@@ -41,16 +49,20 @@ class HoleMade(NamedTuple):
 
 
 class Holes(Sequence[HoleMade]):
-    """The holes of a path in the order of drilling: a row for each place and tool; a table when shown."""
+    """The holes of a path in the order of drilling: a row for each place and tool; a table when shown.
 
-    def __init__(self, rows: Sequence[HoleMade], unit: Unit = MM) -> None:
-        self.rows, self.unit = tuple(rows), unit
+    `first` are the rows of the path that cut each of them first. `reach` is "up to line 12, where the run stopped" if the
+    path ends before its program, else empty.
+    """
+
+    def __init__(self, rows: Sequence[HoleMade], unit: Unit = MM, reach: str = "", first: Sequence[int] = ()) -> None:
+        self.rows, self.unit, self.reach, self.first = tuple(rows), unit, reach, tuple(first)
 
     def __len__(self) -> int:
         return len(self.rows)
 
     def __getitem__(self, which: Any) -> Any:
-        return Holes(self.rows[which], self.unit) if isinstance(which, slice) else self.rows[which]
+        return Holes(self.rows[which], self.unit, self.reach, self.first[which]) if isinstance(which, slice) else self.rows[which]
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """The table as arrays, mm, without the lines."""
@@ -84,50 +96,79 @@ class Holes(Sequence[HoleMade]):
         return csv_text(self._head, *self.texts())
 
     def __repr__(self) -> str:
-        return text_table(self._head, self.texts()) if self else "no holes"
+        return "\n".join(filter(None, [text_table(self._head, self.texts()) if self else "", self._told]))
 
     def _repr_html_(self) -> str:
-        return html_table(self._head, self.texts(), numbers=range(6)) if self else "<p>no holes</p>"
+        table = html_table(self._head, self.texts(), numbers=range(6)) if self else ""
+        return table + (f"<p>{escape(self._told)}</p>" if self._told else "")
+
+    @property
+    def _told(self) -> str:
+        """What is said below the table, or for it."""
+        return self.reach if self else f"no holes {self.reach}".rstrip()
 
 
-def holes(path: Toolpath, tools: Mapping[int, Tool] | None = None, numbers: Index | None = None) -> Holes:
+def holes(path: Toolpath, tools: Mapping[int, Tool] | None = None, numbers: Index | None = None, reach: str = "") -> Holes:
     """The holes of a path; `tools` by their numbers and the number of each row (n,) give the diameters."""
-    numbers = path.tool.astype(np.int64) if numbers is None else numbers
-    rows = np.flatnonzero(path.is_motion & ((path.start != path.end).any(axis=1)))
-    along = (np.abs(path.start[rows, :2] - path.end[rows, :2]) < SAME).all(axis=1)
+    numbers, tools = path.tool.astype(np.int64) if numbers is None else numbers, tools or {}
+    rows = np.flatnonzero(path.is_motion & ((path.start != path.end).any(axis=1) | (path.kind == Kind.ARC)))
+    along = (np.abs(path.start[rows, :2] - path.end[rows, :2]) < SAME).all(axis=1) & (path.kind[rows] != Kind.ARC)
+    if path.lathe:
+        along &= np.abs(path.end[rows, 0]) < SAME
     change = np.diff(along.astype(np.int8), prepend=0, append=0)
     tool = numbers[rows]
-    made: dict[tuple[float, float, int], HoleMade] = {}
+    found: list[tuple[int, HoleMade]] = []
     for begin, end in zip(np.flatnonzero(change == 1).tolist(), np.flatnonzero(change == -1).tolist()):
         changes = np.flatnonzero(np.diff(tool[begin:end])) + 1
-        for visit in np.split(rows[begin:end], changes):
-            found = _hole(path, visit, numbers, tools or {})
-            if found is None:
-                continue
-            key = round(found.x / SAME), round(found.y / SAME), found.tool
-            before = made.get(key)
-            made[key] = found if before is None else before._replace(
-                top=max(before.top, found.top), bottom=min(before.bottom, found.bottom),
-                lines=tuple(dict.fromkeys(before.lines + found.lines)),
-            )  # fmt: skip
-    return Holes(list(made.values()), path.unit)
+        found += [each for visit in np.split(rows[begin:end], changes) if (each := _hole(path, visit, numbers, tools))]
+    found += [(row, _bore(path, row, numbers)) for row in np.flatnonzero(_bored(path)).tolist()]
+    made: dict[tuple[float, float, float, int], HoleMade] = {}
+    first: dict[tuple[float, float, float, int], int] = {}
+    for row, hole in sorted(found, key=lambda each: each[0]):
+        key = round(hole.x / SAME), round(hole.y / SAME), round(hole.diameter / SAME), hole.tool
+        before = made.get(key)
+        first.setdefault(key, row)
+        made[key] = hole if before is None else before._replace(
+            top=max(before.top, hole.top), bottom=min(before.bottom, hole.bottom),
+            lines=tuple(dict.fromkeys(before.lines + hole.lines)),
+        )  # fmt: skip
+    return Holes(list(made.values()), path.unit, reach, list(first.values()))
 
 
-def _hole(path: Toolpath, visit: NDArray[np.int64], numbers: Index, tools: Mapping[int, Tool]) -> HoleMade | None:
-    """What a stretch of rows along Z makes; None for a plunge, a retract, a way through the air."""
+def _hole(
+    path: Toolpath, visit: NDArray[np.int64], numbers: Index, tools: Mapping[int, Tool]
+) -> tuple[int, HoleMade] | None:
+    """What a stretch of rows along Z makes, and its first cut; None for a plunge, a retract, a way through the air."""
     start, end = path.start[visit, 2], path.end[visit, 2]
     cuts = (path.kind[visit] == Kind.LINE) & (end < start)
     if not cuts.any():
         return None
     first = int(cuts.argmax())
-    top, bottom = float(start[first]), float(end[cuts].min())
-    if end[-1] < top - SAME:
+    top, bottom, number = float(start[first]), float(end[cuts].min()), int(numbers[visit[first]])
+    stays = end[-1] < top - SAME and not DRILLED.search(path.labels[path.label[visit[first]]])
+    if stays or (number in tools and tools[number].kind == "probe"):
         return None
-    number = int(numbers[visit[first]])
     x, y = path.end[visit[0], :2].tolist()
     diameter = 2 * tools[number].effective_radius if number in tools else 0.0
     lines = tuple(dict.fromkeys(path.line[visit[cuts]].tolist()))
-    return HoleMade(x + 0.0, y + 0.0, top, bottom, diameter, number, lines)
+    return int(visit[first]), HoleMade(x + 0.0, y + 0.0, top, bottom, diameter, number, lines)
+
+
+def _bored(path: Toolpath) -> Mask:
+    """Rows (n,) that go round at the bottom of a bore along Z."""
+    labels = [number for number, label in enumerate(path.labels) if BORED.search(label)]
+    return (path.kind == Kind.ARC) & np.isin(path.label, labels) & (path.axis[:, 2] > 1 - SAME)
+
+
+def _bore(path: Toolpath, row: int, numbers: Index) -> HoleMade:
+    """The bore to whose bottom a row belongs: as wide as what the tool sweeps."""
+    centre, bottom = path.centre[row], float(path.end[row, 2])
+    radius = float(np.hypot(*(path.start[row] - centre)[:2]) + path.radius[row])
+    begin = row
+    while begin and path.step[begin - 1] == path.step[row] and np.isfinite(path.feed[begin - 1]):
+        begin -= 1
+    top, (x, y) = float(path.start[begin : row + 1, 2].max()), centre[:2].tolist()
+    return HoleMade(x + 0.0, y + 0.0, top, bottom, 2 * radius, int(numbers[row]), (int(path.line[row]),))
 
 
 def places(found: Holes) -> Array:

@@ -18,7 +18,8 @@ PerAxis = float | tuple[float, ...]
 
 CORNERS = {
     "tolerance": "a corner is cut by at most corner_tolerance, within the axes' acceleration (and jerk)",
-    "deviation": "junction deviation: the speed of a circle that leaves the corner by corner_tolerance",
+    "deviation": "junction deviation: the speed of a circle that leaves the corner by corner_tolerance, within short rows",
+    "grbl": "junction deviation as Grbl 1.1 has it, which on short rows asks the axes for more than they have",
     "jump": "no axis may change its speed at a corner by more than corner_jump",
 }
 RAPIDS = {

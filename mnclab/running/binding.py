@@ -44,7 +44,9 @@ def value_of(m: Machine, parameter: Parameter, code: str, word: Word, in_variabl
     if isinstance(word.value, str) and parameter.type != "text":
         if word.value.rstrip("0123456789.") not in parameter.also:
             allowed = f"a number{', ' + ', '.join(parameter.also) if parameter.also else ''}"
-            m.alarm(f"{code} {parameter.address} ({parameter.meaning}) must be {allowed}, got {word.value}", word)
+            valued = next((also for also in parameter.also if len(also) == 2), "")  # FU, FZ
+            hint = f"{valued} has its value behind it, for example {word.address}={valued}0.1" if valued else ""
+            m.alarm(f"{code} {parameter.address} ({parameter.meaning}) must be {allowed}, got {word.value}", word, hint)
         return m.control.named(m, word) if m.control.named else word.value
     if parameter.type == "text":  # a number in the place of a text may be computed
         return m.value(word) if isinstance(word.value, Expression) else word.value

@@ -272,6 +272,8 @@ class Planner:
                 self.alarm(f"{word.address} is refused: {refused[word.address]}", i)
             if word.address in self.control.axes:
                 self.refuse_still(functions, i)
+                if self.modal.motion == "":
+                    self.alarm(f"{word} has no motion: none is active", i, "write G0, G1, G2 or G3 in this block")
             actors = " ".join(dict.fromkeys(a.code for a in self.actions if a.phase == self.phases["motion"]))
             whose = f" ({actors} does not take {word.address})" if actors else ""
             self.alarm(f"{word} has no meaning in this block{whose}", i)

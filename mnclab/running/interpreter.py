@@ -27,7 +27,7 @@ from mnclab.running.files import alarms_of
 from mnclab.running.flow import Course
 from mnclab.running.handing_out import Plan, Planner
 from mnclab.running.performing import run_cycle
-from mnclab.text.alarm import ALARM, WARNING, Alarm
+from mnclab.text.alarm import ALARM, WARNING, Alarm, Span
 from mnclab.text.program import EXPRESSION, NONE, NUMBER, Program, Word, place_of
 from mnclab.text.progress import progress
 
@@ -38,7 +38,11 @@ UNTOLD = "this block is faulty: it has one of the many faults that are only coun
 
 
 class Stop(Exception):
-    """The run stops at an alarm that the reader has already reported."""
+    """The run stops at an alarm that the reader has already reported, in the block at `span`."""
+
+    def __init__(self, span: Span) -> None:
+        super().__init__()
+        self.span = span
 
 
 class Loaded:
@@ -121,7 +125,8 @@ class Interpreter:
         if skip and skip in self.skips:
             return
         if index in self.faulty:
-            raise Stop if index in self.loaded[machine.program].told else Alarm(UNTOLD, self.flow.span_of_block(index))
+            here = self.flow.span_of_block(index)
+            raise Stop(here) if index in self.loaded[machine.program].told else Alarm(UNTOLD, here)
         before = machine.programmed
         if kinds is None:
             assert self.control.computed is not None

@@ -41,7 +41,7 @@ def cutting_data(
             removal = run.removal(profile.limits)
         except Alarm:  # such as of a blank that no lathe turns: the report says it where it speaks of removal
             removal = None
-    return data_of(run.toolpath, tools, numbers, profile.limits, removal, most=most, kc=kc)
+    return data_of(run.toolpath, tools, numbers, profile.limits, removal, most=most, kc=kc, reach=run.reach)
 
 
 def _of_tools(given: Any, name: str, tools: Mapping[int, Any]) -> dict[int, float]:

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from mnclab.path.compensation import Gouge
 from mnclab.path.listing import figure
 from mnclab.text.alarm import Alarm
 
@@ -19,19 +18,20 @@ GROWTH, EXACT = 2.0, 1e-9
 @dataclass(frozen=True, repr=False)
 class LargestRadius:
     """`radius` mm (inf: any fits); `below`: this radius itself does not fit, every smaller one does. `line` and `other` are
-    those of the elements between which a larger one has no room, None without any."""
+    those of the elements between which a larger one has no room, None without any. `reach` is "up to line 12, where the run
+    stopped" if only the contours so far are known, else empty."""
 
     radius: float
     below: bool = False
     line: int | None = None
     other: int | None = None
+    reach: str = ""
 
     def __str__(self) -> str:
-        if math.isinf(self.radius):
-            return "any radius fits"
-        if self.radius <= EXACT:
-            return f"no tool fits{self._where}"
-        return f"{'below ' if self.below else ''}{figure(self.radius)} mm{self._where}"
+        told = f"{'below ' if self.below else ''}{figure(self.radius)} mm"
+        if math.isinf(self.radius) or self.radius <= EXACT:
+            told = "no tool fits" if self.radius <= EXACT else "any radius fits"
+        return " ".join(filter(None, [told + self._where, self.reach]))
 
     def __repr__(self) -> str:
         return str(self)
@@ -58,19 +58,20 @@ def largest_radius(run: Run) -> LargestRadius:
     most = 4 * float((high - low).max()) + 1.0
     radius = min(1.0, most)
     while True:
-        found = _gouges(run, radius)
+        marked = _marked(run, radius)
+        found = list(marked.gouges)
         if found:
             break
         if radius > most:
-            return LargestRadius(math.inf)
+            return LargestRadius(math.inf, reach=marked.reach)
         radius *= GROWTH
     worst = min(found, key=lambda gouge: gouge.largest)
     below = not worst.largest > EXACT or any(
-        gouge.largest <= worst.largest + EXACT for gouge in _gouges(run, worst.largest)
+        gouge.largest <= worst.largest + EXACT for gouge in _marked(run, worst.largest).gouges
     )
-    return LargestRadius(worst.largest, below, worst.line, worst.other)
+    return LargestRadius(worst.largest, below, worst.line, worst.other, marked.reach)
 
 
-def _gouges(run: Run, radius: float) -> list[Gouge]:
-    """Where a tool of this radius has no room."""
-    return list(run.again(run.setup.with_radius(radius).with_settings(gouge="mark")).gouges)
+def _marked(run: Run, radius: float) -> Run:
+    """The run with a tool of this radius, which says where that has no room."""
+    return run.again(run.setup.with_radius(radius).with_settings(gouge="mark"))

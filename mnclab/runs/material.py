@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -52,7 +53,8 @@ def cutting_of(run: Run, stock: Any = None, named: bool = True) -> Cutting:
     tilted = tilted_rows(path.step, changed(TILT), changed(LOG), path.cylinder)
     known = start_known(path, start, *(() if any(start) or not named else _named(run)))
     fixtures = tuple(_placed(run, each) for each in run.setup.fixtures)
-    return Cutting(lifted(path, lift), tools, which, body, *known, tilted, fixtures, run.place_of_line, tuple(origin.tolist()))
+    said: dict[str, Any] = {"name": run.place_of_line, "origin": tuple(origin.tolist()), "reach": run.reach}
+    return Cutting(lifted(path, lift), tools, which, body, *known, tilted, fixtures, **said)
 
 
 def tools_that_cut(run: Run) -> tuple[dict[int, Tool], Index]:
@@ -137,16 +139,16 @@ def workpiece(
 
 
 def _workpiece(run: Run, last: int | None, step: float | None, stock: Any) -> Workpiece:
-    cutting = cutting_of(run, stock)
+    cutting, whole = cutting_of(run, stock), None
     if last is not None:
-        cutting = cutting.until(last)
+        cutting, whole = cutting.until(last), cache(lambda: workpiece(run, step=step, stock=stock))
     if cutting.lathe:
         from mnclab.workpiece.turning.turned import Turned
 
-        return Turned(cutting, step)
+        return Turned(cutting, step, whole)
     from mnclab.workpiece.milling.milled import Milled
 
-    return Milled(cutting, step)
+    return Milled(cutting, step, whole)
 
 
 def design(run: Run, stock: Any = None) -> Proposal | TurnedProposal:
@@ -179,7 +181,9 @@ def _collisions(run: Run, stock: Any, step: float | None) -> Collisions:
     if run.settings["stopped_spindle"] == "accept":
         kept = (each for each in found if each.kind != "spindle" or run.toolpath.spindle[each.row])
         found = Collisions(kept, found.notes)
-    return Collisions([*found, *_beyond_travel(run)], found.notes)
+    notes = *found.notes, *cutting.bare_told()
+    reach = run.reach or ("" if run.toolpath.is_motion.any() else "since nothing moves")
+    return Collisions([*found, *_beyond_travel(run)], notes, reach)
 
 
 def _beyond_travel(run: Run) -> Iterator[Collision]:

@@ -56,9 +56,10 @@ FOLLOW_RADIUS = {"spindle", "feed"}
 
 
 class Moments(tuple["Moment", ...]):
-    """The moments at which a condition becomes true, in order; `exact`: whether nothing can lie between two looks."""
+    """The moments at which a condition becomes true, in order; `exact`: whether nothing can lie between two looks. `reach` is
+    "up to line 12, where the run stopped" of a run that stopped before its end, else empty."""
 
-    condition = ""
+    condition = reach = ""
     exact = True
 
     def rows(self) -> list[tuple[str, ...]]:
@@ -67,14 +68,14 @@ class Moments(tuple["Moment", ...]):
 
     def __str__(self) -> str:
         if not self:
-            return f"{self.condition}: never"
+            return f"{self.condition}: never {self.reach}".rstrip()
         return "\n".join(f"line {line}: {place}  {share:8s}  {block}" for line, block, place, share in self.rows())
 
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
         if not self:
-            return f"<p><code>{escape(self.condition)}</code>: never</p>"
+            return f"<p><code>{escape(self.condition)}</code>: never {escape(self.reach)}".rstrip() + "</p>"
         table = html_table(("line", "block", "tool tip", "of the move"), self.rows()[:50], numbers=(0, 3))
         more = f"<p>… {len(self) - 50} more</p>" if len(self) > 50 else ""
         told = "" if self.exact else f"<br>looked at in {LOOKS} places of each line and quarter of a turn"
@@ -105,7 +106,7 @@ def when(run: Run, text: str) -> Moments:
     true = np.broadcast_to(truth.true, looks.share.shape)[known]
     begins = known[true & ~np.concatenate([[False], true[:-1]])]
     found = Moments(search.moment(looks.take(place)[0:3], int(i)) for i in begins)
-    found.condition, found.exact = text, not any(map(_mixed, condition.comparisons))
+    found.condition, found.exact, found.reach = text, not any(map(_mixed, condition.comparisons)), run.reach
     return found
 
 

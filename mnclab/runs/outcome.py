@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from mnclab.text.alarm import Alarm, several
+from mnclab.text.alarm import Alarm, Span, several
 from mnclab.workpiece.outcome import Outcome
 
 if TYPE_CHECKING:
     from mnclab.runs.run import Run
 
 REPORT = 20_000  # moves, beyond which a report does not work it out
+
+
+def reach(halt: Span | None, place_of_line: Callable[[int, int], str]) -> str:
+    """How far the run went whose block `halt` stopped it: so far goes whatever is judged of it. Empty for a whole run."""
+    if halt is None:
+        return ""
+    place = place_of_line(halt.line, halt.program) if halt.program else f"line {halt.line}"
+    return f"up to {place}, where the run stopped"
 
 
 def outcome(run: Run, most: int, cells: int | None = None) -> Outcome | None:

@@ -45,7 +45,7 @@ from mnclab.runs.moments import Moments, when
 from mnclab.runs.pictures import Pictures
 from mnclab.runs.start import MissedOnes, start_at
 from mnclab.runs.tables import tables_at_end
-from mnclab.text.alarm import ALARM, Alarm, by_place, quoted
+from mnclab.text.alarm import ALARM, Alarm, Span, by_place, quoted
 from mnclab.text.calls import fitting_class
 from mnclab.text.columns import fixed
 from mnclab.text.given import shown, whole
@@ -64,7 +64,6 @@ if TYPE_CHECKING:
     from mnclab.workpiece.recognition.proposal import Proposal
     from mnclab.workpiece.recognition.turned import TurnedProposal
 
-
 EXAMPLE = 'a machine is its limits: run(…, limits="small-mill"); a setup: ' "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
 
 
@@ -74,11 +73,15 @@ class Run(Pictures):
 
     `measured` is what probing found, by name, `measurements` the record; `touches`, `figures`: machine coordinates.
     `gouges` are the places where a compensated tool does not fit: the one that was refused, or with the setting
-    `gouge = "mark"` all of them. `stopped` is where an axis would have left its travel, machine coordinates.
+    `gouge = "mark"` all of them. `stopped` is where an axis would have left its travel, machine coordinates; `halt` the block
+    at which the run stopped before its end, None of a whole run.
     """
 
-    def __init__(self, program: Program, setup: Setup, control: Control, machine: Machine, alarms: list[Alarm]) -> None:
+    def __init__(
+        self, program: Program, setup: Setup, control: Control, machine: Machine, alarms: list[Alarm], halt: Span | None
+    ) -> None:
         self.program, self.setup, self.control = program, setup, control
+        self.halt = halt
         flow = course(machine)
         self.programs = tuple(flow.programs)
         self.steps = Steps._make(fixed(column) for column in flow.steps())
@@ -88,7 +91,7 @@ class Run(Pictures):
         self.history = History(machine.logs, len(self.steps.block))
         self.variables: dict[str, Any] = self._as_of_end("", machine.variables)
         self.measured: dict[str, Any] = self._as_of_end("measured ", machine.measured)
-        self.touches, self.figures, self.measurements = record(machine, len(self.steps.block), self.place_of_line)
+        self.touches, self.figures, self.measurements = record(machine, len(self.steps.block), self.place_of_line, self.reach)
         self.files = written(self.history, self.history.changed)
         self.tables: Tables = tables_at_end(machine, self.history, len(self.steps.block))
         self.frames = machine.frames
@@ -112,6 +115,11 @@ class Run(Pictures):
     @property
     def ok(self) -> bool:
         return not any(alarm.severity == ALARM for alarm in self.alarms)
+
+    @property
+    def reach(self) -> str:
+        """How far what is judged of a run goes that stopped: "up to line 12, where the run stopped"; empty of a whole one."""
+        return outcome.reach(self.halt, self.place_of_line)
 
     def at(self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0) -> Moment:
         """The machine after the `pass_`-th execution of a line (of one of `programs`), or after a step; else an Alarm.
@@ -193,10 +201,10 @@ class Run(Pictures):
         if "supervision" in self.history:
             waits[spindle] = [self.history.value("supervision", int(step)) != "G25" for step in path.step[spindle]]
         motion = str(self.settings.get("rapid_motion", "line"))
-        named = next((each for each in (limits, machine) if isinstance(each, str)), "")
-        name = f"{self.program.title} on {Path(named).stem}" if named else str(self.program.title)
-        limits = limits_of(limits, machine) or self.setup.limits
-        return Profile(path, limits, override=override, rapid_motion=motion, waits=waits, source=self.program, name=name)
+        on = next((each for each in (limits, machine) if isinstance(each, str)), "")
+        limits, name = limits_of(limits, machine) or self.setup.limits, f"{self.program.title}{f' on {Path(on).stem}' * bool(on)}"
+        said: dict[str, Any] = {"rapid_motion": motion, "waits": waits, "source": self.program, "name": name, "reach": self.reach}
+        return Profile(path, limits, override=override, **said)
 
     def place_of_line(self, line: int, program: int = 0) -> str:
         """`FILE:LINE`, as alarms have it."""
@@ -259,8 +267,8 @@ class Run(Pictures):
         return run.start_at(*self.started) if self.started[0] else run
 
     def holes(self) -> Holes:
-        """The drilled holes as a table: place, heights, diameter, tool and lines, a row for each place and tool."""
-        return holes(self.toolpath, *self.tools_that_cut)
+        """The holes (see `path.holes`) as a table: place, heights, diameter, tool and lines, a row for each place and tool."""
+        return holes(self.toolpath, *self.tools_that_cut, self.reach)
 
     def largest_radius(self) -> LargestRadius:
         """The largest tool radius, mm, that has room at all compensated contours: "6 mm", or "below 6 mm" where this itself has
@@ -368,7 +376,7 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
     setup = (setup or Setup()).kept(control.magazine)  # somebody may have written into its tables, and may again
     interpreter = Interpreter(control, setup, program)
     machine, alarms = interpreter.machine, list[Alarm]()
-    broken, collecting = False, gc.isenabled()
+    broken, collecting, halt = False, gc.isenabled(), None
     gc.disable()  # running makes no reference cycles, and the collector would look at every kept row again
     try:
         interpreter.run()
@@ -377,6 +385,7 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
         if isinstance(stop, Alarm):
             stop.span = stop.span or interpreter.flow.span_of_step(machine.step)
             alarms.append(stop)
+        halt = stop.span or interpreter.flow.span_of_step(interpreter.flow.begun - 1) or Span(1, 1)
     finally:
         if collecting:
             gc.enable()
@@ -385,9 +394,10 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
             finish()
         except Alarm as alarm:
             alarms.append(alarm)
+            halt = alarm.span or halt
     ahead = faults_ahead(interpreter) if broken else []
     told = [interpreter.flow.said(alarm) for alarm in (*alarms, *machine.alarms, *ahead)]
-    result = Run(program, setup, control, machine, interpreter.alarms + told)
+    result = Run(program, setup, control, machine, interpreter.alarms + told, halt)
     if strict and not result.ok:
         raise next(found for found in result.alarms if found.severity == ALARM)
     return result

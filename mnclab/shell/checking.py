@@ -35,24 +35,27 @@ def check(chosen: argparse.Namespace) -> int:
         return INTERRUPTED if found.interrupted else CLEAN if found.ok else ALARMS
     for file in chosen.files:
         alarms: tuple[Alarm, ...] = ()
-        collisions = Collisions()
+        met: Collisions | None = None  # not looked for
         try:
             result = run(program(file), chosen.control, setup)
             alarms = result.alarms
-            collisions = with_blank(result).collisions() if chosen.material else collisions
+            met = with_blank(result).collisions() if chosen.material else None
         except Alarm as fault:  # no program, or no blank
             alarms = (*alarms, fault)
-        if collisions or any(alarm.severity == ALARM for alarm in alarms):
+        if met or any(alarm.severity == ALARM for alarm in alarms):
             status = ALARMS
         said: dict[str, Any] = {"file": file, "alarms": [describe(alarm, file) for alarm in alarms]}
-        said |= {"collisions": [each.as_dict() for each in collisions]} if chosen.material else {}
-        report.append(said | ({"notes": collisions.notes} if collisions.notes else {}))
-        for alarm in () if chosen.json else alarms:
+        if chosen.material:
+            said |= {"collisions": None if met is None else [each.as_dict() for each in met]}
+            said |= {"reach": met.reach} if met is not None and met.reach else {}
+        report.append(said | ({"notes": met.notes} if met is not None and met.notes else {}))
+        if chosen.json:
+            continue
+        for alarm in alarms:
             say(alarm, file)
-        for collision in () if chosen.json else collisions:
-            print(collision, file=sys.stderr)
-        for note in () if chosen.json else collisions.notes:
-            print(f"{file}: note: {note}", file=sys.stderr)
+        if met is not None:
+            notes = [f"{file}: note: {note}" for note in ([met.sentence] if met.reach else []) + list(met.notes)]
+            print(*met, *notes, sep="\n", end="\n" if met else "", file=sys.stderr)
     if chosen.json:
         print(json.dumps(report, indent=1))
     return status

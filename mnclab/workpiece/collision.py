@@ -59,14 +59,32 @@ class Collisions(tuple[Collision, ...]):
 
     Shows itself as a table of the first lines, where those of one kind in one line stand together: the deepest, and how
     many more. A path of ten thousand cuts with a still spindle is one mistake. `notes` say what was not judged.
+
+    `reach` is "up to line 12, where the run stopped" if only a part of the program was judged, empty where all of it was.
+    `ok` is whether all of the program was judged and there are none; the truth value is the opposite, so that what stands
+    after `if not run.collisions()` is not reached by a run that stopped. `len` counts what was found.
     """
 
     notes: tuple[str, ...]
+    reach: str
 
-    def __new__(cls, found: Iterable[Collision] = (), notes: Iterable[str] = ()) -> Collisions:
+    def __new__(cls, found: Iterable[Collision] = (), notes: Iterable[str] = (), reach: str = "") -> Collisions:
         made = super().__new__(cls, sorted(found, key=lambda each: (each.row, each.kind)))
-        made.notes = tuple(notes)
+        made.notes, made.reach = tuple(notes), reach
         return made
+
+    @property
+    def ok(self) -> bool:
+        """Whether all of the program was judged and nothing was found."""
+        return not (len(self) or self.reach or self.notes)
+
+    def __bool__(self) -> bool:
+        return not self.ok
+
+    @property
+    def sentence(self) -> str:
+        """How many, and how far was looked: "no collisions up to line 12, where the run stopped"."""
+        return " ".join(filter(None, [several(len(self), "collision") if len(self) else "no collisions", self.reach]))
 
     @property
     def by_line(self) -> list[tuple[Collision, int]]:
@@ -86,7 +104,8 @@ class Collisions(tuple[Collision, ...]):
 
     def __repr__(self) -> str:
         first, more = self._shown()
-        lines = [*(f"{each}{others}" for each, others in first), *filter(None, [more])] or ["no collisions"]
+        lines = [*(f"{each}{others}" for each, others in first), *filter(None, [more])]
+        lines += [self.sentence] if self.reach or not lines else []
         return "\n".join([*lines, *(f"  note: {note}" for note in self.notes)])
 
     def _repr_html_(self) -> str:
@@ -96,5 +115,6 @@ class Collisions(tuple[Collision, ...]):
              coordinates("XYZ", each.place), each.message + others)
             for each, others in first
         ]  # fmt: skip
-        table = html_table(HEAD, rows, numbers=(2,)) if rows else "<p>no collisions</p>"
-        return table + "".join(f"<p>{escape(each)}</p>" for each in (more, *self.notes) if each)
+        table = html_table(HEAD, rows, numbers=(2,)) if rows else ""
+        said = self.sentence if self.reach or not rows else ""
+        return table + "".join(f"<p>{escape(each)}</p>" for each in (more, said, *self.notes) if each)

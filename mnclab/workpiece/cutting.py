@@ -35,7 +35,8 @@ class Cutting:
     `tools[which[row]]` is the tool of a row. From row `arrived` on the tool's height is known at the end of a row, from
     `known` on the start of every row: before, the tool comes from home, and only where it arrives counts. `tilted` rows
     are made with a tool that does not stand along Z. `fixtures` hold the blank. `name` says in which program a line
-    stands ("FILE:LINE"). `origin` (3,) is where the zero of the path stands on the machine.
+    stands ("FILE:LINE"). `origin` (3,) is where the zero of the path stands on the machine. `reach` is "up to line 12, where
+    the run stopped" if the path ends before its program, else empty.
     """
 
     path: Toolpath
@@ -48,6 +49,7 @@ class Cutting:
     fixtures: Sequence[Blank | Part] = ()
     name: Any = field(default=_lines)
     origin: Sequence[float] = (0.0, 0.0, 0.0)
+    reach: str = ""
 
     def __len__(self) -> int:
         return len(self.path)
@@ -61,7 +63,7 @@ class Cutting:
     def until(self, row: int) -> Cutting:
         """The same up to a row and with it."""
         tilted = None if self.tilted is None else self.tilted[: row + 1]
-        return replace(self, path=self.path[: row + 1], which=self.which[: row + 1], tilted=tilted)
+        return replace(self, path=self.path[: row + 1], which=self.which[: row + 1], tilted=tilted, reach="")
 
     def uncut(self, stock: Blank) -> Cutting:
         """Another blank on the same machine, before the first row."""
@@ -121,8 +123,14 @@ class Cutting:
 
     def notes(self) -> Iterator[str]:
         """What of the blank and of the path is not in a part, whatever turns or mills it."""
+        if self.reach:
+            yield f"cut only {self.reach}"
         for note in getattr(self.stock, "notes", ()):
             yield note if note.startswith(OF_BLANK) else OF_BLANK + note
+        yield from self.bare_told()
+
+    def bare_told(self) -> Iterator[str]:
+        """That rows have no tool to cut or to collide with, if some have none."""
         if (bare := self.bare).any():
             yield f"rows without a tool cut nothing ({self.lines(bare)})"
 

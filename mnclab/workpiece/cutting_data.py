@@ -98,14 +98,14 @@ class CuttingData(Sequence[Cut]):
 
     def __repr__(self) -> str:
         if not self:
-            return "nothing is cut"
+            return "\n".join(["nothing is cut", *self.notes])
         head, rows, numbers = self.table()
         return "\n".join([text_table(head, rows, numbers), *self.notes])
 
     def _repr_html_(self) -> str:
         head, rows, numbers = self.table()
         notes = "".join(f"<p>{note}</p>" for note in self.notes)
-        return f"{html_table(head, rows, numbers=numbers)}{notes}" if self else "<p>nothing is cut</p>"
+        return f"{html_table(head, rows, numbers=numbers) if self else '<p>nothing is cut</p>'}{notes}"
 
 
 def said(pair: Pair | None, unit: float, digits: int) -> str:
@@ -118,12 +118,13 @@ def said(pair: Pair | None, unit: float, digits: int) -> str:
 
 def cutting_data(
     path: Toolpath, tools: Mapping[int, Tool], numbers: Index, limits: Limits, removal: Removal | None = None,
-    *, most: Mapping[str, Mapping[int, float]] | None = None, kc: float | None = None,
+    *, most: Mapping[str, Mapping[int, float]] | None = None, kc: float | None = None, reach: str = "",
 ) -> CuttingData:  # fmt: skip
     """The data of each tool of a path; `numbers` (n,) are the tools of its rows.
 
     With a `removal` only what takes material away counts, and depth, width, chip and rate are known. `most` holds the greatest
-    "vc" m/min and "fz" mm by the number of a tool, `kc` N/mm² the specific cutting force, for the power.
+    "vc" m/min and "fz" mm by the number of a tool, `kc` N/mm² the specific cutting force, for the power. `reach` is
+    how far a run went that stopped before its end.
     """
     kinds = np.isin(path.kind, (Kind.LINE, Kind.ARC)) & (path.lengths > 0)
     found: list[Cut] = []
@@ -131,7 +132,7 @@ def cutting_data(
         tool, rows = tools.get(number, Tool()), np.flatnonzero(kinds & (numbers == number))
         if number and tool.kind not in UNJUDGED:
             found += _cut(path, number, tool, rows, limits, removal, most or {}, kc)
-    return CuttingData(found, path.unit, [*_notes(found, path, removal, limits)])
+    return CuttingData(found, path.unit, [*([f"Known only {reach}."] if reach else []), *_notes(found, path, removal, limits)])
 
 
 def _notes(found: Sequence[Cut], path: Toolpath, removal: Removal | None, limits: Limits) -> Iterator[str]:

@@ -29,14 +29,15 @@ class Outcome(NamedTuple):
         if most is not None:
             rates = f"{volume(mean)}/min, at most {volume(most.rate)}/min in line {self.removal.place(most)}"
             found.append(("removal rate", rates))
-        return [*found, ("collisions", "; ".join([str(len(self.collisions) or "none"), *self.collisions.notes]))]
+        met = f"{len(self.collisions) or 'none'} {self.collisions.reach}".rstrip()
+        return [*found, ("collisions", "; ".join([met, *self.collisions.notes]))]
 
     def html(self) -> str:
         """The lines of a card."""
         told = "; ".join(f"{name}: {said}" for name, said in self.facts() if name != "collisions")
         clean = ""
-        if self.collisions is not None and not self.collisions:
-            clean = "; ".join(["; no collisions", *self.collisions.notes])
+        if self.collisions is not None and (self.collisions.reach or not len(self.collisions)):
+            clean = "; ".join(["", self.collisions.sentence, *self.collisions.notes])
         return f"<p>{escape(told + clean)}</p>{collisions_html(self.collisions or Collisions(), TOLD)}"
 
 

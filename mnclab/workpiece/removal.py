@@ -134,11 +134,17 @@ class Removal:
 
     def __repr__(self) -> str:
         most = self.largest
-        head = f"{volume(self.volume)} removed in {self.time:.2f} s, {volume(self.mean)}/min"
+        head = f"{volume(self.volume)} removed{self._as_far} in {self.time:.2f} s, {volume(self.mean)}/min"
         return f"<Removal: {head}{f', at most {volume(most.rate)}/min in line {self.place(most)}' if most else ''}>"
 
     def _repr_html_(self) -> str:
-        return html_table(HEAD, self.rows(), numbers=range(1, 6))
+        told = f"<p>removed{self._as_far}</p>" if self._as_far else ""
+        return html_table(HEAD, self.rows(), numbers=range(1, 6)) + told
+
+    @property
+    def _as_far(self) -> str:
+        """How far the run went, if it stopped before its end."""
+        return f" {self.workpiece.cutting.reach}".rstrip()
 
 
 def volume(value: float) -> str:

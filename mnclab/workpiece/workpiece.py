@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
@@ -59,6 +60,7 @@ class Workpiece(ABC):
     """
 
     cutting: Cutting
+    whole: Callable[[], Workpiece] | None = None  # the part at the end of the run, of one that is told after a row before
     method: str
     error: float
     notes: tuple[str, ...]
@@ -68,14 +70,28 @@ class Workpiece(ABC):
     def volume(self) -> float:
         """What is left, mm³."""
 
+    @cached_property
+    def removed(self) -> float:
+        """What was taken away, mm³; of a turned part without what fell off."""
+        return self._removed if self.whole is None else float(self.removed_by_row().sum())
+
     @property
     @abstractmethod
-    def removed(self) -> float:
-        """What was taken away, mm³."""
+    def _removed(self) -> float:
+        """What all rows took away, as exactly as it is known."""
 
+    @property
     @abstractmethod
+    def _by_row(self) -> Array:
+        """What each row took away (n,), scaled to that sum."""
+
     def removed_by_row(self) -> Array:
-        """What each row of the path took away (n,), mm³; the sum is `removed`."""
+        """What each row of the path took away (n,), mm³; the sum is `removed`.
+
+        A row took away the same whether it is asked at the end of a run or of the part after a row: that part has its share of
+        the volumes of the whole, so that what was removed up to a line is the sum over the lines before.
+        """
+        return self._by_row if self.whole is None else self.whole().removed_by_row()[: len(self.cutting)]
 
     @abstractmethod
     def cut(self, plane: str, at: float = 0.0) -> list[Contour]:

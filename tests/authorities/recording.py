@@ -4,6 +4,7 @@ Lengths inside the generators are whole **ticks** of 0.0001 mm, so that texts an
 chains of increments gather no rounding.
 """
 
+import gzip
 import json
 import math
 import os
@@ -94,5 +95,6 @@ def save(name, seed, records):
     head = {"authority": version(), "seed": seed}
     lines = ",\n".join(json.dumps(record, separators=(",", ":")) for record in records)
     text = json.dumps(head)[:-1] + ', "records": [\n' + lines + "\n]}\n"
-    (HERE / name).write_text(text)
+    file = HERE / name
+    file.write_bytes(gzip.compress(text.encode(), mtime=0)) if file.suffix == ".gz" else file.write_text(text)
     print(f"{name}: {len(records)} records, {len(text)} bytes")

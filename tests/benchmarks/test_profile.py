@@ -88,8 +88,14 @@ def plain_loop(points, feeds):
         a = 1 / max(ax / ACCELERATION[0], ay / ACCELERATION[1], az / ACCELERATION[2])
         length[i], acc[i], most[i] = s, a, v * v
         if before:
-            h = min(sq(max(0.0, 0.5 * (1 + x * before[0] + y * before[1] + z * before[2]))), 1 - 5e-4**2 / 8)
-            cap[i] = min(min(a, acc[i - 1]) * DEVIATION * h / (1 - h), most[i], most[i - 1])
+            dx, dy, dz = abs(x - before[0]), abs(y - before[1]), abs(z - before[2])
+            turn, slow = sq(dx * dx + dy * dy + dz * dz), max(dx / ACCELERATION[0], dy / ACCELERATION[1], dz / ACCELERATION[2])
+            if turn > 0:
+                h = sq(max(0.0, 1 - turn * turn / 4))
+                room, h = min(s, length[i - 1]) * h / slow, min(h, 1 - 5e-4**2 / 8)
+                cap[i] = min(min(a, acc[i - 1], turn / slow) * DEVIATION * h / (1 - h), room, most[i], most[i - 1])
+            else:
+                cap[i] = min(most[i], most[i - 1])
         before = (x, y, z)
     for i in range(n - 1, 0, -1):
         cap[i] = min(cap[i], cap[i + 1] + 2 * acc[i] * length[i])

@@ -95,9 +95,9 @@ def test_transformations():
     ],
 )
 def test_what_is_no_drawing(text, message):
-    with pytest.raises(ValueError, match=message):
+    with pytest.raises(Alarm, match=message):
         svg.contours(text)
-    with pytest.raises(ValueError, match="tolerance"):
+    with pytest.raises(Alarm, match="tolerance"):
         svg.contours("<svg/>", tolerance=0)
 
 
@@ -107,7 +107,7 @@ def test_what_lies_in_what():
     found = area_of([*boxes[::-1], rectangle(8, 8, centre=(50, 0))])
     assert found.area == pytest.approx(3600 - 900 + 100 + 64)
     assert len(found.parts) == 3
-    with pytest.raises(ValueError, match="no closed contour"):
+    with pytest.raises(Alarm, match="no closed contour"):
         area_of([Contour([(0, 0), (9, 0)], closed=False)])
 
 
@@ -148,10 +148,31 @@ def test_a_dxf_file(tmp_path):
     slot = 8 + np.pi - np.pi / 4
     assert area_of(found).area == pytest.approx((slot + 4 + np.pi / 2 + 2 * np.pi) * inch2, rel=1e-4)
     (tmp_path / "no.dxf").write_text("nothing")
-    with pytest.raises(ValueError, match="no DXF"):
+    with pytest.raises(Alarm, match="no DXF"):
         dxf.contours(tmp_path / "no.dxf")
     with pytest.raises(Alarm, match="cannot be read: No such file"):
         dxf.contours(tmp_path / "gone.dxf")
     for wrong in (None, 5, b"part.dxf"):
         with pytest.raises(Alarm, match="the path of a file"):
             dxf.contours(wrong)
+
+
+def test_a_contour_that_touches_the_one_about_it():
+    """An island in the corner of a pocket, 60 × 40 less 20 × 20: whichever point is where they touch."""
+    corner = rectangle(20, 20, centre=(20, 10))
+    for k in range(4):
+        island = Contour(np.roll(corner.points, k, axis=0))
+        assert area_of([rectangle(60, 40), island]).area == pytest.approx(2400 - 400)
+
+
+def test_what_is_drawn_twice_counts_once():
+    again = rectangle(60, 40).reversed()
+    with pytest.warns(UserWarning, match="1 contour drawn again"):
+        assert area_of([rectangle(60, 40), rectangle(10, 10), again]).area == pytest.approx(2300)
+
+
+def test_islands_in_islands():
+    """Squares of 10, 20, … 70 in each other: every other ring between them belongs to the area."""
+    squares = [rectangle(10 * k, 10 * k) for k in range(1, 8)]
+    found = area_of(squares[::2] + squares[1::2])
+    assert found.area == pytest.approx(sum((-1) ** (7 - k) * (10 * k) ** 2 for k in range(1, 8)))

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mnclab import Alarm
 from mnclab.geometry import insets
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
@@ -245,3 +246,28 @@ def test_elements_that_have_passed_each_other_are_not_crossed(monkeypatch):
     expected = [300 * np.tan(np.pi / 300) * (apothem - 17 * k) ** 2 for k in range(3)]
     assert [each.area for each in region.insets(17)] == pytest.approx(expected)
     assert seen == [300, 300, 0]
+
+
+def test_an_outer_contour_within_another_is_said():
+    """It changes nothing in a union; who gives it means an island or a second level."""
+    outer, inner = box(0, 0, 100, 90), box(10, 10, 20, 20)
+    with pytest.raises(Alarm, match=r"outer contour 2 of 2, from X10.000 Y10.000, lies within another one .*holes=.*area_of"):
+        Region.of(outer, inner)
+    assert Region.union_of(outer, inner).area == pytest.approx(9000)
+    assert Region.of(outer, holes=[inner]).area == pytest.approx(8900)
+    assert Region.of(box(0, 0, 10, 10), box(5, 5, 15, 15)).area == pytest.approx(175)  # crossing ones are joined
+
+
+def test_an_empty_area_answers_in_words():
+    """Every attribute and method: a value, or an Alarm; the bounds are what it has not."""
+    empty, square = Region.of(), Region.of(box(0, 0, 10, 10))
+    with pytest.raises(Alarm, match="an empty area has no bounds"):
+        empty.bounds  # noqa: B018
+    assert empty.area == 0 and empty.parts == () and "0 loops" in repr(empty)
+    assert not empty.contains([(0, 0)]).any() and np.isinf(empty.distance([(0, 0)])).all()
+    assert not empty.holds((0, 0), (1, 1))
+    for made in (empty.inset(1), empty.offset(1), empty.difference(square), empty.intersection(square), empty.without([square])):
+        assert made.loops == ()
+    for made in (empty.union(square), square.union(empty), square.difference(empty), square.without([empty])):
+        assert made.area == pytest.approx(100)
+    assert list(empty.insets(1)) == [] and square.intersection(empty).loops == ()

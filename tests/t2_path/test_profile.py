@@ -301,7 +301,7 @@ TINY = dict.fromkeys(("acceleration", "jerk", "spindle", "spindle_acceleration")
 MAY_BE_NONE = ("corner_tolerance", "corner_jump", "tool_change")
 
 
-@pytest.mark.parametrize("corner", ["tolerance", "deviation", "jump"])
+@pytest.mark.parametrize("corner", ["tolerance", "deviation", "grbl", "jump"])
 @pytest.mark.parametrize("jerk", [None, 1e-3, 1e9])
 @pytest.mark.parametrize("override", [0.001, 100])
 def test_limits_at_the_ends_of_their_range_give_a_time(corner, jerk, override):
@@ -339,7 +339,7 @@ def test_an_override_is_a_sensible_share(override):
         ({"acceleration": 0}, "limit acceleration must be greater than 0, got 0"),
         ({"rapid": (1, 2)}, "limit rapid takes one number or three"),
         ({"jerk": -1}, "limit jerk must be greater than 0"),
-        ({"corner_speed": "sharp"}, "limit corner_speed must be one of tolerance, deviation, jump, got 'sharp'"),
+        ({"corner_speed": "sharp"}, "limit corner_speed must be one of tolerance, deviation, grbl, jump, got 'sharp'"),
         ({"rapid_motion": "fast"}, "limit rapid_motion must be one of axes, proportional, line"),
         ({"corner_tolerance": "a"}, "limit corner_tolerance must be a number, got 'a'"),
         ({"tool_change": -1}, "limit tool_change must be at least 0"),

@@ -81,7 +81,25 @@ def test_inside_out_is_turned_round():
     assert mesh(cube)([(0, 0, 0), (2, 0, 0)]) == pytest.approx([-0.5, 1.5])
 
 
-@pytest.mark.filterwarnings("ignore:The VTK reader")
+def test_broken_files_are_alarms_and_nothing_else(tmp_path, capfd, recwarn):
+    """Cut in the middle, absurd numbers, another format: one Alarm that names the file, nothing on stderr."""
+    box = pyvista.Box((0, 10, 0, 10, 0, 5)).triangulate()
+    for name in ("a.stl", "a.ply", "a.vtp"):
+        box.save(tmp_path / name, binary=name != "a.stl")
+    text = (tmp_path / "a.stl").read_text()
+    files = {
+        "cut.stl": text[: len(text) // 2], "words.stl": text.replace("10", "abc"), "large.stl": text.replace("10", "1e308"),
+        "cut.ply": (tmp_path / "a.ply").read_bytes()[:200], "cut.vtp": (tmp_path / "a.vtp").read_bytes()[:500],
+        "gone.obj": "v 0 0 0\nf 1 2 3\n", "cut.glb": "glTFxxxx", "cut.gltf": "{",
+        "much.vtk": "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 99999999999 float\n",
+    }  # fmt: skip
+    for name, content in files.items():
+        (tmp_path / name).write_bytes(content if isinstance(content, bytes) else content.encode())
+        with pytest.raises(Alarm, match=rf"{name} (cannot be read as a body|has no triangles|must be a closed body)"):
+            mesh(tmp_path / name)
+    assert capfd.readouterr().err == "" and not recwarn.list
+
+
 def test_what_is_no_body(tmp_path):
     (tmp_path / "empty.stl").write_text("")
     (tmp_path / "rubbish.stl").write_bytes(b"\x00\xff" * 99)

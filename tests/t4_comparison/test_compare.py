@@ -145,3 +145,15 @@ def test_numbers_of_numpy_are_numbers():
     assert repr(found) == repr(compare(BOX, 5.0, ["rings"], **{name: 2.0 for name in given}))
     turned = compare_turning(SHOULDER, np.int64(30), schemes=["loop"], depth=np.int8(4), feed=np.float64(0.5))
     assert repr(turned) == repr(compare_turning(SHOULDER, 30, schemes=["loop"], depth=4, feed=0.5))
+
+
+@pytest.mark.parametrize("name", ["rings", "spiral", "zigzag", "one way", "trochoidal"])
+@pytest.mark.parametrize("slot", [rectangle(60, 8), rectangle(60, 8, 4), rectangle(60, 8, angle=0.7), Contour.circle((3, 2), 4)])
+def test_a_slot_exactly_as_wide_as_the_tool(name, slot):
+    """Geometry: a tool of radius 4 passes through a width of 8 and nowhere else; that is no tool that does not fit."""
+    with pytest.raises(Alarm, match="a tool of radius 4 is exactly as wide as the contour"):
+        compare(Region.of(slot), Tool(radius=4), name)
+    with pytest.raises(Alarm, match="a tool of radius 4.01 does not fit into the contour"):
+        compare(Region.of(slot), Tool(radius=4.01), name)
+    with pytest.raises(Alarm, match="the area is empty"):
+        compare(Region.of(), Tool(radius=4), name)

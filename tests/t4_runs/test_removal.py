@@ -1,5 +1,7 @@
 """Removal over time: volumes of slots over the times of their moves, by tool and line."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -104,3 +106,49 @@ def test_a_rapid_in_material_does_not_set_the_scale():
     _, rate = removal.plot().axes
     assert rate.get_ylim()[1] == pytest.approx(1.25 * removal.largest.rate)
     assert f"rapids reach {removal.rate.max():.0f} mm³/min" in rate.texts[0].get_text()
+
+
+# --- sums agree in every view ------------------------------------------------------------------------------------------
+
+CROSSED = (
+    "T1 M6\nS1000 M3\nG43 G0 X-10 Y20 Z5\nG0 Z-4\nG1 X70 F300\nG0 Z5\nG0 X30 Y-10\nG0 Z-6\nG1 Y52\nG0 Z5\nG0 X15 Y10\nG1 Z-3\n"
+    "G3 I7 F200\nT2 M6\nS1000 M3\nG0 X45 Y30 Z5\nG1 Z-9 F100\nG0 Z50\n"
+)
+
+
+def crossed():
+    tools = {1: mnclab.Tool(number=1, radius=5, kind="mill"), 2: mnclab.Tool(number=2, radius=3, kind="drill", angle=118)}
+    return mnclab.run(CROSSED, "g43", mnclab.Setup(tools=tools, stock=((0, 0, -20), (60, 40, 0))))
+
+
+def shaft():
+    root = Path(__file__).parents[2] / "data"
+    return mnclab.run(root / "programs/jnc-t01/shaft.jnc", setup=root / "setups/jnc-t01/shaft.toml")
+
+
+@pytest.mark.parametrize("way", ["exact", "erosion", "lathe"])
+def test_what_was_removed_up_to_a_line_is_the_sum_over_the_lines_before(way, monkeypatch):
+    if way == "erosion":
+        monkeypatch.setattr("mnclab.workpiece.milling.milled.EXACT", 3)
+    run = shaft() if way == "lathe" else crossed()
+    part = run.workpiece()
+    assert way != "erosion" or part.many
+    for what in ("line", "tool", "row"):
+        assert sum(part.removed_by(what).values()) == pytest.approx(part.removed, rel=1e-9)
+    upto = part.removed_by_row().cumsum()
+    for row in range(0, len(run.toolpath), 3):
+        before = run.workpiece(row=row)
+        assert before.removed == pytest.approx(upto[row], rel=1e-9, abs=1e-9)
+        assert sum(before.removed_by("tool").values()) == pytest.approx(before.removed, rel=1e-9, abs=1e-9)
+    lines, total = run.toolpath.line, part.removed_by("line")
+    assert len(run.steps.block) <= len(run.program)  # each line runs once
+    for line in dict.fromkeys(lines.tolist()):
+        told = sum(volume for each, volume in total.items() if each <= line)
+        assert run.workpiece(line=line).removed == pytest.approx(told, rel=1e-9, abs=1e-9)
+
+
+def test_the_first_slot_of_crossed_ones_is_as_large_as_alone():
+    """60 x 10 x 4 mm³, whatever comes after it; the second takes 10 x 6 over 40 less what the first took of it, 10 x 10 x 4."""
+    run = crossed()
+    assert run.workpiece(line=5).removed == pytest.approx(2400, rel=1e-3)
+    assert run.workpiece(line=9).removed == pytest.approx(2400 + 2400 - 400, rel=1e-3)

@@ -20,7 +20,7 @@ UNDECIDED = sorted((FOLDER / "undecided").iterdir())
 KINDS = {
     "sinumerik": "a SINUMERIK program", "okuma": "an OKUMA program", "fagor": "a FAGOR program",
     "fanuc-lathe": "a lathe program of the FANUC kind", "maho": "a MAHO or Philips program",
-    "linuxcnc": "a LinuxCNC program with O words", "printer": "a program of a 3D printer", "hpgl": "an HPGL drawing",
+    "printer": "a program of a 3D printer", "hpgl": "an HPGL drawing",
     "apt": "an APT source or CLDATA", "drawing": "a drawing or a model", "source": "source code or a page",
 }  # fmt: skip
 

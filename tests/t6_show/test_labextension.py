@@ -1,6 +1,7 @@
 """The Lab extension is where JupyterLab looks for it; what it does is tested in a browser (tests/browser)."""
 
 import json
+import re
 import shutil
 import subprocess
 import tomllib
@@ -57,3 +58,21 @@ def test_the_script_is_javascript(name, tmp_path):
     if name != "remoteEntry.js":  # the others are modules
         script = shutil.copy(script, tmp_path / name.replace(".js", ".mjs"))
     subprocess.run([node, "--check", script], check=True)
+
+
+PROBES = ("// said", "/ / said", "; said", "(said)", "' said")
+
+
+@pytest.mark.parametrize("name", mnclab.controls)
+def test_what_is_coloured_as_a_comment_is_one_to_the_control(name):
+    """The authority is the reader of the control: behind its own mark stands a comment, and nothing else is one."""
+    script = (FOLDER / "static" / "remoteEntry.js").read_text("utf-8")
+    mark = re.compile(mnclab.controls[name].read("", "").comment_mark)
+    rule = r".*?(?:ISO\(|\[)/((?:[^/\\\n]|\\.)+)/y(?:\)|, 'comment'\])"
+    languages = re.findall(rf"\{{\s*name: '[^']*', control: '{name}',{rule}", script, re.S)
+    assert languages
+    for pattern in languages:
+        if pattern == r"\s+":
+            continue
+        for probe in PROBES:
+            assert bool(re.match(pattern, probe)) == bool(mark.match(probe)), (pattern, probe)

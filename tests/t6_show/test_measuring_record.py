@@ -4,6 +4,7 @@ import json
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 from toy_probing import toy_run
 
@@ -128,13 +129,17 @@ def test_the_shell_prints_the_record(tmp_path, monkeypatch, capsys):
 
 
 def test_what_the_readme_says_runs(tmp_path, monkeypatch):
-    """The hole of 24.06 is beyond the limit of 24.05."""
+    """The hole of 24.06 is beyond the limit of 24.05. The ball has a radius of 2: on every rapid its middle stays so far away."""
     monkeypatch.chdir(tmp_path)
     section = README.read_text("utf-8").partition("## Measuring")[2].partition("```python")[2].partition("```")[0]
     names = {"mnc": mnclab}
     exec(section, names)
     assert names["run"].ok and [row.what for row in names["run"].measurements.outside] == ["diameter"]
     assert (tmp_path / "plate.html").exists()
+    path = names["run"].toolpath
+    rapids, share = path[path.kind == mnclab.Kind.RAPID], np.linspace(0, 1, 400)[:, None, None]
+    middles = (rapids.start + share * (rapids.end - rapids.start)).reshape(-1, 3) + path.origin + (0, 0, 2)
+    assert names["setup"].part(middles).min() >= 2 - 1e-9
 
 
 def test_the_record_is_saved_as_csv_or_json_and_as_nothing_else(measured, tmp_path):

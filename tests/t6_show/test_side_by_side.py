@@ -8,6 +8,7 @@ import pytest
 
 import mnclab as mnc
 from mnclab.__main__ import main
+from mnclab.show.plot.holes import holes_of
 
 AREA = mnc.area.Region.of(mnc.area.rectangle(60, 40, 6))
 HOLES_MNC = "N10 G90 G54 T2 S1000 M3\nN20 G0 X{0} Y10 Z5\nN30 G83 X{0} Y10 Z-12 R2 K4 F120\nN40 X{1} Y10\nN50 G80\nN60 G0 Z50\n"
@@ -234,3 +235,78 @@ def test_what_a_folder_does_not_take(folder, capsys):
     with pytest.raises(SystemExit):
         main(["time", str(folder), "--start-at", "3"])
     assert "for one program" in capsys.readouterr().err
+
+
+def test_the_table_and_the_picture_have_the_same_holes():
+    """A plunge with an end mill straight down and out again is a hole 10 wide, one that goes on along X is none, and neither is
+    a way of a probe; a drilled hole is 8 wide. That is so in the table, in the picture and in what is compared."""
+    text = (
+        "G90 G54 T1 S1000 M3\nG0 X10 Y10 Z5\nG1 Z-5 F100\nG0 Z5\nX30\nG1 Z-5\nX40\nG0 Z5\n"
+        "T2\nX60\nG1 Z-9\nG0 Z5\nT3\nX70\nG1 Z-2\nG0 Z5\n"
+    )
+    tools = {1: mnc.Tool(diameter=10), 2: mnc.Tool(diameter=8, kind="drill"), 3: mnc.Tool(diameter=4, kind="probe")}
+    run = mnc.run(text, "mnc", tools=tools)
+    expected = [(10, 10, 10, -5), (60, 10, 8, -9)]
+    assert [(row.x, row.y, row.diameter, row.bottom) for row in run.holes()] == expected
+    drawn = holes_of(run).holes
+    assert [(hole.x, hole.y, 2 * hole.radius, hole.tip) for hole in drawn] == expected
+    assert mnc.diff(run, run, what="holes").both.tolist() == [[10, 10, 10], [60, 10, 8]]
+    stock = ((0, 0, -20), (80, 20, 0))
+    named = [(hole.x, hole.y, hole.diameter) for hole in run.design(stock=stock).features if isinstance(hole, mnc.design.Hole)]
+    assert sorted(named) == [(10, 10, 10), (60, 10, 8)]
+
+
+def test_a_bore_of_a_cycle_is_a_hole_of_both():
+    """Cycle 208 with a mill of 10 mm bores 16 mm wide: Q335 is the diameter, Q201 the depth."""
+    text = (
+        "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000\n2 M3\n3 CYCL DEF 208 Q200=2 Q206=200 Q201=-12 Q334=2 Q203=0 Q204=20 Q335=16 "
+        "Q342=0 Q351=1\n4 L X+30 Y+20 R0 FMAX M99\n5 END PGM A MM\n"
+    )
+    run = mnc.run(text, "tnc-620", tools={1: mnc.Tool(diameter=10, length=80)})
+    assert run.ok
+    (hole,) = run.holes()
+    assert (hole.x, hole.y, hole.bottom) == (30, 20, -12) and hole.diameter == pytest.approx(16)
+    (drawn,) = holes_of(run).holes
+    assert (drawn.x, drawn.y, drawn.tip) == (30, 20, -12) and 2 * drawn.radius == pytest.approx(16)
+
+
+def test_a_turning_pass_is_no_hole():
+    """X is a diameter: the pass at 40 cuts outside, the one on the axis drills."""
+    text = "G94 S500 M3\nG0 X40 Z2\nG1 Z-10 F100\nG0 Z2\nX0\nG1 Z-20\nG0 Z2\n"
+    run = mnc.run(text, "jnc-t01")
+    path = run.toolpath
+    assert path.lathe
+    assert [(row.x, row.bottom) for row in run.holes()] == [(0, -20)]
+
+
+# --- two paths in a picture --------------------------------------------------------------------------------------------
+
+ONE = "G90 G54 T1 S1000 M3\nG0 X10 Y10 Z5\nG1 Z-5 F100\nX50\nG0 Z5\nX10 Y30\n"
+
+
+def test_rapids_are_dashed_where_two_paths_are_laid_over_one_another():
+    """By the text: at Z-5 the tool cuts, it comes and leaves at rapid. No line that is drawn through holds a place of a rapid."""
+    picture = mnc.diff(mnc.run(ONE, "mnc"), mnc.run(ONE.replace("X50", "X50 Y12"), "mnc")).plot(view="XZ")
+    lines = [line for line in picture.axes[0].lines if len(line.get_xdata()) > 2 or line.get_linestyle() == "--"]
+    through = [line for line in lines if line.get_linestyle() == "-"]
+    dashed = [line for line in lines if line.get_linestyle() == "--"]
+    assert len(through) == len(dashed) == 2
+    for line in through:
+        x, z = (np.asarray(column) for column in line.get_data())
+        assert {tuple(each) for each in np.column_stack([x, z])[np.isfinite(x)].tolist()} == {(10, 5), (10, -5), (50, -5)}
+    for line in dashed:
+        x, z = line.get_data()
+        assert {(50, 5), (10, 5)} <= set(zip(np.asarray(x).tolist(), np.asarray(z).tolist()))
+    assert "rapid" in [text.get_text() for text in picture.legends[0].get_texts()]
+
+
+@pytest.mark.parametrize("size", ["column", "a4", None])
+def test_no_caption_loses_its_end(size):
+    """A caption that does not fit into a line goes on in the next one: it ends with what its sentence ends with, the unit."""
+    part = mnc.run(ONE, "mnc", stock=((0, 0, -12), (60, 40, 0))).workpiece()
+    found = part.compare(mnc.Design(((0, 0, -12), (60, 40, 0))))
+    for picture, end in ((part.plot(size=size), "removed"), (found.plot(size=size), "mm³")):
+        said = [text.get_text() for text in picture.texts]
+        assert any(text.endswith(end) for text in said) and not any("…" in text for text in said)
+        right = picture.get_window_extent().x1
+        assert all(text.get_window_extent().x1 <= right for text in picture.texts)

@@ -15,6 +15,7 @@ from mnclab.controls.g43.language import (
     macros,
     modes,
     motion,
+    o_words,
     offsets,
     polar,
     programs,
@@ -64,7 +65,7 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
 FIRST = "G0 G1 G2 G3 G17 G18 G19 G90 G91 G54 G55 G56 G57 G58 G59 G53 G52 G92 G28 G68 G51 G10 F S G94 G95 G61 G64"
 _PARTS = (
     modes, motion, offsets, transformations, polar, references, units, lengths, tools, data_setting, auxiliary, macros,
-    programs, corners,
+    programs, corners, o_words,
 )  # fmt: skip
 _ALL = {code: function for part in _PARTS for code, function in part.FUNCTIONS.items()}
 FUNCTIONS = FunctionTable({code: _ALL[code] for code in (*FIRST.split(), *_ALL)})

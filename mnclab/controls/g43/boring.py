@@ -134,7 +134,7 @@ class BackBoring(HoleCycle):
     dwell: float = dwell()
     feed: float | None = holes.feed()
     repeats: float = repeats()
-    needs = (holes.spindle_stands, initial_level_alone, not_of_linuxcnc, shift_scaled)
+    needs = (holes.spindle_stands, not_of_linuxcnc, initial_level_alone, shift_scaled)
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
         if not self.bottom > self.r_level:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mnclab.controls.g43.language import macros, programs
+from mnclab.controls.g43.language import macros, o_words, programs
 
 _CENTRES = {f"G{n} {letter}": f"centre along {axis}, from the start or, after G90.1, the origin"
             for n in (2, 3) for letter, axis in zip("IJK", "XYZ")}  # fmt: skip
@@ -28,6 +28,6 @@ MEANINGS = {
     "G41.1 D": "diameter of the tool", "G42.1 D": "diameter of the tool", "M19 R": "angle, degrees", "M19 P": "angle, degrees",
     "M19 Q": "how long the machine waits for it, s", "P": "choice of the function", "Q": "choice of the function",
     "E": "number of the signal", "L": "what to wait for", "G187 E": "how exact corners are",
-    **macros.MEANINGS, **programs.MEANINGS,
+    **macros.MEANINGS, **programs.MEANINGS, **o_words.MEANINGS,
     **{f"{code} R": "choice of the function" for code in ("G5", "G5.1", "G8", "G103", "G187")},
 }  # fmt: skip

@@ -27,7 +27,8 @@ DIALECTS: dict[str, dict[str, Any]] = {
         "dwell_p": "seconds", "peck_clearance": 0.254, "below_r": "straight", "arc_by_both": "refuse",
         "length_acts": "at_once", "g52_g92": "one", "g53_motion": "modal", "g53_increment": "refuse",
         "g10_p0": "active", "g10_l20": "position", "g10_increment": "replaces", "g51_factor": "as_written",
-        "hole_axis": "normal", "hole_data": "numbers",
+        "hole_axis": "normal", "hole_data": "numbers", "return_at_start": "G99", "axis_words": "refuse", "g61": "corners",
+        "arc_tolerance": 0.02 * 2**0.5, "arc_tolerance_share": 1e-3,
     },
 }  # fmt: skip
 
@@ -43,6 +44,12 @@ PROGRAM = (
 
 MOTION = (
     Setting("arc_tolerance", 0.01, "difference of the radii at start and end of an arc", "", {}, "mm", 0),
+    Setting("arc_tolerance_share", 0.0, "the part of the radius by which they may differ, up to 100 times arc_tolerance, which"
+            " counts 2.54 times under G20 then (LinuxCNC: 0.001)", "", {}, "", 0, 1),
+    one_of("axis_words", "X Y Z where no motion is active: at the start and after G80", "Fanuc, Haas",
+           move="G0 at the start, after G80 the motion before the cycle", refuse="an alarm (LinuxCNC)"),
+    one_of("g61", "where G61 stops", "Fanuc, Haas",
+           blocks="at the end of every motion", corners="not where the next motion goes straight on (LinuxCNC)"),
     one_of("arc_by_both", "R and I J K in one block", FANUC,
            radius="R counts, with a warning", centre="I J K count, with a warning", refuse="an alarm (LinuxCNC)"),
     one_of("helix", "a word of the third axis in an arc block", ALL,
@@ -93,6 +100,8 @@ COORDINATES = (
 )  # fmt: skip
 
 HOLES = (
+    one_of("return_at_start", "where a cycle leaves the tool before G98 or G99 is written", "Fanuc, Haas",
+           G98="at the initial level", G99="at level R (LinuxCNC)"),
     one_of("motion_in_cycle", "what G0, G1, G2 and G3 do while a cycle is active", ALL,
            ends="they end the cycle", waits="they wait until its end, and each position is a hole"),
     one_of("below_r", "which way a cycle begins from below level R", "on the safe side",

@@ -22,6 +22,11 @@ SIGNS = (
     sign(r"\(", 1, "comments in brackets"),
     sign(r"^[^;\n]*\b[GM]\d[^;\n]*;", 0.5, "comments behind a semicolon"),
     sign(r"#[ \t]*\d+[ \t]*=|\b(?:WHILE|IF)[ \t]*\[", 4, "variables"),
+    sign(r"#<[\w ]+>", 8, "a variable with a name"),
+    sign(
+        r"^[ \t]*O[ \t]*(?:<[\w. -]+>|\d+|[\[#])[^\n(]*(?:sub|endsub|call|if|while|repeat|do|return|endif|endwhile)\b",
+        20, "an O word of LinuxCNC",
+    ),
     sign(r"(?<![A-Z])M98[ \t]*[PQ]|(?<![A-Z])G65[ \t]*P", 3, "a sub-program"),
     sign(r"(?<![A-Z])M(?:0?2|30|99)(?!\d)", 0.5, "an end of the program"),
     sign(

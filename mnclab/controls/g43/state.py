@@ -44,6 +44,7 @@ class Memory(state.Memory):
     sections: dict[int, list[tuple[int, str]]] = field(default_factory=dict)  # the programs of each file that runs
     return_to: Word | None = None  # the block after a subprogram, where M99 names one
     macro: object = None  # that G66 calls
+    returned: float | None = None  # by the last subprogram of O words
 
     row: int = 1  # of the table of datums: G54
     set_aside: Offsets | None = None  # the shift that G92.2 has put aside

@@ -41,6 +41,7 @@ class Memory:
     stock: Blank | Body | None = None
     free_tables: dict[str, FreeTable] = field(default_factory=dict)  # by name in small letters, as they were opened
     free_table: str | None = None  # the open one
+    tool_fields: dict[tuple[float, int], float] = field(default_factory=dict)  # of columns without a place in a Tool, by number
     table_fields: dict[str, dict[tuple[int, str], str]] = field(default_factory=dict)  # written to: by table, row and column
     told: frozenset[str] = frozenset()  # warnings that are given once a program
     closed_files: frozenset[str] = frozenset()  # in small letters: what is written to them next begins anew

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
@@ -11,7 +12,7 @@ from mnclab.machine.control import Words
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import Machine
 from mnclab.path.tool import Tool
-from mnclab.text.alarm import PLACES
+from mnclab.text.alarm import PLACES, Alarm
 from mnclab.text.program import Word
 
 AXES = "XYZ"
@@ -66,7 +67,6 @@ def arc_to(
     third = AXES[normal].lower()
     if third in to and to[third] != m.programmed[normal]:
         helix(m, words)
-    tolerance = m.settings.get("arc_tolerance", 0.01)
     by_radius = "R" in words and not (offsets and m.settings.get("arc_by_both") == "centre")
     if "R" in words and offsets:
         both = "R and I J K stand in one block"
@@ -81,7 +81,37 @@ def arc_to(
         m.alarm(f"the centre of the arc lacks {missing[0]}", head, hint="G90.1 is active: it counts from the origin")
     start = (0.0, 0.0, 0.0) if absolute_centre else m.programmed
     centre = None if by_radius else {k: start[k] + m.length(word) for k, word in offsets.items()}
-    m.arc(**to, sense=sense, centre=centre, radius=radius, word=head, tolerance=tolerance, turns=turns)
+    middle = [(centre or {}).get(k, m.programmed[k]) for k in (first, second)]
+    end = [to.get(ARGUMENTS[k][1], m.programmed[k]) for k in (first, second)]
+    tolerance = arc_tolerance(m, max(math.dist(end, middle), math.dist((m.programmed[first], m.programmed[second]), middle)))
+    try:
+        m.arc(**to, sense=sense, centre=centre, radius=radius, word=head, tolerance=tolerance, turns=turns)
+    except Alarm as alarm:
+        if centre and "arc_centres" in m.settings and not alarm.hint:
+            alarm.hint = other_centre(m, to, centre, start, tolerance)
+        raise
+
+
+def other_centre(m: Machine, to: dict[str, Any], centre: dict[int, float], start: Iterable[float], tolerance: float) -> str:
+    """The hint that I J K fit where they count from the origin instead of the start of the arc, or the other way round."""
+    first, second, _ = PLANES[m.plane]
+    begun, here, absolute = m.programmed, list(start), not any(start)
+    middle = [centre.get(k, here[k]) - here[k] + (begun[k] if absolute else 0.0) for k in (first, second)]
+    end = [to.get(ARGUMENTS[k][1], begun[k]) for k in (first, second)]
+    radius = math.dist((begun[first], begun[second]), middle)
+    if radius < tolerance or abs(radius - math.dist(end, middle)) > tolerance:
+        return ""
+    choice = 'G91.1, or the setting arc_centres="start"' if absolute else 'G90.1, or the setting arc_centres="origin"'
+    return f"counted from the {'start of the arc' if absolute else 'origin'} they fit, radius {radius:.4g}: {choice}"
+
+
+def arc_tolerance(m: Machine, radius: float = 0.0) -> float:
+    """By how much the radii at both ends of an arc may differ, mm; of LinuxCNC a part of the larger one, too."""
+    allowed, share = m.settings.get("arc_tolerance", 0.01), m.settings.get("arc_tolerance_share", 0.0)
+    if share:
+        allowed *= 2.54 if m.variable_unit > 1 else 1.0
+        return float(min(max(allowed, share * radius), 100 * allowed))
+    return float(allowed)
 
 
 def as_a_line(m: Machine, words: Words, lacks: str) -> None:

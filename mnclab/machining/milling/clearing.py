@@ -17,6 +17,7 @@ from mnclab.geometry.regions import Region
 from mnclab.text.alarm import several
 
 SLACK = 1e-6  # mm
+EXACT = 1e-5  # mm, by which a tool is as wide as what it shall clear
 NOWHERE = Region()
 
 
@@ -163,6 +164,16 @@ def tool_centres(region: Region, radius: float, stepover: float, allowance: floa
         raise ValueError(f"the stepover must lie above 0 and not above twice the radius, got {stepover:g}")
     centres = region.inset(radius + allowance)
     if not centres.loops:
-        rest = f" with an allowance of {allowance:g}" if allowance else ""
-        raise ValueError(f"a tool of radius {radius:g}{rest} does not fit into the contour")
+        raise ValueError(unfit(region, radius, allowance))
     return centres
+
+
+def unfit(region: Region, radius: float, allowance: float) -> str:
+    """Why a tool finds no room for its centre in an area, in words."""
+    rest = f" with an allowance of {allowance:g}" if allowance else ""
+    if not region.loops:
+        return "the area is empty: there is nothing to clear"
+    if region.inset(radius + allowance - EXACT).loops:
+        return (f"a tool of radius {radius:g}{rest} is exactly as wide as the contour, which leaves no way round: "
+                "it is one stroke along the middle, as a slot is cut, or a smaller tool")  # fmt: skip
+    return f"a tool of radius {radius:g}{rest} does not fit into the contour"

@@ -19,7 +19,7 @@ import numpy as np
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.vectors import left
-from mnclab.machining.milling.clearing import begin, numbered
+from mnclab.machining.milling.clearing import begin, numbered, unfit
 from mnclab.machining.milling.finishing import LEAST, quarter_circles
 from mnclab.machining.milling.rings import rounded
 from mnclab.machining.steps import RAPID, Along, Go, Step
@@ -75,7 +75,7 @@ def wall_loops(
     if solid:
         loops.remove(max(loops, key=lambda loop: loop.area))  # the edge of what is outside
     if not loops:
-        raise ValueError(f"a tool of radius {radius:g} with an allowance of {allowance:g} does not fit into the contour")
+        raise ValueError(unfit(free, radius, allowance))
     return tuple(_wall(centres, rounded(loop, corner_radius), wish, least, climb) for loop in loops)
 
 

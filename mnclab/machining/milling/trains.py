@@ -256,7 +256,7 @@ def _room(contour: Contour, distance: float, side: int, fault: PathFault) -> lis
         np.vstack([contour.points, back.points[1:-1]]), np.concatenate([contour.bulge[:-1], back.bulge[:-1]])
     )
     discs = (Contour.circle(point, distance) for point in (contour.points[0], contour.points[-1]))
-    near = Region.of(*bands_beside(there, distance), *discs)
+    near = Region.union_of(*bands_beside(there, distance), *discs)
     loop = next((loop for loop in near.loops if loop.distance([first, last]).max() < 1e-4), None)
     if loop is None:
         raise fault

@@ -51,6 +51,15 @@ class Approach:
         """The south pole at the measuring height; where the probe `stands` there already, that."""
         return self.level - self.ball if self.stands is None else self.stands
 
+    def as_far_as(self, wall: float) -> Approach:
+        """How it touches where the nominal wall is known to be `wall` away from the ball's centre, and no clearance before it.
+
+        DIST and MAX_DIST are the longest way to a touch point, from where a touch begins in front of it (TNC 620 13.2, MNC
+        12.21). From a start that is farther away the nominal wall must be in reach all the same, or the examples of TNC 620
+        16.9 and 16.10 and of MNC 12.18 would not measure: a touch may then go as far as the wall, and the clearance more.
+        """
+        return replace(self, reach=max(self.reach, wall + self.gap if wall else 0.0))
+
     def go(self, label: str, z: float | None = None, x: float | None = None, y: float | None = None) -> Go:
         """Position."""
         return Go(label, z, self.positioning, x, y)
@@ -223,13 +232,12 @@ def sides(a: Approach, centre: Pair, half: Pair, order: Sequence[int], inside: b
     """Touches of a slot, ridge, pocket or stud in the middle of its sides, in an order such as `ROUND`; returns the contacts.
 
     Where a touch from within has no room before it, it begins in the centre, and the probe stays at the measuring height: on the
-    axis that is too short (`each`, TNC 620 15.4 and 16.6), or on all, reaching farther (MNC 12, "probe motion").
+    axis that is too short (`each`, TNC 620 15.4 and 16.6), or on all (MNC 12, "probe motion").
     """
     short = [inside and (size < a.away if each else size <= a.away) for size in (half[which % 2] for which in order)]
     if any(short):
-        a = replace(a, over=False)
-        if not each:
-            a, short = replace(a, reach=max(a.reach, max(half) + a.gap)), [True] * len(short)
+        short = short if each else [True] * len(short)
+        a = replace(a, over=False).as_far_as(max(half[which % 2] for which, near in zip(order, short) if near))
     aims = [side(centre, (0.0, 0.0) if near else half, k, inside, 0.0 if near else None) for k, near in zip(order, short)]
     ways = () if a.over else ways_round(centre, (half[0] + a.away, half[1] + a.away), order, inside)
     return (yield from in_plane(a, aims, now, ways))
@@ -246,7 +254,7 @@ def around(
     """
     begin = radius + (-a.away if inside else a.away)
     if begin < 0:
-        a, begin = replace(a, over=False), 0.0
+        a, begin = replace(a, over=False).as_far_as(radius), 0.0
     aims = on_circle(centre, radius, first, step, count, inside, None if begin else radius)
     turn = Turn("around", math.radians(step), feed=a.positioning, centre=centre)
     ways = [[turn]] * (count - 1) if begin and (arc or not a.over) else ()

@@ -59,24 +59,27 @@ class Bends:
         return self.radius * self.rate**2
 
 
-def divided(path: Toolpath, counts: Index) -> tuple[Toolpath, Index]:
-    """The path with each row cut into `counts` (n,) equal parts, and the row (m,) of the path each part belongs to."""
+def divided(path: Toolpath, counts: Index, until: Array | None = None) -> tuple[Toolpath, Index]:
+    """The path with each row cut into `counts` (n,) equal parts, or into such as end at the shares `until` (m,) of their
+    row, and the row (m,) of the path each part belongs to."""
     row = np.repeat(np.arange(len(path)), counts)
     k = np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)
     many = counts[row]
+    until = (k + 1) / many if until is None else until
+    since = np.where(k == 0, 0.0, np.append(0.0, until[:-1]))
     columns = {name: getattr(path, name)[row] for name in COLUMNS}
     cut = np.flatnonzero(many > 1)
     start, end = columns["start"], columns["end"]
     travel = end[cut] - start[cut]
     begin = start[cut].copy()
-    start[cut] = begin + (k[cut] / many[cut])[:, None] * travel
+    start[cut] = begin + since[cut, None] * travel
     last = (k + 1 == many)[:, None]
-    end[cut] = np.where(last[cut], end[cut], begin + ((k[cut] + 1) / many[cut])[:, None] * travel)
+    end[cut] = np.where(last[cut], end[cut], begin + until[cut, None] * travel)
     arcs = cut[columns["kind"][cut] == Kind.ARC]
     if len(arcs):
         bends = Bends(path, row[arcs], path.lengths[row[arcs]])
-        start[arcs] = bends.place(k[arcs] / many[arcs])
-        end[arcs] = np.where(last[arcs], path.end[row[arcs]], bends.place((k[arcs] + 1) / many[arcs]))
-    columns |= {name: columns[name] / many for name in ("sweep", "time")}
+        start[arcs] = bends.place(since[arcs])
+        end[arcs] = np.where(last[arcs], path.end[row[arcs]], bends.place(until[arcs]))
+    columns |= {name: columns[name] * (until - since) for name in ("sweep", "time")}
     columns["exact"] = columns["exact"] & last[:, 0]
     return path.replace(**columns), row

@@ -11,17 +11,23 @@ With Δu the difference of the unit tangents (per axis Δu_k), a_k and j_k the l
     neighbour: `v T <= the shorter one`.
 **deviation**
     A circle touches both legs and leaves the corner by ε; it is run with v² = a r:
-    `v² = a ε sin(β/2) / (1 - sin(β/2))`, β the angle between the legs (180° is straight on) and a the smaller path
-    acceleration of the two rows. S. K. Jeon, "Improving Grbl: Cornering Algorithm" (2011); Grbl, Klipper and Marlin
-    plan so.
+    `v² = a ε sin(β/2) / (1 - sin(β/2))`, β the angle between the legs (180° is straight on) and a the least of the
+    path accelerations of the two rows and of what the axes bear along Δu. S. K. Jeon, "Improving Grbl: Cornering
+    Algorithm" (2011). The circle touches neither leg beyond its middle, `v² <= a l tan(β/2) / 2` with l the shorter
+    one: so plan Klipper (move_centripetal_v2) and Marlin (limit_sqr), and short lines of a curve keep to v² = a r.
+**grbl**
+    The same as Grbl 1.1 plans it (planner.c): a along Δu alone, and however short the legs are. On short lines of a
+    curve the axes are asked for more than they have.
 **jump**
     The speed of an axis may jump by s_k: `v = min(s_k / |Δu_k|)`. Marlin calls this classic jerk.
 
     Many short lines that stand for a curve, |Δu| l / 8 <= ε with l the mean length of the neighbours, may share their
     acceleration: it follows the curvature κ = Δu / l of each corner, goes over into that of the next corner within the
-    row between them, and so `v² <= min(a_k / |κ_k|)` and `v³ <= min(j_k L / |κ_k' - κ_k|)`. The greater speed counts.
+    row between them, and so `v² <= min(a_k / |κ_k|)` and `v³ <= min(j_k L / |κ_k' - κ_k|)`. The greater speed counts
+    under "tolerance", the smaller one under "deviation".
 
-Tangents that differ by less than `TANGENT` are no corner: rounded coordinates make tangent joints miss by that.
+Tangents that differ by less than `TANGENT` are no corner: rounded coordinates make tangent joints miss by that. But where
+they follow each other in short rows they are a curve: but for "grbl" and "jump" `v² <= l / max(|Δu_k| / a_k)` holds.
 Under a jerk limit a joint of line and arc is a corner too, for the centripetal acceleration v² Δκ begins at once. Spread
 over the time T = v² max(|Δκ_k| / j_k) it leaves the path by v² |Δκ| T² / 24, hence
 `v⁶ = 24 ε / (|Δκ| max(|Δκ_k| / j_k)²)`.
@@ -48,37 +54,41 @@ Rule = Callable[[Columns, Columns, Pair, Pair, Slack], Array]
 def rule(limits: Limits) -> Rule:
     """v² (m,) from the tangents before and after, the path accelerations and the lengths of both rows, and the tolerance."""
     jerks, jumps = limits.axes("jerk"), limits.axes("corner_jump")
-    smooth = bool(np.isfinite(jerks).any())
+    smooth, own = bool(np.isfinite(jerks).any()), limits.corner_speed == "grbl"
 
     def tolerance(before: Columns, after: Columns, accelerations: Pair, lengths: Pair, slack: Slack) -> Array:
         turn, slow, slower = _changes(before, after, limits.axes("acceleration"), jerks if smooth else None)
-        if not np.any(slack):
-            return np.where(turn < TANGENT, np.inf, 0.0)
         short = np.minimum(*lengths)
         with np.errstate(divide="ignore", invalid="ignore"):  # straight on, or a row of no length
+            room = np.fmin(short / slow, np.inf)
+            if not np.any(slack):
+                return np.where(turn < TANGENT, room, 0.0)
             if not smooth:
-                w = np.minimum(8 * slack / (turn * slow), short / slow)
+                w = np.minimum(8 * slack / (turn * slow), room)
             else:
                 w = np.minimum(6 * slack / (turn * slow), short / (2 * slow))
                 w = np.minimum(w, (6 * slack / (turn * np.sqrt(slower))) ** (4 / 3))
                 w = np.minimum(w, (short / (2 * np.sqrt(slower))) ** (4 / 3))
-        w[turn < TANGENT] = np.inf
+        straight = turn < TANGENT
+        w[straight] = room[straight]
         return w
 
     def deviation(before: Columns, after: Columns, accelerations: Pair, lengths: Pair, slack: Slack) -> Array:
-        half = before[0] * after[0]
-        half += before[1] * after[1]
-        half += before[2] * after[2]
+        turn, slow, _ = _changes(before, after, limits.axes("acceleration"), None)
+        half = turn * turn
+        half *= -0.25
         half += 1.0
-        half *= 0.5
         np.sqrt(np.maximum(half, 0.0, out=half), out=half)  # sin(β/2) = cos(turn / 2)
-        np.minimum(half, 1.0 - TANGENT**2 / 8, out=half)
-        w = np.minimum(*accelerations)
+        with np.errstate(divide="ignore", invalid="ignore"):  # straight on
+            w = np.fmin(turn / slow, 1e12 if own else np.minimum(*accelerations))
+            room = np.minimum(*lengths) * half / slow
+        straight = np.flatnonzero(turn < TANGENT)
+        half[straight] = 1.0 - TANGENT**2 / 8
         w *= slack
         w *= half
         w /= 1.0 - half
-        w[(half >= 1.0 - TANGENT**2 / 8) & np.equal(slack, 0)] = np.inf
-        return w
+        w[straight[np.broadcast_to(slack, len(w))[straight] == 0]] = np.inf
+        return w if own else np.fmin(w, room, out=w)
 
     def jump(before: Columns, after: Columns, accelerations: Pair, lengths: Pair, slack: Slack) -> Array:
         w, turn = np.full(len(before[0]), np.inf), np.zeros(len(before[0]))
@@ -90,7 +100,7 @@ def rule(limits: Limits) -> Rule:
         w[turn < TANGENT**2] = np.inf
         return w
 
-    return {"tolerance": tolerance, "deviation": deviation, "jump": jump}[limits.corner_speed]
+    return {"tolerance": tolerance, "deviation": deviation, "grbl": deviation, "jump": jump}[limits.corner_speed]
 
 
 def _changes(before: Columns, after: Columns, accelerations: Array, jerks: Array | None) -> tuple[Array, Array, Array]:
@@ -126,7 +136,7 @@ def bend_joints(before: Array, after: Array, limits: Limits, slack: Slack) -> Ar
 
 
 def curves(tangent: Array, length: Array, lines: Mask, limits: Limits, slack: Slack) -> Array:
-    """v² (n - 1,) at the corners between rows that are short lines of a curve, 0 elsewhere; for "tolerance" with jerk.
+    """v² (n - 1,) at the corners between rows that are short lines of a curve, 0 elsewhere; under a jerk limit.
     `tangent` (n, 3) and `length` (n,) of all rows; `lines` (n,) says which of them are lines."""
     mean = (length[1:] + length[:-1]) / 2
     corner = lines[1:] & lines[:-1]

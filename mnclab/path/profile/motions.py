@@ -25,7 +25,7 @@ from mnclab.text.records import shapes
 
 PIECE = 1 << 15  # rows worked on at a time
 FULL = 0.9  # of an arc's acceleration may be centripetal; the rest is left for speeding up and braking
-ARC_JERK = (0.3, 0.6)  # of the jerk: the part that turning takes at most, and that turning while braking takes
+TURNING, BRAKING = 0.3, 0.6  # of the jerk on an arc: the part that turning takes at most, and that turning while braking takes
 
 
 @dataclass
@@ -73,8 +73,11 @@ def feeds(path: Toolpath, begin: int, end: int, length: Array, limits: Limits, o
     return np.where(np.isnan(feed), np.inf, feed)
 
 
-def measure(path: Toolpath, limits: Limits, override: float = 1.0, caps: Array | None = None) -> Rows:
-    """What the rows of a path allow; `caps` (n,), where they are numbers, replace what all of an arc would allow."""
+def measure(
+    path: Toolpath, limits: Limits, override: float = 1.0, caps: Array | None = None, turning: Array | None = None
+) -> Rows:  # fmt: skip
+    """What the rows of a path allow; `caps` (n,), where they are numbers, replace what all of an arc would allow, and
+    `turning` (n,) says which part of the jerk an arc may turn with."""
     n = len(path)
     speeds, slowest, jerks = (limits.axes(name) for name in ("rapid", "acceleration", "jerk"))
     jerky = bool(np.isfinite(jerks).any())
@@ -110,7 +113,8 @@ def measure(path: Toolpath, limits: Limits, override: float = 1.0, caps: Array |
         before = after = d
         if len(arcs):
             bends = Bends(path[i:j], arcs, length[arcs])
-            cap[arcs], a[arcs], found = allowed(bends, feed[arcs], limits)
+            share = TURNING if turning is None else turning[i:j][arcs]
+            cap[arcs], a[arcs], found = allowed(bends, feed[arcs], limits, share)
             if jerky:
                 rows.j[i:j][arcs] = found
             if caps is not None:
@@ -133,12 +137,16 @@ def measure(path: Toolpath, limits: Limits, override: float = 1.0, caps: Array |
         np.minimum(w, rows.cap[second], out=rows.corner[second])
         last = [each[-1:].copy() for each in before]
     if jerky:
-        if limits.corner_speed == "tolerance" and np.any(slack):
+        if limits.corner_speed in ("tolerance", "deviation") and np.any(slack):
             lines = (path.kind == Kind.LINE) & (rows.length > 0)
             with np.errstate(divide="ignore", invalid="ignore"):
                 tangent = (path.end - path.start) / rows.length[:, None]
             w = corner_speeds.curves(tangent, rows.length, lines, limits, slack)
-            np.maximum(rows.corner[1:-1], np.minimum(w, np.minimum(rows.cap[1:], rows.cap[:-1])), out=rows.corner[1:-1])
+            corner = rows.corner[1:-1]
+            if limits.corner_speed == "tolerance":
+                np.maximum(corner, np.minimum(w, np.minimum(rows.cap[1:], rows.cap[:-1])), out=corner)
+            else:
+                np.minimum(corner, w, out=corner, where=w > 0)
         _bend_joints(path, rows, limits, slack)
     _stops(path, rows)
     return rows
@@ -176,12 +184,13 @@ def _bend_joints(path: Toolpath, rows: Rows, limits: Limits, slack: corner_speed
     rows.corner[nodes] = np.minimum(rows.corner[nodes], held)
 
 
-def allowed(bends: Bends, feed: Array, limits: Limits) -> tuple[Array, Array, Array]:
-    """w, a and jerk (m,) along arcs that no axis can object to, wherever on the arc.
+def allowed(bends: Bends, feed: Array, limits: Limits, turning: Array | float = TURNING) -> tuple[Array, Array, Array]:
+    """w, a and jerk (m,) along arcs that no axis can object to, wherever on the arc; `turning`: the part of the jerk
+    that turning at w may take.
 
     With h the part of a circle that an axis sees, c h and p its slopes on circle and pitch, κ the curvature, ω = sweep/L:
     `v (c h + p) <= V`, `(c h a)² + (h κ v²)² <= (A - p a)²`, and for the jerk j along the path
-    `(c h + p)² [(j + ω² v³)² + (3 ω v a)²] <= J²`.
+    `(c h + p)² [(j + ω² v³)² + (3 ω v a)²] <= J²`, or p j <= J on an axis that sees nothing of the circle.
     """
     speeds, accelerations, jerks = (limits.axes(name) for name in ("rapid", "acceleration", "jerk"))
     h = np.maximum(bends.seen, 1e-12)
@@ -190,15 +199,21 @@ def allowed(bends: Bends, feed: Array, limits: Limits) -> tuple[Array, Array, Ar
     pitch = np.abs(bends.drift) / bends.length[:, None]
     bend = bends.bend[:, None] * h
     v = np.minimum(feed, (speeds / (circle + pitch)).min(axis=1))
-    v = np.minimum(v, np.sqrt((FULL * accelerations / bend).min(axis=1)))
-    most = (jerks / (circle + pitch)).min(axis=1)
-    v = np.minimum(v, np.cbrt(ARC_JERK[0] * most / turn**2))
+    full = FULL + (1 - FULL) * (turning - TURNING) / (1 - TURNING)
+    v = np.minimum(v, np.sqrt(full * (accelerations / bend).min(axis=1)))
+    each = jerks / (circle + pitch)
+    across = h < 1e-6
+    most = np.where(across, np.inf, each).min(axis=1)
+    v = np.minimum(v, np.cbrt(turning * most / turn**2))
     w = v * v
     left = accelerations**2 - (bend * w[:, None]) ** 2
     both = accelerations * pitch
     root = np.sqrt(np.maximum(both**2 + (circle**2 - pitch**2) * left, 0.0))
     a = (left / (both + root)).min(axis=1)
-    if not np.isfinite(most).any():
+    if not np.isfinite(jerks).any():
         return w, a, most
-    a = np.minimum(a, ARC_JERK[1] * most / (3 * turn * v))
-    return w, a, most * (np.sqrt(1 - (3 * turn * v * a / most) ** 2) - turn**2 * v**3 / most)
+    straight = np.where(across, each, np.inf).min(axis=1)
+    a = np.minimum(a, BRAKING * np.sqrt((1 - np.square(turning)) / (1 - TURNING**2)) * most / (3 * turn * v))
+    with np.errstate(invalid="ignore"):  # none of the jerks in the plane is limited
+        j = most * (np.sqrt(1 - (3 * turn * v * a / most) ** 2) - turn**2 * v**3 / most)
+    return w, a, np.fmin(j, straight)

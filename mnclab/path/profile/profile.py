@@ -75,14 +75,15 @@ class Profile:
 
     def __init__(
         self, path: Toolpath, limits: Limits | str | None = None, *, override: float = 1.0, rapid_motion: str = "line",
-        waits: Mask | None = None, source: Any = None, name: str = "",
+        waits: Mask | None = None, source: Any = None, name: str = "", reach: str = "",
     ) -> None:  # fmt: skip
         if not isinstance(path, Toolpath):
             raise Alarm(f"a profile is that of a toolpath, got {shown(path)}", hint="Profile(run.toolpath)")
         self.path, self.limits, self.override = path, limits_of(limits) or Limits(), override
         self.source = source  # the Program, for pictures that show its lines
         self.name = name  # what a picture of several calls it
-        self._more: dict[str, Any] = {"rapid_motion": rapid_motion, "waits": waits, "source": source}
+        self.reach = reach  # "up to line 12, where the run stopped" of a path that ends before its program
+        self._more: dict[str, Any] = {"rapid_motion": rapid_motion, "waits": waits, "source": source, "reach": reach}
         self.plan: Plan = plan(path, self.limits, override, rapid_motion, waits)
         self.seconds: Array = fixed(self._of_rows(self.plan.seconds))
 
@@ -218,12 +219,12 @@ class Profile:
 
     def __repr__(self) -> str:
         causes = ", ".join(f"{cause} {seconds:.3f}" for cause, seconds in self.time_by("cause").items())
-        return f"<Profile: {self.time:.3f} s{': ' if causes else ''}{causes}>"
+        return f"<Profile: {f'{self.time:.3f} s {self.reach}'.rstrip()}{': ' if causes else ''}{causes}>"
 
     def _repr_html_(self) -> str:
         causes = self.time_by("cause")
         rows = [(cause, f"{took:.3f} s", f"{100 * took / self.time:.1f} %") for cause, took in causes.items()]
-        return html_table(("time", f"{self.time:.3f} s", ""), rows, numbers=(1, 2))
+        return html_table(("time", f"{self.time:.3f} s", self.reach), rows, numbers=(1, 2))
 
     def plot(self, **options: Any) -> Figure:
         """Programmed and reached feed, acceleration and jerk over time, stops, limits, and which of them governs where.

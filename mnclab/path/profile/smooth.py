@@ -14,7 +14,7 @@ A jerk limit is not additive in v², so the scans of the look-ahead do not carry
 4. Every group is one move of up to seven phases (`path.profile.ramps`).
 
 No limit is exceeded, but it costs time against the optimum: the acceleration is zero at every knot, a group is as slow as
-its slowest part, and arcs share their jerk between turning and braking by fixed parts. A single move is optimal; on
+its slowest part, and arcs share their jerk between turning and braking by fixed parts, in stages. A single move is optimal; on
 contours with long rows only corners that are taken at speed cost a little; on chains of short rows the ramps from and to
 stops take about 1.2 to 2 times as long as the best, and what runs at its feed costs nothing.
 """
@@ -24,7 +24,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.columns import Array, Index
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.profile import ramps
 from mnclab.path.profile.lookahead import reachable, running_sum
 from mnclab.path.profile.motions import Rows
@@ -97,10 +97,13 @@ class Groups:
         return tuple(np.concatenate(each) for each in zip(found, rest))
 
 
-def smooth(rows: Rows, w: Array) -> tuple[Array, Array, Array, Groups]:
-    """Speeds at the nodes (n + 1,), top speeds and times (n,) and the groups; `w` bounds v² at the nodes."""
+def smooth(
+    rows: Rows, w: Array, given: Index | slice = slice(0), bound: Mask | bool = False
+) -> tuple[Array, Array, Array, Groups]:
+    """Speeds at the nodes (n + 1,), top speeds and times (n,) and the groups; `w` bounds v² at the nodes. Some knots may be
+    `given`, between which the `bound` rows (n,) need no others."""
     n = len(rows.length)
-    knots = _knots(rows, w)
+    knots = _knots(rows, w, given, bound)
     first = knots[:-1]
     behind = running_sum(rows.length)
     length = np.diff(behind[knots])
@@ -129,7 +132,7 @@ def smooth(rows: Rows, w: Array) -> tuple[Array, Array, Array, Groups]:
     return nodes, top, np.maximum(end - groups.since, 0.0), groups
 
 
-def _knots(rows: Rows, w: Array) -> Index:
+def _knots(rows: Rows, w: Array, given: Index | slice, bound: Mask | bool) -> Index:
     """Nodes (g + 1,) at which the acceleration is zero, the first and the last among them."""
     n = len(rows.length)
     stops = np.flatnonzero(w[:-1] == 0)  # node 0 is one
@@ -137,10 +140,11 @@ def _knots(rows: Rows, w: Array) -> Index:
     v = np.sqrt(np.minimum(rows.cap, fastest))
     with np.errstate(divide="ignore", invalid="ignore"):
         share = rows.length / (SHARE * np.maximum(ramps.ramp_length(np.zeros(n), v, rows.a, rows.j), 1e-9))
-    share = np.minimum(np.nan_to_num(share), 1.0)
+    share = np.where(bound, 0.0, np.minimum(np.nan_to_num(share), 1.0))
     grid = np.floor(running_sum(share))
     chosen = np.zeros(n + 1, dtype=bool)
     chosen[0] = chosen[n] = True
+    chosen[given] = True
     chosen[1:] |= grid[1:] != grid[:-1]
     chosen |= rows.corner == 0
     corner, cap = rows.corner, rows.cap

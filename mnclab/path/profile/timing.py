@@ -3,7 +3,8 @@
 1. `path.profile.motions`: what each row and each corner allows by itself.
 2. `path.profile.lookahead`: from that the speeds at the nodes between rows, by two scans.
 3. `path.profile.turns`: arcs that do not reach their feed are cut finer and planned again.
-4. `path.profile.smooth`: under a jerk limit, S-curves over groups of rows instead of trapezoids.
+4. `path.profile.smooth`: under a jerk limit, S-curves over groups of rows instead of trapezoids; arcs are cut into
+   stages before (`path.profile.stages`).
 5. Rows without motion take their own time; rapids may run axis by axis (`path.profile.rapids`).
 """
 
@@ -21,6 +22,7 @@ from mnclab.path.profile.lookahead import reachable
 from mnclab.path.profile.motions import PIECE, Rows, measure
 from mnclab.path.profile.rapids import Rapids
 from mnclab.path.profile.smooth import Groups, smooth
+from mnclab.path.profile.stages import staged
 from mnclab.path.profile.turns import FEWEST, PART, Turns
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.given import check_number
@@ -67,7 +69,13 @@ def plan(
         waits = None if waits is None else waits[row]
     rows = measure(path, limits, override)
     if len(rows.j):
-        v, top, seconds, groups = smooth(rows, reachable(rows.corner, 2 * rows.a * rows.length))
+        if (cut := staged(path, rows, limits)) is not None:
+            path, inner = cut.path, cut.inner
+            row, waits = cut.part if row is None else row[cut.part], None if waits is None else waits[cut.part]
+            rows = measure(path, limits, override, turning=cut.turning)
+            rows.corner[inner] = np.minimum(rows.cap[inner - 1], rows.cap[inner])
+        w = reachable(rows.corner, 2 * rows.a * rows.length)
+        v, top, seconds, groups = smooth(rows, w) if cut is None else smooth(rows, w, cut.knots, cut.bound)
         found = Plan(path, row, rows, v, top, seconds, groups=groups)
     else:
         found = _trapezoids(path, row, rows)

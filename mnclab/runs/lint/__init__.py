@@ -10,7 +10,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from mnclab.runs.lint import above_blank, left_on, rapid_in_blank, still_spindle, unused
+from mnclab.runs.lint import (
+    above_blank,
+    feed_of_another_unit,
+    left_on,
+    rapid_in_blank,
+    still_spindle,
+    thread_beyond_axis,
+    unused,
+)
 from mnclab.text.alarm import Alarm
 
 if TYPE_CHECKING:
@@ -30,5 +38,5 @@ def remarks(run: Run, m: Machine) -> Iterator[Alarm]:
     if run.settings["lint"] == "off" or not len(run.steps.block):
         return
     yield from still_spindle.remarks(m, run.toolpath)
-    for rule in (rapid_in_blank, above_blank, left_on, unused):
+    for rule in (rapid_in_blank, above_blank, left_on, unused, thread_beyond_axis, feed_of_another_unit):
         yield from rule.remarks(run)

@@ -73,8 +73,9 @@ def plot_difference(
     low, high = difference.compared.bounds_3d if lathe else _bounds(difference)
     views = [VIEWS["ZX" if lathe else "XY"], *(each.section.view for each in cuts)]
     marks = marks_of(difference)
-    said = [*_told(difference), *(f"{each.number}  {each.text}" for each in marks)]
     rows = [(), *lines_of(difference, marks)] if table and len(difference.features) else []
+    told = [*_told(difference), *(f"{each.number}  {each.text}" for each in marks)]
+    said = Foot("\n".join(told)).within(max(size[0], wide_of(rows))).lines
     size = size[0], size[1] + LINE * (len(rows) + len(said))
     handles = _handles(difference, cuts)
     foot = Foot("\n" * (len(rows) + len(said) - 1))
@@ -239,9 +240,8 @@ def _handles(difference: Difference, cuts: Sequence[Magnified]) -> list[Any]:
 
 
 def _told(difference: Difference) -> list[str]:
-    verdict = "as drawn" if difference.ok else "not as drawn"
     volumes = f"gouged away {difference.gouge_volume:.3f} mm³, left over {difference.rest_volume:.3f} mm³"
-    return [f"{verdict} within {number(difference.tolerance)} mm; {volumes}"]
+    return [f"{difference.verdict} within {number(difference.tolerance)} mm; {volumes}"]
 
 
 def _words(difference: Difference) -> str:

@@ -1,14 +1,13 @@
-"""Holes that are drilled, at their diameter: circles with a centre cross from above, dashed walls from the side.
+"""The holes of a run at their diameter: circles with a centre cross from above, dashed walls from the side.
 
-A hole is where a tool goes straight down at feed along Z: a drill, reamer or tap, or any tool in a step of a cycle that is
-called so; and where a cycle mills a bore. Its diameter is that of the tool (of a bore, of what it sweeps). Walls begin
-at the top of the blank, or where nobody has said where that is at the height from which the tool goes at feed.
+What a hole is says `path.holes`. Walls begin at the top of the blank, or where nobody has said where that is at the height
+from which the tool goes at feed; a hole that does not reach into the blank is not drawn, and one that a point makes is as
+wide as the point there.
 """
 
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -25,11 +24,8 @@ from mnclab.show.plot import colours
 from mnclab.show.plot.overlay import Overlay, across, grown, line
 from mnclab.show.plot.picture import View
 
-STEPS = re.compile(r" (peck|drill|ream|bore|centre|countersink|cut the thread)( \d+ of \d+)?$")
-BORED = re.compile(r" circle at the bottom$")
-KINDS = ("drill", "reamer", "countersink", "tap")
 POINTED = ("", "drill", "countersink")
-MOST, NAMED = 2000, 3  # holes of a picture, diameters that the legend names one by one
+MOST, LOOKED, NAMED = 2000, 20_000, 3  # holes of a picture; places looked at; diameters that the legend names one by one
 CROSS = 1.3  # of the radius: how far the centre lines of a hole go
 SAME = 1e-4  # mm: holes at one place
 
@@ -110,53 +106,25 @@ class Holes(NamedTuple):
 def holes_of(run: Any) -> Holes | None:
     """The holes of a run; None without any, on a lathe, or with more than a picture has room for."""
     path: Toolpath = run.toolpath
-    if path.lathe:
+    down = (path.kind == Kind.LINE) & (path.end[:, 2] < path.start[:, 2]) & (path.start[:, :2] == path.end[:, :2]).all(axis=1)
+    if path.lathe or len(np.unique(np.round(path.end[down, :2] / SAME), axis=0)) > LOOKED:
         return None
-    straight = (path.kind == Kind.LINE) & (path.start[:, :2] == path.end[:, :2]).all(axis=1)
-    down = straight & (path.end[:, 2] < path.start[:, 2]) & (path.axis[:, 2] > 1 - 1e-9)
-    bored = (path.kind == Kind.ARC) & _called(path, BORED) & (path.axis[:, 2] > 1 - 1e-9)
-    if not down.any() and not bored.any():
-        return None
-    tools, numbers = run.tools_that_cut
-    drilling = [number for number, tool in tools.items() if tool.kind in KINDS]
-    milling = np.isin(path.step, path.step[(path.kind == Kind.ARC) & np.isfinite(path.feed)])  # threads, on their helix
-    rows = np.flatnonzero(down & (_called(path, STEPS) | (np.isin(numbers, drilling) & ~milling)))
-    stock = run.stock
+    made, (tools, _), stock = run.holes(), run.tools_that_cut, run.stock
     top = float(stock.bounds[1, 2]) if stock is not None else math.inf
-    where = np.column_stack([np.round(path.end[rows, :2] / SAME), numbers[rows]])
-    each, first, group = np.unique(where, axis=0, return_index=True, return_inverse=True)
-    if len(each) + int(bored.sum()) > MOST:
-        return None
-    lowest, highest = np.full(len(each), np.inf), np.full(len(each), -np.inf)
-    np.minimum.at(lowest, group.ravel(), path.end[rows, 2])
-    np.maximum.at(highest, group.ravel(), path.start[rows, 2])
     found = []
-    for k, row in enumerate(rows[first].tolist()):
-        tool = tools.get(int(numbers[row]))
-        radius = float(path.radius[row]) or (tool.effective_radius if tool else 0.0)
-        pointed = tool is not None and tool.kind in POINTED and 0 < tool.angle < 180
+    for each, row in zip(made, made.first):
+        tool, radius = tools.get(each.tool), each.diameter / 2
+        pointed = path.kind[row] == Kind.LINE and tool is not None and tool.kind in POINTED and 0 < tool.angle < 180
         slope = math.tan(math.radians(tool.angle / 2)) if tool and pointed else math.inf
-        mouth, tip = min(top, float(highest[k])), float(lowest[k])
+        mouth, tip = min(top, each.top), each.bottom
         if pointed and stock is not None:
             radius = min(radius, (mouth - tip) * slope)
         elif path.labels[path.label[row]].endswith((" centre", " countersink")):
             continue  # how wide it becomes is known with the height of the blank alone
         if radius > 0 and mouth > tip:
-            x, y = path.end[row, :2].tolist()
-            found.append(Hole(x, y, mouth, min(mouth, tip + radius / slope), tip, radius))
-    found += [_bore(path, row, top) for row in np.flatnonzero(bored).tolist()]
-    return Holes(_widest(found), path.unit) if found else None
-
-
-def _bore(path: Toolpath, row: int, top: float) -> Hole:
-    """A bore that a mill makes on a helix: as wide as what the tool sweeps."""
-    centre, bottom = path.centre[row], float(path.end[row, 2])
-    radius = float(np.hypot(*(path.start[row] - centre)[:2]) + path.radius[row])
-    begin = row
-    while begin and path.step[begin - 1] == path.step[row] and np.isfinite(path.feed[begin - 1]):
-        begin -= 1
-    high = float(path.start[begin : row + 1, 2].max())
-    return Hole(float(centre[0]), float(centre[1]), min(top, high), bottom, bottom, radius)
+            found.append(Hole(each.x, each.y, mouth, min(mouth, tip + radius / slope), tip, radius))
+    found = _widest(found)
+    return Holes(found, path.unit) if 0 < len(found) <= MOST else None
 
 
 def _widest(holes: list[Hole]) -> list[Hole]:
@@ -168,10 +136,6 @@ def _widest(holes: list[Hole]) -> list[Hole]:
         if known is None or known.tip > hole.tip:
             found[key] = hole
     return list(found.values())
-
-
-def _called(path: Toolpath, pattern: re.Pattern[str]) -> Mask:
-    return np.isin(path.label, [number for number, label in enumerate(path.labels) if pattern.search(label)])
 
 
 def beside_holes(overlays: Sequence[Overlay], view: View, places: Array) -> Array:

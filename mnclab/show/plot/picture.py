@@ -21,6 +21,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
+from matplotlib.textpath import text_to_path
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from mnclab.path.listing import MM, Unit
@@ -75,6 +77,16 @@ class Foot(NamedTuple):
     def lines(self) -> list[str]:
         return self.text.split("\n")
 
+    def within(self, width: float) -> Foot:
+        """The same with its lines broken between words, so that they fit into so many inches; a word is not broken."""
+        lines: list[str] = []
+        for sentence in self.lines:
+            lines.append("")
+            for word in sentence.split(" "):
+                fits = not lines[-1] or _inches(longer := f"{lines[-1]} {word}") <= width - 0.25
+                lines[-1 if fits else len(lines) :] = [longer if fits and lines[-1] else word]
+        return self._replace(text="\n".join(lines))
+
     def write(self, picture: Picture) -> None:
         """Write the lines, each cut where the picture ends."""
         width, height = picture.get_size_inches().tolist()
@@ -85,6 +97,11 @@ class Foot(NamedTuple):
             while len(sentence) > 1 and (taken := line.get_window_extent().width) > room:
                 sentence = sentence[: min(len(sentence) - 1, int(len(sentence) * room / taken))]
                 line.set_text(sentence.rstrip() + "…")
+
+
+def _inches(text: str) -> float:
+    """How wide a text of small letters is at most: in pixels letters are a little wider than on paper."""
+    return 1.05 / 72 * float(text_to_path.get_text_width_height_descent(text, FontProperties(size=SMALL), ismath=False)[0])
 
 
 VIEWS = {"XY": View(0, 1), "XZ": View(0, 2), "YZ": View(1, 2), "ZX": View(2, 0, diameter=True)}
@@ -158,7 +175,8 @@ def arrange(
     low, high = roomy(low, high, views)
     span, digits = high - low, digits_of(low, high, views)
     left = beside_ticks(digits)
-    bottom, (most_wide, most_high) = BELOW + (ROW + LINE * (len(foot.lines) - 1) if foot else 0), size
+    most_wide, most_high = size
+    bottom = BELOW + (ROW + LINE * (len(foot.within(most_wide).lines) - 1) if foot else 0)
 
     def top(width: float) -> float:
         return 0.12 + (SCALE if scale_above else 0.0) + legend_height(len(legend_rows(names, width)))
@@ -182,6 +200,9 @@ def arrange(
         for k, up, gap in zip(column, ups, (0.0, *gaps)):
             under += gap + up * share
             boxes[k] = begin, under, widths[place], up * share
+    if foot:
+        foot = foot.within(width)
+        bottom = BELOW + ROW + LINE * (len(foot.lines) - 1)
     deep = max(under for _, under, _, _ in boxes.values())
     rest = bottom + 0.12 + (SCALE if scale_above else 0.0) + deep
     rows = min(len(legend_rows(names, width)), rows_within(SHARE / (1 - SHARE) * rest))

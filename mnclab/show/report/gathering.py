@@ -70,7 +70,7 @@ class Report:
         counts = amounts(self.alarms)
         said = [several(counts[name], name) if counts[name] else f"no {name}s" for name in (ALARM, WARNING)]
         if self.collisions is not None:
-            said.append(several(len(self.collisions), "collision") if self.collisions else "no collisions")
+            said.append(self.collisions.sentence)
         return Words(", ".join(said), BAD if counts[ALARM] or self.collisions else GOOD if not counts[WARNING] else "")
 
 
@@ -130,6 +130,7 @@ def document(run: Any, found: Report, picture: Any, difference: Any = None) -> D
     sections.append(Section("Alarms", [Alarms(found.alarms) if found.alarms else none]))
     if found.removal and found.collisions is not None:
         told = [Words(f"{each.file}:{each.line}: collision: {each.message}", BAD) for each in found.collisions]
+        told += [Words(found.collisions.sentence)] if found.collisions.reach else []
         sections.append(Section("Collisions", told or [none]))
     sections.append(set_up(run, breaks=run.stock is not None))
     if found.measured or run.touches:
@@ -153,10 +154,9 @@ def _card(facts: Rows) -> Table:
 
 def path_caption(run: Any) -> str:
     """What stands below the picture of the path."""
-    stop = next((alarm for alarm in run.alarms if alarm.severity == ALARM and alarm.span), None)
     lathe = "X as diameter, " if run.toolpath.lathe else ""
     said = f"the path of the tool tip, {lathe}in {run.toolpath.unit.name}"
-    return f"{said}; it ends at the alarm in line {stop.span.line}" if stop else said
+    return f"{said}; it goes {run.reach}" if run.reach else said
 
 
 def measuring(run: Any, title: str) -> Section:

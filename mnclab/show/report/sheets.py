@@ -10,7 +10,7 @@ import numpy as np
 from mnclab.path.kinds import Kind
 from mnclab.path.listing import Unit, figure
 from mnclab.path.tool import LATHE, Tool
-from mnclab.show.report.contents import Document, Image, Piece, Section, Table, Words
+from mnclab.show.report.contents import BAD, Document, Image, Piece, Section, Table, Words
 from mnclab.show.times import clock
 from mnclab.workpiece.blank import Revolved
 
@@ -137,14 +137,20 @@ def _fixture(fixture: Any, lathe: bool, unit: Unit) -> str:
 def set_up_sheet(run: Any, title: str) -> Document:
     """The set-up and the tools that it needs."""
     tools = tools_table(run, used_tools(run), run.profile())
-    sections = [set_up(run, breaks=False), Section("Tools", [tools if tools.rows else Words("none")])]
+    sections = [set_up(run, breaks=False), Section("Tools", [*_as_far(run), tools if tools.rows else Words("none")])]
     return Document(title, f"Set-up sheet, {run.control.title}", sections)
+
+
+def _as_far(run: Any) -> Iterator[Words]:
+    """That more may be needed than a run has come to, if it stopped before its end."""
+    if run.reach:
+        yield Words(f"Known only {run.reach}.", BAD)
 
 
 def tool_sheet(run: Any, title: str) -> Document:
     """The tools of a program, and how they cut."""
     tools, data = tools_table(run, used_tools(run), run.profile()), run.cutting_data()
-    sections = [Section("Tools", [tools if tools.rows else Words("none")])]
+    sections = [Section("Tools", [*_as_far(run), tools if tools.rows else Words("none")])]
     if data:
         sections.append(Section("Cutting data", [Table(*data.table()), *map(Words, data.notes)]))
     return Document(title, f"Tool sheet, {run.control.title}", sections)

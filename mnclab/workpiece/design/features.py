@@ -186,7 +186,7 @@ class Groove(Feature):
             for start, end, bulge in zip(line.starts, line.ends, line.bulge):
                 with faults_as_alarms():
                     pieces.append(shapes.slot(Contour([start, end], [bulge, 0.0], closed=False), self.width))
-            return Region.of(*pieces)
+            return Region.union_of(*pieces)
         whole = area_of(self.contour, "the contour of a groove")
         return whole.offset(half).difference(whole.inset(half))
 

@@ -47,7 +47,8 @@ class Worst(NamedTuple):
 @dataclass(frozen=True, eq=False, repr=False)
 class Difference:
     """What a comparison found. `ok`: every face lies within `tolerance` mm of the design, and every measure within the
-    limits of the drawing where it gives them (they count for the faces of their feature, too).
+    limits of the drawing where it gives them (they count for the faces of their feature, too); never of a part whose
+    program stopped before its end.
 
     `map` (ny, nx) mm over the cells of the workpiece, whose middles are `x` and `y`: + what is left, - what is gone, 0 where
     both are the same, nan where neither has material. Volumes in mm³. `error` mm is how far a value at the place it is
@@ -75,8 +76,20 @@ class Difference:
 
     @property
     def ok(self) -> bool:
-        """Whether the part is as drawn, within the tolerance."""
-        return all(row.ok for row in self.features)
+        """Whether the part was cut to the end of its program and is as drawn, within the tolerance."""
+        return not self.reach and all(row.ok for row in self.features)
+
+    @property
+    def reach(self) -> str:
+        """How far the program went that cut the part, if it stopped before its end; else empty."""
+        return str(self.workpiece.cutting.reach) if self.workpiece is not None else ""
+
+    @property
+    def verdict(self) -> str:
+        """"as drawn", "not as drawn", or that the part is not finished."""
+        if not all(row.ok for row in self.features):
+            return "not as drawn"
+        return f"not finished, as drawn {self.reach}" if self.reach else "as drawn"
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON, without the map."""
@@ -105,10 +118,9 @@ class Difference:
         return save(self, path, **options)
 
     def _lines(self) -> list[tuple[str, str]]:
-        verdict = "as drawn" if self.ok else "not as drawn"
         told = f", found within {1000 * self.error:.1g} µm" if self.error > ROUNDING else ""
         return [
-            (f"compared with {self.target}", f"{verdict}, tolerance {self.tolerance:g} mm{told}"),
+            (f"compared with {self.target}", f"{self.verdict}, tolerance {self.tolerance:g} mm{told}"),
             ("worst gouge", str(self.worst_gouge)),
             ("worst rest", str(self.worst_rest)),
             ("gouged away", f"{self.gouge_volume:.3f} mm³"),

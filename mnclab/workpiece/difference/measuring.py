@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from mnclab.path.columns import Array, Index
+from mnclab.path.kinds import Kind
 from mnclab.workpiece.design.features import Chamfer, Feature, Groove, Hole, Slope, Slot, along
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.removals import Flat, Slant, Wedge
@@ -23,6 +24,7 @@ from mnclab.workpiece.milling.raster import NOISE
 FORM = "form"
 OWN = 0.1  # of how far a void goes: at the edge of two faces one that is less off has no part in it
 UNMEASURED = "not measured"
+THREADING = ("tap", "thread mill", "thread")  # kinds of tools
 TWO_SIDED = ("length", "diameter", "radius")  # kinds whose both ends may be off
 
 
@@ -73,10 +75,20 @@ class _Room:
             if measure.name == "top":  # only says from where depths count
                 continue
             k = next((k for k, (name, _) in enumerate(found) if name == measure.name), None)
-            value = found.pop(k)[1] if k is not None else Found(math.nan, NONE, UNMEASURED)
+            value = found.pop(k)[1] if k is not None else Found(math.nan, NONE, self._unread(measure.kind))
             yield Reading(side, self.name, measure, value.actual, self._allowed(measure), value.among, value.said)
         if self.own:
             yield _form(self.target, self.seen, side, self.name, self.mine)
+
+    def _unread(self, kind: str) -> str:
+        """What is said of a measure that is not read off the part: a thread without a move that could have cut it is not cut."""
+        cutting, hole = self.seen.workpiece.cutting, self.feature
+        if kind != "thread" or not isinstance(hole, Hole) or self.back or not len(cutting):  # a drawing has no teeth
+            return UNMEASURED
+        path, of_threads = cutting.path, np.array([tool.kind in THREADING for tool in cutting.tools] or [False], dtype=bool)
+        rises = (path.kind == Kind.ARC) & (path.start[:, 2] != path.end[:, 2])
+        near = np.hypot(*(path.end[:, :2] - (hole.x, hole.y)).T) < hole.wide / 2
+        return UNMEASURED if (near & (path.synchronous | rises | of_threads[cutting.which])).any() else NOT_CUT
 
     def _found(self) -> Iterator[tuple[str, Found]]:
         feature: Any = self.feature

@@ -6,6 +6,9 @@ over a facet that leans by as much from its neighbour.
 
 from __future__ import annotations
 
+import logging
+import re
+import warnings
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -17,6 +20,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array, Index
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import read
 
 SUFFIXES = (".stl", ".ply", ".obj", ".vtk", ".vtp", ".glb", ".gltf")
 METRES = (".glb", ".gltf")  # in metres, Y upwards
@@ -42,12 +46,28 @@ def read_mesh(path: Path) -> Mesh:
         raise Alarm(f"a part is compared with the body or the design of a file {known}, got {path.name!r}")
     if not path.exists():
         raise Alarm(f"there is no file {str(path)!r}")
+    read(path, path)  # refuses what is no file, or too large
     import pyvista
+    from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 
+    before, window, disabled = vtkOutputWindow.GetInstance(), vtkStringOutputWindow(), logging.root.manager.disable
+    loud = vtkLogger.GetCurrentVerbosityCutoff()
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+    vtkOutputWindow.SetInstance(window)  # what vtk says of a broken file is told by the alarm, not on stderr
+    logging.disable(logging.CRITICAL)
     try:
-        found = pyvista.read(path)
-    except (OSError, RuntimeError, ValueError) as fault:
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            found = pyvista.read(path)
+    except Exception as fault:  # whatever a reader of files trips over
         raise Alarm(f"{path.name} cannot be read as a body: {fault}") from None
+    finally:
+        logging.disable(disabled)
+        vtkOutputWindow.SetInstance(before)
+        vtkLogger.SetStderrVerbosity(loud)
+    told = re.search(r"ERROR: .*\n(?:.*\((?:0x\w+|nullptr)\): |\(nullptr\): )?(.*)", window.GetOutput())
+    if told or any("reader" in str(each.message) for each in said):
+        raise Alarm(f"{path.name} cannot be read as a body: {told[1] if told else 'it is cut or damaged'}")
     return mesh_of(found, path.name, metres=path.suffix.lower() in METRES)
 
 

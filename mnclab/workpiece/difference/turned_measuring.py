@@ -53,17 +53,20 @@ def rows_of(
     room = _Room(found, target, looked)
     groups = [(design.dimensions(), None), *zip(design.dimensions_of_features(), design.features)]
     for owner, (dimensions, feature) in enumerate(groups):
+        unmade = ""
         for each in dimensions:
             read = room.thread(feature, each) if isinstance(feature, Thread) else room.read(each)
+            unmade = NOT_CUT if read.said == NOT_CUT and isinstance(feature, Thread) else unmade
             yield _row(found, target.names[owner], each.measure, read, _allowed(each, tolerance), error)
-        yield _form(found, target, off, owner, tolerance, error)
+        yield _form(found, target, off, owner, tolerance, error, unmade)
 
 
-def _form(found: Compared, target: HalfTarget, off: Off, owner: int, tolerance: float, error: float) -> Row:
+def _form(found: Compared, target: HalfTarget, off: Off, owner: int, tolerance: float, error: float, unmade: str = "") -> Row:
+    """How far the faces of an owner are off at the worst; `unmade` says why there are none to judge."""
     at, value, owners = off
     mine = np.flatnonzero(owners == owner)
     worst = float(value[mine][np.abs(value[mine]).argmax()]) if len(mine) else 0.0
-    read = Found(worst, at[mine], value[mine])
+    read = Found(math.nan, said=unmade) if unmade and not len(mine) else Found(worst, at[mine], value[mine])
     return _row(found, target.names[owner], Measure(FORM, 0.0, "form"), read, target.allowed(owner, tolerance), error)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cached_property
 
 import numpy as np
@@ -40,8 +40,10 @@ class Milled(Workpiece):
     `floor` (ny, nx) is the lower side of the blank, which the heights do not pass: where nothing is left, both are equal.
     """
 
-    def __init__(self, cutting: Cutting, step: float | None = None) -> None:
-        self.cutting = cutting
+    def __init__(
+        self, cutting: Cutting, step: float | None = None, whole: Callable[[], Workpiece] | None = None
+    ) -> None:
+        self.cutting, self.whole = cutting, whole
         bounds = cutting.stock.bounds
         if step is not None:
             check_number(step, "the step of a workpiece (mm)", above=0)
@@ -125,24 +127,21 @@ class Milled(Workpiece):
     def volume(self) -> float:
         return self.blank_volume - self.removed
 
-    @cached_property
-    def removed(self) -> float:
+    @property
+    def _removed(self) -> float:
         if not len(self.moves):
             return 0.0
         return self.many.removed if self.many else volumes.removed(self.sweep, self.heights)
 
     @cached_property
-    def _rows(self) -> Array:
-        """What each row took away (n,), on a coarser lattice than the whole, whose sum they are scaled to."""
+    def _by_row(self) -> Array:
+        """On a coarser lattice than the whole, whose sum they are scaled to."""
         if self.many:
             found = np.zeros(len(self.cutting))
             np.add.at(found, self.moves.row, self.many.in_order[1])
             return found
         rows = volumes.removed_by_row(self.sweep, len(self.cutting))
         return rows * (self.removed / rows.sum()) if rows.any() else rows
-
-    def removed_by_row(self) -> Array:
-        return self._rows
 
     @cached_property
     def blank_volume(self) -> float:

@@ -121,7 +121,7 @@ def swept(tracks: list[Track]) -> Region:
     bands = [piece for each in tracks for piece in _bands(each)]
     discs = [(radius, piece) for radius, piece in _discs(tracks)]
     if len(bands) + len(discs) <= FEW:
-        return Region.of(*bands, *(piece for _, piece in discs))
+        return Region.union_of(*bands, *(piece for _, piece in discs))
     whole = shapely.union_all(coarse(tracks))
     shapely.prepare(rim := whole.boundary)
     wide = NEAR * max(each.radius for each in tracks)
@@ -131,11 +131,11 @@ def swept(tracks: list[Track]) -> Region:
         arcs = [shapely.LineString(_arc_of(piece, along)) for _, piece in discs]
         near = shapely.dwithin(rim, arcs, [NEAR * radius for radius, _ in discs])
         seen = chosen + [piece for (_, piece), matters in zip(discs, near) if matters]
-        loops = (loop for loop in Region.of(*seen).loops if loop.area > 0 or not whole.contains(_within(loop)))
+        loops = (loop for loop in Region.union_of(*seen).loops if loop.area > 0 or not whole.contains(_within(loop)))
         found = Region(tuple(loops))
         if not differ(whole, polygon(found)):
             return found
-    return Region.of(*bands, *(piece for _, piece in discs))  # a piece that matters was not seen to
+    return Region.union_of(*bands, *(piece for _, piece in discs))  # a piece that matters was not seen to
 
 
 def differ(one: Any, other: Any) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -37,10 +37,12 @@ class Turned(Workpiece):
     Nothing is sampled: a `step` changes nothing.
     """
 
-    def __init__(self, cutting: Cutting, step: float | None = None) -> None:
+    def __init__(
+        self, cutting: Cutting, step: float | None = None, whole: Callable[[], Workpiece] | None = None
+    ) -> None:
         if step is not None:
             check_number(step, "the step of a workpiece (mm)", above=0)
-        self.cutting = cutting
+        self.cutting, self.whole = cutting, whole
         self.blank, self.axis, told = half_section(cutting.stock)
         self.low, self.high, self.radius = room_of(self.blank)
         self.method, self.error = "exact sweep of the half section", CHORD_ERROR
@@ -91,12 +93,12 @@ class Turned(Workpiece):
         return revolved.volume(self.section)
 
     @property
-    def removed(self) -> float:
-        """What was cut, mm³; what fell off is not."""
+    def _removed(self) -> float:
         return revolved.volume(self.blank) - self.volume - revolved.volume(self.parted)
 
-    def removed_by_row(self) -> Array:
-        """What each row of the path took away (n,), mm³; arcs are chords of the section, and the sum is exact."""
+    @cached_property
+    def _by_row(self) -> Array:
+        """Arcs are chords of the section, and the sum is exact."""
         shares = self._taken[0]
         total = float(shares.sum())
         return shares * (self.removed / total) if total else shares

@@ -1,4 +1,4 @@
-; 19:1 alarm: CYCL DEF 23 Q12 (feed rate for finishing) must be a number, FAUTO, FU, FZ, got FMAX
+; 19:1 alarm: CYCL DEF 23 Q12 (feed rate for finishing) must be a number, FAUTO, FU, FZ, got FMAX (FU has its value behind it, for example Q12=FU0.1)
 0 BEGIN PGM A MM
 TOOL CALL 1 Z S2000 F500
 L X+0 Y+0 Z+100 R0 FMAX M3

@@ -1,4 +1,4 @@
-; 13:3 alarm: CYCL DEF 27 Q12 (feed rate for roughing) must be a number, FAUTO, FU, FZ, got FMAX
+; 13:3 alarm: CYCL DEF 27 Q12 (feed rate for roughing) must be a number, FAUTO, FU, FZ, got FMAX (FU has its value behind it, for example Q12=FU0.1)
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F200
 2 M3

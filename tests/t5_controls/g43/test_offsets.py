@@ -52,12 +52,12 @@ def test_g10_is_in_the_tables_of_the_run():
 
 
 @pytest.mark.parametrize(("dialect", "text", "end"), [
-    ("linuxcnc", "X5|G10 L20 P1 X2|X3", [6, 0, 0]),  # the present point 5 is X2 then
-    ("linuxcnc", "G10 L2 P0 X3|X1|G55 X1", [1, 0, 0]),  # P0 is the active one, G54
-    ("linuxcnc", "G10 L2 P1 X10|G91 G10 L2 P1 X5|G90 X0", [5, 0, 0]),
+    ("linuxcnc", "G0 X5|G10 L20 P1 X2|X3", [6, 0, 0]),  # the present point 5 is X2 then
+    ("linuxcnc", "G0|G10 L2 P0 X3|X1|G55 X1", [1, 0, 0]),  # P0 is the active one, G54
+    ("linuxcnc", "G10 L2 P1 X10|G91 G10 L2 P1 X5|G90 G0 X0", [5, 0, 0]),
     ("fanuc", "G52 X10|G92 X0|X1|G52 X0|X1", [1, 0, 0]),  # from -10 on: G92 X0 ends the local shift
     ("fanuc", "G92 X5|G52 X3|X0|G52 X0|X0", [-5, 0, 0]),  # G92 stays
-    ("linuxcnc", "G92 X5|G52 X0|X1", [1, 0, 0]),  # one register
+    ("linuxcnc", "G92 X5|G52 X0|G0 X1", [1, 0, 0]),  # one register
 ])  # fmt: skip
 def test_makers_differ(dialect, text, end):
     assert last(text, dialect=dialect) == end
@@ -81,7 +81,7 @@ def test_g53_moves_at_rapid_or_as_the_motion_stands():
 
 
 def test_g53_under_g91():
-    text = lines("X5|G91 G53 X2|X1")
+    text = lines("G0 X5|G91 G53 X2|X1")
     fanuc = run(text, datums={1: (10, 0, 0)})
     assert places(fanuc)[-1] == [18, 0, 0] and "counts for nothing" in fanuc.alarms[0].message
     assert places(run(text, datums={1: (10, 0, 0)}, dialect="haas"))[-1] == [3, 0, 0]
@@ -122,7 +122,7 @@ def test_g28_up_under_a_rotation_about_z():
 
 
 def test_a_reference_point_that_the_program_sets():
-    assert last("X3 Y4|G28.1|X0 Y0|G28", dialect="linuxcnc") == [3, 4, 0]
+    assert last("G0 X3 Y4|G28.1|X0 Y0|G28", dialect="linuxcnc") == [3, 4, 0]
 
 
 def test_a_check_that_holds():

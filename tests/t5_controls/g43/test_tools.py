@@ -50,8 +50,8 @@ def test_a_length_of_the_tool_before_is_named():
 
 def test_on_linuxcnc_the_length_counts_at_once():
     """The coordinates are read anew, so that an increment is no longer than it says."""
-    assert heights("T1 M6|G43 H1|G91 Z-10", dialect="linuxcnc")[-1] == 120 - 10
-    assert heights("T1 M6|G43 H1|X5|G90 Z5", dialect="linuxcnc")[-1] == 5
+    assert heights("G0 T1 M6|G43 H1|G91 Z-10", dialect="linuxcnc")[-1] == 120 - 10
+    assert heights("G0 T1 M6|G43 H1|X5|G90 Z5", dialect="linuxcnc")[-1] == 5
 
 
 @pytest.mark.parametrize(("text", "z"), [

@@ -9,7 +9,7 @@ import re
 import numpy as np
 import pytest
 from probed import gaps
-from probing_mnc import DATUM, at, box, disc, examples, feature, measured, near, probes, to_round, to_wall, walls
+from probing_mnc import DATUM, PROBE, at, box, disc, examples, feature, measured, near, probes, to_round, to_wall, walls
 
 import mnclab
 from mnclab import Kind, Probe, Setup, Tool
@@ -70,6 +70,25 @@ def test_an_example_of_the_catalogue(example):
     assert bool(run.files) == check.pop("protocol", "M1" in text)
     assert not check
     assert gaps(run, part.placed(at(DATUM)), BALL).min() > -1e-6
+
+
+@pytest.mark.parametrize("example", [e for e in EXAMPLES if "workpiece" in e["check"]], ids=lambda e: f"{e['code']} {e['title']}")
+def test_an_example_measures_with_the_probe_that_every_setup_has(example):
+    """Whose longest way is half of the 20 that the checks adopt: each touch meets what it met with that."""
+    part = feature(example["check"]["workpiece"][0])
+    one, other = (measured(example["program"], part, before="", probe=probe) for probe in (Probe(), PROBE))
+    assert len(one.touches) == len(other.touches)
+    for mine, expected in zip(one.touches, other.touches):
+        assert np.array(mine.programmed) == near(np.array(expected.programmed))
+    assert [str(alarm) for alarm in one.alarms] == [str(alarm) for alarm in other.alarms]
+
+
+def test_a_ridge_between_points_that_are_farther_apart_than_it_is_wide():
+    """60 apart about a ridge of 45, all of the difference on one side: 15 + clearance 2 to the wall, more than the 10 of the
+    default probe. The like of TNC 620 16.10."""
+    text = "G426 X40 Y85 U40 V25 L2 D45 Z-5 H20\n"
+    run = measured(text, box((40, 47.5), (200, 45)), probe=Probe())
+    assert run.ok and (run.variables["Q312"], run.variables["Q313"]) == pytest.approx((47.5, 45), abs=1e-9)
 
 
 def test_two_directions_are_refused():

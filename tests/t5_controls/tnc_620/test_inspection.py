@@ -157,6 +157,33 @@ def height(text, code, number):
     return text.replace("Q260=+5 ", "Q260=+50 ") if (code, number) == ("TCH PROBE 431", 0) else text
 
 
+#: Examples whose part is not what their parameters say, with the way that it takes: the stud of 16.5 has 35 for its 75.
+ELSEWHERE = {("TCH PROBE 422", 1)}
+
+
+@pytest.mark.parametrize(("code", "number", "example"), [each for each in numbered() if each.values[:2] not in ELSEWHERE])
+def test_an_example_measures_with_the_probe_that_every_setup_has(code, number, example):
+    """16.9 begins 12.5 before its wall, 10.5 more than the ball and 0.5 more than DIST = 10: the wall is in reach there, too."""
+    text = height(example["program"] or program_of(code, 0), code, number)
+    run = probing(text, PARTS[code, number], probe=Probe())
+    assert run.touches and not any("did not trigger" in alarm.message for alarm in run.alarms)
+    for name, value in example["check"]["results"].items():
+        assert run.variables[name] == pytest.approx(value, abs=5.01e-5), name
+
+
+@pytest.mark.parametrize("axis", [1, 2])
+@pytest.mark.parametrize("clearance", [0, 1.5])
+def test_how_far_the_first_touch_of_a_slot_reaches(axis, clearance):
+    """Half of Q311 = 60 and the clearance Q320 + SET_UP = 2 beyond DIST: 32 and 33.5 mm from the start, as MNC 12.18 has it."""
+    places, rest = f"Q328=0 Q329=0 Q310=0 Q272={axis} Q261=-5 Q260=20", f"Q288=0 Q289=0 Q281=0 Q309=0 Q330=0 Q320={clearance}"
+    text = f"TCH PROBE 425\n{places} Q311=60 {rest} Q301=0"
+    limit = 30 + clearance + 2 + BALL
+    near = probing(text, slot(-30, limit - 0.01, axis - 1), probe=Probe())
+    assert near.ok and near.variables["Q156"] == pytest.approx(30 + limit - 0.01, abs=1e-9)
+    (alarm,) = probing(text, slot(-30, limit + 0.01, axis - 1), probe=Probe()).alarms
+    assert alarm.message == f"touch point inaccessible: the probe did not trigger within {30 + clearance + 2:g} mm"
+
+
 @pytest.mark.parametrize(("code", "number", "example"), [*numbered()])
 def test_an_example(code, number, example):
     check = example["check"]

@@ -91,3 +91,111 @@ def test_trans_datum_shifts_as_cycle_7_does(inside) -> None:
     run = inside("\n".join(f"{number} {each}\n{number} L X+1 Y+1 FMAX" for number, each in enumerate(shifts, 2)))
     assert ends(run) == [(11, 21, 0), (16, 21, 0), (1, 1, 0)]
     assert ends(inside("2 CYCL DEF 7.0 X\n3 CYCL DEF 7.1 Z+9\n4 TRANS DATUM RESET\n5 L Z+1 FMAX")) == [(0, 0, 1)]
+
+
+@pytest.mark.parametrize("feed", ["R F500", "R FMAX", "R F MAX", "R F+500", "R FQ1", "R F500 M3"])
+def test_r_without_a_value_before_a_feed_is_no_word(feed: str, inside) -> None:
+    """As TNC 145 to 355 write their blocks, R F M of an L that changes the feed alone: the compensation stays as it is."""
+    run = inside(f"2 Q1 = 500\n3 L X+5 Y+0 {feed}\n4 L X+9")
+    assert ends(run)[-1] == (9, 0, 0) and not [alarm for alarm in run.alarms if alarm.severity == "alarm"]
+    assert run.toolpath.motion.feed[0] == (float("inf") if "M" in feed.replace("M3", "") else 500)
+
+
+# --- what an editor or a mailer wrapped out of a comment -----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("before", ["2 ; the outer contour, to be", "2 L X+5 FMAX ; the corner, to be", "2 LBL 1 ;a"])
+@pytest.mark.parametrize("rest", ["milled in two passes", "gefräst: Ø ist egal", "milled\nin two passes, both\nwith coolant"])
+def test_the_rest_of_a_comment_is_passed_over_and_told(before: str, rest: str, inside) -> None:
+    run = inside(f"{before}\n{rest}\n3 L Y+7 FMAX")
+    assert ends(run)[-1][1] == 7 and len(run.toolpath.motion) == 1 + ("X+5" in before)
+    (warning,) = run.alarms
+    assert warning.severity == "warning" and warning.message.startswith("this line is read as the rest of the comment above")
+    assert warning.span[:2] == (4, 1) and ("(lines 5, 6)" in str(warning)) == ("\n" in rest)
+
+
+def test_the_rest_of_a_comment_within_a_definition(inside) -> None:
+    """Below Q200 and its remark; the parameters behind it still belong to the cycle."""
+    words = "Q200=2 ;the clearance that\nthis shop always takes\nQ201=-15\nQ206=250\nQ202=5\nQ210=0\nQ203=0\nQ204=50\nQ211=0"
+    run = inside(f"2 CYCL DEF 200 X\n{words}\n3 L X+5 Y+0 FMAX M3\n4 CYCL CALL")
+    assert run.ok and [a.span[:2] for a in run.alarms if "rest of the comment" in a.message] == [(5, 1)]
+    assert run.toolpath.end[:, 2].min() == pytest.approx(-15, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["of two passes X+5", "with FMAX", "stops here", "CYCLO DEF 200", "X +5", "Q1 +5", "R0 to here", "IF Q1 = Q2 GOTO LBL 2",
+     "go to LBL two", "see Q5"],
+)  # fmt: skip
+def test_a_line_that_may_be_a_block_is_no_rest_of_a_comment(line: str, inside) -> None:
+    """A word of a block in it, or a statement that it is nearly: it is refused where it stands."""
+    run = inside(f"2 ; to be\n{line}\n3 L Y+7 FMAX")
+    assert not run.ok and run.alarms[0].span.line == 4
+
+
+def test_a_numbered_line_is_no_rest_of_a_comment(inside) -> None:
+    (alarm,) = inside("2 ; to be\n3 milled in two\n4 L Y+7 FMAX").alarms
+    assert (alarm.severity, alarm.span[:2]) == ("alarm", (4, 3)) and "rest of the comment" not in alarm.hint
+
+
+# --- spellings that stand for what the control writes otherwise ------------------------------------------------------------
+
+
+def test_cycle_is_read_as_cycl(inside) -> None:
+    """Definitions in both formats and a call; each is told once."""
+    text = "2 CYCL DEF 7.0 X\n3 CYCL DEF 7.1 X+5\n4 CYCL DEF 200 X\n"
+    text += "Q200=2\nQ201=-15\nQ206=250\nQ202=5\nQ210=0\nQ203=0\nQ204=50\nQ211=0\n"
+    text += "5 L X+0 Y+3 FMAX M3\n6 CYCL CALL\n7 CYCL CALL POS X+2 Y+3 Z+0 FMAX"
+    expected, run = inside(text), inside(text.replace("CYCL ", "cycle "))
+    assert ends(run) == ends(expected)
+    (warning,) = [a for a in run.alarms if "CYCL" in a.message]
+    assert warning.severity == "warning" and warning.span[:2] == (3, 3) and warning.hint == "write CYCL"
+    assert "lines 4, 5, 15, 16" in str(warning)
+
+
+@pytest.mark.parametrize("words", ["R+8 DR- R0", "R+8 R0 DR-", "DR- R+8 R0", "R+8 DR- R0 F200", "DR-~\n R+8~\n R0"])
+def test_r0_behind_the_radius_of_an_arc_is_no_compensation(words: str, inside) -> None:
+    """A half turn of 8 about (8, 0), clockwise: its top is (8, 8)."""
+    run = inside(f"2 L X+0 Y+0 F100 M3\n3 CR X+16 Y+0 {words}")
+    assert ends(run)[-1] == (16, 0, 0) and not run.alarms
+    arc = run.toolpath.motion[-1]
+    assert arc.kind == mnc.Kind.ARC and arc.centre == pytest.approx((8, 0, 0), abs=1e-9)
+
+
+def test_r0_in_front_of_the_radius_stays_a_radius(inside) -> None:
+    (alarm,) = inside("2 L X+0 Y+0 F100 M3\n3 CR X+16 Y+0 R0 R+8 DR-").alarms
+    assert alarm.message == "R is written twice in this block"
+
+
+def test_a_feed_word_of_a_cycle_without_equals(inside) -> None:
+    """Q206 FAUTO is the 80 of TOOL CALL, FU0.1 is 100 at S1000, and FMAX has no such place."""
+    head = "2 TOOL CALL 1 Z S1000 F80\n3 CYCL DEF 200 X\nQ200=2\nQ201=-15\n"
+    rest = "\nQ202=5\nQ210=0\nQ203=0\nQ204=50\nQ211=0\n4 L X+5 FMAX M3\n5 CYCL CALL"
+    for word, feed in (("FAUTO", 80), ("F AUTO", 80), ("AUTO", 80), ("FU0.1", 100), ("FU 0,1", 100)):
+        run = inside(f"{head}Q206 {word}{rest}")
+        assert run.ok and min(run.toolpath.motion.feed) == pytest.approx(feed), word
+        (warning,) = [a for a in run.alarms if "Q206" in a.message]
+        assert warning.severity == "warning" and warning.span[:2] == (7, 1) and warning.hint == "write Q206= before the word"
+    alarm = inside(f"{head}Q206 FMAX{rest}").alarms[-1]
+    assert alarm.severity == "alarm" and alarm.message.endswith("must be a number, FAUTO, FU, got FMAX")
+
+
+@pytest.mark.parametrize(("end", "told"), [("END PGM", "neither name"), ("END PGM A", "no unit"), ("end pgm a b", "no unit")])
+def test_the_end_of_a_program_needs_no_unit(end: str, told: str, tnc) -> None:
+    run = tnc(f"0 BEGIN PGM A MM\n1 L X+5 FMAX\n2 {end}\n")
+    assert ends(run) == [(5, 0, 0)]
+    warning = run.alarms[0]
+    assert warning.severity == "warning" and told in warning.message and warning.span.line == 3
+
+
+def test_the_end_of_a_program_may_name_another(tnc) -> None:
+    run = tnc("0 BEGIN PGM A MM\n1 L X+5 FMAX\n2 END PGM B\n")
+    assert run.ok and "END PGM names B, BEGIN PGM A" in [a.message for a in run.alarms]
+
+
+def test_a_feed_of_a_tool_definition_is_told(inside) -> None:
+    """The feed of the program stays the one of L: 100."""
+    run = inside("2 L F100\n3 TOOL DEF 1 L+10 R+3 F700\n4 L X+5 M3")
+    assert run.ok and run.toolpath.motion.feed[-1] == 100
+    (warning,) = [a for a in run.alarms if "TOOL DEF takes no feed" in a.message]
+    assert warning.severity == "warning" and warning.span[:2] == (4, 23)

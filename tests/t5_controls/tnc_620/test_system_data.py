@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import pytest
@@ -149,6 +150,59 @@ def test_a_column_of_the_tool_table_is_written(inside) -> None:
 def test_the_tool_in_the_spindle_counts_as_it_was_called(inside) -> None:
     run = inside("2 FN 17: SYSWRITE ID 50 NR2 IDX1 = +3\n3 Q1 = Q108\n4 TOOL CALL 1 Z\n5 Q2 = Q108", SETUP)
     assert run.ok and (run.variables["Q1"], run.variables["Q2"]) == pytest.approx((4.9, 2.9))
+
+
+#: A tool with a number of its own in each column that a `Tool` has; "System data" of the conversational manual of the TNC 620
+#: (10/2017): NR18 is 0 for positive and -1 for negative, which TOOL.T says of M3; NR19 is 99999.9999 for R, the tool radius.
+WORN = mnc.Tool(
+    radius=5, length=80, corner=1, dl=0.2, dr=-0.1, teeth=3, cutting_length=25, plunge_angle=4, kind="tap", angle=118, pitch=1.25,
+    locked=True, wear=mnc.Wear(0.1, 0.2, 0.03, 0.4, 0.5, 6.0, 7.0),
+)  # fmt: skip
+IN_COLUMNS = {
+    1: 80, 2: 5, 3: 1, 4: 0.2, 5: -0.1, 7: 1, 13: 25, 14: 4, 15: 3, 16: 0.1, 17: 0.2, 18: -1, 19: 7, 20: 6, 21: 0.4, 22: 0.5,
+    32: 118, 33: 1.25, 35: 0.03, 36: 2, 40: 1.25,
+}  # fmt: skip
+NO_PLACE = {
+    6: "DR2", 8: "RT", 9: "TIME1", 10: "TIME2", 11: "CUR.TIME", 12: "PLC", 28: "NMAX", 34: "LIFTOFF", 37: "TP_NO", 39: "ACC",
+}  # fmt: skip
+TABLE = mnc.Setup(tools={1: TOOLS[1], 4: WORN, 5: mnc.Tool(hand="left"), 9: mnc.Tool()}, start=(0, 0, 0))
+
+
+@pytest.mark.parametrize("group", ["ID50 NR{} IDX4", "ID950 NR{}"])
+def test_every_column_of_the_tool_table_is_read(group: str, inside) -> None:
+    lock = "FN 17: SYSWRITE ID50 NR7 IDX4 = +"
+    call = "" if "IDX" in group else f"2 {lock}0\n3 TOOL CALL 4 Z S500\n4 {lock}1\n"
+    run = inside(call + "\n".join(f"{k} FN 18: SYSREAD Q{k} = {group.format(k)}" for k in IN_COLUMNS), TABLE)
+    assert run.ok, run.alarms
+    assert {k: run.variables[f"Q{k}"] for k in IN_COLUMNS} == pytest.approx(IN_COLUMNS, abs=1e-12)
+    assert not [alarm for alarm in run.alarms if "SYSREAD" in alarm.message]
+
+
+def test_what_a_new_tool_and_a_left_one_have_in_their_columns(inside) -> None:
+    """R-OFFS is R by itself; a left one turns with M4, +."""
+    run = inside("2 FN 18: SYSREAD Q1 = ID50 NR19 IDX9\n3 FN 18: SYSREAD Q2 = ID50 NR18 IDX5", TABLE)
+    assert run.ok and (run.variables["Q1"], run.variables["Q2"]) == (99999.9999, 0)
+
+
+def test_a_tool_is_copied_column_by_column(inside) -> None:
+    """As workshops copy a row: what is read of one and written to another is the same tool."""
+    lines = [f"FN 18: SYSREAD Q1 = ID50 NR{k} IDX4\nFN 17: SYSWRITE ID50 NR{k} IDX9 = Q1" for k in IN_COLUMNS]
+    run = inside("\n".join(lines), TABLE)
+    assert run.ok, run.alarms
+    assert run.tables.tools[9] == dataclasses.replace(WORN, number=run.tables.tools[9].number)
+
+
+@pytest.mark.parametrize(("number", "title"), NO_PLACE.items())
+def test_a_column_that_tools_here_do_not_have(number: int, title: str, inside) -> None:
+    """An empty field until the program writes it, of this tool alone; both are told."""
+    read = "FN 18: SYSREAD Q{} = ID50 NR{} IDX{}"
+    run = inside(
+        f"2 {read.format(1, number, 1)}\n3 FN 17: SYSWRITE ID50 NR{number} IDX1 = +3\n4 {read.format(2, number, 1)}\n"
+        f"5 {read.format(3, number, 4)}", TABLE,
+    )  # fmt: skip
+    assert run.ok and [run.variables[name] for name in ("Q1", "Q2", "Q3")] == [0, 3, 0]
+    told = [(alarm.severity, alarm.span.line) for alarm in run.alarms]
+    assert told == [("warning", 3), ("warning", 4), ("warning", 6)] and all(title in alarm.message for alarm in run.alarms)
 
 
 @pytest.mark.parametrize(

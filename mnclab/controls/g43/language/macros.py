@@ -17,6 +17,7 @@ FUNCTIONS = FunctionTable()
 SOURCE = "Macro B"
 MEANINGS = {
     "target": "the variable that takes a value", "value": "the value", "message": "the comment that is shown",
+    "beside": "words stand in the same line",
     "condition": "the condition", "GOTO": "the block to go on at", "END": "where the loop ends", "DO": "where it begins",
 }  # fmt: skip
 #: Addresses whose numbers count things, and of them those that say where the program goes on and what it does there.
@@ -54,6 +55,9 @@ def computed(m: Machine, words: list[Word]) -> list[Word]:
         if isinstance(word.value, Formula):
             if word.address in COURSE:
                 m.flow.ask(word.value)
+            if word.value.text.lstrip("+- ")[:1].isalpha() and m.settings["macros"] == FANUC:
+                hint = f"write {word.address}[{word.value.text}]; LinuxCNC takes it as it is: setting dialect"
+                m.alarm(f"{word.address}: a function of a value stands in brackets", word, hint)
             value = worth(m, word.value, word.address)
             if value is None:
                 continue
@@ -67,9 +71,12 @@ def number(m: Machine, word: Word) -> float | None:
     return worth(m, word.value) if isinstance(word.value, Formula) else m.value(word)
 
 
-@FUNCTIONS("#,", "Assignment", takes="target* value* message", source=SOURCE)
+@FUNCTIONS("#,", "Assignment", takes="target* value* message beside", source=SOURCE)
 def assign(m: Machine, words: Words) -> None:
     """Variables take values, all of which are worked out before."""
+    if "beside" in words and m.settings["macros"] == FANUC:
+        hint = "write two blocks; LinuxCNC takes it: setting dialect"
+        m.alarm("words and an assignment stand in one block", words["beside"], hint)
     values = [number(m, word) for word in words.all("value")]
     for target, value in zip(words.all("target"), values, strict=True):
         formula = target.value

@@ -9,6 +9,7 @@ from mnclab.controls.word_address.functions import FEEDS, PLANES, STOPS, functio
 from mnclab.controls.word_address.motion import first_word
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
+from mnclab.path.recorder import NAN
 
 CENTRES = {"G90.1": "Arc centres from the origin", "G91.1": "Arc centres from the start"}
 CONTOURS = {
@@ -52,6 +53,7 @@ def feed_mode(m: Machine, words: Words) -> None:
 def blending(m: Machine, words: Words) -> None:
     """No exact stops; P is how far a corner may be cut (LinuxCNC). Short moves are not joined, whatever Q allows."""
     SHARED["G64"].obey(m, words)
+    m.change("tolerance", NAN)
     if "P" in words:
         if (reach := m.length(words["P"])) < 0:
             m.alarm(f"G64 P (how far a corner may be cut) must be at least 0, got {reach:g}", words["P"])
@@ -60,10 +62,12 @@ def blending(m: Machine, words: Words) -> None:
         m.warn("G64 Q allows that short moves are joined: they are left as they are", words["Q"])
 
 
-@FUNCTIONS("G61.1", "Exact stop between blocks", group="blending", phase="plane", source="LinuxCNC")
+@FUNCTIONS("G61 G61.1", STOPS | {"G61.1": STOPS["G61"]}, group="blending", phase="plane", source="ISO 6983, LinuxCNC")
 def exact_stop(m: Machine, words: Words) -> None:
-    """As G61."""
-    m.change("exact", True)
+    """Every motion ends with exact positioning; by the setting g61 only G61.1, while G61 cuts no corner (LinuxCNC)."""
+    corners = words.code == "G61" and m.settings["g61"] == "corners"
+    m.change("exact", not corners)
+    m.change("tolerance", 0.0 if corners else NAN)
 
 
 @FUNCTIONS("G9", "Exact stop in this block", phase="plane", modal=False, source=ISO)
@@ -72,8 +76,23 @@ def exact_here(m: Machine, words: Words) -> None:
     m.exact_here = True
 
 
+@FUNCTIONS("G80", "Fixed cycle off", group="cycle", phase="plane", power_on="G80", ends_cycle=True, source="7.1, example")
+def cycle_off(m: Machine, words: Words) -> None:
+    """Ends the fixed cycle; what axis words mean after it, the setting axis_words says."""
+    SHARED["G80"].obey(m, words)
+    no_motion(m)
+
+
+def no_motion(m: Machine) -> None:
+    """On LinuxCNC axis words need a motion that is written: there is none at the start and after a cycle."""
+    if m.settings["axis_words"] == "refuse":
+        m.set_modal("motion", "")
+
+
 def start(m: Machine) -> None:
-    """Arc centres count from the start of the arc, unless the setting arc_centres wants them from the origin."""
+    """What a maker has otherwise at the start: the motion, the level that cycles return to, centres from the origin."""
+    no_motion(m)
+    m.set_modal("return", m.settings["return_at_start"])
     if m.settings["arc_centres"] == "origin":
         m.set_modal("arc centre", "G90.1")
         memory(m).absolute_centres = True

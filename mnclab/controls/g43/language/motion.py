@@ -24,7 +24,7 @@ MOST_TURNS = 10_000
 
 
 def together(control: Control, modal: Modal, keyword: str, words: list[Word]) -> None:
-    """The length compensation needs a straight motion."""
+    """The length compensation needs a straight motion; R beside a line is no corner."""
     codes = {f"G{digits(word.value)}": word for word in words if word.address == "G" and type(word.value) is float}
     axes = any(word.address in AXES for word in words)
     arcs = [code for code in ARCS if code in codes] or [code for code in ARCS if modal.motion == code and axes]
@@ -32,6 +32,10 @@ def together(control: Control, modal: Modal, keyword: str, words: list[Word]) ->
         if code in codes and arcs and not {"G0", "G1"} & codes.keys():
             message = f"{code} needs a straight motion, got {arcs[0]} in its block"
             raise Alarm(message, codes[code].span, hint="write two blocks")
+    radius, straight = next((word for word in words if word.address == "R"), None), {"G0", "G1"} & codes.keys()
+    if radius and axes and not keyword and (straight or not codes and modal.motion in ("G0", "G1") and not modal.active):
+        hint = f"a rounding of the corner is ,{radius}, a chamfer ,C"
+        raise Alarm(f"{radius} has no meaning in a straight line", radius.span, hint=hint)
 
 
 def targets(m: Machine, words: Words) -> dict[str, float]:

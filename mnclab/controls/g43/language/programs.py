@@ -228,7 +228,7 @@ def found(m: Machine, program: int, code: str, word: Word | None) -> tuple[int, 
     if (place := known(m, program)) is not None:
         return place
     what, label = f"{code} P{program}", f"O{program}"
-    name = file_of(m, program, what, word)
+    name = file_of(m, f"O?0*{program}", label, what, word)
     if name is None:
         there = ", ".join(name for _, name in sections.sections(m)[:8]) or "no program with a number"
         hint = f"this file has {there}; Setup(files=…) and the folder have no file {label}"
@@ -248,9 +248,10 @@ def known(m: Machine, program: int) -> tuple[int, str] | None:
     return next(((index, label) for index in indices if label in flow.programs[index].labels), None)
 
 
-def file_of(m: Machine, program: int, what: str, word: Word | None) -> str | None:
-    """The name of the file that a program has of its own; of several the one with the ending of the running file."""
-    pattern = re.compile(rf"O?0*{program}(\.\w{{1,8}})?", re.IGNORECASE)
+def file_of(m: Machine, stem: str, called: str, what: str, word: Word | None) -> str | None:
+    """The name of the file that a program has of its own, by the pattern of its stem; of several the one with the ending
+    of the running file."""
+    pattern = re.compile(rf"{stem}(\.\w{{1,8}})?", re.IGNORECASE)
     names, running = [name for name in m.setup.files if pattern.fullmatch(last(name))], m.flow.program
     if not names and running.folder:
         try:
@@ -261,7 +262,7 @@ def file_of(m: Machine, program: int, what: str, word: Word | None) -> str | Non
     if len(names) > 1 and len(chosen := [name for name in names if name.lower().endswith(ending)]) == 1:
         return chosen[0]
     if len(names) > 1:
-        m.alarm(f"{what}: {len(names)} files are O{program}: {', '.join(names[:8])}", word, "keep one of them there")
+        m.alarm(f"{what}: {len(names)} files are {called}: {', '.join(names[:8])}", word, "keep one of them there")
     return names[0] if names else None
 
 

@@ -144,6 +144,18 @@ def active_row(m: Machine) -> float | None:
     return float(row) if row < FURTHER else None
 
 
+#: Names that LinuxCNC gives to what it knows; those of states are 1 where they are active, else 0.
+NAMED: dict[str, Reading] = {
+    **{f"#<_{axis}>": partial(here, k=k) for k, axis in enumerate("xyz")},
+    "#<_metric>": lambda m: float(m.variable_unit == 1), "#<_imperial>": lambda m: float(m.variable_unit != 1),
+    "#<_absolute>": lambda m: float(m.modal["dimension"] == "G90"), "#<_task>": lambda m: 0.0,
+    "#<_incremental>": lambda m: float(m.modal["dimension"] == "G91"),
+    "#<_spindle_on>": lambda m: float(m.spindle_speed != 0), "#<_spindle_cw>": lambda m: float(m.spindle_speed > 0),
+    "#<_rpm>": lambda m: m.speed, "#<_feed>": lambda m: (m.feed or 0.0) / m.variable_unit,
+    "#<_plane>": lambda m: {"XY": 170.0, "ZX": 180.0, "YZ": 190.0}[m.plane],
+    "#<_ccomp>": lambda m: {0: 400.0, 1: 410.0, -1: 420.0}[m.side],
+    "#<_current_tool>": lambda m: float(m.tool.number), "#<_selected_tool>": chosen_tool,
+}  # fmt: skip
 PREASSIGNED: dict[str, Reading] = (
     {f"#{5001 + k}": partial(end_of_block, k=k) for k in range(3)}
     | {f"#{5021 + k}": partial(on_machine, k=k) for k in range(3)}
@@ -158,4 +170,5 @@ PREASSIGNED: dict[str, Reading] = (
     | {f"#{5420 + k}": partial(here, k=k) for k in range(3)}
     | {"#5220": active_row, "#4107": lambda m: float(memory(m).corrector)}
     | {"#4111": lambda m: float(memory(m).length_corrector or 0)}
+    | NAMED
 )

@@ -20,7 +20,7 @@ from mnclab.text.precedence import Climber, Token, split
 
 _TOKEN = re.compile(
     r"\s*(?:(\d+(?:\.\d*)?|\.\d+)|(#[ \t]*(?:\d{1,9}|<[^<>\[\]#]{0,80}>)?)"
-    r"|(MOD|AND|XOR|OR|EQ|NE|GT|GE|LT|LE|A?(?:SIN|COS|TAN)|SQRT?|ABS|BIN|BCD|ROUND|RND|FIX|FUP|LN|EXP|POW)|(\*\*|[-+*/,\[\]]))",
+    r"|(MOD|AND|XOR|OR|EQ|NE|GT|GE|LT|LE|A?(?:SIN|COS|TAN)|SQRT?|ABS|BIN|BCD|ROUND|RND|FIX|FUP|LN|EXP|POW|EXISTS)|(\*\*|[-+*/,\[\]]))",
     re.IGNORECASE | re.ASCII,
 )
 KINDS = ("number", "variable", "name", "mark")
@@ -86,7 +86,7 @@ OWN: dict[str, dict[str, Callable[[float], float]]] = {
     },
 }  # fmt: skip
 ROUNDING = ("ROUND", "RND")
-NAMES = {*FUNCTIONS, *OWN[FANUC], *ROUNDING, "POW"}
+NAMES = {*FUNCTIONS, *OWN[FANUC], *ROUNDING, "POW", "EXISTS"}
 
 
 @dataclass(frozen=True)
@@ -142,6 +142,10 @@ class Formula(Expression):
                 if not token.text:
                     token = token._replace(text=f"#{_index(values.pop() or 0.0, token)}")
                 values.append(fetch(variables, token, dialect))
+            elif token.kind == "existence":
+                if dialect == FANUC:
+                    raise Alarm("EXISTS is LinuxCNC's", token.span, hint="a variable without a value is EQ #0")
+                values.append(float(token.text[1:2] != "<" or variables.get(token.text) is not None))
             elif token.kind == "sign":
                 values[-1] = None if values[-1] is None else -values[-1]
             elif token.kind in ("pair", "joint"):
@@ -158,11 +162,12 @@ def fetch(variables: Mapping[str, Any], token: Token, dialect: str) -> float | N
     if name == "#0" and dialect == LINUXCNC:
         _refuse("LinuxCNC has no variable", token)
     known = variables.get(name)
-    if known is None and name[1:2] != "<" and int(name[1:]) > ORDINARY:
+    if known is None and (name.startswith("#<_") or name[1:2] != "<" and int(name[1:]) > ORDINARY):
         try:
             known = variables[name]
         except KeyError:
-            raise Alarm(f"{name} is a variable of the control that is not built, or has no value", token.span) from None
+            if name[1] != "<":
+                raise Alarm(f"{name} is a variable of the control that is not built, or has no value", token.span) from None
     if known is None and name[1:2] == "<":
         _refuse("no value was given to", token)
     return 0.0 if known is None and dialect == LINUXCNC else None if known is None else float(known)
@@ -253,6 +258,8 @@ class _Reader(Climber[None]):
                 self.steps.append(token._replace(kind="sign"))
         elif token.kind in ("number", "variable"):
             self.steps.append(token)
+        elif token.text == "EXISTS":
+            self.existence(token)
         elif token.text in NAMES:
             self.function(token)
         else:
@@ -265,6 +272,17 @@ class _Reader(Climber[None]):
             raise Alarm("'#' needs the number of a variable", token.span, hint="for example #101 or #[#1+1]")
         self.operand(0)
         self.steps.append(token)
+
+    def existence(self, token: Token) -> None:
+        """EXISTS asks for a variable, not for its value (LinuxCNC)."""
+        if [t.text for t in self.tokens[self.at : self.at + 1]] != ["["] or self.tokens[self.at + 1 : self.at + 2] == []:
+            raise Alarm("EXISTS needs a variable in brackets", token.span, hint="for example EXISTS[#<depth>]")
+        variable = self.tokens[self.at + 1]
+        if variable.kind != "variable" or not variable.text:
+            raise Alarm("EXISTS needs a variable in brackets", variable.span, hint="for example EXISTS[#<depth>]")
+        self.at += 2
+        self.close()
+        self.steps.append(variable._replace(kind="existence"))
 
     def function(self, token: Token) -> None:
         """ATAN and POW take two numbers: `ATAN[1]/[2]`, `ATAN[1,2]`, `POW[2,3]`."""

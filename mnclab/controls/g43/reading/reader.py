@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.controls.g43.reading import formulas
-from mnclab.controls.g43.reading.statements import HEAD, Fault, Statements, end_of_operand
+from mnclab.controls.g43.reading.o_words import OWords
+from mnclab.controls.g43.reading.statements import HEAD, Fault, Statements, assignments, end_of_operand
 from mnclab.controls.word_address.reader import Labels, Marks, clean_blocks, read_words, skip_blanks
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.program import Program
@@ -33,10 +34,12 @@ CALLS = (65.0, 66.0)  # G words with arguments
 _SAID = re.compile(r"[^\s\0\x1a%]")
 _SKIP = re.compile(r"/[ \t]*([1-9])?(?!\d)")
 _LABEL = re.compile(r"N[ \t]*(\d{1,9})(?![\d.])[ \t]*", re.IGNORECASE)
+_FRACTION = re.compile(r"N[ \t]*\d{1,9}\.\d{0,9}(?![\d.])[ \t]*", re.IGNORECASE)
 _NUMBER = re.compile(r"(?:O|:)[ \t]*(\d{1,8})(?![\d.])", re.IGNORECASE)
-_FLOW_WORD = re.compile(r"O[ \t]*(?:\d+|<[^<>]{0,80}>|\[[^]]{0,80}\]|#\d+)[ \t]*([A-Z]{2,})", re.IGNORECASE)
 _CORNER = re.compile(r",[ \t]*([CR])[ \t]*(?=[-+.\d#\[])", re.IGNORECASE)
 _PLAIN = re.compile(r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)")
+_BARE = re.compile(rf"[-+ \t]*({'|'.join(sorted(formulas.NAMES, reverse=True))})[ \t]*(?=\[)", re.IGNORECASE)
+_OVER = re.compile(r"[ \t]*/[ \t]*(?=\[)")
 _CALL = re.compile(r"G[ \t]*0*6[56](?![\d.])", re.IGNORECASE)
 _PRINTED = re.compile(r"(?:POPEN|PCLOS|DPRNT|BPRNT)(?![A-Z])", re.IGNORECASE)
 _GOOD_WORDS = re.compile(r"[ \t]*+(?:[A-Z][ \t]*+[-+]?[\d.]++[ \t]*+){2,}+", re.IGNORECASE)
@@ -61,6 +64,10 @@ def other_word(builder: ProgramBuilder, text: str, at: int, stop: int) -> int:
     else:
         return -1
     end = end_of_operand(text[value:stop], 0)
+    if end < 0 and (bare := _BARE.match(text, value, stop)):  # LinuxCNC: Y SQRT[4]
+        end = end_of_operand(text[value:stop], bare.end() - value)
+        if bare.group(1).upper() == "ATAN" and (over := _OVER.match(text, value + end, stop)):
+            end = end_of_operand(text[value:stop], over.end() - value)
     if end < 0:
         return -1
     if address in "NO":
@@ -77,14 +84,15 @@ class _Reader:
     def __init__(self, text: str, name: str, found: Scan) -> None:
         self.text = text
         self.builder = ProgramBuilder(text, name, "g43", found.starts, COMMENT)
-        self.statements = Statements(self.builder)
+        self.statements, self.o_words = Statements(self.builder), OWords(self.builder)
         self.labels: Labels = []
         self.programs: Labels = []
         self.another = -1  # the % of another program
         first, last = self.tape(found)
         special = found.count > MOST_WORDS
         letter, value = found.letter, found.value
-        odd = (letter == ord("O")) | ((letter == ord("G")) & np.isin(value, CALLS)) | ((letter == ord("N")) & (value == 0))
+        odd = (letter == ord("O")) | ((letter == ord("G")) & np.isin(value, CALLS))
+        odd |= (letter == ord("N")) & ((value == 0) | (value % 1 > 0))
         if odd.any():
             special[found.line[odd]] = True
         special[:first] = special[last:] = True
@@ -136,11 +144,12 @@ class _Reader:
         for index in self.odd:
             self.read_line(int(index))
         self.statements.close()
+        self.o_words.close()
         if self.another >= 0:
             builder.block(self.another)
             hint = "a file holds one of them; those of O numbers may stand one after another"
             builder.alarm("another program begins here", self.another, 1, hint)
-        elif self.statements.last >= 0:
+        elif max(self.statements.last, self.o_words.last) >= 0:
             builder.block(len(self.text))  # there is a block after every loop
         self.set_labels()
         program = builder.build(bulk)
@@ -205,12 +214,24 @@ class _Reader:
         label = label or _LABEL.match(code, at)
         if label:
             at = max(at, label.end())
+        elif fraction := _FRACTION.match(code, at):
+            said = fraction.group().strip()
+            builder.alarm(f"{said} is no whole number: no jump finds this block", begin + at, len(said), severity="warning")
+            at = fraction.end()
+        if self.o_words.read(code, begin, at, start, skip):
+            if label:
+                self.labels.append((start, int(label.group(1))))
+            return
         head = HEAD.match(code, at)
         call = None if head else _CALL.search(code, at)
         keyword = head.group().upper() if head else call.group()[:1].upper() + "6" + call.group()[-1] if call else ""
         builder.block(start, "" if keyword in ("THEN", "ELSE") else keyword, skip)
         if label:
             self.labels.append((start, int(label.group(1))))
+        beside = assignments(code, at) if "=" in code and keyword in ("", "#") else []
+        if beside and "".join(code[a:b] for a, b in outside(beside, at, len(code))).strip():
+            self.read_mixed(line, code, begin, at, beside, bool(label), skip)
+            return
         if head:
             self.statements.read(code, begin, at, message_of(line))
             self.jumps |= self.statements.jumps
@@ -219,9 +240,6 @@ class _Reader:
             builder.alarm(f"{word.group().upper()} prints nothing here", begin + at, len(word.group()), severity="warning")
             return
         number = _NUMBER.match(code, at)
-        if word := _FLOW_WORD.match(code, at):
-            hint = "write M98 P… and M99, IF, WHILE: the functions of Macro B"
-            raise Fault(f"O words of LinuxCNC ({word.group(1).lower()}) are not built", at, len(word.group()), hint)
         if number:
             self.begin_program(number, begin)
             at = number.end()
@@ -237,6 +255,37 @@ class _Reader:
         if call:
             self.arguments()
         self.jumps = self.jumps or bool(call) or {"M", "P"} <= set(code.upper())
+
+    def read_mixed(
+        self, line: str, code: str, begin: int, at: int, beside: list[tuple[int, int]], label: bool, skip: int
+    ) -> None:  # fmt: skip
+        """Words and assignments in one line (LinuxCNC): blocks of their own, and the words read what was there before."""
+        builder, words = self.builder, outside(beside, at, len(code))
+        lead = [span for span in beside if not "".join(code[a:b] for a, b in words if a < span[0]).strip()]
+        rest = "".join(code[a:b] for a, b in words)
+        written = {code[a : code.find("=", a)].replace(" ", "").lower() for a, _ in lead}
+        read = set(re.findall(r"#(?:\d+|<[^<>]*>|[#\[])", rest.replace(" ", "").lower()))
+        if read and (written & read or any(name[1:2] in "#[" for name in written | read) and lead):
+            raise Fault("a variable is read and written in one block", lead[0][0], hint="write two blocks")
+
+        def assign(span: tuple[int, int], first: bool) -> None:
+            if not first:
+                builder.block(begin + span[0], "#", skip)
+            self.statements.read(code[: span[1]], begin, span[0], "")
+            builder.word("beside", None, begin + span[0], span[1] - span[0])
+
+        for k, span in enumerate(lead):
+            assign(span, k == 0)
+        fresh = not lead
+        for a, b in words:
+            for c, d in pieces(code[:b], line, a):
+                if not fresh:
+                    builder.block(begin + c + len(code[c:d]) - len(code[c:d].lstrip()), "", skip)
+                    fresh = True
+                if not read_words(builder, self.text, begin + c, begin + d, MARKS, self.labels, not label and not lead):
+                    return
+        for span in beside[len(lead) :]:
+            assign(span, False)
 
     def arguments(self) -> None:
         """M is an argument like others, G is none."""
@@ -296,6 +345,11 @@ def nothing_said(text: str) -> bool:
     """Whether lines hold nothing but comments."""
     lines = (line.strip(BEFORE) for line in text.splitlines())
     return all(not line or line[0] in "(;" for line in lines)
+
+
+def outside(spans: list[tuple[int, int]], at: int, stop: int) -> list[tuple[int, int]]:
+    """The parts of a line between some others."""
+    return list(zip([at, *(b for _, b in spans)], [*(a for a, _ in spans), stop], strict=True))
 
 
 def without_comments(line: str) -> Iterator[str]:

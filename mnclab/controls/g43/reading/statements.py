@@ -18,6 +18,9 @@ _NUMBER = re.compile(r"[ \t]*(\d{1,9}(?:\.0*)?)(?![.\d])")
 _VARIABLE = re.compile(r"#[ \t]*(?:\d{1,9}|<[^<>\[\]#]{0,80}>)")
 _SIGNS = re.compile(r"[-+ \t]*")
 _WORD = {word: re.compile(rf"[ \t]*{word}", re.IGNORECASE) for word in ("THEN", "GOTO", "DO", "=")}
+_OPERATOR = re.compile(
+    rf"(?:{'|'.join(sorted(formulas.NAMES, reverse=True))}|MOD|AND|XOR|OR|EQ|NE|GT|GE|LT|LE)(?=[ \t]*[-+\[#\d.])", re.IGNORECASE
+)
 DEEPEST = 3  # loops inside each other
 MESSAGES = ("#3000", "#3006")  # what is written to them stands in the comment of the block
 
@@ -76,6 +79,30 @@ def end_of_operand(line: str, at: int) -> int:
         if depth == 0:
             return k + 1
     return len(line)
+
+
+def assignments(line: str, at: int) -> list[tuple[int, int]]:
+    """Where the assignments of a line begin and end, from a place on; a word ends the value before it."""
+    spans = []
+    while (equals := line.find("=", at)) >= 0:
+        targets = (k for k in range(at, equals) if line[k] == "#" and line[end_of_operand(line, k) : equals].strip() == "")
+        if (begin := next(targets, -1)) < 0:
+            break
+        at = equals + 1
+        while at < len(line) and not _is_target(line, at):
+            if line[at] in "#[":
+                at = max(end_of_operand(line, at), at + 1)
+            elif line[at].isalpha() and (name := _OPERATOR.match(line, at)) is None:
+                break
+            else:
+                at = name.end() if line[at].isalpha() and name else at + 1
+        spans.append((begin, len(line[:at].rstrip())))
+    return spans
+
+
+def _is_target(line: str, at: int) -> bool:
+    end = end_of_operand(line, at) if line[at] == "#" else -1
+    return end >= 0 and line[end:].lstrip(" \t")[:1] == "="
 
 
 class _Line:

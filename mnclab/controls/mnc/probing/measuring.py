@@ -124,7 +124,7 @@ class Slot(MeasuringCycle):
         a, half, k = self.approach(m), (self.width or 0.0) / 2, int(self.axis) - 1
         back = None
         if half <= a.away:
-            back, a = half, replace(a, over=False, reach=max(a.reach, half + a.gap if half else 0.0))
+            back, a = half, replace(a, over=False).as_far_as(half)
         (x, y), (dx, dy) = NORMALS[k], NORMALS[1 - k]
         first = Aim(self.x + half * x, self.y + half * y, (x, y), back)
         second = Aim(self.x - half * x + self.offset_2 * dx, self.y - half * y + self.offset_2 * dy, (-x, -y), back)
@@ -155,4 +155,7 @@ class Ridge(MeasuringCycle):
     def moves(self, m: Machine) -> Moves:
         x, y = NORMALS[int(self.axis) - 1]
         aims = Aim(self.x, self.y, (-x, -y)), Aim(self.x2, self.y2, (x, y))
-        yield from width_measured(self, m, self.approach(m), aims)
+        a, apart = self.approach(m), (self.x - self.x2) * x + (self.y - self.y2) * y
+        if self.width is not None and (more := apart - self.width) > 0:  # the points are not on the ridge
+            a = a.as_far_as(a.away + more)
+        yield from width_measured(self, m, a, aims)

@@ -40,11 +40,11 @@ def begin(m: Machine, words: Words) -> None:
 @FUNCTIONS("END PGM,", "Program end", takes="name unit", leads_away=True, phase="last", source="4.11, example")
 def end(m: Machine, words: Words) -> None:
     """The last block of a program; a program that was called goes back to the one that calls."""
-    name, unit = words["name"].value if "name" in words else "", words["unit"]
+    name, unit = words["name"].value if "name" in words else None, words.get("unit")
     kept = memory(m)
-    if kept.unit is not None and unit.value != kept.unit:
+    if kept.unit is not None and unit is not None and unit.value != kept.unit:
         m.alarm(f"END PGM says {unit.value}, BEGIN PGM {kept.unit}", unit)
-    if kept.name is not None and name != kept.name:
+    if kept.name is not None and (name or "" if unit else name or kept.name) != kept.name:
         m.warn(f"END PGM names {name}, BEGIN PGM {kept.name}", words.words[0])
     kept.fast_probing = None  # 17.10
     if m.flow.called:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any
 
 from mnclab.controls.tnc_620.language.parameters import give
-from mnclab.controls.tnc_620.language.system_data import COLUMNS, ROWS, TABLES, Asked, Missing, named
+from mnclab.controls.tnc_620.language.system_data import ROWS, TABLES, Asked, Missing, named
+from mnclab.controls.tnc_620.language.tool_columns import COLUMNS, written
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
@@ -69,7 +69,11 @@ def write_tool(m: Machine, to: Asked, value: float, what: str, words: Words) -> 
     try:
         if not to.index.is_integer():
             raise Missing("needs IDX, the number of the tool")
-        column: dict[str, Any] = {COLUMNS[int(to.number)][0]: value}
-        m.write_table("tools", int(to.index), replace(named(m, to), **column))
+        column, row = COLUMNS[int(to.number)], named(m, to)
+        m.write_table("tools", int(to.index), written(m, row, int(to.number), value))
+        if not column.place and value:
+            m.warn(f"{what} ({column.title}): it can be read again, and nothing here acts on it", words["NR"])
+    except StopIteration:
+        m.alarm(f"{what} (TYPE): a tool here has no kind of the number {value:g}", words["value"])
     except (Missing, Alarm) as why:
         m.alarm(f"{what}: {why.message if isinstance(why, Alarm) else why}", words["ID"])

@@ -18,6 +18,7 @@ from mnclab.controls.tnc_620.clock import time_of_day
 from mnclab.controls.tnc_620.cycles import chain
 from mnclab.controls.tnc_620.language.machine_datum import above_tip
 from mnclab.controls.tnc_620.language.parameters import PREASSIGNED
+from mnclab.controls.tnc_620.language.tool_columns import COLUMNS, is_empty, value
 from mnclab.controls.tnc_620.state import active_preset, memory
 from mnclab.controls.tnc_620.tables.datum_tables import row_of
 from mnclab.machine.machine import Machine
@@ -80,24 +81,17 @@ def index_of(tool: Tool) -> float:
     return float(round(tool.number % 1 * 10))
 
 
-#: Columns of the tool table by NR of ID50, ID950.
-COLUMNS = {
-    1: ("length", "L"), 2: ("radius", "R"), 3: ("corner", "R2"), 4: ("dl", "DL"), 5: ("dr", "DR"),
-    13: ("cutting_length", "LCUTS"), 14: ("plunge_angle", "ANGLE"), 15: ("teeth", "CUT"), 32: ("angle", "T-ANGLE"),
-    33: ("pitch", "PITCH"), 40: ("pitch", "PITCH"),
-}  # fmt: skip
-#: Numbers of the kinds in the column TYPE.
-TYPES = {
-    "mill": 0, "drill": 1, "tap": 2, "reamer": 3, "countersink": 5, "face mill": 14, "thread mill": 15, "probe": 21,
-}  # fmt: skip
+def column(number: int, tool: Callable[[Machine, Asked], Tool]) -> Read:
+    """A column of the tool table; one that tools here do not have is an empty field, which is said."""
 
+    def read(m: Machine, asked: Asked) -> float | None:
+        row = tool(m, asked)
+        if is_empty(m, row, number):
+            title = COLUMNS[number].title
+            m.warn(f"FN 18: SYSREAD {asked} reads 0: the tool table here has no {title}", hint="FN 17 may write it before")
+        return value(m, row, number)
 
-def column(name: str, tool: Callable[[Machine, Asked], Tool]) -> Read:
-    return lambda m, asked: float(getattr(tool(m, asked), name))
-
-
-def kind(tool: Callable[[Machine, Asked], Tool]) -> Read:
-    return lambda m, asked: TYPES.get(tool(m, asked).kind)
+    return read
 
 
 def with_deltas(name: str, delta: str) -> Read:
@@ -245,8 +239,6 @@ ROWS: dict[tuple[float, float], Row] = {
     (30, 4): Row("feed rate for plunging of the active cycle", parameter("Q206")),
     (30, 10): Row("feed rate for milling of the active cycle", parameter("Q207")),
     (35, 2): Row("radius compensation", lambda m, a: float(m.side != 0)),
-    (50, 36): Row("TYPE of a tool", kind(named), None),
-    (950, 36): Row("TYPE of the active tool", kind(active)),
     (60, 1): Row("number of the tool of TOOL CALL", lambda m, a: float(int(m.tool.number))),
     (60, 2): Row("tool axis of TOOL CALL", kept("Q109")),
     (60, 3): Row("spindle speed of TOOL CALL", lambda m, a: m.speed),
@@ -290,7 +282,7 @@ TABLES: dict[float, Row] = {
 }  # fmt: skip
 
 
-for _number, (_name, _title) in COLUMNS.items():
-    ROWS[50, _number] = Row(f"{_title} of a tool", column(_name, named), None)
-    ROWS[950, _number] = Row(f"{_title} of the active tool", column(_name, active))
+for _number, _column in COLUMNS.items():
+    ROWS[50, _number] = Row(f"{_column.title} of a tool", column(_number, named), None)
+    ROWS[950, _number] = Row(f"{_column.title} of the active tool", column(_number, active))
 

@@ -95,12 +95,14 @@ def find(m: Machine, word: Word, code: str) -> Tool:
     return m.tables.tools[number]  # type: ignore[index]  # an index such as 5.2 is a row of its own
 
 
-@FUNCTIONS("TOOL DEF,", "Tool definition", takes="tool text L R", source="11.9")
+@FUNCTIONS("TOOL DEF,", "Tool definition", takes="tool text L R F", source="11.9")
 def tool_def(m: Machine, words: Words) -> None:
     """Without L and R it only names the next tool; else it defines one, as the setting `tool_def` says. Nothing moves."""
     word = words.get("tool", words.get("text"))
     if word is None:
         m.alarm("TOOL DEF needs the number of the tool", hint="for example TOOL DEF 5 L+100 R+4")
+    if "F" in words:
+        m.warn("TOOL DEF takes no feed: F is passed over", words["F"], "write F in TOOL CALL")
     given = [words[address] for address in ("L", "R") if address in words]
     if not given and m.setup.tools:
         find(m, word, "TOOL DEF")

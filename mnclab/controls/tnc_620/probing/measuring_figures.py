@@ -138,7 +138,8 @@ class SlotMeasuring(ProbingCycle):
     def moves(self, m: Machine) -> Moves:
         a, k = self.approach(m), int(self.axis) - 1
         ahead = (1.0, 0.0) if k == 0 else (0.0, 1.0)
-        (far,) = yield from in_plane(a, [Aim(self.x, self.y, ahead, 0.0)], m.programmed[2], leave=False)
+        first = a.as_far_as(self.nominal_length / 2)
+        (far,) = yield from in_plane(first, [Aim(self.x, self.y, ahead, 0.0)], m.programmed[2], leave=False)
         start = [self.x, self.y]
         start[1 - k] += self.offset
         if self.offset:
@@ -176,6 +177,8 @@ class RidgeMeasuring(ProbingCycle):
     def moves(self, m: Machine) -> Moves:
         a, (far, near) = replace(self.approach(m), over=True), self.points_by_place
         x, y = (1.0, 0.0) if self.along == 0 else (0.0, 1.0)
+        if (more := far[self.along] - near[self.along] - self.nominal_length) > SAME:  # the points are not on the ridge
+            a = a.as_far_as(a.away + more)
         contacts = yield from in_plane(a, [Aim(*far, (-x, -y)), Aim(*near, (x, y))], m.programmed[2])
         yield from width_told(self, m, contacts[0], contacts[1], contacts)
 

@@ -1,7 +1,8 @@
 """Reading conversational programs: lines into blocks.
 
 A block is a number, a statement and its words; `/` before or after the number marks a block that may be passed over,
-`;` begins a comment, which goes on behind a `~` at its end, `*` a structure block. A block goes on over several lines when
+`;` begins a comment, which goes on behind a `~` at its end, `*` a structure block. What was wrapped into the line after a
+comment, words that are no block and look like none, is passed over with a warning. A block goes on over several lines when
 a line ends in `~`, in a definition whose further lines carry no number, and in the sub-blocks n.0, n.1, … of older cycles,
 which become one block.
 So `Q200=5` without a number below a definition is a parameter of it; with a number it is an assignment, and so it is
@@ -28,6 +29,7 @@ from mnclab.controls.tnc_620.reading.statements import (
     WORDS,
     Statement,
     cycle_parameters,
+    like_a_block,
     passed_over,
     recognize,
 )
@@ -42,6 +44,15 @@ _UNIT = re.compile(r"(?<![^\r\n])[ \t\ufeff]*(?:/[ \t]*)?(?:N?\d+[ \t]*)?BEGIN[ 
 _HEAD = re.compile(r"[ \t]*(/?)[ \t]*(?:N(?=\d))?(\d*)[ \t]*(/?)[ \t]*", FLAGS)
 _SPACED = re.compile(r"Q(\d+)[ \t]+=", FLAGS)
 _WORD = re.compile(r"[A-Z]+|\S", re.IGNORECASE)
+_CYCLE = re.compile(r"CYCLE(?![A-Z])", FLAGS)
+_PROSE = re.compile(r"[^\W\d_]{2,}(?![\w+=-])")  # a word of a sentence
+WRAPPED = "begin it with ; or join it to the comment with ~"
+#: What to write for words that are no statement.
+_MEANT = {
+    "DWELL": "a dwell is FUNCTION DWELL TIME2 or cycle 9", "PROGRAM": "a program begins with BEGIN PGM",
+    "ERROR": "a control writes ERROR = before a block that it could not read: write the block anew, formulas in one of their own",
+    "IF": "a jump is FN 9: IF +Q1 EQU +Q3 GOTO LBL 5", "SPINDLE": "M3, M4 and M5 are the spindle", "COOLANT": "write M8 or M9",
+}  # fmt: skip
 _PLAIN = "FRXYZ"  # letters of plain lines
 MOST_LETTERS = 30  # of a word that may have been meant as a statement
 PIECE = 1 << 14  # lines whose words are looked at together
@@ -86,8 +97,9 @@ class _Lines:
         self.tilde = False  # the line before ended in ~
         self.remark = False  # and stood in a comment, which goes on
         self.over = False  # the last line of a block was joined by a ~ and has none itself
-        self.skip = self.faulty = self.begun = self.bracketed = False
+        self.skip = self.faulty = self.begun = self.bracketed = self.numbered = False
         self.tight = False  # a parameter of the block is written without blanks
+        self.wrapped = -1  # the line that was read last as the rest of a comment
         self.end: int | None = None  # place of END PGM
 
     def read(self, line: int) -> None:
@@ -100,6 +112,7 @@ class _Lines:
         remark, self.remark = self.remark, tilde and comment >= 0
         head = _HEAD.match(self.text, begin, stop)
         assert head is not None
+        self.numbered = bool(head.group(2))
         if head.end() >= stop and not head.group(2):
             self.tilde = tilde or (joined and comment >= 0)
             if comment >= 0 and self.statement is None:
@@ -115,6 +128,8 @@ class _Lines:
             self.bracket(at, stop)
             return
         try:
+            if not joined and not head.group(2) and self.rest_of_comment(line, at, stop):
+                return
             if joined or (not head.group(2) and self.goes_on(at, stop)):
                 self.over = joined and not tilde
                 self.go_on(Cursor(self.builder, at, stop, self.inch))
@@ -137,6 +152,25 @@ class _Lines:
             message, hint = "lines that begin with a bracket are read as comments", "a comment of this control begins with ;"
             self.builder.alarm(message, at, stop - at, hint, "warning")
         self.bracketed = True
+
+    def rest_of_comment(self, line: int, at: int, stop: int) -> bool:
+        """Whether the line, without a number, is passed over as what was wrapped out of the comment above it."""
+        reads = self.statement.more if self.statement else None
+        if reads not in (None, cycle_parameters) or not _PROSE.match(self.text, at, stop) or not self.below_comment(line):
+            return False
+        try:
+            if recognize(Cursor(self.builder, at, stop, self.inch)) is not None:
+                return False
+        except Fault:
+            return False
+        if like_a_block(self.text, at, stop) or near(self.text[at:stop], 0.75):
+            return False
+        self.wrapped = line
+        self.builder.alarm("this line is read as the rest of the comment above", at, stop - at, WRAPPED, "warning")
+        return True
+
+    def below_comment(self, line: int) -> bool:
+        return line > 0 and (self.wrapped == line - 1 or bounds(self.builder, line - 1)[2] >= 0)
 
     def goes_on(self, at: int, stop: int) -> bool:
         if self.statement is None or self.statement.more is None or self.over or self.text[at] == "*":
@@ -173,6 +207,8 @@ class _Lines:
         except Fault:
             self.builder.block(start, skip=skip)
             raise
+        if statement is not None and _CYCLE.match(self.text, begin):
+            self.builder.alarm("CYCLE is read as CYCL, as the control writes it", begin, 5, "write CYCL", "warning")
         if statement is not None and statement.part > 0 and before is not None and before.keyword == statement.keyword:
             self.statement, self.faulty = statement, was_faulty
             if was_faulty:
@@ -210,13 +246,22 @@ class _Lines:
             return cursor.unexpected()
         if len(word) == 1:
             return Fault(f"{word} begins no statement", cursor.at, hint="a straight line begins with L")
-        near: list[str] = []
-        if len(word) <= MOST_LETTERS and self.builder.alarms.total < KEPT:  # those that follow are only counted
-            first = " ".join(cursor.rest().upper().split(maxsplit=2)[:2])[: 2 * MOST_LETTERS]
-            near = get_close_matches(first, [*WORDS, *KEYWORDS_ONLY, "CYCL DEF", "TCH PROBE"], 1, 0.7)
-            near = near or get_close_matches(word, [*WORDS, *KEYWORDS_ONLY], 2, 0.6)
-        hint = f"near: {', '.join(near)}" if near else ""
-        return Fault(f"{word} is no statement of this control", cursor.at, len(word), hint)
+        hints = [_MEANT[word]] if word in _MEANT else []
+        if not hints and self.builder.alarms.total < KEPT:  # those that follow are only counted
+            hints = [f"near: {', '.join(found_near)}"] if (found_near := near(cursor.rest())) else []
+            if not self.numbered and self.below_comment(self.last):
+                hints.append("if it is the rest of the comment above, begin it with ;")
+        return Fault(f"{word} is no statement of this control", cursor.at, len(word), "; ".join(hints))
+
+
+def near(text: str, least: float = 0.6) -> list[str]:
+    """The statements that the first words of a line are nearly; a single word is alike by `least`, 0 to 1."""
+    first = " ".join(text.upper().split(maxsplit=2)[:2])[: 2 * MOST_LETTERS]
+    word = found.group().upper() if (found := _WORD.match(text)) else ""
+    if not 0 < len(word) <= MOST_LETTERS:
+        return []
+    known = [*WORDS, *KEYWORDS_ONLY]
+    return get_close_matches(first, [*known, "CYCL DEF", "TCH PROBE"], 1, 0.7) or get_close_matches(word, known, 2, least)
 
 
 def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_], BulkBlocks]:

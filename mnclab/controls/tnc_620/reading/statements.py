@@ -16,7 +16,7 @@ from mnclab.controls.tnc_620.reading.file_functions import FILES
 from mnclab.controls.tnc_620.reading.formulas import FN, assignment, declared_text, text_assignment, text_formula
 from mnclab.controls.tnc_620.reading.pattern_words import PatternWords
 from mnclab.controls.tnc_620.reading.sub_blocks import READERS
-from mnclab.controls.tnc_620.reading.words import FLAGS, NUMBER, TEXT, Cursor, Fault, Read
+from mnclab.controls.tnc_620.reading.words import FLAGS, NUMBER, SIGNED, TEXT, Cursor, Fault, Read
 
 
 class Statement(NamedTuple):
@@ -71,10 +71,10 @@ def turned_blank(cursor: Cursor) -> None:
 
 
 def program_name(cursor: Cursor) -> None:
-    """BEGIN PGM and END PGM: name and unit."""
+    """BEGIN PGM: name and unit."""
     begin = cursor.blanks()
     *name, unit = cursor.rest().rsplit(None, 1) or [""]
-    if unit.upper() not in ("MM", "INCH"):
+    if unit.upper() not in UNITS:
         cursor.at = cursor.stop
         what = "the unit of the program is missing: MM or INCH must follow its name"
         raise Fault(what, begin, max(1, len(" ".join((*name, unit)))))
@@ -85,6 +85,19 @@ def program_name(cursor: Cursor) -> None:
     cursor.at = at + len(unit)
     cursor.add("unit", unit.upper(), at)
     cursor.at = cursor.stop
+
+
+def program_end(cursor: Cursor) -> None:
+    """END PGM: name and unit, which say again what BEGIN PGM says; without them the program ends all the same."""
+    begin, words = cursor.blanks(), cursor.rest().split()
+    if words and words[-1].upper() in UNITS:
+        program_name(cursor)
+        return
+    what = "END PGM has no unit: " if words else "END PGM has neither name nor unit: "
+    cursor.builder.alarm(f"{what}the program ends here", begin, max(1, len(cursor.rest())), UNIT_OF_END, "warning")
+    cursor.at = cursor.stop
+    if words:
+        cursor.add("name", words[0], begin)
 
 
 def file_name(cursor: Cursor) -> None:
@@ -110,8 +123,11 @@ def cycle_parameters(cursor: Cursor) -> None:
         begin = cursor.at
         found = cursor.match(_PARAMETER_HEAD)
         if found is None:
-            raise cursor.unexpected()
+            raise without_equals(cursor)
         name = f"Q{(found.group(1) or '').upper()}{found.group(2)}"
+        if "=" not in found.group():
+            message = f"{name} has no = before its feed: it is read as {name}="
+            builder.alarm(message, begin, cursor.at - begin, f"write {name}= before the word", "warning")
         value: object
         if text := cursor.match(TEXT):
             value = text.group(1)
@@ -120,9 +136,28 @@ def cycle_parameters(cursor: Cursor) -> None:
         elif word := cursor.match(_FEED_WORD):
             value = re.sub(r"[ \t]", "", word.group()).upper().replace(",", ".")
             value = f"F{value}" if value in ("AUTO", "MAX") else value
+        elif bare := cursor.match(_PER):
+            per = bare.group().strip().upper()
+            hint = f"{per} is the feed per {PER[per]}: write for example {name}={per}0.1"
+            raise Fault(f"{name}={per} needs its value", begin, cursor.at - begin, hint)
         else:
             value = cursor.needed(f"{name} needs a number", begin, found.end() - begin)
         builder.word(name, value, begin, cursor.at - begin)
+
+
+def without_equals(cursor: Cursor) -> Fault:
+    """What is wrong where no parameter of a cycle stands: `Q210 +0` lacks its =."""
+    if found := _PARAMETER.match(cursor.text, cursor.at, cursor.stop):
+        name = found.group().upper()
+        if value := SIGNED.match(cursor.text, found.end(), cursor.stop):
+            hint = f"write {name}={value.group().strip()}"
+            return Fault(f"{name} has no = before its value", cursor.at, value.end() - cursor.at, hint)
+    return cursor.unexpected()
+
+
+def like_a_block(text: str, begin: int, stop: int) -> bool:
+    """Whether a word there looks like one of a block, a parameter or a jump."""
+    return bool(_LIKE_A_WORD.search(text, begin, stop) or _LIKE_A_STATEMENT.search(text, begin, stop))
 
 
 def passed_over(cursor: Cursor, stop: int | None = None, what: str = "the cycle's name") -> None:
@@ -158,6 +193,9 @@ def plane(cursor: Cursor) -> None:
             cursor.word()
 
 
+UNITS = ("MM", "INCH")
+UNIT_OF_END = "END PGM says again the name and the unit, for example END PGM PART MM"
+PER = {"FU": "revolution", "FZ": "tooth"}
 _FORMS = "LT LN CT LCT PLT PLN PCT PLCT".split()
 WORDS: dict[str, Read] = {
     "L": plain, "CC": plain, "C": plain, "CT": plain, "LP": plain, "CP": plain, "CTP": plain, "CR": with_radius,
@@ -169,7 +207,7 @@ WORDS: dict[str, Read] = {
     "DECLARE STRING": declared_text, "SEL PATTERN": file_name, "SEL TABLE": file_name,
     "PATTERN DEF": plain, "DECLARE CONTOUR": plain, "CONTOUR DEF": plain,  # whose lines LINES read
     "SEL CONTOUR": contour_words.selected,
-    "BEGIN PGM": program_name, "END PGM": program_name, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
+    "BEGIN PGM": program_name, "END PGM": program_end, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
     "PLANE RESET": plane, "PLANE SPATIAL": plane, "TRANS DATUM AXIS": plain, "TRANS DATUM RESET": plain,
     "FUNCTION RESET TCPM": plain, "FUNCTION DWELL": waiting,
     "BLK FORM CYLINDER": with_axis, "BLK FORM ROTATION": turned_blank,
@@ -186,16 +224,21 @@ KEYWORDS_ONLY = {
 }  # fmt: skip
 
 _ALL = sorted([*WORDS, *KEYWORDS_ONLY], key=len, reverse=True)
-_KEYWORD = re.compile(f"(?:{'|'.join(re.escape(k) for k in _ALL)})(?![A-Z_])".replace(r"\ ", r"[ \t]+"), FLAGS)
+_KEYWORD = re.compile(
+    f"(?:{'|'.join(re.escape(k) for k in _ALL)})(?![A-Z_])".replace(r"\ ", r"[ \t]+").replace("CYCL", "CYCLE?"), FLAGS
+)
 _CYCLE = re.compile(
-    r"(CYCL[ \t]+DEF|TCH[ \t]+PROBE|GLOBAL[ \t]+DEF)[ \t]*(?:(\d{1,5})(?:[ \t]*\.(\d{1,2}))?(?![.\d]))?", FLAGS
+    r"(CYCLE?[ \t]+DEF|TCH[ \t]+PROBE|GLOBAL[ \t]+DEF)[ \t]*(?:(\d{1,5})(?:[ \t]*\.(\d{1,2}))?(?![.\d]))?", FLAGS
 )
 _FN = re.compile(r"FN[ \t]*(\d{1,3})[ \t]*:?", FLAGS)
 _TARGET = re.compile(r"Q([LRSC]?)[ \t]?(\d{1,6})[ \t]*=", FLAGS)
 _SIGNED = re.compile(r"Q[LRSC]?[ \t]?([+-][ \t]?\d{1,6})[ \t]*=", FLAGS)
 _M = re.compile(r"M[ \t]*\d", FLAGS)
-_PARAMETER_HEAD = re.compile(r"\bQ([LRS]?)[ \t]*(\d{1,4})[ \t]*=[ \t]*", FLAGS)
-_FEED_WORD = re.compile(rf"[ \t]*(?:(?:F[ \t]*)?(?:AUTO|MAX)|F[UZ][ \t]*{NUMBER}|PREDEF)(?![A-Z])", FLAGS)
+_FEED = rf"[ \t]*(?:(?:F[ \t]*)?(?:AUTO|MAX)|F[UZ][ \t]*{NUMBER}|PREDEF)(?![A-Z])"
+_PARAMETER = re.compile(r"Q[LRS]?[ \t]*\d{1,4}(?!\d)", FLAGS)
+_PARAMETER_HEAD = re.compile(rf"\bQ([LRS]?)[ \t]*(\d{{1,4}})(?:[ \t]*=[ \t]*|(?={_FEED}))", FLAGS)
+_FEED_WORD = re.compile(_FEED, FLAGS)
+_PER = re.compile(r"[ \t]*F[UZ](?![A-Z])", FLAGS)
 _AXIS = re.compile(r"[A-Z](?![A-Z])", FLAGS)
 _DIM = re.compile(r"DIM_([RD])(?![A-Z])", FLAGS)
 _LBL = re.compile(r"[ \t]*LBL(?![A-Z])", FLAGS)
@@ -204,6 +247,7 @@ _STRING = re.compile(r"[ \t]*QS[ \t]*\d{1,4}", FLAGS)
 _LIKE_A_WORD = re.compile(
     r"(?<![\w.-])(?:I?[XYZUVWABC][+-]?\d|[A-Z]{1,4}[+-]\d|[MFS]\d|FMAX|R[0LR]\b)(?:[\d.,]*\d)?", FLAGS
 )
+_LIKE_A_STATEMENT = re.compile(r"=|(?<![A-Z])(?:Q[LRS]?\d|(?:GOTO|LBL|CALL|PGM|DEF)(?![A-Z]))", FLAGS)
 _WAIT = re.compile(r"(?:TIME|REV)[ \t]*(?![A-PR-Z])", FLAGS)
 _BEHAVIOUR = re.compile(r"(?:STAY|MOVE|TURN)(?![A-Z])|MB(?=[ \t]*MAX(?![A-Z])|(?![A-Z]))", FLAGS)
 _FAR = re.compile(r"(?<=MB)[ \t]*MAX(?![A-Z])", FLAGS)
@@ -217,7 +261,7 @@ def recognize(cursor: Cursor) -> Statement | None:
     if found := cursor.match(_CYCLE):
         return _cycle(cursor, found)
     if found := cursor.match(_KEYWORD):
-        keyword = " ".join(found.group().upper().split())
+        keyword = " ".join(found.group().upper().split()).replace("CYCLE", "CYCL")
         if keyword in KEYWORDS_ONLY:
             return _known_by_name(cursor, keyword, found.start())
         if keyword in LINES:
@@ -255,7 +299,7 @@ def _known_by_name(cursor: Cursor, keyword: str, begin: int) -> Statement:
 
 def _cycle(cursor: Cursor, found: re.Match[str]) -> Statement:
     """A definition in either format: parameters below it, or sub-blocks n.0, n.1, …"""
-    word = " ".join(found.group(1).upper().split())
+    word = " ".join(found.group(1).upper().split()).replace("CYCLE", "CYCL")
     if found.group(2) is None:
         raise Fault(f"{word} needs the number of a cycle", cursor.at)
     keyword = f"{word} {int(found.group(2))}"

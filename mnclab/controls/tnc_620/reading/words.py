@@ -1,10 +1,10 @@
 """An address and its value, as conversational blocks write them: `X+10`, `IY-Q5`, `FMAX`, `RL`, `DR-`.
 
 Values are numbers with a decimal point or comma, or a Q parameter with a sign (then the word holds an expression).
-What stands without a number is a word without a value (`FMAX`, `FAUTO`, `RL`, `RR`, `R0`); `R F M` at the end of a block, as
-older controls write what stays as it is, are none; a sense of rotation is the word `DR` with the text `+` or `-`. Values
-without an address in the text get one in lower case: `tool`, `label`, `axis`, `name`, `unit`, `length`, `number`, `target`,
-`value`. Lengths of an INCH program become mm here.
+What stands without a number is a word without a value (`FMAX`, `FAUTO`, `RL`, `RR`, `R0`); `R F M` at the end of a block
+and `R` before a feed, as older controls write what stays as it is, are none; a sense of rotation is the word `DR` with the
+text `+` or `-`. Values without an address in the text get one in lower case: `tool`, `label`, `axis`, `name`, `unit`,
+`length`, `number`, `target`, `value`. Lengths of an INCH program become mm here.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ WHOLE = re.compile(r"[ \t]*(\d{1,9})(?![\d.,])", FLAGS)
 TEXT = re.compile(r'[ \t]*"([^"]*)"')
 
 FEEDS = ("FMAX", "FAUTO")
-_EMPTY = re.compile(r"(?:R[ \t]+)?(?:F[ \t]+)?M[ \t]*$", FLAGS)
+_EMPTY = re.compile(r"(?:R[ \t]+)?(?:F[ \t]+)?M[ \t]*$|R[ \t]+(?=F[ \t]*(?:[\d.,Q+]|MAX(?![A-Z])))", FLAGS)
 _OPERATION = re.compile(r"[*/^][ \t]*[\dQ(]", FLAGS)
 _LETTERS = re.compile("[A-Z]{2,}", FLAGS)
 _FEEDS = re.compile(r"F[ \t]*(MAX|AUTO)(?![A-Z])", FLAGS)
@@ -120,6 +120,11 @@ class Cursor:
         if self.builder.blocks and self.builder.full == self.builder.blocks[-1][0]:
             self.at = self.stop
 
+    def has(self, address: str) -> bool:
+        """Whether the block has a word of this address so far."""
+        names = self.builder.addresses
+        return address in names and any(word[0] == names[address] for word in self.builder.block_words)
+
     def number(self) -> float | None:
         """A number with its sign; None if there is none here."""
         begin = self.at
@@ -164,6 +169,7 @@ class Cursor:
         begin = self.at
         if self.match(_EMPTY):
             return
+        radius = radius and not self.has("R")  # behind the radius R0 is what it is elsewhere
         if found := self.match(_FEEDS):
             self.add("F" + found.group(1).upper(), None, begin)
         elif not (radius and self.text[begin + 1 : begin + 2] in "0Oo") and (found := self.match(_SIDES)):

@@ -27,8 +27,8 @@
   const INSIDE = /(IF|GOTO|EQU|NE|GT|LT|(IS )?(UN)?DEFINED|PREDEF|SCREEN)(?![\w=])|(LBL|RND|CHF|REP)(?![A-Z_=])/iy;
   const ISO = comment => [[comment, 'comment'], [/%\S*/y, 'meta'], ...WORDS];
   const LANGUAGES = [
-    { name: 'MNC', control: 'mnc', mime: 'text/x-mnc', extensions: ['mnc', 'nc', 'ngc'], rules: ISO(/\/\/.*|;.*|\(.*?\)/y) },
-    { name: 'ISO (G43)', control: 'g43', mime: 'text/x-g43', extensions: ['g43', 'iso'], rules: ISO(/;.*|\(.*?\)/y) },
+    { name: 'MNC', control: 'mnc', mime: 'text/x-mnc', extensions: ['mnc'], rules: ISO(/\/[ \t]?\/.*/y) },
+    { name: 'ISO (G43)', control: 'g43', mime: 'text/x-g43', extensions: ['g43', 'iso', 'nc', 'ngc'], rules: ISO(/;.*|\(.*?\)/y) },
     { name: 'NC-31 (lathe)', control: 'nc-31', mime: 'text/x-nc31', extensions: ['nc31'], rules: [[/;.*/y, 'comment'], ...WORDS] },
     { name: 'DIN/ISO (TNC)', control: 'tnc-620', mime: 'text/x-din-iso', extensions: ['i'], rules: ISO(/;.*/y) },
     { name: 'JNC-T01 (lathe)', control: 'jnc-t01', mime: 'text/x-jnc', extensions: ['jnc'], rules: ISO(/'.*/y) },

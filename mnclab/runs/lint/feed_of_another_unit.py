@@ -1,0 +1,34 @@
+"""A feed in mm/rev that counts mm/min: F0.1 on a lathe whose feed is one per minute (G94), as it is at power on.
+
+A micrometre in a turn of the spindle is no feed that anybody turns with, and such a cut would take hours.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mnclab.path.kinds import Kind
+from mnclab.runs.lint.once import once
+from mnclab.text.alarm import Alarm
+
+if TYPE_CHECKING:
+    from mnclab.runs.run import Run
+
+LEAST = 0.001  # mm a turn
+MOST = 2.0  # mm/min: greater numbers are no feeds a turn
+
+
+def remarks(run: Run) -> Iterator[Alarm]:
+    """A warning at the first cut of a lathe that goes less than a micrometre in a turn."""
+    path = run.toolpath
+    if not path.lathe:
+        return
+    plain = np.isnan(path.per_rev) & np.isnan(path.time) & ~path.synchronous & np.isin(path.kind, (Kind.LINE, Kind.ARC))
+    slow = plain & (path.feed > 0) & (path.feed <= MOST) & (path.feed < LEAST * np.abs(path.spindle)) & (path.lengths > 0)
+    if slow.any():
+        feed = path.feed[slow.argmax()]
+        message = f"the feed counts mm/min (G94): at {feed:g} mm/min the tool goes less than 0.001 mm in a turn of the spindle"
+        yield once(run, path.step[slow].tolist(), message, f"G95 F{feed:g} is {feed:g} mm/rev")

@@ -1,0 +1,123 @@
+"""A thread that the axes cannot follow: the spindle turns so fast that an axis would have to go faster than it can.
+
+A locked move goes pitch times speed along its way, v = P n. Every control takes its threads and taps from the same rows, and
+each axis k has its own share of v: |d_k| v against `Limits.rapid`. On a lathe the axis begins from rest, so that the first
+v² / 2a of a thread have another pitch, and as much at its end: they belong into the air. A tap follows a spindle that speeds up
+and slows down with it, so of that nothing is said.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mnclab.path.columns import Array, Index
+from mnclab.path.kinds import Kind
+from mnclab.path.listing import figure
+from mnclab.path.toolpath import Toolpath
+from mnclab.runs.lint.once import once
+from mnclab.text.alarm import Alarm
+from mnclab.workpiece.turning.turned import Turned
+
+if TYPE_CHECKING:
+    from mnclab.runs.run import Run
+
+MORE = 1 + 1e-9
+SMALL = 1e-9  # mm
+ON_AXIS = 1e-6  # mm: a tool that threads there is a tap
+FLOATING = "cut the thread"  # the label of a tap, in a holder that floats too: there the axis runs at the feed
+PLACES = 400  # of a thread that are looked at for where its material begins
+
+
+def remarks(run: Run) -> Iterator[Alarm]:
+    """A warning for the threads that an axis is too slow for, and one for those without room to get up to speed."""
+    path, limits = run.toolpath, run.setup.limits
+    floating = np.array([FLOATING in label for label in path.labels])[path.label]
+    rows = np.flatnonzero((path.synchronous | floating) & np.isin(path.kind, (Kind.LINE, Kind.ARC)) & (path.lengths > SMALL))
+    if not len(rows):
+        return
+    speed = _speed(path, rows, limits.spindle)
+    share = np.abs(path.end[rows] - path.start[rows]) / path.lengths[rows][:, None]
+    needs, most = speed[:, None] * share, limits.axes("rapid")
+    over = needs > most * MORE
+    unit, short = path.unit.length, path.unit.short
+    if (fast := over.any(axis=1)).any():
+        k = int(fast.argmax())
+        axis = int((needs[k] / most).argmax())
+        turning = f"{figure(float(abs(path.spindle[rows[k]])), 0)} rev/min"
+        lead = f"{figure(60 * speed[k] / min(abs(path.spindle[rows[k]]), limits.spindle) / unit, 4)} {short}"
+        wanted, allowed = (f"{figure(60 * float(each) / unit, 1)} {short}/min" for each in (needs[k, axis], most[axis]))
+        slower = float(abs(path.spindle[rows[k]]) * (most / np.maximum(needs[k], SMALL)).min())
+        message = (
+            f"the thread needs {wanted} along {'XYZ'[axis]}, which goes {allowed} at most: at {turning} its lead is never {lead}"
+        )
+        yield once(run, path.step[rows[fast]].tolist(), message, f"at most {int(slower)} rev/min, or other limits of the machine")
+    if path.lathe:
+        yield from _without_run_in(run, rows[~fast], speed[~fast], share[~fast])
+
+
+def _speed(path: Toolpath, rows: Index, spindle: float) -> Array:
+    """How fast the locked rows go along their way (k,), mm/s: not faster than the spindle turns."""
+    turning = np.abs(path.spindle[rows])
+    slowed = np.minimum(1.0, spindle / np.maximum(turning, SMALL))
+    by_lead = path.per_rev[rows] * np.minimum(turning, spindle)
+    return np.asarray(np.where(np.isfinite(by_lead), by_lead, np.nan_to_num(path.feed[rows]) * slowed)) / 60
+
+
+def _without_run_in(run: Run, rows: Index, speed: Array, share: Array) -> Iterator[Alarm]:
+    """Threads of a lathe that cut before the axis has their speed."""
+    path, tools = run.toolpath, run.tools_that_cut
+    acceleration = (run.setup.limits.axes("acceleration") / np.maximum(share, SMALL)).min(axis=1)
+    needs = speed**2 / (2 * acceleration)
+    taps = [number for number, tool in tools[0].items() if tool.kind == "tap"]
+    on_axis = (np.abs(path.start[rows, 0]) < ON_AXIS) & (np.abs(path.end[rows, 0]) < ON_AXIS)
+    tapped = on_axis | np.isin(tools[1][rows], taps)
+    begins = np.flatnonzero(~np.isin(rows - 1, rows))  # rows of one thread follow each other
+    late: list[tuple[int, float, float]] = []
+    seen = set[int]()
+    for k, end in zip(begins.tolist(), [*begins[1:].tolist(), len(rows)]):
+        step = int(path.step[rows[k]])
+        if tapped[k] or step in seen:  # the passes of a cycle begin at one place
+            continue
+        seen.add(step)
+        way = float(path.lengths[rows[k:end]].sum())
+        air = way - needs[k] if way < 2 * needs[k] else _air(run, int(rows[k]), float(needs[k]))
+        if air < needs[k] * (1 - 1e-6) - SMALL:
+            late.append((step, float(needs[k]), max(air, 0.0)))
+    if late:
+        step, need, air = late[0]
+        unit, short = path.unit.length, path.unit.short
+        message = (
+            f"the thread begins with another pitch: the axis needs {figure(need / unit, 2)} {short} of run-in (v² / 2a), "
+            f"and there {'are' if air else 'is'} {figure(air / unit, 2) if air else 'none'}{f' {short}' if air else ''}"
+        )
+        yield once(run, [each for each, *_ in late], message, "begin farther from the material, or turn slower")
+
+
+def _air(run: Run, row: int, enough: float) -> float:
+    """How far a row goes before it meets material, mm; infinite where nobody knows, or where it is farther than enough."""
+    path, stock = run.toolpath, run.stock
+    if stock is None or not stock.volume > 0 or not row:
+        return np.inf
+    start, heading = path.start[row], (path.end[row] - path.start[row]) / path.lengths[row]
+    first, last = 0.0, min(float(path.lengths[row]), enough)
+    if not min(start[2], (start + last * heading)[2]) < stock.bounds[1, 2]:
+        return np.inf
+    try:
+        part = run.workpiece(row=row - 1)
+    except Alarm:  # a blank that no lathe turns: what cuts says it
+        return np.inf
+    if not isinstance(part, Turned):
+        return np.inf
+    for _ in range(2):  # the second time between two places of the first
+        way = np.linspace(first, last, PLACES)
+        places = start + way[:, None] * heading
+        r = np.abs(places[:, 0] - part.axis)
+        inside = (r < np.asarray(part.at(places[:, 2])) - ON_AXIS) & (r > np.asarray(part.bore_at(places[:, 2])) + ON_AXIS)
+        if not inside.any():
+            return np.inf
+        met = int(inside.argmax())
+        first, last = float(way[max(met - 1, 0)]), float(way[met])
+    return last

@@ -1,0 +1,12 @@
+; 9:1 alarm: Q210 has no = before its value (write Q210=+0)
+0 BEGIN PGM A MM
+1 TOOL CALL 1 Z S1000 F100
+2 CYCL DEF 200 D
+Q200=2
+Q201=-15
+Q206=150
+Q202=5
+Q210 +0
+Q203=0
+Q204=20
+Q211=0

@@ -1,0 +1,117 @@
+"""Threads and taps that the axes cannot follow, by v = P n along each axis and by the run-in v² / 2a; feeds of another unit.
+
+The old lathe: rapid 5000 along X and 8000 along Z, mm/min, 500 mm/s². Every number here is worked out from that by hand.
+"""
+
+import pytest
+
+import mnclab
+from mnclab import Limits, Setup, Tool
+from mnclab.workpiece.blank import cylinder
+
+pytestmark = pytest.mark.lint
+
+BAR = cylinder(20, -60, 0)
+OLD = Limits(rapid=(5000.0, 5000.0, 8000.0), acceleration=500.0)
+
+
+def warned(text, control, said, limits=OLD, **more):
+    run = mnclab.run(text.replace("|", "\n") + "\n", control, Setup(limits=limits, **more))
+    assert run.ok, run.alarms
+    return [alarm for alarm in run.alarms if said in alarm.message]
+
+
+def jnc(move, speed, start="G00 X10 Z50"):
+    return f"M3|G97 S{speed} T1|{start}|{move}|G00 X40|M5"
+
+
+FAST, LATE = "the thread needs", "begins with another pitch"
+NC = "N8 S{speed}|N9 F20|N10 X2700~|N11 Z{z}00~|N80 G31*|N81 X2400*|N82 Z-{end}00*|N83 F40000*|N84 P92*|N85 P25"
+TNC = "BEGIN PGM A MM|TOOL CALL 1 Z S{speed}|L X+10 Y+10 Z+50 R0 FMAX M3|CYCL DEF 207 {words}|CYCL CALL|END PGM A MM"
+FLOATS = "Q200=2 Q201=-20 Q211=0 Q203=+0 Q204=50 Q206="
+RIGID = "Q200=2 Q201=-20 Q239=+2 Q203=+0 Q204=50"
+
+
+@pytest.mark.parametrize(
+    ("control", "text", "line", "wanted", "limit"),
+    [
+        ("jnc-t01", jnc("G32 Z-20 F4", 2500), 4, "10000 mm/min along Z", "8000"),  # 4 mm * 2500
+        ("jnc-t01", jnc("G32 X-50 F2.5", 2500), 4, "6250 mm/min along X", "5000"),
+        ("jnc-t01", jnc("G32 X60 Z-20 F3", 2500), 4, "5357.1 mm/min along X", "5000"),  # 7500 along Z, X goes 50 of its 70
+        ("nc-31", NC.format(speed=2500, z=100, end=100), 5, "10000 mm/min along Z", "8000"),
+        ("nc-31", "N8 S6500|N10 X0~|N11 Z500~|N90 G33@*|N91 Z-2500*|N92 F12500", 4, "8125 mm/min along Z", "8000"),
+        ("g43", "T1 M6|G0 X0 Y0|G43 H1 Z10|S5000 M3|G84 X10 Y10 Z-20 R5 F10000|G80|M30", 5, "10000 mm/min along Z", "8000"),
+        ("g43", "G20|T1 M6|G0 X0 Y0|G43 H1 Z1|S4000 M3|G84 X1 Y1 Z-1 R.5 F400|G80|M30", 6, "400 in/min along Z", "315"),
+        ("tnc-620", TNC.format(speed=5000, words=RIGID), 5, "10000 mm/min along Z", "8000"),
+        ("tnc-620", TNC.replace("207", "206").format(speed=5000, words=FLOATS + "+9000"), 5, "9000 mm/min along Z", "8000"),
+        ("mnc", "T1 S5000 M3|G0 X10 Y10 Z5|G84 X10 Z-20 R2 F9000", 3, "9000 mm/min along Z", "8000"),
+        ("mnc", "T1 S2500 M3|G0 X10 Y10 Z5|G309 Q2 H-20 P4 Z0|X20 M99", 4, "10000 mm/min along Z", "8000"),
+    ],
+)  # fmt: skip
+def test_an_axis_that_is_too_slow_for_the_thread_is_named(control, text, line, wanted, limit):
+    (alarm,) = warned(text, control, FAST)
+    assert wanted in alarm.message and f"goes {limit}" in alarm.message
+    assert alarm.span.line == line and alarm.severity == "warning"
+
+
+@pytest.mark.parametrize(
+    ("control", "text"),
+    [
+        ("jnc-t01", jnc("G32 Z-20 F3", 2500)),  # 7500 along Z
+        ("jnc-t01", jnc("G32 X-50 F2", 2500)),  # 5000 along X, and no more
+        ("nc-31", NC.format(speed=1900, z=100, end=100)),
+        ("g43", "T1 M6|G0 X0 Y0|G43 H1 Z10|S1000 M3|G84 X10 Y10 Z-20 R5 F2000|G80|M30"),
+        ("tnc-620", TNC.format(speed=4000, words=RIGID)),
+    ],
+)
+def test_a_thread_that_the_axes_follow_is_left_alone(control, text):
+    assert not warned(text, control, FAST) and not warned(text, control, LATE)
+
+
+def test_the_speed_that_the_spindle_has_counts():
+    """S2500 on a spindle of 1500 rev/min: 6000 mm/min."""
+    slow = Limits(rapid=OLD.rapid, acceleration=500.0, spindle=1500.0)
+    assert not warned(jnc("G32 Z-20 F4", 2500), "jnc-t01", FAST, slow)
+
+
+@pytest.mark.parametrize(
+    ("speed", "z", "end", "room"),
+    [
+        (1800, 5, -50, "are 5 mm"),  # 120 mm/s: 120² / 1000 = 14.4 mm, and the bar begins 5 mm after the start
+        (1800, 15, -50, None),
+        (1200, 5, -50, "are 5 mm"),  # 80² / 1000 = 6.4 mm
+        (1000, 5, -50, None),  # 66.7² / 1000 = 4.44 mm
+    ],
+)
+def test_the_run_in_is_that_before_the_bar(speed, z, end, room):
+    text = jnc(f"G32 Z{end} F4", speed, f"G00 X18 Z{z}")
+    found = warned(text, "jnc-t01", LATE, stock=BAR, tools={1: Tool(kind="thread", angle=60)}, start=(40, 0, 20))
+    assert [f"and there {room}" in alarm.message for alarm in found] == [True] * (room is not None)
+    assert all(f"needs {(speed * 4 / 60) ** 2 / 1000:.4g} mm" in alarm.message for alarm in found)
+
+
+def test_a_journal_in_front_of_the_thread_is_run_in():
+    """The end of the bar is turned to 15 mm over 15 mm before: the thread at 18 mm begins at Z-15, 20 mm after its start."""
+    text = "M3|G97 S500 T1|G00 X15 Z5|G94 F100|G01 Z-15|G00 X40|Z5|S1800|X18|G32 Z-50 F4|G00 X40"
+    shape = Tool(kind="thread", angle=60, cutting_length=8)
+    assert not warned(text, "jnc-t01", LATE, stock=BAR, tools={1: shape}, start=(40, 0, 20))
+
+
+def test_a_way_too_short_for_the_lead():
+    """166.7 mm/s need 166.7² / 1000 = 27.8 mm to begin and as much to end; the way has 25."""
+    fast = Limits(rapid=12_000.0, acceleration=500.0)
+    (alarm,) = warned(jnc("G32 Z-20 F4", 2500, "G00 X10 Z5"), "jnc-t01", LATE, fast)
+    assert "needs 27.78 mm of run-in" in alarm.message and "there is none" in alarm.message
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ("G96 S100 F0.1", True), ("G97 S500 F0.25", True), ("G96 S100 G95 F0.1", False), ("G97 S500 F80", False),
+        ("G97 S500 F0.5", False), ("G97 S500 G93 F0.1", False),
+    ],
+)  # fmt: skip
+def test_a_feed_a_minute_that_looks_like_one_a_turn(words, told):
+    """JNC-T01 8.17 to 8.19: without G95 F counts mm/min; 0.5 mm/min at 500 rev/min is a micrometre in a turn."""
+    found = warned(f"M3 T1|{words}|G00 X18 Z5|G01 Z-20|G00 X40", "jnc-t01", "the feed counts mm/min")
+    assert [alarm.span.line for alarm in found] == [4] * told

@@ -1,0 +1,137 @@
+"""What LinuxCNC has otherwise, by its own answers (rs274 and gcode.parse of 2.9, written beside each), and half-typed O words."""
+
+import math
+
+import pytest
+from running import run
+
+import mnclab
+from mnclab import Setup
+
+DIALECT = Setup(settings={"dialect": "linuxcnc", "stopped_spindle": "accept"})
+
+
+def ends(text, **given):
+    found = run(text, "g43", dialect="linuxcnc", stopped_spindle="accept", **given)
+    return found.toolpath.motion.end.tolist()
+
+
+def said(text, setup=DIALECT):
+    return [
+        (alarm.span.line, alarm.message) for alarm in mnclab.run(text, "g43", setup).alarms if alarm.severity == "alarm"
+    ]
+
+
+def test_it_begins_in_g99():
+    """rs274: Z1 between the holes and after them; Fanuc and Haas begin in G98."""
+    text = "G0 Z5\nG81 X1 Z-1 R1 F100\nX2\nG80\nG0 X5\n"
+    assert ends(text)[-1] == [5, 0, 1]
+    assert run(text, "g43", stopped_spindle="accept").toolpath.end[-1].tolist() == [5, 0, 5]
+
+
+@pytest.mark.parametrize("text", ["X1\n", "G81 X1 Z-1 R1 F100\nG80\nX1 Y1\n", "G80\nG92 X0\nX1\n"])
+def test_axis_words_need_a_motion(text):
+    """gcode.parse: Cannot use axis values without a g code that uses them."""
+    (found,) = said("G21\n" + text + "M2\n")
+    assert found == (text.count("\n") + 1, "X1 has no motion: none is active")
+    assert not said("G21\n" + text + "M2\n", Setup(settings={"stopped_spindle": "accept"}))
+
+
+@pytest.mark.parametrize(("radius", "unit", "allowed"), [
+    (0.5, "G21", 0.0282843), (25, "G21", 0.0282843), (100, "G21", 0.1), (2000, "G21", 2.0),
+    (1, "G20", 0.00282843), (25, "G20", 0.025), (2000, "G20", 0.282843),
+])  # fmt: skip
+def test_radii_of_an_arc(radius, unit, allowed):
+    """Where gcode.parse begins to refuse, found by halving: 0.02 √2 mm or 0.002 √2 in, or 0.001 of the larger radius."""
+    for share, ok in ((0.999, True), (1.003, False)):
+        off = share * allowed
+        text = f"{unit}\nG1 X0 F10\nG2 X{2 * radius:.9f} Y0 I{radius - off / 2:.9f}\n"
+        run(text, "g43", ok=ok, dialect="linuxcnc", stopped_spindle="accept")
+
+
+def test_g61_does_not_stop_on_one_line():
+    """100 mm in 200 moves at 50 mm/s, 200 mm/s²: v/a + s/v = 2.25 s; a corner stops, and so does every move under G61.1."""
+    line = "".join(f"G1 X{k / 2}\n" for k in range(1, 201))
+
+    def time(code, moves, dialect="linuxcnc"):
+        setup = Setup(limits="hobby-router", settings={"dialect": dialect, "stopped_spindle": "accept"})
+        return mnclab.run(f"G21 F3000\n{code}\n{moves}", "g43", setup).profile().time
+
+    assert time("G61", line) == pytest.approx(2.25)
+    each = 2 * math.sqrt(0.5 / 200)  # 0.5 mm from stop to stop never reach 50 mm/s
+    assert time("G61.1", line) == pytest.approx(200 * each) == time("G61", line, "fanuc")
+    assert time("G61", "G1 X50\nY50\n") == pytest.approx(2 * 1.25)
+    assert time("G61\nG64", "G1 X50\nY50\n") < 2 * 1.25
+
+
+def test_formulas_and_assignments_in_a_block():
+    """gcode.parse: Y2, X5 with #1 = 9 set behind the block, then Y9; a number of a block may have a fraction."""
+    assert ends("F100\nG1 Y SQRT[4]\n#1=5\nG1 X#1 #1=9\nN1.5 G1 Y#1\n#3=4 G1 X-ATAN[1]/[1] #<a>=[#3+1]\nG1 X#<a>\n") == [
+        [0, 2, 0], [5, 2, 0], [5, 9, 0], [-45, 9, 0], [5, 9, 0],
+    ]  # fmt: skip
+    assert said("F100\nG1 Y SQRT[4]\n", Setup())[0][1] == "Y: a function of a value stands in brackets"
+    assert said("F100\nG1 X1 #1=9\n", Setup())[0][1] == "words and an assignment stand in one block"
+
+
+def test_names_that_linuxcnc_gives():
+    """gcode.parse: X3 Y2, then feed 100, metric 1; EXISTS is 1 for what has a value."""
+    assert ends("G21 F100\nG1 X2 Y3\nG1 X#<_y> Y#<_x>\nG1 X#<_feed> Y#<_metric>\nG1 X[EXISTS[#<a>]] Z[EXISTS[#<_x>]]\n")[1:] == [
+        [3, 2, 0], [100, 1, 0], [0, 1, 0],
+    ]  # fmt: skip
+
+
+def test_a_subprogram_in_a_file(tmp_path):
+    """Looked up beside the program; #1 doubled comes back."""
+    (tmp_path / "slot.ngc").write_text("o<slot> sub\nG1 X#1\no<slot> endsub [#1*2]\nM2\n")
+    (tmp_path / "main.ngc").write_text("G21 F100\no<slot> call [7]\nG1 Y#<_value>\nM2\n")
+    assert mnclab.run(tmp_path / "main.ngc", setup=DIALECT).toolpath.motion.end.tolist() == [[7, 0, 0], [7, 14, 0]]
+
+
+@pytest.mark.parametrize(("text", "alarm"), [
+    ("O1 sub\nG0 X1\n", (1, "O1 sub has no O1 endsub")),
+    ("O1 while [1 GT 0]\n", (1, "O1 while has no O1 endwhile")),
+    ("O1 do\nG0 X1\n", (1, "O1 do has no O1 while")),
+    ("O1 endwhile\n", (1, "O1 endwhile has no O1 while before it")),
+    ("O1 if [1]\nO2 endif\nO1 endif\n", (2, "O2 endif has no O2 if before it: O1 if is open")),
+    ("O1 if [1]\nO1 else\nO1 elseif [1]\nO1 endif\n", (3, "O1 elseif stands behind else")),
+    ("O1 while\nO1 endwhile\n", (1, "while needs a value in brackets")),
+    ("O1 repeat [2]\nO1 continue\nO1 endrepeat\n", (2, "O1 continue stands in no while or do of this name")),
+    ("O1 break\n", (1, "O1 break stands in no while or do or repeat of this name")),
+    ("O1 return\n", (1, "O1 return stands outside O1 sub")),
+    ("O1 sub\nO2 sub\nO2 endsub\nO1 endsub\n", (2, "O2 sub stands inside O1 sub")),
+    ("O1 sub\nO1 endsub\nO1 sub\nO1 endsub\n", (3, "O1 sub stands twice")),
+    ("O1 call\n", (1, "there is no subprogram O1")),
+    ("O1 cal\n", (1, "cal is no O word")),
+    ("O1 call [1] G1\n", (1, "'G' is too much behind call")),
+    ("O[1+1] sub\nO2 endsub\n", (1, "only a call may work out the name of sub")),
+    ("O1 sub\nO1 call\nO1 endsub\nO1 call\n", (2, "calls are nested deeper than 20")),
+    ("O1 call" + " [1]" * 31 + "\nO1 sub\nO1 endsub\n", (1, "a call has at most 30 arguments")),
+    ("#1=EXISTS[5]\n", (1, "EXISTS needs a variable in brackets")),
+    ("O1 sub\n#1=", (2, "a value was expected")),
+])  # fmt: skip
+def test_half_typed(text, alarm):
+    assert alarm in said(text)
+
+
+def test_a_loop_without_an_end_stops():
+    (alarm,) = said("O1 while [1 GT 0]\nO1 endwhile\n")
+    assert alarm[0] == 2 and "never gets out of this loop" in alarm[1]
+
+
+def test_they_are_of_one_dialect():
+    loops = ("while [0]\nO1 endwhile", "repeat [0]\nO1 endrepeat", "do\nO1 while [0]")
+    for code in ("sub\nO1 endsub", "call", "if [1]\nO1 endif", *loops):
+        assert said(f"O1 {code}\n", Setup())[0][1] == "O words are those of LinuxCNC"
+
+
+@pytest.mark.parametrize(("text", "hint"), [
+    ("G0 X25 Y20\nG2 X15 Y20 I20 J20\n",
+     'counted from the origin they fit, radius 5: G90.1, or the setting arc_centres="origin"'),
+    ("G90.1 G0 X25 Y20\nG2 X15 Y20 I-5 J0\n",
+     'counted from the start of the arc they fit, radius 5: G91.1, or the setting arc_centres="start"'),
+    ("G1 X20 R5\nY20\n", "a rounding of the corner is ,R5, a chamfer ,C"),
+    ("G0 X25 R3\n", "a rounding of the corner is ,R3, a chamfer ,C"),
+    ("G0 X25 Y20\nG2 X15 Y30 I20 J20\n", ""),
+])  # fmt: skip
+def test_hints_of_the_street(text, hint):
+    assert mnclab.run("F100\n" + text, "g43").alarms[0].hint == hint
