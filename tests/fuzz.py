@@ -342,8 +342,8 @@ def fuzz_programs(found, names, count, first, show):
             text, runs = mutated(control, seed), []
             found.of(f"{control} {seed}", text, survives, control, seed, runs)
             if runs and seed % OFTEN_SHOWN == 0 and len(runs[0].toolpath) < 2000:
-                for show in SHOWN:
-                    found.of(f"{control} {seed} {show}", text, shown, runs[0], show)
+                for how in SHOWN:
+                    found.of(f"{control} {seed} {how}", text, shown, runs[0], how)
         if (seed + 1 - first) % 400 == 0:
             found.say(f"seeds {first} to {seed}")
     found.say(f"{count} seeds")

@@ -11,7 +11,7 @@ from mnclab.text.calls import fitting
 from mnclab.text.code_pages import encode_like
 from mnclab.text.file import read as read_file
 from mnclab.text.file import replaced
-from mnclab.text.given import whole
+from mnclab.text.given import LARGEST, shown, whole
 from mnclab.text.numbering import renumbered
 from mnclab.text.program import Program
 
@@ -40,6 +40,8 @@ def renumber(
         raise Alarm(f"start must be at least {least}, got {first}")
     if more < 1:
         raise Alarm(f"step must be at least 1, got {more}")
+    if (last := first + more * (len(numbers.blocks) - 1)) >= LARGEST:
+        raise Alarm(f"the last number would be {shown(last)}: it must be smaller than {LARGEST:g}, as every number")
     return renumbered(program.text, numbers, first, more)
 
 

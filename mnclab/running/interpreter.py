@@ -114,6 +114,11 @@ class Interpreter:
         if self.control.finish and not self.machine.ended:
             self.control.finish(self.machine)
 
+    def placed(self, alarm: Alarm) -> Alarm:
+        """An alarm at the block where it came; most know their place."""
+        alarm.span = alarm.span or self.flow.span_of_step(self.machine.step)
+        return alarm
+
     # --- one block -----------------------------------------------------------------------------------------------------
 
     def obey(self, index: int) -> None:

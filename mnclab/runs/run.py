@@ -381,10 +381,7 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
     try:
         interpreter.run()
     except (Stop, Alarm) as stop:
-        broken = True
-        if isinstance(stop, Alarm):
-            stop.span = stop.span or interpreter.flow.span_of_step(machine.step)
-            alarms.append(stop)
+        broken, alarms = True, [interpreter.placed(stop)] if isinstance(stop, Alarm) else []
         halt = stop.span or interpreter.flow.span_of_step(interpreter.flow.begun - 1) or Span(1, 1)
     finally:
         if collecting:

@@ -63,7 +63,7 @@ def _many(chosen: argparse.Namespace, setup: Setup | None, limits: Limits | None
     status = status or (CLEAN if all(row["complete"] for row in rows) else ALARMS)
     cells = [tuple(_text(row[name]) for name in HEAD) for row in rows]
     done = f"{several(len(rows), 'program')}, {sum(row['complete'] for row in rows)} complete"
-    if chosen.csv:
+    if chosen.csv not in (None, "", "-"):
         sensible(_write, Path(chosen.csv), csv_text(HEAD, *cells))
         print(f"{chosen.csv}: {done}", file=sys.stderr)
     elif chosen.csv is not None:

@@ -9,14 +9,17 @@ from __future__ import annotations
 import os
 import secrets
 import stat
+import time
+import zlib
 from collections.abc import Collection, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import shown
 
 LARGEST = 100_000_000  # bytes of a part program
+OLD = 3600  # s
 NO_FILE = "it is no file, but a folder, a device or a pipe"
 
 
@@ -56,7 +59,9 @@ def replaced(path: str | Path) -> Iterator[Path]:
         mode = os.stat(target).st_mode if target.exists() else None
         if mode is not None and not stat.S_ISREG(mode):
             raise Alarm(f"{path} cannot be written: {NO_FILE}")
-        beside = target.with_name(f".{secrets.token_hex(8)}{target.suffix}")
+        mark = f".{zlib.crc32(os.fsencode(target.name)):08x}-"  # the same for each save of this file
+        _swept(target.parent, mark)
+        beside = target.with_name(f"{mark}{secrets.token_hex(8)}{target.suffix}")
         os.close(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))
     except (OSError, ValueError) as error:
         raise Alarm(f"{path} cannot be written: {reason(error)}") from None
@@ -71,6 +76,14 @@ def replaced(path: str | Path) -> Iterator[Path]:
         raise Alarm(f"{path} cannot be written: {reason(error)}") from None
     finally:
         beside.unlink(missing_ok=True)
+
+
+def _swept(folder: Path, mark: str) -> None:
+    """Take away what saves of a file left that were killed: it is old, for a save ends soon."""
+    with suppress(OSError), os.scandir(folder) as entries:
+        for entry in entries:
+            if entry.name.startswith(mark) and time.time() - entry.stat().st_mtime > OLD:
+                Path(entry.path).unlink(missing_ok=True)
 
 
 def named(path: str | Path, known: Collection[str], refused: str) -> tuple[Path, str]:

@@ -4,6 +4,7 @@ import os
 import stat
 import subprocess
 import sys
+import zlib
 from pathlib import Path
 
 import pytest
@@ -84,10 +85,11 @@ def test_when_it_fails_the_old_file_stays_whole(tmp_path, fault):
 
 def test_a_name_that_is_taken_is_no_ones_to_remove(tmp_path, monkeypatch):
     monkeypatch.setattr(file.secrets, "token_hex", lambda n: "taken")
-    (tmp_path / ".taken").write_text("mine")
+    name = f".{zlib.crc32(b'a'):08x}-taken"
+    (tmp_path / name).write_text("mine")
     with pytest.raises(Alarm, match="File exists"):
         write(tmp_path / "a")
-    assert (tmp_path / ".taken").read_text() == "mine"
+    assert (tmp_path / name).read_text() == "mine"
 
 
 LIMITED = """

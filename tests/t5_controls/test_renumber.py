@@ -149,7 +149,10 @@ def test_random_programs_run_the_same_path(text, start, step):
     assert [int(n) for n in re.findall(r"N(\d+)", again)] == list(range(start, start + step * text.count("N"), step))
 
 
-@pytest.mark.parametrize(("start", "step", "said"), [(0, 10, "start must be at least 1"), (10, 0, "step must be at least 1")])
+@pytest.mark.parametrize(("start", "step", "said"), [
+    (0, 10, "start must be at least 1"), (10, 0, "step must be at least 1"), (10**22, 1, "must be smaller than 1e"),
+    (10**9, 10, "the last number would be"),
+])  # fmt: skip
 def test_impossible_numbers_are_refused(start, step, said):
     with pytest.raises(Alarm, match=said):
         mnclab.renumber("N1 G0 X1\n", "mnc", start=start, step=step)

@@ -342,3 +342,11 @@ def test_part_saves_what_is_left(material, name, begins):
 def test_a_part_that_cannot_be_saved_is_a_wrong_command_line(material, capsys, wrong):
     assert mnclab("part", "slot.g43", "--setup", "blank.toml", *wrong) == 2
     assert capsys.readouterr().err.startswith("mnclab: alarm: ")
+
+
+def test_a_stroke_is_stdout_and_no_file(folder, capsys):
+    assert mnclab("time", "good.mnc", "--csv", "-") == 0
+    dashed = capsys.readouterr().out
+    assert mnclab("time", "good.mnc", "--csv") == 0
+    assert dashed == capsys.readouterr().out and dashed.startswith("file,")
+    assert not (folder / "-").exists()
