@@ -181,7 +181,7 @@ def _collisions(run: Run, stock: Any, step: float | None) -> Collisions:
     if run.settings["stopped_spindle"] == "accept":
         kept = (each for each in found if each.kind != "spindle" or run.toolpath.spindle[each.row])
         found = Collisions(kept, found.notes)
-    notes = *found.notes, *cutting.bare_told(), *cutting.edgeless()
+    notes = *found.notes, *cutting.bare_told()
     reach = run.reach or ("" if run.toolpath.is_motion.any() else "since nothing moves")
     return Collisions([*found, *_beyond_travel(run)], notes, reach)
 

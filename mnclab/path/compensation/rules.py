@@ -29,8 +29,9 @@ class Compensation:
     first and last corners are built like any other (MNC tables 7.1 and 7.3). `rapid`: entry and exit may run at
     rapid. `change`: the side may change on the way, by a straight line that leads over like an entry. `arc_entry`: it
     may begin with an arc, which becomes one about another centre that ends square to the contour. `straight_exit`: the exit
-    begins where the offset of the last element ends, whatever the corner. `look_ahead`: the whole contour is looked at, else each element with its neighbours only (and always what a cusp leads back to). A joint
-    counts as tangent below `TANGENT`, 0.001 degrees; any greater turn is a corner and is built exactly.
+    begins where the offset of the last element ends, whatever the corner. `look_ahead`: the whole contour is looked at, else
+    each element with its neighbours only (and always what a cusp leads back to). A joint counts as tangent below `TANGENT`,
+    0.001 degrees; any greater turn is a corner and is built exactly.
     """
 
     approach: str = "perpendicular"
