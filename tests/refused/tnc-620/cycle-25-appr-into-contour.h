@@ -1,4 +1,4 @@
-; 24:1 alarm: the approach leads the tool into the contour at X6.489 Y12.297 (take another approach, a smaller radius or a shorter distance)
+; 24:1 alarm: the approach leads the tool into the contour at X6.632 Y12.491 (take another approach, a smaller radius or a shorter distance)
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S2000 F400
 2 L X+0 Y+0 Z+100 R0 FMAX
