@@ -139,6 +139,21 @@ def test_what_fits_has_no_warning():
         assert run.ok and not run.gouges and not run.toolpath.gouge.any()
 
 
+@pytest.mark.parametrize("control", ["mnc", "tnc-620"])
+def test_off_and_on_again_without_a_way_between_is_said(control):
+    """What LinuxCNC obeys as an exit along Z has no rule in the manuals: the contour goes on, and a warning says so."""
+    text = {
+        "mnc": "G54 G17 G90 T1\nS1000 M3\nG0 X-20 Y0 Z0\nG41 G1 X0 Y0 F100\nX50\nG40\n{}G0 Z5\nG41 G1 X50 Y30\nG40 G1 X50 Y60\n",
+        "tnc-620": "BEGIN PGM T MM\nTOOL CALL 1 Z S1000\nL X-20 Y+0 Z+0 R0 FMAX M3\nL X+0 Y+0 RL F100\nL X+50\n"
+                   "{}L Z+5 R0 FMAX\nL X+50 Y+30 RL F100\nL X+50 Y+60 R0\nEND PGM T MM\n",
+    }[control]  # fmt: skip
+    away = {"mnc": "G1 X80\n", "tnc-620": "L X+80 R0\n"}[control]
+    setup = Setup(tools={1: Tool(radius=5, number=1)})
+    for between, count in (("", 1), (away, 0)):
+        told = [a for a in mnclab.run(text.format(between), control, setup).alarms if "on again" in a.message]
+        assert [a.severity for a in told] == ["warning"] * count
+
+
 @pytest.mark.deep
 @pytest.mark.parametrize("seed", range(60))
 def test_random_contours(seed):

@@ -46,6 +46,7 @@ def apply(
     found = Equidistant(el, rules)
     marked = check(found, path, view, gouge, report)
     _notice_spikes(path, found, report)
+    _notice_again(path, el, report)
     return _tool_centre_path(path, view, found, marked)
 
 
@@ -89,6 +90,15 @@ def _notice_spikes(path: Toolpath, found: Equidistant, report: Report) -> None:
         angle, reach = 180 - np.degrees(abs(found.turn[k + 1])), float(np.hypot(*(found.end[k] - el.end[k])))
         message = f"the straight corner of {angle:.3g} degrees reaches {reach:.4g} mm out"
         report.notices.append(PathFault(message, int(path.step[el.rows[k + 1]]), "G162 makes an arc at acute corners"))
+
+
+def _notice_again(path: Toolpath, el: Elements, report: Report) -> None:
+    """Compensation that was switched off and on again where the tool moves along the normal alone: nothing leads away."""
+    off = np.concatenate([[0], np.cumsum(path.side == 0)])
+    k = np.flatnonzero(el.on[:-1] & el.on[1:])
+    for row in el.rows[k[off[el.rows[k + 1]] > off[el.rows[k] + 1]] + 1]:
+        message = "the compensation that was switched off before this move is on again, and no move in the plane led away"
+        report.notices.append(PathFault(message, int(path.step[row]), "write a move in the plane behind G40 or R0"))
 
 
 def _tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marked: Mask) -> Toolpath:
