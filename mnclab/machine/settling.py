@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mnclab.machine.in_mm import in_mm
 from mnclab.path import compensation, corners, feed_rules, leads, rapids
 from mnclab.path.fault import PathFault
 from mnclab.path.recorder import join
@@ -46,12 +47,13 @@ def settle(m: Machine, unfinished: bool = False) -> None:
         m.settled.append(_before(m, piece[piece.step < fault.step]))
         for gouge in report.gouges:  # that the control does not see
             if gouge.step < fault.step:
-                m.alarms.append(Alarm(gouge.message, m.flow.span_of_step(gouge.step), WARNING, gouge.hint))
-        raise Alarm(fault.message, m.flow.span_of_step(fault.step), hint=fault.hint) from None
+                message = in_mm(gouge.message, m.variable_unit)
+                m.alarms.append(Alarm(message, m.flow.span_of_step(gouge.step), WARNING, gouge.hint))
+        raise Alarm(in_mm(fault.message, m.variable_unit), m.flow.span_of_step(fault.step), hint=fault.hint) from None
     finally:
         m.gouges += report.gouges
     for message, step, hint in report.remarks():
-        m.alarms.append(Alarm(message, m.flow.span_of_step(step), WARNING, hint))
+        m.alarms.append(Alarm(in_mm(message, m.variable_unit), m.flow.span_of_step(step), WARNING, hint))
     m.altered |= passed is not piece
     m.settled.append(passed)
 

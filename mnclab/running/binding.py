@@ -6,19 +6,17 @@ a frozen cycle when it runs.
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 from typing import Any
 
 from mnclab.machine import true_size
 from mnclab.machine.cycle import Cycle, Definition, Parameter
+from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.text.alarm import Alarm
 from mnclab.text.expression import Expression
 from mnclab.text.program import GROUP_MARK, INCREMENTAL, RAPID_MARK, Word
 from mnclab.text.strings import TextFormula
-
-LOOSE = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?![\w.]*[A-Za-z])")  # a number that is no part of a name
 
 
 def assign(
@@ -138,11 +136,10 @@ def refuse_frame(definition: Definition, m: Machine) -> None:
 
 def with_unit(definition: Definition, parameter: Parameter | None, sentence: str) -> str:
     """What a cycle says of its values: it knows them in mm, so in a program in inches it names that, and what was written."""
-    if definition.units[0] == 1 or not LOOSE.search(sentence):
-        return sentence
-    value = definition.values.get(parameter.name) if parameter and parameter.in_units else None
+    length = parameter is not None and parameter.in_units
+    value = definition.values.get(parameter.name) if parameter and length else None
     said = f", the program says {definition.typed(parameter, value):.10g}" if parameter and type(value) is float else ""
-    return f"{sentence} (lengths in mm{said})"
+    return in_mm(sentence, definition.units[0], length, said)
 
 
 def instance(definition: Definition) -> Cycle:

@@ -17,6 +17,7 @@ import numpy as np
 from mnclab.geometry.arcs import FULL
 from mnclab.geometry.contours import Contour
 from mnclab.machine.cycle import Definition
+from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import Figure, Measurement, judged
 from mnclab.machine.output import put_out
@@ -26,7 +27,7 @@ from mnclab.machine.tool_setting import SETS, at_setter
 from mnclab.machine.touching import FEELS, PROBES, Contact, Felt, ball_from_axis, guarded, guarded_turn, part_to_touch
 from mnclab.machine.true_size import MILLS
 from mnclab.machining.depths import TooMany
-from mnclab.running.binding import as_it_stands, bind, fault
+from mnclab.running.binding import as_it_stands, bind, fault, with_unit
 from mnclab.running.flow import course
 from mnclab.running.repeating import at_each
 
@@ -67,7 +68,7 @@ def _run(m: Machine, definition: Definition, through: Through | None, instead: M
             with m.within(**({} if feed is None else {"feed": feed}), **feels(m, definition.cycle.does)):
                 perform(m, bound.code, through(steps, about) if through else steps, about)
     except TooMany as error:
-        raise fault(definition, None, str(error)) from None
+        raise fault(definition, None, with_unit(definition, None, str(error))) from None
 
 
 def feels(m: Machine, does: str) -> dict[str, Felt]:
@@ -145,7 +146,7 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = 
             case Measure() | Sketch():
                 measured(m, name, step)
             case Say():
-                m.warn(f"{name} {step.text}", step.word, step.hint)
+                m.warn(in_mm(f"{name} {step.text}", m.variable_unit), step.word, step.hint)
             case Write():
                 write(m, step)
 

@@ -19,6 +19,7 @@ from mnclab.geometry import frames
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.flow import Flow, RecordedLead, Recording
+from mnclab.machine.in_mm import in_mm
 from mnclab.machine.state import PUT_BACK, Place
 from mnclab.machine.waiting import determine
 from mnclab.path import corners
@@ -72,7 +73,7 @@ def record(
                 determine(m)
             path = corners.apply(m.recorder.take())
         except PathFault as fault:
-            raise Alarm(fault.message, flow.span_of_step(fault.step), hint=fault.hint) from None
+            raise Alarm(in_mm(fault.message, m.variable_unit), flow.span_of_step(fault.step), hint=fault.hint) from None
         chain, memory = m.frames, m.memory
     path = _within(_placed(path.motion, m.plane), outer)
     if not len(path):

@@ -18,6 +18,7 @@ from mnclab.controls.tnc_620.contours.outlines import MOST_ELEMENTS, doubt, encl
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.regions import Region
 from mnclab.machine.flow import Recording
+from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machining.milling.terraces import Part, Terrace, parts, terraces
 from mnclab.machining.steps import Record, Step
@@ -51,11 +52,12 @@ def contour_terraces(
         source = Part(area_of(m, pockets, islands))
     whole = abs(data.depth) or 1.0
     for depth in sorted({part.depth for part in parts(source) if data.depth and part.depth > whole + 1e-9}):
-        m.warn(f"DEPTH{depth:.10g} of the contour is deeper than the milling depth Q1 = {data.depth:g}, which counts")
+        said = f"DEPTH{depth:.10g} of the contour is deeper than the milling depth Q1 = {data.depth:g}, which counts"
+        m.warn(in_mm(said, m.variable_unit))
     try:
         found = terraces(source, whole)
     except ValueError as error:
-        m.alarm(f"the contour is no area: {error}")
+        m.alarm(in_mm(f"the contour is no area: {error}", m.variable_unit))
     return found if data.depth else (found[0]._replace(bottom=0.0),)
 
 

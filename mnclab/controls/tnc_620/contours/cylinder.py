@@ -18,6 +18,7 @@ from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, distance, incr
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
+from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machine.settings import Setting
 from mnclab.machine.true_size import MILLS, remark
@@ -89,7 +90,8 @@ class OnCylinder(Cycle):
         try:
             steps = list(self.machine(m, on, line, height))
         except PathFault as fault:
-            raise Alarm(f"{self.code}: {fault.message}{remark(m)}", m.flow.span_of_step(fault.step), hint=fault.hint) from None
+            message = in_mm(f"{self.code}: {fault.message}{remark(m)}", m.variable_unit)
+            raise Alarm(message, m.flow.span_of_step(fault.step), hint=fault.hint) from None
         if height > m.programmed[2]:
             yield Go("retract", height)
         yield from steps

@@ -12,6 +12,7 @@ from mnclab.controls.tnc_620.cycles.addresses import FAR
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates, rate
 from mnclab.machine.cycle import Cycle, CycleTable
+from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import INF, Machine
 from mnclab.machine.true_size import MILLS, depth_scale, plane_scale, remark
 from mnclab.machining.milling.clearing import numbered
@@ -52,7 +53,7 @@ class FloorFinishing(Cycle):
                 )
             )  # fmt: skip
         except ValueError as error:
-            m.alarm(f"{self.code}: {error}{remark(m)}", hint="take a smaller tool")
+            m.alarm(in_mm(f"{self.code}: {error}{remark(m)}", m.variable_unit), hint="take a smaller tool")
         arcs = abs(depth_scale(m) - plane_scale(m)) < SAME  # else they would be ellipses
         arc = min(data.floor_allowance + OVER_ALLOWANCE / m.scale, m.radius) if arcs else 0.0
         down = Descent(data.height, data.above, max(arc, 0.0), -data.down, self.plunge_feed)

@@ -14,6 +14,7 @@ from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.obsolete_holes import advanced_stop
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.machine.cycle import Cycle, CycleTable
+from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS, depth_scale, remark
 from mnclab.machining.depths import infeeds
@@ -54,7 +55,7 @@ class PilotDrilling(Cycle):
         try:
             holes = pilot_holes(found, radius + data.side_allowance, m.radius + data.side_allowance, data.floor_allowance)
         except ValueError as error:
-            m.alarm(f"{self.code}: {error}{remark(m)}", hint="take a smaller tool")
+            m.alarm(in_mm(f"{self.code}: {error}{remark(m)}", m.variable_unit), hint="take a smaller tool")
         for x, y, depth in holes:
             stop = advanced_stop(depth * depth_scale(m)) / depth_scale(m)
             levels = infeeds(data.surface, data.surface + data.down * depth, abs(self.infeed))

@@ -17,6 +17,7 @@ from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, not_zero, with_ra
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates, rate
 from mnclab.geometry.regions import Region
 from mnclab.machine.cycle import Cycle, CycleTable, few_passes
+from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import INF, Machine
 from mnclab.machine.true_size import MILLS, remark, tool
 from mnclab.machining.milling import roughing
@@ -75,11 +76,11 @@ class RoughOut(Cycle):
         feeds = Feeds(plunge, self.feed, self.feed * self.factor / 100)
         at = levels(found, data.surface, data.down, abs(self.infeed), data.floor_allowance)
         for _, sentence in few_passes("infeed", len(at), max(len(each.clearing.passes) for each in cuts)):
-            m.alarm(f"{self.code} Q10={self.infeed:.10g} {sentence}")
+            m.alarm(in_mm(f"{self.code} Q10={self.infeed:.10g} {sentence}", m.variable_unit, length=True))
         try:
             yield from roughing.rough_out(cuts, at, heights, feeds, self.way_down(m, data))
         except ValueError as error:
-            m.alarm(f"{self.code}: {error}{remark(m)}", hint=f"LCUTS of tool {m.tool.number} in the tool table")
+            m.alarm(in_mm(f"{self.code}: {error}{remark(m)}", m.variable_unit), hint=f"LCUTS of tool {m.tool.number} in the tool table")
         yield from leave(m, before, data.height, rate(self.retract_feed, self.feed))
 
     def way_down(self, m: Machine, data: ContourData) -> roughing.WayDown:
@@ -110,7 +111,7 @@ def cut(c: RoughOut, m: Machine, data: ContourData, region: Region) -> Cut:
         left = rest(region, radius, coarse, data.side_allowance, corner_radius=data.corner)
         return Cut(rest_passes(region, radius, stepover, coarse, **walls, connect=along), left)
     except ValueError as error:
-        m.alarm(f"{c.code}: {error}{remark(m)}", hint="take a smaller tool" if "fit" in str(error) else "")
+        m.alarm(in_mm(f"{c.code}: {error}{remark(m)}", m.variable_unit), hint="take a smaller tool" if "fit" in str(error) else "")
 
 
 def residue(m: Machine, data: ContourData, cut: Cut) -> Iterator[Say]:

@@ -14,6 +14,7 @@ from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.cycle import Cycle, CycleTable, few_passes
+from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS, remark
 from mnclab.machining.milling.contour_finishing import Heights, Wall, finish_walls, wall_loops
@@ -70,7 +71,7 @@ class SideFinishing(Cycle):
         for terrace, heights in zip(found, heights_of(found, data, abs(self.infeed)), strict=True):
             walls = walls_of(self, m, data, terrace)
             for _, sentence in few_passes("infeed", len(heights.levels), len(walls)):
-                m.alarm(f"{self.code} Q10={self.infeed:.10g} {sentence}")
+                m.alarm(in_mm(f"{self.code} Q10={self.infeed:.10g} {sentence}", m.variable_unit, length=True))
             for x, y in (wall.contour.points[0].tolist() for wall in walls if not wall.tangential):
                 yield Say(f"has no room for an arc to the wall at X{x:.3f} Y{y:.3f}: the tool comes straight to it")
             yield from finish_walls(walls, heights, self.plunge_feed, self.feed)
@@ -87,7 +88,7 @@ def walls_of(c: SideFinishing, m: Machine, data: ContourData, terrace: Terrace) 
             solid=terrace.solid,
         )  # fmt: skip
     except ValueError as error:
-        m.alarm(f"{c.code}: {error}{remark(m)}", hint="take a smaller tool")
+        m.alarm(in_mm(f"{c.code}: {error}{remark(m)}", m.variable_unit), hint="take a smaller tool")
 
 
 def heights_of(found: Sequence[Terrace], data: ContourData, infeed: float) -> Iterator[Heights]:

@@ -16,6 +16,7 @@ from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, co
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.machine.cycle import Cycle, CycleTable, too_many
+from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import INF, Machine
 from mnclab.machine.true_size import MILLS
 from mnclab.machining.depths import infeeds
@@ -146,7 +147,7 @@ class SpaceTrain(Train):
         if top + max(self.depth, 0) > self.height:
             highest = m.flow.span_of_step(int(line.steps[max(int(line.heights.argmax()) - 1, 0)]))
             message = f"the contour reaches up to Z{top:.10g} here, above the clearance height {self.height:.10g}"
-            raise Alarm(f"{self.code}: {message}", highest)
+            raise Alarm(in_mm(f"{self.code}: {message}", m.variable_unit), highest)
         found = yield from trains(m, self, line, self.coarse_radius(m), place)
         yield from mill(found, self.levels(0.0) if self.depth else (0.0,), self.feeds(m, top), not self.sense)
         yield from leave(m, before, self.height)

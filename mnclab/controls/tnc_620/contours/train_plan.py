@@ -16,6 +16,7 @@ from mnclab.controls.tnc_620.contours.train_data import TrainData
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
 from mnclab.machine.flow import RecordedLead
+from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machining.milling.train_passes import Train, leading_off, leading_to
 from mnclab.machining.milling.train_rests import rests
@@ -166,4 +167,5 @@ def _refuse_damage(
         if (spot := next(filter(None, spots), None)) is not None:
             span = place if recorded is None else m.flow.span_of_step(recorded.lead.step)
             message = f"{name} leads the tool into the contour at X{spot[0]:.3f} Y{spot[1]:.3f}"
-            raise Alarm(message, span, hint="take another approach, a smaller radius or a shorter distance")
+            hint = "take another approach, a smaller radius or a shorter distance"
+            raise Alarm(in_mm(message, m.variable_unit), span, hint=hint)

@@ -20,6 +20,7 @@ from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordina
 from mnclab.controls.tnc_620.cycles.pockets import check_angle, feeds
 from mnclab.geometry.contours import Contour
 from mnclab.machine.cycle import CycleTable, few_passes
+from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS, remark, tool
 from mnclab.machining.depths import infeeds
@@ -156,7 +157,7 @@ def mill(c: TrochoidalSlot, m: Machine, line: Contour, opens: bool, here: Span |
             centre_feeds(way_along, 1.0, m.radius, work.side)
         except ValueError as error:
             message = f"{c.code} Q439={c.feed_reference:g} cannot be obeyed: {error}{remark(m)}"
-            m.alarm(message, here, hint="Q439=0 counts at the tool centre")
+            m.alarm(in_mm(message, m.variable_unit), here, hint="Q439=0 counts at the tool centre")
     (x, y), before = line.points[0].tolist(), m.programmed
     up = (c.end,) if c.down > 0 else (c.above, c.end)
     yield Go("to the second set-up clearance", max(m.programmed[2], c.end))

@@ -66,7 +66,7 @@ def end_of_travel(m: Machine, code: str, axis: int, word: Word) -> float:
     end: float = m.settings["retract_to"]
     if "retract_to" not in m.setup.settings:
         hint = "Setup(limits=mnclab.Limits(travel=…)) or the setting retract_to says where the axis ends"
-        warn_once(m, f"{code} MB MAX leads to {'XYZ'[axis]}{end:g} of the machine", word, hint)
+        warn_once(m, f"{code} MB MAX leads to {'XYZ'[axis]}{end / m.variable_unit:g} of the machine", word, hint)
     return end
 
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.probing.nominal import Nominal, read
+from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import OK, REWORK, SCRAP, SLACK
 from mnclab.machine.settings import Setting
@@ -208,4 +209,5 @@ def report(
     if c.error_reaction and status >= c.error_reaction:
         worst = next(each for each in judged if each.verdict and STATUS[each.verdict] == status)
         allowed = f"{worst.nominal.lower:.4f} to {worst.nominal.upper:.4f}"
-        m.alarm(f"{c.code}: {worst.verdict}: {worst.what} is {worst.actual:.4f}, allowed {allowed}")
+        said = f"{c.code}: {worst.verdict}: {worst.what} is {worst.actual:.4f}, allowed {allowed}"
+        m.alarm(in_mm(said, m.variable_unit, length=True))

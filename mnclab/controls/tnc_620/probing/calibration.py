@@ -20,6 +20,7 @@ from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed
 from mnclab.machine.calibrating import length_touched, offset_written, plane_of, ring, stud, with_radius
 from mnclab.machine.cycle import CycleTable
+from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machine.output import FILE
 from mnclab.machine.settings import Setting
@@ -197,7 +198,8 @@ def radius_and_offset(c: Round, m: Machine, a: Approach, about: Pair, inside: bo
     fine, touches = yield from circle_found(c, m, a, rough.centre, inside, int(c.points))
     radius = c.radius - fine.radius if inside else fine.radius - c.radius
     if radius <= 0:
-        m.alarm(f"{c.code} finds a ball of radius {radius:.4f}: the radius Q407 {c.radius:g} is not that of the figure")
+        said = f"{c.code} finds a ball of radius {radius:.4f}: the radius Q407 {c.radius:g} is not that of the figure"
+        m.alarm(in_mm(said, m.variable_unit))
     yield Measure("radius", radius, m.tool.effective_radius, touches=touches)
     if m.settings["controlled_spindle"]:
         yield from oriented(m, 180.0)

@@ -15,6 +15,7 @@ from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.controls.tnc_620.probing.fast_probing import probe_in_force
 from mnclab.machine.cycle import Cycle
+from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machine.tool_axis import FRAME
 from mnclab.machine.touching import PROBES, Contact, unfit
@@ -103,4 +104,4 @@ def needed(fit: Any, *points: Any, m: Machine, code: str) -> Any:
     try:
         return fit(*points)
     except Alarm as alarm:
-        m.alarm(f"{code}: {alarm.message}")
+        m.alarm(in_mm(f"{code}: {alarm.message}", m.variable_unit))

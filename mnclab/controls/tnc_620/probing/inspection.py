@@ -13,6 +13,7 @@ from typing import Any
 from mnclab.controls.tnc_620.contours.other_tools import Named, named_tool
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle
 from mnclab.controls.tnc_620.probing.log import Value, logged
+from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import OK, REWORK, SCRAP, SLACK
 from mnclab.machine.touching import Contact
@@ -46,10 +47,11 @@ def report(
         broken = yield from monitored(m, c.monitored_tool, max(abs(each.deviation) for each in sizes), *compensation)
     yield from logged(m, c, values, {HEIGHT: c.level} if "level" in declared else {})
     if broken:
-        m.alarm(f"{c.code}: {broken}")
+        m.alarm(in_mm(f"{c.code}: {broken}", m.variable_unit))
     if c.program_stop and out:
         said = (f"{each.what} {each.actual:.4f}, allowed from {each.lower:.4f} to {each.upper:.4f}" for each in out)
-        m.alarm(f"{c.code}: tolerance exceeded: {'; '.join(said)}")
+        length = any(each.unit == "mm" for each in out)
+        m.alarm(in_mm(f"{c.code}: tolerance exceeded: {'; '.join(said)}", m.variable_unit, length))
 
 
 def wear(sizes: Sequence[Value], inside: bool) -> tuple[float, float]:

@@ -17,6 +17,7 @@ from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.controls.tnc_620.probing.cycle import Moves
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.cycle import Cycle, CycleTable
+from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machine.setter import Setter
 from mnclab.machine.settings import Setting
@@ -181,7 +182,7 @@ class CalibrateWireless(Calibrating):
             yield Go("by hand", x=setter.x, y=setter.y)
         x, y, high = m.tip
         if (x - setter.x) ** 2 + (y - setter.y) ** 2 > setter.radius**2 or high <= setter.z:
-            hint = f"bring it over X{setter.x:g} Y{setter.y:g}"
+            hint = in_mm(f"bring it over X{setter.x:g} Y{setter.y:g}", m.variable_unit)
             m.alarm(f"{self.code} begins above the TT, the tool stands beside it", hint=hint)
         tt = yield from calibrated(m, x, y, high)
         yield Go("up", high)
