@@ -142,3 +142,8 @@ def test_they_are_of_one_dialect():
 ])  # fmt: skip
 def test_hints_of_the_street(text, hint):
     assert mnclab.run("F100\n" + text, "g43").alarms[0].hint == hint
+
+
+def test_what_only_the_machine_knows():
+    (alarm,) = mnclab.run("G21\nF#<_hal[torch.cut-feed]>\nM2\n", "g43", DIALECT).alarms
+    assert (alarm.span.line, alarm.hint) == (2, "only the machine knows a HAL pin or INI entry: write its number")
