@@ -30,7 +30,7 @@ TOUCH_HEAD = ("number", "line", "what", "X", "Y", "Z", "ball")
 HEAD = ("line", "cycle", "what", "nominal", "actual", "deviation", "lower", "upper", "verdict")
 NUMBERS, TOUCH_NUMBERS, TOUCH_LENGTHS = range(3, 8), (0, 1, 3, 4, 5, 6), range(3, 7)
 DIGITS = 4
-DECIMALS = {MM: DIGITS, INCHES: 5}
+INCH_DIGITS = 5
 SLACK = 1e-6  # mm or degrees, by which a value may be beyond its limit: it stands on it (MNC 12)
 
 
@@ -255,5 +255,5 @@ def judged(actual: float, lower: float, upper: float) -> str:
 def _written(number: float, sign: bool = False, unit: Unit = MM) -> str:
     if math.isnan(number):
         return "–"
-    found = f"{number / unit.length:{'+' if sign else ''}.{DECIMALS[unit]}f}"
+    found = f"{number / unit.length:{'+' if sign else ''}.{DIGITS if unit.length == 1 else INCH_DIGITS}f}"
     return found if float(found) else found.lstrip("+-")

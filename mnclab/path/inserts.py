@@ -91,19 +91,10 @@ def lead_of(path: Toolpath, rows: Mask) -> float:
 def angles_of(tool: Tool) -> tuple[float, float]:
     """Main and auxiliary cutting-edge angle, rad; one that the tool table does not give restricts nothing.
 
-    It is 90 degrees, or what the other one leaves of 180. A ValueError says what is wrong with a tool.
+    It is 90 degrees, or what the other one leaves of 180.
     """
     main, auxiliary = tool.main_angle, tool.auxiliary_angle
-    for name, angle in (("main", main), ("auxiliary", auxiliary)):
-        if not 0 <= angle < 180:
-            raise ValueError(f"the {name} angle of a tool must be less than 180 degrees (0: not given), got {angle:g}")
-    if not 0 <= tool.width < math.inf:
-        raise ValueError(f"the width of a tool must not be negative, got {tool.width:g}")
     main, auxiliary = main or min(90.0, 180 - auxiliary), auxiliary or min(90.0, 180 - main)
-    if main + auxiliary > 180 + 1e-9:
-        raise ValueError(
-            f"main and auxiliary angle of a tool are 180 degrees at most, the insert lies between: got {main:g} and {auxiliary:g}"
-        )
     return math.radians(main), math.radians(auxiliary)
 
 

@@ -102,6 +102,18 @@ class Tool:
         if 0 < self.radius < self.corner * (1 - 1e-9) and self.kind not in LATHE:
             found = f"{self.corner:g} and {self.radius:g}"
             raise Alarm(f"the corner radius of a tool must not be greater than its radius, got {found}")
+        self._check_insert()
+
+    def _check_insert(self) -> None:
+        """An insert lies between its edges."""
+        for name, angle in (("main", self.main_angle), ("auxiliary", self.auxiliary_angle)):
+            if not 0 <= angle < 180:
+                raise Alarm(f"the {name} angle of a tool must be from 0 (not given) to less than 180 degrees, got {angle:g}")
+        if self.main_angle + self.auxiliary_angle > 180 + 1e-9:
+            found = f"{self.main_angle:g} and {self.auxiliary_angle:g}"
+            raise Alarm(f"main and auxiliary angle of a tool are 180 degrees at most, the insert lies between: got {found}")
+        if self.kind == "thread" and self.angle >= 180:
+            raise Alarm(f"the angle of a thread insert must be less than 180 degrees (0: 60), got {self.angle:g}")
 
     def _check_body(self) -> None:
         """What is behind the edges, as pairs of numbers; an Alarm where it is none, or grows downwards."""

@@ -40,7 +40,7 @@ UNTOLD = "this block is faulty: it has one of the many faults that are only coun
 class Stop(Exception):
     """The run stops at an alarm that the reader has already reported, in the block at `span`."""
 
-    def __init__(self, span: Span) -> None:
+    def __init__(self, span: Span | None = None) -> None:
         super().__init__()
         self.span = span
 

@@ -15,6 +15,7 @@ import numpy as np
 from mnclab.path.columns import Index, Mask
 from mnclab.path.inserts import edgeless
 from mnclab.path.kinds import Kind
+from mnclab.path.profile.bends import divided
 from mnclab.path.tool import LATHE, Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.workpiece.blank import Blank
@@ -65,6 +66,14 @@ class Cutting:
         """The same up to a row and with it."""
         tilted = None if self.tilted is None else self.tilted[: row + 1]
         return replace(self, path=self.path[: row + 1], which=self.which[: row + 1], tilted=tilted, reach="")
+
+    def divided(self, counts: Index) -> Cutting:
+        """The same with each row in so many (n,) equal parts."""
+        path, row = divided(self.path, counts)
+        first = np.append(np.cumsum(counts) - counts, len(row))
+        arrived, known = (int(first[min(each, len(counts))]) for each in (self.arrived, self.known))
+        tilted = None if self.tilted is None else self.tilted[row]
+        return replace(self, path=path, which=self.which[row], tilted=tilted, arrived=arrived, known=known)
 
     def uncut(self, stock: Blank) -> Cutting:
         """Another blank on the same machine, before the first row."""

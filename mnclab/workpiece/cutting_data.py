@@ -180,7 +180,10 @@ def _cut(
             cut = cut._replace(chip=_pair(per_tooth * math.sin(point / 2)))
     if removal is not None:
         cut = _with_material(cut, path, tool, rows, per_tooth, removal, kc)
-    yield cut._replace(beyond=tuple(_beyond(cut, limits, most)))
+    share = np.abs(path.end - path.start)[rows] / path.lengths[rows][:, None]
+    share[path.kind[rows] == Kind.ARC] = 1.0  # somewhere along it each axis of its plane goes as fast
+    axes = [(float((feed.max(axis=1) * share[:, k]).max()), float(limit) * 60) for k, limit in enumerate(limits.axes("rapid"))]
+    yield cut._replace(beyond=tuple(_beyond(cut, axes, limits, most)))
 
 
 def _speeds(path: Toolpath, rows: Index, limits: Limits) -> tuple[Array, Array]:
@@ -201,7 +204,7 @@ def _with_material(
 ) -> Cut:  # fmt: skip
     """What is known of the material that the rows meet."""
     seconds, volumes = float(removal.seconds[rows].sum()), removal.volumes[rows]
-    greatest = float(removal.rate[rows].max())
+    greatest = float(removal.greatest[rows].max())
     cut = cut._replace(rate=(60 * float(volumes.sum()) / seconds if seconds else 0.0, greatest))
     if kc is not None:
         cut = cut._replace(power=greatest * kc / 60e6)
@@ -230,9 +233,12 @@ def _depth_of_turning(path: Toolpath, rows: Index, volumes: Array) -> Array:
     return np.where(way[:, 2] >= way[:, 0], np.sqrt(r**2 + area) - r, across)
 
 
-def _beyond(cut: Cut, limits: Limits, most: Mapping[str, Mapping[int, float]]) -> Iterator[str]:
-    """What is above its limit."""
-    judged = [("n", cut.speed, limits.spindle), ("vf", cut.feed, float(limits.axes("rapid").min()) * 60)]
+def _beyond(
+    cut: Cut, axes: Sequence[tuple[float, float]], limits: Limits, most: Mapping[str, Mapping[int, float]]
+) -> Iterator[str]:  # fmt: skip
+    """What is above its limit; of each axis what it goes at most and what it bears, mm/min."""
+    judged = [("n", cut.speed, limits.spindle)]
+    judged += [("vf", (0.0, fastest), limit) for fastest, limit in axes if fastest > limit * MORE][:1]
     for name, pair in (("vc", cut.surface), ("fz", cut.per_tooth)):
         if pair is not None and cut.tool in most.get(name, {}):
             judged.append((name, pair, most[name][cut.tool]))

@@ -281,3 +281,17 @@ def test_a_shaft_with_a_step_and_a_groove():
 def test_refused(call, message):
     with pytest.raises((ValueError, Alarm), match=message):
         call()
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"kind": "turning", "main_angle": 93, "auxiliary_angle": 100}, "180 degrees at most, .* got 93 and 100"),
+        ({"kind": "turning", "main_angle": 180}, "main angle of a tool must be .* less than 180 .* got 180"),
+        ({"kind": "thread", "angle": 200}, "angle of a thread insert must be less than 180 .* got 200"),
+    ],
+)
+def test_an_insert_that_cannot_be_is_refused_where_it_is_made(given, message):
+    """The edges of an insert and the flanks of a V stand on two sides of it: together less than a straight line."""
+    with pytest.raises(Alarm, match=message):
+        Tool(**given)

@@ -274,6 +274,7 @@ EXPLAINED = {
     ("tnc-620", "CYCL DEF 275", "Q439", "limits"): ({}, "its choices"),
     ("tnc-620", "TCH PROBE 415", "Q308", "limits"): ({}, "its choices"),
     ("tnc-620", "CYCL DEF 8", "axes", "limits"): ({}, "at most three, and which ones, are a check"),
+    ("tnc-620", "CYCL DEF 19", "F", "unit"): ("deg/min", "the rotary axes turn alone"),
     **{("tnc-620", "CYCL DEF 7", axis, "unit"): ("deg", "one row for all axes; these turn") for axis in "ABC"},
     ("tnc-620", "CYCL DEF 7", "#", "required"): (False, "the form of cycle 7 with a table"),
     **{("tnc-620", "CYCL DEF 26", axis, "default"): (1, "in words there") for axis in "XYZ"},

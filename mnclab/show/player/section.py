@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour, steps_within
-from mnclab.path.inserts import angles_of, as_drawn, cutting_part, holder, insert, lead_of
+from mnclab.path.inserts import as_drawn, cutting_part, holder, insert, lead_of
 from mnclab.path.tool import Tool
 from mnclab.show.player.logs import columns, log, parted
 from mnclab.show.player.packing import Packer
@@ -66,15 +66,6 @@ def section(pack: Packer, cutting: Cutting) -> dict[str, Any]:
     }
 
 
-def _shape(tool: Tool, lead: float) -> Tool:
-    """What of a tool is drawn; one whose angles cannot be is drawn as one without any."""
-    try:
-        angles_of(tool)
-    except ValueError:
-        return Tool()
-    return as_drawn(tool, lead)
-
-
 def _areas(strokes: Strokes, bar: Sequence[Contour], low: float) -> tuple[list[int], list[Array], list[int]]:
     """Rows and outlines of what goes, in order: of all strokes of a row, then of the pieces that fall; and which these are."""
     rows, areas = list(strokes.rows), _outlines(strokes.contours)
@@ -114,7 +105,7 @@ def inserts(pack: Packer, run: Any) -> dict[str, Any]:
     ends += [run.stock.bounds] if run.stock else []
     size = (LONG * float(np.ptp(np.concatenate(ends), axis=0).max()) if ends else 0.0) or 1.0
     known = np.unique(numbers).tolist()
-    shapes = [_shape(table.get(number, Tool()), lead_of(path, numbers == number)) for number in known]
+    shapes = [as_drawn(table.get(number, Tool()), lead_of(path, numbers == number)) for number in known]
     tools = [
         {"insert": _corners(insert(tool, size).points_within(FINE * size)), "holder": _corners(holder(tool, size))}
         for tool in shapes

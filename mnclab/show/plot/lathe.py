@@ -14,7 +14,7 @@ from matplotlib.patches import Patch, Polygon
 from numpy.typing import NDArray
 
 from mnclab.path.cutting_speed import spindle_speed
-from mnclab.path.inserts import angles_of, as_drawn, lead_of
+from mnclab.path.inserts import as_drawn, lead_of
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
@@ -23,7 +23,6 @@ from mnclab.show.plot.insert import STEEL, insert_patches
 from mnclab.show.plot.picture import SMALL, Picture
 from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import Array, Strokes
-from mnclab.text.alarm import Alarm
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.turning.turned import half_section
@@ -55,15 +54,7 @@ class Lathe(NamedTuple):
 def lathe(
     path: Toolpath, stock: Blank | None, tools: Mapping[int, Tool], insert: bool | int, part: Workpiece | None = None
 ) -> Lathe:
-    """What is drawn beside the path; `stock` stands in the coordinates of the path, the insert stands after a row.
-
-    An Alarm names a tool of the path whose angles or width cannot be.
-    """
-    for number in np.unique(path.tool).tolist():
-        try:
-            angles_of(tools.get(number, Tool()))
-        except ValueError as error:
-            raise Alarm(f"T{number} of the tool table: {error}") from None
+    """What is drawn beside the path; `stock` stands in the coordinates of the path, the insert stands after a row."""
     blank, tip, tool = _blank(stock), None, Tool()
     if len(path) and insert is not False:
         row = len(path) - 1 if insert is True else range(len(path))[int(insert)]

@@ -39,7 +39,7 @@ def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
     t, height_of = np.stack([begin, end], axis=1).ravel(), np.repeat(removal.rate, 2)
     rate.fill_between(t, height_of, color=colours.REACHED.colour, alpha=SHADE, linewidth=0)
     rate.plot(t, height_of, color=colours.REACHED.colour, linewidth=1.2)
-    top = 1.25 * float(removal.rate.max(initial=0.0)) or 1.0
+    top = 1.25 * max(float(removal.rate.max(initial=0.0)), most.rate if most else 0.0) or 1.0
     rate.set_ylim(0, top)
     if most and top > FAST * most.rate:  # a rapid in material takes away in no time
         rate.set_ylim(0, 1.25 * most.rate)

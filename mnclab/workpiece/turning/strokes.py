@@ -16,11 +16,11 @@ import numpy as np
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.vectors import length_of
 from mnclab.path.columns import Array
-from mnclab.path.inserts import FACE, angles_of, as_drawn, cutting_part, turns
+from mnclab.path.inserts import FACE, as_drawn, cutting_part, turns
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
-from mnclab.text.alarm import Alarm, several
+from mnclab.text.alarm import several
 from mnclab.workpiece.cutting import CUTS, Cutting
 from mnclab.workpiece.turning.sweeping import Edge, Point, along_arc, along_line, edges, placed
 
@@ -70,7 +70,6 @@ def strokes_of(cutting: Cutting, low: float, high: float, radius: float, axis: f
     aside = (path.start[rows, 1] != path.end[rows, 1]) | ((path.kind[rows] == Kind.ARC) & (np.abs(path.axis[rows, 1]) < 0.5))
     if aside.any():
         notes.append(f"{several(int(aside.sum()), 'row')} out of the plane of Z and X: not in the section")
-    _check_angles(cutting)
     least = float(min(np.min(start[:, 1], initial=0.0), np.min(end[:, 1], initial=0.0)))
     ends = np.concatenate([start[:, 0], end[:, 0], [low, high]])
     most = float(max(np.max(start[:, 1], initial=radius), np.max(end[:, 1], initial=radius)))
@@ -100,14 +99,6 @@ def out_of_thread(path: Toolpath, row: int) -> bool:
     if not row or path.kind[row] != Kind.RAPID or not path.synchronous[row - 1]:
         return False
     return bool(path.kind[row - 1] in CUTS and path.start[row, 2] == path.end[row, 2])
-
-
-def _check_angles(cutting: Cutting) -> None:
-    for tool in cutting.tools:
-        try:
-            angles_of(tool)
-        except ValueError as error:
-            raise Alarm(f"T{tool.number} of the tool table: {error}") from None
 
 
 class _Bodies:

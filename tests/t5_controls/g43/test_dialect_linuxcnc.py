@@ -80,6 +80,13 @@ def test_names_that_linuxcnc_gives():
     ]  # fmt: skip
 
 
+def test_a_return_has_the_name_of_its_if_and_keywords_have_blanks():
+    """gcode.parse: X1, Y5 (the value of endsub), Y8 (the value of return), X3 by `else if`."""
+    sub = "O1 sub\nO7 if [#1 GT 2]\nO7 return [#1*2]\nO7 end if\nG1 X1\nO1 end sub [5]\n"
+    text = sub + "O1 call [1]\nG1 Y#<_value>\nO1 call [4]\nG1 Y#<_value>\nO2 if [0]\nX2\nO2 else if [1]\nX3\nO2 endif\n"
+    assert ends("G21 F100\n" + text) == [[1, 0, 0], [1, 5, 0], [1, 8, 0], [3, 8, 0]]
+
+
 def test_a_subprogram_in_a_file(tmp_path):
     """Looked up beside the program; #1 doubled comes back."""
     (tmp_path / "slot.ngc").write_text("o<slot> sub\nG1 X#1\no<slot> endsub [#1*2]\nM2\n")
@@ -135,3 +142,8 @@ def test_they_are_of_one_dialect():
 ])  # fmt: skip
 def test_hints_of_the_street(text, hint):
     assert mnclab.run("F100\n" + text, "g43").alarms[0].hint == hint
+
+
+def test_what_only_the_machine_knows():
+    (alarm,) = mnclab.run("G21\nF#<_hal[torch.cut-feed]>\nM2\n", "g43", DIALECT).alarms
+    assert (alarm.span.line, alarm.hint) == (2, "only the machine knows a HAL pin or INI entry: write its number")

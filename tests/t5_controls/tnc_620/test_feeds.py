@@ -83,3 +83,10 @@ def test_the_feed_counts_at_the_edge_of_arcs(inside, code: str, inside_arc: floa
 def test_a_corner_has_no_edge_to_count_at(inside) -> None:
     run = inside("2 L X+0 Y+0 RL F100 M109\n3 L X+20\n4 L Y-20\n5 L X+0\n6 L X-20 R0")
     assert run.ok and set(run.toolpath.motion.feed.tolist()) == {100}
+
+
+def test_the_alarm_of_a_feed_per_tooth_in_inches_tells_what_was_typed() -> None:
+    """The number is the one in the block, not its millimetres (0.254)."""
+    text = "BEGIN PGM T INCH\nTOOL CALL 3 Z S1000\nL Z+2 R0 FMAX M3\nL X+1 FZ0.01\nEND PGM T INCH\n"
+    (alarm,) = mnc.run(text, "tnc-620", TEETH).alarms
+    assert alarm.message.startswith("FZ0.01 needs the number of teeth of tool 3")

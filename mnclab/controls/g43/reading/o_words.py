@@ -16,7 +16,9 @@ from mnclab.text.nearest import hint
 from mnclab.text.program_builder import ProgramBuilder
 
 O_WORD = re.compile(r"O[ \t]*(\d+|<[^<>]{0,80}>|(?=[\[#]))", re.IGNORECASE)
-_KEYWORD = re.compile(r"[ \t]*([A-Z]{2,})[ \t]*", re.IGNORECASE)
+_KEYWORD = re.compile(  # blanks mean nothing: `else if` is elseif
+    r"[ \t]*(END[ \t]+(?:SUB|IF|WHILE|REPEAT)\b|ELSE[ \t]+IF\b|[A-Z]{2,})[ \t]*", re.IGNORECASE
+)
 LOOPS = {"while": "endwhile", "do": "while", "repeat": "endrepeat"}
 CLOSES = {"endsub": "sub", "endif": "if", "endwhile": "while", "endrepeat": "repeat"}
 KEYWORDS = ("sub", "call", "return", "if", "elseif", "else", *LOOPS, "break", "continue", *CLOSES)
@@ -59,8 +61,8 @@ class OWords:
         keyword = _KEYWORD.match(line, end) if name and end >= 0 else None
         if name is None or keyword is None:
             return False
-        line, kind, computed = line.rstrip(), keyword.group(1).lower(), not name.group(1)
-        place, length = keyword.start(1), len(kind)
+        line, kind, computed = line.rstrip(), re.sub(r"[ \t]", "", keyword.group(1)).lower(), not name.group(1)
+        place, length = keyword.start(1), len(keyword.group(1))
         if kind not in KEYWORDS or computed and kind != "call":
             self.block(start, "", skip)
         if kind not in KEYWORDS:
@@ -187,7 +189,8 @@ class OWords:
         self.word(*to, self.builder.blocks[-1][0], end - at)
 
     def inside(self, name: str, at: int, end: int) -> None:
-        if not self.opened or (self.opened[0].kind, self.opened[0].name) != ("sub", name):
+        """A return is that of the sub it stands in, whatever its own name, which is often that of an if."""
+        if not self.opened or self.opened[0].kind != "sub":
             raise Fault(f"O{name} return stands outside O{name} sub", at, end - at)
 
     def close(self) -> None:

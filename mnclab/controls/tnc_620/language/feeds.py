@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from mnclab.controls.tnc_620.language.checks import above_zero, one_of
+from mnclab.controls.tnc_620.language.checks import above_zero, one_of, written
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import INF, Machine
@@ -66,7 +66,8 @@ def set_feed(m: Machine, value: float | None, per_rev: bool = False) -> None:
 
 def teeth(m: Machine, word: Word) -> int:
     if m.tool.teeth <= 0:
-        m.alarm(f"{word} needs the number of teeth of tool {m.tool.number} (column CUT of the tool table)", word)
+        found = word if isinstance(word.value, str) else f"{word.address}{written(m, word, m.value(word)):g}"
+        m.alarm(f"{found} needs the number of teeth of tool {m.tool.number} (column CUT of the tool table)", word)
     return m.tool.teeth
 
 

@@ -1,0 +1,74 @@
+"""The greatest removal rate is that in the material, whatever air is in the row: closed forms."""
+
+import math
+
+import pytest
+
+import mnclab
+from mnclab import Limits, Setup, Tool
+
+FAST = Limits(acceleration=1e9, rapid=1e6)
+
+
+def most(text, control="mnc", kc=None, **setup):
+    run = mnclab.run(text, control, Setup(limits=FAST, **setup))
+    assert run.ok, run.alarms
+    (cut,) = run.cutting_data(kc=kc)
+    assert run.removal().largest.rate == pytest.approx(cut.rate[1])
+    return cut
+
+
+def milled(*lines, stock=((0, -20, -10), (100, 20, 0)), kc=None):
+    text = "G54 G17 G90 T1\nS1000 M3\nG0 X-10 Y0 Z5\n" + "\n".join(lines) + "\n"
+    return most(
+        text, kc=kc, stock=stock, tools={1: Tool(number=1, radius=5, teeth=2, cutting_length=40)}, start=(0, 0, 100)
+    )
+
+
+def test_a_slot_with_air_at_both_ends():
+    """10 mm wide, 4 deep, 200 mm/min: 8 cm³/min in the 100 mm of the part, of a row of 120; Pc = Q kc / 60e6 kW."""
+    cut = milled("G0 Z-4", "G1 X110 F200", kc=1800)
+    assert cut.rate[1] == pytest.approx(8000, rel=0.01) and cut.power == pytest.approx(8000 * 1800 / 60e6, rel=0.01)
+
+
+@pytest.mark.parametrize("length", [30, 60, 90])
+def test_a_part_that_is_much_shorter_than_the_row(length):
+    assert milled("G0 Z-4", "G1 X110 F200", stock=((0, -20, -10), (length, 20, 0))).rate[1] == pytest.approx(
+        8000, rel=0.01
+    )
+
+
+def test_a_step_in_the_way():
+    """A slot 2 deep before, then 4 deep across its end: 2 below the slot, the whole 4 beyond it."""
+    assert milled("G0 Z-2", "G1 X50 F200", "G0 Z5", "G0 X-10", "G0 Z-4", "G1 X110").rate[1] == pytest.approx(
+        8000, rel=0.01
+    )
+
+
+def test_half_the_width():
+    """Along the edge of the blank, 5 of the 10 mm."""
+    assert milled("G0 Y20 Z-4", "G1 X110 F200").rate[1] == pytest.approx(4000, rel=0.01)
+
+
+def test_a_drill_from_the_air():
+    """π 10² / 4 at 100 mm/min: 7.854 cm³/min below the point, whatever way is above the hole."""
+    text = "G54 G17 G90 T2\nS1000 M3\nG0 X50 Y0 Z20\nG1 Z-30 F100\nG0 Z20\n"
+    drill = {2: Tool(number=2, kind="drill", radius=5, angle=118, teeth=2, cutting_length=60)}
+    cut = most(text, stock=((0, -20, -40), (100, 20, 0)), tools=drill, start=(0, 0, 100))
+    assert cut.rate[1] == pytest.approx(25 * math.pi * 100, rel=0.01)
+
+
+def test_a_turning_pass_with_air_before_the_bar():
+    """From R24 to R20 at 0.2 mm a turn, 1000 rev/min: π (24² - 20²) · 200 mm³/min in the 30 mm of a row of 60."""
+    text = "M3 T1\nG97 S1000\nG95 F0.2\nG00 X20 Z30\nG01 Z-30\nG00 X40\n"
+    setup = {"stock": mnclab.blank.cylinder(24, -60, 0), "start": (40, 0, 60)}
+    assert most(text, "jnc-t01", **setup).rate[1] == pytest.approx(math.pi * (24**2 - 20**2) * 200, rel=0.01)
+
+
+def test_a_feed_is_judged_by_the_axis_that_moves():
+    """2500 rev/min at 3 mm: 7500 mm/min along Z, which goes 8000 on the old lathe; X goes 5000."""
+    text = "M3\nG97 S2500 T1\nG00 X10 Z50\nG32 {}\nG00 X15\nM5\n"
+    setup = Setup(limits="old-lathe")
+    for way, beyond in (("Z-20 F3", ()), ("Z-20 F3.3", ("vf above 8000",)), ("X30 F3", ("vf above 5000",))):
+        found = mnclab.run(text.format(way), "jnc-t01", setup).cutting_data()
+        assert [cut.beyond for cut in found] == [beyond], way
