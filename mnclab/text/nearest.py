@@ -14,13 +14,17 @@ LATIN = dict(zip("АВСЕНКМОРТХУІавсенкмортхуі", "ABCEHK
 #: Letters that are taken for digits.
 DIGITS = dict(zip("OoОоlI|ІіЗзб", "000011111336", strict=True))
 SWAPPED, ALIKE = 0.75, 0.5  # slips
+LONGEST = 40  # characters: a longer word is no slip of a known one, and would take long to compare
 
 
 def nearest(word: str, known: Iterable[str], most: int = 3, slips: float | None = None) -> list[str]:
     """At most `most` known words within some slips of a word: one, and one more for every five characters beyond four.
 
-    The nearest come first; of equally near ones those that share the longest beginning.
+    The nearest come first; of equally near ones those that share the longest beginning. Nothing is near a word of more
+    than `LONGEST` characters.
     """
+    if len(word) > LONGEST:
+        return []
     allowed = slips if slips is not None else 1 + max(len(word) - 1, 0) // 5
     found = []
     for place, candidate in enumerate(known):

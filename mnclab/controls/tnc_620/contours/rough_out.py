@@ -80,7 +80,8 @@ class RoughOut(Cycle):
         try:
             yield from roughing.rough_out(cuts, at, heights, feeds, self.way_down(m, data))
         except ValueError as error:
-            m.alarm(in_mm(f"{self.code}: {error}{remark(m)}", m.variable_unit), hint=f"LCUTS of tool {m.tool.number} in the tool table")
+            hint = f"LCUTS of tool {m.tool.number} in the tool table"
+            m.alarm(in_mm(f"{self.code}: {error}{remark(m)}", m.variable_unit), hint=hint)
         yield from leave(m, before, data.height, rate(self.retract_feed, self.feed))
 
     def way_down(self, m: Machine, data: ContourData) -> roughing.WayDown:
@@ -111,7 +112,8 @@ def cut(c: RoughOut, m: Machine, data: ContourData, region: Region) -> Cut:
         left = rest(region, radius, coarse, data.side_allowance, corner_radius=data.corner)
         return Cut(rest_passes(region, radius, stepover, coarse, **walls, connect=along), left)
     except ValueError as error:
-        m.alarm(in_mm(f"{c.code}: {error}{remark(m)}", m.variable_unit), hint="take a smaller tool" if "fit" in str(error) else "")
+        hint = "take a smaller tool" if "fit" in str(error) else ""
+        m.alarm(in_mm(f"{c.code}: {error}{remark(m)}", m.variable_unit), hint=hint)
 
 
 def residue(m: Machine, data: ContourData, cut: Cut) -> Iterator[Say]:
