@@ -194,6 +194,16 @@ def test_the_place_of_an_alarm_is_marked_and_named():
     assert "stopped in line 5" in picture.alt
 
 
+def test_a_gouge_that_the_control_does_not_see_is_marked():
+    """The way down at X20 comes back through the first wall, Y0: its tool of radius 2 stands at X22 Y-20 where it ends."""
+    text = (
+        "BEGIN PGM T MM\nTOOL CALL 1 Z S1000\nL Z-5 R0 FMAX M3\nL X-20 Y-5 R0 FMAX\nL X+0 Y+0 RL F300\nL X+40\nL Y+20\n"
+        "L X+20\nL Y-20\nL X+20 Y-40 R0\nEND PGM T MM\n"
+    )
+    found = mnclab.run(text, "tnc-620", Setup(tools={1: mnclab.Tool(radius=2, number=1)}))
+    assert found.ok and lines(found.plot().axes[0])["gouge"].get_xydata() == pytest.approx(np.array([[22, -20]]))
+
+
 def test_rapids_on_one_line_are_drawn_once_so_that_their_dashes_stay_apart():
     back = "G90 G54\nG0 X0 Y0 Z5\nX40\nX10\nX60\nX0\nY30\nX30 Y0\nX0 Y30\nX30\nX45\n"
     ax = mnclab.run(back, "mnc", Setup(start=(0, 0, 5))).plot(view="XY").axes[0]

@@ -91,6 +91,7 @@ TOUCH = Mark("touch", "#7b1fa2", "o", 3.5, True, 3.45)
 START = Mark("start", INK, "o", 9, False, 4.0)
 HOME = Mark("from home", INK, "o", 6, False, 4.0)
 END = Mark("end", INK, "s", 4, True, 4.1)
+GOUGED = Mark("gouge", "#b3261e", "*", 8, False, 4.15)  # where a compensated tool cuts into its contour
 ALARM = Mark("alarm", "#b3261e", "x", 9, True, 4.2)
 
 #: Curves of a feed-rate profile: what was programmed, what is reached, and limits.

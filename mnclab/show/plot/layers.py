@@ -63,6 +63,7 @@ class Drawing(NamedTuple):
 def marks_of(path: Toolpath, stopped: bool, home: bool) -> list[tuple[Mark, Array]]:
     """Marks and where they stand (m, 3)."""
     found = [(mark, path.end[path.kind == kind]) for kind, mark in MARKS.items()]
+    found += [(colours.GOUGED, path.end[path.gouge])]
     found += [(colours.HOME if home else colours.START, path.start[:1])]
     found += [(colours.ALARM if stopped else colours.END, path.end[-1:])]
     return [(mark, places) for mark, places in found if len(places)]
