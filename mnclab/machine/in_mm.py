@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-NAMES = re.compile(r"\b(?:lines?|rows?|passes|turns|teeth|strokes|T|tool) \d+")  # no lengths
+KNOWN = re.compile(r"[\d.]+ mm\b|\b(?:lines?|rows?|passes|turns|teeth|strokes|T|tool) \d+")  # said to be mm, or no lengths
 LOOSE = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?![\w.]*[A-Za-z])(?! *(?:degrees|°|%))")  # a number that is no part of a name
 PLACES = re.compile(r"\b[XYZR]-?\d")
 LENGTHS = re.compile(
@@ -18,8 +18,8 @@ def in_mm(sentence: str, unit: float, length: bool = False, said: str = "") -> s
 
     `length`: its numbers are known to be lengths; else it must speak of one. `said`: what follows in the brackets.
     """
-    if unit == 1 or " mm" in sentence:
+    if unit == 1:
         return sentence
-    told = NAMES.sub("", sentence)
+    told = KNOWN.sub("", sentence)
     of_length = length or LENGTHS.search(told)
     return f"{sentence} (lengths in mm{said})" if PLACES.search(told) or (of_length and LOOSE.search(told)) else sentence
