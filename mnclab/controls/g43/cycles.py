@@ -65,6 +65,20 @@ def along_z(m: Machine, code: str, given: Given) -> None:
         m.alarm(f"{code} K is not the number of holes as {maker} has it", count, hint="write L for the number of holes")
 
 
+def written_again(m: Machine, cycle: type[Cycle], given: Given, kept: Values) -> None:
+    """On LinuxCNC the data of a hole hold as long as the cycle is the same: of another one they must be written."""
+    if m.settings["hole_data"] == "numbers" and kept.get("code", cycle.code) != cycle.code:
+        needed = {"bottom", "r_level"} | {"G73": {"peck"}, "G83": {"peck"}}.get(cycle.code, set())
+        needed |= {"dwell"} if cycle.code in ("G82", "G86", "G88", "G89") else set()
+        for parameter in cycle.parameters():
+            if parameter.name in needed - given.keys():
+                m.alarm(
+                    f"{cycle.code} {parameter.address} is missing: that of {kept['code']} counts no more",
+                    next(iter(given.values()), None), "write it again where the cycle changes (LinuxCNC)",
+                )  # fmt: skip
+    kept["code"] = cycle.code
+
+
 def levels(m: Machine, values: Values, given: Given, kept: Values) -> None:
     """Z and R become coordinates: those of the block, or as `hole_data` may have it the last numbers counted anew."""
     numbers = kept.setdefault("numbers", {})
@@ -114,6 +128,7 @@ class HoleCycle(holes.AtHole, Cycle):
         if not memory(m).machine_coordinates:
             activate(m, "XYZ")
             settle_doubt(m, Words(tuple(given.values()), cls.code), given.keys() & {"x", "y"})
+        written_again(m, cls, given, kept)
         kept.setdefault("initial", m.to_machine(m.programmed)[2])
         warn_of_change(m, cls.code, given, kept)
         kept["step"] = (0.0, 0.0)

@@ -49,6 +49,19 @@ def test_radii_of_an_arc(radius, unit, allowed):
         run(text, "g43", ok=ok, dialect="linuxcnc", stopped_spindle="accept")
 
 
+@pytest.mark.parametrize(("text", "missing"), [
+    ("G81 X1 Z-1 R2\nG85 X3 Z-2\n", "G85 R"), ("G81 X1 Z-1 R2\nG85 X3 R2\n", "G85 Z"),
+    ("G73 X1 Z-4 R1 Q1.5\nG83 X3 R2 Z-2\n", "G83 Q"), ("G82 X1 Z-4 R1 P1.5\nG89 X3 R2 Z-2\n", "G89 P"),
+    ("G81 X1 Z-1 R2\nG85 X3 R2 Z-2\n", ""), ("G81 X1 Z-1 R2\nG81 X3\nG81 X4 Z-2\n", ""), ("G82 X1 Z-1 R2 P.5\nG82 X3\n", ""),
+    ("G83 X1 Z-1 R2 Q.5\nG83 X3 Z-2\n", ""),
+])  # fmt: skip
+def test_data_of_a_hole_are_those_of_its_cycle(text, missing):
+    """gcode.parse refuses the first four (R unspecified, Z unspecified, Q missing, P missing) and takes the others."""
+    found = said(f"G21 F100 S100 M3\nG0 Z5\n{text}M2\n")
+    assert [(line, message[: len(missing)]) for line, message in found] == ([(4, missing)] if missing else [])
+    assert not said(f"G21 F100 S100 M3\nG0 Z5\n{text}M2\n", Setup())
+
+
 def test_g61_does_not_stop_on_one_line():
     """100 mm in 200 moves at 50 mm/s, 200 mm/s²: v/a + s/v = 2.25 s; a corner stops, and so does every move under G61.1."""
     line = "".join(f"G1 X{k / 2}\n" for k in range(1, 201))
