@@ -9,7 +9,7 @@ from mnclab.workpiece.removal import volume
 
 BLANK = ((0, 0, -20), (60, 40, 0))
 TOOLS = {1: Tool(radius=5, kind="mill")}
-SLOT = "T1 M6\nS1000 M3\nG43 G0 X-10 Y20 Z5\nG0 Z-4\nG1 X70 F300\nG0 Z50\n"  # 60 x 10 x 4 mm³ in 16 s, at most 10 x 4 x 300 mm³/min
+SLOT = "T1 M6\nS1000 M3\nG43 G0 X-10 Y20 Z5\nG0 Z-4\nG1 X70 F300\nG0 Z50\n"  # 60 x 10 x 4 mm³ in 16 s, 10 x 4 x 300 a minute
 CRASH = SLOT.replace("G1 X70 F300", "G0 X30\nG1 X70 F300")
 
 
