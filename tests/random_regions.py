@@ -55,7 +55,7 @@ class Task(NamedTuple):
 
     @property
     def region(self):
-        return Region.of(*(wall.contour for wall in self.walls), holes=[island.contour for island in self.islands])
+        return Region.union_of(*(wall.contour for wall in self.walls), holes=[island.contour for island in self.islands])
 
     def polygon(self, chord_error):
         """The same area as straight pieces, by shapely alone."""

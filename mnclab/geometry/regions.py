@@ -58,9 +58,9 @@ class Region:
         return cls._of(outer, tuple(holes), nested=False)
 
     @classmethod
-    def union_of(cls, *contours: Contour) -> Region:
-        """The union of what contours enclose, whatever lies within what."""
-        return cls._of(contours, (), nested=True)
+    def union_of(cls, *contours: Contour, holes: Iterable[Contour] = ()) -> Region:
+        """The union of what contours enclose, whatever lies within what, less what the holes enclose."""
+        return cls._of(contours, tuple(holes), nested=True)
 
     @classmethod
     def _of(cls, outer: Sequence[Contour], holes: Sequence[Contour], nested: bool) -> Region:

@@ -256,14 +256,15 @@ INCHES = UPWARDS | {
 
 @pytest.mark.parametrize("code", INCHES)
 def test_a_program_in_inches_drills_the_same_hole(code):
-    """Lengths and feeds are divided by 25.4; times, speeds, counts, choices and angles are not."""
+    """Lengths are divided by 25.4 and feeds by 2.54 (tenths of an inch); times, speeds, counts, choices and angles are not."""
     values = {200: 2, 203: 7, 204: 30, 201: -20} | INCHES[code]
     if code == 204:
         del values[201]
     units = {p.address: p.unit for p in mnc.controls["tnc-620"].cycles[f"CYCL DEF {code}"].parameters()}
     paths = []
     for unit, inch in (("MM", 1), ("INCH", 25.4)):
-        lines = [f"Q{q}={v / inch if units[f'Q{q}'] in ('mm', 'mm/min') else v:.12g}" for q, v in values.items()]
+        by = {"mm": inch, "mm/min": inch if inch == 1 else inch / 10}
+        lines = [f"Q{q}={v / by.get(units[f'Q{q}'], 1):.12g}" for q, v in values.items()]
         text = "\n".join(
             [f"BEGIN PGM A {unit}", "TOOL CALL 2 Z S1000", f"CYCL DEF {code} X", *lines, "CYCL CALL M3", ""]
         )
