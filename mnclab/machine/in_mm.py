@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-KNOWN = re.compile(r"[\d.]+ mm\b|\b(?:lines?|rows?|passes|turns|teeth|strokes|T|tool) \d+")  # said to be mm, or no lengths
-LOOSE = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?![\w.]*[A-Za-z])(?! *(?:degrees|°|%))")  # a number that is no part of a name
+KNOWN = re.compile(r"(?<![\d.])[\d.]++ mm\b|\b(?:lines?|rows?|passes|turns|teeth|strokes|T|tool) \d+")  # mm, or no lengths
+LOOSE = re.compile(r"(?<![\w.])-?\d++(?:\.\d++)?+(?![\w.]*[A-Za-z])(?! *(?:degrees|°|%))")  # a number that is no part of a name
 PLACES = re.compile(r"\b[XYZR]-?\d")
 LENGTHS = re.compile(
     r"radi(us|i)\b|diameter|\bwid|\blong|length|deep|depth|thick|narrow|\broom\b|pitch|distance|\bway\b|apart|height|\blevel\b"

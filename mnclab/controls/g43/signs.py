@@ -24,7 +24,7 @@ SIGNS = (
     sign(r"#[ \t]*\d+[ \t]*=|\b(?:WHILE|IF)[ \t]*\[", 4, "variables"),
     sign(r"#<[\w ]+>", 8, "a variable with a name"),
     sign(
-        r"^[ \t]*O[ \t]*(?:<[\w. -]+>|\d+|[\[#])[^\n(]*(?:sub|endsub|call|if|while|repeat|do|return|endif|endwhile)\b",
+        r"^[ \t]*+O[ \t]*+(?:<[\w. -]++>|\d++|[\[#])[^\n(]*(?:sub|endsub|call|if|while|repeat|do|return|endif|endwhile)\b",
         20, "an O word of LinuxCNC",
     ),
     sign(r"(?<![A-Z])M98[ \t]*[PQ]|(?<![A-Z])G65[ \t]*P", 3, "a sub-program"),

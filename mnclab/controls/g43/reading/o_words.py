@@ -17,7 +17,7 @@ from mnclab.text.program_builder import ProgramBuilder
 
 O_WORD = re.compile(r"O[ \t]*(\d+|<[^<>]{0,80}>|(?=[\[#]))", re.IGNORECASE)
 _KEYWORD = re.compile(  # blanks mean nothing: `else if` is elseif
-    r"[ \t]*(END[ \t]+(?:SUB|IF|WHILE|REPEAT)\b|ELSE[ \t]+IF\b|[A-Z]{2,})[ \t]*", re.IGNORECASE
+    r"(END[ \t]+(?:SUB|IF|WHILE|REPEAT)\b|ELSE[ \t]+IF\b|[A-Z]{2,})[ \t]*", re.IGNORECASE
 )
 LOOPS = {"while": "endwhile", "do": "while", "repeat": "endrepeat"}
 CLOSES = {"endsub": "sub", "endif": "if", "endwhile": "while", "endrepeat": "repeat"}
@@ -58,7 +58,8 @@ class OWords:
         """The O word at `at` of a line that begins at `begin` of the text, its block at `start`; False if it is none."""
         name = O_WORD.match(line, at)
         end = end_of_operand(line, name.end()) if name and not name.group(1) else name.end() if name else -1
-        keyword = _KEYWORD.match(line, end) if name and end >= 0 else None
+        blanks = len(line[end:]) - len(line[end:].lstrip(" \t"))
+        keyword = _KEYWORD.match(line, end + blanks) if name and end >= 0 else None
         if name is None or keyword is None:
             return False
         line, kind, computed = line.rstrip(), re.sub(r"[ \t]", "", keyword.group(1)).lower(), not name.group(1)
