@@ -136,7 +136,7 @@ def test_random_walls_are_finished_and_none_is_gouged(seed):
     rng = np.random.default_rng(1000 + seed)
     parts, holes = figure(seed)
     radius, allowance, least = rng.uniform(1, 6), rng.uniform(0, 0.5), rng.uniform(0, 1)
-    region = Region.of(*parts, holes=holes)
+    region = Region.union_of(*parts, holes=holes)
     walls = wall_loops(region, radius, allowance=allowance, lead=radius / 2 + 0.5, least=least, climb=bool(seed % 2))
     area = union_all([fine(each) for each in parts]) - union_all([fine(each) for each in holes])
     passes = np.vstack([wall.contour.points_within(1e-4) for wall in walls])
