@@ -143,10 +143,15 @@ def _notes(found: Sequence[Cut], path: Toolpath, removal: Removal | None, limits
         yield "vc is that at the diameter of the tip; ap is the mean over a row, air before the material too."
     if any(cut.chip for cut in found):
         yield "hm is the mean chip thickness over the engaged angle (ISO 3002-3, κ = 90°; of a drill at its point angle)."
+    if any(cut.rate for cut in found):
+        yield "Q most is at least so great: a mean over a part of a row, which material much shorter than that fills in part."
     if removal is None:
         yield "Without a blank ap, ae, hm and Q are not known, and moves in the air count."
     if not any(cut.beyond for cut in found):
-        fastest = figure(float(limits.axes("rapid").min()) * 60 / path.unit.length, 1)
+        speeds = dict(zip("XYZ", (figure(float(v) * 60 / path.unit.length, 1) for v in limits.axes("rapid"))))
+        speeds = {axis: speed for axis, speed in speeds.items() if axis != "Y" or not path.lathe}
+        alike = len(set(speeds.values())) == 1
+        fastest = speeds["X"] if alike else ", ".join(f"{axis} {speed}" for axis, speed in speeds.items())
         spindle = f"{figure(limits.spindle, 0)} rev/min and " if math.isfinite(limits.spindle) else ""
         yield f"All within the limits of the machine, {spindle}{fastest} {path.unit.short}/min."
 
@@ -238,7 +243,7 @@ def _beyond(
 ) -> Iterator[str]:  # fmt: skip
     """What is above its limit; of each axis what it goes at most and what it bears, mm/min."""
     judged = [("n", cut.speed, limits.spindle)]
-    judged += [("vf", (0.0, fastest), limit) for fastest, limit in axes if fastest > limit * MORE][:1]
+    judged += [("vf", (0.0, fastest), limit) for fastest, limit in axes if fastest > limit * MORE]
     for name, pair in (("vc", cut.surface), ("fz", cut.per_tooth)):
         if pair is not None and cut.tool in most.get(name, {}):
             judged.append((name, pair, most[name][cut.tool]))

@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 
 KEYS = ("line", "tool")
 CUTS = (Kind.LINE, Kind.ARC)
-PARTS, MOST_PARTS = 24, 6000  # of a row; of all rows, as many as are swept exactly in good time
+PARTS, MOST_PARTS = 24, 4000  # of a row; of all rows, as many as are counted on a lattice, in good time
+CELLS = 4
 HEAD = ("tool", "removed", "time in material", "mean rate", "largest rate", "in line")
 
 
@@ -57,22 +58,32 @@ class Removal:
 
     @cached_property
     def greatest(self) -> Array:
-        """The greatest rate (n,), mm³/min, of rows at feed: the mean of the best of `PARTS` equal parts of each, of fewer
-        where there are more than `MOST_PARTS` in all. Elsewhere the mean of the row."""
-        cutting, found = self.workpiece.cutting, self.rate.copy()
-        rows = np.flatnonzero((found > 0) & self._at_feed)
-        parts = min(PARTS, MOST_PARTS // max(len(rows), 1))
-        if parts < 2:
+        """The greatest rate (n,), mm³/min, of rows at feed, which is at least so great; elsewhere the mean of the row.
+
+        It is the mean of the best piece of way that begins in a row, one of its `PARTS` equal parts (fewer where there are more
+        than `MOST_PARTS` in all), and of a mill no shorter than `CELLS` cells of its raster: less is counted too roughly.
+        """
+        cutting, found, feeds = self.workpiece.cutting, self.rate.copy(), self._at_feed
+        rows, piece = np.flatnonzero((found > 0) & feeds), CELLS * getattr(self.workpiece, "step", 0.0)
+        if not len(rows):
             return found
-        counts = np.ones(len(cutting), dtype=np.int64)
-        counts[rows] = parts
-        volumes = type(self.workpiece)(cutting.divided(counts)).removed_by_row()  # type: ignore[call-arg]
-        at = (np.cumsum(counts) - counts)[rows][:, None] + np.arange(parts)
-        length = cutting.path.lengths
-        ends = (np.cumsum(length) - length)[rows][:, None] + length[rows][:, None] * np.linspace(0, 1, parts + 1)
-        seconds = np.diff(np.interp(ends, self.profile.s, self.profile.t), axis=1)
-        best = np.divide(60 * volumes[at], seconds, out=np.zeros(at.shape), where=seconds > 0).max(axis=1)
-        found[rows] = np.maximum(found[rows], best)
+        counts, length = np.ones(len(cutting), dtype=np.int64), cutting.path.lengths
+        wanted = np.clip(length[rows] / max(piece / 2, 1e-9), 1, PARTS)
+        counts[rows] = np.maximum(wanted * min(1.0, MOST_PARTS / wanted.sum()), 1)
+        volumes = self.volumes
+        if (counts > 1).any():
+            volumes = type(self.workpiece)(cutting.divided(counts)).removed_by_row()  # type: ignore[call-arg]
+        row = np.repeat(np.arange(len(counts)), counts)
+        s = np.append(0.0, np.cumsum((length / counts)[row]))
+        t, taken = np.interp(s, self.profile.s, self.profile.t), np.append(0.0, np.cumsum(volumes * feeds[row]))
+        of = row[begin := np.flatnonzero(np.isin(row, rows))]
+        last = max(int(np.searchsorted(s, s[-1] - piece, "right")) - 1, 0)  # place where a whole piece is left
+        begin = np.minimum(begin, last)
+        end = np.minimum(np.maximum(np.searchsorted(s, s[begin] + piece * (1 - 1e-9)), begin + 1), len(row))
+        seconds = t[end] - t[begin]
+        best = np.divide(60 * (taken[end] - taken[begin]), seconds, out=np.zeros(len(begin)), where=seconds > 0)
+        found[rows] = np.where(length[rows] >= piece, found[rows], 0.0)
+        np.maximum.at(found, of, best)
         return found
 
     @property

@@ -50,6 +50,20 @@ def test_half_the_width():
     assert milled("G0 Y20 Z-4", "G1 X110 F200").rate[1] == pytest.approx(4000, rel=0.01)
 
 
+@pytest.mark.parametrize("step", [5, 1, 0.2, 0.1, 0.05])
+def test_short_rows_in_a_slot(step):
+    """10 · 4 · 200 however short its rows are: pieces of way shorter than a few cells are counted too roughly to be a rate."""
+    rows = [f"X{x / 1000:.3f}" for x in range(20000, 40001, round(step * 1000))]
+    assert milled("G0 Z-4", "G1 F200 X19", *rows).rate[1] == pytest.approx(8000, rel=0.03)
+
+
+def test_a_row_with_air_after_many_rows():
+    """3,200 rows 1 mm deep beside it leave the slot 10 · 4 · 200, in the 100 mm of a row of 120."""
+    rows = [f"X{5 + x / 50:.2f}" for x in range(3200)]
+    before = ["G0 Y-14 Z-1", "G1 X4 F200", *rows, "G0 Z5", "G0 X-10 Y5", "G0 Z-4"]
+    assert milled(*before, "G1 X110").rate[1] == pytest.approx(8000, rel=0.03)
+
+
 def test_a_drill_from_the_air():
     """π 10² / 4 at 100 mm/min: 7.854 cm³/min below the point, whatever way is above the hole."""
     text = "G54 G17 G90 T2\nS1000 M3\nG0 X50 Y0 Z20\nG1 Z-30 F100\nG0 Z20\n"
@@ -72,3 +86,6 @@ def test_a_feed_is_judged_by_the_axis_that_moves():
     for way, beyond in (("Z-20 F3", ()), ("Z-20 F3.3", ("vf above 8000",)), ("X30 F3", ("vf above 5000",))):
         found = mnclab.run(text.format(way), "jnc-t01", setup).cutting_data()
         assert [cut.beyond for cut in found] == [beyond], way
+        assert ("X 5000, Z 8000 mm/min" in repr(found)) == (not beyond)
+    both = mnclab.run("M3\nG97 S2500 T1\nG00 X0 Z50\nG32 X-100 Z-50 F6\n", "jnc-t01", setup).cutting_data()
+    assert both[0].beyond == ("vf above 5000", "vf above 8000")  # 15,000 along the way, 10,607 along each
