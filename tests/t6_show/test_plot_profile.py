@@ -135,3 +135,13 @@ def test_blanks_before_a_comment_take_no_room():
     run = mnclab.run("G94 F100\nG1 X20        ' a cut\n", "jnc-t01")
     labels = run.profile().plot_lost().axes[0].get_yticklabels()
     assert labels[-1].get_text().endswith("G1 X20 ' a cut")
+
+
+def test_the_acceleration_stays_within_the_limit_that_is_drawn():
+    """Two turns of an arc under a jerk limit are planned in stages, each with an acceleration of its own."""
+    limits = mnclab.Limits(acceleration=5000, jerk=50000, corner_tolerance=0.01, rapid=40000)
+    run = mnclab.run("G90 G17\nS100 M3\nF20000\nG0 X5 Y0\nG2 I-5\nG2 I-5\n", "g43", mnclab.Setup(limits=limits))
+    own, limit, other = run.profile().plot().axes[1].lines[:3]
+    most = limit.get_ydata()
+    assert np.array_equal(other.get_ydata(), -most, equal_nan=True) and np.isfinite(most).any()
+    assert (np.abs(own.get_ydata()) <= most * (1 + 1e-9))[np.isfinite(most)].all()

@@ -93,19 +93,13 @@ def holds(profile: Profile) -> NDArray[np.int64]:
 
 
 def _of_pieces(profile: Profile, values: Array) -> Array:
-    """A value for each piece (m,) from those of planned rows: at constant cutting speed a row is planned in parts."""
+    """A value for each piece (m,) from those of planned rows: an arc, or a row at constant cutting speed, is planned in parts."""
     p, plan = profile.pieces, profile.plan
     if plan.row is None:
         return values[p.row]
     first, last = np.searchsorted(plan.row, p.row), np.searchsorted(plan.row, p.row, "right") - 1
     part = np.searchsorted(np.cumsum(plan.rows.length), (p.s[:-1] + p.s[1:]) / 2)
     return values[np.clip(part, first, last)]
-
-
-def _of_rows(profile: Profile, values: Array) -> Array:
-    """A value for each row of the path from those of planned rows."""
-    row = profile.plan.row
-    return values if row is None else values[np.searchsorted(row, np.arange(len(profile.path)))]
 
 
 @sized(tall=SIZE[1] / SIZE[0])
@@ -172,7 +166,7 @@ def plot_profile(
         unknown |= kind == Kind.RAPID
     if plan.ramps is not None:  # it changes along arcs
         unknown |= kind == Kind.ARC
-    most = np.where(unknown, np.nan, _of_rows(profile, plan.rows.a) / length)[profile.move[drawn.piece]]
+    most = np.where(unknown[profile.move], np.nan, _of_pieces(profile, plan.rows.a) / length)[drawn.piece]
     rows[1].plot(x, drawn.a, **{**colours.REACHED.style(), "label": "_a"})
     if limits:
         handles += rows[1].plot(x, most, **colours.LIMIT.style())

@@ -52,10 +52,10 @@ def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
         rate.plot([middle], [most.rate], **colours.SLOW_CORNER.style())
         late = middle > removal.profile.time / 2
         rate.annotate(
-            f"line {removal.place(most)}: {most.rate:.0f} mm³/min", (middle, most.rate), (-6 if late else 6, 5),
+            f"line {removal.place(most)}: at most {most.rate:.0f} mm³/min", (middle, most.rate), (-6 if late else 6, 5),
             textcoords="offset points", fontsize=SMALL, ha="right" if late else "left", color=colours.INK,
         )  # fmt: skip
-    for axes, title in ((feed, "feed, mm/min"), (rate, "removal, mm³/min")):
+    for axes, title in ((feed, "feed, mm/min"), (rate, "mean of a row, mm³/min")):
         axes.set_ylabel(title, fontsize=SMALL)
         axes.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
         calm(axes)
