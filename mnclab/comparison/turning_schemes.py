@@ -8,16 +8,17 @@ Coordinates (z, r) and areas of the half section above the axis, mm and mm²; fe
 The source ranks: loop, then semi-finish, then pick-up, whose idle strokes are longer. On the three zones of the
 catalogue (10 mm deep, a = 4, 0.3 mm/rev, 800 rev/min, plunges at half, rapids 10 m/min; tool of 95 and 50 degrees) ::
 
-                     open              semi-open          closed
-                     cut  rapid  s     cut  rapid  s      cut  rapid  s
-    loop             156  177  40.1    134  155  34.4      90   69  26.5
-    semi-finish *    156  178  40.1    148  155  38.0     104   58  30.0
-    pick-up          156  177  40.1    148  170  38.1     104   93  30.2
-    semi-finish      208  230  53.4    190  198  48.7
+                                   open              semi-open          closed
+                                   cut  rapid  s     cut  rapid  s      cut  rapid  s
+    loop                           156  177  40.1    134  155  34.4      90   69  26.5
+    semi-finish after penultimate  156  178  40.1    148  155  38.0     104   58  30.0
+    pick-up                        156  177  40.1    148  170  38.1     104   93  30.2
+    semi-finish (after last)       208  230  53.4    190  198  48.7     104   58  30.0
 
-* after the penultimate pass; in the closed zone both forms are one. So the ranking holds, by the idle strokes as the
-source says, where the clean-up takes the place of the last pass. After the last pass it cuts the whole contour once
-more, and costs more than all idle strokes at rapid save. In an open zone there is nothing to pick up, and all are alike.
+The source has the clean-up "after the last or the penultimate" pass. The ranking holds, by the idle strokes as it says,
+where the clean-up takes the place of the last pass. After the last pass it cuts the whole contour once more, and costs
+more than all idle strokes at rapid save. So both stand in the table, but for the closed zone, where they are one. In an
+open zone there is nothing to pick up, and all others are alike.
 """
 
 from __future__ import annotations
@@ -67,8 +68,8 @@ COLUMNS: Titles = {
 }
 #: Which schemes the source names for a zone.
 SUITED = {
-    OPEN: ("loop", "zigzag", "pick-up", "semi-finish"),
-    SEMI_OPEN: ("loop", "zigzag", "pick-up", "semi-finish", "equidistant", "contour"),
+    OPEN: ("loop", "zigzag", "pick-up", "semi-finish", "semi-finish after penultimate"),
+    SEMI_OPEN: ("loop", "zigzag", "pick-up", "semi-finish", "semi-finish after penultimate", "equidistant", "contour"),
     CLOSED: ("descent", "zigzag", "pick-up", "semi-finish"),
     COMBINED: ("combined",),
 }

@@ -186,7 +186,7 @@ class Help:
     def __str__(self) -> str:
         entry = self.entry
         if isinstance(entry, Control):
-            rows = [(code, one.title) for code, one in entry.functions.items()]
+            rows = [(code, one.title) for code, one in entry.listed.items()]
             rows += [(code, cycle.title) for code, cycle in entry.cycles.items()]
             wide = max(len(code) for code, _ in rows)
             lines = [f"{entry.name}  {entry.title}", *(f"{code:{wide}}  {title}" for code, title in rows)]
@@ -227,10 +227,12 @@ def help(code: str | Control = "", control: str | None = None) -> Help:
     chosen = choose(control, "", "") if control is not None else _only_one_with(code)
     if code == chosen.name or not code.strip():
         return Help(chosen, chosen)
-    if settings := tuple(one for one in chosen.settings if code.strip().lower() in ("settings", one.name)):
-        return Help(settings, chosen)
     wanted = _normal(code, chosen)
-    if entry := chosen.cycles.get(wanted) or chosen.functions.get(wanted):
+    entry = chosen.cycles.get(wanted) or chosen.functions.get(wanted)
+    name = code.strip() if entry else code.strip().lower()  # G61 is a code, g61 a setting
+    if settings := tuple(one for one in chosen.settings if name in ("settings", one.name)):
+        return Help(settings, chosen)
+    if entry:
         return Help(entry, chosen)
     if wanted in chosen.refused:
         raise Alarm(f"{wanted}: {chosen.refused[wanted]}")

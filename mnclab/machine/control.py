@@ -75,6 +75,7 @@ class Function:
     moves nothing. `ends_cycle`: an active cycle is over before the motion of the block. `owns`: the words of the block
     are its own, and a motion function beside it only becomes active. `collects`: motion that waits for later blocks may
     go on waiting; before any other function it is made. `leads_away`: what comes next is not the block below, or not always.
+    `listed`: tables of the functions have it; not one that is only known to be refused, or is called of its own accord.
     """
 
     code: str
@@ -91,6 +92,7 @@ class Function:
     owns: bool = False
     collects: bool = False
     leads_away: bool = False
+    listed: bool = True
     source: str = ""
     doc: str = ""
 
@@ -221,8 +223,13 @@ class Control:
     def __repr__(self) -> str:
         return f"<Control {self.name}: {self.title}; {len(self.functions)} functions, {len(self.cycles)} cycles>"
 
+    @property
+    def listed(self) -> dict[str, Function]:
+        """The functions by code, without those that are none of the control by itself."""
+        return {code: each for code, each in self.functions.items() if each.listed}
+
     def _repr_html_(self) -> str:
-        rows = [(f.code, f.title, f.group or "", "●" if f.power_on else "", f.source) for f in self.functions.values()]
+        rows = [(f.code, f.title, f.group or "", "●" if f.power_on else "", f.source) for f in self.listed.values()]
         rows += [(code, cycle.title, "cycle", "", cycle.source) for code, cycle in self.cycles.items()]
         table = html_table(("code", "title", "group", "at power-on", "source"), rows, code=(0,))
         settings = f"<h5>Settings</h5>{settings_html(self.settings)}" if self.settings else ""

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mnclab.machine.cutting_rows import TILT, start_known, tilted_rows
-from mnclab.machine.in_mm import in_mm
 from mnclab.machine.tool_axis import LOG
-from mnclab.machine.touching import DEEP, slack
+from mnclab.machine.touching import DEEP, place_of, slack
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath, concatenate
 from mnclab.text.alarm import Alarm
@@ -47,10 +46,9 @@ def stop_at_part(m: Machine) -> None:
         if place is not None:
             m.cut = int(path.step[row])
             m.settled = [path[path.step < m.cut]]
-            x, y, z = m.to_program(place)
-            message = f"path obstructed: the probe touches the part near X{x:.4g} Y{y:.4g} Z{z:.4g} while positioning"
+            message = f"path obstructed: the probe touches the part near {place_of(m, m.to_program(place))} while positioning"
             hint = "lead it around the part, or over it: it is in Setup(part=…)"
-            raise Alarm(in_mm(message, m.variable_unit), m.flow.span_of_step(m.cut), hint=hint)
+            raise Alarm(message, m.flow.span_of_step(m.cut), hint=hint)
 
 
 def _met(m: Machine, part: Part, path: Toolpath, row: int) -> tuple[float, float, float] | None:

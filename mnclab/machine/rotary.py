@@ -36,7 +36,7 @@ def set_angles(m: Machine, to: Angles) -> None:
 
 
 def turning_feed(m: Machine) -> float:
-    """The modal feed for axes that turn alone: the number of the program is degrees a minute, in inches too."""
+    """The modal feed for axes that turn alone: the number of the program as degrees a minute, a reading in inches too."""
     return m.feed_of(None) / (m.variable_unit if m.per_rev else m.feed_unit)
 
 

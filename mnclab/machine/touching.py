@@ -223,7 +223,7 @@ def guarded(m: Machine, part: Part, target: Point, feed: float | None) -> None:
             hint = "the axes stop there; a larger clearance, another height or nominal sizes nearer to the part help"
             if not part.exact and not foot(part, begin + direction * stopped)[1]:
                 hint = "its distance is only bounded there: what is taken out of it should stick out by more than the ball"
-            m.alarm(f"path obstructed: the {which} touches the part at {_place(m, m.programmed)} while positioning", hint=hint)
+            m.alarm(f"path obstructed: the {which} touches the part at {place_of(m, m.programmed)} while positioning", hint=hint)
     m.line(*target, f=feed)
 
 
@@ -238,7 +238,7 @@ def guarded_turn(m: Machine, part: Part, centre: tuple[float, float], angle: flo
     centres = np.array([m.to_machine(place) for place in places.tolist()]) + ball.beside
     hit = np.flatnonzero(part(centres) < ball.radius - DEEP - slack(m))
     if len(hit):
-        m.alarm(f"path obstructed: the stylus touches the part at {_place(m, places[hit[0]])} while positioning")
+        m.alarm(f"path obstructed: the stylus touches the part at {place_of(m, places[hit[0]])} while positioning")
     m.turn(centre, angle, None, feed)
 
 
@@ -247,7 +247,7 @@ def _point(xyz: Floats) -> Point:
     return x, y, z
 
 
-def _place(m: Machine, point: Sequence[float] | Floats) -> str:
+def place_of(m: Machine, point: Sequence[float] | Floats) -> str:
     """In the unit of the program."""
     found = (f"{axis}{round(float(value), 3) / m.variable_unit + 0.0:.4g}" for axis, value in zip("XYZ", point, strict=True))
     return " ".join(found)

@@ -3,7 +3,6 @@
 import json
 import math
 import re
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -153,8 +152,7 @@ def test_loop_and_zigzag_leave_ridges_on_a_shoulder(name, ridges):
 def test_the_ranking_of_the_source(profile):
     """Loop, semi-finish, pick-up: equal cuts, longer idle strokes, where the clean-up takes the place of the last pass."""
     tool = Tool(main_angle=95, auxiliary_angle=50)
-    penultimate = partial(schemes.semi_finish, after="penultimate")
-    ways = {"loop": "loop", "clean-up": penultimate, "pick-up": "pick-up", "after the last": "semi-finish"}
+    ways = ["loop", "semi-finish after penultimate", "pick-up", "semi-finish"]
     loop, clean, pick, last = (trial.row for trial in compare(profile, 30, tool, ways, depth=4).trials)
     assert loop["time"] <= clean["time"] <= pick["time"] + 1e-9
     assert clean["length"] == pytest.approx(pick["length"]) and clean["rapid"] <= pick["rapid"] + 0.7
@@ -162,6 +160,20 @@ def test_the_ranking_of_the_source(profile):
     if profile is SEMI_OPEN:  # cut by hand: three passes of 48, 44 and 42, and a flank of 14.142 in all
         assert pick["length"] == pytest.approx(48 + 44 + 42 + 10 * math.sqrt(2))
         assert last["length"] == pytest.approx(48 + 44 + 42 + 42 + 10 * math.sqrt(2)) and last["time"] > pick["time"]
+
+
+def test_both_forms_of_the_clean_up_are_compared_by_default():
+    """The source has it after the last or the penultimate pass, and its ranking holds for the latter.
+
+    By hand at 0.3 mm/rev, 800 rev/min and 10 m/min: passes of 48, 44 and 42 and a flank of 14.142; ways back at rapid."""
+    found = compare(SEMI_OPEN, 30, Tool(main_angle=95, auxiliary_angle=50), depth=4)
+    loop, after, pick, last = (found[name].row for name in ("loop", "semi-finish after penultimate", "pick-up", "semi-finish"))
+    assert [round(row["time"], 1) for row in (loop, after, pick, last)] == [34.4, 38.0, 38.1, 48.7]
+    assert after["length"] == pytest.approx(48 + 44 + 42 + 10 * math.sqrt(2)) == last["length"] - 42
+    assert "semi-finish after penultimate" in [trial.name for trial in compare(OPEN, 30, depth=4).trials]
+    assert "semi-finish after penultimate" not in [trial.name for trial in compare(CLOSED, 30, depth=4).trials]
+    ways = [compare(CLOSED, 30, schemes=[name])[0].path.end.tolist() for name in ("semi-finish", "semi-finish after penultimate")]
+    assert ways[0] == ways[1]  # in a closed zone both are one
 
 
 def test_time_at_the_feeds():
@@ -201,7 +213,8 @@ TOOLS = st.one_of(
               st.sampled_from([0, 45, 75, 90, 93, 95]), st.sampled_from([0, 15, 30, 52, 60, 85])),
     st.builds(lambda width: Tool(width=width), st.sampled_from([2, 3, 5, 40])),
 )  # fmt: skip
-WHOLE = ("pick-up", "semi-finish", "equidistant", "contour", "combined")  # schemes that leave nothing
+#: Schemes that leave nothing.
+WHOLE = ("pick-up", "semi-finish", "semi-finish after penultimate", "equidistant", "contour", "combined")
 
 
 def kept(profile, tool, depth):

@@ -1,5 +1,7 @@
 """A probe driven into the part by plain blocks: the run ends at the block, as the machine would."""
 
+import re
+
 import pytest
 
 import mnclab as mnc
@@ -35,6 +37,18 @@ def test_plain_blocks(moves, ok):
         assert "path obstructed: the probe touches the part near" in alarm.message
         assert found.program.line_text(alarm.span.line) == last
         assert found.toolpath.step.max() < found.programs[0].text.count("\n")
+
+
+@pytest.mark.parametrize(("unit", "factor"), [("INCH", 1.0), ("MM", 25.4)])
+def test_the_place_is_told_in_the_unit_of_the_program(unit, factor):
+    """A ball of 0.1 in meets the wall at X0 with its centre at X-0.1, on the way along Y0.4 and Z-0.4: as cycles tell theirs."""
+    tools = {7: mnc.Tool(radius=2.54, length=50, kind="probe")}
+    head = "TOOL CALL 7 Z\nL X-1 Y+0.4 Z+1 R0 FMAX\nL Z-0.4 FMAX\nL X+1 FMAX\n"
+    moves = re.sub(r"([XYZ][-+])([\d.]+)", lambda found: f"{found[1]}{float(found[2]) * factor:.3f}", head)
+    setup = mnc.Setup(tools=tools, part=PART, start=(-90, 0, 90))
+    found = mnc.run(f"BEGIN PGM P {unit}\n{moves}END PGM P {unit}\n", "tnc-620", setup)
+    x, y, z = map(float, re.search(r"near X(\S+) Y(\S+) Z(\S+) while positioning$", found.alarms[0].message).groups())
+    assert (x, y, z) == pytest.approx((-0.1 * factor, 0.4 * factor, -0.4 * factor), abs=0.01)
 
 
 def test_the_true_probe_counts():

@@ -1,5 +1,7 @@
 """Which control a program is for: its name, the file's suffix, the text; and no guessing when two fit."""
 
+import re
+
 import pytest
 
 import mnclab
@@ -151,10 +153,26 @@ def test_faults_in_a_program_of_another_control_say_so_once(control, other):
     assert all(f"looks like a program of {other}" in alarm.hint for alarm in said)
 
 
+@pytest.mark.parametrize(("name", "foreign"), [("jnc-t01", ("N", "%", "M2", "M30")), ("g43", ("G66 again",))])
+def test_what_is_no_function_of_a_control_by_itself_is_not_listed(name, foreign):
+    """JNC-T01, tables 1 and 3: neither N nor % nor M02 nor M30 is a word of it. A macro call is G66 alone."""
+    told = str(mnclab.help(name)), mnclab.controls[name]._repr_html_()
+    for code in foreign:
+        assert code in mnclab.controls[name].functions
+        assert not re.search(rf"^{code}  ", told[0], re.M) and f"<code>{code}</code>" not in told[1]
+    assert re.search(r"^G1 +", told[0], re.M) and "<code>G1</code>" in told[1]
+
+
+def test_a_code_and_a_setting_of_one_name_are_told_apart_as_they_are_written():
+    assert str(mnclab.help("G61", "g43")).startswith("G61  ")
+    assert "end of every motion" in str(mnclab.help("g61", "g43"))
+    assert "\ndiameter " in str(mnclab.help("Diameter", "jnc-t01"))  # no code is named so
+
+
 def test_help_without_a_control():
     for name, control in mnclab.controls.items():
         table = mnclab.help(name)
-        assert all(code in str(table) for code in (*control.functions, *control.cycles))
+        assert all(code in str(table) for code in (*control.listed, *control.cycles))
         assert str(mnclab.help(name, name)) == str(mnclab.help(control)) == str(table) and "<table>" in table._repr_html_()
         assert str(table).endswith(f'help("settings", "{name}")')
     with pytest.raises(Alarm, match="every control has its own settings: name it") as found:

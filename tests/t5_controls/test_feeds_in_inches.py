@@ -39,6 +39,12 @@ WORDS = {
     "older cycle": OLD + "CYCL DEF 1.5 F{}\nL X+1 Z+1 R0 FMAX M3\nCYCL CALL\n",
 }  # fmt: skip
 
+#: The feeds of all rows of those with more than one: F that of the word, numbers what else the blocks say (99 the TOOL CALL).
+ROWS: dict[str, tuple[float | str, ...]] = {
+    "rounding": (1, "F", 1), "chamfer": (1, "F", 1), "approach": (99, "F", "F", "F"), "call": (3, "F"),
+    "CYCL CALL POS": ("F", "F", 3), "retracting": (77, "F"), "GLOBAL DEF": (77, "F"),
+}  # fmt: skip
+
 
 def klartext(unit: str, blocks: str, **settings: object) -> mnc.Run:
     setup = mnc.Setup(tools=SETUP.tools, start=SETUP.start, settings=settings)
@@ -53,12 +59,25 @@ def feeds(run: mnc.Run) -> np.ndarray:
 
 
 @UNITS
-@pytest.mark.parametrize("blocks", WORDS.values(), ids=WORDS)
-def test_every_feed_word_of_the_tnc_620(blocks: str, unit: str, length: float, feed: float) -> None:
+@pytest.mark.parametrize("word", WORDS)
+def test_every_feed_word_of_the_tnc_620(word: str, unit: str, length: float, feed: float) -> None:
     for number, settings, counts in ((40.0, {}, feed), (4.0, {"inch_feed": "inch"}, length)):
-        run = klartext(unit, blocks.replace("{}", f"{number:g}"), **settings)
-        assert np.isclose(feeds(run), number * counts, rtol=1e-12).any()
+        run = klartext(unit, WORDS[word].replace("{}", f"{number:g}"), **settings)
+        rows = [number if one == "F" else float(one) for one in ROWS.get(word, ("F",))]
+        assert feeds(run) == pytest.approx([one * counts for one in rows], rel=1e-12)
 
+
+@UNITS
+def test_the_feed_of_a_touch(unit: str, length: float, feed: float) -> None:
+    """TCH PROBE 3: 100 tenths of an inch a minute are 10 in/min, 254 mm/min; from X-1 two to the right into a wall at X0."""
+    touch = "TCH PROBE 3.0 MEASURING\nTCH PROBE 3.1 Q1\nTCH PROBE 3.2 X ANGLE: +0\n"
+    touch += "TCH PROBE 3.3 ABST +2 F100 MB0.5 REFERENCE SYSTEM: 0\nTCH PROBE 3.4 ERRORMODE1\n"
+    text = f"BEGIN PGM A {unit}\nTOOL CALL 7 Z\nL X-1 Y+0.5 Z-0.1 R0 FMAX\n{touch}END PGM A {unit}\n"
+    probe = mnc.Tool(radius=0.2, kind="probe")
+    for settings, counts in (({}, feed), ({"inch_feed": "inch"}, length)):
+        part = mnc.part.box((0, 0, -30), (100, 60, 0))
+        run = mnc.run(text, "tnc-620", mnc.Setup(tools={7: probe}, part=part, start=(-50, 0, 100), settings=settings))
+        assert run.ok and run.toolpath.feed[run.toolpath.kind == Kind.PROBE] == pytest.approx([100 * counts])
 
 @UNITS
 def test_per_revolution_and_per_tooth(unit: str, length: float, feed: float) -> None:
@@ -94,7 +113,7 @@ def test_a_called_program_has_its_own_unit(unit: str, length: float, feed: float
 
 @UNITS
 def test_axes_that_turn_alone_count_degrees(unit: str, length: float, feed: float) -> None:
-    """The manual of the control: the feed of a rotary axis is in degrees a minute, in programs in inches too."""
+    """F is degrees a minute, as in programs in mm: that the unit of lengths does not touch it is a reading."""
     run = klartext(unit, "L C+90 R0 F30 M3\n")
     assert feeds(run) == pytest.approx([math.radians(30)])
 
@@ -139,9 +158,12 @@ def test_alarms_name_the_number_that_was_written(blocks: str, told: str) -> None
 
 def test_blocks_below_a_fault_are_judged_in_their_unit() -> None:
     """99999 tenths of an inch is within the range of Q206; 100001 is not, whatever stopped the run above."""
-    text = f"BEGIN PGM A INCH\nTOOL CALL 1 Z S1000\nL X\n{DRILL.format(99999)}{DRILL.format(100001)}END PGM A INCH\n"
-    found = [alarm.message for alarm in mnc.run(text, "tnc-620").alarms]
-    assert [message.rpartition(" ")[2] for message in found if "Q206" in message] in (["100001"], [])
+    for fault in ("L X\n", "L X+1 R0\n"):  # in reading, and in running: no feed
+        text = f"BEGIN PGM A INCH\nTOOL CALL 1 Z S1000\n{fault}{DRILL.format(99999)}{DRILL.format(100001)}END PGM A INCH\n"
+        first, second = mnc.run(text, "tnc-620").alarms
+        assert first.span is not None and first.span.line == 3 and second.span is not None
+        assert second.message.endswith("Q206 (feed rate for plunging) must be at least 0 and at most 99999.999, got 100001")
+        assert text.splitlines()[second.span.line - 1] == "Q206=100001 ~"
 
 
 def test_the_setting_has_its_source() -> None:

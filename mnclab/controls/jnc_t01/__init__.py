@@ -69,10 +69,14 @@ def together(control: Control, modal: Modal, keyword: str, words: list[Word]) ->
         raise Alarm(message, word.span, hint="write two blocks")
 
 
+#: Of `LATHES`, for a trial: drill and blades; all other cycles turn.
+TRIAL_TOOLS = {"G73": 6, "G74": 7, "G75": 3}
+
+
 def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
-    """A cycle in one block, before the face of the part."""
+    """A cycle in one block, before the face of the part, with a tool that suits it."""
     x = 0 if cycle.code == "G73" else 40
-    return f"G90 G94 F100\nT1 S800 M3\nG0 X{x} Z5\n{in_block(cycle, words)}\n"
+    return f"G90 G94 F100\nT{TRIAL_TOOLS.get(cycle.code, 1)} S800 M3\nG0 X{x} Z5\n{in_block(cycle, words)}\n"
 
 
 FUNCTIONS = feeds.FUNCTIONS | motion.FUNCTIONS

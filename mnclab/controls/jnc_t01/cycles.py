@@ -178,7 +178,7 @@ class Facing(LatheCycle):
     end_z: float = param("Z", "end of the cut along Z", note=INCREMENT, example=-75)
     taper_x: float | None = optional("U", "X of the bevel", "X of the start", 30)
     taper_z: float | None = optional("W", "Z of the bevel", "Z of the start", -60)
-    depth: float | None = pass_of("depth of cut", "the contour alone")
+    depth: float | None = pass_of("depth of cut", "the contour alone", 5)  # a pass at W: the wall is free up to there
 
     transverse = True
     check, moves = check_removal, removal

@@ -136,7 +136,7 @@ def machine_function(m: Machine, words: Words) -> None:
     m.warn(f"{words.code} is not in the table of this control: it has no effect", first_word(words))
 
 
-@FUNCTIONS("N %", OUTSIDE, phase="modes", modal=False, source="not in the manual")
+@FUNCTIONS("N %", OUTSIDE, phase="modes", modal=False, listed=False, source="not in the manual")
 def passed_over(m: Machine, words: Words) -> None:
     """Refused, or passed over, by the setting `foreign`."""
     foreign(m, words, "it is passed over")
@@ -145,7 +145,7 @@ def passed_over(m: Machine, words: Words) -> None:
 FOREIGN = "Foreign program end (setting foreign)"
 
 
-@FUNCTIONS("M2 M30", FOREIGN, phase="end", modal=False, leads_away=True, source="not in the manual")
+@FUNCTIONS("M2 M30", FOREIGN, phase="end", modal=False, leads_away=True, listed=False, source="not in the manual")
 def program_end(m: Machine, words: Words) -> None:
     """Refused, or the end of the program, by the setting `foreign`."""
     foreign(m, words, "the program ends")

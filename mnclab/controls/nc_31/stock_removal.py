@@ -86,10 +86,10 @@ class TransversePass(FromStart):
     """
 
     x: float = param("X", TO_DIAMETER, "0.01 mm on diameter", note=FROM_START, example=3000)
-    z: float = param("Z", "end of the pass", "0.01 mm", note=FROM_START, example=-2000)
+    z: float = param("Z", "end of the pass", "0.01 mm", note=FROM_START, example=-100)
     feed: float | None = feed_word("feed of the cycle")
     p1: float = size("size of the bevel along X", "0.01 mm on diameter", default=0, at_least=0, example=500)
-    p2: float = size("size of the bevel along Z", default=0, at_least=0, example=500)
+    p2: float = size("size of the bevel along Z", default=0, at_least=0, example=100)
     rapid_infeed: float = rapid_mark("infeed at rapid")
 
     transverse = True
@@ -183,10 +183,10 @@ class TransverseRoughing(FromStart):
     """
 
     x: float = param("X", TO_DIAMETER, "0.01 mm on diameter", note=FROM_START, example=3000)
-    z: float = param("Z", "end of the passes", "0.01 mm", note=FROM_START, example=-2000)
+    z: float = param("Z", "end of the passes", "0.01 mm", note=FROM_START, example=-500)
     feed: float | None = feed_word("feed of the roughing passes")
     stock_per_pass: float = size("stock removed per pass along Z", above=0, example=200)
-    bevel: float = size("size of the bevel along Z", default=0, at_least=0, example=500)
+    bevel: float = size("size of the bevel along Z", default=0, at_least=0, example=400)
     rapid_infeed: float = rapid_mark("infeed at rapid")
     to_contour: float = targets.own_mark("ends at point B (X1, Z) instead of the start")
     transverse = True

@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -243,6 +244,7 @@ def combined(profile: Contour, blank: float, depth: float, tool: Tool = POINT, *
 #: The schemes by name; `descent` takes its step where the others take the depth.
 SCHEMES: dict[str, Callable[..., Plan]] = {
     "loop": loop, "zigzag": zigzag, "descent": descent, "pick-up": pick_up, "semi-finish": semi_finish,
+    "semi-finish after penultimate": partial(semi_finish, after="penultimate"),
     "equidistant": equidistant, "contour": contour, "combined": combined,
 }  # fmt: skip
 

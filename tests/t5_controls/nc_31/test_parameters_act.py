@@ -125,10 +125,10 @@ def test_p1_on_radius():
 
 
 def test_the_bevel_of_g78():
-    """Along Z as the table says: (X40, Z-20) to (X30, Z-15). Along X, the mirror of G77: to X35 at Z-20, then to (X30, Z2)."""
+    """Along Z as the table says: (X40, Z-5) to (X30, Z-1). Along X, the mirror of G77: to X34 at Z-5, then to (X30, Z2)."""
     along_z, along_x = (motion_of("G78", beginning("G78"), g78_bevel=way) for way in ("along_z", "along_x"))
     ends = [path.end[path.kind == Kind.LINE][:, [0, 2]].round(9).tolist() for path in (along_z, along_x)]
-    assert ends[0][-2:] == [[15, -15], [15, 2]] and ends[1][-2:] == [[17.5, -20], [15, 2]]
+    assert ends[0][-2:] == [[15, -1], [15, 2]] and ends[1][-2:] == [[17, -5], [15, 2]]
 
 
 def test_a_threading_move():

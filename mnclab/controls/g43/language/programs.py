@@ -119,7 +119,7 @@ def call_after_motion(m: Machine, words: Words) -> None:
     m.set_modal("call", "G66 again")
 
 
-@FUNCTIONS("G66 again,", "Modal macro call, after a motion", group="call", phase="call", source=MACRO)
+@FUNCTIONS("G66 again,", "Modal macro call, after a motion", group="call", phase="call", listed=False, source=MACRO)
 def call_again(m: Machine, words: Words) -> None:
     """Not inside the macro itself."""
     kept = memory(m).macro

@@ -21,8 +21,12 @@ def asked(m: Machine, words: Words) -> Asked:
 
 @FUNCTIONS("FN 18,", "Reading system data", takes="target ID NR IDX", source="Klartext, not described")
 def read_system(m: Machine, words: Words) -> None:
-    """Program (ID10), machine (20), cycle (30), compensation (35, 200), tools (50, 60, 950), transformations (210, 220),
-    travel (230), positions (240, 270), M128 and its like (280, 310), time (320), datums and presets (500 to 530), run (992).
+    """Reads one of the system data: ID the group, NR the number in it, IDX the index.
+
+    Program (ID10), machine (20), cycle (30), tools (50, 60, 950),
+    compensation (35, 200), transformations (210, 220),
+    travel (230), positions (240, 270), M128 and its like (280, 310),
+    time (320), datums and presets (500 to 530), run (992).
     """
     m.variables.state_read = m.step
     m.flow.spend(2)

@@ -1,0 +1,52 @@
+"""What a form shows of a cycle of turning: with a tool that suits the cycle, where it cuts, and without a collision."""
+
+import pytest
+
+import mnclab
+from mnclab import Kind, Setup
+from mnclab.machine import trial
+from mnclab.runs.material import cutting_of
+
+#: The tool of each cycle, by its title in the catalogue; of a hole from the side there is no body of revolution.
+KINDS = {
+    "jnc-t01": {"G73": "drill", "G74": "face grooving", "G75": "grooving", "G77": "turning", "G78": "turning"},
+    "nc-31": {
+        "G70": "turning", "G71": "turning", "G77": "turning", "G78": "turning", "G72": "", "G73": "drill",
+        "G74": "face grooving", "G75": "grooving", "G31": "thread", "G33": "tap",
+    },
+}  # fmt: skip
+BARS = {"jnc-t01": 38, "nc-31": 19}  # just within the start points of the cycles, X40 and X4000 (a diameter)
+CASES = [(name, code) for name, kinds in KINDS.items() for code in kinds]
+ON_THE_AXIS = [("jnc-t01", "G73"), ("nc-31", "G73"), ("nc-31", "G33")]
+
+
+def shown(name, code):
+    """What a form runs at first, in a bar."""
+    control = mnclab.controls[name]
+    cycle = control.cycles[code]
+    values = {p.name: trial.first_value(p) for p in cycle.parameters() if p.required or trial.written_first(p)}
+    text = trial.program(control, cycle, values)
+    return mnclab.run(text, name, Setup(stock=mnclab.blank.cylinder(BARS[name], -120, 0)))
+
+
+def test_every_cycle_is_here():
+    assert KINDS.keys() == {name for name in mnclab.controls if mnclab.controls[name].lathe}
+    for name, kinds in KINDS.items():
+        assert kinds.keys() == mnclab.controls[name].cycles.keys()
+
+
+@pytest.mark.parametrize(("name", "code"), CASES)
+def test_the_tool_suits_the_cycle(name, code):
+    run = shown(name, code)
+    path, cutting = run.toolpath, cutting_of(run)
+    rows = [row for row, move in enumerate(path) if move.kind in (Kind.LINE, Kind.ARC)]
+    assert rows and {cutting.tool(row).kind for row in rows} == {KINDS[name][code]}
+    assert run.alarms == () and run.collisions() == ()
+    assert code == "G72" or run.workpiece().removed > 0
+
+
+@pytest.mark.parametrize(("name", "code"), ON_THE_AXIS)
+def test_a_hole_in_the_face_stands_on_the_axis(name, code):
+    path = shown(name, code).toolpath
+    cuts = path.kind == Kind.LINE
+    assert cuts.any() and (path.end[cuts, 0] == 0).all() and (path.start[cuts, 0] == 0).all()
