@@ -59,7 +59,11 @@ def contours(source: str | Path, tolerance: float = 0.01, layer: str | None = No
     try:
         drawing = ezdxf.readfile(str(source))
         scale = TO_MM.get(int(drawing.header.get("$INSUNITS", 0)), 1.0)
+        _entities(drawing.modelspace(), {}, 0)
         reading = _Reading(layer, tolerance / scale, FARTHEST / scale)
+        if layer is None:
+            reading.frozen = {each.dxf.name.lower() for each in drawing.layers if each.is_frozen()}
+            reading.off = {each.dxf.name.lower() for each in drawing.layers if each.is_off()}
         found = [contour for entity in drawing.modelspace() for contour in reading.contours(entity, None, 0)]
     except Alarm as alarm:
         raise Alarm(f"{source}: {alarm.message}", hint=alarm.hint) from None
@@ -72,7 +76,28 @@ def contours(source: str | Path, tolerance: float = 0.01, layer: str | None = No
     if reading.left:
         names = ", ".join(f"{count} {kind}" for kind, count in sorted(reading.left.items()))
         warnings.warn(f"{source}: {names} left out, which bound no area", stacklevel=2)
+    if reading.unseen:
+        names = ", ".join(f"{count} on {name!r}" for name, count in sorted(reading.unseen.items()))
+        told = f"{names} left out, which the drawing does not show (off, frozen or invisible; layer= reads a layer all the same)"
+        warnings.warn(f"{source}: {told}", stacklevel=2)
     return [Contour(contour.points * scale, contour.bulge, contour.closed) for contour in found]
+
+
+def _entities(space: Any, known: dict[str, int], depth: int) -> int:
+    """How many entities there are, those of blocks as often as they are inserted: an Alarm where they are too many to read."""
+    count = len(space)
+    for insert in space.query("INSERT"):
+        block, name = insert.block(), insert.dxf.name.lower()
+        if insert.mcount > MOST:
+            raise Alarm(f"{_named(insert)} places its block {insert.mcount} times, at most {MOST} are read")
+        if depth == DEEPEST:
+            raise Alarm(f"{_named(insert)} lies in {DEEPEST} blocks within each other")
+        if block is not None and name not in known:
+            known[name] = _entities(block, known, depth + 1)
+        count += insert.mcount * known.get(name, 0)
+    if count > MOST:
+        raise Alarm(f"the drawing has more than {MOST} entities, blocks counted as often as they are inserted")
+    return count
 
 
 class _Said(logging.Handler):
@@ -92,16 +117,16 @@ class _Reading:
     def __init__(self, layer: str | None, tolerance: float, farthest: float) -> None:
         self.layer, self.tolerance, self.farthest = layer, tolerance, farthest
         self.left: Counter[str] = Counter()
-        self.seen = 0
+        self.frozen, self.off = set[str](), set[str]()
+        self.unseen: Counter[str] = Counter()  # by layer
 
     def contours(self, entity: Any, within: str | None, depth: int) -> Iterator[Contour]:
         """The contours of an entity on its layer, or on that of the block it is `within`."""
         kind, layer = entity.dxftype(), entity.dxf.layer
         layer = within if within is not None and layer == "0" else layer
-        self.seen += 1
-        if self.seen > MOST:
-            raise Alarm(f"the drawing has more than {MOST} entities, blocks counted as often as they are inserted")
-        if kind == "INSERT":
+        if self._hidden(entity, kind, layer.lower()):
+            self.unseen[layer] += 1
+        elif kind == "INSERT":
             yield from self._block(entity, layer, depth)
         elif self.layer is not None and layer != self.layer:
             return
@@ -115,13 +140,15 @@ class _Reading:
                     raise Alarm(f"{_named(entity)} reaches farther than {FARTHEST / 1000:g} m")
                 yield contour
 
+    def _hidden(self, entity: Any, kind: str, layer: str) -> bool:
+        """Whether the drawing does not show it; of a block whose layer is off the other layers are seen."""
+        return self.layer is None and (entity.dxf.invisible or layer in self.frozen or (kind != "INSERT" and layer in self.off))
+
     def _block(self, insert: Any, layer: str, depth: int) -> Iterator[Contour]:
         if insert.block() is None:
             raise Alarm(f"{_named(insert)} places the block {insert.dxf.name!r}, which the file does not have")
         if depth == DEEPEST:
             raise Alarm(f"{_named(insert)} lies in {DEEPEST} blocks within each other")
-        if insert.mcount > MOST:
-            raise Alarm(f"{_named(insert)} places its block {insert.mcount} times, at most {MOST} are read")
         for each in insert.multi_insert() if insert.mcount > 1 else (insert,):
             for entity in each.virtual_entities(skipped_entity_callback=_skipped):
                 yield from self.contours(entity, layer, depth + 1)

@@ -171,6 +171,38 @@ def test_blocks_without_end(tmp_path):
         space.delete_entity(insert)
 
 
+def test_blocks_that_double_are_counted_before_they_are_read(tmp_path, monkeypatch):
+    """29 blocks with two of the one before: 2^29 circles, and not one of them is made."""
+    new, space = drawing()
+    new.blocks.new("B0").add_circle((0, 0), 1)
+    for k in range(1, 30):
+        block = new.blocks.new(f"B{k}")
+        for x in (0, 3):
+            block.add_blockref(f"B{k - 1}", (x, 0))
+    space.add_blockref("B29", (0, 0))
+    made = []
+    monkeypatch.setattr(dxf, "_contours", lambda *given: made.append(given) or ())
+    with pytest.raises(Alarm, match="more than 200000 entities"):
+        read(new, tmp_path)
+    assert not made
+
+
+def test_what_the_drawing_does_not_show_is_left_out_and_named(tmp_path):
+    """DXF reference: a layer is off where its colour is negative, frozen by flag 1; group code 60 makes an entity invisible."""
+    new, space = drawing()
+    new.layers.add("OFF").off()
+    new.layers.add("Frozen").freeze()
+    space.add_circle((0, 0), 5)
+    space.add_circle((20, 0), 4, dxfattribs={"layer": "OFF"})
+    space.add_circle((40, 0), 3, dxfattribs={"layer": "FROZEN"})
+    space.add_circle((60, 0), 2, dxfattribs={"invisible": 1})
+    space.add_blockref("ISLAND", (80, 0), dxfattribs={"layer": "Frozen"})
+    with pytest.warns(UserWarning, match="1 on '0', 1 on 'FROZEN', 1 on 'Frozen', 1 on 'OFF' left out"):
+        (only,) = read(new, tmp_path)
+    assert only.area == pytest.approx(25 * np.pi)
+    assert len(read(new, tmp_path, layer="OFF")) == 1
+
+
 def test_what_stays_open_is_named():
     square, line = area.rectangle(10, 10), area.Contour([(20, 0), (30, 0)], closed=False)
     with pytest.warns(UserWarning, match=r"1 open contour, from \(20.000, 0.000\) to \(30.000, 0.000\)"):

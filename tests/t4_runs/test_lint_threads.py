@@ -68,6 +68,12 @@ def test_a_thread_that_the_axes_follow_is_left_alone(control, text):
     assert not warned(text, control, FAST) and not warned(text, control, LATE)
 
 
+def test_the_lead_is_told_as_f_says_it():
+    """JNC-T01 8.8: the axis with the longer way goes F in a turn, 6 mm along X; along the slope it would be 6.7082."""
+    (alarm,) = warned(jnc("G32 X60 Z-20 F6", 1000, "G00 X10 Z5"), "jnc-t01", FAST)
+    assert "6000 mm/min along X" in alarm.message and alarm.message.endswith("its lead is never 6 mm")
+
+
 def test_the_speed_that_the_spindle_has_counts():
     """S2500 on a spindle of 1500 rev/min: 6000 mm/min."""
     slow = Limits(rapid=OLD.rapid, acceleration=500.0, spindle=1500.0)

@@ -47,7 +47,8 @@ def remarks(run: Run) -> Iterator[Alarm]:
         k = int(fast.argmax())
         axis = int((needs[k] / most).argmax())
         turning = f"{figure(float(abs(path.spindle[rows[k]])), 0)} rev/min"
-        lead = f"{figure(60 * speed[k] / min(abs(path.spindle[rows[k]]), limits.spindle) / unit, 4)} {short}"
+        along = 60 * speed[k] * share[k].max() / min(abs(path.spindle[rows[k]]), limits.spindle)  # as F says it
+        lead = f"{figure(along / unit, 4)} {short}"
         wanted, allowed = (f"{figure(60 * float(each) / unit, 1)} {short}/min" for each in (needs[k, axis], most[axis]))
         slower = float(abs(path.spindle[rows[k]]) * (most / np.maximum(needs[k], SMALL)).min())
         message = (
