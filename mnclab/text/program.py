@@ -74,7 +74,7 @@ class Word(NamedTuple):
 
     def __str__(self) -> str:
         value = self.value
-        shown = digits(value) if isinstance(value, float) else getattr(value, "text", value)
+        shown = digits(float(f"{value:.12g}")) if isinstance(value, float) else getattr(value, "text", value)
         if self.address.islower():  # a value that stands without an address in the text
             return f"{shown}"
         equals = "=" if self.address[:1] == "Q" and self.address[-1].isdigit() else ""
