@@ -74,12 +74,17 @@ class Word(NamedTuple):
 
     def __str__(self) -> str:
         value = self.value
-        shown = digits(float(f"{value:.12g}")) if isinstance(value, float) else getattr(value, "text", value)
+        shown = digits(value) if isinstance(value, float) else getattr(value, "text", value)
         if self.address.islower():  # a value that stands without an address in the text
             return f"{shown}"
         equals = "=" if self.address[:1] == "Q" and self.address[-1].isdigit() else ""
         before, after = ("", "@") if self.flag & AT_MARK else ("I" * self.incremental, "")
         return f"{before}{self.address}{equals}{'' if shown is None else shown}{after}"
+
+    @property
+    def rounded(self) -> str:
+        """For alarms: without what computing leaves behind the twelfth digit."""
+        return str(self._replace(value=float(f"{self.value:.12g}")) if isinstance(self.value, float) else self)
 
     def __repr__(self) -> str:
         return f"<Word {self}, line {self.span.line}, column {self.span.column}>"
