@@ -181,7 +181,7 @@ class Planner:
                         break  # a second one is a repeated address, no motion
                     claimed = function.still and owner in control.cycles
                     if claimed or (owner in control.functions and word.address not in control.codes):
-                        self.alarm(f"{owner} and {function.code} both take {word}", i, "write them in two blocks")
+                        self.alarm(f"{owner} and {function.code} both take {word.rounded}", i, "write them in two blocks")
                 elif not owner:
                     self.owner[i] = function.code
                     taken.append(i)
@@ -216,11 +216,11 @@ class Planner:
             alike = sum(self.words[k].address == word.address for k in own)
             if alike:
                 times = "once" if alike == 1 else f"{alike} times"
-                self.alarm(f"{command.code} takes {word.address} {times}: {word} is one too many", i)
+                self.alarm(f"{command.code} takes {word.address} {times}: {word.rounded} is one too many", i)
             what = command.what
             takes = what.takes if isinstance(what, Function) else [p.address for p in what.parameters() if not p.mark]
             whose = f", which takes {' '.join(takes).replace('*', '')}" if takes else ""
-            self.alarm(f"{word} does not belong to the command {command.code}{whose}", i)
+            self.alarm(f"{word.rounded} does not belong to the command {command.code}{whose}", i)
 
     def modal_motion(self, functions: list[Function]) -> None:
         """Axis words that are left belong to the modal motion."""
@@ -242,7 +242,7 @@ class Planner:
     def refuse_still(self, functions: list[Function], index: int) -> None:
         """A word of a motion beside a function that moves nothing."""
         if still := next((f.code for f in functions if f.still), None):
-            sentence = f"{still} stands in a block without motion, {self.words[index]} does not belong to it"
+            sentence = f"{still} stands in a block without motion, {self.words[index].rounded} does not belong to it"
             self.alarm(sentence, index, "write two blocks")
 
     def refuse_motion(self, functions: list[Function]) -> None:
@@ -256,7 +256,7 @@ class Planner:
         for _, what, _, head, takes in self.actions:
             if isinstance(what, Function) and (what.phase == "call" or what.moves and takes):
                 index = takes[0] if takes else head
-                sentence = f"{code} runs in a block of its own, {self.words[index]} does not belong to it"
+                sentence = f"{code} runs in a block of its own, {self.words[index].rounded} does not belong to it"
                 self.alarm(sentence, index, "write two blocks")
 
     def refuse_leftovers(self, functions: list[Function]) -> None:
@@ -273,9 +273,9 @@ class Planner:
             if word.address in self.control.axes:
                 self.refuse_still(functions, i)
                 if self.modal.motion == "":
-                    self.alarm(f"{word} has no motion: none is active", i, "write G0, G1, G2 or G3 in this block")
+                    self.alarm(f"{word.rounded} has no motion: none is active", i, "write G0, G1, G2 or G3 in this block")
             actors = " ".join(dict.fromkeys(a.code for a in self.actions if a.phase == self.phases["motion"]))
             whose = f" ({actors} does not take {word.address})" if actors else ""
-            self.alarm(f"{word} has no meaning in this block{whose}", i)
+            self.alarm(f"{word.rounded} has no meaning in this block{whose}", i)
         if left:
             self.alarm(f"{self.words[left[0]].address} is written twice in this block", left[0], "keep one of them")

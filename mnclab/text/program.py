@@ -81,6 +81,11 @@ class Word(NamedTuple):
         before, after = ("", "@") if self.flag & AT_MARK else ("I" * self.incremental, "")
         return f"{before}{self.address}{equals}{'' if shown is None else shown}{after}"
 
+    @property
+    def rounded(self) -> str:
+        """For alarms: without what computing leaves behind the twelfth digit."""
+        return str(self._replace(value=float(f"{self.value:.12g}")) if isinstance(self.value, float) else self)
+
     def __repr__(self) -> str:
         return f"<Word {self}, line {self.span.line}, column {self.span.column}>"
 

@@ -4,8 +4,8 @@
 
 Random entries by arcs on both sides, one or two lines, exits in all directions. Positions are mm. What LinuxCNC refuses is
 drawn again, and so are joints of less than 3 degrees, which it rounds off. Behind the entry the contour goes straight on or
-turns away from the tool: where it turns towards it, LinuxCNC shortens the arc of the entry, and the rows here lead on as at
-any other inside corner.
+turns away from the tool. leads_inside.json has those where it turns towards the tool, into a line or an arc: LinuxCNC
+shortens the arc of the entry there. What it refuses of them is kept with its sentence.
 """
 
 import math
@@ -14,7 +14,7 @@ import random
 from recording import ask, motion, save
 
 SEED = 41
-COUNT = 120
+COUNT, INSIDE = 120, 80
 BENT = math.radians(3)
 
 
@@ -47,6 +47,32 @@ def program(rng):
     return "\n".join([*head, *lines, "M2"]) + "\n"
 
 
+def inside(rng):
+    """A text whose contour turns towards the tool behind the arc of its entry."""
+    radius, code, side = rng.uniform(8, 30), rng.choice(("G2", "G3")), rng.choice(("G41.1", "G42.1"))
+    begin, sweep = rng.uniform(0, math.tau), rng.uniform(0.5, 3.0)
+    sense = 1 if code == "G3" else -1
+    centre = [round(-radius * math.cos(begin), 4), round(-radius * math.sin(begin), 4)]
+    at, heading, lines = [0.0, 0.0], begin + sense * math.pi / 2, []
+
+    def arc(code, sense, centre, sweep):
+        nonlocal at, heading
+        x, y, c, s = at[0] - centre[0], at[1] - centre[1], math.cos(sense * sweep), math.sin(sense * sweep)
+        way = f"I{-x:.9f} J{-y:.9f}"
+        at, heading = [centre[0] + x * c - y * s, centre[1] + x * s + y * c], heading + sense * sweep
+        lines.append(f"{code} X{at[0]:.9f} Y{at[1]:.9f} {way}")
+
+    arc(code, sense, centre, sweep)
+    heading += (1 if side == "G41.1" else -1) * rng.uniform(BENT, 2.4)
+    if rng.random() < 0.5:
+        bow, code, sense = rng.uniform(15, 60), *rng.choice((("G2", -1), ("G3", 1)))
+        arc(code, sense, [at[0] - sense * bow * math.sin(heading), at[1] + sense * bow * math.cos(heading)], rng.uniform(0.5, 2))
+    way = rng.uniform(30, 60)
+    lines.append(f"G1 X{at[0] + way * math.cos(heading):.9f} Y{at[1] + way * math.sin(heading):.9f}")
+    head = ["G21 G17 G90 G54 G64", "F200", "G0 X0 Y0", f"{side} D{rng.choice((4, 6, 10))}"]
+    return "\n".join([*head, *lines, "G40", "M2"]) + "\n"
+
+
 def main():
     rng, records = random.Random(SEED), []
     while len(records) < COUNT:
@@ -56,6 +82,13 @@ def main():
             lines = {k: k for k in range(1, 99)}
             records.append({"name": f"leads-{len(records)}", "text": text, "motion": motion(answer, lines)})
     save("leads.json", SEED, records)
+    rng, records = random.Random(SEED + 1), []
+    for k in range(INSIDE):
+        text = inside(rng)
+        answer = ask(text)
+        said = {} if answer["ok"] else {"error": answer["error"]}
+        records.append({"name": f"inside-{k}", "text": text, "motion": motion(answer, {k: k for k in range(1, 99)})} | said)
+    save("leads_inside.json", SEED + 1, records)
 
 
 if __name__ == "__main__":

@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 _LATHE = "it belongs to a lathe: choose control=\"jnc-t01\" or write the program for the mill"
-_PROBE = "not built: probing"
+_PROBE = "not built: probing; write the places that it would find as numbers"
 _WRITTEN = "not built: write the motion itself"
 
 REFUSED = (
-    dict.fromkeys(("G7", "G96", "G32", "G33", "G34", "G33.1", "G75", "G77", "G78", "G79"), _LATHE)
+    dict.fromkeys(("G71.1", "G71.2", "G72.1", "G72.2"), _LATHE)
+    | dict.fromkeys(("G7", "G96", "G32", "G33", "G34", "G33.1", "G75", "G77", "G78", "G79"), _LATHE)
     | dict.fromkeys(("G31", "G36", "G37", "G38.2", "G38.3", "G38.4", "G38.5"), _PROBE)
     | dict.fromkeys(("G12", "G13", "G47", "G101", "G100", "G150"), _WRITTEN)
     | dict.fromkeys(("G5.2", "G5.3", "G6.2"), "not built: splines")
     | dict.fromkeys(("G17.1", "G18.1", "G19.1"), "not built: planes of the axes U, V and W")
     | dict.fromkeys(("G43.2", "G43.4", "G43.5", "G53.1", "G68.2", "G68.3", "G234", "G254"),
                     "not built: the kinematics of the machine are not known")
+    | dict.fromkeys("UVW", "not built: an increment on lathes, an axis beside X, Y or Z on mills; write X, Y or Z")
     | {"M97": "not built: a subprogram from a block of this program on (Haas); M98 calls programs with O numbers",
        "G66.1": "not built: a macro call in every block"}
-    | {"G72": "not built: holes along a line (Haas)", "G84.2": "not built in this format: write M29 and G84",
+    | {"G72": "not built: holes along a line (Haas); on LinuxCNC a lathe roughs with it",
+       "G84.2": "not built in this format: write M29 and G84",
        "G84.3": "not built in this format: write M29 and G74"}
     | {"G7.1": "not built: the surface of a cylinder", "G12.1": _LATHE, "G13.1": _LATHE,
        "G45": _WRITTEN, "G46": _WRITTEN, "G48": _WRITTEN, "G62": "not built: slower inside corners",

@@ -45,6 +45,7 @@ class Memory(state.Memory):
     return_to: Word | None = None  # the block after a subprogram, where M99 names one
     macro: object = None  # that G66 calls
     returned: float | None = None  # by the last subprogram of O words
+    known: set[tuple[int, str]] = field(default_factory=set)  # subprograms of O words that were called or passed: file, label
 
     row: int = 1  # of the table of datums: G54
     set_aside: Offsets | None = None  # the shift that G92.2 has put aside

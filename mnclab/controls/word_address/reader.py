@@ -206,8 +206,6 @@ def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int, mark: Marks)
         found = f", found {following!r}" if following and not hint else ""
         if (letters := re.match(r"[A-Z]{4,}", text[at : min(stop, at + LONGEST_NAME)], re.IGNORECASE)) and not hint:
             hint = f"{letters.group().upper()} is no word of this control: a word is one letter and its number"
-        if re.match(r"#<_(hal|ini)\[", text[at + 1 : min(stop, at + 9)], re.IGNORECASE):
-            hint = "only the machine knows a HAL pin or INI entry: write its number"
         builder.alarm(f"{c.upper()} needs a number{found}", at, hint=hint)
     elif c in LATIN or c in DIGITS and c.isalpha():
         latin = f"write the Latin letter {LATIN[c]}" if c in LATIN else ""

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mnclab.geometry.curves import Curves
 from mnclab.geometry.offsets import Element, beside
-from mnclab.geometry.vectors import left
+from mnclab.geometry.vectors import dot, left
 from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.compensation.rules import STRAIGHT
 from mnclab.path.corners import Prolonged
@@ -76,6 +76,16 @@ class Elements(NamedTuple):
         t, p = (self.t_out[k], self.end[k]) if at_end else (self.t_in[k], self.start[k])
         radius = self.r[k] - s * np.sign(self.sweep[k]) * shift
         return Element(p + (shift * s)[:, None] * left(t), t, self.centre[k], radius)
+
+    def entry_arc(self, k: Index, shift: Array, s: Array) -> Element:
+        """The arcs from where entries k (m,) begin to their offset ends, which run into the contour as the programmed ones do:
+        about a point of the line from the end to the programmed centre, as far from both."""
+        t = self.t_out[k]
+        end = beside(self.end[k], t, shift * s)
+        chord, toward = self.start[k] - end, self.centre[k] - end
+        toward /= np.hypot(*toward.T)[:, None]
+        radius = dot(chord, chord) / (2 * dot(chord, toward))
+        return Element(end, t, end + toward * radius[:, None], radius)
 
     def boxes(self, k: Index, contour: Index) -> tuple[Array, Array]:
         """Low and high corners (m, 2) of boxes round elements k (m,); those of each contour (n,) lie far from all others."""

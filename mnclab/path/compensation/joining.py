@@ -72,6 +72,12 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
     straight &= (corner == STRAIGHT) | (along >= np.cos(ACUTE_TURN))
     inside = bent & ~out & ~change & ~lead & ~leave
     apart = np.zeros(len(c), dtype=bool)
+    k = np.flatnonzero(el.entry[b] & el.arc[b] & bent & ~out & ~leave)
+    if len(k):  # the arc of an entry is shortened
+        found = meet(el.entry_arc(c[k], R[k], s[k]), el.offset(d[k], False, R[k], s[k]), P[k])
+        met = np.isfinite(found[:, 0])
+        E[k[met]] = S[k[met]] = found[met]
+        apart[k[~met]] = True
     for which, code in ((straight, Rule.OUTSIDE_STRAIGHT), (inside, Rule.INSIDE)):
         k = np.flatnonzero(which)
         if len(k):

@@ -14,7 +14,7 @@ from mnclab.path.columns import Array, Index, Mask, gathered
 from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.fit import check
-from mnclab.path.compensation.rules import CORNER, SPIKE_TURN, TANGENT, Compensation, Report
+from mnclab.path.compensation.rules import CLEAR, CORNER, SPIKE_TURN, TANGENT, Compensation, Report
 from mnclab.path.corners import Open
 from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Kind, Rule
@@ -121,7 +121,7 @@ def _tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marke
     columns["sweep"][rows], columns["rule"][rows], columns["gouge"][rows] = found.sweep, found.rule, marked
     k = np.flatnonzero(el.entry & el.arc)
     if len(k):
-        centre, columns["sweep"][rows[k]] = _entry_arcs(el, k, found.end[k])
+        centre, columns["sweep"][rows[k]] = _entry_arcs(path, el, k, found.end[k])
         columns["centre"] = columns["centre"].copy()
         columns["centre"][rows[k]] = view.to_space(rows[k], _joined(centre, view.start[rows[k], 2]))
     labels = path.labels if CORNER in path.labels else (*path.labels, CORNER)
@@ -157,14 +157,20 @@ def _tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marke
     return path.through(np.concatenate([path.start[:1], ends]), columns, CORNER)
 
 
-def _entry_arcs(el: Elements, k: Index, end: Array) -> tuple[Array, Array]:
-    """Centres (m, 2) and sweeps (m,) of the arcs from where entries k (m,) begin to their offset ends, which run into the
-    contour as the programmed ones do: about a point of the line from the end to the programmed centre, as far from both."""
-    chord, toward = el.start[k] - end, el.centre[k] - end
-    toward /= np.hypot(*toward.T)[:, None]
-    centre = end + toward * (dot(chord, chord) / (2 * dot(chord, toward)))[:, None]
-    a, b, sense = el.start[k] - centre, end - centre, np.sign(el.sweep[k])
-    return centre, sense * ((sense * np.arctan2(cross(a, b), dot(a, b))) % (2 * np.pi))
+def _entry_arcs(path: Toolpath, el: Elements, k: Index, end: Array) -> tuple[Array, Array]:
+    """Centres (m, 2) and sweeps (m,) of the arcs of entries k (m,) up to where they end; an inside corner shortens them."""
+    arc, sense = el.entry_arc(k, el.R[k], el.s[k]), np.sign(el.sweep[k])
+    begin = el.start[k] - arc.c
+
+    def swept(to: Array) -> Array:
+        return np.asarray((sense * np.arctan2(cross(begin, to), dot(begin, to))) % (2 * np.pi))
+
+    sweep = swept(end - arc.c)
+    bad = (sweep > swept(arc.q - arc.c) + TANGENT) | (arc.r < 0) & (np.hypot(*(end - arc.q).T) > CLEAR)
+    if bad.any():
+        message = "the inside corner behind the entry leaves nothing of its arc"
+        raise PathFault(message, int(path.step[el.rows[k[int(np.argmax(bad))]]]), "take a smaller tool or a longer entry")
+    return arc.c, sense * sweep
 
 
 def _joined(flat: Array, w: Array) -> Array:

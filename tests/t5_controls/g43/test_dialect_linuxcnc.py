@@ -1,6 +1,8 @@
 """What LinuxCNC has otherwise, by its own answers (rs274 and gcode.parse of 2.9, written beside each), and half-typed O words."""
 
+import json
 import math
+from pathlib import Path
 
 import pytest
 from running import run
@@ -124,7 +126,7 @@ def test_a_subprogram_in_a_file(tmp_path):
     ("O1 cal\n", (1, "cal is no O word")),
     ("O1 call [1] G1\n", (1, "'G' is too much behind call")),
     ("O[1+1] sub\nO2 endsub\n", (1, "only a call may work out the name of sub")),
-    ("O1 sub\nO1 call\nO1 endsub\nO1 call\n", (2, "calls are nested deeper than 20")),
+    ("O1 sub\nO1 call\nO1 endsub\nO1 call\n", (2, "calls stand deeper inside each other than 9, the most on LinuxCNC")),
     ("O1 call" + " [1]" * 31 + "\nO1 sub\nO1 endsub\n", (1, "a call has at most 30 arguments")),
     ("#1=EXISTS[5]\n", (1, "EXISTS needs a variable in brackets")),
     ("O1 sub\n#1=", (2, "a value was expected")),
@@ -159,4 +161,46 @@ def test_hints_of_the_street(text, hint):
 
 def test_what_only_the_machine_knows():
     (alarm,) = mnclab.run("G21\nF#<_hal[torch.cut-feed]>\nM2\n", "g43", DIALECT).alarms
-    assert (alarm.span.line, alarm.hint) == (2, "only the machine knows a HAL pin or INI entry: write its number")
+    assert (alarm.span.line, alarm.hint) == (2, "write its number")
+    for text in ("#<most> = #<_ini[TOOLSENSOR]MAXPROBE>", "F #<_hal[a.b]>", "G1 X[2 * #<_hal[a.b]>]"):
+        (alarm,) = mnclab.run(f"G21\n{text}\nM2\n", "g43", DIALECT).alarms
+        assert (str(alarm.span.line), alarm.message) == ("2", "a HAL pin or an INI entry has a value on the machine alone")
+
+
+WORDS = json.loads((Path(__file__).parents[2] / "authorities" / "iso_words.json").read_text("utf-8"))["records"]
+
+
+def test_the_oriented_stop():
+    """R is an angle up to a full turn and P the direction, a whole number to 2; it moves nothing."""
+    for record in WORDS:
+        run = mnclab.run(record["text"], "g43", DIALECT)
+        assert run.ok == ("error" not in record), (record["text"], record.get("error"), run.alarms)
+        assert run.toolpath.motion.end.tolist() == [pytest.approx(row["to"]) for row in record["motion"]]
+    run = mnclab.run("G21 S500 M3\nM19 R90 P1\nM19 P2\n", "g43", DIALECT)
+    assert list(run.history["spindle angle"])[-2:] == [90, 0]
+
+
+@pytest.mark.parametrize(("text", "alarm"), [
+    ("G1 @5 ^30", "@ is a distance of polar coordinates on LinuxCNC: not built (write X and Y)"),
+    ("^30", "^ is an angle of polar coordinates on LinuxCNC: not built (write X and Y)"),
+    ("G38.2 Z-5", "G38.2 is refused: not built: probing; write the places that it would find as numbers"),
+    ("G72 Q100 X1", "G72 is refused: not built: holes along a line (Haas); on LinuxCNC a lathe roughs with it"),
+    ("G71.1 Q100 X1",
+     'G71.1 is refused: it belongs to a lathe: choose control="jnc-t01" or write the program for the mill'),
+    ("G8", 'G8 is refused: on LinuxCNC it makes X a radius, on a lathe (choose control="jnc-t01", or leave it out on a mill)'),
+    ("G71", "G71 is no unit on LinuxCNC but roughs a contour on a lathe (write G21 for the unit;"
+            " lathes have the control jnc-t01)"),
+    ("G103 P5", "G103 is refused: no code of LinuxCNC (leave it out; G64 P says how far a corner may be cut)"),
+    ("G5.1 X[.1+.2]", "G5.1 stands in a block without motion, X0.3 does not belong to it (write two blocks; the splines of"
+                      " LinuxCNC are not built: write lines or arcs)"),
+    ("O1 callsub", "callsub is no O word (write call)"),
+    ("G1 W5", "W is refused: not built: an increment on lathes, an axis beside X, Y or Z on mills; write X, Y or Z"),
+])  # fmt: skip
+def test_what_is_not_built_is_told(text, alarm):
+    (found,) = mnclab.run(f"G21 G90 F100\n{text}\nM2\n", "g43", DIALECT).alarms
+    assert f"{found.message}{f' ({found.hint})' if found.hint else ''}" == alarm
+
+
+def test_a_change_of_material_is_one_of_the_machine():
+    (found,) = mnclab.run("M190 P1\nM2\n", "g43", DIALECT).alarms
+    assert found.severity == "warning" and "M190 is a function of the machine's maker" in found.message

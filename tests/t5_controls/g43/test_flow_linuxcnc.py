@@ -46,8 +46,27 @@ def test_refusals_stand_where_linuxcnc_has_them():
     refused = [record for record in RECORDS if "error" in record]
     assert len(refused) >= 10 and len(RECORDS) >= 200
     for record in refused:
-        if "subroutine levels" not in record["error"]:
-            assert mnclab.run(record["text"], "g43", DIALECT).alarms[-1].span.line in (
-                record["line"] - 1,
-                record["line"],
-            )
+        alarm = mnclab.run(record["text"], "g43", DIALECT).alarms[-1]
+        if "subroutine levels" in record["error"]:
+            assert alarm.message.startswith("calls stand deeper")
+        else:
+            assert alarm.span.line in (record["line"] - 1, record["line"])
+
+
+CALLS = json.loads((FILE.parent / "iso_calls.json").read_text("utf-8"))["records"]
+
+
+@pytest.mark.parametrize("record", CALLS, ids=[record["name"] for record in CALLS])
+def test_calls(record):
+    """Nine calls stand inside each other at most, and a subprogram is passed once, before it is called."""
+    run = mnclab.run(record["text"], "g43", DIALECT)
+    assert run.ok == ("error" not in record), (record.get("error"), run.alarms)
+    expected = record["motion"]
+    assert [row[:2] for row in rows_of(run)] == [(row["kind"], row["line"]) for row in expected]
+    assert np.abs(np.array([end for *_, end in rows_of(run)]) - [row["to"] for row in expected]).max() <= 1e-9
+    if not run.ok:
+        (alarm,) = run.alarms
+        deep = "calls stand deeper inside each other than 9, the most on LinuxCNC"
+        assert (alarm.message == deep) == ("subroutine levels" in record["error"])
+        if alarm.message != deep:
+            assert alarm.span.line == record["line"] and "called or passed before" in alarm.message

@@ -54,3 +54,27 @@ def test_an_entry_by_an_arc_is_refused_elsewhere():
     small = Setup(tools={1: Tool(radius=21, number=1)}, settings={"dialect": "linuxcnc"})
     (alarm,) = [a for a in mnclab.run(text, "g43", small).alarms if a.severity == "alarm"]
     assert alarm.message == "the tool is not smaller than the arc of the entry"
+
+
+INSIDE = json.loads((Path(__file__).parents[2] / "authorities" / "leads_inside.json").read_text("utf-8"))["records"]
+
+
+def test_an_inside_corner_shortens_the_arc_of_an_entry():
+    """Where the arc would have to turn back, LinuxCNC goes nearly a full turn about a far centre: that is refused here."""
+    run_by_both = 0
+    for record in INSIDE:
+        run = mnclab.run(record["text"], "g43", Setup(settings={"dialect": "linuxcnc", "stopped_spindle": "accept"}))
+        expected = [row for row in record["motion"] if row["kind"] != "rapid"]
+        if "error" in record or not run.ok:
+            (alarm,) = [alarm for alarm in run.alarms if alarm.severity == "alarm"]
+            nothing = alarm.message == "the inside corner behind the entry leaves nothing of its arc"
+            assert "error" in record or nothing, (record["name"], alarm)
+            continue
+        run_by_both += 1
+        rows = list(run.toolpath.motion)
+        assert np.abs(np.array([row.end for row in rows]) - [row["to"] for row in expected]).max() < 1e-7, record["name"]
+        for row, other in zip(rows, expected, strict=True):
+            assert ("centre" in other) == (row.kind == mnclab.Kind.ARC)
+            if "centre" in other:
+                assert np.abs(row.centre - other["centre"]).max() < 1e-6 and abs(row.sweep - other["sweep"]) < 1e-6
+    assert run_by_both >= 75

@@ -16,6 +16,11 @@ CONTOURS = {
     "G5": "High-speed machining", "G5.1": "Contour control", "G8": "Look-ahead", "G103": "Look-ahead limited",
     "G187": "Smoothness",
 }  # fmt: skip
+LINUXCNC = {
+    "G5": ("on LinuxCNC it is a cubic spline, which is not built", "write lines or arcs"),
+    "G5.1": ("on LinuxCNC it is a quadratic spline, which is not built", "write lines or arcs"),
+    "G8": ("on LinuxCNC it makes X a radius, on a lathe", 'choose control="jnc-t01", or leave it out on a mill'),
+}
 
 SHARED = functions(remark, ISO, plane="7.1, example")
 FUNCTIONS = FunctionTable()
@@ -118,4 +123,5 @@ def normal_direction_off(m: Machine, words: Words) -> None:
 def contour_control(m: Machine, words: Words) -> None:
     """How fast and exactly the machine follows the path; the path is the same. On LinuxCNC these are other functions."""
     if m.settings["dialect"] == "linuxcnc":
-        m.alarm(f"{words.code} is refused: not built as LinuxCNC has it", first_word(words))
+        what, hint = LINUXCNC.get(words.code, ("no code of LinuxCNC", "leave it out; G64 P says how far a corner may be cut"))
+        m.alarm(f"{words.code} is refused: {what}", first_word(words), hint)

@@ -37,10 +37,21 @@ def dialect(m: Machine, words: Words) -> None:
 
 
 @FUNCTIONS("O SUB,", "Subprogram", takes="END", leads_away=True, source=SOURCE)
+def definition(m: Machine, words: Words) -> None:
+    """The blocks up to the end are passed over, once: a subprogram is obeyed where it is called."""
+    dialect(m, words)
+    place, word = (m.program, str(words["END"].value).removeprefix("after ")), words["END"]
+    if place in memory(m).known:
+        hint = "LinuxCNC refuses it: write the subprogram above its first call, or after M2"
+        m.alarm(f"the program comes to {place[1]}, which it has called or passed before", word, hint)
+    memory(m).known.add(place)
+    m.flow.jump(m, str(word.value), m.span_of(word))
+
+
 @FUNCTIONS("O SKIP,", "End of a branch", takes="END", leads_away=True, source=SOURCE)
 @FUNCTIONS("O BREAK,", "Leave a loop", takes="END", leads_away=True, source=SOURCE)
 def go_past(m: Machine, words: Words) -> None:
-    """The blocks up to the end are passed over: a subprogram is obeyed where it is called."""
+    """The blocks up to the end are passed over."""
     dialect(m, words)
     m.flow.jump(m, str(words["END"].value), m.span_of(words["END"]))
 
@@ -61,11 +72,13 @@ def call(m: Machine, words: Words) -> None:
     """Runs a subprogram with arguments in #1, #2, …; those that are not written are 0."""
     dialect(m, words)
     word, arguments = words["name"], words.all("argument")
+    programs.no_deeper(m, word)
     if len(arguments) > MOST_ARGUMENTS:
         m.alarm(f"a call has at most {MOST_ARGUMENTS} arguments", arguments[MOST_ARGUMENTS])
     values = {f"#{k}": number(m, each) or 0.0 for k, each in enumerate(arguments, 1)}
     name = word.value if isinstance(word.value, str) else f"{number(m, word) or 0.0:.10g}"
     index = place_of(m, name, word)
+    memory(m).known.add((index, f"O{name} sub"))
     kept, flow = memory(m), course(m)
     kept.returned = None
     with programs.own_level(m, lambda known: known in LOCAL or programs.is_named(known), values), flow.inside(m, index):

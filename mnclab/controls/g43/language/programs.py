@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 from mnclab.controls.g43.language import sections
 from mnclab.controls.g43.language.macros import number
+from mnclab.controls.g43.reading.formulas import LINUXCNC
 from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address.motion import first_word
 from mnclab.machine.control import FunctionTable, Words
@@ -28,6 +29,7 @@ FUNCTIONS = FunctionTable()
 SOURCE = "Fanuc, LinuxCNC"
 MACRO = "Macro B"
 MOST = 9999  # calls by one word
+DEEPEST = 9  # calls inside each other on LinuxCNC, whose interpreter has ten levels, the main program's included
 LOCAL = frozenset(f"#{n}" for n in range(1, 34))
 #: The variables of arguments; I, J and K of the second to tenth time have #7 to #33.
 ARGUMENTS = dict(zip("ABCIJKDEFHMQRSTUVWXYZ", (*range(1, 10), 11, 13, *range(17, 27)), strict=True))
@@ -199,6 +201,7 @@ def is_named(name: str) -> bool:
 
 def run(m: Machine, program: int, times: int, code: str, word: Word | None) -> None:
     """Run a program a number of times; M99 P ends that."""
+    no_deeper(m, word)
     for _ in range(times):
         index, label = found(m, program, code, word)
         flow = course(m)
@@ -214,6 +217,12 @@ def run(m: Machine, program: int, times: int, code: str, word: Word | None) -> N
             memory(m).return_to = None
             flow.jump(m, sections.block_label(m, m.value(place), word or place), m.span_of(word))
             return
+
+
+def no_deeper(m: Machine, word: Word | None) -> None:
+    """LinuxCNC has a limit of its own for calls inside each other; repeats do not count."""
+    if m.settings["macros"] == LINUXCNC and sum(not loop.times for loop in course(m).loops.running) >= DEEPEST:
+        m.alarm(f"calls stand deeper inside each other than {DEEPEST}, the most on LinuxCNC", word)
 
 
 def whole(m: Machine, word: Word, most: int) -> int:

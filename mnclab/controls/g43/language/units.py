@@ -10,6 +10,7 @@ from mnclab.machine.machine import Machine
 FUNCTIONS = FunctionTable()
 INCH = 25.4
 UNITS = {"G20": INCH, "G70": INCH, "G21": 1.0, "G71": 1.0}
+LATHE = {"G70": "finishes", "G71": "roughs"}  # on LinuxCNC
 NAMES = {code: "Inches" if factor == INCH else "Millimetres" for code, factor in UNITS.items()}
 
 
@@ -23,6 +24,9 @@ def start(m: Machine) -> None:
 @FUNCTIONS(" ".join(UNITS), NAMES, group="unit", phase="plane", power_on="G21", source=ISO)
 def unit(m: Machine, words: Words) -> None:
     """What lengths and feeds of the program count in from this block on; the feed keeps its speed."""
+    if words.code in LATHE and m.settings["dialect"] == "linuxcnc":
+        hint = f"write G2{int(words.code == 'G71')} for the unit; lathes have the control jnc-t01"
+        m.alarm(f"{words.code} is no unit on LinuxCNC but {LATHE[words.code]} a contour on a lathe", first_word(words), hint)
     factor = UNITS[words.code]
     if factor != m.variable_unit:
         refuse_change(m, "unit", first_word(words))

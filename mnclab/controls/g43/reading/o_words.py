@@ -67,7 +67,8 @@ class OWords:
         if kind not in KEYWORDS or computed and kind != "call":
             self.block(start, "", skip)
         if kind not in KEYWORDS:
-            raise Fault(f"{keyword.group(1)} is no O word", place, length, hint(kind, KEYWORDS))
+            meant = next((f"write {word}" for word in KEYWORDS if kind.startswith(word)), "")
+            raise Fault(f"{keyword.group(1)} is no O word", place, length, hint(kind, KEYWORDS) or meant)
         if computed and kind != "call":
             raise Fault(
                 f"only a call may work out the name of {kind}", at, place + length - at, "write a number or O<name>"

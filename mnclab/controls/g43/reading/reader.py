@@ -30,6 +30,7 @@ BEFORE = " \t\ufeff\0"  # what may stand before a line: punched tapes begin with
 END = "\r\n\0"
 END_OF_TEXT = "\x1a"  # of old disks
 AXES, GOING = "XYZ", {1.0, 2.0, 3.0, 90.0, 91.0}
+POLAR = {"@": "a distance of polar coordinates", "^": "an angle of polar coordinates"}
 CALLS = (65.0, 66.0)  # G words with arguments
 _SAID = re.compile(r"[^\s\0\x1a%]")
 _SKIP = re.compile(r"/[ \t]*([1-9])?(?!\d)")
@@ -61,6 +62,8 @@ def other_word(builder: ProgramBuilder, text: str, at: int, stop: int) -> int:
             return number.end()
     elif text[at].isascii() and text[at].isalpha():
         address, value = text[at].upper(), skip_blanks(text, at + 1, stop)
+    elif text[at] in POLAR:
+        raise Alarm(f"{text[at]} is {POLAR[text[at]]} on LinuxCNC: not built", builder.span(at), hint="write X and Y")
     else:
         return -1
     end = end_of_operand(text[value:stop], 0)

@@ -15,7 +15,7 @@ from mnclab.text.program_builder import ProgramBuilder
 
 HEAD = re.compile(r"#|(?:IF|WHILE|GOTO|DO|END|THEN|ELSE)(?![A-Z])", re.IGNORECASE)
 _NUMBER = re.compile(r"[ \t]*(\d{1,9}(?:\.0*)?)(?![.\d])")
-_VARIABLE = re.compile(r"#[ \t]*(?:\d{1,9}|<[^<>\[\]#]{0,80}>)")
+_VARIABLE = re.compile(r"#[ \t]*(?:\d{1,9}|<_(?:hal|ini)\[[^<>#]{0,80}>|<[^<>\[\]#]{0,80}>)", re.IGNORECASE)
 _SIGNS = re.compile(r"[-+ \t]*")
 _WORD = {word: re.compile(rf"[ \t]*{word}", re.IGNORECASE) for word in ("THEN", "GOTO", "DO", "=")}
 _OPERATOR = re.compile(
