@@ -23,6 +23,7 @@ _TOKEN = re.compile(
     r"|(MOD|AND|XOR|OR|EQ|NE|GT|GE|LT|LE|A?(?:SIN|COS|TAN)|SQRT?|ABS|BIN|BCD|ROUND|RND|FIX|FUP|LN|EXP|POW|EXISTS)|(\*\*|[-+*/,\[\]]))",
     re.IGNORECASE | re.ASCII,
 )
+_VARIABLE = "a variable is a number, #101, or a name of LinuxCNC, #<depth>"
 KINDS = ("number", "variable", "name", "mark")
 FANUC, LINUXCNC = "fanuc", "linuxcnc"
 ORDINARY = 999  # variables above it belong to the control
@@ -175,7 +176,7 @@ def fetch(variables: Mapping[str, Any], token: Token, dialect: str) -> float | N
 
 def parse(text: str, span: Span) -> Formula:
     """Read a formula that starts at `span`; an Alarm at the first character that is no part of one."""
-    tokens = split(text, _TOKEN, KINDS, span, "an expression", _spelt)
+    tokens = split(text, _TOKEN, KINDS, span, "an expression", _spelt, _VARIABLE)
     orders = {dialect: _ordered(tokens, levels) for dialect, levels in LEVELS.items()}
     return Formula(tuple(tokens), text.strip(), 1.0, orders[FANUC], tuple(orders.items()), _unclear(tokens))
 
