@@ -27,8 +27,9 @@ class Token(NamedTuple):
 
 
 def split(
-    text: str, pattern: re.Pattern[str], kinds: tuple[str, ...], span: Span, what: str, spell: Callable[[str], str] = str
-) -> list[Token]:
+    text: str, pattern: re.Pattern[str], kinds: tuple[str, ...], span: Span, what: str, spell: Callable[[str], str] = str,
+    hint: str = "",
+) -> list[Token]:  # fmt: skip
     """The tokens of a text that starts at `span`; every group of the pattern is one of the kinds.
 
     `spell` gives a token the letters of the tables. An Alarm at the first character that is no part of `what`.
@@ -39,7 +40,7 @@ def split(
         if match is None:
             rest = text[at:].lstrip()
             place = span._replace(column=span.column + len(text) - len(rest), length=1)
-            raise Alarm(f"{rest[:1]!r} is no part of {what}", place)
+            raise Alarm(f"{rest[:1]!r} is no part of {what}", place, hint=hint)
         group = match.lastindex or 1
         part = match[group]
         place = span._replace(column=span.column + match.end() - len(part), length=len(part))

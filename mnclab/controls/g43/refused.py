@@ -10,12 +10,13 @@ REFUSED = (
     dict.fromkeys(("G71.1", "G71.2", "G72.1", "G72.2"), _LATHE)
     | dict.fromkeys(("G7", "G96", "G32", "G33", "G34", "G33.1", "G75", "G77", "G78", "G79"), _LATHE)
     | dict.fromkeys(("G31", "G36", "G37", "G38.2", "G38.3", "G38.4", "G38.5"), _PROBE)
-    | dict.fromkeys(("G12", "G13", "G47", "G101", "G100", "G150"), _WRITTEN)
+    | dict.fromkeys(("G12", "G13", "G47", "G150"), _WRITTEN)
     | dict.fromkeys(("G5.2", "G5.3", "G6.2"), "not built: splines")
     | dict.fromkeys(("G17.1", "G18.1", "G19.1"), "not built: planes of the axes U, V and W")
     | dict.fromkeys(("G43.2", "G43.4", "G43.5", "G53.1", "G68.2", "G68.3", "G234", "G254"),
                     "not built: the kinematics of the machine are not known")
-    | dict.fromkeys("UVW", "not built: an increment on lathes, an axis beside X, Y or Z on mills; write X, Y or Z")
+    | dict.fromkeys("UVW", "increments of a lathe, or axes that are not built: write X, Y or Z under G91")
+    | {"G101": "the mirror image of Haas: write G51.1 and the axes with 0", "G100": "no mirror image, of Haas: write G50.1"}
     | {"M97": "not built: a subprogram from a block of this program on (Haas); M98 calls programs with O numbers",
        "G66.1": "not built: a macro call in every block"}
     | {"G72": "not built: holes along a line (Haas); on LinuxCNC a lathe roughs with it",

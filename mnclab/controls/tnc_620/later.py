@@ -38,7 +38,7 @@ OLDER = {
     132: "smoother acceleration", 133: "end of M132", 142: "erasing modal information", 150: "limit switches not heeded",
 }  # fmt: skip
 
-BUILDER = "a cycle of the machine tool builder, whose manual alone describes it"
+BUILDER = "a cycle of the machine tool builder, whose manual alone describes it: leave it out where it moves nothing"
 
 #: Forms that do not exist, although their neighbours do.
 NOT_THERE = {

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -38,6 +38,7 @@ class Marks(NamedTuple):
     Without `labels` N is an address like others. Without `skip` a slash at the start of a line means nothing. A line
     that begins with one of the characters of `headers` is one word of that address, without a number. `other` reads a word
     that is no letter with a number, in a text from one place to another: its end, or -1 if it is none; it may raise an Alarm.
+    `hints` say of characters without a meaning what to write in their place.
     """
 
     comment: re.Pattern[str]
@@ -45,6 +46,7 @@ class Marks(NamedTuple):
     skip: bool = True
     headers: str = ""
     other: Other | None = None
+    hints: Mapping[str, str] = {}
 
 
 def reader(
@@ -202,7 +204,7 @@ def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int, mark: Marks)
         builder.alarm("',' is no part of a number", at, hint="the decimal mark is a point")
     elif c.isascii() and c.isalpha():
         following = text[at + 1 : stop].lstrip(" \t")[:1]
-        hint = _digit_meant(text, at, stop)
+        hint = _digit_meant(text, at, stop) or (f"write {c.upper()}0, a point alone is no number" if following == "." else "")
         found = f", found {following!r}" if following and not hint else ""
         if (letters := re.match(r"[A-Z]{4,}", text[at : min(stop, at + LONGEST_NAME)], re.IGNORECASE)) and not hint:
             hint = f"{letters.group().upper()} is no word of this control: a word is one letter and its number"
@@ -219,7 +221,7 @@ def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int, mark: Marks)
     else:
         pattern = mark.comment.pattern
         foreign = f"a comment begins with {pattern if len(pattern) == 1 else '//'}" if c in "(;'" else ""
-        builder.alarm(f"{c!r} has no meaning here", at, hint=foreign)
+        builder.alarm(f"{c!r} has no meaning here", at, hint=mark.hints.get(c, foreign))
 
 
 def _digit_meant(text: str, at: int, stop: int) -> str:

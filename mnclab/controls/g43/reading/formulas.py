@@ -24,6 +24,7 @@ _TOKEN = re.compile(
     re.IGNORECASE | re.ASCII,
 )
 _MACHINE = re.compile(r"#[ \t]*<[ \t]*_(?:hal|ini)[ \t]*\[", re.IGNORECASE)
+_VARIABLE = "a variable is a number, #101, or a name of LinuxCNC, #<depth>"
 KINDS = ("number", "variable", "name", "mark")
 FANUC, LINUXCNC = "fanuc", "linuxcnc"
 ORDINARY = 999  # variables above it belong to the control
@@ -179,7 +180,7 @@ def parse(text: str, span: Span) -> Formula:
     if found := _MACHINE.search(text):
         place = span._replace(column=span.column + found.start(), length=len(found.group()) - 1)
         raise Alarm("a HAL pin or an INI entry has a value on the machine alone", place, hint="write its number")
-    tokens = split(text, _TOKEN, KINDS, span, "an expression", _spelt)
+    tokens = split(text, _TOKEN, KINDS, span, "an expression", _spelt, _VARIABLE)
     orders = {dialect: _ordered(tokens, levels) for dialect, levels in LEVELS.items()}
     return Formula(tuple(tokens), text.strip(), 1.0, orders[FANUC], tuple(orders.items()), _unclear(tokens))
 

@@ -40,6 +40,7 @@ _NUMBER = re.compile(r"(?:O|:)[ \t]*(\d{1,8})(?![\d.])", re.IGNORECASE)
 _CORNER = re.compile(r",[ \t]*([CR])[ \t]*(?=[-+.\d#\[])", re.IGNORECASE)
 _PLAIN = re.compile(r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)")
 _BARE = re.compile(rf"[-+ \t]*({'|'.join(sorted(formulas.NAMES, reverse=True))})[ \t]*(?=\[)", re.IGNORECASE)
+_APART = re.compile(r"([-+])[ \t]++(?=[\d.])")  # blanks mean nothing to Fanuc and LinuxCNC: Z - 3.0
 _OVER = re.compile(r"[ \t]*/[ \t]*(?=\[)")
 _CALL = re.compile(r"G[ \t]*0*6[56](?![\d.])", re.IGNORECASE)
 _PRINTED = re.compile(r"(?:POPEN|PCLOS|DPRNT|BPRNT)(?![A-Z])", re.IGNORECASE)
@@ -66,6 +67,9 @@ def other_word(builder: ProgramBuilder, text: str, at: int, stop: int) -> int:
         raise Alarm(f"{text[at]} is {POLAR[text[at]]} on LinuxCNC: not built", builder.span(at), hint="write X and Y")
     else:
         return -1
+    if (sign := _APART.match(text, value, stop)) and (number := _PLAIN.match(text, sign.end(), stop)) and address not in "NO":
+        builder.word(address, float(sign.group(1) + number.group()), at, number.end() - at)
+        return number.end()
     end = end_of_operand(text[value:stop], 0)
     if end < 0 and (bare := _BARE.match(text, value, stop)):  # LinuxCNC: Y SQRT[4]
         end = end_of_operand(text[value:stop], bare.end() - value)
@@ -80,7 +84,17 @@ def other_word(builder: ProgramBuilder, text: str, at: int, stop: int) -> int:
     return value + end
 
 
-MARKS = Marks(re.compile(COMMENT), other=other_word)
+_SENDER = "a line for Grbl or TinyG itself, no block: leave it out"
+_COMMENT = "a comment stands in round brackets"
+_FORMULA = "a formula stands in square brackets behind its letter: F[1000*60]"
+MARKS = Marks(
+    re.compile(COMMENT),
+    other=other_word,
+    hints={
+        "$": _SENDER, "?": _SENDER, "*": _FORMULA, "=": f"{_FORMULA}; a variable is #101=5",
+        "[": f"{_COMMENT}, {_FORMULA}", "/": f"{_COMMENT}, block skip at the beginning",
+    },
+)  # fmt: skip
 
 
 class _Reader:

@@ -205,7 +205,7 @@ class _Line:
             at = self.blanks()
             stop = self.next_target(at)
             if stop <= at:
-                raise Fault("a value was expected", at)
+                raise Fault("a value was expected", at, hint="a number, a variable or a function of this control: SQRT[#1]")
             value = self.formula(at, stop)
             self.at = at + len(self.line[at:stop].rstrip())
             self.add("value", value, at)
