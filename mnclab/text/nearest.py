@@ -7,7 +7,9 @@ difflib, calls G4 and G1 near G144.)
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
+from functools import lru_cache
 
 #: Cyrillic letters that look like Latin ones.
 LATIN = dict(zip("АВСЕНКМОРТХУІавсенкмортхуі", "ABCEHKMOPTXYIabcehkmoptxyi", strict=True))
@@ -30,7 +32,7 @@ def nearest(word: str, known: Iterable[str], most: int = 3, slips: float | None 
     for place, candidate in enumerate(known):
         if abs(len(word) - len(candidate)) > allowed:  # as many characters are too many or missing
             continue
-        distance = slips_between(word, candidate)
+        distance = slips_between(word, candidate, allowed)
         if distance <= allowed:
             shared = next((k for k, (a, b) in enumerate(zip(word, candidate, strict=False)) if a != b), len(word))
             found.append((distance, -shared, place, candidate))
@@ -39,14 +41,20 @@ def nearest(word: str, known: Iterable[str], most: int = 3, slips: float | None 
 
 def hint(word: str, known: Iterable[str], most: int = 3, slips: float | None = None) -> str:
     """The nearest known words as the hint of an alarm; empty if there are none."""
+    return _hint(word, tuple(known), most, slips)
+
+
+@lru_cache(1000)
+def _hint(word: str, known: tuple[str, ...], most: int, slips: float | None) -> str:
     near = nearest(word, known, most, slips)
     return f"near: {', '.join(near)}" if near else ""
 
 
-def slips_between(one: str, other: str) -> float:
+def slips_between(one: str, other: str, most: float = math.inf) -> float:
     """How many slips make one word of the other, whatever the case of their letters.
 
     The least cost of making the first i characters of one the first j of the other, row by row (Damerau, Levenshtein).
+    More than `most` are not counted to the end.
     """
     rows = [[float(j) for j in range(len(other) + 1)]]
     for i, a in enumerate(one, 1):
@@ -56,6 +64,8 @@ def slips_between(one: str, other: str) -> float:
             if i > 1 and j > 1 and a != b and _exchanged(a, other[j - 2]) == _exchanged(one[i - 2], b) == 0:
                 cost = min(cost, rows[-2][j - 2] + SWAPPED)
             row.append(cost)
+        if min(row) > most and min(rows[-1]) > most:  # later rows build on these two
+            return math.inf
         rows.append(row)
     return rows[-1][-1]
 

@@ -2,18 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
+from functools import wraps
 from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.text.alarm import Alarm, Alarms, Span
+from mnclab.text.alarm import ALARM, Alarm, Alarms, Span
 from mnclab.text.program import EXPRESSION, NONE, NUMBER, TEXT, Program, span_at
+from mnclab.text.words import characters, line_starts
 
 CHUNK = 65_536  # words that a builder holds one by one
 MOST_WORDS = 1000  # of a block: what has more is no block of any control, and a long line must not fill the memory
+MOST_FAULTS = 5000  # of a text, which is read no further: each takes its time, and nobody mends so many
 FEW = 1000  # stretches of blocks that are copied one after the other
+
+
+class TooManyFaults(Exception):
+    """A text has more than `MOST_FAULTS`; in which line the first beyond stands."""
+
+    def __init__(self, line: int) -> None:
+        super().__init__(line)
+        self.line = line
 
 
 class ProgramBuilder:
@@ -32,7 +45,7 @@ class ProgramBuilder:
         self.before = 0  # how many words those are
         self.blocks: list[tuple[int, int, int, bool, int]] = []  # offset, keyword, skip, plain, first word
         self.payload: list[Any] = []
-        self.alarms = Alarms()
+        self.alarms, self.faults = Alarms(), 0
         self.labels: dict[str, int] = {}  # jump target -> offset of its block
         self.full = -1  # where the block begins that was told to be too long
 
@@ -41,7 +54,14 @@ class ProgramBuilder:
 
     def alarm(self, message: str, offset: int, length: int = 1, hint: str = "", severity: str = "alarm") -> None:
         """Note a fault of the text; reading goes on."""
-        self.alarms.append(Alarm(message, self.span(offset, length), severity, hint))
+        self.note(Alarm(message, self.span(offset, length), severity, hint))
+
+    def note(self, alarm: Alarm) -> None:
+        """Note a fault; one too many ends the reading."""
+        self.alarms.append(alarm)
+        self.faults += alarm.severity == ALARM
+        if self.faults > MOST_FAULTS:
+            raise TooManyFaults(alarm.span.line if alarm.span else 1)
 
     def block(self, offset: int, keyword: str = "", skip: int = 0, plain: bool = False) -> None:
         """Begin a block at `offset`; `skip` is the number of the switch by which it is passed over."""
@@ -121,6 +141,29 @@ class ProgramBuilder:
             untold=self.alarms.untold,
             labels={name: int(np.searchsorted(start, at)) for name, at in self.labels.items()},
         )  # fmt: skip
+
+
+def readable(read: Callable[[str, str], Program]) -> Callable[[str, str], Program]:
+    """A reader that reads a text only down to the line in which it has more than `MOST_FAULTS` faults, and says so there."""
+
+    @wraps(read)
+    def readable_part(text: str, name: str = "program") -> Program:
+        part, line = text, 0
+        while True:
+            try:
+                program = read(part, name)
+                break
+            except TooManyFaults as stop:
+                starts = line_starts(characters(text))
+                line = max(stop.line, line // 2)  # what is found last, as labels of two blocks, may stand far above
+                part = text[: int(starts[line - 1])]
+        if not line:
+            return program
+        message = f"the text has more than {MOST_FAULTS} faults and is not read from this line on"
+        alarms = (*program.alarms, Alarm(message, Span(line, 1)))
+        return replace(program, text=text, line_starts=starts, alarms=alarms)
+
+    return readable_part
 
 
 def first_words(size: NDArray[Any]) -> NDArray[np.int32]:

@@ -53,7 +53,7 @@ def test_alarms_of_a_kind_are_counted_after_the_first_thousand():
 @pytest.mark.parametrize("wrong", WRONG)
 def test_thousands_of_wrong_lines(control, wrong):
     """Every line has its alarm or is counted; a card is short; the run stops at the first faulty line."""
-    lines = 3000
+    lines = 2000
     program = mnclab.read(WRONG[wrong] * lines, control)
     faults = sum(alarm.count for alarm in program.alarms)
     if not faults or (control, wrong) == ("nc-31", "blocks"):

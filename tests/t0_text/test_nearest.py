@@ -1,5 +1,7 @@
 """The words that a misspelt one was meant to be; slips are counted by hand."""
 
+import math
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -38,3 +40,9 @@ def test_the_nearest_come_first_and_nothing_nearer_is_left_out(wrong, known):
 
 def test_a_hint_names_them_or_is_empty():
     assert hint("G8O", ["G83", "G80"]) == "near: G80, G83" and hint("tool", ["datums"]) == ""
+
+
+@given(word, word, st.sampled_from([1.0, 2.0, 3.5]))
+def test_slips_beyond_a_bound_are_not_counted(one, other, most):
+    every = slips_between(one, other)
+    assert slips_between(one, other, most) in ((every,) if every <= most else (every, math.inf))

@@ -7,6 +7,7 @@ import pytest
 
 import mnclab
 from mnclab.text.nearest import nearest
+from mnclab.text.program_builder import MOST_FAULTS
 
 pytestmark = pytest.mark.deep
 
@@ -62,3 +63,20 @@ def test_lines_with_comments_are_read_in_proportion_to_their_number(control):
     begin = time.thread_time()
     mnclab.read(tail, control)
     assert time.thread_time() - begin < 4 * alone + 4  # each line looked for a carriage return to the end of the text
+
+
+FAULTY = {"mnc": "N10 G1 X?\n", "jnc-t01": "G1 X 5\n", "nc-31": "G1 ?\n", "g43": "G1 X[\n", "tnc-620": "L X?\n"}
+
+
+@pytest.mark.parametrize("control", FAULTY)
+def test_a_text_is_read_no_further_than_it_has_faults_that_anybody_mends(control):
+    """The alarm that says so stands in the first line that was not read; the text is kept whole."""
+    text = "\n" + FAULTY[control] * (MOST_FAULTS + 100)
+    program = mnclab.read(text, control)
+    *told, last = sorted(program.alarms, key=lambda alarm: alarm.span.line)
+    assert f"more than {MOST_FAULTS} faults" in last.message
+    assert MOST_FAULTS / 4 < len(program) < last.span.line <= MOST_FAULTS + 2
+    assert program.text == text and program.line_text(last.span.line) == FAULTY[control].rstrip()
+    assert [alarm.span.line for alarm in told][0] == 2 and mnclab.run(program).alarms
+    fewer = mnclab.read(FAULTY[control] * 100, control)
+    assert not any("is not read" in alarm.message for alarm in fewer.alarms)

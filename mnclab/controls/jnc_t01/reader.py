@@ -12,6 +12,7 @@ from mnclab.controls.word_address import reader as words
 from mnclab.controls.word_address.formats import misformed
 from mnclab.text.alarm import WARNING, Alarm, Alarms
 from mnclab.text.program import Program
+from mnclab.text.program_builder import readable
 
 COMMENT = "'"
 FORMATS = {**dict.fromkeys("GMTLN", "n"), **dict.fromkeys("DFS", "n.n"), **dict.fromkeys("IKRUWXZ", "±n.n")}
@@ -22,6 +23,7 @@ _LETTERS = re.compile(f"[{''.join(_LOOKS_LATIN)}]")
 _words = words.reader("jnc-t01", COMMENT, labels=False, skip=False, headers="%")
 
 
+@readable
 def read(text: str, name: str = "program") -> Program:
     """A program of blocks; faults are collected in its alarms."""
     folded, places = _fold(text)

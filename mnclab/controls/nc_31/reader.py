@@ -20,7 +20,7 @@ import re
 from string import ascii_lowercase
 
 from mnclab.text.program import AT_MARK, GROUP_MARK, INCREMENTAL, RAPID_MARK, Program
-from mnclab.text.program_builder import ProgramBuilder
+from mnclab.text.program_builder import ProgramBuilder, readable
 from mnclab.text.words import characters, line_starts
 
 COMMENT = ";"
@@ -37,6 +37,7 @@ _WORD = re.compile(r"([A-Z])[ \t]*(?:(@)[ \t]*)?([+-]?[0-9]+)")
 _CHAMFER = re.compile(r"[+-][ \t]*45(?![0-9])")
 
 
+@readable
 def read(text: str, name: str = "program") -> Program:
     """A program of frames; faults are collected in its alarms."""
     builder = ProgramBuilder(text, name, "nc-31", line_starts(characters(text)), COMMENT)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import NUMBER, Program
+from mnclab.text.program_builder import MOST_FAULTS, TooManyFaults
 from mnclab.text.words import characters
 
 MEANING = {"n": "digits alone", "n.n": "a number without sign", "±n": "a whole number", "±n.n": "a number"}
@@ -30,6 +31,8 @@ def misformed(program: Program, formats: Mapping[str, str]) -> list[Alarm]:
             hint = repair or f"{address} takes {MEANING[formats[address]]}"
             span = program.span(int(program.offset[i]), int(length[i]))
             alarms.append(Alarm(f"{address} has {what}", span, hint=hint))
+            if len(alarms) > MOST_FAULTS:
+                raise TooManyFaults(span.line)
 
     def count(found: NDArray[np.bool_]) -> NDArray[np.int64]:
         before = np.concatenate([[0], np.cumsum(found)])

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from mnclab.text.given import LARGEST
 from mnclab.text.nearest import DIGITS, LATIN
 from mnclab.text.program import Program
-from mnclab.text.program_builder import MOST_WORDS, BulkBlocks, ProgramBuilder, first_words
+from mnclab.text.program_builder import MOST_WORDS, BulkBlocks, ProgramBuilder, first_words, readable
 from mnclab.text.words import Scan, scan
 
 PIECE = 1 << 16
@@ -55,6 +55,7 @@ def reader(
     """A function (text, name) -> Program for a control whose lines hold words and such `Marks`."""
     mark = Marks(re.compile(comment), labels, skip, headers)
 
+    @readable
     def read(text: str, name: str = "program") -> Program:
         found = scan(text)
         builder = ProgramBuilder(text, name, control, found.starts, comment)

@@ -22,7 +22,7 @@ from mnclab.controls.g43.reading.statements import HEAD, Fault, Statements, assi
 from mnclab.controls.word_address.reader import Labels, Marks, clean_blocks, read_words, skip_blanks
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.program import Program
-from mnclab.text.program_builder import MOST_WORDS, ProgramBuilder
+from mnclab.text.program_builder import MOST_WORDS, ProgramBuilder, readable
 from mnclab.text.words import Scan, scan
 
 COMMENT = r"[(;]"
@@ -47,6 +47,7 @@ _PRINTED = re.compile(r"(?:POPEN|PCLOS|DPRNT|BPRNT)(?![A-Z])", re.IGNORECASE)
 _GOOD_WORDS = re.compile(r"[ \t]*+(?:[A-Z][ \t]*+[-+]?[\d.]++[ \t]*+){2,}+", re.IGNORECASE)
 
 
+@readable
 def read(text: str, name: str = "program") -> Program:
     """The program of a text."""
     found = scan(text)
@@ -200,7 +201,7 @@ class _Reader:
         except Fault as fault:
             self.fault(fault, begin)
         except Alarm as alarm:
-            builder.alarms.append(alarm)
+            builder.note(alarm)
 
     def fault(self, fault: Fault, begin: int, block: int = -1) -> None:
         if block >= 0:

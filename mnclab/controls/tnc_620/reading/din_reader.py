@@ -94,7 +94,7 @@ class _Reader:
             self.builder.alarm(fault.message, fault.offset, fault.length, fault.hint)
         except Alarm as alarm:  # from the reader of formulas, which knows its place
             self.hold(leaves or raw, before)
-            self.builder.alarms.append(alarm)
+            self.builder.note(alarm)
 
     def hold(self, raw: Raw | Departure, before: tuple[int, int]) -> None:
         """A block for a fault to stand in, where none was begun."""

@@ -37,7 +37,7 @@ from mnclab.controls.tnc_620.reading.words import FLAGS, INCH, Cursor, Fault
 from mnclab.text.alarm import KEPT, Alarm
 from mnclab.text.given import LARGEST
 from mnclab.text.program import NONE, Program
-from mnclab.text.program_builder import BulkBlocks, ProgramBuilder, first_words
+from mnclab.text.program_builder import BulkBlocks, ProgramBuilder, first_words, readable
 from mnclab.text.words import Scan, characters, scan
 
 _UNIT = re.compile(r"(?<![^\r\n])[ \t\ufeff]*(?:/[ \t]*)?(?:N?\d+[ \t]*)?BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)
@@ -69,6 +69,7 @@ for _place, _letter in enumerate(_PLAIN):
 _FORM_OF_LETTER[ord("R")] = NONE
 
 
+@readable
 def read(text: str, name: str = "program") -> Program:
     """The blocks of a program: DIN/ISO where its first block says so, or the type of its file, else conversational."""
     unit = _UNIT.search(text)
@@ -150,7 +151,7 @@ class _Lines:
             self.builder.alarm(fault.message, fault.offset, fault.length, fault.hint)
         except Alarm as alarm:  # from the reader of formulas, which knows its place
             self.faulty = True
-            self.builder.alarms.append(alarm)
+            self.builder.note(alarm)
 
     def bracket(self, at: int, stop: int) -> None:
         """A line in brackets is a comment of other controls; it ends what goes on over several lines."""
