@@ -4,8 +4,8 @@
 
 hm is the mean thickness of the chip over the engaged angle φ of a mill whose edges stand along its axis: that of ISO 3002-3,
 h = fz sin κ cos θ with κ = 90°, averaged; for a small width of cut about fz √(ae / D). Of a drill h = fz sin(σ / 2) with the
-point angle σ. On a lathe vc is that at the tip, and ap follows from the volume V that a row takes away, V = π L ap (2 r ± ap)
-along the axis and V = 2 π r L ap across it.
+point angle σ. On a lathe vc is that at the tip. ap, ae and hm of a row are those of the place where Q is its greatest: air is
+in none of them (`mnclab.workpiece.ahead`).
 """
 
 from __future__ import annotations
@@ -24,9 +24,7 @@ from mnclab.path.listing import Unit, figure
 from mnclab.path.tool import POINTED, Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.tables import html_table, text_table
-from mnclab.workpiece.milling.engaged import engaged
-from mnclab.workpiece.milling.milled import Milled
-from mnclab.workpiece.removal import Removal
+from mnclab.workpiece.removal import FEW, Removal
 
 Pair = tuple[float, float]
 DRILLS, UNJUDGED = ("drill", "reamer", "countersink"), ("probe", "tap", "thread mill", "thread")
@@ -140,11 +138,13 @@ def _notes(found: Sequence[Cut], path: Toolpath, removal: Removal | None, limits
     if not found:
         return
     if path.lathe:
-        yield "vc is that at the diameter of the tip; ap is the mean over a row, air before the material too."
+        yield "vc is that at the diameter of the tip."
     if any(cut.chip for cut in found):
         yield "hm is the mean chip thickness over the engaged angle (ISO 3002-3, κ = 90°; of a drill at its point angle)."
-    if any(cut.rate for cut in found):
-        yield "Q most is at least so great: a mean over a part of a row, which material much shorter than that fills in part."
+    if removal is not None and len(removal.met.row):
+        yield f"Q most is that of a place in the material, ap, ae and hm those at such a place of a row; of {2 * FEW} rows."
+    elif removal is not None:
+        yield "Q most is at least so great: the greatest mean of a row, with the air in it."
     if removal is None:
         yield "Without a blank ap, ae, hm and Q are not known, and moves in the air count."
     if not any(cut.beyond for cut in found):
@@ -213,29 +213,16 @@ def _with_material(
     cut = cut._replace(rate=(60 * float(volumes.sum()) / seconds if seconds else 0.0, greatest))
     if kc is not None:
         cut = cut._replace(power=greatest * kc / 60e6)
+    met = removal.met.among(rows)
+    if not len(met.row) or tool.kind in DRILLS or (path.lathe and tool.kind not in ("turning", "boring")):
+        return cut
     if path.lathe:
-        return cut._replace(depth=_pair(_depth_of_turning(path, rows, volumes))) if tool.kind in ("turning", "boring") else cut
-    part = removal.workpiece
-    if not isinstance(part, Milled) or part.many or tool.corner or tool.kind in DRILLS:
-        return cut
-    met = engaged(part, rows)
-    if not len(met.row):
-        return cut
+        return cut._replace(depth=_pair(met.depth))
     cut = cut._replace(depth=_pair(met.depth), width=_pair(met.width))
     if per_tooth is None:
         return cut
     chip = per_tooth.max(axis=1)[np.searchsorted(rows, met.row)] * met.width / (tool.effective_radius * met.angle)
     return cut._replace(chip=_pair(chip))
-
-
-def _depth_of_turning(path: Toolpath, rows: Index, volumes: Array) -> Array:
-    """The depth of cut (k,) that takes a volume away, mm."""
-    length = path.lengths[rows]
-    r = np.abs(path.start[rows, 0] + path.end[rows, 0]) / 2
-    way = np.abs(path.end[rows] - path.start[rows])
-    area = volumes / (np.pi * length)
-    across = area / np.maximum(2 * r, 1e-9)
-    return np.where(way[:, 2] >= way[:, 0], np.sqrt(r**2 + area) - r, across)
 
 
 def _beyond(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from mnclab.path.columns import Array
+from mnclab.path.columns import Array, Index
 from mnclab.path.kinds import Kind
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
@@ -15,6 +15,7 @@ from mnclab.text.given import choice
 from mnclab.text.records import written
 from mnclab.text.rounded import Rounded
 from mnclab.text.tables import html_table
+from mnclab.workpiece.ahead import greatest
 from mnclab.workpiece.workpiece import Workpiece
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
 KEYS = ("line", "tool")
 CUTS = (Kind.LINE, Kind.ARC)
-PARTS, MOST_PARTS = 24, 4000  # of a row; of all rows, as many as are counted on a lattice, in good time
+FEW = 30  # rows of a tool
 CELLS = 4
 HEAD = ("tool", "removed", "time in material", "mean rate", "largest rate", "in line")
 
@@ -39,11 +40,26 @@ class Fastest(NamedTuple):
         return written(self)
 
 
+class Met(NamedTuple):
+    """Rows (k,) where Q is the greatest: `rate` mm³/min, and what is before the tool there, as `Ahead` has it."""
+
+    row: Index
+    rate: Array
+    area: Array
+    depth: Array
+    width: Array
+    angle: Array
+
+    def among(self, rows: Index) -> Met:
+        """Those of some rows where a depth of cut is known."""
+        return Met._make(each[np.isin(self.row, rows) & (self.depth > 0)] for each in self)
+
+
 class Removal:
     """What a workpiece lost while a profile went on; both belong to the same path of n rows.
 
     `volumes` (n,) mm³ and `seconds` (n,) are those of each row, `rate` (n,) mm³/min its mean rate, 0 where it cuts
-    nothing, and `greatest` (n,) its greatest: a row that begins in the air has a lower mean than where it cuts.
+    nothing, and `greatest` (n,) its greatest: that of a place in the material, as `mnclab.workpiece.ahead` finds it.
     """
 
     def __init__(self, workpiece: Workpiece, profile: Profile) -> None:
@@ -57,34 +73,51 @@ class Removal:
         return np.divide(60 * self.volumes, self.seconds, out=found, where=cuts)
 
     @cached_property
-    def greatest(self) -> Array:
-        """The greatest rate (n,), mm³/min, of rows at feed, which is at least so great; elsewhere the mean of the row.
+    def met(self) -> Met:
+        """Rows at feed: of each tool at most `FEW` at equal distances of its way, and as many with the greatest means."""
+        cutting, part, length = self.workpiece.cutting, self.workpiece, self.workpiece.cutting.path.lengths
+        rate, found = self._means, np.zeros((len(Met._fields), 0))
+        cuts = np.flatnonzero((rate > 0) & self._at_feed & (length > 0) & ~cutting.path.synchronous)
+        for tool in np.unique(cutting.which[cuts]):
+            rows = cuts[cutting.which[cuts] == tool]
+            if len(rows) > 2 * FEW:
+                way = np.cumsum(length[rows])
+                even = np.searchsorted(way, way[-1] * (np.arange(FEW) + 0.5) / FEW)
+                rows = rows[np.union1d(even, np.argsort(rate[rows])[-FEW:])]
+            most, before = greatest(rows, length[rows], part.reach(rows), part.ahead, self._speed)
+            found = np.append(found, np.stack([rows, most, *before])[:, most > 0], axis=1)
+        return Met(found[0].astype(np.int64), *found[1:])
 
-        It is the mean of the best piece of way that begins in a row, one of its `PARTS` equal parts (fewer where there are more
-        than `MOST_PARTS` in all), and of a mill no shorter than `CELLS` cells of its raster: less is counted too roughly.
-        """
-        cutting, found, feeds = self.workpiece.cutting, self.rate.copy(), self._at_feed
-        rows, piece = np.flatnonzero((found > 0) & feeds), CELLS * getattr(self.workpiece, "step", 0.0)
-        if not len(rows):
-            return found
-        counts, length = np.ones(len(cutting), dtype=np.int64), cutting.path.lengths
-        wanted = np.clip(length[rows] / max(piece / 2, 1e-9), 1, PARTS)
-        counts[rows] = np.maximum(wanted * min(1.0, MOST_PARTS / wanted.sum()), 1)
-        volumes = self.volumes
-        if (counts > 1).any():
-            volumes = type(self.workpiece)(cutting.divided(counts)).removed_by_row()  # type: ignore[call-arg]
-        row = np.repeat(np.arange(len(counts)), counts)
-        s = np.append(0.0, np.cumsum((length / counts)[row]))
-        t, taken = np.interp(s, self.profile.s, self.profile.t), np.append(0.0, np.cumsum(volumes * feeds[row]))
-        of = row[begin := np.flatnonzero(np.isin(row, rows))]
-        last = max(int(np.searchsorted(s, s[-1] - piece, "right")) - 1, 0)  # place where a whole piece is left
-        begin = np.minimum(begin, last)
-        end = np.minimum(np.maximum(np.searchsorted(s, s[begin] + piece * (1 - 1e-9)), begin + 1), len(row))
-        seconds = t[end] - t[begin]
-        best = np.divide(60 * (taken[end] - taken[begin]), seconds, out=np.zeros(len(begin)), where=seconds > 0)
-        found[rows] = np.where(length[rows] >= piece, found[rows], 0.0)
-        np.maximum.at(found, of, best)
+    @cached_property
+    def greatest(self) -> Array:
+        """The greatest rate (n,), mm³/min, of the rows of `met`; of others the mean, no more than the greatest of their tool."""
+        met, which, found = self.met, self.workpiece.cutting.which, self._means.copy()
+        for tool in np.unique(which[met.row]):
+            others = self._at_feed & (which == tool)
+            found[others] = np.minimum(found[others], met.rate[which[met.row] == tool].max())
+        found[met.row] = met.rate
         return found
+
+    @cached_property
+    def _means(self) -> Array:
+        """The mean rate (n,) of each row, of a mill with what is about it within `CELLS` cells of its raster: of less it is
+        counted too roughly."""
+        path, wide = self.workpiece.cutting.path, CELLS * getattr(self.workpiece, "step", 0.0)
+        s, feeds = np.append(0.0, np.cumsum(path.lengths)), self._at_feed
+        taken, middle = np.append(0.0, np.cumsum(self.volumes * feeds)), (s[1:] + s[:-1]) / 2
+        half = np.maximum(path.lengths, wide) / 2
+        volume, seconds = (
+            np.interp(middle + half, at, sums) - np.interp(middle - half, at, sums)
+            for at, sums in ((s, taken), (self.profile.s, self.profile.t))
+        )
+        short = feeds & (self.volumes > 0) & (path.lengths < wide) & (seconds > 0)
+        return np.where(short, 60 * volume / np.where(short, seconds, 1.0), self.rate)
+
+    def _speed(self, rows: Index, share: Array) -> Array:
+        """mm/min at shares (k,) of rows: with a constant acceleration v² grows with the way."""
+        length = self.workpiece.cutting.path.lengths
+        s = (np.cumsum(length) - length)[rows] + share * length[rows]
+        return np.asarray(60 * np.sqrt(np.interp(s, self.profile.s, self.profile.v**2)))
 
     @property
     def volume(self) -> float:

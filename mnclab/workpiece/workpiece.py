@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mnclab.path.columns import Array
+from mnclab.path.columns import Array, Index
 from mnclab.text.alarm import Alarm
 from mnclab.text.calls import fitting_class
 from mnclab.text.given import check_point, choice
 from mnclab.text.rounded import Rounded
+from mnclab.workpiece.ahead import Ahead
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.clamped import Clamped, Placement
 from mnclab.workpiece.cutting import Cutting
@@ -92,6 +93,14 @@ class Workpiece(ABC):
         the volumes of the whole, so that what was removed up to a line is the sum over the lines before.
         """
         return self._by_row if self.whole is None else self.whole().removed_by_row()[: len(self.cutting)]
+
+    @abstractmethod
+    def reach(self, rows: Index) -> Array:
+        """The shares (2, k) of rows of the path between which a tool may meet material."""
+
+    @abstractmethod
+    def ahead(self, rows: Index, share: Array) -> Ahead:
+        """What stands before the tool when a share (k,) of rows of the path is behind; nothing where it is not known."""
 
     @abstractmethod
     def cut(self, plane: str, at: float = 0.0) -> list[Contour]:

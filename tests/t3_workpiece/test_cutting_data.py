@@ -39,6 +39,14 @@ def test_a_slot_and_a_small_width():
     assert light.chip[0] == pytest.approx(0.05 * math.sqrt(0.2 / 10), rel=0.1)
 
 
+@pytest.mark.parametrize("length", [8, 12, 30])
+def test_a_short_part_in_a_long_row(length):
+    """10 mm wide and 3 deep: what is in the air does not count."""
+    (cut,) = milled(20, -3, stock=((0, 0, -20), (length, 40, 0)))()
+    assert cut.depth == pytest.approx([3, 3], abs=1e-6) and cut.width == pytest.approx([10, 10], abs=0.01)
+    assert cut.chip == pytest.approx([0.05 * 2 / math.pi] * 2, rel=1e-3)
+
+
 def test_the_removal_rate_and_the_power():
     """In the slot 10 · 3 · 400 = 12000 mm³/min where it is full, whatever air its row has. kc 1800: Pc = Q kc / 60e6 kW."""
     (slot,) = milled(20, -3, limits=Limits(acceleration=1e9))(kc=1800)
@@ -68,7 +76,23 @@ def test_turning_along_a_bar():
     (cut,) = turned(22, "S500 G97")
     assert cut.surface == pytest.approx([math.pi * 44 * 500 / 1000] * 2) and cut.feed == pytest.approx([100, 100])
     assert cut.per_rev == pytest.approx([0.2, 0.2]) and cut.per_tooth is None
-    assert cut.depth == pytest.approx([2, 2], rel=0.07)  # 2 of the 32 mm are in the air
+    assert cut.depth == pytest.approx([2, 2])
+
+
+def test_the_depth_of_turning_before_a_shoulder():
+    """From 24 to 22 down to Z-10, then to 20 down to Z-20: 2 mm, and 2 and then 4 mm; 100 mm of air change nothing."""
+    text = "M3 T1\nS500 G97\nG95 F0.2\nG00 X22 Z100\nG01 Z-10\nG00 X26\nG00 Z2\nG00 X20\nG01 Z-20\nG00 X40\n"
+    setup = Setup(start=(40, 0, 20), stock=mnclab.blank.cylinder(24, -60, 0), limits=Limits(acceleration=1e9))
+    (cut,) = mnclab.run(text, "jnc-t01", setup).cutting_data()
+    assert cut.depth == pytest.approx([2, 4]) and cut.rate[1] == pytest.approx(math.pi * (24**2 - 20**2) * 100)
+
+
+def test_a_cut_across_the_face():
+    """2 mm at 0.2 mm a turn; Q is below 2 π 24 · 2 · 100, for the nose and the edge are not as far out as the rim."""
+    text = "M3 T1\nS500 G97\nG95 F0.2\nG00 X30 Z-2\nG01 X0\nG00 Z2\n"
+    setup = Setup(start=(40, 0, 20), stock=mnclab.blank.cylinder(24, -60, 0), limits=Limits(acceleration=1e9))
+    (cut,) = mnclab.run(text, "jnc-t01", setup).cutting_data()
+    assert cut.depth == pytest.approx([2, 2]) and 0.95 < cut.rate[1] / (2 * math.pi * 24 * 2 * 100) < 1
 
 
 def test_constant_cutting_speed_and_the_limit_of_the_spindle():

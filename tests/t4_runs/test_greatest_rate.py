@@ -18,11 +18,12 @@ def most(text, control="mnc", kc=None, **setup):
     return cut
 
 
-def milled(*lines, stock=((0, -20, -10), (100, 20, 0)), kc=None):
+MILL = Tool(number=1, radius=5, teeth=2, cutting_length=40)
+
+
+def milled(*lines, stock=((0, -20, -10), (100, 20, 0)), kc=None, tool=MILL):
     text = "G54 G17 G90 T1\nS1000 M3\nG0 X-10 Y0 Z5\n" + "\n".join(lines) + "\n"
-    return most(
-        text, kc=kc, stock=stock, tools={1: Tool(number=1, radius=5, teeth=2, cutting_length=40)}, start=(0, 0, 100)
-    )
+    return most(text, kc=kc, stock=stock, tools={1: tool}, start=(0, 0, 100))
 
 
 def test_a_slot_with_air_at_both_ends():
@@ -31,11 +32,61 @@ def test_a_slot_with_air_at_both_ends():
     assert cut.rate[1] == pytest.approx(8000, rel=0.01) and cut.power == pytest.approx(8000 * 1800 / 60e6, rel=0.01)
 
 
-@pytest.mark.parametrize("length", [30, 60, 90])
+@pytest.mark.parametrize("length", [8, 12, 30, 60, 90])
 def test_a_part_that_is_much_shorter_than_the_row(length):
-    assert milled("G0 Z-4", "G1 X110 F200", stock=((0, -20, -10), (length, 20, 0))).rate[1] == pytest.approx(
-        8000, rel=0.01
-    )
+    part = ((0, -20, -10), (length, 20, 0))
+    assert milled("G0 Z-4", "G1 X110 F200", stock=part).rate[1] == pytest.approx(8000, rel=1e-3)
+
+
+def test_a_wall():
+    """1 mm thick: as the rim comes through, its chord 1 mm behind is in it, 2 √(25 - 16) = 6 wide; Q = 6 · 4 · 200."""
+    assert milled("G0 Z-4", "G1 X110 F200", stock=((50, -20, -10), (51, 20, 0))).rate[1] == pytest.approx(4800, rel=0.03)
+
+
+def test_a_block_that_is_left_in_a_long_slot():
+    """20 of 1,200 mm, where the rows before have left a web: 10 · 4 · 2000, whatever air is before and behind it."""
+    before = ["G0 Z-4", "G1 X515 F200", "G0 Z5", "G0 X1210", "G0 Z-4", "G1 X545", "G0 Z5", "G0 X-10", "G0 Z-4"]
+    cut = milled(*before, "G1 X1210 F2000", stock=((0, -20, -10), (1200, 20, 0)))
+    assert cut.rate[1] == pytest.approx(80000, rel=1e-3) and cut.width[1] == pytest.approx(10, abs=0.01)
+
+
+@pytest.mark.parametrize("depth", [0.1, 0.5, 2, 5, 8])
+def test_a_ball(depth):
+    """The segment of a circle of 5 mm, and above the middle a slot."""
+    low = min(depth, 5)
+    area = 25 * math.acos(1 - low / 5) - (5 - low) * math.sqrt(10 * low - low * low) + 10 * (depth - low)
+    ball = Tool(number=1, radius=5, corner=5, teeth=2, cutting_length=40)
+    assert milled(f"G0 Z-{depth}", "G1 X110 F200", tool=ball).rate[1] == pytest.approx(200 * area, rel=0.01)
+
+
+def test_a_round_corner():
+    """3 mm deep with corners of 1 mm: 30 mm² but for what both leave of their squares."""
+    tool = Tool(number=1, radius=5, corner=1, teeth=2, cutting_length=40)
+    area = 30 - 2 * (1 - math.pi / 4)
+    assert milled("G0 Z-3", "G1 X110 F200", tool=tool).rate[1] == pytest.approx(200 * area, rel=1e-3)
+
+
+def test_a_ramp():
+    """Down by 1 in 10, 6 deep at its end: 10 · 6 before it and the disc below it, v = (cos, sin) · 200."""
+    share = 1 / math.hypot(10, 1)
+    wanted = 200 * share * (10 * 10 * 6 + math.pi * 25)
+    assert milled("G0 X20 Z0", "G1 X80 Z-6 F200").rate[1] == pytest.approx(wanted, rel=1e-3)
+
+
+def test_down_a_helix():
+    """1 mm a turn about a circle of 5 mm, that a mill of 10 mm clears to its middle: π 10² for each mm of Z; a turn is a row
+    that comes round to where it has cut."""
+    rows = [f"G2 X45 Y0 I5 J0 Z-{k}" for k in (1, 2, 3)]
+    wanted = 200 * math.pi * 100 / math.hypot(1, 10 * math.pi)
+    assert milled("G0 X45 Y0 Z0", "G1 F200", *rows).rate[1] == pytest.approx(wanted, rel=1e-3)
+
+
+def test_facing_with_an_overlap():
+    """D 50: first the 45 mm of Y-30 … 15, then 15 mm more; 1 mm deep at 600."""
+    tool = Tool(number=1, radius=25, teeth=5, cutting_length=40)
+    first, then = ["G0 X-40 Y-10", "G0 Z-1", "G1 X140 F600"], ["G0 Z5", "G0 X-40 Y20", "G0 Z-1", "G1 X140"]
+    cut = milled(*first, *then, tool=tool, stock=((0, -30, -10), (100, 30, 0)))
+    assert cut.rate[1] == pytest.approx(600 * 45, rel=0.01) and cut.width == pytest.approx([15, 45], abs=0.5)
 
 
 def test_a_step_in_the_way():

@@ -59,6 +59,17 @@ class Bends:
         return self.radius * self.rate**2
 
 
+def along(path: Toolpath, rows: Index, share: Array) -> tuple[Array, Array]:
+    """Where rows (k,) of a path are when a share (k,) of their length is behind, and which way they go there (k, 3)."""
+    travel, length = path.end[rows] - path.start[rows], path.lengths[rows]
+    place, way = path.start[rows] + share[:, None] * travel, travel / length[:, None]
+    arcs = np.flatnonzero(path.kind[rows] == Kind.ARC)
+    if len(arcs):
+        bends = Bends(path, rows[arcs], length[arcs])
+        place[arcs], way[arcs] = bends.place(share[arcs]), bends.tangent(share[arcs])
+    return place, way
+
+
 def divided(path: Toolpath, counts: Index, until: Array | None = None) -> tuple[Toolpath, Index]:
     """The path with each row cut into `counts` (n,) equal parts, or into such as end at the shares `until` (m,) of their
     row, and the row (m,) of the path each part belongs to."""

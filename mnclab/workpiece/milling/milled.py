@@ -9,14 +9,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry.contours import Contour
-from mnclab.path.columns import Array
+from mnclab.path.columns import Array, Index
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, choice, shown
+from mnclab.workpiece.ahead import Ahead
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.clamped import Clamped, Placement, from_side
 from mnclab.workpiece.creases import creases
 from mnclab.workpiece.cutting import Cutting
-from mnclab.workpiece.milling import limits, volumes
+from mnclab.workpiece.milling import engaged, limits, volumes
 from mnclab.workpiece.milling.erosion import ERROR
 from mnclab.workpiece.milling.many import ManyMoves
 from mnclab.workpiece.milling.moves import CHORD, Moves, moves_of
@@ -142,6 +143,20 @@ class Milled(Workpiece):
             return found
         rows = volumes.removed_by_row(self.sweep, len(self.cutting))
         return rows * (self.removed / rows.sum()) if rows.any() else rows
+
+    @cached_property
+    def quarters(self) -> tuple[Moves, Index, Index]:
+        return engaged.quarters(self)
+
+    @cached_property
+    def boxes(self) -> Array:
+        return self.quarters[0].boxes
+
+    def reach(self, rows: Index) -> Array:
+        return engaged.reach(self, rows)
+
+    def ahead(self, rows: Index, share: Array) -> Ahead:
+        return Ahead.none(len(rows)) if self.many else engaged.ahead(self, rows, share)
 
     @cached_property
     def blank_volume(self) -> float:

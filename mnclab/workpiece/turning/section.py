@@ -151,7 +151,7 @@ def moment(area: Any) -> float:
 
 
 def cuts(drawing: Drawing, low: float) -> Iterator[tuple[int, Any, list[Any]]]:
-    """The number of each stroke that takes something away, the area that it takes, and the pieces that fall then."""
+    """The row of each stroke that takes something away, the area that it takes, and the pieces that fall then."""
     rest = drawing.bar
     for number, area in enumerate(drawing.strokes):
         if not shapely.intersects(rest, area):
@@ -159,13 +159,5 @@ def cuts(drawing: Drawing, low: float) -> Iterator[tuple[int, Any, list[Any]]]:
         cut, off = shapely.intersection(rest, area), list[Any]()
         if cut.area:
             rest, off = held(shapely.difference(rest, area), low)
-        yield number, cut, off
+        yield int(drawing.owners[drawing.bars + number]), cut, off
 
-
-def taken(drawing: Drawing, rows: int, low: float) -> tuple[NDArray[np.float64], list[Any]]:
-    """What each row took away, as moments (rows,), mm³, and the pieces that fell, in order."""
-    found, fallen = np.zeros(rows), list[Any]()
-    for number, cut, off in cuts(drawing, low):
-        found[drawing.owners[drawing.bars + number]] += moment(cut)
-        fallen += off
-    return found, fallen

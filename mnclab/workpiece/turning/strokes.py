@@ -7,7 +7,7 @@ round, a tap the profile of its thread. What is cut below the axis is cut on the
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -31,11 +31,13 @@ FLANK, CREST = 5 / 8, 1 / 8  # of the sharp depth and of the pitch: an ISO threa
 
 
 class Strokes(NamedTuple):
-    """Contours and the row (n,) of each, in the order of the rows; `notes` say what is left out."""
+    """Contours and the row (n,) of each, in the order of the rows; `notes` say what is left out. `body_of` is the cutting
+    part of a tool between two places (z, r)."""
 
     contours: list[Contour]
     rows: list[int]
     notes: tuple[str, ...]
+    body_of: Callable[[Tool, Point, Point], list[Edge]]
 
 
 @dataclass
@@ -91,7 +93,7 @@ def strokes_of(cutting: Cutting, low: float, high: float, radius: float, axis: f
                 owners += [row] * len(found)
     if any(cutting.path.synchronous[row] for row in owners):
         notes.append("a thread is the profile of its insert in rings a pitch apart")
-    return Strokes(contours, owners, tuple(notes))
+    return Strokes(contours, owners, tuple(notes), body_of)
 
 
 def out_of_thread(path: Toolpath, row: int) -> bool:
@@ -106,13 +108,15 @@ class _Bodies:
 
     def __init__(self, room: _Room) -> None:
         self.room = room
-        self._known: dict[tuple[int, float], list[Edge]] = {}
+        self._known: dict[tuple[Tool, float], list[Edge]] = {}
 
     def __call__(self, tool: Tool, start: Point, end: Point) -> list[Edge]:
+        if not tool.kind and tool.radius and max(abs(start[1]), abs(end[1])) < ON_AXIS and start[0] != end[0]:
+            tool = replace(tool, kind="mill")  # as flat as on a mill: nothing is known of its point
         height = self.room.deep if turns(tool) and tool.kind != FACE else self.room.long
         if tool.kind == "boring" and min(start[1], end[1]) < 0:
             height = 0.0
-        key = id(tool), height
+        key = tool, height
         if key not in self._known:
             self._known[key] = edges(cutting_part(tool, height))
         return self._known[key]
@@ -123,8 +127,6 @@ def _of_row(
 ) -> Iterator[Contour]:
     """The contours of a row; `thread` its pitch and the turns before it."""
     path, tool = cutting.path, cutting.tool(row)
-    if not tool.kind and tool.radius and max(abs(start[1]), abs(end[1])) < ON_AXIS and start[0] != end[0]:
-        tool = replace(tool, kind="mill")  # as flat as on a mill: nothing is known of its point
     if cutting.from_home[row]:
         start = end
     if path.synchronous[row] and start != end:

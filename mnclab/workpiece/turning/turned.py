@@ -9,16 +9,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
-from mnclab.path.columns import Array
+from mnclab.path.columns import Array, Index
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, choice, shown
+from mnclab.workpiece.ahead import Ahead
 from mnclab.workpiece.blank import Blank, Box, Revolved
 from mnclab.workpiece.clamped import Placement
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.part import Part
-from mnclab.workpiece.turning import revolved
-from mnclab.workpiece.turning.section import Drawing, held, left_of, taken
+from mnclab.workpiece.turning import engaged, revolved
+from mnclab.workpiece.turning.section import Drawing, cuts, held, left_of, moment
 from mnclab.workpiece.turning.strokes import Strokes, strokes_of
 from mnclab.workpiece.turning.sweeping import CHORD_ERROR
 from mnclab.workpiece.turning.turned_blank import TurnedBlank
@@ -49,12 +51,12 @@ class Turned(Workpiece):
         self._told = told
 
     @cached_property
-    def _strokes(self) -> Strokes:
+    def strokes(self) -> Strokes:
         return strokes_of(self.cutting, self.low, self.high, self.radius, self.axis)
 
     @cached_property
     def _drawing(self) -> Drawing:
-        strokes = self._strokes
+        strokes = self.strokes
         return Drawing.of(self.blank, strokes.contours, strokes.rows)
 
     @cached_property
@@ -63,7 +65,7 @@ class Turned(Workpiece):
 
     @cached_property
     def section(self) -> list[Contour]:
-        return list(self._drawing.traced(self._pieces[0])) if self._strokes.contours else self.blank
+        return list(self._drawing.traced(self._pieces[0])) if self.strokes.contours else self.blank
 
     @property
     def grip(self) -> float:
@@ -76,17 +78,31 @@ class Turned(Workpiece):
         return [self._drawing.rows_of(contour) for contour in self.section]
 
     @cached_property
-    def _taken(self) -> tuple[Array, list[Any]]:
-        return taken(self._drawing, len(self.cutting), self.low)
+    def _cuts(self) -> list[tuple[int, Any, list[Any]]]:
+        return list(cuts(self._drawing, self.low))
+
+    @cached_property
+    def areas(self) -> dict[int, Any]:
+        """What each row that cuts took away, as shapely areas (z, r)."""
+        found: dict[int, list[Any]] = {}
+        for row, cut, _ in self._cuts:
+            found.setdefault(row, []).append(cut)
+        return {row: shapely.union_all(pieces) for row, pieces in found.items()}
+
+    def reach(self, rows: Index) -> Array:
+        return engaged.reach(self, rows)
+
+    def ahead(self, rows: Index, share: Array) -> Ahead:
+        return engaged.ahead(self, rows, share)
 
     @cached_property
     def parted(self) -> list[Contour]:
-        return [loop for area in self._taken[1] for loop in self._drawing.traced(area)]
+        return [loop for _, _, off in self._cuts for area in off for loop in self._drawing.traced(area)]
 
     @property
     def notes(self) -> tuple[str, ...]:  # type: ignore[override]
         fell = (f"{several(len(self.parted), 'piece')} fell off",) if self.parted else ()
-        return (*self._told, *self.cutting.notes(), *self._strokes.notes, *fell)
+        return (*self._told, *self.cutting.notes(), *self.strokes.notes, *fell)
 
     @property
     def volume(self) -> float:
@@ -99,7 +115,9 @@ class Turned(Workpiece):
     @cached_property
     def _by_row(self) -> Array:
         """Arcs are chords of the section, and the sum is exact."""
-        shares = self._taken[0]
+        shares = np.zeros(len(self.cutting))
+        for row, cut, _ in self._cuts:
+            shares[row] += moment(cut)
         total = float(shares.sum())
         return shares * (self.removed / total) if total else shares
 
