@@ -142,7 +142,10 @@ def _notes(found: Sequence[Cut], path: Toolpath, removal: Removal | None, limits
     if any(cut.chip for cut in found):
         yield "hm is the mean chip thickness over the engaged angle (ISO 3002-3, κ = 90°; of a drill at its point angle)."
     if removal is not None and len(removal.met.row):
-        yield f"Q most is that of a place in the material, ap, ae and hm those at such a place of a row; of {2 * FEW} rows."
+        yield (
+            "Q most is that at a place in the material, plunges too; ap, ae and hm are those at the like places; "
+            f"of a tool at most {2 * FEW} rows are looked at."
+        )
     elif removal is not None:
         yield "Q most is at least so great: the greatest mean of a row, with the air in it."
     if removal is None:
@@ -162,7 +165,7 @@ def _cut(
 ) -> Iterator[Cut]:  # fmt: skip
     if removal is not None:
         rows = rows[removal.volumes[rows] > 0]
-    drilled = tool.kind in DRILLS
+    drilled, met = tool.kind in DRILLS, rows
     if not path.lathe and not drilled:
         along = np.abs(((path.end - path.start)[rows] * path.axis[rows]).sum(axis=1))
         sideways = rows[path.lengths[rows] > 2 * along]  # a plunge has another feed, and no chip thickness
@@ -184,10 +187,12 @@ def _cut(
             point = math.radians(tool.angle or POINTED[tool.kind])
             cut = cut._replace(chip=_pair(per_tooth * math.sin(point / 2)))
     if removal is not None:
-        cut = _with_material(cut, path, tool, rows, per_tooth, removal, kc)
-    share = np.abs(path.end - path.start)[rows] / path.lengths[rows][:, None]
-    share[path.kind[rows] == Kind.ARC] = 1.0  # somewhere along it each axis of its plane goes as fast
-    axes = [(float((feed.max(axis=1) * share[:, k]).max()), float(limit) * 60) for k, limit in enumerate(limits.axes("rapid"))]
+        cut = _with_material(_with_rate(cut, met, removal, kc), path, tool, rows, per_tooth, removal)
+    _, feed = _speeds(path, met, limits)
+    share = np.abs(path.end - path.start)[met] / path.lengths[met][:, None]
+    share[path.kind[met] == Kind.ARC] = 1.0  # somewhere along it each axis of its plane goes as fast
+    fastest = np.where(np.isfinite(feed), feed, 0.0).max(axis=1)[:, None] * share
+    axes = [(float(fastest[:, k].max()), float(limit) * 60) for k, limit in enumerate(limits.axes("rapid"))]
     yield cut._replace(beyond=tuple(_beyond(cut, axes, limits, most)))
 
 
@@ -204,15 +209,15 @@ def _speeds(path: Toolpath, rows: Index, limits: Limits) -> tuple[Array, Array]:
         return speed, np.where(np.isnan(time), feed, 60 * path.lengths[rows][:, None] / time)
 
 
-def _with_material(
-    cut: Cut, path: Toolpath, tool: Tool, rows: Index, per_tooth: Array | None, removal: Removal, kc: float | None
-) -> Cut:  # fmt: skip
+def _with_rate(cut: Cut, rows: Index, removal: Removal, kc: float | None) -> Cut:
+    """How fast all rows that meet material take it away, plunges too."""
+    seconds, greatest = float(removal.seconds[rows].sum()), float(removal.greatest[rows].max())
+    mean = 60 * float(removal.volumes[rows].sum()) / seconds if seconds else 0.0
+    return cut._replace(rate=(mean, greatest), power=None if kc is None else greatest * kc / 60e6)
+
+
+def _with_material(cut: Cut, path: Toolpath, tool: Tool, rows: Index, per_tooth: Array | None, removal: Removal) -> Cut:
     """What is known of the material that the rows meet."""
-    seconds, volumes = float(removal.seconds[rows].sum()), removal.volumes[rows]
-    greatest = float(removal.greatest[rows].max())
-    cut = cut._replace(rate=(60 * float(volumes.sum()) / seconds if seconds else 0.0, greatest))
-    if kc is not None:
-        cut = cut._replace(power=greatest * kc / 60e6)
     met = removal.met.among(rows)
     if not len(met.row) or tool.kind in DRILLS or (path.lathe and tool.kind not in ("turning", "boring")):
         return cut

@@ -140,3 +140,19 @@ def test_a_feed_is_judged_by_the_axis_that_moves():
         assert ("X 5000, Z 8000 mm/min" in repr(found)) == (not beyond)
     both = mnclab.run("M3\nG97 S2500 T1\nG00 X0 Z50\nG32 X-100 Z-50 F6\n", "jnc-t01", setup).cutting_data()
     assert both[0].beyond == ("vf above 5000", "vf above 8000")  # 15,000 along the way, 10,607 along each
+
+
+def test_a_plunge_of_a_mill_counts():
+    """π 10² / 4 · 300 going down beats the slot's 10 · 4 · 200; Pc = Q kc / 60e6. Speeds and widths stay those of the slot."""
+    cut = milled("G0 X30", "G1 Z-4 F300", "X60 F200", kc=1800)
+    assert cut.rate[1] == pytest.approx(25 * math.pi * 300, rel=0.01) and cut.feed == (200, 200)
+    assert cut.power == pytest.approx(cut.rate[1] * 1800 / 60e6)
+
+
+def test_the_feed_of_a_plunge_is_judged():
+    """300 mm/min down where Z goes 250, and a slot at 200."""
+    text = "G54 G17 G90 T1\nS1000 M3\nG0 X30 Y0 Z5\nG1 Z-4 F300\nX60 F200\n"
+    tools = {1: Tool(number=1, radius=5, teeth=2, cutting_length=40, centre_cutting=True)}
+    limits = Limits(rapid=(1e4, 1e4, 250))
+    run = mnclab.run(text, "mnc", Setup(tools=tools, stock=((0, -20, -10), (100, 20, 0)), limits=limits, start=(0, 0, 100)))
+    assert run.cutting_data()[0].beyond == ("vf above 250",)

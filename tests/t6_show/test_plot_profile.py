@@ -145,3 +145,11 @@ def test_the_acceleration_stays_within_the_limit_that_is_drawn():
     most = limit.get_ydata()
     assert np.array_equal(other.get_ydata(), -most, equal_nan=True) and np.isfinite(most).any()
     assert (np.abs(own.get_ydata()) <= most * (1 + 1e-9))[np.isfinite(most)].all()
+
+
+def test_the_feed_over_the_removal_counts_in_the_unit_of_the_program():
+    """100 tenths of an inch a minute are 10 in/min."""
+    text = "BEGIN PGM A INCH\nTOOL CALL 1 Z S1000\nL Z+2 R0 FMAX M3\nL X+0 Y+0 FMAX\nL Z-0.1 F100\nL X+1\nEND PGM A INCH\n"
+    tools, stock = {1: mnclab.Tool(diameter=6.35)}, ((-10, -10, -10), (40, 40, 0))
+    feed, rate = mnclab.run(text, "tnc-620", mnclab.Setup(tools=tools, stock=stock)).removal().plot().axes
+    assert feed.get_ylabel() == "feed, in/min" and 10 < feed.get_ylim()[1] < 20 and "mm³/min" in rate.get_ylabel()

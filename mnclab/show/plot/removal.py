@@ -21,7 +21,8 @@ CARD = {"facecolor": colours.PAPER, "edgecolor": "none", "pad": 1.5, "alpha": 0.
 
 @sized()
 def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
-    """Feed (mm/min) and removal rate (mm³/min, the mean of each row) over time (s); the largest at feed is marked with its line.
+    """Feed (in the unit of the program) and removal rate (mm³/min, the mean of each row) over time (s), the largest at feed
+    marked with its line.
 
     `size`: width and height in inches.
     """
@@ -55,8 +56,8 @@ def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
             f"line {removal.place(most)}: at most {most.rate:.0f} mm³/min", (middle, most.rate), (-6 if late else 6, 5),
             textcoords="offset points", fontsize=SMALL, ha="right" if late else "left", color=colours.INK,
         )  # fmt: skip
-    for axes, title in ((feed, "feed, mm/min"), (rate, "mean of a row, mm³/min")):
-        axes.set_ylabel(title, fontsize=SMALL)
+    rate.set_ylabel("mean of a row, mm³/min", fontsize=SMALL)
+    for axes in (feed, rate):
         axes.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
         calm(axes)
     feed.set_xlabel("")
