@@ -16,8 +16,8 @@ joint decides between inside and outside.
 
 `elements` are the rows that move in the plane, `equidistant` finds all corners at once (those of `cusps` by both of
 their ways), `fit` looks for places where the tool has no room, over any number of blocks, with `neighbours` for what
-lies close by along the contour, `heights` for what is at the same height and `passes` for walls that do not stand;
-`moving_ends` makes the path. Everything is done in columns.
+lies close by along the contour, `open_ends` for where it begins and ends, `heights` for what is at the same height and
+`passes` for walls that do not stand; `moving_ends` makes the path. Everything is done in columns.
 """
 
 from __future__ import annotations

@@ -3,9 +3,9 @@
 Five things are looked at. An *arc* on the inside must have a greater radius than the tool; an *element* must not be
 used up by its inside corners; a *bottleneck* is a pair of walls, any number of blocks apart, that face each other nearer
 than the tool is wide; at the *ends* of a contour, where the tool arrives and leaves, and at the points of straight
-outside *corners*, it must stand clear of all other walls. An *entry* (and an *exit*) must begin where the tool does not
-yet cut into the element it leads to, and where the tool rolls onto the contour or off it, all walls must be clear. Close
-by along the contour, and behind a cusp, *neighbours* are measured one by one.
+outside *corners*, it must stand clear of all other walls, and nowhere cut off the ends themselves. An *entry* (and an
+*exit*) must begin where the tool does not yet cut into the element it leads to, and where the tool rolls onto the contour
+or off it, all walls must be clear. Close by along the contour, and behind a cusp, *neighbours* are measured one by one.
 Everywhere a tool cuts only into what is at its `heights` and into walls that the contour leaves standing (`passes`).
 
 Growing the tool from nothing, the first place that fails is one of these; so the largest radius is the least of their
@@ -14,21 +14,19 @@ own, each from a closed form or, for elements between two corners, from narrowin
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple
-
 import numpy as np
 
-from mnclab.geometry.chords import Chunks, Walls, around, chunks, facing
-from mnclab.geometry.curves import Curves, distance
+from mnclab.geometry.chords import Chunks, Walls, chunks, facing
 from mnclab.geometry.offsets import beside
 from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.compensation import neighbours
 from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.equidistant import Equidistant
-from mnclab.path.compensation.heights import at_height, meet
+from mnclab.path.compensation.heights import meet
 from mnclab.path.compensation.joining import ends, remaining
+from mnclab.path.compensation.open_ends import arrivals, cut_off, rolled
 from mnclab.path.compensation.passes import crossed, cuts, given_up, run_past
+from mnclab.path.compensation.places import EXACT, HINT, Places, misfit, narrowed
 from mnclab.path.compensation.rules import CLEAR, Compensation, Gouge, Report
 from mnclab.path.compensation.tips import clearance, near_tips
 from mnclab.path.fault import PathFault
@@ -36,23 +34,7 @@ from mnclab.path.kinds import Rule
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
 
-EXACT = 1e-9  # mm
-HINT = "take a smaller tool"
 NO_TOOL = 0.001  # mm; below, no tool is as small
-
-
-class Places(NamedTuple):
-    """m places of one kind that do not fit: the elements concerned, the ones they cut into, the width that is there,
-    what is missing (mm), and the largest radius for the place alone (all (m,)), with the words for them."""
-
-    kind: str
-    k: Index
-    other: Index
-    width: Array
-    missing: Array
-    largest: Array
-    message: str
-    hint: str = HINT
 
 
 def check(found: Equidistant, path: Toolpath, view: PlaneView, gouge: str, report: Report) -> Mask:
@@ -159,7 +141,7 @@ def _beside(found: Equidistant, contour: Index, lost: Index) -> Places:
     """Rows that come too near to an element close by; what is `lost` has no row."""
     el, rules = found.el, found.rules
     look = neighbours.looked_at(found, contour)
-    slack = _misfit(el) if len(look.k) else el.R
+    slack = misfit(el) if len(look.k) else el.R
     room = -CLEAR / 2 - slack[look.k] - slack[look.wall]
     bad = np.flatnonzero(neighbours.clearance(el, look, el.R[look.k], rules) < room)
     bad = bad[~np.isin(look.k[bad], lost) & ~np.isin(look.wall[bad], lost)]
@@ -184,23 +166,6 @@ def _fits(el: Elements, k: Index, radius: Array, rules: Compensation) -> Mask:
     begin, end, apart = ends(el, k, radius, rules)
     left_over, _ = remaining(el, k, begin, end, radius)
     return ~apart & (left_over >= 0)
-
-
-def narrowed(fits: Callable[[Index, Array], Mask], radius: Array, parts: int = 16) -> Array:
-    """The largest radii (m,) below the given ones for which something fits, by dividing the interval again and again.
-    `fits(which, radius)` tells for the things `which` (n,) of the m whether they fit (n,); all fit at zero."""
-    m = len(radius)
-    low, high, which = np.zeros(m), radius.copy(), np.repeat(np.arange(m), parts - 1)
-    steps = np.arange(1, parts) / parts
-    for _ in range(14):
-        width = high - low
-        tried = low[:, None] + width[:, None] * steps
-        good = fits(which, tried.ravel()).reshape(m, parts - 1)
-        first = np.where(good.all(axis=1), parts - 1, np.argmin(good, axis=1))  # the first that does not fit
-        low, high = low + width * first / parts, np.where(first < parts - 1, low + width * (first + 1) / parts, high)
-        if (high - low <= 1e-13 * radius).all():
-            break
-    return low
 
 
 def _leads(el: Elements) -> list[Places]:
@@ -235,8 +200,8 @@ def _global(found: Equidistant, contour: Index) -> list[Places]:
     walls = Walls(el.curves(run), n_in, n_out, joined, s, group)
     coarse = chunks(walls)
     facing_and_crossed = [_bottlenecks(found, contour, k, walls, coarse), _crossed(found, contour)]
-    leads = [*_ends(found, contour, k, walls, coarse), *_rolled(found, contour, k, coarse)]
-    return [*facing_and_crossed, *leads, *_tips(found, contour)]
+    leads = [*arrivals(found, contour, k, walls, coarse), *rolled(found, contour, k, coarse)]
+    return [*facing_and_crossed, *leads, *cut_off(found, contour, k, walls, coarse), *_tips(found, contour)]
 
 
 def _bottlenecks(found: Equidistant, contour: Index, k: Index, walls: Walls, coarse: Chunks) -> Places:
@@ -245,7 +210,7 @@ def _bottlenecks(found: Equidistant, contour: Index, k: Index, walls: Walls, coa
     chords = facing(walls, 2 * el.R[k], coarse)
     if not len(chords.i):
         return Places("bottleneck", k[:0], k[:0], el.R[:0], el.R[:0], el.R[:0], "")
-    i, j, slack = k[chords.i], k[chords.j], _misfit(el)
+    i, j, slack = k[chords.i], k[chords.j], misfit(el)
     bad = (chords.length < 2 * el.R[i] - EXACT - slack[i] - slack[j]) & meet(el, i, j)
     bad[bad] = ~run_past(el, i[bad], j[bad])
     allowed = CLEAR + slack[i[bad]] + slack[j[bad]]
@@ -277,83 +242,8 @@ def _tips(found: Equidistant, contour: Index) -> list[Places]:
     if not len(c):
         return []
     lack = -clearance(el, c, w, el.R[c], rules)
-    bad = lack > EXACT + _misfit(el)[w]
+    bad = lack > EXACT + misfit(el)[w]
     c, w, lack = c[bad], w[bad], lack[bad]
     largest = narrowed(lambda at, R: clearance(el, c[at], w[at], R, rules) >= 0, el.R[c])
     text = "the straight corner after this element leads the tool of radius {R:.4g} into the element of line {other}"
     return [Places("corner", c, w, el.R[c] - lack, lack, largest, text, "take a smaller tool, or G160")]
-
-
-def _misfit(el: Elements) -> Array:
-    """By how much the end of each arc misses its circle (n,), mm: the tolerance of programmed centres."""
-    slack = np.zeros(len(el.rows))
-    k = np.flatnonzero(el.arc)
-    slack[k] = np.abs(np.hypot(*(el.end[k] - el.centre[k]).T) - el.r[k])
-    return slack
-
-
-def _ends(found: Equidistant, contour: Index, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
-    """Where the tool arrives at the first wall of a contour, and where it leaves the last, other walls must be clear."""
-    el = found.el
-    slack, places = _misfit(el), []
-    last = np.append(~walls.joined[1:], True)
-    for edge, at_end in ((~walls.joined, False), (last, True)):
-        for e in np.flatnonzero(edge):  # two for a contour
-            P, normal = (el.end[k[e]], walls.n_out[e]) if at_end else (el.start[k[e]], walls.n_in[e])
-            R = el.R[k[e]]
-            group = around(coarse, P + R * normal, R, len(k))
-            group = group[(walls.group[group] == walls.group[e]) & (group != e)]
-            height = el.to_height[k[e]] if at_end else el.from_height[k[e]]
-            group = group[at_height(el, float(height), k[group])]
-            if not len(group):
-                continue
-            around_it, allowed = walls.curves.take(group), EXACT + slack[k[e]] + slack[k[group]]
-
-            def clear(
-                which: Index, radius: Array, c: Curves = around_it, P: Array = P, normal: Array = normal
-            ) -> Array:
-                return distance(P + radius[:, None] * normal, c.take(which)) - radius
-
-            bad = np.flatnonzero(clear(np.arange(len(group)), np.full(len(group), R)) < -allowed)
-            one, other = np.full(len(bad), k[e]), k[group[bad]]
-            bad = bad[~run_past(el, one, other) & ~given_up(found, contour, one, other)]
-            if not len(bad):
-                continue
-            room = -allowed[bad]
-            largest = narrowed(lambda m, radius: clear(bad[m], radius) >= room[m], np.full(len(bad), R))  # noqa: B023
-            worst = [int(np.argmin(largest))]
-            width = R + clear(bad[worst], np.array([R]))
-            verb = "leaves" if at_end else "arrives at"
-            text = f"where the tool of radius {{R:.4g}} {verb} the contour, the element of line {{other}} is {{r:.6g}} mm away"
-            places.append(Places("end", k[[e]], k[group[bad[worst]]], width, R - width, largest[worst], text))
-    return places
-
-
-def _rolled(found: Equidistant, contour: Index, k: Index, coarse: Chunks) -> list[Places]:
-    """Arcs by which the tool rolls onto the first wall of a contour, or off the last, into walls k of the contour."""
-    el, rules, slack, places = found.el, found.rules, _misfit(found.el), []
-    c = np.flatnonzero(found.insert[1:] & (el.lead[:-1] | el.exit[1:]))
-    near = [k[around(coarse, el.end[one], 2 * float(el.R[one]), len(k))] for one in c]
-    here = zip(c, near, strict=True)
-    near = [w[(contour[w] == contour[one]) & at_height(el, float(el.from_height[one + 1]), w)] for one, w in here]
-    if not near:
-        return []
-    every, wall = np.repeat(c, [len(w) for w in near]), np.concatenate(near)
-    for kind, step in (("entry", 1), ("exit", 0)):
-        of = el.lead[every] == bool(step)
-        at, w = every[of], wall[of]
-        own = at + step  # the wall at the lead
-        look = neighbours.Pairs(at, np.ones(len(at), dtype=bool), w, np.full(len(at), np.inf))
-        room = -CLEAR / 2 - slack[own] - slack[w]
-        bad = np.flatnonzero(neighbours.clearance(el, look, el.R[at], rules) < room)
-        off = run_past(el, own[bad], w[bad]) | given_up(found, contour, own[bad], w[bad])
-        bad = bad[~off | (own == w)[bad]]
-        if not len(bad):
-            continue
-        look = look.take(bad)
-        through = "the contour through the element of line {other}, {r:.6g} mm from its centre"
-        text = f"the tool of radius {{R:.4g}} rolls {'onto' if step else 'off'} {through}"
-        hint = f"let the {kind} {'come from' if step else 'lead to'} the side of the tool"
-        measured = _measured(el, look, room[bad], rules)
-        places.append(Places(kind, look.k + 1 - step, look.wall, *measured, text, hint))
-    return places

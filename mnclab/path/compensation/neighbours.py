@@ -98,6 +98,19 @@ def clearance(el: Elements, look: Pairs, radius: Array, rules: Compensation) -> 
     if len(look.k) > BATCH:
         pieces = [np.arange(k, min(k + BATCH, len(look.k))) for k in range(0, len(look.k), BATCH)]
         return np.concatenate([clearance(el, look.take(k), radius[k], rules) for k in pieces])
+    (row, there), wall = rows(el, look, radius, rules), el.curves(look.wall)
+    near_by = np.flatnonzero(np.isfinite(look.reach))
+    if len(near_by):  # a row keeps the share of what its element keeps
+        after = look.k >= look.wall
+        keeps = [np.minimum(1.0, look.reach / el.length(k)) for k in (look.k, look.wall)]
+        keeps[0][look.corner] = 1.0
+        row = part(row, np.where(after, 0.0, 1 - keeps[0]), np.where(after, keeps[0], 1.0))
+        wall = part(wall, np.where(after, 1 - keeps[1], 0.0), np.where(after, 1.0, keeps[1]))
+    return np.where(there, gap(row, wall) - radius, np.inf)
+
+
+def rows(el: Elements, look: Pairs, radius: Array, rules: Compensation) -> tuple[Curves, Mask]:
+    """The rows of the tool centre, for a radius each (m,), and which of them are there."""
     n, c = len(look.k), np.flatnonzero(look.corner)
     begin, end = np.empty((n, 2)), np.empty((n, 2))
     centre, sweep, r = el.centre[look.k], np.zeros(n), np.full(n, np.nan)
@@ -113,12 +126,4 @@ def clearance(el: Elements, look: Pairs, radius: Array, rules: Compensation) -> 
         at = corners(el, look.k[c], rules, radius[c])
         begin[c], end[c], centre[c], sweep[c], r[c] = at.E, at.S, el.end[look.k[c]], at.turn, radius[c]
         there[c] = at.insert & ~at.apart
-    row, wall = Curves(begin, end, centre, r, sweep), el.curves(look.wall)
-    near_by = np.flatnonzero(np.isfinite(look.reach))
-    if len(near_by):  # a row keeps the share of what its element keeps
-        after = look.k >= look.wall
-        keeps = [np.minimum(1.0, look.reach / el.length(k)) for k in (look.k, look.wall)]
-        keeps[0][look.corner] = 1.0
-        row = part(row, np.where(after, 0.0, 1 - keeps[0]), np.where(after, keeps[0], 1.0))
-        wall = part(wall, np.where(after, 1 - keeps[1], 0.0), np.where(after, 1.0, keeps[1]))
-    return np.where(there, gap(row, wall) - radius, np.inf)
+    return Curves(begin, end, centre, r, sweep), there

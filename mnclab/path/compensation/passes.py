@@ -8,6 +8,8 @@ next pass of a roughing, say, which leaves the last one by a loop and comes back
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from mnclab.geometry.boxes import near
@@ -43,15 +45,27 @@ def cuts(found: Equidistant, i: Index, j: Index, allowed: Array) -> Mask:
 
 def run_past(el: Elements, i: Index, j: Index) -> Mask:
     """Whether elements i and j (m,) cross, or touch with an end, as at an outside corner from the later to the earlier."""
+    return np.logical_or.reduce([there for _, there in _outside(el, i, j)])
+
+
+def standing(el: Elements, i: Index, j: Index) -> tuple[Array, Array]:
+    """The shares (m,) at which walls j begin and end to stand, where they cross elements i (m,) as at an outside corner."""
+    begin, end = np.zeros(len(j)), np.ones(len(j))
+    for p, there in _outside(el, i, j):
+        at = share(p, el.curves(j))
+        begin, end = np.where(there & (j < i), np.maximum(begin, at), begin), np.where(there & (j > i), np.minimum(end, at), end)
+    return begin, end
+
+
+def _outside(el: Elements, i: Index, j: Index) -> Iterator[tuple[Array, Mask]]:
+    """Common points (m, 2) of elements i and j (m,), and where they are outside corners from the later to the earlier."""
     first, last = np.minimum(i, j), np.maximum(i, j)
     one, two = el.curves(first), el.curves(last)
-    result = np.zeros(len(first), dtype=bool)
     for p in crossings(one, two):
         turn = cross(_tangent(two, p), _tangent(one, p))
         with np.errstate(invalid="ignore"):
             joint = (last == first + 1) & (np.hypot(*(p - el.end[first]).T) < ENDS)
-            result |= np.isfinite(p[:, 0]) & ~joint & (el.s[first] * turn < -ALONG)
-    return result
+            yield p, np.isfinite(p[:, 0]) & ~joint & (el.s[first] * turn < -ALONG)
 
 
 def crossed(el: Elements, contour: Index) -> tuple[Index, Index]:
@@ -143,7 +157,7 @@ def _places(el: Elements, k: int) -> tuple[Array, Array]:
     m = int(np.clip(4 * length / el.R[k], 8, MOST)) + 1 if el.R[k] > 0 else MOST + 1
     wall = el.curves(np.full(m, k))
     p = part(wall, np.zeros(m), np.linspace(0, 1, m)).end
-    return p, el.s[k] * left(_tangent(wall, p))
+    return p, normals(el, np.full(m, k), p)
 
 
 def _stands(found: Equidistant, k: Index, earlier: Mask, p: Array, normal: Array) -> Mask:
@@ -164,6 +178,11 @@ def _rows(found: Equidistant, k: Index) -> Curves:
     el = found.el
     r = np.abs(el.r[k] - el.s[k] * np.sign(el.sweep[k]) * el.R[k])
     return Curves(found.begin[k], found.end[k], el.centre[k], np.where(el.arc[k], r, np.nan), found.sweep[k])
+
+
+def normals(el: Elements, k: Index, p: Array) -> Array:
+    """Unit normals (m, 2) to the tool of elements k (m,) beside points p (m, 2)."""
+    return np.asarray(el.s[k, None] * left(_tangent(el.curves(k), p)))
 
 
 def _tangent(curve: Curves, p: Array) -> Array:
