@@ -22,7 +22,7 @@ from mnclab.workpiece.turning.sweeping import Edge
 if TYPE_CHECKING:
     from mnclab.workpiece.turning.turned import Turned
 
-CHORDS = 18  # of a quarter of a nose
+CHORDS = 9  # of a quarter of a nose
 SIDE = 1e-9  # of an edge, by which it goes ahead
 
 
@@ -64,12 +64,11 @@ def _at(part: Turned, rows: Index, share: Array) -> Ahead:
         start = _place(part, place[which[k]]) + body[e]
         lines = shapely.linestrings(np.stack([start, start + edge[e]], axis=1))
         shapely.prepare(area)
-        inside = shapely.intersection(lines, area)
-        length = shapely.length(inside)
-        cut = length > 0
-        depth = across[k, e][cut] * length[cut] / shapely.length(lines[cut])
+        cut = np.flatnonzero(shapely.intersects(area, lines))
+        inside = shapely.intersection(lines[cut], area)
+        depth = across[k, e][cut] * shapely.length(inside) / shapely.length(lines[cut])
         np.add.at(found.depth, which[k[cut]], depth)
-        np.add.at(found.area, which[k[cut]], 2 * math.pi * depth * np.abs(shapely.get_y(shapely.centroid(inside[cut]))))
+        np.add.at(found.area, which[k[cut]], 2 * math.pi * depth * np.abs(shapely.get_y(shapely.centroid(inside))))
     return found
 
 

@@ -87,7 +87,7 @@ class Turned(Workpiece):
         found: dict[int, list[Any]] = {}
         for row, cut, _ in self._cuts:
             found.setdefault(row, []).append(cut)
-        return {row: shapely.union_all(pieces) for row, pieces in found.items()}
+        return {row: pieces[0] if len(pieces) == 1 else shapely.union_all(pieces) for row, pieces in found.items()}
 
     def reach(self, rows: Index) -> Array:
         return engaged.reach(self, rows)
