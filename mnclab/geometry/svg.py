@@ -2,7 +2,8 @@
 
 Circular arcs stay arcs; elliptical ones and curves become chords, nowhere farther off than the tolerance. Y runs upwards in
 what is returned. A drawing with a viewBox and a width in mm, cm or in has that size; else a unit is a millimetre. What draws
-no lines (text, pictures) is left out, and a warning names it; copies (`use`) and drawings within the drawing are an Alarm.
+no lines (text, pictures) or is hidden is left out, and a warning names it; copies (`use`) and drawings within the drawing
+are an Alarm.
 
     a cubic curve cut into n pieces is off by at most 6·L / (8·n²), L = max |second difference of its points|
 """
@@ -34,6 +35,8 @@ COUNT = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7,
 UNITS = {"": 1.0, "px": 1.0, "mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72, "pc": 25.4 / 6}
 SKIPPED = {"defs", "clipPath", "mask", "symbol", "marker", "pattern"}
 WRITTEN = {"text", "image", "foreignObject"}
+HIDDEN = re.compile(r"(?:^|;)\s*(?:display\s*:\s*none|visibility\s*:\s*(?:hidden|collapse))\s*(?:;|$|!)")
+FIT, LIKE = "xMidYMid meet", 1 + 1e-3  # how a box lies in a page of another ratio, unless it says so; ratios that are the same
 LARGEST = 1e12  # of a number in a drawing, whatever its unit
 
 
@@ -50,8 +53,13 @@ def contours(source: str | Path, tolerance: float = 0.01) -> list[Contour]:
         root = ElementTree.fromstring(text)
     except (ElementTree.ParseError, ValueError, LookupError) as error:
         raise Alarm(f"this is no SVG: {error}") from None
+    if (name := root.tag.rpartition("}")[2]) != "svg":
+        raise Alarm(f"this is no SVG: its outermost element is <{name[:40]}>")
     left: Counter[str] = Counter()
     found = list(_drawn(root, _page(root), tolerance, left))
+    if hidden := left.pop("", 0):
+        told = f"{hidden} hidden element{'s' * (hidden != 1)} left out, with all in {'them' if hidden != 1 else 'it'}"
+        warnings.warn(f"the drawing has {told} (display: none, visibility: hidden)", stacklevel=2)
     if left:
         names = ", ".join(f"{count} {name}" for name, count in sorted(left.items()))
         warnings.warn(f"the drawing has {names} left out, which draw no lines", stacklevel=2)
@@ -75,10 +83,16 @@ def _page(root: ElementTree.Element) -> Floats:
     size = [(name, SIZE.fullmatch(root.get(name, "").strip())) for name in ("width", "height")]
     given = [_number(m[1], name) * UNITS[m[2]] if m and m[2] in UNITS else None for name, m in size]
     x, y, wide, tall = box or (0.0, 0.0, given[0] or 0.0, given[1] or 0.0)
-    scale = next((g / side for g, side in zip(given, (wide, tall)) if g and side), 1.0)
+    scales = [g / side for g, side in zip(given, (wide, tall)) if g and side]
+    scale = min(scales, default=1.0)  # the box lies in the middle of the page, as great as it may: "xMidYMid meet"
     if not (0 < scale <= LARGEST and tall * scale <= LARGEST):
         raise Alarm(f"a unit of the drawing would be {scale:g} mm")
-    return np.array([[scale, 0.0, -x * scale], [0.0, -scale, (y + tall) * scale]])
+    fit = (root.get("preserveAspectRatio") or FIT).strip()
+    if max(scales, default=1.0) > scale * LIKE and fit not in (FIT, FIT.split()[0]):
+        hint = "width and height in the ratio of viewBox"
+        raise Alarm(f"a drawing with preserveAspectRatio={shown(fit)} is not read", hint=hint)
+    aside, above = ((g - side * scale) / 2 if g and side else 0.0 for g, side in zip(given, (wide, tall)))
+    return np.array([[scale, 0.0, aside - x * scale], [0.0, -scale, above + (y + tall) * scale]])
 
 
 def _drawn(root: ElementTree.Element, page: Floats, tolerance: float, left: Counter[str]) -> Iterator[Contour]:
@@ -92,6 +106,12 @@ def _drawn(root: ElementTree.Element, page: Floats, tolerance: float, left: Coun
         if name in WRITTEN:
             left[name] += 1
             continue
+        style = ";".join(f"{key}:{element.get(key, '')}" for key in ("display", "visibility")) + ";" + element.get("style", "")
+        if HIDDEN.search(style):
+            left[""] += 1
+            continue
+        if "transform" in element.get("style", ""):
+            raise Alarm(f"a <{name[:40]}> is moved by its style, which is not read", hint='write transform="…"')
         if name == "use" or (name == "svg" and element is not root):
             raise Alarm(f"<{name}> within a drawing is not read", hint="write its lines there; Inkscape: Unlink Clone, Ungroup")
         if transform := element.get("transform"):

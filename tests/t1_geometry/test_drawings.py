@@ -35,6 +35,47 @@ def test_units_of_the_page():
     assert line.points == pytest.approx(np.array([[0, 0], [100, 0]]))
 
 
+@pytest.mark.parametrize(
+    ("page", "low", "high"),
+    [
+        ('width="100mm" height="50mm" viewBox="0 0 100 100"', (25, 0), (75, 50)),
+        ('width="50mm" height="100mm" viewBox="0 0 100 100"', (0, 25), (50, 75)),
+        ('width="100mm" height="50mm" viewBox="10 20 100 100" preserveAspectRatio="xMidYMid"', (20, 10), (70, 60)),
+        ('width="210mm" height="297mm" viewBox="0 0 210 297" preserveAspectRatio="none"', (0, 197), (100, 297)),
+    ],
+)
+def test_a_page_of_another_ratio(page, low, high):
+    """SVG 2, 8.6: by default the viewBox keeps its ratio, is as great as the page lets it and lies in its middle."""
+    (only,) = svg.contours(f'<svg {page}><rect width="100" height="100"/></svg>')
+    assert only.bounds == pytest.approx(np.array([low, high]))
+
+
+def test_a_page_that_stretches_is_an_alarm():
+    with pytest.raises(Alarm, match="preserveAspectRatio='none' is not read"):
+        svg.contours('<svg width="9mm" height="5mm" viewBox="0 0 1 1" preserveAspectRatio="none"><circle r="1"/></svg>')
+
+
+@pytest.mark.parametrize("how", ['display="none"', 'style="fill:red; display : none"', 'style="visibility:hidden"'])
+def test_what_is_hidden_is_left_out_and_told(how):
+    """Inkscape hides a layer by `style="display:none"`."""
+    text = f'<svg><circle r="2"/><g {how}><rect width="9" height="9"/></g></svg>'
+    with pytest.warns(UserWarning, match="1 hidden element left out, with all in it"):
+        (only,) = svg.contours(text)
+    assert abs(only.area) == pytest.approx(4 * np.pi)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("<html><p/></html>", "no SVG: its outermost element is <html>"),
+        ('<svg><rect width="1" height="1" style="transform:scale(2)"/></svg>', "moved by its style"),
+    ],
+)
+def test_what_would_be_read_wrongly(text, told):
+    with pytest.raises(Alarm, match=told):
+        svg.contours(text)
+
+
 def test_all_words_of_a_path():
     (ring,) = drawn('<path d="m10 10h20v10l-5,5H15l-5-5z"/>')
     assert abs(ring.area) == pytest.approx(20 * 15 - 2 * 12.5)
