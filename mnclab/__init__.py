@@ -56,12 +56,12 @@ if TYPE_CHECKING:  # what OPENED says, for editors and for mypy
     from mnclab.comparison.strategies import compare as compare
     from mnclab.comparison.turning_schemes import compare as compare_turning
     from mnclab.controls.cycle_steps import steps as steps
-    from mnclab.show.editor import editor as editor
-    from mnclab.show.forms import compensation_panel as compensation_panel
-    from mnclab.show.forms import form as form
-    from mnclab.show.forms import panel as panel
-    from mnclab.show.forms import profile_panel as profile_panel
-    from mnclab.show.magic import load_ipython_extension as load_ipython_extension
+    from mnclab.lab.editor import editor as editor
+    from mnclab.lab.forms import compensation_panel as compensation_panel
+    from mnclab.lab.forms import form as form
+    from mnclab.lab.forms import panel as panel
+    from mnclab.lab.forms import profile_panel as profile_panel
+    from mnclab.lab.magic import load_ipython_extension as load_ipython_extension
     from mnclab.show.plot.profiles import plot_profiles as plot_profiles
     from mnclab.show.plot.variants import plot_runs as plot_runs
     from mnclab.workpiece.design import Design as Design
@@ -75,9 +75,9 @@ OPENED = Shelf("mnclab", "the names that need more than numpy", {
     "mnclab.comparison.diff": "diff",
     "mnclab.comparison.strategies": "compare",
     "mnclab.comparison.turning_schemes": "compare as compare_turning",
-    "mnclab.show.editor": "editor",
-    "mnclab.show.forms": "compensation_panel, form, panel, profile_panel",
-    "mnclab.show.magic": "load_ipython_extension",
+    "mnclab.lab.editor": "editor",
+    "mnclab.lab.forms": "compensation_panel, form, panel, profile_panel",
+    "mnclab.lab.magic": "load_ipython_extension",
     "mnclab.show.plot.profiles": "plot_profiles",
     "mnclab.show.plot.variants": "plot_runs",
     "mnclab.workpiece.design": "Design, TurnedDesign",
