@@ -59,7 +59,7 @@ def prepare(extra):
 
 def state():
     """What an installation depends on or copies; a change of any of it installs again."""
-    copied = sorted(path for path in (ROOT / "mnclab/show/labextension").rglob("*") if path.is_file())
+    copied = sorted(path for path in (ROOT / "mnclab/lab/labextension").rglob("*") if path.is_file())
     contents = [path.read_bytes() for path in [ROOT / "pyproject.toml", *copied]]
     return hashlib.sha256(b"\n".join([os.fsencode(ROOT), VERSION.encode(), *contents])).hexdigest()
 

@@ -15,8 +15,14 @@ The map of the house, floor by floor (a folder imports only from those above its
     running     what runs: the interpreter, the handing out of words, the bulk tier, cycles carried out
     runs        what is there after: Run, its history, moments, explanations
     controls    who speaks: a folder a control
-    show        what people see and take away: plots, forms, files
+    show        what people see and take away: plots, player, files
     shell       what is typed in a terminal
+
+and its wings, which may be left out and which no other room imports::
+
+    controls/…  each control with what it alone needs: mnc, jnc_t01, nc_31, g43, tnc_620
+    design      parts as drawn: designs, drawings, differences, recognition
+    lab         where one types and tries: forms, panels, editor, magics, sketches
 
 This module is the front door, and nothing else: it imports numpy only. What needs more is opened when it is first asked
 for, with its own signature; `part`, `blank`, `design`, `area`, `strategies`, `schemes` and `probing` are shelves: print
@@ -24,6 +30,7 @@ one to see what is on it.
 """
 
 import sys as _sys
+from pathlib import Path as _Path
 from typing import TYPE_CHECKING, Any
 
 from mnclab.controls import CONTROLS as controls
@@ -56,16 +63,16 @@ if TYPE_CHECKING:  # what OPENED says, for editors and for mypy
     from mnclab.comparison.strategies import compare as compare
     from mnclab.comparison.turning_schemes import compare as compare_turning
     from mnclab.controls.cycle_steps import steps as steps
-    from mnclab.show.editor import editor as editor
-    from mnclab.show.forms import compensation_panel as compensation_panel
-    from mnclab.show.forms import form as form
-    from mnclab.show.forms import panel as panel
-    from mnclab.show.forms import profile_panel as profile_panel
-    from mnclab.show.magic import load_ipython_extension as load_ipython_extension
+    from mnclab.design.model import Design as Design
+    from mnclab.design.model import TurnedDesign as TurnedDesign
+    from mnclab.lab.editor import editor as editor
+    from mnclab.lab.forms import compensation_panel as compensation_panel
+    from mnclab.lab.forms import form as form
+    from mnclab.lab.forms import panel as panel
+    from mnclab.lab.forms import profile_panel as profile_panel
+    from mnclab.lab.magic import load_ipython_extension as load_ipython_extension
     from mnclab.show.plot.profiles import plot_profiles as plot_profiles
     from mnclab.show.plot.variants import plot_runs as plot_runs
-    from mnclab.workpiece.design import Design as Design
-    from mnclab.workpiece.design import TurnedDesign as TurnedDesign
 
 __version__ = "0.1.0"
 
@@ -75,12 +82,12 @@ OPENED = Shelf("mnclab", "the names that need more than numpy", {
     "mnclab.comparison.diff": "diff",
     "mnclab.comparison.strategies": "compare",
     "mnclab.comparison.turning_schemes": "compare as compare_turning",
-    "mnclab.show.editor": "editor",
-    "mnclab.show.forms": "compensation_panel, form, panel, profile_panel",
-    "mnclab.show.magic": "load_ipython_extension",
+    "mnclab.lab.editor": "editor",
+    "mnclab.lab.forms": "compensation_panel, form, panel, profile_panel",
+    "mnclab.lab.magic": "load_ipython_extension",
     "mnclab.show.plot.profiles": "plot_profiles",
     "mnclab.show.plot.variants": "plot_runs",
-    "mnclab.workpiece.design": "Design, TurnedDesign",
+    "mnclab.design.model": "Design, TurnedDesign",
 })  # fmt: skip
 
 part = Shelf("mnclab.part", "what a probe touches, for Setup(part=…); parts combine: a | b, a & b, a - b", {
@@ -93,10 +100,10 @@ blank = Shelf("mnclab.blank", "what a program cuts from, for Setup(stock=…), a
 
 design = Shelf("mnclab.design", "a part as drawn, Design(blank, features) or TurnedDesign(profile, features), and features", {
     "mnclab.workpiece.blank": "Box, Revolved",
-    "mnclab.workpiece.design":
+    "mnclab.design.model":
         "Design, Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slope, Slot, Stud, "
         "TurnedDesign, Bore, CentreHole, FaceGroove, RingGroove, Thread, Undercut",
-})  # fmt: skip
+}, _Path(__file__).parent / "design")  # fmt: skip
 
 area = Shelf("mnclab.area", "contours and regions: by numbers, or out of a drawing or a path", {
     "mnclab.geometry.contours": "Contour",

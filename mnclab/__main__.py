@@ -29,6 +29,7 @@ from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, USAGE, describe, pro
 from mnclab.shell.timing import time
 from mnclab.show.export import BODIES, save
 from mnclab.text.alarm import Alarm
+from mnclab.text.opening import opened
 
 SUFFIXES = (
     "svg, pdf, png (pictures); html (the player); csv, json (the moves); dxf; ngc (plain blocks); stl, gltf, glb, vtk"
@@ -316,9 +317,8 @@ def verdict(result: mnclab.Run, quiet: bool = False) -> int:
 def explain(chosen: argparse.Namespace) -> int:
     """Print what a code means, or what the file of a design looks like."""
     if chosen.code == ["design"]:
-        from mnclab.workpiece.design import design_file, turned_file
-
-        print(f"a milled part:\n\n{design_file.FORMAT}\na turned part:\n\n{turned_file.FORMAT}", end="")
+        milled, turned = (opened(f"mnclab.design.model.{file}", "FORMAT") for file in ("design_file", "turned_file"))
+        print(f"a milled part:\n\n{milled}\na turned part:\n\n{turned}", end="")
         return CLEAN
     print(sensible(mnclab.help, " ".join(chosen.code), chosen.control))
     return CLEAN

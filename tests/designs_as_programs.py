@@ -8,9 +8,9 @@ import random
 
 import mnclab
 from mnclab import Setup, Tool
+from mnclab.design.model import Chamfer, Design, Face, Groove, Hole, Pocket, Slot, Stud
+from mnclab.design.model.shapes import Outline, Rectangle
 from mnclab.geometry.contours import Contour
-from mnclab.workpiece.design import Chamfer, Design, Face, Groove, Hole, Pocket, Slot, Stud
-from mnclab.workpiece.design.shapes import Outline, Rectangle
 
 TOOLS = {
     1: Tool(radius=5, kind="mill", plunge_angle=3), 2: Tool(radius=3, kind="mill", plunge_angle=3),

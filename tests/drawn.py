@@ -3,10 +3,10 @@
 import math
 import random
 
+from mnclab.design.drawing.dimensions import Angle, Diameter, Linear, Note, Radius, value
+from mnclab.design.drawing.view import Axis, Cross, Cut, Kind, Line, View, thread_circle
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.show.drawing.dimensions import Angle, Diameter, Linear, Note, Radius, value
-from mnclab.show.drawing.view import Axis, Cross, Cut, Kind, Line, View, thread_circle
 
 ROUND = math.tan(math.pi / 8)
 

@@ -3,7 +3,7 @@
 import math
 import random
 
-from mnclab.workpiece import design as d
+from mnclab.design import model as d
 
 
 def milled(seed):

@@ -11,17 +11,16 @@ import copyreg
 from collections.abc import Iterator, Mapping
 from importlib import import_module
 from importlib.metadata import entry_points
+from pathlib import Path
 
 from mnclab.machine.control import Control
 from mnclab.text.tables import html_table
 
-#: Name of a control -> the module that builds it.
+#: Name of a control -> the folder that builds it, if it was not left out.
 MODULES = {
-    "mnc": "mnclab.controls.mnc",
-    "tnc-620": "mnclab.controls.tnc_620",
-    "nc-31": "mnclab.controls.nc_31",
-    "g43": "mnclab.controls.g43",
-    "jnc-t01": "mnclab.controls.jnc_t01",
+    name: f"mnclab.controls.{folder}"
+    for name, folder in {"mnc": "mnc", "tnc-620": "tnc_620", "nc-31": "nc_31", "g43": "g43", "jnc-t01": "jnc_t01"}.items()
+    if (Path(__file__).parent / folder).is_dir()
 }
 
 #: Other names that a control answers to.

@@ -8,6 +8,7 @@ from typing import Any
 
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
+from mnclab.text.opening import opened
 from mnclab.text.toml_file import File, as_table, check_names
 from mnclab.workpiece.blank_file import point_of
 from mnclab.workpiece.part import Part, box, mesh
@@ -49,9 +50,7 @@ def _body(given: Any, kind: str, file: File) -> Part:
     path = Path(file.name).parent / given
     if kind == "mesh":
         return mesh(path)
-    from mnclab.workpiece.design import Design
-
-    return Design.load(path).part
+    return opened("mnclab.design.model", "Design").load(path).part
 
 
 def _with_errors(part: Part, given: Any, file: File, name: str) -> Part:

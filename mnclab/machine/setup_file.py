@@ -16,6 +16,7 @@ from mnclab.path.record_file import record
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import shown
+from mnclab.text.opening import opened
 from mnclab.text.toml_file import File, as_table, as_tables, check_names, parse
 from mnclab.workpiece.blank_file import blank_of, point_of
 
@@ -129,15 +130,13 @@ def _stock(table: Mapping[str, Any], stock: str, file: File) -> Any:
     """The blank, or the finished part of a design as the next one; its file is seen from the one that names it."""
     if "design" not in table:
         return blank_of(table, stock, file, stock)
-    from mnclab.workpiece.design import Design
-
     check_names(table, ("design", "turned_over"), f"{stock} of a design", file, stock)
     name, over = table["design"], table.get("turned_over", False)
     with file.at(stock, "design"):
         if not isinstance(name, str):
             raise Alarm(f"{stock}.design must be the name of a file, got {shown(name)}")
         try:
-            found = Design.load(Path(file.name).parent / name)
+            found = opened("mnclab.design.model", "Design").load(Path(file.name).parent / name)
         except Alarm as fault:
             line = f"{name}:{fault.span.line}" if fault.span else name
             raise Alarm(f"{stock}.design: {line}: {fault.message}", hint=fault.hint) from None

@@ -18,6 +18,7 @@ from mnclab.path.tool import Tool
 from mnclab.runs.cycle_tools import cycle_tools
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.given import check_number, shown, whole
+from mnclab.text.opening import opened
 from mnclab.text.program import NUMBER, Program
 from mnclab.workpiece.blank import Revolved, blank, from_datum
 from mnclab.workpiece.collision import Collision, Collisions
@@ -26,9 +27,9 @@ from mnclab.workpiece.part import Part
 from mnclab.workpiece.workpiece import Workpiece, no_blank
 
 if TYPE_CHECKING:
+    from mnclab.design.recognition.proposal import Proposal
+    from mnclab.design.recognition.turned import TurnedProposal
     from mnclab.runs.run import Run
-    from mnclab.workpiece.recognition.proposal import Proposal
-    from mnclab.workpiece.recognition.turned import TurnedProposal
 
 Made = TypeVar("Made")
 KEPT = 6  # parts and lists of collisions that a run keeps
@@ -154,13 +155,9 @@ def _workpiece(run: Run, last: int | None, step: float | None, stock: Any) -> Wo
 def design(run: Run, stock: Any = None) -> Proposal | TurnedProposal:
     """The design that a run makes, with the name of its program."""
     cutting, title = cutting_of(run, stock), Path(run.program.name).stem
-    if cutting.lathe:
-        from mnclab.workpiece.recognition.turned import proposed as turned
-
-        return replace(turned(cutting), title=title)
-    from mnclab.workpiece.recognition.proposal import proposed
-
-    return replace(proposed(cutting), title=title)
+    proposed = opened(f"mnclab.design.recognition.{'turned' if cutting.lathe else 'proposal'}", "proposed")
+    found: Proposal | TurnedProposal = replace(proposed(cutting), title=title)
+    return found
 
 
 def collisions(run: Run, stock: Any = None, step: float | None = None) -> Collisions:

@@ -60,9 +60,9 @@ if TYPE_CHECKING:
     import pyvista
     from matplotlib.figure import Figure
 
+    from mnclab.design.recognition.proposal import Proposal
+    from mnclab.design.recognition.turned import TurnedProposal
     from mnclab.show.player import Player
-    from mnclab.workpiece.recognition.proposal import Proposal
-    from mnclab.workpiece.recognition.turned import TurnedProposal
 
 EXAMPLE = 'a machine is its limits: run(…, limits="small-mill"); a setup: ' "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
 

@@ -2,27 +2,56 @@
 
 What is opened is the real thing: its signature, its docstring, its own file. Where it stands is written as an import
 is, a module and its names: `{"mnclab.geometry.shapes": "arc, slot", "mnclab.geometry.svg": "contours as svg"}`.
+
+The core of the house imports no wing (`design`, `lab`, the controls): it opens by name what a wing offers, and where that
+wing was left out, an alarm says so.
 """
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
+from importlib import import_module
 from inspect import getdoc
-from pkgutil import resolve_name
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from mnclab.text.alarm import Alarm
 from mnclab.text.nearest import hint
+
+#: What may be left out -> what it holds.
+WINGS = {
+    "mnclab.design": "parts as drawn, their drawings and differences",
+    "mnclab.lab": "forms, panels, the editor and the magics",
+    "mnclab.controls": "the controls",
+}
+
+
+def opened(module: str, name: str) -> Any:
+    """What a module calls by this name, or its file of this name; an Alarm where the wing of the module is not there."""
+    try:
+        found = import_module(module)
+        return getattr(found, name) if hasattr(found, name) else import_module(f"{module}.{name}")
+    except ModuleNotFoundError as fault:
+        held = next((held for wing, held in WINGS.items() if f"{fault.name}.".startswith(f"{wing}.")), "")
+        if not held:
+            raise
+        raise Alarm(f"{name} is not there: {fault.name} was left out of this mnclab (it holds {held})") from None
 
 
 class Shelf(ModuleType):
-    """A module of names that stand in several files: `mnc.part.box(…)`. Printed, it says what each of them is."""
+    """A module of names that stand in several files: `mnc.part.box(…)`. Printed, it says what each of them is.
 
-    def __init__(self, name: str, doc: str, imports: Mapping[str, str]) -> None:
+    One with a folder of its own, as a wing has, is a package besides: `__path__` says where its files are.
+    """
+
+    def __init__(self, name: str, doc: str, imports: Mapping[str, str], folder: Path | None = None) -> None:
         super().__init__(name, doc)
+        if folder is not None:
+            self.__path__ = [str(folder)]
         written = ((module, each.split(" as ")) for module, names in imports.items() for each in names.split(", "))
-        self._places = {each[-1]: f"{module}.{each[0]}" for module, each in written}
+        self._places = {each[-1]: (module, each[0]) for module, each in written}
         self.__all__ = list(self._places)
         sys.modules.setdefault(name, self)  # for `from mnclab.part import box`
 
@@ -30,7 +59,7 @@ class Shelf(ModuleType):
         if name not in self._places:
             near = "" if name.startswith("_") else hint(name, self._places)
             raise AttributeError(f"{self.__name__} has no {name!r}" + (f" ({near})" if near else ""))
-        found = resolve_name(self._places[name])
+        found = opened(*self._places[name])
         setattr(self, name, found)
         return found
 

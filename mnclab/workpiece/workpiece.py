@@ -15,6 +15,7 @@ from mnclab.path.columns import Array, Index
 from mnclab.text.alarm import Alarm
 from mnclab.text.calls import fitting_class
 from mnclab.text.given import check_point, choice
+from mnclab.text.opening import opened
 from mnclab.text.rounded import Rounded
 from mnclab.workpiece.ahead import Ahead
 from mnclab.workpiece.blank import Blank
@@ -25,8 +26,8 @@ if TYPE_CHECKING:
     import pyvista
     from matplotlib.figure import Figure
 
+    from mnclab.design.difference.difference import Difference
     from mnclab.geometry.contours import Contour
-    from mnclab.workpiece.difference.difference import Difference
     from mnclab.workpiece.milling.moves import Moves
     from mnclab.workpiece.part import Part
 
@@ -187,10 +188,9 @@ class Workpiece(ABC):
         return Rounded({int(key): float(total) for key, total in zip(known, sums) if total != 0})
 
     def compare(self, target: Any, tolerance: float = 0.05) -> Difference:
-        """How it differs from a design, or from that of a TOML file; see `workpiece.difference`. `tolerance` in mm."""
-        from mnclab.workpiece.difference.comparing import compare
-
-        return compare(self, target, tolerance)
+        """How it differs from a design, or from that of a TOML file; see `design.difference`. `tolerance` in mm."""
+        found: Difference = opened("mnclab.design.difference.comparing", "compare")(self, target, tolerance)
+        return found
 
     # --- doors -------------------------------------------------------------------------------------------------------
 

@@ -11,7 +11,7 @@ import pytest
 from milled import part
 
 from mnclab import Tool
-from mnclab.workpiece.design import Design, Pocket
+from mnclab.design.model import Design, Pocket
 
 pytestmark = pytest.mark.benchmark
 BLOCK, STEP = ((0, 0, -20), (102.4, 102.4, 0)), 0.1

@@ -47,7 +47,7 @@ def lab(tmp_path_factory):
     environment.pop("MPLBACKEND", None)  # kernels choose theirs, as they do for people
     shared = home / "share" / "labextensions"
     shared.mkdir(parents=True)
-    shutil.copytree(ROOT / "mnclab" / "show" / "labextension", shared / "mnclab")  # these files, whatever is installed
+    shutil.copytree(ROOT / "mnclab" / "lab" / "labextension", shared / "mnclab")  # these files, whatever is installed
     environment["JUPYTER_PATH"] = os.pathsep.join(filter(None, [str(shared.parent), environment.get("JUPYTER_PATH")]))
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))

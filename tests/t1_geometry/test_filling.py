@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from mnclab.design.filling import filled
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.filling import filled
 from mnclab.geometry.regions import Region
 
 X, Y = np.arange(-9.5, 10), np.arange(-8.25, 9)

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 import shapely
 
-from mnclab.geometry.contours import Contour
-from mnclab.machining.milling.cylinder import (
+from mnclab.controls.tnc_620.machining.cylinder import (
     beside,
     lead,
     opened,
@@ -20,6 +19,7 @@ from mnclab.machining.milling.cylinder import (
     standing,
     way_along,
 )
+from mnclab.geometry.contours import Contour
 from mnclab.path.fault import PathFault
 
 SQUARE = Contour([(0, 0), (50, 0), (50, 50), (0, 50)])

@@ -8,7 +8,7 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mnclab.machining.milling import studs
+from mnclab.controls.tnc_620.machining import studs
 
 
 def half_sides(passes):

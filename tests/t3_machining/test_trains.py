@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from shapely import LineString
 
+from mnclab.controls.tnc_620.machining.train_passes import Feeds, Train, leading_off, leading_to, mill
+from mnclab.controls.tnc_620.machining.train_rests import rests
+from mnclab.controls.tnc_620.machining.trains import beside, cuts_into
 from mnclab.geometry.contours import Contour
-from mnclab.machining.milling.train_passes import Feeds, Train, leading_off, leading_to, mill
-from mnclab.machining.milling.train_rests import rests
-from mnclab.machining.milling.trains import beside, cuts_into
 from mnclab.machining.tracing import traced
 from mnclab.path.fault import PathFault
 from mnclab.path.leads import Lead

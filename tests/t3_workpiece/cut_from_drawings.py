@@ -8,7 +8,7 @@ import random
 from running import run
 
 from mnclab import Tool
-from mnclab.workpiece.design import Chamfer, Design, Face, Hole, Pocket, Slot, Stud
+from mnclab.design.model import Chamfer, Design, Face, Hole, Pocket, Slot, Stud
 from mnclab.workpiece.milling.milled import Milled
 
 MILL, DRILL, BEVEL = 1, 2, 3

@@ -5,13 +5,13 @@ from dataclasses import replace
 import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
-from mnclab.design import Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slope, Slot, Stud
 
 import mnclab
 from mnclab import Alarm, Design
+from mnclab.design import Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slope, Slot, Stud
+from mnclab.design.model.design_file import FORMAT, design_of, text_of
 from mnclab.text.toml_file import File, table_of
 from mnclab.workpiece.blank import cylinder
-from mnclab.workpiece.design.design_file import FORMAT, design_of, text_of
 
 NAMESPACE = {name: getattr(mnclab.design, name) for name in mnclab.design.__all__}
 

@@ -6,12 +6,12 @@ from math import pi, radians, tan
 from pathlib import Path
 
 import pytest
-from mnclab.design import Chamfer, Circle, Face, Groove, Hole, Pocket, Rectangle, Slot, Stud
 
 from mnclab import Design
+from mnclab.design import Chamfer, Circle, Face, Groove, Hole, Pocket, Rectangle, Slot, Stud
+from mnclab.design.model.design_file import design_of, text_of
 from mnclab.text.toml_file import File, table_of
 from mnclab.workpiece.blank import cylinder
-from mnclab.workpiece.design.design_file import design_of, text_of
 
 RECORDS = json.loads((Path(__file__).parents[1] / "authorities" / "designs.json").read_text())["designs"]
 FEW = 8  # that are always weighed

@@ -9,9 +9,9 @@ from milled import MILL, part
 from t3_workpiece.cut_from_drawings import Writer, cut
 
 from mnclab import Alarm, Tool
+from mnclab.design.model import Chamfer, Design, Face, Groove, Hole, Pocket, Rectangle, Slot, Stud
 from mnclab.geometry.contours import Contour
 from mnclab.workpiece.blank import cylinder
-from mnclab.workpiece.design import Chamfer, Design, Face, Groove, Hole, Pocket, Rectangle, Slot, Stud
 
 BLOCK = ((0, 0, -20), (60, 40, 0))
 ROUND = 12.0 - 5.0  # the path of a mill of 5 mm in a circle of 24

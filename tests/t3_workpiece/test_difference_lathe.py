@@ -7,11 +7,11 @@ import pytest
 from t3_workpiece.lathe import BAR, NOSED, SHARP, cutting, turned
 from t3_workpiece.turned_designs import shaft
 
+from mnclab.design.model import Bore, Design, Face, RingGroove, Thread, TurnedDesign
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
 from mnclab.workpiece.blank import cylinder
 from mnclab.workpiece.cutting import Cutting
-from mnclab.workpiece.design import Bore, Design, Face, RingGroove, Thread, TurnedDesign
 from mnclab.workpiece.turning.turned import Turned
 
 WITHIN = 1e-6

@@ -7,7 +7,7 @@ import pytest
 from milled import part
 
 from mnclab import Tool
-from mnclab.workpiece.design import Design, Pocket
+from mnclab.design.model import Design, Pocket
 
 BLOCK = ((0, 0, -20), (60, 40, 0))
 MANY = 22_000

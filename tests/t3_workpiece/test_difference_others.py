@@ -8,8 +8,8 @@ from milled import DRILL, MILL, part
 from running import run
 
 from mnclab import Setup, Tool
+from mnclab.design.model import Design, Hole, Pocket, TurnedDesign
 from mnclab.text.alarm import Alarm
-from mnclab.workpiece.design import Design, Hole, Pocket, TurnedDesign
 
 RING = "G0 X15 Y15\nG1 Z-5\nG1 X45\nG1 Y25\nG1 X15\nG1 Y15\nG0 Z50"
 BLOCK = ((0, 0, -20), (60, 40, 0))
@@ -128,7 +128,7 @@ def test_open_bodies_and_others_are_refused(tmp_path):
 
 def test_facets_say_how_far_they_are_off():
     """A cylinder of 24 sides: its facets lie r·(1 - cos 7.5°) inside, the comparison says at least half of that."""
-    from mnclab.workpiece.difference.mesh import mesh_of
+    from mnclab.workpiece.part.mesh import mesh_of
 
     rise = 10 * (1 - math.cos(math.radians(7.5)))
     found = mesh_of(pv.Cylinder(radius=10, height=20, resolution=24))

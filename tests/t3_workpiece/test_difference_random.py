@@ -6,7 +6,7 @@ import pytest
 from t3_workpiece.cut_from_drawings import DRILL, MILL, R, cut, random_design, written
 
 from mnclab import Tool
-from mnclab.workpiece.design import Design
+from mnclab.design.model import Design
 
 SEEDS = [*range(3), *(pytest.param(seed, marks=pytest.mark.deep) for seed in range(3, 33))]
 STEP, EXACT = 0.4, 2e-5  # mm; the centre of a circle is the mean of a few hundred places

@@ -8,8 +8,8 @@ import pytest
 from t3_workpiece.turned_designs import frustum, ring, rounded, shaft
 
 import mnclab as mnc
+from mnclab.design.model import Bore, CentreHole, FaceGroove, RingGroove, Thread, TurnedDesign, Undercut
 from mnclab.geometry.contours import Contour
-from mnclab.workpiece.design import Bore, CentreHole, FaceGroove, RingGroove, Thread, TurnedDesign, Undercut
 from mnclab.workpiece.part import contact
 
 QUARTER = math.tan(math.pi / 8)

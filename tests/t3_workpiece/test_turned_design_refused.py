@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import mnclab as mnc
+from mnclab.design.model import Bore, CentreHole, FaceGroove, RingGroove, Thread, TurnedDesign, Undercut
+from mnclab.design.model.turned_file import FORMAT
 from mnclab.geometry.contours import Contour
-from mnclab.workpiece.design import Bore, CentreHole, FaceGroove, RingGroove, Thread, TurnedDesign, Undercut
-from mnclab.workpiece.design.turned_file import FORMAT
 
 BAR = [(0, 20), (-30, 20)]
 STEP = [(0, 12), (-30, 12), (-30, 20), (-50, 20)]

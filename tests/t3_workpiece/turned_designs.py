@@ -3,8 +3,8 @@
 import math
 import random
 
+from mnclab.design.model import Bore, CentreHole, FaceGroove, RingGroove, Thread, TurnedDesign
 from mnclab.workpiece.blank import cylinder
-from mnclab.workpiece.design import Bore, CentreHole, FaceGroove, RingGroove, Thread, TurnedDesign
 
 OFF = (10 - 3 * math.pi) / (3 * (4 - math.pi))  # from the corner to the middle of what a rounding leaves or takes, radius 1
 

@@ -7,8 +7,8 @@ from designs_as_programs import TIP3, TOOLS, plate, run_of, studs
 
 import mnclab
 from mnclab import Alarm, Setup, Tool
+from mnclab.design.model import Design, Hole, Pocket, Slot
 from mnclab.workpiece.blank import cylinder
-from mnclab.workpiece.design import Design, Hole, Pocket, Slot
 
 
 def told(feature):

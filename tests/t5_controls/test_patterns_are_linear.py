@@ -55,7 +55,7 @@ def kept():
                 collect(item, name, depth + 1)
 
     for module in pkgutil.walk_packages([str(SOURCE)], "mnclab."):
-        if "__main__" not in module.name and not module.name.startswith("mnclab.show.labextension"):
+        if "__main__" not in module.name and not module.name.startswith("mnclab.lab.labextension"):
             try:
                 names = vars(importlib.import_module(module.name)).items()
             except ImportError:  # needs an extra

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import mnclab
+from mnclab.design.model import Face, Groove, Hole, Pocket, Slot
+from mnclab.design.model.shapes import Circle, Rectangle
 from mnclab.machine.setup_file import load
-from mnclab.workpiece.design import Face, Groove, Hole, Pocket, Slot
-from mnclab.workpiece.design.shapes import Circle, Rectangle
 
 DATA = Path(__file__).parents[2] / "data"
 PROGRAMS = {f"{path.parent.name}/{path.stem}": path for path in sorted(DATA.glob("programs/*/*"))}

@@ -11,9 +11,9 @@ import shapely
 from random_designs import milled, turned
 from shapely import Polygon
 
-from mnclab.show.drawing import drawing, plot, save
+from mnclab.design import model as d
+from mnclab.design.drawing import drawing, plot, save
 from mnclab.text.alarm import Alarm
-from mnclab.workpiece import design as d
 
 SAMPLES = sorted((Path(__file__).parents[2] / "data" / "designs").rglob("*.toml"))
 TOUCH = 0.02  # mm²: what rounding makes of boxes that touch

@@ -6,10 +6,10 @@ from dataclasses import replace
 import pytest
 from drawn import plate, shaft
 
+from mnclab.design.drawing.dimensions import Angle, Diameter, Linear, Note, Radius, value
+from mnclab.design.drawing.drawing import draw
+from mnclab.design.drawing.view import Axis, Kind, Line, View
 from mnclab.geometry.contours import Contour
-from mnclab.show.drawing.dimensions import Angle, Diameter, Linear, Note, Radius, value
-from mnclab.show.drawing.drawing import draw
-from mnclab.show.drawing.view import Axis, Kind, Line, View
 
 ezdxf = pytest.importorskip("ezdxf")
 SQUARE = Contour([(0, 0), (40, 0), (40, 30), (0, 30)])

@@ -8,9 +8,9 @@ import pytest
 from drawn import plate, shaft
 from shapely import LineString, Polygon, STRtree
 
-from mnclab.show.drawing.drawing import draw
-from mnclab.show.drawing.lettering import value_block
-from mnclab.show.drawing.view import Kind
+from mnclab.design.drawing.drawing import draw
+from mnclab.design.drawing.lettering import value_block
+from mnclab.design.drawing.view import Kind
 
 TOUCH = 0.02  # mm²: what rounding makes of boxes that touch
 VIEWS = {"plate": plate, "shaft": shaft}

@@ -9,14 +9,14 @@ import pytest
 from drawn import plate, rectangle
 from matplotlib.image import imread
 
+from mnclab.design.drawing.dimensions import Diameter, Linear, Note, Value, number, value
+from mnclab.design.drawing.drawing import draw
+from mnclab.design.drawing.frame import fitted
+from mnclab.design.drawing.lettering import width_of
+from mnclab.design.drawing.sheet import SIZES, Table, Title, scale_text
+from mnclab.design.drawing.view import Cross, Cut, Line, View
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.show.drawing.dimensions import Diameter, Linear, Note, Value, number, value
-from mnclab.show.drawing.drawing import draw
-from mnclab.show.drawing.frame import fitted
-from mnclab.show.drawing.lettering import width_of
-from mnclab.show.drawing.sheet import SIZES, Table, Title, scale_text
-from mnclab.show.drawing.view import Cross, Cut, Line, View
 from mnclab.text.alarm import Alarm
 
 

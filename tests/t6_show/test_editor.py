@@ -15,7 +15,7 @@ pytest.importorskip("ipywidgets")
 def patience(monkeypatch):
     """These look at the picture at once, however busy the computer is."""
     for name in ("PATIENCE", "FIRST"):
-        monkeypatch.setattr(f"mnclab.show.editor.{name}", 60.0)
+        monkeypatch.setattr(f"mnclab.lab.editor.{name}", 60.0)
 
 
 @pytest.fixture
@@ -104,7 +104,7 @@ def test_a_long_run_does_not_stop_the_typing(tmp_path, monkeypatch):
     import threading
     import time
 
-    from mnclab.show import editor as module
+    from mnclab.lab import editor as module
 
     live = module.editor(tmp_path / "a.mnc", "mnc")
     live.text.value = "G54\nG0 X1\n"

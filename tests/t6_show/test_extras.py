@@ -8,7 +8,7 @@ import mnclab
 from mnclab import Alarm
 from mnclab import __main__ as shell
 from mnclab.geometry import dxf
-from mnclab.show import forms
+from mnclab.lab import forms
 
 PROGRAM = "T1 S500 M3\nG0 X0 Y0 Z5\nG1 X10 F100\nG1 Y20\n"
 LAB, DXF = 'pip install "mnclab[lab]" brings it', 'pip install "mnclab[dxf]" brings it'

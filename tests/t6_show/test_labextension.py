@@ -10,16 +10,16 @@ from pathlib import Path
 import pytest
 
 import mnclab
-from mnclab.controls.vocabulary import vocabulary
+from mnclab.lab.vocabulary import vocabulary
 
 ROOT = Path(__file__).parent.parent.parent
-FOLDER = ROOT / "mnclab" / "show" / "labextension"
+FOLDER = ROOT / "mnclab" / "lab" / "labextension"
 
 
 def test_it_is_installed_where_jupyterlab_looks():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
     shared = project["tool"]["hatch"]["build"]["targets"]["wheel"]["shared-data"]
-    assert shared == {"mnclab/show/labextension": "share/jupyter/labextensions/mnclab"}
+    assert shared == {"mnclab/lab/labextension": "share/jupyter/labextensions/mnclab"}
     package = json.loads((FOLDER / "package.json").read_text("utf-8"))
     assert (package["name"], package["version"]) == ("mnclab", mnclab.__version__)
     assert (FOLDER / package["jupyterlab"]["_build"]["load"]).is_file()

@@ -104,7 +104,7 @@ def test_tab_offers_codes_of_a_control_and_nothing_else(shell):
 
 
 def test_loading_twice_offers_once(shell):
-    from mnclab.show.magic import load_ipython_extension
+    from mnclab.lab.magic import load_ipython_extension
 
     before = len(shell.Completer.custom_matchers)
     load_ipython_extension(shell)
@@ -126,7 +126,7 @@ def test_importing_mnclab_is_enough(monkeypatch):
 
 
 def test_the_kernel_is_asked_for_words_of_programs_and_answers_all_others_as_before(shell):
-    from mnclab.show.magic import explain_words
+    from mnclab.lab.magic import explain_words
 
     class Kernel:
         def do_inspect(self, code, cursor_pos, detail_level=0, omit_sections=()):

@@ -10,8 +10,9 @@ from matplotlib.quiver import Quiver
 
 import mnclab
 from mnclab import Alarm, Setup, Tool
+from mnclab.lab import forms
 from mnclab.path.kinds import RULE_NAMES, Rule
-from mnclab.show import forms, plot
+from mnclab.show import plot
 from mnclab.show.plot import colours
 
 SAMPLES = Path(__file__).parents[2] / "data/programs/mnc"

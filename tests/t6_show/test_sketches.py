@@ -8,8 +8,8 @@ from xml.etree import ElementTree
 import pytest
 
 from mnclab.controls import CONTROLS
-from mnclab.show.sketches import MILLS, RULES, kinds, sketch
-from mnclab.show.sketches.ink import Sheet
+from mnclab.lab.sketches import MILLS, RULES, kinds, sketch
+from mnclab.lab.sketches.ink import Sheet
 
 SVG = "{http://www.w3.org/2000/svg}"
 EVERY = [(control, cycle) for control in CONTROLS for cycle in dict.fromkeys(CONTROLS[control].cycles.values())]

@@ -8,8 +8,8 @@ import pytest
 import mnclab
 from mnclab import Design, Setup, Tool
 from mnclab.__main__ import main
+from mnclab.design.model.features import Hole
 from mnclab.workpiece.collision import Collisions
-from mnclab.workpiece.design.features import Hole
 
 BLANK = ((0, 0, -20), (60, 40, 0))
 TOOLS = {1: Tool(number=1, radius=5, kind="mill", length=80, cutting_length=30)}

@@ -8,13 +8,13 @@ import pytest
 import mnclab
 from mnclab import Kind
 from mnclab.controls.word_address.reader import reader
+from mnclab.lab import forms
+from mnclab.lab.forms.following import DRAWING
+from mnclab.lab.magic import cell
 from mnclab.machine.control import Control, FunctionTable
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.trial import number
 from mnclab.machining.steps import Go
-from mnclab.show import forms
-from mnclab.show.forms.following import DRAWING
-from mnclab.show.magic import cell
 from mnclab.show.plot import colours
 
 FUNCTIONS, CYCLES = FunctionTable(), CycleTable()

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from datetime import datetime
 
-from mnclab.machining.milling.engraving import DOWN, NEW_LINE, TAB
+from mnclab.controls.tnc_620.machining.engraving import DOWN, NEW_LINE, TAB
 
 LONGEST = 255
 ALLOWED = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 !#$&'()*+,-./:;<=>?@[]_`ß")

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from mnclab.show.report.contents import QUOTED, Alarms, Blanks, Compared, Document, Image, Listing, Piece, Table, Words
 from mnclab.text.alarm import card_html
+from mnclab.text.opening import opened
 from mnclab.text.tables import html_table
 
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
@@ -74,9 +75,8 @@ def _(piece: Alarms) -> str:
 
 @written.register
 def _(piece: Compared) -> str:
-    from mnclab.show.export_difference import record
-
-    return record(piece.difference)
+    found: str = opened("mnclab.design.export_difference", "record")(piece.difference)
+    return found
 
 
 @written.register

@@ -14,7 +14,7 @@ AT_ONCE = 16  # places that a probe looks at in one go: each of them searches th
 
 def mesh(given: Any) -> Part:
     """A closed body of triangles as a part, mm: the path of a file (STL, PLY, OBJ …), or a mesh of pyvista."""
-    from mnclab.workpiece.difference.mesh import SUFFIXES, is_mesh, mesh_of, read_mesh
+    from mnclab.workpiece.part.mesh import SUFFIXES, is_mesh, mesh_of, read_mesh
 
     if isinstance(given, str | Path):
         if Path(given).suffix.lower() not in SUFFIXES:

@@ -15,8 +15,7 @@ from hypothesis import strategies as st
 
 import mnclab as mnc
 from mnclab.controls.tnc_620.engraved_text import Fault, tokens
-from mnclab.geometry import letters
-from mnclab.machining.milling import engraving
+from mnclab.controls.tnc_620.machining import engraving, letters
 
 EXAMPLES = json.loads(
     (Path(__file__).parents[2] / "authorities/catalogue/tnc620-special.json").read_text(encoding="utf-8")

@@ -15,16 +15,16 @@ from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, count, increment, percent
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates, rate
+from mnclab.controls.tnc_620.machining import roughing
+from mnclab.controls.tnc_620.machining.roughing import Cut, Feeds, Heights
 from mnclab.geometry.regions import Region
 from mnclab.machine.cycle import Cycle, CycleTable, few_passes
 from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import INF, Machine
 from mnclab.machine.true_size import MILLS, remark, tool
-from mnclab.machining.milling import roughing
 from mnclab.machining.milling.residue import left_by
 from mnclab.machining.milling.rest import rest, rest_passes
 from mnclab.machining.milling.rings import rings
-from mnclab.machining.milling.roughing import Cut, Feeds, Heights
 from mnclab.machining.milling.terraces import levels
 from mnclab.machining.steps import Say, Step, Write
 

@@ -18,13 +18,13 @@ from mnclab.controls.tnc_620.contours.labels import Labels
 from mnclab.controls.tnc_620.contours.line import Line, contour_line
 from mnclab.controls.tnc_620.cycles.chain import TILT, rotary
 from mnclab.controls.tnc_620.cycles.faults import Fault
+from mnclab.controls.tnc_620.machining.cylinder import Way
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.frames import IDENTITY
 from mnclab.geometry.vectors import Floats
 from mnclab.machine.machine import Machine
 from mnclab.machine.rotary import AXES
 from mnclab.machine.settings import Setting
-from mnclab.machining.milling.cylinder import Way
 from mnclab.machining.steps import RAPID, Rolled, Step, Write
 from mnclab.path.cylinder import Cylinder
 

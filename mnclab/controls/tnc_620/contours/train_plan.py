@@ -13,14 +13,14 @@ import numpy as np
 from mnclab.controls.tnc_620.contours.data import as_they_stand
 from mnclab.controls.tnc_620.contours.line import Line
 from mnclab.controls.tnc_620.contours.train_data import TrainData
+from mnclab.controls.tnc_620.machining.train_passes import Train, leading_off, leading_to
+from mnclab.controls.tnc_620.machining.train_rests import rests
+from mnclab.controls.tnc_620.machining.trains import Beside, Way, beside, cuts_into
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
 from mnclab.machine.flow import RecordedLead
 from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
-from mnclab.machining.milling.train_passes import Train, leading_off, leading_to
-from mnclab.machining.milling.train_rests import rests
-from mnclab.machining.milling.trains import Beside, Way, beside, cuts_into
 from mnclab.machining.steps import Say, Step
 from mnclab.path.fault import PathFault
 from mnclab.text.alarm import Alarm, Span

@@ -18,13 +18,13 @@ from mnclab.controls.tnc_620.cycles import addresses, milling
 from mnclab.controls.tnc_620.cycles.faults import Fault, at_least, at_most, not_zero
 from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
 from mnclab.controls.tnc_620.cycles.pockets import check_angle, feeds
+from mnclab.controls.tnc_620.machining import trochoidal_steps
 from mnclab.geometry.contours import Contour
 from mnclab.machine.cycle import CycleTable, few_passes
 from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS, remark, tool
 from mnclab.machining.depths import infeeds
-from mnclab.machining.milling import trochoidal_steps
 from mnclab.machining.milling.cutting_edge import centre_feeds
 from mnclab.machining.milling.pocket_steps import Work
 from mnclab.machining.milling.trochoidal_slots import NOTHING, circle_count, trochoid, walls

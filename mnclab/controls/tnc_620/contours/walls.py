@@ -10,9 +10,7 @@ import numpy as np
 
 from mnclab.controls.tnc_620.contours.line import Line
 from mnclab.controls.tnc_620.contours.surface import Surface
-from mnclab.geometry.contours import Contour
-from mnclab.machining.milling.clearing import numbered
-from mnclab.machining.milling.cylinder import (
+from mnclab.controls.tnc_620.machining.cylinder import (
     Way,
     beside,
     lead,
@@ -24,6 +22,8 @@ from mnclab.machining.milling.cylinder import (
     standing,
     way_along,
 )
+from mnclab.geometry.contours import Contour
+from mnclab.machining.milling.clearing import numbered
 from mnclab.machining.steps import Step
 
 Ways = Sequence[tuple[str, Way]]

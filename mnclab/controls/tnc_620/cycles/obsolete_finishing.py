@@ -19,6 +19,7 @@ from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import coordinate, increment, length
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, at_least, at_most, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
+from mnclab.controls.tnc_620.machining.rounds import finish_rounds
 from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour
 from mnclab.machine.cycle import CycleTable, too_many
@@ -26,7 +27,6 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS
 from mnclab.machining.milling.finishing import half_circles
 from mnclab.machining.milling.pocket_steps import Feeds
-from mnclab.machining.milling.rounds import finish_rounds
 from mnclab.machining.steps import Go, Step, moved
 
 CYCLES = CycleTable()

@@ -15,6 +15,8 @@ from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, length
 from mnclab.controls.tnc_620.cycles.at_clearance import AtClearance
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, at_least, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.pockets import CORNERS
+from mnclab.controls.tnc_620.machining.rounds import finish_rounds
+from mnclab.controls.tnc_620.machining.to_and_fro import straight_infeeds
 from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
@@ -25,9 +27,7 @@ from mnclab.machining.milling.clearing import Clearing
 from mnclab.machining.milling.figures import straight
 from mnclab.machining.milling.finishing import half_circles, quarter_circles
 from mnclab.machining.milling.pocket_steps import Feeds, rough
-from mnclab.machining.milling.rounds import finish_rounds
 from mnclab.machining.milling.spirals import round_pocket
-from mnclab.machining.milling.to_and_fro import straight_infeeds
 from mnclab.machining.steps import Go, Step
 
 CYCLES = CycleTable()

@@ -18,6 +18,8 @@ from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import coordinate, length
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, at_least, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
+from mnclab.controls.tnc_620.machining.rounds import finish_rounds
+from mnclab.controls.tnc_620.machining.to_and_fro import oblique_infeeds
 from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour
 from mnclab.machine.cycle import CycleTable, too_many
@@ -27,8 +29,6 @@ from mnclab.machining.depths import infeeds
 from mnclab.machining.milling.concentric import NOTHING
 from mnclab.machining.milling.finishing import half_circles
 from mnclab.machining.milling.pocket_steps import Feeds
-from mnclab.machining.milling.rounds import finish_rounds
-from mnclab.machining.milling.to_and_fro import oblique_infeeds
 from mnclab.machining.steps import Along, Go, Say, Step, moved
 
 CYCLES = CycleTable()

@@ -19,13 +19,13 @@ from mnclab.controls.tnc_620.cycles.faults import Fault, at_least, at_most
 from mnclab.controls.tnc_620.cycles.milling import Figure, Place
 from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates, rate
 from mnclab.controls.tnc_620.cycles.pockets import CORNER, SIGNS
+from mnclab.controls.tnc_620.machining import studs
+from mnclab.controls.tnc_620.machining.stud_steps import Stud, mill_stud
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS
-from mnclab.machining.milling import studs
 from mnclab.machining.milling.clearing import Clearing
 from mnclab.machining.milling.pocket_steps import Feeds
-from mnclab.machining.milling.stud_steps import Stud, mill_stud
 from mnclab.machining.steps import Step
 
 CYCLES = CycleTable()

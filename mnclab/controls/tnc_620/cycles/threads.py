@@ -16,12 +16,20 @@ from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, increment
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import AtSurface, rate
+from mnclab.controls.tnc_620.machining.thread_milling import (
+    Path,
+    centre_feed,
+    chamfer,
+    countersink,
+    helices,
+    mill_thread,
+    path_of,
+)
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS_THREADS
 from mnclab.machining.depths import MOST, infeeds
 from mnclab.machining.holes.drilling import drill
-from mnclab.machining.holes.thread_milling import Path, centre_feed, chamfer, countersink, helices, mill_thread, path_of
 from mnclab.machining.steps import Go, Say, Step
 
 CYCLES = CycleTable()

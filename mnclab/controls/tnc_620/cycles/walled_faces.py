@@ -18,15 +18,15 @@ from mnclab.controls.tnc_620.cycles.faults import Fault, less_than_depth, not_ze
 from mnclab.controls.tnc_620.cycles.milling import edges
 from mnclab.controls.tnc_620.cycles.planes import AtSurface, rate
 from mnclab.controls.tnc_620.cycles.pockets import CORNERS, SIGNS
+from mnclab.controls.tnc_620.machining.between_walls import Walled
+from mnclab.controls.tnc_620.machining.wall_steps import Level, Passes, face_levels, finish_along
 from mnclab.geometry.contours import Contour
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS, remark, tool
 from mnclab.machining.depths import infeeds
-from mnclab.machining.milling.between_walls import Walled
 from mnclab.machining.milling.clearing import begin, numbered
 from mnclab.machining.milling.face_lines import rows, spiral_from
-from mnclab.machining.milling.wall_steps import Level, Passes, face_levels, finish_along
 from mnclab.machining.steps import Go, Say, Step
 from mnclab.path.tool import Tool
 

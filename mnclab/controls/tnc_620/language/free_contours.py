@@ -16,17 +16,17 @@ from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 
+from mnclab.controls.tnc_620.free_contours import free_choice
+from mnclab.controls.tnc_620.free_contours.free_contour import Element, FreeContour, Pair, Piece, known
+from mnclab.controls.tnc_620.free_contours.newton import Exhausted
+from mnclab.controls.tnc_620.free_contours.quadratic_form import Form
+from mnclab.controls.tnc_620.free_contours.readings import Contradiction, TooManyReadings
 from mnclab.controls.tnc_620.language.blank import body
 from mnclab.controls.tnc_620.language.checks import counted, first, refuse_on_cylinder
 from mnclab.controls.tnc_620.language.free_words import describe
 from mnclab.controls.tnc_620.language.motion import SIDED, TOLERANCE, feed, refuse_rapid, side
 from mnclab.controls.tnc_620.language.tool_axis import refuse_other
 from mnclab.controls.tnc_620.state import memory
-from mnclab.geometry import free_choice
-from mnclab.geometry.free_contour import Element, FreeContour, Pair, Piece, known
-from mnclab.geometry.newton import Exhausted
-from mnclab.geometry.quadratic_form import Form
-from mnclab.geometry.readings import Contradiction, TooManyReadings
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.waiting import Reading, as_of, reading

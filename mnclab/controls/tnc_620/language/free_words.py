@@ -9,11 +9,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from mnclab.controls.tnc_620.free_contours.free_contour import FreeContour, Pair, known, normal_of
+from mnclab.controls.tnc_620.free_contours.quadratic_form import Form
 from mnclab.controls.tnc_620.language.checks import above_zero, not_negative
 from mnclab.controls.tnc_620.language.motion import sense
 from mnclab.controls.tnc_620.state import memory
-from mnclab.geometry.free_contour import FreeContour, Pair, known, normal_of
-from mnclab.geometry.quadratic_form import Form
 from mnclab.machine.control import Words
 from mnclab.machine.machine import Machine
 from mnclab.text.program import Word

@@ -14,13 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.language.checks import counted, not_negative, whole
+from mnclab.controls.tnc_620.machining import patterns
 from mnclab.controls.tnc_620.reading.pattern_words import ADDRESSES, CLOSED, FORMS
 from mnclab.controls.tnc_620.state import memory
 from mnclab.controls.tnc_620.tables import point_tables
 from mnclab.controls.tnc_620.tables.table_files import read_table
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
-from mnclab.machining import patterns
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()

@@ -1,0 +1,1 @@
+"""Free contours FK: what is given of lines and arcs, solved."""

@@ -1,0 +1,140 @@
+"""A part as drawn against the part as cut: where it is off, by how much, which row is guilty, and the verdict."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from mnclab.design.difference.table import Features
+from mnclab.path.columns import Array
+from mnclab.text.tables import html_table
+from mnclab.workpiece.workpiece import ROUNDING
+
+if TYPE_CHECKING:
+    import pyvista
+    from matplotlib.figure import Figure
+
+
+def uncut(off: float) -> str:
+    """Why no line made a place that is off: + what is left there, - what is gone."""
+    return "nothing cut here" if off > 0 else "missing from the start"
+
+
+class Worst(NamedTuple):
+    """The worst place: `value` mm, never negative, normal to the surface of the design; `place` (x, y, z), None where
+    nothing is off.
+
+    `line` of `program` and `row` of the path made it, line 0 and row -1 where nothing was cut there; `where` is
+    "FILE:LINE", or says that no line did. `feature` is the name of the feature that it is off.
+    """
+
+    value: float = 0.0
+    place: tuple[float, float, float] | None = None
+    line: int = 0
+    row: int = -1
+    program: int = 0
+    feature: str = ""
+    where: str = ""
+
+    def __str__(self) -> str:
+        if self.place is None:
+            return "none"
+        x, y, z = self.place
+        return f"{self.value:.4f} mm at X{x:.3f} Y{y:.3f} Z{z:.3f}, {self.feature}: {self.where}"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Difference:
+    """What a comparison found. `ok`: every face lies within `tolerance` mm of the design, and every measure within the
+    limits of the drawing where it gives them (they count for the faces of their feature, too); never of a part whose
+    program stopped before its end.
+
+    `map` (ny, nx) mm over the cells of the workpiece, whose middles are `x` and `y`: + what is left, - what is gone, 0 where
+    both are the same, nan where neither has material. Volumes in mm³. `error` mm is how far a value at the place it is
+    told for may be off. `features` is the table of measures. `notes` say what was not judged.
+
+    Of a turned part `map` (1, n) has the deviations along the half section of the design, at ways `x` (n,) along its lines; nan
+    where nothing is judged. `compared` and `looked` are what pictures need: the target, and all places that were looked at.
+    """
+
+    target: str
+    tolerance: float
+    error: float
+    worst_gouge: Worst
+    worst_rest: Worst
+    gouge_volume: float
+    rest_volume: float
+    x: Array
+    y: Array
+    map: Array
+    features: Features
+    notes: tuple[str, ...] = ()
+    workpiece: Any = None
+    compared: Any = None
+    looked: Any = None
+
+    @property
+    def ok(self) -> bool:
+        """Whether the part was cut to the end of its program and is as drawn, within the tolerance."""
+        return not self.reach and all(row.ok for row in self.features)
+
+    @property
+    def reach(self) -> str:
+        """How far the program went that cut the part, if it stopped before its end; else empty."""
+        return str(self.workpiece.cutting.reach) if self.workpiece is not None else ""
+
+    @property
+    def verdict(self) -> str:
+        """"as drawn", "not as drawn", or that the part is not finished."""
+        if not all(row.ok for row in self.features):
+            return "not as drawn"
+        return f"not finished, as drawn {self.reach}" if self.reach else "as drawn"
+
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON, without the map."""
+        found = {name: getattr(self, name) for name in ("target", "ok", "tolerance", "error", "gouge_volume", "rest_volume")}
+        worst = {name: getattr(self, name)._asdict() for name in ("worst_gouge", "worst_rest")}
+        return found | worst | {"features": [row.as_dict() for row in self.features], "notes": list(self.notes)}
+
+    # --- doors -------------------------------------------------------------------------------------------------------
+
+    def plot(self, **options: Any) -> Figure:
+        """The signed map, of a lathe the half section, with sections and table; see `show.plot.difference.plot_difference`."""
+        from mnclab.design.plot.difference import plot_difference
+
+        return plot_difference(self, **options)
+
+    def scene(self, **options: Any) -> pyvista.Plotter:
+        """The part as a body in the colours of its deviation (needs pyvista); see `design.difference_scene.scene`."""
+        from mnclab.design.difference_scene import scene
+
+        return scene(self, **options)
+
+    def save(self, path: str | Path, **options: Any) -> Path:
+        """Write one file; the suffix says what: svg, pdf, png (the picture), csv (the table), json, html (a record)."""
+        from mnclab.design.export_difference import save
+
+        return save(self, path, **options)
+
+    def _lines(self) -> list[tuple[str, str]]:
+        told = f", found within {1000 * self.error:.1g} µm" if self.error > ROUNDING else ""
+        return [
+            (f"compared with {self.target}", f"{self.verdict}, tolerance {self.tolerance:g} mm{told}"),
+            ("worst gouge", str(self.worst_gouge)),
+            ("worst rest", str(self.worst_rest)),
+            ("gouged away", f"{self.gouge_volume:.3f} mm³"),
+            ("left over", f"{self.rest_volume:.3f} mm³"),
+            *(("note", note) for note in self.notes),
+        ]
+
+    def __repr__(self) -> str:
+        (first, verdict), *others = self._lines()
+        return "\n".join([f"{first}: {verdict}", *(f"  {name}: {text}" for name, text in others), "", repr(self.features)])
+
+    def html_parts(self) -> tuple[str, str]:
+        """What was found, and the table of measures."""
+        return html_table(("", ""), self._lines()), self.features._repr_html_()
+
+    def _repr_html_(self) -> str:
+        return "".join(self.html_parts())

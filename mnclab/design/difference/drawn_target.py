@@ -1,0 +1,295 @@
+"""A milled design as what a part is compared with."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mnclab.design.difference.target import BLANK, Grid, Owner, Slopes, Walls
+from mnclab.design.filling import filled
+from mnclab.design.model.design import Design
+from mnclab.design.model.measures import Measure
+from mnclab.design.model.removals import Flat, Slant, Slanting, Wedge, signed, within
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.regions import Region
+from mnclab.geometry.vectors import at_angle, left
+from mnclab.path.columns import Array, Index, Mask
+from mnclab.workpiece.milling.raster import Raster
+from mnclab.workpiece.workpiece import Workpiece
+
+if TYPE_CHECKING:
+    from mnclab.design.difference.deviations import Seen
+    from mnclab.design.difference.reading import Reading
+
+FEWEST = 5  # places of an element
+TURN = np.radians(5)  # of an arc, between two places
+EDGE = 1e-3  # mm, from an end or an edge: places lie a hair beside them
+ASIDE = 1e-6  # mm, on either side of a face
+SAME = 1e-7  # mm: heights of one face
+SMALL = 6  # cells: floors that are not wider are looked at between them, too
+SHARES = (0.02, 0.15, 0.35, 0.5, 0.65, 0.85, 0.98)  # of a slant, from its foot to its edge
+
+
+class DrawnTarget:
+    """An owner is the number of what a feature takes away, in `design.taken`."""
+
+    def __init__(self, design: Design, tolerance: float) -> None:
+        self.design, self.tolerance = design, tolerance
+        self.name, self.error = design.title or "design", 0.0
+
+    @property
+    def bounds(self) -> Array:
+        return self.design.bounds
+
+    def faces(self, x: Array, y: Array) -> tuple[Array, Array]:
+        return self.design.faces(x, y)
+
+    def distance(self, points: Array) -> Array:
+        return self.design.stack.distance(points)
+
+    def grid(self, raster: Raster) -> Grid:
+        x, y, (low, high) = raster.x, raster.y, self.bounds[:, 2].tolist()
+        floor, top = np.full(raster.shape, np.nan), np.full(raster.shape, np.nan)
+        owner, under = (np.full(raster.shape, BLANK, dtype=np.int16) for _ in range(2))
+        rows, columns, inside = filled(self.design.outline_of_blank, x, y)
+        floor[rows, columns][inside], top[rows, columns][inside] = low, high
+        for k, (_, _, body) in enumerate(self.design.taken):
+            side, whose = (top, owner) if body.up else (floor, under)
+            rows, columns, inside = filled(body.reach, x, y)
+            j, i = np.nonzero(inside)
+            level = body.level_within(x[columns][i], y[rows][j])
+            here = side[rows, columns][inside]
+            cut = level < here if body.up else level > here
+            side[rows, columns][inside] = np.where(cut, level, here)
+            whose[rows, columns][inside] = np.where(cut, k, whose[rows, columns][inside])
+        with np.errstate(invalid="ignore"):
+            gone = ~(top > floor)
+        floor[gone] = top[gone] = np.nan
+        return Grid(floor, top, owner, under)
+
+    def cut(self, plane: str, at: float) -> list[Contour]:
+        """A section, as of a workpiece."""
+        return list(self.design.section(at).loops) if plane == "XY" else self._workpiece.cut(plane, at)
+
+    @cached_property
+    def _workpiece(self) -> Workpiece:
+        return self.design.workpiece()
+
+    # --- places to look at -------------------------------------------------------------------------------------------
+
+    @property
+    def _upright(self) -> Iterator[tuple[int, Region, float]]:
+        """Owner, region, and on which side of its boundary the void is: 1 left."""
+        yield BLANK, self.design.outline_of_blank, -1.0
+        for k, (_, _, body) in enumerate(self.design.taken):
+            if not isinstance(body, Slanting):
+                yield k, body.region, 1.0
+
+    def walls(self, spacing: float) -> Walls:
+        (x0, y0), (x1, y1) = self.bounds[:, :2].tolist()
+        found, owners, wide = list[tuple[Array, Array, Array]](), list[Index](), EDGE * np.ones(2)
+        for number, region, void in self._upright:
+            for loop in region.loops:
+                spots, aside, mid = _along(loop, spacing)
+                near = ((spots >= (x0, y0) - wide) & (spots <= (x1, y1) + wide)).all(axis=1)
+                found.append((spots[near], void * aside[near], mid[near]))
+                owners.append(np.full(int(near.sum()), number))
+        place, normal, middle = (np.concatenate(column) for column in zip(*found, strict=True))
+        owner = np.concatenate(owners)
+        spots = np.concatenate([place - ASIDE * normal, place + ASIDE * normal])
+        spot, heights, talls = list[Index](), list[Array](), list[Array]()
+        tallest = np.zeros(len(place))
+        levels = self._levels
+        for low, high in zip(levels, levels[1:]):
+            tall, hair = high - low, min(EDGE, (high - low) / 4)
+            stands = self._material(spots, (low + high) / 2)
+            on = stands[: len(place)] & ~stands[len(place) :] & self._reached(owner, (low + high) / 2)
+            falls = any(isinstance(body, Wedge) and body.low < high and body.high > low for body in self._slants)
+            for z, counts in ((low + hair, 0.0), ((low + high) / 2, tall), (high - hair, 0.0)):
+                if falls:
+                    stands = self._material(spots, z)
+                    on = stands[: len(place)] & ~stands[len(place) :] & self._reached(owner, z)
+                here = np.flatnonzero(on)
+                for body in self._slants:
+                    if isinstance(body, Slanting) and body.low < z < body.high:
+                        here = here[body.taken(spots[here, 0], spots[here, 1], np.full(len(here), z)) > ASIDE]
+                spot.append(here)
+                heights.append(np.full(len(here), z))
+                talls.append(np.full(len(here), counts))
+                tallest[here] = np.maximum(tallest[here], counts)
+        index, height = np.concatenate(spot), np.concatenate(talls)
+        mid = (height > 0) & (height == tallest[index])
+        return Walls(place, normal, owner, middle.astype(bool), index, np.concatenate(heights), mid.astype(bool))
+
+    @cached_property
+    def _levels(self) -> list[float]:
+        """The heights at which what stands upright may change."""
+        low, high = self.bounds[:, 2].tolist()
+        heights = [low, high, *(each.body.floor for each in self.design.taken if isinstance(each.body, Flat))]
+        heights += [z for body in self._slants for z in (body.low, body.high)]
+        inside = sorted(z for z in heights if low <= z <= high)
+        return [z for k, z in enumerate(inside) if k == 0 or z - inside[k - 1] > SAME]
+
+    @cached_property
+    def _slants(self) -> list[Slant]:
+        return [each.body for each in self.design.taken if not isinstance(each.body, Flat)]
+
+    def _material(self, spots: Array, z: float) -> Mask:
+        """Whether upright material stands at places (m, 2) in a height, with what slants off."""
+        found = self.design.outline_of_blank.contains(spots)
+        for each in self.design.taken:
+            if not isinstance(each.body, Slanting) and each.body.reaches(z):
+                some = np.flatnonzero(found)
+                found[some[within(_at(each.body, z), *spots[some].T)]] = False
+        return found
+
+    def _reached(self, owner: Index, z: float) -> Mask:
+        """Whether the feature that a wall belongs to (m,) goes as far as a height."""
+        taken = self.design.taken
+        reaches = [bool(each.body.reaches(z)) if not isinstance(each.body, Slanting) else False for each in taken]
+        return np.array([*reaches, True])[owner]
+
+    def slopes(self, spacing: float, step: float) -> Slopes:
+        found = []
+        for k, (_, _, body) in enumerate(self.design.taken):
+            if isinstance(body, Flat):
+                for spots in self._inside(body, spacing, step) if self.role(k) != "sky" else ():
+                    found.append((spots, *(np.full(len(spots), value) for value in (body.floor, 0.0, k, body.up, True))))
+                continue
+            for share in SHARES:
+                out = body.near + share * (body.far - body.near)
+                z = body.deep + share * (body.open - body.deep)
+                middle = share not in (SHARES[0], SHARES[-1])
+                for spots in self._rings(body, out, spacing):
+                    found.append((spots, *(np.full(len(spots), value) for value in (z, out, k, body.up, middle))))
+        if not found:
+            none = np.zeros(0)
+            return Slopes(np.zeros((0, 2)), none, none, none.astype(np.int64), none.astype(bool), none.astype(bool))
+        place, height, away, owner, up, far = (np.concatenate(column) for column in zip(*found, strict=True))
+        floor, top = self.faces(*place.T)
+        on = np.abs(np.where(up, top, floor) - height) <= SAME
+        return Slopes(place[on], height[on], away[on], owner[on].astype(np.int64), up[on].astype(bool), far[on].astype(bool))
+
+    def _inside(self, body: Flat, spacing: float, step: float) -> Iterator[Array]:
+        """Places within a small region, in which few middles of cells lie."""
+        wide = 2 * body.region.area / max(sum(loop.length for loop in body.region.loops), EDGE)
+        if wide > SMALL * step:
+            return
+        low, high = self.bounds[:, :2]
+        for loop in body.region.loops:
+            spots, aside, _ = _along(loop, spacing)
+            for share in (0.1, 0.45):
+                inside = spots + share * wide * aside
+                yield inside[((inside >= low) & (inside <= high)).all(axis=1)]
+
+    def _rings(self, body: Slant, out: float, spacing: float) -> Iterator[Array]:
+        """Places at a distance from the base of a slant."""
+        if isinstance(body, Wedge):
+            across = np.linspace(-0.5, 0.5, max(int(np.ceil(body.width / spacing)), FEWEST) + 2)[1:-1, None] * body.width
+            (c, s), away = body.ahead, out * np.array(body.ahead)
+            yield np.array(body.start) + away + across * (-s, c)
+            return
+        if not isinstance(body.base, Region):
+            count = max(int(np.ceil(2 * np.pi / (2 * TURN))), 8)
+            yield np.array(body.base) + out * at_angle(2 * np.pi * np.arange(count) / count)
+            return
+        low, high = self.bounds[:, :2]
+        for loop in body.edges:
+            spots, aside, _ = _along(loop, spacing)
+            spots = spots - out * aside
+            inside = ((spots >= low) & (spots <= high)).all(axis=1)
+            spots = spots[inside]
+            if len(spots):
+                yield spots[np.abs(body.away(*spots.T) - out) <= SAME]
+
+    # --- whose they are ----------------------------------------------------------------------------------------------
+
+    def owner(self, number: int) -> Owner:
+        if number == BLANK:
+            return Owner("top", "blank")
+        feature, back, _ = self.design.taken[number]
+        given = self._measures[back][feature]
+        wide = {kind: max((abs(each) for m in given if m.limits and m.kind == kind for each in m.limits), default=0.0)
+                for kind in ("length", "diameter", "radius", "place", "depth", "chamfer")}  # fmt: skip
+        walls = max(wide["length"] / 2, wide["diameter"] / 2, wide["radius"], wide["place"], wide["chamfer"])
+        return Owner("back" if back else "top", self.names[back][feature], walls, wide["depth"])
+
+    @cached_property
+    def names(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """Of the features, and of those of the back."""
+        return self.design.drawn_names(), self.design.drawn_names(back=True)
+
+    @cached_property
+    def _measures(self) -> tuple[list[tuple[Measure, ...]], ...]:
+        return tuple([each.measures() for each in side] for side in (self.design.features, self.design.back))
+
+    def role(self, number: int) -> str:
+        """What of its feature a body is: "", "point", "counterbore", "countersink", "slant" (of a chamfer), "slope" or "sky"."""
+        feature, back, body = self.design.taken[number]
+        if isinstance(body, Wedge):
+            return "slope"
+        if isinstance(body, Slanting):
+            return "slant" if isinstance(body.base, Region) else ("point" if body.near == 0 else "countersink")
+        if number == 0 or self.design.taken[number - 1][:2] != (feature, back):
+            return ""
+        before = self.design.taken[number - 1].body
+        return "sky" if not isinstance(before, Flat) and self.role(number - 1) != "point" else "counterbore"
+
+    def owners(self, points: Array, off: Array) -> Index:
+        low, high = self.bounds[:, 2].tolist()
+        x, y, z = points.T
+        side = np.abs(signed(self.design.outline_of_blank, points[:, :2]))
+        best = np.abs(np.minimum(np.minimum(side, np.abs(z - low)), np.abs(high - z)) - off)
+        found = np.full(len(points), BLANK)
+        for k, (_, _, body) in enumerate(self.design.taken):
+            if not len(points) or self.role(k) == "sky":
+                continue
+            miss = np.abs(_from_faces(body, x, y, z) - off)
+            better = miss <= best + SAME
+            found[better], best = k, np.minimum(best, miss)
+        return found
+
+    def readings(self, seen: Seen) -> Iterator[Reading]:
+        from mnclab.design.difference.measuring import readings
+
+        return readings(self, seen)
+
+
+def _along(loop: Contour, spacing: float) -> tuple[Array, Array, Array]:
+    """Places (m, 2) along a loop, a hair inside the ends of its elements, the direction to the left of it there, and
+    whether they are in the middle half of an element."""
+    lengths = loop.lengths
+    count = np.maximum(np.ceil(lengths / spacing), np.ceil(np.abs(loop.sweeps) / TURN)).astype(int)
+    count = np.maximum(count, FEWEST) | 1
+    element = np.repeat(np.arange(len(count)), count)
+    place = np.arange(len(element)) - np.repeat(np.cumsum(count) - count, count)
+    hair = np.minimum(EDGE / np.maximum(lengths, EDGE), 0.01)[element]
+    share = hair + (1 - 2 * hair) * place / (count[element] - 1)
+    spots, ahead = loop.point_at((np.cumsum(lengths) - lengths)[element] + share * lengths[element])
+    return spots, left(ahead), np.abs(share - 0.5) <= 0.25 + SAME
+
+
+def _at(body: Flat | Wedge, z: float) -> Region:
+    """What it takes away at a height that it reaches."""
+    return body.region if isinstance(body, Flat) else body.section(z)
+
+
+def _from_faces(body: Flat | Slant, x: Array, y: Array, z: Array) -> Array:
+    """How far points (m,) are from the faces that a body makes, mm."""
+    if isinstance(body, Flat):
+        beside = signed(body.region, np.stack([x, y], axis=1))
+        above = z - body.floor if body.up else body.floor - z
+        wall = np.hypot(np.abs(beside), np.maximum(-above, 0.0))
+        return np.minimum(wall, np.where(beside <= 0, np.abs(above), np.inf))
+    if isinstance(body, Wedge):  # outside it the distance from it; within, from its floor, or its walls
+        above = (z - body.level_within(x, y)) * (1.0 if body.up else -1.0)
+        floor = np.abs(above) / np.hypot(1.0, (body.open - body.deep) / body.far)
+        beside = signed(body.region, np.stack([x, y], axis=1))
+        walls = np.where(above > 0, -beside, np.inf)
+        return np.where(beside > 0, np.hypot(beside, np.maximum(-above, 0.0)), np.minimum(floor, walls))
+    s, ds, dz = body.away(x, y), body.far - body.near, body.open - body.deep
+    share = np.clip(((s - body.near) * ds + (z - body.deep) * dz) / (ds * ds + dz * dz), 0.0, 1.0)
+    return np.hypot(s - body.near - share * ds, z - body.deep - share * dz)

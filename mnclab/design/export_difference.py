@@ -1,0 +1,76 @@
+"""A difference as a file: the picture (svg, pdf, png), the table of measures (csv), all numbers (json), a record (html)."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Callable
+from html import escape
+from inspect import signature
+from pathlib import Path
+from typing import Any
+
+from mnclab.design.difference.difference import Difference
+from mnclab.design.difference.table import HEAD
+from mnclab.show.report.page import page
+from mnclab.text.alarm import Alarm
+from mnclab.text.file import named, replaced
+
+
+def save(difference: Difference, path: str | Path, **options: Any) -> Path:
+    """Write a difference to one file and return its path; pictures and records take the options of `Difference.plot`."""
+    path, suffix = named(path, WRITERS, "cannot write a difference as {}")
+    writer = WRITERS[suffix]
+    if options and len(signature(writer).parameters) == 2:
+        raise Alarm(f"{suffix} files have no options, got {', '.join(options)}")
+    with replaced(path) as beside:
+        writer(difference, beside, **options)
+    return path
+
+
+def write_figure(difference: Difference, path: Path, **options: Any) -> None:
+    """The picture of `Difference.plot`."""
+    from mnclab.design.plot.difference import plot_difference
+    from mnclab.show.plot.picture import write
+
+    write(plot_difference(difference, **options), path)
+
+
+def write_csv(difference: Difference, path: Path) -> None:
+    """The table of measures, numbers in full, with the places of what is worst."""
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow([*HEAD[:-1], "line", "program", "x", "y", "z"])
+        for row in difference.features:
+            writer.writerow([*row[:9], row.line, row.program, *(row.place or ("", "", ""))])
+
+
+def write_json(difference: Difference, path: Path) -> None:
+    """What `Difference.as_dict` says."""
+    path.write_text(json.dumps(difference.as_dict(), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def write_html(difference: Difference, path: Path, **options: Any) -> None:
+    """The record on a page that stands alone: verdict, worst places, picture, table."""
+    title = f"Difference from {difference.target}"
+    body = f"<h1>{escape(title)}</h1>{record(difference, **options)}"
+    path.write_text(page(title, body), "utf-8", errors="replace", newline="\n")
+
+
+def record(difference: Difference, **options: Any) -> str:
+    """The measuring record as a piece of a page: what was found, the picture, the table."""
+    from mnclab.design.plot.difference import plot_difference
+
+    picture: Any = plot_difference(difference, **options)
+    first, *rest = difference.html_parts()
+    return f"{first}<figure>{picture.html(2.0)}</figure>{''.join(rest)}"
+
+
+WRITERS: dict[str, Callable[..., None]] = {
+    ".svg": write_figure,
+    ".pdf": write_figure,
+    ".png": write_figure,
+    ".csv": write_csv,
+    ".json": write_json,
+    ".html": write_html,
+}

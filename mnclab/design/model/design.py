@@ -1,0 +1,316 @@
+"""A part as a drawing has it: a blank and features, on one side or on both; its exact body."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mnclab.design.filling import filled
+from mnclab.design.model.as_drawn import AsDrawn
+from mnclab.design.model.features import FEATURES, Chamfer, Feature, Pocket, Site, Stud
+from mnclab.design.model.measures import HEAD, rows
+from mnclab.design.model.removals import Flat, Removal
+from mnclab.design.model.slabs import Stack
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.regions import Region
+from mnclab.path.columns import Array
+from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting_class
+from mnclab.text.given import check_number, check_point, choice, shown
+from mnclab.text.records import exactly
+from mnclab.text.tables import html_table
+from mnclab.workpiece.blank import Blank, Box, Revolved, blank
+from mnclab.workpiece.part import Part
+
+if TYPE_CHECKING:
+
+    from mnclab.workpiece.workpiece import Workpiece
+
+TEXTS = ("title", "number", "material", "general", "author", "date")
+ROOM = 3.0  # sizes of the blank, beyond which nothing stands
+
+
+class Taken(NamedTuple):
+    """What a feature takes away: `feature` and whether it is one of the `back`, the body, in the frame of the design."""
+
+    feature: int
+    back: bool
+    body: Removal
+
+
+@fitting_class
+@dataclass(frozen=True, repr=False)
+class Design(AsDrawn):
+    """A part as drawn. `blank`: two corners, a box or an upright cylinder, in the frame of the toolpath, mm; `features`:
+    those of `mnclab.design`, in any order.
+
+    `back` are features of the lower side, as a program sees them after the part was turned over about X (or Y: `turn`)
+    in its place: it takes up the same box as before. `title`, `number`, `material`, `general` (the general tolerance),
+    `author` and `date` stand in the title block of the drawing.
+
+    `plot()` is that drawing, `volume` exact, `part` what a probe touches; `workpiece.compare(design)` measures a part by it.
+    In files it is a TOML, which `mnclab help design` explains; `data/designs` has some.
+    """
+
+    blank: Any
+    features: tuple[Feature, ...] = ()
+    back: tuple[Feature, ...] = ()
+    turn: str = field(default="x", kw_only=True)
+    title: str = field(default="", kw_only=True)
+    number: str = field(default="", kw_only=True)
+    material: str = field(default="", kw_only=True)
+    general: str = field(default="ISO 2768-m", kw_only=True)
+    author: str = field(default="", kw_only=True)
+    date: str = field(default="", kw_only=True)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "blank", _blank(self.blank))
+        for name in ("features", "back"):
+            object.__setattr__(self, name, _features(getattr(self, name), name))
+        object.__setattr__(self, "turn", choice(self.turn, "the axis that a design is turned over about", ("x", "y")))
+        for name in TEXTS:
+            if not isinstance(getattr(self, name), str):
+                raise Alarm(f"the {name} of a design must be a text, got {shown(getattr(self, name))}")
+        self.taken  # noqa: B018  every feature must fit
+
+    def __repr__(self) -> str:
+        return exactly(self)
+
+    def _repr_html_(self) -> str:
+        sides = ((self.features, False), (self.back, True))
+        named = [(name, each.measures()) for some, back in sides for name, each in zip(self.drawn_names(back), some)]
+        return html_table(HEAD, rows(named), numbers=(2, 3))
+
+    # --- what it is made of ------------------------------------------------------------------------------------------
+
+    @property
+    def bounds(self) -> Array:
+        """The corners of the blank with the least and the greatest coordinates (2, 3)."""
+        return np.asarray(self.blank.bounds)
+
+    @cached_property
+    def outline_of_blank(self) -> Region:
+        """The blank from above."""
+        if isinstance(self.blank, Box):
+            (x0, y0), (x1, y1) = self.bounds[:, :2].tolist()
+            return Region((Contour([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]),))
+        body, centre = self.blank, self.blank.at[:2]
+        rings = [Contour.circle(centre, body.profile[0][0])]
+        return Region((*rings, *([Contour.circle(centre, body.bore, clockwise=True)] if body.bore else [])))
+
+    @cached_property
+    def flip(self) -> tuple[Array, float]:
+        """What turns it over: a mirror (3, 3) of the plane, and the sum of a height before and after."""
+        low, high = self.bounds
+        k = 1 if self.turn == "x" else 0
+        flip = np.eye(3)
+        flip[k, k], flip[k, 2] = -1.0, low[k] + high[k]
+        return flip, float(low[2] + high[2])
+
+    @cached_property
+    def taken(self) -> tuple[Taken, ...]:
+        """What every feature takes away, those of the back turned over."""
+        found = [Taken(k, False, body) for k, body in self._taken(self.features, "features")]
+        for k, body in self._taken(self.back, "back"):
+            found.append(Taken(k, True, body.turned_over(*self.flip)))
+        return tuple(found)
+
+    def _taken(self, features: tuple[Feature, ...], where: str) -> Iterator[tuple[int, Removal]]:
+        """The bodies of the features of one side, in its own frame."""
+        site, late = self._site(where == "back"), list[int]()
+        found: list[tuple[int, Removal]] = []
+        for k, each in enumerate(features):
+            if isinstance(each, Chamfer):
+                late.append(k)
+            else:
+                found += [(k, body) for body in self._removals(features, k, site, where)]
+        site = site._replace(flats=tuple(body for _, body in found if isinstance(body, Flat)))
+        for k in late:
+            found += [(k, body) for body in self._removals(features, k, site, where)]
+        yield from found
+
+    def _removals(self, features: tuple[Feature, ...], k: int, site: Site, where: str) -> list[Removal]:
+        each = features[k]
+        top = site.top if each.top is None else each.top
+        if isinstance(each, Stud) and any(_stands_in(each, other) for other in features):
+            return []  # an island of the pocket, which leaves it
+        try:
+            found = list(each.removals(site))
+            if isinstance(each, Pocket | Stud):
+                stay = [other for other in features if isinstance(other, Stud) and _same_floor(each, other) and other is not each]
+                if isinstance(each, Pocket):
+                    stay = [other for other in stay if _stands_in(other, each)]
+                for other in stay:
+                    found = [replace(body, region=body.region.difference(other.area)) for body in found if isinstance(body, Flat)]
+        except (Alarm, ValueError) as fault:
+            said = fault.message if isinstance(fault, Alarm) else str(fault)
+            hint = fault.hint if isinstance(fault, Alarm) else ""
+            raise Alarm(f"{name_of(features, k)} ({where}[{k}]): {said}", hint=hint) from None
+        if not top > site.bottom:
+            raise Alarm(f"{name_of(features, k)} ({where}[{k}]): its top {top:g} is not above the lower side, {site.bottom:g}")
+        if not any(_takes(body, site) for body in found):
+            raise Alarm(f"{name_of(features, k)} ({where}[{k}]) takes nothing away: it lies beside the blank, or above it")
+        return found
+
+    def _site(self, back: bool) -> Site:
+        (x0, y0, low), (x1, y1, high) = self.bounds.tolist()
+        outline = self.outline_of_blank
+        if back:
+            outline = Region(tuple(loop.transformed(self.flip[0]).reversed() for loop in outline.loops))
+        wide = ROOM * max(x1 - x0, y1 - y0)
+        corners = [(x0 - wide, y0 - wide), (x1 + wide, y0 - wide), (x1 + wide, y1 + wide), (x0 - wide, y1 + wide)]
+        return Site(outline, Region((Contour(corners),)), high, low)
+
+    # --- its body ----------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def stack(self) -> Stack:
+        low, high = self.bounds[:, 2].tolist()
+        return Stack.of(self.outline_of_blank, low, high, [each.body for each in self.taken])
+
+    @property
+    def volume(self) -> float:
+        """mm³: exact, from the areas of its level sections."""
+        return self.stack.volume
+
+    def faces(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """How low and how high it reaches at points (m,), exact; nan beside it and where something goes through.
+
+        Where it overhangs all below its top counts as material, as far as the lowest face from below.
+        """
+        floor, top = (side.copy() for side in self.blank.faces(x, y))
+        for each in self.taken:
+            level = each.body.level(x, y)
+            if each.body.up:
+                top = np.minimum(top, level)
+            else:
+                floor = np.maximum(floor, level)
+        gone = ~(top > floor)
+        floor[gone] = top[gone] = np.nan
+        return floor, top
+
+    def faces_over(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """The same over a lattice x (nx,), y (ny,) of many points: two arrays (ny, nx)."""
+        floor, top = (side.reshape(len(y), len(x)) for side in self.blank.faces(*(each.ravel() for each in np.meshgrid(x, y))))
+        for each in self.taken:
+            rows, columns, inside = filled(each.body.reach, x, y)
+            some = np.nonzero(inside)
+            level = each.body.level_within(x[columns][some[1]], y[rows][some[0]])
+            side, deeper = (top, np.minimum) if each.body.up else (floor, np.maximum)
+            here = side[rows, columns]
+            here[inside] = deeper(here[inside], level)
+        gone = ~(top > floor)
+        floor[gone] = top[gone] = np.nan
+        return floor, top
+
+    def section(self, z: float) -> Region:
+        """What a level plane cuts, exact; at the height of a step what is below it."""
+        check_number(z, "the height of a section (mm)")
+        return self.stack.section(float(z))
+
+    @property
+    def part(self) -> Part:
+        """What a probe touches: signed distances, exact but for the corners of chamfers."""
+        return Part(self.stack.distance, self.title or "design", bounds=np.array(self.bounds))
+
+    def workpiece(self, step: float | None = None) -> Workpiece:
+        """The finished part, as `run.workpiece()` would have it of a perfect program; `step` mm of its cells."""
+        from mnclab.design.model.drawn import Drawn
+
+        return Drawn(self, step)
+
+    def turned_over(self) -> Design:
+        """The same with its lower side up: features and `back` change places."""
+        return replace(self, features=self.back, back=self.features, blank=self.blank)
+
+    def moved(self, by: ArrayLike) -> Design:
+        """The same elsewhere, mm."""
+        check_point(by, "how far a design is moved (mm)")
+        dx, dy, dz = np.asarray(by, dtype=np.float64).tolist()
+        there = (dx, -dy, -dz) if self.turn == "x" else (-dx, dy, -dz)  # the back as it is seen from its own side
+        flip, z = self.flip
+        moved = replace(self, blank=self.blank.moved((dx, dy, dz)), features=(), back=())
+        shift = moved.flip[0][:2, 2] - flip[:2, 2]
+        back = tuple(each.moved(there[0] + shift[0], there[1] + shift[1], moved.flip[1] - z + there[2]) for each in self.back)
+        return replace(moved, features=tuple(each.moved(dx, dy, dz) for each in self.features), back=back)
+
+    def outline(self, right: int, up: int) -> list[Array]:
+        return self.blank.outline(right, up)
+
+    def edges(self) -> list[Array]:
+        return self.blank.edges()
+
+    def as_blank(self) -> Blank:
+        """The finished part as a blank, for a Setup."""
+        return self
+
+    def drawn_names(self, back: bool = False) -> tuple[str, ...]:
+        """What drawing and tables call the features of a side: their names, else their kinds, numbered."""
+        features = self.back if back else self.features
+        return tuple(name_of(features, k) for k in range(len(features)))
+
+
+def name_of(features: tuple[Any, ...], k: int) -> str:
+    """The name of a feature, else its kind, with a number where there are several."""
+    each = features[k]
+    same = [i for i, other in enumerate(features) if other.kind == each.kind and not other.name]
+    return each.name or (each.kind if len(same) == 1 else f"{each.kind} {same.index(k) + 1}")
+
+
+def _takes(body: Removal, site: Site) -> bool:
+    """Whether a body takes something of the blank."""
+    region = body.reach
+    if not body.reaches(site.top) or not region.loops:
+        return False
+    (x0, y0), (x1, y1) = site.outline.bounds
+    (left, low), (right, high) = region.bounds
+    if len(site.outline.loops) == 1 and not site.outline.loops[0].bulge.any():
+        if x0 <= left and right <= x1 and y0 <= low and high <= y1:
+            return True
+    return bool(site.outline.intersection(region).loops)
+
+
+def _same_floor(one: Any, other: Any) -> bool:
+    return bool(one.top == other.top and one.depth == other.depth)
+
+
+def _stands_in(stud: Feature, pocket: Feature) -> bool:
+    """Whether a stud is an island of a pocket: of one top and depth, all of it within."""
+    if not isinstance(stud, Stud) or not isinstance(pocket, Pocket) or not _same_floor(stud, pocket):
+        return False
+    (low, high), (least, most) = stud.area.bounds, pocket.area.bounds
+    return bool((low >= least).all() and (high <= most).all() and pocket.area.contains(stud.contour.contour.points).all())
+
+
+def _blank(given: Any) -> Blank:
+    found = blank(given)
+    if found is None:
+        hint = "Design(blank=((0, 0, -20), (60, 40, 0)))"
+        raise Alarm(f"the blank of a design must be two corners, a box or a cylinder, got {shown(given)}", hint=hint)
+    upright = isinstance(found, Revolved) and found.axis == "Z" and len({radius for radius, _ in found.profile}) == 1
+    if not isinstance(found, Box) and not upright:
+        raise Alarm(f"the blank of a milled design is a box or an upright cylinder, got {shown(given)}")
+    if not found.volume > 0:
+        raise Alarm(f"the blank of a design has no volume: {shown(given)}")
+    if isinstance(found, Box):
+        low, high = found.bounds.tolist()
+        return Box(tuple(low), tuple(high))
+    return found
+
+
+def _features(given: Any, name: str) -> tuple[Feature, ...]:
+    if isinstance(given, Feature):
+        given = (given,)
+    if not isinstance(given, tuple | list):
+        raise Alarm(f"{name} of a design must be features, got {shown(given)}", hint="mnclab.design.Pocket.circle(30, 20, 12, 5)")
+    given = [one for each in given for one in (each if isinstance(each, tuple | list) else [each])]  # patterns are tuples
+    for k, each in enumerate(given):
+        if not isinstance(each, Feature):
+            known = ", ".join(cls.__name__ for cls in FEATURES.values())
+            raise Alarm(f"{name}[{k}] of a design must be a feature, got {shown(each)}", hint=f"mnclab.design has {known}")
+    return tuple(given)

@@ -1,0 +1,147 @@
+"""Designs in files (TOML), as people write them: read with alarms that show the line, written so that they read back equal."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from mnclab.design import toml_text
+from mnclab.design.model import turned_file
+from mnclab.design.model.design import TEXTS, Design
+from mnclab.design.model.feature_file import feature_of, pointing, table_of_feature
+from mnclab.design.model.features import FEATURES
+from mnclab.design.model.turned_design import TurnedDesign
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import shown
+from mnclab.text.toml_file import File, as_table, as_tables, check_names, parse
+from mnclab.workpiece.blank_file import blank_of, table_of
+
+#: The format, as the help of the command line shows it.
+FORMAT = """\
+title = "Bearing plate"        # the title block: also number, material, general (tolerances), author, date
+turn = "x"                     # about which axis, x or y, the part is turned over for [[back]]
+
+[blank]                        # low and high, two corners in the coordinates of the program, mm
+low = [0, 0, -20]
+high = [100, 60, 0]            # or an upright cylinder: radius, low, high, at = [x, y, 0], bore (a radius too)
+
+[[features]]                   # one table each, in any order
+kind = "pocket"                # all within a contour; "stud": all around it
+x = 30                         # a rectangle about (x, y): length along X, width along Y, corner a radius,
+y = 20                         # turned by degrees
+length = 40
+width = 25
+corner = 5
+depth = 8                      # from the top of the blank, or from the height top = …
+name = "pocket A"              # what drawing and tables call it
+tolerances = { length = 0.1, width = "H9", depth = [0, 0.2] }     # ±, a class of ISO 286, or lower and upper
+islands = [{ x = 30, y = 20, diameter = 10 }]                     # what stays of a pocket
+
+[[features]]
+kind = "hole"                  # depth to the shoulder, without one it goes through; point = 118 degrees, 180 is flat
+x = 80                         # counterbore = [diameter, depth], countersink = [diameter, angle]
+y = 20
+diameter = 6.6                 # or thread = "M8" with thread_depth
+counterbore = [11, 6]
+
+[[features]]
+kind = "slot"                  # start and end are the centres of its round ends
+start = [60, 45]
+end = [90, 45]
+width = 8
+depth = 5
+
+[[features]]
+kind = "chamfer"               # of the edge along a contour, by a width; angle = 90 is that of the tool
+width = 1                      # a rectangle stands in a table of its own, since its width is another one
+contour = { x = 30, y = 20, length = 40, width = 25, corner = 5 }
+
+[[features]]
+kind = "groove"                # what a tool of a width leaves along a contour, open or closed
+points = [[10, 40], [40, 40], [50, 50]]
+bulge = [0, 0.2, 0]            # tan(angle / 4) of the arc to the next point, 0 a line
+closed = false
+width = 3
+depth = 2
+
+[[features]]
+kind = "face"                  # the whole top
+depth = 0.5
+
+[[features]]
+kind = "slope"                 # a rectangle with a plane floor, from the depth at its end of least X to that at the other
+x = 70
+y = 10
+length = 20
+width = 6
+start_depth = 1
+end_depth = 3
+
+[[back]]                       # a feature of the lower side, as it is seen once the part is turned over
+kind = "pocket"
+x = 50
+y = 30
+diameter = 30
+depth = 5
+"""
+
+SIDES = ("features", "back")
+KNOWN = (*TEXTS, "turn", "blank", *SIDES)
+
+
+def load(path: str | Path) -> Any:
+    """The design of a file; an Alarm names what is wrong in it and shows the line."""
+    return parse(path, _either, "design")
+
+
+def _either(table: Mapping[str, Any], file: File) -> Any:
+    """A turned design has a profile."""
+    return turned_file.design_of(table, file) if "profile" in table else design_of(table, file)
+
+
+def design_of(table: Mapping[str, Any], file: File) -> Design:
+    """The design that a table writes."""
+    check_names(table, KNOWN, "a design", file)
+    if "blank" not in table:
+        raise Alarm("a design has no blank", hint="[blank] with low and high, two corners [x, y, z]; a turned one: profile")
+    given = {name: table[name] for name in (*TEXTS, "turn") if name in table}
+    with file.at("blank"):
+        blank = blank_of(as_table(table["blank"], "blank"), "blank", file, "blank")
+        Design(blank)
+    for name in given:
+        with file.at(name):
+            Design(blank, **{name: given[name]})
+    for side in SIDES:
+        with file.at(side):
+            tables = as_tables(table.get(side, []), side)
+            given[side] = tuple(feature_of(each, FEATURES, file, side, str(k)) for k, each in enumerate(tables))
+    try:
+        return Design(blank, **given)
+    except Alarm as alarm:  # of a feature that does not fit the others
+        if found := re.search(r"\((features|back)\[(\d+)\]\)", alarm.message):
+            with pointing(file, {}, found[1], found[2]):
+                raise
+        raise
+
+
+def text_of(design: Any) -> str:
+    """A design as it is written in a file."""
+    if isinstance(design, TurnedDesign):
+        return turned_file.text_of(design)
+    if wrong := [each for each in (*design.features, *design.back) if type(each) not in FEATURES.values()]:
+        raise Alarm(f"a file knows no feature such as {shown(wrong[0])}", hint=f"known: {', '.join(FEATURES)}")
+    usual = Design.__dataclass_fields__
+    texts = {name: getattr(design, name) for name in (*TEXTS, "turn")}
+    said = {name: value for name, value in texts.items() if value != usual[name].default}
+    parts = [*([("", said)] if said else []), *_parts(design)]
+    return "\n\n".join("\n".join([*([head] if head else []), *toml_text.lines(table)]) for head, table in parts) + "\n"
+
+
+def _parts(design: Design) -> Iterator[tuple[str, dict[str, Any]]]:
+    """The tables of a file with their heads."""
+    yield "[blank]", table_of(design.blank)
+    for side in SIDES:
+        for each in getattr(design, side):
+            yield f"[[{side}]]", table_of_feature(each)

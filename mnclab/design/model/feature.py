@@ -1,0 +1,134 @@
+"""What all features of a drawing share, and those of a milled part."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields
+from typing import Any, ClassVar, NamedTuple, Self
+
+from mnclab.design.model.measures import Measure, Tolerance, with_tolerances
+from mnclab.design.model.removals import Flat, Removal
+from mnclab.design.model.shapes import LARGEST, Shape, check_place, shape_of
+from mnclab.geometry.regions import Region
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, faults_as_alarms, plain, shown
+from mnclab.text.records import exactly
+
+SMALLEST = 1e-6  # mm, of a size
+BESIDE = 1e-3  # mm, beside an edge, where material is looked for
+
+
+class Site(NamedTuple):
+    """Where a feature stands: the blank from above, all about it, and the heights of its sides, mm.
+
+    `flats` are what the other features take away, of which a chamfer is told on which side of its edge the material is.
+    """
+
+    outline: Region
+    around: Region
+    top: float
+    bottom: float
+    flats: tuple[Flat, ...] = ()
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class Named(ABC):
+    """What every feature of a drawing has, milled or turned; `kind` is its name in files."""
+
+    kind: ClassVar[str]
+
+    name: str = ""
+    tolerances: Mapping[str, Tolerance] = field(default_factory=dict, hash=False)
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.name, str):
+            raise Alarm(f"the name of a {self.kind} must be a text, got {shown(self.name)}")
+        if not isinstance(self.tolerances, Mapping):
+            raise Alarm(f"tolerances of a {self.kind} are names and values, got {shown(self.tolerances)}", hint=EXAMPLE)
+        given = {name: tuple(each) if isinstance(each, list) else each for name, each in self.tolerances.items()}
+        object.__setattr__(self, "tolerances", given)
+        for each in fields(self):
+            object.__setattr__(self, each.name, plain(getattr(self, each.name)))
+        self._check()
+        self.measures()
+
+    def __repr__(self) -> str:
+        return exactly(self)
+
+    @abstractmethod
+    def _check(self) -> None:
+        """Raises an Alarm for sizes that cannot be."""
+
+    @abstractmethod
+    def _measures(self) -> Iterator[Measure]: ...
+
+    def measures(self) -> tuple[Measure, ...]:
+        """What a drawing says of it and a measuring room measures, with its tolerances."""
+        return with_tolerances(list(self._measures()), self.tolerances, self.name or f"a {self.kind}")
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class Feature(Named):
+    """What all features of a milled part share."""
+
+    top: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.top is not None:
+            check_place(self.top, f"the top of a {self.kind} (mm)")
+        super().__post_init__()
+
+    @abstractmethod
+    def removals(self, site: Site) -> Iterator[Removal]:
+        """What it takes away."""
+
+    @abstractmethod
+    def moved(self, dx: float, dy: float, dz: float) -> Self:
+        """The same elsewhere; what counts from the top of the blank still does."""
+
+    def measures(self) -> tuple[Measure, ...]:
+        found = list(self._measures())
+        if self.top is not None:
+            found.append(Measure("top", self.top, "place"))
+        return with_tolerances(found, self.tolerances, self.name or f"a {self.kind}")
+
+    def from_top(self, site: Site) -> float:
+        """The height that its depths count from."""
+        return site.top if self.top is None else self.top
+
+    def raised(self, dz: float) -> dict[str, Any]:
+        """Its `top`, where it has one, higher by `dz`."""
+        return {} if self.top is None else {"top": self.top + dz}
+
+
+EXAMPLE = 'tolerances={"depth": 0.1}'
+
+
+def check_positive(feature: Named, *names: str) -> None:
+    """An Alarm unless sizes of a feature are greater than 0."""
+    for name in names:
+        size, what = getattr(feature, name), f"the {name} of a {feature.kind} (mm)"
+        check_number(size, what, above=0, at_most=LARGEST)
+        check_number(size, what, at_least=SMALLEST)
+
+
+def check_flag(feature: Named, name: str) -> None:
+    """An Alarm unless something of a feature is True or False."""
+    if not isinstance(getattr(feature, name), bool):
+        raise Alarm(f"{name} of a {feature.kind} must be True or False, got {shown(getattr(feature, name))}")
+
+
+def take_shape(feature: Feature, closed: bool | None = True, name: str = "contour") -> None:
+    """Puts a shape in the place of whatever was given for it."""
+    found = shape_of(getattr(feature, name), f"the {name} of a {feature.kind}", closed)
+    object.__setattr__(feature, name, found)
+
+
+def area_of(shape: Shape, what: str) -> Region:
+    """What lies within a closed shape."""
+    try:
+        with faults_as_alarms():
+            return Region.of(shape.contour)
+    except Alarm as fault:
+        raise Alarm(f"{what}: {fault.message}") from None

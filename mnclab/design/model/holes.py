@@ -1,0 +1,166 @@
+"""Holes: drilled, tapped, countersunk and counterbored, one by one or in patterns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any, Self
+
+from mnclab.design.model.feature import Feature, Site, check_positive
+from mnclab.design.model.measures import Measure
+from mnclab.design.model.removals import Flat, Removal, Slanting
+from mnclab.design.model.shapes import LARGEST, check_place
+from mnclab.design.model.threads import core_of
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.regions import Region
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, shown, whole
+
+BEYOND = 1.0  # mm, by which what goes through goes beyond the lower side
+MOST = 1000  # holes in a row of a pattern
+
+
+@dataclass(frozen=True, repr=False)
+class Hole(Feature):
+    """A hole about (x, y). `depth` is that of the cylinder, to its shoulder; the point comes on top; None: through.
+
+    `point` is the included angle of the bottom, degrees, 180 for a flat one. `counterbore` (diameter, depth);
+    `countersink` (diameter, included angle). `thread` is a designation ("M8", "M8x1"), `thread_depth` how far it goes
+    (None: as deep as the hole); the hole then is that for the tap: `diameter` may be None, and is the nominal
+    diameter less the pitch.
+    """
+
+    kind = "hole"
+    x: float
+    y: float
+    diameter: float | None
+    depth: float | None = None
+    point: float = 118.0
+    counterbore: tuple[float, float] | None = None
+    countersink: tuple[float, float] | None = None
+    thread: str = ""
+    thread_depth: float | None = None
+
+    @classmethod
+    def row(
+        cls, x: float, y: float, count: int, spacing: float, diameter: float | None, depth: float | None = None,
+        turned: float = 0.0, **more: Any,
+    ) -> tuple[Self, ...]:  # fmt: skip
+        """So many from (x, y) on, `spacing` mm apart, in the direction `turned`, degrees from X."""
+        return cls.grid(x, y, count, 1, spacing, 1.0, diameter, depth, turned, **more)
+
+    @classmethod
+    def grid(
+        cls, x: float, y: float, columns: int, rows: int, dx: float, dy: float, diameter: float | None,
+        depth: float | None = None, turned: float = 0.0, **more: Any,
+    ) -> tuple[Self, ...]:  # fmt: skip
+        """Rows of holes above each other, the first of them at (x, y), `dx` and `dy` mm apart, all `turned` by degrees."""
+        for name, number in (("dx", dx), ("dy", dy), ("turned", turned)):
+            check_place(number, f"{name} of a pattern of holes")
+        counts = (_count(columns, "the columns"), _count(rows, "the rows"))
+        c, s = math.cos(math.radians(turned)), math.sin(math.radians(turned))
+        places = [(dx * i, dy * k) for k in range(counts[1]) for i in range(counts[0])]
+        return cls._at(x, y, [(c * u - s * v, s * u + c * v) for u, v in places], diameter, depth, more)
+
+    @classmethod
+    def circle(
+        cls, x: float, y: float, count: int, pitch_diameter: float, diameter: float | None, depth: float | None = None,
+        first: float = 0.0, **more: Any,
+    ) -> tuple[Self, ...]:  # fmt: skip
+        """So many evenly on a circle about (x, y), the first of them at an angle, degrees."""
+        check_number(pitch_diameter, "the pitch diameter of a circle of holes (mm)", above=0, at_most=LARGEST)
+        check_place(first, "the angle of the first hole (degrees)")
+        number = _count(count, "the count")
+        angles = [math.radians(first + 360 * k / number) for k in range(number)]
+        places = [(pitch_diameter / 2 * math.cos(a), pitch_diameter / 2 * math.sin(a)) for a in angles]
+        return cls._at(x, y, places, diameter, depth, more)
+
+    @classmethod
+    def _at(
+        cls, x: float, y: float, places: list[tuple[float, float]], diameter: float | None, depth: float | None, more: Any
+    ) -> tuple[Self, ...]:
+        for name, number in (("x", x), ("y", y)):
+            check_place(number, f"{name} of a pattern of holes (mm)")
+        return tuple(cls(round(x + u, 9), round(y + v, 9), diameter, depth, **more) for u, v in places)
+
+    def _check(self) -> None:
+        for name in ("x", "y"):
+            check_place(getattr(self, name), f"the {name} of a hole (mm)")
+        if not isinstance(self.thread, str):
+            raise Alarm(f"the thread of a hole must be a text, got {shown(self.thread)}", hint='thread="M8"')
+        if self.diameter is None and self.thread:
+            object.__setattr__(self, "diameter", core_of(self.thread))
+        check_positive(self, "diameter", *([] if self.depth is None else ["depth"]))
+        check_number(self.point, "the point of a hole (degrees)", at_least=1, at_most=180)
+        for name, second, most in (("counterbore", "depth (mm)", LARGEST), ("countersink", "angle (degrees)", 179.0)):
+            given = getattr(self, name)
+            if given is None:
+                continue
+            if not isinstance(given, tuple | list) or len(given) != 2:
+                raise Alarm(f"the {name} of a hole must be its diameter (mm) and {second}, got {shown(given)}")
+            check_number(given[0], f"the diameter of a {name} (mm)", above=self.wide, at_most=LARGEST)
+            check_number(given[1], f"the {second} of a {name}", above=0, at_most=most)
+            object.__setattr__(self, name, tuple(float(each) for each in given))
+        if self.counterbore and self.depth is not None and self.counterbore[1] >= self.depth:
+            raise Alarm(f"a counterbore must be less deep than its hole, {self.depth:g}, got {self.counterbore[1]:g}")
+        if self.thread and core_of(self.thread) <= 0:
+            raise Alarm(f"the thread {self.thread} leaves no core")
+        if self.thread_depth is not None:
+            check_positive(self, "thread_depth")
+            if not self.thread:
+                raise Alarm("a thread_depth needs a thread", hint='thread="M8"')
+            if self.depth is not None and self.thread_depth > self.depth:
+                raise Alarm(f"a thread goes at most as deep as its hole, {self.depth:g}, got {self.thread_depth:g}")
+
+    @property
+    def wide(self) -> float:
+        """The diameter, mm."""
+        return float(self.diameter or 0.0)
+
+    @property
+    def tip(self) -> float:
+        """How far the point goes beyond the shoulder, mm."""
+        return 0.0 if self.depth is None else self.wide / 2 / math.tan(math.radians(self.point / 2)) * (self.point < 180)
+
+    def _measures(self) -> Iterator[Measure]:
+        if self.thread:
+            yield Measure("thread", core_of(self.thread, 0.0), "thread", text=self.thread)
+            if self.thread_depth is not None:
+                yield Measure("thread depth", self.thread_depth, "depth")
+        yield Measure("diameter", self.wide, "diameter")
+        if self.depth is not None:
+            yield Measure("depth", self.depth, "depth")
+        if self.counterbore:
+            yield Measure("counterbore diameter", self.counterbore[0], "diameter")
+            yield Measure("counterbore depth", self.counterbore[1], "depth")
+        if self.countersink:
+            yield Measure("countersink diameter", self.countersink[0], "diameter")
+            yield Measure("countersink angle", self.countersink[1], "angle")
+        if self.depth is not None and self.point != 118:
+            yield Measure("point angle", self.point, "angle")
+        yield Measure("x", self.x, "place")
+        yield Measure("y", self.y, "place")
+
+    def removals(self, site: Site) -> Iterator[Removal]:
+        top, centre, r = self.from_top(site), (float(self.x), float(self.y)), self.wide / 2
+        shoulder = site.bottom - BEYOND if self.depth is None else top - self.depth
+        yield Flat(Region((Contour.circle(centre, r),)), shoulder)
+        if self.tip:
+            yield Slanting(centre, 0.0, r, shoulder - self.tip, shoulder)
+        if self.counterbore:
+            yield Flat(Region((Contour.circle(centre, self.counterbore[0] / 2),)), top - self.counterbore[1])
+        if self.countersink:
+            out = self.countersink[0] / 2
+            seat = top - (self.counterbore[1] if self.counterbore else 0.0)
+            deep = seat - (out - r) / math.tan(math.radians(self.countersink[1] / 2))
+            yield (cone := Slanting(centre, r, out, deep, seat))
+            yield cone.sky
+
+    def moved(self, dx: float, dy: float, dz: float) -> Self:
+        return replace(self, x=self.x + dx, y=self.y + dy, **self.raised(dz))
+
+
+def _count(value: Any, what: str) -> int:
+    check_number(value, f"{what} of a pattern of holes", at_least=1, at_most=MOST)
+    return whole(value, f"{what} of a pattern of holes")

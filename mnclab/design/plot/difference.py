@@ -1,0 +1,268 @@
+"""A part against what it should be: the signed map from above with its worst places, sections with the deviation magnified,
+the half section of a lathe; below it the table of measures. Gouges are dark and crossed, rest is lighter and dotted, in grey
+print too."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, cast
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import LinearSegmentedColormap, Normalize
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, PathPatch
+
+from mnclab.design.difference.difference import Difference
+from mnclab.design.plot.difference_marks import draw_marks, marks_of
+from mnclab.design.plot.difference_sections import FULL, Magnified, draw_magnified, sections_of
+from mnclab.design.plot.difference_table import draw_table, lines_of, wide_of
+from mnclab.geometry.contours import Contour
+from mnclab.path.columns import Array
+from mnclab.show.plot import colours
+from mnclab.show.plot.classes import number
+from mnclab.show.plot.picture import LINE, SCALE, SIZE, SMALL, VIEWS, Foot, Picture, arrange, dress, write_legend
+from mnclab.show.plot.sections import CARD, FACE, HATCH, mark_section, outline_of
+from mnclab.show.plot.sizes import sized
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, shown
+
+#: Dark blue what is gone, pale what is right, orange what is left; grey print keeps the order.
+GONE, RIGHT, LEFT = "#0b2a78", "#f4f1e6", "#d9541e"
+SHADES = LinearSegmentedColormap.from_list("difference", [GONE, "#3f68b5", "#a9bfe0", RIGHT, "#f6c3a0", "#ee8a4d", LEFT])
+HATCHES = {-1: "xxxx", 1: "...."}
+OUTLINE: dict[str, Any] = {"colors": colours.INK, "linewidths": 0.8, "zorder": 2.0}
+STEPS = (1.0, 2.0, 5.0)
+DOTS = 9.0  # points², of a place of a wall
+NAMES = ("gouge", "rest")
+
+
+@sized()
+def plot_difference(
+    difference: Difference,
+    ax: Axes | None = None,
+    *,
+    section: str | Sequence[str] = (),
+    at: float | Sequence[float] | None = None,
+    table: bool = False,
+    limit: float | None = None,
+    size: tuple[float, float] = SIZE,
+) -> Figure:
+    """The signed deviation in mm: + what is left over, - what is gone.
+
+    - `ax`: draw into these axes of one's own, without sections, table, legend and scale.
+    - `section` of a milled part: planes "XZ" or "YZ", one or several, each at its place `at` (mm; default through the worst
+      place): the part and its target, the deviation magnified by a factor that is told.
+    - `table`: the measures below the picture; what is out has a number, which stands at its place too.
+    - `limit`: the ends of the scale, mm; default the worst deviation, at least twice the tolerance and at most ten times.
+    - `size`: the greatest width and height in inches, without the table.
+    """
+    if not isinstance(table, bool):
+        raise Alarm(f"table must be True or False, got {shown(table)}")
+    if limit is not None:
+        check_number(limit, "the limit of the scale (mm)", above=0)
+    most = float(limit) if limit else usual_limit(difference)
+    lathe = difference.workpiece.cutting.lathe
+    cuts = sections_of(difference, section, at)
+    if ax is not None:
+        _draw(ax, difference, most)
+        return cast(Figure, ax.get_figure(root=True))
+    low, high = difference.compared.bounds_3d if lathe else _bounds(difference)
+    views = [VIEWS["ZX" if lathe else "XY"], *(each.section.view for each in cuts)]
+    marks = marks_of(difference)
+    rows = [(), *lines_of(difference, marks)] if table and len(difference.features) else []
+    told = [*_told(difference), *(f"{each.number}  {each.text}" for each in marks)]
+    said = Foot("\n".join(told)).within(max(size[0], wide_of(rows))).lines
+    size = size[0], size[1] + LINE * (len(rows) + len(said))
+    handles = _handles(difference, cuts)
+    foot = Foot("\n" * (len(rows) + len(said) - 1))
+    picture, axes = arrange(views, low, high, [str(each.get_label()) for each in handles], foot, _words(difference), size, True)
+    _widen(picture, axes, wide_of(rows))
+    _draw(axes[0], difference, most)
+    for one, each in zip(axes[1:], cuts):
+        draw_magnified(one, each, (GONE, LEFT))
+        mark_section(axes[0], each.section, low, high)
+    _scale(picture, most, difference.tolerance, max(difference.worst_gouge.value, difference.worst_rest.value) > most)
+    write_legend(picture, handles, SCALE)
+    Foot("\n".join([*said, *([""] * len(rows))])).write(picture)
+    draw_table(picture, rows)
+    return picture
+
+
+def usual_limit(difference: Difference) -> float:
+    """The ends of the scale: the worst deviation, but two tolerances at least and ten at most."""
+    worst, tolerance = max(difference.worst_gouge.value, difference.worst_rest.value), difference.tolerance
+    return nice(min(max(worst, 2 * tolerance), FULL * tolerance))
+
+
+def nice(value: float) -> float:
+    """The next number 1, 2 or 5 times a power of ten that is not less."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return next((step * power for step in STEPS if step * power >= value * (1 - 1e-9)), 10 * power)
+
+
+def _widen(picture: Picture, axes: Sequence[Axes], wide: float) -> None:
+    """Make room for a table of some inches; the views keep their size."""
+    width, height = picture.get_size_inches().tolist()
+    if wide <= width:
+        return
+    picture.set_size_inches(wide, height)
+    for ax in axes:
+        x, y, w, h = ax.get_position().bounds
+        ax.set_position((x * width / wide, y, w * width / wide, h))
+
+
+def _bounds(difference: Difference) -> tuple[Array, Array]:
+    stock = difference.workpiece.cutting.stock.bounds
+    other = difference.compared.bounds
+    return np.minimum(stock[0], other[0]), np.maximum(stock[1], other[1])
+
+
+def _draw(ax: Axes, difference: Difference, most: float) -> None:
+    lathe = difference.workpiece.cutting.lathe
+    box, free = (ax.get_xlim(), ax.get_ylim()), ax.get_autoscale_on()
+    (_draw_half if lathe else _draw_plan)(ax, difference, most)
+    if free:
+        dress(ax, VIEWS["ZX" if lathe else "XY"])
+        ax.autoscale_view()
+    else:
+        ax.set(xlim=box[0], ylim=box[1])
+    draw_marks(ax, marks_of(difference), (2, 0) if lathe else (0, 1), (GONE, LEFT))
+
+
+def _draw_plan(ax: Axes, difference: Difference, most: float) -> None:
+    step = float(difference.workpiece.step)
+    box = difference.x[0] - step / 2, difference.x[-1] + step / 2, difference.y[0] - step / 2, difference.y[-1] + step / 2
+    norm = Normalize(-most, most)
+    look: dict[str, Any] = {"cmap": SHADES, "norm": norm, "interpolation": "nearest", "zorder": 0.8}
+    ax.imshow(difference.map, extent=box, origin="lower", aspect="auto", **look)
+    beyond = np.nan_to_num(difference.map)
+    for sign, hatch in HATCHES.items():
+        wide = np.pad((sign * beyond > difference.tolerance).astype(float), 1)
+        if wide.any():
+            x, y = (np.concatenate([[each[0] - step], each, [each[-1] + step]]) for each in (difference.x, difference.y))
+            drawn = ax.contourf(x, y, wide, [0.5, 2.0], colors="none", hatches=[hatch], zorder=1.0)
+            drawn.set_edgecolor("#ffffffb0" if sign < 0 else "#6b2a08b0")
+            drawn.set_linewidth(0.0)
+            ax.contour(x, y, wide, [0.5], colors=GONE if sign < 0 else LEFT, linewidths=0.7, zorder=1.1)
+    for loop in outlines(difference):
+        ax.add_collection(LineCollection([_closed(loop)], **OUTLINE))
+    _draw_walls(ax, difference, norm)
+
+
+def outlines(difference: Difference) -> list[Contour]:
+    """The edges of the target from above: its sections between the levels that most of it stands at."""
+    top = difference.looked.grid.top
+    levels, count = np.unique(top[np.isfinite(top)].round(6), return_counts=True)
+    low = float(difference.compared.bounds[0, 2])
+    levels = np.unique(np.append(levels[count > 1e-3 * top.size][-12:], low))
+    middles = (levels[1:] + levels[:-1]) / 2
+    return [loop for z in middles for loop in difference.compared.cut("XY", float(z))]
+
+
+def _draw_walls(ax: Axes, difference: Difference, norm: Normalize) -> None:
+    """Places of walls that are off as dots, the worst of each above the others: thinner than a cell they have none."""
+    seen = difference.looked
+    off, place = seen.off[seen.of_walls], seen.walls.place[seen.walls.spot]
+    some = np.flatnonzero(np.abs(off) > difference.error)
+    some = some[np.argsort(np.abs(off[some]), kind="stable")]
+    for sign, marker in ((-1, "v"), (1, "o")):
+        mine = some[np.sign(off[some]) == sign]
+        ax.scatter(
+            place[mine, 0], place[mine, 1], s=DOTS, c=off[mine], cmap=SHADES, norm=norm, marker=marker, linewidths=0.25,
+            edgecolors=GONE if sign < 0 else "#6b2a08", zorder=2.4,
+        )  # fmt: skip
+
+
+def _draw_half(ax: Axes, difference: Difference, most: float) -> None:
+    target, looked = difference.compared, difference.looked
+    shape = outline_of(target.section)
+    ax.add_patch(PathPatch(shape, **FACE, zorder=1.5))
+    hatch = PathPatch(shape, **(HATCH | {"edgecolor": "#b9b5a8"}), zorder=1.6)
+    hatch.set_hatch_linewidth(0.5)
+    ax.add_patch(hatch)
+    factor = factor_of(difference)
+    place, normal, off = looked.places.place, looked.places.normal, np.nan_to_num(looked.off)
+    much = (np.abs(off) > FULL * difference.tolerance) | np.isnan(looked.moved)
+    off = np.where(much, 0.0, off)  # too much to be magnified: areas as they are
+    for region, shade in ((looked.gone, GONE), (looked.left, LEFT)):
+        if region.loops:
+            face = {"facecolor": shade + "66", "edgecolor": shade, "linewidth": 0.6}
+            ax.add_patch(PathPatch(outline_of(region.loops), **face, zorder=1.7))
+    drawn = place + factor * off[:, None] * normal
+    same = (np.diff(looked.places.line) == 0) & (np.diff(looked.places.element) == 0)
+    quads = np.stack([place[:-1], place[1:], drawn[1:], drawn[:-1]], axis=1)
+    mean = (off[:-1] + off[1:]) / 2
+    some = same & (off[:-1] * off[1:] > 0)
+    ax.add_collection(PolyCollection(list(quads[some]), array=mean[some], cmap=SHADES, norm=Normalize(-most, most), zorder=2.0))
+    edges = np.stack([drawn[:-1], drawn[1:]], axis=1)
+    for sign, shade, dashes in ((-1, GONE, "-"), (1, LEFT, (0, (4, 1)))):
+        mine = some & (np.sign(mean) == sign)
+        ax.add_collection(LineCollection(list(edges[mine]), colors=shade, linestyles=dashes, linewidths=1.1, zorder=2.2))
+    for side in (-1, 1):
+        band = place + side * factor * difference.tolerance * normal
+        lines = np.stack([band[:-1], band[1:]], axis=1)[same]
+        ax.add_collection(LineCollection(list(lines), colors="#8c8778", linewidths=0.5, linestyles=(0, (2, 2)), zorder=1.9))
+    low, high = target.ends
+    reach = 0.04 * (high - low)
+    ax.add_line(Line2D([low - reach, high + reach], [0, 0], **{**colours.CENTRE_LINE.style(), "zorder": 2.8, "label": "_centre"}))
+    ax.annotate(
+        f"deviation × {number(factor)}", (0.5, 1.0), (0, -3), xycoords="axes fraction", textcoords="offset points", ha="center",
+        va="top", fontsize=SMALL + 1, bbox=CARD, zorder=5,
+    )  # fmt: skip
+
+
+def factor_of(difference: Difference) -> float:
+    """By how much deviations along a half section are magnified: the worst one to a twelfth of its height."""
+    off = np.abs(np.nan_to_num(difference.looked.off))
+    worst = float(np.clip(off.max(initial=0.0), difference.tolerance, FULL * difference.tolerance))
+    low, high = difference.compared.ends
+    radius = max(float(loop.bounds[1, 1]) for loop in difference.compared.section)
+    return max(1.0, nice(min(high - low, radius) / 12 / worst) / 2)
+
+
+def _closed(loop: Contour) -> Array:
+    points = loop.points_within(0.02)
+    return np.concatenate([points, points[:1]])
+
+
+def _handles(difference: Difference, cuts: Sequence[Magnified]) -> list[Any]:
+    lathe = difference.workpiece.cutting.lathe
+    found: list[Any] = [Line2D([], [], color=colours.INK, linewidth=0.9, label=difference.target)]
+    found += [Patch(facecolor=GONE, edgecolor="#ffffff", hatch="" if lathe else HATCHES[-1], label="gouge")]
+    found += [Patch(facecolor=LEFT, edgecolor="#6b2a08", hatch="" if lathe else HATCHES[1], label="rest")]
+    if lathe or cuts:
+        found.append(Line2D([], [], color="#8c8778", linewidth=0.7, linestyle=(0, (2, 2)), label="tolerance"))
+    return found
+
+
+def _told(difference: Difference) -> list[str]:
+    volumes = f"gouged away {difference.gouge_volume:.3f} mm³, left over {difference.rest_volume:.3f} mm³"
+    return [f"{difference.verdict} within {number(difference.tolerance)} mm; {volumes}"]
+
+
+def _words(difference: Difference) -> str:
+    gone, left = (getattr(difference, f"worst_{name}") for name in NAMES)
+    return f"difference from {difference.target}: {_told(difference)[0]}; worst gouge {gone}; worst rest {left}"
+
+
+def _scale(picture: Picture, most: float, tolerance: float, more: bool) -> None:
+    """The bar of colours above the views, the tolerance marked on it; whether there is `more` than at its ends."""
+    width, height = picture.get_size_inches().tolist()
+    long, thick = min(3.6, width - 2.0), 0.1
+    ax = picture.add_axes((1.15 / width, 1 - (0.07 + thick) / height, long / width, thick / height))
+    ax.imshow(np.linspace(-most, most, 256)[None], cmap=SHADES, extent=(-most, most, 0, 1), aspect="auto")
+    ax.set_yticks([])
+    for place in (-tolerance, tolerance):
+        ax.axvline(place, color=colours.INK, linewidth=1.1)
+    ax.tick_params(labelsize=SMALL, length=2, pad=1)
+    ticks = np.array([-most, -most / 2, 0, most / 2, most])
+    names = [("+" if t > 0 else "") + number(t).replace("-", "\N{MINUS SIGN}") for t in ticks.tolist()]
+    if more:
+        names[0], names[-1] = f"\N{LESS-THAN OR EQUAL TO} {names[0]}", f"\N{GREATER-THAN OR EQUAL TO} {names[-1]}"
+    ax.set_xticks(ticks, names)
+    ax.set_ylabel("deviation, mm", fontsize=SMALL, rotation=0, ha="right", va="center", labelpad=5)
+    ax.spines[:].set_linewidth(0.5)

@@ -1,0 +1,127 @@
+"""Number boxes for the places of a program, with its picture."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from mnclab.controls.choice import choose
+from mnclab.controls.choice import run as run_text
+from mnclab.lab.forms.boxes import ORDERS, Number, number_box, place_of, slider_of
+from mnclab.lab.forms.fields import Field
+from mnclab.lab.forms.following import SIZE, Work, following, of_run
+from mnclab.machine import trial
+from mnclab.machine.setup import Setup
+from mnclab.text.alarm import Alarm
+from mnclab.text.calls import fitting
+from mnclab.text.extras import require
+from mnclab.text.given import shown
+from mnclab.text.nearest import hint
+
+PLACE = re.compile(r"\{(\w+)\}")
+
+
+@fitting
+def panel(
+    template: str | Callable[..., str], control: str | None = None, /, *, setup: Setup | None = None, view: str = "auto",
+    sliders: bool = False, **numbers: Number,
+) -> Any:  # fmt: skip
+    """Number boxes for the places `{name}` of a program, with picture and alarms that follow.
+
+    `numbers` says for each place what it begins with:
+
+    - `side=40.0`: a number; a whole number (`side=40`) stays whole.
+    - `side=(40, 10, 60)`: value, least, greatest.
+    - `depth=(-10, -1, 0.5)`: least, greatest, step; it begins on a step in the middle. This order is taken where the first
+      number does not lie between the other two.
+
+    `sliders=True` puts a slider beside each box that has limits. In place of a text with `{name}` a function may be
+    given that makes the text from the numbers: `panel(lambda side: f"G0 X{side}", "mnc", side=40)`. The picture keeps
+    its axes while a number is changed, and shows in grey where the path went before. `view` and `setup` are those of
+    `Run.plot` and `run`. The result has `boxes` (by name) and `run`, the last run.
+    """
+    require("ipywidgets", "forms")
+    if not (isinstance(template, str) or callable(template)):
+        wanted = "a panel is made of the text of a program, or of a function that makes it"
+        raise Alarm(f"{wanted}, got {shown(template)}", hint='panel("G0 X{x}\\n", "mnc", x=5)')
+    if control is not None:
+        choose(control, "", "")
+    if not isinstance(sliders, bool):
+        raise Alarm(f"sliders must be True or False, got {shown(sliders)}")
+    places = {name: place_of(name, number) for name, number in numbers.items()}
+    check_names(template, numbers)
+    if sliders and places and not any(place.limits for place in places.values()):
+        raise Alarm(f"a slider needs limits: write {next(iter(places))}={ORDERS}")
+    boxes = {name: number_box(name.replace("_", " "), place) for name, place in places.items()}
+    fields = {}
+    for name, box in boxes.items():
+        beside = [slider_of(box, places[name])] if sliders and places[name].limits else []
+        fields[name] = Field(box, *beside)
+    written: list[tuple[str, str]] = []  # the text in pieces, and the place that each piece fills
+
+    def work(live: Any) -> Work:
+        written[:] = pieces(template, {name: box.value for name, box in boxes.items()})
+        live.run = run = run_text("".join(text for text, _ in written), control, setup)
+        return of_run(run, lambda **kept: run.plot(view=view, size=SIZE, **kept))
+
+    def field_of(alarm: Alarm) -> str:
+        return place_at(alarm, written)
+
+    import ipywidgets
+
+    rows = ipywidgets.VBox([field.row for field in fields.values()])
+    return following(boxes, fields, rows, work, field_of, title="panel", classes="mnclab-panel")
+
+
+def check_names(template: str | Callable[..., str], numbers: Mapping[str, Any]) -> None:
+    """An Alarm unless every place of a template has a number and every number a place."""
+    if isinstance(template, str):
+        places, needed = dict.fromkeys(PLACE.findall(template)), None
+    else:
+        try:
+            asked = inspect.signature(template).parameters.values()
+        except (TypeError, ValueError):  # of a function that is not written in Python
+            return
+        if any(p.kind is p.VAR_KEYWORD for p in asked):
+            return
+        places = {p.name: None for p in asked}
+        needed = {p.name for p in asked if p.default is p.empty}
+    for name in places:
+        if name not in numbers and (needed is None or name in needed):
+            raise Alarm(f"{{{name}}} has no number", hint=hint(name, numbers) or f"write {name}=…")
+    for name in numbers:
+        if name not in places:
+            raise Alarm(f"{{{name}}} has no place in the program", hint=hint(name, places) or f"write {{{name}}}")
+
+
+def pieces(template: str | Callable[..., str], values: Mapping[str, float]) -> list[tuple[str, str]]:
+    """The text of a program in pieces, each with the name of the place that it fills, empty between places."""
+    if isinstance(template, str):
+        parts = PLACE.split(template)  # text, name, text, name, … text
+        return [(trial.number(values[part]), part) if k % 2 else (part, "") for k, part in enumerate(parts)]
+    try:
+        text = template(**values)
+    except Alarm:
+        raise
+    except Exception as error:  # of the user's own function
+        raise Alarm(f"the function of the panel failed: {type(error).__name__}: {error}") from None
+    if not isinstance(text, str):
+        raise Alarm(f"the function of a panel must return the text of a program, got {shown(text)}")
+    return [(text, "")]
+
+
+def place_at(alarm: Alarm, written: list[tuple[str, str]]) -> str:
+    """The place in the word that an alarm points at; empty where there is none."""
+    if alarm.span is None or alarm.span.program:
+        return ""
+    text = "".join(piece for piece, _ in written)
+    lines = text.splitlines(keepends=True)
+    begin = sum(map(len, lines[: alarm.span.line - 1])) + alarm.span.column - 1
+    end, at = begin + max(alarm.span.length, 1), 0
+    for piece, name in written:
+        if name and at < end and at + len(piece) > begin:
+            return name
+        at += len(piece)
+    return ""

@@ -1,0 +1,202 @@
+"""What may be typed next in a notebook, and what a word there means: in `%%mnc` cells, and in calls of mnclab.
+
+Nothing here knows IPython: a source, a cursor (characters from its beginning) and the names of the notebook are enough.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from html import escape
+from itertools import islice
+from types import ModuleType
+from typing import Any, NamedTuple
+
+from mnclab.controls import CONTROLS
+from mnclab.controls.choice import choose, help
+from mnclab.lab.completion import Choices, completions, rest_of
+from mnclab.lab.magic.calls import Call, call_at
+from mnclab.lab.magic.cell import options
+from mnclab.lab.vocabulary import meaning_at, vocabulary
+from mnclab.machine.control import Control
+from mnclab.machine.setup import Setup
+from mnclab.path.machine_file import machines
+from mnclab.text.alarm import Alarm
+
+MOST = 500  # files of a folder
+#: What the arguments of a function are, in their order.
+TAKES = {
+    **dict.fromkeys(("run", "read", "modern", "panel"), ("program", "control")),
+    "help": ("code", "control"), "form": ("cycle", "control"), "steps": ("cycle", "control"),
+    "editor": ("file", "control"), "check": ("file", "control"),
+    **dict.fromkeys(("profile", "player", "removal"), ("machine",)),
+}  # fmt: skip
+BY_KEYWORD = {"control": "control", "limits": "machine", "machine": "machine"}
+_CONTROL = re.compile(r"""^\s*,\s*(?:control\s*=\s*)?["']([\w-]+)["']""")
+_OPTION = re.compile(r"--(\w+)[ =]+(\S*)$")
+_CELL = re.compile(r"%%mnc\b[^\n]*")
+
+
+class Place(NamedTuple):
+    """A cursor in the text of a program, and the control that was named, or that its text points to."""
+
+    text: str
+    at: int
+    control: Control | None
+
+
+def suggestions(source: str, at: int, names: Mapping[str, Any]) -> tuple[str, Choices] | None:
+    """What of a word stands before the cursor already, and what it may be with what that means; None: no idea."""
+    head = _CELL.match(source)
+    if head and at <= head.end():
+        return _of_options(source[:at], names)
+    call = None if head else call_at(source, at)
+    kind = _kind(call, names) if call else ""
+    if (place := _program(source, at, head, call, kind)) and (head or call and call.text and re.search(r"\s", call.text)):
+        return _of_program(place)
+    if call is None or not kind:
+        return None
+    if call.text is None:
+        return _of_steps(source[:at], call) if kind == "value" else None
+    typed = call.text[: call.at]
+    if kind == "control":
+        return typed, _beginning(typed, {name: one.title for name, one in CONTROLS.items()})
+    if kind == "machine":
+        return typed, _beginning(typed, {one.name: one.title for one in machines()})
+    if kind in ("file", "program"):
+        in_folder = typed, [(name, "folder" if name.endswith("/") else "program") for name in files(typed)]
+        codes = _of_program(place) if place and not in_folder[1] and not re.search(r"[/\\.]", typed) else None
+        return codes or in_folder
+    return _of_codes(typed, call, kind)
+
+
+def explanation(source: str, at: int, names: Mapping[str, Any]) -> dict[str, str]:
+    """What the word under a cursor means, as MIME types; empty where it is no word of a program."""
+    head = _CELL.match(source)
+    call = None if head else call_at(source, at)
+    kind = _kind(call, names) if call else ""
+    place = _program(source, at, head, call, kind)
+    if place is None or (head and at <= head.end()) or place.control is None:
+        return {}
+    found = meaning_at(place.text, place.at, place.control) or meaning_at(place.text, max(place.at - 1, 0), place.control)
+    if found is None:
+        return {}
+    word, code, says = found
+    if word == code and code in {**place.control.cycles, **place.control.functions}:
+        page = help(code, place.control.name)
+        return {"text/plain": str(page), "text/html": page._repr_html_()}
+    of = f" ({code} {vocabulary(place.control).codes[code].title})" if code else ""
+    return {"text/plain": f"{word}  {says}{of}", "text/html": f"<p><code>{escape(word)}</code> {escape(says + of)}</p>"}
+
+
+# --- where the cursor is ------------------------------------------------------------------------------------------------
+
+
+def _kind(call: Call, names: Mapping[str, Any]) -> str:
+    """What the argument at the cursor is: "program", "code", "control" …; empty where the function is none of mnclab's."""
+    owner, _, function = call.function.rpartition(".")
+    thing = names.get(owner or function)
+    module = thing.__name__ if isinstance(thing, ModuleType) else getattr(thing if not owner else type(thing), "__module__", "")
+    chained = call.function.startswith(".") and function in ("profile", "player", "removal")  # mnc.run(…).profile("
+    if not chained and not str(module).startswith("mnclab"):
+        return ""
+    if call.keyword:
+        return BY_KEYWORD.get(call.keyword, "")
+    takes = TAKES.get(function, ())
+    if call.position < len(takes):
+        return takes[call.position]
+    return "value" if function == "steps" else ""
+
+
+def _program(source: str, at: int, head: re.Match[str] | None, call: Call | None, kind: str) -> Place | None:
+    """The program that a cursor is in: that of a cell, or a text that is given to a function."""
+    if head:
+        named = re.search(r"--control[ =]+[\"']?([\w-]+)", head[0])
+        text = source[head.end() + 1 :]
+        return Place(text, at - head.end() - 1, _control(named[1] if named else None, text))
+    if call and kind == "program" and call.text is not None:
+        named = _CONTROL.search(call.after)
+        return Place(call.text, call.at, _control(named[1] if named else None, call.text))
+    return None
+
+
+def _control(name: str | None, text: str) -> Control | None:
+    try:
+        return choose(name, "", text)
+    except Alarm:  # not told, or not yet
+        return None
+
+
+# --- what may stand there -----------------------------------------------------------------------------------------------
+
+
+def _of_program(place: Place) -> tuple[str, Choices]:
+    """The words of a program; as long as nobody knows the control, those of all of them."""
+    controls = [place.control] if place.control else list(CONTROLS.values())
+    near = [name for name in files("") if not name.endswith("/")]
+    found = [completions(place.text, place.at, control, near) for control in controls]
+    begun = max((fragment for fragment, _ in found), key=len)
+    said: dict[str, str] = {}
+    for fragment, choices in found:
+        for word, meaning in choices if fragment == begun else ():
+            said.setdefault(word, meaning)
+    return begun, list(said.items())
+
+
+def _of_options(before: str, names: Mapping[str, Any]) -> tuple[str, Choices] | None:
+    """The options of %%mnc, and what may follow one."""
+    if (option := _OPTION.search(before)) and before[-1:] != "-":
+        name, typed = option.groups()
+        known = {
+            "control": {one: control.title for one, control in CONTROLS.items()},
+            "setup": {one: "setup" for one, value in names.items() if isinstance(value, Setup)},
+            "tools": {one: "tools" for one, value in names.items() if isinstance(value, dict) and one[:1] != "_"},
+        }
+        return typed, _beginning(typed, known.get(name, {}))
+    typed = re.split(r"\s", before)[-1]
+    told = {each.option_strings[0]: each.help or "" for each in options()._actions}
+    return (typed, _beginning(typed, told)) if before.startswith("%%mnc ") else None
+
+
+def _of_codes(typed: str, call: Call, kind: str) -> tuple[str, Choices]:
+    """Codes of the control that is named after them, or of all; help knows controls and settings too."""
+    named = _CONTROL.search(call.after)
+    chosen = _control(named[1], "") if named else None
+    titles: dict[str, str] = {}
+    for control in [chosen] if chosen else CONTROLS.values():
+        known = {code: one.title for code, one in control.functions.items() if kind == "code"}
+        known |= {code: one.title for code, one in control.cycles.items()}
+        for code, title in known.items():
+            titles.setdefault(code, title if chosen else f"{title} ({control.name})")
+    if kind == "code":
+        titles |= {"settings": "the readings of a control"} | ({} if chosen else {n: one.title for n, one in CONTROLS.items()})
+    return rest_of(typed, titles)
+
+
+def _of_steps(before: str, call: Call) -> tuple[str, Choices] | None:
+    """The values of a cycle by address: `mnc.steps("G83", "mnc", K`."""
+    if len(call.texts) < 2 or not (typed := re.search(r"[(,]\s*(\w*)$", before)):
+        return None
+    control = _control(call.texts[1], "")
+    code = vocabulary(control).codes.get(" ".join(call.texts[0].upper().split())) if control else None
+    return (typed[1], _beginning(typed[1], {f"{word}=": says for word, says in code.words.items()})) if code else None
+
+
+def _beginning(typed: str, known: Mapping[str, str]) -> Choices:
+    return [(word, meaning) for word, meaning in known.items() if word.lower().startswith(typed.lower())]
+
+
+def files(typed: str) -> list[str]:
+    """Programs and folders whose path begins as typed, a folder with a slash."""
+    folder, name = os.path.split(typed)
+    suffixes = {suffix for control in CONTROLS.values() for suffix in control.suffixes} | {".pnt", ".tab", ".d"}
+    try:
+        with os.scandir(folder or ".") as entries:
+            found = [entry.name + "/" * entry.is_dir() for entry in islice(entries, MOST)]
+    except (OSError, ValueError):
+        return []
+    wanted = (each for each in found if each.lower().startswith(name.lower()) and (each[0] != "." or name[:1] == "."))
+    return sorted(
+        os.path.join(folder, each) for each in wanted if each.endswith("/") or os.path.splitext(each)[1].lower() in suffixes
+    )
