@@ -10,7 +10,7 @@ import numpy as np
 
 from mnclab.geometry.chords import Chunks, Walls, around
 from mnclab.geometry.curves import Curves, distance, gap, part
-from mnclab.geometry.vectors import dot
+from mnclab.geometry.vectors import dot, unit_of
 from mnclab.path.columns import Array, Index
 from mnclab.path.compensation import neighbours
 from mnclab.path.compensation.equidistant import Equidistant
@@ -86,7 +86,8 @@ def cut_off(found: Equidistant, contour: Index, k: Index, walls: Walls, coarse: 
 
     allowed = CLEAR / 2 + slack[look.k] + slack[own]
     bad = np.flatnonzero(clear(np.arange(len(own)), el.R[own]) < -allowed)
-    away = run_past(el, look.k[bad], own[bad]) | (dot(normals(el, look.k[bad], P[at[bad]]), normal[at[bad]]) > ALIKE)
+    faces = np.where(look.corner[bad, None], unit_of(P[at[bad]] - el.end[look.k[bad]]), normals(el, look.k[bad], P[at[bad]]))
+    away = run_past(el, look.k[bad], own[bad]) | (dot(faces, normal[at[bad]]) > ALIKE)
     bad = bad[~np.isin(at[bad], at[bad[away]])]
     bad = bad[~given_up(found, contour, look.k[bad], own[bad])]
     if not len(bad):
