@@ -8,6 +8,7 @@ difflib, calls G4 and G1 near G144.)
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 
 #: Cyrillic letters that look like Latin ones.
 LATIN = dict(zip("АВСЕНКМОРТХУІавсенкмортхуі", "ABCEHKMOPTXYIabcehkmoptxyi", strict=True))
@@ -23,8 +24,11 @@ def nearest(word: str, known: Iterable[str], most: int = 3, slips: float | None 
     The nearest come first; of equally near ones those that share the longest beginning. Nothing is near a word of more
     than `LONGEST` characters.
     """
-    if len(word) > LONGEST:
-        return []
+    return list(_nearest(word, tuple(known), most, slips)) if len(word) <= LONGEST else []
+
+
+@lru_cache(4096)  # a wrong word often stands in many lines
+def _nearest(word: str, known: tuple[str, ...], most: int, slips: float | None) -> tuple[str, ...]:
     allowed = slips if slips is not None else 1 + max(len(word) - 1, 0) // 5
     found = []
     for place, candidate in enumerate(known):
@@ -34,7 +38,7 @@ def nearest(word: str, known: Iterable[str], most: int = 3, slips: float | None 
         if distance <= allowed:
             shared = next((k for k, (a, b) in enumerate(zip(word, candidate, strict=False)) if a != b), len(word))
             found.append((distance, -shared, place, candidate))
-    return [candidate for *_, candidate in sorted(found)[:most]]
+    return tuple(candidate for *_, candidate in sorted(found)[:most])
 
 
 def hint(word: str, known: Iterable[str], most: int = 3, slips: float | None = None) -> str:
