@@ -11,6 +11,7 @@ and kept as a file with what happened at its head::
 """
 
 import argparse
+import gzip
 import json
 import random
 import re
@@ -72,6 +73,10 @@ def programs(control):
         found += [text_of(file) for file in files]
     if control == "g43":  # variables, loops and sub-programs
         found += [iso_programs.program(seed)[0] for seed in range(60)]
+        for name in ("iso_flow.json.gz", "iso_calls.json", "iso_words.json"):  # O words
+            data = (TESTS / "authorities" / name).read_bytes()
+            records = json.loads(gzip.decompress(data) if name.endswith("gz") else data)["records"]
+            found += [record["text"] for record in records]
     return found
 
 
@@ -81,10 +86,11 @@ def text_of(file):
 
 
 @cache
-def setup(control):
-    """Programs that others call are there."""
+def setup(control, dialect=""):
+    """Programs that others call are there; perhaps another dialect."""
     files = {file.name: file.read_text("utf-8") for file in sorted((SAMPLES / control).iterdir())}
-    return mnclab.Setup(files={**files, "OTHER": programs(control)[0]})
+    settings = {"dialect": dialect} if dialect else {}
+    return mnclab.Setup(files={**files, "OTHER": programs(control)[0]}, settings=settings)
 
 
 def lines_moved(rng, text, control):
@@ -186,7 +192,8 @@ def survives(control, seed, runs=()):
     if len(text) < 200 and "\n" not in text and "\r" not in text:
         text += "\n"  # what might be the name of a file is none
     program = mnclab.read(text, control)
-    run = mnclab.run(program, setup=setup(control))
+    dialect = "linuxcnc" if control == "g43" and seed % 2 else ""  # O words are obeyed there
+    run = mnclab.run(program, setup=setup(control, dialect))
     for alarm in run.alarms:
         assert isinstance(alarm, Alarm) and str(alarm)
         assert alarm.span is None or (alarm.span.line >= 1 and alarm.span.column >= 1)

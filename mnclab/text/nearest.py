@@ -25,8 +25,11 @@ def nearest(word: str, known: Iterable[str], most: int = 3, slips: float | None 
     The nearest come first; of equally near ones those that share the longest beginning. Nothing is near a word of more
     than `LONGEST` characters.
     """
-    if len(word) > LONGEST:
-        return []
+    return list(_nearest(word, tuple(known), most, slips)) if len(word) <= LONGEST else []
+
+
+@lru_cache(4096)  # a wrong word often stands in many lines
+def _nearest(word: str, known: tuple[str, ...], most: int, slips: float | None) -> tuple[str, ...]:
     allowed = slips if slips is not None else 1 + max(len(word) - 1, 0) // 5
     found = []
     for place, candidate in enumerate(known):
@@ -36,16 +39,11 @@ def nearest(word: str, known: Iterable[str], most: int = 3, slips: float | None 
         if distance <= allowed:
             shared = next((k for k, (a, b) in enumerate(zip(word, candidate, strict=False)) if a != b), len(word))
             found.append((distance, -shared, place, candidate))
-    return [candidate for *_, candidate in sorted(found)[:most]]
+    return tuple(candidate for *_, candidate in sorted(found)[:most])
 
 
 def hint(word: str, known: Iterable[str], most: int = 3, slips: float | None = None) -> str:
     """The nearest known words as the hint of an alarm; empty if there are none."""
-    return _hint(word, tuple(known), most, slips)
-
-
-@lru_cache(1000)
-def _hint(word: str, known: tuple[str, ...], most: int, slips: float | None) -> str:
     near = nearest(word, known, most, slips)
     return f"near: {', '.join(near)}" if near else ""
 

@@ -46,3 +46,13 @@ def test_a_hint_names_them_or_is_empty():
 def test_slips_beyond_a_bound_are_not_counted(one, other, most):
     every = slips_between(one, other)
     assert slips_between(one, other, most) in ((every,) if every <= most else (every, math.inf))
+
+
+def test_a_word_that_stands_often_is_compared_once(monkeypatch):
+    """Six hundred lines of a wrong code: the known codes are gone through once for it."""
+    compared = []
+    monkeypatch.setattr(
+        "mnclab.text.nearest.slips_between", lambda *words: compared.append(words) or slips_between(*words)
+    )
+    known = [f"G{number}" for number in range(900)]
+    assert len({hint("G4907", known) for _ in range(600)}) == 1 and 0 < len(compared) <= len(known)
