@@ -66,6 +66,10 @@ class Deviation:
         """Whether both programs ran to their ends."""
         return not any(self.reaches)
 
+    def __bool__(self) -> bool:
+        """Whether the paths differ, or a run that stopped has not shown that they do not."""
+        return not (self.complete and self.largest < SAME)
+
     @property
     def largest(self) -> float:
         """The largest deviation, mm; nan when one path has no motion and the other has."""

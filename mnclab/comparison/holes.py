@@ -37,6 +37,14 @@ class HolesCompared:
         """Whether both have the same holes; not known of a run that stopped before its end, so False."""
         return not any(map(len, self.only)) and not any(self.reaches)
 
+    def __bool__(self) -> bool:
+        """Whether they differ, or a run that stopped has not shown that they do not."""
+        return not self.same
+
+    def __len__(self) -> int:
+        """How many holes only one of the two has."""
+        return sum(map(len, self.only))
+
     @property
     def sentence(self) -> str:
         stops = "".join(f"; {name} {reach}" for name, reach in zip(self.names, self.reaches) if reach)

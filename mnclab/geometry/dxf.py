@@ -147,6 +147,8 @@ class _Reading:
     def _block(self, insert: Any, layer: str, depth: int) -> Iterator[Contour]:
         if insert.block() is None:
             raise Alarm(f"{_named(insert)} places the block {insert.dxf.name!r}, which the file does not have")
+        if not (insert.dxf.xscale and insert.dxf.yscale):  # else placed at full size
+            raise Alarm(f"{_named(insert)} places the block {insert.dxf.name!r} at a scale of 0")
         if depth == DEEPEST:
             raise Alarm(f"{_named(insert)} lies in {DEEPEST} blocks within each other")
         for each in insert.multi_insert() if insert.mcount > 1 else (insert,):

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from mnclab.geometry.arcs import centre_of_one, sweep_of_one
 from mnclab.machine.coordinates import PLANES
+from mnclab.machine.in_mm import in_mm
 from mnclab.machine.state import Place
 from mnclab.path.kinds import Kind
 from mnclab.text.program import Word
@@ -39,7 +40,7 @@ def centre_by_radius(
     c, shortage = centre_of_one(s, e, radius, sense)
     if shortage > tolerance:
         chord, address = 2 * (shortage + abs(radius)), word.address if word else "R"
-        between = f"the distance {chord:.7g} mm between start and end: at least {chord / 2:.7g} is needed"
+        between = f"the distance {chord:.7g} mm between start and end: at least {chord / 2:.7g} mm is needed"
         m.alarm(f"{address}{abs(radius) / m.variable_unit:g} is too small for {between}", word, f"too short by {shortage:.4g} mm")
     return c
 
@@ -51,7 +52,7 @@ def check_radii(m: Machine, s: Point, e: Point, c: Point, tolerance: float, word
         m.alarm("the centre of the arc lies on its start", word)
     if abs(at_start - at_end) > tolerance:
         found = f"radius {at_start:.4f} at the start, {at_end:.4f} at the end, allowed difference {tolerance:g} mm"
-        m.alarm(f"the end point is not on the circle: {found}", word)
+        m.alarm(in_mm(f"the end point is not on the circle: {found}", m.variable_unit), word)
 
 
 def arc(

@@ -146,7 +146,12 @@ class Cutting:
 
     def bare_told(self) -> Iterator[str]:
         """That rows have no tool to cut or to collide with, if some have none."""
-        if (bare := self.bare).any():
+        bare = self.bare
+        for k, tool in enumerate(self.tools if bare.any() else ()):
+            if tool.kind and (rows := bare & (self.which == k)).any():  # a drill, a tap
+                yield f"T{tool.number} ({tool.kind}) has no radius: it cuts nothing ({self.lines(rows)})"
+                bare = bare & ~rows
+        if bare.any():
             yield f"rows without a tool cut nothing ({self.lines(bare)})"
         yield from self.edgeless()
 

@@ -209,3 +209,16 @@ def test_what_stays_open_is_named():
         assert area.area_of([square, line]).area == pytest.approx(100)
     with pytest.raises(Alarm, match=r"no closed contour, but 1 open contour, from \(20.000, 0.000\)"):
         area.area_of([line])
+
+
+@pytest.mark.parametrize("axes", [("xscale",), ("yscale",), ("xscale", "yscale")])
+def test_a_block_at_a_scale_of_nothing_is_refused(axes, tmp_path):
+    """Its matrix has no inverse: nothing of it bounds an area, and it is not as large as it was drawn."""
+    new, space = drawing()
+    space.add_blockref("ISLAND", (10, 10), dxfattribs={axis: 7.625 for axis in axes})
+    new.saveas(tmp_path / "part.dxf")
+    text = (tmp_path / "part.dxf").read_text("cp1252")
+    assert text.count("\n7.625\n") == len(axes)
+    (tmp_path / "part.dxf").write_text(text.replace("\n7.625\n", "\n0.0\n"), "cp1252")
+    with pytest.raises(Alarm, match="INSERT on layer '0' places the block 'ISLAND' at a scale of 0"):
+        dxf.contours(tmp_path / "part.dxf")

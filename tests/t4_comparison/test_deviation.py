@@ -119,3 +119,13 @@ def test_two_limits_differ_in_time_alone():
     # 10 mm from rest to rest never reach 100 mm/s: 2 sqrt(10 / a)
     assert found.times == pytest.approx((2 * math.sqrt(10 / 100), 2 * math.sqrt(10 / 400)))
     assert "<td>time</td><td>0.632 s</td><td>0.316 s</td>" in found._repr_html_().replace(' style="text-align:left"', "")
+
+
+def test_its_truth_is_that_the_two_differ():
+    """As that of collisions: what stands after `if not diff(…)` is not reached where runs differ, or one stopped."""
+    one, other = (mnclab.run(f"G0 X0 Y0 Z2\nG1 Z-3 F100\nG0 Z2\nX{x}\nG1 Z-3\nG0 Z2\n", "mnc") for x in (10, 12))
+    stopped = mnclab.run("G1 X5\n", "mnc")
+    for what, count in (("path", None), ("holes", 2)):
+        assert mnclab.diff(one, other, what=what) and not mnclab.diff(one, one, what=what)
+        assert mnclab.diff(stopped, stopped, what=what)
+        assert count is None or len(mnclab.diff(one, other, what=what)) == count

@@ -80,6 +80,16 @@ def test_rows_without_a_tool_are_told():
     assert run.workpiece(line=3).notes == () == mnclab.run(HEAD + OUTSIDE, "nc-31", Setup(stock=BAR)).workpiece().notes
 
 
+@pytest.mark.parametrize(("control", "text"), [
+    ("jnc-t01", "M3 S500 T1\nG94 F100\nG00 X0 Z2\nG01 Z-4\nG00 Z2\n"),
+    ("mnc", "T1\nS500 M3 F100\nG0 X0 Y0 Z2\nG1 Z-4\nG0 Z2\n"),
+])  # fmt: skip
+def test_a_drill_without_a_radius_is_a_tool(control, text):
+    run = mnclab.run(text, control, Setup(tools={1: Tool(kind="drill", angle=118)}, stock=BAR))
+    said = ("T1 (drill) has no radius: it cuts nothing (program:4)",)
+    assert run.workpiece().notes == said == run.collisions().notes and run.workpiece().removed == 0
+
+
 def test_moves_of_a_mill_without_a_tool_are_told():
     setup = Setup(stock=((0, 0, -10), (40, 40, 0)))
     cut = "S500 M3\nG0 X-9 Y9 Z2 F100\nG1 Z-3\nX30\n"

@@ -77,3 +77,13 @@ def test_copies_and_pieces_keep_the_unit():
     path = mnclab.run(ISO, "g43").toolpath
     assert all(each.inches for each in (copy.deepcopy(path), path[1:], path.motion, mnclab.run(ISO, "g43").programmed))
     assert np.array_equal(copy.deepcopy(path).end, path.end)
+
+
+@pytest.mark.parametrize(("unit", "scale"), [("G21", 1.0), ("G20", 25.4)])
+def test_faults_of_arcs_name_mm(unit, scale):
+    """Radii of 1 and 2, and a chord of 10 for a radius of 3 that needs 5: in inches those of the sentence are mm."""
+    head = f"{unit}\nT1 M6\nS500 M3\nG0 X0 Y0\n"
+    off, short = (mnclab.run(head + block, "g43").alarms[0] for block in ("G2 X3 I1 F9\n", "G2 X10 R3 F9\n"))
+    assert f"radius {scale:.4f} at the start, {2 * scale:.4f} at the end, allowed difference" in off.message
+    assert off.message.endswith(" (lengths in mm)") == (scale != 1)
+    assert f"R3 is too small for the distance {10 * scale:g} mm between start and end: at least {5 * scale:g} mm" in short.message

@@ -1,4 +1,4 @@
-; 28:14 alarm: R30 is too small for the distance 80 mm between start and end: at least 40 is needed (too short by 10 mm)
+; 28:14 alarm: R30 is too small for the distance 80 mm between start and end: at least 40 mm is needed (too short by 10 mm)
 0 BEGIN PGM A MM
 TOOL CALL 1 Z S2000 F500
 L X+0 Y+0 Z+100 R0 FMAX M3
