@@ -180,7 +180,7 @@ OFTEN = [4, 4, 8, 4, 4, 3, 2, 1, 0.4]
 def mutated(control, seed):
     """The program of a seed."""
     rng = random.Random(f"{control} {seed}")
-    text = rng.choice(programs(control))
+    text = min(rng.choices(programs(control), k=2), key=len)  # short ones more often: more of them run in an hour
     for way in rng.choices(WAYS, OFTEN, k=rng.choice([1, 1, 2, 3, 5, 9])):
         text = way(rng, text, control)
     return text if rng.random() < 0.1 else text + "\n"
@@ -198,19 +198,15 @@ def survives(control, seed, runs=()):
         assert isinstance(alarm, Alarm) and str(alarm)
         assert alarm.span is None or (alarm.span.line >= 1 and alarm.span.column >= 1)
     finite(run)
-    assert str(run) and run._repr_html_()
+    assert str(run)
     if len(run.toolpath) < 20_000:
         assert str(run.toolpath) or not len(run.toolpath)
     assert all(str(block) is not None for block in islice(program, 300))
     main = run.steps.program[:10_000] == 0  # run.at asks for lines of the main program
     lines = sorted({int(line) for line in run.lines()[:10_000][main]}) if len(run.steps.block) else []
-    for line in rng.sample(lines, min(3, len(lines))):
+    for line in rng.sample(lines, min(1, len(lines))):
         assert run.at(line).line == line
         assert str(run.explain(line))
-    try:
-        run.profile()
-    except Alarm as alarm:
-        assert str(alarm)
     if runs == []:
         runs.append(run)
     return run
@@ -229,6 +225,7 @@ def finite(run):
 
 
 SHOWN = {
+    "card": lambda run, folder: run._repr_html_(),
     "collisions": lambda run, folder: run.collisions(),
     "player": lambda run, folder: run.save(folder / "player.html"),
     "picture": lambda run, folder: run.save(folder / "picture.svg"),
