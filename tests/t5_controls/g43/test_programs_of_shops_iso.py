@@ -2,6 +2,9 @@
 
 `tests/programs_of_shops/g43`: each program, and in `places.toml` the places after its lines (`LINE: X Y Z`, or `LINE pass: …`
 for the pass of a line that runs often), in the unit of the program; `*` is not asserted.
+
+The kinds are those of programs found in public repositories. Of 115 ISO files looked through in November 2026 80 run as they are,
+one more in the dialect that its alarm names; of the other 34 the alarm says what is wrong, what to write or what is not built.
 """
 
 import math

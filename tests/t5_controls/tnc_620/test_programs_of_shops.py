@@ -4,6 +4,10 @@ The first line of a file says whose manner it is. Then stands what the arithmeti
 where the tool stands when line 12 is done, one point for each time that it is done, with `|` between. `through 12: x, y, z`
 is a point where a move of line 12 ends, wherever it goes on from there. Points are mm in coordinates of the workpiece,
 closed forms with angles in degrees.
+
+The kinds are those of programs found in public repositories. Of 82 Klartext files looked through in November 2026 (many of one
+shop; long ones cut) 75 are read without an alarm; the other seven are no Klartext of a TNC: G blocks or brackets
+among it, coordinates `nan`, a misspelt FMAX, blocks that the control itself had marked as errors.
 """
 
 from __future__ import annotations

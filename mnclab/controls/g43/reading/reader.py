@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from mnclab.controls.g43.reading import formulas
 from mnclab.controls.g43.reading.o_words import OWords
-from mnclab.controls.g43.reading.statements import HEAD, Fault, Statements, assignments, end_of_operand
+from mnclab.controls.g43.reading.statements import HEAD, HINTS, Fault, Statements, assignments, end_of_operand
 from mnclab.controls.word_address.reader import Labels, Marks, clean_blocks, read_words, skip_blanks
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.program import Program
@@ -85,17 +85,7 @@ def other_word(builder: ProgramBuilder, text: str, at: int, stop: int) -> int:
     return value + end
 
 
-_SENDER = "a line for Grbl or TinyG itself, no block: leave it out"
-_COMMENT = "a comment stands in round brackets"
-_FORMULA = "a formula stands in square brackets behind its letter: F[1000*60]"
-MARKS = Marks(
-    re.compile(COMMENT),
-    other=other_word,
-    hints={
-        "$": _SENDER, "?": _SENDER, "*": _FORMULA, "=": f"{_FORMULA}; a variable is #101=5",
-        "[": f"{_COMMENT}, {_FORMULA}", "/": f"{_COMMENT}, block skip at the beginning",
-    },
-)  # fmt: skip
+MARKS = Marks(re.compile(COMMENT), other=other_word, hints=HINTS)
 
 
 class _Reader:

@@ -17,6 +17,13 @@ HEAD = re.compile(r"#|(?:IF|WHILE|GOTO|DO|END|THEN|ELSE)(?![A-Z])", re.IGNORECAS
 _NUMBER = re.compile(r"[ \t]*(\d{1,9}(?:\.0*)?)(?![.\d])")
 _VARIABLE = re.compile(r"#[ \t]*(?:\d{1,9}|<_(?:hal|ini)\[[^<>#]{0,80}>|<[^<>\[\]#]{0,80}>)", re.IGNORECASE)
 _SIGNS = re.compile(r"[-+ \t]*")
+_SENDER = "a line for Grbl or TinyG itself, no block: leave it out"
+_COMMENT, _FORMULA = "a comment stands in round brackets", "a formula stands in square brackets behind its letter: F[1000*60]"
+#: What to write in place of characters that mean nothing where they stand.
+HINTS = {
+    "$": _SENDER, "?": _SENDER, "*": _FORMULA, "=": f"{_FORMULA}; a variable is #101=5", "[": f"{_COMMENT}, {_FORMULA}",
+    "/": f"{_COMMENT}, block skip at the beginning",
+}  # fmt: skip
 _WORD = {word: re.compile(rf"[ \t]*{word}", re.IGNORECASE) for word in ("THEN", "GOTO", "DO", "=")}
 _OPERATOR = re.compile(
     rf"(?:{'|'.join(sorted(formulas.NAMES, reverse=True))}|MOD|AND|XOR|OR|EQ|NE|GT|GE|LT|LE)(?=[ \t]*[-+\[#\d.])", re.IGNORECASE

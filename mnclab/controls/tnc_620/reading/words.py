@@ -223,7 +223,7 @@ class Cursor:
             named = ISO_NAMES.get(f"G{int(found[1])}") if found else None
             other = f"; {found[0].upper()} is {named}" if found and named else "; write L, C, CR or CYCL DEF"
             return Fault("G has no meaning here", self.at, hint=f"G words belong to DIN/ISO programs{other}")
-        hint = LETTER_O if c in "Oo" and self.text[self.at - 1].isdigit() else ""
+        hint = LETTER_O if c in "Oo" and self.text[self.at - 1].isdigit() else "a comment begins with ;" if c == "(" else ""
         if _OPERATION.match(self.text, self.at, self.stop):
             hint = "a formula stands in a block of its own, for example Q10 = Q1 / 2"
         return Fault(f"{c!r} has no meaning here", self.at, hint=hint)
