@@ -53,7 +53,8 @@ def largest_radius(run: Run) -> LargestRadius:
     if all(setting.name != "gouge" for setting in run.control.settings):
         raise Alarm(f"the largest radius is not known on {run.control.name}: it does not look where a tool has no room")
     if not (run.programmed.side != 0).any():
-        raise Alarm("nothing is compensated, so any radius fits", hint="G41, G42 or RL, RR ask for compensation")
+        said = f" {run.reach}" if run.halt else ", so any radius fits"
+        raise Alarm(f"nothing is compensated{said}", hint="G41, G42 or RL, RR ask for compensation")
     low, high = run.programmed.bounds
     most = 4 * float((high - low).max()) + 1.0
     radius = min(1.0, most)

@@ -163,6 +163,15 @@ def test_the_way_to_the_contour_is_as_long_as_the_radius_at_least():
     assert str(mnc.run(straight, "mnc").largest_radius()) == "90 mm (lines 3 and 4)"  # MNC manual: the approach is Y-90 to Y0
 
 
+def test_nothing_is_said_of_what_a_stopped_run_did_not_reach(tmp_path):
+    """The contour and the measuring cycle stand below the fault: their verdicts name how far is known."""
+    run = mnc.run("T1\nS900 M3\nG0 X\nG41 X0 Y0\nX50\nG40 X60 Y20\n", "mnc", tools={1: mnc.Tool(radius=1)})
+    said = alarm_of(run.largest_radius).message
+    assert "nothing is compensated up to line 3" in said and "any radius" not in said
+    assert "up to line 3, where" in alarm_of(lambda: run.measuring_sheet(tmp_path / "sheet.html")).message
+    assert "up to line 3, where" in alarm_of(run.plot_measured).message
+
+
 def test_where_nothing_is_compensated():
     assert "nothing is compensated" in alarm_of(lambda: mnc.run("G0 X1\n", "mnc").largest_radius()).message
     assert "not known on jnc-t01" in alarm_of(lambda: mnc.run("N1 G0 X1 Z1\n", "jnc-t01").largest_radius()).message

@@ -65,7 +65,7 @@ def plot_measured(
     check_number(width, "the width of a picture (inches)", at_least=3, at_most=40)
     if not run.touches and not run.figures:
         hint = "run.measurements has the tools" if run.measurements else "touch probe cycles measure, with Setup(part=…)"
-        raise Alarm("nothing was measured on a part", hint=hint)
+        raise Alarm(f"nothing was measured on a part{f', {run.reach}' if run.halt else ''}", hint=hint)
     found, more = panels(run, line, factor, MOST)
     if not found:
         lines = ", ".join(map(str, sorted({each.line for each in (*run.touches, *run.figures)})[:MOST]))

@@ -38,7 +38,8 @@ def save_sheet(run: Any, which: str, path: str | Path, title: str | None = None)
     """Write one sheet of a run, "setup", "tools" or "measuring", to an .html or a .pdf file."""
     which, path = choice(which, "a sheet", SHEETS), checked(path, title)
     if which == "measuring" and not run.touches and not run.measurements:
-        raise Alarm("nothing was measured", hint="touch probe cycles measure, with Setup(part=…)")
+        so_far = f", {run.reach}" if run.halt else ""
+        raise Alarm(f"nothing was measured{so_far}", hint="touch probe cycles measure, with Setup(part=…)")
     with replaced(path) as beside:
         write(_sheet(run, which, title or run.program.title), beside)
     return path
