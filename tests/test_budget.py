@@ -17,9 +17,15 @@ SILENT = {
 SLACK = 40  # code lines: a mend must not wait for a budget
 
 #: Room -> code lines.
-BUDGETS: dict[str, int] = {
-}
-FILES = 815
+BUDGETS = {
+    "front door": 423, "comparison": 767, "controls": 948, "controls/g43": 3_303,
+    "controls/jnc_t01": 524, "controls/mnc": 2_408, "controls/nc_31": 903, "controls/tnc_620": 15_442,
+    "controls/word_address": 572, "design": 10_255, "geometry": 2_545, "lab": 2_279,
+    "machine": 2_977, "machining": 3_941, "path": 4_401, "running": 1_765,
+    "runs": 2_345, "shell": 357, "show": 8_498, "text": 1_803,
+    "workpiece": 5_557,
+}  # fmt: skip
+FILES = 816
 
 
 def code_lines(text):
@@ -70,7 +76,10 @@ def test_every_room_keeps_its_budget():
 
 
 def test_code_is_counted_without_what_is_said_about_it():
-    text = '"""What."""\n\nimport os  # why\n\n\ndef f(x):\n    """Say.\n\n    More.\n    """\n    # so\n    return (\n        x\n    )\n'
+    text = (
+        '"""What."""\n\nimport os  # why\n\n\ndef f(x):\n    """Say.\n\n    More.\n    """\n'
+        "    # so\n    return (\n        x\n    )\n"
+    )
     lines, imports = code_lines(text)
     assert sorted(lines) == [3, 6, 12, 13, 14] and imports == 1
 

@@ -79,8 +79,7 @@ def other_word(builder: ProgramBuilder, text: str, at: int, stop: int) -> int:
     if end < 0:
         return -1
     if address in "NO":
-        what = "N of a block" if address == "N" else "O of a program"
-        raise Alarm(f"the {what} is a number, no formula", builder.span(at))
+        raise Alarm(f"the {'N of a block' if address == 'N' else 'O of a program'} is a number, no formula", builder.span(at))
     builder.word(address, formulas.parse(text[value : value + end], builder.span(value)), at, value + end - at)
     return value + end
 
