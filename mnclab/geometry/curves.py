@@ -64,6 +64,14 @@ def foot(p: Floats, curve: Curves) -> Floats:
     return found
 
 
+def nearest(p: Floats, curve: Curves) -> Floats:
+    """The point (n, 2) of each curve nearest to p (n, 2)."""
+    ends = np.where((length_of(p - curve.start) <= length_of(p - curve.end))[:, None], curve.start, curve.end)
+    beside, where = foot(p, curve), share(p, curve)
+    on = (where >= 0) & (where <= 1) & (length_of(p - beside) <= length_of(p - ends))  # not where beside is nan
+    return np.asarray(np.where(on[:, None], beside, ends))
+
+
 def distance(p: Floats, curve: Curves) -> Floats:
     """Distance (n,) of points p (n, 2) from curves, each from its own."""
     at_ends = np.minimum(length_of(p - curve.start), length_of(p - curve.end))

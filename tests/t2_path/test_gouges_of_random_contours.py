@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 import pytest
-from shapely import LineString
+from shapely import LineString, Point
 from shapely.ops import nearest_points
 
 import mnclab
@@ -169,6 +169,18 @@ def wrong(contour, controls=("mnc", "tnc-620")):
             yield control, "two verdicts", own.alarms
 
 
+def misplaced(contour, control):
+    """Marks that do not stand on a wall within the reach of the tool."""
+    run = milled(control, contour, gouge="mark")
+    ways, of_walls = rows(run), walls(*contour[3:5])
+    for gouge in run.gouges:
+        spot = Point(gouge.place[:2])
+        off = min(wall.distance(spot) for wall in of_walls)
+        met = gouge.kind not in ("bottleneck", "neighbour", "end", "corner") or min(map(spot.distance, ways)) < contour[0] - SURE
+        if off > SURE or not met:
+            yield gouge.kind, gouge.place, off
+
+
 def slot(radius):
     """A slot of 10 mm with a round end, which the tool goes round on the left."""
     return radius, 1, (-20, 0), (0, 0), [((40, 0),), ((40, 10), (40, 5), 1), ((-10, 10),)], (-30, 10)
@@ -225,3 +237,4 @@ def test_random_contours(seed):
     if contour is None:
         pytest.skip("a contour that crosses itself")
     assert not list(wrong(contour))
+    assert not list(misplaced(contour, "tnc-620"))

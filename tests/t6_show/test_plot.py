@@ -195,13 +195,13 @@ def test_the_place_of_an_alarm_is_marked_and_named():
 
 
 def test_a_gouge_that_the_control_does_not_see_is_marked():
-    """The way down at X20 comes back through the first wall, Y0: its tool of radius 2 stands at X22 Y-20 where it ends."""
+    """The way down at X20 comes back through the first wall, Y0, which the centre of its tool of radius 2 crosses at X22."""
     text = (
         "BEGIN PGM T MM\nTOOL CALL 1 Z S1000\nL Z-5 R0 FMAX M3\nL X-20 Y-5 R0 FMAX\nL X+0 Y+0 RL F300\nL X+40\nL Y+20\n"
         "L X+20\nL Y-20\nL X+20 Y-40 R0\nEND PGM T MM\n"
     )
     found = mnclab.run(text, "tnc-620", Setup(tools={1: mnclab.Tool(radius=2, number=1)}))
-    assert found.ok and lines(found.plot().axes[0])["gouge"].get_xydata() == pytest.approx(np.array([[22, -20]]))
+    assert found.ok and lines(found.plot().axes[0])["gouge"].get_xydata() == pytest.approx(np.array([[22, 0]]))
 
 
 def test_rapids_on_one_line_are_drawn_once_so_that_their_dashes_stay_apart():

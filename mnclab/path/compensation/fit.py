@@ -17,6 +17,7 @@ from __future__ import annotations
 import numpy as np
 
 from mnclab.geometry.chords import Chunks, Walls, chunks, facing
+from mnclab.geometry.curves import Curves, distance, nearest, part
 from mnclab.geometry.offsets import beside
 from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.compensation import neighbours
@@ -35,6 +36,7 @@ from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
 
 NO_TOOL = 0.001  # mm; below, no tool is as small
+SPOTS = 101  # of a row, where it is nearest to a wall
 
 
 def check(found: Equidistant, path: Toolpath, view: PlaneView, gouge: str, report: Report) -> Mask:
@@ -59,9 +61,7 @@ def check(found: Equidistant, path: Toolpath, view: PlaneView, gouge: str, repor
         order = sorted({one[0]: one for one in sorted(every, reverse=True)}.values())
         if among is refused:
             order = order[:1]
-        return [
-            (k, _worded(among[n], m, k, el, path, view, float(least[contour[among[n].other[m]]]))) for k, _, n, m in order
-        ]
+        return [(k, _worded(among[n], m, k, found, path, view, float(least[contour[among[n].other[m]]]))) for k, _, n, m in order]
 
     first = worded(refused)
     if own or not first:
@@ -100,14 +100,35 @@ def _least(found: Equidistant, contour: Index, places: list[Places]) -> Array:
     return least
 
 
-def _worded(place: Places, m: int, k: int, el: Elements, path: Toolpath, view: PlaneView, largest: float) -> Gouge:
+def _cut(found: Equidistant, k: int, wall: int) -> Array:
+    """The point (2,) of a wall that is cut deepest: nearest to row k of the tool centre, or to the arcs before and behind it.
+    Of places along them the best is looked about again and again, each time closer."""
+    el, at = found.el, np.arange(k, min(k + 2, len(found.el.rows)))
+    at = at[found.insert[at]]  # arcs that lead to these rows
+    start, end = np.append(found.end[at - 1], found.begin[[k]], axis=0), np.append(found.begin[at], found.end[[k]], axis=0)
+    centre, sweep = np.append(el.end[at - 1], el.centre[[k]], axis=0), np.append(found.turn[at], found.sweep[k])
+    rows = Curves(start, end, centre, np.hypot(*(start - centre).T), sweep)
+    which, share, gap = np.repeat(np.arange(len(at) + 1), SPOTS), np.tile(np.linspace(0, 1, SPOTS), len(at) + 1), 1 / SPOTS
+    for _ in range(4):
+        spots = part(rows.take(which), share, share).start
+        best = int(np.argmin(distance(spots, el.curves(np.full(len(which), wall)))))
+        spot, which, gap = spots[best], np.full(SPOTS, which[best]), 2 * gap / SPOTS
+        share = (share[best] + gap * (np.arange(SPOTS) - SPOTS // 2)).clip(0, 1)
+    return nearest(spot[None], el.curves(np.array([wall])))[0]
+
+
+def _worded(
+    place: Places, m: int, k: int, found: Equidistant, path: Toolpath, view: PlaneView, largest: float
+) -> Gouge:  # fmt: skip
+    el = found.el
     row, other, R = int(el.rows[k]), int(el.rows[place.other[m]]), float(el.R[k] or el.R[k - 1])
     width, missing = float(place.width[m]), float(place.missing[m])
     text = place.message.format(R=R, r=width, other=int(path.line[other]))
     fits, hint = f"the largest radius for the whole contour is {largest:.7g} mm", place.hint
     if largest < NO_TOOL:
         fits, hint = "no tool fits here", hint.removeprefix(HINT).removeprefix(", or ")
-    at = view.to_space(np.array([row]), np.array([[*el.end[k], view.end[row, 2]]]))[0].tolist()
+    spot = _cut(found, k, int(place.other[m])) if k != place.other[m] else el.end[k]
+    at = view.to_space(np.array([row]), np.array([[*spot, view.end[row, 2]]]))[0].tolist()
     return Gouge(
         place.kind, int(path.line[row]), int(path.step[row]), int(path.line[other]), (at[0], at[1], at[2]), R,
         width, missing, largest, f"{text}: {missing:.4g} mm are missing, {fits}", hint,

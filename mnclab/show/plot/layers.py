@@ -60,10 +60,10 @@ class Drawing(NamedTuple):
         return beside_holes(self.overlays, view, found) if mark is colours.DWELL else found
 
 
-def marks_of(path: Toolpath, stopped: bool, home: bool) -> list[tuple[Mark, Array]]:
-    """Marks and where they stand (m, 3)."""
+def marks_of(path: Toolpath, stopped: bool, home: bool, gouged: Array | None = None) -> list[tuple[Mark, Array]]:
+    """Marks and where they stand (m, 3); a path alone knows only in which rows it cuts into its contour."""
     found = [(mark, path.end[path.kind == kind]) for kind, mark in MARKS.items()]
-    found += [(colours.GOUGED, path.end[path.gouge])]
+    found += [(colours.GOUGED, path.end[path.gouge] if gouged is None else gouged)]
     found += [(colours.HOME if home else colours.START, path.start[:1])]
     found += [(colours.ALARM if stopped else colours.END, path.end[-1:])]
     return [(mark, places) for mark, places in found if len(places)]

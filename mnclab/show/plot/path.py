@@ -72,6 +72,7 @@ def plot_path(
     part: Workpiece | None = None,
     home: bool = False,
     felt: Felt | None = None,
+    gouged: Array | None = None,
     rapids: Limits | str | None = None,
     under: Toolpath | None = None,
     limits: ghost.Box | None = None,
@@ -104,6 +105,7 @@ def plot_path(
     - `part`: what is left of the blank, drawn under the path.
     - `home`: the path begins where the tool arrives from home.
     - `felt`: what a probe meets, drawn behind the path (see `show.felt`).
+    - `gouged`: the points (n, 3) of the contour that a compensated tool cuts; None: the ends of the rows that do.
     - `rapids`: limits of the machine, or its name, under which axes that do not wait for each other bend a rapid; else it is
       straight.
     - `under`: another path, whose moves that this one has not are drawn thin and grey behind it.
@@ -152,7 +154,7 @@ def plot_path(
     plunges = {each: beside_holes(overlays, each, plunges_of(path, each)) for each in views}
     arrows = arrows and int(path.is_motion.sum()) <= heads.MANY
     beside = lathe(path, stock, tools, insert, part) if path.lathe and views[0].diameter else None
-    found_marks, outline = marks_of(path, stop is not None, home), None if beside else stock
+    found_marks, outline = marks_of(path, stop is not None, home, gouged), None if beside else stock
     if felt is not None and len(felt.places):
         found_marks.append((colours.TOUCH, felt.places))
     rest = (beside, part, home, felt, overlays)
@@ -242,6 +244,8 @@ def plot_run(
         return _telling(run, plot_unrolled(run.toolpath, ax, **options))
     given = {"programmed": None if run.programmed is run.toolpath else run.programmed, "alarms": run.alarms}
     given |= {"stock": run.stock if stock else None, "rapids": rapids_of(run)}
+    done = set(run.toolpath.step[run.toolpath.gouge].tolist())  # not what a stop left undone
+    given["gouged"] = np.array([gouge.place for gouge in run.gouges if gouge.step in done]).reshape(-1, 3)
     path, insert = run.toolpath, options.get("insert", True)
     if path.lathe:
         given["tools"], numbers = run.tools_that_cut
