@@ -157,6 +157,15 @@ def test_the_bar_of_a_boring_tool_is_too_thick_for_its_bore(deep):
     assert next(each for each in found if each.line == 4).depth == pytest.approx(deep, abs=0.02)
 
 
+def test_a_boring_tool_outside_of_a_bar_has_its_bar_in_it():
+    """It stands between the tip and the axis; how long its edge is nobody said, 12 mm at most."""
+    tool, tube = Tool(corner=0.4, kind="boring"), cylinder(20, -60, 0, bore=10)
+    found = met("G00 X18 Z5|G01 Z-30|G00 X40", tool)
+    assert (found[0].kind, found[0].line) == ("holder", 4) and "bar of the boring tool" in found[0].message
+    assert not met("G00 X12 Z5|G01 Z-30|G00 X9|Z10", tool, stock=tube)
+    assert not met("G00 X19 Z5|G01 Z-30|G00 X9|Z10", tool, stock=tube)
+
+
 @pytest.mark.parametrize("deep", [0.02, 1, 3])
 @pytest.mark.parametrize("control", ["M5", "M5|G04 F1"])
 @pytest.mark.parametrize("cut", ["G01 Z-20", "G01 X{x} Z-20", "G03 X{x} Z-20 R40"])

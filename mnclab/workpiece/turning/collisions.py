@@ -18,6 +18,7 @@ from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.sweeps import CHORD_ERROR, broad
 from mnclab.path.columns import Index
+from mnclab.path.inserts import EDGE
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.workpiece.collision import Collision, Collisions, coordinates
@@ -37,6 +38,8 @@ SAID = {
     "holder": "the holder in material",
 }
 HOLDER = "the holder of the insert in material"
+BAR = "the bar of the boring tool in material: it stands between its tip and the axis"
+FAR = 1e6  # mm
 
 
 class Met(NamedTuple):
@@ -126,6 +129,11 @@ def _cut(
         return
     if not path.spindle[row] and (met := _deepest("spindle", left, covered)):
         yield met
+    if tool.kind == "boring" and not tool.width:  # nothing says how long its edge is: no longer than the usual one
+        below = shapely.box(-FAR, -FAR, FAR, -(tool.cutting_length or EDGE))
+        bar = shapely.get_coordinates(shapely.intersection(shapely.Polygon(shape), below))
+        if len(bar) and (met := _deepest("holder", left, _swept([bar], [way])[0])):
+            yield met._replace(said=BAR)
     if len(way) > 1 and not path.synchronous[row] and (back := taken_by_back(tool, shape, way, left)):
         yield Met("insert", SAID["insert"], back.place, back.depth)
 
