@@ -4,9 +4,9 @@ from math import hypot, radians, sqrt, tan
 
 import numpy as np
 import pytest
-from mnclab.design import Chamfer, Circle, Hole, Pocket, Rectangle, Stud
 
 from mnclab import Design, Setup
+from mnclab.design import Chamfer, Circle, Hole, Pocket, Rectangle, Stud
 from mnclab.workpiece.part import contact
 
 EXACT = 1e-9

@@ -4,10 +4,10 @@ from math import cos, hypot, pi, radians, sin, sqrt
 
 import numpy as np
 import pytest
-from mnclab.design import Hole, Pocket, Slope
 
 import mnclab
 from mnclab import Alarm, Design
+from mnclab.design import Hole, Pocket, Slope
 
 BLANK = ((0, 0, -20), (100, 60, 0))
 EXACT = 1e-9

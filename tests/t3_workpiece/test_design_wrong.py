@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from mnclab.design import Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slope, Slot, Stud
 
 from mnclab import Alarm, Design
+from mnclab.design import Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slope, Slot, Stud
 
 BLANK = ((0, 0, -20), (100, 60, 0))
 SQUARE = [(20, 20), (40, 20), (40, 40), (20, 40)]

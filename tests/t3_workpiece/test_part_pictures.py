@@ -4,10 +4,10 @@ from math import inf, nan, pi
 
 import numpy as np
 import pytest
-from mnclab.design import Design, Pocket, TurnedDesign
 
 import mnclab
 from mnclab import Setup
+from mnclab.design import Design, Pocket, TurnedDesign
 from mnclab.text.alarm import Alarm
 from mnclab.workpiece.part import ball, boss, box, cylinder, hole, mesh, plane, pocket
 from mnclab.workpiece.part.part import Part
