@@ -13,6 +13,7 @@ passes farther out have smaller ones, and where steps are long across the corner
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -52,6 +53,7 @@ class Figure(NamedTuple):
         return np.asarray(_middles(before, after, bulge)[0])
 
 
+@lru_cache(16)  # checks and every level ask for the same
 def rectangle(
     length: float, width: float, stock: tuple[float, float], radius: float, stepover: float, *, corner: float = 0.0,
     allowance: float = 0.0, climb: bool = True, centre: ArrayLike = (0, 0), angle: float = 0.0, begin: int | None = None,
