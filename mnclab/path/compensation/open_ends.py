@@ -11,8 +11,9 @@ import numpy as np
 from mnclab.geometry.chords import Chunks, Walls, around
 from mnclab.geometry.curves import Curves, distance, gap, part
 from mnclab.geometry.vectors import dot, unit_of
-from mnclab.path.columns import Array, Index
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.compensation import neighbours
+from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.heights import at_height
 from mnclab.path.compensation.passes import given_up, normals, run_past, standing
@@ -20,6 +21,8 @@ from mnclab.path.compensation.places import EXACT, Places, misfit, narrowed
 from mnclab.path.compensation.rules import CLEAR
 from mnclab.path.kinds import Rule
 
+CLOSED = 1e-3  # mm
+SMOOTH = np.cos(np.radians(1))
 ALIKE = np.cos(np.radians(45))  # of normals: such walls face the same way
 
 
@@ -63,13 +66,18 @@ def arrivals(found: Equidistant, contour: Index, k: Index, walls: Walls, coarse:
 def cut_off(found: Equidistant, contour: Index, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
     """Where a contour begins and ends the tool beside its other walls must be clear of the point.
 
-    Not of one that is over the part, or that the next pass of a roughing takes away.
+    Not of one that is over the part, or that the next pass of a roughing takes away; nor of an arc that leads smoothly onto the
+    wall or off it, and of what lies before the place where a contour closes: these are ways of the tool, no walls.
     """
     el, slack = found.el, misfit(found.el)
     first, last = np.flatnonzero(~walls.joined), np.flatnonzero(np.append(~walls.joined[1:], True))
+    onto, off = (el.arc[k[one]] & _smooth(el, k[one] - back) for one, back in ((first, 0), (last, 1)))
+    first, last = first[~onto], last[~off]
     e, n = k[np.concatenate([first, last])], len(first)
     P, normal = np.concatenate([el.start[e[:n]], el.end[e[n:]]]), np.concatenate([walls.n_in[first], walls.n_out[last]])
     height = np.concatenate([el.from_height[e[:n]], el.to_height[e[n:]]])
+    if not len(e):
+        return []
     reach = 2 * el.R[e]
     if (found.rule == Rule.OUTSIDE_STRAIGHT).any():
         reach = el.R[e] + np.hypot(*(found.end[k] - el.end[k]).T).max()
@@ -84,8 +92,10 @@ def cut_off(found: Equidistant, contour: Index, k: Index, walls: Walls, coarse: 
         curve, is_there = neighbours.rows(el, look.take(which), radius, found.rules)
         return np.where(is_there, distance(P[at[which]], curve) - radius, np.inf)
 
+    inner = np.concatenate([el.end[e[:n]], el.start[e[n:]]])[at]
+    closes = (np.abs(look.k - own) > 1) & (distance(inner, el.curves(look.k)) < CLOSED)
     allowed = CLEAR / 2 + slack[look.k] + slack[own]
-    bad = np.flatnonzero(clear(np.arange(len(own)), el.R[own]) < -allowed)
+    bad = np.flatnonzero((clear(np.arange(len(own)), el.R[own]) < -allowed) & ~closes)
     faces = np.where(look.corner[bad, None], unit_of(P[at[bad]] - el.end[look.k[bad]]), normals(el, look.k[bad], P[at[bad]]))
     away = run_past(el, look.k[bad], own[bad]) | (dot(faces, normal[at[bad]]) > ALIKE)
     bad = bad[~np.isin(at[bad], at[bad[away]])]
@@ -97,6 +107,12 @@ def cut_off(found: Equidistant, contour: Index, k: Index, walls: Walls, coarse: 
     largest = narrowed(lambda m, radius: clear(bad[m], radius) >= -allowed[bad[m]], R, parts=4)
     text = "the tool of radius {R:.4g} beside this element cuts into the end of that of line {other}, {r:.6g} mm from its centre"
     return [Places("end", look.k[bad], own[bad], width, R - width, largest, text)]
+
+
+def _smooth(el: Elements, k: Index) -> Mask:
+    """Whether elements k (m,) go on smoothly into the next ones, walls both."""
+    after = np.minimum(k + 1, len(el.rows) - 1)
+    return np.asarray(el.wall[k] & el.wall[after] & (dot(el.t_out[k], el.t_in[after]) > SMOOTH))
 
 
 def rolled(found: Equidistant, contour: Index, k: Index, coarse: Chunks) -> list[Places]:
