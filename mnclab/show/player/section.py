@@ -73,9 +73,8 @@ def _areas(strokes: Strokes, bar: Sequence[Contour], low: float) -> tuple[list[i
     fallen: list[int] = []
     if not areas or not held(left_of(drawing), low)[1]:
         return rows, areas, fallen
-    for number, _, off in cuts(drawing, low):
+    for row, _, off in cuts(drawing, low):
         for piece in off:
-            row = strokes.rows[number]
             fallen.append(bisect(rows, row))
             areas.insert(fallen[-1], shapely.get_coordinates(shapely.simplify(piece.exterior, OFF / 2))[:-1])
             rows.insert(fallen[-1], row)

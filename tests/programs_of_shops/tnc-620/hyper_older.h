@@ -1,9 +1,9 @@
-; manner: post of hyperMILL for an older control: a dwell written apart, cycle 208 without the sense of milling (it is 0: climb)
+; manner: post of hyperMILL for an older control: a dwell written apart, bores milled at places of single blocks
 ; at 17: 30, 20, 40
-; at 29: 30, 20, 42
-; at 30: -30, 20, 42
-; at 31: -30, -20, 42
-; through 29: 30, 20, 3 | 30, 20, 42
+; at 30: 30, 20, 42
+; at 31: -30, 20, 42
+; at 32: -30, -20, 42
+; through 30: 30, 20, 3 | 30, 20, 42
 0 BEGIN PGM OLDER MM
 1 BLK FORM 0.1 Z X-50 Y-40 Z-20
 2 BLK FORM 0.2 X50 Y40 Z0
@@ -25,7 +25,8 @@
     Q203=0 ;SURFACE COORDINATE~
     Q204=42 ;2ND SET-UP CLEARANCE~
     Q335=14 ;NOMINAL DIAMETER~
-    Q342=0 ;ROUGHING DIAMETER
+    Q342=0 ;ROUGHING DIAMETER~
+    Q351=1 ;CLIMB OR UP-CUT
 14 L X30 Y20 R0 F MAX M99
 15 L X-30 Y20 R0 F MAX M99
 16 L X-30 Y-20 R0 F MAX M99

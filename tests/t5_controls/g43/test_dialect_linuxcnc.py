@@ -194,7 +194,7 @@ def test_the_oriented_stop():
     ("G5.1 X[.1+.2]", "G5.1 stands in a block without motion, X0.3 does not belong to it (write two blocks; the splines of"
                       " LinuxCNC are not built: write lines or arcs)"),
     ("O1 callsub", "callsub is no O word (write call)"),
-    ("G1 W5", "W is refused: not built: an increment on lathes, an axis beside X, Y or Z on mills; write X, Y or Z"),
+    ("G1 W5", "W is refused: increments of a lathe, or axes that are not built: write X, Y or Z under G91"),
 ])  # fmt: skip
 def test_what_is_not_built_is_told(text, alarm):
     (found,) = mnclab.run(f"G21 G90 F100\n{text}\nM2\n", "g43", DIALECT).alarms

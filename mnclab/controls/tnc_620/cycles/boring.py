@@ -127,7 +127,7 @@ class BoreMilling(AtSurface):
     roughing_diameter: float = length(
         "Q342", "diameter roughed before", note="above 0 the bore may be wider than twice the tool", example=0
     )
-    climb: float = addresses.climb(example=1, default=0)  # older programs lack it
+    climb: float = addresses.climb(example=1)
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
