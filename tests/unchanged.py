@@ -36,7 +36,6 @@ ROOT = TESTS.parent
 CONTROLS = ["mnc", "jnc-t01", "nc-31", "g43", "tnc-620"]
 CONTROL_OF = {"jnc-t01": "jnc-t01", "nc-31": "nc-31", "turning": "jnc-t01", "tnc620": "tnc-620", "programs-tnc-620": "tnc-620"}
 TOLERANCE = {"pictures": 1e-6}  # mm; 1e-9 elsewhere
-NUMBER = re.compile(r"-?\d+\.\d+(?:e[+-]?\d+)?")
 
 
 # --- what is asked ----------------------------------------------------------------------------------------------------

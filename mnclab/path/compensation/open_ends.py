@@ -21,8 +21,8 @@ from mnclab.path.compensation.places import EXACT, Places, misfit, narrowed
 from mnclab.path.compensation.rules import CLEAR
 from mnclab.path.kinds import Rule
 
-CLOSED = 1e-3  # mm
-SMOOTH = np.cos(np.radians(1))
+CLOSED = 1e-3  # mm between the end of an element and a wall to which the contour comes back
+SMOOTH = np.cos(np.radians(1))  # of tangents: elements that go on smoothly
 ALIKE = np.cos(np.radians(45))  # of normals: such walls face the same way
 
 
