@@ -28,7 +28,7 @@ from mnclab.controls.g43.language import (
 from mnclab.controls.g43.meanings import MEANINGS
 from mnclab.controls.g43.reading.numbers import numbers
 from mnclab.controls.g43.reading.reader import read
-from mnclab.controls.g43.refused import REFUSED
+from mnclab.controls.g43.refused import NOT_OF_LINUXCNC, REFUSED, unknown_to_linuxcnc
 from mnclab.controls.g43.settings import SETTINGS
 from mnclab.controls.g43.signs import SIGNS
 from mnclab.controls.g43.state import Memory
@@ -68,6 +68,7 @@ _PARTS = (
     programs, corners, o_words,
 )  # fmt: skip
 _ALL = {code: function for part in _PARTS for code, function in part.FUNCTIONS.items()}
+_ALL |= {code: unknown_to_linuxcnc(_ALL[code]) for code in NOT_OF_LINUXCNC}
 FUNCTIONS = FunctionTable({code: _ALL[code] for code in (*FIRST.split(), *_ALL)})
 
 CONTROL = Control(
@@ -83,6 +84,7 @@ CONTROL = Control(
     memory=Memory,
     compensation=Compensation(approach="corner", change=True, look_ahead=True, rapid=True),
     start=start,
+    finish=programs.without_end,
     signs=SIGNS,
     numbers=numbers,
     refused=REFUSED,

@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+from mnclab.controls.word_address.motion import first_word
+from mnclab.machine.control import Function, Words
+from mnclab.machine.machine import Machine
+
 _LATHE = "it belongs to a lathe: choose control=\"jnc-t01\" or write the program for the mill"
 _PROBE = "not built: probing; write the places that it would find as numbers"
 _WRITTEN = "not built: write the motion itself"
@@ -27,3 +33,27 @@ REFUSED = (
        "G63": "not built: feed and override locked for tapping", "G11": "there is no data mode: G10 ends with its block",
        "G60": "not built: the approach from one side, whose length is a parameter of the machine"}
 )  # fmt: skip
+_NO_MIRROR = "write the mirrored motion itself"
+_NO_MACRO = "write a subprogram: o<name> sub, and o<name> call with the arguments in brackets"
+
+#: What LinuxCNC does not know (rs274: Unknown g code used, Unknown m code used), and what to write there instead.
+NOT_OF_LINUXCNC = (
+    {"G68": "G10 L2 with R turns a coordinate system", "G69": "G10 L2 with R0 ends the turning of a coordinate system"}
+    | dict.fromkeys(("G50", "G51"), "write the scaled motion itself") | dict.fromkeys(("G50.1", "G51.1"), _NO_MIRROR)
+    | dict.fromkeys(("G15", "G16"), "write X and Y, or @ and ^ for a radius and an angle")
+    | dict.fromkeys(("G65", "G66", "G66 again", "G67"), _NO_MACRO)
+    | {"G9": "write G61.1, and G64 after it", "G27": "", "G29": "write the motion itself", "G40.1": "write G40",
+       "G44": "write G43.1 with the length below zero", "G54.1": "write G54 to G59.3", "M13": "write M3 and M8",
+       "M14": "write M4 and M8", "M29": ""}
+)  # fmt: skip
+
+
+def unknown_to_linuxcnc(function: Function) -> Function:
+    """The function, refused in the dialect linuxcnc."""
+
+    def obey(m: Machine, words: Words) -> None:
+        if m.settings["dialect"] == "linuxcnc":
+            m.alarm(f"{words.code}: LinuxCNC does not know this code", first_word(words), NOT_OF_LINUXCNC[function.code])
+        function.obey(m, words)
+
+    return replace(function, obey=obey)

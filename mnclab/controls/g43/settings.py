@@ -26,7 +26,7 @@ DIALECTS: dict[str, dict[str, Any]] = {
         "macros": "linuxcnc", "main_m99": "repeat",
         "dwell_p": "seconds", "peck_clearance": 0.254, "below_r": "straight", "arc_by_both": "refuse",
         "length_acts": "at_once", "g52_g92": "one", "g53_motion": "modal", "g53_increment": "refuse",
-        "g10_p0": "active", "g10_l20": "position", "g10_increment": "replaces", "g51_factor": "as_written",
+        "g10_p0": "active", "g10_l20": "position", "g10_increment": "replaces",
         "hole_axis": "normal", "hole_data": "numbers", "compensation_leads": "linuxcnc",
         "return_at_start": "G99", "axis_words": "refuse", "g61": "corners",
         "arc_tolerance": 0.02 * 2**0.5, "arc_tolerance_share": 1e-3,

@@ -29,7 +29,7 @@ def joined(rows):
 
 @pytest.mark.parametrize("record", RECORDS, ids=lambda record: record["name"])
 def test_against_linuxcnc(record):
-    run = mnclab.run(record["text"], "g43", Setup(settings={"dialect": "linuxcnc"}))
+    run = mnclab.run(record["text"] + "M2\n", "g43", Setup(settings={"dialect": "linuxcnc"}))
     assert run.ok and not run.alarms
     moves = run.toolpath.motion
     ours = joined(zip(moves.line.tolist(), moves.kind.tolist(), moves.end.round(9).tolist(), moves.feed.tolist()))

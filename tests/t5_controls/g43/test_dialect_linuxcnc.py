@@ -31,6 +31,28 @@ def test_it_begins_in_g99():
     assert run(text, "g43", stopped_spindle="accept").toolpath.end[-1].tolist() == [5, 0, 5]
 
 
+def test_codes_that_linuxcnc_does_not_know():
+    """rs274: Unknown g code used, Unknown m code used; the other controls have them."""
+    for code in "G9 G15 G16 G27 G29 G40.1 G44 G50 G50.1 G51 G51.1 G54.1 G65 G66 G67 G68 G69 M13 M14 M29".split():
+        text = f"G21 F100\n{code}{' P1' if code in ('G65', 'G66', 'G54.1') else ''}\nM2\n"
+        assert said(text) == [(2, f"{code}: LinuxCNC does not know this code")], code
+        others = said(text, Setup(settings={"stopped_spindle": "accept"}))
+        assert not any("LinuxCNC" in message for _, message in others), code
+
+
+def test_a_program_without_an_end():
+    """rs274: File ended with no percent sign or program end; File ended with no percent sign. All motion is made before."""
+    without, second = "ends without M2, M30 or two lines %", "ends without a second %"
+    for text, says in (
+        ("G1 X1 F100\n", without), ("%\nG1 X1 F100\n", second), ("%\nG1 X1 F100\n%\n", ""), ("G1 X1 F100\nM2\n", ""),
+        ("%\nG1 X1 F100\nM30\n", ""), ("", without),
+    ):  # fmt: skip
+        found = mnclab.run(text, "g43", DIALECT)
+        warned = [alarm.message for alarm in found.alarms]
+        assert found.ok and len(warned) == bool(says) and says in "".join(warned), (text, warned)
+        assert not mnclab.run(text, "g43", Setup(settings={"stopped_spindle": "accept"})).alarms
+
+
 @pytest.mark.parametrize("text", ["X1\n", "G81 X1 Z-1 R1 F100\nG80\nX1 Y1\n", "G80\nG92 X0\nX1\n"])
 def test_axis_words_need_a_motion(text):
     """gcode.parse: Cannot use axis values without a g code that uses them."""

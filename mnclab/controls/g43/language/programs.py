@@ -30,6 +30,7 @@ SOURCE = "Fanuc, LinuxCNC"
 MACRO = "Macro B"
 MOST = 9999  # calls by one word
 DEEPEST = 9  # calls inside each other on LinuxCNC, whose interpreter has ten levels, the main program's included
+_TAPE = re.compile(r"(?m)^[ \t]*%")
 LOCAL = frozenset(f"#{n}" for n in range(1, 34))
 #: The variables of arguments; I, J and K of the second to tenth time have #7 to #33.
 ARGUMENTS = dict(zip("ABCIJKDEFHMQRSTUVWXYZ", (*range(1, 10), 11, 13, *range(17, 27)), strict=True))
@@ -69,6 +70,14 @@ def program_number(m: Machine, words: Words) -> None:
     m.warn(f"{before} ends where {word} begins", word, f"write {ends} before it")
     back(m)
     m.ended = m.ended or not (flow.returning or flow.over)
+
+
+def without_end(m: Machine) -> None:
+    """What LinuxCNC says of a program without an end: rs274 goes all its way, and then calls it a fault."""
+    tape = [mark.start() for mark in _TAPE.finditer(course(m).programs[0].text)]
+    if m.settings["dialect"] == "linuxcnc" and len(tape) < 2:
+        missing = "a second %" if tape else "M2, M30 or two lines %"
+        m.warn(f"the program ends without {missing}: LinuxCNC stops here with an error", None, "write M2 at the end")
 
 
 def back(m: Machine) -> None:
