@@ -2,7 +2,6 @@
 
 import json
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,7 +14,6 @@ from mnclab.show.report.contents import Document, Image
 from mnclab.show.report.gathering import measuring
 from mnclab.workpiece.part import box, hole
 
-README = Path(__file__).parents[2] / "README.md"
 PART = box((0, 0, -20), (100, 60, 0)) - hole((50.1, 29.9, 0), 24.2, 10)
 TEXT = "M1 X50 Y30 D24 Z-5\nM4 X0 Y30 Z-5\nM5 X20 Y10 Z0.01"
 
@@ -128,18 +126,19 @@ def test_the_shell_prints_the_record(tmp_path, monkeypatch, capsys):
     assert "TCH PROBE 419" in (tmp_path / "m.svg").read_text("utf-8")
 
 
-def test_what_the_readme_says_runs(tmp_path, monkeypatch):
+def test_a_plate_with_a_bore_too_large(tmp_path, monkeypatch):
     """The hole of 24.06 is beyond the limit of 24.05. The ball has a radius of 2: on every rapid its middle stays so far away."""
     monkeypatch.chdir(tmp_path)
-    section = README.read_text("utf-8").partition("## Measuring")[2].partition("```python")[2].partition("```")[0]
-    names = {"mnc": mnclab}
-    exec(section, names)
-    assert names["run"].ok and [row.what for row in names["run"].measurements.outside] == ["diameter"]
-    assert (tmp_path / "plate.html").exists()
-    path = names["run"].toolpath
-    rapids, share = path[path.kind == mnclab.Kind.RAPID], np.linspace(0, 1, 400)[:, None, None]
-    middles = (rapids.start + share * (rapids.end - rapids.start)).reshape(-1, 3) + path.origin + (0, 0, 2)
-    assert names["setup"].part(middles).min() >= 2 - 1e-9
+    plate = mnclab.part.box((0, 0, -20), (100, 60, 0)) - mnclab.part.hole((50.05, 29.98, 0), diameter=24.06, depth=10)
+    probe = mnclab.Tool(radius=2, length=80, kind="probe")
+    setup = mnclab.Setup(part=plate.turned(0.1), tools={7: probe}, start=(0, 0, 150))  # the spindle stands above the plate
+    run = mnclab.run("N10 G54 T7\nN20 G0 X50 Y30 Z20\nN30 G421 X50 Y30 D24 Z-5 H20 R24.05 T23.95\n", "mnc", setup)
+    assert run.ok and [row.what for row in run.measurements.outside] == ["diameter"]
+    run.report("plate.html")
+    assert (tmp_path / "plate.html").exists() and len(run.touches)
+    rapids, share = run.toolpath[run.toolpath.kind == mnclab.Kind.RAPID], np.linspace(0, 1, 400)[:, None, None]
+    middles = (rapids.start + share * (rapids.end - rapids.start)).reshape(-1, 3) + run.toolpath.origin + (0, 0, 2)
+    assert setup.part(middles).min() >= 2 - 1e-9
 
 
 def test_the_record_is_saved_as_csv_or_json_and_as_nothing_else(measured, tmp_path):
