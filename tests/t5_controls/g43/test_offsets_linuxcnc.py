@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from together import together
 
 import mnclab
 from mnclab import Kind, Setup
@@ -15,7 +16,7 @@ SETUP = Setup(settings={"dialect": "linuxcnc", "stopped_spindle": "accept"})
 NEAR = 1e-9
 
 
-@pytest.mark.parametrize("record", RECORDS, ids=lambda record: record["name"])
+@together("record", RECORDS, lambda record: record["name"].rpartition("-")[0], lambda record: record["name"])
 def test_the_motion_of_linuxcnc(record):
     run = mnclab.run(record["text"], "g43", SETUP)
     assert run.ok and not run.alarms, run.alarms
