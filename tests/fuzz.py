@@ -33,6 +33,7 @@ from mnclab.machine import trial
 
 sys.path.insert(0, str(Path(__file__).parent / "authorities"))
 import iso_programs
+import refusals
 
 TESTS = Path(__file__).resolve().parent
 SAMPLES = TESTS.parent / "data" / "programs"
@@ -68,9 +69,10 @@ def programs(control):
         entries = json.loads(file.read_text("utf-8"))
         if of == control or (of == "mnc" and control == "g43"):
             found += [entry["program"] for entry in entries if isinstance(entry, dict) and entry.get("program")]
-    for folder in (TESTS / "programs", TESTS / "refused", TESTS / "recognition"):
+    for folder in (TESTS / "programs", TESTS / "recognition"):
         files = [file for file in sorted(folder.glob(f"{control}/*")) if file.suffix != ".expected"]
         found += [text_of(file) for file in files]
+    found += [refusal.text for refusal in refusals.of(control)]
     if control == "g43":  # variables, loops and sub-programs
         found += [iso_programs.program(seed)[0] for seed in range(60)]
         for name in ("iso_flow.json.gz", "iso_calls.json", "iso_words.json"):  # O words

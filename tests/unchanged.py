@@ -28,6 +28,7 @@ from pathlib import Path
 os.environ.setdefault("MPLBACKEND", "agg")
 
 import numpy as np
+import refusals
 
 import mnclab
 
@@ -48,10 +49,12 @@ def questions():
         for file in sorted((ROOT / "data" / "programs" / control).iterdir()):
             setup = ROOT / "data" / "setups" / control / f"{file.stem}.toml"
             found[f"sample {control}/{file.name}"] = (mnclab.read(file, control).text, control, setup)
-        for folder in ("programs", "refused", "recognition"):
+        for folder in ("programs", "recognition"):
             for file in sorted((TESTS / folder / control).glob("*")):
                 if file.is_file() and file.suffix != ".expected":
                     found[f"{folder} {control}/{file.name}"] = (mnclab.read(file, control).text, control, None)
+        for refusal in refusals.of(control):
+            found[f"refused {control}/{refusal.file.stem} {refusal.name}"] = (refusal.text, control, None)
     for file in sorted((TESTS / "authorities" / "catalogue").glob("*.json")):
         control = next((name for start, name in CONTROL_OF.items() if file.name.startswith(start)), "mnc")
         for number, entry in enumerate(json.loads(file.read_text("utf-8"))):

@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from together import together
 
 import mnclab as mnc
 from mnclab.controls.cycle_table import written
@@ -18,7 +19,7 @@ NEEDS = {
 }
 
 
-@pytest.mark.parametrize(("control", "code"), CYCLES)
+@together("control code", CYCLES, lambda control, code: control)
 def test_every_cycle_shows_its_steps(control: str, code: str) -> None:
     if code in NEEDS:
         with pytest.raises(mnc.Alarm) as refused:

@@ -8,10 +8,12 @@ import inspect
 import json
 import math
 import re
+from functools import cache
 from html import escape
 from pathlib import Path
 
 import pytest
+from together import together
 
 import mnclab
 from mnclab.machine.cycle import Cycle, param
@@ -348,11 +350,22 @@ def test_every_cycle_is_whole(control):
     assert [code for code, cycle in mnclab.controls[control].cycles.items() if inspect.isabstract(cycle)] == []
 
 
-CASES = [
-    pytest.param(control, code, parameter, row, id=f"{control} {code} {parameter.name}")
-    for control, code in CYCLES
-    for parameter, row in rows(control, code)
-]
+CASES = [(control, code, parameter, row) for control, code in CYCLES for parameter, row in rows(control, code)]
+
+
+def each_cycle(test):
+    """A test of control and code: a case a control, which lists every cycle that fails."""
+    return together("control code", CYCLES, lambda control, code: control)(test)
+
+
+def each_parameter(test):
+    """A test of a parameter and its row: a case a cycle, which lists every parameter that fails."""
+    return together(
+        "control code parameter row", CASES,
+        lambda control, code, parameter, row: f"{control} {code}", lambda control, code, parameter, row: parameter.name,
+    )(test)  # fmt: skip
+
+
 NUMBER = r"[-+]?\d+(?:\.\d+)?"
 
 
@@ -402,7 +415,7 @@ def differences(control, code, parameter, row):
     return [(key, ours[key], value) for key, value in theirs.items() if ours[key] != value]
 
 
-@pytest.mark.parametrize(("control", "code"), CYCLES)
+@each_cycle
 def test_a_cycle_declares_the_addresses_of_its_table(control, code):
     parameters = mnclab.controls[control].cycles[code].parameters()
     marks = [parameter.address for parameter in parameters if parameter.mark]
@@ -412,7 +425,7 @@ def test_a_cycle_declares_the_addresses_of_its_table(control, code):
     assert mnclab.controls[control].cycles[code].source
 
 
-@pytest.mark.parametrize(("control", "code"), CYCLES)
+@each_cycle
 def test_parameters_stand_in_the_order_of_the_table(control, code):
     """In the declaration, also of what it inherits, and therefore in help and form."""
     found = [TABLES[control][code].index(row) for _, row in rows(control, code)]
@@ -422,7 +435,7 @@ def test_parameters_stand_in_the_order_of_the_table(control, code):
     assert told == [parameter.address for parameter in mnclab.controls[control].cycles[code].parameters()]
 
 
-@pytest.mark.parametrize(("control", "code", "parameter", "row"), CASES)
+@each_parameter
 def test_a_parameter_is_that_of_the_table(control, code, parameter, row):
     for key, ours, theirs in differences(control, code, parameter, row):
         first = mnclab.controls[control].cycles[code].code
@@ -438,15 +451,15 @@ def test_a_parameter_is_that_of_the_table(control, code, parameter, row):
 def test_the_explanations_are_needed():
     """No entry for what agrees, and none of a longer name that no table has."""
     differ = {
-        (case.values[0], mnclab.controls[case.values[0]].cycles[case.values[1]].code, case.values[2].address, key)
-        for case in CASES
-        for key, _, _ in differences(*case.values)
+        (control, mnclab.controls[control].cycles[code].code, parameter.address, key)
+        for control, code, parameter, row in CASES
+        for key, _, _ in differences(control, code, parameter, row)
     }
     assert set(EXPLAINED) - differ == set()
-    assert set(NAMES) - {case.values[3]["name"] for case in CASES} == set()
+    assert set(NAMES) - {row["name"] for *_, row in CASES} == set()
 
 
-@pytest.mark.parametrize(("control", "code", "parameter", "row"), CASES)
+@each_parameter
 def test_a_limit_refuses_its_neighbour_and_takes_what_is_allowed(control, code, parameter, row):
     whole = parameter.type == "integer"
     for limit, itself, direction in (
@@ -470,16 +483,23 @@ def test_an_example_must_obey_its_own_limits():
         param("D", "direction", choices={1: "x", 2: "y"}, example=3)
 
 
-@pytest.mark.parametrize("code", mnclab.controls["mnc"].cycles)
+@together("code", mnclab.controls["mnc"].cycles, lambda code: "mnc")
 def test_every_parameter_of_a_drilling_cycle_has_an_example(code):
     assert all(parameter.example is not None for parameter in mnclab.controls["mnc"].cycles[code].parameters())
 
 
-@pytest.mark.parametrize(("control", "code", "parameter", "row"), CASES)
+@cache
+def help_of(control, code):
+    """As text and as a page."""
+    found = mnclab.help(code, control)
+    return str(found), found._repr_html_()
+
+
+@each_parameter
 def test_a_parameter_can_be_explained(control, code, parameter, row):
     """A meaning short enough for an alarm, and a line in the help table."""
     assert parameter.meaning and parameter.unit and len(parameter.meaning) <= 50
-    text, page = str(mnclab.help(code, control)), mnclab.help(code, control)._repr_html_()
+    text, page = help_of(control, code)
     assert parameter.address in [line.partition("  ")[0] for line in text.splitlines()]
     assert f"<code>{parameter.address}</code>" in page
     for choice, meaning in (parameter.choices or {}).items():

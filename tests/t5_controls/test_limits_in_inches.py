@@ -7,8 +7,9 @@ The input range of a parameter is that of the number as it is written: cycle 32 
 from __future__ import annotations
 
 import re
+from typing import Any
 
-import pytest
+from together import together
 
 import mnclab as mnc
 from mnclab.controls.g43 import CONTROL as G43
@@ -30,12 +31,14 @@ def limits(p: Parameter) -> list[tuple[float, float]]:
     return found + [(limit - sign * STEP, limit) for limit, sign in ((p.above, -1), (p.below, 1)) if limit is not None]
 
 
-def parameters(control: mnc.machine.control.Control) -> list:
-    return [
-        pytest.param(cycle, p, id=f"{cycle.code} {p.address}")
-        for cycle in dict.fromkeys(control.cycles.values()) for p in cycle.parameters()
+def each_limit(control: mnc.machine.control.Control, units: list[str]) -> Any:
+    """A test of a parameter in a unit: a case a cycle and unit, which lists every address that fails."""
+    cases = [
+        (unit, cycle, p)
+        for unit in units for cycle in dict.fromkeys(control.cycles.values()) for p in cycle.parameters()
         if p.in_units and limits(p) and not p.mark
     ]  # fmt: skip
+    return together("unit cycle p", cases, lambda unit, cycle, p: f"{unit} {cycle.code}", lambda unit, cycle, p: p.address)
 
 
 def refusals(run: mnc.Run, p: Parameter) -> list[str]:
@@ -59,16 +62,14 @@ def written(number: float) -> str:
     return f"{number:.10g}"
 
 
-@pytest.mark.parametrize("unit", ["MM", "INCH"])
-@pytest.mark.parametrize(("cycle", "p"), parameters(TNC))
+@each_limit(TNC, ["MM", "INCH"])
 def test_every_limit_of_the_tnc_620(cycle: type[Cycle], p: Parameter, unit: str) -> None:
     for within, beyond in limits(p):
         assert refusals(klartext(cycle, p, within, unit), p) == []
         assert refusals(klartext(cycle, p, beyond, unit), p) == [written(beyond)]
 
 
-@pytest.mark.parametrize("unit", ["G21", "G20"])
-@pytest.mark.parametrize(("cycle", "p"), parameters(G43))
+@each_limit(G43, ["G21", "G20"])
 def test_every_limit_of_the_iso_mill(cycle: type[Cycle], p: Parameter, unit: str) -> None:
     words = {one.address: first_value(one) for one in cycle.parameters() if one.required or one.address in ("X", "Z", "R", "F")}
     for within, beyond in limits(p):

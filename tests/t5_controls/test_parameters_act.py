@@ -7,6 +7,7 @@ changes the path. Cycles begin with the examples of their declaration.
 import numpy as np
 import pytest
 from running import run
+from together import together
 
 import mnclab
 from mnclab import Kind
@@ -105,10 +106,15 @@ def seen(path):
     }
 
 
+def each(test):
+    """A case a cycle, which lists every parameter that fails."""
+    return together("code parameter", CASES, lambda code, parameter: code, lambda code, parameter: parameter.name)(test)
+
+
 CHANGES = {"s": "dwells", "mm/min": "feeds", "rev/min": "spindle", "deg": "labels", "mm": "path", "count": "path"}
 
 
-@pytest.mark.parametrize(("code", "parameter"), CASES, ids=lambda case: getattr(case, "name", case))
+@each
 def test_a_parameter_changes_what_it_means(code, parameter):
     values = beginning(code, parameter.name)
     before = seen(path_of(code, values))
@@ -135,7 +141,7 @@ def test_a_parameter_changes_what_it_means(code, parameter):
         assert changed <= {"path", "feeds", "dwells"}  # more or fewer pecks have more or fewer of them
 
 
-@pytest.mark.parametrize(("code", "parameter"), CASES, ids=lambda case: getattr(case, "name", case))
+@each
 def test_left_out_it_is_its_default_or_missing(code, parameter):
     values = beginning(code, parameter.name)
     given = {k: v for k, v in values.items() if k != parameter.name}

@@ -1,46 +1,65 @@
-"""Programs of all controls that must be refused, each a file whose first comment is its alarm; see `refusals.py`."""
+"""Programs of all controls that must be refused, each with its alarm as its first comment; see `refusals.py`.
+
+`python3 tests tests/t5_controls/test_refused.py --rewrite` writes the alarms anew: read every change before it is kept.
+"""
 
 import re
 
 import numpy as np
 import pytest
-from refusals import FILES, expected, setup_of
+from refusals import FILES, refusals
+from together import together
 
 import mnclab
 from mnclab import Alarm
 
+REFUSALS = [refusal for file in FILES for refusal in refusals(file)]
 #: Here a block is a line: the lines before the fault are a program of their own, but for a loop without its end.
-LOOPS = ("do-", "end-", "loop-")
-LINES = [f for f in FILES if f.parent.name in ("g43", "jnc-t01", "mnc") and not f.stem.startswith(LOOPS)]
+LINES = [r for r in REFUSALS if r.control in ("g43", "jnc-t01", "mnc") and r.file.stem != "loops"]
 
 
-def each(files):
-    return pytest.mark.parametrize("file", files, ids=lambda file: f"{file.parent.name}-{file.stem}")
+def each(cases):
+    return together("refusal", cases, lambda refusal: f"{refusal.control}-{refusal.file.stem}", lambda refusal: refusal.name)
 
 
-@each(FILES)
-def test_it_is_refused_there_and_so(file):
-    control, setup, (line, column, text) = file.parent.name, setup_of(file), expected(file)
-    run = mnclab.run(file, control, setup)
+@each(REFUSALS)
+def test_it_is_refused_there_and_so(refusal, rewrite):
+    run = mnclab.run(refusal.program, setup=refusal.setup)
     assert not run.ok
     first, *more = (alarm for alarm in run.alarms if alarm.severity == "alarm")
     assert not more
-    assert first.headline == f"{file}:{line}:{column}: alarm: {text}"
+    if rewrite:
+        refusal.rewrite(first.headline.removeprefix(f"{refusal.path}:"))
+        return
+    line, column, text = refusal.expected
+    assert first.headline == f"{refusal.path}:{line}:{column}: alarm: {text}"
     source, caret = first.lines()
     assert source and caret.endswith("^")
     with pytest.raises(Alarm) as raised:
-        mnclab.run(file, control, setup, strict=True)
+        mnclab.run(refusal.program, setup=refusal.setup, strict=True)
     assert str(raised.value) == str(first)
+
+
+def test_each_has_a_name_of_its_own():
+    assert len({(refusal.file, refusal.name) for refusal in REFUSALS}) == len(REFUSALS)
+
+
+def test_an_alarm_is_written_anew_in_its_place(tmp_path):
+    file = tmp_path / "two.g43"
+    file.write_text("; == one\n; 2:1 alarm: old\nG0\n\n; == two\n; 2:1 alarm: old\nG1\n", encoding="utf-8")
+    one, two = refusals(file)
+    assert (one.text, two.text) == ("; 2:1 alarm: old\nG0\n", "; 2:1 alarm: old\nG1\n")
+    two.rewrite("2:4: alarm: new: as \\1 says (a hint)")
+    assert file.read_text("utf-8") == f"; == one\n{one.text}\n; == two\n; 2:4 alarm: new: as \\1 says (a hint)\nG1\n"
 
 
 @pytest.mark.deep
 @each(LINES)
-def test_the_path_is_kept_up_to_there(file):
+def test_the_path_is_kept_up_to_there(refusal):
     """What the blocks before the fault do is done, and nothing after it."""
-    control, setup, (line, _, _) = file.parent.name, setup_of(file), expected(file)
-    text = file.read_text(encoding="utf-8").splitlines(keepends=True)
-    kept = mnclab.run(file, control, setup)
-    before = mnclab.run("".join(text[: line - 1]), control, setup)
+    line, _, _ = refusal.expected
+    kept = mnclab.run(refusal.program, setup=refusal.setup)
+    before = mnclab.run("".join(refusal.text.splitlines(keepends=True)[: line - 1]), refusal.control, refusal.setup)
     assert before.ok
     n = len(before.programmed)
     assert np.array_equal(kept.programmed.end[:n], before.programmed.end)
@@ -52,12 +71,12 @@ def test_the_path_is_kept_up_to_there(file):
 @pytest.mark.deep
 def test_a_fault_ends_the_program_before_later_blocks():
     """The same programs with a move after the fault end where they ended."""
-    for file in (file for file in FILES if file.parent.name == "mnc"):
-        longer = mnclab.run(file.read_text(encoding="utf-8") + "G0 X999 Y999\n", "mnc")
-        assert not len(longer.toolpath) or longer.toolpath.end.max() < 999, file.stem
+    for refusal in (refusal for refusal in REFUSALS if refusal.control == "mnc"):
+        longer = mnclab.run(refusal.text + "G0 X999 Y999\n", "mnc")
+        assert not len(longer.toolpath) or longer.toolpath.end.max() < 999, refusal.name
 
 
 def test_those_of_the_mnc_say_their_authority():
     """The second comment names the section of the manual, or what is adopted where it is silent."""
-    for file in (file for file in FILES if file.parent.name == "mnc"):
-        assert re.match(r"// \S.{8,}", file.read_text(encoding="utf-8").splitlines()[1]), file.stem
+    for refusal in (refusal for refusal in REFUSALS if refusal.control == "mnc"):
+        assert re.match(r"// \S.{8,}", refusal.text.splitlines()[1]), (refusal.file.stem, refusal.name)

@@ -11,6 +11,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from together import together
 
 import mnclab
 from mnclab import Kind, Setup, Tool
@@ -251,11 +252,16 @@ def idents(case):
     return " ".join([code, *(f"{name}={value:g}" for name, value in more.items())])
 
 
-cases = pytest.mark.parametrize("case", CASES, ids=idents)
+def each(*more):
+    """A case a cycle, which lists every way to run it that fails; with more of what a test takes: its names and values."""
+    names, values = more or ("", [()])
+    return together(
+        f"case {names}", [(case, *others) for case in CASES for others in values] if names else CASES,
+        lambda case, *_: case[0], lambda case, *others: " ".join([idents(case), *map(str, others)]),
+    )  # fmt: skip
 
 
-@cases
-@pytest.mark.parametrize("s", [2, 0.5])
+@each("s", [(2,), (0.5,)])
 def test_an_equal_scale_is_larger_lengths_for_the_same_tool(case, s):
     code, more = case
     values, tools = values_of(code, more), setup(s)
@@ -269,8 +275,7 @@ def test_an_equal_scale_is_larger_lengths_for_the_same_tool(case, s):
 FRAMES = [("X", 0), ("XY", 0), ("", 90), ("Y", -90)]
 
 
-@cases
-@pytest.mark.parametrize(("axes", "angle"), FRAMES)
+@each("axes angle", FRAMES)
 def test_a_mirror_image_and_a_rotation_move_the_path(case, axes, angle):
     code, more = case
     values, first, second = values_of(code, more), mirrored(axes), turned(angle)
@@ -285,7 +290,7 @@ def test_a_mirror_image_and_a_rotation_move_the_path(case, axes, angle):
     assert_moved(rows(found), rows(plain), whole)
 
 
-@cases
+@each()
 def test_scale_mirror_and_rotation_together(case):
     code, more = case
     if code in TAPS + TRUE_TO_SIZE or values_of(code, more).get("disengage") or code in (*AREAS, "CYCL DEF 208"):
@@ -299,7 +304,7 @@ def test_scale_mirror_and_rotation_together(case):
     assert_moved(rows(found), rows(plain), whole)
 
 
-@cases
+@each()
 def test_unequal_scales_of_the_plane_move_holes_and_stop_what_mills(case):
     code, more = case
     values = values_of(code, more)
@@ -321,7 +326,7 @@ def fixed_off(places):
     return np.where(near[:, None] & [False, True, False], 10 + (places - 10) / 3, places)
 
 
-@cases
+@each()
 def test_another_scale_of_z_makes_deeper_what_a_tool_cuts_as_it_can(case):
     """Steps of the depth are longer; edges, point and slopes of the tool are what they are."""
     code, more = case

@@ -2,11 +2,13 @@
 
 import json
 from functools import partial
+from itertools import product
 from pathlib import Path
 
 import numpy as np
 import pytest
 import running
+from together import together
 
 import mnclab
 from mnclab import Kind, Setup, Tool
@@ -27,7 +29,7 @@ def joined(rows):
     return found
 
 
-@pytest.mark.parametrize("record", RECORDS, ids=lambda record: record["name"])
+@together("record", RECORDS, lambda record: record["name"].rpartition("-")[0], lambda record: record["name"])
 def test_against_linuxcnc(record):
     run = mnclab.run(record["text"] + "M2\n", "g43", Setup(settings={"dialect": "linuxcnc"}))
     assert run.ok and not run.alarms
@@ -86,10 +88,10 @@ WORDS |= {"G82": "P100", "G89": "P100", "G83": "Q5", "G73": "Q5", "G76": "Q.5"}
 START = "G90 F120 S800 M3\nG0 X0 Y0 Z9\n"
 
 
-@pytest.mark.parametrize("dimension", ["G90", "G91"])
-@pytest.mark.parametrize("back", ["G98", "G99"])
-@pytest.mark.parametrize("second", WORDS)
-@pytest.mark.parametrize("first", WORDS)
+@together(
+    "first second back dimension", product(WORDS, WORDS, ["G98", "G99"], ["G90", "G91"]),
+    lambda first, second, back, dimension: f"{first} before others",
+)  # fmt: skip
 def test_hole_data_hold_among_the_cycles(first, second, back, dimension):
     """The second cycle with X alone is the one with Z, R and F written again, at the levels of the first."""
     hole = "Z-20 R2" if dimension == "G90" else "Z-22 R-7"

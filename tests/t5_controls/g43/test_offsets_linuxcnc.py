@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from together import together
 
 import mnclab
 from mnclab import Kind, Setup
@@ -18,7 +19,7 @@ WITH_G68 = Setup(settings=DIALECTS["linuxcnc"] | {"stopped_spindle": "accept"})
 NEAR = 1e-9
 
 
-@pytest.mark.parametrize("record", RECORDS, ids=lambda record: record["name"])
+@together("record", RECORDS, lambda record: record["name"].rpartition("-")[0], lambda record: record["name"])
 def test_the_motion_of_linuxcnc(record):
     run = mnclab.run(record["text"] + "M2\n", "g43", WITH_G68 if "G68" in record["text"] else SETUP)
     assert run.ok and not run.alarms, run.alarms

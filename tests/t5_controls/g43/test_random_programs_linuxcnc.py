@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from together import together
 
 import mnclab
 from mnclab import Kind, Setup
@@ -54,12 +55,16 @@ def agree(record, parts=iso_programs.PARTS):
             assert abs(move.sweep) == pytest.approx(abs(more[4]), abs=1e-7), line
 
 
-@pytest.mark.parametrize("record", RECORDS[::FEW], ids=lambda record: str(record["seed"]))
+def by_hundreds(records):
+    return together("record", records, lambda record: f"seeds from {record['seed'] // 500 * 500}", lambda record: record["seed"])
+
+
+@by_hundreds(RECORDS[::FEW])
 def test_some(record):
     agree(record)
 
 
-@pytest.mark.parametrize("record", HOLES[::10], ids=lambda record: str(record["seed"]))
+@by_hundreds(HOLES[::10])
 def test_some_of_changing_holes(record):
     agree(record, HOLE_PARTS)
 

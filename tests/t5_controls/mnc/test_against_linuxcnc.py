@@ -1,10 +1,12 @@
 """MNC programs against LinuxCNC's interpreter, where both languages mean the same; see tests/authorities/README.md."""
 
 import json
+from itertools import product
 from pathlib import Path
 
 import numpy as np
 import pytest
+from together import together
 
 import mnclab
 from mnclab import Kind, Setup, Tool
@@ -34,8 +36,10 @@ def compare(path, motion, tolerance=EXACT):
         assert np.abs(moves.axis[i] - motion[i].get("axis", [0, 0, 1])).max() <= 1e-12
 
 
-@pytest.mark.parametrize("shortest", [bulk.SHORTEST, 2])
-@pytest.mark.parametrize("record", records("motion.json") + records("motion_more.json"), ids=lambda r: r["name"])
+@together(
+    "shortest record", product([bulk.SHORTEST, 2], records("motion.json") + records("motion_more.json")),
+    lambda shortest, record: f"{record['name'].rpartition('_')[0]} from {shortest}", lambda shortest, record: record["name"],
+)  # fmt: skip
 def test_motion(record, shortest, monkeypatch):
     """Most programs are too short for the bulk tier; then it takes every two plain blocks."""
     monkeypatch.setattr(bulk, "SHORTEST", shortest)
@@ -45,18 +49,19 @@ def test_motion(record, shortest, monkeypatch):
     compare(run.toolpath, record["motion"])
 
 
-@pytest.mark.parametrize(
-    "record", [r for r in records("compensation.json") if not r.get("refused")], ids=lambda r: r["name"]
-)
+def of_compensation(refused):
+    found = [record for record in records("compensation.json") if bool(record.get("refused")) == refused]
+    return together("record", found, lambda record: record["name"].rpartition("_")[0], lambda record: record["name"])
+
+
+@of_compensation(refused=False)
 def test_compensation(record):
     run = mnclab.run(record["mnc"], "mnc", Setup(tools={1: Tool(radius=record["radius"])}))
     assert run.ok, run.alarms
     compare(run.toolpath, record["motion"])
 
 
-@pytest.mark.parametrize(
-    "record", [r for r in records("compensation.json") if r.get("refused")], ids=lambda r: r["name"]
-)
+@of_compensation(refused=True)
 def test_gouging_is_refused_here_too(record):
     run = mnclab.run(record["mnc"], "mnc", Setup(tools={1: Tool(radius=record["radius"])}))
     assert not run.ok

@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
+from together import together
 
 import mnclab
 from mnclab.text.nearest import slips_between
@@ -14,7 +15,11 @@ CODES = {entry["code"]: entry for entry in json.loads(FILE.read_text(encoding="u
 BUILT = [code for code in CODES if code in CONTROL.functions]
 
 
-@pytest.mark.parametrize("code", [*CODES, *(alias for entry in CODES.values() for alias in entry["aliases"] or ())])
+def each(codes):
+    return together("code", codes, lambda code: code[0])
+
+
+@each([*CODES, *(alias for entry in CODES.values() for alias in entry["aliases"] or ())])
 def test_a_code_of_the_manual_is_built_or_refused_by_name(code):
     if code in CONTROL.functions or code in CONTROL.cycles:
         assert mnclab.help(code, "mnc") is not None
@@ -25,7 +30,7 @@ def test_a_code_of_the_manual_is_built_or_refused_by_name(code):
     assert run.alarms[0].message.startswith(f"{code} is refused: it is part of this control")
 
 
-@pytest.mark.parametrize("code", BUILT)
+@each(BUILT)
 def test_a_function_is_modal_and_on_as_the_manual_says(code):
     function = CONTROL.functions[code]
     assert (function.power_on, function.modal) == (CODES[code]["power_on"], CODES[code]["modal"])
@@ -49,7 +54,7 @@ for built in BUILT:
 PAIRS = [(a, b) for group, members in GROUPS.items() if group for a in members for b in members]
 
 
-@pytest.mark.parametrize(("first", "second"), PAIRS)
+@together("first second", PAIRS, lambda first, second: CODES[first]["group"])
 def test_only_one_function_of_a_group_stands_in_a_block(first, second):
     run = mnclab.run(f"F100\n{first} {second} X1\n", "mnc")
     assert [a.span[:2] for a in run.alarms] == [(2, len(first) + 2)]
@@ -59,7 +64,7 @@ def test_only_one_function_of_a_group_stands_in_a_block(first, second):
     assert not len(run.toolpath)
 
 
-@pytest.mark.parametrize("code", [c for c in CONTROL.functions if c[0] in "GM" and c not in CODES and c != "G247"])
+@each([c for c in CONTROL.functions if c[0] in "GM" and c not in CODES and c != "G247"])
 def test_what_the_manual_does_not_list_is_said_to_be_so(code):
     run = mnclab.run(f"{code}\n", "mnc")
     assert run.ok

@@ -7,7 +7,7 @@ machine kept with these matrices; nothing of mnclab.geometry takes part in it.
 import json
 import math
 from functools import partial
-from itertools import permutations
+from itertools import permutations, product
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +15,7 @@ import pytest
 import running
 from hypothesis import given
 from hypothesis import strategies as st
+from together import together
 
 import mnclab
 from mnclab import Kind, Setup, Tool
@@ -189,8 +190,7 @@ ORDERS = [
 ]
 
 
-@pytest.mark.parametrize("plane", PLANES)
-@pytest.mark.parametrize("order", ORDERS, ids=", ".join)
+@together("plane order", product(PLANES, ORDERS), lambda plane, order: f"{plane}, {order[0]} first")
 def test_every_order_of_programming(plane, order):
     """Points, lines, arcs by R and by I J K, whole circles and helices after every pair and triple, in each order."""
     rng = np.random.default_rng([ORDERS.index(order), *plane.encode()])
@@ -348,8 +348,10 @@ FRAMES = {  # head, matrix, factor of the tool radius for which the compensated 
 }
 
 
-@pytest.mark.parametrize("frame", FRAMES)
-@pytest.mark.parametrize("record", CONTOURS, ids=lambda r: r["name"])
+@together(
+    "frame record", product(FRAMES, CONTOURS),
+    lambda frame, record: f"{frame}, {record['name'].rpartition('_')[0]}", lambda frame, record: record["name"],
+)  # fmt: skip
 def test_a_compensated_contour_is_the_image_of_the_recorded_one(frame, record):
     """G41 of a mirrored contour is the mirror image of G41. The tool is not scaled: for the image take a scaled one."""
     head, matrix, factor = FRAMES[frame]

@@ -7,10 +7,12 @@ the machine behind a random preset with a basic rotation. The block after the cy
 from __future__ import annotations
 
 import math
+from itertools import product
 
 import numpy as np
 import pytest
 from probed import gaps
+from together import together
 
 import mnclab as mnc
 from mnclab import Kind, Probe, Setup, Tool, part
@@ -182,8 +184,7 @@ MAKERS = {
 ANGLES = {"Q150", "Q158", "Q159", "Q170", "Q171", "Q172"}
 
 
-@pytest.mark.parametrize("seed", SEEDS)
-@pytest.mark.parametrize("code", MAKERS)
+@together("code seed", product(MAKERS, SEEDS), lambda code, seed: f"TCH PROBE {code}")
 def test_a_random_part(code, seed):
     chance = np.random.default_rng([int(code), seed])
     case, ball = MAKERS[code](chance), float(chance.uniform(0.5, 3))

@@ -6,8 +6,11 @@ H = max(where the tool stood, T + Q204, S + Q200). After a hole the tool only ri
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 import pytest
+from together import together
 
 import mnclab as mnc
 from mnclab.controls.tnc_620.language.calls import PLACED_BY_DATUM
@@ -58,8 +61,7 @@ def after_each_hole(run: mnc.Run, way: str) -> list[np.ndarray]:
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("levels", LEVELS, ids=str)
-@pytest.mark.parametrize("code", HOLES)
+@together("code levels", product(HOLES, LEVELS), lambda code, levels: code)
 def test_after_a_hole_the_tool_rises_to_the_clearance_height(code: str, levels: tuple[float, ...]) -> None:
     z, surface, second, at, high = levels
     points = f"PATTERN DEF POS1 (X+20 Y+10 Z{z:+g}) POS2 (X+60 Y+10 Z{z:+g}) POS3 (X+99 Y+50 Z{z:+g})"

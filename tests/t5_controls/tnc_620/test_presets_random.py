@@ -8,10 +8,12 @@ gets (15.1).
 
 import math
 from dataclasses import dataclass, field
+from itertools import product
 
 import numpy as np
 import pytest
 from probed import gaps
+from together import together
 
 import mnclab as mnc
 from mnclab.workpiece.part import Part, box, cylinder, hole
@@ -216,8 +218,7 @@ CYCLES = {
 WITHOUT = {"Q320": (418,), "Q301": (409, 416, 417, 418, 419), "Q381": (417, 419), "Q261": (417,)}
 
 
-@pytest.mark.parametrize("seed", SEEDS)
-@pytest.mark.parametrize("cycle", CYCLES)
+@together("cycle seed", product(CYCLES, SEEDS), lambda cycle, seed: f"TCH PROBE {cycle}")
 def test_a_random_part(cycle, seed):
     rng = np.random.default_rng((cycle, seed))
     ball, setup, extra = float(rng.uniform(0.5, 3.5)), float(rng.uniform(2.0, 4.0)), float(rng.uniform(0, 2))

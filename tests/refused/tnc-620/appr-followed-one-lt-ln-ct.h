@@ -1,4 +1,0 @@
-; 4:3 alarm: APPR must be followed by one of LT, LN, CT, LCT, PLT, PLN, PCT, PLCT
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 APPR X+1 Y+2 LEN5 RL

@@ -1,4 +1,0 @@
-; 4:1 alarm: APPR LT needs LEN (length of the line)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 APPR LT X+1 Y+2 RL

@@ -1,5 +1,0 @@
-; 5:16 alarm: BLK FORM 0.1 stands twice: BLK FORM 0.2 belongs behind the first
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 BLK FORM 0.1 Z X+0 Y+0 Z-20
-2 BLK FORM 0.1 Z X+0 Y+0 Z-20

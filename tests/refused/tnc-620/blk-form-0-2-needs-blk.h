@@ -1,4 +1,0 @@
-; 4:16 alarm: BLK FORM 0.2 needs BLK FORM 0.1 before it
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 BLK FORM 0.2 X+9 Y+9 Z+0

@@ -1,4 +1,0 @@
-; 4:27 alarm: BLK FORM CYLINDER L (length) must be greater than 0, got -100
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 BLK FORM CYLINDER Z R50 L-100

@@ -1,4 +1,0 @@
-; 4:21 alarm: BLK FORM CYLINDER needs R (radius) or D (diameter)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 BLK FORM CYLINDER Z L100

@@ -1,7 +1,0 @@
-; 4:21 alarm: BLK FORM ROTATION X: a turned blank is built about Z alone
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 BLK FORM ROTATION X DIM_R LBL 1
-3 M30
-4 LBL 1
-5 LBL 0

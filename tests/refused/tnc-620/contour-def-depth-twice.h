@@ -1,7 +1,0 @@
-; 3:33 alarm: CONTOUR DEF P1: the depth stands twice
-0 BEGIN PGM A MM
-1 CONTOUR DEF P1 = LBL 1 DEPTH5 DEPTH6
-2 M30
-LBL 1
-LBL 0
-9 END PGM A MM

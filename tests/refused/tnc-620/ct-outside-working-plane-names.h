@@ -1,5 +1,0 @@
-; 5:6 alarm: CT Z5: outside the working plane XY a circle names the two axes of its plane (for example CT X… Z…)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 L X+5
-3 CT Z+5

@@ -1,5 +1,0 @@
-; 5:14 alarm: CT runs at feed: FMAX is for straight lines
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 L X+5
-3 CT X+9 Y+9 FMAX

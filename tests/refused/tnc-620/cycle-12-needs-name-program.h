@@ -1,5 +1,0 @@
-; 5:20 alarm: CYCL DEF 12 needs the name of a program
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 CYCL DEF 12.0 PGM CALL
-3 CYCL DEF 12.1 PGM

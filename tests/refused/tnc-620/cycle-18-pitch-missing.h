@@ -1,5 +1,0 @@
-; 3:1 alarm: CYCL DEF 18 PITCH (pitch of the thread) is missing
-TOOL CALL 1 Z S200 F100
-CYCL DEF 18.0 T
-CYCL DEF 18.1 DEPTH -5
-CYCL CALL

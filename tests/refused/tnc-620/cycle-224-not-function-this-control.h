@@ -1,5 +1,0 @@
-; 4:1 alarm: CYCL DEF 224 is not a function of this control (near: CYCL DEF 22, CYCL DEF 220, CYCL DEF 221)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 CYCL DEF 224 P
-99 END PGM A MM

@@ -1,5 +1,0 @@
-; 5:15 alarm: CYCL DEF 32 HSC-MODE (filter) must be one of 0, 1, got 2
-TOOL CALL 1 Z S200 F100
-CYCL DEF 32.0 T
-CYCL DEF 32.1 T1
-CYCL DEF 32.2 HSC-MODE:2

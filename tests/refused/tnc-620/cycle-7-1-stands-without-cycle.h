@@ -1,4 +1,0 @@
-; 4:3 alarm: CYCL DEF 7.1 stands without CYCL DEF 7.0 before it
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 CYCL DEF 7.1 X+5

@@ -1,4 +1,0 @@
-; 3:23 alarm: = is missing (for example DECLARE CONTOUR QC1 = "CIRCLE" DEPTH5)
-0 BEGIN PGM A MM
-1 DECLARE CONTOUR QC1 "A"
-9 END PGM A MM

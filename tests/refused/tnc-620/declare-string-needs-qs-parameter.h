@@ -1,4 +1,0 @@
-; 4:18 alarm: DECLARE STRING needs a QS parameter and = (for example DECLARE STRING QS1 = "A")
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 DECLARE STRING Q1 = 5

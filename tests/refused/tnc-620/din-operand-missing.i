@@ -1,5 +1,0 @@
-; 4:18 alarm: D01 needs P02 (for example D01 Q1 P01 +2 P02 +3)
-%A G71 *
-N10 T1 G17 S1000 F100 *
-N20 D01 Q1 P01 +2 *
-N99999999 %A G71 *

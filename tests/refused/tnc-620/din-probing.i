@@ -1,5 +1,0 @@
-; 4:16 alarm: G55 takes P01, P02 with P03, X, Y and Z (for example G55 P01 5 P02 X P03 0 X+5 Y+0 Z-5)
-%A G71 *
-N10 T1 G17 S1000 F100 *
-N20 G55 P01 10 P02 X- P03 X+10 *
-N99999999 %A G71 *

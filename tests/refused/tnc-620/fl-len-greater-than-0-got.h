@@ -1,4 +1,0 @@
-; 4:6 alarm: FL LEN (length) must be greater than 0, got 0
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 FL LEN0 AN+0

@@ -1,4 +1,0 @@
-; 4:6 alarm: FL PDX needs PDY beside it
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 FL PDX+5 AN+0 D1

@@ -1,6 +1,0 @@
-; 6:15 alarm: FMAX has no meaning in this block (DEP LT does not take FMAX)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 L X+9 RL
-3 L X+20
-4 DEP LT LEN5 FMAX

@@ -1,4 +1,0 @@
-; 4:16 alarm: FN 10 compares with NE (for example FN 10: IF +Q1 NE +Q3 GOTO LBL 5)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 FN 10: IF Q1 IS DEFINED GOTO LBL 5

@@ -1,4 +1,0 @@
-; 4:10 alarm: FN 15 needs PRINT (for example FN 15: PRINT 1/Q1/Q2)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 FN 15: Q1

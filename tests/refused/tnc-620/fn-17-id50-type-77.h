@@ -1,4 +1,0 @@
-; 4:36 alarm: FN 17: SYSWRITE ID50 NR36 IDX1 (TYPE): a tool here has no kind of the number 77
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 FN 17: SYSWRITE ID50 NR36 IDX1 = +77

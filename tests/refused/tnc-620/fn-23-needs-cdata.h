@@ -1,4 +1,0 @@
-; 4:16 alarm: FN 23 needs CDATA (for example FN 23: Q20 = CDATA Q30)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 FN 23: Q20 = Q30

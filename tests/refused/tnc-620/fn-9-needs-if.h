@@ -1,4 +1,0 @@
-; 4:9 alarm: FN 9 needs IF (for example FN 9: IF +Q1 EQU +Q3 GOTO LBL 5)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 FN 9: Q1 EQU 3

@@ -1,4 +1,0 @@
-; 4:18 alarm: FUNCTION DWELL TIME (seconds) must be at least 0, got -1
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 FUNCTION DWELL TIME-1

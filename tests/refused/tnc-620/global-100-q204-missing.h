@@ -1,6 +1,0 @@
-; 4:1 alarm: GLOBAL DEF 100 Q204 (second set-up clearance) is missing
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 GLOBAL DEF 100 G
-Q200=3
-99 END PGM A MM

@@ -1,9 +1,0 @@
-; 7:1 alarm: GLOBAL DEF 105 Q211 (dwell at the bottom) must be at least 0 and at most 3600, got 4000
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 GLOBAL DEF 105 DRILLING
-Q256=0.2
-Q210=0.3
-Q211=4000
-
-99 END PGM A MM

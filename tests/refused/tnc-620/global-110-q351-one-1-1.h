@@ -1,8 +1,0 @@
-; 6:1 alarm: GLOBAL DEF 110 Q351 (sense of milling) must be one of 1, -1, got 0
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 GLOBAL DEF 110 P
-Q370=1
-Q351=0
-Q366=0
-99 END PGM A MM

@@ -1,5 +1,0 @@
-; 4:13 alarm: GLOBAL DEF needs the number of a cycle
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 GLOBAL DEF
-99 END PGM A MM

@@ -1,4 +1,0 @@
-; 4:22 alarm: GOTO LBL is missing (for example FN 10: IF +Q1 NE +Q3 GOTO LBL 5)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 FN 10: IF +1 NE +3 LBL 5

@@ -1,4 +1,0 @@
-; 4:23 alarm: ID is missing (for example FN 18: SYSREAD Q25 = ID210 NR4 IDX3)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 FN 18: SYSREAD Q1 = NR4

@@ -1,4 +1,0 @@
-; 4:1 alarm: LP needs a pole: no CC was programmed (write CC X… Y… before it)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 LP PR+5 PA+0

@@ -1,4 +1,0 @@
-; 4:14 alarm: M103 F (percent of the feed downwards) must be greater than 0, got 0
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 L X+5 M103 F0

@@ -1,4 +1,0 @@
-; 4:14 alarm: M110 and M109 are of one group: only one function of a group may stand in a block
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 L X+5 M109 M110

@@ -1,4 +1,0 @@
-; 4:10 alarm: M140 MB MAX takes no number
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 L M140 MB MAX 50

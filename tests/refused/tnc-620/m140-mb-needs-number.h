@@ -1,4 +1,0 @@
-; 4:17 alarm: M140 MB needs a number, or MAX
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 L X+5 F9 M140 MB

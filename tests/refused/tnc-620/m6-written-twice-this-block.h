@@ -1,4 +1,0 @@
-; 4:6 alarm: M6 is written twice in this block (keep one of them)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 M6 M6

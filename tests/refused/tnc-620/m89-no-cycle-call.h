@@ -1,4 +1,0 @@
-; 4:17 alarm: M89 has no cycle to call (define one before, for example CYCL DEF 200)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 L X+5 R0 FMAX M89

@@ -1,4 +1,0 @@
-; 4:31 alarm: no text was given to QS1
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 FN 9: IF +1 EQU +1 GOTO LBL QS1

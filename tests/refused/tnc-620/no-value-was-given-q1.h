@@ -1,4 +1,0 @@
-; 4:27 alarm: no value was given to Q1
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 APPR CT X+1 Y+2 CCA90 R+Q1 RL

@@ -1,4 +1,0 @@
-; 4:26 alarm: NR is missing (for example FN 17: SYSWRITE ID 990 NR 6 = +1)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 FN 17: SYSWRITE ID 990 = +1

@@ -1,5 +1,0 @@
-; 5:9 alarm: a number has only one decimal point
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 CYCL DEF 200 D
-Q200=1,2,3

@@ -1,5 +1,0 @@
-; 4:30 alarm: PATTERN DEF CIRC1 D (diameter) must be at least 0, got -3
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 PATTERN DEF CIRC1 (X+5 Y+0 D-3 START+0 NUM2 Z+0)
-99 END PGM A MM

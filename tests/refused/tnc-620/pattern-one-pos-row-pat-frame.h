@@ -1,5 +1,0 @@
-; 4:15 alarm: a pattern must be one of POS, ROW, PAT, FRAME, CIRC, PITCHCIRC (for example POS1 (X+10 Y+20 Z+0))
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 PATTERN DEF STAR1 (X+5)
-99 END PGM A MM

@@ -1,5 +1,0 @@
-; 4:39 alarm: PATTERN DEF PAT1 NUMX (number of columns) must be a whole number from 1 to 100000, got 0
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 PATTERN DEF PAT1 (X+0 Y+0 DX+1 DY+1 NUMX0 NUMY3 ROT+0 ROTX+0 ROTY+0 Z+0)
-99 END PGM A MM

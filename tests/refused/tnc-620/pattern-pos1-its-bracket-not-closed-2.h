@@ -1,5 +1,0 @@
-; 4:15 alarm: PATTERN DEF POS1: its bracket is not closed (write ))
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 PATTERN DEF POS1 (X+5 Y+0 Z
-99 END PGM A MM

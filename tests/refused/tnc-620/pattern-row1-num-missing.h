@@ -1,5 +1,0 @@
-; 4:15 alarm: PATTERN DEF ROW1 NUM (number of positions) is missing
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 PATTERN DEF ROW1 (X+5 Y+0 D+3 ROT+0 Z+0)
-99 END PGM A MM

@@ -1,5 +1,0 @@
-; 5:20 alarm: PLANE RESET MB MAX in a tilted plane is not built yet (with a distance, MB50, it is)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 PLANE SPATIAL SPA+0 SPB+90 SPC+0 TURN MB50 FMAX
-3 PLANE RESET TURN MB MAX FMAX

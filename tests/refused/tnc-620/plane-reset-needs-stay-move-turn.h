@@ -1,4 +1,0 @@
-; 4:1 alarm: PLANE RESET needs STAY, MOVE or TURN (with STAY no axis moves)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 PLANE RESET

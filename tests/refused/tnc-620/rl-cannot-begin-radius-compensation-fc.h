@@ -1,4 +1,0 @@
-; 4:13 alarm: RL cannot begin the radius compensation in FC (write it in a straight line L)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 FC DR+ R5 RL

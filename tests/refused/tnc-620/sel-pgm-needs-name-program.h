@@ -1,4 +1,0 @@
-; 4:10 alarm: SEL PGM needs the name of a program
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 SEL PGM

@@ -1,6 +1,0 @@
-; 4:1 alarm: TCH PROBE 0 needs its pre-position, X, Y or Z in TCH PROBE 0.1
-0 BEGIN PGM A MM
-1 TOOL CALL 6 Z
-2 TCH PROBE 0.0 REF. PLANE Q5 X-
-3 L X+5 R0 FMAX
-4 END PGM A MM

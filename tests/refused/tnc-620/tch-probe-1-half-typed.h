@@ -1,6 +1,0 @@
-; 4:1 alarm: TCH PROBE 1 needs its pre-position, X, Y or Z in TCH PROBE 1.2
-0 BEGIN PGM A MM
-1 TOOL CALL 6 Z
-2 TCH PROBE 1.0 POLAR PRESET
-3 TCH PROBE 1.1 X ANGLE: +30
-4 END PGM A MM

@@ -1,9 +1,0 @@
-; 5:17 alarm: TCH PROBE 3 Q (first Q parameter of the results) must be at most 1996, got 1997: four parameters get results
-0 BEGIN PGM A MM
-1 TOOL CALL 6 Z
-2 TCH PROBE 3.0 MEASURING
-3 TCH PROBE 3.1 Q1997
-4 TCH PROBE 3.2 X ANGLE: +15
-5 TCH PROBE 3.3 ABST +10 F100 MB1 REFERENCE SYSTEM: 0
-6 TCH PROBE 3.4 ERRORMODE1
-7 END PGM A MM

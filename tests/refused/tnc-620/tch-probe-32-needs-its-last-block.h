@@ -1,7 +1,0 @@
-; 4:1 alarm: TCH PROBE 32 PROBING THE TEETH (whether each tooth is measured) is missing
-0 BEGIN PGM P MM
-1 TOOL CALL 1 Z
-2 TCH PROBE 32.0 X
-3 TCH PROBE 32.1 CHECK: 1 Q5
-4 TCH PROBE 32.2 HEIGHT: +90
-9 END PGM P MM

@@ -1,6 +1,0 @@
-; 5:30 alarm: 'Q' has no meaning here
-0 BEGIN PGM P MM
-1 TOOL CALL 1 Z
-2 TCH PROBE 33.0 X
-3 TCH PROBE 33.1 CHECK: 1 Q5 Q6
-9 END PGM P MM

@@ -1,4 +1,0 @@
-; 4:13 alarm: TOOL CALL: no text was given to QS7
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 TOOL CALL QS7 Z

@@ -1,5 +1,0 @@
-; 4:29 alarm: W is no word of a pattern (X Y Z)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 PATTERN DEF POS1 (X+5 Y+0 W+1)
-99 END PGM A MM

@@ -1,6 +1,0 @@
-; 5:1 alarm: Z needs a number
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 PATTERN DEF POS1 (X+5 Y+0 Z
-)
-99 END PGM A MM

@@ -1,4 +1,0 @@
-; 4:6 alarm: Z5 has no meaning in this block (FL does not take Z)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 FL Z+5
