@@ -66,6 +66,9 @@ class Flow(Protocol):
     def spend(self, work: int) -> None:
         """Count the running block as so many more of those that may be executed."""
 
+    def spend_again(self, work: int) -> None:
+        """The same in loops: nothing while no more blocks were executed than the text has."""
+
     def call(self, m: Machine, label: str, span: Span | None = None) -> None:
         """Run from a label to the end of its subprogram."""
 

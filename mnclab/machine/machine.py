@@ -80,7 +80,7 @@ class Machine(Placed):
             self.alarm(f"{word.address} needs a number", word)
         try:
             if isinstance(value, Expression) and len(value.tokens) > LONG:
-                self.flow.spend(len(value.tokens) // LONG)
+                self.flow.spend_again(len(value.tokens) // LONG)
             found = value.evaluate(self.variables)
         except Alarm as alarm:
             alarm.span = alarm.span and alarm.span._replace(program=self.program)

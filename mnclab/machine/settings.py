@@ -95,7 +95,11 @@ EVERY = (
         {"warn": "one warning, at the first of them", "accept": "no word"},
     ),
     Setting(
-        "most_rows", 4_000_000, "rows of the path beyond which a run ends, with 20 more for each block of the text",
+        "most_blocks", 200_000, "blocks that jumps, repeats and calls may add to those of the text, one by one",
+        "the patience of a reader", unit="blocks", at_least=1000, at_most=1_000_000_000,
+    ),
+    Setting(
+        "most_rows", 1_000_000, "rows of the path beyond which a run ends, with 20 more for each block of the text",
         "the memory of the computer", unit="rows", at_least=1000, at_most=1_000_000_000,
     ),
 )  # fmt: skip

@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 DEEPEST = 20  # nested calls
-LONGEST = 500_000  # blocks that repeats and calls may add, one by one
 CERTAIN = 4  # times the limit of blocks: more than what passes along the same way may differ by
 LEFT, RECORDED = -1, -1  # in the log of what is entered: the block that means leaving, the times of a recorded contour
 ROWS_A_BLOCK = 20  # of the text, beside the rows that the setting most_rows allows
@@ -70,7 +69,7 @@ class Course:
         self.bulk: Callable[[int, int], int] = _nothing
         self.spent = 0  # of the limit, by blocks that take as long as many
         self.depth, self.calls = 0, 0  # calls: subprograms alone, without repeats
-        self.limit = LONGEST + len(program)
+        self.most, self.limit = 0, len(program)  # blocks that repeats and calls may add, one by one; all in all
         self.in_bulk = 0  # steps obeyed in bulk do not count for it: they end by themselves
         self.watched: Callable[[int], Any] = _nothing  # hears now and then how many steps were begun
         self.returning = self.over = False  # the subprogram, the called program ends
@@ -286,11 +285,20 @@ class Course:
         """Count a block as so many more of the limit: it takes as long as they do."""
         self.limit, self.spent = self.limit - work, self.spent + work
 
+    def allow(self, blocks: int) -> None:
+        """Let repeats and calls add so many blocks to those of the text."""
+        self.most, self.limit = blocks, self.limit + blocks
+
+    def spend_again(self, work: int) -> None:
+        """Count a block as so many more, if more were obeyed than the text has: what stands there once is no loop."""
+        if self.begun > sum(map(len, self.programs)):
+            self.spend(work)
+
     def _too_long(self, block: int) -> NoReturn:
         """Stop at a block: there are too many to obey."""
-        work = f"{LONGEST} blocks" if self.spent < LONGEST // 10 else f"as much work as {LONGEST} blocks"
+        work = f"{self.most} blocks" if self.spent < self.most // 10 else f"as much work as {self.most} blocks"
         message = f"jumps, repeats and calls ran {work} without an end{self.loops.told(self.programs)}"
-        raise Alarm(message, self.span_of_block(block))
+        raise Alarm(message, self.span_of_block(block), hint="if they do end: the setting most_blocks allows more")
 
     def most_rows(self, m: Machine) -> int:
         """How many rows a run may have."""

@@ -88,6 +88,7 @@ class Interpreter:
         self.loaded: dict[int, Loaded] = {}
         self.alarms: list[Alarm] = []  # that readers found
         self.switch(0)
+        self.flow.allow(int(machine.settings["most_blocks"]))
         machine.recorder.expected = len(program)
         machine.recorder.most = self.flow.most_rows(machine)
         machine.recorder.refuse = partial(self.flow.too_many_rows, machine)
@@ -155,6 +156,8 @@ class Interpreter:
         machine.end_block()
         if machine.programmed != before:
             machine.log("position", machine.programmed)
+            if machine.side:  # it will be compensated
+                self.flow.spend_again(1)
 
     def open_window(self, index: int) -> range:
         """Make the next blocks: columns as lists, for plain Python is faster on those. A loop finds them once more."""
@@ -225,7 +228,7 @@ class Interpreter:
     def take_cycle(self, cycle: type[Cycle], code: str, head: Word | None, given: tuple[Word, ...]) -> None:
         """A block that defines a cycle, or runs the active one again."""
         machine = self.machine
-        self.flow.spend(len(given))
+        self.flow.spend_again(len(given))
         values, words = assign(machine, cycle, code, given)
         head = head or Word(code, None, int(place_of(*self.program.span_of_block(self.flow.current)[:3])))
         if head.flag:

@@ -54,8 +54,7 @@ def run_cycle(m: Machine, definition: Definition, through: Through | None = None
 
 def _run(m: Machine, definition: Definition, through: Through | None, instead: Mapping[str, float]) -> None:
     flow = course(m)
-    if flow.begun > sum(map(len, flow.programs)):  # it is called again and again
-        flow.spend(AGAIN)
+    flow.spend_again(AGAIN)
     definition = as_it_stands(m, definition)
     elsewhere = definition.cycle.does == MILLS and m.plane != "XY"  # than where m.radius and m.scale count
     try:

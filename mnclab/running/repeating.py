@@ -69,7 +69,7 @@ def repeat_hole(bulk: Bulk, first: int, end: int, least: int) -> int:
         if visits[-1] is None or machine.step != step + 1:  # the other tier makes them
             bulk.not_before = first + least
             return block - first + 1
-    model = _model(visits, places[1:good])
+    model = _model(visits, places[:good])
     if model is None or model.rows[0, 0] != Kind.RAPID:
         bulk.not_before = first + least
         return 2
@@ -133,7 +133,7 @@ def at_each(m: Machine, points: Array, make: Callable[[float, float], None]) -> 
     if len(points) >= FEWEST and _anywhere(m):
         make(*places[0])
         visits = [visit(m, points[k], partial(make, *places[k]), lasting) for k in (1, 2)]
-        model, done = _model(visits, points[2:-1]), 3
+        model, done = _model(visits, points[1:-1]), 3
         if model is not None:
             between = len(points) - 4
             _moved(m, model, points[3:-1], np.full(between, m.step, np.int32), np.full(between, m.source_line))
@@ -169,15 +169,16 @@ def visit(m: Machine, place: Array, make: Callable[[], None], state: Callable[[M
 
 
 def _model(visits: list[Visit | None], places: Array) -> Visit | None:
-    """The second of two visits, if both are the same and so is every way to the places (n, 2) that follow it."""
+    """The second of two visits, if both are the same and so is every way to its place and those after it: of places (n, 2),
+    the first is that of the first visit. On each way something moves, or on none."""
     one, two = visits
     if one is None or two is None or one.lead != two.lead or len(one.rows) != len(two.rows):
         return None
     pairs = ((one.ends, two.ends), (one.centres, two.centres), (one.left[0], two.left[0]))
     alike = all(np.allclose(a, b, rtol=0, atol=SAME, equal_nan=True) for a, b in pairs)
     alike = alike and np.array_equal(one.rows[:, _ELSE], two.rows[:, _ELSE], equal_nan=True)
-    ways = places[1:] - (places[:-1] + two.left[1])
-    return two if alike and (np.abs(ways) > SAME).any(axis=1).all() else None
+    moves = (np.abs(places[1:] - (places[:-1] + two.left[1])) > SAME).any(axis=1)
+    return two if alike and (moves == moves[0]).all() else None
 
 
 def _places(bulk: Bulk, first: int, end: int) -> tuple[Array, NDArray[np.bool_]]:

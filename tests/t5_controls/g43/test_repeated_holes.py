@@ -28,8 +28,18 @@ def test_each_hole_stands_a_step_further(letter, count):
     assert bottoms(found, -3) == [[10 * k, 5 * k] for k in range(1, count + 1)]
 
 
-def test_absolute_holes_stand_at_one_place():
-    assert bottoms(run("G81 X10 Y5 Z-5 R2 K3"), -5) == [[10, 5]] * 3
+@pytest.mark.parametrize("count", [3, 20])
+@pytest.mark.parametrize("code", ["G81", "G83", "G84", "G89"])
+def test_absolute_holes_stand_at_one_place(code, count):
+    """Each hole but the first, to which the tool goes, has the same rows at the same place."""
+    found = run(f"{code} X10 Y5 Z-5 R2 {'Q2 ' if code == 'G83' else ''}K{count}")
+    assert bottoms(found, -5) == [[10, 5]] * count
+    path = found.toolpath
+    ends = np.flatnonzero((path.kind == Kind.LINE) & (path.end[:, 2] == -5) & (path.start[:, 2] != -5))
+    assert len(ends) == count and len(set(np.diff(ends).tolist())) == 1
+    rows = np.column_stack([path.kind, path.end, path.feed, path.spindle])
+    between = [rows[a + 1 : b + 1] for a, b in zip(ends[:-1], ends[1:], strict=True)]
+    assert all(np.array_equal(one, between[0], equal_nan=True) for one in between)
 
 
 def test_the_count_holds_for_its_block_alone():

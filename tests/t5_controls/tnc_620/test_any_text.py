@@ -11,7 +11,6 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import mnclab as mnc
-from mnclab.running import flow
 
 pytestmark = pytest.mark.deep
 
@@ -79,10 +78,8 @@ PIECES = [
 ]  # fmt: skip
 
 
-@pytest.fixture(autouse=True)
-def short_programs(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Mutated repeats may be long: the limit of executed blocks is lowered."""
-    monkeypatch.setattr(flow, "LONGEST", 3000)
+#: Mutated repeats may be long.
+SHORT = {"most_blocks": 3000}
 
 
 @settings(max_examples=300, deadline=None)
@@ -92,7 +89,7 @@ def test_mutated_programs(edits: list[tuple[int, int, str]]) -> None:
     text = PROGRAM
     for at, cut, scrap in edits:
         text = text[:at] + scrap + text[at + cut :]
-    run = mnc.run(text, "tnc-620", mnc.Setup(files={"OTHER": "\n".join(text.splitlines()[:9])}))
+    run = mnc.run(text, "tnc-620", mnc.Setup(files={"OTHER": "\n".join(text.splitlines()[:9])}, settings=SHORT))
     assert all(alarm.span is None or alarm.span.column >= 1 for alarm in run.alarms)
     str(run.toolpath), repr(run), list(run.program)
 
@@ -140,7 +137,7 @@ def mutated(programs: list[str], seed: int) -> str:
 def test_mutated_samples_and_examples_of_the_manual(hundreds: int) -> None:
     """A sample; 50,000 seeds were run once."""
     for seed in range(100 * hundreds, 100 * hundreds + 100):
-        run = mnc.run(mutated(PROGRAMS, seed), "tnc-620")
+        run = mnc.run(mutated(PROGRAMS, seed), "tnc-620", mnc.Setup(settings=SHORT))
         assert all(alarm.span is None or alarm.span.column >= 1 for alarm in run.alarms)
         str(run.toolpath), repr(run)
 

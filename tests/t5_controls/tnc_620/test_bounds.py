@@ -112,8 +112,16 @@ DEAR = {
 def test_a_dear_block_counts_as_many(name: str) -> None:
     found = run(f"LBL 1\n{DEAR[name]}\nCALL LBL 1 REP 65534")
     (alarm,) = found.alarms
-    assert alarm.message.startswith("jumps, repeats and calls ran as much work as 500000 blocks without an end; in CALL LBL 1")
+    assert alarm.message.startswith("jumps, repeats and calls ran as much work as 200000 blocks without an end; in CALL LBL 1")
     assert len(found.steps.block) < 150_000
+
+
+@pytest.mark.parametrize(
+    "line", [DRILLING.format(5), "Q2 = " + " + ".join(["SIN 3"] * 20) + "\n", "FN 18: SYSREAD Q3 = ID270 NR1 IDX1\n"]
+)
+def test_what_the_text_says_once_is_no_loop(line: str) -> None:
+    """However dear its blocks are: 800 of them are no more than they are long."""
+    assert run(line * 800, most_blocks=1000).ok
 
 
 def test_a_long_repeat_runs() -> None:
@@ -135,7 +143,7 @@ def test_a_long_repeat_runs() -> None:
 def test_rows_without_bound_are_refused_before_they_are_made(body: str, block: str, loop: str) -> None:
     found = run(body)
     (alarm,) = found.alarms
-    assert "more than the setting most_rows (4000000)" in alarm.message and loop in alarm.message
+    assert "more than the setting most_rows (1000000)" in alarm.message and loop in alarm.message
     assert block in found.program.line_text(alarm.span.line)
     assert len(found.toolpath) < 1_000_000
 
@@ -156,7 +164,8 @@ def test_the_bound_is_exact_and_counts_the_blocks_of_the_text() -> None:
 
 def test_every_control_has_the_bound() -> None:
     for control in mnc.controls.values():
-        assert [s.default for s in control.settings if s.name == "most_rows"] == [4_000_000]
+        assert [s.default for s in control.settings if s.name == "most_rows"] == [1_000_000]
+        assert [s.default for s in control.settings if s.name == "most_blocks"] == [200_000]
     assert "most_rows" in str(mnc.help("settings", "nc-31"))
     with pytest.raises(mnc.Alarm, match="most_rows .* must be a number from 1000 to 1000000000, got 5"):
         mnc.run("G0 X1\n", "mnc", mnc.Setup(settings={"most_rows": 5}))

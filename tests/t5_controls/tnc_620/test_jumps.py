@@ -7,7 +7,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mnclab as mnc
-from mnclab.running import flow
 
 
 @pytest.mark.parametrize(
@@ -102,15 +101,15 @@ ENDLESS = {
 
 
 @pytest.mark.parametrize("name", ENDLESS)
-def test_a_program_without_an_end_is_stopped(name: str, inside, monkeypatch) -> None:
-    monkeypatch.setattr(flow, "LONGEST", 2000)
+def test_a_program_without_an_end_is_stopped(name: str, inside) -> None:
     blocks, line = ENDLESS[name]
-    run = inside(blocks)
+    run = inside(blocks, most_blocks=2000)
     (alarm,) = run.alarms
     if name == "repeats":
         loop = "5 CALL LBL 2 REP 9999 in line 6, pass 1 of 9999"
         assert alarm.message == f"jumps, repeats and calls ran 2000 blocks without an end; in {loop}"
-        assert len(run.steps.block) < 2000 + len(run.program)
+        assert "most_blocks" in alarm.hint and len(run.steps.block) < 2000 + len(run.program)
+        assert run.alarms != inside(blocks, most_blocks=4000).alarms
     else:
         assert alarm.message.startswith("the program never gets out of this loop")
     assert line is None or abs(alarm.span.line - line) <= 1

@@ -31,8 +31,7 @@ def worth(m: Machine, formula: Formula, address: str = "") -> float | None:
     """The value of a formula, None where it is vacant."""
     dialect = m.settings["macros"]
     unit = INCREMENT[m.variable_unit] if dialect == FANUC and address in LENGTHS else 1.0
-    if len(formula.tokens) > LONG:
-        m.flow.spend(len(formula.tokens) // LONG)
+    m.flow.spend_again(1 + len(formula.tokens) // LONG)  # what a formula takes beside its block
     try:
         value = formula.worth(m.variables, dialect, unit)
     except Alarm as alarm:

@@ -29,7 +29,7 @@ def read_system(m: Machine, words: Words) -> None:
     time (320), datums and presets (500 to 530), run (992).
     """
     m.variables.state_read = m.step
-    m.flow.spend(2)
+    m.flow.spend_again(3)
     found = asked(m, words)
     row = ROWS.get((found.group, found.number), TABLES.get(found.group) if found.number.is_integer() else None)
     what = f"FN 18: SYSREAD {found}"

@@ -84,8 +84,7 @@ def rectangle(
         return _spiral(first, last, n if max(spare) > DRIFT else 0, radius, climb, centre, angle, begin, apex=False)
     passes = []
     for i in range(1, max(n, 1) + 1):
-        ring = _path(_part(first, last, i / max(n, 1)))
-        ring = ring.started_at(ring.nearest((2 * first.reach[1], 0.0)))
+        ring = _path(_part(first, last, i / max(n, 1)), begin=1)
         ring = Contour(placed(ring.points, centre, angle), ring.bulge)
         passes.append(ring.reversed() if climb else ring)
     return joined(passes, numbered("ring", len(passes)), radius)
@@ -156,13 +155,18 @@ def _middles(before: Floats, after: Floats, bulge: Floats) -> Floats:
     return (before + after) / 2 + (bulge / 2)[:, None] * np.stack([chord[:, 1], -chord[:, 0]], axis=1)
 
 
-def _path(figure: Figure) -> Contour:
-    """A figure as a closed contour, counter-clockwise."""
+def _path(figure: Figure, begin: int | None = None) -> Contour:
+    """A figure as a closed contour, counter-clockwise; perhaps begun where the normal of a side meets it."""
     turned = np.append(np.arange(len(figure.normals)), 0)
     size = np.full(len(figure.normals), figure.corner)
     before, after, bulge = _corners(figure.normals[turned], figure.reach[turned], size, figure.bevels, 1)
     points = np.stack([before, after], axis=1).reshape(-1, 2)
     bulges = np.stack([bulge, np.zeros(len(bulge))], axis=1).reshape(-1)
+    if begin is not None:
+        angle = figure.normals[begin]
+        middle = figure.reach[begin] * np.array([np.cos(angle), np.sin(angle)])
+        points = np.vstack([middle, np.roll(points, -2 * begin, axis=0)])
+        bulges = np.append(0.0, np.roll(bulges, -2 * begin))
     some = np.hypot(*(np.roll(points, -1, axis=0) - points).T) > DRIFT
     return Contour(points[some], bulges[some])
 
