@@ -20,6 +20,7 @@ KINDS = {
     "travel": "beyond the travel of the machine",
     "insert": "the back of the insert or its holder in material",
     "chuck": "the tool in the chuck",
+    "axis": "a drill, or what else turns about its own axis, fed beside the axis of a part that turns",
 }
 HEAD = ("place", "kind", "depth", "at", "message")
 

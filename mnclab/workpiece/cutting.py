@@ -23,6 +23,7 @@ from mnclab.workpiece.part import Part
 
 CUTS = (Kind.LINE, Kind.ARC)  # what moves at feed; a probe cuts nothing
 OF_BLANK = "of the blank: "
+MILLS = ("mill", "face mill", "thread mill", "chamfer")  # no lathe of these turns a tool; drills and the like cut on its axis
 SHOWN = 3  # lines that a sentence names
 
 
@@ -148,12 +149,15 @@ class Cutting:
         """That rows have no tool to cut or to collide with, if some have none."""
         bare = self.bare
         for k, tool in enumerate(self.tools if bare.any() else ()):
-            if tool.kind and (rows := bare & (self.which == k)).any():  # a drill, a tap
-                yield f"T{tool.number} ({tool.kind}) has no radius: it cuts nothing ({self.lines(rows)})"
+            given = replace(tool, number=0, name="") != Tool()  # a tap that has its pitch alone
+            if given and (rows := bare & (self.which == k)).any():
+                lacks = "radius" if tool.kind or not self.lathe else "kind, nor a corner, an angle or a width"
+                yield f"{_named(tool)} has no {lacks}: it cuts nothing ({self.lines(rows)})"
                 bare = bare & ~rows
         if bare.any():
             yield f"rows without a tool cut nothing ({self.lines(bare)})"
         yield from self.edgeless()
+        yield from self.foreign()
 
     def edgeless(self) -> Iterator[str]:
         """What is said of tools that have no edge and go through the box of the blank at feed: they cut nothing there."""
@@ -162,6 +166,15 @@ class Cutting:
             if (lacks := edgeless(tool, self.lathe)) and (rows := inside & (self.which == k)).any():
                 as_line = " but as a line along its way" if lacks == "no width" else ""
                 yield f"T{tool.number} ({tool.kind or 'mill'}) has {lacks}: it cuts nothing{as_line} ({self.lines(rows)})"
+
+    def foreign(self) -> Iterator[str]:
+        """What is said of tools of the other kind of machine that go through the box of the blank at feed."""
+        kinds = MILLS if self.lathe else LATHE
+        said = "a mill, which on a lathe stands still" if self.lathe else "a tool of a lathe: it cuts as a mill of its radius"
+        for k, tool in enumerate(self.tools):
+            foreign = tool.kind in kinds and tool.effective_radius > 0
+            if foreign and (rows := self._inside & self.cuts & (self.which == k)).any():
+                yield f"{_named(tool)} is {said} ({self.lines(rows)})"
 
     @property
     def lathe(self) -> bool:
@@ -172,6 +185,10 @@ def numbers_of(path: Toolpath, tools: Sequence[Tool], which: Index) -> Index:
     """The number of the tool of each row (n,), that of `tools[which[row]]` where the path has none."""
     held = np.array([tool.number for tool in tools] or [0], dtype=np.int64)
     return np.where(path.tool == 0, held[which], path.tool).astype(np.int64)
+
+
+def _named(tool: Tool) -> str:
+    return f"T{tool.number}" + (f" ({tool.kind})" if tool.kind else "")
 
 
 def tool_exists(tool: Tool) -> bool:

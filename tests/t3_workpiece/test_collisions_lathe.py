@@ -47,6 +47,12 @@ def test_a_rapid_down_into_the_bar(depth):
     only(met(f"G00 X25 Z-20|X{20 - depth}|X40", 3), "rapid", 4, depth, x=20 - depth)
 
 
+@pytest.mark.parametrize("kind", ["turning", "drill"])
+@pytest.mark.parametrize("x", [-18, -10])
+def test_a_rapid_beyond_the_axis_meets_the_other_side(kind, x):
+    assert [(each.kind, each.line) for each in met(f"G00 X{x} Z2|Z-30", Tool(radius=3, kind=kind))] == [("rapid", 4)]
+
+
 @pytest.mark.parametrize("depth", [0.1, 2, 5])
 def test_a_rapid_of_a_drill_into_the_full_bar(depth):
     only(met(f"G00 X0 Z2|Z-{depth}|Z10", 6), "rapid", 4, depth, x=0, z=-depth)
@@ -164,6 +170,37 @@ def test_a_boring_tool_outside_of_a_bar_has_its_bar_in_it():
     assert (found[0].kind, found[0].line) == ("holder", 4) and "bar of the boring tool" in found[0].message
     assert not met("G00 X12 Z5|G01 Z-30|G00 X9|Z10", tool, stock=tube)
     assert not met("G00 X19 Z5|G01 Z-30|G00 X9|Z10", tool, stock=tube)
+
+
+@pytest.mark.parametrize("radius", [3, 5, 10, 11.5, 14, 20])
+@pytest.mark.parametrize("shank", [None, (4, 10)])
+def test_a_boring_tool_in_full_material(radius, shank):
+    """On the axis nothing is cut: a short edge leaves a core where the bar is, a long one turns backwards beyond it."""
+    tool = Tool(corner=0.4, kind="boring", shank=shank)
+    for x in (radius - 0.5, radius / 2):
+        found = met(f"G00 X{x} Z5|G01 Z-30", tool, stock=cylinder(radius, -60, 0))
+        assert {("holder", 4)} <= {(each.kind, each.line) for each in found} and "bor" in found[0].message
+        thin = Tool(corner=0.4, kind="boring")
+        assert not met(f"G00 X{x} Z5|G01 Z-30|G00 X{x - 0.3}|Z5", thin, stock=cylinder(radius, -60, 0, bore=x - 0.3))
+
+
+def test_a_blind_bore_is_faced_by_its_boring_tool():
+    """Along the wall down to the point of the drill, and across to the axis over its cone."""
+    tools = {1: Tool(radius=8, angle=118, kind="drill"), 2: Tool(corner=0.4, kind="boring")}
+    head = "M3 S500 G97 G94 F100 T1\nG00 X40 Z20\n"
+    assert not met("G00 X0 Z2|G01 Z-30|G00 Z20 T2|X9 Z2|G01 Z-25|X0|G00 Z2", 1, head, tools=tools)
+
+
+@pytest.mark.parametrize("kind", ["mill", "drill", "reamer", "countersink", "tap"])
+@pytest.mark.parametrize("way", ["G01 Z-15", "G32 Z-15 F2", "G01 X{x} Z-15"])
+@pytest.mark.parametrize("x", [0, 0.5, 10, -10])
+def test_a_tool_about_its_own_axis_cuts_on_the_axis_of_the_part(kind, way, x):
+    """There alone does the part turn about the tool; beside it a ring is cut, as wide as the tool, which breaks it."""
+    found = met(f"G00 X{x} Z2|{way.format(x=x)}|G00 Z10", Tool(radius=3, kind=kind))
+    beside = [each for each in found if each.kind == "axis"]
+    assert [each.line for each in beside] == ([4] if x else [])
+    assert all(f"the {kind} {abs(x):.3f} mm beside the axis" in each.message and "X" in each.message for each in beside)
+    assert mnclab.workpiece.collision.KINDS.keys() >= {each.kind for each in found}
 
 
 @pytest.mark.parametrize("deep", [0.02, 1, 3])

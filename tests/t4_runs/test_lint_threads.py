@@ -121,3 +121,27 @@ def test_a_feed_a_minute_that_looks_like_one_a_turn(words, told):
     """JNC-T01 8.17 to 8.19: without G95 F counts mm/min; 0.5 mm/min at 500 rev/min is a micrometre in a turn."""
     found = warned(f"M3 T1|{words}|G00 X18 Z5|G01 Z-20|G00 X40", "jnc-t01", "the feed counts mm/min")
     assert [alarm.span.line for alarm in found] == [4] * told
+
+
+CHAIN = "the lead jumps from"
+OF_NC = "S500|M3|F20|X2000~*|Z500~|G32@*|Z-2000*|F20000|G32*|{}*|F{}|X6000~"
+
+
+@pytest.mark.parametrize(
+    ("control", "text", "line"),
+    [
+        ("jnc-t01", jnc("G32 Z20 F2|G32 Z-20 F4", 500), 5),  # 8.8: a pitch a move, and nothing about the next one
+        ("jnc-t01", jnc("G32 Z20 F2|G32 X15 Z-20 F4", 500), 5),
+        ("jnc-t01", jnc("G32 Z20 F2|G32 X12 Z-20 F2", 500), None),  # one lead along Z
+        ("jnc-t01", jnc("G32 Z20 F2|G32 X60 F2", 500), None),  # the run-out, as fast
+        ("jnc-t01", jnc("G32 Z20 F2|G00 X20|G32 Z-20 F4", 500), None),
+        ("jnc-t01", jnc("G32 Z20 F2|G04 F1|G32 Z-20 F4", 500), None),  # it stands between them
+        ("nc-31", OF_NC.format("Z-4000", 40000), 9),
+        ("nc-31", OF_NC.format("Z-4000", 20000), None),
+        ("nc-31", NC.format(speed=500, z=100, end=100), None),
+    ],
+)  # fmt: skip
+def test_a_lead_that_jumps_between_threads_is_told(control, text, line):
+    found = warned(text, control, CHAIN)
+    assert [alarm.span.line for alarm in found] == ([line] if line else [])
+    assert all("from 2 to 4 mm" in alarm.message for alarm in found)

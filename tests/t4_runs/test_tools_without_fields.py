@@ -136,3 +136,26 @@ def test_picture_and_cut_are_one_outline(kind):
                 continue
             drawn, cut = (shapely.intersection(shapely.Polygon(each.points_within(1e-4)).buffer(0), near) for each in outlines)
             assert shapely.symmetric_difference(drawn, cut).area == pytest.approx(0, abs=2e-3), tool
+
+
+TURN = "M3|G97 S500 T1|G94 F100|G00 X0 Z5|G01 Z-15"
+
+
+@pytest.mark.parametrize(("control", "lacks"), [("mnc", "radius"), ("jnc-t01", "kind, nor a corner, an angle or a width")])
+@pytest.mark.parametrize("fields", [{"length": 50}, {"pitch": 1}, {"teeth": 4, "name": "end mill"}, {"cutting_length": 10}])
+def test_what_a_given_tool_lacks_is_named(fields, control, lacks):
+    text, stock = ("T1 S500 M3|G0 X30 Y20 Z5|G1 Z-5 F100", PLATE) if control == "mnc" else (TURN, BAR)
+    run = turned(Tool(**fields), text, stock, control)
+    said = f"T1 has no {lacks}: it cuts nothing (program:{len(text.split('|'))})"
+    assert said in run.workpiece().notes and said in run.collisions().notes
+
+
+@pytest.mark.parametrize("kind", [each for each in KINDS if each != "probe"])
+def test_a_tool_of_the_other_kind_of_machine_is_told(kind):
+    """Drills, reamers, countersinks and taps work on both; what has an insert turns, what mills needs a spindle of its own."""
+    mill = turned(Tool(kind=kind, radius=4), "T1 S500 M3|G0 X30 Y20 Z5|G1 Z-5 F100", PLATE, "mnc").collisions()
+    said = f"T1 ({kind}) is a tool of a lathe: it cuts as a mill of its radius (program:3)"
+    assert (said in mill.notes) == (kind in LATHE) and mill.ok == (kind not in LATHE)
+    lathe = turned(Tool(kind=kind, radius=4), TURN).collisions()
+    said = f"T1 ({kind}) is a mill, which on a lathe stands still (program:5)"
+    assert (said in lathe.notes) == (kind in ("mill", "face mill", "thread mill", "chamfer"))

@@ -3,7 +3,8 @@
 A locked move goes pitch times speed along its way, v = P n. Every control takes its threads and taps from the same rows, and
 each axis k has its own share of v: |d_k| v against `Limits.rapid`. On a lathe the axis begins from rest, so that the first
 v² / 2a of a thread have another pitch, and as much at its end: they belong into the air. A tap follows a spindle that speeds up
-and slows down with it, so of that nothing is said.
+and slows down with it, so of that nothing is said. Nor can it jump to another lead where one thread goes on from another:
+controls take that without a word. What a cycle makes of one thread, its run-out, is no other thread.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 
 MORE = 1 + 1e-9
 SMALL = 1e-9  # mm
+SAME = 1e-6  # of a lead
 ON_AXIS = 1e-6  # mm: a tool that threads there is a tap
 FLOATING = "cut the thread"  # the label of a tap, in a holder that floats too: there the axis runs at the feed
 PLACES = 400  # of a thread that are looked at for where its material begins
@@ -56,7 +58,25 @@ def remarks(run: Run) -> Iterator[Alarm]:
         )
         yield once(run, path.step[rows[fast]].tolist(), message, f"at most {int(slower)} rev/min, or other limits of the machine")
     if path.lathe:
+        yield from _jumps(run)
         yield from _without_run_in(run, rows[~fast], speed[~fast], share[~fast])
+
+
+def _jumps(run: Run) -> Iterator[Alarm]:
+    """Threads that go on from another one, in another block, with another lead along the axis of the longer way."""
+    path = run.toolpath
+    rows = np.flatnonzero((path.is_motion & (path.lengths > 0)) | np.isin(path.kind, (Kind.DWELL, Kind.STOP)))
+    locked = path.synchronous[rows] & np.isin(path.kind[rows], (Kind.LINE, Kind.ARC))
+    way = np.abs(path.end[rows] - path.start[rows]).max(axis=1)
+    lead = path.per_rev[rows] * way / np.maximum(path.lengths[rows], SMALL)  # as F says it
+    jumps = locked[1:] & locked[:-1] & (path.step[rows[1:]] != path.step[rows[:-1]])
+    jumps &= np.abs(lead[1:] - lead[:-1]) > SAME * lead[:-1]
+    if jumps.any():
+        k = int(jumps.argmax())
+        before, after = (figure(float(each) / path.unit.length, 4) for each in lead[k : k + 2])
+        message = f"the lead jumps from {before} to {after} {path.unit.short} where one thread goes on from another"
+        hint = "no axis changes its speed at once: leave the material before the next thread"
+        yield once(run, path.step[rows[1:][jumps]].tolist(), message, hint)
 
 
 def _speed(path: Toolpath, rows: Index, spindle: float) -> Array:

@@ -18,7 +18,7 @@ from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.sweeps import CHORD_ERROR, broad
 from mnclab.path.columns import Index
-from mnclab.path.inserts import EDGE
+from mnclab.path.inserts import EDGE, turns
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.workpiece.collision import Collision, Collisions, coordinates
@@ -39,6 +39,8 @@ SAID = {
 }
 HOLDER = "the holder of the insert in material"
 BAR = "the bar of the boring tool in material: it stands between its tip and the axis"
+FULL = "the boring tool, or its bar, in full material: it needs a bore"
+BESIDE = "the {} {:.3f} mm beside the axis of the part, which alone turns: it cuts a ring"
 FAR = 1e6  # mm
 
 
@@ -80,6 +82,7 @@ def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
     for row, way, covered in zip(rows.tolist(), ways, areas, strict=True):
         which = int(cutting.which[row])
         tool, shape = cutting.tools[which], shapes[which]
+        covered = _folded(covered) if way[:, 1].min() < -AXIS else covered  # a tip beyond the axis meets the other side
         for chuck in chucks:
             if met := _deepest("chuck", chuck, covered):
                 yield row, met
@@ -129,13 +132,30 @@ def _cut(
         return
     if not path.spindle[row] and (met := _deepest("spindle", left, covered)):
         yield met
+    beside = float(np.abs(way[:, 1]).max())
+    if not turns(tool) and beside > TOLERANCE and (met := _deepest("axis", left, covered)):
+        yield met._replace(said=BESIDE.format(tool.kind, beside))
+    yield from _bored(tool, shape, way, left, covered)
+    if len(way) > 1 and not path.synchronous[row] and (back := taken_by_back(tool, shape, way, left)):
+        yield Met("insert", SAID["insert"], back.place, back.depth)
+
+
+def _bored(tool: Tool, shape: Floats, way: Floats, left: Any, covered: Any) -> Iterator[Met]:
+    """What the bar of a boring tool takes between the tip and the axis, and what cannot be a bore: material on the axis.
+
+    There either the bar is in the core that a short edge leaves, or a long one reaches over the axis and cuts backwards.
+    """
     if tool.kind == "boring" and not tool.width:  # nothing says how long its edge is: no longer than the usual one
         below = shapely.box(-FAR, -FAR, FAR, -(tool.cutting_length or EDGE))
         bar = shapely.get_coordinates(shapely.intersection(shapely.Polygon(shape), below))
         if len(bar) and (met := _deepest("holder", left, _swept([bar], [way])[0])):
             yield met._replace(said=BAR)
-    if len(way) > 1 and not path.synchronous[row] and (back := taken_by_back(tool, shape, way, left)):
-        yield Met("insert", SAID["insert"], back.place, back.depth)
+            return
+    if tool.kind == "boring" and way[:, 1].min() > TOLERANCE:
+        low, _, high, _ = left.bounds
+        core = shapely.intersection(shapely.intersection(left, covered), shapely.box(low, 0.0, high, TOLERANCE))
+        if core.area > TOLERANCE * TOLERANCE and (met := _deepest("holder", left, covered)):
+            yield met._replace(said=FULL)
 
 
 def _height(cutting: Cutting, rows: Index, left: Any) -> float:
