@@ -38,8 +38,7 @@ from mnclab.controls.choice import Help, modern, read, run
 from mnclab.controls.choice import help as help
 from mnclab.controls.renumber import renumber
 from mnclab.controls.survey import check
-from mnclab.machine.probe import Probe
-from mnclab.machine.setter import Setter
+from mnclab.machine.probe import Probe, Setter
 from mnclab.machine.setup import Datum, Setup
 from mnclab.path.kinds import RULE_NAMES, Kind
 from mnclab.path.limits import Limits

@@ -47,7 +47,7 @@ SEES_ALL = ("lab",)
 HEAVY = {"shapely", "matplotlib", "pyvista", "vtkmodules", "ipywidgets", "IPython", "tqdm", "pandas", "nbclient", "nbconvert",
          "nbformat", "pygments"}
 VAGUE = {"util", "utils", "helper", "helpers", "common", "base", "core", "misc"}
-LONGEST = 400
+LONGEST = 500
 
 
 class Import(NamedTuple):

@@ -13,10 +13,8 @@ from typing import Any
 
 from mnclab.controls import CONTROLS
 from mnclab.controls.recognition import looks_like, recognise
-from mnclab.machine.control import Control, Function
-from mnclab.machine.cycle import Cycle
-from mnclab.machine.parameter_table import help_html, help_text
-from mnclab.machine.settings import Setting, settings_html, settings_text
+from mnclab.machine.control import Control, Function, Setting, settings_html, settings_text
+from mnclab.machine.cycle import Cycle, help_html, help_text
 from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import load
 from mnclab.path.machine_file import limits_of

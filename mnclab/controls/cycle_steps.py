@@ -17,12 +17,12 @@ from typing import Any
 from mnclab.controls.choice import help
 from mnclab.controls.cycle_table import DECIMALS, CycleSteps, Point, Row
 from mnclab.machine.control import Control
+from mnclab.machine.coordinates import MILLS
 from mnclab.machine.cycle import Cycle, Definition, Parameter
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Setup
 from mnclab.machine.touching import FEELS, PROBES, Contact
 from mnclab.machine.trial import is_text
-from mnclab.machine.true_size import MILLS
 from mnclab.path.listing import figure
 from mnclab.running.binding import instance, store, units_of, value_of
 from mnclab.running.interpreter import Interpreter

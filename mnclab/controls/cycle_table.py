@@ -8,8 +8,7 @@ from html import escape
 from typing import Any, NamedTuple
 
 from mnclab.machine.cycle import Cycle
-from mnclab.machine.setup import Datum
-from mnclab.machine.setup_page import AXES, tool_line
+from mnclab.machine.setup import AXES, Datum, tool_line
 from mnclab.machining.steps import Call, Coolant, Orient, Pause, Say, Spin, Step, Swivel, Turn, Wait, Write
 from mnclab.path.listing import figure, point
 from mnclab.runs.values import described, said

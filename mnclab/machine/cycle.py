@@ -14,14 +14,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import MISSING, Field, dataclass, field, fields, replace
 from functools import cache
+from html import escape
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeVar
 
-from mnclab.machine import true_size
+from mnclab.machine import coordinates
 from mnclab.machining.depths import TooMany
 from mnclab.machining.steps import Step
 from mnclab.text.program import Word
 from mnclab.text.records import written
+from mnclab.text.tables import html_table, text_table
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -100,7 +102,6 @@ class Parameter:
         )
 
 
-
 def param(
     address: str | tuple[str, ...], meaning: str, unit: str = "mm", *, default: Any = MISSING, default_means: str = "",
     choices: Mapping[float, str] | None = None, above: float | None = None, at_least: float | None = None,
@@ -144,8 +145,8 @@ class Cycle:
     """Whether what is modal holds from one cycle to the next, until they are switched off, and not only for itself."""
     own_spindle: ClassVar[bool] = False
     """Whether it turns the spindle itself, so that none need turn before it."""
-    does: ClassVar[str] = true_size.VISITS
-    """What decides whether it can run under a scale; see `machine.true_size`."""
+    does: ClassVar[str] = coordinates.VISITS
+    """What decides whether it can run under a scale; see `machine.coordinates`."""
 
     @classmethod
     @cache
@@ -279,3 +280,48 @@ def few_passes(name: str, levels: int, passes: int) -> Iterator[tuple[str, str]]
     """A fault where nobody would wait for so many passes."""
     if levels * passes > MOST_PASSES:
         yield name, f"makes {levels} levels of {passes} passes, more than {MOST_PASSES} together"
+
+
+# The parameters of a cycle as people read them: one row each, for help as text, help as HTML and the boxes of a form.
+
+class Row(NamedTuple):
+    """What is said of one parameter; `default` is what holds where its word is left out."""
+
+    address: str
+    meaning: str
+    unit: str
+    allowed: str
+    default: str
+    note: str
+
+
+def row(p: Parameter) -> Row:
+    """The row of a parameter; its choices stand one in a line, each with its meaning."""
+    allowed = "\n".join(f"{choice:g} {meaning}" for choice, meaning in p.choices.items()) if p.choices else p.allowed
+    return Row(p.address, p.meaning, p.unit, allowed, "required" if p.required else left_out(p), p.note)
+
+
+def left_out(p: Parameter) -> str:
+    """What holds where the word is left out, empty where nothing does."""
+    default = f"{p.default:g}" if isinstance(p.default, int | float) else p.default or ""
+    return p.default_means or default
+
+
+def _filled(cycle: type[Cycle]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """The heads and rows of the parameters of a cycle, without notes where there is none."""
+    rows = [row(p) for p in cycle.parameters()]
+    width = len(Row._fields) - (not any(each.note for each in rows))
+    return Row._fields[:width], [each[:width] for each in rows]
+
+
+def help_text(cycle: type[Cycle]) -> str:
+    """The title of a cycle, what it does, and its parameters."""
+    table = text_table(*_filled(cycle))
+    return f"{cycle.code}  {cycle.title}  ({cycle.source})\n{(cycle.__doc__ or '').strip()}\n\n{table}"
+
+
+def help_html(cycle: type[Cycle]) -> str:
+    """The same as HTML."""
+    table = html_table(*_filled(cycle), code=(0,))
+    about = f"<p>{escape(cycle.__doc__ or '')} ({escape(cycle.source)})</p>"
+    return f"<h4><code>{cycle.code}</code> {escape(cycle.title)}</h4>{about}{table}"

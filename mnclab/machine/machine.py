@@ -12,12 +12,11 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
-from mnclab.machine import circles
-from mnclab.machine.adding import add_row
+from mnclab.machine import rows
+from mnclab.machine.control import chosen
 from mnclab.machine.coordinates import Placed
 from mnclab.machine.flow import Flow, Recording
-from mnclab.machine.settings import chosen
-from mnclab.machine.settling import end_of_settled, settle
+from mnclab.machine.rows import add_row, end_of_settled, settle
 from mnclab.machine.setup import Setup
 from mnclab.machine.state import HISTORY, ROWS
 from mnclab.machine.touching import Contact, touch
@@ -176,9 +175,9 @@ class Machine(Placed):
         A third coordinate makes a helix. Start and end within a micrometre are a full circle by centre. `turns`: of several
         the last one ends there.
         """
-        circles.arc(self, self.target(x, y, z), sense, centre, radius, self.feed_of(f, word), word, tolerance, turns)
+        rows.arc(self, self.target(x, y, z), sense, centre, radius, self.feed_of(f, word), word, tolerance, turns)
 
-    turn = circles.turn
+    turn = rows.turn
 
     def at_block_end(self, undo: Callable[[], None]) -> None:
         self.block_end.append(undo)

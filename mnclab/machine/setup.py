@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from copy import deepcopy
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 from pathlib import Path
 from types import MappingProxyType, UnionType
 from typing import Any, NamedTuple
 
-from mnclab.machine.magazine import MILLS, Magazine
-from mnclab.machine.probe import Probe
-from mnclab.machine.setter import Setter
-from mnclab.machine.setup_page import page
+from mnclab.machine.probe import Probe, Setter
 from mnclab.path.limits import Limits
 from mnclab.path.listing import figure
 from mnclab.path.machine_file import limits_of
 from mnclab.path.tool import Tool
+from mnclab.path.wear import Wear
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.calls import fitting_class
 from mnclab.text.given import LARGEST, check_number, check_point, shown
@@ -24,6 +22,44 @@ from mnclab.text.records import written
 from mnclab.text.tables import html_table
 from mnclab.workpiece.blank import Box, Revolved, Sized, blank
 from mnclab.workpiece.part import Part
+
+# The tools of a machine that was given none, so that a first program needs no table.
+# Lengths are 0: the tip is the spindle reference. A control says which magazine is its own (`Control.magazine`).
+
+Magazine = Mapping[int, Tool]
+
+
+def _end_mill(number: int, radius: float, edges: float, teeth: int) -> Tool:
+    return Tool(
+        radius, number=number, name=f"end mill {2 * radius:g}", plunge_angle=3, cutting_length=edges, teeth=teeth,
+        kind="mill", centre_cutting=True,
+    )  # fmt: skip
+
+
+#: Of a mill.
+MILLS: Magazine = MappingProxyType({
+    0: Tool(number=0, name="none"),
+    1: _end_mill(1, 5, edges=25, teeth=3),
+    2: Tool(radius=4, number=2, name="drill 8", angle=118, cutting_length=60, teeth=2, kind="drill"),
+    3: _end_mill(3, 3, edges=20, teeth=3),
+    4: _end_mill(4, 2, edges=12, teeth=2),
+    5: _end_mill(5, 8, edges=40, teeth=4),
+    6: Tool(radius=2, number=6, name="probe 4", kind="probe"),
+})  # fmt: skip
+
+#: Of a lathe: a tip is the imaginary sharp point, the corner the radius of the nose. Main edges stand square to the axis:
+#: the walls that a cycle runs along at rapid are cut then.
+LATHES: Magazine = MappingProxyType({
+    0: Tool(number=0, name="none"),
+    1: Tool(number=1, name="roughing insert 80°", corner=0.8, main_angle=90, auxiliary_angle=10, kind="turning"),
+    2: Tool(number=2, name="finishing insert 35°", corner=0.4, main_angle=90, auxiliary_angle=55, kind="turning"),
+    3: Tool(number=3, name="grooving blade 3", width=3, kind="grooving"),
+    4: Tool(number=4, name="threading insert 60°", main_angle=60, auxiliary_angle=60, cutting_length=2, kind="thread"),
+    5: Tool(number=5, name="boring bar", corner=0.4, main_angle=90, auxiliary_angle=30, kind="boring"),
+    6: Tool(number=6, name="drill 10", radius=5, angle=118, kind="drill"),
+    7: Tool(number=7, name="face grooving blade 3", width=3, kind="face grooving"),
+    8: Tool(radius=6, number=8, name="tap M12", pitch=1.75, kind="tap"),
+})  # fmt: skip
 
 
 class _Datum(NamedTuple):
@@ -67,7 +103,6 @@ ROWS = ("tools", "datums", "presets", "correctors", "true_tools")
 NAMED = ("files", "settings", "variables")
 NOT_BUILT = ("kinematics",)
 
-
 Check = Callable[[str, Any], None]  # an Alarm unless what is given for a part, or for a piece of it, is right
 
 
@@ -80,7 +115,7 @@ def _a(kind: type | UnionType, be: str) -> Check:
     return lambda what, given: _must(isinstance(given, kind), what, be, given)
 
 
-def _rows(check: Check) -> Check:
+def _by_number(check: Check) -> Check:
     """Of a table: its rows are numbers, and what stands in them is right."""
 
     def rows(what: str, given: Any) -> None:
@@ -143,7 +178,7 @@ def _fixtures(what: str, given: Any) -> None:
 
 def _tools(what: str, given: Any) -> None:
     if given is not None:
-        _rows(_tool)(what, given)
+        _by_number(_tool)(what, given)
 
 
 def _tool(what: str, given: Any) -> None:
@@ -163,9 +198,9 @@ MEANT: Mapping[str, tuple[Check, str]] = {
     "tools": (_tools,
               "a tool is its radius and length in mm, and what else is known of it: "
               'Setup(tools={1: mnclab.Tool(diameter=8, length=80, kind="drill")})'),
-    "datums": (_rows(_datum), "a datum is a zero point in machine coordinates, mm: Setup(datums={1: (100, 50, -200)})"),
-    "presets": (_rows(_datum), "a preset is a zero point in machine coordinates, mm: Setup(presets={1: (100, 50, -200)})"),
-    "correctors": (_rows(_datum), "a corrector is an offset along the axes, mm: Setup(correctors={1: (0, 0, 80)})"),
+    "datums": (_by_number(_datum), "a datum is a zero point in machine coordinates, mm: Setup(datums={1: (100, 50, -200)})"),
+    "presets": (_by_number(_datum), "a preset is a zero point in machine coordinates, mm: Setup(presets={1: (100, 50, -200)})"),
+    "correctors": (_by_number(_datum), "a corrector is an offset along the axes, mm: Setup(correctors={1: (0, 0, 80)})"),
     "stock": (_stock, "the blank is two corners, or mnclab.cylinder(diameter=50, length=60), or three sizes, with its corner at "
               "the datum and its top at Z0: Setup(stock=(60, 40, 20))"),
     "part": (_part, "a part is what a probe touches: Setup(part=mnclab.part.box((0, 0, -20), (60, 40, 0)))"),
@@ -185,7 +220,7 @@ MEANT: Mapping[str, tuple[Check, str]] = {
                  'Setup(settings={"block_skip": True})'),
     "variables": (_names(_variable), 'values that are there before the program: Setup(variables={"QR1": 2.5})'),
     "kinematics": (_not_built, "the axes of the machine stand square to each other"),
-    "true_tools": (_rows(_a(Tool, "a Tool")),
+    "true_tools": (_by_number(_a(Tool, "a Tool")),
                    "what a tool truly is, beside its row of the table: Setup(true_tools={1: mnclab.Tool(radius=3.98)})"),
 }  # fmt: skip
 
@@ -315,3 +350,91 @@ class Tables:
     def __repr__(self) -> str:
         rows = (several(len(getattr(self, name)), name[:-1]) for name in ("tools", "datums", "presets"))
         return f"<Tables: {', '.join(rows)}>"
+
+
+# A setup as people read it: one row for each thing on the machine, in words with units.
+
+AXES = ("X", "Y", "Z", "A", "B", "C", "rotation ", "tilt about X ", "tilt about Y ")  # of a datum
+TITLES = {"datums": "datum", "presets": "preset", "correctors": "corrector"}
+NAMED_TITLES = {"files": "file", "settings": "setting", "variables": "variable"}
+UNITS = {
+    "angle": "°", "plunge_angle": "°", "main_angle": "°", "auxiliary_angle": "°", "teeth": "",
+    "feed": " mm/min", "rapid": " mm/min", "acceleration": " mm/s²", "jerk": " mm/s³", "corner_jump": " mm/min",
+    "corner_speed": "", "rapid_motion": "", "spindle": " rev/min", "spindle_acceleration": " rev/min in a second",
+    "tool_change": " s", "centre_cutting": "", "hand": "", "shank": " mm", "holder": " mm", "positioning": "", "track": "",
+    "seed": "", "locked": "", "edges": " mm", "axis": "", "slope": "", "runout": " mm",
+}  # fmt: skip
+MM = " mm"  # of all others
+
+
+def page(setup: Setup) -> list[tuple[str, str]]:
+    """What there is and how it is, in the order of declaration."""
+    return list(_told(setup))
+
+
+def _told(setup: Setup) -> Iterator[tuple[str, str]]:
+    usual = next((each for each in (MILLS, LATHES) if setup.tools == each), None)
+    if setup.tools is None:
+        yield "tools", "those of the control"
+    elif usual is not None:
+        yield "tools", f"the usual ones: {', '.join(tool.name for tool in usual.values() if tool.kind)}"
+    else:
+        yield from ((f"T{number}", tool_line(tool)) for number, tool in setup.tools.items())
+    for name, title in TITLES.items():
+        yield from ((f"{title} {row}", place(each)) for row, each in getattr(setup, name).items())
+    if setup.stock is not None:
+        stock = blank(setup.stock)
+        if isinstance(stock, Sized):
+            wide, deep, high = (figure(float(size)) for size in stock.bounds[1] - stock.bounds[0])
+            yield "stock", f"{wide} x {deep} x {high} mm, its corner at the datum, its top at Z0"
+        else:
+            yield "stock", f"{place(stock.low)} to {place(stock.high)}" if isinstance(stock, Box) else str(stock)
+    if setup.part is not None:
+        cut = "what the program has cut so far" if setup.part == "cut" else None
+        yield "part", cut or repr(setup.part)
+    yield from (("fixture", str(each)) for each in setup.fixtures)
+    yield from ((f"true T{number}", tool_line(tool)) for number, tool in setup.true_tools.items())
+    yield "probe", ", ".join(_different(setup.probe, type(setup.probe)())) or "as usual"
+    if setup.setter is not None:
+        yield "setter", ", ".join(_different(setup.setter, type(setup.setter)())) or "as usual"
+    yield "limits", ", ".join(_different(setup.limits, Limits())) or "as usual"
+    yield "start", place(setup.start)
+    for name, title in NAMED_TITLES.items():
+        yield from ((f"{title} {key}", shown(each)) for key, each in getattr(setup, name).items())
+
+
+def tool_line(tool: Tool) -> str:
+    """`end mill 10, radius 5 mm, plunge angle 3°`: what is known of a tool, but for its number."""
+    sizes = _different(tool, Tool(), leave=("number", "name", "kind"))
+    return ", ".join([tool.name or tool.kind or "tool", *sizes])
+
+
+def place(values: Any) -> str:
+    """A point or datum: X, Y and Z in mm, then the angles that are not 0, in degrees."""
+    told = zip(AXES, (*values, 0.0, 0.0, 0.0)[: max(len(values), 3)])
+    return " ".join(f"{axis}{figure(float(value))}" for k, (axis, value) in enumerate(told) if k < 3 or value)
+
+
+def _different(record: Any, usual: Any, leave: tuple[str, ...] = ()) -> Iterator[str]:
+    """The values of a record that differ from the usual ones, each with its name and unit."""
+    names = [each.name for each in fields(record)] if is_dataclass(record) else record._fields
+    for name in names:
+        value = getattr(record, name)
+        if name in leave or value == getattr(usual, name):
+            continue
+        if isinstance(value, Wear):
+            yield from (f"{name} {said}" for said in _different(value, Wear()))
+        else:
+            yield f"{name.replace('_', ' ')} {_value(value, name == 'travel')}{UNITS.get(name, MM) if value is not None else ''}"
+
+
+def _value(value: Any, travel: bool = False) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, tuple):  # of each axis; of travel from and to
+        if travel:
+            return ", ".join(f"{axis} {_value(low)} to {_value(high)}" for axis, (low, high) in zip("XYZ", value))
+        return (", " if value and isinstance(value[0], tuple) else " ").join(map(_value, value))
+    if value is None:
+        return "none"
+    return value if isinstance(value, str) else figure(float(value))

@@ -1,24 +1,25 @@
-"""All that a block may change on a machine, in one table: what it is at the start, and what is done with it.
+"""What a machine remembers: all that a block may change on it, in one table (`State`), and what keeps it.
 
-Each line of `State` is an attribute of the machine. From here come its first value, what a snapshot holds, what the
-history hears of, what makes another state of the rows, what a recorded contour leaves behind, and what is compared between
-two visits that are to be the same. Where the program is, the course keeps (`machine.flow`).
+Values that change go to logs, variables log themselves, and a snapshot keeps them as they were.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from copy import copy
+from dataclasses import is_dataclass
 from math import inf
-from typing import TYPE_CHECKING, Any, NamedTuple
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
+
+import numpy as np
+from numpy.typing import NDArray
 
 from mnclab.geometry import frames
 from mnclab.geometry.frames import FrameChain, Matrix
-from mnclab.machine.logs import Logs
 from mnclab.machine.measuring import Figure, Measurement, Touched
 from mnclab.machine.setup import Setup, Tables
-from mnclab.machine.snapshot import Snapshot
-from mnclab.machine.variables import Measured, Variables
 from mnclab.path.feed_rules import FeedRule
 from mnclab.path.recorder import NAN, Recorder
 from mnclab.path.tool import Tool
@@ -27,12 +28,260 @@ from mnclab.text.alarm import Alarms, Span
 
 if TYPE_CHECKING:
     from mnclab.machine.control import Control
-    from mnclab.machine.cut_so_far import CutSoFar
+    from mnclab.machine.cutting import CutSoFar
     from mnclab.machine.cycle import Definition
+    from mnclab.machine.flow import Pending
+    from mnclab.machine.machine import Machine
     from mnclab.machine.touching import Felt
-    from mnclab.machine.waiting import Pending
     from mnclab.path.compensation import Gouge
     from mnclab.path.travel import Stopped
+
+
+# Writing down what changes: a log per name, of the steps at which it changed and the values from there on.
+# A *step* is one execution of a block; `runs.history` reads the logs after the run.
+
+Values = list[Any] | NDArray[Any]
+
+
+class Log:
+    """Changes of one name: steps (k,) in rising order, and the values from there on."""
+
+    __slots__ = ("_chunks", "steps", "values")
+
+    def __init__(self) -> None:
+        self.steps: list[int] = []
+        self.values: list[Any] = []
+        self._chunks: list[tuple[NDArray[np.integer[Any]], Values]] = []
+
+    def copy(self) -> Log:
+        """The same changes, apart from those to come."""
+        twin = Log()
+        twin.steps, twin.values, twin._chunks = self.steps.copy(), self.values.copy(), self._chunks.copy()
+        return twin
+
+    def extend(self, steps: NDArray[np.integer[Any]], values: Values) -> None:
+        if len(steps):
+            self._chunks += [(np.array(self.steps, dtype=np.int64), self.values), (steps, values)]
+            self.steps, self.values = [], []
+
+    @property
+    def first(self) -> int:
+        chunks = [steps for steps, _ in self._chunks if len(steps)]
+        return int(chunks[0][0]) if chunks else self.steps[0]
+
+    def close(self, last: int) -> tuple[NDArray[np.integer[Any]], Values]:
+        """All changes up to step `last`."""
+        own = np.array(self.steps, dtype=np.int64), self.values
+        chunks = [chunk for chunk in (*self._chunks, own) if len(chunk[0])] or [own]
+        pieces = [values for _, values in chunks]
+        steps = np.concatenate([steps for steps, _ in chunks])
+        keep = int(np.searchsorted(steps, last, "right"))
+        if len(pieces) == 1:
+            return steps[:keep], pieces[0][:keep]
+        if any(isinstance(values, np.ndarray) for values in pieces):
+            return steps[:keep], np.concatenate([np.asarray(values) for values in pieces])[:keep]
+        return steps[:keep], [value for values in pieces for value in values][:keep]
+
+
+class Logs:
+    """The logs while a program runs."""
+
+    def __init__(self) -> None:
+        self.by_name: dict[str, Log] = {}
+
+    def add(self, name: str, step: int, value: Any) -> None:
+        log = self.by_name.get(name) or self.by_name.setdefault(name, Log())
+        steps = log.steps
+        if steps and steps[-1] >= step:  # of a block that goes on after others that it has obeyed
+            log.values[-1] = value
+        else:
+            steps.append(step)
+            log.values.append(value)
+
+    def extend(self, name: str, steps: NDArray[np.integer[Any]], values: Values) -> None:
+        self.by_name.setdefault(name, Log()).extend(steps, values)
+
+    def changed(self, name: str, last: int) -> list[tuple[int, Any]]:
+        """The steps up to `last` at which a name changed, and its value from there on."""
+        log = self.by_name.get(name)
+        return [(int(step), value) for step, value in zip(*log.close(last))] if log else []
+
+    def value(self, name: str, step: int) -> Any:
+        """What a name was after a step; None if it had no value yet."""
+        changes = self.changed(name, step)
+        return changes[-1][1] if changes else None
+
+
+# What a program computes and what probing finds: dictionaries whose changes go to the history.
+
+class Kept(dict[str, Any]):
+    """Values by name, of a machine that hears of their changes."""
+
+    def __init__(self, machine: Machine) -> None:
+        super().__init__()
+        self._machine = machine
+
+    def copy(self) -> Self:
+        """The same values, apart from those to come."""
+        twin = type(self)(self._machine)
+        dict.update(twin, self)
+        vars(twin).update(vars(self))
+        return twin
+
+
+class Variables(Kept):
+    """Q parameters and the like, numbers and texts; every change is logged.
+
+    What the control itself keeps in a variable (`Control.preassigned`: the radius of the tool, …) is worked out when
+    it is asked for.
+    """
+
+    def __init__(self, machine: Machine) -> None:
+        super().__init__(machine)
+        self.state_read = -1
+        """The step at which the state of the machine was read last, in a variable that the control keeps or otherwise."""
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        super().__setitem__(name, value)
+        self._machine.log(name, value)
+
+    def __missing__(self, name: str) -> Any:
+        self.state_read = self._machine.step
+        preassigned = self._machine.control.preassigned.get(name)
+        value = None if preassigned is None else preassigned(self._machine)
+        if value is None:
+            raise KeyError(name)
+        return value
+
+    def forget(self, name: str) -> None:
+        if name in self:
+            self._machine.log(name, None)
+            del self[name]
+
+    @contextmanager
+    def own_level(self) -> Iterator[None]:
+        """Inside, the variables that are local to a program are others; afterwards those of before."""
+        local = self._machine.control.local_variables
+        if not local:
+            yield
+            return
+        kept = {name: value for name, value in self.items() if name.startswith(local)}
+        for name in kept:
+            self.forget(name)
+        yield
+        for name in [name for name in self if name.startswith(local)]:
+            self.forget(name)
+        for name, value in kept.items():
+            self[name] = value
+
+
+    @contextmanager
+    def own_values(self) -> Iterator[None]:
+        """Inside, what is written to variables does not stay: they are a copy. After an alarm they are as they were there."""
+        kept = dict(self)
+        yield
+        for name in [name for name in self if name not in kept]:
+            self.forget(name)
+        for name, value in kept.items():
+            if name not in self or self[name] != value:
+                self[name] = value
+
+
+class Measured(Kept):
+    """What probing found; every value is logged."""
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        super().__setitem__(name, value)
+        self._machine.log(f"measured {name}", value)
+
+
+# A snapshot of attributes: a value that stays as it is, whatever becomes of what it was taken from.
+# `copied` gives what can change objects of its own and leaves what cannot as it is: numbers, texts, frozen dataclasses,
+# toolpaths. A class whose objects hold more than that has a method `copy`.
+
+PLAIN = frozenset((str, int, float, bool, type(None)))
+FIXED: tuple[type, ...] = (Toolpath, MappingProxyType)
+HOLDERS = (list, set, frozenset)
+
+
+class Snapshot:
+    """Attributes by name, as they were; equal where all of them are."""
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __init__(self, values: Mapping[str, Any]) -> None:
+        self._values = {name: copied(value) for name, value in values.items()}
+
+    def taken_out(self) -> dict[str, Any]:
+        """The values once more, in objects that may change."""
+        return {name: copied(value) for name, value in self._values.items()}
+
+    def differences(self, other: Snapshot) -> list[str]:
+        """The names whose values are not the same in another snapshot."""
+        names = dict.fromkeys((*self._values, *other._values))
+        both = self._values.keys() & other._values.keys()
+        return [name for name in names if name not in both or not same(self._values[name], other._values[name])]
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Snapshot) and not self.differences(other)
+
+    def __repr__(self) -> str:
+        return f"<Snapshot of {', '.join(self._values)}>"
+
+
+def copied(value: Any) -> Any:
+    """The same value, in objects of its own where it could change."""
+    kind = type(value)
+    if kind in PLAIN or isinstance(value, FIXED) or callable(value):
+        return value
+    if kind is dict:
+        return {key: copied(one) for key, one in value.items()}
+    if kind in HOLDERS:
+        return kind(map(copied, value))
+    if isinstance(value, tuple):
+        if PLAIN.issuperset(map(type, value)):
+            return value
+        inner = map(copied, value)
+        return kind(inner) if kind is tuple else kind(*inner)
+    if hasattr(kind, "copy"):
+        return value.copy()
+    if is_dataclass(value) and kind.__dataclass_params__.frozen:
+        return value
+    twin = copy(value)
+    for name, one in held(value).items():
+        object.__setattr__(twin, name, copied(one))
+    return twin
+
+
+def held(value: Any) -> dict[str, Any]:
+    """What an object holds by name, in its dictionary or its slots."""
+    return {name: getattr(value, name) for name in (*getattr(value, "__dict__", ()), *getattr(value, "__slots__", ()))}
+
+
+def same(one: Any, other: Any) -> bool:
+    """Whether two values are equal down to what they hold; nan is equal to nan."""
+    if one is other:
+        return True
+    if type(one) is not type(other):
+        return False
+    if isinstance(one, float):
+        return bool(one == other or (one != one and other != other))
+    if isinstance(one, np.ndarray):
+        return one.shape == other.shape and one.dtype == other.dtype and one.tobytes() == other.tobytes()
+    inside = held(one)
+    if callable(one) or not (inside or isinstance(one, dict | list | tuple)):
+        return bool(one == other)
+    if isinstance(one, dict) and not (list(one) == list(other) and all(map(same, one.values(), other.values()))):
+        return False
+    if isinstance(one, list | tuple) and not (len(one) == len(other) and all(map(same, one, other))):
+        return False
+    return all(same(value, getattr(other, name)) for name, value in inside.items())
+
+
+# All that a block may change on a machine, in one table: what it is at the start, and what is done with it.
+# Each line of `State` is an attribute of the machine. From here come its first value, what a snapshot holds, what the
+# history hears of, what makes another state of the rows, what a recorded contour leaves behind, and what is compared between
+# two visits that are to be the same. Where the program is, the course keeps (`machine.flow`).
 
 Place = tuple[float, float, float]
 PATTERN, HOLES, REPEAT = "points of a pattern", "blocks of a run of holes", "passes of a repeat"

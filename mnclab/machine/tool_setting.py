@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from mnclab.machine.setter import Place, Setter
+from mnclab.machine.probe import Place, Setter
 from mnclab.machine.touching import Contact
 from mnclab.machining.steps import RAPID, Go, Step, Touch, Write
 from mnclab.path.tool import Tool

@@ -9,22 +9,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from mnclab.geometry.vectors import turned
-from mnclab.machine.coordinates import PLANES
-from mnclab.machine.cut_so_far import CUT, part_before
+from mnclab.machine.coordinates import FRAME, LOG, PLANES, axes_of, tool_axis
+from mnclab.machine.cutting import CUT, TILT, part_before, start_known, tilted_rows
 from mnclab.machine.measuring import Touched
-from mnclab.machine.tool_axis import FRAME, axes_of, tool_axis
+from mnclab.machining.probing.sequences import Approach, Steps
+from mnclab.machining.steps import Measure, Step, Touch, Write
+from mnclab.path.kinds import Kind
+from mnclab.path.toolpath import Toolpath, concatenate
+from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
-from mnclab.workpiece.part import Part, contact, foot
+from mnclab.workpiece.part import Part, box, contact, cylinder, foot, hole
 from mnclab.workpiece.part.rows import blocked
 from mnclab.workpiece.part.touching import GRAZE
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
+    from mnclab.path.tool import Tool
+
 
 #: What a cycle that probes does (`Cycle.does`): its places are those of the ball, or of the spindle axis.
 PROBES, FEELS = "probes", "feels"
@@ -251,3 +258,123 @@ def place_of(m: Machine, point: Sequence[float] | Floats) -> str:
     """In the unit of the program."""
     found = (f"{axis}{round(float(value), 3) / m.variable_unit + 0.0:.4g}" for axis, value in zip("XYZ", point, strict=True))
     return " ".join(found)
+
+
+# A probe that the program drives into the part outside the cycles: on a machine it triggers, and the axes stop.
+# Cycles that probe guard their own moves; here the blocks between them are judged, once the program is over.
+
+CHORD = 1e-3  # mm
+MOST = 5000  # rows that are judged
+
+
+def stop_at_part(m: Machine) -> None:
+    """Cut the run at the first block that leads the ball of a probe into the part of the setup: an Alarm.
+
+    Judged is a tool of the kind "probe", from where its place is known, as long as it stands upright.
+    """
+    part = m.setup.part
+    if not isinstance(part, Part) or not m.settled:
+        return
+    path = concatenate(m.settled)
+    probes = [number for number, tool in m.tables.tools.items() if tool.kind == "probe"]
+    rows = path.is_motion & (path.kind != Kind.PROBE) & np.isin(path.tool, probes) & (path.label == 0)
+    tilts, axes = (m.logs.changed(name, m.step) for name in (TILT, LOG))
+    tilted = tilted_rows(path.step, tilts, axes, path.cylinder)
+    if tilted is not None:
+        rows &= ~tilted
+    rows[: start_known(path, m.setup.start)[1]] = False
+    for row in np.flatnonzero(rows)[:MOST].tolist():
+        place = _met(m, part, path, row)
+        if place is not None:
+            m.cut = int(path.step[row])
+            m.settled = [path[path.step < m.cut]]
+            message = f"path obstructed: the probe touches the part near {place_of(m, m.to_program(place))} while positioning"
+            hint = "lead it around the part, or over it: it is in Setup(part=…)"
+            raise Alarm(message, m.flow.span_of_step(m.cut), hint=hint)
+
+
+def _met(m: Machine, part: Part, path: Toolpath, row: int) -> tuple[float, float, float] | None:
+    """Where the tip stands when the ball meets the part on a row, machine coordinates; None if it does not."""
+    tool = m.tables.tools[int(path.tool[row])]
+    true = m.setup.true_tools.get(tool.number, tool)
+    up = true.effective_radius + tool.effective_length - true.effective_length
+    beside = np.array([*m.setup.probe.where, up])
+    radius = max(true.effective_radius - DEEP - slack(m), DEEP)
+    if path.kind[row] == Kind.ARC:
+        places = path[row : row + 1].points(CHORD)[0]
+        hit = np.flatnonzero(part(places + beside) < radius)
+        found = places[hit[0]] if len(hit) else None
+    else:
+        way = path.end[row] - path.start[row]
+        length = float(np.linalg.norm(way))
+        travel = contact(part, path.start[row] + beside, way, radius, length, GRAZE) if length else None
+        found = None if travel is None else path.start[row] + way * (travel / length)
+    return None if found is None else (float(found[0]), float(found[1]), float(found[2]))
+
+
+# A touch probe is calibrated: what touches tell of its length, its radius and its offset, and where that is written.
+# While it calibrates, a cycle sends the spindle axis (`Cycle.does = FEELS`): the offset of the table counts for nothing.
+
+Pair = Sequence[float]
+WALL, HIGH = 10.0, 40.0  # mm, of a figure where nobody gave a part: its wall, and how far it goes down
+
+
+def ring(m: Machine, radius: float) -> Part:
+    """A ring about the place of the tip."""
+    (x, y, z), out = m.tip, radius + WALL
+    return box((x - out, y - out, z - HIGH), (x + out, y + out, z + WALL)) - hole((x, y, z + WALL), 2 * radius, HIGH + WALL)
+
+
+def stud(m: Machine, radius: float, top: float) -> Part:
+    """A round stud below the tip, up to a height of the machine."""
+    x, y, _ = m.tip
+    return cylinder((x, y, top - HIGH), (x, y, top), radius)
+
+
+def plane_of(m: Machine, tip: Point) -> tuple[float, float]:
+    """The coordinates of a place of the machine along the axes that the offset counts along."""
+    first, second, _ = next(axes for axes in PLANES.values() if axes[2] == tool_axis(m))
+    return tip[first], tip[second]
+
+
+def offset_written(m: Machine, centre: Pair, turned: Pair, touches: Sequence[int] = ()) -> Iterator[Step]:
+    """Write the offset of the ball, from the centres of a figure that the spindle axis found (machine coordinates).
+
+    With the spindle at the angle of the probe table it lay off the figure by the offset, and the other way when the spindle was
+    turned by 180 degrees (MNC 12.25, TNC 620 17.4).
+    """
+    probe = m.tables.probe
+    x, y = ((b - a) / 2 for a, b in zip(centre, turned, strict=True))
+    yield Measure("offset X", x, probe.offset[0], touches=tuple(touches))
+    yield Measure("offset Y", y, probe.offset[1], touches=tuple(touches))
+    yield Write("probe", replace(probe, offset=(x, y)))
+
+
+def length_touched(m: Machine, a: Approach, x: float, y: float, surface: float) -> Steps:
+    """A touch downwards on a surface whose height is known, and back; writes the length."""
+    z = m.programmed[2]
+    contact = yield Touch("touch from above", x, y, z - a.reach, a.feed, a.ball)
+    yield a.go("back", z)
+    found = m.tool.effective_length + m.to_program(contact.tip)[2] - surface
+    yield Measure("length", found, m.tool.effective_length, touches=(contact.number,))
+    yield from with_length(m, found)
+
+
+def with_length(m: Machine, length: float) -> Iterator[Step]:
+    """Write the length of the probe in the spindle, without a delta: the tip is elsewhere, nothing moves."""
+    yield from _written(m, [replace(tool, length=length, dl=0.0) for tool in _both(m)])
+
+
+def with_radius(m: Machine, radius: float) -> Iterator[Step]:
+    """Write the radius of the probe in the spindle, without a delta."""
+    yield from _written(m, [tool.of_radius(radius) for tool in _both(m)])
+
+
+def _both(m: Machine) -> tuple[Tool, Tool]:
+    """The row of the table and the tool in the spindle, which may have other deltas."""
+    return m.tables.tools.get(m.tool.number, m.tool), m.tool
+
+
+def _written(m: Machine, tools: Sequence[Tool]) -> Iterator[Step]:
+    yield Write("tools", tools[0], m.tool.number)
+    yield Write("tool", tools[1], label="calibrated")

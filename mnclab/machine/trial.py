@@ -12,9 +12,8 @@ from typing import Any
 
 from mnclab.machine.control import Control
 from mnclab.machine.cycle import Cycle, Parameter
-from mnclab.machine.magazine import MILLS
-from mnclab.machine.setter import Setter
-from mnclab.machine.setup import Setup
+from mnclab.machine.probe import Setter
+from mnclab.machine.setup import MILLS, Setup
 from mnclab.path.listing import figure
 from mnclab.path.tool import Tool
 

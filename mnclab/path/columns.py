@@ -3,7 +3,7 @@
 From this table come the arrays of a `Toolpath`, the fields of a `Move`, what a `Recorder` keeps and how, and what an
 export says of each column. A new column is one line here; it has its default in every row until somebody fills it. Passes
 over a path give it as an array. What a machine knows when it adds rows is one more value: in `Machine.state` for a
-column per state, in `machine.adding` for a column per row.
+column per state, in `machine.rows` for a column per row.
 """
 
 from __future__ import annotations

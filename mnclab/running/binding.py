@@ -9,9 +9,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from mnclab.machine import true_size
+from mnclab.machine import coordinates
+from mnclab.machine.coordinates import in_mm
 from mnclab.machine.cycle import Cycle, Definition, Parameter
-from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.text.alarm import Alarm
 from mnclab.text.expression import Expression
@@ -118,7 +118,7 @@ def bind(definition: Definition, m: Machine) -> Cycle:
     bound = instance(definition)
     refuse_frame(definition, m)
     for name, sentence in bound.check(m):
-        sentence += true_size.remark(m) if "the tool" in sentence else ""
+        sentence += coordinates.remark(m) if "the tool" in sentence else ""
         sentence = with_unit(definition, named(definition, name), sentence)
         if not name and definition.cycle.runs == "call":
             m.alarm(f"{definition.code} {sentence}")
@@ -128,7 +128,7 @@ def bind(definition: Definition, m: Machine) -> Cycle:
 
 def refuse_frame(definition: Definition, m: Machine) -> None:
     """An Alarm at a cycle that cannot run under the frame of the machine."""
-    for sentence in true_size.faults(definition.cycle.does, m):
+    for sentence in coordinates.faults(definition.cycle.does, m):
         if definition.cycle.runs == "call":
             m.alarm(f"{definition.code} {sentence}")
         raise fault(definition, None, sentence)

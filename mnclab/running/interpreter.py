@@ -15,12 +15,11 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.machine.control import Control, Function, Modal, Remark, Words
+from mnclab.machine.control import Control, Function, Modal, Remark, Words, switches
 from mnclab.machine.cycle import Cycle, Definition
+from mnclab.machine.flow import determine
 from mnclab.machine.machine import Machine
-from mnclab.machine.settings import switches
 from mnclab.machine.setup import Setup
-from mnclab.machine.waiting import determine
 from mnclab.running.binding import assign, instance, refuse_marks, store, units_of, verify
 from mnclab.running.bulk import Bulk
 from mnclab.running.files import alarms_of

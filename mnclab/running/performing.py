@@ -16,16 +16,13 @@ import numpy as np
 
 from mnclab.geometry.arcs import FULL
 from mnclab.geometry.contours import Contour
+from mnclab.machine.coordinates import FRAME, MILLS, in_mm, roll, tool_axis, turn_axes
 from mnclab.machine.cycle import Definition
-from mnclab.machine.in_mm import in_mm
+from mnclab.machine.flow import put_out
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import Figure, Measurement, judged
-from mnclab.machine.output import put_out
-from mnclab.machine.rotary import roll, turn_axes
-from mnclab.machine.tool_axis import FRAME, tool_axis
 from mnclab.machine.tool_setting import SETS, at_setter
 from mnclab.machine.touching import FEELS, PROBES, Contact, Felt, ball_from_axis, guarded, guarded_turn, part_to_touch
-from mnclab.machine.true_size import MILLS
 from mnclab.machining.depths import TooMany
 from mnclab.running.binding import as_it_stands, bind, fault, with_unit
 from mnclab.running.flow import course

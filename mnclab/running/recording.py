@@ -17,11 +17,9 @@ import numpy as np
 
 from mnclab.geometry import frames
 from mnclab.geometry.frames import Matrix
-from mnclab.machine.coordinates import PLANES
-from mnclab.machine.flow import Flow, RecordedLead, Recording
-from mnclab.machine.in_mm import in_mm
+from mnclab.machine.coordinates import PLANES, in_mm
+from mnclab.machine.flow import Flow, RecordedLead, Recording, determine
 from mnclab.machine.state import PUT_BACK, Place
-from mnclab.machine.waiting import determine
 from mnclab.path import corners
 from mnclab.path.columns import Array
 from mnclab.path.fault import PathFault

@@ -19,9 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import frames
-from mnclab.machine.adding import refuse_large
-from mnclab.machine.snapshot import Snapshot
-from mnclab.machine.state import COMPARED, HOLES, PATTERN
+from mnclab.machine.rows import refuse_large
+from mnclab.machine.state import COMPARED, HOLES, PATTERN, Snapshot
 from mnclab.path.kinds import Kind
 from mnclab.path.recorder import PLACES, ROW
 from mnclab.running.flow import Course, course

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.machine.settings import switches
+from mnclab.machine.control import switches
 from mnclab.path.listing import MM, point, words
 from mnclab.runs.meanings import meanings
 from mnclab.runs.stages import stages

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.machine.logs import Logs, Values
+from mnclab.machine.state import Logs, Values
 
 
 class History(Mapping[str, Any]):

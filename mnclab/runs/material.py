@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from mnclab.machine.cutting_rows import TILT, lifted, start_known, tilted_rows, tools_of_rows
-from mnclab.machine.tool_axis import LOG
+from mnclab.machine.coordinates import LOG
+from mnclab.machine.cutting import TILT, lifted, start_known, tilted_rows, tools_of_rows
 from mnclab.path.columns import Index, Mask
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool

@@ -16,13 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.machine.control import Control
-from mnclab.machine.cutting_rows import stock_of
+from mnclab.machine.cutting import stock_of
+from mnclab.machine.flow import written
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import record
-from mnclab.machine.obstructed import stop_at_part
-from mnclab.machine.output import written
-from mnclab.machine.settling import paths, shifted, stop_at_travel
+from mnclab.machine.rows import paths, shifted, stop_at_travel
 from mnclab.machine.setup import Setup, Tables
+from mnclab.machine.touching import stop_at_part
 from mnclab.path.columns import Index
 from mnclab.path.compensation import Gouge
 from mnclab.path.holes import Holes, holes

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import frames
-from mnclab.machine.tool_axis import LOG
+from mnclab.machine.coordinates import LOG
 from mnclab.path.listing import point
 from mnclab.runs.values import Matrix, described, unit_of
 

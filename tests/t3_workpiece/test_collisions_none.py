@@ -14,7 +14,7 @@ import pytest
 import mnclab
 from mnclab import Kind, Setup, Tool
 from mnclab.machine import trial
-from mnclab.machine.magazine import MILLS
+from mnclab.machine.setup import MILLS
 
 MILL_CONTROLS = ("mnc", "g43", "tnc-620")
 SAMPLES = [path for name in MILL_CONTROLS for path in sorted((Path(__file__).parents[2] / "data/programs" / name).iterdir())]

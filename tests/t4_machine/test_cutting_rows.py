@@ -7,7 +7,7 @@ import pytest
 
 import mnclab
 from mnclab import Setup, Tool
-from mnclab.machine.cutting_rows import start_known, stock_of, tilted_rows, tools_of_rows
+from mnclab.machine.cutting import start_known, stock_of, tilted_rows, tools_of_rows
 from mnclab.workpiece.blank import Box, cylinder
 
 STEPS = np.array([0, 1, 2, 3, 4])

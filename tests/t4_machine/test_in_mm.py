@@ -4,7 +4,7 @@ import pytest
 
 import mnclab
 from mnclab import Setup, Tool
-from mnclab.machine.in_mm import in_mm
+from mnclab.machine.coordinates import in_mm
 
 INCH = 25.4
 

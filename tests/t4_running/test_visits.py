@@ -8,8 +8,8 @@ import pytest
 import mnclab
 from mnclab.geometry import frames
 from mnclab.machine import state
-from mnclab.machine.adding import row_state
-from mnclab.machine.snapshot import Snapshot
+from mnclab.machine.rows import row_state
+from mnclab.machine.state import Snapshot
 from mnclab.path.recorder import State
 from mnclab.path.tool import Tool
 from mnclab.running import repeating

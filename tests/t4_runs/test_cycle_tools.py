@@ -5,7 +5,7 @@ import pytest
 
 import mnclab
 from mnclab import Setup, Tool
-from mnclab.machine.magazine import LATHES
+from mnclab.machine.setup import LATHES
 from mnclab.runs.material import cutting_of
 from mnclab.show.report import report
 from mnclab.workpiece.blank import cylinder

@@ -3,7 +3,7 @@
 import pytest
 
 import mnclab
-from mnclab.machine.parameter_table import help_html, help_text
+from mnclab.machine.cycle import help_html, help_text
 
 SHAFT = "N1 S800\nN2 F20\nN3 Z200~\nN4 X4000~\nN10 G77*~ ; roughing\nN11 X2440*\nN12 Z-2990*\nN13 F3000*\nN14 P400\n"
 

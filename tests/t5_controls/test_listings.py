@@ -13,7 +13,7 @@ import pytest
 
 import mnclab
 from mnclab import Setup, Tool
-from mnclab.machine.magazine import MILLS
+from mnclab.machine.setup import MILLS
 
 FOLDER = Path(__file__).parents[1] / "programs"
 FILES = sorted(file for file in FOLDER.glob("*/*") if file.suffix != ".expected")

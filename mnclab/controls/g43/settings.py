@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from mnclab.machine.settings import Setting, one_of
+from mnclab.machine.control import Setting, one_of
 
 FANUC, HAAS, LINUXCNC = "Fanuc", "Haas", "LinuxCNC"
 ALL = "Fanuc, Haas, LinuxCNC"

@@ -10,11 +10,10 @@ from mnclab.controls.jnc_t01 import cycles, feeds, motion
 from mnclab.controls.jnc_t01.reader import read
 from mnclab.controls.jnc_t01.signs import SIGNS
 from mnclab.controls.jnc_t01.state import Memory
-from mnclab.machine.control import Control, Modal
+from mnclab.machine.control import Control, Modal, Setting, one_of
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
-from mnclab.machine.magazine import LATHES
-from mnclab.machine.settings import Setting, one_of
+from mnclab.machine.setup import LATHES
 from mnclab.machine.trial import TrialWords, in_block
 from mnclab.running.bulk import PlainWords
 from mnclab.text.alarm import Alarm

@@ -5,9 +5,9 @@ from __future__ import annotations
 from mnclab.controls.jnc_t01.state import memory
 from mnclab.controls.word_address import functions, motion
 from mnclab.controls.word_address.motion import first_word
-from mnclab.machine.adding import speed_at
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
+from mnclab.machine.rows import speed_at
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()

@@ -18,7 +18,7 @@ from mnclab.controls.word_address.numbers import numbers
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.control import Control, FunctionTable
 from mnclab.machine.cycle import Cycle, CycleTable
-from mnclab.machine.setter import Setter
+from mnclab.machine.probe import Setter
 from mnclab.machine.tool_setting import SETS
 from mnclab.machine.touching import FEELS, PROBES
 from mnclab.machine.trial import TrialWords, at_setter, in_block

@@ -7,7 +7,7 @@ to the cycles, `block_skip` is a switch of the operator's panel, `bulk` is about
 from __future__ import annotations
 
 from mnclab.controls.mnc.probing import tool_setting
-from mnclab.machine.settings import Setting, one_of
+from mnclab.machine.control import Setting, one_of
 from mnclab.path.limits import RAPIDS
 
 REMARKS = {"warn": "allowed, with a warning", "accept": "allowed, without a word", "refuse": "an alarm"}

@@ -12,10 +12,9 @@ from mnclab.controls.nc_31.numbers import numbers
 from mnclab.controls.nc_31.reader import read
 from mnclab.controls.nc_31.signs import SIGNS
 from mnclab.controls.nc_31.state import Memory
-from mnclab.machine.control import Control
+from mnclab.machine.control import Control, Setting, one_of
 from mnclab.machine.cycle import Cycle
-from mnclab.machine.magazine import LATHES
-from mnclab.machine.settings import Setting, one_of
+from mnclab.machine.setup import LATHES
 from mnclab.machine.trial import TrialWords, number
 
 SETTINGS = (

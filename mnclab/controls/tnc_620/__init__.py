@@ -101,9 +101,8 @@ from mnclab.controls.tnc_620.signs import SIGNS
 from mnclab.controls.tnc_620.state import Memory
 from mnclab.controls.tnc_620.tables import datum_tables, free_tables
 from mnclab.controls.tnc_620.trial import SETUP, trial_program
-from mnclab.machine.control import Control
+from mnclab.machine.control import Control, Setting
 from mnclab.machine.cycle import CycleTable
-from mnclab.machine.settings import Setting
 from mnclab.path.compensation import Compensation
 from mnclab.running.bulk import PlainWords
 

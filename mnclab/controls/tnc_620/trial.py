@@ -16,7 +16,7 @@ from mnclab.controls.tnc_620.contours.train import ContourTrain
 from mnclab.controls.tnc_620.contours.train_data import TrainData
 from mnclab.controls.tnc_620.reading import obsolete_blocks, sub_blocks
 from mnclab.machine.cycle import Cycle
-from mnclab.machine.setter import Setter
+from mnclab.machine.probe import Setter
 from mnclab.machine.tool_setting import SETS
 from mnclab.machine.touching import FEELS, PROBES
 from mnclab.machine.trial import TrialWords, at_setter, first_value, number, written_first

@@ -10,8 +10,7 @@ from html import escape
 
 from mnclab.lab.forms.groups import groups
 from mnclab.lab.sketches import sketch
-from mnclab.machine.cycle import Cycle, Parameter
-from mnclab.machine.parameter_table import left_out
+from mnclab.machine.cycle import Cycle, Parameter, left_out
 
 
 def about(cycle: type[Cycle], parameters: Sequence[Parameter]) -> str:

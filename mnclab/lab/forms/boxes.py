@@ -6,8 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from mnclab.machine import trial
-from mnclab.machine.cycle import Parameter
-from mnclab.machine.parameter_table import left_out
+from mnclab.machine.cycle import Parameter, left_out
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from mnclab.machine.control import Words
+from mnclab.machine.coordinates import AXES, Angles, angles, set_angles, turn_axes
 from mnclab.machine.machine import Machine
-from mnclab.machine.rotary import AXES, Angles, angles, set_angles, turn_axes
 from mnclab.text.program import Word
 
 

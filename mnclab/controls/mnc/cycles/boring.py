@@ -9,9 +9,9 @@ import numpy as np
 
 from mnclab.controls.mnc.cycles import addresses
 from mnclab.controls.mnc.cycles.prepared import PreparedCycle, called
+from mnclab.machine.coordinates import MILLS, SHIFTS, remark, with_the_spindle
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import MILLS, SHIFTS, remark, with_the_spindle
 from mnclab.machining.holes.drilling import back_bore, bore, ream
 from mnclab.machining.holes.helical import bore_milling, turns
 from mnclab.machining.steps import Say, Step

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 from mnclab.controls.mnc.cycles import addresses
 from mnclab.controls.mnc.cycles.prepared import PreparedCycle, called, kept
+from mnclab.machine.coordinates import is_round, tool
 from mnclab.machine.cycle import CycleTable, Given, Values, param, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import is_round, tool
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.drilling import drill, gun_drill
 from mnclab.machining.steps import Go, Say, Step, Wait, Write

@@ -8,9 +8,9 @@ from typing import Any, ClassVar
 
 from mnclab.controls.mnc.cycles import addresses
 from mnclab.controls.word_address import holes
+from mnclab.machine.coordinates import TAPS, depth_scale
 from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import TAPS, depth_scale
 from mnclab.machining.holes.drilling import drill, ream
 from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Step

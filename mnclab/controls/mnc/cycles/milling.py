@@ -10,9 +10,9 @@ from typing import ClassVar
 
 from mnclab.controls.mnc.cycles import addresses
 from mnclab.controls.word_address.holes import out_of_place
+from mnclab.machine.coordinates import MILLS, remark
 from mnclab.machine.cycle import Cycle, CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import MILLS, remark
 from mnclab.machining.depths import MOST
 from mnclab.machining.milling.clearing import Clearing, numbered
 from mnclab.machining.milling.face_lines import lines, rows

@@ -12,9 +12,9 @@ from functools import partial
 
 from mnclab.controls.mnc.cycles import addresses
 from mnclab.controls.mnc.cycles.milling import MillingCycle
+from mnclab.machine.coordinates import remark, tool
 from mnclab.machine.cycle import CycleTable, few_passes, param, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import remark, tool
 from mnclab.machining.depths import infeeds
 from mnclab.machining.milling.entries import Entry
 from mnclab.machining.milling.figures import Pocket, circular, mill_pocket, rectangular

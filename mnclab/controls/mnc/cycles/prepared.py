@@ -12,9 +12,9 @@ from mnclab.controls.mnc.cycles import addresses
 from mnclab.controls.word_address.motion import first_word
 from mnclab.controls.word_address.state import memory
 from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.coordinates import TAPS
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import TAPS
 from mnclab.machining.holes.drilling import back_to_axis
 from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Go, Say, Step, Write

@@ -10,9 +10,9 @@ from mnclab.controls.mnc.probing.addresses import SIDE
 from mnclab.controls.mnc.probing.cycle import TURNS, MeasuringCycle, Moves, unplaced
 from mnclab.controls.mnc.probing.datum import base_rotation, store_angle, turn_base
 from mnclab.controls.mnc.probing.protocol import Check, conclude
+from mnclab.machine.coordinates import NOTHING
 from mnclab.machine.cycle import CycleTable, Given, Values
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import NOTHING
 from mnclab.machining.probing.fits import line, reduced
 from mnclab.machining.probing.sequences import Aim, Steps, in_plane, numbers, results
 from mnclab.machining.probing.sketches import sketch

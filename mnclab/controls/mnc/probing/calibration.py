@@ -15,10 +15,9 @@ import numpy as np
 
 from mnclab.controls.mnc.probing import addresses
 from mnclab.controls.mnc.probing.cycle import TURNS, MeasuringCycle, Moves
-from mnclab.machine.calibrating import length_touched, offset_written, ring, stud, with_radius
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
-from mnclab.machine.touching import FEELS
+from mnclab.machine.touching import FEELS, length_touched, offset_written, ring, stud, with_radius
 from mnclab.machining.probing.fits import circle
 from mnclab.machining.probing.sequences import Approach, Pair
 from mnclab.machining.steps import Measure, Orient, Touch

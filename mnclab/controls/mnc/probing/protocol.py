@@ -11,9 +11,9 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from mnclab.controls.mnc.probing.cycle import MeasuringCycle
+from mnclab.machine.flow import FILE
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import DIGITS, OUT, judged
-from mnclab.machine.output import FILE
 from mnclab.machine.touching import Contact
 from mnclab.machining.probing.sequences import numbers
 from mnclab.machining.steps import Measure, Pause, Say, Step, Write

@@ -14,10 +14,10 @@ from typing import Any, ClassVar
 from mnclab.controls.mnc.probing import addresses, protocol
 from mnclab.controls.mnc.probing.cycle import Moves, unplaced
 from mnclab.controls.mnc.state import memory
+from mnclab.machine.control import Setting
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import DIGITS
-from mnclab.machine.settings import Setting
 from mnclab.machine.tool_setting import BEAM, SETS, row_of, unfit, written
 from mnclab.machining.steps import RAPID, Go, Measure, Pause, Say, Spin, Step, Touch, Write
 from mnclab.path.tool import Tool

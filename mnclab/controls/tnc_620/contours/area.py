@@ -17,8 +17,8 @@ from mnclab.controls.tnc_620.contours.labels import Labels
 from mnclab.controls.tnc_620.contours.outlines import MOST_ELEMENTS, doubt, enclosed, fault, level
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.regions import Region
+from mnclab.machine.coordinates import in_mm
 from mnclab.machine.flow import Recording
-from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machining.milling.terraces import Part, Terrace, parts, terraces
 from mnclab.machining.steps import Record, Step

@@ -17,11 +17,10 @@ from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, distance, increment, length
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
+from mnclab.machine.control import Setting
+from mnclab.machine.coordinates import MILLS, in_mm, remark
 from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
-from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
-from mnclab.machine.settings import Setting
-from mnclab.machine.true_size import MILLS, remark
 from mnclab.machining.depths import infeeds
 from mnclab.machining.steps import Go, Say, Step
 from mnclab.path.fault import PathFault

@@ -12,10 +12,9 @@ from mnclab.controls.tnc_620.cycles.addresses import FAR
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates, rate
 from mnclab.controls.tnc_620.machining.floor_finishing import Descent, finish_floor, floor_passes
+from mnclab.machine.coordinates import MILLS, depth_scale, in_mm, plane_scale, remark
 from mnclab.machine.cycle import Cycle, CycleTable
-from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import INF, Machine
-from mnclab.machine.true_size import MILLS, depth_scale, plane_scale, remark
 from mnclab.machining.milling.clearing import numbered
 from mnclab.machining.steps import Say, Step
 

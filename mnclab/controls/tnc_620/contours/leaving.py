@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from mnclab.machine.control import Setting
 from mnclab.machine.machine import Machine
-from mnclab.machine.settings import Setting
 from mnclab.machining.steps import RAPID, Go
 
 SETTINGS = (

@@ -13,10 +13,9 @@ from mnclab.controls.tnc_620.cycles.addresses import FAR, count, increment
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.obsolete_holes import advanced_stop
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
+from mnclab.machine.coordinates import MILLS, depth_scale, in_mm, remark
 from mnclab.machine.cycle import Cycle, CycleTable
-from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import MILLS, depth_scale, remark
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.drilling import drill
 from mnclab.machining.milling.infeed_points import pilot_holes

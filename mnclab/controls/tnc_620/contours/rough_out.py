@@ -18,10 +18,9 @@ from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates, rate
 from mnclab.controls.tnc_620.machining import roughing
 from mnclab.controls.tnc_620.machining.roughing import Cut, Feeds, Heights
 from mnclab.geometry.regions import Region
+from mnclab.machine.coordinates import MILLS, in_mm, remark, tool
 from mnclab.machine.cycle import Cycle, CycleTable, few_passes
-from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import INF, Machine
-from mnclab.machine.true_size import MILLS, remark, tool
 from mnclab.machining.milling.residue import left_by
 from mnclab.machining.milling.rest import rest, rest_passes
 from mnclab.machining.milling.rings import rings

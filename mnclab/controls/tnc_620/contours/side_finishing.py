@@ -14,10 +14,9 @@ from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.controls.tnc_620.machining.contour_finishing import Heights, Wall, finish_walls, wall_loops
 from mnclab.controls.tnc_620.state import memory
+from mnclab.machine.coordinates import MILLS, in_mm, remark
 from mnclab.machine.cycle import Cycle, CycleTable, few_passes
-from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import MILLS, remark
 from mnclab.machining.milling.terraces import Terrace, levels
 from mnclab.machining.steps import Say, Step
 

@@ -22,9 +22,9 @@ from mnclab.controls.tnc_620.machining.cylinder import Way
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.frames import IDENTITY
 from mnclab.geometry.vectors import Floats
+from mnclab.machine.control import Setting
+from mnclab.machine.coordinates import AXES
 from mnclab.machine.machine import Machine
-from mnclab.machine.rotary import AXES
-from mnclab.machine.settings import Setting
 from mnclab.machining.steps import RAPID, Rolled, Step, Write
 from mnclab.path.cylinder import Cylinder
 

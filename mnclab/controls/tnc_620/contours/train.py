@@ -16,10 +16,9 @@ from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, co
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.controls.tnc_620.machining.train_passes import Feeds, mill
+from mnclab.machine.coordinates import MILLS, in_mm
 from mnclab.machine.cycle import Cycle, CycleTable, too_many
-from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import INF, Machine
-from mnclab.machine.true_size import MILLS
 from mnclab.machining.depths import infeeds
 from mnclab.machining.steps import Say, Step
 from mnclab.text.alarm import Alarm

@@ -18,8 +18,8 @@ from mnclab.controls.tnc_620.machining.train_rests import rests
 from mnclab.controls.tnc_620.machining.trains import Beside, Way, beside, cuts_into
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
+from mnclab.machine.coordinates import in_mm
 from mnclab.machine.flow import RecordedLead
-from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Say, Step
 from mnclab.path.fault import PathFault

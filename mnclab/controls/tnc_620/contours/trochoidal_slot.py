@@ -20,10 +20,9 @@ from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordina
 from mnclab.controls.tnc_620.cycles.pockets import check_angle, feeds
 from mnclab.controls.tnc_620.machining import trochoidal_steps
 from mnclab.geometry.contours import Contour
+from mnclab.machine.coordinates import MILLS, in_mm, remark, tool
 from mnclab.machine.cycle import CycleTable, few_passes
-from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import MILLS, remark, tool
 from mnclab.machining.depths import infeeds
 from mnclab.machining.milling.cutting_edge import centre_feeds
 from mnclab.machining.milling.pocket_steps import Work

@@ -13,9 +13,9 @@ from mnclab.controls.tnc_620.cycles.addresses import distance, increment, length
 from mnclab.controls.tnc_620.cycles.chain import MIRROR
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, oriented
 from mnclab.controls.tnc_620.cycles.planes import AtSurface, rate
+from mnclab.machine.coordinates import MILLS, SHIFTS, tool, with_the_spindle
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import MILLS, SHIFTS, tool, with_the_spindle
 from mnclab.machining.depths import DRIFT
 from mnclab.machining.holes.drilling import back_bore, back_to_axis, bore
 from mnclab.machining.holes.helical import bore_milling, steepest_pitch, turns

@@ -9,9 +9,9 @@ from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_angle
 from mnclab.controls.tnc_620.cycles.planes import AtSurface, point_length, rate
+from mnclab.machine.coordinates import is_round, tool
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import is_round, tool
 from mnclab.machining.holes.drilling import drill, ream
 from mnclab.machining.steps import Go, Say, Step, Wait
 

@@ -13,10 +13,10 @@ from mnclab.controls.tnc_620.cycles.addresses import choice, ratio
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, not_zero
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.controls.tnc_620.machining.engraving import Glyph, cells, engrave, length, on_arc, on_line
+from mnclab.machine.control import Setting
+from mnclab.machine.coordinates import MILLS
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
-from mnclab.machine.settings import Setting
-from mnclab.machine.true_size import MILLS
 from mnclab.machining.steps import Go, Step
 from mnclab.text.strings import TextFormula
 

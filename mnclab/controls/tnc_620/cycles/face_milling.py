@@ -9,9 +9,9 @@ from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, distance, increment
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
+from mnclab.machine.coordinates import MILLS
 from mnclab.machine.cycle import Cycle, CycleTable, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import MILLS
 from mnclab.machining.depths import DRIFT
 from mnclab.machining.milling.clearing import Clearing, numbered
 from mnclab.machining.milling.face_lines import lines, rows

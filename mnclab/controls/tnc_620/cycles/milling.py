@@ -13,9 +13,9 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from mnclab.controls.tnc_620.cycles.faults import Fault, less_than_depth, not_zero, with_radius
+from mnclab.machine.coordinates import tool
 from mnclab.machine.cycle import too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import tool
 from mnclab.machining.depths import infeeds
 from mnclab.machining.milling.pocket_steps import Feeds, Work
 from mnclab.machining.steps import Go, Say, Step, moved

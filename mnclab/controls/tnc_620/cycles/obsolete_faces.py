@@ -14,10 +14,10 @@ from mnclab.controls.tnc_620.cycles.addresses import coordinate, increment, numb
 from mnclab.controls.tnc_620.cycles.faults import Fault, at_least, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.controls.tnc_620.machining.ruled import mill_ruled, passes
+from mnclab.machine.control import Setting
+from mnclab.machine.coordinates import MILLS
 from mnclab.machine.cycle import Cycle, CycleTable, few_passes
 from mnclab.machine.machine import Machine
-from mnclab.machine.settings import Setting
-from mnclab.machine.true_size import MILLS
 from mnclab.machining.milling.face_lines import lines
 from mnclab.machining.milling.face_steps import Layer, face
 from mnclab.machining.steps import Go, Say, Step

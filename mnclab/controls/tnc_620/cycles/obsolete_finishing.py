@@ -22,9 +22,9 @@ from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordina
 from mnclab.controls.tnc_620.machining.rounds import finish_rounds
 from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour
+from mnclab.machine.coordinates import MILLS
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import MILLS
 from mnclab.machining.milling.finishing import half_circles
 from mnclab.machining.milling.pocket_steps import Feeds
 from mnclab.machining.steps import Go, Step, moved

@@ -12,9 +12,9 @@ from mnclab.controls.tnc_620.cycles import addresses, at_clearance
 from mnclab.controls.tnc_620.cycles.at_clearance import AtClearance
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, oriented
 from mnclab.controls.tnc_620.cycles.tapping import pitch_of
+from mnclab.machine.coordinates import TAPS, depth_scale
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import TAPS, depth_scale
 from mnclab.machining.holes.drilling import drill
 from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Go, Step, Write

@@ -19,9 +19,9 @@ from mnclab.controls.tnc_620.machining.rounds import finish_rounds
 from mnclab.controls.tnc_620.machining.to_and_fro import straight_infeeds
 from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour
+from mnclab.machine.coordinates import MILLS
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import MILLS
 from mnclab.machining.milling import concentric
 from mnclab.machining.milling.clearing import Clearing
 from mnclab.machining.milling.figures import straight

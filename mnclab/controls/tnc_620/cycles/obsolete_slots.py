@@ -22,9 +22,9 @@ from mnclab.controls.tnc_620.machining.rounds import finish_rounds
 from mnclab.controls.tnc_620.machining.to_and_fro import oblique_infeeds
 from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour
+from mnclab.machine.coordinates import MILLS
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import MILLS
 from mnclab.machining.depths import infeeds
 from mnclab.machining.milling.concentric import NOTHING
 from mnclab.machining.milling.finishing import half_circles

@@ -22,9 +22,9 @@ from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, increme
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.controls.tnc_620.machining import patterns
+from mnclab.machine.coordinates import faults, is_round
 from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import faults, is_round
 from mnclab.machining.steps import Call, Each, Go, Step, Turn
 
 CYCLES = CycleTable()

@@ -11,9 +11,9 @@ from collections.abc import Iterable, Iterator
 from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles.faults import Fault, less_than_depth, not_zero, with_angle
+from mnclab.machine.coordinates import tool
 from mnclab.machine.cycle import Cycle, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import tool
 from mnclab.machining.depths import infeeds
 from mnclab.machining.steps import RAPID, Go, Say, Step
 

@@ -17,9 +17,9 @@ from mnclab.controls.tnc_620.cycles.addresses import choice, distance, length
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, at_least, at_most
 from mnclab.controls.tnc_620.cycles.milling import Figure, Place
 from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
+from mnclab.machine.coordinates import MILLS, tool
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import MILLS, tool
 from mnclab.machining.milling import figures
 from mnclab.machining.milling.concentric import NOTHING
 from mnclab.machining.milling.entries import Descent, Entry, onto_floor

@@ -21,9 +21,9 @@ from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordina
 from mnclab.controls.tnc_620.cycles.pockets import check_angle, feeds, slopes
 from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour
+from mnclab.machine.coordinates import MILLS, tool
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import MILLS, tool
 from mnclab.machining.milling.concentric import NOTHING
 from mnclab.machining.milling.entries import swing
 from mnclab.machining.milling.figures import Slot, mill_slot, straight

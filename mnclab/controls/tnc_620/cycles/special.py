@@ -10,9 +10,9 @@ from collections.abc import Iterator
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, increment, length, seconds
 from mnclab.controls.tnc_620.cycles.faults import Fault
+from mnclab.machine.coordinates import TAPS
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import TAPS
 from mnclab.machining.steps import Say, Spin, Step, Thread, Wait, Write
 from mnclab.path.recorder import NAN
 

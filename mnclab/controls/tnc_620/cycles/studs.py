@@ -21,9 +21,9 @@ from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordina
 from mnclab.controls.tnc_620.cycles.pockets import CORNER, SIGNS
 from mnclab.controls.tnc_620.machining import studs
 from mnclab.controls.tnc_620.machining.stud_steps import Stud, mill_stud
+from mnclab.machine.coordinates import MILLS
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import MILLS
 from mnclab.machining.milling.clearing import Clearing
 from mnclab.machining.milling.pocket_steps import Feeds
 from mnclab.machining.steps import Step

@@ -9,9 +9,9 @@ from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAST, ratio
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, oriented
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.machine.coordinates import TAPS
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import TAPS
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Go, Spin, Step, Write

@@ -25,9 +25,9 @@ from mnclab.controls.tnc_620.machining.thread_milling import (
     mill_thread,
     path_of,
 )
+from mnclab.machine.coordinates import MILLS_THREADS
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import MILLS_THREADS
 from mnclab.machining.depths import MOST, infeeds
 from mnclab.machining.holes.drilling import drill
 from mnclab.machining.steps import Go, Say, Step

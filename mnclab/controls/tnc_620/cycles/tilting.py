@@ -19,9 +19,9 @@ from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import tilting
 from mnclab.geometry.frames import Matrix
+from mnclab.machine.control import Setting
 from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.machine import Machine
-from mnclab.machine.settings import Setting
 from mnclab.machining.steps import Go, Say, Step, Swivel, Write
 
 CYCLES = CycleTable()

@@ -16,10 +16,10 @@ from mnclab.controls.tnc_620.cycles.chain import Given, Values
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.tables.datum_tables import row_of
 from mnclab.geometry import frames
+from mnclab.machine.coordinates import tool_axis
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
-from mnclab.machine.tool_axis import tool_axis
 from mnclab.machining.steps import Step, Write
 
 CYCLES = CycleTable()

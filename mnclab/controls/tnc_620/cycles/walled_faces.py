@@ -21,9 +21,9 @@ from mnclab.controls.tnc_620.cycles.pockets import CORNERS, SIGNS
 from mnclab.controls.tnc_620.machining.between_walls import Walled
 from mnclab.controls.tnc_620.machining.wall_steps import Level, Passes, face_levels, finish_along
 from mnclab.geometry.contours import Contour
+from mnclab.machine.coordinates import MILLS, remark, tool
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import MILLS, remark, tool
 from mnclab.machining.depths import infeeds
 from mnclab.machining.milling.clearing import begin, numbered
 from mnclab.machining.milling.face_lines import rows, spiral_from

@@ -13,9 +13,8 @@ from mnclab.controls.tnc_620.language.parameters import text
 from mnclab.controls.tnc_620.reading.contour_words import JOINS
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.flow import Recording
+from mnclab.machine.flow import Recording, determine
 from mnclab.machine.machine import Machine
-from mnclab.machine.waiting import determine
 from mnclab.machining.milling.terraces import Formula, Joined, Part
 from mnclab.text.program import Word
 

@@ -28,8 +28,8 @@ from mnclab.controls.tnc_620.language.motion import SIDED, TOLERANCE, feed, refu
 from mnclab.controls.tnc_620.language.tool_axis import refuse_other
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.flow import Reading, as_of, reading
 from mnclab.machine.machine import Machine
-from mnclab.machine.waiting import Reading, as_of, reading
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()

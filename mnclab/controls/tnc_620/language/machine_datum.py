@@ -7,8 +7,8 @@ from typing import Any
 
 from mnclab.controls.tnc_620.state import Place, memory
 from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.coordinates import tool_axis
 from mnclab.machine.machine import Machine
-from mnclab.machine.tool_axis import tool_axis
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()

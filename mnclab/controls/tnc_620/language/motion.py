@@ -15,10 +15,9 @@ from mnclab.controls.tnc_620.language.rotary_rules import refuse_rotary
 from mnclab.controls.tnc_620.state import Place, memory
 from mnclab.geometry.arcs import tangent_arc_of_one
 from mnclab.machine.control import Function, FunctionTable, Words
-from mnclab.machine.coordinates import PLANES
+from mnclab.machine.coordinates import AXES as AXES_OF_ROTATION
+from mnclab.machine.coordinates import PLANES, Angles, angles, set_angles, turn_axes
 from mnclab.machine.machine import Machine
-from mnclab.machine.rotary import AXES as AXES_OF_ROTATION
-from mnclab.machine.rotary import Angles, angles, set_angles, turn_axes
 from mnclab.path.corners import Corner
 from mnclab.text.program import Word
 

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from mnclab.controls.tnc_620.cycles.chain import TILT
 from mnclab.controls.tnc_620.language.checks import warn_once, whole
-from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.control import FunctionTable, Setting, Words
 from mnclab.machine.machine import Machine
-from mnclab.machine.settings import Setting
 from mnclab.text.nearest import hint
 
 FUNCTIONS = FunctionTable()

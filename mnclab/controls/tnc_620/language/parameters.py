@@ -12,8 +12,8 @@ from collections.abc import Callable
 from mnclab.controls.tnc_620.language.checks import whole
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.coordinates import tool_axis
 from mnclab.machine.machine import Machine
-from mnclab.machine.tool_axis import tool_axis
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 from mnclab.text.strings import TextFormula

@@ -17,8 +17,8 @@ from mnclab.controls.tnc_620.language.rotary_rules import refuse_rotary
 from mnclab.controls.tnc_620.language.tool_axis import refuse_other
 from mnclab.geometry import tilting
 from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.coordinates import STILL, turning_feed
 from mnclab.machine.machine import INF, Machine
-from mnclab.machine.rotary import STILL, turning_feed
 from mnclab.machining.steps import Step, Write
 from mnclab.running.performing import perform
 from mnclab.text.program import Word

@@ -8,10 +8,9 @@ from mnclab.controls.tnc_620.cycles.chain import TILT
 from mnclab.controls.tnc_620.language.checks import not_negative, one_of, warn_once
 from mnclab.controls.tnc_620.language.feeds import rate
 from mnclab.controls.tnc_620.language.machine_datum import above_tip
-from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.control import FunctionTable, Setting, Words
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import INF, Machine
-from mnclab.machine.settings import Setting
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()

@@ -9,9 +9,8 @@ from __future__ import annotations
 from mnclab.controls.tnc_620.language.checks import counted
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import frames
-from mnclab.machine.control import Words
+from mnclab.machine.control import Setting, Words
 from mnclab.machine.machine import Machine
-from mnclab.machine.settings import Setting
 
 FRAME = "secondary axes"
 AXES = "UVW"

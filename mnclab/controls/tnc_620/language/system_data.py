@@ -21,8 +21,8 @@ from mnclab.controls.tnc_620.language.parameters import PREASSIGNED
 from mnclab.controls.tnc_620.language.tool_columns import COLUMNS, is_empty, value
 from mnclab.controls.tnc_620.state import active_preset, memory
 from mnclab.controls.tnc_620.tables.datum_tables import row_of
+from mnclab.machine.control import Setting
 from mnclab.machine.machine import Machine
-from mnclab.machine.settings import Setting
 from mnclab.machine.setup import Datum
 from mnclab.path.tool import Tool
 from mnclab.running.binding import unit_of

@@ -9,9 +9,9 @@ from contextlib import AbstractContextManager, nullcontext
 
 from mnclab.controls.tnc_620.cycles.chain import TILT
 from mnclab.machine.control import Words
+from mnclab.machine.coordinates import FRAME, LOG, along_z, tool_axis
 from mnclab.machine.cycle import Cycle, Definition
 from mnclab.machine.machine import Machine
-from mnclab.machine.tool_axis import FRAME, LOG, along_z, tool_axis
 from mnclab.text.program import Word
 
 PLANES = {"Z": "XY", "X": "YZ", "Y": "ZX"}  # working plane by tool axis

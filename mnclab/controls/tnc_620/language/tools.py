@@ -8,10 +8,9 @@ from mnclab.controls.tnc_620.language.checks import first, not_negative, written
 from mnclab.controls.tnc_620.language.feeds import rate, set_feed, with_another_tool
 from mnclab.controls.tnc_620.language.tool_axis import change_axis
 from mnclab.controls.tnc_620.state import memory
-from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.control import FunctionTable, Setting, Words
+from mnclab.machine.coordinates import tool_axis
 from mnclab.machine.machine import Machine
-from mnclab.machine.settings import Setting
-from mnclab.machine.tool_axis import tool_axis
 from mnclab.path.tool import Tool
 from mnclab.text.program import Word
 

@@ -8,10 +8,9 @@ from collections.abc import Iterator
 from mnclab.controls.tnc_620.clock import time_of_day
 from mnclab.controls.tnc_620.printing.mask import LANGUAGES, SPOKEN, TIMES, Fault, Field, Statement, parse
 from mnclab.controls.tnc_620.state import memory
-from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.control import FunctionTable, Setting, Words
+from mnclab.machine.flow import put_out
 from mnclab.machine.machine import Machine
-from mnclab.machine.output import put_out
-from mnclab.machine.settings import Setting
 from mnclab.running.files import found
 from mnclab.text.alarm import Alarm
 from mnclab.text.expression import Expression

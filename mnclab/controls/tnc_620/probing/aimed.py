@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.probing.nominal import Nominal, read
-from mnclab.machine.in_mm import in_mm
+from mnclab.machine.control import Setting
+from mnclab.machine.coordinates import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import OK, REWORK, SCRAP, SLACK
-from mnclab.machine.settings import Setting
 from mnclab.machine.touching import Contact
 from mnclab.machining.probing.sequences import Approach, numbers, over_to
 from mnclab.machining.steps import Go, Measure, Orient, Pause, Step, Touch, Write

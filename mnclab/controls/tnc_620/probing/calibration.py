@@ -18,13 +18,12 @@ from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, 
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed
-from mnclab.machine.calibrating import length_touched, offset_written, plane_of, ring, stud, with_radius
+from mnclab.machine.control import Setting
+from mnclab.machine.coordinates import in_mm
 from mnclab.machine.cycle import CycleTable
-from mnclab.machine.in_mm import in_mm
+from mnclab.machine.flow import FILE
 from mnclab.machine.machine import Machine
-from mnclab.machine.output import FILE
-from mnclab.machine.settings import Setting
-from mnclab.machine.touching import FEELS, Point
+from mnclab.machine.touching import FEELS, Point, length_touched, offset_written, plane_of, ring, stud, with_radius
 from mnclab.machining.probing.fits import circle
 from mnclab.machining.probing.sequences import Approach, Pair, around, over_to
 from mnclab.machining.steps import Measure, Orient, Say, Step, Touch, Write

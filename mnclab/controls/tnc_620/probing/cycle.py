@@ -14,10 +14,9 @@ from mnclab.controls.tnc_620.cycles.chain import TILT
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.controls.tnc_620.probing.fast_probing import probe_in_force
+from mnclab.machine.coordinates import FRAME, in_mm
 from mnclab.machine.cycle import Cycle
-from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
-from mnclab.machine.tool_axis import FRAME
 from mnclab.machine.touching import PROBES, Contact, unfit
 from mnclab.machining.probing.sequences import Approach, numbers, results
 from mnclab.machining.steps import Measure, Step

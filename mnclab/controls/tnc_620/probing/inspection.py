@@ -13,7 +13,7 @@ from typing import Any
 from mnclab.controls.tnc_620.contours.other_tools import Named, named_tool
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle
 from mnclab.controls.tnc_620.probing.log import Value, logged
-from mnclab.machine.in_mm import in_mm
+from mnclab.machine.coordinates import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import OK, REWORK, SCRAP, SLACK
 from mnclab.machine.touching import Contact

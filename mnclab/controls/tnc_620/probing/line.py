@@ -21,10 +21,10 @@ from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed
 from mnclab.controls.tnc_620.probing.figures import circle
 from mnclab.controls.tnc_620.state import active_preset
 from mnclab.geometry import frames
+from mnclab.machine.coordinates import angles
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import REWORK, SCRAP
-from mnclab.machine.rotary import angles
 from mnclab.machine.setup import Datum
 from mnclab.machining.probing import fits
 from mnclab.machining.probing.found import Circle

@@ -14,8 +14,8 @@ from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.language.rotary_rules import GROUPS, TITLES
 from mnclab.controls.tnc_620.probing.transfer import store
 from mnclab.controls.tnc_620.state import active_preset, memory
+from mnclab.machine.coordinates import AXES, angles
 from mnclab.machine.machine import Machine
-from mnclab.machine.rotary import AXES, angles
 from mnclab.machine.setup import Datum
 from mnclab.machining.steps import RAPID, Say, Step, Swivel
 

@@ -16,9 +16,9 @@ from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.addresses import CENTRE, HEIGHTS
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, lengths, measured, needed
 from mnclab.controls.tnc_620.probing.transfer import finish, save
+from mnclab.machine.coordinates import tool_axis
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
-from mnclab.machine.tool_axis import tool_axis
 from mnclab.machining.probing import sequences
 from mnclab.machining.probing.fits import corner, line, reduced
 from mnclab.machining.probing.found import Line, Point

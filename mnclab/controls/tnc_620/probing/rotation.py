@@ -17,9 +17,9 @@ from mnclab.controls.tnc_620.probing.figures import circle, ring
 from mnclab.controls.tnc_620.probing.misalignment import C, align, cannot_turn, reset, tilted, zeroed
 from mnclab.controls.tnc_620.probing.transfer import store
 from mnclab.controls.tnc_620.state import active_preset
+from mnclab.machine.coordinates import AXES
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
-from mnclab.machine.rotary import AXES
 from mnclab.machine.setup import Datum
 from mnclab.machine.touching import Contact
 from mnclab.machining.probing import fits

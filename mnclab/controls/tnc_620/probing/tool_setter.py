@@ -16,11 +16,11 @@ from mnclab.controls.tnc_620.cycles.faults import SAME, Fault
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.controls.tnc_620.probing.cycle import Moves
 from mnclab.controls.tnc_620.state import memory
+from mnclab.machine.control import Setting
+from mnclab.machine.coordinates import in_mm
 from mnclab.machine.cycle import Cycle, CycleTable
-from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
-from mnclab.machine.setter import Setter
-from mnclab.machine.settings import Setting
+from mnclab.machine.probe import Setter
 from mnclab.machine.tool_setting import PLATE, SETS, unfit
 from mnclab.machining.probing.fits import circle
 from mnclab.machining.steps import Go, Measure, Orient, Pause, Say, Step, Touch, Write

@@ -12,9 +12,9 @@ import numpy as np
 
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured
 from mnclab.controls.tnc_620.state import active_preset
+from mnclab.machine.coordinates import FRAME
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
-from mnclab.machine.tool_axis import FRAME
 from mnclab.machining.probing.sequences import Approach, from_above
 from mnclab.machining.steps import Step, Write
 

@@ -21,8 +21,8 @@ from mnclab.controls.tnc_620.language.parameters import give
 from mnclab.controls.tnc_620.state import memory
 from mnclab.controls.tnc_620.tables.table_files import Fault, Lines, read_table, value
 from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.flow import put_out
 from mnclab.machine.machine import Machine
-from mnclab.machine.output import put_out
 from mnclab.text.program import Word, digits
 
 FUNCTIONS = FunctionTable()
