@@ -1,4 +1,4 @@
-"""Rings on 1,000 random areas, judged by distances: the same areas, made from the same numbers without our contours.
+"""Rings on 200 random areas (1,000 by hand), judged by distances: the same areas, made from the same numbers without our contours.
 
     room of a place       its distance from the edge of the area, a polygon within `HAIR` of the truth
     C                     where the tool centre may go: room ≥ R + allowance
@@ -95,7 +95,7 @@ def place_in(area, edge, keep, passes, radius):
     return None
 
 
-@pytest.mark.parametrize("first", range(0, 1000, BLOCK))
+@pytest.mark.parametrize("first", range(0, 200, BLOCK))
 def test_rings_clear_what_the_tool_reaches_and_nothing_else(first):
     for seed in range(first, first + BLOCK):
         judge(seed)
