@@ -1,4 +1,4 @@
-"""Rings on 200 random areas (1,000 by hand), judged by distances: the same areas, made from the same numbers without our contours.
+"""Rings on 200 random areas, judged by distances: the same areas, made from the same numbers without our contours.
 
     room of a place       its distance from the edge of the area, a polygon within `HAIR` of the truth
     C                     where the tool centre may go: room ≥ R + allowance
