@@ -123,7 +123,7 @@ class Planner:
         every = control.functions.get(code[0])  # one for all codes of an address that have none of their own
         if every is not None and code[1:].isdigit() and index >= 0:
             return replace(every, code=code)
-        near = hint(code.replace("-", "").partition(".")[0], (*control.functions, *control.cycles))
+        near = hint(code.replace("-", "").partition(".")[0], (*control.listed, *control.cycles))
         self.alarm(f"{code} is not a function of this control", index, near)
 
     def check_groups(self, called: list[tuple[Function, int]]) -> None:
