@@ -58,7 +58,7 @@ class Found(NamedTuple):
 
 def vocabulary(control: Control) -> Vocabulary:
     """All that is known of the words of a control."""
-    codes = {code: _function(control, one) for code, one in control.functions.items() if code[0].isalnum()}
+    codes = {code: _function(control, one) for code, one in control.listed.items() if code[0].isalnum()}
     codes |= {code: _cycle(one) for code, one in control.cycles.items()}
     codes |= {name: codes[code] for name, code in control.names.items() if code in codes}
     said = {address: meaning for address, meaning in control.meanings.items() if _ADDRESS.fullmatch(address)}

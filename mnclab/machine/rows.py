@@ -23,6 +23,7 @@ from mnclab.path import compensation, corners, feed_rules, leads, rapids
 from mnclab.path.cutting_speed import mean_turn, spindle_speed
 from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Kind
+from mnclab.path.listing import INCHES, MM, Unit
 from mnclab.path.recorder import NAN, State, join
 from mnclab.path.toolpath import Toolpath, concatenate
 from mnclab.path.travel import first_beyond, stopped_at
@@ -157,7 +158,9 @@ Pair = tuple[float, float]
 def check_start(m: Machine, tolerance: float = 0.01, word: Word | None = None) -> None:
     """An Alarm when the register is not where the tool stands: an arc could not begin there."""
     if (away := math.dist(m.to_machine(m.programmed), m.tip)) > tolerance:
-        fault = f"the arc begins {away:.4f} mm away from the tool: a transformation was switched after the last move"
+        unit = told_in(m)
+        begins = f"the arc begins {away / unit.length:.{unit.decimals}f} {unit.short} away from the tool"
+        fault = f"{begins}: a transformation was switched after the last move"
         m.alarm(fault, word, hint="lead the tool to the start of the arc by a straight move first")
 
 
@@ -169,9 +172,11 @@ def centre_by_radius(
         m.alarm("a full circle cannot be given by its radius", word, hint="write the centre with I J K")
     c, shortage = centre_of_one(s, e, radius, sense)
     if shortage > tolerance:
-        chord, address = 2 * (shortage + abs(radius)), word.address if word else "R"
-        between = f"the distance {chord:.7g} mm between start and end: at least {chord / 2:.7g} mm is needed"
-        m.alarm(f"{address}{abs(radius) / m.variable_unit:g} is too small for {between}", word, f"too short by {shortage:.4g} mm")
+        unit, short = told_in(m).length, told_in(m).short
+        half, address = (shortage + abs(radius)) / unit, word.address if word else "R"
+        between = f"the distance {2 * half:.7g} {short} between start and end: at least {half:.7g} {short} is needed"
+        hint = f"too short by {shortage / unit:.4g} {short}"
+        m.alarm(f"{address}{abs(radius) / unit:g} is too small for {between}", word, hint)
     return c
 
 
@@ -181,8 +186,15 @@ def check_radii(m: Machine, s: Pair, e: Pair, c: Pair, tolerance: float, word: W
     if at_start < 1e-9:
         m.alarm("the centre of the arc lies on its start", word)
     if abs(at_start - at_end) > tolerance:
-        found = f"radius {at_start:.4f} at the start, {at_end:.4f} at the end, allowed difference {tolerance:g} mm"
-        m.alarm(in_mm(f"the end point is not on the circle: {found}", m.variable_unit), word)
+        unit = told_in(m)
+        there, here = (f"{each / unit.length:.{unit.decimals}f}" for each in (at_start, at_end))
+        allowed = f"allowed difference {tolerance / unit.length:.4g} {unit.short}"
+        m.alarm(f"the end point is not on the circle: radius {there} at the start, {here} at the end, {allowed}", word)
+
+
+def told_in(m: Machine) -> Unit:
+    """In what the lengths of this program are told."""
+    return MM if m.variable_unit == 1 else INCHES
 
 
 def arc(

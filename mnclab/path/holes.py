@@ -2,10 +2,10 @@
 
 This is what a hole is, for the table, for pictures and for comparing two programs. A visit is a stretch of rows along Z
 alone. It is a hole, whatever the tool (a drill, a tap, an end mill; not a probe), if it begins and ends at least as high as
-its first cut begins: a plunge into a pocket ends below. A step of a cycle that is called drilling is one even if the tool goes
-on from there, to mill a thread. On a lathe it lies on the axis. A bore that a cycle mills on a helix
-is a hole as well, as wide as what the mill sweeps in its circle at the bottom; one milled in single blocks is none here:
-`Run.design` names it, from what is left of the blank.
+its first cut begins, or if its tool goes nowhere else after it: a plunge into a pocket ends below. A step of a cycle that is
+called drilling is one even if the tool goes on from there, to mill a thread. On a lathe it lies on the axis. A bore that a
+cycle mills on a helix is a hole as well, as wide as what the mill sweeps in its circle at the bottom; one milled in single
+blocks is none here: `Run.design` names it, from what is left of the blank.
 """
 
 from __future__ import annotations
@@ -120,7 +120,10 @@ def holes(path: Toolpath, tools: Mapping[int, Tool] | None = None, numbers: Inde
     found: list[tuple[int, HoleMade]] = []
     for begin, end in zip(np.flatnonzero(change == 1).tolist(), np.flatnonzero(change == -1).tolist()):
         changes = np.flatnonzero(np.diff(tool[begin:end])) + 1
-        found += [each for visit in np.split(rows[begin:end], changes) if (each := _hole(path, visit, numbers, tools))]
+        for visit in np.split(np.arange(begin, end), changes):
+            last = visit[-1] + 1 == len(rows) or tool[visit[-1] + 1] != tool[visit[-1]]
+            if (each := _hole(path, rows[visit], numbers, tools, last)) is not None:
+                found.append(each)
     found += [(row, _bore(path, row, numbers)) for row in np.flatnonzero(_bored(path)).tolist()]
     made: dict[tuple[float, float, float, int], HoleMade] = {}
     first: dict[tuple[float, float, float, int], int] = {}
@@ -136,16 +139,17 @@ def holes(path: Toolpath, tools: Mapping[int, Tool] | None = None, numbers: Inde
 
 
 def _hole(
-    path: Toolpath, visit: NDArray[np.int64], numbers: Index, tools: Mapping[int, Tool]
+    path: Toolpath, visit: NDArray[np.int64], numbers: Index, tools: Mapping[int, Tool], last: bool
 ) -> tuple[int, HoleMade] | None:
-    """What a stretch of rows along Z makes, and its first cut; None for a plunge, a retract, a way through the air."""
+    """What a stretch of rows along Z makes, the `last` of its tool, and its first cut; None for a plunge, a retract, a way
+    through the air."""
     start, end = path.start[visit, 2], path.end[visit, 2]
     cuts = (path.kind[visit] == Kind.LINE) & (end < start)
     if not cuts.any():
         return None
     first = int(cuts.argmax())
     top, bottom, number = float(start[first]), float(end[cuts].min()), int(numbers[visit[first]])
-    stays = end[-1] < top - SAME and not DRILLED.search(path.labels[path.label[visit[first]]])
+    stays = end[-1] < top - SAME and not last and not DRILLED.search(path.labels[path.label[visit[first]]])
     if stays or (number in tools and tools[number].kind == "probe"):
         return None
     x, y = path.end[visit[0], :2].tolist()

@@ -123,7 +123,7 @@ class Planner:
         every = control.functions.get(code[0])  # one for all codes of an address that have none of their own
         if every is not None and code[1:].isdigit() and index >= 0:
             return replace(every, code=code)
-        near = hint(code.replace("-", "").partition(".")[0], (*control.functions, *control.cycles))
+        near = hint(code.replace("-", "").partition(".")[0], (*control.listed, *control.cycles))
         self.alarm(f"{code} is not a function of this control", index, near)
 
     def check_groups(self, called: list[tuple[Function, int]]) -> None:
@@ -276,6 +276,9 @@ class Planner:
                     self.alarm(f"{word.rounded} has no motion: none is active", i, "write G0, G1, G2 or G3 in this block")
             actors = " ".join(dict.fromkeys(a.code for a in self.actions if a.phase == self.phases["motion"]))
             whose = f" ({actors} does not take {word.address})" if actors else ""
-            self.alarm(f"{word.rounded} has no meaning in this block{whose}", i)
+            known = {*self.control.functions, *self.control.cycles}
+            makers = next((a.code for a in self.actions if a.code not in known), "")
+            told = f"what {makers} takes, the maker of the machine says: leave {word.rounded} out" if makers else ""
+            self.alarm(f"{word.rounded} has no meaning in this block{whose}", i, told)
         if left:
             self.alarm(f"{self.words[left[0]].address} is written twice in this block", left[0], "keep one of them")

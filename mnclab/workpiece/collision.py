@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from html import escape
 from typing import NamedTuple
 
+from mnclab.path.listing import Unit
 from mnclab.text.alarm import SHOWN, several
 from mnclab.text.records import written
 from mnclab.text.tables import html_table
@@ -28,6 +29,12 @@ HEAD = ("place", "kind", "depth", "at", "message")
 def coordinates(axes: str, place: Iterable[float]) -> str:
     """A place as people read it: X10.000 Z-2.500."""
     return " ".join(f"{axis}{round(value, 3) + 0.0:.3f}" for axis, value in zip(axes, place))  # never -0.000
+
+
+def deep(depth: float, axes: str, place: Iterable[float], unit: Unit) -> str:
+    """How deep and where something was met, lengths in mm, as people read it: in the unit of the program."""
+    places = coordinates(axes, (value / unit.length for value in place))
+    return f"{depth / unit.length:.3f} {unit.short} deep at {places}"
 
 
 class Collision(NamedTuple):
@@ -113,7 +120,7 @@ class Collisions(tuple[Collision, ...]):
         first, more = self._shown()
         rows = [
             (f"{each.file}:{each.line}".lstrip(":"), each.kind, f"{each.depth:.3f} mm",
-             coordinates("XYZ", each.place), each.message + others)
+             f"{coordinates('XYZ', each.place)} mm", each.message + others)
             for each, others in first
         ]  # fmt: skip
         table = html_table(HEAD, rows, numbers=(2,)) if rows else ""

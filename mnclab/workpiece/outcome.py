@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from mnclab.text.alarm import several
 from mnclab.workpiece.collision import Collisions
-from mnclab.workpiece.removal import Removal, volume
+from mnclab.workpiece.removal import Removal
 
 TOLD = 5  # collisions of a card
 RED = "color:#b3261e;font-weight:600"  # as alarms have it
@@ -24,10 +24,10 @@ class Outcome(NamedTuple):
         """Names and figures, as a table has them."""
         if self.removal is None or self.collisions is None:
             return [("removed", self.why)]
-        most, mean = self.removal.largest, self.removal.mean
-        found = [("removed", volume(self.removal.volume))]
+        most, mean, told = self.removal.largest, self.removal.mean, self.removal.told
+        found = [("removed", told(self.removal.volume))]
         if most is not None:
-            rates = f"{volume(mean)}/min, at most {volume(most.rate)}/min in line {self.removal.place(most)}"
+            rates = f"{told(mean)}/min, at most {told(most.rate)}/min in line {self.removal.place(most)}"
             found.append(("removal rate", rates))
         met = f"{len(self.collisions) or 'none'} {self.collisions.reach}".rstrip()
         return [*found, ("collisions", "; ".join([met, *self.collisions.notes]))]

@@ -9,6 +9,7 @@ import numpy as np
 
 from mnclab.path.columns import Array, Index
 from mnclab.path.kinds import Kind
+from mnclab.path.listing import MM, Unit
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.text.given import choice
@@ -182,10 +183,14 @@ class Removal:
             seconds = float(self.seconds[rows & (self.volumes > 0)].sum())
             most = self._fastest(rows & self._at_feed)
             told.append((
-                name, volume(taken), f"{seconds:.2f} s", f"{volume(self._mean(rows & self._at_feed))}/min",
-                f"{volume(most.rate)}/min" if most else "", self.place(most) if most else "",
+                name, self.told(taken), f"{seconds:.2f} s", f"{self.told(self._mean(rows & self._at_feed))}/min",
+                f"{self.told(most.rate)}/min" if most else "", self.place(most) if most else "",
             ))  # fmt: skip
         return told
+
+    def told(self, value: float) -> str:
+        """A volume, mm³, as `volume` says it, in the unit of the program."""
+        return volume(value, self.workpiece.cutting.path.unit)
 
     def place(self, fastest: Fastest) -> str:
         """Where the largest rate is: the line, with its program where that was called."""
@@ -199,8 +204,8 @@ class Removal:
 
     def __repr__(self) -> str:
         most = self.largest
-        head = f"{volume(self.volume)} removed{self._as_far} in {self.time:.2f} s, {volume(self.mean)}/min"
-        return f"<Removal: {head}{f', at most {volume(most.rate)}/min in line {self.place(most)}' if most else ''}>"
+        head = f"{self.told(self.volume)} removed{self._as_far} in {self.time:.2f} s, {self.told(self.mean)}/min"
+        return f"<Removal: {head}{f', at most {self.told(most.rate)}/min in line {self.place(most)}' if most else ''}>"
 
     def _repr_html_(self) -> str:
         told = f"<p>removed{self._as_far}</p>" if self._as_far else ""
@@ -212,7 +217,9 @@ class Removal:
         return f" {self.workpiece.cutting.reach}".rstrip()
 
 
-def volume(value: float) -> str:
-    """mm³ as people say it: three figures, in cm³ from one on."""
-    number, unit = (value / 1000, "cm³") if value >= 1000 else (value, "mm³")
-    return f"{number:.0f} {unit}" if number >= 1000 else f"{number:.3g} {unit}"
+def volume(value: float, unit: Unit = MM) -> str:
+    """mm³ as people say it: three figures, in cm³ from one on; of a program in inches in³."""
+    number, name = (value / 1000, "cm³") if value >= 1000 else (value, "mm³")
+    if unit.length != 1:
+        number, name = value / unit.length**3, "in³"
+    return f"{number:.0f} {name}" if number >= 1000 else f"{number:.3g} {name}"

@@ -39,6 +39,15 @@ def test_walls_of_cycles_are_blamed_on_no_rapid(lean):
         none(f"{HEAD}G00 X22 Z2\n{cycle}\nG00 X60 Z20\n", tools=tools, stock=cylinder(20, -60, 0))
 
 
+@pytest.mark.parametrize("bevel", [0, 100, 300, 400, 500])
+@pytest.mark.parametrize("stock", [100, 200, 300])
+@pytest.mark.parametrize("x", [2000, 3000])
+def test_the_transverse_passes_of_the_nc_31_leave_nothing_to_the_back(bevel, stock, x):
+    """Steps that wait for the clean-up, and what the auxiliary edge leaves on the wall, are stock of the cycle (3.20.6)."""
+    text = f"S800\nM3\nF20\nX4200~*\nZ200~\nG78*\nX{x}*\nZ-500*\nF20*\nP{stock}*\nP{bevel}\n"
+    none(text, "nc-31", stock=cylinder(20, -60, 0))
+
+
 @pytest.mark.deep
 @pytest.mark.parametrize("seed", range(30))
 def test_shoulders_bevels_and_faces_of_the_jnc(seed):

@@ -50,3 +50,11 @@ def test_a_hole_in_the_face_stands_on_the_axis(name, code):
     path = shown(name, code).toolpath
     cuts = path.kind == Kind.LINE
     assert cuts.any() and (path.end[cuts, 0] == 0).all() and (path.start[cuts, 0] == 0).all()
+
+
+def test_the_tap_of_a_form_has_the_pitch_of_its_thread():
+    """M12 has a pitch of 1.75 mm (ISO 261)."""
+    run = shown("nc-31", "G33")
+    locked = run.toolpath.synchronous
+    tap = next(tool for tool in cutting_of(run).tools if tool.kind == "tap")
+    assert tap.name == "tap M12" and set(run.toolpath.per_rev[locked].tolist()) == {1.75} == {tap.pitch}

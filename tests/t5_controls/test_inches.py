@@ -79,11 +79,17 @@ def test_copies_and_pieces_keep_the_unit():
     assert np.array_equal(copy.deepcopy(path).end, path.end)
 
 
-@pytest.mark.parametrize(("unit", "scale"), [("G21", 1.0), ("G20", 25.4)])
-def test_faults_of_arcs_name_mm(unit, scale):
-    """Radii of 1 and 2, and a chord of 10 for a radius of 3 that needs 5: in inches those of the sentence are mm."""
+@pytest.mark.parametrize(("unit", "short", "zeros"), [("G21", "mm", "0000"), ("G20", "in", "000000")])
+def test_faults_of_arcs_are_told_as_they_are_typed(unit, short, zeros):
+    """Radii of 1 and 2, and a chord of 10 for a radius of 3 that needs 5 and lacks 2: the numbers of the program."""
     head = f"{unit}\nT1 M6\nS500 M3\nG0 X0 Y0\n"
-    off, short = (mnclab.run(head + block, "g43").alarms[0] for block in ("G2 X3 I1 F9\n", "G2 X10 R3 F9\n"))
-    assert f"radius {scale:.4f} at the start, {2 * scale:.4f} at the end, allowed difference" in off.message
-    assert off.message.endswith(" (lengths in mm)") == (scale != 1)
-    assert f"R3 is too small for the distance {10 * scale:g} mm between start and end: at least {5 * scale:g} mm" in short.message
+    off, near = (mnclab.run(head + block, "g43").alarms[0] for block in ("G2 X3 I1 F9\n", "G2 X10 R3 F9\n"))
+    assert f"radius 1.{zeros} at the start, 2.{zeros} at the end, allowed difference" in off.message
+    assert off.message.endswith(f" {short}") and near.hint == f"too short by 2 {short}"
+    assert f"R3 is too small for the distance 10 {short} between start and end: at least 5 {short} is needed" in near.message
+
+
+def test_faults_of_arcs_of_klartext_in_inches():
+    head = "0 BEGIN PGM A INCH\n1 TOOL CALL 1 Z S500\n2 L X+0 Y+0 Z+1 R0 FMAX M3\n"
+    near = mnclab.run(head + "3 CR X+10 R+3 DR+ F9\n4 END PGM A INCH\n", "tnc-620").alarms[0]
+    assert "R3 is too small for the distance 10 in between start and end: at least 5 in is needed" in near.message

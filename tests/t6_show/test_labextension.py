@@ -44,6 +44,13 @@ def test_the_words_are_those_that_the_controls_declare(rewrite):
     assert json.loads(file.read_text("utf-8")) == told
 
 
+def test_no_word_is_offered_that_nobody_writes():
+    """A call of its own accord (G66 after a motion) is no code, and one that is always refused (JNC: N, M2, M30) no help."""
+    offered = {name: vocabulary(control).codes.keys() for name, control in mnclab.controls.items()}
+    assert "G66" in offered["g43"] and "G66 again" not in offered["g43"]
+    assert not offered["jnc-t01"] & {"N", "M2", "M30"}
+
+
 def test_every_control_has_words_to_point_at():
     script = (FOLDER / "static" / "remoteEntry.js").read_text("utf-8")
     assert {f"control: '{name}'" in script for name in mnclab.controls} == {True}

@@ -319,3 +319,23 @@ def test_no_caption_loses_its_end(size):
         assert any(text.endswith(end) for text in said) and not any("…" in text for text in said)
         right = picture.get_window_extent().x1
         assert all(text.get_window_extent().x1 <= right for text in picture.texts)
+
+
+@pytest.mark.parametrize("kind", ["mill", "drill", "tap"])
+@pytest.mark.parametrize(
+    "tail",
+    ["", "G0 Z5", "G0 Z-2", "M30", "T2 S500\nG0 Z5", "T2 S500\nG0 X0 Z5\nG1 X60", "G1 Z-8\nG1 Z-9", "G1 X40\nG0 Z5"],
+)
+def test_a_plunge_is_one_hole_for_the_table_the_picture_and_the_design(kind, tail):
+    """Straight down and nowhere else with this tool leaves a round hole, whether it comes out again or not."""
+    text = f"T1 S500 M3\nG0 X30 Y20 Z5\nG1 Z-5 F100\n{tail}\n"
+    tools = {n: mnc.Tool(radius=3, kind=kind) for n in (1, 2)}
+    run = mnc.run(text, "mnc", mnc.Setup(tools=tools, stock=((0, 0, -20), (60, 40, 0))))
+    bottom = {"G1 Z-8\nG1 Z-9": -9.0, "G1 X40\nG0 Z5": None}.get(tail, -5.0)
+    wanted = [] if bottom is None else [(30.0, 20.0, 6.0, bottom)]
+    assert [(row.x, row.y, row.diameter, row.bottom) for row in run.holes()] == wanted
+    drawn = holes_of(run)
+    assert [(hole.x, hole.y, 2 * hole.radius, hole.tip) for hole in (drawn.holes if drawn else ())] == wanted
+    if kind == "mill":
+        made = [each for each in run.design().features if each.kind == "hole"]
+        assert [(each.x, each.y, each.diameter, -each.depth) for each in made] == wanted

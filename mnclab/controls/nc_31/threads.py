@@ -101,7 +101,7 @@ class Tapping(FromStart):
 
     x: float | None = aside("X", "X of the tool afterwards", "unchanged", 6000)
     z: float = param("Z", "end of the thread", "0.01 mm", note=FROM_START, example=-2000)
-    feed: float | None = feed_word("pitch", "0.0001 mm", SAME, 12_500)
+    feed: float | None = feed_word("pitch", "0.0001 mm", SAME, 17_500)
     zero_mark: float = own_mark("start at the zero mark of the spindle", example=1)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:

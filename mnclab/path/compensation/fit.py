@@ -127,11 +127,12 @@ def _worded(
     fits, hint = f"the largest radius for the whole contour is {largest:.7g} mm", place.hint
     if largest < NO_TOOL:
         fits, hint = "no tool fits here", hint.removeprefix(HINT).removeprefix(", or ")
+    lacks = f"{missing:.4g} mm {'is' if f'{missing:.4g}' == '1' else 'are'} missing"
     spot = _cut(found, k, int(place.other[m])) if k != place.other[m] else el.end[k]
     at = view.to_space(np.array([row]), np.array([[*spot, view.end[row, 2]]]))[0].tolist()
     return Gouge(
         place.kind, int(path.line[row]), int(path.step[row]), int(path.line[other]), (at[0], at[1], at[2]), R,
-        width, missing, largest, f"{text}: {missing:.4g} mm are missing, {fits}", hint,
+        width, missing, largest, f"{text}: {lacks}, {fits}", hint,
     )  # fmt: skip
 
 

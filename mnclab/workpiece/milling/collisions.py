@@ -16,7 +16,7 @@ import numpy as np
 from mnclab.path.columns import Mask
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import several
-from mnclab.workpiece.collision import Collision, Collisions, coordinates
+from mnclab.workpiece.collision import Collision, Collisions, deep
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.bodies import TOLERANCE, Body, above_edges, edges, holder
 from mnclab.workpiece.milling.cutters import Cutter
@@ -41,7 +41,7 @@ def collisions_of(cutting: Cutting, step: float | None = None) -> Collisions:
     for kind, said, met in _kinds(scene):
         row = met.row
         line, program = int(cutting.path.line[row]), int(cutting.path.program[row])
-        message = f"{said}, {met.depth:.3f} mm deep at {coordinates('XYZ', met.place)}{_hint(cutting, kind, row)}"
+        message = f"{said}, {deep(met.depth, 'XYZ', met.place, cutting.path.unit)}{_hint(cutting, kind, row)}"
         each = Collision(kind, message, line, program, row, met.place, met.depth, _file(cutting, line, program))
         known = found.get((row, kind))
         if known is None or each.depth > known.depth:

@@ -1,10 +1,11 @@
 """What the tools of a lathe meet that they must not: row after row on the half section of the bar, as areas.
 
 Before each row stands what the rows before it have left. A rapid takes nothing of it; at feed the spindle turns, and the
-back of the insert takes nothing. A thread counts as cut down to its root: what runs in it later is not judged there.
+back of the insert takes nothing that stays when its cycle is over. A thread counts as cut down to its root: what runs in it
+later is not judged there.
 
 What an edge that leans leaves on the wall that ends a pass, some tenths for 5 degrees, is cut by what follows and blamed
-on no rapid: cycles run along their walls at rapid, by their manual.
+on no rapid and on no back: cycles run along their walls, by their manual.
 """
 
 from __future__ import annotations
@@ -21,9 +22,9 @@ from mnclab.path.columns import Index
 from mnclab.path.inserts import EDGE, turns
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
-from mnclab.workpiece.collision import Collision, Collisions, coordinates
+from mnclab.workpiece.collision import Collision, Collisions, deep
 from mnclab.workpiece.cutting import Cutting
-from mnclab.workpiece.turning.backs import TOLERANCE, left_by_lean, taken_by_back
+from mnclab.workpiece.turning.backs import TOLERANCE, Back, left_by_lean, taken_by_back
 from mnclab.workpiece.turning.bodies import area_of, behind, outline
 
 AXIS = 1e-6  # mm above the axis, where nothing is outside any more
@@ -65,7 +66,7 @@ def collisions_of(cutting: Cutting, step: float | None = None) -> Collisions:
 def _collision(cutting: Cutting, row: int, met: Met) -> Collision:
     line, program = int(cutting.path.line[row]), int(cutting.path.program[row])
     z, x = met.place
-    message = f"{met.said}, {met.depth:.3f} mm deep at {coordinates('XZ', (x, z))}"
+    message = f"{met.said}, {deep(met.depth, 'XZ', (x, z), cutting.path.unit)}"
     file = str(cutting.name(line, program)).rpartition(":")[0]
     return Collision(met.kind, message, line, program, row, (x, 0.0, z), met.depth, file)
 
@@ -79,7 +80,8 @@ def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
     bodies = [behind(tool, height) for tool in cutting.tools]
     ways = [_way(cutting, row) for row in rows.tolist()]
     areas = _swept([shapes[k] for k in cutting.which[rows].tolist()], ways)
-    for row, way, covered in zip(rows.tolist(), ways, areas, strict=True):
+    later = _Later(path.step[rows].tolist(), (path.kind[rows] != Kind.RAPID).tolist(), areas)
+    for k, (row, way, covered) in enumerate(zip(rows.tolist(), ways, areas, strict=True)):
         which = int(cutting.which[row])
         tool, shape = cutting.tools[which], shapes[which]
         covered = _folded(covered) if way[:, 1].min() < -AXIS else covered  # a tip beyond the axis meets the other side
@@ -89,6 +91,10 @@ def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
         if shapely.intersects(left, covered):
             rest = shapely.difference(left, covered)
             found = list(_cut(cutting, row, tool, shape, way, left, spared, covered))
+            if found and found[-1].kind == "insert":  # again, where nothing is judged that this cycle takes all the same
+                stays = shapely.difference(left, shapely.union(spared, later(k)))
+                back = taken_by_back(tool, shape, way, stays)
+                found = [*found[:-1], *([_backed(back)] if back else [])]
             yield from ((row, met) for met in found)
             if len(way) == 2 and not found and path.kind[row] == Kind.LINE:
                 wedge = left_by_lean(tool, way, shapely.intersection(left, covered))
@@ -137,7 +143,28 @@ def _cut(
         yield met._replace(said=BESIDE.format(tool.kind, beside))
     yield from _bored(tool, shape, way, left, covered)
     if len(way) > 1 and not path.synchronous[row] and (back := taken_by_back(tool, shape, way, left)):
-        yield Met("insert", SAID["insert"], back.place, back.depth)
+        yield _backed(back)
+
+
+def _backed(back: Back) -> Met:
+    return Met("insert", SAID["insert"], back.place, back.depth)
+
+
+class _Later:
+    """What the cuts after the k-th one take in the same step: stock that a cycle leaves to its own later passes."""
+
+    def __init__(self, steps: list[int], cuts: list[bool], areas: list[Any]) -> None:
+        self.steps, self.cuts, self.areas = steps, cuts, areas
+        self._known: dict[int, Any] = {}
+
+    def __call__(self, k: int) -> Any:
+        if k not in self._known:
+            end = next((i for i in range(k, len(self.steps)) if self.steps[i] != self.steps[k]), len(self.steps))
+            found = shapely.Polygon()
+            for i in range(end - 1, k - 1, -1):
+                self._known[i] = found
+                found = shapely.union(found, self.areas[i]) if self.cuts[i] else found
+        return self._known[k]
 
 
 def _bored(tool: Tool, shape: Floats, way: Floats, left: Any, covered: Any) -> Iterator[Met]:

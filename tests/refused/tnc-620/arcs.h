@@ -87,7 +87,7 @@
 3 C X+21 Y+0 DR+
 
 ; == inside-arc-radius-4-not-greater
-; 6:1 alarm: the inside arc of radius 4 is not greater than the tool radius 5: 1 mm are missing, the largest radius for the whole contour is 4 mm (take a smaller tool)
+; 6:1 alarm: the inside arc of radius 4 is not greater than the tool radius 5: 1 mm is missing, the largest radius for the whole contour is 4 mm (take a smaller tool)
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
 2 L X+9 RL

@@ -359,7 +359,7 @@ L Y+50
 12 END PGM A MM
 
 ; == inside-arc-too-small
-; 25:1 alarm: the inside arc of radius 4 is not greater than the tool radius 5: 1 mm are missing, the largest radius for the whole contour is 4 mm (take a smaller tool)
+; 25:1 alarm: the inside arc of radius 4 is not greater than the tool radius 5: 1 mm is missing, the largest radius for the whole contour is 4 mm (take a smaller tool)
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S2000 F400
 2 L X+0 Y+0 Z+100 R0 FMAX

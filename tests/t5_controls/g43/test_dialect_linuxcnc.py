@@ -212,6 +212,11 @@ def test_the_oriented_stop():
     ("G8", 'G8 is refused: on LinuxCNC it makes X a radius, on a lathe (choose control="jnc-t01", or leave it out on a mill)'),
     ("G71", "G71 is no unit on LinuxCNC but roughs a contour on a lathe (write G21 for the unit;"
             " lathes have the control jnc-t01)"),
+    ("G70 Q100 X15", "G70 Q100 is a contour cycle of a lathe (a program of a lathe; write G20 or G21 for the unit, and the"
+                     " motion itself)"),  # G70 Q- [X- Z- D- E- P-] of LinuxCNC
+    ("G71 Q100 X15 D1 R1 I1", "G71 Q100 is a contour cycle of a lathe (a program of a lathe; write G20 or G21 for the unit,"
+                              " and the motion itself)"),
+    ("M101 P1", "P1 has no meaning in this block (what M101 takes, the maker of the machine says: leave P1 out)"),
     ("G103 P5", "G103 is refused: no code of LinuxCNC (leave it out; G64 P says how far a corner may be cut)"),
     ("G5.1 X[.1+.2]", "G5.1 stands in a block without motion, X0.3 does not belong to it (write two blocks; the splines of"
                       " LinuxCNC are not built: write lines or arcs)"),

@@ -24,13 +24,17 @@ MOST_TURNS = 10_000
 
 
 def together(control: Control, modal: Modal, keyword: str, words: list[Word]) -> None:
-    """The length compensation needs a straight motion; R beside a line is no corner."""
+    """The length compensation needs a straight motion; R beside a line is no corner; a unit has no contour."""
     codes = {f"G{digits(word.value)}": word for word in words if word.address == "G" and type(word.value) is float}
     axes = [word for word in words if word.address in AXES]
     if axes and (spline := {"G5", "G5.1"} & codes.keys()):
         sentence = f"{min(spline)} stands in a block without motion, {axes[0].rounded} does not belong to it"
         hint = "write two blocks; the splines of LinuxCNC are not built: write lines or arcs"
         raise Alarm(sentence, axes[0].span, hint=hint)
+    contour = next((word for word in words if word.address in ("P", "Q")), None)
+    if contour and len(codes) == 1 and (lathe := {"G70", "G71"} & codes.keys()):
+        hint = "a program of a lathe; write G20 or G21 for the unit, and the motion itself"
+        raise Alarm(f"{min(lathe)} {contour.rounded} is a contour cycle of a lathe", codes[min(lathe)].span, hint=hint)
     arcs = [code for code in ARCS if code in codes] or [code for code in ARCS if modal.motion == code and axes]
     for code in LENGTHS:
         if code in codes and arcs and not {"G0", "G1"} & codes.keys():
