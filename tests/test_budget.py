@@ -18,12 +18,12 @@ SLACK = 40  # code lines: a mend must not wait for a budget
 
 #: Room -> code lines.
 BUDGETS = {
-    "front door": 422, "comparison": 767, "controls": 945, "controls/g43": 3_335, "controls/jnc_t01": 523,
-    "controls/mnc": 2_407, "controls/nc_31": 902, "controls/tnc_620": 15_430, "controls/word_address": 572,
+    "front door": 422, "comparison": 767, "controls": 944, "controls/g43": 3_335, "controls/jnc_t01": 523,
+    "controls/mnc": 2_407, "controls/nc_31": 902, "controls/tnc_620": 15_429, "controls/word_address": 572,
     "design": 10_255, "geometry": 2_550, "lab": 2_277, "machine": 2_854, "machining": 3_941, "path": 4_434,
-    "running": 1_767, "runs": 2_361, "shell": 357, "show": 8_500, "text": 1_803, "workpiece": 5_621,
+    "running": 1_762, "runs": 2_361, "shell": 357, "show": 8_500, "text": 1_803, "workpiece": 5_621,
 }  # fmt: skip
-FILES = 796
+FILES = 793
 
 
 def code_lines(text):

@@ -24,9 +24,8 @@ from mnclab.machine.setup import Setup
 from mnclab.machine.touching import FEELS, PROBES, Contact
 from mnclab.machine.trial import is_text
 from mnclab.path.listing import figure
-from mnclab.running.binding import instance, store, units_of, value_of
+from mnclab.running.cycles import Place, instance, run_cycle, store, units_of, value_of
 from mnclab.running.interpreter import Interpreter
-from mnclab.running.performing import Place, run_cycle
 from mnclab.text.alarm import Alarm
 from mnclab.text.calls import fitting
 from mnclab.text.given import check_number, plain, shown

@@ -1,17 +1,13 @@
-"""The loop over blocks: words are handed out, each function takes its own, and what is left is an alarm.
-
-What a block means depends on its keyword, its addresses, its G and M words, and on little of the machine's state: the
-modal motion and an active cycle. So the handing out is *planned* once for each kind of block and kept; obeying a block
-is then a walk through its plan, in the order of the control's phases. Handing words out anew for every block took more
-time than obeying them.
-"""
+"""The loop over blocks: words are handed out, each function takes its own, and what is left is an alarm."""
 
 from __future__ import annotations
 
+import os
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from functools import partial
-from typing import Any
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -20,15 +16,104 @@ from mnclab.machine.cycle import Cycle, Definition
 from mnclab.machine.flow import determine
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Setup
-from mnclab.running.binding import assign, instance, refuse_marks, store, units_of, verify
 from mnclab.running.bulk import Bulk
-from mnclab.running.files import alarms_of
-from mnclab.running.flow import Course
-from mnclab.running.handing_out import Plan, Planner
-from mnclab.running.performing import run_cycle
+from mnclab.running.cycles import assign, instance, refuse_marks, run_cycle, store, units_of, verify
+from mnclab.running.dispatch import Plan, Planner
+from mnclab.running.flow import Course, course
 from mnclab.text.alarm import ALARM, WARNING, Alarm, Span
+from mnclab.text.code_pages import decode
+from mnclab.text.file import read
 from mnclab.text.program import EXPRESSION, NONE, NUMBER, Program, Word, place_of
 from mnclab.text.progress import progress
+
+# Other programs and tables, found by their name: in `Setup.files`, then beside the calling file, never elsewhere.
+# Names are compared without regard to case. A type that is not written is that of the control; a directory counts only for
+# `Setup.files`, where a name may be a whole path of the control, since the folders of the control are not those here.
+
+def called(m: Machine, name: str, what: str, span: Span | None = None) -> int:
+    """The index in `flow.programs` of the program of a name, read when it is first called; an Alarm if there is none.
+
+    `what` begins the sentence of the alarm: the statement that calls.
+    """
+    flow = course(m)
+    index = flow.found.get((flow.program.folder, name))
+    if index is None:
+        key, text, folder = found(m, name, what, span)
+        same = (k for k, known in enumerate(flow.programs) if known.name == key and (k or known.folder))
+        index = next(same, None)
+        if index is None:
+            program = m.control.read(text, key)
+            object.__setattr__(program, "folder", folder)
+            index = flow.add(m, program)
+        flow.found[flow.program.folder, name] = index
+    return index
+
+
+class Found(NamedTuple):
+    """A file: its name, its text, its folder, "" for none."""
+
+    name: str
+    text: str
+    folder: str
+
+
+def found(m: Machine, name: str, what: str, span: Span | None, kind: str = "program") -> Found:
+    """The file that a statement (`what`) names; an Alarm if there is none. A `kind` other than programs names its type."""
+    caller = m.flow.program
+    types = sorted(m.control.suffixes, key=lambda suffix: not caller.name.lower().endswith(suffix)) or [""]  # its own first
+    for wanted, suffix in ((_spelt(name, suffix), suffix) for suffix in types):
+        files = {_spelt(known, suffix): (known, source) for known, source in m.setup.files.items()}
+        for key in (wanted, _last(wanted)):
+            if key in files:
+                known, source = files[key]
+                if isinstance(source, str):
+                    return Found(known, source, caller.folder)
+                return Found(str(source), _text(source, what, span), str(source.parent))
+    file = next(filter(None, (_beside(caller, _last(_spelt(name, suffix))) for suffix in (*types, ""))), None)
+    if file is not None and not Path(os.path.realpath(file)).is_relative_to(os.path.realpath(caller.folder)):
+        elsewhere = "it is a symbolic link to another folder, and files are taken from the folder of the program alone"
+        raise Alarm(f"{what} {name}: {elsewhere}", span, hint="Setup(files=…) names files that lie elsewhere")
+    if file is None:
+        where = f"the folder of {caller.title}" if caller.folder else "a program without a file has no folder"
+        names = ", ".join(sorted(m.setup.files)[:8])
+        hint = f"Setup(files=…) has {names or 'no files'}; {where}{' has none' if caller.folder else ''}"
+        raise Alarm(f"{what} {name}: there is no {kind} of this name", span, hint=hint)
+    return Found(str(file), _text(file, what, span), caller.folder)
+
+
+def _beside(caller: Program, wanted: str) -> Path | None:
+    if not caller.folder:
+        return None
+    try:
+        names = sorted(name for name in os.listdir(caller.folder) if name.lower() == wanted)
+    except OSError:
+        return None
+    return next((path for name in names if os.path.isfile(path := Path(caller.folder, name))), None)
+
+
+def _text(path: Path, what: str, span: Span | None) -> str:
+    try:
+        return decode(read(path, f"{what}: {path.name}"))[0]
+    except Alarm as alarm:
+        alarm.span = span
+        raise
+
+
+def _spelt(name: str, suffix: str) -> str:
+    """A name as it is compared: small letters, one kind of slash, with a type of the control."""
+    name = name.strip().replace("\\", "/").lower()
+    return name if "." in _last(name) else name + suffix
+
+
+def _last(name: str) -> str:
+    return name.replace(":", "/").rpartition("/")[2]
+
+
+def alarms_of(program: Program, index: int) -> Iterator[Alarm]:
+    """The alarms that a reader found in a program, at their places in a run."""
+    for alarm in program.alarms:
+        yield alarm.changed(span=alarm.span and alarm.span._replace(program=index), source=program)
+
 
 WINDOW = 256  # blocks whose words are made at once; more would keep the garbage collector busy
 RECENT = 4  # windows that are kept

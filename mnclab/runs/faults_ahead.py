@@ -15,9 +15,9 @@ from typing import Any
 from mnclab.machine.control import Function, Modal, Words
 from mnclab.machine.cycle import Cycle, Definition, Parameter
 from mnclab.machine.machine import Machine
-from mnclab.running.binding import check_value, fault, value_of
+from mnclab.running.cycles import check_value, fault, value_of
+from mnclab.running.dispatch import Plan, Planner
 from mnclab.running.flow import Course
-from mnclab.running.handing_out import Plan, Planner
 from mnclab.running.interpreter import Interpreter
 from mnclab.runs.lint.still_spindle import HINT, SENTENCE
 from mnclab.runs.written import blocks_with

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from mnclab.machine.control import Control, Function, Modal
 from mnclab.machine.cycle import Cycle
 from mnclab.path.listing import Unit, figure
-from mnclab.running.handing_out import Action, Plan, Planner
+from mnclab.running.dispatch import Action, Plan, Planner
 from mnclab.runs.values import unit_of
 from mnclab.text.alarm import Alarm
 from mnclab.text.expression import Expression

@@ -11,8 +11,8 @@ from mnclab import Tool
 from mnclab.geometry import frames
 from mnclab.machine.state import HISTORY, PUT_BACK, ROWS, TABLE
 from mnclab.machining.steps import Write
+from mnclab.running.cycles import write
 from mnclab.running.interpreter import Interpreter
-from mnclab.running.performing import write
 from mnclab.text.alarm import Alarm
 
 #: What a block cannot change, and what is worked out from the table.

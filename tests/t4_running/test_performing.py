@@ -10,8 +10,8 @@ from mnclab.geometry.contours import Contour
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Along, Each, Go, Say, Step, Swivel, Touch, Write
 from mnclab.path.kinds import Kind
+from mnclab.running.cycles import perform
 from mnclab.running.interpreter import Interpreter
-from mnclab.running.performing import perform
 from mnclab.workpiece.part import box
 
 #: A stair: its upper step ends at X 50.

@@ -11,8 +11,8 @@ import mnclab
 from mnclab import Setup, Tool
 from mnclab.controls.tnc_620.contours.area import area_of, labelled_shapes
 from mnclab.controls.tnc_620.state import memory
+from mnclab.running.cycles import perform
 from mnclab.running.interpreter import Interpreter
-from mnclab.running.performing import perform
 
 ROUGH = """CYCL DEF 20 CONTOUR DATA
 Q1=-5

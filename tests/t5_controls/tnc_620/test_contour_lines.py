@@ -6,8 +6,8 @@ import pytest
 import mnclab
 from mnclab import Setup
 from mnclab.controls.tnc_620.contours.line import contour_line
+from mnclab.running.cycles import perform
 from mnclab.running.interpreter import Interpreter
-from mnclab.running.performing import perform
 
 
 def line(blocks, before="", in_space=False):

@@ -8,8 +8,8 @@ import mnclab
 from mnclab import Kind, Setup, Tool
 from mnclab.controls.tnc_620.contours.area import area_of, labelled_shapes
 from mnclab.controls.tnc_620.state import memory
+from mnclab.running.cycles import perform
 from mnclab.running.interpreter import Interpreter
-from mnclab.running.performing import perform
 
 CIRCLE_A = "LBL 1\nL X+{a} Y+50 RR\nCC X+35 Y+50\nC X+{a} Y+50 DR-\nLBL 0\n"
 CIRCLE_B = "LBL 2\nL X+{b} Y+50 {side}\nCC X+65 Y+50\nC X+{b} Y+50 DR-\nLBL 0\n"

@@ -18,8 +18,8 @@ from mnclab import Kind
 from mnclab.geometry import frames
 from mnclab.machine.machine import Machine
 from mnclab.machining.holes.drilling import guided
+from mnclab.running.cycles import perform
 from mnclab.running.flow import Course
-from mnclab.running.performing import perform
 
 FILE = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-drilling.json"
 EXAMPLES = json.loads(FILE.read_text(encoding="utf-8"))

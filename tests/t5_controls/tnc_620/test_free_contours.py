@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 import mnclab as mnc
 from mnclab.controls.tnc_620.contours.area import area_of, labelled_shapes
 from mnclab.controls.tnc_620.state import memory
+from mnclab.running.cycles import perform
 from mnclab.running.interpreter import Interpreter
-from mnclab.running.performing import perform
 
 EXAMPLES = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-klartext.json"
 (C20,) = [e for e in json.loads(EXAMPLES.read_text(encoding="utf-8")) if e["code"] == "FK"]

@@ -15,7 +15,7 @@ from mnclab.controls.g43.reading.o_words import spelled
 from mnclab.controls.g43.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
-from mnclab.running import files
+from mnclab.running import interpreter
 from mnclab.running.flow import course
 from mnclab.text.program import Word
 
@@ -97,7 +97,7 @@ def place_of(m: Machine, name: str, word: Word) -> int:
     if file is None:
         hint = f"neither this file nor Setup(files=…) nor the folder has O{name} sub"
         m.alarm(f"there is no subprogram O{name}", word, hint)
-    index = files.called(m, file, f"O{name} call", m.span_of(word))
+    index = interpreter.called(m, file, f"O{name} call", m.span_of(word))
     if label not in flow.programs[index].labels:
         m.alarm(
             f"the file {programs.last(file)} has no subprogram O{name}",

@@ -20,7 +20,7 @@ from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address.motion import first_word
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
-from mnclab.running import files
+from mnclab.running import interpreter
 from mnclab.running.flow import course
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
@@ -251,7 +251,7 @@ def found(m: Machine, program: int, code: str, word: Word | None) -> tuple[int, 
         there = ", ".join(name for _, name in sections.sections(m)[:8]) or "no program with a number"
         hint = f"this file has {there}; Setup(files=…) and the folder have no file {label}"
         m.alarm(f"{what}: there is no program {label}", word, hint)
-    index = files.called(m, name, code, m.span_of(word))
+    index = interpreter.called(m, name, code, m.span_of(word))
     labels = course(m).programs[index].labels
     other = next((held for held in labels if held[0] == "O"), "")
     if label not in labels and other:

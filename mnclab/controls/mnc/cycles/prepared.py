@@ -18,7 +18,7 @@ from mnclab.machine.machine import Machine
 from mnclab.machining.holes.drilling import back_to_axis
 from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Go, Say, Step, Write
-from mnclab.running.performing import run_cycle
+from mnclab.running.cycles import run_cycle
 
 FUNCTIONS = FunctionTable()
 CYCLES = CycleTable()

@@ -13,7 +13,7 @@ from mnclab.machine.cycle import Cycle, CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
 from mnclab.machining.steps import Step, Write
-from mnclab.running.binding import unit_of
+from mnclab.running.cycles import unit_of
 
 CYCLES = CycleTable()
 AnyCycle = TypeVar("AnyCycle", bound=Cycle)

@@ -8,7 +8,7 @@ from mnclab.controls.tnc_620.language.flow import call_program
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Blocks, Step
-from mnclab.running import files
+from mnclab.running import interpreter
 from mnclab.text.alarm import Alarm
 
 CYCLES = CycleTable()
@@ -22,7 +22,7 @@ class ProgramCall(Cycle):
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         try:
-            files.called(m, self.program_name, self.code)
+            interpreter.called(m, self.program_name, self.code)
         except Alarm as missing:
             yield "program_name", missing.message.removeprefix(f"{self.code} ")
 

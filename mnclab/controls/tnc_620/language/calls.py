@@ -26,8 +26,7 @@ from mnclab.machine.coordinates import PLANES
 from mnclab.machine.cycle import Definition
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Call, Each, Go, Step, Write
-from mnclab.running.binding import as_it_stands, instance, refuse_frame
-from mnclab.running.performing import perform, run_cycle
+from mnclab.running.cycles import as_it_stands, instance, perform, refuse_frame, run_cycle
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 

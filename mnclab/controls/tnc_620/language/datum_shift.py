@@ -7,7 +7,7 @@ from mnclab.controls.tnc_620.cycles.transformations import AXES, DatumShift
 from mnclab.controls.tnc_620.language.checks import counted
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
-from mnclab.running.performing import perform
+from mnclab.running.cycles import perform
 
 FUNCTIONS = FunctionTable()
 SOURCE = "Klartext, not described"

@@ -9,7 +9,7 @@ from mnclab.controls.tnc_620.language.parameters import PREASSIGNED, text
 from mnclab.controls.tnc_620.state import count_in, memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
-from mnclab.running import files
+from mnclab.running import interpreter
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
@@ -76,7 +76,7 @@ def jump(m: Machine, words: Words) -> None:
 def call_program(m: Machine, name: str, what: str, word: Word | None = None) -> None:
     """Run another program here, with its own QL parameters; `what` is the statement that calls it."""
     place = m.span_of(word)
-    index = files.called(m, name, what, place)
+    index = interpreter.called(m, name, what, place)
     kept, length = (memory(m).name, memory(m).unit), m.variable_unit
     memory(m).name = memory(m).unit = None
     with m.variables.own_level():

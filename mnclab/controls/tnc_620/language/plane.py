@@ -20,7 +20,7 @@ from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import STILL, turning_feed
 from mnclab.machine.machine import INF, Machine
 from mnclab.machining.steps import Step, Write
-from mnclab.running.performing import perform
+from mnclab.running.cycles import perform
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()

@@ -12,8 +12,8 @@ from mnclab.controls.tnc_620.tables.free_tables import put_out_tables
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
+from mnclab.running.cycles import perform
 from mnclab.running.flow import course
-from mnclab.running.performing import perform
 
 FUNCTIONS = FunctionTable()
 STOPS = {"M0": "Program stop", "M1": "Optional stop"}

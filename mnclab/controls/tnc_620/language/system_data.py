@@ -25,7 +25,7 @@ from mnclab.machine.control import Setting
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
 from mnclab.path.tool import Tool
-from mnclab.running.binding import unit_of
+from mnclab.running.cycles import unit_of
 
 SETTINGS = (
     Setting("execution", True, "a program that asks (ID992 NR16) is executed, and not simulated", "System data, ID992"),

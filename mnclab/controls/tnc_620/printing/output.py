@@ -11,7 +11,7 @@ from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Setting, Words
 from mnclab.machine.flow import put_out
 from mnclab.machine.machine import Machine
-from mnclab.running.files import found
+from mnclab.running.interpreter import found
 from mnclab.text.alarm import Alarm
 from mnclab.text.expression import Expression
 from mnclab.text.program import Word, digits

@@ -17,7 +17,7 @@ from typing import TypeVar
 
 from mnclab.controls.tnc_620.reading.words import INCH
 from mnclab.machine.machine import Machine
-from mnclab.running.files import found
+from mnclab.running.interpreter import found
 from mnclab.text.given import LARGEST
 from mnclab.text.program import Word
 
