@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import math
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import reduce
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.geometry.vectors import Floats, length_of
+from mnclab.geometry.vectors import Floats
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, faults_as_alarms, shown
 
@@ -19,7 +21,9 @@ EXAMPLE = "mnclab.area.area_of(mnclab.area.svg('drawing.svg'))"
 SAME = 1e-3  # mm, below which ends of a drawing count as one point
 FARTHEST = 1e6  # mm, of a place in a drawing
 SAMPLES = 50  # elements of a contour that tell where it lies
-MOST = 200_000  # chords of the curves of a drawing; its entities
+MOST = 200_000  # chords of the curves of a drawing
+MANY, LOOPS = 50, 1000  # closed contours that are not laid over each other if they lie apart; that make an area at most
+ROUGH = 0.01  # mm, of chords that tell what lies apart
 
 
 def area_of(contours: Iterable[Contour], tolerance: float = SAME) -> Region:
@@ -43,13 +47,36 @@ def area_of(contours: Iterable[Contour], tolerance: float = SAME) -> Region:
                     hint=f"tolerance={tolerance:g} mm joins ends that are so near each other" if ends else "")  # fmt: skip
     if ends:
         warnings.warn(f"the area is bounded without {left}", stacklevel=2)
+    if len(loops) > LOOPS:
+        hint = "read fewer layers, or make an area of each part of the drawing"
+        raise Alarm(f"the drawing has {len(loops)} closed contours, an area at most {LOOPS}", hint=hint)
     loops = _once(loops, tolerance)
+    if len(loops) > MANY and (area := _of_many(loops)):
+        return area
     within = np.array([_inside(loop, loops, tolerance) for loop in loops])
     depth = within.sum(axis=0) - np.diag(within)
     levels = [[loop for loop, d in zip(loops, depth, strict=True) if d == level] for level in range(depth.max() + 2)]
     with faults_as_alarms():
         pieces = [Region.of(*outer, holes=holes) for outer, holes in zip(levels[::2], levels[1::2])]
     return reduce(Region.union, pieces)
+
+
+def _of_many(loops: list[Contour]) -> Region | None:
+    """The area of loops that lie apart, as they are: each with those right within it. None where two touch or cross."""
+    rings = [shapely.Polygon(np.vstack([loop.points_within(ROUGH), loop.points[:1]])) for loop in loops]
+    edges = [ring.exterior for ring in rings]
+    one, other = shapely.STRtree(edges).query(edges, "dwithin", 4 * ROUGH)
+    if (one != other).any():
+        return None
+    around, inner = shapely.STRtree([shapely.Point(loop.points[0]) for loop in loops]).query(rings, "contains")
+    depth = np.bincount(inner[around != inner], minlength=len(loops))
+    kept: list[Contour] = []
+    with faults_as_alarms():
+        whole = [Region.of(loop).loops[0] for loop in loops]
+    for k in np.flatnonzero(depth % 2 == 0).tolist():
+        islands = inner[(around == k) & (depth[inner] == depth[k] + 1)]
+        kept += [whole[k], *(whole[i].reversed() for i in islands.tolist())]
+    return Region(tuple(kept))
 
 
 def _once(loops: list[Contour], tolerance: float) -> list[Contour]:
@@ -84,30 +111,58 @@ def _places(contour: Contour) -> Floats:
 
 def joined(contours: Iterable[Contour], tolerance: float = SAME) -> list[Contour]:
     """Open contours strung together where an end meets another's, turned round if need be; closed ones as they are."""
+    contours = list(contours)
     closed = [contour for contour in contours if contour.closed]
-    loose = [contour for contour in contours if not contour.closed and contour.length > tolerance]
-    while loose:
-        chain = [loose.pop(0)]
+    loose = _Loose([contour for contour in contours if not contour.closed and contour.length > tolerance], tolerance)
+    for first in loose.each():
+        chain = [first]
         while True:
             tail, head = chain[-1].points[-1], chain[0].points[0]
-            is_round = length_of(tail - head) <= tolerance and (len(chain) > 1 or len(chain[0].starts) > 1)
-            k = None if is_round else _meeting(loose, tail, tolerance)
-            if k is None:
+            is_round = math.dist(tail, head) <= tolerance and (len(chain) > 1 or len(chain[0].starts) > 1)
+            following = None if is_round else loose.meeting(tail)
+            if following is None:
                 break
-            following = loose.pop(k)
-            near = length_of(following.points[0] - tail) <= tolerance
-            chain.append(following if near else following.reversed())
+            chain.append(following)
         closed.append(_strung(chain, bool(is_round)))
     return closed
 
 
-def _meeting(loose: Sequence[Contour], tail: np.ndarray, tolerance: float) -> int | None:
-    if not loose:
-        return None
-    ends = np.array([[contour.points[0], contour.points[-1]] for contour in loose])
-    away = length_of(ends - tail).min(axis=1)
-    k = int(away.argmin())
-    return k if away[k] <= tolerance else None
+class _Loose:
+    """Open pieces by the cells of a grid, as wide as the tolerance, that their ends lie in; what is taken is gone."""
+
+    def __init__(self, pieces: list[Contour], tolerance: float) -> None:
+        self.pieces, self.tolerance = dict(enumerate(pieces)), tolerance
+        self.ends = [(tuple(piece.points[0].tolist()), tuple(piece.points[-1].tolist())) for piece in pieces]
+        self.cells: dict[tuple[int, int], dict[int, None]] = {}
+        for k, ends in enumerate(self.ends):
+            for end in ends:
+                self.cells.setdefault(self._cell(end), {})[k] = None
+
+    def _cell(self, place: Sequence[float]) -> tuple[int, int]:
+        return math.floor(place[0] / self.tolerance), math.floor(place[1] / self.tolerance)
+
+    def each(self) -> Iterator[Contour]:
+        """The first piece that is left, as long as there is one."""
+        while self.pieces:
+            yield self._take(next(iter(self.pieces)))
+
+    def _take(self, k: int) -> Contour:
+        for end in self.ends[k]:
+            self.cells[self._cell(end)].pop(k, None)
+        return self.pieces.pop(k)
+
+    def meeting(self, tail: Floats) -> Contour | None:
+        """The piece whose end is nearest to a place, from there on; None where none is within the tolerance."""
+        place = tail.tolist()
+        x, y = self._cell(place)
+        near = {k for i in (-1, 0, 1) for j in (-1, 0, 1) for k in self.cells.get((x + i, y + j), ())}
+        away = [(min(math.dist(end, place) for end in self.ends[k]), k) for k in near]
+        off, k = min(away, default=(math.inf, 0))
+        if off > self.tolerance:
+            return None
+        forwards = math.dist(self.ends[k][0], place) <= self.tolerance
+        piece = self._take(k)
+        return piece if forwards else piece.reversed()
 
 
 def _strung(chain: Sequence[Contour], closed: bool) -> Contour:

@@ -38,6 +38,9 @@ WRITTEN = {
 FRAME = 16  # flag of a vertex that only steers a fitted curve
 DEGREE = 15  # of a spline
 DEEPEST = 50  # blocks within blocks
+ENTITIES, VALUES = 10_000, 200_000  # of a drawing: more would be waited for
+PER_LINE = 12  # values that a line has
+FEWER = "save the part or the layer that is meant in a file of its own, with its short lines joined to polylines"
 
 
 def contours(source: str | Path, tolerance: float = 0.01, layer: str | None = None) -> list[Contour]:
@@ -52,7 +55,9 @@ def contours(source: str | Path, tolerance: float = 0.01, layer: str | None = No
     if not isinstance(source, str | Path):
         raise Alarm(f"a DXF drawing is the path of a file, got {shown(source)}")
     check_number(tolerance, "the tolerance (mm)", above=0)
-    read(source, source)  # refuses what is no file, which would be waited for
+    values = read(source, source).count(b"\n") // 2  # which also refuses what is no file, and would be waited for
+    if values > VALUES:
+        raise Alarm(f"{source} has {values} values, as {values // PER_LINE} lines have; at most {VALUES} are read", hint=FEWER)
     said = _Said(logging.WARNING)
     logger = logging.getLogger("ezdxf")
     logger.addHandler(said)  # which also keeps it off stderr
@@ -88,15 +93,16 @@ def _entities(space: Any, known: dict[str, int], depth: int) -> int:
     count = len(space)
     for insert in space.query("INSERT"):
         block, name = insert.block(), insert.dxf.name.lower()
-        if insert.mcount > MOST:
-            raise Alarm(f"{_named(insert)} places its block {insert.mcount} times, at most {MOST} are read")
+        if insert.mcount > ENTITIES:
+            raise Alarm(f"{_named(insert)} places its block {insert.mcount} times, at most {ENTITIES} are read")
         if depth == DEEPEST:
             raise Alarm(f"{_named(insert)} lies in {DEEPEST} blocks within each other")
         if block is not None and name not in known:
             known[name] = _entities(block, known, depth + 1)
         count += insert.mcount * known.get(name, 0)
-    if count > MOST:
-        raise Alarm(f"the drawing has more than {MOST} entities, blocks counted as often as they are inserted")
+    if count > ENTITIES:
+        counted = f"{count} entities or more, blocks counted as often as they are inserted"
+        raise Alarm(f"the drawing has {counted}; at most {ENTITIES} are read", hint=FEWER)
     return count
 
 

@@ -217,3 +217,38 @@ def test_islands_in_islands():
     squares = [rectangle(10 * k, 10 * k) for k in range(1, 8)]
     found = area_of(squares[::2] + squares[1::2])
     assert found.area == pytest.approx(sum((-1) ** (7 - k) * (10 * k) ** 2 for k in range(1, 8)))
+
+
+def test_many_contours_that_lie_apart():
+    """A plate of 100 rings, each with a pin in it; counted with the pins' own holes: 301 loops in 201 pieces."""
+    places = [(10 * i, 10 * j) for i in range(10) for j in range(10)]
+    rings = [Contour.circle(place, r, clockwise=r == 3) for place in places for r in (4, 3, 1)]
+    plate = Contour([(-10, -10), (100, -10), (100, 100), (-10, 100)])
+    area = area_of([*rings[::2], plate, *rings[1::2]])
+    assert area.area == pytest.approx(110**2 - 100 * np.pi * (16 - 9 + 1))
+    assert len(area.loops) == 301 and len(area.parts) == 101
+    assert sorted(round(part.area, 6) for part in area.parts)[:100] == [round(np.pi * 8, 6)] * 100
+
+
+def test_many_contours_of_which_two_overlap():
+    """Sixty circles in a row, each of radius 1; the last two overlap: what both enclose counts once."""
+    circles = [Contour.circle((3 * k, 0), 1) for k in range(59)]
+    area = area_of([*circles, Contour.circle((3 * 58, 1.9), 1)])
+    lens = 2 * np.arccos(0.95) - 0.95 * np.sqrt(4 - 1.9**2)
+    assert area.area == pytest.approx(60 * np.pi - lens)
+
+
+def test_more_contours_than_an_area_has():
+    with pytest.raises(Alarm, match="has 1001 closed contours, an area at most 1000"):
+        area_of([Contour.circle((3 * k, 0), 1) for k in range(1001)])
+
+
+def test_thousands_of_pieces_are_strung_together():
+    """A circle in 5,000 chords in any order and sense."""
+    angles = np.arange(5000) * 2 * np.pi / 5000
+    corners = 100 * np.column_stack([np.cos(angles), np.sin(angles)])
+    order = np.random.default_rng(1).permutation(5000)
+    pieces = [Contour(corners[[k, (k + 1) % 5000]][:: 1 if k % 3 else -1], closed=False) for k in order.tolist()]
+    (ring,) = joined(pieces)
+    assert ring.closed and len(ring.points) == 5000
+    assert abs(ring.area) == pytest.approx(5000 / 2 * 1e4 * np.sin(2 * np.pi / 5000))

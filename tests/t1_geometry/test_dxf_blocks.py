@@ -164,11 +164,21 @@ def test_blocks_without_end(tmp_path):
     new, space = drawing()
     new.blocks.new("SELF").add_blockref("SELF", (1, 0))
     many = {"row_count": 30000, "column_count": 30000, "row_spacing": 1, "column_spacing": 1}
-    for name, how, says in (("SELF", {}, "blocks within each other"), ("ISLAND", many, "at most 200000")):
+    for name, how, says in (("SELF", {}, "blocks within each other"), ("ISLAND", many, "at most 10000")):
         insert = space.add_blockref(name, (0, 0), dxfattribs=how)
         with pytest.raises(Alarm, match=says):
             read(new, tmp_path)
         space.delete_entity(insert)
+
+
+def test_a_drawing_that_would_be_waited_for_is_counted(tmp_path):
+    """200,000 lines of 12 values each, of which none is read."""
+    line = "0\nLINE\n5\n1F\n100\nAcDbEntity\n8\n0\n100\nAcDbLine\n10\n0\n20\n0\n30\n0\n11\n1\n21\n1\n31\n0\n62\n1\n"
+    file = tmp_path / "huge.dxf"
+    file.write_text("0\nSECTION\n2\nENTITIES\n" + line * 200_000 + "0\nENDSEC\n0\nEOF\n")
+    with pytest.raises(Alarm, match="has 2400004 values, as 200000 lines have; at most 200000 are read") as found:
+        area.dxf(file)
+    assert "a file of its own" in found.value.hint
 
 
 def test_blocks_that_double_are_counted_before_they_are_read(tmp_path, monkeypatch):
@@ -182,7 +192,7 @@ def test_blocks_that_double_are_counted_before_they_are_read(tmp_path, monkeypat
     space.add_blockref("B29", (0, 0))
     made = []
     monkeypatch.setattr(dxf, "_contours", lambda *given: made.append(given) or ())
-    with pytest.raises(Alarm, match="more than 200000 entities"):
+    with pytest.raises(Alarm, match="has 1[0-9]{4} entities or more, blocks counted .* at most 10000"):
         read(new, tmp_path)
     assert not made
 
