@@ -70,7 +70,8 @@ class Collisions(tuple[Collision, ...]):
 
     `reach` is "up to line 12, where the run stopped" if only a part of the program was judged, empty where all of it was.
     `ok` is whether all of the program was judged and there are none; the truth value is the opposite, so that what stands
-    after `if not run.collisions()` is not reached by a run that stopped. `len` counts what was found.
+    after `if not run.collisions()` is not reached by a run that stopped. `len` counts what was found. JSON has a tuple as a list,
+without `reach` and `notes`: `json.dumps(run.collisions().as_dict())`.
     """
 
     notes: tuple[str, ...]
@@ -88,6 +89,11 @@ class Collisions(tuple[Collision, ...]):
 
     def __bool__(self) -> bool:
         return not self.ok
+
+    def as_dict(self) -> dict[str, object]:
+        """All that is known as one record for JSON: a list of the collisions alone says nothing of where a run stopped."""
+        found = {"ok": self.ok, "reach": self.reach, "sentence": self.sentence, "notes": list(self.notes)}
+        return found | {"collisions": [each.as_dict() for each in self]}
 
     @property
     def sentence(self) -> str:

@@ -204,6 +204,25 @@ def test_a_gouge_that_the_control_does_not_see_is_marked():
     assert found.ok and lines(found.plot().axes[0])["gouge"].get_xydata() == pytest.approx(np.array([[22, 0]]))
 
 
+@pytest.mark.parametrize(
+    ("stop", "marked"),
+    [
+        ("L X+20 Y-40 R0\nFOO\n", [[22, 0]]),
+        ("L Y-30\nCR X+23 Y-30 R+1.5 DR+\nL Y-20\nL X+20 Y-40 R0\n", [[22, 0], [23, -20]]),  # a slot 3 wide, an arc of 1.5
+        ("L X+21\nL Y-10\nL X+100 R0\n", [[22, 0]]),  # an element of 1 between two outside corners
+    ],
+)
+def test_gouges_of_a_stopped_run_are_marked_as_it_warns_of_them(stop, marked):
+    text = (
+        "BEGIN PGM T MM\nTOOL CALL 1 Z S1000\nL Z-5 R0 FMAX M3\nL X-20 Y-5 R0 FMAX\nL X+0 Y+0 RL F300\nL X+40\nL Y+20\n"
+        f"L X+20\nL Y-20\n{stop}END PGM T MM\n"
+    )
+    found = mnclab.run(text, "tnc-620", Setup(tools={1: mnclab.Tool(radius=2, number=1)}))
+    told = [alarm for alarm in found.alarms if "tool of radius 2" in alarm.message and alarm.severity == "warning"]
+    assert not found.ok and len(told) == len(marked)
+    assert lines(found.plot().axes[0])["gouge"].get_xydata() == pytest.approx(np.array(marked))
+
+
 def test_rapids_on_one_line_are_drawn_once_so_that_their_dashes_stay_apart():
     back = "G90 G54\nG0 X0 Y0 Z5\nX40\nX10\nX60\nX0\nY30\nX30 Y0\nX0 Y30\nX30\nX45\n"
     ax = mnclab.run(back, "mnc", Setup(start=(0, 0, 5))).plot(view="XY").axes[0]

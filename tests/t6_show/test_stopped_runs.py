@@ -39,6 +39,7 @@ def html(shown):
 
 VERDICTS = {
     "collisions": lambda run: repr(run.collisions()),
+    "collisions, as JSON": lambda run: json.dumps(run.collisions().as_dict()),
     "collisions, a page": lambda run: html(run.collisions()),
     "the card": html,
     "the part": lambda run: repr(run.workpiece()),
@@ -78,7 +79,7 @@ def test_nothing_passes(stop):
     run, _ = stopped(stop)
     met, same = run.collisions(), run.workpiece().compare(run.workpiece())
     assert isinstance(met, tuple) and len(met) == (stop == "travel")  # the cut that would have left the travel
-    assert met and not met.ok
+    assert met and not met.ok and not met.as_dict()["ok"]
     assert not same.ok and not same.as_dict()["ok"]
     assert not mnclab.diff(run, run, what="holes").same
     assert not mnclab.diff(run, run).complete
@@ -95,6 +96,7 @@ def test_a_whole_run_passes_and_says_nothing():
     met = run.collisions()
     assert run.ok and run.reach == "" and run.halt is None
     assert met.ok and not met and repr(met) == "no collisions"
+    assert met.as_dict() == {"ok": True, "reach": "", "sentence": "no collisions", "notes": [], "collisions": []}
     assert run.workpiece().compare(run.workpiece()).ok and mnclab.diff(run, run, what="holes").same
     assert not any("stopped" in tell(run) for tell in VERDICTS.values())
 

@@ -244,7 +244,7 @@ def plot_run(
         return _telling(run, plot_unrolled(run.toolpath, ax, **options))
     given = {"programmed": None if run.programmed is run.toolpath else run.programmed, "alarms": run.alarms}
     given |= {"stock": run.stock if stock else None, "rapids": rapids_of(run)}
-    done = set(run.toolpath.step[run.toolpath.gouge].tolist())  # not what a stop left undone
+    done = set(run.programmed.step.tolist())  # of a stopped run those that it warns of, not what it left undone
     given["gouged"] = np.array([gouge.place for gouge in run.gouges if gouge.step in done]).reshape(-1, 3)
     path, insert = run.toolpath, options.get("insert", True)
     if path.lathe:
