@@ -156,7 +156,7 @@ def _notes(
     if removal is None:
         yield f"{unknown} ap, ae, hm and Q are not known, and moves in the air count."
     else:
-        yield "Q most is that at a place in the material, plunges too; ap and ae are the greatest of a row, hm goes with its most Q."
+        yield "Q most is that at a place in the material, plunges too; ap and ae are the most of a row, hm goes with its most Q."
     if any(cut.open for cut in found):
         yield "At least: more rows may have more than can be looked at, or a thread, at which nothing is."
     if few := [cut for cut in found if cut.depth and cut.seen[0] < cut.seen[1]]:

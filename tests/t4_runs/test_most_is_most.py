@@ -9,7 +9,7 @@ import pytest
 
 import mnclab
 from mnclab import Limits, Setup, Tool
-from mnclab.workpiece.ahead import CHIP, DEPTH, RATE, WIDTH, Looks
+from mnclab.workpiece.ahead import CHIP, DEPTH, FEW, RATE, WIDTH, Looks
 
 FAST = Limits(acceleration=1e9, rapid=1e6)
 BLANK = ((0, 0, -20), (60, 50, 0))
@@ -118,22 +118,23 @@ def test_random_passes_of_a_lathe(seed):
 
 
 def test_a_deep_row_among_many_shallow_ones():
-    """1,000 rows 10 wide and 1 deep in one direction, one of them 4 mm deep for 1 mm: neither its mean nor an even choice
-    finds it. 8 wide, 2 deep at 500 is 8 cm³/min; where it is 4 deep, 16."""
-    tool = Tool(number=1, radius=4, teeth=2, cutting_length=40)
-    rows, lines = 300, ["G0 X-10 Y25", "G0 Z-2", "G1 F500"]
-    for k in range(rows):
-        x = 70 * (k + 1) / rows
-        lines += [
-            f"G1 X{x:.3f}",
-            *([f"G1 X{x + 0.1:.3f} Z-4", f"G1 X{x + 0.2:.3f}", f"G1 X{x + 0.3:.3f} Z-2"] if k == 101 else []),
-        ]
-    cut = checked(milled(lines, tool), 2)
+    """Of 220 rows of a slot 8 wide and 2 deep at 500 three go down to 4 for 0.3 mm: no choice of 60 rows need find them."""
+    lines = ["G0 X-10 Y25", "G0 Z-2", "G1 F500"]
+    for k in range(220):
+        x = 70 * (k + 1) / 220
+        down = f"G1 X{x + 0.1:.3f} Z-4", f"G1 X{x + 0.2:.3f}", f"G1 X{x + 0.3:.3f} Z-2"
+        lines += [f"G1 X{x:.3f}", *(down if k == 101 else ())]
+    cut = checked(milled(lines, MILLS["end mill"]), 2)
     assert cut.depth[1] == pytest.approx(4) and cut.open == ()
-    slot = checked(
-        milled([line for line in lines if "Z-4" not in line and not line.endswith("Z-2") or "G0" in line], tool), 2
-    )
-    assert slot.rate[1] == pytest.approx(8000, rel=1e-3) and slot.width[1] == pytest.approx(8, rel=1e-3)
+
+
+def test_a_slot_in_short_rows():
+    """8 wide, 2 deep at 500: 8 cm³/min and the whole width; few rows prove it, for none can have more."""
+    run = milled(["G0 X-10 Y25", "G0 Z-2", "G1 F500", *(f"G1 X{0.25 * k:.2f}" for k in range(280))], MILLS["end mill"])
+    (cut,) = run.cutting_data()
+    assert cut.rate[1] == pytest.approx(8000, rel=1e-3) and cut.width[1] == pytest.approx(8, rel=1e-3)
+    (looks,) = run.removal().looks.values()
+    assert looks.seen.sum() <= 2 * FEW < len(looks.rows)
 
 
 def slot(tool, depth, step=None):
@@ -172,17 +173,25 @@ def test_why_there_is_no_chip_of_a_ball():
 
 
 def test_a_taper_into_a_step():
-    """From R24 along a taper down to R20 at Z-20, and out: ap grows to 4 across the way, where the row ends."""
-    cut = checked(on_lathe("M3 T1\nS500 G97\nG95 F0.2\nG00 X24 Z0\nG01 X20 Z-20\nG00 X40\n"))
-    assert cut.depth[1] == pytest.approx(4 * math.cos(math.atan2(4, 20)), rel=0.02)
+    """An edge of 90° from R24 down to R20 at Z-20 and straight out: across the way ap grows to 4 cos of the taper, and a chip
+    is a turn long: it is that of 0.2 mm before."""
+    tool = Tool(number=1, kind="turning", main_angle=90, auxiliary_angle=30)
+    text = "M3 T1\nS500 G97\nG95 F0.2\nG00 X24 Z0\nG01 X20 Z-20\nG00 X40\n"
+    cut, way = checked(on_lathe(text, tools={1: tool})), math.hypot(20, 4)
+    assert cut.depth[1] == pytest.approx(4 * 20 / way * (1 - 0.2 / way), rel=1e-3)
 
 
-def test_very_many_moves_are_looked_at_too():
-    """21,000 rows of a slot 8 wide and 2 deep at 500, half as deep at first: 8 cm³/min, and nothing is a mean."""
-    rows = [f"G1 X{0.0015 * k:.4f} Z-{1 if k < 20_000 else 2}" for k in range(21_000)]
+def test_very_many_moves_are_looked_at_too(monkeypatch):
+    """A slot 8 wide, 1 deep and then 2, at 500: the plunge between them takes away most, π 4² · 500."""
+    monkeypatch.setattr("mnclab.workpiece.milling.milled.EXACT", 500)
+    rows = [f"G1 X{0.05 * k:.4f} Z-{1 if k < 500 else 2}" for k in range(700)]
     run = milled(["G0 X-10 Y25", "G0 Z-1", "G1 X0 F500", *rows, "G1 X55"], MILLS["end mill"])
+    assert run.workpiece().many
     (cut,) = run.cutting_data()
-    assert cut.rate[1] == pytest.approx(8000, rel=0.01) and cut.width[1] == pytest.approx(8, rel=1e-3)
+    assert "rate" not in cut.open and cut.rate[1] == pytest.approx(16 * math.pi * 500, rel=0.03)
+    assert cut.width[1] == pytest.approx(8, rel=1e-3) and cut.depth[1] == pytest.approx(2)
+    monkeypatch.setattr("mnclab.runs.cutting_data.MOVES", 500)
+    assert "Of more than 500 moves" in repr(run.cutting_data())
 
 
 def test_where_looking_ends_it_says_at_least(monkeypatch):
