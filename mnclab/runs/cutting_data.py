@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mnclab.path.limits import Limits
-from mnclab.runs.outcome import REPORT
 from mnclab.text.alarm import Alarm
 from mnclab.text.calls import fitting
 from mnclab.text.given import check_number, shown
@@ -16,6 +15,8 @@ from mnclab.workpiece.cutting_data import cutting_data as data_of
 
 if TYPE_CHECKING:
     from mnclab.runs.run import Run
+
+MOVES = 200_000  # beyond which what they take away is not worked out
 
 Most = float | Mapping[int, float] | None
 
@@ -35,13 +36,17 @@ def cutting_data(
     most = {name: _of_tools(given, name, tools) for name, given in (("vc", vc), ("fz", fz)) if given is not None}
     if kc is not None:
         check_number(kc, "the specific cutting force kc (N/mm²)", above=0)
-    removal = None
-    if run.stock is not None and run.stock.volume > 0 and int(run.toolpath.is_motion.sum()) <= REPORT:
-        try:
-            removal = run.removal(profile.limits)
-        except Alarm:  # such as of a blank that no lathe turns: the report says it where it speaks of removal
-            removal = None
-    return data_of(run.toolpath, tools, numbers, profile.limits, removal, most=most, kc=kc, reach=run.reach)
+    removal, unknown = None, "Without a blank"
+    if run.stock is not None and run.stock.volume > 0:
+        unknown = f"Of more than {MOVES:,} moves"
+        if int(run.toolpath.is_motion.sum()) <= MOVES:
+            try:
+                removal = run.removal(profile.limits)
+            except Alarm as alarm:  # such as of a blank that no lathe turns
+                unknown = f"Of this blank ({alarm.message})"
+    return data_of(
+        run.toolpath, tools, numbers, profile.limits, removal, most=most, kc=kc, reach=run.reach, unknown=unknown
+    )
 
 
 def _of_tools(given: Any, name: str, tools: Mapping[int, Any]) -> dict[int, float]:

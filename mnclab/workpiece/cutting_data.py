@@ -4,8 +4,9 @@
 
 hm is the mean thickness of the chip over the engaged angle φ of a mill whose edges stand along its axis: that of ISO 3002-3,
 h = fz sin κ cos θ with κ = 90°, averaged; for a small width of cut about fz √(ae / D). Of a drill h = fz sin(σ / 2) with the
-point angle σ. On a lathe vc is that at the tip. ap, ae and hm of a row are those of the place where Q is its greatest: air is
-in none of them (`mnclab.workpiece.ahead`).
+point angle σ. On a lathe vc is that at the tip. Q, ap and ae of a row are the greatest that occur on it, hm is that of the
+place where Q is the greatest: air is in none of them. What is called most is the most of all rows, or it says "at least"
+(`mnclab.workpiece.ahead`). What ap and ae are of a ball and of a round corner says `mnclab.workpiece.milling.engaged`.
 """
 
 from __future__ import annotations
@@ -24,7 +25,8 @@ from mnclab.path.listing import Unit, figure
 from mnclab.path.tool import POINTED, Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.tables import html_table, text_table
-from mnclab.workpiece.removal import FEW, Removal
+from mnclab.workpiece.ahead import CHIP, DEPTH, WIDTH
+from mnclab.workpiece.removal import AT_LEAST, Removal
 
 Pair = tuple[float, float]
 DRILLS, UNJUDGED = ("drill", "reamer", "countersink"), ("probe", "tap", "thread mill", "thread")
@@ -35,7 +37,8 @@ class Cut(NamedTuple):
     """How one tool cuts, from the least to the greatest value that occurs; None where it is not known.
 
     `speed` n rev/min, `surface` vc m/min, `feed` vf mm/min, `per_rev` and `per_tooth` mm, `depth` ap, `width` ae and `chip`
-    hm mm, `rate` mm³/min (mean, greatest), `power` kW at the greatest rate. `beyond` says what is above its limit.
+    hm mm, `rate` mm³/min (mean, greatest), `power` kW at the greatest rate. `beyond` says what is above its limit, `open`
+    names the fields whose greatest may be more than is known, `seen` how many of how many rows depth, width and chip are of.
     """
 
     tool: int
@@ -51,6 +54,8 @@ class Cut(NamedTuple):
     rate: Pair | None = None
     power: float | None = None
     beyond: tuple[str, ...] = ()
+    open: tuple[str, ...] = ()
+    seen: tuple[int, int] = (0, 0)
 
 
 class CuttingData(Sequence[Cut]):
@@ -81,10 +86,11 @@ class CuttingData(Sequence[Cut]):
             rows.append((
                 f"T{cut.tool} {cut.name}".rstrip(),
                 said(cut.speed, 1.0, 0), said(cut.surface, feet, 1), said(cut.feed, length, 1),
-                *(said(pair, length, digits) for pair, digits in (
-                    (cut.per_rev, per), (cut.per_tooth, per), (cut.depth, 2 + inch), (cut.width, 2 + inch), (cut.chip, per))),
-                *("" if each is None else figure(each / volume, 2) for each in (mean, most)),
-                "" if cut.power is None else figure(cut.power, 2), "; ".join(cut.beyond),
+                *(said(getattr(cut, name), length, digits, name in cut.open) for name, digits in (
+                    ("per_rev", per), ("per_tooth", per), ("depth", 2 + inch), ("width", 2 + inch), ("chip", per))),
+                *("" if each is None else AT_LEAST * open_ + figure(each / unit, 2) for each, unit, open_ in (
+                    (mean, volume, False), (most, volume, "rate" in cut.open), (cut.power, 1.0, "rate" in cut.open))),
+                "; ".join(cut.beyond),
             ))  # fmt: skip
         kept = [k for k in range(len(head)) if not k or any(row[k] for row in rows)]
         numbers = range(1, len(kept) - (len(head) - 1 in kept))
@@ -106,23 +112,26 @@ class CuttingData(Sequence[Cut]):
         return f"{html_table(head, rows, numbers=numbers) if self else '<p>nothing is cut</p>'}{notes}"
 
 
-def said(pair: Pair | None, unit: float, digits: int) -> str:
-    """A range as a person writes it, `600–800`, or the one number that it is."""
+def said(pair: Pair | None, unit: float, digits: int, open_: bool = False) -> str:
+    """A range as a person writes it, `600–800`, or the one number that it is; `600 to at least 800` if it may be more."""
     if pair is None:
         return ""
     low, high = (figure(value / unit, digits) for value in pair)
+    if open_:
+        return AT_LEAST + low if low == high else f"{low} to {AT_LEAST}{high}"
     return low if low == high else f"{low}–{high}"
 
 
 def cutting_data(
     path: Toolpath, tools: Mapping[int, Tool], numbers: Index, limits: Limits, removal: Removal | None = None,
     *, most: Mapping[str, Mapping[int, float]] | None = None, kc: float | None = None, reach: str = "",
+    unknown: str = "Without a blank",
 ) -> CuttingData:  # fmt: skip
     """The data of each tool of a path; `numbers` (n,) are the tools of its rows.
 
     With a `removal` only what takes material away counts, and depth, width, chip and rate are known. `most` holds the greatest
     "vc" m/min and "fz" mm by the number of a tool, `kc` N/mm² the specific cutting force, for the power. `reach` is
-    how far a run went that stopped before its end.
+    how far a run went that stopped before its end, `unknown` why there is no removal.
     """
     kinds = np.isin(path.kind, (Kind.LINE, Kind.ARC)) & (path.lengths > 0)
     found: list[Cut] = []
@@ -130,10 +139,13 @@ def cutting_data(
         tool, rows = tools.get(number, Tool()), np.flatnonzero(kinds & (numbers == number))
         if number and tool.kind not in UNJUDGED:
             found += _cut(path, number, tool, rows, limits, removal, most or {}, kc)
-    return CuttingData(found, path.unit, [*([f"Known only {reach}."] if reach else []), *_notes(found, path, removal, limits)])
+    known = [f"Known only {reach}."] if reach else []
+    return CuttingData(found, path.unit, [*known, *_notes(found, path, removal, limits, unknown)])
 
 
-def _notes(found: Sequence[Cut], path: Toolpath, removal: Removal | None, limits: Limits) -> Iterator[str]:
+def _notes(
+    found: Sequence[Cut], path: Toolpath, removal: Removal | None, limits: Limits, unknown: str
+) -> Iterator[str]:  # fmt: skip
     """How the numbers are to be read."""
     if not found:
         return
@@ -141,15 +153,17 @@ def _notes(found: Sequence[Cut], path: Toolpath, removal: Removal | None, limits
         yield "vc is that at the diameter of the tip."
     if any(cut.chip for cut in found):
         yield "hm is the mean chip thickness over the engaged angle (ISO 3002-3, κ = 90°; of a drill at its point angle)."
-    if removal is not None and len(removal.met.row):
-        yield (
-            "Q most is that at a place in the material, plunges too; ap, ae and hm are those at the like places; "
-            f"of a tool at most {2 * FEW} rows are looked at."
-        )
-    elif removal is not None:
-        yield "Q most is at least so great: the greatest mean of a row, with the air in it."
     if removal is None:
-        yield "Without a blank ap, ae, hm and Q are not known, and moves in the air count."
+        yield f"{unknown} ap, ae, hm and Q are not known, and moves in the air count."
+    else:
+        yield "Q most is that at a place in the material, plunges too; ap and ae are the most of a row, hm goes with its most Q."
+    if any(cut.open for cut in found):
+        yield "At least: more rows may have more than can be looked at, or a thread, at which nothing is."
+    if few := [cut for cut in found if cut.depth and cut.seen[0] < cut.seen[1]]:
+        told = ", ".join(f"{cut.seen[0]} of {cut.seen[1]} of T{cut.tool}" for cut in few)
+        yield f"The least ap, ae and hm are those of the rows that were looked at: {told}."
+    if bent := ", ".join(f"T{cut.tool}" for cut in found if cut.width and cut.per_tooth and not cut.chip):
+        yield f"hm of {bent} is empty: the chip thins along a round edge; its ae is the width of cut at the top of the material."
     if not any(cut.beyond for cut in found):
         speeds = dict(zip("XYZ", (figure(float(v) * 60 / path.unit.length, 1) for v in limits.axes("rapid"))))
         speeds = {axis: speed for axis, speed in speeds.items() if axis != "Y" or not path.lathe}
@@ -213,21 +227,25 @@ def _with_rate(cut: Cut, rows: Index, removal: Removal, kc: float | None) -> Cut
     """How fast all rows that meet material take it away, plunges too."""
     seconds, greatest = float(removal.seconds[rows].sum()), float(removal.greatest[rows].max())
     mean = 60 * float(removal.volumes[rows].sum()) / seconds if seconds else 0.0
-    return cut._replace(rate=(mean, greatest), power=None if kc is None else greatest * kc / 60e6)
+    open_ = () if removal.proves(rows) else ("rate",)
+    return cut._replace(rate=(mean, greatest), power=None if kc is None else greatest * kc / 60e6, open=open_)
 
 
 def _with_material(cut: Cut, path: Toolpath, tool: Tool, rows: Index, per_tooth: Array | None, removal: Removal) -> Cut:
     """What is known of the material that the rows meet."""
-    met = removal.met.among(rows)
-    if not len(met.row) or tool.kind in DRILLS or (path.lathe and tool.kind not in ("turning", "boring")):
+    looks = removal.looks.get(cut.tool)
+    if looks is None or tool.kind in DRILLS or (path.lathe and tool.kind not in ("turning", "boring")):
         return cut
-    if path.lathe:
-        return cut._replace(depth=_pair(met.depth))
-    cut = cut._replace(depth=_pair(met.depth), width=_pair(met.width))
-    if per_tooth is None:
-        return cut
-    chip = per_tooth.max(axis=1)[np.searchsorted(rows, met.row)] * met.width / (tool.effective_radius * met.angle)
-    return cut._replace(chip=_pair(chip))
+    among, feed = np.isin(looks.rows, rows), np.ones(len(looks.rows))
+    if per_tooth is not None:
+        feed[among] = per_tooth.max(axis=1)[np.isin(rows, looks.rows)]
+    asked = [("depth", DEPTH, 1.0), ("width", WIDTH, 1.0), ("chip", CHIP, feed)]
+    for name, what, scale in asked if per_tooth is not None else asked[:2]:
+        proved, met = looks.proves(what, among, scale), among & (looks.values[what] > 0)
+        if met.any():
+            open_ = cut.open if proved else (*cut.open, name)
+            cut = cut._replace(**{name: _pair((looks.values[what] * scale)[met])}, open=open_)
+    return cut._replace(seen=(int((among & looks.seen).sum()), int(among.sum())))
 
 
 def _beyond(

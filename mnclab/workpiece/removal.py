@@ -16,7 +16,7 @@ from mnclab.text.given import choice
 from mnclab.text.records import written
 from mnclab.text.rounded import Rounded
 from mnclab.text.tables import html_table
-from mnclab.workpiece.ahead import greatest
+from mnclab.workpiece.ahead import FEW, RATE, Looks
 from mnclab.workpiece.workpiece import Workpiece
 
 if TYPE_CHECKING:
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 KEYS = ("line", "tool")
 CUTS = (Kind.LINE, Kind.ARC)
-FEW = 30  # rows of a tool
 CELLS = 4
+AT_LEAST = "at least "
 HEAD = ("tool", "removed", "time in material", "mean rate", "largest rate", "in line")
 
 
@@ -39,21 +39,6 @@ class Fastest(NamedTuple):
 
     def __repr__(self) -> str:
         return written(self)
-
-
-class Met(NamedTuple):
-    """Rows (k,) where Q is the greatest: `rate` mm³/min, and what is before the tool there, as `Ahead` has it."""
-
-    row: Index
-    rate: Array
-    area: Array
-    depth: Array
-    width: Array
-    angle: Array
-
-    def among(self, rows: Index) -> Met:
-        """Those of some rows where a depth of cut is known."""
-        return Met._make(each[np.isin(self.row, rows) & (self.depth > 0)] for each in self)
 
 
 class Removal:
@@ -74,29 +59,37 @@ class Removal:
         return np.divide(60 * self.volumes, self.seconds, out=found, where=cuts)
 
     @cached_property
-    def met(self) -> Met:
-        """Rows at feed: of each tool at most `FEW` at equal distances of its way, and as many with the greatest means."""
-        cutting, part, length = self.workpiece.cutting, self.workpiece, self.workpiece.cutting.path.lengths
-        rate, found = self._means, np.zeros((len(Met._fields), 0))
-        cuts = np.flatnonzero((rate > 0) & self._at_feed & (length > 0) & ~cutting.path.synchronous)
-        for tool in np.unique(cutting.which[cuts]):
-            rows = cuts[cutting.which[cuts] == tool]
-            if len(rows) > 2 * FEW:
-                way = np.cumsum(length[rows])
-                even = np.searchsorted(way, way[-1] * (np.arange(FEW) + 0.5) / FEW)
-                rows = rows[np.union1d(even, np.argsort(rate[rows])[-FEW:])]
-            most, before = greatest(rows, length[rows], part.reach(rows), part.ahead, self._speed)
-            found = np.append(found, np.stack([rows, most, *before])[:, most > 0], axis=1)
-        return Met(found[0].astype(np.int64), *found[1:])
+    def looks(self) -> dict[int, Looks]:
+        """What the rows at feed of each tool, by its number, have before them: half of `FEW` at equal distances of its way, as
+        many with the greatest means, and as many more as prove the greatest rate."""
+        cutting, length, found = self.workpiece.cutting, self.workpiece.cutting.path.lengths, dict[int, Looks]()
+        cuts = np.flatnonzero((self._means > 0) & self._at_feed & (length > 0) & ~cutting.path.synchronous)
+        for tool in np.unique(cutting.numbers[cuts]).tolist():
+            rows = cuts[cutting.numbers[cuts] == tool]
+            found[tool] = looks = Looks(rows, self.workpiece, self._speed, self._highest[rows])
+            way = np.cumsum(length[rows])
+            even = np.searchsorted(way, way[-1] * (np.arange(FEW // 2) + 0.5) / (FEW // 2))
+            greatest = np.argsort(-self._means[rows], kind="stable")
+            looks.look(greatest if len(rows) <= FEW else np.append(greatest[: FEW // 2], even))
+            looks.proves(RATE, rows >= 0)
+        return found
+
+    def proves(self, rows: Index) -> bool:
+        """Whether the greatest of `greatest` of some rows of a tool is the most: nobody looks at a thread, nor at all of very
+        many rows."""
+        cuts, numbers = rows[(self._means[rows] > 0) & self._at_feed[rows]], self.workpiece.cutting.numbers[rows]
+        looks = [self.looks[tool] for tool in np.unique(numbers).tolist() if tool in self.looks]
+        known = np.concatenate([each.rows for each in looks]) if looks else rows[:0]
+        return bool(np.isin(cuts, known).all()) and all(each.proves(RATE, np.isin(each.rows, rows)) for each in looks)
 
     @cached_property
     def greatest(self) -> Array:
-        """The greatest rate (n,), mm³/min, of the rows of `met`; of others the mean, no more than the greatest of their tool."""
-        met, which, found = self.met, self.workpiece.cutting.which, self._means.copy()
-        for tool in np.unique(which[met.row]):
-            others = self._at_feed & (which == tool)
-            found[others] = np.minimum(found[others], met.rate[which[met.row] == tool].max())
-        found[met.row] = met.rate
+        """The greatest rate (n,), mm³/min, of rows that are looked at; of others the mean, no more than that of their tool."""
+        found = self._means.copy()
+        for looks in self.looks.values():
+            rates, seen = looks.values[RATE], looks.seen & (looks.values[RATE] > 0)
+            if seen.any():
+                found[looks.rows] = np.where(seen, rates, np.minimum(found[looks.rows], rates[seen].max()))
         return found
 
     @cached_property
@@ -118,7 +111,14 @@ class Removal:
         """mm/min at shares (k,) of rows: with a constant acceleration v² grows with the way."""
         length = self.workpiece.cutting.path.lengths
         s = (np.cumsum(length) - length)[rows] + share * length[rows]
-        return np.asarray(60 * np.sqrt(np.interp(s, self.profile.s, self.profile.v**2)))
+        return np.minimum(60 * np.sqrt(np.interp(s, self.profile.s, self.profile.v**2)), self._highest[rows])
+
+    @cached_property
+    def _highest(self) -> Array:
+        """The greatest speed (n,) of each row, mm/min."""
+        v, found = self.profile.v, np.zeros(len(self.profile.seconds))
+        np.maximum.at(found, self.profile.move, 60 * np.maximum(v[1:], v[:-1]))
+        return found
 
     @property
     def volume(self) -> float:
@@ -184,7 +184,8 @@ class Removal:
             most = self._fastest(rows & self._at_feed)
             told.append((
                 name, self.told(taken), f"{seconds:.2f} s", f"{self.told(self._mean(rows & self._at_feed))}/min",
-                f"{self.told(most.rate)}/min" if most else "", self.place(most) if most else "",
+                f"{AT_LEAST * (not self.proves(np.flatnonzero(rows)))}{self.told(most.rate)}/min" if most else "",
+                self.place(most) if most else "",
             ))  # fmt: skip
         return told
 
@@ -205,11 +206,16 @@ class Removal:
     def __repr__(self) -> str:
         most = self.largest
         head = f"{self.told(self.volume)} removed{self._as_far} in {self.time:.2f} s, {self.told(self.mean)}/min"
-        return f"<Removal: {head}{f', at most {self.told(most.rate)}/min in line {self.place(most)}' if most else ''}>"
+        return f"<Removal: {head}{f', {self.at_most} {self.told(most.rate)}/min in line {self.place(most)}' if most else ''}>"
 
     def _repr_html_(self) -> str:
         told = f"<p>removed{self._as_far}</p>" if self._as_far else ""
         return html_table(HEAD, self.rows(), numbers=range(1, 6)) + told
+
+    @property
+    def at_most(self) -> str:
+        """What the largest rate is, in words."""
+        return "at most" if self.proves(np.arange(len(self.volumes))) else "the largest rate at least"
 
     @property
     def _as_far(self) -> str:

@@ -104,6 +104,10 @@ class Workpiece(ABC):
         """What stands before the tool when a share (k,) of rows of the path is behind; nothing where it is not known."""
 
     @abstractmethod
+    def at_most(self, rows: Index) -> Ahead:
+        """No less than `ahead` tells anywhere on rows (k,) of the path."""
+
+    @abstractmethod
     def cut(self, plane: str, at: float = 0.0) -> list[Contour]:
         """A section: closed contours of the material in a plane "XY", "XZ" or "YZ" (a lathe: "ZX") at a coordinate, mm."""
 

@@ -28,7 +28,7 @@ def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
     """
     most = removal.largest
     said = f"removal: {removal.volume:.1f} mm³ in {removal.profile.time:.4g} s"
-    picture = Picture(size, f"{said}, at most {most.rate:.0f} mm³/min in line {removal.place(most)}" if most else said)
+    picture = Picture(size, f"{said}, {removal.at_most} {most.rate:.0f} mm³/min in line {removal.place(most)}" if most else said)
     width, height = size
     grid = picture.add_gridspec(
         2, 1, left=0.85 / width, right=1 - 0.15 / width, bottom=0.5 / height, top=1 - 0.12 / height, hspace=0.12
@@ -53,7 +53,7 @@ def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
         rate.plot([middle], [most.rate], **colours.SLOW_CORNER.style())
         late = middle > removal.profile.time / 2
         rate.annotate(
-            f"line {removal.place(most)}: at most {most.rate:.0f} mm³/min", (middle, most.rate), (-6 if late else 6, 5),
+            f"line {removal.place(most)}: {removal.at_most} {most.rate:.0f} mm³/min", (middle, most.rate), (-6 if late else 6, 5),
             textcoords="offset points", fontsize=SMALL, ha="right" if late else "left", color=colours.INK,
         )  # fmt: skip
     rate.set_ylabel("mean of a row, mm³/min", fontsize=SMALL)

@@ -4,6 +4,11 @@ At a place the front half of the rim is looked at, degree by degree: what stands
 began, is cut. With θ from the heading and the radius R the width of cut is ae = R ∫ cos θ dθ over the engaged part, and the
 cross-section R ∫ a cos θ dθ of the depths a. The lower side adds its faces that go ahead into the material, ring by ring:
 those of round corners and cones, and of discs that go down. Exact but for the degree and the rings.
+
+ap is how far the tip, the lowest point of a tool, lies below the highest material that the front meets. Of a ball and of a
+round corner ae is the width of cut at that material's top, where the tool is as wide as the cap or the ring that is ap deep:
+of a slot with a ball 2 √(ap (D - ap)), the effective diameter of the tool makers' catalogues, of a pass beside one the way
+between them; ISO 3002-3 measures ae across the feed. Their chip has no one thickness: it thins with sin κ along the edge.
 """
 
 from __future__ import annotations
@@ -28,6 +33,8 @@ STEP, TURN = np.radians(1.0), np.radians(15.0)
 INSIDE, LEAST, UPRIGHT = 1 - 1e-6, 1e-3, 1e-6
 SPOTS = np.array([0.15, 0.5, 0.85, INSIDE])  # of the radius, where it is seen how high material stands
 FLAT, BENT = 4, 12  # rings of the flat and of the rising part of the lower side
+WIDE = float(np.cos(RIM).sum() * STEP)  # radii that the degrees of the rim are wide
+SAME = 1e-8  # mm, by which the ends of ways differ that are one
 
 
 def reach(part: Milled, rows: Index) -> Array:
@@ -80,8 +87,9 @@ def ahead(part: Milled, rows: Index, share: Array) -> Ahead:
     rim = np.zeros((len(known), len(RIM)))
     rim[some] = deep(some, radius[some, None] * INSIDE, RIM, place[some, 2:] + height(some, radius[some, None]))[0][:, 0]
     found.area[known] = across * radius * (rim @ np.cos(RIM)) * STEP
-    plain, cuts = (flat == radius) & (across > UPRIGHT), rim > 0
-    for column, values in zip(found[1:], (rim.max(axis=1), radius * (cuts @ np.cos(RIM)) * STEP, cuts.sum(axis=1) * STEP)):
+    plain, cuts, ap = (flat == radius) & (across > UPRIGHT), rim > 0, rim.max(axis=1)
+    wide = cuts @ np.cos(RIM)
+    for column, values in zip(found[1:], (ap, radius * wide * STEP, wide / cuts.sum(axis=1).clip(1))):
         column[known] = np.where(plain, values, 0.0)
     some = np.flatnonzero((flat < radius) | (way[:, 2] < -UPRIGHT))
     stands = deep(some, radius[some, None] * SPOTS, AROUND[::3], place[some, 2:])[0].max(axis=(1, 2), initial=0.0)
@@ -95,6 +103,57 @@ def ahead(part: Milled, rows: Index, share: Array) -> Ahead:
     rising = rising * full.clip(0.0, 1.0) * np.cos(AROUND) * 2 * np.sin(TURN / 2) * across[some, None, None]
     faces = rising - (way[some, 2, None] * (outer**2 - inner**2) / 2 * TURN)[:, :, None]
     found.area[known[some]] += np.where((met > 0) & (off == 0), faces, 0.0).clip(0.0).sum(axis=(1, 2))
+    round_ = (flat < radius) & (moves.slope[move] == 0) & (across > UPRIGHT)
+    front = np.where((met > 0) & (np.cos(AROUND) > 0), met + middle[:, :, None], 0.0).max(axis=(1, 2))
+    ap[some] = np.maximum(front, np.where(ap[some] > 0, ap[some] + height(some, radius[some, None])[:, 0], 0.0))
+    some = np.flatnonzero(round_ & (ap > 2 * LEAST))
+    cap = _rings(moves[move[some]], ap[some] - 2 * LEAST)[:, -1:]
+    top = deep(some, cap * INSIDE, RIM, place[some, 2:] + height(some, cap))[0][:, 0] > 0
+    found.depth[known[some]], found.width[known[some]] = ap[some], cap[:, 0] * (top @ np.cos(RIM)) * STEP
+    return found
+
+
+def at_most(part: Milled, rows: Index) -> Ahead:
+    """No less than `ahead` finds anywhere on rows (k,).
+
+    No depth is more than from the lowest place of the tip to the ceiling of the row. Across the way the front of the rim is
+    `WIDE` radii wide, and so, below it, are the rings at most: both together make no more than depth times width. What goes
+    down adds at most its whole disc. Cosines have a mean of at most 1.
+    """
+    path, moves = part.cutting.path, part.moves
+    found, deep, radius = Ahead.none(len(rows)), *np.zeros((2, len(path)))
+    np.maximum.at(deep, moves.row, part.ceilings - moves.low)
+    np.maximum.at(radius, moves.row, moves.radius)
+    plain, round_ = np.zeros((2, len(path)), dtype=bool)
+    plain[moves.row], round_[moves.row] = moves.flat == moves.radius, moves.slope == 0
+    down = (path.start - path.end)[rows, 2].clip(0.0) / path.lengths[rows]
+    bent = path.kind[rows] == Kind.ARC
+    down[bent & (np.abs(path.axis[rows, 2]) < 1 - 1e-12)] = 1.0
+    across = np.where(bent, 1.0, np.sqrt(1 - down**2))
+    deep, radius, met = deep[rows], radius[rows], deep[rows] > LEAST
+    found.area[:] = np.where(met, across * WIDE * radius * deep + down * np.pi * radius**2, 0.0)
+    for column, value, known in zip(found[1:], (deep, WIDE * radius, 1.0), (round_, round_, plain)):
+        column[:] = np.where(met & known[rows], value, 0.0)
+    return found
+
+
+def ceilings(part: Milled) -> Array:
+    """No less than how high material stands (k,) wherever moves reach, just before each.
+
+    It is the top of the blank; where the same cutter went the same way before, forwards or backwards, the highest place of
+    its rim then: so of a pocket in layers each has the one above it as its ceiling.
+    """
+    moves, highest, seen = part.moves, float(part.bounds[1, 2]), dict[bytes, float]()
+    shape = moves.radius, moves.flat, moves.corner, moves.slope
+    columns = [moves.start[:, :2], moves.end[:, :2], moves.centre, np.stack([moves.sweep, *shape], axis=1)]
+    way = np.rint(np.concatenate(columns, axis=1) / SAME).astype(np.int64)
+    back = (way[:, 0] > way[:, 2]) | ((way[:, 0] == way[:, 2]) & (way[:, 1] > way[:, 3]))
+    way[back, :4], way[back, 6] = way[back][:, [2, 3, 0, 1]], -way[back, 6]
+    found = np.full(len(moves), highest)
+    rim = np.maximum(moves.start[:, 2], moves.end[:, 2]) + edge_height(*shape)
+    for k, key in enumerate(map(bytes, way)):
+        found[k] = seen.get(key, highest)
+        seen[key] = min(found[k], rim[k])
     return found
 
 

@@ -152,11 +152,18 @@ class Milled(Workpiece):
     def boxes(self) -> Array:
         return self.quarters[0].boxes
 
+    @cached_property
+    def ceilings(self) -> Array:
+        return engaged.ceilings(self)
+
     def reach(self, rows: Index) -> Array:
         return engaged.reach(self, rows)
 
     def ahead(self, rows: Index, share: Array) -> Ahead:
-        return Ahead.none(len(rows)) if self.many else engaged.ahead(self, rows, share)
+        return engaged.ahead(self, rows, share)
+
+    def at_most(self, rows: Index) -> Ahead:
+        return engaged.at_most(self, rows)
 
     @cached_property
     def blank_volume(self) -> float:

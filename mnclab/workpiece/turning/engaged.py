@@ -51,6 +51,24 @@ def ahead(part: Turned, rows: Index, share: Array) -> Ahead:
     return Ahead(*np.where(before.area < now.area, before, now))
 
 
+def at_most(part: Turned, rows: Index) -> Ahead:
+    """No less than `ahead` finds anywhere on rows (k,).
+
+    The edges that go ahead are those of a convex body: across the way they lie beside each other, so that what of them is in
+    the area reaches no further across than the area does; on an arc, whose way turns, no further than a line through its box.
+    No part of it is further from the axis than the area.
+    """
+    found, path = Ahead.none(len(rows)), part.cutting.path
+    for k, row in enumerate(rows.tolist()):
+        if row in part.areas:
+            spots, way = shapely.get_coordinates(part.areas[row]), (path.end[row] - path.start[row])[[2, 0]]
+            length = float(np.hypot(*way))
+            across = np.ptp(spots @ (-way[1], way[0])) / length if path.kind[row] != Kind.ARC and length else 0.0
+            found.depth[k] = across or math.hypot(*np.ptp(spots, axis=0))
+            found.area[k] = 2 * math.pi * found.depth[k] * np.abs(spots[:, 1]).max()
+    return found
+
+
 def _at(part: Turned, rows: Index, share: Array) -> Ahead:
     found, path = Ahead.none(len(rows)), part.cutting.path
     place, way = along(path, rows, share)

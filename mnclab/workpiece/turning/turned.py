@@ -95,6 +95,9 @@ class Turned(Workpiece):
     def ahead(self, rows: Index, share: Array) -> Ahead:
         return engaged.ahead(self, rows, share)
 
+    def at_most(self, rows: Index) -> Ahead:
+        return engaged.at_most(self, rows)
+
     @cached_property
     def parted(self) -> list[Contour]:
         return [loop for _, _, off in self._cuts for area in off for loop in self._drawing.traced(area)]
