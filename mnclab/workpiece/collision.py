@@ -7,8 +7,7 @@ from html import escape
 from typing import NamedTuple
 
 from mnclab.text.alarm import SHOWN, several
-from mnclab.text.records import written
-from mnclab.text.tables import html_table
+from mnclab.text.tables import html_table, written
 
 KINDS = {
     "rapid": "rapid motion in material",

@@ -12,9 +12,7 @@ from mnclab.path.kinds import Kind
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.text.given import choice
-from mnclab.text.records import written
-from mnclab.text.rounded import Rounded
-from mnclab.text.tables import html_table
+from mnclab.text.tables import Rounded, html_table, written
 from mnclab.workpiece.ahead import greatest
 from mnclab.workpiece.workpiece import Workpiece
 
