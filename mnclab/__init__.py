@@ -49,7 +49,7 @@ from mnclab.path.toolpath import Toolpath
 from mnclab.path.wear import Wear
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm
-from mnclab.text.nearest import nearest as _nearest
+from mnclab.text.alarm import nearest as _nearest
 from mnclab.text.opening import Shelf
 from mnclab.text.program import Program
 from mnclab.workpiece.blank import box, cylinder

@@ -36,7 +36,7 @@ OUTSIDE = {  # package -> the only modules of mnclab that import it
     "ezdxf": ("geometry.dxf",),
     "ipywidgets": ("lab.forms", "lab.editor"),
     "IPython": ("lab.magic", "lab.forms.live"),
-    "tqdm": ("text.progress",),
+    "tqdm": ("text.opening",),
     "pandas": ("comparison.table",),
     "nbclient": ("shell.handout",),
     "nbconvert": ("shell.handout",),

@@ -18,8 +18,7 @@ from mnclab.path.listing import figure, point
 from mnclab.path.points import points
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.given import check_number
-from mnclab.text.records import shapes
-from mnclab.text.tables import html_table
+from mnclab.text.tables import html_table, shapes
 
 Array = NDArray[np.float64]
 PLACES = 4000  # of a path, if no step is given

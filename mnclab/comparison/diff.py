@@ -13,8 +13,7 @@ from mnclab.path.holes import Holes, holes
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting
-from mnclab.text.given import check_number, choice, shown
+from mnclab.text.given import check_number, choice, fitting, shown
 
 
 @runtime_checkable

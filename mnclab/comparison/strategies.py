@@ -33,9 +33,8 @@ from mnclab.path.limits import Limits
 from mnclab.path.machine_file import limits_of
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting
-from mnclab.text.given import check_number, choice, faults_as_alarms, plain, shown
-from mnclab.text.progress import progress
+from mnclab.text.given import check_number, choice, faults_as_alarms, fitting, plain, shown
+from mnclab.text.opening import progress
 
 if TYPE_CHECKING:
     from mnclab.show.plot.picture import Picture

@@ -15,11 +15,10 @@ from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
-from mnclab.text.alarm import Alarm
-from mnclab.text.extras import require
+from mnclab.text.alarm import Alarm, hint
 from mnclab.text.file import replaced
 from mnclab.text.given import shown
-from mnclab.text.nearest import hint
+from mnclab.text.opening import require
 from mnclab.text.tables import csv_text, html_table
 
 if TYPE_CHECKING:

@@ -46,8 +46,7 @@ from mnclab.path.machine_file import limits_of
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting
-from mnclab.text.given import check_number, choice, faults_as_alarms, plain, shown
+from mnclab.text.given import check_number, choice, faults_as_alarms, fitting, plain, shown
 
 if TYPE_CHECKING:
     from mnclab.show.plot.picture import Picture

@@ -20,13 +20,11 @@ from mnclab.machine.setup_file import load
 from mnclab.path.machine_file import limits_of
 from mnclab.path.tool import Tool
 from mnclab.runs.run import EXAMPLE, Run, run_program
-from mnclab.text.alarm import ALARM, Alarm
-from mnclab.text.calls import fitting, near_option
-from mnclab.text.code_pages import decode
+from mnclab.text.alarm import ALARM, Alarm, hint
+from mnclab.text.dialect import Notation
+from mnclab.text.file import decode
 from mnclab.text.file import read as read_file
-from mnclab.text.given import shown
-from mnclab.text.nearest import hint
-from mnclab.text.notation import Notation
+from mnclab.text.given import fitting, near_option, shown
 from mnclab.text.program import Program
 
 MOST_FILES = 1000  # of a folder, looked through for a name

@@ -26,10 +26,8 @@ from mnclab.machine.trial import is_text
 from mnclab.path.listing import figure
 from mnclab.running.cycles import Place, instance, run_cycle, store, units_of, value_of
 from mnclab.running.interpreter import Interpreter
-from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting
-from mnclab.text.given import check_number, plain, shown
-from mnclab.text.nearest import hint
+from mnclab.text.alarm import Alarm, hint
+from mnclab.text.given import check_number, fitting, plain, shown
 from mnclab.text.program import Word, place_of
 
 from mnclab.machining.steps import (  # isort: skip

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mnclab.text.signs import Sign, sign
+from mnclab.text.dialect import Sign, sign
 
 #: What a text looks like -> the signs of it; the name stands behind "this looks like".
 FOREIGN: dict[str, tuple[Sign, ...]] = {

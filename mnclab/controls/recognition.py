@@ -13,7 +13,7 @@ from typing import NamedTuple
 from mnclab.controls.foreign import FOREIGN, SUFFIXES
 from mnclab.machine.control import Control
 from mnclab.text.alarm import Alarm
-from mnclab.text.signs import Finding, code_of, found
+from mnclab.text.dialect import Finding, code_of, found
 
 LOOKED_AT = 20_000  # characters of a program that tell its control
 LEAST = 2.0  # what the signs of a control must weigh

@@ -7,12 +7,10 @@ from pathlib import Path
 from mnclab.controls import CONTROLS
 from mnclab.controls.choice import read
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting
-from mnclab.text.code_pages import encode_like
+from mnclab.text.dialect import renumbered
+from mnclab.text.file import encode_like, replaced
 from mnclab.text.file import read as read_file
-from mnclab.text.file import replaced
-from mnclab.text.given import LARGEST, shown, whole
-from mnclab.text.numbering import renumbered
+from mnclab.text.given import LARGEST, fitting, shown, whole
 from mnclab.text.program import Program
 
 

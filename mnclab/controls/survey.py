@@ -17,9 +17,8 @@ from mnclab.controls.choice import run
 from mnclab.machine.control import Control
 from mnclab.machine.setup import Setup
 from mnclab.text.alarm import ALARM, WARNING, Alarm, amounts, several
-from mnclab.text.calls import fitting
-from mnclab.text.given import shown
-from mnclab.text.progress import progress
+from mnclab.text.given import fitting, shown
+from mnclab.text.opening import progress
 from mnclab.text.tables import html_table, text_table
 
 RAN, REFUSED, NOT_READ = "ran", "refused", "not read"

@@ -13,8 +13,7 @@ from mnclab.path.columns import Array
 from mnclab.show import scene as scenes
 from mnclab.show.part_scene import ANGLE, BALL, EDGE, LOOK, PIN
 from mnclab.show.rulers import frame
-from mnclab.text.calls import fitting
-from mnclab.text.given import check_number
+from mnclab.text.given import check_number, fitting
 from mnclab.workpiece.workpiece import Solid
 
 if TYPE_CHECKING:

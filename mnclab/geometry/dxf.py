@@ -23,9 +23,9 @@ from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.drawings import FARTHEST, MOST
 from mnclab.geometry.vectors import at_angle
 from mnclab.text.alarm import Alarm
-from mnclab.text.extras import require
 from mnclab.text.file import read
 from mnclab.text.given import check_number, shown
+from mnclab.text.opening import require
 
 TO_MM = {1: 25.4, 2: 304.8, 4: 1.0, 5: 10.0, 6: 1000.0, 8: 2.54e-5, 9: 0.0254, 10: 914.4, 13: 1e-3, 14: 100.0}
 FLAT = ("CIRCLE", "ARC", "LWPOLYLINE", "POLYLINE")  # drawn in a plane of their own

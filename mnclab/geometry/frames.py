@@ -12,7 +12,7 @@ from itertools import takewhile
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mnclab.text.columns import fixed
+from mnclab.text.tables import fixed
 
 Matrix = NDArray[np.float64]
 IDENTITY = np.eye(4)

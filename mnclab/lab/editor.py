@@ -24,11 +24,9 @@ from mnclab.lab.forms.live import live_class
 from mnclab.machine.setup import Setup
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting
-from mnclab.text.code_pages import decode
-from mnclab.text.extras import require
-from mnclab.text.file import read, reason, replaced
-from mnclab.text.given import shown
+from mnclab.text.file import decode, read, reason, replaced
+from mnclab.text.given import fitting, shown
+from mnclab.text.opening import require
 
 FIRST = 10.0  # s for the first picture, which has none before it
 PATIENCE = 0.5  # s; work that takes longer goes on elsewhere, and what was good last stays in sight

@@ -17,15 +17,11 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from mnclab.machine.setup import MILLS, Magazine
-from mnclab.text.alarm import Alarm
+from mnclab.text.alarm import Alarm, hint
+from mnclab.text.dialect import Notation, Numbers, Sign
 from mnclab.text.given import shown
-from mnclab.text.nearest import hint
-from mnclab.text.notation import Notation
-from mnclab.text.numbering import Numbers
 from mnclab.text.program import Program, Word
-from mnclab.text.records import written
-from mnclab.text.signs import Sign
-from mnclab.text.tables import html_table, text_table
+from mnclab.text.tables import html_table, text_table, written
 
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager

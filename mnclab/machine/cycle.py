@@ -22,8 +22,7 @@ from mnclab.machine import coordinates
 from mnclab.machining.depths import TooMany
 from mnclab.machining.steps import Step
 from mnclab.text.program import Word
-from mnclab.text.records import written
-from mnclab.text.tables import html_table, text_table
+from mnclab.text.tables import html_table, text_table, written
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine

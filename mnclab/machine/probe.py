@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting_class
-from mnclab.text.given import check_number, check_point, choice, shown
-from mnclab.text.records import written
+from mnclab.text.given import check_number, check_point, choice, fitting_class, shown
+from mnclab.text.tables import written
 from mnclab.workpiece.part import Part, cylinder
 
 # The touch probe: its row of the probe table, and what is true of it beside the table.

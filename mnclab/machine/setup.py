@@ -16,10 +16,8 @@ from mnclab.path.machine_file import limits_of
 from mnclab.path.tool import Tool
 from mnclab.path.wear import Wear
 from mnclab.text.alarm import Alarm, several
-from mnclab.text.calls import fitting_class
-from mnclab.text.given import LARGEST, check_number, check_point, shown
-from mnclab.text.records import written
-from mnclab.text.tables import html_table
+from mnclab.text.given import LARGEST, check_number, check_point, fitting_class, shown
+from mnclab.text.tables import html_table, written
 from mnclab.workpiece.blank import Box, Revolved, Sized, blank
 from mnclab.workpiece.part import Part
 

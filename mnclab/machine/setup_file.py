@@ -13,9 +13,9 @@ from mnclab.path.machine_file import limits_of
 from mnclab.path.record_file import record
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import File, as_table, as_tables, check_names, parse
 from mnclab.text.given import check_number, shown
 from mnclab.text.opening import opened
-from mnclab.text.toml_file import File, as_table, as_tables, check_names, parse
 from mnclab.workpiece.blank_file import blank_of, point_of
 from mnclab.workpiece.part import Part, box, mesh
 

@@ -10,9 +10,8 @@ import numpy as np
 
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting_class
-from mnclab.text.given import check_number, plain, shown
-from mnclab.text.records import written
+from mnclab.text.given import check_number, fitting_class, plain, shown
+from mnclab.text.tables import written
 
 PerAxis = float | tuple[float, ...]
 

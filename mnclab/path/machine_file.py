@@ -15,11 +15,10 @@ from mnclab.path.limits import Limits
 from mnclab.path.listing import figure
 from mnclab.path.record_file import record
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting
-from mnclab.text.given import shown
-from mnclab.text.nearest import hint as near
+from mnclab.text.alarm import hint as near
+from mnclab.text.file import File, check_names, parse
+from mnclab.text.given import fitting, shown
 from mnclab.text.tables import html_table
-from mnclab.text.toml_file import File, check_names, parse
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 PLACES = (_PACKAGE / "data" / "machines", _PACKAGE.parent / "data" / "machines")  # installed; in the sources

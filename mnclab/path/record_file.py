@@ -7,8 +7,8 @@ from typing import Any
 
 from mnclab.path.wear import Wear
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import File, as_table, check_names
 from mnclab.text.given import check_number, shown
-from mnclab.text.toml_file import File, as_table, check_names
 
 TEXTS = ("name", "kind", "hand", "corner_speed", "rapid_motion", "positioning", "axis")  # of a tool; of the limits; …
 

@@ -8,11 +8,9 @@ from inspect import Parameter, signature
 from typing import TYPE_CHECKING, Any
 
 from mnclab.path.wear import Wear
-from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting
-from mnclab.text.given import check_number, check_point, shown
-from mnclab.text.nearest import hint
-from mnclab.text.records import written
+from mnclab.text.alarm import Alarm, hint
+from mnclab.text.given import check_number, check_point, fitting, shown
+from mnclab.text.tables import written
 
 TEXTS = ("name", "kind", "hand")
 HANDS = ("right", "left")

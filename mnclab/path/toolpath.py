@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from mnclab.path.columns import COLUMNS, Array, Columns, Index, Mask, Move
 from mnclab.path.kinds import MOTION_KINDS, Kind
 from mnclab.text.alarm import several
-from mnclab.text.columns import fixed
+from mnclab.text.tables import fixed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

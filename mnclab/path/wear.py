@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
-from mnclab.text.calls import fitting_class
-from mnclab.text.given import check_number
-from mnclab.text.records import written
+from mnclab.text.given import check_number, fitting_class
+from mnclab.text.tables import written
 
 MOST = 0.9999  # mm, of a tolerance (TNC 620 19.1)
 OFFSETS = ("offset_length", "offset_radius")

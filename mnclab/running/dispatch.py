@@ -14,8 +14,7 @@ from typing import NamedTuple, NoReturn
 
 from mnclab.machine.control import Control, Function, Modal, Remark
 from mnclab.machine.cycle import Cycle
-from mnclab.text.alarm import Alarm
-from mnclab.text.nearest import hint
+from mnclab.text.alarm import Alarm, hint
 from mnclab.text.program import Word, digits
 
 

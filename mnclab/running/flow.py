@@ -19,7 +19,7 @@ from mnclab.running.recording import record, set_aside
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.expression import Expression
 from mnclab.text.program import Program
-from mnclab.text.records import shapes
+from mnclab.text.tables import shapes
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine

@@ -21,10 +21,9 @@ from mnclab.running.cycles import assign, instance, refuse_marks, run_cycle, sto
 from mnclab.running.dispatch import Plan, Planner
 from mnclab.running.flow import Course, course
 from mnclab.text.alarm import ALARM, WARNING, Alarm, Span
-from mnclab.text.code_pages import decode
-from mnclab.text.file import read
+from mnclab.text.file import decode, read
+from mnclab.text.opening import progress
 from mnclab.text.program import EXPRESSION, NONE, NUMBER, Program, Word, place_of
-from mnclab.text.progress import progress
 
 # Other programs and tables, found by their name: in `Setup.files`, then beside the calling file, never elsewhere.
 # Names are compared without regard to case. A type that is not written is that of the control; a directory counts only for

@@ -15,9 +15,8 @@ from typing import Any, NamedTuple, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.text.alarm import Alarm, Span
-from mnclab.text.nearest import hint
-from mnclab.text.precedence import Climber, split
+from mnclab.text.alarm import Alarm, Span, hint
+from mnclab.text.expression import Climber, split
 
 SAME = 1e-9  # a millionth of a micrometre, where lengths are compared
 DEEPEST = 50

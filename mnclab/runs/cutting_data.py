@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from mnclab.path.limits import Limits
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting
-from mnclab.text.given import check_number, shown
+from mnclab.text.given import check_number, fitting, shown
 from mnclab.workpiece.cutting_data import CuttingData
 from mnclab.workpiece.cutting_data import cutting_data as data_of
 

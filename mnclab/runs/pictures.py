@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from mnclab.text.calls import fitting_class
+from mnclab.text.given import fitting_class
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -46,10 +46,9 @@ from mnclab.runs.pictures import Pictures
 from mnclab.runs.start import MissedOnes, start_at
 from mnclab.runs.tables import tables_at_end
 from mnclab.text.alarm import ALARM, Alarm, Span, by_place, quoted
-from mnclab.text.calls import fitting_class
-from mnclab.text.columns import fixed
-from mnclab.text.given import shown, whole
+from mnclab.text.given import fitting_class, shown, whole
 from mnclab.text.program import Program
+from mnclab.text.tables import fixed
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.collision import Collisions
 from mnclab.workpiece.outcome import Outcome

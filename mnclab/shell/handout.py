@@ -22,11 +22,10 @@ from typing import Any
 from mnclab.shell.lessons import home
 from mnclab.shell.saying import CLEAN, sensible
 from mnclab.show.report.page import POLICY
-from mnclab.text.alarm import Alarm
-from mnclab.text.extras import require
+from mnclab.text.alarm import Alarm, hint
 from mnclab.text.file import replaced
 from mnclab.text.given import shown
-from mnclab.text.nearest import hint
+from mnclab.text.opening import require
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "msedge")
 LINES = 8  # ruled ones below an exercise

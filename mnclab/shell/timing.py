@@ -21,7 +21,7 @@ from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, nothing_in, program,
 from mnclab.show import times
 from mnclab.text.alarm import ALARM, Alarm, several
 from mnclab.text.file import replaced
-from mnclab.text.progress import progress
+from mnclab.text.opening import progress
 from mnclab.text.tables import csv_text, text_table
 
 HEAD = ("file", "control", "complete", "time, s", "at feed, s", "rapid, s", "cutting, mm", "rapid, mm", "stopped in line", "why")

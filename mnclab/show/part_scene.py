@@ -12,8 +12,7 @@ from mnclab.show import scene as scenes
 from mnclab.show.export_mesh import RAPID, STOCK
 from mnclab.show.rulers import frame
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting
-from mnclab.text.given import choice, shown
+from mnclab.text.given import choice, fitting, shown
 from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.workpiece import Solid, Workpiece
 

@@ -30,9 +30,8 @@ from mnclab.show.export_mesh import CHORD, FEED, PROBING, RAPID, STOCK, TOOL
 from mnclab.show.rapids import rapids_of
 from mnclab.show.rulers import frame, rounded, turning_rulers
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting
-from mnclab.text.extras import require
-from mnclab.text.given import shown
+from mnclab.text.given import fitting, shown
+from mnclab.text.opening import require
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.blank import blank as as_blank
 

@@ -1,20 +1,109 @@
-"""Arithmetic and variables inside words: `Q1`, `-Q2`, `3 * (Q5 + 1)`.
-
-An expression is kept as it was written, with the place of every part, and evaluated when its block runs.
-The notation here is the one that conversational controls share: numbers, variables, `+ - * / DIV % ^`, brackets, PI
-and named functions in degrees. A reader that needs less simply refuses what it does not know.
-"""
+"""Arithmetic and variables inside words: `Q1`, `-Q2`, `3 * (Q5 + 1)`."""
 
 from __future__ import annotations
 
 import math
 import re
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NoReturn
+from typing import Any, ClassVar, Generic, NamedTuple, NoReturn, TypeVar
 
 from mnclab.text.alarm import Alarm, Span
-from mnclab.text.precedence import Climber, Token, split
+
+# Reading parts that are joined by operators, those that bind tighter first: precedence climbing.
+#     2 * x + 1 < 5     `*` joins before `+`, and `+` before `<`
+# A notation gives a table of its operators with their levels (the tighter, the greater), says what an operand is and what
+# becomes of two operands that are joined. Depth is bounded, so that no text exhausts Python's stack.
+
+T = TypeVar("T")
+
+
+class Token(NamedTuple):
+    """One part of an expression and where it stands."""
+
+    kind: str
+    text: str
+    span: Span
+
+
+def split(
+    text: str, pattern: re.Pattern[str], kinds: tuple[str, ...], span: Span, what: str, spell: Callable[[str], str] = str,
+    hint: str = "",
+) -> list[Token]:  # fmt: skip
+    """The tokens of a text that starts at `span`; every group of the pattern is one of the kinds.
+
+    `spell` gives a token the letters of the tables. An Alarm at the first character that is no part of `what`.
+    """
+    tokens, at, end = [], 0, len(text.rstrip())
+    while at < end:
+        match = pattern.match(text, at)
+        if match is None:
+            rest = text[at:].lstrip()
+            place = span._replace(column=span.column + len(text) - len(rest), length=1)
+            raise Alarm(f"{rest[:1]!r} is no part of {what}", place, hint=hint)
+        group = match.lastindex or 1
+        part = match[group]
+        place = span._replace(column=span.column + match.end() - len(part), length=len(part))
+        tokens.append(Token(kinds[group - 1], spell(part), place))
+        at = match.end()
+    return tokens
+
+
+class Climber(ABC, Generic[T]):
+    """A place in the tokens; `climb` reads on from there and gives what `operand` and `join` make of it."""
+
+    levels: ClassVar[Mapping[str, int]]
+    """How tight each operator binds; `^` joins from the right, all others from the left."""
+    deepest: ClassVar[int]
+
+    def __init__(self, tokens: list[Token]) -> None:
+        self.tokens, self.at, self.depth = tokens, 0, 0
+
+    def peek(self) -> str:
+        """The next token as the tables spell it, empty at the end."""
+        return self.tokens[self.at].text if self.at < len(self.tokens) else ""
+
+    def climb(self, level: int = 0) -> T:
+        """An operand and all that operators of a level or a tighter one join to it."""
+        first, left = self.at, self.operand(level)
+        while self.levels.get(mark := self.peek(), -1) >= level:
+            self.at += 1
+            left = self.join(mark, left, first)
+        return left
+
+    def right(self, mark: str) -> T:
+        """What stands to the right of an operator that was just read."""
+        level = self.levels[mark]
+        if mark != "^":
+            return self.climb(level + 1)
+        self.deeper()
+        found = self.climb(level)
+        self.depth -= 1
+        return found
+
+    def deeper(self) -> None:
+        self.depth += 1
+        if self.depth > self.deepest:
+            self.too_deep()
+
+    @abstractmethod
+    def operand(self, level: int) -> T:
+        """A part, with the signs and words before it that may stand to the right of an operator of a level."""
+
+    @abstractmethod
+    def join(self, mark: str, left: T, first: int) -> T:
+        """What an operator makes of `left`, which begins at the token `first`, and of its `right`, still to be read."""
+
+    @abstractmethod
+    def too_deep(self) -> None:
+        """Raise the Alarm at what is nested too deep."""
+
+
+# Arithmetic and variables inside words: `Q1`, `-Q2`, `3 * (Q5 + 1)`.
+# An expression is kept as it was written, with the place of every part, and evaluated when its block runs.
+# The notation here is the one that conversational controls share: numbers, variables, `+ - * / DIV % ^`, brackets, PI
+# and named functions in degrees. A reader that needs less simply refuses what it does not know.
 
 _TOKEN = re.compile(r"\s*(?:(\d+(?:[.,]\d*)?|[.,]\d+)|(Q[LR]?\d+)|(DIV|[A-Z]+)|([-+*/^()%]))", re.IGNORECASE | re.ASCII)
 
@@ -37,7 +126,6 @@ FUNCTIONS: dict[str, Callable[[float], float]] = {
     "FRAC": lambda a: math.fmod(a, 1.0),
     "SGN": lambda a: float((a > 0) - (a < 0)),
 }
-
 
 KINDS = ("number", "variable", "name", "mark")  # of the groups of `_TOKEN`
 SUM, PRODUCT, POWER = range(3)

@@ -1,24 +1,25 @@
-"""Names that are opened when they are first asked for, so that `import mnclab` needs numpy only.
-
-What is opened is the real thing: its signature, its docstring, its own file. Where it stands is written as an import
-is, a module and its names: `{"mnclab.geometry.shapes": "arc, slot", "mnclab.geometry.svg": "contours as svg"}`.
-
-The core of the house imports no wing (`design`, `lab`, the controls): it opens by name what a wing offers, and where that
-wing was left out, an alarm says so.
-"""
+"""What is opened only when it is asked for: names of mnclab, packages that may be missing, a bar for long work."""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
+import threading
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from importlib import import_module
 from inspect import getdoc
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from mnclab.text.alarm import Alarm
-from mnclab.text.nearest import hint
+from mnclab.text.alarm import Alarm, hint
+
+# Names that are opened when they are first asked for, so that `import mnclab` needs numpy only.
+# What is opened is the real thing: its signature, its docstring, its own file. Where it stands is written as an import
+# is, a module and its names: `{"mnclab.geometry.shapes": "arc, slot", "mnclab.geometry.svg": "contours as svg"}`.
+# The core of the house imports no wing (`design`, `lab`, the controls): it opens by name what a wing offers, and where that
+# wing was left out, an alarm says so.
 
 #: What may be left out -> what it holds.
 WINGS = {
@@ -75,3 +76,48 @@ class Shelf(ModuleType):
 def _said(found: Any) -> str:
     """The first line about something; of a table its names."""
     return ", ".join(map(str, found)) if isinstance(found, Mapping) else (getdoc(found) or "").partition("\n")[0]
+
+
+# Packages that mnclab can do without: who needs one says so, and an alarm names the extra that brings it.
+
+def require(package: str, what: str, extra: str = "lab", instead: str = "") -> None:
+    """An Alarm where a package is not installed, or not whole: `what` needs it."""
+    try:
+        import_module(package)
+    except ImportError:
+        hint = f'pip install "mnclab[{extra}]" brings it' + (f"; {instead}" if instead else "")
+        raise Alarm(f"{what} need {package}, which is not installed here", hint=hint) from None
+
+
+# How far long work is: a bar, where tqdm is installed and the work takes more than a moment.
+# It is shown from the main thread alone: a form draws in a thread of its own, and a bar there would stand under another cell.
+
+SOON = 1.0  # s of work before a bar appears
+
+
+@contextmanager
+def progress(what: str, total: int, unit: str) -> Iterator[Callable[[int], None]]:
+    """`with progress("running", 10_000, "blocks") as at: …; at(300)`, now and then; the bar goes with the end of the block."""
+    begin = time.monotonic()
+    bar: Any = None
+    refused = threading.current_thread() is not threading.main_thread()
+
+    def at(done: int) -> None:
+        nonlocal bar, refused
+        if refused or (bar is None and time.monotonic() - begin < SOON):
+            return
+        if bar is None:
+            try:
+                from tqdm.auto import tqdm
+            except ImportError:
+                refused = True
+                return
+            bar = tqdm(total=total, desc=what, unit=f" {unit}", leave=False)
+        bar.total = max(bar.total, done)  # a loop in a program runs blocks again
+        bar.update(done - bar.n)
+
+    try:
+        yield at
+    finally:
+        if bar is not None:
+            bar.close()

@@ -1,18 +1,21 @@
-"""Tables for people, as HTML and as text: rows of texts under their heads, a line end in a cell begins a new line in it.
-
-Words stand to the left and numbers to the right, also where a notebook would set all to the right. Numbers of a column that
-have different decimals stand under each other by their points.
-"""
+"""What prints: tables, records, numbers; as text and as HTML."""
 
 from __future__ import annotations
 
 import csv
 import io
 import re
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import MISSING, fields, is_dataclass
 from html import escape
 from itertools import zip_longest
-from typing import Any
+from typing import Any, TypeVar
+
+import numpy as np
+
+# Tables for people, as HTML and as text: rows of texts under their heads, a line end in a cell begins a new line in it.
+# Words stand to the left and numbers to the right, also where a notebook would set all to the right. Numbers of a column that
+# have different decimals stand under each other by their points.
 
 NUMBER = re.compile(r"[-+\N{MINUS SIGN}]?\d+(\.\d*)?")
 
@@ -88,3 +91,92 @@ def text_table(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Coll
     lines.insert(below, tuple("-" * width for width in widths))
     sides = [str.rjust if k in longest else str.ljust for k in range(len(widths))]
     return "\n".join("  ".join(side(text, width) for side, text, width in zip(sides, line, widths)).rstrip() for line in lines)
+
+
+# How records print: as one would write them, or by the shapes of their columns; never their insides.
+
+def written(record: Any) -> str:
+    """A record as one would write it, without what is left at its default: `Tool(radius=5, kind='drill')`."""
+    return _written(record, _value)
+
+
+def exactly(record: Any) -> str:
+    """The same with all digits of its numbers and of the records in it: read back by Python it is equal."""
+    return _written(record, _exact)
+
+
+def _written(record: Any, value_of: Callable[[Any], str]) -> str:
+    said = [f"{name}={value_of(value)}" for name, value, default in _fields(record) if not _same(value, default)]
+    return f"{type(record).__name__}({', '.join(said)})"
+
+
+def shapes(record: Any) -> str:
+    """A record of columns by their shapes: `<Pieces: t (9,), s (9,), v (9,)>`."""
+    said = [f"{name} {np.shape(value)}" for name, value, _ in _fields(record) if isinstance(value, np.ndarray)]
+    return f"<{type(record).__name__}: {', '.join(said)}>"
+
+
+def _fields(record: Any) -> Iterator[tuple[str, Any, Any]]:
+    """Name, value and default (`MISSING` without one) of each field of a dataclass or a named tuple."""
+    if is_dataclass(record):
+        for each in fields(record):
+            default = each.default if each.default_factory is MISSING else each.default_factory()
+            yield each.name, getattr(record, each.name), default
+    else:
+        for name in record._fields:
+            yield name, getattr(record, name), record._field_defaults.get(name, MISSING)
+
+
+def _same(value: Any, default: Any) -> bool:
+    plain = type(value) in (int, float, str, bool, tuple, dict)
+    return value is default or ((plain or is_dataclass(default) and type(value) is type(default)) and bool(value == default))
+
+
+def _exact(value: Any) -> str:
+    """A value with all its digits, records in it too."""
+    if isinstance(value, float) and float(f"{value:.10g}") != value:
+        return repr(float(value))
+    nested = not isinstance(value, type) and (is_dataclass(value) or hasattr(value, "_fields"))
+    return exactly(value) if nested else _value(value, _exact)
+
+
+def _value(value: Any, inner: Callable[[Any], str] | None = None) -> str:
+    """A value in short: whole numbers without a point, a mapping as a dict, a function by its name; `inner` writes parts."""
+    inner = inner or _value
+    if isinstance(value, float):
+        return f"{value:.10g}"
+    if isinstance(value, tuple) and not hasattr(value, "_fields"):
+        return f"({', '.join(map(inner, value))}{',' * (len(value) == 1)})"
+    if isinstance(value, Mapping):
+        return f"{{{', '.join(f'{inner(key)}: {inner(each)}' for key, each in value.items())}}}"
+    return getattr(value, "__name__", None) or repr(value)
+
+
+# Numbers by their names that print as people read them, and keep all their digits.
+
+DECIMALS = 3  # as the display of a control
+
+
+class Rounded(dict[Any, float]):
+    """A dict of numbers; it prints them with at most three decimals.
+
+    >>> Rounded(cutting=2.911161243192578)
+    {'cutting': 2.911}
+    """
+
+    def __repr__(self) -> str:
+        return repr({key: round(value, DECIMALS) for key, value in self.items()})
+
+
+# Columns that are given out cannot be written to: what a run says of itself stays true.
+
+Column = TypeVar("Column", bound=np.ndarray)
+
+
+def fixed(column: Column) -> Column:
+    """The same numbers, read-only; the array itself stays as it is, for whoever still fills it."""
+    if not column.flags.writeable:
+        return column
+    seen = column.view()
+    seen.flags.writeable = False
+    return seen

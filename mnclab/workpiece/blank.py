@@ -11,9 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting
-from mnclab.text.given import check_number, check_point, either, shown
-from mnclab.text.records import written
+from mnclab.text.given import check_number, check_point, either, fitting, shown
+from mnclab.text.tables import written
 
 CORNERS = 96  # of a circle in a picture
 FARTHEST = 1e9  # mm, where a blank may stand

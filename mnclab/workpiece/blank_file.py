@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import File, check_names
 from mnclab.text.given import check_number, shown
-from mnclab.text.toml_file import File, check_names
 from mnclab.workpiece.blank import Blank, Box, Revolved, cylinder
 
 

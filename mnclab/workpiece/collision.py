@@ -8,8 +8,7 @@ from typing import NamedTuple
 
 from mnclab.path.listing import Unit
 from mnclab.text.alarm import SHOWN, several
-from mnclab.text.records import written
-from mnclab.text.tables import html_table
+from mnclab.text.tables import html_table, written
 
 KINDS = {
     "rapid": "rapid motion in material",

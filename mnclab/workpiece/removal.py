@@ -13,9 +13,7 @@ from mnclab.path.listing import MM, Unit
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.text.given import choice
-from mnclab.text.records import written
-from mnclab.text.rounded import Rounded
-from mnclab.text.tables import html_table
+from mnclab.text.tables import Rounded, html_table, written
 from mnclab.workpiece.ahead import FEW, RATE, Looks
 from mnclab.workpiece.workpiece import Workpiece
 

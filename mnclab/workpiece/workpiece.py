@@ -13,10 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from mnclab.path.columns import Array, Index
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting_class
-from mnclab.text.given import check_point, choice
+from mnclab.text.given import check_point, choice, fitting_class
 from mnclab.text.opening import opened
-from mnclab.text.rounded import Rounded
+from mnclab.text.tables import Rounded
 from mnclab.workpiece.ahead import Ahead
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.clamped import Clamped, Placement

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 import mnclab as mnc
-from mnclab.text.calls import fitting
+from mnclab.text.given import fitting
 
 RUN = mnc.run("G0 X5\n", "mnc")
 

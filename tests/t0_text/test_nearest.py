@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mnclab.text.nearest import ALIKE, SWAPPED, hint, nearest, slips_between
+from mnclab.text.alarm import ALIKE, SWAPPED, hint, nearest, slips_between
 
 
 @pytest.mark.parametrize(
@@ -52,7 +52,7 @@ def test_a_word_that_stands_often_is_compared_once(monkeypatch):
     """Six hundred lines of a wrong code: the known codes are gone through once for it."""
     compared = []
     monkeypatch.setattr(
-        "mnclab.text.nearest.slips_between", lambda *words: compared.append(words) or slips_between(*words)
+        "mnclab.text.alarm.slips_between", lambda *words: compared.append(words) or slips_between(*words)
     )
     known = [f"G{number}" for number in range(900)]
     assert len({hint("G4907", known) for _ in range(600)}) == 1 and 0 < len(compared) <= len(known)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import mnclab
 from mnclab.text.alarm import Span
-from mnclab.text.code_pages import decode
+from mnclab.text.file import decode
 
 TEXT = """\
 %

@@ -8,8 +8,8 @@ import pytest
 
 import mnclab
 from mnclab.running import flow
-from mnclab.text import progress as place
-from mnclab.text.progress import progress
+from mnclab.text import opening as place
+from mnclab.text.opening import progress
 
 
 class Bar:

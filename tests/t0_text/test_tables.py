@@ -1,7 +1,6 @@
 """Tables of texts, as HTML and as text."""
 
-from mnclab.text.rounded import Rounded
-from mnclab.text.tables import html_table, text_table
+from mnclab.text.tables import Rounded, html_table, text_table
 
 
 def plain(table: str) -> str:

@@ -2,7 +2,7 @@
 
 import pytest
 
-from mnclab.text.toml_file import File
+from mnclab.text.file import File
 
 TEXT = """\
 title = "a"

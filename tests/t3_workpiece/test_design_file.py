@@ -10,7 +10,7 @@ import mnclab
 from mnclab import Alarm, Design
 from mnclab.design import Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slope, Slot, Stud
 from mnclab.design.model.design_file import FORMAT, design_of, text_of
-from mnclab.text.toml_file import File, table_of
+from mnclab.text.file import File, table_of
 from mnclab.workpiece.blank import cylinder
 
 NAMESPACE = {name: getattr(mnclab.design, name) for name in mnclab.design.__all__}

@@ -10,7 +10,7 @@ import pytest
 from mnclab import Design
 from mnclab.design import Chamfer, Circle, Face, Groove, Hole, Pocket, Rectangle, Slot, Stud
 from mnclab.design.model.design_file import design_of, text_of
-from mnclab.text.toml_file import File, table_of
+from mnclab.text.file import File, table_of
 from mnclab.workpiece.blank import cylinder
 
 RECORDS = json.loads((Path(__file__).parents[1] / "authorities" / "designs.json").read_text())["designs"]

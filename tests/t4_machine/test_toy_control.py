@@ -16,7 +16,7 @@ from mnclab import Kind
 from mnclab.machine.control import Control, FunctionTable
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machining.steps import Go
-from mnclab.text.program_builder import ProgramBuilder
+from mnclab.text.program import ProgramBuilder
 from mnclab.text.words import characters, line_starts
 
 FUNCTIONS, CYCLES = FunctionTable(), CycleTable()

@@ -6,8 +6,8 @@ import tracemalloc
 import pytest
 
 import mnclab
-from mnclab.text.nearest import nearest
-from mnclab.text.program_builder import MOST_FAULTS
+from mnclab.text.alarm import nearest
+from mnclab.text.program import MOST_FAULTS
 
 pytestmark = pytest.mark.deep
 

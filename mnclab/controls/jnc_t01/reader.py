@@ -11,8 +11,7 @@ from dataclasses import replace
 from mnclab.controls.word_address import reader as words
 from mnclab.controls.word_address.formats import misformed
 from mnclab.text.alarm import WARNING, Alarm, Alarms
-from mnclab.text.program import Program
-from mnclab.text.program_builder import readable
+from mnclab.text.program import Program, readable
 
 COMMENT = "'"
 FORMATS = {**dict.fromkeys("GMTLN", "n"), **dict.fromkeys("DFS", "n.n"), **dict.fromkeys("IKRUWXZ", "±n.n")}

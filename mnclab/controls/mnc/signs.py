@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mnclab.text.signs import sign
+from mnclab.text.dialect import sign
 
 SIGNS = (
     sign(r"^[^;(\n]*//", 9, "a comment behind //"),

@@ -14,7 +14,7 @@ from mnclab.controls.nc_31.functions import CONDITIONAL, notes_of
 from mnclab.machine.control import Function
 from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.text.alarm import several
-from mnclab.text.notation import Notation, NotationRow
+from mnclab.text.dialect import Notation, NotationRow
 from mnclab.text.program import GROUP_MARK, INCREMENTAL, RAPID_MARK, Program, Word
 
 HEAD = "G21 G90 G95 (mm, X on the diameter, feed per revolution)"

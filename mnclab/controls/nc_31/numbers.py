@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from mnclab.text.alarm import Alarm
-from mnclab.text.numbering import Numbered, Numbers, Reference, unknown
+from mnclab.text.dialect import Numbered, Numbers, Reference, unknown
 from mnclab.text.program import Program
 
 _FRAME = re.compile(r"[ \t\ufeff]*+(?:N[ \t]*+(\d++)[ \t]*+)?(?=[^;\s])", re.IGNORECASE)

@@ -19,8 +19,7 @@ from __future__ import annotations
 import re
 from string import ascii_lowercase
 
-from mnclab.text.program import AT_MARK, GROUP_MARK, INCREMENTAL, RAPID_MARK, Program
-from mnclab.text.program_builder import ProgramBuilder, readable
+from mnclab.text.program import AT_MARK, GROUP_MARK, INCREMENTAL, RAPID_MARK, Program, ProgramBuilder, readable
 from mnclab.text.words import characters, line_starts
 
 COMMENT = ";"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mnclab.text.signs import sign
+from mnclab.text.dialect import sign
 
 _BLOCK = r"^[ \t/]*(?:\d+[ \t]*)?"
 

@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.text.alarm import Alarm
-from mnclab.text.program import NUMBER, Program
-from mnclab.text.program_builder import MOST_FAULTS, TooManyFaults
+from mnclab.text.program import MOST_FAULTS, NUMBER, Program, TooManyFaults
 from mnclab.text.words import characters
 
 MEANING = {"n": "digits alone", "n.n": "a number without sign", "±n": "a whole number", "±n.n": "a number"}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from mnclab.text.numbering import Numbered, Numbers
+from mnclab.text.dialect import Numbered, Numbers
 from mnclab.text.program import Program
 
 _NUMBER = re.compile(

@@ -14,10 +14,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.text.alarm import DIGITS, LATIN
 from mnclab.text.given import LARGEST
-from mnclab.text.nearest import DIGITS, LATIN
-from mnclab.text.program import Program
-from mnclab.text.program_builder import MOST_WORDS, BulkBlocks, ProgramBuilder, first_words, readable
+from mnclab.text.program import MOST_WORDS, BulkBlocks, Program, ProgramBuilder, first_words, readable
 from mnclab.text.words import Scan, scan
 
 PIECE = 1 << 16

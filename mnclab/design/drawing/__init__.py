@@ -7,7 +7,7 @@ best that is free, `arrangement` puts the views on a sheet, at the largest scale
 arrowheads and labels in millimetres of the paper (`ink`), which `figure` draws with matplotlib and `dxf` writes for CAD.
 """
 
-from mnclab.text.extras import require
+from mnclab.text.opening import require
 
 require("matplotlib", "drawings")  # which measure their text with it, before they draw
 

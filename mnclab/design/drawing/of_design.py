@@ -18,8 +18,7 @@ from mnclab.design.model.design import Design
 from mnclab.design.model.turned_design import TurnedDesign
 from mnclab.show.plot.picture import Picture
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting
-from mnclab.text.given import shown
+from mnclab.text.given import fitting, shown
 
 TABLES = (0, 1, 2)  # how much goes into tables: what needs it, all holes, all features
 MOST = 70  # dimensions of a view; more are not looked for places, but stand in a table

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mnclab.text.calls import fitting_class
+from mnclab.text.given import fitting_class
 
 if TYPE_CHECKING:
     import pyvista

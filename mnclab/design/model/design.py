@@ -20,10 +20,8 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting_class
-from mnclab.text.given import check_number, check_point, choice, shown
-from mnclab.text.records import exactly
-from mnclab.text.tables import html_table
+from mnclab.text.given import check_number, check_point, choice, fitting_class, shown
+from mnclab.text.tables import exactly, html_table
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 from mnclab.workpiece.part import Part
 

@@ -14,8 +14,8 @@ from mnclab.design.model.feature_file import feature_of, pointing, table_of_feat
 from mnclab.design.model.features import FEATURES
 from mnclab.design.model.turned_design import TurnedDesign
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import File, as_table, as_tables, check_names, parse
 from mnclab.text.given import shown
-from mnclab.text.toml_file import File, as_table, as_tables, check_names, parse
 from mnclab.workpiece.blank_file import blank_of, table_of
 
 #: The format, as the help of the command line shows it.

@@ -13,7 +13,7 @@ from mnclab.design.model.shapes import LARGEST, Shape, check_place, shape_of
 from mnclab.geometry.regions import Region
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, faults_as_alarms, plain, shown
-from mnclab.text.records import exactly
+from mnclab.text.tables import exactly
 
 SMALLEST = 1e-6  # mm, of a size
 BESIDE = 1e-3  # mm, beside an edge, where material is looked for

@@ -13,10 +13,9 @@ from dataclasses import MISSING, fields, is_dataclass
 from typing import Any, TypeVar
 
 from mnclab.design.model.shapes import Circle, Outline, Rectangle
-from mnclab.text.alarm import Alarm
+from mnclab.text.alarm import Alarm, hint
+from mnclab.text.file import File, as_table, check_names
 from mnclab.text.given import shown
-from mnclab.text.nearest import hint
-from mnclab.text.toml_file import File, as_table, check_names
 
 SHAPES: tuple[type[Any], ...] = (Circle, Outline, Rectangle)
 RECTANGLE = "{ x = 30, y = 20, length = 40, width = 25 }"

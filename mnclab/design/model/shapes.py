@@ -14,7 +14,7 @@ from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, faults_as_alarms, plain, shown
-from mnclab.text.records import exactly
+from mnclab.text.tables import exactly
 
 LARGEST = 1e5  # mm, of a size and of a coordinate
 ROUND = 1e-9  # mm, within which two halves are one circle

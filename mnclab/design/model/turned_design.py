@@ -20,10 +20,8 @@ from mnclab.design.model.turned_profile import Dimension, Profile
 from mnclab.geometry.contours import Contour
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting_class
-from mnclab.text.given import check_point, faults_as_alarms, plain, shown
-from mnclab.text.records import exactly
-from mnclab.text.tables import html_table
+from mnclab.text.given import check_point, faults_as_alarms, fitting_class, plain, shown
+from mnclab.text.tables import exactly, html_table
 from mnclab.workpiece.blank import Revolved, blank
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.turning import revolved

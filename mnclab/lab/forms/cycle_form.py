@@ -23,9 +23,8 @@ from mnclab.machine.cycle import Cycle
 from mnclab.machine.setup import Setup
 from mnclab.machine.touching import FEELS, PROBES
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting
-from mnclab.text.extras import require
-from mnclab.text.given import shown
+from mnclab.text.given import fitting, shown
+from mnclab.text.opening import require
 from mnclab.text.tables import html_table
 
 SIZE = (4.9, 3.7)  # inches: beside the fields there is so much room in JupyterLab on a small laptop

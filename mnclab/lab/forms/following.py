@@ -16,7 +16,7 @@ from mnclab.lab.forms.fields import Field
 from mnclab.lab.forms.live import PAST, live_class
 from mnclab.runs.run import Run
 from mnclab.text.alarm import ALARM, Alarm, card_html
-from mnclab.text.extras import require
+from mnclab.text.opening import require
 
 DRAWING = ThreadPoolExecutor(1, thread_name_prefix="drawing")
 SIZE = (6.4, 4.4)  # inches, of a picture beside boxes

@@ -13,9 +13,8 @@ from mnclab.lab.forms.following import Work, following, of_run
 from mnclab.path.profile import Profile
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting
-from mnclab.text.extras import require
-from mnclab.text.given import shown
+from mnclab.text.given import fitting, shown
+from mnclab.text.opening import require
 
 LIMITS = {"acceleration": "mm/s²", "jerk": "mm/s³", "corner_tolerance": "mm"}
 SIZE = (6.4, 4.9)  # inches, below a row of boxes

@@ -14,11 +14,9 @@ from mnclab.lab.forms.fields import Field
 from mnclab.lab.forms.following import SIZE, Work, following, of_run
 from mnclab.machine import trial
 from mnclab.machine.setup import Setup
-from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting
-from mnclab.text.extras import require
-from mnclab.text.given import shown
-from mnclab.text.nearest import hint
+from mnclab.text.alarm import Alarm, hint
+from mnclab.text.given import fitting, shown
+from mnclab.text.opening import require
 
 PLACE = re.compile(r"\{(\w+)\}")
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from mnclab.text.alarm import first_of
-from mnclab.text.extras import require
+from mnclab.text.opening import require
 
 MATCHER = "mnclab words"
 LONGEST = 60  # letters of a meaning beside a word

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
-from mnclab.text.records import shapes
+from mnclab.text.tables import shapes
 
 FINE = 16  # discs to a tool radius
 BLOCK = 500

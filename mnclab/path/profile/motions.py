@@ -21,7 +21,7 @@ from mnclab.path.limits import Limits
 from mnclab.path.profile import corner_speeds
 from mnclab.path.profile.bends import Bends
 from mnclab.path.toolpath import Toolpath
-from mnclab.text.records import shapes
+from mnclab.text.tables import shapes
 
 PIECE = 1 << 15  # rows worked on at a time
 FULL = 0.9  # of an arc's acceleration may be centripetal; the rest is left for speeding up and braking

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mnclab.path.columns import Array, Index
 from mnclab.path.profile.lookahead import running_sum
 from mnclab.path.profile.timing import Plan
-from mnclab.text.records import shapes
+from mnclab.text.tables import shapes
 
 
 class Pieces(NamedTuple):

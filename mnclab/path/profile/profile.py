@@ -20,12 +20,8 @@ from mnclab.path.profile.pieces import Pieces, pieces
 from mnclab.path.profile.timing import Plan, plan
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting_class
-from mnclab.text.columns import fixed
-from mnclab.text.given import choice, shown
-from mnclab.text.records import shapes
-from mnclab.text.rounded import Rounded
-from mnclab.text.tables import html_table
+from mnclab.text.given import choice, fitting_class, shown
+from mnclab.text.tables import Rounded, fixed, html_table, shapes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

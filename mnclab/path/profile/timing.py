@@ -26,7 +26,7 @@ from mnclab.path.profile.stages import staged
 from mnclab.path.profile.turns import FEWEST, PART, Turns
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.given import check_number
-from mnclab.text.records import shapes
+from mnclab.text.tables import shapes
 
 SURFACE = 64  # parts of a row at constant cutting speed, in each of which the feed is constant
 

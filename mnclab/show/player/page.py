@@ -17,9 +17,8 @@ from mnclab.show.felt import felt
 from mnclab.show.given_away import whole
 from mnclab.show.player.payload import payload
 from mnclab.text.alarm import Alarm, several
-from mnclab.text.calls import fitting_class
 from mnclab.text.file import replaced
-from mnclab.text.given import check_number, choice
+from mnclab.text.given import check_number, choice, fitting_class
 from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.cutting import Cutting
 

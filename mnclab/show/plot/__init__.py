@@ -14,7 +14,7 @@ never `pyplot`: figures are plain objects, so that they can be drawn in any thre
 `ax=None` and draws with `colours`; it may import every floor but `machine` and `controls`.
 """
 
-from mnclab.text.extras import require
+from mnclab.text.opening import require
 
 require("matplotlib", "pictures")  # once for all that draw, before they import it
 

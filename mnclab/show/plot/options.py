@@ -10,8 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import near_option
-from mnclab.text.given import check_number, check_point, shown, whole
+from mnclab.text.given import check_number, check_point, near_option, shown, whole
 
 ADDED = ("size", "size_mm", "legend")  # of every figure
 BOUNDS = {"width": (1.0, 100.0), "columns": (1, 100), "most": (0, None)}  # of numbers, wherever they are options

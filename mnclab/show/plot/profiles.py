@@ -18,8 +18,7 @@ from mnclab.show.plot.picture import SMALL, Picture, calm, write_legend
 from mnclab.show.plot.profile import curve
 from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
-from mnclab.text.calls import fitting
-from mnclab.text.given import choice, shown
+from mnclab.text.given import choice, fitting, shown
 
 WIDTH, HIGH = 7.0, 1.75  # inches: of the figure, and of one profile at most
 MOST = 8

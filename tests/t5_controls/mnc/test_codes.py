@@ -7,7 +7,7 @@ import pytest
 from together import together
 
 import mnclab
-from mnclab.text.nearest import slips_between
+from mnclab.text.alarm import slips_between
 
 CONTROL = mnclab.controls["mnc"]
 FILE = Path(__file__).parents[2] / "authorities" / "catalogue" / "codes.json"

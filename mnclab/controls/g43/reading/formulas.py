@@ -15,8 +15,7 @@ from dataclasses import dataclass
 from typing import Any, NoReturn
 
 from mnclab.text.alarm import Alarm, Span
-from mnclab.text.expression import Expression
-from mnclab.text.precedence import Climber, Token, split
+from mnclab.text.expression import Climber, Expression, Token, split
 
 _TOKEN = re.compile(
     r"\s*(?:(\d+(?:\.\d*)?|\.\d+)|(#[ \t]*(?:\d{1,9}|<[^<>\[\]#]{0,80}>)?)"

@@ -8,9 +8,8 @@ from collections.abc import Iterator
 
 from mnclab.controls.word_address.numbers import numbered
 from mnclab.text.alarm import Alarm
-from mnclab.text.numbering import Numbered, Numbers, Reference, one_number, unknown
+from mnclab.text.dialect import Numbered, Numbers, Reference, code_of, one_number, unknown
 from mnclab.text.program import Program
-from mnclab.text.signs import code_of
 
 _GOTO = re.compile(r"(?<![A-Z])GOTO[ \t]*+(?:(\d++)(?![.\d])|(?=(\S)))", re.IGNORECASE)
 _M99 = re.compile(r"(?<![A-Z])M[ \t]*+0*+99(?![\d.])", re.IGNORECASE)

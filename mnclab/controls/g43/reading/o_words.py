@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 
 from mnclab.controls.g43.reading import formulas
 from mnclab.controls.g43.reading.statements import Fault, end_of_operand
-from mnclab.text.nearest import hint
-from mnclab.text.program_builder import ProgramBuilder
+from mnclab.text.alarm import hint
+from mnclab.text.program import ProgramBuilder
 
 O_WORD = re.compile(r"O[ \t]*(\d+|<[^<>]{0,80}>|(?=[\[#]))", re.IGNORECASE)
 _KEYWORD = re.compile(  # blanks mean nothing: `else if` is elseif

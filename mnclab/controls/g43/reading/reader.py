@@ -21,8 +21,7 @@ from mnclab.controls.g43.reading.o_words import OWords
 from mnclab.controls.g43.reading.statements import HEAD, HINTS, Fault, Statements, assignments, end_of_operand
 from mnclab.controls.word_address.reader import Labels, Marks, clean_blocks, read_words, skip_blanks
 from mnclab.text.alarm import Alarm, Span
-from mnclab.text.program import Program
-from mnclab.text.program_builder import MOST_WORDS, ProgramBuilder, readable
+from mnclab.text.program import MOST_WORDS, Program, ProgramBuilder, readable
 from mnclab.text.words import Scan, scan
 
 COMMENT = r"[(;]"

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from mnclab.controls.g43.reading import formulas
-from mnclab.text.program_builder import ProgramBuilder
+from mnclab.text.program import ProgramBuilder
 
 HEAD = re.compile(r"#|(?:IF|WHILE|GOTO|DO|END|THEN|ELSE)(?![A-Z])", re.IGNORECASE)
 _NUMBER = re.compile(r"[ \t]*(\d{1,9}(?:\.0*)?)(?![.\d])")

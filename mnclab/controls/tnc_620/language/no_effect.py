@@ -10,7 +10,7 @@ from mnclab.controls.tnc_620.cycles.chain import TILT
 from mnclab.controls.tnc_620.language.checks import warn_once, whole
 from mnclab.machine.control import FunctionTable, Setting, Words
 from mnclab.machine.machine import Machine
-from mnclab.text.nearest import hint
+from mnclab.text.alarm import hint
 
 FUNCTIONS = FunctionTable()
 SOURCE = "Klartext, not described"

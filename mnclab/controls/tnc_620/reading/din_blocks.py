@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 
 from mnclab.controls.tnc_620.reading.lines import bounds
 from mnclab.controls.tnc_620.reading.words import FLAGS
-from mnclab.text.program_builder import ProgramBuilder
+from mnclab.text.program import ProgramBuilder
 
 _HEAD = re.compile(r"[ \t]*(/?)[ \t]*(N[ \t]*\d+)?[ \t]*(/?)[ \t]*", FLAGS)
 _PIECE = re.compile(r'(?:[^"*]++|"[^"]*+(?:"|$)|\*(?![ \t]*+(?:$|/?[ \t]*+N[ \t]*+\d|%)))*+', FLAGS)

@@ -18,8 +18,7 @@ from mnclab.controls.tnc_620.reading.formulas import (
 )
 from mnclab.controls.tnc_620.reading.words import FLAGS, Cursor, Fault
 from mnclab.text.alarm import Span
-from mnclab.text.expression import Expression
-from mnclab.text.precedence import Token
+from mnclab.text.expression import Expression, Token
 
 FUNCTION = re.compile(r"D[ \t]*(\d{1,3})(?![\d.,])[ \t]*:?", FLAGS)
 _OPERAND_MARKS = {number: re.compile(rf"[ \t]*P[ \t]*(?:0{number}|{number}(?![\d.,]))", FLAGS) for number in (1, 2, 3)}

@@ -22,8 +22,7 @@ from mnclab.controls.tnc_620.reading.labels import name_of_program
 from mnclab.controls.tnc_620.reading.statements import cycle_parameters, recognize
 from mnclab.controls.tnc_620.reading.words import FLAGS, INCH, Cursor, Fault
 from mnclab.text.alarm import Alarm
-from mnclab.text.program import Program
-from mnclab.text.program_builder import ProgramBuilder
+from mnclab.text.program import Program, ProgramBuilder
 from mnclab.text.words import characters, line_starts
 
 _HEAD = re.compile(r"%([^\r\n;*]*?)\b(G[ \t]*7[01])(?!\d)", FLAGS)

@@ -12,8 +12,7 @@ from typing import Any, NamedTuple
 from mnclab.controls.tnc_620.reading.din_modes import MIXED
 from mnclab.controls.tnc_620.reading.words import FLAGS, LENGTHS, OWN, TEXT, Cursor, Fault, from_inches
 from mnclab.text.expression import Expression
-from mnclab.text.program import INCREMENTAL
-from mnclab.text.program_builder import ProgramBuilder
+from mnclab.text.program import INCREMENTAL, ProgramBuilder
 
 #: Letters of positions: they count from the last position under G91.
 MEASURED = frozenset("XYZUVWABCIJKRH")

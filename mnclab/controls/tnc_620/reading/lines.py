@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from mnclab.text.program_builder import ProgramBuilder
+from mnclab.text.program import ProgramBuilder
 
 _BEFORE_COMMENT = re.compile(r'(?:[^;"]++|"[^"]*+(?:"|$))*+')
 

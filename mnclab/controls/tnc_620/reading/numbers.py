@@ -6,7 +6,7 @@ import re
 
 from mnclab.controls.tnc_620.reading import din_reader
 from mnclab.controls.word_address import numbers as words
-from mnclab.text.numbering import Numbered, Numbers
+from mnclab.text.dialect import Numbered, Numbers
 from mnclab.text.program import Program
 
 _NUMBER = re.compile(r"[ \t\ufeff]*+(?:/[ \t]*+)?(\d++)(?![.,])")

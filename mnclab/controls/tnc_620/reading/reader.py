@@ -36,8 +36,7 @@ from mnclab.controls.tnc_620.reading.statements import (
 from mnclab.controls.tnc_620.reading.words import FLAGS, INCH, Cursor, Fault
 from mnclab.text.alarm import KEPT, Alarm
 from mnclab.text.given import LARGEST
-from mnclab.text.program import NONE, Program
-from mnclab.text.program_builder import BulkBlocks, ProgramBuilder, first_words, readable
+from mnclab.text.program import NONE, BulkBlocks, Program, ProgramBuilder, first_words, readable
 from mnclab.text.words import Scan, characters, scan
 
 _UNIT = re.compile(r"(?<![^\r\n])[ \t\ufeff]*(?:/[ \t]*)?(?:N?\d+[ \t]*)?BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)

@@ -16,11 +16,10 @@ from dataclasses import replace
 from typing import Any
 
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
+from mnclab.text.alarm import hint as near
 from mnclab.text.expression import Expression, parse
 from mnclab.text.given import LARGEST
-from mnclab.text.nearest import hint as near
-from mnclab.text.program import INCREMENTAL
-from mnclab.text.program_builder import ProgramBuilder
+from mnclab.text.program import INCREMENTAL, ProgramBuilder
 
 INCH = 25.4  # mm
 
