@@ -49,3 +49,9 @@ def test_every_command_is_known():
     for call in ROWS[-1][:2]:
         _, *words = shlex.split(call)
         parser().parse_args(words)
+
+
+def test_the_map_of_the_house_names_what_is_there():
+    section = (ROOT / "CONTRIBUTING.md").read_text("utf-8").partition("## One program's way")[2].partition("\n## ")[0]
+    named = re.findall(r"`([a-z_0-9/]+(?:\.py|/))`", section)
+    assert len(named) > 30 and not [name for name in named if not (ROOT / "mnclab" / name).exists()]
