@@ -93,3 +93,21 @@ def test_faults_of_arcs_of_klartext_in_inches():
     head = "0 BEGIN PGM A INCH\n1 TOOL CALL 1 Z S500\n2 L X+0 Y+0 Z+1 R0 FMAX M3\n"
     near = mnclab.run(head + "3 CR X+10 R+3 DR+ F9\n4 END PGM A INCH\n", "tnc-620").alarms[0]
     assert "R3 is too small for the distance 10 in between start and end: at least 5 in is needed" in near.message
+
+
+@pytest.mark.parametrize(
+    ("unit", "scale", "removed", "deep"),
+    [("G21", 25.4, "16.4 cm³", "12.700 mm deep at X"), ("G20", 1.0, "1 in³", "0.500 in deep at X")],
+)
+def test_volumes_and_collisions_are_told_in_the_unit_of_the_program(unit, scale, removed, deep, tmp_path):
+    """A slot 1 wide, 0.5 deep and 2 long: 1 in³ is 16.387 cm³. The same way at rapid is 0.5 deep in the plate."""
+    x, y, z, end, feed = (round(each * scale, 4) for each in (-1, 1, -0.5, 3, 10))
+    text = f"{unit}\nT1 M6\nS500 M3\nG0 X{x} Y{y} Z{z}\nG1 X{end} F{feed}\nG0 Z{y}\nM30\n"
+    tools = {1: mnclab.Tool(radius=12.7, kind="mill")}
+    setup = mnclab.Setup(tools=tools, stock=((0, 0, -25.4), (50.8, 50.8, 0)), start=(-100, 0, 100))
+    run = mnclab.run(text, "g43", setup)
+    report = run.report(tmp_path / "a.html").read_text("utf-8")
+    assert all(removed in each for each in (repr(run.removal()), report, run._repr_html_()))
+    assert ("cm³" in report) == (unit == "G21") and ("in³" in report) == (unit == "G20")
+    (met,) = mnclab.run(text.replace("G1 X", "G0 X"), "g43", setup).collisions()
+    assert met.depth == pytest.approx(12.7) and deep in str(met)

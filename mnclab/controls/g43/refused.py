@@ -9,28 +9,34 @@ from mnclab.machine.control import Function, Words
 from mnclab.machine.machine import Machine
 
 _LATHE = "it belongs to a lathe: choose control=\"jnc-t01\" or write the program for the mill"
-_PROBE = "not built: probing; write the places that it would find as numbers"
+_PROBE = "not built: a move until a probe touches; write the places that it would find as numbers"
 _WRITTEN = "not built: write the motion itself"
+_SIDES = "write a program for each side, or for the tnc-620, which has"
+_TIP = f"not built: the tip is led where rotary axes turn (TCP); {_SIDES} M128"
+_TILTED = f"not built: a tilted working plane; {_SIDES} PLANE SPATIAL"
 
 REFUSED = (
     dict.fromkeys(("G71.1", "G71.2", "G72.1", "G72.2"), _LATHE)
     | dict.fromkeys(("G7", "G96", "G32", "G33", "G34", "G33.1", "G75", "G77", "G78", "G79"), _LATHE)
-    | dict.fromkeys(("G31", "G36", "G37", "G38.2", "G38.3", "G38.4", "G38.5"), _PROBE)
+    | dict.fromkeys(("G31", "G38.2", "G38.3", "G38.4", "G38.5"), _PROBE)
+    | dict.fromkeys(("G36", "G37"), "not built: measuring the tool in the program; write its length into the tool table")
     | dict.fromkeys(("G12", "G13", "G47", "G150"), _WRITTEN)
-    | dict.fromkeys(("G5.2", "G5.3", "G6.2"), "not built: splines")
-    | dict.fromkeys(("G17.1", "G18.1", "G19.1"), "not built: planes of the axes U, V and W")
-    | dict.fromkeys(("G43.2", "G43.4", "G43.5", "G53.1", "G68.2", "G68.3", "G234", "G254"),
-                    "not built: the kinematics of the machine are not known")
+    | dict.fromkeys(("G5.2", "G5.3", "G6.2"), "not built: splines; write lines or arcs")
+    | dict.fromkeys(("G17.1", "G18.1", "G19.1"), "not built: planes of the axes U, V and W; write G17, G18 or G19")
+    | dict.fromkeys(("G43.4", "G43.5", "G234"), _TIP) | dict.fromkeys(("G53.1", "G68.2", "G68.3"), _TILTED)
+    | {"G43.2": "not built: a length on top of another (LinuxCNC); write their sum into one row of the tool table",
+       "G254": "not built: the datum turns with the rotary axes (Haas); write one datum for each side, G54 to G59"}
     | dict.fromkeys("UVW", "increments of a lathe, or axes that are not built: write X, Y or Z under G91")
     | {"G101": "the mirror image of Haas: write G51.1 and the axes with 0", "G100": "no mirror image, of Haas: write G50.1"}
-    | {"M97": "not built: a subprogram from a block of this program on (Haas); M98 calls programs with O numbers",
-       "G66.1": "not built: a macro call in every block"}
-    | {"G72": "not built: holes along a line (Haas); on LinuxCNC a lathe roughs with it",
+    | {"M97": "not built: a subprogram from a block of this program on (Haas); write it as a program O… and call it by M98",
+       "G66.1": "not built: a macro call in every block; write G65 in the blocks that call it"}
+    | {"G72": "not built: holes along a line (Haas), write G81 and their places; on LinuxCNC a lathe roughs with it",
        "G84.2": "not built in this format: write M29 and G84",
        "G84.3": "not built in this format: write M29 and G74"}
-    | {"G7.1": "not built: the surface of a cylinder", "G12.1": _LATHE, "G13.1": _LATHE,
-       "G45": _WRITTEN, "G46": _WRITTEN, "G48": _WRITTEN, "G62": "not built: slower inside corners",
-       "G63": "not built: feed and override locked for tapping", "G11": "there is no data mode: G10 ends with its block",
+    | {"G7.1": "not built: the surface of a cylinder; the tnc-620 has cycle 27 for it", "G12.1": _LATHE, "G13.1": _LATHE,
+       "G45": _WRITTEN, "G46": _WRITTEN, "G48": _WRITTEN, "G62": "not built: slower inside corners; write F there",
+       "G63": "not built: feed and override locked for tapping; G84 has them locked",
+       "G11": "there is no data mode: G10 ends with its block",
        "G60": "not built: the approach from one side, whose length is a parameter of the machine"}
 )  # fmt: skip
 _NO_MIRROR = "write the mirrored motion itself"

@@ -22,8 +22,9 @@ PROBING = {
 STATEMENTS = {
     "TRANS DATUM": "datum shift of a table",
     **{f"PLANE {form}": "tilted plane" for form in "PROJECTED EULER VECTOR POINTS RELATIV AXIAL".split()},
-    **{f"FUNCTION {form}": "special function" for form in "TCPM PARAXMODE PARAXCOMP RESET MODE FEED".split()},
-    "BLK FORM FILE": "blank from a file",
+    "FUNCTION TCPM": "leading the tip where rotary axes turn", "FUNCTION PARAXMODE": "parallel axes",
+    "FUNCTION PARAXCOMP": "parallel axes", "FUNCTION RESET": "end of a special function",
+    "FUNCTION MODE": "milling or turning", "FUNCTION FEED": "recurring dwell", "BLK FORM FILE": "blank from a file",
 }  # fmt: skip
 
 M = {
@@ -36,6 +37,21 @@ OLDER = {
     95: "another approach at a contour", 96: "another departure from a contour", 104: "the datum that was set by hand last",
     112: "arcs put in between lines", 114: "compensation of tilted axes", 124: "points left out",
     132: "smoother acceleration", 133: "end of M132", 142: "erasing modal information", 150: "limit switches not heeded",
+}  # fmt: skip
+
+#: What is written instead of what is not built, where there is something.
+INSTEAD = {
+    "TRANS DATUM": "write CYCL DEF 7 with # and the row of the table",
+    **{code: "write PLANE SPATIAL with the angles of the same plane" for code in STATEMENTS if code.startswith("PLANE ")},
+    "FUNCTION TCPM": "write M128", "FUNCTION FEED": "write FUNCTION DWELL, which waits once",
+    **{f"FUNCTION {form}": "leave it out where those axes stand still" for form in ("PARAXMODE", "PARAXCOMP")},
+    "FUNCTION MODE": "leave it out, for milling", "BLK FORM FILE": "write BLK FORM 0.1 and 0.2, or give Setup(stock=…)",
+    "M136": "write F in mm/min, feed times speed", "M138": "write the angles of the rotary axes in a block L",
+    "M144": "write M128", "M197": "write RND at each corner", "M95": "write APPR", "M96": "write DEP",
+    "M104": "write CYCL DEF 247", "M112": "write RND at the corners, or cycle 32", "M114": "write M128",
+    "M124": "leave it out, then every point is gone to", "M132": "leave it out, the path is the same",
+    "M133": "leave it out with M132", "M142": "write the functions again that are to hold",
+    **{f"TCH PROBE {n}": "leave it out, it measures the machine" for n in PROBING},
 }  # fmt: skip
 
 BUILDER = "a cycle of the machine tool builder, whose manual alone describes it: leave it out where it moves nothing"
@@ -55,10 +71,16 @@ WAITING = {
     **STATEMENTS,
     **{f"M{n}": title for n, title in M.items()},
 }
+
+
+def _instead(code: str) -> str:
+    return f": {INSTEAD[code]}" if code in INSTEAD else ""
+
+
 #: Codes and addresses that are not built, with the sentence that says so.
 REFUSED = {
-    **{code: f"{title}, not built yet" for code, title in WAITING.items()},
-    **{f"M{n}": f"{title}, a function of older controls that is not built" for n, title in OLDER.items()},
+    **{code: f"{title}, not built yet{_instead(code)}" for code, title in WAITING.items()},
+    **{f"M{n}": f"{title}, a function of older controls that is not built{_instead(f'M{n}')}" for n, title in OLDER.items()},
     **{f"CYCL DEF {n}": BUILDER for n in range(300, 400)},
     **{f"TCH PROBE {n}": BUILDER for n in range(500, 600)},
     **NOT_THERE,

@@ -1,5 +1,5 @@
 ; == m104-refused-older-controls
-; 4:9 alarm: M104 is refused: the datum that was set by hand last, a function of older controls that is not built
+; 4:9 alarm: M104 is refused: the datum that was set by hand last, a function of older controls that is not built: write CYCL DEF 247
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
 2 L X+5 M104
@@ -11,7 +11,7 @@
 2 L X+5 M109 M110
 
 ; == m112-refused-older-controls
-; 4:9 alarm: M112 is refused: arcs put in between lines, a function of older controls that is not built
+; 4:9 alarm: M112 is refused: arcs put in between lines, a function of older controls that is not built: write RND at the corners, or cycle 32
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
 2 L X+5 M112 T0.01
@@ -42,7 +42,7 @@
 2 L X+5 M3 M13
 
 ; == m138-refused-choice-tilting-axes-not
-; 4:9 alarm: M138 is refused: choice of tilting axes, not built yet
+; 4:9 alarm: M138 is refused: choice of tilting axes, not built yet: write the angles of the rotary axes in a block L
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
 2 L X+5 M138 A C
@@ -111,7 +111,7 @@
 4 L M140 MB50
 
 ; == m142-refused-older-controls
-; 4:3 alarm: M142 is refused: erasing modal information, a function of older controls that is not built
+; 4:3 alarm: M142 is refused: erasing modal information, a function of older controls that is not built: write the functions again that are to hold
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
 2 M142

@@ -205,8 +205,10 @@ def test_the_oriented_stop():
 @pytest.mark.parametrize(("text", "alarm"), [
     ("G1 @5 ^30", "@ is a distance of polar coordinates on LinuxCNC: not built (write X and Y)"),
     ("^30", "^ is an angle of polar coordinates on LinuxCNC: not built (write X and Y)"),
-    ("G38.2 Z-5", "G38.2 is refused: not built: probing; write the places that it would find as numbers"),
-    ("G72 Q100 X1", "G72 is refused: not built: holes along a line (Haas); on LinuxCNC a lathe roughs with it"),
+    ("G38.2 Z-5", "G38.2 is refused: not built: a move until a probe touches; write the places that it would find as"
+                    " numbers"),
+    ("G72 Q100 X1", "G72 is refused: not built: holes along a line (Haas), write G81 and their places; on LinuxCNC a lathe"
+                    " roughs with it"),
     ("G71.1 Q100 X1",
      'G71.1 is refused: it belongs to a lathe: choose control="jnc-t01" or write the program for the mill'),
     ("G8", 'G8 is refused: on LinuxCNC it makes X a radius, on a lathe (choose control="jnc-t01", or leave it out on a mill)'),

@@ -8,6 +8,7 @@ import running
 
 import mnclab
 from mnclab import Tool
+from mnclab.controls.g43.refused import REFUSED
 
 run = partial(running.run, control="g43")
 
@@ -55,3 +56,8 @@ def test_the_control_is_known_by_its_words():
     assert mnclab.read("T2 M6\nG43 D2 Z5\n").control == "g43"
     with pytest.raises(mnclab.Alarm):
         mnclab.read("hello\n")
+
+
+@pytest.mark.parametrize("code", [code for code, text in REFUSED.items() if text.startswith("not built")])
+def test_what_is_not_built_says_what_is_written_instead(code):
+    assert any(verb in REFUSED[code] for verb in ("write ", "the tnc-620 has", "locked", "whose length is")), REFUSED[code]

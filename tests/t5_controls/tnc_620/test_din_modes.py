@@ -102,3 +102,18 @@ def test_many_labels_are_followed_in_time(din) -> None:
     chain = "".join(f"G98 L{k}*\nL{k - 1}*\nG98 L0*\n" for k in range(2, 300))
     _, told = din(f"G01 X+1*\nL299*\nX+2*\nM2*\nG98 L1*\nG91 Y+1*\nG98 L0*\n{chain}")
     assert told[0][:2] == ("alarm", 5) or "nest" in told[-1][2]
+
+
+@pytest.mark.parametrize(
+    ("block", "hint"),
+    [
+        ("G43.4 H1", "write M128"), ("G38.2 Z-5", "write G55, the probing of a point"), ("G68.2", "write G80, the working plane"),
+        ("g05.1 Q1", "leave it out"), ("G83.1", ""),
+    ],
+)  # fmt: skip
+def test_a_function_with_a_fraction_is_one_of_another_control(block: str, hint: str) -> None:
+    """What stands for it here: M128 (using the cycles, TCPM), cycle 0 is G55 and cycle 19 G80 (list of the cycles)."""
+    (alarm,) = mnc.run(f"%A G71 *\nT1 G17 S1000 F100 M3 *\n{block} *\nN99999999 %A G71 *\n", "tnc-620").alarms
+    code = block.split()[0]
+    assert alarm.message == f"{code.upper()} is no G function of DIN/ISO programs: their numbers are whole"
+    assert alarm.hint == hint and (alarm.span.line, alarm.span.column, alarm.span.length) == (3, 1, len(code))

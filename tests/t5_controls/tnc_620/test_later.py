@@ -51,3 +51,13 @@ def test_every_cycle_of_the_manual_is_built_or_waits() -> None:
 def test_nothing_that_waits_is_built() -> None:
     """What is built has its title and its parameters in its own declaration."""
     assert not {*later.WAITING, *later.NOT_THERE, *PARAMETERS} & {*CONTROL.functions, *CONTROL.cycles}
+
+
+def test_what_is_written_instead_is_built() -> None:
+    built = {*CONTROL.functions, *CONTROL.cycles}
+    for code, text in later.INSTEAD.items():
+        assert code in CONTROL.refused and code not in built and CONTROL.refused[code].endswith(f": {text}")
+        named = re.findall(r"CYCL DEF \d+|PLANE SPATIAL|FUNCTION DWELL|M\d+|RND|APPR|DEP|BLK FORM 0\.1|\bL\b", text)
+        said = set(named) - {code} - {"M132"}
+        assert text.startswith(("write ", "leave it out"))
+        assert all(any(f"{each} ".startswith(f"{one} ") for each in built) for one in said)

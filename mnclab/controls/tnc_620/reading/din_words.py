@@ -98,6 +98,14 @@ def _word(cursor: Cursor, begin: int) -> tuple[str, Any]:
     raise _strange(cursor, letter)
 
 
+#: What the G functions with a fraction of other controls are here.
+_PARTED = re.compile(r"[Gg]0*+(\d++\.\d)(?!\d)")
+PARTED = {
+    "43.4": "write M128", "43.5": "write M128", "68.2": "write G80, the working plane", "5.1": "leave it out",
+    **dict.fromkeys(("38.2", "38.3", "38.4", "38.5"), "write G55, the probing of a point"),
+}  # fmt: skip
+
+
 def _strange(cursor: Cursor, letter: str) -> Fault:
     """The fault at what is no word of these programs."""
     if cursor.text[cursor.at] == "*":
@@ -107,6 +115,9 @@ def _strange(cursor: Cursor, letter: str) -> Fault:
     if not letter:
         return cursor.unexpected()
     hints = {"O": "the letter O stands where the digit 0 was meant", "N": "a block number stands at its beginning"}
+    if letter == "G" and (parted := _PARTED.match(cursor.text, cursor.at)):
+        told = f"{parted[0].upper()} is no G function of DIN/ISO programs: their numbers are whole"
+        return Fault(told, cursor.at, len(parted[0]), PARTED.get(parted[1], ""))
     if letter == "G":
         return Fault("G needs the number of a function, for example G01", cursor.at)
     return Fault(f"{letter} is no word of a DIN/ISO block", cursor.at, len(letter), hints.get(letter, ""))
