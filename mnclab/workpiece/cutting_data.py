@@ -239,13 +239,14 @@ def _with_material(cut: Cut, path: Toolpath, tool: Tool, rows: Index, per_tooth:
     among, feed = np.isin(looks.rows, rows), np.ones(len(looks.rows))
     if per_tooth is not None:
         feed[among] = per_tooth.max(axis=1)[np.isin(rows, looks.rows)]
-    asked = [("depth", DEPTH, 1.0), ("width", WIDTH, 1.0), ("chip", CHIP, feed)]
+    asked: list[tuple[str, int, Any]] = [("depth", DEPTH, 1.0), ("width", WIDTH, 1.0), ("chip", CHIP, feed)]
+    told: dict[str, Any] = {}
     for name, what, scale in asked if per_tooth is not None else asked[:2]:
         proved, met = looks.proves(what, among, scale), among & (looks.values[what] > 0)
         if met.any():
-            open_ = cut.open if proved else (*cut.open, name)
-            cut = cut._replace(**{name: _pair((looks.values[what] * scale)[met])}, open=open_)
-    return cut._replace(seen=(int((among & looks.seen).sum()), int(among.sum())))
+            told[name] = _pair((looks.values[what] * scale)[met])
+            told["open"] = told.get("open", cut.open) if proved else (*told.get("open", cut.open), name)
+    return cut._replace(**told, seen=(int((among & looks.seen).sum()), int(among.sum())))
 
 
 def _beyond(

@@ -132,7 +132,7 @@ def at_most(part: Milled, rows: Index) -> Ahead:
     across = np.where(bent, 1.0, np.sqrt(1 - down**2))
     deep, radius, met = deep[rows], radius[rows], deep[rows] > LEAST
     found.area[:] = np.where(met, across * WIDE * radius * deep + down * np.pi * radius**2, 0.0)
-    for column, value, known in zip(found[1:], (deep, WIDE * radius, 1.0), (round_, round_, plain)):
+    for column, value, known in zip(found[1:], (deep, WIDE * radius, np.ones_like(deep)), (round_, round_, plain)):
         column[:] = np.where(met & known[rows], value, 0.0)
     return found
 
