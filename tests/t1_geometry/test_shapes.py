@@ -1,7 +1,10 @@
 """Rectangles, slots and polygons against their closed forms."""
 
+from itertools import product
+
 import numpy as np
 import pytest
+from together import together
 
 from mnclab import Alarm
 from mnclab.geometry.contours import Contour
@@ -92,8 +95,10 @@ TAKES_NUMBERS = {
 }
 
 
-@pytest.mark.parametrize("what", TAKES_NUMBERS)
-@pytest.mark.parametrize("wrong", [None, np.nan, np.inf, "5", [1], 10**400], ids=lambda value: repr(value)[:9])
+@together(
+    "what wrong", product(TAKES_NUMBERS, [None, np.nan, np.inf, "5", [1], 10**400]),
+    lambda what, wrong: what, lambda what, wrong: repr(wrong)[:9],
+)  # fmt: skip
 def test_what_is_no_number_is_an_alarm(what, wrong):
     with pytest.raises(Alarm, match=what):
         TAKES_NUMBERS[what](wrong)

@@ -3,12 +3,14 @@
 import math
 from dataclasses import fields
 from fractions import Fraction
+from itertools import product
 from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from together import together
 
 import mnclab
 from mnclab import Alarm, Datum, Limits, Probe, Setup, Tool
@@ -21,8 +23,9 @@ NUMBERS = [each.name for each in fields(Tool) if each.name not in WORDS_AND_BODI
 SIZES = ["radius", "corner", "teeth", "cutting_length", "width", "number", "angle", "plunge_angle"]
 
 
-@pytest.mark.parametrize("name", NUMBERS)
-@pytest.mark.parametrize("value", NEVER, ids=lambda value: str(value)[:9])
+@together(
+    "name value", product(NUMBERS, NEVER), lambda name, value: name, lambda name, value: repr(value)[:9]
+)  # fmt: skip
 def test_no_dimension_of_a_tool_is_anything_but_a_number(name, value):
     with pytest.raises(Alarm, match=f"the {name.replace('_', ' ')} of a tool must be a (finite )?number, got "):
         Tool(**{name: value})

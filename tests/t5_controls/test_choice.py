@@ -1,8 +1,10 @@
 """Which control a program is for: its name, the file's suffix, the text; and no guessing when two fit."""
 
 import re
+from itertools import product
 
 import pytest
+from together import together
 
 import mnclab
 from mnclab import Alarm
@@ -98,9 +100,10 @@ NAMES = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("control", [None, *mnclab.controls])
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("door", [mnclab.run, mnclab.read])
+@together(
+    "door name control", product([mnclab.run, mnclab.read], NAMES, [None, *mnclab.controls]),
+    lambda door, name, control: f"{door.__name__} {control}", lambda door, name, control: name,
+)  # fmt: skip
 def test_the_name_of_a_missing_file_is_not_obeyed(tmp_path, monkeypatch, door, name, control):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(Alarm, match=r"cannot be read: there is no such file \(.*a program ends") as found:

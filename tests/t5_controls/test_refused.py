@@ -24,7 +24,8 @@ def each(cases):
 
 @each(REFUSALS)
 def test_it_is_refused_there_and_so(refusal, rewrite):
-    run = mnclab.run(refusal.program, setup=refusal.setup)
+    program = refusal.program
+    run = mnclab.run(program, setup=refusal.setup)
     assert not run.ok
     first, *more = (alarm for alarm in run.alarms if alarm.severity == "alarm")
     assert not more
@@ -36,7 +37,7 @@ def test_it_is_refused_there_and_so(refusal, rewrite):
     source, caret = first.lines()
     assert source and caret.endswith("^")
     with pytest.raises(Alarm) as raised:
-        mnclab.run(refusal.program, setup=refusal.setup, strict=True)
+        mnclab.run(program, setup=refusal.setup, strict=True)
     assert str(raised.value) == str(first)
 
 

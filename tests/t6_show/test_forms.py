@@ -207,9 +207,16 @@ def test_the_steps_of_a_form_follow_it():
 
 
 EVERY = [(name, code) for name in mnclab.controls for code in mnclab.controls[name].cycles]
+FEW = 5  # of so many one is drawn each time, all of them with the deep tests
 
 
-@pytest.mark.parametrize(("control", "code"), EVERY, ids=[" ".join(pair) for pair in EVERY])
+@pytest.mark.parametrize(
+    ("control", "code"),
+    [
+        pytest.param(*pair, id=" ".join(pair), marks=[pytest.mark.deep] if number % FEW else [])
+        for number, pair in enumerate(EVERY)
+    ],
+)
 def test_every_cycle_has_a_form(control, code):
     live = mnclab.form(code, control)
     declared = mnclab.controls[control].cycles[code].parameters()

@@ -1,6 +1,7 @@
 """What the misalignment cycles refuse, each at its place: rules of parameters, the machine, and what the probe meets."""
 
 import pytest
+from together import together
 
 from mnclab import Datum, Setup, Tool
 from tests.alignment import PRESET, bored, cycle, plate, run, studs
@@ -110,13 +111,18 @@ def refused(number, message, at, changes=None, part=None, before="L Z+100 R0 FMA
     return found
 
 
-@pytest.mark.parametrize(("number", "changes", "at", "message"), RULES)
+@together(
+    "number changes at message", RULES,
+    lambda number, *_: f"TCH PROBE {number}", lambda number, changes, at, message: f"{changes} {message}",
+)  # fmt: skip
 def test_a_rule_of_a_parameter(number, changes, at, message):
     found = refused(number, message, at, changes)
     assert not found.touches and found.tables.presets[1] == (*PRESET, 0, 0, 0, 0, 0, 0)
 
 
-@pytest.mark.parametrize(("number", "name"), [(n, name) for n, values in VALUES.items() for name in values])
+@together(
+    "number name", [(n, name) for n, values in VALUES.items() for name in values], lambda number, name: f"TCH PROBE {number}"
+)
 def test_a_parameter_that_is_missing(number, name):
     values = {key: value for key, value in VALUES[number].items() if key != name}
     found = run(cycle(number, values), plate())

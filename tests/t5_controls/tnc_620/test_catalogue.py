@@ -9,8 +9,10 @@ from __future__ import annotations
 import dataclasses
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
+from together import together
 
 import mnclab as mnc
 
@@ -83,7 +85,11 @@ def place(code: str) -> str:
     return next((name for name in ("function", "cycle", "refused") if code in NAMED[name]), "")
 
 
-@pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: f"{entry['file']} {entry['code']}")
+def each(entries: list[dict]) -> Any:
+    return together("entry", entries, lambda entry: entry["file"], lambda entry: entry["code"])
+
+
+@each(ENTRIES)
 def test_an_entry_is_obeyed_or_refused_by_name(entry: dict) -> None:
     code = entry["code"]
     kind, names = READ_AS.get(code, (place(code), [code]))
@@ -114,7 +120,7 @@ def test_what_is_not_built_is_refused_at_its_place(name: str) -> None:
 STANDING = {"M5": "the spindle stands when a program starts", "M9": "the coolant is off when a program starts"}
 
 
-@pytest.mark.parametrize("entry", [e for e in ENTRIES if e["code"] in FUNCTIONS], ids=lambda entry: entry["code"])
+@each([e for e in ENTRIES if e["code"] in FUNCTIONS])
 def test_a_function_stays_and_is_on_as_the_manual_says(entry: dict) -> None:
     function = FUNCTIONS[entry["code"]]
     assert function.title and function.doc and function.source

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from running import run
+from together import together
 
 import mnclab
 from mnclab import Kind
@@ -54,7 +55,7 @@ def test_a_parameter_acts(code, parameter):
         assert other != shape
 
 
-@pytest.mark.parametrize(("code", "parameter"), CASES, ids=lambda case: getattr(case, "name", case))
+@together("code parameter", CASES, lambda code, parameter: code, lambda code, parameter: parameter.name)
 def test_every_parameter_has_an_example(code, parameter):
     assert parameter.example is not None and not parameter.refuses(parameter.example)
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from together import together
 
 import mnclab
 from mnclab import Setup, Tool
@@ -99,7 +100,7 @@ def alarms(number, tool, change, **settings):
     return [alarm for alarm in found.alarms if alarm.severity == "alarm"], line
 
 
-@pytest.mark.parametrize(("number", "tool", "change", "address", "sentence"), REFUSED)
+@together("number tool change address sentence", REFUSED, lambda number, *_: f"CYCL DEF {number}")
 def test_refused(number, tool, change, address, sentence):
     (alarm,), line = alarms(number, tool, change)
     meaning = {253: {"Q218": "slot length"}, 251: {"Q219": "second side length"}}.get(number, {}).get(

@@ -4,6 +4,7 @@ import re
 
 import pytest
 from presetting import CASES, example, part_of, probing
+from together import together
 
 import mnclab as mnc
 from mnclab.workpiece.part import box, cylinder, hole
@@ -62,7 +63,7 @@ BEYOND = [  # a value beyond its range or choices, by cycles that have the param
 ]
 
 
-@pytest.mark.parametrize(("number", "name", "value", "message"), BEYOND, ids=lambda value: str(value)[:20])
+@together("number name value message", BEYOND, lambda number, *_: f"TCH PROBE {number}")
 def test_a_value_beyond_its_range(number, name, value, message):
     refused(number, message, name, text=example(case_of(number), **{name: value}))
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from together import together
 
 import mnclab
 from mnclab import Setup, Tool
@@ -107,7 +108,7 @@ def alarms(number, tool, change, **settings):
     return [alarm for alarm in found.alarms if alarm.severity == "alarm"], line
 
 
-@pytest.mark.parametrize(("number", "change", "address", "sentence"), REFUSED)
+@together("number change address sentence", REFUSED, lambda number, *_: f"CYCL DEF {number}")
 def test_refused(number, change, address, sentence):
     (alarm,), line = alarms(number, 1, change)
     meaning = OF_233.get(address) if number == 233 else None

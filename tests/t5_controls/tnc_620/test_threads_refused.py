@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from together import together
 
 import mnclab as mnc
 
@@ -93,9 +94,7 @@ REFUSED = [
 CASES = [(number, *case[1:]) for case in REFUSED for number in case[0]]
 
 
-@pytest.mark.parametrize(
-    ("number", "changed", "parameter", "sentence"), CASES, ids=[f"{n} {p} {s[:30]}" for n, _, p, s in CASES]
-)
+@together("number changed parameter sentence", CASES, lambda number, *_: f"CYCL DEF {number}")
 def test_refused(called, number, changed, parameter, sentence) -> None:
     run = called(number, **changed)
     (alarm,) = (a for a in run.alarms if a.severity == "alarm")
