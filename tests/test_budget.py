@@ -25,7 +25,7 @@ BUDGETS = {
     "runs": 2_345, "shell": 357, "show": 8_498, "text": 1_803,
     "workpiece": 5_557,
 }  # fmt: skip
-FILES = 816
+FILES = 817
 
 
 def code_lines(text):
