@@ -10,9 +10,9 @@ from __future__ import annotations
 import numpy as np
 
 from mnclab.path.columns import Array
+from mnclab.workpiece.effort import spend
 from mnclab.workpiece.milling.cutters import Cutter, edge_height
 from mnclab.workpiece.milling.helix import FULL_TURN, helix
-from mnclab.workpiece.effort import spend
 from mnclab.workpiece.milling.moves import STILL, Moves
 
 NONE = np.inf  # where a move does not reach
