@@ -6,12 +6,14 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from mnclab.text.alarm import Alarm, Span, several
+from mnclab.workpiece.effort import TooMuch, at_most
 from mnclab.workpiece.outcome import Outcome
 
 if TYPE_CHECKING:
     from mnclab.runs.run import Run
 
 REPORT = 20_000  # moves, beyond which a report does not work it out
+EFFORT = 120_000_000  # points under moves, beyond which a card does not; a report takes ten times as many
 
 
 def reach(halt: Span | None, place_of_line: Callable[[int, int], str]) -> str:
@@ -25,7 +27,8 @@ def reach(halt: Span | None, place_of_line: Callable[[int, int], str]) -> str:
 def outcome(run: Run, most: int, cells: int | None = None) -> Outcome | None:
     """What became of the blank of a run; None without one.
 
-    Of a path of more than `most` moves only why it was not worked out. `cells` along the longer side of the blank.
+    Of a path of more than `most` moves, or of one that is much work, only why it was not worked out. `cells` along the
+    longer side of the blank, of a card.
     """
     if run.stock is None:
         return None
@@ -35,6 +38,11 @@ def outcome(run: Run, most: int, cells: int | None = None) -> Outcome | None:
     sides = run.stock.bounds[1] - run.stock.bounds[0]
     step = float(sides[:2].max()) / cells if cells and not run.toolpath.lathe else None
     try:
-        return Outcome(run.removal(step=step), run.collisions())
+        with at_most(EFFORT if cells else 10 * EFFORT):
+            found = Outcome(run.removal(step=step), run.collisions())
+            found.facts()  # works them out
+            return found
+    except TooMuch:
+        return Outcome(None, None, "not worked out, which would take long: see run.removal(), run.collisions()")
     except Alarm as alarm:
         return Outcome(None, None, f"not worked out: {alarm.message}")

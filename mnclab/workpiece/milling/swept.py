@@ -10,11 +10,13 @@ from __future__ import annotations
 import numpy as np
 
 from mnclab.path.columns import Array
+from mnclab.workpiece.effort import spend
 from mnclab.workpiece.milling.cutters import Cutter, edge_height
 from mnclab.workpiece.milling.helix import FULL_TURN, helix
 from mnclab.workpiece.milling.moves import STILL, Moves
 
 NONE = np.inf  # where a move does not reach
+SEARCHED = 20  # times the work of another point: under a helix the place of the least height is searched
 HALVINGS = 26  # of the place of the least height under a round corner: 1e-8 of it, and the height to its square
 TOUCH = 1e-12  # of a radius, by which a point on the rim is under the tool
 
@@ -36,6 +38,8 @@ def left_by(moves: Moves, x: Array, y: Array) -> Array:
         (moves.arc & level, _level_arc),
         (moves.arc & ~level, helix),
     )
+    points = found.shape[1]
+    spend(points * (len(moves) + SEARCHED * int(np.count_nonzero(classes[-1][0]))))
     for which, sweep in classes:
         if which.all():
             return sweep(moves, x, y)
