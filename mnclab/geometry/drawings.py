@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats, length_of
 from mnclab.geometry.regions import Region
-from mnclab.geometry.vectors import Floats, length_of
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, faults_as_alarms, shown
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index
+from mnclab.path.toolpath import Array, Index
 
 PLACES = 400  # of the rows of a tool, about
 ROUNDS, CLOSE = 5, 0.05  # mm between places that are close enough

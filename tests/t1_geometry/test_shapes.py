@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from mnclab import Alarm
-from mnclab.geometry.contours import Contour
-from mnclab.geometry.shapes import arc, polygon, rectangle, slot
+from mnclab.geometry.contours import Contour, arc, polygon, rectangle, slot
 
 
 def test_rectangle():
