@@ -40,13 +40,10 @@ from mnclab.controls.renumber import renumber
 from mnclab.controls.survey import check
 from mnclab.machine.probe import Probe, Setter
 from mnclab.machine.setup import Datum, Setup
-from mnclab.path.kinds import RULE_NAMES, Kind
-from mnclab.path.limits import Limits
-from mnclab.path.machine_file import machines
+from mnclab.path.limits import Limits, machines
 from mnclab.path.profile import Profile
-from mnclab.path.tool import Tool
-from mnclab.path.toolpath import Toolpath
-from mnclab.path.wear import Wear
+from mnclab.path.tool import Tool, Wear
+from mnclab.path.toolpath import RULE_NAMES, Kind, Toolpath
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm
 from mnclab.text.alarm import nearest as _nearest
@@ -105,13 +102,12 @@ design = Shelf("mnclab.design", "a part as drawn, Design(blank, features) or Tur
 }, _Path(__file__).parent / "design")  # fmt: skip
 
 area = Shelf("mnclab.area", "contours and regions: by numbers, or out of a drawing or a path", {
-    "mnclab.geometry.contours": "Contour",
+    "mnclab.geometry.contours": "Contour, arc, polygon, rectangle, slot",
     "mnclab.geometry.regions": "Region",
-    "mnclab.geometry.shapes": "arc, polygon, rectangle, slot",
     "mnclab.geometry.drawings": "area_of",
     "mnclab.geometry.dxf": "contours as dxf",
     "mnclab.geometry.svg": "contours as svg",
-    "mnclab.path.outline": "outline, outlines",
+    "mnclab.path.plane": "outline, outlines",
     "mnclab.machining.milling.terraces": "Joined, Part, terraces",
     "mnclab.show.plot.regions": "plot_regions as plot",
 })  # fmt: skip

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.path.listing import figure, point
-from mnclab.path.points import points
+from mnclab.path.places import points
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.given import check_number
 from mnclab.text.tables import html_table, shapes

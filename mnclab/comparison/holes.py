@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mnclab.path.columns import Array
 from mnclab.path.holes import Holes, places
 from mnclab.path.listing import figure
+from mnclab.path.toolpath import Array
 from mnclab.text.alarm import several
 from mnclab.text.tables import html_table, text_table
 

@@ -29,8 +29,7 @@ from mnclab.machining.milling.entries import VERTICAL, Entry, descent
 from mnclab.machining.milling.layers import toolpath
 from mnclab.machining.milling.rest import reached, rest, rest_passes
 from mnclab.machining.milling.strategies import STRATEGIES, clear
-from mnclab.path.limits import Limits
-from mnclab.path.machine_file import limits_of
+from mnclab.path.limits import Limits, limits_of
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, choice, faults_as_alarms, fitting, plain, shown

@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 import numpy as np
 
-from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.text.alarm import Alarm, hint
 from mnclab.text.file import replaced
 from mnclab.text.given import shown

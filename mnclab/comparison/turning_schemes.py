@@ -31,7 +31,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from mnclab.comparison.table import Table, Titles, Tried
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import CHORD_ERROR, broad, outlined, swept, under
 from mnclab.machining.turning.passes import FRONT, LIFT
@@ -40,11 +41,9 @@ from mnclab.machining.turning.schemes import SCHEMES
 from mnclab.machining.turning.strokes import PLUNGE, RAPID, ROLES, Plan
 from mnclab.machining.turning.zones import CLOSED, COMBINED, OPEN, SEMI_OPEN, zone_of
 from mnclab.path.inserts import edges_of
-from mnclab.path.kinds import Kind
-from mnclab.path.limits import Limits
-from mnclab.path.machine_file import limits_of
+from mnclab.path.limits import Limits, limits_of
 from mnclab.path.tool import Tool
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, choice, faults_as_alarms, fitting, plain, shown
 

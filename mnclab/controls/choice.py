@@ -17,7 +17,7 @@ from mnclab.machine.control import Control, Function, Setting, settings_html, se
 from mnclab.machine.cycle import Cycle, help_html, help_text
 from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import load
-from mnclab.path.machine_file import limits_of
+from mnclab.path.limits import limits_of
 from mnclab.path.tool import Tool
 from mnclab.runs.run import EXAMPLE, Run, run_program
 from mnclab.text.alarm import ALARM, Alarm, hint

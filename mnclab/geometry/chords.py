@@ -1,14 +1,4 @@
-"""Places where the walls of a contour face each other: the shortest ways across from wall to wall.
-
-A wall is a line or an arc with a free side, where the tool is. A *chord* is a straight way between two points of the walls
-that is shortest among its neighbours: it leaves both walls at a right angle into the free side, or leads from a vertex into
-the wedge between the normals of the two walls that meet there. A tool wider than a chord cannot pass it; growing a tool
-from nothing, it first touches two walls that are no neighbours at the ends of a chord, opposite each other.
-
-Two walls can face each other only if a normal of one is opposite to a normal of the other. So the walls are taken in
-chunks of neighbours with a box and a cone of normals each, and only chunks near each other with opposite cones are
-looked into: along a smooth contour there are hardly any.
-"""
+"""Places where the walls of a contour face each other, and which of many boxes lie near each other."""
 
 from __future__ import annotations
 
@@ -19,11 +9,61 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.geometry.boxes import near
-from mnclab.geometry.curves import Curves, foot, on
-from mnclab.geometry.vectors import Floats, cross, dot, length_of, unit_of
+from mnclab.geometry.curves import Curves, Floats, cross, dot, foot, length_of, on, unit_of
+
+# Which of many boxes lie near each other: a grid of cells, so that far ones are never compared.
 
 Index = NDArray[np.int64]
+PAIRS = 1 << 18  # pairs handed out at once
+
+
+def near(low: Floats, high: Floats, gap: float) -> Iterator[tuple[Index, Index]]:
+    """Pairs a < b of boxes (n, 2) nearer than `gap` mm along both axes, each pair once, in batches."""
+    n = len(low)
+    if n < 2:
+        return
+    low, high = low - gap / 2, high + gap / 2
+    size = float(np.maximum(np.median(high - low), 1e-9))
+    origin = low.min(axis=0)
+    while True:  # every box lies in all the cells that it touches, in about four of them on average
+        first = np.floor((low - origin) / size).astype(np.int64)
+        count = np.floor((high - origin) / size).astype(np.int64) - first + 1
+        cells = count[:, 0] * count[:, 1]
+        if cells.sum() <= 8 * n + 64:
+            break
+        size *= 1.5
+    box = np.repeat(np.arange(n), cells)
+    nth = np.arange(len(box)) - np.repeat(np.cumsum(cells) - cells, cells)
+    column = first[box, 0] + nth % count[box, 0]
+    row = first[box, 1] + nth // count[box, 0]
+    key = row * (int(first[:, 0].max() + count[:, 0].max()) + 1) + column
+    order = np.argsort(key, kind="stable")
+    box, key, column, row = box[order], key[order], column[order], row[order]
+    # each entry is compared with those after it in its cell
+    partners = np.searchsorted(key, key, "right") - np.arange(len(key)) - 1
+    begin, before = 0, np.append(0, np.cumsum(partners))  # pairs of all entries before each
+    while begin < len(key):
+        stop = max(begin + 1, int(np.searchsorted(before, before[begin] + PAIRS, "right")) - 1)
+        here = np.repeat(np.arange(begin, stop), partners[begin:stop])
+        there = here + 1 + np.arange(before[begin], before[stop]) - before[here]
+        a, b = box[here], box[there]
+        corner = np.maximum(first[a], first[b])  # of all cells that both lie in only the first counts
+        meet = (low[a] <= high[b]).all(axis=1) & (low[b] <= high[a]).all(axis=1)
+        meet &= (column[here] == corner[:, 0]) & (row[here] == corner[:, 1])
+        if meet.any():
+            yield np.minimum(a[meet], b[meet]), np.maximum(a[meet], b[meet])
+        begin = stop
+
+
+# Places where the walls of a contour face each other: the shortest ways across from wall to wall.
+# A wall is a line or an arc with a free side, where the tool is. A *chord* is a straight way between two points of the walls
+# that is shortest among its neighbours: it leaves both walls at a right angle into the free side, or leads from a vertex into
+# the wedge between the normals of the two walls that meet there. A tool wider than a chord cannot pass it; growing a tool
+# from nothing, it first touches two walls that are no neighbours at the ends of a chord, opposite each other.
+# Two walls can face each other only if a normal of one is opposite to a normal of the other. So the walls are taken in
+# chunks of neighbours with a box and a cone of normals each, and only chunks near each other with opposite cones are
+# looked into: along a smooth contour there are hardly any.
+
 Mask = NDArray[np.bool_]
 
 EXACT = 1e-9  # mm, and rad between a chord and a normal

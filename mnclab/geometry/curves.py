@@ -1,14 +1,174 @@
-"""Lines and arcs as plain curves, and how far points and other curves are from them."""
+"""Lines and circles of the plane: vectors, where curves meet, and how far points and other curves are from them."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from mnclab.geometry.offsets import Element, meetings
-from mnclab.geometry.vectors import Floats, cross, dot, length_of, turned
+# Vectors of the plane in arrays (…, 2).
+
+Floats = NDArray[np.float64]
+
+
+def left(vectors: Floats) -> Floats:
+    """Vectors `(…, 2)` turned a quarter to the left."""
+    return np.stack([-vectors[..., 1], vectors[..., 0]], axis=-1)
+
+
+def cross(a: Floats, b: Floats) -> Floats:
+    """The third component of a × b, for vectors `(…, 2)`."""
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+
+
+def dot(a: Floats, b: Floats) -> Floats:
+    """The scalar product of vectors `(…, 2)`."""
+    return np.asarray(a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1])
+
+
+def length_of(vectors: Floats) -> Floats:
+    """The lengths of vectors `(…, 2)`."""
+    return np.hypot(vectors[..., 0], vectors[..., 1])
+
+
+def unit_of(vectors: Floats) -> Floats:
+    """Vectors `(…, 2)` brought to the length 1; those without length stay so."""
+    return np.asarray(vectors / np.maximum(length_of(vectors), 1e-300)[..., None])
+
+
+def turned(vectors: Floats, angle: ArrayLike) -> Floats:
+    """Vectors `(…, 2)` turned counter-clockwise by an angle (rad), or each by its own."""
+    c, s = np.cos(angle), np.sin(angle)
+    x, y = vectors[..., 0], vectors[..., 1]
+    return np.stack([c * x - s * y, s * x + c * y], axis=-1)
+
+
+def at_angle(angle: ArrayLike) -> Floats:
+    """Unit vectors `(…, 2)` in the direction of angles (rad)."""
+    return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+
+
+# Whole lines and circles, which elements of a contour lie on: where they meet. Lengths in mm.
+
+class Curve(NamedTuple):
+    """A whole line (radius inf, through `point` along the unit `direction`), or a circle about `point`."""
+
+    point: Floats
+    direction: Floats
+    radius: float
+
+    def moved_left(self, distance: float, sweep: float) -> Curve:
+        """The curve at a distance to the left of an element on it that turns by `sweep`."""
+        if np.isinf(self.radius):
+            return Curve(self.point + distance * left(self.direction), self.direction, np.inf)
+        return Curve(self.point, self.direction, self.radius - np.sign(sweep) * distance)
+
+    def foot(self, point: Floats) -> Floats:
+        """The point of the curve nearest to a point."""
+        arm = point - self.point
+        if np.isinf(self.radius):
+            return self.point + (arm @ self.direction) * self.direction
+        return self.point + arm * (self.radius / max(float(length_of(arm)), 1e-300))
+
+    def meeting(self, other: Curve, near: Floats) -> Floats:
+        """Where two curves cross, of two crossings the one nearer to `near`; where they touch, if they touch.
+
+        Two circles cross on their radical line, so that only line with line and line with circle remain.
+        """
+        line, ring = (self, other) if np.isinf(self.radius) else (other, self)
+        if np.isinf(ring.radius):
+            sine = cross(line.direction, ring.direction)
+            if abs(sine) < 1e-9:
+                return line.foot(near)
+            return line.point + cross(ring.point - line.point, ring.direction) / sine * line.direction
+        if np.isfinite(line.radius):
+            between = ring.point - line.point
+            apart = float(length_of(between))
+            if apart < 1e-9:
+                return ring.foot(near)
+            u = between / apart
+            along = (apart**2 + line.radius**2 - ring.radius**2) / (2 * apart)
+            line = Curve(line.point + along * u, left(u), np.inf)
+        middle = line.foot(ring.point)
+        high = float(length_of(middle - ring.point))
+        half = np.sqrt(max(ring.radius**2 - high**2, 0.0)) * line.direction
+        return min((middle - half, middle + half), key=lambda p: float(length_of(p - near)))
+
+
+# Where lines and circles meet: the corners of equidistants and the centres of roundings.
+# An element is given by a point `q` (n, 2) on it, its unit tangent `t` (n, 2) there, and for a circle its centre
+# `c` (n, 2) and radius `r` (n,); `r` is nan for a line. Lengths in mm.
+
+class Element(NamedTuple):
+    """Lines and circles, n of them."""
+
+    q: Floats
+    t: Floats
+    c: Floats
+    r: Floats
+
+    def only(self, mask: NDArray[np.bool_]) -> Element:
+        """Those where `mask` (n,) holds."""
+        return Element(self.q[mask], self.t[mask], self.c[mask], self.r[mask])
+
+
+def beside(p: Floats, t: Floats, shift: Floats) -> Floats:
+    """Points p (n, 2), or one (1, 2), moved by `shift` (n,) along the left normals of vectors t (n, 2)."""
+    moved = np.empty(t.shape)
+    np.subtract(p[:, 0], shift * t[:, 1], out=moved[:, 0])
+    np.add(p[:, 1], shift * t[:, 0], out=moved[:, 1])
+    return moved
+
+
+def meet(first: Element, second: Element, near: Floats) -> Floats:
+    """The common point (n, 2) of two elements that lies nearer to `near` (n, 2); nan where there is none."""
+    p, q = meetings(first, second)
+    closer = length_of(p - near) <= length_of(q - near)
+    return np.where(closer[:, None], p, q)
+
+
+def meetings(first: Element, second: Element) -> tuple[Floats, Floats]:
+    """Both common points (n, 2) of two elements, twice the same for two lines; nan where there is none."""
+    found = np.full((2, *first.q.shape), np.nan)
+    circle1, circle2 = ~np.isnan(first.r), ~np.isnan(second.r)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for mask, solve in (
+            (~circle1 & ~circle2, _lines),
+            (~circle1 & circle2, _line_circle),
+            (circle1 & ~circle2, lambda a, b: _line_circle(b, a)),
+            (circle1 & circle2, _circles),
+        ):
+            if mask.any():
+                found[:, mask] = solve(first.only(mask), second.only(mask))
+    return found[0], found[1]
+
+
+def _lines(a: Element, b: Element) -> tuple[Floats, Floats]:
+    point = a.q + (cross(b.q - a.q, b.t) / cross(a.t, b.t))[:, None] * a.t
+    return point, point
+
+
+def _line_circle(line: Element, circle: Element) -> tuple[Floats, Floats]:
+    # with h = t x (C - q) and l0 = (C - q) . t the points lie at q + (l0 ± sqrt(r² - h²)) t
+    away = circle.c - line.q
+    h, l0 = cross(line.t, away), dot(away, line.t)
+    reach = np.sqrt((circle.r - h) * (circle.r + h))[:, None]
+    foot = line.q + l0[:, None] * line.t
+    return foot - reach * line.t, foot + reach * line.t
+
+
+def _circles(a: Element, b: Element) -> tuple[Floats, Floats]:
+    d = b.c - a.c
+    distance = length_of(d)
+    along = (distance + (a.r - b.r) * (a.r + b.r) / distance) / 2
+    unit = d / distance[:, None]
+    foot = a.c + along[:, None] * unit
+    reach = np.sqrt((a.r - along) * (a.r + along))[:, None]
+    return foot - reach * left(unit), foot + reach * left(unit)
+
+
+# Lines and arcs as plain curves, and how far points and other curves are from them.
 
 SLACK = 1e-9  # of a curve: beyond its ends a point is still on it
 

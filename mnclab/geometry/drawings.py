@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
-from mnclab.geometry.vectors import Floats
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, faults_as_alarms, shown
 

@@ -19,9 +19,9 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats, at_angle
 from mnclab.geometry.drawings import FARTHEST, MOST
-from mnclab.geometry.vectors import at_angle
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import read
 from mnclab.text.given import check_number, shown

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.geometry.contours import Floats
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
 
 Index = NDArray[np.intp]

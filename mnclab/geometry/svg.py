@@ -19,7 +19,8 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour, Floats, keeps_circles
+from mnclab.geometry.contours import Contour, keeps_circles
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.drawings import FARTHEST, MOST
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import read

@@ -22,9 +22,9 @@ from mnclab.machine.setup import Datum
 from mnclab.machine.state import Place, State
 from mnclab.machining.steps import Go, Step
 from mnclab.path.cylinder import NONE, Cylinder
-from mnclab.path.kinds import Kind
 from mnclab.path.recorder import NAN
 from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Kind
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import LARGEST
 

@@ -16,11 +16,9 @@ from numpy.typing import NDArray
 
 from mnclab.machine.coordinates import LOG
 from mnclab.machine.setup import Magazine
-from mnclab.path.columns import Array, Index, Mask
-from mnclab.path.kinds import Kind
 from mnclab.path.recorder import join
 from mnclab.path.tool import Tool
-from mnclab.path.toolpath import Toolpath, concatenate
+from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath, concatenate
 from mnclab.text.program import Word
 from mnclab.workpiece.blank import Blank, Box, blank, from_datum, is_blank
 from mnclab.workpiece.cutting import Cutting

@@ -20,8 +20,8 @@ from mnclab.machine.rows import add_row, end_of_settled, settle
 from mnclab.machine.setup import Setup
 from mnclab.machine.state import HISTORY, ROWS
 from mnclab.machine.touching import Contact, touch
-from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Kind
 from mnclab.text.alarm import WARNING, Alarm, Span
 from mnclab.text.expression import Expression
 from mnclab.text.given import LARGEST

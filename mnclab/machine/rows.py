@@ -19,14 +19,12 @@ from numpy.typing import NDArray
 from mnclab.geometry.arcs import centre_of_one, sweep_of_one
 from mnclab.machine.coordinates import NORMALS, PLANES, in_mm, normal
 from mnclab.machine.state import Place
-from mnclab.path import compensation, corners, feed_rules, leads, rapids
-from mnclab.path.cutting_speed import mean_turn, spindle_speed
-from mnclab.path.fault import PathFault
-from mnclab.path.kinds import Kind
+from mnclab.path import compensation, corners, feeds, leads
+from mnclab.path.feeds import mean_turn, spindle_speed
+from mnclab.path.limits import first_beyond, stopped_at
 from mnclab.path.listing import INCHES, MM, Unit
 from mnclab.path.recorder import NAN, State, join
-from mnclab.path.toolpath import Toolpath, concatenate
-from mnclab.path.travel import first_beyond, stopped_at
+from mnclab.path.toolpath import Kind, PathFault, Toolpath, concatenate
 from mnclab.text.alarm import WARNING, Alarm
 from mnclab.text.given import LARGEST
 from mnclab.text.program import Word
@@ -312,8 +310,8 @@ def _passes(m: Machine, piece: Toolpath, unfinished: bool, report: compensation.
         rules = replace(rules.chosen(m.settings), look_ahead=rules.look_ahead or m.look_ahead)
     path = compensation.apply(turned, rules, unfinished, gouge, report)
     path = leads.apply(path, turned, unfinished)
-    path = feed_rules.apply(path, m.feed_rules)
-    return rapids.broken(path, m.setup.limits.rapid) if m.settings.get("rapid_path") == "broken" else path
+    path = feeds.apply(path, m.feed_rules)
+    return feeds.broken(path, m.setup.limits.rapid) if m.settings.get("rapid_path") == "broken" else path
 
 
 def _before(m: Machine, piece: Toolpath) -> Toolpath:

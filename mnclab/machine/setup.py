@@ -10,11 +10,9 @@ from types import MappingProxyType, UnionType
 from typing import Any, NamedTuple
 
 from mnclab.machine.probe import Probe, Setter
-from mnclab.path.limits import Limits
+from mnclab.path.limits import Limits, limits_of
 from mnclab.path.listing import figure
-from mnclab.path.machine_file import limits_of
-from mnclab.path.tool import Tool
-from mnclab.path.wear import Wear
+from mnclab.path.tool import Tool, Wear
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import LARGEST, check_number, check_point, fitting_class, shown
 from mnclab.text.tables import html_table, written

@@ -8,10 +8,8 @@ from typing import Any
 
 from mnclab.machine.probe import Probe, Setter
 from mnclab.machine.setup import NOT_BUILT, Datum, Setup
-from mnclab.path.limits import Limits
-from mnclab.path.machine_file import limits_of
-from mnclab.path.record_file import record
-from mnclab.path.tool import Tool
+from mnclab.path.limits import Limits, limits_of
+from mnclab.path.tool import Tool, record
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import File, as_table, as_tables, check_names, parse
 from mnclab.text.given import check_number, shown

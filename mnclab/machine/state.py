@@ -20,7 +20,7 @@ from mnclab.geometry import frames
 from mnclab.geometry.frames import FrameChain, Matrix
 from mnclab.machine.measuring import Figure, Measurement, Touched
 from mnclab.machine.setup import Setup, Tables
-from mnclab.path.feed_rules import FeedRule
+from mnclab.path.feeds import FeedRule
 from mnclab.path.recorder import NAN, Recorder
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
     from mnclab.machine.touching import Felt
     from mnclab.path.compensation import Gouge
-    from mnclab.path.travel import Stopped
+    from mnclab.path.limits import Stopped
 
 
 # Writing down what changes: a log per name, of the steps at which it changed and the values from there on.

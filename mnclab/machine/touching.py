@@ -14,14 +14,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from mnclab.geometry.vectors import turned
+from mnclab.geometry.curves import turned
 from mnclab.machine.coordinates import FRAME, LOG, PLANES, axes_of, tool_axis
 from mnclab.machine.cutting import CUT, TILT, part_before, start_known, tilted_rows
 from mnclab.machine.measuring import Touched
 from mnclab.machining.probing.sequences import Approach, Steps
 from mnclab.machining.steps import Measure, Step, Touch, Write
-from mnclab.path.kinds import Kind
-from mnclab.path.toolpath import Toolpath, concatenate
+from mnclab.path.toolpath import Kind, Toolpath, concatenate
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 from mnclab.workpiece.part import Part, box, contact, cylinder, foot, hole

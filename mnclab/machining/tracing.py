@@ -11,10 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.geometry.contours import Floats
+from mnclab.geometry.curves import Floats
 from mnclab.machining.steps import Along, Dip, Go, Step, Turn
-from mnclab.path.kinds import Kind
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Kind, Toolpath
 
 SAME = 1e-9  # mm
 

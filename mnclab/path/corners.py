@@ -11,13 +11,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.geometry.offsets import Element, meet
-from mnclab.geometry.vectors import cross, dot, left
-from mnclab.path.columns import Array, Index, Mask
-from mnclab.path.fault import PathFault
-from mnclab.path.kinds import Kind
+from mnclab.geometry.curves import Element, cross, dot, left, meet
 from mnclab.path.plane import PlaneView
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Array, Index, Kind, Mask, PathFault, Toolpath
 
 
 class Rounding(NamedTuple):

@@ -19,8 +19,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from mnclab.geometry.frames import Matrix
-from mnclab.path.columns import COLUMNS, Array, Index
-from mnclab.path.kinds import Kind
+from mnclab.path.toolpath import COLUMNS, Array, Index, Kind
 
 if TYPE_CHECKING:
     from mnclab.path.toolpath import Toolpath

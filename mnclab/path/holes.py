@@ -19,11 +19,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.columns import Array, Index, Mask
-from mnclab.path.kinds import Kind
 from mnclab.path.listing import MM, Unit
 from mnclab.path.tool import Tool
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import replaced
 from mnclab.text.given import shown

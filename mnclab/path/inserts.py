@@ -20,12 +20,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour, Floats
-from mnclab.geometry.vectors import at_angle, length_of
-from mnclab.path.columns import Mask
-from mnclab.path.kinds import Kind
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats, at_angle, length_of
 from mnclab.path.tool import LATHE, POINTED, Tool
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Kind, Mask, Toolpath
 
 EDGE = 12.0  # length of an edge that the table does not give
 USUAL = (95.0, 5.0)  # degrees, where the table has none: an insert of 80 degrees (ISO 1832, C) in its holder (ISO 5608, L)

@@ -19,12 +19,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.geometry.vectors import cross, dot, left
-from mnclab.path.columns import Array, gathered
-from mnclab.path.fault import PathFault
-from mnclab.path.kinds import Kind
+from mnclab.geometry.curves import cross, dot, left
 from mnclab.path.plane import PlaneView
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Array, Kind, PathFault, Toolpath, gathered
 
 NEAR = 1e-9  # mm
 CHANGED = ("kind", "centre", "sweep", "feed", "label", "joint")  # columns that a lead gives its rows

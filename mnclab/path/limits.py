@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import math
+import os
 from dataclasses import dataclass, fields
-from typing import Any
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.path.columns import Array
+from mnclab.path.listing import figure
+from mnclab.path.tool import record
+from mnclab.path.toolpath import Array, Kind, Toolpath
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, fitting_class, plain, shown
-from mnclab.text.tables import written
+from mnclab.text.alarm import hint as near
+from mnclab.text.file import File, check_names, parse
+from mnclab.text.given import check_number, fitting, fitting_class, plain, shown
+from mnclab.text.tables import html_table, written
 
 PerAxis = float | tuple[float, ...]
 
@@ -101,3 +107,175 @@ class Limits:
         value = getattr(self, name)
         per_second = 60.0 if name in ("rapid", "corner_jump") else 1.0
         return np.broadcast_to(np.asarray(math.inf if value is None else value, np.float64), 3) / per_second
+
+
+# Machines written in files (TOML): the limits of the axes, and what was assumed to name them.
+# The named ones lie in `data/machines`. A file has `title`, `assumes` (a list of sentences) and the table
+# `[limits]`, whose keys are the fields of `Limits`.
+
+_PACKAGE = Path(__file__).resolve().parent.parent
+PLACES = (_PACKAGE / "data" / "machines", _PACKAGE.parent / "data" / "machines")  # installed; in the sources
+
+
+class MachineFile(NamedTuple):
+    """A machine: its `name`, a `title`, what was assumed, and its limits."""
+
+    name: str
+    title: str
+    assumes: tuple[str, ...]
+    limits: Limits
+
+
+class Machines(tuple[MachineFile, ...]):
+    """The machines that have a name, shown as a table."""
+
+    HEAD = ("name", "title", "rapid, mm/min", "acceleration, mm/s²", "spindle, rev/min", "tool change, s")
+
+    def rows(self) -> list[tuple[str, ...]]:
+        """What the table says of each."""
+        return [(each.name, each.title, *(_per_axis(getattr(each.limits, one)) for one in SAID)) for each in self]
+
+    def __getitem__(self, which: Any) -> Any:
+        """A machine by its name or its number."""
+        return load(which) if isinstance(which, str) else super().__getitem__(which)
+
+    def __repr__(self) -> str:
+        rows = [self.HEAD, *self.rows()]
+        widths = [max(len(row[k]) for row in rows) for k in range(len(self.HEAD))]
+        return "\n".join("  ".join(cell.ljust(wide) for cell, wide in zip(row, widths)).rstrip() for row in rows)
+
+    def _repr_html_(self) -> str:
+        return html_table(self.HEAD, self.rows(), numbers=range(2, len(self.HEAD)))
+
+
+SAID = ("rapid", "acceleration", "spindle", "tool_change")
+
+
+def _per_axis(value: Any) -> str:
+    if isinstance(value, tuple):
+        return ", ".join(map(_per_axis, value))
+    return "no limit" if value == math.inf else figure(float(value))
+
+
+@fitting
+def machines() -> Machines:
+    """The machines whose name may stand for limits: `run.profile("small-mill")`, `Setup(limits="small-mill")`."""
+    return Machines(map(load, names()))
+
+
+def limits_of(limits: Limits | str | None, machine: Limits | str | None = None) -> Limits | None:
+    """Limits that were given as such, or by the name of a machine, as `limits` or as `machine`; None where neither was."""
+    if limits is not None and machine is not None:
+        raise Alarm("limits and machine say the same: give one of them")
+    given = machine if limits is None else limits
+    given = given.limits if isinstance(given, MachineFile) else given
+    if isinstance(given, str | Path):
+        return load(given).limits
+    if not isinstance(given, Limits | None):
+        raise Alarm(f"limits must be Limits or the name of a machine, got {shown(given)}", hint='"small-mill"')
+    return given
+
+
+def names() -> list[str]:
+    """The machines that have a name."""
+    return sorted({file.stem for place in PLACES for file in place.glob("*.toml")})
+
+
+def load(machine: str | Path) -> MachineFile:
+    """A machine by its name or its file; an Alarm names what is wrong."""
+    text = str(machine)
+    if isinstance(machine, Path) or text.endswith(".toml"):
+        return parse(Path(machine), _machine, "machine")
+    for place in PLACES:
+        if os.path.isfile(place / f"{text}.toml"):
+            return parse(place / f"{text}.toml", _machine, "machine")
+    hint = near(text[:40], names(), 1) or f"known: {', '.join(names())}; or the name of a .toml file"
+    raise Alarm(f"no machine has the name {shown(text)}", hint=hint)
+
+
+def _machine(table: dict[str, object], file: File) -> MachineFile:
+    check_names(table, ("title", "assumes", "limits"), "a machine", file)
+    path = Path(file.name)
+    title, assumes = table.get("title", path.stem), table.get("assumes", [])
+    if not isinstance(title, str):
+        raise Alarm(f"title must be a text, got {title!r}")
+    if not isinstance(assumes, list) or not all(isinstance(line, str) for line in assumes):
+        raise Alarm(f"assumes must be a list of texts, got {assumes!r}")
+    return MachineFile(path.stem, title, tuple(assumes), record(Limits, table.get("limits", {}), file, "limits"))
+
+
+# How far the axes go: the first row of a path on which the spindle reference leaves the travel of the machine.
+# The reference is the tool tip and the tool above it. It stands still where a row of kind TOOL moves the tip, so that the
+# distance between both is the sum of those jumps. An arc is judged by its extent, not by its ends alone: along one axis it is
+# the cosine of the angle, of amplitude r about the phase p, and the share of its pitch, d over the sweep S,
+#     x(a) = r cos(a - p) + d a / S,    turning where sin(a - p) = d / (r S)
+# and of several turns the first and the last such place are the farthest.
+
+NOISE = 1e-6  # mm
+
+
+class Beyond(NamedTuple):
+    """A row that leaves the travel: which axis (0 to 2), and the position it would reach, mm."""
+
+    row: int
+    axis: int
+    position: float
+
+
+class Stopped(NamedTuple):
+    """Where a machine stopped before it left its travel: `place` (3,) of the tip that it was led to, `depth` mm beyond."""
+
+    place: tuple[float, float, float]
+    depth: float
+    alarm: Alarm
+
+
+def stopped_at(path: Toolpath, found: Beyond, travel: Array, alarm: Alarm) -> Stopped:
+    """The farthest place of a row that leaves the travel, in the coordinates of the path."""
+    short, over = travel[found.axis, 0] - found.position, found.position - travel[found.axis, 1]
+    low, high = extents(path[found.row : found.row + 1])
+    place = path.end[found.row].copy()
+    place[found.axis] = (low if short > over else high)[0, found.axis]
+    x, y, z = place.tolist()
+    return Stopped((x, y, z), float(max(short, over)), alarm)
+
+
+def first_beyond(path: Toolpath, start: Array, travel: Array) -> Beyond | None:
+    """The first row that leads out of `travel` (3, 2), mm; None if none does. `start` (3,) is the spindle reference
+    before the path, machine coordinates; a machine that stands outside may return."""
+    if not len(path):
+        return None
+    jump = np.where((path.kind == Kind.TOOL)[:, None], path.start - path.end, 0.0)
+    offset = start - path.start[0] + np.cumsum(jump, axis=0)
+    low, high = (each + offset for each in extents(path))
+    short, over = travel[:, 0] - low, high - travel[:, 1]
+    out = (np.maximum(short, over) > NOISE) & path.is_motion[:, None]
+    if not out.any():
+        return None
+    row = int(out.any(axis=1).argmax())
+    axis = int(np.argmax(np.where(out[row], np.maximum(short[row], over[row]), -np.inf)))
+    return Beyond(row, axis, float((low if short[row, axis] > NOISE else high)[row, axis]))
+
+
+def extents(path: Toolpath) -> tuple[Array, Array]:
+    """The least and the greatest coordinates (n, 3) that each row reaches after its start."""
+    low, high = path.end.copy(), path.end.copy()
+    arcs = np.flatnonzero((path.kind == Kind.ARC) & (path.sweep != 0))
+    if not len(arcs):
+        return low, high
+    axis, centre, size = path.axis[arcs], path.centre[arcs], np.abs(path.sweep[arcs])[:, None]
+    spoke = path.start[arcs] - centre
+    level = np.einsum("ij,ij->i", spoke, axis)[:, None] * axis
+    across = np.cross(axis, spoke - level) * np.sign(path.sweep[arcs])[:, None]
+    rise = np.einsum("ij,ij->i", path.end[arcs] - path.start[arcs], axis)[:, None] * axis
+    amplitude, phase = np.hypot(spoke - level, across), np.arctan2(across, spoke - level)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        tilt = np.arcsin(rise / (amplitude * size))  # nan where the pitch never turns back
+    for turning in (phase + tilt, phase + np.pi - tilt):
+        first = np.mod(turning, 2 * np.pi)
+        for angle in (first, first + 2 * np.pi * np.floor((size - first) / (2 * np.pi))):
+            place = centre + level + amplitude * np.cos(angle - phase) + rise * angle / size
+            reached = (angle > 0) & (angle < size)  # false for nan
+            low[arcs] = np.where(reached, np.minimum(low[arcs], place), low[arcs])
+            high[arcs] = np.where(reached, np.maximum(high[arcs], place), high[arcs])
+    return low, high

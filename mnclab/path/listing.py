@@ -11,13 +11,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from mnclab.path.kinds import Kind
+from mnclab.path.toolpath import Kind
 from mnclab.text.alarm import several
 from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
-    from mnclab.path.columns import Move
-    from mnclab.path.toolpath import Toolpath
+    from mnclab.path.toolpath import Move, Toolpath
 
 HEAD, TAIL = 12, 6
 NUMBERS = (0, 1, 3, 4, 5, 6, 7, 8)

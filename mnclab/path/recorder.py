@@ -14,10 +14,8 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.columns import COLUMNS, Array, Column, fields
 from mnclab.path.cylinder import Cylinder
-from mnclab.path.kinds import Kind
-from mnclab.path.toolpath import Toolpath, concatenate
+from mnclab.path.toolpath import COLUMNS, Array, Column, Kind, Toolpath, concatenate, fields
 
 NAN, INF = np.nan, np.inf
 #: The columns, and which state (an index) a row has.

@@ -7,10 +7,82 @@ from functools import wraps
 from inspect import Parameter, signature
 from typing import TYPE_CHECKING, Any
 
-from mnclab.path.wear import Wear
 from mnclab.text.alarm import Alarm, hint
-from mnclab.text.given import check_number, check_point, fitting, shown
+from mnclab.text.file import File, as_table, check_names
+from mnclab.text.given import check_number, check_point, fitting, fitting_class, shown
 from mnclab.text.tables import written
+
+# What a tool table says for measuring a tool: how far it may wear, when it counts as broken, and where it is measured.
+
+MOST_WEAR = 0.9999  # mm, of a tolerance (TNC 620 19.1)
+OFFSETS = ("offset_length", "offset_radius")
+
+
+@fitting_class
+@dataclass(frozen=True)
+class Wear:
+    """Tolerances and offsets in mm, the columns of TOOL.T in TNC 620 19.1; a tolerance of 0 is not watched.
+
+    `length`, `radius` and `corner` are the deviations from which a tool counts as worn (LTOL, RTOL, R2TOL), `break_length`
+    and `break_radius` those from which it counts as broken (LBREAK, RBREAK). `offset_radius` is how far the axis of the tool
+    stands beside the middle of the setter while its length is measured (R-OFFS; None: the tool radius), `offset_length` how
+    much deeper than usual it stands while its radius is measured (L-OFFS).
+    """
+
+    length: float = 0.0
+    radius: float = 0.0
+    corner: float = 0.0
+    break_length: float = 0.0
+    break_radius: float = 0.0
+    offset_length: float = 0.0
+    offset_radius: float | None = None
+
+    __repr__ = written
+
+    def __post_init__(self) -> None:
+        for each in fields(self):
+            value, what = getattr(self, each.name), f"the {each.name} in the wear of a tool"
+            if each.name not in OFFSETS:
+                check_number(value, what, at_least=0, at_most=MOST_WEAR)
+            elif value is not None:
+                check_number(value, what)
+
+
+# Records from files (TOML): the fields of a tool, of limits, of whatever has fields.
+
+TEXT_FIELDS = ("name", "kind", "hand", "corner_speed", "rapid_motion", "positioning", "axis")  # of a tool; of the limits; …
+
+
+def record(kind: Any, value: Any, file: File, *keys: str) -> Any:
+    """A Tool, Datum, Limits or Probe from a table of its fields; `keys` lead to it in the file."""
+    where = ".".join(keys)
+    with file.at(*keys):
+        names = kind._fields if hasattr(kind, "_fields") else [field.name for field in fields(kind)]
+        check_names(as_table(value, where), names, where, file, *keys)
+        found = {name: _field(item) for name, item in value.items()}
+        if "wear" in found:
+            found["wear"] = record(Wear, value["wear"], file, *keys, "wear")
+        for name, item in found.items():
+            with file.at(*keys, name):
+                _check_kind(value[name], f"{where}.{name}", name)
+                kind(**{name: item})
+        return kind(**found)
+
+
+def _field(value: Any) -> Any:
+    return tuple(map(_field, value)) if isinstance(value, list) else value
+
+
+def _check_kind(value: Any, where: str, name: str) -> None:
+    """An Alarm unless a field is a text where it must be one, else a number or a list of them."""
+    if name in TEXT_FIELDS and not isinstance(value, str):
+        raise Alarm(f"{where} must be a text, got {shown(value)}")
+    for each in value if isinstance(value, list) else [] if isinstance(value, bool) else [value]:
+        if name not in (*TEXT_FIELDS, "wear") and not isinstance(each, list):
+            check_number(each, where, endless=True)
+
+
+# A tool: its dimensions, as a tool table holds them.
 
 TEXTS = ("name", "kind", "hand")
 HANDS = ("right", "left")

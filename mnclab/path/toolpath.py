@@ -1,25 +1,16 @@
-"""The path of a tool as columns; `path[i]` is a row for people.
-
-Units of the whole library: **mm, mm/min, rev/min, s; radians inside, degrees in programs and in anything shown.**
-Positions are those of the tool tip along the machine's axes, relative to `Toolpath.origin` (the machine position
-of the first work offset a program selects); a lathe's X is a radius.
-
-A column that is constant is a stride-0 broadcast and costs nothing. `start` and `end` of a whole path are two views
-of one array of vertices, so that every row begins where the one before ended; a selection of rows has arrays of its own.
-Columns are read-only: what is to be changed is copied first (`Toolpath.replace` takes other columns).
-"""
+"""The path of a tool as columns; `path[i]` is a row for people."""
 
 from __future__ import annotations
 
+from collections import namedtuple
 from collections.abc import Iterable, Iterator, Sequence
+from enum import IntEnum
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.columns import COLUMNS, Array, Columns, Index, Mask, Move
-from mnclab.path.kinds import MOTION_KINDS, Kind
 from mnclab.text.alarm import several
 from mnclab.text.tables import fixed
 
@@ -29,6 +20,172 @@ if TYPE_CHECKING:
     from mnclab.path.cylinder import Cylinder
     from mnclab.path.listing import Unit
 
+
+# The kinds of rows in a toolpath, and the rules of radius compensation that made them.
+
+class Kind(IntEnum):
+    """What a row of a toolpath is. Motion rows are RAPID, LINE, ARC and PROBE; the others are events."""
+
+    RAPID = 0
+    LINE = 1
+    ARC = 2
+    PROBE = 3
+    DWELL = 4
+    TOOL = 5
+    SPINDLE = 6
+    COOLANT = 7
+    STOP = 8
+
+
+MOTION_KINDS = (Kind.RAPID, Kind.LINE, Kind.ARC, Kind.PROBE)
+
+
+class Rule(IntEnum):
+    """Which rule of radius compensation made a row of the tool-centre path; column `rule`.
+
+    A row along the contour is called after the way its end was found: where the next offset begins (SIDE), where both
+    offsets are prolonged to (OUTSIDE_STRAIGHT) or cut off (INSIDE). OUTSIDE_ARC rows are inserted about a corner.
+    """
+
+    NONE = 0
+    SIDE = 1
+    OUTSIDE_ARC = 2
+    OUTSIDE_STRAIGHT = 3
+    INSIDE = 4
+    ENTRY = 5
+    EXIT = 6
+    CHANGE = 7
+
+
+#: What each rule is called in pictures, lists and legends.
+RULE_NAMES: dict[Rule, str] = {
+    Rule.NONE: "not compensated",
+    Rule.SIDE: "along the side",
+    Rule.OUTSIDE_ARC: "outside corner, arc",
+    Rule.OUTSIDE_STRAIGHT: "outside corner, straight",
+    Rule.INSIDE: "inside corner",
+    Rule.ENTRY: "entry",
+    Rule.EXIT: "exit",
+    Rule.CHANGE: "change of side",
+}
+
+
+# The columns of a toolpath, declared once: a line each says type, default, meaning and unit.
+# From this table come the arrays of a `Toolpath`, the fields of a `Move`, what a `Recorder` keeps and how, and what an
+# export says of each column. A new column is one line here; it has its default in every row until somebody fills it. Passes
+# over a path give it as an array. What a machine knows when it adds rows is one more value: in `Machine.state` for a
+# column per state, in `machine.rows` for a column per row.
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+T = TypeVar("T", bound=np.generic)
+
+
+class Column(NamedTuple):
+    """One column: what it is where nothing is said, what it means, and in which unit.
+
+    `parts` are the names of the components of a vector (three), empty for a number. `per` says how a recorder keeps it:
+    with each "row"; once for each "state", which many rows share; or not at all (""), because it comes later.
+    """
+
+    dtype: type[np.generic]
+    default: Any
+    meaning: str
+    unit: str = ""
+    parts: str = ""
+    per: str = ""
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        return (len(self.parts),) if self.parts else ()
+
+    def flat(self, name: str) -> list[str]:
+        """The names of its numbers under a name of its own: `end_x`, `end_y`, …"""
+        return [f"{name}_{part}" for part in self.parts] if self.parts else [name]
+
+    def of(self, rows: int, value: Any = None) -> NDArray[Any]:
+        """The column of so many rows with one value in all of them, the default if none is given; it costs nothing."""
+        value = np.asarray(self.default if value is None else value, dtype=self.dtype)
+        return np.broadcast_to(value, (rows, *self.shape))
+
+
+def gathered(column: NDArray[Any], source: Index) -> NDArray[Any]:
+    """A column read at rows `source` (m,); a constant one stays so and costs nothing."""
+    if len(column) and column.strides[0] == 0:
+        return np.broadcast_to(column[0], (len(source), *column.shape[1:]))
+    return column.take(source, axis=0, mode="clip")  # faster than column[source]
+
+
+def column(dtype: type[T], default: Any, meaning: str, unit: str = "", *, parts: str = "", per: str = "") -> NDArray[T]:
+    """Declare a column; a toolpath has an array of its name."""
+    return cast("NDArray[T]", Column(dtype, default, meaning, unit, parts, per))
+
+
+class Columns:
+    """Every column by its name: the table itself."""
+
+    kind = column(np.uint8, Kind.LINE, "Kind of the row", per="row")
+    line = column(np.int32, 0, "source line, from 1", per="row")
+    program = column(np.int16, 0, "index into Run.programs", per="state")
+    step = column(np.int32, 0, "which execution of a block made the row", per="row")
+    label = column(np.int32, 0, "index into labels", per="row")
+    start = column(np.float64, 0.0, "tool tip before the row", "mm", parts="xyz")
+    end = column(np.float64, 0.0, "tool tip after the row", "mm", parts="xyz", per="row")
+    centre = column(np.float64, np.nan, "centre of an arc", "mm", parts="xyz", per="row")
+    axis = column(np.float64, (0.0, 0.0, 1.0), "unit normal of the active plane", parts="xyz", per="state")
+    sweep = column(np.float64, 0.0, "angle of an arc, right-handed about axis; pitch lies in end", "rad", per="row")
+    rotary = column(np.float64, 0.0, "A, B, C at the end of the row", "rad", parts="abc", per="state")
+    cylinder = column(np.int16, -1, "index into cylinders: the surface on which the row lies", per="state")
+    from_angle = column(np.float64, np.nan, "angle of the axis of the cylinder before the row", "rad", per="state")
+    feed = column(np.float64, np.nan, "feed along the path; inf for rapids", "mm/min", per="row")
+    per_rev = column(np.float64, np.nan, "feed per revolution of rows at feed", "mm/rev", per="state")
+    surface = column(np.float64, np.nan, "constant cutting speed", "m/min", per="state")
+    speed_limit = column(np.float64, np.inf, "greatest spindle speed at constant cutting speed", "rev/min", per="state")
+    spindle_x = column(np.float64, 0.0, "X of the spindle axis at constant cutting speed", "mm", per="state")
+    time = column(np.float64, np.nan, "time given by the program", "s", per="row")
+    spindle = column(np.float64, 0.0, "speed at the end of the row, negative for counter-clockwise", "rev/min", per="state")
+    tool = column(np.int32, 0, "tool number", per="state")
+    radius = column(np.float64, 0.0, "effective tool radius", "mm", per="state")
+    side = column(np.int8, 0, "radius compensation: +1 left, -1 right, 0 none", per="state")
+    corner_rule = column(np.uint8, 0, "how outside corners are joined", per="state")
+    rule = column(np.uint8, 0, "Rule of radius compensation that made the row")
+    gouge = column(np.bool_, False, "the tool cuts into the contour on this row (setting gouge = mark)")
+    exact = column(np.bool_, False, "stop exactly at the end", per="state")
+    synchronous = column(np.bool_, False, "spindle and feed locked", per="state")
+    tolerance = column(
+        np.float64, np.nan, "how far the program lets corners be cut; nan: as the limits have it", "mm", per="state"
+    )
+    joint = column(np.int16, -1, "index into joints", per="row")
+
+
+COLUMNS: dict[str, Column] = {name: each for name, each in vars(Columns).items() if isinstance(each, Column)}
+
+
+def fields(name: str, columns: dict[str, Column]) -> Any:
+    """A named tuple with a field for each column, whose default is that of the column."""
+    defaults = (tuple(each.of(1)[0].tolist()) if each.parts else each.default for each in columns.values())
+    return namedtuple(name, columns, defaults=defaults)
+
+
+class Move(fields("Move", COLUMNS)):  # type: ignore[misc]
+    """One row of a toolpath: a value for each of `COLUMNS`, a label as its text, a joint as itself."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        from mnclab.path.listing import row
+
+        return f"<Move line {' '.join(row(self).split())}>"
+
+
+# The path of a tool as columns; `path[i]` is a row for people.
+# Units of the whole library: **mm, mm/min, rev/min, s; radians inside, degrees in programs and in anything shown.**
+# Positions are those of the tool tip along the machine's axes, relative to `Toolpath.origin` (the machine position
+# of the first work offset a program selects); a lathe's X is a radius.
+# A column that is constant is a stride-0 broadcast and costs nothing. `start` and `end` of a whole path are two views
+# of one array of vertices, so that every row begins where the one before ended; a selection of rows has arrays of its own.
+# Columns are read-only: what is to be changed is copied first (`Toolpath.replace` takes other columns).
 
 class Toolpath(Columns):
     """Moves and events in columns of n rows; the names and meanings are in `COLUMNS`.
@@ -145,7 +302,7 @@ class Toolpath(Columns):
     @property
     def bounds(self) -> Array:
         """Smallest and greatest coordinates (2, 3) of the motion, arcs included; nan without motion."""
-        from mnclab.path.travel import extents
+        from mnclab.path.limits import extents
 
         motion = self.motion
         if not len(motion):
@@ -155,7 +312,7 @@ class Toolpath(Columns):
 
     def points(self, chord_error: float = 0.01) -> tuple[Array, Index]:
         """Points (m, 3) along the motion within `chord_error` mm of every arc, and the row (m,) of each."""
-        from mnclab.path.points import points
+        from mnclab.path.places import points
 
         return points(self, chord_error)
 
@@ -220,3 +377,13 @@ def concatenate(pieces: Sequence[Toolpath]) -> Toolpath:
         vertices = np.concatenate([joined["start"][:1], joined["end"]])
         joined |= {"start": vertices[:-1], "end": vertices[1:]}
     return Toolpath(joined, last.labels, last.joints, **last.notes())
+
+
+# A fault found in a pass: it knows the step of its row, and the machine knows which block that was.
+
+class PathFault(Exception):
+    """What does not fit, at the `step` of the row concerned."""
+
+    def __init__(self, message: str, step: int, hint: str = "") -> None:
+        super().__init__(message)
+        self.message, self.step, self.hint = message, step, hint

@@ -22,7 +22,7 @@ from mnclab.geometry import frames
 from mnclab.geometry.arcs import centre_from_radius, sweep
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.rows import LEAST_FEED, row_state
-from mnclab.path.kinds import Kind
+from mnclab.path.toolpath import Kind
 from mnclab.running.repeating import repeat_hole
 from mnclab.text import given
 from mnclab.text.program import Program

@@ -21,10 +21,8 @@ from mnclab.machine.coordinates import PLANES, in_mm
 from mnclab.machine.flow import Flow, RecordedLead, Recording, determine
 from mnclab.machine.state import PUT_BACK, Place
 from mnclab.path import corners
-from mnclab.path.columns import Array
-from mnclab.path.fault import PathFault
 from mnclab.path.leads import Lead
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Array, PathFault, Toolpath
 from mnclab.text.alarm import Alarm, Span
 
 if TYPE_CHECKING:

@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 from mnclab.geometry import frames
 from mnclab.machine.rows import refuse_large
 from mnclab.machine.state import COMPARED, HOLES, PATTERN, Snapshot
-from mnclab.path.kinds import Kind
 from mnclab.path.recorder import PLACES, ROW
+from mnclab.path.toolpath import Kind
 from mnclab.running.flow import Course, course
 from mnclab.text.given import LARGEST
 

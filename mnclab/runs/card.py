@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mnclab.path.kinds import Kind
+from mnclab.path.toolpath import Kind
 from mnclab.runs.outcome import outcome
 from mnclab.text.alarm import ALARM, card_html, first_of, several
 from mnclab.text.tables import html_table

@@ -12,10 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.path.columns import Index
-from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Index, Kind, Toolpath
 from mnclab.workpiece.cutting import tool_exists
 
 if TYPE_CHECKING:

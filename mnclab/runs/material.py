@@ -12,9 +12,8 @@ import numpy as np
 
 from mnclab.machine.coordinates import LOG
 from mnclab.machine.cutting import TILT, lifted, start_known, tilted_rows, tools_of_rows
-from mnclab.path.columns import Index, Mask
-from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Index, Kind, Mask
 from mnclab.runs.cycle_tools import cycle_tools
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.given import check_number, shown, whole

@@ -18,10 +18,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.cutting_speed import spindle_speed
-from mnclab.path.kinds import Kind
+from mnclab.path.feeds import spindle_speed
 from mnclab.path.listing import point
 from mnclab.path.places import points_at, spokes, turning_points, turns_of_sum
+from mnclab.path.toolpath import Kind
 from mnclab.runs.conditions import Condition, Node, parse
 from mnclab.text.tables import html_table
 

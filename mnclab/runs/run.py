@@ -23,15 +23,12 @@ from mnclab.machine.measuring import record
 from mnclab.machine.rows import paths, shifted, stop_at_travel
 from mnclab.machine.setup import Setup, Tables
 from mnclab.machine.touching import stop_at_part
-from mnclab.path.columns import Index
 from mnclab.path.compensation import Gouge
 from mnclab.path.holes import Holes, holes
-from mnclab.path.kinds import Kind
-from mnclab.path.limits import Limits
-from mnclab.path.machine_file import limits_of
+from mnclab.path.limits import Limits, Stopped, limits_of
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
-from mnclab.path.travel import Stopped
+from mnclab.path.toolpath import Index, Kind
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs import card, lint, material, outcome

@@ -6,7 +6,7 @@ from collections.abc import Collection
 
 import numpy as np
 
-from mnclab.path.columns import Mask
+from mnclab.path.toolpath import Mask
 from mnclab.text.program import NUMBER, Program
 
 WITH_NUMBERS = "GM"  # addresses that make codes with their numbers

@@ -15,7 +15,7 @@ from mnclab.controls.survey import files_of
 from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import load
 from mnclab.path.limits import Limits
-from mnclab.path.machine_file import load as load_machine
+from mnclab.path.limits import load as load_machine
 from mnclab.runs.run import Run
 from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, nothing_in, program, say, sensible
 from mnclab.show import times

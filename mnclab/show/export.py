@@ -17,9 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.columns import COLUMNS
-from mnclab.path.kinds import Kind
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import COLUMNS, Kind, Toolpath
 from mnclab.show import export_mesh, export_part
 from mnclab.show.export_dxf import write_dxf
 from mnclab.show.export_gcode import write_gcode

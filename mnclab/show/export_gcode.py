@@ -17,9 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.path.columns import COLUMNS
-from mnclab.path.kinds import MOTION_KINDS, Kind
-from mnclab.path.toolpath import Toolpath, concatenate
+from mnclab.path.toolpath import COLUMNS, MOTION_KINDS, Kind, Toolpath, concatenate
 from mnclab.show.given_away import named
 
 CHORD = 0.001

@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.kinds import Kind
+from mnclab.path.toolpath import Kind
 from mnclab.show.solids import Body, size_of, stock_of, strokes, tool_of, tubes
 
 CHORD = 0.01  # mm

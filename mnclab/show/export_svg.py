@@ -13,8 +13,7 @@ from xml.sax.saxutils import escape
 
 import numpy as np
 
-from mnclab.path.kinds import Kind
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.show.export_gcode import number
 from mnclab.text.given import choice
 

@@ -13,9 +13,8 @@ import numpy as np
 
 from mnclab.geometry.frames import shift
 from mnclab.geometry.regions import Region
-from mnclab.path.columns import Array
-from mnclab.path.kinds import Kind
 from mnclab.path.listing import MM, Unit
+from mnclab.path.toolpath import Array, Kind
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.part.part import Distance, Floats
 

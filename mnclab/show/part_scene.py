@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mnclab.path.columns import Array, Mask
+from mnclab.path.toolpath import Array, Mask
 from mnclab.show import scene as scenes
 from mnclab.show.export_mesh import RAPID, STOCK
 from mnclab.show.rulers import frame

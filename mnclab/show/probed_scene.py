@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 from mnclab.show.export_mesh import PROBING
 from mnclab.show.felt import felt
 

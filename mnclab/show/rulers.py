@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.path.columns import Array
 from mnclab.path.listing import MM, Unit
+from mnclab.path.toolpath import Array
 
 INK, GRID = "#3a3f44", "#dfe3e6"
 FONT, HIGH, WIDE = 12, 15.0, 7.0  # of the numbers: size; pixels of a line and of a letter

@@ -21,10 +21,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mnclab.path.cylinder import divided
-from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
-from mnclab.path.profile.rapids import courses
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.profile.ramps import courses
+from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.show import solids
 from mnclab.show.export_mesh import CHORD, FEED, PROBING, RAPID, STOCK, TOOL
 from mnclab.show.rapids import rapids_of

@@ -12,9 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mnclab.path.inserts import as_drawn, holder, insert, lead_of
-from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.workpiece.blank import Box, Revolved, blank
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.milled import Milled

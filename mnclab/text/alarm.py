@@ -275,7 +275,7 @@ def nearest(word: str, known: Iterable[str], most: int = 3, slips: float | None 
     """At most `most` known words within some slips of a word: one, and one more for every five characters beyond four.
 
     The nearest come first; of equally near ones those that share the longest beginning. Nothing is near a word of more
-    than `LONGEST` characters.
+    than `LONGEST_WORD` characters.
     """
     return list(_nearest(word, tuple(known), most, slips)) if len(word) <= LONGEST_WORD else []
 

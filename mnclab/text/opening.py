@@ -17,7 +17,7 @@ from mnclab.text.alarm import Alarm, hint
 
 # Names that are opened when they are first asked for, so that `import mnclab` needs numpy only.
 # What is opened is the real thing: its signature, its docstring, its own file. Where it stands is written as an import
-# is, a module and its names: `{"mnclab.geometry.shapes": "arc, slot", "mnclab.geometry.svg": "contours as svg"}`.
+# is, a module and its names: `{"mnclab.geometry.contours": "arc, slot", "mnclab.geometry.svg": "contours as svg"}`.
 # The core of the house imports no wing (`design`, `lab`, the controls): it opens by name what a wing offers, and where that
 # wing was left out, an alarm says so.
 

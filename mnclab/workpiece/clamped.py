@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mnclab.geometry.contours import Contour
-from mnclab.path.columns import Array
 from mnclab.path.listing import figure
+from mnclab.path.toolpath import Array
 from mnclab.text.given import check_number, choice
 
 if TYPE_CHECKING:

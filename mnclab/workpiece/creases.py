@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index
+from mnclab.path.toolpath import Array, Index
 from mnclab.workpiece.workpiece import Solid
 
 SHARP = np.cos(np.radians(25.0))  # of the angle between two faces from which on their edge is one

@@ -12,12 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.path.columns import Index, Mask
 from mnclab.path.inserts import edgeless
-from mnclab.path.kinds import Kind
-from mnclab.path.profile.bends import divided
+from mnclab.path.profile.motions import divided
 from mnclab.path.tool import LATHE, Tool
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Index, Kind, Mask, Toolpath
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.part import Part
 

@@ -17,13 +17,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index
-from mnclab.path.cutting_speed import spindle_speed
-from mnclab.path.kinds import Kind
+from mnclab.path.feeds import spindle_speed
 from mnclab.path.limits import Limits
 from mnclab.path.listing import Unit, figure
 from mnclab.path.tool import POINTED, Tool
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Array, Index, Kind, Toolpath
 from mnclab.text.tables import html_table, text_table
 from mnclab.workpiece.ahead import CHIP, DEPTH, WIDTH
 from mnclab.workpiece.removal import AT_LEAST, Removal

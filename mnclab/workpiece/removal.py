@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index
-from mnclab.path.kinds import Kind
 from mnclab.path.listing import MM, Unit
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Array, Index, Kind
 from mnclab.text.given import choice
 from mnclab.text.tables import Rounded, html_table, written
 from mnclab.workpiece.ahead import FEW, RATE, Looks

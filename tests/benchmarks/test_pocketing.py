@@ -16,9 +16,8 @@ import numpy as np
 import pytest
 import shapely
 
-from mnclab.geometry.contours import Contour
+from mnclab.geometry.contours import Contour, rectangle
 from mnclab.geometry.regions import Region
-from mnclab.geometry.shapes import rectangle
 from mnclab.machining.milling.clearing import begin, end
 from mnclab.machining.milling.strategies import STRATEGIES, clear
 

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mnclab.geometry.circle_through import circle_through, round_through
-from mnclab.geometry.tilting import angles_of, spatial
+from mnclab.geometry.arcs import circle_through, round_through
+from mnclab.geometry.frames import angles_of, spatial
 
 TURN = st.floats(-math.pi, math.pi)
 

@@ -4,9 +4,8 @@ import math
 
 import pytest
 
-from mnclab.geometry.apart import Where, joined, less, where
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.regions import Region
+from mnclab.geometry.regions import Region, Where, joined, less, where
 
 PLATE = Contour([(0, 0), (40, 0), (40, 30), (0, 30)])
 

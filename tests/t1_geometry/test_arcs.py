@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mnclab.geometry.arcs import centre_from_radius, sweep
-from mnclab.geometry.offsets import Element, meet
+from mnclab.geometry.curves import Element, meet
 
 angle = st.floats(-3.1, 3.1)
 radius = st.floats(0.1, 500)

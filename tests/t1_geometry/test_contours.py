@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.whole_curves import Curve
+from mnclab.geometry.curves import Curve
 
 QUARTER = np.tan(np.pi / 8)  # the bulge of a quarter circle counter-clockwise
 HALF_LENS = np.arccos(0.6)  # two circles r = 25, 30 mm apart: half of the angle of each arc

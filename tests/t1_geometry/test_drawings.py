@@ -5,9 +5,8 @@ import pytest
 
 from mnclab import Alarm
 from mnclab.geometry import dxf, svg
-from mnclab.geometry.contours import Contour
+from mnclab.geometry.contours import Contour, rectangle
 from mnclab.geometry.drawings import area_of, joined
-from mnclab.geometry.shapes import rectangle
 
 PAGE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 80" width="{}" height="{}">{}</svg>'
 

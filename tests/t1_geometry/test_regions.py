@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mnclab import Alarm
-from mnclab.geometry import insets
+from mnclab.geometry import cutting
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 
@@ -238,8 +238,8 @@ def test_islands_that_touch_grow_together():
 def test_elements_that_have_passed_each_other_are_not_crossed(monkeypatch):
     """A polygon of 300 sides, r = 40, in steps of 17: at 51 all have passed the centre, where each would cross all others."""
     seen = []
-    crossed = insets.pieces_of
-    monkeypatch.setattr(insets, "pieces_of", lambda moved, joints: seen.append(len(moved.r)) or crossed(moved, joints))
+    crossed = cutting.pieces_of
+    monkeypatch.setattr(cutting, "pieces_of", lambda moved, joints: seen.append(len(moved.r)) or crossed(moved, joints))
     turns = 2 * np.pi * np.arange(300) / 300
     region = Region.of(Contour(40 * np.stack([np.cos(turns), np.sin(turns)], axis=1)))
     apothem = 40 * np.cos(np.pi / 300)

@@ -7,8 +7,7 @@ import pytest
 from together import together
 
 from mnclab import Alarm
-from mnclab.geometry.contours import Contour
-from mnclab.geometry.shapes import arc, polygon, rectangle, slot
+from mnclab.geometry.contours import Contour, arc, polygon, rectangle, slot
 
 
 def test_rectangle():

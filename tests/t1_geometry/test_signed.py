@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mnclab.geometry import shapes
+from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.signed import signed
@@ -13,8 +13,8 @@ from mnclab.geometry.signed import signed
 def test_many_points_and_few(seed):
     dice = np.random.default_rng(seed)
     holes = [Contour.circle(dice.uniform(-25, 25, 2), dice.uniform(1, 12)) for _ in range(dice.integers(0, 5))]
-    holes += [shapes.rectangle(12, 8, 2, centre=dice.uniform(-25, 25, 2), angle=dice.uniform(0, 6)) for _ in range(2)]
-    region = Region.of(shapes.rectangle(100, 80, dice.uniform(0, 20), angle=dice.uniform(0, 6)), holes=holes)
+    holes += [contours.rectangle(12, 8, 2, centre=dice.uniform(-25, 25, 2), angle=dice.uniform(0, 6)) for _ in range(2)]
+    region = Region.of(contours.rectangle(100, 80, dice.uniform(0, 20), angle=dice.uniform(0, 6)), holes=holes)
     for count in (1, 10, 3000):
         spots = dice.uniform(-70, 70, (count, 2))
         expected = np.where(region.contains(spots), -1.0, 1.0) * region.distance(spots)

@@ -7,7 +7,7 @@ import pytest
 import shapely
 
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.strips import strip
+from mnclab.geometry.sweeps import strip
 
 
 def test_about_a_straight_line():

@@ -10,8 +10,7 @@ from shapely import affinity
 from mnclab import Kind
 from mnclab.path import compensation
 from mnclab.path.compensation import Compensation, Report
-from mnclab.path.fault import PathFault
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import PathFault, Toolpath
 
 RULES = Compensation("corner", change=True, look_ahead=True)
 

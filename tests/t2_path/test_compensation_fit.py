@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import shapely
 
-from mnclab.path.kinds import Rule
+from mnclab.path.toolpath import Rule
 
 pytestmark = pytest.mark.deep
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mnclab import Kind, Limits
-from mnclab.path.cutting_speed import mean_turn, spindle_speed
+from mnclab.path.feeds import mean_turn, spindle_speed
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
 

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 import mnclab
 from mnclab import Kind, Setup, Tool
-from mnclab.path.fault import PathFault
 from mnclab.path.leads import Lead, way
+from mnclab.path.toolpath import PathFault
 
 R = 2.0  # of the tool, mm
 FORMS = {"LT": "LEN7", "LN": "LEN6", "CT": "CCA70 R+5", "LCT": "R4"}

@@ -5,7 +5,7 @@ import pytest
 
 import mnclab as mnc
 from mnclab.geometry.drawings import area_of
-from mnclab.path.outline import outlines
+from mnclab.path.plane import outlines
 
 PROGRAM = """N10 G17 G90 G54
 N20 T2 F500

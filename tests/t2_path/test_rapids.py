@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mnclab import Kind, Limits
-from mnclab.path.profile.rapids import courses
-from mnclab.path.rapids import broken
+from mnclab.path.feeds import broken
+from mnclab.path.profile.ramps import courses
 from mnclab.path.toolpath import Toolpath
 
 

@@ -6,9 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mnclab import Kind
-from mnclab.path.columns import COLUMNS
 from mnclab.path.recorder import NAN, Recorder, State
-from mnclab.path.toolpath import Toolpath, concatenate
+from mnclab.path.toolpath import COLUMNS, Toolpath, concatenate
 
 
 def path_of(*rows, start=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 1.0)):

@@ -4,9 +4,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mnclab.path.kinds import Kind
-from mnclab.path.toolpath import Toolpath
-from mnclab.path.travel import extents, first_beyond
+from mnclab.path.limits import extents, first_beyond
+from mnclab.path.toolpath import Kind, Toolpath
 
 ANGLE = st.floats(-15, 15).filter(lambda a: abs(a) > 1e-3)
 PART = st.floats(-3, 3)

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mnclab.geometry import shapes
+from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
 from mnclab.machining.milling.cutting_edge import along, centre_feeds
 from mnclab.machining.milling.entries import descend, onto_floor, swing
@@ -30,7 +30,7 @@ def test_the_edge_moves_at_the_feed(path, radius, clockwise):
 
 def test_each_piece_of_a_contour_has_its_own_feed():
     """Corners of 3 with a tool of 5: 500·3/8; one step for each run of one feed, the whole contour in all."""
-    ring = shapes.rectangle(40, 30, 3)
+    ring = contours.rectangle(40, 30, 3)
     steps = list(along("wall", ring, 500, 5, 1))
     assert [step.feed for step in steps] == pytest.approx([500, 187.5] * 4 + [500])
     assert sum(step.contour.length for step in steps) == pytest.approx(ring.length)
@@ -41,7 +41,7 @@ def test_each_piece_of_a_contour_has_its_own_feed():
 
 
 def test_one_feed_is_one_step():
-    ring = shapes.rectangle(40, 30, 3)
+    ring = contours.rectangle(40, 30, 3)
     assert [step.contour for step in along("wall", ring, 500)] == [ring]
     (step,) = along("wall", Contour.circle((0, 0), 20), 500, 10)
     assert step.feed == pytest.approx(500 * 20 / 30) and step.contour.closed
@@ -50,7 +50,7 @@ def test_one_feed_is_one_step():
 
 LINES = st.one_of(
     st.builds(lambda x: Contour([(0, 0), (x, 0)], closed=False), st.floats(1, 80)),
-    st.builds(shapes.arc, st.floats(2, 40), st.floats(-4, 4), st.floats(0.1, 2 * math.pi)),
+    st.builds(contours.arc, st.floats(2, 40), st.floats(-4, 4), st.floats(0.1, 2 * math.pi)),
 )
 
 

@@ -20,7 +20,7 @@ from mnclab.controls.tnc_620.machining.cylinder import (
     way_along,
 )
 from mnclab.geometry.contours import Contour
-from mnclab.path.fault import PathFault
+from mnclab.path.toolpath import PathFault
 
 SQUARE = Contour([(0, 0), (50, 0), (50, 50), (0, 50)])
 S_SHAPE = Contour([(60, 0), (60, -35), (40, -52.5), (40, -70)], closed=False)  # of the manual's program C28

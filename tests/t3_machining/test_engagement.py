@@ -6,9 +6,8 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mnclab.geometry.contours import Contour
+from mnclab.geometry.contours import Contour, rectangle
 from mnclab.geometry.regions import Region
-from mnclab.geometry.shapes import rectangle
 from mnclab.machining.milling.engagement import engagement
 
 pytestmark = pytest.mark.deep

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from mnclab.geometry.contours import Contour
-from mnclab.geometry.shapes import rectangle
+from mnclab.geometry.contours import Contour, rectangle
 from mnclab.machining.milling import finishing
 
 

@@ -5,9 +5,8 @@ import time
 import numpy as np
 import pytest
 
-from mnclab.geometry.contours import Contour
+from mnclab.geometry.contours import Contour, rectangle
 from mnclab.geometry.regions import Region
-from mnclab.geometry.shapes import rectangle
 from mnclab.machining.milling.engagement import engagement, stretches
 from mnclab.machining.milling.rings import rings
 from mnclab.machining.milling.trochoids import trochoidal

@@ -5,9 +5,8 @@ from __future__ import annotations
 import pytest
 from shapely import maximum_inscribed_circle
 
-from mnclab.geometry.contours import Contour
+from mnclab.geometry.contours import Contour, rectangle
 from mnclab.geometry.regions import Region
-from mnclab.geometry.shapes import rectangle
 from mnclab.geometry.sweeps import polygons
 from mnclab.machining.milling.infeed_points import roomiest
 

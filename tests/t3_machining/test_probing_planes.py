@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from mnclab.geometry.tilting import spatial
+from mnclab.geometry.frames import spatial
 from mnclab.machining.probing import axes_on, plane, spatial_angles
 
 TURN = st.floats(-179, 179)

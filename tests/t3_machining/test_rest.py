@@ -5,9 +5,8 @@ import pytest
 import shapely
 from random_regions import random_task
 
-from mnclab.geometry.contours import Contour
+from mnclab.geometry.contours import Contour, polygon, rectangle
 from mnclab.geometry.regions import Region
-from mnclab.geometry.shapes import polygon, rectangle
 from mnclab.machining.milling.clearing import begin, end
 from mnclab.machining.milling.entries import Entry, descent
 from mnclab.machining.milling.rest import rest, rest_passes, touching

@@ -4,14 +4,13 @@ import numpy as np
 import pytest
 import shapely
 
-from mnclab.geometry.contours import Contour
+from mnclab.geometry.contours import Contour, rectangle
 from mnclab.geometry.regions import Region
-from mnclab.geometry.shapes import rectangle
 from mnclab.machining.milling.clearing import begin, end
 from mnclab.machining.milling.entries import Entry
 from mnclab.machining.milling.layers import toolpath
 from mnclab.machining.milling.strategies import STRATEGIES, clear
-from mnclab.path.kinds import Kind
+from mnclab.path.toolpath import Kind
 
 pytestmark = pytest.mark.deep
 

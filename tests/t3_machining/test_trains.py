@@ -11,8 +11,8 @@ from mnclab.controls.tnc_620.machining.train_rests import rests
 from mnclab.controls.tnc_620.machining.trains import beside, cuts_into
 from mnclab.geometry.contours import Contour
 from mnclab.machining.tracing import traced
-from mnclab.path.fault import PathFault
 from mnclab.path.leads import Lead
+from mnclab.path.toolpath import PathFault
 
 RECTANGLE = Contour([(0, 0), (40, 0), (40, 30), (0, 30)])
 CORNER = Contour([(0, 0), (50, 0), (50, 50)], closed=False)

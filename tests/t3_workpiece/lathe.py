@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.workpiece.blank import cylinder
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.turning.turned import Turned

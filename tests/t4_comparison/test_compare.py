@@ -8,9 +8,8 @@ import pytest
 from mnclab import Alarm, Limits, Tool
 from mnclab.comparison.strategies import COLUMNS, compare
 from mnclab.comparison.turning_schemes import compare as compare_turning
-from mnclab.geometry.contours import Contour
+from mnclab.geometry.contours import Contour, rectangle
 from mnclab.geometry.regions import Region
-from mnclab.geometry.shapes import rectangle
 from mnclab.machining.milling import concentric
 from mnclab.machining.milling.strategies import STRATEGIES
 

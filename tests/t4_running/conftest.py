@@ -5,7 +5,7 @@ import pytest
 
 import mnclab
 from mnclab import Setup
-from mnclab.path.columns import COLUMNS
+from mnclab.path.toolpath import COLUMNS
 from mnclab.running.interpreter import Interpreter
 
 

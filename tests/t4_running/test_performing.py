@@ -9,7 +9,7 @@ import mnclab
 from mnclab.geometry.contours import Contour
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Along, Each, Go, Say, Step, Swivel, Touch, Write
-from mnclab.path.kinds import Kind
+from mnclab.path.toolpath import Kind
 from mnclab.running.cycles import perform
 from mnclab.running.interpreter import Interpreter
 from mnclab.workpiece.part import box

@@ -9,7 +9,7 @@ import pytest
 
 import mnclab
 from mnclab import Setup, Tool, Toolpath
-from mnclab.path.columns import COLUMNS
+from mnclab.path.toolpath import COLUMNS
 from mnclab.workpiece.part import ball, box, contact, cylinder, plane
 
 TNC = """0 BEGIN PGM A MM

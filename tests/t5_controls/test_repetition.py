@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import mnclab as mnc
-from mnclab.path.columns import COLUMNS
+from mnclab.path.toolpath import COLUMNS
 
 pytestmark = pytest.mark.deep
 

@@ -11,7 +11,7 @@ from matplotlib.quiver import Quiver
 import mnclab
 from mnclab import Alarm, Setup, Tool
 from mnclab.lab import forms
-from mnclab.path.kinds import RULE_NAMES, Rule
+from mnclab.path.toolpath import RULE_NAMES, Rule
 from mnclab.show import plot
 from mnclab.show.plot import colours
 

@@ -8,7 +8,7 @@ import pytest
 
 from mnclab import Alarm
 from mnclab import __main__ as shell
-from mnclab.path import machine_file
+from mnclab.path import limits
 from mnclab.show.times import clock
 
 PROGRAM = "G90 G54\nT1\nG1 X30 F6000\nG4 P0.5\nG0 X0\n"
@@ -60,9 +60,9 @@ def test_an_alarm_in_the_program_is_status_one(folder, capsys):
     assert "wrong.mnc:2:6: alarm" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("name", machine_file.names())
+@pytest.mark.parametrize("name", limits.names())
 def test_every_named_machine_states_its_assumptions(name):
-    machine = machine_file.load(name)
+    machine = limits.load(name)
     assert machine.title and len(machine.assumes) >= 3
     assert (machine.limits.axes("acceleration") > 0).all()
 
@@ -81,9 +81,9 @@ def test_every_named_machine_states_its_assumptions(name):
 def test_a_faulty_machine_is_an_alarm(tmp_path, text, says):
     (tmp_path / "m.toml").write_text(text)
     with pytest.raises(Alarm, match=says):
-        machine_file.load(tmp_path / "m.toml")
+        limits.load(tmp_path / "m.toml")
     with pytest.raises(Alarm, match="cannot be read"):
-        machine_file.load(tmp_path / "none.toml")
+        limits.load(tmp_path / "none.toml")
 
 
 def test_times_as_people_say_them():

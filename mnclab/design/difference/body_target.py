@@ -13,8 +13,8 @@ from mnclab.design.difference.reading import Reading
 from mnclab.design.difference.target import BLANK, Grid, Owner, Slopes, Walls
 from mnclab.design.model.measures import Measure
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.vectors import left
-from mnclab.path.columns import Array, Index
+from mnclab.geometry.curves import left
+from mnclab.path.toolpath import Array, Index
 from mnclab.workpiece.milling.milled import Milled
 from mnclab.workpiece.milling.raster import Raster
 from mnclab.workpiece.part.mesh import Mesh

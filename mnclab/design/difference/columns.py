@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mnclab.design.difference.target import Grid, Target
-from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.workpiece.milling.milled import Milled
 from mnclab.workpiece.milling.raster import NOISE
 

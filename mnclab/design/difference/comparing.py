@@ -18,7 +18,7 @@ from mnclab.design.difference.target import Target
 from mnclab.design.difference.targets import half_target_of, target_of
 from mnclab.design.difference.turned_comparing import compare_turned
 from mnclab.design.difference.volumes import volumes
-from mnclab.path.columns import Array, Index
+from mnclab.path.toolpath import Array, Index
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
 from mnclab.workpiece.milling.milled import Milled

@@ -10,7 +10,7 @@ import numpy as np
 from mnclab.design.difference.columns import Cells, cells, columns, distances, off
 from mnclab.design.difference.rays import FIRST, sides, ways
 from mnclab.design.difference.target import Grid, Slopes, Target, Walls
-from mnclab.path.columns import Array, Index
+from mnclab.path.toolpath import Array, Index
 from mnclab.workpiece.milling.milled import Milled
 from mnclab.workpiece.milling.raster import NOISE
 

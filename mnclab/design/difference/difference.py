@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mnclab.design.difference.table import Features
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 from mnclab.text.tables import html_table
 from mnclab.workpiece.workpiece import ROUNDING
 

@@ -14,9 +14,9 @@ from mnclab.design.model.design import Design
 from mnclab.design.model.measures import Measure
 from mnclab.design.model.removals import Flat, Slant, Slanting, Wedge, signed, within
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import at_angle, left
 from mnclab.geometry.regions import Region
-from mnclab.geometry.vectors import at_angle, left
-from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.workpiece.milling.raster import Raster
 from mnclab.workpiece.workpiece import Workpiece
 

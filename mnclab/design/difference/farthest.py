@@ -8,7 +8,7 @@ import numpy as np
 
 from mnclab.design.difference.half_surface import HalfSurface, Places
 from mnclab.geometry.regions import Region
-from mnclab.path.columns import Array, Index
+from mnclab.path.toolpath import Array, Index
 
 GOLDEN = (np.sqrt(5) - 1) / 2
 ROUNDS = 60  # a bracket shrinks to 3e-13 of itself

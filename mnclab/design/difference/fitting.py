@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 
 ROUNDS = 20
 

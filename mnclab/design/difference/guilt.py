@@ -6,7 +6,7 @@ import numpy as np
 
 from mnclab.design.difference.rays import PAIRS, about, ways
 from mnclab.design.difference.target import Target
-from mnclab.path.columns import Array, Index
+from mnclab.path.toolpath import Array, Index
 from mnclab.workpiece.milling.milled import Milled
 from mnclab.workpiece.milling.raster import near
 from mnclab.workpiece.milling.sweep import grouped

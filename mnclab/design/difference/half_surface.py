@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats, left
 from mnclab.geometry.regions import Region
-from mnclab.geometry.vectors import left
-from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.toolpath import Array, Index, Mask
 
 AXIS = 1e-9  # mm: what lies nearer lies on the axis
 BESIDE = 1e-7  # mm, above the axis, where material on it is looked for

@@ -12,7 +12,7 @@ from mnclab.design.model.turned_design import TurnedDesign
 from mnclab.design.model.turned_threads import Thread
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.text.alarm import Alarm
 
 SAME = 1e-6  # mm: a place on what a feature takes away is its

@@ -17,8 +17,7 @@ from mnclab.design.difference.target import BLANK
 from mnclab.design.model.features import Chamfer, Feature, Groove, Hole, Slope, Slot, along
 from mnclab.design.model.measures import Measure
 from mnclab.design.model.removals import Flat, Slant, Wedge
-from mnclab.path.columns import Array, Index
-from mnclab.path.kinds import Kind
+from mnclab.path.toolpath import Array, Index, Kind
 from mnclab.workpiece.milling.raster import NOISE
 
 FORM = "form"

@@ -10,8 +10,8 @@ import numpy as np
 
 from mnclab.design.difference.fitting import circle, line
 from mnclab.design.model.shapes import Circle, Rectangle, Shape
-from mnclab.geometry.vectors import turned
-from mnclab.path.columns import Array, Index, Mask
+from mnclab.geometry.curves import turned
+from mnclab.path.toolpath import Array, Index, Mask
 
 ON = 1e-6  # mm: places of one side
 NEAR = 0.02  # of a size: places near its end, where none lies at it

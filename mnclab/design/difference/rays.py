@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from mnclab.design.difference.tracing import guessed
-from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.workpiece.milling.milled import Milled
 from mnclab.workpiece.milling.moves import Moves
 from mnclab.workpiece.milling.sweep import grouped

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mnclab.design.model.measures import Measure
-from mnclab.path.columns import Index
+from mnclab.path.toolpath import Index
 
 NONE = np.zeros(0, dtype=np.int64)
 

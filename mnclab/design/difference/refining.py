@@ -7,7 +7,7 @@ import numpy as np
 from mnclab.design.difference.columns import columns, off
 from mnclab.design.difference.rays import sides
 from mnclab.design.difference.target import Target
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 from mnclab.workpiece.milling.milled import Milled
 
 FINEST = 1e-7  # mm, of a step

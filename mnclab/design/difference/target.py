@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry.contours import Contour
-from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.workpiece.milling.raster import Raster
 
 if TYPE_CHECKING:

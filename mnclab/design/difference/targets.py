@@ -16,7 +16,7 @@ from mnclab.design.model.drawn import Drawn
 from mnclab.design.model.drawn_turned import DrawnTurned
 from mnclab.design.model.turned_design import TurnedDesign
 from mnclab.geometry.contours import Contour
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import shown
 from mnclab.workpiece.milling.milled import Milled

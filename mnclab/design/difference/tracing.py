@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mnclab.path.columns import Array, Mask
+from mnclab.path.toolpath import Array, Mask
 from mnclab.workpiece.clamped import Clamped
 from mnclab.workpiece.milling.milled import Milled
 from mnclab.workpiece.milling.moves import Moves

@@ -19,7 +19,7 @@ from mnclab.design.difference.half_target import HalfTarget
 from mnclab.design.difference.table import Features
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.workpiece.turning import revolved
 from mnclab.workpiece.turning.turned import Turned
 

@@ -19,7 +19,7 @@ from mnclab.design.difference.turned_comparing import ALIKE, Compared, Looked, f
 from mnclab.design.model.measures import Measure
 from mnclab.design.model.turned_profile import Dimension
 from mnclab.design.model.turned_threads import Thread
-from mnclab.path.columns import Array, Index
+from mnclab.path.toolpath import Array, Index
 from mnclab.workpiece.turning import revolved
 
 FORM = "form"

@@ -7,7 +7,7 @@ import numpy as np
 from mnclab.design.difference.columns import Columns, columns
 from mnclab.design.difference.deviations import Seen
 from mnclab.design.difference.rays import sides
-from mnclab.path.columns import Array, Mask
+from mnclab.path.toolpath import Array, Mask
 from mnclab.workpiece.milling.volumes import ROUGH
 
 LATTICES = ((89, 55), (55, 34), ROUGH, (13, 8), (8, 5))  # points in a cell, and their turn

@@ -12,7 +12,7 @@ from mnclab.design.drawing.dimensions import Point
 from mnclab.design.drawing.frame import Printed, inside
 from mnclab.design.drawing.layout import Laid
 from mnclab.design.drawing.sheet import Size
-from mnclab.geometry.vectors import Floats
+from mnclab.geometry.curves import Floats
 
 LEAST, MOST = 8.0, 22.0  # mm between views with all that is written to them
 EDGE = 4.0  # mm between the frame and what stands within

@@ -15,7 +15,7 @@ from mnclab.design.drawing.lettering import block
 from mnclab.design.drawing.placing import LEADER
 from mnclab.design.drawing.view import Cut, Kind
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.vectors import Floats
+from mnclab.geometry.curves import Floats
 from mnclab.text.alarm import Alarm
 
 OUT = (6.0, 8.0, 13.5, 20.5, 27.5, 34.5, 41.5, 48.5, 55.5)  # mm from the view to the end of the line: between the rows

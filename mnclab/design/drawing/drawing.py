@@ -26,7 +26,7 @@ from mnclab.design.drawing.ink import corners_of
 from mnclab.design.drawing.layout import Laid, NoRoom, lay_out
 from mnclab.design.drawing.sheet import SCALES, SIZES, Size, Table, Title, scale_text
 from mnclab.design.drawing.view import View
-from mnclab.geometry.vectors import Floats
+from mnclab.geometry.curves import Floats
 from mnclab.show.export_part import named
 from mnclab.show.given_away import whole
 from mnclab.show.plot.picture import Picture

@@ -20,8 +20,8 @@ from mnclab.design.drawing.levels import Levels
 from mnclab.design.model.slabs import Slab
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
-from mnclab.geometry.vectors import Floats
 
 SAME = 1e-6  # mm, within which two places are one
 LEAN = 1e-3  # within which two slopes are one

@@ -19,7 +19,7 @@ from mnclab.design.drawing.ink import Arrow, Label, Stroke, corners_of
 from mnclab.design.drawing.lettering import CAPITAL, FACE
 from mnclab.design.drawing.view import Kind
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.vectors import Floats
+from mnclab.geometry.curves import Floats
 
 MM = 72 / 25.4  # points to a millimetre
 INCH = 25.4

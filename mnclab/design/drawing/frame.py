@@ -19,7 +19,7 @@ from mnclab.design.drawing.lettering import ASCENT, HEIGHT, PITCH, SMALL, block,
 from mnclab.design.drawing.sheet import LEFT, MARGIN, Size, Table, Title, scale_text
 from mnclab.design.drawing.view import Kind
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.vectors import Floats
+from mnclab.geometry.curves import Floats
 from mnclab.show.given_away import whole
 
 WIDTH, FOOT, HEAD, BESIDE = 180.0, 10.0, 24.0, 60.0  # mm: of the title block, its lower and upper row, the field on the left

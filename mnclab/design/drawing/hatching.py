@@ -9,8 +9,8 @@ import numpy as np
 
 from mnclab.design.drawing.ink import corners_of
 from mnclab.geometry import shapely
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
-from mnclab.geometry.vectors import Floats
 
 CHORD = 0.02  # mm on paper
 WIDE, CLOSE = 3.0, 1.2  # mm between the lines of a large face, of a small one

@@ -16,7 +16,7 @@ from mnclab.design.drawing.dimensions import Point
 from mnclab.design.drawing.lettering import Block
 from mnclab.design.drawing.view import Kind
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.vectors import Floats
+from mnclab.geometry.curves import Floats
 
 ARROW = 3.0  # mm, with an angle of 15°
 ARROW_HALF = ARROW * math.tan(math.radians(7.5))

@@ -24,7 +24,7 @@ from mnclab.design.drawing.placing import OUTLINE, SOFT, Batch, Ground, Offers, 
 from mnclab.design.drawing.sheet import scale_text
 from mnclab.design.drawing.view import Axis, Kind, Origin, View
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.vectors import Floats
+from mnclab.geometry.curves import Floats
 
 CHORD = 0.1  # mm on paper: as such chords lines stand in the way of texts
 WIDE = 0.3  # mm, of lines that others should not run along

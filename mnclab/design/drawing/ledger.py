@@ -15,8 +15,8 @@ from mnclab.design.drawing.origin import RADIUS
 from mnclab.design.drawing.sheet import Table
 from mnclab.design.drawing.view import Axis, Cross, Cut, Kind, Line, Origin, View
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
-from mnclab.geometry.vectors import Floats
 
 ORIGIN_BOX = RADIUS * np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])  # mm about the zero point
 BLANK = -1  # the number of the blank among the features

@@ -21,7 +21,7 @@ from mnclab.design.drawing.dimensions import Dimension, Linear, Point
 from mnclab.design.drawing.ink import ABOVE, ARROW, GAP, OVERSHOOT, Arrow, Label, Mark
 from mnclab.design.drawing.lettering import Block, value_block
 from mnclab.design.drawing.placing import DIMENSION, EXTENSION
-from mnclab.geometry.vectors import Floats
+from mnclab.geometry.curves import Floats
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import choice
 

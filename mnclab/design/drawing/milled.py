@@ -25,7 +25,7 @@ from mnclab.design.model.features import Feature, Groove, Hole, Pocket, Slope, S
 from mnclab.design.model.shapes import Circle, Rectangle
 from mnclab.design.model.threads import core_of
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.vectors import Floats
+from mnclab.geometry.curves import Floats
 from mnclab.workpiece.blank import Box
 
 FRONT = np.eye(3)

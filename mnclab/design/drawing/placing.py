@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.design.drawing.ink import AIR, NEAR, TIP, Box, Mark, line_box, segment_boxes
-from mnclab.geometry.vectors import Floats
+from mnclab.geometry.curves import Floats
 
 OUTLINE, SOFT, TEXT, ARROW, DIMENSION, EXTENSION, LEADER = range(7)  # the parts of a drawing; soft: hidden and centre lines
 Whole = NDArray[np.intp]

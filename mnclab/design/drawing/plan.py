@@ -9,10 +9,9 @@ from numpy.typing import NDArray
 
 from mnclab.design.drawing.levels import Levels
 from mnclab.design.model.removals import Slant, Wedge
-from mnclab.geometry.apart import Where, joined, where
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.regions import Region
-from mnclab.geometry.vectors import Floats
+from mnclab.geometry.curves import Floats
+from mnclab.geometry.regions import Region, Where, joined, where
 
 NEAR = 1e-6  # mm, within which a line lies on another
 SPOTS = np.array([0.02, 0.25, 0.5, 0.75, 0.98])  # of an element, by which is told whether all of it does

@@ -19,8 +19,8 @@ from mnclab.design.model.turned_design import TurnedDesign
 from mnclab.design.model.turned_features import Bore, FaceGroove
 from mnclab.design.model.turned_threads import Thread
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
-from mnclab.geometry.vectors import Floats
 
 FAR = 1e6  # mm
 SKY = np.diag([1.0, -1.0, 1.0])  # depth grows from outside to the axis

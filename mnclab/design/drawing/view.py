@@ -20,8 +20,8 @@ import numpy as np
 
 from mnclab.design.drawing.dimensions import Dimension, Point
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
-from mnclab.geometry.vectors import Floats
 from mnclab.text.alarm import Alarm
 
 

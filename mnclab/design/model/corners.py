@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour, Floats
-from mnclab.geometry.vectors import cross, dot, length_of, unit_of
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats, cross, dot, length_of, unit_of
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown, whole
 

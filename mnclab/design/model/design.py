@@ -18,7 +18,7 @@ from mnclab.design.model.removals import Flat, Removal
 from mnclab.design.model.slabs import Stack
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, choice, fitting_class, shown
 from mnclab.text.tables import exactly, html_table

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.milled import Milled
 from mnclab.workpiece.part import Part

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.turning.turned import Turned
 

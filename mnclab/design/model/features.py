@@ -20,7 +20,7 @@ from mnclab.design.model.measures import Measure
 from mnclab.design.model.removals import Flat, Removal
 from mnclab.design.model.shapes import Circle, Rectangle, shape_of
 from mnclab.design.model.slopes import Slope
-from mnclab.geometry import shapes
+from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.text.alarm import Alarm
@@ -143,7 +143,7 @@ class Slot(Feature):
 
     @property
     def outline(self) -> Contour:
-        return shapes.slot(Contour([self.start, self.end], closed=False), self.width)
+        return contours.slot(Contour([self.start, self.end], closed=False), self.width)
 
     def _measures(self) -> Iterator[Measure]:
         (x0, y0), (x1, y1) = self.start, self.end
@@ -185,7 +185,7 @@ class Groove(Feature):
             pieces = []
             for start, end, bulge in zip(line.starts, line.ends, line.bulge):
                 with faults_as_alarms():
-                    pieces.append(shapes.slot(Contour([start, end], [bulge, 0.0], closed=False), self.width))
+                    pieces.append(contours.slot(Contour([start, end], [bulge, 0.0], closed=False), self.width))
             return Region.union_of(*pieces)
         whole = area_of(self.contour, "the contour of a groove")
         return whole.offset(half).difference(whole.inset(half))

@@ -12,11 +12,11 @@ from functools import cached_property
 
 import numpy as np
 
-from mnclab.geometry import shapes
+from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.signed import contains, signed
-from mnclab.path.columns import Array, Mask
+from mnclab.path.toolpath import Array, Mask
 
 NOTHING = Region(())
 TINY = 1e-6  # mm, by which a section is wide that is none
@@ -220,7 +220,7 @@ class Wedge(_Sloped):
         """The part of the rectangle within `out` mm of the deep edge."""
         (x, y), (c, s) = self.start, self.ahead
         middle = x + c * out / 2, y + s * out / 2
-        return shapes.rectangle(out, self.width, 0.0, centre=middle, angle=math.atan2(s, c))
+        return contours.rectangle(out, self.width, 0.0, centre=middle, angle=math.atan2(s, c))
 
     def section(self, z: float) -> Region:
         """What it takes away at a height between both ends."""

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from mnclab.design.model.measures import Measure
-from mnclab.geometry import shapes
+from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, faults_as_alarms, plain, shown
@@ -52,7 +52,7 @@ class Rectangle:
     def contour(self) -> Contour:
         """Closed, counter-clockwise."""
         turned = np.radians(self.turned)
-        return shapes.rectangle(self.length, self.width, self.corner, centre=(self.x, self.y), angle=turned)
+        return contours.rectangle(self.length, self.width, self.corner, centre=(self.x, self.y), angle=turned)
 
     def measures(self) -> Iterator[Measure]:
         yield Measure("length", self.length)

@@ -15,10 +15,9 @@ import numpy as np
 
 from mnclab.design.model.removals import NOTHING, Flat, Removal, Slant, Slanting
 from mnclab.design.model.slanted import slanted_off
-from mnclab.geometry.apart import less
-from mnclab.geometry.regions import Region
+from mnclab.geometry.regions import Region, less
 from mnclab.geometry.signed import signed
-from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.toolpath import Array, Index, Mask
 
 THIN = 1e-9  # mm, of a slab that is none
 

@@ -14,11 +14,9 @@ import numpy as np
 
 from mnclab.design.model.removals import TINY, Slant, Slanting, Wedge
 from mnclab.geometry import shapely
-from mnclab.geometry.apart import CLEAR, rough
-from mnclab.geometry.bands import bands_beside
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.regions import Region
-from mnclab.geometry.tracing import covered, polygons_of
+from mnclab.geometry.regions import EDGES_APART, Region, rough
+from mnclab.geometry.tracing import bands_beside, covered, polygons_of
 
 SAME = 1e-9  # of an area, and mm
 ROUNDED = 1e-8  # of an area, by which corners that are rounded to 1e-9 mm may change it
@@ -51,7 +49,7 @@ def _groups(widest: list[Region]) -> list[list[int]]:
     bodies = [rough(each) for each in widest]
     group = list(range(len(widest)))
     for i, k in combinations(range(len(widest)), 2):
-        if group[i] != group[k] and shapely.dwithin(bodies[i], bodies[k], CLEAR):
+        if group[i] != group[k] and shapely.dwithin(bodies[i], bodies[k], EDGES_APART):
             group = [group[i] if each == group[k] else each for each in group]
     return [[k for k, each in enumerate(group) if each == which] for which in dict.fromkeys(group)]
 

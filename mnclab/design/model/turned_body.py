@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
 from mnclab.text.alarm import Alarm
 from mnclab.workpiece.turning import revolved

@@ -18,7 +18,7 @@ from mnclab.design.model.turned_body import SAME, TurnedBody
 from mnclab.design.model.turned_features import TURNED_FEATURES, Thread, TurnedFeature
 from mnclab.design.model.turned_profile import Dimension, Profile
 from mnclab.geometry.contours import Contour
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_point, faults_as_alarms, fitting_class, plain, shown
 from mnclab.text.tables import exactly, html_table

@@ -21,7 +21,7 @@ from mnclab.design.plot.difference_marks import draw_marks, marks_of
 from mnclab.design.plot.difference_sections import FULL, Magnified, draw_magnified, sections_of
 from mnclab.design.plot.difference_table import draw_table, lines_of, wide_of
 from mnclab.geometry.contours import Contour
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import number
 from mnclab.show.plot.picture import LINE, SCALE, SIZE, SMALL, VIEWS, Foot, Picture, arrange, dress, write_legend

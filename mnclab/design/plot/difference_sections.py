@@ -12,7 +12,7 @@ from matplotlib.patches import PathPatch
 
 from mnclab.design.difference.difference import Difference
 from mnclab.geometry.regions import Region
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 from mnclab.show.plot.classes import number
 from mnclab.show.plot.picture import SMALL
 from mnclab.show.plot.sections import ACROSS, CARD, FACE, HATCH, Section, outline_of

@@ -16,7 +16,7 @@ from mnclab.design.recognition.sorting import Cone
 from mnclab.design.recognition.tracks import distinct
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 from mnclab.text.alarm import Alarm
 
 

@@ -11,8 +11,8 @@ import numpy as np
 
 from mnclab.design.model.shapes import Circle, Outline, Rectangle
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.vectors import cross
-from mnclab.path.columns import Array
+from mnclab.geometry.curves import cross
+from mnclab.path.toolpath import Array
 
 SAME = 1e-6  # mm, within which two sizes are one
 ALIKE = 1e-6  # rad, of two directions

@@ -11,7 +11,7 @@ import numpy as np
 
 from mnclab.design.recognition.tracks import Track
 from mnclab.geometry.contours import FULL_TURN
-from mnclab.path.columns import Mask
+from mnclab.path.toolpath import Mask
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.moves import STILL, Moves, moves_of
 

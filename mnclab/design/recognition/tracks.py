@@ -16,8 +16,8 @@ import numpy as np
 
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import FULL_TURN, Contour
+from mnclab.geometry.curves import at_angle
 from mnclab.geometry.regions import Region
-from mnclab.geometry.vectors import at_angle
 
 ROUND = 1e-7  # mm, within which places are one
 THIN = 0.01  # mm, of half a strip that does not matter

@@ -15,8 +15,8 @@ from mnclab.design.recognition.naming import designation, lines, names
 from mnclab.design.recognition.outlines import DIGITS, merged, number
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.path.columns import Mask
 from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Mask
 from mnclab.text.alarm import Alarm
 from mnclab.workpiece.blank import Revolved
 from mnclab.workpiece.cutting import Cutting

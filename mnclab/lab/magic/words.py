@@ -21,7 +21,7 @@ from mnclab.lab.magic.cell import options
 from mnclab.lab.vocabulary import meaning_at, vocabulary
 from mnclab.machine.control import Control
 from mnclab.machine.setup import Setup
-from mnclab.path.machine_file import machines
+from mnclab.path.limits import machines
 from mnclab.text.alarm import Alarm
 
 MOST = 500  # files of a folder

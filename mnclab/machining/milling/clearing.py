@@ -12,7 +12,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
 from mnclab.text.alarm import several
 

@@ -13,7 +13,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mnclab.geometry import shapes
+from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.machining.depths import TooMany
@@ -51,11 +51,11 @@ def rectangle(
     passes = []
     if abs(a - b) > DRIFT:
         far = np.array([(a - least, 0.0), (0.0, b - least)][int(a < b)])
-        passes.append(Contour(shapes.placed(np.array([far, -far, far]), centre, angle), closed=False))
+        passes.append(Contour(contours.placed(np.array([far, -far, far]), centre, angle), closed=False))
     for i in range(1, n + 1):
         back = least * (n - i) / n
         sides, round_off = (2 * (a - back), 2 * (b - back)), max(0.0, inner - back)
-        ring = shapes.rectangle(*sides, round_off, centre=centre, angle=angle, begin=axis)
+        ring = contours.rectangle(*sides, round_off, centre=centre, angle=angle, begin=axis)
         passes.append(ring if climb else ring.reversed())
     return _from_the_centre(passes, "ring", radius, centre)
 
@@ -80,10 +80,10 @@ def slot(
     exact = abs(width - 2 * radius) <= DRIFT
     reach = 0.0 if exact else width / 2 - radius - allowance
     _must_fit(reach, radius, allowance, f"a slot {width:g} wide")
-    if not shapes.is_smooth(line):
+    if not contours.is_smooth(line):
         raise ValueError("a slot has a centre line of one straight line or one arc")
     n = steps(reach, stepover or radius)
-    rounds = [shapes.slot(line, 2 * reach * i / n) for i in range(1, n + 1)]
+    rounds = [contours.slot(line, 2 * reach * i / n) for i in range(1, n + 1)]
     passes = [line, *(ring if climb else ring.reversed() for ring in rounds)]
     return joined(passes, ("centre line", *numbered("ring", n)), radius, Region(tuple(rounds[-1:])))
 

@@ -11,7 +11,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats
 from mnclab.machining.steps import Along
 
 SAME = 1e-9

@@ -18,7 +18,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats
 from mnclab.machining.depths import MOST, TooMany
 from mnclab.machining.milling.clearing import Piece, begin
 from mnclab.machining.steps import Go, Step, Turn

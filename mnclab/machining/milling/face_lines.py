@@ -15,8 +15,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mnclab.geometry.contours import Contour
-from mnclab.geometry.shapes import placed
+from mnclab.geometry.contours import Contour, placed
 from mnclab.machining.depths import MOST
 from mnclab.machining.milling.clearing import Clearing, joined, numbered
 from mnclab.machining.milling.concentric import steps

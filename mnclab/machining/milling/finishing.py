@@ -12,9 +12,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mnclab.geometry.contours import Contour
-from mnclab.geometry.shapes import QUARTER
-from mnclab.geometry.vectors import cross, left
+from mnclab.geometry.contours import QUARTER, Contour
+from mnclab.geometry.curves import cross, left
 from mnclab.machining.milling.clearing import end
 
 LEAST = 1e-6  # mm, of an arc up to a wall or off it

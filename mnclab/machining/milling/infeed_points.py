@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from mnclab.geometry import shapely
-from mnclab.geometry.contours import Floats
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import polygons
 from mnclab.machining.milling.terraces import Terrace

@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour, placed
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
-from mnclab.geometry.scanning import scan
-from mnclab.geometry.shapes import placed
+from mnclab.geometry.sweeps import scan
 from mnclab.machining.milling.clearing import (
     SLACK,
     Clearing,

@@ -20,7 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import shapely
-from mnclab.geometry.contours import Contour, Floats, joined
+from mnclab.geometry.contours import Contour, joined
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import broad, covered, polygons
 from mnclab.machining.milling.clearing import Clearing, Piece, begin, end, numbered, tool_centres

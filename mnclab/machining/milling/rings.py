@@ -17,10 +17,9 @@ from itertools import count
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Curve, Floats, cross, left
 from mnclab.geometry.regions import Region
-from mnclab.geometry.vectors import cross, left
-from mnclab.geometry.whole_curves import Curve
 from mnclab.machining.milling.clearing import NOWHERE, Clearing, Piece, links, numbered, piecewise
 from mnclab.machining.milling.infeed_points import roomiest
 

@@ -14,10 +14,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mnclab.geometry.contours import Contour, Floats, steps_within
+from mnclab.geometry.contours import Contour, steps_within
+from mnclab.geometry.curves import Floats, cross
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, polygons, stays
-from mnclab.geometry.vectors import cross
 from mnclab.machining.milling import concentric
 from mnclab.machining.milling.clearing import Clearing, Piece, joined, links, numbered, piecewise
 from mnclab.machining.milling.rings import Ring, rings_in_order

@@ -18,9 +18,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.geometry.contours import Contour, Floats
-from mnclab.geometry.strips import strip
-from mnclab.geometry.vectors import cross, left, length_of, turned
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats, cross, left, length_of, turned
+from mnclab.geometry.sweeps import strip
 from mnclab.machining.depths import TooMany
 from mnclab.machining.milling.clearing import Clearing, joined
 from mnclab.machining.milling.finishing import half_circles

@@ -20,7 +20,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import Skeleton, skeleton
 from mnclab.machining.milling.clearing import Clearing, Piece, links, numbered, piecewise, round_walls

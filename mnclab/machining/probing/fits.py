@@ -15,8 +15,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from mnclab.geometry.circle_through import round_through
-from mnclab.geometry.vectors import turned
+from mnclab.geometry.arcs import round_through
+from mnclab.geometry.curves import turned
 from mnclab.machining.probing.found import Circle, Line, Plane, Point, Rectangle, Sphere, Width
 from mnclab.machining.probing.given import FARTHEST, SAME, Floats, Points, Vector, number, numbers, points_of, unit
 from mnclab.text.alarm import Alarm

@@ -12,8 +12,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from mnclab.geometry.frames import Matrix
-from mnclab.geometry.tilting import angles_of
+from mnclab.geometry.frames import Matrix, angles_of
 from mnclab.machining.probing.given import Floats, Points, Vector, numbers, unit
 from mnclab.text.alarm import Alarm
 

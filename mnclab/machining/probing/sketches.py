@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.vectors import turned
+from mnclab.geometry.curves import turned
 from mnclab.machining.probing.found import Circle, Rectangle, Width
 from mnclab.machining.probing.given import Floats
 from mnclab.machining.steps import Sketch

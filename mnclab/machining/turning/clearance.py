@@ -10,7 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.sweeps import CHORD_ERROR, broad, swept, under
 from mnclab.machining.turning.strokes import PLUNGE, RAPID, ROUGH, Plan, Stroke
 from mnclab.path.inserts import edges_of

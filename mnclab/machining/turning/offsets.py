@@ -17,8 +17,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.vectors import left
-from mnclab.geometry.whole_curves import Curve
+from mnclab.geometry.curves import Curve, left
 from mnclab.machining.turning.profiles import SAME, Stretch, checked, stretches, uppermost
 
 

@@ -20,8 +20,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.geometry import vectors
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry import curves
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats
 from mnclab.path.inserts import angles_of
 from mnclab.path.tool import Tool
 
@@ -179,20 +180,20 @@ def _crossings(table: Floats) -> Floats:
     """The z at which stretches cross, and none else that counts: those nearest to each other where they do not."""
     right, left, r, end, _, _, radius = table
     start, centre, ahead = table[[0, 2]].T, table[4:6].T, np.stack([left - right, end - r], axis=1)
-    ahead /= vectors.length_of(ahead)[:, None]
+    ahead /= curves.length_of(ahead)[:, None]
     one, other = np.nonzero(np.triu(np.minimum.outer(right, right) > np.maximum.outer(left, left), 1))
     line, ring = np.where(radius[one] != 0, (other, one), (one, other))
     with np.errstate(divide="ignore", invalid="ignore"):
         between = centre[ring] - centre[line]
-        apart = vectors.length_of(between)[:, None]
+        apart = curves.length_of(between)[:, None]
         share = (1 + (radius[line] ** 2 - radius[ring] ** 2)[:, None] / apart**2) / 2
         is_line = radius[line, None] == 0  # two circles cross on their radical line
         point = np.where(is_line, start[line], centre[line] + share * between)
-        way = np.where(is_line, ahead[line], vectors.left(between / apart))
+        way = np.where(is_line, ahead[line], curves.left(between / apart))
         foot = ((centre[ring] - point) * way).sum(axis=1)
-        off = vectors.length_of(point + foot[:, None] * way - centre[ring])
+        off = curves.length_of(point + foot[:, None] * way - centre[ring])
         half = np.sqrt(np.maximum(radius[ring] ** 2 - off**2, 0.0))
-        along = vectors.cross(start[ring] - point, ahead[ring]) / vectors.cross(way, ahead[ring])  # of two lines
+        along = curves.cross(start[ring] - point, ahead[ring]) / curves.cross(way, ahead[ring])  # of two lines
         z = point[:, 0] + np.where(radius[ring] == 0, along, (foot - half, foot + half)) * way[:, 0]
     return z[(z < np.minimum(right[line], right[ring])) & (z > np.maximum(left[line], left[ring]))]
 

@@ -22,7 +22,7 @@ lies close by along the contour, `open_ends` for where it begins and ends, `heig
 
 from __future__ import annotations
 
+from mnclab.path.compensation.elements import ACUTE, CORNER, ROUND, STRAIGHT, Compensation, Gouge, Report
 from mnclab.path.compensation.moving_ends import apply
-from mnclab.path.compensation.rules import ACUTE, CORNER, ROUND, STRAIGHT, Compensation, Gouge, Report
 
 __all__ = ["ACUTE", "CORNER", "ROUND", "STRAIGHT", "Compensation", "Gouge", "Report", "apply"]

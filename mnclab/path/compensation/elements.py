@@ -1,21 +1,95 @@
-"""The rows of a path that move in the plane, as elements of a contour."""
+"""The rows of a path that move in the plane, as elements of a contour; and the rules that all parts of the pass share."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.geometry.curves import Curves
-from mnclab.geometry.offsets import Element, beside
-from mnclab.geometry.vectors import dot, left
-from mnclab.path.columns import Array, Index, Mask
-from mnclab.path.compensation.rules import STRAIGHT
+from mnclab.geometry.curves import Curves, Element, beside, dot, left
 from mnclab.path.corners import Prolonged
 from mnclab.path.plane import PlaneView
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Array, Index, Mask, PathFault, Toolpath
 
+# What controls differ in when they compensate the radius, and the words that all parts of the pass share.
+
+TANGENT = np.radians(0.001)  # corners that turn less are none (setting tangent_tolerance of the MNC)
+CUSP = np.radians(170)  # where arcs turn back by more, not the turn but what the elements do beside it counts
+CLEAR = 1e-6  # mm: nearer to its neighbours than its radius less this the tool cuts into them
+ACUTE_TURN = np.pi / 2 + TANGENT  # a corner that turns more is acute
+SPIKE_TURN = np.radians(170)  # straight corners that turn more are worth a notice (MNC-G161-SPIKE)
+CORNER = "outside corner"  # label of inserted arcs
+
+#: Values of the column `corner_rule`: how outside corners are joined (MNC: G160, G161, G162).
+ROUND, STRAIGHT, ACUTE = 0, 1, 2
+
+
+@dataclass(frozen=True)
+class Compensation:
+    """How a control enters, leaves and changes the equidistant.
+
+    `approach` "perpendicular": the entry ends, and the exit begins, square to the contour; "corner": outside, the
+    first and last corners are built like any other (MNC tables 7.1 and 7.3). `rapid`: entry and exit may run at
+    rapid. `change`: the side may change on the way, by a straight line that leads over like an entry. `arc_entry`: it
+    may begin with an arc, which becomes one about another centre that ends square to the contour. `straight_exit`: the exit
+    begins where the offset of the last element ends, whatever the corner. `look_ahead`: the whole contour is looked at, else
+    each element with its neighbours only (and always what a cusp leads back to). A joint counts as tangent below `TANGENT`,
+    0.001 degrees; any greater turn is a corner and is built exactly.
+    """
+
+    approach: str = "perpendicular"
+    rapid: bool = False
+    change: bool = False
+    look_ahead: bool = False
+    arc_entry: bool = False
+    straight_exit: bool = False
+
+    def chosen(self, settings: Mapping[str, Any]) -> Compensation:
+        """These rules as the settings of a control have them."""
+        own = settings.get("compensation_leads") == "linuxcnc"
+        return replace(self, arc_entry=True, straight_exit=True) if own else self
+
+
+class Gouge(NamedTuple):
+    """A place where the tool does not fit.
+
+    `kind` is "arc", "element", "neighbour", "bottleneck", "end", "corner", "entry" or "exit"; `line` and `step` are
+    those of the block in which the tool would cut into the contour, `other` is the line that it would cut into.
+    `place` (x, y, z) is the point of the contour, mm; `width` mm is what there is and `missing` mm what it lacks;
+    `largest` is the largest radius for the whole contour, from its entry to its exit or change of side.
+    """
+
+    kind: str
+    line: int
+    step: int
+    other: int
+    place: tuple[float, float, float]
+    radius: float
+    width: float
+    missing: float
+    largest: float
+    message: str
+    hint: str = ""
+
+    def __repr__(self) -> str:
+        return f"<Gouge line {self.line}: {self.message}>"
+
+
+@dataclass
+class Report:
+    """What the pass has to say: places that do not fit, and remarks at a step."""
+
+    gouges: list[Gouge] = field(default_factory=list)
+    notices: list[PathFault] = field(default_factory=list)
+
+    def remarks(self) -> list[tuple[str, int, str]]:
+        return [(g.message, g.step, g.hint) for g in self.gouges] + [(n.message, n.step, n.hint) for n in self.notices]
+
+
+# The rows of a path that move in the plane, as elements of a contour.
 
 class Elements(NamedTuple):
     """n elements in the order of travel, lengths in mm, angles in rad.
@@ -121,3 +195,100 @@ def _corner_rules(path: Toolpath, take: Index | slice) -> NDArray[np.uint8]:
     rule, joint = path.corner_rule[take].copy(), path.joint[take]
     rule[1:][np.array([*prolonged, False])[joint[:-1]]] = STRAIGHT
     return rule
+
+
+# Heights of the tool: a tool cuts into an element only where it goes as deep.
+# Two elements *meet* if there is a height, along the normal of the plane, that the tip of the tool has in both. What is
+# done at other heights is another pass, a way in the air or a step of the part: a pass below another one takes away what
+# the program tells it to, and a retracted tool crosses above everything. On a ramp the tool works all the way down, so an
+# element that descends also meets what follows it without a lift or a plunge, however much deeper.
+
+SAME = 1e-6  # mm
+
+
+def meet(el: Elements, i: Index, j: Index) -> Mask:
+    """Whether elements i and j (m,) meet."""
+    first, last = np.minimum(i, j), np.maximum(i, j)
+    result = _overlap(*_range(el, first), *_range(el, last))
+    k = np.flatnonzero(~result & (el.to_height[first] < el.from_height[first] - SAME))
+    if len(k):
+        result[k] = _way_down(el)[first[k]] == _way_down(el)[last[k]]
+    return result
+
+
+def at_height(el: Elements, height: float, k: Index) -> Mask:
+    """Which of the elements k (m,) have a height."""
+    return _overlap(np.full(len(k), height), np.full(len(k), height), *_range(el, k))
+
+
+def retracted(el: Elements, contour: Index) -> Mask:
+    """Which elements (n,) run higher than their contour does both before and after them."""
+    n, low = len(el.rows), np.minimum(el.from_height, el.to_height)
+    result = np.zeros(n, dtype=bool)
+    changes = np.flatnonzero(np.diff(low))  # a contour at one height has no such way
+    for k in np.unique(contour[changes]):
+        a = int(np.searchsorted(contour, k))
+        z = low[a : int(np.searchsorted(contour, k, "right"))]
+        before, after = np.minimum.accumulate(z), np.minimum.accumulate(z[::-1])[::-1]
+        result[a : a + len(z)] = (z > before + SAME) & (z > after + SAME)
+    return result
+
+
+def _range(el: Elements, k: Index) -> tuple[Array, Array]:
+    return np.minimum(el.from_height[k], el.to_height[k]), np.maximum(el.from_height[k], el.to_height[k])
+
+
+def _overlap(low: Array, high: Array, other_low: Array, other_high: Array) -> Mask:
+    return np.asarray((low <= other_high + SAME) & (other_low <= high + SAME))
+
+
+def _way_down(el: Elements) -> Index:
+    """Numbers (n,) that are the same along every way that goes on without rising and without a move along the normal."""
+    new = el.to_height > el.from_height + SAME
+    new[1:] |= np.abs(el.from_height[1:] - el.to_height[:-1]) > SAME
+    return np.cumsum(new, dtype=np.int64)
+
+
+# Places where the tool does not fit, and how large a tool would.
+
+EXACT = 1e-9  # mm
+HINT = "take a smaller tool"
+
+
+class Places(NamedTuple):
+    """m places of one kind that do not fit: the elements concerned, the ones they cut into, the width that is there,
+    what is missing (mm), and the largest radius for the place alone (all (m,)), with the words for them."""
+
+    kind: str
+    k: Index
+    other: Index
+    width: Array
+    missing: Array
+    largest: Array
+    message: str
+    hint: str = HINT
+
+
+def narrowed(fits: Callable[[Index, Array], Mask], radius: Array, parts: int = 16) -> Array:
+    """The largest radii (m,) below the given ones for which something fits, by dividing the interval again and again.
+    `fits(which, radius)` tells for the things `which` (n,) of the m whether they fit (n,); all fit at zero."""
+    m = len(radius)
+    low, high, which = np.zeros(m), radius.copy(), np.repeat(np.arange(m), parts - 1)
+    steps = np.arange(1, parts) / parts
+    for _ in range(14):
+        width = high - low
+        tried = low[:, None] + width[:, None] * steps
+        good = fits(which, tried.ravel()).reshape(m, parts - 1)
+        first = np.where(good.all(axis=1), parts - 1, np.argmin(good, axis=1))  # the first that does not fit
+        low, high = low + width * first / parts, np.where(first < parts - 1, low + width * (first + 1) / parts, high)
+        if (high - low <= 1e-13 * radius).all():
+            break
+    return low
+
+
+def misfit(el: Elements) -> Array:
+    """By how much the end of each arc misses its circle (n,), mm: the tolerance of programmed centres."""
+    slack = np.zeros(len(el.rows))
+    k = np.flatnonzero(el.arc)
+    slack[k] = np.abs(np.hypot(*(el.end[k] - el.centre[k]).T) - el.r[k])
+    return slack

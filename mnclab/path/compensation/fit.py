@@ -17,23 +17,26 @@ from __future__ import annotations
 import numpy as np
 
 from mnclab.geometry.chords import Chunks, Walls, chunks, facing
-from mnclab.geometry.curves import Curves, distance, nearest, part
-from mnclab.geometry.offsets import beside
-from mnclab.path.columns import Array, Index, Mask
+from mnclab.geometry.curves import Curves, beside, distance, nearest, part
 from mnclab.path.compensation import neighbours
-from mnclab.path.compensation.elements import Elements
-from mnclab.path.compensation.equidistant import Equidistant
-from mnclab.path.compensation.heights import meet
-from mnclab.path.compensation.joining import ends, remaining
-from mnclab.path.compensation.open_ends import arrivals, cut_off, rolled
-from mnclab.path.compensation.passes import crossed, cuts, given_up, run_past
-from mnclab.path.compensation.places import EXACT, HINT, Places, misfit, narrowed
-from mnclab.path.compensation.rules import CLEAR, Compensation, Gouge, Report
-from mnclab.path.compensation.tips import clearance, near_tips
-from mnclab.path.fault import PathFault
-from mnclab.path.kinds import Rule
+from mnclab.path.compensation.elements import (
+    CLEAR,
+    EXACT,
+    HINT,
+    Compensation,
+    Elements,
+    Gouge,
+    Places,
+    Report,
+    meet,
+    misfit,
+    narrowed,
+)
+from mnclab.path.compensation.ends import arrivals, crossed, cut_off, cuts, given_up, rolled, run_past
+from mnclab.path.compensation.equidistant import Equidistant, ends, remaining
+from mnclab.path.compensation.neighbours import near_tips, tip_clearance
 from mnclab.path.plane import PlaneView
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Array, Index, Mask, PathFault, Rule, Toolpath
 
 NO_TOOL = 0.001  # mm; below, no tool is as small
 SPOTS = 101  # of a row, where it is nearest to a wall
@@ -263,9 +266,9 @@ def _tips(found: Equidistant, contour: Index) -> list[Places]:
     c, w = c[same], w[same]
     if not len(c):
         return []
-    lack = -clearance(el, c, w, el.R[c], rules)
+    lack = -tip_clearance(el, c, w, el.R[c], rules)
     bad = lack > EXACT + misfit(el)[w]
     c, w, lack = c[bad], w[bad], lack[bad]
-    largest = narrowed(lambda at, R: clearance(el, c[at], w[at], R, rules) >= 0, el.R[c])
+    largest = narrowed(lambda at, R: tip_clearance(el, c[at], w[at], R, rules) >= 0, el.R[c])
     text = "the straight corner after this element leads the tool of radius {R:.4g} into the element of line {other}"
     return [Places("corner", c, w, el.R[c] - lack, lack, largest, text, "take a smaller tool, or G160")]

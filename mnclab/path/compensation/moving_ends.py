@@ -9,17 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.geometry.vectors import cross, dot
-from mnclab.path.columns import Array, Index, Mask, gathered
-from mnclab.path.compensation.elements import Elements
+from mnclab.geometry.curves import cross, dot
+from mnclab.path.compensation.elements import CLEAR, CORNER, SPIKE_TURN, TANGENT, Compensation, Elements, Report
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.fit import check
-from mnclab.path.compensation.rules import CLEAR, CORNER, SPIKE_TURN, TANGENT, Compensation, Report
 from mnclab.path.corners import Open
-from mnclab.path.fault import PathFault
-from mnclab.path.kinds import Kind, Rule
 from mnclab.path.plane import PlaneView
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Array, Index, Kind, Mask, PathFault, Rule, Toolpath, gathered
 
 
 def apply(

@@ -2,10 +2,10 @@
 
 1. `path.profile.motions`: what each row and each corner allows by itself.
 2. `path.profile.lookahead`: from that the speeds at the nodes between rows, by two scans.
-3. `path.profile.turns`: arcs that do not reach their feed are cut finer and planned again.
+3. `path.profile.lookahead`: arcs that do not reach their feed are cut finer and planned again.
 4. `path.profile.smooth`: under a jerk limit, S-curves over groups of rows instead of trapezoids; arcs are cut into
-   stages before (`path.profile.stages`).
-5. Rows without motion take their own time; rapids may run axis by axis (`path.profile.rapids`).
+   stages before (`path.profile.smooth`).
+5. Rows without motion take their own time; rapids may run axis by axis (`path.profile.ramps`).
 """
 
 from __future__ import annotations
@@ -14,17 +14,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index, Mask
-from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
-from mnclab.path.profile.bends import divided
-from mnclab.path.profile.lookahead import reachable
-from mnclab.path.profile.motions import PIECE, Rows, measure
-from mnclab.path.profile.rapids import Rapids
-from mnclab.path.profile.smooth import Groups, smooth
-from mnclab.path.profile.stages import staged
-from mnclab.path.profile.turns import FEWEST, PART, Turns
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.profile.lookahead import FEWEST, PART, Turns, reachable
+from mnclab.path.profile.motions import PIECE, Rows, divided, measure
+from mnclab.path.profile.ramps import Rapids
+from mnclab.path.profile.smooth import Groups, smooth, staged
+from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 from mnclab.text.given import check_number
 from mnclab.text.tables import shapes
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.path.travel import extents
+from mnclab.path.limits import extents
 from mnclab.runs.lint.once import once
 from mnclab.runs.material import cutting_of
 from mnclab.text.alarm import Alarm

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.path.kinds import Kind
+from mnclab.path.toolpath import Kind
 from mnclab.runs.lint.once import once
 from mnclab.text.alarm import Alarm
 

@@ -16,10 +16,9 @@ from typing import TYPE_CHECKING, NamedTuple, TypeGuard
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index, Mask
-from mnclab.path.kinds import Kind
+from mnclab.path.limits import extents
 from mnclab.path.tool import Tool
-from mnclab.path.travel import extents
+from mnclab.path.toolpath import Array, Index, Kind, Mask
 from mnclab.runs.lint.once import has, once
 from mnclab.runs.material import cutting_of
 from mnclab.text.alarm import Alarm

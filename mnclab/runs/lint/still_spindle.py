@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.path.kinds import Kind
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.text.alarm import WARNING, Alarm
 
 if TYPE_CHECKING:

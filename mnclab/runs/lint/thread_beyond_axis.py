@@ -14,10 +14,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index
-from mnclab.path.kinds import Kind
 from mnclab.path.listing import figure
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Array, Index, Kind, Toolpath
 from mnclab.runs.lint.once import once
 from mnclab.text.alarm import Alarm
 from mnclab.workpiece.turning.turned import Turned

@@ -7,9 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.path.columns import Mask
-from mnclab.path.kinds import Kind
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Kind, Mask, Toolpath
 from mnclab.runs.lint.once import once
 from mnclab.runs.written import blocks_with
 from mnclab.text.alarm import WARNING, Alarm

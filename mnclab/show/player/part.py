@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.path.kinds import Kind
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.show.player.logs import log, parted
 from mnclab.show.player.packing import Packer
 from mnclab.text.alarm import several

@@ -16,9 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.path.cylinder import parted_rapids
-from mnclab.path.kinds import Kind
 from mnclab.path.profile import Profile
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.show.felt import Felt
 from mnclab.show.given_away import named
 from mnclab.show.player.felt import felt_part, felt_touches

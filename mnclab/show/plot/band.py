@@ -9,8 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from mnclab.path.columns import Mask
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Mask, Toolpath
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.strokes import Array, Strokes, parted
 

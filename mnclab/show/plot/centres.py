@@ -13,9 +13,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import FancyArrowPatch
 
-from mnclab.path.columns import Array
-from mnclab.path.kinds import Kind
 from mnclab.path.listing import Unit
+from mnclab.path.toolpath import Array, Kind
 from mnclab.show.plot import colours
 from mnclab.show.plot.chains import Chains
 from mnclab.show.plot.overlay import across, fits, grown, line, texts

@@ -14,8 +14,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from mnclab.path.kinds import Kind
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.show.plot.strokes import Strokes
 from mnclab.text.alarm import quoted
 

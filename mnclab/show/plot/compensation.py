@@ -19,8 +19,7 @@ from matplotlib.patches import Patch
 
 from mnclab.path.compensation.construction import construct
 from mnclab.path.compensation.fit import NO_TOOL
-from mnclab.path.kinds import RULE_NAMES, Rule
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import RULE_NAMES, Rule, Toolpath
 from mnclab.show.plot import colours, ghost
 from mnclab.show.plot.clickable import told_by
 from mnclab.show.plot.equidistant import CORNERS, Panel, draw, write

@@ -13,8 +13,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch
 
-from mnclab.path.columns import Array
 from mnclab.path.listing import Unit
+from mnclab.path.toolpath import Array
 from mnclab.show.plot import colours
 from mnclab.show.plot.chains import LENGTH, ORIGINS
 from mnclab.show.plot.datums import Place, places_of

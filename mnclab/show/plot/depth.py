@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from mnclab.path.kinds import Kind
 from mnclab.path.listing import figure
+from mnclab.path.toolpath import Kind
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line
 from mnclab.show.plot.picture import SMALL, Picture, calm, write_legend

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.lines import Line2D
 
-from mnclab.path.kinds import Kind
+from mnclab.path.toolpath import Kind
 from mnclab.show.plot.colours import RAPID, Line, Mark
 from mnclab.show.plot.picture import SIZE, VIEWS, Foot, Picture, arrange, write_legend
 from mnclab.show.plot.sizes import sized

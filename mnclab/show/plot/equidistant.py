@@ -13,10 +13,8 @@ from matplotlib.axes import Axes
 from matplotlib.collections import EllipseCollection
 from matplotlib.lines import Line2D
 
-from mnclab.path.compensation.construction import Construction
-from mnclab.path.compensation.overcut import Overcut, overcuts
-from mnclab.path.kinds import RULE_NAMES, Kind, Rule
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.compensation.construction import Construction, Overcut, overcuts
+from mnclab.path.toolpath import RULE_NAMES, Kind, Rule, Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, write_names

@@ -14,9 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from mnclab.path.columns import Array
-from mnclab.path.kinds import Kind
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Array, Kind, Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import ramp
 from mnclab.show.plot.picture import SMALL, Picture, calm, write_legend

@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from mnclab.geometry.frames import shift
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 from mnclab.show import felt
 from mnclab.show.felt import Felt
 from mnclab.show.plot import colours

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch, Polygon
 
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 from mnclab.show.plot.overlay import fits, grown
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.sections import FIXTURE

@@ -6,8 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mnclab.path.kinds import Kind
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line
 from mnclab.show.plot.picture import VIEWS, Foot, View

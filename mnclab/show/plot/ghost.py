@@ -9,9 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.picture import View, roomy
 from mnclab.show.plot.strokes import Array, line_of

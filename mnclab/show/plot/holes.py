@@ -16,10 +16,8 @@ from matplotlib.axes import Axes
 from matplotlib.collections import EllipseCollection
 from matplotlib.lines import Line2D
 
-from mnclab.path.columns import Array, Mask
-from mnclab.path.kinds import Kind
 from mnclab.path.listing import Unit
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Array, Kind, Mask, Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.overlay import Overlay, across, grown, line
 from mnclab.show.plot.picture import View

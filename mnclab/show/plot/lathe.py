@@ -13,11 +13,10 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Patch, Polygon
 from numpy.typing import NDArray
 
-from mnclab.path.cutting_speed import spindle_speed
+from mnclab.path.feeds import spindle_speed
 from mnclab.path.inserts import as_drawn, lead_of
-from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.insert import STEEL, insert_patches
 from mnclab.show.plot.picture import SMALL, Picture

@@ -12,8 +12,8 @@ from matplotlib.collections import LineCollection, PathCollection, PolyCollectio
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.frames import Matrix, apply, inverse, turn
 from mnclab.geometry.regions import Region
-from mnclab.geometry.scanning import scan
-from mnclab.path.columns import Array
+from mnclab.geometry.sweeps import scan
+from mnclab.path.toolpath import Array
 from mnclab.show.felt import Sections
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.strategy import outline

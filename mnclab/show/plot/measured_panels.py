@@ -15,8 +15,8 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.frames import apply, inverse
-from mnclab.path.columns import Array
 from mnclab.path.listing import Unit
+from mnclab.path.toolpath import Array
 from mnclab.show.felt import touched_decimals
 from mnclab.show.plot.picture import VIEWS, View
 

@@ -11,9 +11,8 @@ from matplotlib.axes import Axes
 
 from mnclab.geometry import frames
 from mnclab.geometry.frames import FrameChain
-from mnclab.path.columns import Array
-from mnclab.path.kinds import Kind
 from mnclab.path.listing import Unit, figure
+from mnclab.path.toolpath import Array, Kind
 from mnclab.show.plot import colours
 from mnclab.show.plot.chains import Chains, without
 from mnclab.show.plot.overlay import across, fits, grown, line, texts

@@ -14,11 +14,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from mnclab.path.kinds import Kind
-from mnclab.path.limits import Limits
-from mnclab.path.machine_file import limits_of
+from mnclab.path.limits import Limits, limits_of
 from mnclab.path.tool import Tool
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.show.felt import Felt
 from mnclab.show.felt import felt as felt_of
 from mnclab.show.plot import arrows as heads

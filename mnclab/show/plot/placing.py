@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 from mnclab.show.plot import colours
 from mnclab.show.plot.picture import SMALL
 

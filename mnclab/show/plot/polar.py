@@ -10,8 +10,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from mnclab.geometry import frames
-from mnclab.path.columns import Array
 from mnclab.path.listing import Unit, figure
+from mnclab.path.toolpath import Array
 from mnclab.show.plot import colours
 from mnclab.show.plot.chains import Chains
 from mnclab.show.plot.overlay import across, fits, grown, line, texts

@@ -13,10 +13,10 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from mnclab.path.kinds import Kind
 from mnclab.path.listing import figure
 from mnclab.path.profile import Profile
-from mnclab.path.profile.bends import divided
+from mnclab.path.profile.motions import divided
+from mnclab.path.toolpath import Kind
 from mnclab.show.plot import colours, ghost
 from mnclab.show.plot.path import plot_path
 from mnclab.show.plot.picture import (

@@ -11,9 +11,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
-from mnclab.path.kinds import Kind
 from mnclab.path.listing import MM, Unit
 from mnclab.path.profile import Profile
+from mnclab.path.toolpath import Kind
 from mnclab.show.plot.picture import SMALL, Picture, calm, write_legend
 from mnclab.show.plot.profile import curve
 from mnclab.show.plot.sizes import sized

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.columns import Array, Mask
+from mnclab.path.toolpath import Array, Mask
 from mnclab.workpiece.milling.lattice import THIN, Lattice, heights_at, lattice_of, rows_at
 
 if TYPE_CHECKING:

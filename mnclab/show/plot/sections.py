@@ -14,7 +14,7 @@ from matplotlib.path import Path
 from matplotlib.patheffects import withStroke
 
 from mnclab.geometry.contours import Contour
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 from mnclab.show.plot import colours
 from mnclab.show.plot.picture import SMALL, VIEWS, View
 from mnclab.text.alarm import Alarm

@@ -11,7 +11,7 @@ from matplotlib.patches import Patch, Polygon
 from matplotlib.path import Path
 
 from mnclab.geometry.frames import shift
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 from mnclab.show.plot import colours
 from mnclab.show.plot.datums import places_of
 from mnclab.show.plot.material import draw_material

@@ -12,10 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
-from mnclab.path.profile.rapids import courses
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.profile.ramps import courses
+from mnclab.path.toolpath import Kind, Toolpath
 
 FINENESS = 10_000  # chord errors in the length of a path's box: about ten in a pixel
 BENT, SHORT = 1 / 2000, 1 / 200  # of the box: rapids that leave their line by less, or are shorter, are drawn straight
@@ -33,7 +32,7 @@ class Strokes(NamedTuple):
 def strokes(path: Toolpath, rapids: Limits | None = None) -> Strokes:
     """All motion of a path, arcs cut finely enough for a picture; a tool change parts the strokes.
 
-    Under the limits of `rapids` axes that do not wait for each other leave the straight line (see `path.profile.rapids`).
+    Under the limits of `rapids` axes that do not wait for each other leave the straight line (see `path.profile.ramps`).
     """
     motion = path.is_motion
     whole = bool(motion.all())

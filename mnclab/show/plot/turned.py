@@ -15,9 +15,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, PathPatch, Polygon
 
 from mnclab.geometry.contours import Contour
-from mnclab.path.columns import Array
 from mnclab.path.inserts import as_drawn, lead_of
 from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Array
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import number, ramp
 from mnclab.show.plot.insert import insert_patches, named_insert

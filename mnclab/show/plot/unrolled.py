@@ -18,8 +18,7 @@ from matplotlib.ticker import MultipleLocator
 
 from mnclab.geometry import shapely
 from mnclab.path.cylinder import Cylinder
-from mnclab.path.kinds import Kind
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.picture import SIZE, SMALL, VIEWS, Picture, arrange, dress, write_legend
 from mnclab.show.plot.sizes import sized

@@ -9,9 +9,7 @@ from typing import Any
 import numpy as np
 from matplotlib.lines import Line2D
 
-from mnclab.path.columns import Array
-from mnclab.path.kinds import Kind
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Array, Kind, Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line
 from mnclab.show.plot.path import plot_run

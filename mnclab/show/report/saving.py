@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from mnclab.path.machine_file import limits_of
+from mnclab.path.limits import limits_of
 from mnclab.show.report import gathering, sheets
 from mnclab.show.report.contents import Document
 from mnclab.show.report.page import html

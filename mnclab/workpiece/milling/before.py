@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index
+from mnclab.path.toolpath import Array, Index
 from mnclab.workpiece.milling.moves import Moves
 from mnclab.workpiece.milling.raster import AT_ONCE, near
 from mnclab.workpiece.milling.swept import left_by

@@ -13,8 +13,8 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from mnclab.path.columns import Mask
 from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Mask
 from mnclab.text.alarm import several
 from mnclab.workpiece.collision import Collision, Collisions, deep
 from mnclab.workpiece.cutting import Cutting

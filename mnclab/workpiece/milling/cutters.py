@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.path.columns import Array
 from mnclab.path.tool import POINTED, Tool
+from mnclab.path.toolpath import Array
 
 
 class Cutter(NamedTuple):

@@ -17,9 +17,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index
-from mnclab.path.kinds import Kind
-from mnclab.path.profile.bends import along
+from mnclab.path.profile.motions import along
+from mnclab.path.toolpath import Array, Index, Kind
 from mnclab.workpiece.ahead import Ahead
 from mnclab.workpiece.milling.before import Points, depths
 from mnclab.workpiece.milling.cutters import edge_height

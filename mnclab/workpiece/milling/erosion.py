@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.columns import Array, Index
+from mnclab.path.toolpath import Array, Index
 from mnclab.workpiece.milling.cutters import Cutter
 from mnclab.workpiece.milling.moves import Moves
 from mnclab.workpiece.milling.raster import Raster

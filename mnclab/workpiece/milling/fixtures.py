@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index
+from mnclab.path.toolpath import Array, Index
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.milling.bodies import TOLERANCE, Body, bodies_of
 from mnclab.workpiece.milling.cutters import Cutter

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 from mnclab.workpiece.milling.moves import STILL, Moves
 
 RIM = 1e-6  # mm, by which the outermost points lie inside the body

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.workpiece.milling.cutters import edge_height
 from mnclab.workpiece.milling.moves import Moves
 

@@ -9,9 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index, Mask
-from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Array, Index, Kind, Mask
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.before import Points, depths
 from mnclab.workpiece.milling.bodies import TOLERANCE, Body

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index
-from mnclab.path.kinds import Kind
+from mnclab.path.toolpath import Array, Index, Kind
 from mnclab.text.alarm import several
 from mnclab.workpiece.blank import Revolved
 from mnclab.workpiece.cutting import Cutting

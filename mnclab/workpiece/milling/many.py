@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.columns import Array, Index
+from mnclab.path.toolpath import Array, Index
 from mnclab.workpiece.milling.erosion import eroded
 from mnclab.workpiece.milling.sweep import Sweep
 from mnclab.workpiece.milling.tips import engaged

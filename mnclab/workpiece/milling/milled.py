@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry.contours import Contour
-from mnclab.path.columns import Array, Index
+from mnclab.path.toolpath import Array, Index
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, choice, shown
 from mnclab.workpiece.ahead import Ahead

@@ -9,10 +9,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index, Mask
-from mnclab.path.kinds import Kind
-from mnclab.path.points import points
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.places import points
+from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.cutters import Cutter, cutter_of
 

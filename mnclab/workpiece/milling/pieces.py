@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index
+from mnclab.path.toolpath import Array, Index
 from mnclab.workpiece.milling.moves import Moves
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index
+from mnclab.path.toolpath import Array, Index
 from mnclab.text.alarm import Alarm
 from mnclab.workpiece.milling.moves import Moves
 from mnclab.workpiece.milling.swept import left_by

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.columns import Array, Mask
+from mnclab.path.toolpath import Array, Mask
 from mnclab.workpiece.milling.cutters import Cutter, edge_height
 
 SNAP = math.sqrt(0.5)  # cells from a tip to the middle of its cell, at most

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mnclab.geometry.contours import Contour
-from mnclab.path.columns import Array, Mask
+from mnclab.path.toolpath import Array, Mask
 from mnclab.workpiece.milling.sweep import Sweep, grouped
 
 STRAIGHT = 1e-4  # mm

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.workpiece.milling.divided import divided
 from mnclab.workpiece.milling.lattice import Lattice, from_below, lattice_of, rows_at
 from mnclab.workpiece.workpiece import Solid

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index
+from mnclab.path.toolpath import Array, Index
 from mnclab.workpiece.milling.moves import Moves
 from mnclab.workpiece.milling.raster import SMALL, TILE, Raster, in_order, lowered, near
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mnclab.path.columns import Array
+from mnclab.path.toolpath import Array
 from mnclab.workpiece.effort import spend
 from mnclab.workpiece.milling.cutters import Cutter, edge_height
 from mnclab.workpiece.milling.helix import FULL_TURN, helix

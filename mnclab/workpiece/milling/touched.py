@@ -15,7 +15,7 @@ from itertools import chain
 
 import numpy as np
 
-from mnclab.path.columns import Array, Mask
+from mnclab.path.toolpath import Array, Mask
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.clamped import Clamped
 from mnclab.workpiece.milling.moves import STILL, Moves

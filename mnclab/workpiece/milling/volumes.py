@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.workpiece.milling.cutters import edge_height
 from mnclab.workpiece.milling.moves import Moves
 from mnclab.workpiece.milling.raster import NOISE, chunks, near

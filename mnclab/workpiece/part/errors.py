@@ -11,7 +11,7 @@ from functools import partial
 
 import numpy as np
 
-from mnclab.geometry.apart import less
+from mnclab.geometry.regions import less
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, choice, whole
 from mnclab.workpiece.part.part import Distance, Floats, Part

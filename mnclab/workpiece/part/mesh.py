@@ -18,7 +18,7 @@ import numpy as np
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.path.columns import Array, Index
+from mnclab.path.toolpath import Array, Index
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import read
 

@@ -7,9 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mnclab.geometry.apart import less
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.regions import Region
+from mnclab.geometry.regions import Region, less
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
 from mnclab.workpiece.part.part import AT_ONCE, Floats, Part

@@ -14,9 +14,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.geometry.apart import joined, less
 from mnclab.geometry.frames import IDENTITY, Matrix, inverse
-from mnclab.geometry.regions import Region
+from mnclab.geometry.regions import Region, joined, less
 from mnclab.geometry.signed import Edges, edges_of, from_arcs, from_lines, winding
 
 Floats = NDArray[np.float64]

@@ -8,11 +8,10 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mnclab.geometry.contours import Contour
+from mnclab.geometry.contours import Contour, rectangle
+from mnclab.geometry.contours import slot as slot_about
 from mnclab.geometry.frames import Matrix
 from mnclab.geometry.regions import Region
-from mnclab.geometry.shapes import rectangle
-from mnclab.geometry.shapes import slot as slot_about
 from mnclab.geometry.signed import signed
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, faults_as_alarms

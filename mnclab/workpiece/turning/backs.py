@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mnclab.geometry import shapely
-from mnclab.geometry.contours import Floats
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.sweeps import broad
 from mnclab.path.inserts import FACE, angles_of, mirror_of, usual
 from mnclab.path.tool import Tool

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.geometry.contours import Floats
+from mnclab.geometry.curves import Floats
 from mnclab.path.inserts import EDGE, cutting_part, mirror_of, turns
 from mnclab.path.tool import LATHE, Tool
 from mnclab.text.alarm import Alarm

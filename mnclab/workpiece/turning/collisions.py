@@ -16,12 +16,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mnclab.geometry import shapely
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.sweeps import CHORD_ERROR, broad
-from mnclab.path.columns import Index
 from mnclab.path.inserts import EDGE, turns
-from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Index, Kind
 from mnclab.workpiece.collision import Collision, Collisions, deep
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.turning.backs import TOLERANCE, Back, left_by_lean, taken_by_back

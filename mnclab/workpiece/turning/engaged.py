@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mnclab.geometry import shapely
-from mnclab.path.columns import Array, Index
-from mnclab.path.kinds import Kind
-from mnclab.path.profile.bends import along
+from mnclab.path.profile.motions import along
+from mnclab.path.toolpath import Array, Index, Kind
 from mnclab.workpiece.ahead import Ahead
 from mnclab.workpiece.turning.strokes import threads_of
 from mnclab.workpiece.turning.sweeping import Edge

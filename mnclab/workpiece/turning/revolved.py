@@ -12,7 +12,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.geometry.contours import Contour, Floats, steps_within
+from mnclab.geometry.contours import Contour, steps_within
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.workpiece import Solid

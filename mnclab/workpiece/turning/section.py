@@ -15,10 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import shapely
-from mnclab.geometry.contours import FULL_TURN, Contour, Floats, steps_within
+from mnclab.geometry.contours import FULL_TURN, Contour, steps_within
+from mnclab.geometry.curves import Curve, Floats, at_angle, unit_of
 from mnclab.geometry.tracing import labels, traced
-from mnclab.geometry.vectors import at_angle, unit_of
-from mnclab.geometry.whole_curves import Curve
 
 CHORD_ERROR = 2e-5  # mm, of the polylines: decides only what touches and what does not
 PLACES = 9  # decimals to which corners are rounded, so that nearly equal ones become equal

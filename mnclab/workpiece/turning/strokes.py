@@ -14,12 +14,10 @@ from typing import NamedTuple
 import numpy as np
 
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.vectors import length_of
-from mnclab.path.columns import Array
+from mnclab.geometry.curves import length_of
 from mnclab.path.inserts import FACE, as_drawn, cutting_part, turns
-from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.toolpath import Array, Kind, Toolpath
 from mnclab.text.alarm import several
 from mnclab.workpiece.cutting import CUTS, Cutting
 from mnclab.workpiece.turning.sweeping import Edge, Point, along_arc, along_line, edges, placed

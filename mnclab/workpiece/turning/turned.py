@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
-from mnclab.path.columns import Array, Index
+from mnclab.path.toolpath import Array, Index
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, choice, shown
 from mnclab.workpiece.ahead import Ahead

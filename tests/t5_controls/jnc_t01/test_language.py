@@ -9,7 +9,7 @@ from running import run
 import mnclab
 from mnclab import Kind
 from mnclab.controls.recognition import looks_like
-from mnclab.path.columns import COLUMNS
+from mnclab.path.toolpath import COLUMNS
 from mnclab.running.bulk import SHORTEST
 
 

@@ -12,7 +12,7 @@ from running import lines
 
 import mnclab
 from mnclab import Kind, Setup, Tool
-from mnclab.path.kinds import Rule
+from mnclab.path.toolpath import Rule
 
 TOOLS = {1: Tool(radius=2), 2: Tool(radius=1.5, dr=0.5), 3: Tool(dr=-2)}
 

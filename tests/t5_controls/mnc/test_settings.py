@@ -10,8 +10,7 @@ from running import lines, run
 
 import mnclab
 from mnclab import Alarm, Kind, Limits, Tool
-from mnclab.path.columns import COLUMNS
-from mnclab.path.kinds import Rule
+from mnclab.path.toolpath import COLUMNS, Rule
 from mnclab.running import bulk as tiers
 
 SETTINGS = {setting.name: setting for setting in mnclab.controls["mnc"].settings}

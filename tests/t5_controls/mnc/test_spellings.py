@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 import mnclab
 from mnclab import Alarm
-from mnclab.path.columns import COLUMNS
+from mnclab.path.toolpath import COLUMNS
 
 CONTOUR = """\
 G17 G90 G54 T1

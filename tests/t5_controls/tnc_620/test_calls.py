@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mnclab as mnc
-from mnclab.path.columns import COLUMNS
+from mnclab.path.toolpath import COLUMNS
 from mnclab.running import repeating
 from mnclab.running.interpreter import Interpreter
 

@@ -9,7 +9,7 @@ import pytest
 
 import mnclab as mnc
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.vectors import cross
+from mnclab.geometry.curves import cross
 
 TOOLS = {1: mnc.Tool(number=1, radius=3.5), 2: mnc.Tool(number=2, radius=4.0), 3: mnc.Tool(number=3, radius=5.0)}
 C27 = """0 BEGIN PGM C27 MM

@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import mnclab as mnc
-from mnclab.geometry import tilting
+from mnclab.geometry import frames
 
 EXAMPLES = [
     e
@@ -56,13 +56,13 @@ def test_automatic_positioning() -> None:
 def test_a_plane_of_three_angles() -> None:
     """Matrix and positions of every pair of axes; angles are compared within whole turns."""
     check = MATRIX["check"]
-    tilted = tilting.spatial(*np.radians([10, 20, 30]))
+    tilted = frames.spatial(*np.radians([10, 20, 30]))
     assert tilted[:3, :3] == pytest.approx(np.array(check["matrix"]), abs=6e-6)
     for pair, names, known in (
         ("CA", "AC", check["AC"]), ("CB", "BC", check["BC"]),
         ("AB", "AB", [check["AB_A_outer"]]), ("BA", "AB", [check["AB_B_outer"]]),
     ):  # fmt: skip
-        found = [[math.degrees(p[axis]) for axis in names] for p in tilting.positions(pair, tilted[:3, 2], NOW)]
+        found = [[math.degrees(p[axis]) for axis in names] for p in frames.positions(pair, tilted[:3, 2], NOW)]
         for expected in known:
             assert any(
                 all(abs(math.remainder(a - b, 360)) < 6e-6 for a, b in zip(one, expected, strict=True)) for one in found
@@ -74,16 +74,16 @@ def test_a_plane_of_three_angles() -> None:
 
 
 @settings(max_examples=60, deadline=None)
-@given(angles=st.tuples(*[st.floats(-3.1, 3.1)] * 3), pair=st.sampled_from(tilting.PAIRS))
+@given(angles=st.tuples(*[st.floats(-3.1, 3.1)] * 3), pair=st.sampled_from(frames.PAIRS))
 def test_the_positions_turn_the_tool_into_the_axis_of_the_plane(angles: tuple[float, ...], pair: str) -> None:
-    axis = tilting.spatial(*angles)[:3, 2]
-    for found in tilting.positions(pair, axis, {"A": 0.3, "B": 0.3, "C": 0.3}):
-        assert tilting.direction(pair, found) == pytest.approx(axis, abs=1e-8)
+    axis = frames.spatial(*angles)[:3, 2]
+    for found in frames.positions(pair, axis, {"A": 0.3, "B": 0.3, "C": 0.3}):
+        assert frames.direction(pair, found) == pytest.approx(axis, abs=1e-8)
 
 
 def test_a_free_axis_stays() -> None:
     """The tool along Z does not say where C stands."""
-    assert tilting.positions("CA", (0, 0, 1), {**NOW, "C": 0.5})[0] == {"C": 0.5, "A": 0.0}
+    assert frames.positions("CA", (0, 0, 1), {**NOW, "C": 0.5})[0] == {"C": 0.5, "A": 0.0}
 
 
 def test_the_shorter_way_is_taken() -> None:
@@ -102,7 +102,7 @@ def test_cancelled() -> None:
 
 def test_an_angle_left_out_is_that_of_the_cycle_before() -> None:
     twice = run("CYCL DEF 19.0 P\nCYCL DEF 19.1 A+10 B+20 C+30\nCYCL DEF 19.0 P\nCYCL DEF 19.1 A+40")
-    assert dict(twice.frames)["tilt"] == pytest.approx(tilting.spatial(*np.radians([40, 20, 30])))
+    assert dict(twice.frames)["tilt"] == pytest.approx(frames.spatial(*np.radians([40, 20, 30])))
 
 
 def test_angles_of_the_axes() -> None:

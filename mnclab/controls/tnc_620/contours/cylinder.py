@@ -23,7 +23,7 @@ from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
 from mnclab.machining.steps import Go, Say, Step
-from mnclab.path.fault import PathFault
+from mnclab.path.toolpath import PathFault
 from mnclab.text.alarm import Alarm
 
 CYCLES = CycleTable()

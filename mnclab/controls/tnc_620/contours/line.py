@@ -15,12 +15,13 @@ from mnclab.controls.tnc_620.contours.labels import Labels
 from mnclab.controls.tnc_620.contours.outlines import MOST_ELEMENTS, fault
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.state import memory
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats
 from mnclab.machine.flow import RecordedLead, Recording
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Record, Step
-from mnclab.path.kinds import Kind
-from mnclab.path.outline import chain
+from mnclab.path.plane import chain
+from mnclab.path.toolpath import Kind
 
 CLOSED = 1e-6  # mm, from the end to the beginning of a closed contour
 FLAT = 1e-9  # mm

@@ -11,8 +11,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import CrossesItself, Region
 from mnclab.machine.flow import Recording
 from mnclab.machine.machine import Machine
-from mnclab.path.outline import chain, outline
-from mnclab.path.plane import PlaneView
+from mnclab.path.plane import PlaneView, chain, outline
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
 

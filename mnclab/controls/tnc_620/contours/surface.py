@@ -20,8 +20,8 @@ from mnclab.controls.tnc_620.cycles.chain import TILT, rotary
 from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.machining.cylinder import Way
 from mnclab.controls.tnc_620.state import memory
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.frames import IDENTITY
-from mnclab.geometry.vectors import Floats
 from mnclab.machine.control import Setting
 from mnclab.machine.coordinates import AXES
 from mnclab.machine.machine import Machine

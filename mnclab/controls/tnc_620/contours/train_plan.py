@@ -22,7 +22,7 @@ from mnclab.machine.coordinates import in_mm
 from mnclab.machine.flow import RecordedLead
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Say, Step
-from mnclab.path.fault import PathFault
+from mnclab.path.toolpath import PathFault
 from mnclab.text.alarm import Alarm, Span
 
 SAME = 1e-6  # mm

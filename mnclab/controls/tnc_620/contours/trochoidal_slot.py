@@ -28,8 +28,8 @@ from mnclab.machining.milling.cutting_edge import centre_feeds
 from mnclab.machining.milling.pocket_steps import Work
 from mnclab.machining.milling.trochoidal_slots import NOTHING, circle_count, trochoid, walls
 from mnclab.machining.steps import Go, Say, Step
-from mnclab.path.fault import PathFault
 from mnclab.path.leads import way
+from mnclab.path.toolpath import PathFault
 from mnclab.text.alarm import Span
 
 CYCLES = CycleTable()

@@ -20,7 +20,7 @@ from mnclab.controls.tnc_620.cycles.addresses import coordinate, increment, leng
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, at_least, at_most, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
 from mnclab.controls.tnc_620.machining.rounds import finish_rounds
-from mnclab.geometry import shapes
+from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
 from mnclab.machine.coordinates import MILLS
 from mnclab.machine.cycle import CycleTable, too_many
@@ -65,7 +65,7 @@ class PocketFinishing(AtSurface):
 
     def moves(self, m: Machine) -> Iterator[Step]:
         r, corner = m.radius, max(self.corner_radius, m.radius) - m.radius
-        wall = shapes.rectangle(self.first_side_length - 2 * r, self.second_side_length - 2 * r, corner)
+        wall = contours.rectangle(self.first_side_length - 2 * r, self.second_side_length - 2 * r, corner)
         wide = self.first_side_length / 2 - r
         start = max(0.0, wide - self.allowance) if self.allowance else 0.0
         return finish(self, m, wall, start, min(wide - start, self.second_side_length - 2 * r))
@@ -99,7 +99,7 @@ class StudFinishing(AtSurface):
 
     def moves(self, m: Machine) -> Iterator[Step]:
         r = m.radius
-        wall = shapes.rectangle(self.first_side_length + 2 * r, self.second_side_length + 2 * r, self.corner_radius + r)
+        wall = contours.rectangle(self.first_side_length + 2 * r, self.second_side_length + 2 * r, self.corner_radius + r)
         start = self.first_side_length / 2 + self.allowance + ASIDE * r
         return finish(self, m, wall.reversed(), start, start - self.first_side_length / 2 - r)
 

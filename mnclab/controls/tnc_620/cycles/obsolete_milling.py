@@ -17,7 +17,7 @@ from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, at_least, not_zer
 from mnclab.controls.tnc_620.cycles.pockets import CORNERS
 from mnclab.controls.tnc_620.machining.rounds import finish_rounds
 from mnclab.controls.tnc_620.machining.to_and_fro import straight_infeeds
-from mnclab.geometry import shapes
+from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
 from mnclab.machine.coordinates import MILLS
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
@@ -96,7 +96,7 @@ class SlotMilling(AtClearance):
 
 def _wall(line: Contour, inset: float) -> tuple[Contour, tuple[Contour, ...]]:
     """The way round the wall, counter-clockwise, and the arcs to it and off it from and to the line."""
-    wall = shapes.slot(line.reversed(), 2 * inset)
+    wall = contours.slot(line.reversed(), 2 * inset)
     if line.length < inset:
         return wall, half_circles(wall, inset, 1)
     side = wall.started_at(inset * (math.pi / 2 + 1))  # a quarter of the round end, and as far along the straight side

@@ -20,7 +20,7 @@ from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, at_least, not_zer
 from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
 from mnclab.controls.tnc_620.machining.rounds import finish_rounds
 from mnclab.controls.tnc_620.machining.to_and_fro import oblique_infeeds
-from mnclab.geometry import shapes
+from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
 from mnclab.machine.coordinates import MILLS
 from mnclab.machine.cycle import CycleTable, too_many
@@ -68,7 +68,7 @@ class StraightSlot(AtSurface):
     def moves(self, m: Machine) -> Iterator[Step]:
         """From the middle of the slot the half circle leads to the wall on the right of the line."""
         half = max(self.slot_length - self.slot_width, 0.0) / 2
-        ahead = shapes.placed(np.array([(half, 0.0)]), (0, 0), math.radians(self.rotation_angle))
+        ahead = contours.placed(np.array([(half, 0.0)]), (0, 0), math.radians(self.rotation_angle))
         line, back = (Contour(np.vstack([one, two]), closed=False) for one, two in ((-ahead, ahead), (ahead, 0 * ahead)))
         return mill(self, m, Slot(line, back, (self.slot_width / 2 - m.radius) * math.pi / 2 + half))
 
@@ -110,7 +110,7 @@ class CircularSlot(AtSurface):
 
     def moves(self, m: Machine) -> Iterator[Step]:
         begin, sweep = math.radians(self.starting_angle), math.radians(self.angular_length)
-        line = shapes.arc(self.pitch_circle_diameter / 2, begin, sweep)
+        line = contours.arc(self.pitch_circle_diameter / 2, begin, sweep)
         return mill(self, m, Slot(line, line.reversed()))
 
 
@@ -179,7 +179,7 @@ def cut(c: AnySlot, slot: Slot, inset: float) -> Iterator[Step]:
         if inset and len(levels) > 1:
             yield Go("to the set-up clearance", c.above)
     if inset:
-        wall = shapes.slot(slot.line.reversed(), 2 * inset).started_at(slot.along)
+        wall = contours.slot(slot.line.reversed(), 2 * inset).started_at(slot.along)
         start = slot.back.points[-1].tolist()
         feeds = Feeds(feed, c.plunging_feed or feed)
         yield from finish_rounds(wall, half_circles(wall, inset, 1), (start[0], start[1]), levels, feeds)

@@ -19,7 +19,7 @@ from mnclab.controls.tnc_620.cycles.faults import Fault, at_least
 from mnclab.controls.tnc_620.cycles.milling import Figure, Place
 from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
 from mnclab.controls.tnc_620.cycles.pockets import check_angle, feeds, slopes
-from mnclab.geometry import shapes
+from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
 from mnclab.machine.coordinates import MILLS, tool
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
@@ -149,7 +149,7 @@ class CircularSlot(AtSurface):
         before = (0.0, 0.0, self.angular_length / 2, self.angular_length)[int(self.slot_position)]
         for k in range(int(self.repetitions)):
             begin = math.radians(self.starting_angle - before) + k * math.radians(self.stepping_angle)
-            arc = shapes.arc(self.pitch_circle_diameter / 2, begin, math.radians(self.angular_length))
+            arc = contours.arc(self.pitch_circle_diameter / 2, begin, math.radians(self.angular_length))
             dx, dy = arc.points[0].tolist()
             yield (x + dx, y + dy), Contour(arc.points - (dx, dy), arc.bulge, closed=False)
 

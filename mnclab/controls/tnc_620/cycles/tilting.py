@@ -17,7 +17,7 @@ from mnclab.controls.tnc_620.cycles.chain import Given, Values
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.controls.tnc_620.state import memory
-from mnclab.geometry import tilting
+from mnclab.geometry import frames
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.control import Setting
 from mnclab.machine.cycle import Cycle, CycleTable
@@ -28,7 +28,7 @@ CYCLES = CycleTable()
 SETTINGS = (
     Setting(
         "rotary_axes", "CA", "which rotary axes there are, the one that carries the other first", "11.9",
-        {pair: f"{pair[0]} carries {pair[1]}" for pair in tilting.PAIRS},
+        {pair: f"{pair[0]} carries {pair[1]}" for pair in frames.PAIRS},
     ),
     Setting(
         "tilt_angles", "spatial", "what the angles of cycle 19 are", "11.9",
@@ -103,8 +103,8 @@ class WorkingPlane(Cycle):
         """The tilted system in the untilted one."""
         radians = {axis: math.radians(angle) for axis, angle in self.angles.items()}
         if m.settings["tilt_angles"] == "axes":
-            return tilting.of_axes(m.settings["rotary_axes"], radians)
-        return tilting.spatial(*radians.values())
+            return frames.of_axes(m.settings["rotary_axes"], radians)
+        return frames.spatial(*radians.values())
 
     def positions(self, m: Machine) -> dict[str, float]:
         """Where A, B and C must stand, rad."""
@@ -118,7 +118,7 @@ def axis_positions(m: Machine) -> dict[str, float]:
     """Where A, B and C must stand, rad, for the tool to lie along Z of the tilted system."""
     now, pair = dict(zip(AXES, m.rotary, strict=True)), m.settings["rotary_axes"]
     tool_axis = (m.frames.before(chain.TILT) @ m.frames[chain.TILT])[:3, 2]
-    return now | tilting.nearest(tilting.positions(pair, tool_axis, now), now)
+    return now | frames.nearest(frames.positions(pair, tool_axis, now), now)
 
 
 def results(to: Mapping[str, float]) -> Iterator[Write]:
@@ -132,7 +132,7 @@ def position(m: Machine, to: Mapping[str, float], rotary_feed: float, distance: 
     round it."""
     pair = m.settings["rotary_axes"]
     now = dict(zip(AXES, m.rotary, strict=True))
-    travel = distance * (tilting.direction(pair, to) - tilting.direction(pair, now))
+    travel = distance * (frames.direction(pair, to) - frames.direction(pair, now))
     way = math.degrees(max(abs(to[axis] - now[axis]) for axis in AXES))
     a, b, c = (math.degrees(to[axis]) for axis in AXES)
     if length := way and math.hypot(*travel):

@@ -8,8 +8,7 @@ import numpy as np
 
 from mnclab.controls.tnc_620.free_contours.free_contour import Piece
 from mnclab.geometry.arcs import sweep_of_one
-from mnclab.geometry.curves import Curves, distance
-from mnclab.geometry.vectors import Floats, cross, length_of, turned
+from mnclab.geometry.curves import Curves, Floats, cross, distance, length_of, turned
 
 CLOSED = 1e-3  # mm between the end and the start of a closed contour
 STEPS = 48  # chords of an element

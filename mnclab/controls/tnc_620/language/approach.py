@@ -29,8 +29,8 @@ from mnclab.controls.tnc_620.language.pole import polar_point, pole
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import INF, Machine
-from mnclab.path.kinds import Kind
 from mnclab.path.leads import Lead, way
+from mnclab.path.toolpath import Kind
 
 FUNCTIONS = FunctionTable()
 

@@ -18,7 +18,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
-from mnclab.path.outline import outline
+from mnclab.path.plane import outline
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.program import Word
 from mnclab.workpiece.blank import Blank as Body

@@ -6,7 +6,7 @@ import numpy as np
 
 from mnclab.controls.tnc_620.language.parameters import give
 from mnclab.controls.tnc_620.reading.formulas import GREATEST
-from mnclab.geometry.circle_through import circle_through
+from mnclab.geometry.arcs import circle_through
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.text.program import Word

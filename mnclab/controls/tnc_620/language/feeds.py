@@ -13,7 +13,7 @@ from mnclab.controls.tnc_620.language.checks import above_zero, one_of, written
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Setting, Words
 from mnclab.machine.machine import INF, Machine
-from mnclab.path.feed_rules import FeedRule
+from mnclab.path.feeds import FeedRule
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()

@@ -15,7 +15,7 @@ from mnclab.controls.tnc_620.language.feeds import auto_feed
 from mnclab.controls.tnc_620.language.retraction import retract
 from mnclab.controls.tnc_620.language.rotary_rules import refuse_rotary
 from mnclab.controls.tnc_620.language.tool_axis import refuse_other
-from mnclab.geometry import tilting
+from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import STILL, turning_feed
 from mnclab.machine.machine import INF, Machine
@@ -69,7 +69,7 @@ def plane_spatial(m: Machine, words: Words) -> None:
 def tilt(m: Machine, degrees: Mapping[str, float]) -> Iterator[Step]:
     """The tilted system, and where the rotary axes must stand for it."""
     yield Write("memory", degrees, "tilt_angles")
-    yield Write("frame", tilting.spatial(*map(math.radians, degrees.values())), TILT)
+    yield Write("frame", frames.spatial(*map(math.radians, degrees.values())), TILT)
     yield from results(axis_positions(m))
 
 

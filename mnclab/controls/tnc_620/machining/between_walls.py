@@ -13,9 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour
-from mnclab.geometry.shapes import QUARTER
-from mnclab.geometry.vectors import left
+from mnclab.geometry.contours import QUARTER, Contour
+from mnclab.geometry.curves import left
 from mnclab.machining.milling.face_lines import rows
 
 Place = tuple[float, float]

@@ -16,9 +16,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats, left
 from mnclab.geometry.regions import Region
-from mnclab.geometry.vectors import left
 from mnclab.machining.milling.clearing import begin, numbered, unfit
 from mnclab.machining.milling.finishing import LEAST, quarter_circles
 from mnclab.machining.milling.rings import rounded

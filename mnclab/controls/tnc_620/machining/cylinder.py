@@ -22,10 +22,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mnclab.controls.tnc_620.machining import trains
-from mnclab.geometry.contours import Contour
-from mnclab.geometry.shapes import QUARTER
-from mnclab.geometry.vectors import Floats, left, length_of
-from mnclab.path.fault import PathFault
+from mnclab.geometry.contours import QUARTER, Contour
+from mnclab.geometry.curves import Floats, left, length_of
+from mnclab.path.toolpath import PathFault
 
 CHORD = 1e-4  # mm, between an arc on the developed surface and the rows along it
 LEAST = 1e-9  # mm: an offset or a radius below is none

@@ -13,7 +13,8 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from mnclab.controls.tnc_620.machining.routes import route
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
 from mnclab.machining.milling.clearing import Clearing, Piece, begin, end, numbered
 from mnclab.machining.milling.engagement import stretches

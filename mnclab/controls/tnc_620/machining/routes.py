@@ -12,7 +12,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mnclab.geometry.contours import Contour, Floats, joined
+from mnclab.geometry.contours import Contour, joined
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region, meeting
 
 TOUCH = 1e-6  # mm, within which a place lies on a boundary

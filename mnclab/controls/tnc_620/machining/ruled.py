@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from mnclab.geometry.contours import Floats
+from mnclab.geometry.curves import Floats
 from mnclab.machining.milling.clearing import numbered
 from mnclab.machining.steps import RAPID, Go, Step
 

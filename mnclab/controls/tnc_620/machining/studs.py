@@ -19,8 +19,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mnclab.geometry.contours import Contour, Floats
-from mnclab.geometry.shapes import placed
+from mnclab.geometry.contours import Contour, placed
+from mnclab.geometry.curves import Floats
 from mnclab.machining.milling.clearing import Clearing, joined, numbered
 from mnclab.machining.milling.concentric import DRIFT, steps
 from mnclab.machining.milling.spirals import half_circles

@@ -18,8 +18,8 @@ from typing import NamedTuple
 import numpy as np
 
 from mnclab.controls.tnc_620.machining.trains import Way
-from mnclab.geometry.contours import Contour, Floats
-from mnclab.geometry.vectors import turned
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats, turned
 from mnclab.machining.milling.clearing import numbered
 from mnclab.machining.steps import Along, Go, Step
 from mnclab.path.leads import Lead, way

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.machining.trains import Way, away, part
-from mnclab.geometry.contours import Contour, Floats
-from mnclab.geometry.vectors import left
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats, left
 
 Bools: TypeAlias = NDArray[np.bool_]
 

@@ -20,16 +20,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import shapely
-from mnclab.geometry.bands import bands_beside
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats, left, length_of
 from mnclab.geometry.regions import Region
-from mnclab.geometry.vectors import left, length_of
+from mnclab.geometry.tracing import bands_beside
 from mnclab.path import compensation
-from mnclab.path.compensation.rules import CORNER, Compensation
-from mnclab.path.fault import PathFault
-from mnclab.path.kinds import Kind
-from mnclab.path.outline import chain
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.compensation.elements import CORNER, Compensation
+from mnclab.path.plane import chain
+from mnclab.path.toolpath import Kind, PathFault, Toolpath
 
 SAME = 1e-6  # mm
 DRIFT = 1e-9  # mm
