@@ -33,7 +33,7 @@ assert "wear" in open("run.csv").readline()
 def test_a_new_column_is_one_line(tmp_path, per):
     """In a copy of the house: rows, pieces, copies, exports have it, with its default."""
     shutil.copytree(HOUSE, tmp_path / "mnclab", ignore=shutil.ignore_patterns("__pycache__"))
-    table = tmp_path / "mnclab" / "path" / "columns.py"
+    table = tmp_path / "mnclab" / "path" / "toolpath.py"
     line = f'    wear = column(np.float64, 0.5, "how much of the edge is gone", "mm", per="{per}")\n'
     text = table.read_text("utf-8")
     table.write_text(text.replace("    rotary = column(", f"{line}    rotary = column(", 1), "utf-8")
