@@ -34,9 +34,8 @@ from pathlib import Path as _Path
 from typing import TYPE_CHECKING, Any
 
 from mnclab.controls import CONTROLS as controls
-from mnclab.controls.choice import Help, modern, read, run
+from mnclab.controls.choice import Help, modern, read, renumber, run
 from mnclab.controls.choice import help as help
-from mnclab.controls.renumber import renumber
 from mnclab.controls.survey import check
 from mnclab.machine.probe import Probe, Setter
 from mnclab.machine.setup import Datum, Setup

@@ -20,7 +20,7 @@ from typing import Any
 
 import mnclab
 from mnclab.controls import ALSO
-from mnclab.controls.renumber import renumber_file
+from mnclab.controls.choice import renumber_file
 from mnclab.machine.setup_file import FORMAT, load
 from mnclab.shell.checking import check
 from mnclab.shell.handout import handout

@@ -21,10 +21,10 @@ from mnclab.path.limits import limits_of
 from mnclab.path.tool import Tool
 from mnclab.runs.run import EXAMPLE, Run, run_program
 from mnclab.text.alarm import ALARM, Alarm, hint
-from mnclab.text.dialect import Notation
-from mnclab.text.file import decode
+from mnclab.text.dialect import Notation, renumbered
+from mnclab.text.file import decode, encode_like, replaced
 from mnclab.text.file import read as read_file
-from mnclab.text.given import fitting, near_option, shown
+from mnclab.text.given import LARGEST, fitting, near_option, shown, whole
 from mnclab.text.program import Program
 
 MOST_FILES = 1000  # of a folder, looked through for a name
@@ -265,3 +265,47 @@ def _normal(code: str, control: Control) -> str:
         if code.isdigit() and known.split()[-1] == code:
             return known
     return code
+
+
+# Block numbers written anew, with the jumps that name them; everything else of a program stays as it is.
+
+@fitting
+def renumber(
+    source: str | Path | Program, control: str | None = None, *, start: int | None = None, step: int | None = None
+) -> str:
+    """The text of a program with new block numbers; GOTO, M99 P, G25 P follow them, and the path stays the same.
+
+    `source`, `control`: as in `mnclab.run`. `start`, `step`: the first number and what is added each time, without them
+    10 and 10 (Klartext: 0 and 1, NC-31: 1 and 1). Only blocks with a number get a new one; a Klartext program without any
+    gets them all. An Alarm where a jump computes its target, or names a block that is not there.
+    """
+    program = source if isinstance(source, Program) else read(source, control)
+    chosen = CONTROLS[program.control]
+    if chosen.numbers is None:
+        raise Alarm(f"blocks of {chosen.name} have no numbers")
+    numbers = chosen.numbers(program)
+    if not numbers.blocks:
+        raise Alarm("no block of the program has a number")
+    first = numbers.first if start is None else whole(start, "start")
+    more = numbers.step if step is None else whole(step, "step")
+    least = min(numbers.first, 1)
+    if first < least:
+        raise Alarm(f"start must be at least {least}, got {first}")
+    if more < 1:
+        raise Alarm(f"step must be at least 1, got {more}")
+    if (last := first + more * (len(numbers.blocks) - 1)) >= LARGEST:
+        raise Alarm(f"the last number would be {shown(last)}: it must be smaller than {LARGEST:g}, as every number")
+    return renumbered(program.text, numbers, first, more)
+
+
+def renumber_file(
+    file: Path, control: str | None = None, *, start: int | None = None, step: int | None = None, out: Path | None = None
+) -> str:
+    """The same of a file, written to `out` in the bytes of the file: code page, marks and line ends stay."""
+    program = read(file, control)
+    text = renumber(program, start=start, step=step)
+    if out is not None:
+        content = encode_like(text, program.text, read_file(file, file), program.encoding)
+        with replaced(out) as beside:
+            beside.write_bytes(content)
+    return text

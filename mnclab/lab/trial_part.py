@@ -8,7 +8,7 @@ from functools import reduce
 
 import numpy as np
 
-from mnclab.controls.cycle_table import CycleSteps
+from mnclab.controls.cycle_steps import CycleSteps
 from mnclab.machining.steps import Touch
 from mnclab.workpiece.part import Part, box
 

@@ -6,7 +6,7 @@ import pytest
 from together import together
 
 import mnclab as mnc
-from mnclab.controls.cycle_table import written
+from mnclab.controls.cycle_steps import written
 from mnclab.machining.steps import Call, Go, Touch, Wait, Write
 
 CYCLES = [(name, cycle.code) for name, control in mnc.controls.items() for cycle in dict.fromkeys(control.cycles.values())]

@@ -1,36 +1,16 @@
 """A milling control of ISO words with G43, G44 and G49; of its manual there is one chapter.
 
-So it is the ISO mill that its users take it for: `language.lengths` holds what that chapter says, the other files of
+So it is the ISO mill that its users take it for: `language.tools` holds what that chapter says, the other files of
 `language` the functions of its example and what ISO controls mean by the others, `cycles` their drilling cycles.
 """
 
 from __future__ import annotations
 
-from mnclab.controls.g43 import boring, cycles
-from mnclab.controls.g43.language import (
-    auxiliary,
-    corners,
-    data_setting,
-    lengths,
-    macros,
-    modes,
-    motion,
-    o_words,
-    offsets,
-    polar,
-    programs,
-    references,
-    tools,
-    transformations,
-    units,
-    variables,
-)  # fmt: skip
-from mnclab.controls.g43.meanings import MEANINGS
-from mnclab.controls.g43.reading.numbers import numbers
-from mnclab.controls.g43.reading.reader import read
+from mnclab.controls.g43 import cycles
+from mnclab.controls.g43.language import corners, modes, motion, o_words, offsets, programs, tools, variables
+from mnclab.controls.g43.reading.reader import numbers, read
 from mnclab.controls.g43.refused import NOT_OF_LINUXCNC, REFUSED, unknown_to_linuxcnc
-from mnclab.controls.g43.settings import SETTINGS
-from mnclab.controls.g43.signs import SIGNS
+from mnclab.controls.g43.settings import MEANINGS, SETTINGS, SIGNS
 from mnclab.controls.g43.state import Memory
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.machine.control import Control, FunctionTable
@@ -50,8 +30,8 @@ PHASES = (
 def start(m: Machine) -> None:
     """G54 and a unit are active at the start; the tip hangs below the spindle by the length of the tool."""
     offsets.start(m)
-    lengths.place(m, "tip")
-    units.start(m)
+    tools.place(m, "tip")
+    modes.start_units(m)
     modes.start(m)
     variables.start(m)
 
@@ -63,10 +43,7 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
 
 #: What help lists, and hints name, before the others.
 FIRST = "G0 G1 G2 G3 G17 G18 G19 G90 G91 G54 G55 G56 G57 G58 G59 G53 G52 G92 G28 G68 G51 G10 F S G94 G95 G61 G64"
-_PARTS = (
-    modes, motion, offsets, transformations, polar, references, units, lengths, tools, data_setting, auxiliary, macros,
-    programs, corners, o_words,
-)  # fmt: skip
+_PARTS = (modes, motion, offsets, tools, variables, programs, corners, o_words)
 _ALL = {code: function for part in _PARTS for code, function in part.FUNCTIONS.items()}
 _ALL |= {code: unknown_to_linuxcnc(_ALL[code]) for code in NOT_OF_LINUXCNC}
 FUNCTIONS = FunctionTable({code: _ALL[code] for code in (*FIRST.split(), *_ALL)})
@@ -77,7 +54,7 @@ CONTROL = Control(
     suffixes=(".g43", ".iso"),
     read=read,
     functions=FUNCTIONS,
-    cycles=cycles.CYCLES | boring.CYCLES,
+    cycles=cycles.CYCLES,
     phases=PHASES,
     settings=SETTINGS,
     frames=("length", "external", "datum", "set", "local", "mirror", "rotation", "scaling"),
@@ -90,7 +67,7 @@ CONTROL = Control(
     refused=REFUSED,
     meanings=MEANINGS,
     together=motion.together,
-    computed=macros.computed,
+    computed=programs.computed,
     preassigned=variables.PREASSIGNED,
     calls_again=programs.calls_again,
     bulk=PlainWords(

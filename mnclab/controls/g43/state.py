@@ -1,12 +1,17 @@
-"""What the ISO mill keeps beside the common state of a machine."""
+"""What the functions of the ISO mill share: what they keep, what they say of words without a chapter, numbers of words."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from mnclab.controls.word_address import state
+from mnclab.controls.word_address import motion
+from mnclab.controls.word_address.motion import first_word
+from mnclab.machine.control import Words
+from mnclab.machine.machine import Machine
 from mnclab.text.program import Word
+
+# What the ISO mill keeps beside the common state of a machine.
 
 Offsets = tuple[float, float, float]
 NONE: Offsets = (0.0, 0.0, 0.0)
@@ -29,7 +34,7 @@ class Doubt(NamedTuple):
 
 
 @dataclass
-class Memory(state.Memory):
+class Memory(motion.Memory):
     """Of this control. An offset that is wanted counts from the next motion along its axis on."""
 
     sign: int = 0  # of G43, G44, G49
@@ -59,3 +64,60 @@ class Memory(state.Memory):
 
 
 memory = Memory.of
+
+
+# What stands in no chapter of the manual that there is: it is taken in its ISO meaning.
+# The table of functions says so of each; by the setting `undescribed` a run says it too, once for each code.
+
+ISO = "ISO meaning"
+
+
+def undescribed(m: Machine, words: Words) -> None:
+    """Say once for each code that its chapter is not there, if the setting wants it."""
+    if not silent(m, words.code):
+        memory(m).undescribed.add(words.code)
+        sentence = f"{words.code}: not described in the manual; it is taken in its ISO meaning"
+        motion.remark(m, "undescribed", sentence, first_word(words))
+
+
+def remark(m: Machine, words: Words) -> None:
+    """What stands in the example, or changes nothing, needs no remark; nor do M functions."""
+    if words.code[0] == "G" and words.code not in ("G17", "G40", "G90"):
+        undescribed(m, words)
+
+
+def silent(m: Machine, *codes: str) -> bool:
+    """Whether there is nothing to say of these codes, or no more."""
+    return m.settings["undescribed"] == "accept" or memory(m).undescribed.issuperset(codes)
+
+
+# Numbers of words: whole ones, and what depends on a decimal point.
+
+def whole(m: Machine, words: Words, address: str, least: int, most: int) -> int:
+    """A word of a block that is a whole number."""
+    name = address if words.code == address else f"{words.code} {address}"
+    if address not in words:
+        m.alarm(f"{name} is missing", first_word(words))
+    number = m.value(words[address])
+    if number != int(number) or not least <= number <= most:
+        m.alarm(f"{name} must be a whole number from {least} to {most}, got {number:g}", words[address])
+    return int(number)
+
+
+def written(m: Machine, word: Word) -> str:
+    """A word of the running program as it stands there, without its address."""
+    line, column, length, _ = word.span
+    return m.flow.program.line_text(line)[column - 1 : column - 1 + length][len(word.address) :].strip()
+
+
+def has_point(m: Machine, word: Word) -> bool:
+    """Whether a word of the running program is written with a decimal point."""
+    return "." in written(m, word)
+
+
+def seconds_of_p(m: Machine, word: Word) -> float:
+    """What 1 of a P that is a dwell stands for, s."""
+    counted = m.settings["dwell_p"]
+    if counted == "point":
+        counted = "seconds" if has_point(m, word) else "milliseconds"
+    return 1.0 if counted == "seconds" else 0.001

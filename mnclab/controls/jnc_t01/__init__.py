@@ -1,15 +1,14 @@
 """The lathe control JNC-T01: words with a decimal point, one-shot functions that own their block, turning cycles.
 
-`reader` checks the formats of words, `motion` holds moves and frames, `feeds` feed, spindle and auxiliary functions,
-`cycles` the cycles G73 to G78. X is a radius in programs, by a setting a diameter, and a radius everywhere else.
+`reader` checks the formats of words, `functions` holds moves and frames, feed, spindle and auxiliary functions, `cycles`
+the cycles G73 to G78. X is a radius in programs, by a setting a diameter, and a radius everywhere else.
 """
 
 from __future__ import annotations
 
-from mnclab.controls.jnc_t01 import cycles, feeds, motion
-from mnclab.controls.jnc_t01.reader import read
-from mnclab.controls.jnc_t01.signs import SIGNS
-from mnclab.controls.jnc_t01.state import Memory
+from mnclab.controls.jnc_t01 import cycles, functions
+from mnclab.controls.jnc_t01.functions import Memory
+from mnclab.controls.jnc_t01.reader import SIGNS, read
 from mnclab.machine.control import Control, Modal, Setting, one_of
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
@@ -78,7 +77,7 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
     return f"G90 G94 F100\nT{TRIAL_TOOLS.get(cycle.code, 1)} S800 M3\nG0 X{x} Z5\n{in_block(cycle, words)}\n"
 
 
-FUNCTIONS = feeds.FUNCTIONS | motion.FUNCTIONS
+FUNCTIONS = functions.FUNCTIONS
 
 CONTROL = Control(
     name="jnc-t01",
@@ -102,7 +101,7 @@ CONTROL = Control(
     magazine=LATHES,
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
-        ready=motion.plain,
+        ready=functions.plain,
         letters="GXZIKRF",
         whole_circles=False,
     ),

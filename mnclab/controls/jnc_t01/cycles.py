@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from mnclab.controls.jnc_t01.feeds import cutting_feed, standing_feed
-from mnclab.controls.jnc_t01.motion import coordinate, scale, use_corrector
+from mnclab.controls.jnc_t01.functions import coordinate, cutting_feed, scale, standing_feed, use_corrector
 from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import MOST, infeeds

@@ -1,21 +1,19 @@
 """The MNC milling control (Mechatronics, 2015): the namesake.
 
-`language` holds motion, offsets, feed and corners, `auxiliary` tool, spindle and what ISO controls have alike, `polar`
-polar motion, `transforms` scaling, mirror image, rotation and datums, `cycles` those of drilling and milling (chapters 9
-and 10), `probing` those of chapter 12, `settings` what a machine may need otherwise.
+`language` holds motion, offsets, feed and corners, tool, spindle and what ISO controls have alike, `transforms` polar
+motion, scaling, mirror image, rotation and datums, `cycles` those of drilling and milling (chapters 9 and 10), `probing`
+those of chapter 12, `settings` what a machine may need otherwise.
 """
 
 from __future__ import annotations
 
-from mnclab.controls.mnc import auxiliary, language, polar, transforms
-from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets, prepared
-from mnclab.controls.mnc.probing import alignment, calibration, corners, datums, measuring, single, tool_setting
-from mnclab.controls.mnc.settings import SETTINGS
-from mnclab.controls.mnc.signs import SIGNS
-from mnclab.controls.mnc.state import Memory
+from mnclab.controls.mnc import language, transforms
+from mnclab.controls.mnc.cycles import drilling, fixed, milling, prepared
+from mnclab.controls.mnc.language import Memory
+from mnclab.controls.mnc.probing import calibration, datums, measuring, single, tool_setting
+from mnclab.controls.mnc.settings import SETTINGS, SIGNS
 from mnclab.controls.word_address.motion import more_helices
-from mnclab.controls.word_address.numbers import numbers
-from mnclab.controls.word_address.reader import reader
+from mnclab.controls.word_address.reader import numbers, reader
 from mnclab.machine.control import Control, FunctionTable
 from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.probe import Setter
@@ -64,19 +62,10 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
 FIRST = (
     "G0 G1 G2 G3 G17 G18 G19 G90 G91 G53 G92 F G4 G9 G61 G64 G94 G95 T D M6 S M3 M4 M5 G25 G26 M0 M1 M2 M30 M7 M8 M9"
 )
-_ALL = polar.FUNCTIONS | transforms.FUNCTIONS | auxiliary.FUNCTIONS | language.FUNCTIONS | prepared.FUNCTIONS
+_ALL = transforms.FUNCTIONS | language.AUXILIARY | language.FUNCTIONS | prepared.FUNCTIONS
 FUNCTIONS = FunctionTable({code: _ALL[code] for code in (*FIRST.split(), *_ALL)})
 
-CHAPTERS = (
-    *(fixed, drilling, boring, prepared, milling, pockets),
-    alignment,
-    datums,
-    corners,
-    measuring,
-    single,
-    calibration,
-    tool_setting,
-)
+CHAPTERS = (fixed, drilling, prepared, milling, datums, measuring, single, calibration, tool_setting)
 CYCLES = CycleTable({code: cycle for chapter in CHAPTERS for code, cycle in chapter.CYCLES.items()})
 
 CONTROL = Control(

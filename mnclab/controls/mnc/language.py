@@ -1,21 +1,122 @@
-"""Motion, G53 and G92, feed, dwell, exact stop and outside corners (MNC, chapters 1 to 4, 6 and 8)."""
+"""The words of the MNC without cycles: motion, G53 and G92, feed, dwell, exact stop, corners, tool and spindle."""
 
 from __future__ import annotations
 
 import functools
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
 from mnclab.controls.word_address import motion
-from mnclab.controls.word_address.functions import ARCS
-from mnclab.controls.word_address.motion import AXES, first_word
-from mnclab.controls.word_address.state import memory
+from mnclab.controls.word_address.motion import ARCS, AXES, SPINDLE, first_word, functions, remark
+from mnclab.controls.word_address.motion import memory as motion_memory
 from mnclab.geometry import frames
 from mnclab.machine.control import Control, FunctionTable, Modal, Words
 from mnclab.machine.machine import Machine
 from mnclab.path.compensation import ACUTE, ROUND, STRAIGHT
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word, digits
+
+# What the MNC keeps beside the common state of a machine.
+
+class Polar(NamedTuple):
+    """The last polar position: radius, mm, and angle, degrees, about the pole; and the point that it is."""
+
+    radius: float
+    angle: float
+    place: tuple[float, float, float]
+
+
+@dataclass
+class Memory(motion.Memory):
+    """Of the MNC."""
+
+    polar: Polar | None = None  # while a pole is active
+    run_up: int = -1  # the step that last waited for the spindle
+    base_rotation: float = 0.0  # degrees, counter-clockwise
+    laser: dict[str, float] = field(default_factory=dict)  # what calibrations found of the tool setter
+    angled: frozenset[int] = frozenset()  # rows of the datum table that hold an angle
+
+
+memory = Memory.of
+
+
+# Tool and spindle (MNC 1.2, 5, 7, 9), and what is as on other controls; some M functions only ISO 6983 explains.
+
+ISO = "ISO 6983"
+SUPERVISION = {"G25": "Spindle speed supervision off", "G26": "Spindle speed supervision on"}
+
+
+def unlisted(m: Machine, words: Words, more: str = "") -> None:
+    """Say that the manual knows nothing of this M function."""
+    sentence = f"{words.code}: the manual does not list it; it is taken in its ISO meaning{more}"
+    remark(m, "unlisted_m", sentence, first_word(words))
+
+
+def remark_m(m: Machine, words: Words) -> None:
+    """The manual lists all G functions."""
+    if words.code[0] == "M":
+        unlisted(m, words)
+
+
+AUXILIARY = functions(
+    remark_m, ISO, plane="2.4", dimension="2.3", feed_mode="4.2", blending="3.5", compensation="6", cycle="9"
+)
+
+
+@AUXILIARY("T", "Tool call", phase="tool", source="5.1")
+def tool(m: Machine, words: Words) -> None:
+    """The tool from the table is active at once, no axis moves; by the setting tool_change it waits for M6."""
+    obey = motion.tool if m.settings["tool_change"] == "T" else motion.choose_tool
+    obey(m, words)
+
+
+AUXILIARY("D", "Tool corrector", phase="corrector", source="1.2")(motion.corrector)
+
+
+@AUXILIARY("M6", "Tool change", phase="change", modal=False, source=ISO)
+def tool_change(m: Machine, words: Words) -> None:
+    """Nothing: T itself changes the tool (5.1); by the setting tool_change it puts the tool of T into the spindle."""
+    if m.settings["tool_change"] == "T":
+        unlisted(m, words, "; T itself changes the tool")
+    else:
+        motion.change_tool(m, words)
+
+
+@AUXILIARY("S", "Spindle speed", phase="spindle", source="1.2")
+def spindle_speed(m: Machine, words: Words) -> None:
+    """The speed of M3 and M4, kept while the spindle stands."""
+    before = m.spindle_speed
+    motion.spindle_speed(m, words)
+    run_up(m, before)
+
+
+@AUXILIARY("M3 M4 M5", SPINDLE, group="spindle", phase="auxiliary", power_on="M5", source="9")
+def spindle(m: Machine, words: Words) -> None:
+    """M3 and M4 before the motion of the block, M5 after it; by the setting spindle_stop before it too."""
+    before = m.spindle_speed
+    if words.code == "M5" and m.settings["spindle_stop"] == "before":
+        m.spindle(turning=0)
+    else:
+        motion.spindle(m, words)
+    run_up(m, before)
+
+
+@AUXILIARY("G25 G26", SUPERVISION, group="supervision", phase="plane", power_on="G26", source="7")
+def supervision(m: Machine, words: Words) -> None:
+    """Whether the control waits until the spindle has its speed; a matter of time (setting spindle_run_up), not of the
+    path."""
+
+
+def run_up(m: Machine, before: float) -> None:
+    """Wait once in a block that gives the turning spindle another speed or sense, if that is supervised."""
+    if m.spindle_speed not in (0, before) and m.modal["supervision"] == "G26" and memory(m).run_up != m.step:
+        memory(m).run_up = m.step
+        m.dwell(m.settings["spindle_run_up"])
+
+
+# Motion, G53 and G92, feed, dwell, exact stop and outside corners (MNC, chapters 1 to 4, 6 and 8).
 
 FUNCTIONS = FunctionTable()
 OFFSETS = ("datum", "base rotation", "local")  # frames that belong to the datum: G53 leaves them
@@ -53,7 +154,7 @@ def power_on(m: Machine) -> None:
 
 def absolute(m: Machine) -> bool:
     """Whether coordinates are absolute: G90, and always in a block with G53 (MNC-G53-G91)."""
-    return m.modal["dimension"] == "G90" or memory(m).machine_coordinates
+    return m.modal["dimension"] == "G90" or motion_memory(m).machine_coordinates
 
 
 @FUNCTIONS("G0", "Rapid positioning", group="motion", takes="X Y Z", power_on="G0", moves=True, source="3.1")

@@ -1,17 +1,15 @@
 """The lathe control Elektronika NC-31: frames of one word, integers in discretes, marks.
 
-`reader` makes frames into blocks, `discretes` is the scale of the integers, `functions` holds moves, repetition
-and words; `stock_removal`, `grooving`, `drilling` and `threads` are the cycles. X is a diameter in programs and a
+`reader` makes frames into blocks, `functions` holds the scale of the integers, moves, repetition and words; `cycles`
+and `threads` are the cycles. X is a diameter in programs and a
 radius everywhere else.
 """
 
 from __future__ import annotations
 
-from mnclab.controls.nc_31 import drilling, functions, grooving, notation, stock_removal, threads
-from mnclab.controls.nc_31.numbers import numbers
-from mnclab.controls.nc_31.reader import read
-from mnclab.controls.nc_31.signs import SIGNS
-from mnclab.controls.nc_31.state import Memory
+from mnclab.controls.nc_31 import cycles, functions, notation, threads
+from mnclab.controls.nc_31.functions import Memory
+from mnclab.controls.nc_31.reader import SIGNS, numbers, read
 from mnclab.machine.control import Control, Setting, one_of
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.setup import LATHES
@@ -54,7 +52,7 @@ CYCLE_TOOLS = {
     "G31": 4, "G32": 4, "G33": 8, "G72": 0,  # what it drills from the side is no body of revolution
 }  # fmt: skip
 
-CYCLES = stock_removal.CYCLES | grooving.CYCLES | drilling.CYCLES | threads.CYCLES
+CYCLES = cycles.CYCLES | threads.CYCLES
 
 CONTROL = Control(
     name="nc-31",

@@ -1,16 +1,42 @@
-"""Words and functions: straight moves, conditional moves G61 to G67, repetition G25, feed, spindle, auxiliary codes.
-
-The source starts the spindle of its example with S alone, and its feeds are per revolution. So S turns the spindle
-clockwise until the first M3, M4 or M5; from then on these say how it turns (adopted).
-"""
+"""Words and functions of the NC-31: straight and conditional moves, repetition, feed, spindle; numbers in discretes."""
 
 from __future__ import annotations
 
-from mnclab.controls.nc_31 import discretes
-from mnclab.controls.nc_31.state import memory
+from dataclasses import dataclass, field
+
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.text.program import INCREMENTAL, RAPID_MARK, Program, Word
+
+# The scale of the integers: a program of the NC-31 has no decimal point, it counts in discretes.
+# The source gives the scale of F inside a cycle only; the others are adopted so that its example makes sense (diameter
+# 105, a groove 0.3 to 1 mm deep with a lead of 2 mm, cut at 99 m/min).
+
+X = 200.0  # discretes in a millimetre of radius: X counts 0.01 mm on the diameter
+Z = 100.0  # 0.01 mm
+FREE_FEED = 100.0  # F as a frame of its own: 0.01 mm/rev
+CYCLE_FEED = 10_000.0  # F inside a cycle: 0.0001 mm/rev
+TRAVEL = 100.0  # machine parameters 8, 10, 11: 0.01 mm of true tool travel
+
+
+# What the NC-31 keeps beside the common state of a machine.
+
+@dataclass
+class Memory:
+    """Of the NC-31."""
+
+    frames: dict[int, list[int]] = field(default_factory=dict)  # numbers of the frames of each block, once worked out
+
+
+def memory(m: Machine) -> Memory:
+    """What the NC-31 keeps."""
+    kept: Memory = m.memory
+    return kept
+
+
+# Words and functions: straight moves, conditional moves G61 to G67, repetition G25, feed, spindle, auxiliary codes.
+# The source starts the spindle of its example with S alone, and its feeds are per revolution. So S turns the spindle
+# clockwise until the first M3, M4 or M5; from then on these say how it turns (adopted).
 
 FUNCTIONS = FunctionTable()
 OUTSIDE = "the source does not describe it; it is taken in its usual meaning"
@@ -31,7 +57,7 @@ def power_on(m: Machine) -> None:
 def targets(m: Machine, words: Words) -> dict[str, float]:
     """Ends of a move as arguments of a verb, mm; increments count from the start of the move."""
     found = {}
-    for k, (address, scale) in enumerate((("X", discretes.X), ("", 0.0), ("Z", discretes.Z))):
+    for k, (address, scale) in enumerate((("X", X), ("", 0.0), ("Z", Z))):
         if address in words:
             value = m.value(words[address]) / scale
             found[address.lower()] = m.programmed[k] + value if words[address].incremental else value
@@ -149,7 +175,7 @@ def feed(m: Machine, words: Words) -> None:
     value = m.value(words["F"])
     if value <= 0:
         m.alarm(f"F (feed, 0.01 mm/rev) must be greater than 0, got {value:g}", words["F"])
-    m.change("feed", value / discretes.FREE_FEED)
+    m.change("feed", value / FREE_FEED)
 
 
 @FUNCTIONS("S", "Spindle speed", source="3.20.15, example")

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from mnclab.controls.nc_31 import discretes
+from mnclab.controls.nc_31 import functions
 from mnclab.controls.nc_31.functions import CONDITIONAL, notes_of
 from mnclab.machine.control import Function
 from mnclab.machine.cycle import Cycle, CycleTable
@@ -18,7 +18,7 @@ from mnclab.text.dialect import Notation, NotationRow
 from mnclab.text.program import GROUP_MARK, INCREMENTAL, RAPID_MARK, Program, Word
 
 HEAD = "G21 G90 G95 (mm, X on the diameter, feed per revolution)"
-SCALES = {"0.0001": discretes.CYCLE_FEED, "0.01": discretes.Z}
+SCALES = {"0.0001": functions.CYCLE_FEED, "0.01": functions.Z}
 MOTION, INCREMENTS = "XZ", {"X": "U", "Z": "W"}
 SPINDLE = (3.0, 4.0, 5.0)
 
@@ -65,7 +65,7 @@ def sentence(words: tuple[Word, ...], cycles: CycleTable, told: bool) -> str:
         return " ".join([f"G{0 if rapid else 1}", *map(_end, words)])
     if head.address == "S" and not told:
         return f"{_plain(head)} M3"
-    return " ".join(_millimetres("F", _amount(w), discretes.FREE_FEED) if w.address == "F" else _plain(w)
+    return " ".join(_millimetres("F", _amount(w), functions.FREE_FEED) if w.address == "F" else _plain(w)
                     for w in words)  # fmt: skip
 
 
@@ -135,8 +135,8 @@ def _end(word: Word) -> str:
     """A word in millimetres: U and W for increments; F of a thread is its pitch."""
     address = INCREMENTS.get(word.address, word.address) if word.incremental else word.address
     if word.address in MOTION:
-        return _millimetres(address, _amount(word), discretes.Z)
-    return _millimetres("F", _amount(word), discretes.CYCLE_FEED) if address == "F" else _plain(word)
+        return _millimetres(address, _amount(word), functions.Z)
+    return _millimetres("F", _amount(word), functions.CYCLE_FEED) if address == "F" else _plain(word)
 
 
 def _millimetres(address: str, value: float, scale: float) -> str:

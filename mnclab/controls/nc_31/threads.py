@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 
-from mnclab.controls.nc_31 import discretes
+from mnclab.controls.nc_31 import functions
+from mnclab.controls.nc_31.cycles import FROM_START, FromStart, apart, aside, feed_word, here, own_mark, size, start
 from mnclab.controls.nc_31.functions import refuse_rapid, targets
-from mnclab.controls.nc_31.targets import FROM_START, FromStart, apart, aside, feed_word, here, own_mark, size, start
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
@@ -30,7 +30,7 @@ ONE_PASS = {"default": None, "default_means": "a single pass at X", "above": 0}
 
 def pitch_of(m: Machine, feed: float | None) -> float:
     """The pitch, mm: F, or the modal feed (there is one, as `needs_pitch` has seen)."""
-    return float(m.feed or 0.0) if feed is None else feed / discretes.CYCLE_FEED
+    return float(m.feed or 0.0) if feed is None else feed / functions.CYCLE_FEED
 
 
 def needs_pitch(m: Machine, feed: float | None) -> Iterator[tuple[str, str]]:
@@ -62,7 +62,7 @@ class ThreadCutting(FromStart):
         """The depth of each pass below X, mm on the radius."""
         if self.thread_depth is None or self.depth_per_pass is None:
             return (0.0,)
-        return infeeds(0, self.thread_depth / discretes.Z, self.depth_per_pass / discretes.Z)
+        return infeeds(0, self.thread_depth / functions.Z, self.depth_per_pass / functions.Z)
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
         """The depth of the thread alone: the source allows leaving out all of P, or P3."""
@@ -73,7 +73,7 @@ class ThreadCutting(FromStart):
         yield from apart(self.x, self.z, m)
         yield from needs_pitch(m, self.feed)
         yield from too_many("depth_per_pass", self.depths)
-        angle, length = m.settings["parameter_6"], abs(self.z - here(m)[1]) / discretes.Z
+        angle, length = m.settings["parameter_6"], abs(self.z - here(m)[1]) / functions.Z
         if not abs(angle) < 90:
             yield "", f"needs machine parameter 6 (infeed angle) to be less than 90 degrees, it is {angle:.10g}"
         shift = self.depths()[-1] * math.tan(math.radians(angle))
@@ -86,7 +86,7 @@ class ThreadCutting(FromStart):
         return float(m.settings["parameter_7"]) * 0.1 * pitch_of(m, self.feed)
 
     def moves(self, m: Machine) -> Iterable[Step]:
-        end, taper = (self.x / discretes.X, self.z / discretes.Z), self.taper / discretes.X
+        end, taper = (self.x / functions.X, self.z / functions.Z), self.taper / functions.X
         angle, pitch = math.radians(m.settings["parameter_6"]), pitch_of(m, self.feed)
         return thread_passes(start(m), end, pitch, self.depths(), taper=taper, angle=angle, run_out=self.run_out(m))
 
@@ -110,12 +110,12 @@ class Tapping(FromStart):
 
     def moves(self, m: Machine) -> Iterable[Step]:
         sense, pitch = m.turning, pitch_of(m, self.feed)
-        steps: list[Step] = [*tap([self.z / discretes.Z], above=m.programmed[2], sense=sense, end=sense, pitch=pitch)]
+        steps: list[Step] = [*tap([self.z / functions.Z], above=m.programmed[2], sense=sense, end=sense, pitch=pitch)]
         if self.zero_mark:
             cut = next(k for k, step in enumerate(steps) if isinstance(step, Thread))
             steps[cut] = steps[cut]._replace(label=f"{steps[cut].label}, synchronised start")
         if self.x is not None:
-            steps.append(Go("aside", x=self.x / discretes.X))
+            steps.append(Go("aside", x=self.x / functions.X))
         return steps
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any, ClassVar
 
-from mnclab.controls.word_address.state import memory
+from mnclab.controls.word_address.motion import memory
 from mnclab.machine.cycle import Given, Values, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds

@@ -14,10 +14,21 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.text.alarm import DIGITS, LATIN
+from mnclab.text.alarm import DIGITS, LATIN, Alarm
+from mnclab.text.dialect import Numbered, Numbers
 from mnclab.text.given import LARGEST
-from mnclab.text.program import MOST_WORDS, BulkBlocks, Program, ProgramBuilder, first_words, readable
-from mnclab.text.words import Scan, scan
+from mnclab.text.program import (
+    MOST_FAULTS,
+    MOST_WORDS,
+    NUMBER,
+    BulkBlocks,
+    Program,
+    ProgramBuilder,
+    TooManyFaults,
+    first_words,
+    readable,
+)
+from mnclab.text.words import Scan, characters, scan
 
 PIECE = 1 << 16
 LONGEST_NAME = 24  # letters of a word that is none
@@ -252,3 +263,61 @@ def _check_labels(builder: ProgramBuilder, labels: Labels) -> None:
         if number in seen:
             builder.alarm(f"N{int(number)} labels two blocks", offset, 1 + len(str(int(number))))
         seen.add(number)
+
+
+# Formats of words: which numbers may carry a sign or a decimal point, and blanks between an address and its number.
+# A format is written as manuals of such controls write it: `n` digits, `n.n` digits with a point or not, `±n` and
+# `±n.n` the same with a sign or not.
+
+MEANING = {"n": "digits alone", "n.n": "a number without sign", "±n": "a whole number", "±n.n": "a number"}
+
+
+def misformed(program: Program, formats: Mapping[str, str]) -> list[Alarm]:
+    """An Alarm for each word with a blank inside, or that is not of the format of its address."""
+    data = characters(program.text)
+    length = program.length.astype(np.int64)
+    alarms = []
+
+    def refuse(which: NDArray[np.bool_], what: str, repair: str = "") -> None:
+        for i in np.flatnonzero(which & (program.form == NUMBER)):
+            address = program.addresses[program.address[i]]
+            hint = repair or f"{address} takes {MEANING[formats[address]]}"
+            span = program.span(int(program.offset[i]), int(length[i]))
+            alarms.append(Alarm(f"{address} has {what}", span, hint=hint))
+            if len(alarms) > MOST_FAULTS:
+                raise TooManyFaults(span.line)
+
+    def count(found: NDArray[np.bool_]) -> NDArray[np.int64]:
+        before = np.concatenate([[0], np.cumsum(found)])
+        begin = program.offset.astype(np.int64)
+        return np.asarray(before[np.minimum(begin + length, len(data))] - before[begin])
+
+    plain, whole = (
+        np.isin(program.address, [k for k, name in enumerate(program.addresses) if formats.get(name, "±n.n") in kinds])
+        for kinds in (("n", "n.n"), ("n", "±n"))
+    )
+    blanks = count((data == ord(" ")) | (data == ord("\t")))
+    refuse(blanks > 0, "a blank before its number", "write the number directly after the address")
+    refuse(plain & (count((data == ord("+")) | (data == ord("-"))) > 0), "a sign")
+    refuse(whole & (count(data == ord(".")) > 0), "a decimal point")
+    return alarms
+
+
+# The numbers of blocks of ISO words: N at the beginning of a line, before or behind the mark of block skip.
+
+_NUMBER = re.compile(
+    r"[ \t\ufeff]*+(?:\([^()\r\n]*+\)[ \t]*+)*+(?:/[ \t]*+[1-9]?[ \t]*+)?N[ \t]*+\+?(\d++)(?!\.)", re.IGNORECASE
+)
+_LAST_OF_DIN = re.compile(r"[ \t]*%")  # N99999999 %NAME, the end of a DIN/ISO program
+
+
+def numbered(program: Program) -> list[Numbered]:
+    """The numbers of all lines, in their order."""
+    matches = (_NUMBER.match(program.text, int(begin)) for begin in program.line_starts)
+    found = [match for match in matches if match and not _LAST_OF_DIN.match(program.text, match.end())]
+    return [Numbered(match.start(1), match.end(1) - match.start(1), match[1]) for match in found]
+
+
+def numbers(program: Program) -> Numbers:
+    """The numbers of a program in which no word names a block."""
+    return Numbers(numbered(program))

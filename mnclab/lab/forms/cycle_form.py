@@ -10,8 +10,7 @@ from typing import Any
 
 from mnclab.controls.choice import help as help_on
 from mnclab.controls.choice import run as run_text
-from mnclab.controls.cycle_steps import steps
-from mnclab.controls.cycle_table import CycleSteps
+from mnclab.controls.cycle_steps import CycleSteps, steps
 from mnclab.lab.forms.about import about
 from mnclab.lab.forms.boxes import parameter_box, tick_of
 from mnclab.lab.forms.faults import field_of

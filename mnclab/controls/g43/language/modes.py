@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from mnclab.controls.g43.language.transformations import refuse_transformed
-from mnclab.controls.g43.remarks import ISO, remark
-from mnclab.controls.g43.state import memory
-from mnclab.controls.word_address.functions import FEEDS, PLANES, STOPS, functions
-from mnclab.controls.word_address.motion import first_word
+from mnclab.controls.g43.language.offsets import refuse_transformed
+from mnclab.controls.g43.state import ISO, memory, remark
+from mnclab.controls.word_address.motion import FEEDS, PLANE_CODES, STOPS, first_word, functions, refuse_change
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.path.recorder import NAN
@@ -27,10 +25,10 @@ FUNCTIONS = FunctionTable()
 FUNCTIONS |= SHARED
 
 
-@FUNCTIONS("G17 G18 G19", PLANES, group="plane", phase="plane", power_on="G17", source="7.1, example")
+@FUNCTIONS("G17 G18 G19", PLANE_CODES, group="plane", phase="plane", power_on="G17", source="7.1, example")
 def plane(m: Machine, words: Words) -> None:
     """The plane of arcs, radius compensation, polar coordinates and rotation."""
-    if PLANES[words.code].split()[-1] != m.plane:
+    if PLANE_CODES[words.code].split()[-1] != m.plane:
         refuse_transformed(m, words, "rotation")
         if memory(m).polar is not None:
             m.alarm("the plane cannot change while polar coordinates are on", first_word(words), hint="write G15 first")
@@ -125,3 +123,88 @@ def contour_control(m: Machine, words: Words) -> None:
     if m.settings["dialect"] == "linuxcnc":
         what, hint = LINUXCNC.get(words.code, ("no code of LinuxCNC", "leave it out; G64 P says how far a corner may be cut"))
         m.alarm(f"{words.code} is refused: {what}", first_word(words), hint)
+
+
+# Inches and millimetres: G20 and G21, in older programs G70 and G71.
+
+INCH = 25.4
+UNITS = {"G20": INCH, "G70": INCH, "G21": 1.0, "G71": 1.0}
+LATHE = {"G70": "finishes", "G71": "roughs"}  # on LinuxCNC
+
+
+NAMES = {code: "Inches" if factor == INCH else "Millimetres" for code, factor in UNITS.items()}
+
+
+def start_units(m: Machine) -> None:
+    """The unit that is active before the program says one."""
+    if m.settings["units"] == "inch":
+        m.set_modal("unit", "G20")
+        m.variable_unit = INCH
+
+
+@FUNCTIONS(" ".join(UNITS), NAMES, group="unit", phase="plane", power_on="G21", source=ISO)
+def unit(m: Machine, words: Words) -> None:
+    """What lengths and feeds of the program count in from this block on; the feed keeps its speed."""
+    if words.code in LATHE and m.settings["dialect"] == "linuxcnc":
+        hint = f"write G2{int(words.code == 'G71')} for the unit; lathes have the control jnc-t01"
+        m.alarm(f"{words.code} is no unit on LinuxCNC but {LATHE[words.code]} a contour on a lathe", first_word(words), hint)
+    factor = UNITS[words.code]
+    if factor != m.variable_unit:
+        refuse_change(m, "unit", first_word(words))
+        m.variable_unit = factor
+
+
+# M functions: the oriented stop, spindle and coolant together, overrides, and those that only the maker of a machine knows.
+
+BOTH = {"M13": "Spindle on clockwise, coolant on", "M14": "Spindle on counter-clockwise, coolant on"}
+OVERRIDES = {
+    "M29": "Rigid tapping, as G84 always is here",
+    "M48": "Overrides on", "M49": "Overrides off", "M50": "Feed override", "M51": "Spindle override",
+    "M52": "Adaptive feed", "M53": "Feed stop",
+}  # fmt: skip
+SIGNALS = "M62 M63 M64 M65 M66 M67 M68 M190"
+
+
+@FUNCTIONS("M13 M14", BOTH, group="spindle", phase="auxiliary", source=ISO)
+def spindle_and_coolant(m: Machine, words: Words) -> None:
+    """Before the motion of the block."""
+    m.spindle(turning=1 if words.code == "M13" else -1)
+    m.coolant()
+
+
+@FUNCTIONS("M19", "Oriented spindle stop", group="spindle", phase="auxiliary", takes="R P Q", source=ISO)
+def orient(m: Machine, words: Words) -> None:
+    """At an angle of R or P degrees, 0 without; Q is how long the machine waits for it. On LinuxCNC R alone is the angle and P
+    the direction: 0 the shorter way, 1 clockwise, 2 counter-clockwise."""
+    if m.settings["dialect"] == "linuxcnc":
+        angle, way, wait = (m.value(words[letter]) if letter in words else None for letter in "RPQ")
+        if angle is not None and not 0 <= angle <= 360:
+            m.alarm(f"M19 R (the angle of the spindle) must be 0 to 360, got {angle:g}", words["R"])
+        if way is not None and way not in (0, 1, 2):
+            m.alarm(f"M19 P (which way the spindle turns) must be 0, 1 or 2, got {way:g}", words["P"])
+        if wait is not None and wait <= 0:
+            m.alarm(f"M19 Q (how long the machine waits, s) must be greater than 0, got {wait:g}", words["Q"])
+        m.orient(angle or 0.0)
+        return
+    if "R" in words and "P" in words:
+        m.alarm("M19 has R and P in one block", words["P"], hint="keep one of them: the angle")
+    word = words.get("R") or words.get("P")
+    m.orient(m.value(word) if word else 0.0)
+
+
+@FUNCTIONS("M60", "Pallet change and stop", phase="end", modal=False, source=ISO)
+def pallet(m: Machine, words: Words) -> None:
+    """Waits for the operator, after the motion of the block."""
+    m.stop()
+
+
+@FUNCTIONS(" ".join(OVERRIDES), OVERRIDES, phase="auxiliary", takes="P", modal=False, source="Fanuc, Haas, LinuxCNC")
+def overrides(m: Machine, words: Words) -> None:
+    """The path is the same: what the operator may turn at, and how a tap is held."""
+
+
+@FUNCTIONS(SIGNALS, "Signals of the machine", phase="auxiliary", takes="P E L Q", modal=False, source="LinuxCNC")
+@FUNCTIONS("M", "Function of the maker", phase="auxiliary", modal=False, source="the maker of the machine")
+def makers(m: Machine, words: Words) -> None:
+    """What it does, the maker of the machine says; here it moves nothing."""
+    m.warn(f"{words.code} is a function of the machine's maker: here it moves nothing", first_word(words))

@@ -9,9 +9,9 @@ from __future__ import annotations
 import re
 
 from mnclab.controls.g43.language import programs
-from mnclab.controls.g43.language.macros import decide, number
+from mnclab.controls.g43.language.programs import decide, number
 from mnclab.controls.g43.reading.formulas import LINUXCNC
-from mnclab.controls.g43.reading.o_words import spelled
+from mnclab.controls.g43.reading.statements import spelled
 from mnclab.controls.g43.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine

@@ -1,31 +1,207 @@
-"""Programs that call others: M98 and M99, G65 with arguments, G66 after every motion; O, where a program begins.
-
-The program of a number is sought in the running file, then in those that were called, then among `Setup(files=…)` and beside
-the running file: `O1000.nc`, `1000.nc`, whatever the ending. M98 leaves the variables #1 to #33 to the program that it calls,
-as Fanuc and LinuxCNC have it; a macro has its own.
-"""
+"""Programs that call others, and Macro B: assignments, conditions, jumps and loops."""
 
 from __future__ import annotations
 
 import os
 import re
+from bisect import bisect_right
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import NamedTuple
 
-from mnclab.controls.g43.language import sections
-from mnclab.controls.g43.language.macros import number
-from mnclab.controls.g43.reading.formulas import LINUXCNC
+from mnclab.controls.g43.language import variables
+from mnclab.controls.g43.reading.formulas import FANUC, LINUXCNC, Formula
 from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address.motion import first_word
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.machine import Machine
+from mnclab.machine.machine import LONG, Machine
 from mnclab.running import interpreter
 from mnclab.running.flow import course
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 
+# Programs that stand one after another in a file, from one O number to the next, and the numbered blocks of each.
+
+_PROGRAM = re.compile(r"O\d+")
+
+
+def sections(m: Machine) -> list[tuple[int, str]]:
+    """The first block and the label of each program of the running file."""
+    known = memory(m).sections
+    if m.program not in known:
+        labels = m.flow.program.labels
+        known[m.program] = sorted((block, name) for name, block in labels.items() if _PROGRAM.fullmatch(name))
+    return known[m.program]
+
+
+def here(m: Machine) -> str:
+    """The label of the program that runs; empty without O numbers."""
+    found = sections(m)
+    place = bisect_right(found, (m.flow.current, "~")) - 1
+    return found[place][1] if place >= 0 else ""
+
+
+def block_label(m: Machine, number: float, word: Word) -> str:
+    """The label of a numbered block of the running program: the next one below with this number, or else the first one."""
+    own = here(m)
+    name = f"{own} N{number:.10g}".strip()
+    labels = m.flow.program.labels
+    if name not in labels:
+        where = f" in {own}" if own else ""
+        known = [label.rpartition(" ")[2] for label in labels if label.startswith(f"{own} N".lstrip())]
+        hint = f"blocks with numbers: {', '.join(known[:8])}" if known else "no block has a number"
+        m.alarm(f"there is no block N{number:.10g}{where}", word, hint)
+    found, count = [name], 2
+    while (again := f"{name} ({count})") in labels:
+        found.append(again)
+        count += 1
+    if len(found) > 1:
+        m.warn(f"N{number:.10g} stands {len(found)} times: the next one below counts, or else the first", word)
+    return next((label for label in found if labels[label] > m.flow.current), found[0])
+
+
+# Macro B: assignments, conditions, jumps and loops; the formulas in blocks of words.
+# A block's formulas are worked out before its words are handed out, so that G and M may be formulas, too; a word whose value is
+# vacant is left out, as Fanuc has it.
+
 FUNCTIONS = FunctionTable()
+MACRO_B = "Macro B"
+MACRO_MEANINGS = {
+    "target": "the variable that takes a value", "value": "the value", "message": "the comment that is shown",
+    "beside": "words stand in the same line",
+    "condition": "the condition", "GOTO": "the block to go on at", "END": "where the loop ends", "DO": "where it begins",
+}  # fmt: skip
+#: Addresses whose numbers count things, and of them those that say where the program goes on and what it does there.
+COUNTS, COURSE = "DGHLMNOPST", "GMP"
+LENGTHS = (*"XYZIJKRQUVW", ",R", ",C")
+INCREMENT = {1.0: 1e-3, 25.4: 1e-4}  # what ROUND rounds lengths to, by the unit in mm
+WHOLE = 1e-6  # what computing leaves of a whole number
+
+
+def worth(m: Machine, formula: Formula, address: str = "") -> float | None:
+    """The value of a formula, None where it is vacant."""
+    dialect = m.settings["macros"]
+    unit = INCREMENT[m.variable_unit] if dialect == FANUC and address in LENGTHS else 1.0
+    m.flow.spend_again(1 + len(formula.tokens) // LONG)  # what a formula takes beside its block
+    try:
+        value = formula.worth(m.variables, dialect, unit)
+    except Alarm as alarm:
+        raise placed(m, alarm) from None
+    if value is not None and address and address in COUNTS and abs(value - round(value)) < WHOLE:
+        return float(round(value))
+    return value
+
+
+def placed(m: Machine, alarm: Alarm) -> Alarm:
+    """An alarm of a formula at its place in the running program."""
+    alarm.span = alarm.span and alarm.span._replace(program=m.program)
+    return alarm
+
+
+def computed(m: Machine, words: list[Word]) -> list[Word]:
+    """The words of a block with numbers in the place of their formulas."""
+    found = []
+    for word in words:
+        if isinstance(word.value, Formula):
+            if word.address in COURSE:
+                m.flow.ask(word.value)
+            if word.value.text.lstrip("+- ")[:1].isalpha() and m.settings["macros"] == FANUC:
+                hint = f"write {word.address}[{word.value.text}]; LinuxCNC takes it as it is: setting dialect"
+                m.alarm(f"{word.address}: a function of a value stands in brackets", word, hint)
+            value = worth(m, word.value, word.address)
+            if value is None:
+                continue
+            word = word._replace(value=value)
+        found.append(word)
+    return found
+
+
+def number(m: Machine, word: Word) -> float | None:
+    """The number of a word of a statement."""
+    return worth(m, word.value) if isinstance(word.value, Formula) else m.value(word)
+
+
+@FUNCTIONS("#,", "Assignment", takes="target* value* message beside", source=MACRO_B)
+def assign(m: Machine, words: Words) -> None:
+    """Variables take values, all of which are worked out before."""
+    if "beside" in words and m.settings["macros"] == FANUC:
+        hint = "write two blocks; LinuxCNC takes it: setting dialect"
+        m.alarm("words and an assignment stand in one block", words["beside"], hint)
+    values = [number(m, word) for word in words.all("value")]
+    for target, value in zip(words.all("target"), values, strict=True):
+        formula = target.value
+        assert isinstance(formula, Formula)
+        try:
+            name = formula.name(m.variables, m.settings["macros"])
+        except Alarm as alarm:
+            raise placed(m, alarm) from None
+        message = words.get("message")
+        variables.give(m, target, name, value, str(message.value) if message else "")
+
+
+@FUNCTIONS("IF,", "Condition", takes="condition GOTO target* value* message", leads_away=True, source=MACRO_B)
+def condition(m: Machine, words: Words) -> None:
+    """GOTO a block, or THEN an assignment, if the condition holds."""
+    holds = decide(m, words["condition"])
+    if "GOTO" not in words:
+        if holds:
+            assign(m, words)
+    elif holds or isinstance(words["GOTO"].value, float):  # a block that is missing is a fault even without the jump
+        label = target(m, words["GOTO"])
+        if holds:
+            m.flow.jump(m, label, m.span_of(words["GOTO"]))
+
+
+@FUNCTIONS("GOTO,", "Jump to a block", takes="GOTO", leads_away=True, source=MACRO_B)
+def go_to(m: Machine, words: Words) -> None:
+    """The program goes on at the block with this N: the next one below, or else the first one of the program."""
+    m.flow.jump(m, target(m, words["GOTO"]), m.span_of(words["GOTO"]))
+
+
+def target(m: Machine, word: Word) -> str:
+    if isinstance(word.value, Formula):
+        m.flow.ask(word.value)
+    return block_label(m, number(m, word) or 0.0, word)
+
+
+@FUNCTIONS("WHILE,", "Loop", takes="condition END", leads_away=True, source=MACRO_B)
+def repeat(m: Machine, words: Words) -> None:
+    """The blocks up to END are obeyed as long as the condition holds."""
+    if not decide(m, words["condition"]):
+        m.flow.jump(m, str(words["END"].value), m.span_of(words["END"]))
+
+
+@FUNCTIONS("DO,", "Loop without a condition", takes="END", leads_away=True, source=MACRO_B)
+def begin_loop(m: Machine, words: Words) -> None:
+    """Without WHILE a loop is left by GOTO alone."""
+
+
+@FUNCTIONS("END,", "End of a loop", takes="DO", leads_away=True, source=MACRO_B)
+def end_loop(m: Machine, words: Words) -> None:
+    """Back to the block of DO."""
+    m.flow.jump(m, str(words["DO"].value), m.span_of(words["DO"]))
+
+
+def decide(m: Machine, word: Word) -> bool:
+    """Whether a condition holds."""
+    formula = word.value
+    assert isinstance(formula, Formula)
+    try:
+        sides = formula.sides(m.variables, m.settings["macros"])
+    except Alarm as alarm:
+        raise placed(m, alarm) from None
+    if sides:
+        m.flow.compare(formula, 0.0, sides[0] - sides[1])
+    else:
+        m.flow.ask(formula)
+    return bool(worth(m, formula))
+
+
+# Programs that call others: M98 and M99, G65 with arguments, G66 after every motion; O, where a program begins.
+# The program of a number is sought in the running file, then in those that were called, then among `Setup(files=…)` and beside
+# the running file: `O1000.nc`, `1000.nc`, whatever the ending. M98 leaves the variables #1 to #33 to the program that it calls,
+# as Fanuc and LinuxCNC have it; a macro has its own.
+
 SOURCE = "Fanuc, LinuxCNC"
 MACRO = "Macro B"
 MOST = 9999  # calls by one word
@@ -57,7 +233,7 @@ class Macro(NamedTuple):
 @FUNCTIONS("O", "Program number", phase="plane", source="ISO 6983")
 def program_number(m: Machine, words: Words) -> None:
     """Where a program begins; one that runs into the next one ends there."""
-    blocks, word, flow = sections.sections(m), words["O"], course(m)
+    blocks, word, flow = sections(m), words["O"], course(m)
     place = next((k for k, (block, _) in enumerate(blocks) if block == flow.current), -1)
     if place < 0:
         m.alarm("O, a whole number of up to eight digits, is the first word of its block", word)
@@ -107,7 +283,7 @@ def end(m: Machine, words: Words) -> None:
         memory(m).return_to = words.get("P")
         back(m)
     elif "P" in words:
-        m.flow.jump(m, sections.block_label(m, m.value(words["P"]), words["P"]), m.span_of(words["P"]))
+        m.flow.jump(m, block_label(m, m.value(words["P"]), words["P"]), m.span_of(words["P"]))
     elif m.settings["main_m99"] == "repeat":
         m.flow.jump(m, "%", m.span_of(word))
     else:
@@ -224,7 +400,7 @@ def run(m: Machine, program: int, times: int, code: str, word: Word | None) -> N
             return
         if (place := memory(m).return_to) is not None:
             memory(m).return_to = None
-            flow.jump(m, sections.block_label(m, m.value(place), word or place), m.span_of(word))
+            flow.jump(m, block_label(m, m.value(place), word or place), m.span_of(word))
             return
 
 
@@ -248,7 +424,7 @@ def found(m: Machine, program: int, code: str, word: Word | None) -> tuple[int, 
     what, label = f"{code} P{program}", f"O{program}"
     name = file_of(m, f"O?0*{program}", label, what, word)
     if name is None:
-        there = ", ".join(name for _, name in sections.sections(m)[:8]) or "no program with a number"
+        there = ", ".join(name for _, name in sections(m)[:8]) or "no program with a number"
         hint = f"this file has {there}; Setup(files=…) and the folder have no file {label}"
         m.alarm(f"{what}: there is no program {label}", word, hint)
     index = interpreter.called(m, name, code, m.span_of(word))

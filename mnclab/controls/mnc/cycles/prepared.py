@@ -9,8 +9,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any, ClassVar
 
 from mnclab.controls.mnc.cycles import addresses
-from mnclab.controls.word_address.motion import first_word
-from mnclab.controls.word_address.state import memory
+from mnclab.controls.word_address.motion import first_word, memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import TAPS
 from mnclab.machine.cycle import Cycle, CycleTable, param

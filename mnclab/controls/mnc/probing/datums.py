@@ -1,19 +1,129 @@
-"""Datums from a slot, a ridge, a pocket, an island, a bore, a boss, or a single touch (MNC 12.3 to 12.8, 12.11, 12.12)."""
+"""Datums that are probed: the base rotation of a side, slots, ridges, pockets, bores and bosses, corners (MNC 12.1 to 12.13)."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
+from typing import ClassVar
 
 from mnclab.controls.mnc.probing import addresses
-from mnclab.controls.mnc.probing.addresses import APPROACH, TOP
-from mnclab.controls.mnc.probing.cycle import TURNS, MeasuringCycle, Moves
-from mnclab.controls.mnc.probing.figures import box, middle, ring
-from mnclab.machine.cycle import CycleTable
+from mnclab.controls.mnc.probing.addresses import APPROACH, SIDE, TOP
+from mnclab.controls.mnc.probing.cycle import (
+    TURNS,
+    Check,
+    MeasuringCycle,
+    Moves,
+    base_rotation,
+    box,
+    conclude,
+    middle,
+    ring,
+    store_angle,
+    turn_base,
+    unplaced,
+)
+from mnclab.machine.coordinates import NOTHING
+from mnclab.machine.cycle import CycleTable, Given, Values
 from mnclab.machine.machine import Machine
-from mnclab.machining.probing.sequences import Aim, Approach, from_above, in_plane, numbers
-from mnclab.machining.steps import Measure
+from mnclab.machining.probing.fits import corner, line, reduced
+from mnclab.machining.probing.sequences import Aim, Approach, Pair, Steps, from_above, in_plane, numbers, results
+from mnclab.machining.probing.sequences import corner as corner_touches
+from mnclab.machining.probing.sketches import sketch
+from mnclab.machining.steps import Measure, Say
+from mnclab.text.alarm import Alarm
+
+# The angle of a straight side: measured, or given as the base rotation (MNC 12.1, 12.2, 12.13).
 
 CYCLES = CycleTable(addresses=addresses, runs="definition")
+ASKEW = 45.0  # degrees: a side that lies farther off its line was probably measured against the wrong one
+
+
+def along_the_axis(c: MeasuringCycle) -> Iterator[tuple[str, str]]:
+    """Two points that are one along the side."""
+    for axis, name, first, second in ((1, "y2", c.y, c.y2), (2, "x2", c.x, c.x2)):
+        if c.axis == axis and first == second:
+            yield name, f"must differ from {name[0].upper()}, got {second:g}: both points are one along the side"
+
+
+def touched(c: MeasuringCycle, m: Machine) -> Steps:
+    """The angle of a side, that of a line without a direction (MNC-G400-UNDIRECTED, MNC-G420-RANGE), and the contacts."""
+    a, way = c.approach(m), (c.direction, 0.0) if c.axis == 1 else (0.0, c.direction)
+    points = (c.x, c.y), (c.x2, c.y2)
+    contacts = yield from in_plane(a, [Aim(x, y, way) for x, y in points], m.programmed[2])
+    side = line([contact.point[:2] for contact in contacts]).towards(way, a.ball)
+    yield sketch(points, [side.foot(contact.point) for contact in contacts], a.level, contacts)
+    return side.angle % 180 if c.axis == 1 else reduced(side.angle), contacts
+
+
+@CYCLES("G400", "Align the plane to a straight side", source="MNC 12.1", takes=f"{SIDE} reference_angle row")
+class Alignment(MeasuringCycle):
+    """Two touches of a side, without the base rotation; its angle to a reference line becomes the base rotation.
+
+    The datum point stays.
+    """
+
+    refused, contradictions = TURNS, along_the_axis
+    x: float = addresses.x(meaning="X of the first measuring point", example=20)
+    y: float = addresses.y(meaning="Y of the first measuring point", example=0)
+    axis: float = addresses.axis(example=2)
+    between: float = addresses.between(("P", "R"))
+    reference_angle: float = addresses.angle("E", "angle of the reference line to X", 0)
+    row: float = addresses.row(note="gets the angle; 0: it is not saved")
+
+    @classmethod
+    def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
+        if "between" in given and given["between"].address == "R":  # MNC-G400-PR
+            m.warn("G400 R means P: the format has P, the list of the manual R", given["between"])
+        return values
+
+    def moves(self, m: Machine) -> Moves:
+        if base_rotation(m):
+            yield from turn_base(0.0)
+        angle, contacts = yield from touched(self, m)
+        turned = reduced(angle - self.reference_angle)
+        yield Measure("angle", angle, self.reference_angle, unit="deg", touches=numbers(contacts))
+        yield Measure("base rotation", turned, unit="deg")
+        if abs(turned) > ASKEW:
+            yield Say(f"turns the plane by {turned:.4g} degrees", "E90 is the reference line of a side along Y")
+        yield from turn_base(turned)
+        yield from store_angle(m, self.row, turned)
+
+
+@CYCLES("G420", "Measure an angle in the XY plane", source="MNC 12.13", takes=f"{SIDE} protocol")
+class Angle(MeasuringCycle):
+    """Two touches of a straight side give its angle to X; a base rotation stays, and the angle counts from its X."""
+
+    contradictions = along_the_axis
+    x: float = addresses.x(meaning="X of the first measuring point", example=20)
+    y: float = addresses.y(meaning="Y of the first measuring point", example=0)
+    axis: float = addresses.axis(example=2)
+    protocol: float = addresses.protocol("M")
+
+    def moves(self, m: Machine) -> Moves:
+        angle, contacts = yield from touched(self, m)
+        yield from results(Q319=angle)
+        yield from conclude(self, m, contacts, Check(Measure("angle", angle, unit="deg")))
+
+
+@CYCLES("G404", "Set the base rotation", source="MNC 12.2", takes="angle row")
+class BaseRotation(MeasuringCycle):
+    """The given angle replaces the base rotation; nothing moves, and no probe is needed. E0 cancels it."""
+
+    does: ClassVar[str] = NOTHING
+
+    angle: float = addresses.turn("E", "angle of the base rotation", 30)
+    row: float = addresses.row(note="gets the angle; 0: it is not saved")
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        yield from unplaced(m)
+
+    def moves(self, m: Machine) -> Moves:
+        yield from turn_base(self.angle)
+        yield from store_angle(m, self.row, self.angle)
+
+
+# Datums from a slot, a ridge, a pocket, an island, a bore, a boss, or a single touch (MNC 12.3 to 12.8, 12.11, 12.12).
+
 CENTRE = f"{APPROACH} between row x_new y_new {TOP}"
 
 
@@ -143,3 +253,111 @@ def centre_datum(c: MeasuringCycle, m: Machine, a: Approach, found: Sequence[flo
     yield Measure("centre X", found[0], c.x, touches=tuple(touches[:2]))
     yield Measure("centre Y", found[1], c.y, touches=tuple(touches[2:]))
     yield from c.finish(m, a, {0: (found[0], c.x_new), 1: (found[1], c.y_new)})
+
+
+# Datums at the corner of two sides, outside and inside (MNC 12.9, 12.10).
+# Points 1 and 2 lie side by side along X and are measured along Y, points 3 and 4 the other way (MNC-G414-YFIRST). The turn of
+# the part is the angle of the first side to X; it is added to the base rotation that it was measured in.
+
+CORNER = f"{APPROACH} between rotate row x_new y_new {TOP}"
+CORNERS: dict[float, str] = {1: "lower left", 2: "lower right", 3: "upper right", 4: "upper left"}
+INTO: dict[float, Pair] = {1: (1, 1), 2: (-1, 1), 3: (-1, -1), 4: (1, -1)}  # from the corner into the pocket
+
+
+@CYCLES(
+    "G414", "Datum at an outside corner", source="MNC 12.9", takes=f"x y distance_12 x3 y3 distance_34 {CORNER}"
+)  # fmt: skip
+class DatumAtOutsideCorner(MeasuringCycle):
+    """Two touches of each side; points 1 and 3 say which corner is meant. It gets the coordinates U and V."""
+
+    refused = TURNS
+    x: float = addresses.x(meaning="X of the first point", example=20)
+    y: float = addresses.y(meaning="Y of the first point", example=0)
+    distance_12: float = addresses.spacing("A", "distance from point 1 to 2 along X", 60)
+    x3: float = addresses.coordinate("C", "X of the third point", 0)
+    y3: float = addresses.coordinate("D", "Y of the third point", 15)
+    distance_34: float = addresses.spacing("B", "distance from point 3 to 4 along Y", 30)
+
+    @property
+    def senses(self) -> Pair:
+        """Into the material: along X for points 3 and 4, along Y for points 1 and 2."""
+        return math.copysign(1.0, self.x - self.x3), math.copysign(1.0, self.y3 - self.y)
+
+    def points(self, m: Machine) -> tuple[Pair, Pair, Pair, Pair]:
+        sx, sy = self.senses if m.settings["corner_spacing"] == "away" else (1.0, 1.0)
+        second, fourth = self.x + sx * self.distance_12, self.y3 + sy * self.distance_34
+        return (self.x, self.y), (second, self.y), (self.x3, self.y3), (self.x3, fourth)
+
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        yield from super().contradictions()
+        if self.x == self.x3:
+            yield "x3", f"must differ from X, got {self.x3:g}: it says on which side the corner lies"
+        if self.y == self.y3:
+            yield "y3", f"must differ from Y, got {self.y3:g}: it says on which side the corner lies"
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        yield from super().check(m)
+        (sx, sy), ((_, y), (x2, _), (x3, _), (_, y4)) = self.senses, self.points(m)
+        if sx < 0 and x2 >= x3:
+            yield "distance_12", f"puts point 2 at X{x2:g}, at or beyond the other side, X{x3:g}"
+        if sy < 0 and y4 >= y:
+            yield "distance_34", f"puts point 4 at Y{y4:g}, at or beyond the other side, Y{y:g}"
+
+    def moves(self, m: Machine) -> Moves:
+        (sx, sy), points, a = self.senses, self.points(m), self.approach(m)
+        first, second = [Aim(*point, (0.0, sy)) for point in points[:2]], [Aim(*point, (sx, 0.0)) for point in points[2:]]
+        nominal = points[1], (self.x3, self.y), points[3]
+        yield from corner_datum(self, m, a, first, second, nominal)
+
+
+@CYCLES(
+    "G415", "Datum at an inside corner", source="MNC 12.10", takes=f"x y distance_12 distance_14 corner {CORNER}"
+)  # fmt: skip
+class DatumAtInsideCorner(MeasuringCycle):
+    """Two touches of each side, the first and the third from one place (MNC-G415-B). The corner gets U and V."""
+
+    refused = TURNS
+    x: float = addresses.x(meaning="X of the first point", example=10)
+    y: float = addresses.y(meaning="Y of the first point", example=0)
+    distance_12: float = addresses.spacing("A", "distance from point 1 to 2 along X", 60)
+    distance_14: float = addresses.spacing("B", "distance from point 1 to 4 along Y", 40)
+    corner: float = addresses.choice("C", "number of the corner", CORNERS, 1)
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        yield from super().check(m)
+        if self.distance_14 <= (away := self.approach(m).away):
+            yield "distance_14", f"must be greater than the way from point 1 to its start, {away:g}, got {self.distance_14:g}"
+
+    def moves(self, m: Machine) -> Moves:
+        a, (ux, uy) = self.approach(m), INTO[self.corner]
+        begin = self.y + uy * a.away
+        down, aside = (0.0, -uy), (-ux, 0.0)
+        first = [Aim(self.x, begin, down, 0.0), Aim(self.x + ux * self.distance_12, begin, down, 0.0)]
+        second = [Aim(self.x, begin, aside, 0.0), Aim(self.x, self.y + uy * self.distance_14, aside, 0.0)]
+        yield from corner_datum(self, m, a, first, second)
+
+
+def corner_datum(
+    cycle: DatumAtOutsideCorner | DatumAtInsideCorner, m: Machine, a: Approach, first: Sequence[Aim], second: Sequence[Aim],
+    nominal: Sequence[Pair] = (),
+) -> Moves:  # fmt: skip
+    """Where the lines through both pairs of contacts cross, each moved along its normal to the material.
+
+    `nominal` are points 2 and 4, and between them the corner, where the cycle knows them.
+    """
+    contacts = yield from corner_touches(a, first, second, m.programmed[2])
+    pairs = (contacts[:2], first[0].direction), (contacts[2:], second[0].direction)
+    lines = [line([each.point[:2] for each in pair]).towards(way, a.ball) for pair, way in pairs]
+    try:
+        found = corner(*lines)
+    except Alarm as alarm:
+        m.alarm(f"{cycle.code}: {alarm.message}")
+    angle, touches = reduced(lines[0].angle), numbers(contacts)
+    ends = [side.foot(pair[1].point) for side, (pair, _) in zip(lines, pairs, strict=True)]
+    actual = ends[0], (found.x, found.y), ends[1]
+    yield sketch(nominal or actual, actual, a.level, contacts)
+    for name, value, k in (("X", found.x, 0), ("Y", found.y, 1)):
+        yield Measure(f"corner {name}", value, nominal[1][k] if nominal else math.nan, touches=touches)
+    yield Measure("angle", angle, 0.0, unit="deg", touches=touches[:2])
+    gets = {0: (found.x, cycle.x_new), 1: (found.y, cycle.y_new)}
+    yield from cycle.finish(m, a, gets, angle if cycle.rotate else None)

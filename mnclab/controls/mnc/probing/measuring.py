@@ -8,9 +8,7 @@ from dataclasses import replace
 
 from mnclab.controls.mnc.probing import addresses
 from mnclab.controls.mnc.probing.addresses import APPROACH, CENTRE, SIZE
-from mnclab.controls.mnc.probing.cycle import MeasuringCycle, Moves
-from mnclab.controls.mnc.probing.figures import box, ring
-from mnclab.controls.mnc.probing.protocol import Check, centre, conclude, size
+from mnclab.controls.mnc.probing.cycle import Check, MeasuringCycle, Moves, box, centre, conclude, ring, size
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machining.probing.sequences import NORMALS, Aim, Approach, in_plane, results

@@ -11,9 +11,9 @@ from collections.abc import Generator, Iterator
 from dataclasses import replace
 from typing import Any, ClassVar
 
-from mnclab.controls.mnc.probing import addresses, protocol
+from mnclab.controls.mnc.language import memory
+from mnclab.controls.mnc.probing import addresses, cycle
 from mnclab.controls.mnc.probing.cycle import Moves, unplaced
-from mnclab.controls.mnc.state import memory
 from mnclab.machine.control import Setting
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
@@ -282,4 +282,4 @@ def learned(m: Machine, **found: float) -> Iterator[Step]:
 def report(m: Machine, code: str, values: dict[str, float]) -> Iterator[Step]:
     """The report of G470 in the folder of measurement protocols (MNC-PROT-G470)."""
     lines = [f"{name} = {value:.{DIGITS}f}" for name, value in values.items()]
-    yield Write("file", "\n".join([*protocol.head(m, code), *lines, ""]), protocol.name(m, code))
+    yield Write("file", "\n".join([*cycle.head(m, code), *lines, ""]), cycle.name(m, code))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from mnclab.controls.tnc_620.reading import din_reader
-from mnclab.controls.word_address import numbers as words
+from mnclab.controls.word_address import reader as words
 from mnclab.text.dialect import Numbered, Numbers
 from mnclab.text.program import Program
 
