@@ -17,7 +17,7 @@ from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, distance, increment, length
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
-from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
+from mnclab.machine.cycle import Cycle, CycleTable, few_passes, param, too_many
 from mnclab.machine.in_mm import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machine.settings import Setting
@@ -35,6 +35,7 @@ SETTINGS = (
     ),
     Setting("spindle_error", True, "28, 29 and 39 need a turning spindle (displaySpindleErr, no. 201002)", "9.3 to 9.5"),
 )  # fmt: skip
+WAYS = 4  # of a level at least: in, along the contour, out, and back
 IN: dict[float, str] = {0: "in degrees", 1: "in mm, or in inches"}
 
 
@@ -61,7 +62,7 @@ class OnCylinder(Cycle):
             yield "depth", f"must be negative, got {self.depth:g}: the tool comes from outside, from inside is not built yet"
         if -self.depth >= self.cylinder_radius > 0:
             yield "depth", f"must be less deep than the radius Q16 = {self.cylinder_radius:g}, got {self.depth:g}"
-        yield from too_many("infeed", self.levels)
+        yield from [*too_many("infeed", self.levels)] or few_passes("infeed", len(self.levels()), WAYS)
         if self.sided and m.settings["spindle_error"] and not m.turning:
             yield "", "needs a turning spindle (setting spindle_error)"
         yield from surface_faults(m)
