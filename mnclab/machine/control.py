@@ -323,7 +323,7 @@ EVERY = (
         "the patience of a reader", unit="blocks", at_least=1000, at_most=1_000_000_000,
     ),
     Setting(
-        "most_rows", 1_000_000, "rows of the path beyond which a run ends, with 20 more for each block of the text",
+        "most_rows", 500_000, "rows of the path beyond which a run ends, with 20 more for each block of the text",
         "the memory of the computer", unit="rows", at_least=1000, at_most=1_000_000_000,
     ),
 )  # fmt: skip

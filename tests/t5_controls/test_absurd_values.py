@@ -8,6 +8,7 @@ import pytest
 
 import mnclab
 from mnclab import Alarm
+from mnclab.machine import trial
 
 TRAIN = """\
 TOOL CALL 1 Z S1000 F100
@@ -89,3 +90,12 @@ def test_a_hole_in_a_loop_counts_as_more_than_a_block():
     text = f"TOOL CALL 1 Z S1000 F100\nL Z+10 R0 FMAX M3\n{hole}LBL 1\nL IX+1 FMAX M99\nCALL LBL 1 REP 65000\n"
     run = mnclab.run(text, "tnc-620")
     assert "as much work as 200000 blocks" in run.alarms[0].message
+
+
+@pytest.mark.parametrize("code", ["CYCL DEF 27", "CYCL DEF 28", "CYCL DEF 29", "CYCL DEF 39"])
+def test_an_infeed_on_a_cylinder_makes_no_more_levels_than_anybody_waits_for(code):
+    of = mnclab.controls["tnc-620"]
+    cycle = of.cycles[code]
+    given = {p.name: trial.first_value(p) for p in cycle.parameters() if p.required or trial.written_first(p)}
+    run = mnclab.run(f"{trial.program(of, cycle, given | {'infeed': 0.001})}\n", "tnc-620", setup=of.trial_setup)
+    assert "levels of 4 passes, more than 5000 together" in run.alarms[0].message

@@ -129,3 +129,16 @@ def test_stop_with_a_message():
 def test_an_explanation_has_the_values_of_formulas():
     told = str(run("#1=4\nG0 X[#1*2.5] Y#2\n").explain(2))
     assert "X[#1*2.5]" in told and "= 10" in told
+
+
+@pytest.mark.parametrize("dialect", ["fanuc", "linuxcnc"])
+def test_a_loop_without_an_end_says_its_bound_and_counts_formulas(dialect):
+    """A block with a formula counts as two: of 1000 that are allowed half or a few more are obeyed."""
+    text = "#1=0\nN5 #1=[#1+1+SIN[#1]]\n#2=[#1*2]\nIF[#1 GE 0]GOTO5\nM30\n"
+    if dialect == "linuxcnc":
+        text = "#1=0\no1 while [#1 GE 0]\n#1=[#1+1+SIN[#1]]\n#2=[#1*2]\no1 endwhile\nM2\n"
+    run = mnclab.run(text, "g43", mnclab.Setup(settings={"dialect": dialect, "most_blocks": 1000}))
+    assert "ran as much work as 1000 blocks without an end" in run.alarms[0].message
+    assert "most_blocks" in run.alarms[0].hint and 400 < len(run.steps.block) < 700
+    plain = mnclab.run("#1=0\n" * 3000 + "M30\n", "g43", mnclab.Setup(settings={"most_blocks": 1000}))
+    assert plain.ok and len(plain.steps.block) == 3001

@@ -143,9 +143,9 @@ def test_a_long_repeat_runs() -> None:
 def test_rows_without_bound_are_refused_before_they_are_made(body: str, block: str, loop: str) -> None:
     found = run(body)
     (alarm,) = found.alarms
-    assert "more than the setting most_rows (1000000)" in alarm.message and loop in alarm.message
+    assert "more than the setting most_rows (500000)" in alarm.message and loop in alarm.message
     assert block in found.program.line_text(alarm.span.line)
-    assert len(found.toolpath) < 1_000_000
+    assert len(found.toolpath) < 500_000
 
 
 def test_the_bound_is_exact_and_counts_the_blocks_of_the_text() -> None:
@@ -164,7 +164,7 @@ def test_the_bound_is_exact_and_counts_the_blocks_of_the_text() -> None:
 
 def test_every_control_has_the_bound() -> None:
     for control in mnc.controls.values():
-        assert [s.default for s in control.settings if s.name == "most_rows"] == [1_000_000]
+        assert [s.default for s in control.settings if s.name == "most_rows"] == [500_000]
         assert [s.default for s in control.settings if s.name == "most_blocks"] == [200_000]
     assert "most_rows" in str(mnc.help("settings", "nc-31"))
     with pytest.raises(mnc.Alarm, match="most_rows .* must be a number from 1000 to 1000000000, got 5"):

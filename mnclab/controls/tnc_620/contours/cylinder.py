@@ -19,7 +19,7 @@ from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.machine.control import Setting
 from mnclab.machine.coordinates import MILLS, in_mm, remark
-from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
+from mnclab.machine.cycle import Cycle, CycleTable, few_passes, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
 from mnclab.machining.steps import Go, Say, Step
@@ -34,6 +34,7 @@ SETTINGS = (
     ),
     Setting("spindle_error", True, "28, 29 and 39 need a turning spindle (displaySpindleErr, no. 201002)", "9.3 to 9.5"),
 )  # fmt: skip
+WAYS = 4  # of a level at least: in, along the contour, out, and back
 IN: dict[float, str] = {0: "in degrees", 1: "in mm, or in inches"}
 
 
@@ -60,7 +61,7 @@ class OnCylinder(Cycle):
             yield "depth", f"must be negative, got {self.depth:g}: the tool comes from outside, from inside is not built yet"
         if -self.depth >= self.cylinder_radius > 0:
             yield "depth", f"must be less deep than the radius Q16 = {self.cylinder_radius:g}, got {self.depth:g}"
-        yield from too_many("infeed", self.levels)
+        yield from [*too_many("infeed", self.levels)] or few_passes("infeed", len(self.levels()), WAYS)
         if self.sided and m.settings["spindle_error"] and not m.turning:
             yield "", "needs a turning spindle (setting spindle_error)"
         yield from surface_faults(m)
