@@ -1,6 +1,7 @@
 """What every test shares: pictures without a screen, examples without chance, the option --rewrite, the run of a module."""
 
 import functools
+import gc
 import os
 
 import pytest
@@ -31,6 +32,18 @@ def pytest_pycollect_makemodule(module_path):
 def pytest_addoption(parser):
     """Add the option that renews golden listings."""
     parser.addoption("--rewrite", action="store_true", help="write golden listings anew for review")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection():
+    """Thousands of tests are made and all of them stay: garbage is looked for once, after that, and never among them."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.collect()
+        gc.freeze()
+        gc.enable()
 
 
 @pytest.fixture
