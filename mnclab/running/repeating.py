@@ -176,7 +176,7 @@ def _model(visits: list[Visit | None], places: Array) -> Visit | None:
     pairs = ((one.ends, two.ends), (one.centres, two.centres), (one.left[0], two.left[0]))
     alike = all(np.allclose(a, b, rtol=0, atol=SAME, equal_nan=True) for a, b in pairs)
     alike = alike and np.array_equal(one.rows[:, _ELSE], two.rows[:, _ELSE], equal_nan=True)
-    moves = (np.abs(places[1:] - (places[:-1] + two.left[1])) > SAME).any(axis=1)
+    moves: NDArray[np.bool_] = np.any(np.abs(places[1:] - (places[:-1] + two.left[1])) > SAME, axis=1)
     return two if alike and (moves == moves[0]).all() else None
 
 
