@@ -7,7 +7,7 @@ import pytest
 from shapely import LineString, Polygon, distance, get_coordinates, points, union_all
 
 from mnclab import Kind
-from mnclab.controls.tnc_620.machining.contour_finishing import Heights, finish_walls, outside, wall_loops
+from mnclab.controls.tnc_620.machining.finishing import Heights, finish_walls, outside, wall_loops
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.machining.tracing import traced
