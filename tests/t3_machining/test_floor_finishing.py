@@ -12,7 +12,7 @@ from mnclab.controls.tnc_620.machining.finishing import Descent, finish_floor, f
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.machining.milling.terraces import Joined, Part, terraces
-from mnclab.machining.tracing import traced
+from mnclab.machining.steps import traced
 
 R, ALLOWANCE = 4.0, 0.3
 

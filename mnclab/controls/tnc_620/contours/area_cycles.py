@@ -33,11 +33,9 @@ from mnclab.machine.machine import INF, Machine
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.drilling import drill
 from mnclab.machining.milling.clearing import numbered
-from mnclab.machining.milling.infeed_points import pilot_holes
-from mnclab.machining.milling.residue import left_by
-from mnclab.machining.milling.rest import rest, rest_passes
+from mnclab.machining.milling.rest import left_by, rest, rest_passes
 from mnclab.machining.milling.rings import rings
-from mnclab.machining.milling.terraces import Terrace, levels
+from mnclab.machining.milling.terraces import Terrace, levels, pilot_holes
 from mnclab.machining.steps import Go, Say, Step, Write
 
 # Cycle 21: holes where cycle 22 will go down, for a tool that does not cut at its centre (8.5).

@@ -22,9 +22,8 @@ from mnclab.machine.coordinates import MILLS, in_mm, remark, tool
 from mnclab.machine.cycle import CycleTable, few_passes
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
-from mnclab.machining.milling.cutting_edge import centre_feeds
-from mnclab.machining.milling.pocket_steps import Work
-from mnclab.machining.milling.trochoidal_slots import NOTHING, circle_count, trochoid, walls
+from mnclab.machining.milling.pocket_steps import Work, centre_feeds
+from mnclab.machining.milling.trochoids import NOTHING, circle_count, trochoid, walls
 from mnclab.machining.steps import Go, Say, Step
 from mnclab.path.leads import way
 from mnclab.path.toolpath import PathFault

@@ -32,8 +32,19 @@ from mnclab.machine.coordinates import MILLS, SHIFTS, is_round, tool, with_the_s
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import DRIFT, advanced_stops, infeeds
-from mnclab.machining.holes.drilling import Guided, back_bore, back_to_axis, bore, drill, guided, gun_drill, ream
-from mnclab.machining.holes.helical import bore_milling, steepest_pitch, turns
+from mnclab.machining.holes.drilling import (
+    Guided,
+    back_bore,
+    back_to_axis,
+    bore,
+    bore_milling,
+    drill,
+    guided,
+    gun_drill,
+    ream,
+    steepest_pitch,
+    turns,
+)
 from mnclab.machining.steps import RAPID, Go, Say, Step, Wait, Write
 
 # Centring, drilling and reaming (4.2 to 4.4, 4.6): cycles 240, 200, 201 and 203.

@@ -13,8 +13,7 @@ from mnclab.machine.cycle import Cycle, CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import DRIFT
 from mnclab.machining.milling.clearing import Clearing, numbered
-from mnclab.machining.milling.face_lines import lines, rows
-from mnclab.machining.milling.face_steps import Layer, face
+from mnclab.machining.milling.faces import Layer, face, lines, rows
 from mnclab.machining.steps import Go, Say, Step
 
 CYCLES = CycleTable()

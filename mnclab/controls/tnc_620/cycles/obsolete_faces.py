@@ -17,8 +17,7 @@ from mnclab.machine.control import Setting
 from mnclab.machine.coordinates import MILLS
 from mnclab.machine.cycle import Cycle, CycleTable, few_passes
 from mnclab.machine.machine import Machine
-from mnclab.machining.milling.face_lines import lines
-from mnclab.machining.milling.face_steps import Layer, face
+from mnclab.machining.milling.faces import Layer, face, lines
 from mnclab.machining.steps import Go, Say, Step
 
 CYCLES = CycleTable()

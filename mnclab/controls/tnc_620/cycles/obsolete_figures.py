@@ -28,9 +28,8 @@ from mnclab.machine.coordinates import MILLS
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
-from mnclab.machining.milling.concentric import NOTHING
-from mnclab.machining.milling.finishing import half_circles
-from mnclab.machining.milling.pocket_steps import Feeds
+from mnclab.machining.milling.faces import NOTHING
+from mnclab.machining.milling.pocket_steps import Feeds, half_circles
 from mnclab.machining.steps import Along, Go, Say, Step, moved
 
 # Obsolete slots with a reciprocating plunge, which still run (1.2): 210 straight, 211 circular.

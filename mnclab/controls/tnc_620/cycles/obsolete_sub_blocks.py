@@ -18,13 +18,11 @@ from mnclab.geometry.contours import Contour
 from mnclab.machine.coordinates import MILLS, TAPS, depth_scale
 from mnclab.machine.cycle import CycleTable, few_passes, param, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machining.holes.drilling import drill
-from mnclab.machining.holes.tapping import tap
-from mnclab.machining.milling import concentric
+from mnclab.machining.holes.drilling import drill, tap
+from mnclab.machining.milling import faces
 from mnclab.machining.milling.clearing import Clearing
 from mnclab.machining.milling.figures import straight
-from mnclab.machining.milling.finishing import half_circles, quarter_circles
-from mnclab.machining.milling.pocket_steps import Feeds, rough
+from mnclab.machining.milling.pocket_steps import Feeds, half_circles, quarter_circles, rough
 from mnclab.machining.milling.spirals import round_pocket
 from mnclab.machining.steps import Go, Step, Write
 
@@ -193,7 +191,7 @@ class SlotMilling(AtClearance):
         x, y = line.points[0].tolist()
         yield Go("to the centre of the first end", x=x, y=y)
         yield from straight_infeeds(line, levels, feeds)
-        if inset > concentric.NOTHING:
+        if inset > faces.NOTHING:
             line = line.reversed() if len(levels) % 2 else line
             yield from finish_rounds(*_wall(line, inset), tuple(line.points[0].tolist()), levels[-1:], feeds)
         yield Go("retract", above)
@@ -241,7 +239,7 @@ class PocketMilling(AtClearance):
         yield from passes_to_wait_for(self, m)
 
     def clearing(self, m: Machine) -> Clearing:
-        return concentric.rectangle(
+        return faces.rectangle(
             self.x, self.y, m.radius, min(m.settings["overlap"], CORNERS) * m.radius, corner=self.corner_radius,
             climb=self.sense > 0, begin=int(self.x <= self.y),
         )  # fmt: skip

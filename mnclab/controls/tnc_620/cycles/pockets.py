@@ -19,8 +19,8 @@ from mnclab.machine.coordinates import MILLS, tool
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.milling import figures
-from mnclab.machining.milling.concentric import NOTHING
 from mnclab.machining.milling.entries import Descent, Entry, onto_floor, swing
+from mnclab.machining.milling.faces import NOTHING
 from mnclab.machining.milling.figures import Pocket, Slot, mill_pocket, mill_slot, straight
 from mnclab.machining.milling.pocket_steps import Down, Feeds, Room, way_down
 from mnclab.machining.steps import Step

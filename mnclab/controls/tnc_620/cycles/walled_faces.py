@@ -24,7 +24,7 @@ from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
 from mnclab.machining.milling.clearing import begin, numbered
-from mnclab.machining.milling.face_lines import rows, spiral_from
+from mnclab.machining.milling.faces import rows, spiral_from
 from mnclab.machining.steps import Go, Say, Step
 from mnclab.path.tool import Tool
 

@@ -13,8 +13,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats, left
 from mnclab.geometry.regions import Region
 from mnclab.machining.milling.clearing import Clearing, begin, end, numbered, unfit
-from mnclab.machining.milling.finishing import LEAST, quarter_circles
-from mnclab.machining.milling.pocket_steps import Feeds
+from mnclab.machining.milling.pocket_steps import LEAST, Feeds, quarter_circles
 from mnclab.machining.milling.rings import rings, rings_within, rounded
 from mnclab.machining.milling.terraces import SLIVER, Terrace
 from mnclab.machining.steps import RAPID, Along, Dip, Go, Step

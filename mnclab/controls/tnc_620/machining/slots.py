@@ -6,11 +6,10 @@ from collections.abc import Iterator, Sequence
 
 from mnclab.geometry.contours import Contour
 from mnclab.machining.milling.clearing import Clearing, begin, numbered
-from mnclab.machining.milling.cutting_edge import along
 from mnclab.machining.milling.entries import Descent, descend, stroke_count, vertical
 from mnclab.machining.milling.entries import along as ramp
-from mnclab.machining.milling.pocket_steps import Down, Feeds, Work
-from mnclab.machining.milling.trochoidal_slots import Wall
+from mnclab.machining.milling.pocket_steps import Down, Feeds, Work, along
+from mnclab.machining.milling.trochoids import Wall
 from mnclab.machining.steps import Along, Go, Step
 
 # Slots cut along their centre line, to and fro: with straight infeeds at the ends, or sinking on the way. Lengths in mm.

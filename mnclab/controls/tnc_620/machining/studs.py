@@ -23,9 +23,8 @@ from numpy.typing import ArrayLike
 from mnclab.geometry.contours import Contour, placed
 from mnclab.geometry.curves import Floats
 from mnclab.machining.milling.clearing import Clearing, begin, end, joined, numbered
-from mnclab.machining.milling.concentric import DRIFT, steps
-from mnclab.machining.milling.finishing import LEAST, onto, outwards
-from mnclab.machining.milling.pocket_steps import Feeds, Work
+from mnclab.machining.milling.faces import DRIFT, steps
+from mnclab.machining.milling.pocket_steps import LEAST, Feeds, Work, onto, outwards
 from mnclab.machining.milling.spirals import half_circles
 from mnclab.machining.steps import Along, Go, Step
 

@@ -17,8 +17,8 @@ import numpy as np
 from mnclab.geometry.contours import QUARTER, Contour
 from mnclab.geometry.curves import left
 from mnclab.machining.milling.clearing import begin, numbered
-from mnclab.machining.milling.face_lines import rows
-from mnclab.machining.milling.finishing import onto
+from mnclab.machining.milling.faces import rows
+from mnclab.machining.milling.pocket_steps import onto
 from mnclab.machining.steps import RAPID, Along, Go, Step
 
 Place = tuple[float, float]
