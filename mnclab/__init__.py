@@ -116,8 +116,7 @@ strategies = Shelf("mnclab.strategies", "ways to clear an area with a mill; mncl
     "mnclab.machining.milling.lines": "one_way, zigzag",
     "mnclab.machining.milling.rings": "rings",
     "mnclab.machining.milling.spirals": "spiral",
-    "mnclab.machining.milling.trochoids": "trochoidal",
-    "mnclab.machining.milling.trochoidal_slots": "trochoid",
+    "mnclab.machining.milling.trochoids": "trochoid, trochoidal",
     "mnclab.machining.milling.entries": "Entry",
     "mnclab.machining.milling.rest": "rest, rest_passes",
     "mnclab.machining.milling.engagement": "engagement, stretches",
@@ -136,9 +135,8 @@ schemes = Shelf("mnclab.schemes", "ways to turn, groove and thread; mnclab.compa
 
 probing = Shelf("mnclab.probing", "what measured points are: circle(points), and how sure that is", {
     "mnclab.machining.probing.fits":
-        "angle, centre_of_four, circle, corner, line, off_the_ball, plane, rectangle, reduced, sphere, width",
+        "angle, centre_of_four, circle, corner, line, off_the_ball, plane, rectangle, reduced, sphere, uncertainty, width",
     "mnclab.machining.probing.found": "axes_on, spatial_angles, Circle, Line, Plane, Point, Rectangle, Sphere, Width",
-    "mnclab.machining.probing.uncertainty": "uncertainty",
 })  # fmt: skip
 
 __all__ = [

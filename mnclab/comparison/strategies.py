@@ -25,8 +25,7 @@ from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, left_over, polygons
 from mnclab.machining.milling.clearing import NOWHERE, Clearing, begin, end
 from mnclab.machining.milling.engagement import Engagement, engagement
-from mnclab.machining.milling.entries import VERTICAL, Entry, descent
-from mnclab.machining.milling.layers import toolpath
+from mnclab.machining.milling.entries import VERTICAL, Entry, descent, toolpath
 from mnclab.machining.milling.rest import reached, rest, rest_passes
 from mnclab.machining.milling.strategies import STRATEGIES, clear
 from mnclab.path.limits import Limits, limits_of

@@ -7,9 +7,7 @@ import numpy as np
 import pytest
 
 from mnclab.controls.tnc_620.free_contours.free_contour import FreeContour, known, normal_of
-from mnclab.controls.tnc_620.free_contours.newton import Exhausted, conics
-from mnclab.controls.tnc_620.free_contours.quadratic_form import Form
-from mnclab.controls.tnc_620.free_contours.quadratics import System
+from mnclab.controls.tnc_620.free_contours.quadratics import Exhausted, Form, System, conics
 from mnclab.controls.tnc_620.free_contours.readings import Contradiction, TooManyReadings
 
 START = (3.0, -2.0)

@@ -7,10 +7,10 @@ import pytest
 from shapely import LineString, Polygon, distance, get_coordinates, points, union_all
 
 from mnclab import Kind
-from mnclab.controls.tnc_620.machining.contour_finishing import Heights, finish_walls, outside, wall_loops
+from mnclab.controls.tnc_620.machining.finishing import Heights, finish_walls, outside, wall_loops
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.machining.tracing import traced
+from mnclab.machining.steps import traced
 
 R = 5.0
 

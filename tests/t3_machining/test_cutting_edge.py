@@ -9,9 +9,8 @@ from hypothesis import strategies as st
 
 from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
-from mnclab.machining.milling.cutting_edge import along, centre_feeds
 from mnclab.machining.milling.entries import descend, onto_floor, swing
-from mnclab.machining.milling.finishing import half_circles, quarter_circles
+from mnclab.machining.milling.pocket_steps import along, centre_feeds, half_circles, quarter_circles
 from mnclab.machining.steps import Turn
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mnclab.geometry.contours import Contour
-from mnclab.machining.milling import concentric, entries
+from mnclab.machining.milling import entries, faces
 from mnclab.machining.milling.entries import Entry
 
 
@@ -64,8 +64,8 @@ def test_ninety_degrees_is_straight_down():
 
 def test_a_piece_with_no_room_is_entered_along_its_pass():
     slot = Contour([(0, 0), (30, 0)], closed=False)
-    (narrow,) = concentric.slot(slot, 8, 4).pieces
-    (wide,) = concentric.rectangle(60, 40, 4, 4).pieces
+    (narrow,) = faces.slot(slot, 8, 4).pieces
+    (wide,) = faces.rectangle(60, 40, 4, 4).pieces
     assert entries.descent(wide, Entry("helix", 3), 4, 0, -5).label == "entry helix"
     assert entries.descent(wide, Entry("ramp", 3), 4, 0, -5).label == "entry ramp"
     assert entries.descent(wide, Entry(), 4, 0, -5).label == "entry"

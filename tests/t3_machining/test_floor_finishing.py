@@ -8,11 +8,11 @@ from shapely import LineString, union_all
 from shapely.geometry import box
 
 from mnclab import Kind
-from mnclab.controls.tnc_620.machining.floor_finishing import Descent, finish_floor, floor_passes
+from mnclab.controls.tnc_620.machining.finishing import Descent, finish_floor, floor_passes
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.machining.milling.terraces import Joined, Part, terraces
-from mnclab.machining.tracing import traced
+from mnclab.machining.steps import traced
 
 R, ALLOWANCE = 4.0, 0.3
 

@@ -8,7 +8,7 @@ from shapely import maximum_inscribed_circle
 from mnclab.geometry.contours import Contour, rectangle
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import polygons
-from mnclab.machining.milling.infeed_points import roomiest
+from mnclab.machining.milling.terraces import roomiest
 
 
 def test_the_way_to_the_top_is_short(monkeypatch):

@@ -7,11 +7,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mnclab.machining.depths import TooMany
-from mnclab.machining.milling import concentric, face_lines
+from mnclab.machining.milling import faces
 from mnclab.machining.milling.entries import Entry, descend, helix, pendulum, vertical
-from mnclab.machining.milling.face_steps import Layer, face
-from mnclab.machining.milling.finishing import approaching, leaving
-from mnclab.machining.milling.pocket_steps import Feeds, Room, rough, way_down
+from mnclab.machining.milling.faces import Layer, face
+from mnclab.machining.milling.pocket_steps import Feeds, Room, approaching, leaving, rough, way_down
 from mnclab.machining.steps import Along, Go, Turn
 
 
@@ -62,7 +61,7 @@ def test_a_layer_begins_where_the_one_before_has_cut():
         asked.append((top, bottom))
         return vertical((0, 0), top, bottom)
 
-    clearing = concentric.circle(40, 5, 5)
+    clearing = faces.circle(40, 5, 5)
     steps = list(
         rough(clearing, (-4, -8, -10), surface=0, clearance=2, down=down, feeds=Feeds(400, 90), departure=2, side=1)
     )
@@ -73,14 +72,14 @@ def test_a_layer_begins_where_the_one_before_has_cut():
 
 
 def test_the_arcs_at_a_wall_are_quarter_circles():
-    wall = concentric.circle(40, 5, 5).passes[-1]
+    wall = faces.circle(40, 5, 5).passes[-1]
     to, away = approaching(wall, 3, 1), leaving(wall, 3, 1)
     assert to.points.tolist() == [[12, -3], [15, 0]] and to.length == pytest.approx(1.5 * math.pi)
     assert away.points.tolist() == [pytest.approx((15, 0)), pytest.approx((12, 3))]
 
 
 def test_lines_that_do_not_lead_on_are_reached_above_the_surface():
-    passes = face_lines.lines((0, 10), -5, 50, 5, one_way=True)
+    passes = faces.lines((0, 10), -5, 50, 5, one_way=True)
     layers = [
         Layer("layer 1 of 2", -1, passes, 400, 900, 90),
         Layer("layer 2 of 2", -2, passes.reversed(), 400, 900, 90),
@@ -93,9 +92,9 @@ def test_lines_that_do_not_lead_on_are_reached_above_the_surface():
 
 def test_nobody_waits_for_millions_of_steps():
     with pytest.raises(TooMany, match="0.001 divides 11 into more than 2000 steps"):
-        concentric.steps(11, 0.001)
-    assert concentric.steps(2, 0.001) == 2_000
-    assert concentric.steps(1e-7, 0.001) == 0
+        faces.steps(11, 0.001)
+    assert faces.steps(2, 0.001) == 2_000
+    assert faces.steps(1e-7, 0.001) == 0
     with pytest.raises(TooMany, match="a helix of radius 0.001 at 1 degrees has more than 10000 turns in 5"):
         helix((0, 0), 0.001, 0, -5, 1)
     with pytest.raises(TooMany, match="a ramp 2 long at 0.001 degrees has more than 10000 strokes in 5"):

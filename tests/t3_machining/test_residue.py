@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.machining.milling.face_lines import lines, rows
-from mnclab.machining.milling.residue import beside_disc, left_by, within
+from mnclab.machining.milling.faces import lines, rows
+from mnclab.machining.milling.rest import beside_disc, left_by, within
 from mnclab.machining.milling.rings import rings
 
 

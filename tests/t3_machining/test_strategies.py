@@ -7,8 +7,7 @@ import shapely
 from mnclab.geometry.contours import Contour, rectangle
 from mnclab.geometry.regions import Region
 from mnclab.machining.milling.clearing import begin, end
-from mnclab.machining.milling.entries import Entry
-from mnclab.machining.milling.layers import toolpath
+from mnclab.machining.milling.entries import Entry, toolpath
 from mnclab.machining.milling.strategies import STRATEGIES, clear
 from mnclab.path.toolpath import Kind
 

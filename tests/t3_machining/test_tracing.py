@@ -7,10 +7,9 @@ import pytest
 
 from mnclab import Kind
 from mnclab.geometry.contours import Contour
-from mnclab.machining.milling import concentric
-from mnclab.machining.milling.layers import toolpath
-from mnclab.machining.steps import Along, Go, Turn, Wait, moved
-from mnclab.machining.tracing import traced
+from mnclab.machining.milling import faces
+from mnclab.machining.milling.entries import toolpath
+from mnclab.machining.steps import Along, Go, Turn, Wait, moved, traced
 
 HALF = Contour([(10, 0), (-10, 0)], [1.0, 0.0], closed=False)  # counter-clockwise about (0, 0)
 STEPS = [
@@ -42,7 +41,7 @@ def test_moved_steps_make_the_same_path_elsewhere():
 
 def test_layers_begin_where_the_one_before_has_cut():
     """On each of two levels: down at the middle from the level before, and the circles."""
-    path = toolpath(concentric.circle(40, 5, 5), (-3, -5))
+    path = toolpath(faces.circle(40, 5, 5), (-3, -5))
     down = [row for row in path if row.label == "entry"]
     assert [(row.start[2], row.end[2]) for row in down] == [(2, 0), (0, -3), (2, -3), (-3, -5)]
     assert {row.end[2] for row in path if row.label.startswith("circle")} == {-3, -5}

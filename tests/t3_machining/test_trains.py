@@ -7,10 +7,9 @@ import pytest
 from shapely import LineString
 
 from mnclab.controls.tnc_620.machining.train_passes import Feeds, Train, leading_off, leading_to, mill
-from mnclab.controls.tnc_620.machining.train_rests import rests
-from mnclab.controls.tnc_620.machining.trains import beside, cuts_into
+from mnclab.controls.tnc_620.machining.trains import beside, cuts_into, rests
 from mnclab.geometry.contours import Contour
-from mnclab.machining.tracing import traced
+from mnclab.machining.steps import traced
 from mnclab.path.leads import Lead
 from mnclab.path.toolpath import PathFault
 

@@ -6,7 +6,7 @@ import shapely
 
 from mnclab.geometry.contours import Contour
 from mnclab.machining.depths import TooMany
-from mnclab.machining.milling.trochoidal_slots import circle_count, trochoid, walls
+from mnclab.machining.milling.trochoids import circle_count, trochoid, walls
 
 STRAIGHT = Contour([(0, 0), (40, 0)], closed=False)
 CIRCLE = Contour.circle((0, 0), 20)

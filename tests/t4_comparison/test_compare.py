@@ -10,7 +10,7 @@ from mnclab.comparison.strategies import COLUMNS, compare
 from mnclab.comparison.turning_schemes import compare as compare_turning
 from mnclab.geometry.contours import Contour, rectangle
 from mnclab.geometry.regions import Region
-from mnclab.machining.milling import concentric
+from mnclab.machining.milling import faces
 from mnclab.machining.milling.strategies import STRATEGIES
 
 BOX = Region.of(rectangle(60, 40))
@@ -52,8 +52,8 @@ def test_harder_and_gentler(found):
 
 def test_what_is_left_is_found():
     """One round along the wall of 60 × 40 with R 5 leaves a core of 40 × 20."""
-    once = concentric.rectangle(60, 40, 5, 100).passes[-1]
-    clearing = concentric.rectangle(60, 40, 5, 5)
+    once = faces.rectangle(60, 40, 5, 100).passes[-1]
+    clearing = faces.rectangle(60, 40, 5, 5)
     piece = replace(clearing.pieces[0], passes=(once,), linked=(), labels=("wall",), place=None)
     trial = compare(BOX, 5.0, {"once": replace(clearing, pieces=(piece,))})["once"]
     assert trial.rest.area == pytest.approx(800, abs=0.5)
@@ -93,7 +93,7 @@ def test_a_stepover_without_an_end_is_an_alarm():
 
 
 def test_own_functions_and_other_names():
-    own = compare(BOX, 5.0, {"mine": lambda region, radius, step: concentric.rectangle(60, 40, radius, step)})
+    own = compare(BOX, 5.0, {"mine": lambda region, radius, step: faces.rectangle(60, 40, radius, step)})
     assert own["mine"].covered > 0.999
     assert own[0].entries.tolist() == [[0, 0]]
     with pytest.raises(KeyError, match="there are mine"):

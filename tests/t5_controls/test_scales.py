@@ -15,7 +15,7 @@ from together import together
 
 import mnclab
 from mnclab import Kind, Setup, Tool
-from mnclab.controls.tnc_620.reading import obsolete_blocks
+from mnclab.controls.tnc_620.reading import sub_blocks
 from mnclab.controls.tnc_620.trial import as_sub_blocks
 from mnclab.controls.tnc_620.trial import klartext as signed
 from mnclab.machine import trial
@@ -116,7 +116,7 @@ def program(code, values, frame, s=1.0):
         return "\n".join(["G90 G54", f"T{tool} S1000 M3", frame, f"G0 X{x} Y{y} Z{z} F100", block, call, ""])
     head = f"BEGIN PGM A MM\nTOOL CALL {tool} Z S1000\nM3\n{frame}L X{x} Y{y} Z{z} R0 FMAX\n"
     call = f"L X{u} Y{v} R0 FMAX M99\n"
-    if code in obsolete_blocks.CODES:  # they begin at the set-up clearance
+    if code in sub_blocks.CODES:  # they begin at the set-up clearance
         block = "\n".join(as_sub_blocks(TNC[code], words(code, values)))
         return f"{head}{block}\nL Z{values['clearance']:g} FMAX\n{call}END PGM A MM\n"
     if code in ("CYCL DEF 220", "CYCL DEF 221"):

@@ -6,42 +6,24 @@ functions, `cycles` holds the fixed cycles by chapter of the manual, `later` nam
 
 from __future__ import annotations
 
-from mnclab.controls.tnc_620 import later, trial_figures
+from mnclab.controls.tnc_620 import later, trial
+from mnclab.controls.tnc_620.contours import area_cycles, cylinder, surface, train, trochoidal_slot
 from mnclab.controls.tnc_620.contours import data as contour_data
-from mnclab.controls.tnc_620.contours import labels as contour_labels
-
-from mnclab.controls.tnc_620.contours import (  # isort: skip
-    cylinder,
-    floor_finishing,
-    leaving,
-    pilot,
-    rough_out,
-    side_finishing,
-    train,
-    train_data,
-    surface,
-    trochoidal_slot,
-)
+from mnclab.controls.tnc_620.contours import line as contour_line
 from mnclab.controls.tnc_620.cycles import (
-    boring,
     defaults,
     drilling,
     engraving,
     face_milling,
     obsolete_faces,
-    obsolete_finishing,
-    obsolete_holes,
-    obsolete_milling,
-    obsolete_slots,
-    pecking,
+    obsolete_figures,
+    obsolete_sub_blocks,
     pockets,
     program_call,
-    slots,
     special,
     studs,
     tapping,
     threads,
-    tilting,
     transformations,
     walled_faces,
 )
@@ -49,33 +31,18 @@ from mnclab.controls.tnc_620.cycles import patterns as point_patterns
 from mnclab.controls.tnc_620.language import (
     approach,
     auxiliary,
-    blank,
     calls,
-    circle_data,
     contour_definitions,
-    datum_shift,
-    feeds,
     flow,
     free_contours,
-    free_words,
-    joints,
-    machine_datum,
+    m_functions,
     motion,
-    no_effect,
     parameters,
     pattern_definitions,
     plane,
-    plc,
-    pole,
-    preset,
     program,
-    retraction,
-    rotary_rules,
-    secondary_axes,
     system_access,
     system_data,
-    system_texts,
-    tool_axis,
     tools,
 )
 from mnclab.controls.tnc_620.printing import output
@@ -84,22 +51,19 @@ from mnclab.controls.tnc_620.probing import (
     calibration,
     fast_probing,
     line,
-    measuring_figures,
-    measuring_points,
-    preset_figures,
+    measuring,
     presets,
     rotation,
     single,
-    three_points,
     tool_measuring,
     tool_setter,
 )
 from mnclab.controls.tnc_620.reading import reader
-from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
 from mnclab.controls.tnc_620.reading.numbers import numbers
+from mnclab.controls.tnc_620.reading.words import ISO_NAMES
 from mnclab.controls.tnc_620.signs import SIGNS
 from mnclab.controls.tnc_620.state import Memory
-from mnclab.controls.tnc_620.tables import datum_tables, free_tables
+from mnclab.controls.tnc_620.tables import free_tables, table_files
 from mnclab.controls.tnc_620.trial import SETUP, trial_program
 from mnclab.machine.control import Control, Setting
 from mnclab.machine.cycle import CycleTable
@@ -134,50 +98,29 @@ SETTINGS = (
         "thread_wait", 0.0, "how long the spindle stands at the bottom of a tapped thread (thrdWaitingTime, no. 113601)", "5.2",
         unit="s", at_least=0,
     ),
-    *feeds.SETTINGS, *tools.SETTINGS, *no_effect.SETTINGS, *retraction.SETTINGS, *tilting.SETTINGS, *engraving.SETTINGS,
-    *obsolete_faces.SETTINGS, *secondary_axes.SETTINGS, *system_data.SETTINGS, *output.SETTINGS,
+    *auxiliary.SETTINGS, *tools.SETTINGS, *m_functions.SETTINGS, *m_functions.AWAY_SETTINGS,
+    *transformations.SETTINGS, *engraving.SETTINGS,
+    *obsolete_faces.SETTINGS, *tools.AXES_SETTINGS, *system_data.SETTINGS, *output.SETTINGS,
     *tool_setter.SETTINGS,
     *aimed.SETTINGS,
-    *leaving.SETTINGS, *cylinder.SETTINGS, *surface.SETTINGS,
+    *contour_line.SETTINGS, *cylinder.SETTINGS, *surface.SETTINGS,
     *calibration.SETTINGS,
     Setting("max_touch_feed", 3000.0, "upper limit of the probing feed (maxTouchFeed, no. 122602)", "13.2", {}, "mm/min", 1),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
 FUNCTIONS = (
-    pole.FUNCTIONS | motion.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
-    | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS | blank.FUNCTIONS
-    | machine_datum.FUNCTIONS | feeds.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
-    | no_effect.FUNCTIONS | rotary_rules.FUNCTIONS | retraction.FUNCTIONS | plane.FUNCTIONS | datum_shift.FUNCTIONS
-    | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS | system_access.FUNCTIONS
-    | circle_data.FUNCTIONS | plc.FUNCTIONS | preset.FUNCTIONS | output.FUNCTIONS | free_tables.FUNCTIONS
-    | contour_definitions.FUNCTIONS
+    motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS
+    | program.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS | m_functions.FUNCTIONS | plane.FUNCTIONS
+    | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | table_files.FUNCTIONS | system_access.FUNCTIONS
+    | output.FUNCTIONS | free_tables.FUNCTIONS | contour_definitions.FUNCTIONS
 )  # fmt: skip
 CHAPTERS = (
-    defaults, drilling, boring, pecking, tapping, threads, point_patterns, pockets, slots, studs, walled_faces,
-    contour_labels, contour_data,
-    pilot,
-    rough_out,
-    floor_finishing,
-    side_finishing,
-    train_data,
-    train,
-    trochoidal_slot,
-    cylinder,
-    transformations, tilting, special, engraving, face_milling, program_call,
-    preset_figures,
-    presets,
-    calibration,
-    fast_probing,
-    rotation,
-    measuring_points,
-    measuring_figures,
-    tool_setter,
-    tool_measuring,
-    line,
-    three_points,
-    single,
-    obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
+    defaults, drilling, tapping, threads, point_patterns, pockets, studs, walled_faces,
+    contour_data, area_cycles, train, trochoidal_slot, cylinder,
+    transformations, special, engraving, face_milling, program_call,
+    presets, calibration, fast_probing, rotation, measuring, tool_setter, tool_measuring, line, single,
+    obsolete_sub_blocks, obsolete_figures, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()
 for chapter in CHAPTERS:
@@ -185,7 +128,7 @@ for chapter in CHAPTERS:
 
 #: What the words of statements are.
 MEANINGS = {
-    **feeds.MEANINGS, "FMAX": "rapid traverse", "G00": "rapid traverse",
+    **auxiliary.MEANINGS, "FMAX": "rapid traverse", "G00": "rapid traverse",
     "FAUTO": "feed rate of TOOL CALL", "M103:F": "share downwards in percent",
     "S": "spindle speed", "R": "radius", "DR": "sense of rotation", "R0": "no radius compensation",
     "RL": "compensation to the left", "RR": "compensation to the right", "LEN": "length", "PR": "polar radius",
@@ -209,10 +152,10 @@ MEANINGS = {
     **{f"M94:{axis}": f"the rotary axis {axis}" for axis in "ABC"},
     **{f"M118:{axis}": f"greatest way of the handwheel along {axis}" for axis in "XYZ"},
     **{f"M118:{axis}": f"greatest turn of the handwheel around {axis}" for axis in "ABC"},
-    "TIME": "seconds", "REV": "turns of the spindle", **no_effect.WORDS, **rotary_rules.WORDS, **retraction.WORDS,
+    "TIME": "seconds", "REV": "turns of the spindle", **m_functions.WORDS, **m_functions.ROTARY_WORDS, **m_functions.AWAY_WORDS,
     **{f"{code} {word}": plane.WORDS[word] for code, one in plane.FUNCTIONS.items() for word in one.takes if word in plane.WORDS},
     **contour_definitions.MEANINGS,
-    "FSELECT number": "number of the solution, as the control shows them", **free_words.WORDS,
+    "FSELECT number": "number of the solution, as the control shows them", **free_contours.WORDS,
     **{f"PATTERN DEF {address}": meaning for address, meaning in pattern_definitions.MEANINGS.items()},
 }  # fmt: skip
 
@@ -221,11 +164,11 @@ CONTROL = Control(
     read=reader.read, signs=SIGNS, numbers=numbers,
     functions=FUNCTIONS, cycles=CYCLES, names=ISO_NAMES, refused=later.REFUSED, together=later.strange_parameters(CYCLES),
     phases=PHASES, codes=("M",), word_functions=False, meanings=MEANINGS, told=motion.turning_sense, trial=trial_program,
-    trial_files=trial_figures.FILES,
+    trial_files=trial.FILES,
     trial_setup=SETUP,
-    settings=SETTINGS, memory=Memory, start=program.start, frames=(secondary_axes.FRAME, "preset"),
-    storage="variables", preassigned={**parameters.PREASSIGNED, **system_texts.TEXTS}, local_variables="QL",
-    named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again, turned=tool_axis.turned,
+    settings=SETTINGS, memory=Memory, start=program.start, frames=(tools.SECONDARY, "preset"),
+    storage="variables", preassigned={**parameters.PREASSIGNED, **system_data.TEXTS}, local_variables="QL",
+    named=auxiliary.named, predefined=defaults.predefined, calls_again=calls.calls_again, turned=tools.turned,
     compensation=Compensation(approach="perpendicular", rapid=True),
     bulk=PlainWords(
         motions={None: ("L", 1)}, keyword="L", feed=lambda m: m.feed_unit,

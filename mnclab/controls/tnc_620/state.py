@@ -10,18 +10,17 @@ from mnclab.machine.machine import Machine
 from mnclab.text.program import Word
 
 if TYPE_CHECKING:
-    from mnclab.controls.tnc_620.contours.data import ContourData
+    from mnclab.controls.tnc_620.contours.data import ContourData, Labels
     from mnclab.controls.tnc_620.contours.formulas import Definitions
-    from mnclab.controls.tnc_620.contours.labels import Labels
-    from mnclab.controls.tnc_620.contours.train_data import TrainData
+    from mnclab.controls.tnc_620.contours.train import TrainData
     from mnclab.controls.tnc_620.free_contours.free_contour import Pair
-    from mnclab.controls.tnc_620.language.blank import Blank
     from mnclab.controls.tnc_620.language.free_contours import Earlier
     from mnclab.controls.tnc_620.language.pattern_definitions import Pattern
+    from mnclab.controls.tnc_620.language.program import Blank
     from mnclab.controls.tnc_620.probing.fast_probing import FastProbing
     from mnclab.controls.tnc_620.probing.tool_setter import Calibrated
-    from mnclab.controls.tnc_620.tables.datum_tables import DatumTable
     from mnclab.controls.tnc_620.tables.free_tables import FreeTable
+    from mnclab.controls.tnc_620.tables.table_files import DatumTable
     from mnclab.machining.milling.terraces import Formula
     from mnclab.path.tool import Tool
     from mnclab.workpiece.blank import Blank as Body

@@ -8,13 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from mnclab.controls.tnc_620 import trial_figures as figures
-from mnclab.controls.tnc_620.contours.data import ContourData
-from mnclab.controls.tnc_620.contours.labels import ContourGeometry
-from mnclab.controls.tnc_620.contours.rough_out import RoughOut
-from mnclab.controls.tnc_620.contours.train import ContourTrain
-from mnclab.controls.tnc_620.contours.train_data import TrainData
-from mnclab.controls.tnc_620.reading import obsolete_blocks, sub_blocks
+from mnclab.controls.tnc_620.contours.area_cycles import RoughOut
+from mnclab.controls.tnc_620.contours.data import ContourData, ContourGeometry
+from mnclab.controls.tnc_620.contours.train import ContourTrain, TrainData
+from mnclab.controls.tnc_620.reading import sub_blocks
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.probe import Setter
 from mnclab.machine.tool_setting import SETS
@@ -37,7 +34,7 @@ def klartext(value: float | str) -> str:
 
 def as_sub_blocks(cycle: type[Cycle], words: Sequence[tuple[str, Any]]) -> list[str]:
     """The lines of a cycle that has no Q parameters."""
-    if cycle.code not in obsolete_blocks.CODES:
+    if cycle.code not in sub_blocks.CODES:
         plain: tuple[str, ...] = sub_blocks.UNSIGNED if cycle.code.startswith("TCH PROBE") else ()
         texts = {a: value if isinstance(value, str) else (number if a in plain else klartext)(value) for a, value in words}
         head = f" Q{texts.get('Q', '')} {texts.get('axis', '')}" if cycle.code == "TCH PROBE 0" else ""
@@ -46,12 +43,12 @@ def as_sub_blocks(cycle: type[Cycle], words: Sequence[tuple[str, Any]]) -> list[
     texts = {address: number(value) if address in plain else klartext(value) for address, value in words}
     if "DR" in texts:
         texts["DR"] = texts["DR"][0]  # the sign alone
-    return list(obsolete_blocks.written(int(cycle.code.split()[-1]), cycle.title.upper(), texts))
+    return list(sub_blocks.obsolete_written(int(cycle.code.split()[-1]), cycle.title.upper(), texts))
 
 
 def definition(cycle: type[Cycle], words: TrialWords) -> list[str]:
     """The lines that define a cycle."""
-    if cycle.code in obsolete_blocks.CODES or cycle.code in sub_blocks.LINES:
+    if cycle.code in sub_blocks.CODES or cycle.code in sub_blocks.LINES:
         return as_sub_blocks(cycle, words)
     return [" ~\n".join([f"{cycle.code} {cycle.title.upper()}", *(f"  {a}={klartext(v)}" for a, v in words)])]
 
@@ -69,16 +66,16 @@ def begun(cycle: type[Cycle]) -> list[str]:
 def trial_program(cycle: type[Cycle], words: TrialWords) -> str | None:
     """A program around a cycle; None where nothing could be seen of it."""
     mine = definition(cycle, words)
-    if cycle.code in figures.MOVED:
-        return program([*figures.SHOWN, *mine, *figures.SHOWN], figures.FIGURE)
-    if cycle.code in figures.LINES:
+    if cycle.code in MOVED:
+        return program([*SHOWN, *mine, *SHOWN], FIGURE)
+    if cycle.code in LINES:
         run = begun(ContourTrain) if cycle is TrainData else []  # which shows its data
-        return program([*definition(ContourGeometry, [("LBL", "1")]), *mine, *run, CALL], figures.LINES[cycle.code])
+        return program([*definition(ContourGeometry, [("LBL", "1")]), *mine, *run, CALL], LINES[cycle.code])
     if cycle.code in AREA:
-        return program([*around(cycle, mine), CALL], figures.CONTOURS)
+        return program([*around(cycle, mine), CALL], CONTOURS)
     if cycle.code == "CYCL DEF 12":
         return program([*mine, "L X+20 Y+10 R0 FMAX M99", "L X+60 Y+30 R0 FMAX M99"])
-    older = cycle.code in obsolete_blocks.CODES or cycle.code.startswith("TCH PROBE") and cycle.code in sub_blocks.LINES
+    older = cycle.code in sub_blocks.CODES or cycle.code.startswith("TCH PROBE") and cycle.code in sub_blocks.LINES
     if not older and (not words or not all(address.startswith("Q") for address, _ in words)):
         return None
     return plain_program(cycle, mine, words)
@@ -115,3 +112,68 @@ def plain_program(cycle: type[Cycle], mine: Sequence[str], words: TrialWords) ->
         start[2:] = ["L X+20 Y+10 Z+20 R0 FMAX"]
     before = HOLES if cycle.code in ("CYCL DEF 220", "CYCL DEF 221") else ()  # which run the cycle before them
     return "\n".join([*start, *before, *mine, *call, "END PGM TRIAL MM", ""])
+
+
+# Figures and contours of trial programs: what a transformation moves and what a contour cycle machines. Lengths in mm.
+
+#: Cycles that place what comes after them: a figure is cut before and after.
+MOVED = tuple(f"CYCL DEF {n}" for n in (7, 8, 10, 11, 19, 26))
+SHOWN = ("CALL LBL 1",)
+#: No symmetry, so that a mirror image and a rotation can be told apart.
+FIGURE = """LBL 1
+L X+10 Y+5 R0 FMAX
+L Z-2 F200
+L X+50
+L Y+15
+L X+20
+L Y+30
+L X+10
+L Y+5
+L Z+50 FMAX
+LBL 0""".splitlines()
+
+#: A pocket, an island in it, and a second pocket that overlaps the first.
+CONTOURS = """LBL 1
+L X+0 Y+30 RR
+L Y+60
+RND R10
+L X+90
+RND R10
+L Y+0
+RND R10
+L X+0
+RND R10
+L Y+30
+LBL 0
+LBL 2
+L X+20 Y+30 RL
+CC X+30 Y+30
+C X+20 Y+30 DR-
+LBL 0
+LBL 3
+L X+105 Y+30 RR
+CC X+90 Y+30
+C X+105 Y+30 DR-
+LBL 0""".splitlines()
+
+
+def line(*blocks: str) -> list[str]:
+    """The label of one contour."""
+    return ["LBL 1", *blocks, "LBL 0"]
+
+
+TRAIN = ("L X+10 Y+0 RL", "L Y+25", "RND R8", "L X+40", "L X+55 Y+10", "CR X+85 Y+10 R20 DR-", "L Y+40")
+WITHOUT_SIDE = ("L X+10 Y+0 R0", *TRAIN[1:])
+IN_SPACE = ("L X+10 Y+0 Z+0 RL", "L Y+25 Z-2", "L X+40 Z-6", "L X+55 Y+10 Z-6", "CR X+85 Y+10 R20 DR-", "L Y+40 Z+0")
+CENTRE_LINE = ("L X+0 Y+0", "L X+40", "RND R20", "L Y+45", "CR X+85 Y+45 R22.5 DR-", "L Y+20")
+ON_CYLINDER = ("L X+0 Y+0 RL", "L X+50", "RND R20", "L Y+45", "L X+90 Y+65")
+#: By cycle, the one contour that it machines.
+LINES = {
+    "CYCL DEF 25": line(*TRAIN), "CYCL DEF 270": line(*WITHOUT_SIDE), "CYCL DEF 276": line(*IN_SPACE),
+    "CYCL DEF 275": line(*CENTRE_LINE),
+    **{f"CYCL DEF {n}": line(*ON_CYLINDER) for n in (27, 28, 29, 39)},
+}  # fmt: skip
+#: The program that cycle 12 runs to begin with, by its name.
+FILES = {
+    "ABC.H": "BEGIN PGM ABC MM\nL Z+2 R0 FMAX\nL Z-5 F200\nL IX+15\nL IY+10\nL IX-15\nL IY-10\nL Z+50 FMAX\nEND PGM ABC MM\n"
+}

@@ -1,8 +1,4 @@
-"""Drilling, reaming and boring as steps at a hole; who calls them brings the tool to `above` before, and away after.
-
-Levels are coordinates along the tool axis, mm; `above` is the level over the hole from which a tool drills and to which
-it is withdrawn, so that a hole may also be drilled upwards.
-"""
+"""Holes drilled, bored on a helix, and tapped: steps of the cycles at a hole."""
 
 from __future__ import annotations
 
@@ -10,8 +6,12 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from mnclab.machining.depths import infeeds
-from mnclab.machining.steps import RAPID, Coolant, Go, Orient, Pause, Spin, Step, Wait
+from mnclab.machining.depths import MOST, TooMany, infeeds
+from mnclab.machining.steps import RAPID, Coolant, Go, Orient, Pause, Spin, Step, Thread, Turn, Wait
+
+# Drilling, reaming and boring as steps at a hole; who calls them brings the tool to `above` before, and away after.
+# Levels are coordinates along the tool axis, mm; `above` is the level over the hole from which a tool drills and to which
+# it is withdrawn, so that a hole may also be drilled upwards.
 
 #: Where a tool is shifted to before it leaves a bore: unit steps along the two axes of the plane.
 DIRECTIONS = {1: (-1.0, 0.0), 2: (0.0, -1.0), 3: (1.0, 0.0), 4: (0.0, 1.0)}
@@ -197,3 +197,89 @@ def gun_drill(
     leaving: list[Step] = [slow, *off] if cool_until_slow else [*off, slow]
     yield from leaving
     yield Go("retract", above, retract)
+
+
+# Milling round the axis of a hole in true helices: bores and threads.
+# Angle 0 is the first axis of the plane; `sense` is +1 counter-clockwise, -1 clockwise, seen from the tool.
+
+WHOLE = 2 * math.pi
+
+
+def turns(length: float, pitch: float) -> float:
+    """Turns of a helix over a length; TooMany beyond a limit that no bore needs."""
+    if not length <= MOST * pitch:
+        raise TooMany(f"{pitch:g} a turn makes more than {MOST} turns of {length:g}")
+    return length / pitch
+
+
+def steepest_pitch(radius: float, angle: float) -> float:
+    """The most infeed per turn of a tool that plunges at most at an angle, degrees; inf for 0, not known, and 90.
+
+    >>> round(steepest_pitch(4.5, 3), 4)
+    1.4818
+    """
+    return WHOLE * radius * math.tan(math.radians(angle)) if 0 < angle < 90 else math.inf
+
+
+def bore_milling(
+    bottom: float, *, above: float, radius: float, pitch: float, sense: int, feed: float | None, by_arc: bool = False
+) -> Iterator[Step]:
+    """A helix of the tool centre from `above` to `bottom`, one full circle there, back to the axis.
+
+    `radius` is that of the tool centre: 0 drills straight. `by_arc`: to the wall and back on half circles that join it
+    tangentially, else straight. The last turn of the helix may be a part of one.
+    """
+    if radius == 0:
+        yield Go("drill", bottom, feed)
+        return
+    half, angle = sense * math.pi, sense * WHOLE * turns(abs(above - bottom), pitch)
+    if by_arc:
+        yield Turn("to the wall", half, None, feed, (radius / 2, 0.0))
+    else:
+        yield Go("to the wall", feed=feed, x=radius, y=0.0)
+    yield Turn("helix", angle, bottom, feed)
+    yield Turn("circle at the bottom", sense * WHOLE, None, feed)
+    if by_arc:
+        middle = (radius / 2 * math.cos(angle), radius / 2 * math.sin(angle))
+        yield Turn("back to the axis", half, None, feed, middle)
+    else:
+        yield Go("back to the axis", feed=feed, x=0.0, y=0.0)
+
+
+# Tapping as steps at a hole: spindle and feed locked, or a floating holder; a reversal at each end of the thread.
+# `sense` is +1 where the spindle cuts clockwise (M3, a right-hand thread), -1 counter-clockwise.
+
+def tap(
+    levels: Sequence[float], *, above: float, sense: int, end: int, pitch: float = 0.0, feed: float | None = None,
+    speed: float | None = None, out_speed: float | None = None, dwell: float = 0.0, dwell_first: bool = True,
+    stand: float = 0.0, back: float = 0.0, angle: float | None = None,
+) -> Iterator[Step]:  # fmt: skip
+    """Cut to each of the `levels` and back: between two by `back` mm, or with 0 out of the hole to `above`.
+
+    Without a `pitch` the holder floats and the axis runs at `feed`. `end` is what the spindle does afterwards:
+    `sense` again, or 0. At the last level the spindle stands still for `stand` seconds, and `dwell` acts before the
+    reversal or after it. `out_speed` is the spindle speed on the way out, `angle` where it is oriented before.
+    """
+
+    def travel(label: str, level: float) -> Step:
+        return Thread(label, level, pitch) if pitch else Go(label, level, feed)
+
+    if angle is not None:
+        yield Orient(f"orient the spindle to {angle:g} degrees", angle)
+    up = 1.0 if above > levels[-1] else -1.0
+    for number, level in enumerate(levels, 1):
+        last = number == len(levels)
+        cut = "cut the thread" if len(levels) == 1 else f"cut the thread {number} of {len(levels)}"
+        yield Spin("spindle on", sense, speed)
+        yield travel(cut, level)
+        if last and dwell_first:
+            yield Wait("dwell at the bottom", dwell)
+        if last and stand:
+            yield Spin("stop the spindle", 0)
+            yield Wait("wait for the spindle", stand)
+        yield Spin("reverse the spindle", -sense, speed if out_speed is None else out_speed)
+        if last and not dwell_first:
+            yield Wait("dwell at the bottom", dwell)
+        out = last or not back or back >= abs(above - level)
+        yield travel("retract" if out else "break the chip", above if out else level + up * back)
+    yield Spin("reverse the spindle" if end else "stop the spindle", end, speed)

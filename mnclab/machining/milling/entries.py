@@ -11,8 +11,9 @@ full circle, or one more stroke; a descent along a pass leaves that to the pass.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -21,8 +22,9 @@ from numpy.typing import ArrayLike
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
 from mnclab.machining.depths import MOST, TooMany
-from mnclab.machining.milling.clearing import Piece, begin
-from mnclab.machining.steps import Go, Step, Turn
+from mnclab.machining.milling.clearing import Clearing, Piece, begin
+from mnclab.machining.steps import RAPID, Along, Go, Step, Turn, traced
+from mnclab.path.toolpath import Toolpath
 from mnclab.text.given import check_number
 
 DRIFT = 1e-9
@@ -229,3 +231,34 @@ def _sloping(way: Contour, top: float, bottom: float, label: str) -> Descent:
     """Evenly down along a way."""
     upto = np.append(0.0, np.cumsum(way.lengths))
     return Descent(way, top + (bottom - top) * upto / upto[-1], label)
+
+
+# Passes of a strategy step by step: down, along, up again, level by level. Lengths in mm, feeds in mm/min.
+# The plain way, for comparing strategies and for a path without a program; a cycle has an order of its own. Labels name every
+# row: "entry helix", "ring 3 of 7", "link", "lift".
+
+def toolpath(
+    clearing: Clearing, levels: Sequence[float] = (-1.0,), *, surface: float = 0.0, clearance: float = 2.0,
+    entry: Entry = VERTICAL, feed: float = 500.0, plunge_feed: float = 150.0, climb: bool = True,
+) -> Toolpath:  # fmt: skip
+    """Every pass on every level, from `surface` down by `entry`; lifts go to `clearance` above the surface, rapid."""
+    pieces = [piece for piece in clearing.pieces if piece.passes or piece.place is not None]
+    if not pieces or not levels:
+        raise ValueError("there is nothing to clear")
+    above = surface + clearance
+
+    def steps() -> Iterator[Step]:
+        for (top, level), piece in product(zip((surface, *levels), levels), pieces):
+            for k in range(max(1, len(piece.passes))):
+                if not k or not piece.linked[k - 1]:
+                    down = descent(piece, entry, clearing.radius, top, level, climb, k)
+                    yield Go("lift", above)
+                    yield Go("to the entry", None, RAPID, *begin(down.contour).tolist())
+                    yield Go(down.label, top, plunge_feed)
+                    yield Along(down.label, down.contour, plunge_feed, down.heights.tolist())
+                if piece.passes:
+                    yield Go("link", level, feed, *begin(piece.passes[k]).tolist())
+                    yield Along(piece.labels[k], piece.passes[k], feed)
+            yield Go("lift", above)
+
+    return traced(steps(), (*pieces[0].entry.tolist(), above), clearing.radius)

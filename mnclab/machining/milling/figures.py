@@ -13,11 +13,20 @@ from functools import partial
 from typing import NamedTuple
 
 from mnclab.geometry.contours import Contour
-from mnclab.machining.milling import concentric
+from mnclab.machining.milling import faces
 from mnclab.machining.milling.clearing import Clearing
 from mnclab.machining.milling.entries import vertical
-from mnclab.machining.milling.finishing import half_circles, quarter_circles
-from mnclab.machining.milling.pocket_steps import Down, Room, Work, finish_floor, finish_walls, rough, rough_slot
+from mnclab.machining.milling.pocket_steps import (
+    Down,
+    Room,
+    Work,
+    finish_floor,
+    finish_walls,
+    half_circles,
+    quarter_circles,
+    rough,
+    rough_slot,
+)
 from mnclab.machining.steps import Step
 
 straight = partial(vertical, (0.0, 0.0))
@@ -39,7 +48,7 @@ def rectangular(
 ) -> Pocket:  # fmt: skip
     """Rectangles, begun where the axis `begin` (0 the length, 1 the width, None the longer one) leaves them; so do ramps."""
     clearing = partial(
-        concentric.rectangle, length, width, radius, stepover, corner=corner, angle=angle, climb=climb, begin=begin
+        faces.rectangle, length, width, radius, stepover, corner=corner, angle=angle, climb=climb, begin=begin
     )
 
     def room(allowance: float) -> Room:
@@ -57,7 +66,7 @@ def circular(diameter: float, radius: float, stepover: float, *, climb: bool = T
         reach = diameter / 2 - radius - allowance
         return Room(reach, reach)
 
-    return Pocket(partial(concentric.circle, diameter, radius, stepover, climb=climb), room, half_circles)
+    return Pocket(partial(faces.circle, diameter, radius, stepover, climb=climb), room, half_circles)
 
 
 def mill_pocket(
@@ -90,17 +99,17 @@ class Slot(NamedTuple):
 
     @property
     def is_full(self) -> bool:
-        return abs(self.width / 2 - self.radius) <= concentric.NOTHING
+        return abs(self.width / 2 - self.radius) <= faces.NOTHING
 
     def clearing(self, allowance: float, backwards: bool = False) -> Clearing:
         """Along the line and round it, or on circles; along the line alone where the tool just fits, whatever the allowance."""
         line = self.line.reversed() if backwards else self.line
         width, allowance = (2 * self.radius, 0.0) if self.is_full else (self.width, allowance)
-        if line.length <= concentric.NOTHING:
-            return concentric.circle(
+        if line.length <= faces.NOTHING:
+            return faces.circle(
                 width, self.radius, self.radius, allowance=allowance, climb=self.climb, angle=math.pi
             )
-        return concentric.slot(line, width, self.radius, allowance=allowance, climb=self.climb)
+        return faces.slot(line, width, self.radius, allowance=allowance, climb=self.climb)
 
 
 def mill_slot(slot: Slot, work: Work, down: Down) -> Iterator[Step]:

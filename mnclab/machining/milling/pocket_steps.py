@@ -1,12 +1,4 @@
-"""Milling a pocket step by step: down, outwards on its passes, off the wall, layer by layer; then its walls and its floor.
-
-x and y count from the middle of the pocket, where the tool begins and where it comes back to; the clearance lies above the
-level that is being cut, as everything above it has gone already. Lengths in mm, feeds in mm/min, angles in rad.
-
-    rough     ↓ ○ ◯ ⬭ (quarter circle off the wall) ↑ to the middle         for each layer
-    walls     ↓ beside the wall, a quarter circle to it, round, off, ↑       for each infeed
-    floor     ↓ ○ ◯ ⬭ along the finished wall                                once
-"""
+"""Milling a pocket step by step: ways in, feeds at the cutting edge, the floor and the walls."""
 
 from __future__ import annotations
 
@@ -14,12 +6,107 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
-from mnclab.geometry.contours import Contour
-from mnclab.machining.milling.clearing import Clearing, begin, numbered
-from mnclab.machining.milling.cutting_edge import along
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mnclab.geometry.contours import QUARTER, Contour
+from mnclab.geometry.curves import Floats, cross, left
+from mnclab.machining.milling.clearing import Clearing, begin, end, numbered
 from mnclab.machining.milling.entries import Descent, Entry, descend, helix, pendulum, vertical
-from mnclab.machining.milling.finishing import LEAST, leaving
-from mnclab.machining.steps import Go, Step
+from mnclab.machining.steps import Along, Go, Step
+
+# Feeds that count at the cutting edge, for a path of the tool centre. Lengths in mm, feeds in mm/min.
+#     inside an arc of the wall     F · r / (r + R)        outside of one     F · r / (r - R)
+# r is the radius of the path, R that of the tool, and r ± R the radius of the wall. On a straight line both are the same.
+
+SAME = 1e-9
+
+
+def centre_feeds(contour: Contour, feed: float, radius: float, wall: int) -> Floats:
+    """Feeds of the tool centre on the m elements `(m,)`, the wall being on the right of the way (1) or on its left (-1).
+
+    Raises ValueError where the wall turns about a point: no centre is fast enough there.
+    """
+    path, inside = contour.radii, np.sign(contour.sweeps) * wall
+    edge = path + inside * radius
+    if (edge <= SAME).any():
+        raise ValueError(f"the wall has no radius where a tool of radius {radius:g} goes round it at {path.min():g}")
+    with np.errstate(invalid="ignore"):
+        return np.where(inside == 0, feed, feed * path / edge)
+
+
+def along(label: str, contour: Contour, feed: float | None, radius: float = 0.0, wall: int = 1) -> Iterator[Along]:
+    """Along a contour; with the `radius` of the tool its feed counts at the edge, and each piece has its own."""
+    if not radius or feed is None or not contour.bulge.any():
+        yield Along(label, contour, feed)
+        return
+    feeds = centre_feeds(contour, feed, radius, wall)
+    if np.ptp(feeds) <= SAME * feed:
+        yield Along(label, contour, float(feeds[0]))
+        return
+    points = np.vstack([contour.points, contour.points[:1]]) if contour.closed else contour.points
+    begins = np.flatnonzero(np.append(True, np.abs(np.diff(feeds)) > SAME * feed))
+    for first, after in zip(begins.tolist(), [*begins[1:].tolist(), len(feeds)], strict=True):
+        piece = Contour(points[first : after + 1], np.append(contour.bulge[first:after], 0.0), closed=False)
+        yield Along(label, piece, float(feeds[first]))
+
+
+# Finishing along walls: up to the wall on an arc that touches it, once round, and off on another. Lengths in mm.
+#         p                 the quarter circles have their centre at p + r·n, n being the unit normal away from
+# ────────┬────────►        the wall; the tool comes from p + r·n - r·t and leaves for p + r·n + r·t
+#       ╱   ╲               (t: the direction of travel at p)
+
+LEAST = 1e-6  # mm, of an arc up to a wall or off it
+
+
+def approaching(contour: Contour, radius: float, side: int) -> Contour:
+    """The quarter circle by which a tool comes to a closed pass; it lies on its left (`side` 1) or right (-1)."""
+    ahead, wall = contour.tangents()[0][0], contour.points[0]
+    return Contour([wall + radius * (side * left(ahead) - ahead), wall], [side * QUARTER, 0.0], closed=False)
+
+
+def leaving(contour: Contour, radius: float, side: int) -> Contour:
+    """The quarter circle by which a tool leaves the wall after a closed pass."""
+    away, here = contour.tangents()[1][-1], end(contour)
+    return Contour([here, here + radius * (side * left(away) + away)], [side * QUARTER, 0.0], closed=False)
+
+
+def quarter_circles(contour: Contour, radius: float, side: int) -> tuple[Contour, ...]:
+    """The ways up to a wall and off it on quarter circles of a radius; none for a radius of 0."""
+    return (approaching(contour, radius, side), leaving(contour, radius, side)) if radius > LEAST else ()
+
+
+def half_circles(contour: Contour, diameter: float, side: int) -> tuple[Contour, ...]:
+    """The ways up to a wall and off it on half circles: both from and to the place that is a `diameter` away from it."""
+    if not diameter > LEAST:
+        return ()
+    ahead, wall = contour.tangents()[0][0], contour.points[0]
+    to = Contour([wall + diameter * side * left(ahead), wall], [float(side), 0.0], closed=False)
+    return to, outwards(contour, diameter, side)
+
+
+def onto(place: ArrayLike, contour: Contour) -> Contour | None:
+    """The arc, however long, from a place to the begin of a pass that touches it there; None for a place on the pass."""
+    ahead = contour.tangents()[0][0]
+    chord = contour.points[0] - np.asarray(place, dtype=float)
+    if np.hypot(*chord) <= LEAST:
+        return None
+    turn = math.atan2(float(cross(chord, ahead)), float(chord @ ahead))
+    return Contour([place, contour.points[0]], [math.tan(turn / 2), 0.0], closed=False)
+
+
+def outwards(contour: Contour, diameter: float, side: int) -> Contour:
+    """The half circle that touches the end of a pass and leads as far to its left (`side` 1) or right (-1)."""
+    away, here = contour.tangents()[1][-1], end(contour)
+    return Contour([here, here + diameter * side * left(away)], [float(side), 0.0], closed=False)
+
+
+# Milling a pocket step by step: down, outwards on its passes, off the wall, layer by layer; then its walls and its floor.
+# x and y count from the middle of the pocket, where the tool begins and where it comes back to; the clearance lies above the
+# level that is being cut, as everything above it has gone already. Lengths in mm, feeds in mm/min, angles in rad.
+#     rough     ↓ ○ ◯ ⬭ (quarter circle off the wall) ↑ to the middle         for each layer
+#     walls     ↓ beside the wall, a quarter circle to it, round, off, ↑       for each infeed
+#     floor     ↓ ○ ◯ ⬭ along the finished wall                                once
 
 Down = Callable[[float, float], Descent]
 

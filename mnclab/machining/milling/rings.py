@@ -21,7 +21,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Curve, Floats, cross, left
 from mnclab.geometry.regions import Region
 from mnclab.machining.milling.clearing import NOWHERE, Clearing, Piece, links, numbered, piecewise
-from mnclab.machining.milling.infeed_points import roomiest
+from mnclab.machining.milling.terraces import roomiest
 
 MOST_RINGS = 2000
 SHARP = 1e-6  # rad and mm, the least turn of a corner and the shortest element

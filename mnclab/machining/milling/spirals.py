@@ -18,7 +18,7 @@ from mnclab.geometry.contours import Contour, steps_within
 from mnclab.geometry.curves import Floats, cross
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, polygons, stays
-from mnclab.machining.milling import concentric
+from mnclab.machining.milling import faces
 from mnclab.machining.milling.clearing import Clearing, Piece, joined, links, numbered, piecewise
 from mnclab.machining.milling.rings import Ring, rings_in_order
 
@@ -162,7 +162,7 @@ def round_pocket(diameter: float, radius: float, stepover: float, *, climb: bool
     Each turn is at most a `stepover` wider than the one before; no pass where the tool fills the pocket.
     """
     reach = diameter / 2 - radius
-    turns = concentric.steps(reach, stepover)
+    turns = faces.steps(reach, stepover)
     if not turns:
         return joined([], (), radius, place=np.zeros(2))
     ring = Contour.circle((0, 0), reach, clockwise=not climb)

@@ -10,6 +10,7 @@ from mnclab.machining.probing.fits import plane as plane
 from mnclab.machining.probing.fits import rectangle as rectangle
 from mnclab.machining.probing.fits import reduced as reduced
 from mnclab.machining.probing.fits import sphere as sphere
+from mnclab.machining.probing.fits import uncertainty as uncertainty
 from mnclab.machining.probing.fits import width as width
 from mnclab.machining.probing.found import Circle as Circle
 from mnclab.machining.probing.found import Line as Line
@@ -20,4 +21,3 @@ from mnclab.machining.probing.found import Sphere as Sphere
 from mnclab.machining.probing.found import Width as Width
 from mnclab.machining.probing.found import axes_on as axes_on
 from mnclab.machining.probing.found import spatial_angles as spatial_angles
-from mnclab.machining.probing.uncertainty import uncertainty as uncertainty

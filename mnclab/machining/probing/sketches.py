@@ -9,8 +9,7 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import turned
-from mnclab.machining.probing.found import Circle, Rectangle, Width
-from mnclab.machining.probing.given import Floats
+from mnclab.machining.probing.found import Circle, Floats, Rectangle, Width
 from mnclab.machining.steps import Sketch
 
 Figure = Circle | Rectangle | Width | Sequence[Any] | Floats

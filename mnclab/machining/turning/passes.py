@@ -13,10 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 from mnclab.geometry.contours import Contour
-from mnclab.machining.turning.clearance import OUT
 from mnclab.machining.turning.profiles import SAME, between, entry_way, exit_way, over, reachable
 from mnclab.machining.turning.roughing import count_of_levels, levels
-from mnclab.machining.turning.strokes import PLUNGE, ROUGH, Pen, Plan
+from mnclab.machining.turning.strokes import OUT, PLUNGE, ROUGH, Pen, Plan
 from mnclab.path.inserts import angles_of
 from mnclab.path.tool import Tool
 

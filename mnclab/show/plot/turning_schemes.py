@@ -12,8 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 
 from mnclab.comparison.turning_schemes import TurningComparison, TurningTrial
-from mnclab.machining.turning.clearance import OUT
-from mnclab.machining.turning.strokes import CLEANUP, FINISH, PICK_UP, PLUNGE, RAPID, ROUGH, THREAD
+from mnclab.machining.turning.strokes import CLEANUP, FINISH, OUT, PICK_UP, PLUNGE, RAPID, ROUGH, THREAD
 from mnclab.path.inserts import holder, insert
 from mnclab.path.tool import Tool
 from mnclab.show.plot import colours

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mnclab import Datum
-from mnclab.controls.tnc_620.probing.nominal import read
+from mnclab.controls.tnc_620.probing.aimed import read
 from mnclab.geometry import frames
 from mnclab.workpiece.part import plane
 from tests.alignment import PRESET, bored, cycle, ends, plate, points, run, studs

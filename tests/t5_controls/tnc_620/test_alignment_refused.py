@@ -209,7 +209,7 @@ def test_no_text_raises_anything_but_an_alarm():
     """Three thousand texts of the characters that these texts are made of: each is read, or refused at its word."""
     import numpy as np
 
-    from mnclab.controls.tnc_620.probing.nominal import read
+    from mnclab.controls.tnc_620.probing.aimed import read
 
     random = np.random.default_rng(5)
     for _ in range(3000):

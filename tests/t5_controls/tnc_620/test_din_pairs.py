@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 import mnclab as mnc
-from mnclab.controls.tnc_620.trial import AREA
-from mnclab.controls.tnc_620.trial_figures import LINES
+from mnclab.controls.tnc_620.trial import AREA, LINES
 from mnclab.machine.trial import first_value, program, written_first
 
 CONTROL = mnc.controls["tnc-620"]

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 import mnclab as mnc
 from mnclab.controls.tnc_620.engraved_text import Fault, tokens
-from mnclab.controls.tnc_620.machining import engraving, letters
+from mnclab.controls.tnc_620.machining import engraving
 
 EXAMPLES = json.loads(
     (Path(__file__).parents[2] / "authorities/catalogue/tnc620-special.json").read_text(encoding="utf-8")
@@ -127,14 +127,14 @@ def test_any_text_is_engraved_or_refused(text: str) -> None:
         found = tokens(text, NOW, 12)
     except Fault:
         return
-    assert all(sign in letters.GLYPHS or sign in "\n\t\v" for sign in found)
+    assert all(sign in engraving.GLYPHS or sign in "\n\t\v" for sign in found)
 
 
-@pytest.mark.parametrize("sign", list(letters.GLYPHS))
+@pytest.mark.parametrize("sign", list(engraving.GLYPHS))
 def test_strokes_stay_in_their_cell(sign: str) -> None:
     """So that letters beside each other never touch; arcs meet lines without a gap by construction."""
-    half = letters.width(sign) / 2
-    for stroke in letters.strokes(sign):
+    half = engraving.width(sign) / 2
+    for stroke in engraving.strokes(sign):
         low, high = np.min(stroke.points, axis=0), np.max(stroke.points, axis=0)
         x, y = stroke.polyline(0.001).T if hasattr(stroke, "polyline") else stroke.points.T
         assert min(low[0], x.min()) > -half and max(high[0], x.max()) < half
@@ -144,7 +144,7 @@ def test_strokes_stay_in_their_cell(sign: str) -> None:
 def test_lines_tabs_and_the_arcs_of_lines() -> None:
     """1.597 h to the next line (2384/1493), 8 spaces of a tab; on an arc a lower line has a smaller radius."""
     row = engraving.cells(["A", "\n", "A", "\v", "A", "\t", "A"])
-    w, space = letters.width("A"), letters.width(" ")
+    w, space = engraving.width("A"), engraving.width(" ")
     assert [cell.line for cell in row] == [0, 1, 2, 2]
     assert [cell.pen for cell in row] == pytest.approx([0, 0, w, 2 * w + 8 * space])
     glyphs = engraving.on_line(row, 10, 1, 0)
@@ -164,7 +164,7 @@ def test_every_parameter_acts() -> None:
     assert milled(engraved("Ab", Q513=20)).end[:, :2] == pytest.approx(2 * plain.end[:, :2])
     assert milled(engraved("Ab", Q574=30)).end.tolist() == plain.end.tolist()
     assert milled(engraved("Ab", Q513=0, Q574=50)).end[:, 0].max() > plain.end[:, 0].max()
-    assert milled(engraved("Ab", Q514=1)).end[-1, 0] == pytest.approx(plain.end[-1, 0] + letters.width("A") * 10)
+    assert milled(engraved("Ab", Q514=1)).end[-1, 0] == pytest.approx(plain.end[-1, 0] + engraving.width("A") * 10)
     turned = milled(engraved("Ab", Q374=90)).end
     assert turned[:, 0] == pytest.approx(-plain.end[:, 1]) and turned[:, 1] == pytest.approx(plain.end[:, 0])
     assert set(milled(engraved("Ab", Q201=-1.25)).end[:, 2]) == {18.75}

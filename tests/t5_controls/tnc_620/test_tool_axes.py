@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import mnclab as mnc
-from mnclab.controls.tnc_620.language.tool_axis import NAMED, TURNED
+from mnclab.controls.tnc_620.language.tools import NAMED, TURNED
 from mnclab.machine.trial import first_value, program, written_first
 
 ROUND = {"X": {"X": "Y", "Y": "Z", "Z": "X"}, "Y": {"X": "Z", "Y": "X", "Z": "Y"}}  # by tool axis

@@ -11,7 +11,7 @@ import math
 import pytest
 
 import mnclab as mnc
-from mnclab.controls.tnc_620.language import no_effect, rotary_rules
+from mnclab.controls.tnc_620.language import m_functions
 
 PATH = [(5, 0, 0), (5, 7, 0)]
 
@@ -21,7 +21,7 @@ def ends(run: mnc.Run) -> list[tuple[float, ...]]:
     return [tuple(end) for end in run.toolpath.motion.end.round(9).tolist()]
 
 
-@pytest.mark.parametrize("code", [*no_effect.ENDS, "M117", "M127", "M129"])
+@pytest.mark.parametrize("code", [*m_functions.ENDS, "M117", "M127", "M129"])
 def test_the_end_of_what_is_not_on(code: str, inside) -> None:
     """In a block of its own and beside a motion: accepted without a word."""
     for blocks in (f"2 {code}\n3 L X+5 FMAX\n4 L Y+7 FMAX", f"2 L {code}\n3 L X+5 FMAX {code}\n4 L Y+7 FMAX"):
@@ -45,7 +45,7 @@ def test_a_setting_refuses_functions_of_the_machine_tool_builder(inside) -> None
     assert (alarm.message, alarm.span[:2]) == ("M11 is not a function of this control", (3, 14))
 
 
-@pytest.mark.parametrize("code", rotary_rules.GROUPS.values())
+@pytest.mark.parametrize("code", m_functions.GROUPS.values())
 def test_rules_for_rotary_axes_change_nothing_while_none_moves(code: str, inside) -> None:
     run = inside(f"2 L {code}\n3 L X+5 C+0 FMAX\n4 L Y+7 FMAX")
     assert ends(run) == PATH and not run.alarms

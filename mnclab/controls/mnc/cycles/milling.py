@@ -18,12 +18,10 @@ from mnclab.machine.machine import Machine
 from mnclab.machining.depths import MOST, infeeds
 from mnclab.machining.milling.clearing import Clearing, numbered
 from mnclab.machining.milling.entries import Entry
-from mnclab.machining.milling.face_lines import lines, rows
-from mnclab.machining.milling.face_steps import Layer, face
+from mnclab.machining.milling.faces import Layer, face, lines, rows
 from mnclab.machining.milling.figures import Pocket, circular, mill_pocket, rectangular
-from mnclab.machining.milling.finishing import quarter_circles
-from mnclab.machining.milling.pocket_steps import Down, Feeds, Work, way_down
-from mnclab.machining.milling.residue import within
+from mnclab.machining.milling.pocket_steps import Down, Feeds, Work, quarter_circles, way_down
+from mnclab.machining.milling.rest import within
 from mnclab.machining.steps import Go, Say, Step
 
 CYCLES = CycleTable()

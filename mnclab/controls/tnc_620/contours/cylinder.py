@@ -11,12 +11,19 @@ from collections.abc import Generator, Iterator
 from typing import Any
 
 from mnclab.controls.tnc_620.contours.line import Line, with_labels
-from mnclab.controls.tnc_620.contours.surface import Surface, developed_line, surface, surface_faults
-from mnclab.controls.tnc_620.contours.walls import along_slot, beside_contour, over_contour, round_ridge
+from mnclab.controls.tnc_620.contours.surface import (
+    Surface,
+    along_slot,
+    beside_contour,
+    developed_line,
+    over_contour,
+    round_ridge,
+    surface,
+    surface_faults,
+)
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, distance, increment, length
-from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
-from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
+from mnclab.controls.tnc_620.cycles.planes import Fault, in_program_coordinates, not_zero, with_radius
 from mnclab.machine.control import Setting
 from mnclab.machine.coordinates import MILLS, in_mm, remark
 from mnclab.machine.cycle import Cycle, CycleTable, few_passes, param, too_many

@@ -12,11 +12,11 @@ from functools import partial
 
 import numpy as np
 
-from mnclab.controls.tnc_620.contours.outlines import MOST_ELEMENTS, doubt, enclosed
+from mnclab.controls.tnc_620.contours.area import MOST_ELEMENTS, doubt, enclosed
 from mnclab.controls.tnc_620.language.checks import not_negative
 from mnclab.controls.tnc_620.language.flow import call_program, label_name
 from mnclab.controls.tnc_620.language.parameters import text
-from mnclab.controls.tnc_620.reading.contour_words import CLOSED, JOINS, OPEN
+from mnclab.controls.tnc_620.reading.definitions import CLOSED, JOINS, OPEN
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.flow import Recording
 from mnclab.machine.machine import Machine

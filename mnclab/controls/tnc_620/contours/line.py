@@ -1,27 +1,94 @@
-"""The one contour of a contour train, of a trochoidal slot and of the cylinder surfaces: the first label of cycle 14.
-
-Unlike an area it need not be closed: it is where it ends at its beginning. APPR and DEP blocks are no part of it.
-"""
+"""The one contour of a train, a trochoidal slot or a cylinder, the tool that cuts it, and where that goes at the end."""
 
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.controls.tnc_620.contours.labels import Labels
-from mnclab.controls.tnc_620.contours.outlines import MOST_ELEMENTS, fault
-from mnclab.controls.tnc_620.cycles.faults import Fault
+from mnclab.controls.tnc_620.contours.area import MOST_ELEMENTS, fault
+from mnclab.controls.tnc_620.contours.data import Labels
+from mnclab.controls.tnc_620.cycles.planes import Fault
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
+from mnclab.machine.control import Setting
+from mnclab.machine.cycle import Cycle
 from mnclab.machine.flow import RecordedLead, Recording
 from mnclab.machine.machine import Machine
-from mnclab.machining.steps import Record, Step
+from mnclab.machining.steps import RAPID, Go, Record, Step
 from mnclab.path.plane import chain
+from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Kind
+from mnclab.text.alarm import Alarm
+from mnclab.text.strings import TextFormula
+
+# Another tool than the one in the spindle, as a cycle names it by number or name: the rough-out tool of 21, 22, 24 and 25.
+
+LONGEST = 16  # characters of a name
+Named: TypeAlias = float | str | TextFormula  # a number, a name, or a text parameter that holds a name
+
+
+def named_tool(m: Machine, tool: Named) -> Tool | None:
+    """The tool of a number (5.1 is a row of its own), or of a name whatever its case; None where the table has none."""
+    if isinstance(tool, TextFormula):
+        tool = tool.evaluate(m.variables)
+    if not isinstance(tool, str):
+        return m.tables.tools.get(tool)  # type: ignore[call-overload]
+    same = (each for each in m.tables.tools.values() if each.name and each.name.upper() == tool.strip().upper())
+    return next(same, None)
+
+
+def in_table(c: Cycle, m: Machine, name: str) -> Iterator[Fault]:
+    """A tool that the table does not have, or one that cuts nothing."""
+    given: Named = getattr(c, name)
+    if isinstance(given, TextFormula):
+        try:
+            given = given.evaluate(m.variables)
+        except Alarm as alarm:
+            yield name, f"names no tool: {alarm.message}"
+            return
+    written = f'"{given}"' if isinstance(given, str) else f"{given:g}"
+    tool = named_tool(m, given)
+    if isinstance(given, str) and len(given) > LONGEST:
+        yield name, f"must have at most {LONGEST} characters, got {len(given)}"
+    elif tool is None:
+        yield name, f"names tool {written}, which has no row in the tool table"
+    elif tool.effective_radius <= 0:
+        yield name, f"names tool {written}, which has no radius"
+
+
+# Where the tool goes at the end of a contour cycle (posAfterContPocket, no. 201007; 8.5 to 8.9).
+
+SETTINGS = (
+    Setting(
+        "position_after_contour", "before", "where a contour cycle leaves the tool (posAfterContPocket, no. 201007)", "8.5",
+        {
+            "before": "at the position programmed last before the cycle",
+            "height": "at the clearance height, in the plane where the cycle ended (ToolAxClearanceHeight)",
+        },
+    ),
+)  # fmt: skip
+
+Place = tuple[float, float, float]
+
+
+def leave(m: Machine, before: Place, height: float, feed: float = RAPID) -> Iterator[Go]:
+    """Up to the clearance height, and as the setting says to the place `before`, where the tool stood at the call."""
+    yield Go("retract", height, feed)
+    if m.settings["position_after_contour"] == "before":
+        x, y, z = before
+        if z > height:
+            yield Go("back", z)
+        yield Go("back", x=x, y=y)
+        if z < height:
+            yield Go("back", z)
+
+
+# The one contour of a contour train, of a trochoidal slot and of the cylinder surfaces: the first label of cycle 14.
+# Unlike an area it need not be closed: it is where it ends at its beginning. APPR and DEP blocks are no part of it.
 
 CLOSED = 1e-6  # mm, from the end to the beginning of a closed contour
 FLAT = 1e-9  # mm

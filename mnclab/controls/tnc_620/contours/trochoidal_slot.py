@@ -12,21 +12,18 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mnclab.controls.tnc_620.contours.leaving import leave
-from mnclab.controls.tnc_620.contours.line import Line, contour_line, with_labels
+from mnclab.controls.tnc_620.contours.line import Line, contour_line, leave, with_labels
 from mnclab.controls.tnc_620.cycles import addresses, milling
-from mnclab.controls.tnc_620.cycles.faults import Fault, at_least, at_most, not_zero
-from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault, at_least, at_most, in_program_coordinates, not_zero
 from mnclab.controls.tnc_620.cycles.pockets import check_angle, feeds
-from mnclab.controls.tnc_620.machining import trochoidal_steps
+from mnclab.controls.tnc_620.machining import slots
 from mnclab.geometry.contours import Contour
 from mnclab.machine.coordinates import MILLS, in_mm, remark, tool
 from mnclab.machine.cycle import CycleTable, few_passes
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
-from mnclab.machining.milling.cutting_edge import centre_feeds
-from mnclab.machining.milling.pocket_steps import Work
-from mnclab.machining.milling.trochoidal_slots import NOTHING, circle_count, trochoid, walls
+from mnclab.machining.milling.pocket_steps import Work, centre_feeds
+from mnclab.machining.milling.trochoids import NOTHING, circle_count, trochoid, walls
 from mnclab.machining.steps import Go, Say, Step
 from mnclab.path.leads import way
 from mnclab.path.toolpath import PathFault
@@ -141,7 +138,7 @@ def mill(c: TrochoidalSlot, m: Machine, line: Contour, opens: bool, here: Span |
         yield Say(f"Q215=2 finishes nothing: {why}", word=here)
         return
     width = 2 * m.radius if c.is_full(m) else c.slot_width
-    down = trochoidal_steps.way_down(line, m.radius, angle)
+    down = slots.way_down(line, m.radius, angle)
     around = walls(line, width, m.radius, climb=climb, begins_outside=opens) if work.walls else ()
     rough = trochoid(line, width - 2 * work.allowance, m.radius, c.advance, climb=climb) if work.layers else None
     floor = trochoid(line, width, m.radius, c.advance, climb=climb) if work.floor else None
@@ -162,10 +159,10 @@ def mill(c: TrochoidalSlot, m: Machine, line: Contour, opens: bool, here: Span |
     yield Go("to the second set-up clearance", max(m.programmed[2], c.end))
     yield Go("over the start", x=x, y=y)
     if rough:
-        yield from trochoidal_steps.rough(rough, work, down, up)
-    yield from trochoidal_steps.finish_walls(around, work, up)
+        yield from slots.rough(rough, work, down, up)
+    yield from slots.finish_walls(around, work, up)
     if floor:
-        yield from trochoidal_steps.finish_floor(floor, work, down, up)
+        yield from slots.finish_floor(floor, work, down, up)
     yield from leave(m, before, c.end)
 
 

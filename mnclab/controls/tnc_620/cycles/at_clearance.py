@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from mnclab.controls.tnc_620.cycles import addresses
-from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero
+from mnclab.controls.tnc_620.cycles.planes import Fault, not_zero
 from mnclab.machine.cycle import Cycle, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds

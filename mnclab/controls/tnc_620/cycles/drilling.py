@@ -1,19 +1,53 @@
-"""Centring, drilling and reaming (4.2 to 4.4, 4.6): cycles 240, 200, 201 and 203."""
+"""Centring, drilling, reaming, boring and deep holes (4.2 to 4.10)."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from itertools import chain
 
 from mnclab.controls.tnc_620.cycles import addresses
-from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count
-from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_angle
-from mnclab.controls.tnc_620.cycles.planes import AtSurface, point_length, rate
-from mnclab.machine.coordinates import is_round, tool
-from mnclab.machine.cycle import CycleTable
+from mnclab.controls.tnc_620.cycles.addresses import (
+    choice,
+    coordinate,
+    count,
+    distance,
+    increment,
+    length,
+    percent,
+    seconds,
+)
+from mnclab.controls.tnc_620.cycles.chain import MIRROR
+from mnclab.controls.tnc_620.cycles.planes import (
+    AtSurface,
+    Fault,
+    less_than_depth,
+    not_zero,
+    oriented,
+    point_length,
+    rate,
+    with_angle,
+)
+from mnclab.machine.coordinates import MILLS, SHIFTS, is_round, tool, with_the_spindle
+from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machining.holes.drilling import drill, ream
-from mnclab.machining.steps import Go, Say, Step, Wait
+from mnclab.machining.depths import DRIFT, advanced_stops, infeeds
+from mnclab.machining.holes.drilling import (
+    Guided,
+    back_bore,
+    back_to_axis,
+    bore,
+    bore_milling,
+    drill,
+    guided,
+    gun_drill,
+    ream,
+    steepest_pitch,
+    turns,
+)
+from mnclab.machining.steps import RAPID, Go, Say, Step, Wait, Write
+
+# Centring, drilling and reaming (4.2 to 4.4, 4.6): cycles 240, 200, 201 and 203.
 
 CYCLES = CycleTable()
 CENTRED: dict[float, str] = {0: "to the depth Q201", 1: "to the diameter Q344"}
@@ -131,3 +165,261 @@ class UniversalDrilling(AtSurface):
             breaks=int(self.chip_breaks), back=self.break_retract,
         )  # fmt: skip
         yield from self.leave()
+
+
+# Boring, back boring and bore milling (4.5, 4.7, 4.9): cycles 202, 204 and 208.
+# Both boring cycles stop the spindle at an angle; afterwards it turns as before the call, and the coolant is as it was.
+
+def as_if_not_mirrored(m: Machine, steps: Iterable[Step]) -> Iterator[Step]:
+    """Steps off the axis go where they would without a mirror image; shifts and rotations count (4.5, 4.7)."""
+    plain = m.frames.copy()
+    for name, _ in m.frames:
+        if name.startswith(MIRROR):  # before the tilt or behind it
+            plain.set(name, None)
+    return with_the_spindle(m, steps, plain.matrix)
+
+
+@CYCLES("CYCL DEF 202", "Boring", source="4.5")
+class Boring(AtSurface):
+    """Bores, stops the spindle at an angle, moves 0.2 mm off the wall and withdraws; ends on the axis of the hole."""
+
+    clearance: float = addresses.clearance()
+    depth: float = addresses.depth()
+    feed: float = addresses.plunge_feed()
+    dwell_bottom: float = addresses.dwell_bottom()
+    retract_feed: float | str = addresses.retract_feed()
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance()
+    disengage: float = addresses.disengage()
+    spindle_angle: float = addresses.spindle_angle()
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from oriented(m)
+        yield from super().check(m)
+
+    def steps(self, m: Machine) -> Iterator[Step]:
+        yield Write("memory", self.spindle_angle, "orientation")
+        bored = bore(
+            self.bottom(m), above=self.above, feed=self.feed, retract=rate(self.retract_feed, self.feed),
+            dwell=self.dwell_bottom, angle=self.spindle_angle, direction=int(self.disengage),
+        )  # fmt: skip
+        yield from as_if_not_mirrored(m, chain(bored, back_to_axis(self.end, m.turning)))
+
+
+@CYCLES("CYCL DEF 204", "Back boring", source="4.7")
+class BackBoring(AtSurface):
+    """Counterbores from below, with a bar that goes through the hole off its axis.
+
+    Levels count for the lower end of the bar; its edge is Q252 above that.
+    """
+
+    does = SHIFTS
+    clearance: float = addresses.clearance()
+    counterbore_depth: float = increment(
+        "Q249", "depth of the counterbore", note="from the lower surface; positive is up", example=5
+    )
+    thickness: float = distance("Q250", "thickness of the workpiece", at_least=0.0001, example=20)
+    eccentricity: float = distance("Q251", "off-centre distance of the bar", at_least=0.0001, example=3.5)
+    edge_height: float = distance("Q252", "height of the edge above the end of the bar", at_least=0.0001, example=15)
+    positioning_feed: float | str = addresses.positioning_feed()
+    feed: float = addresses.countersinking_feed(meaning="feed rate for counterboring", example=200)
+    dwell_bottom: float = seconds("Q255", "dwell at the bottom of the counterbore", example=0.5)
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance()
+    disengage: float = addresses.disengage(shift=True)
+    spindle_angle: float = addresses.spindle_angle()
+
+    def depths(self) -> dict[str, float]:
+        """The counterbore goes up from below, but the bar comes from above as in every hole."""
+        return {"counterbore_depth": -self.counterbore_depth}
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from oriented(m)
+        if self.counterbore_depth < 0:
+            yield "counterbore_depth", f"must not be negative, got {self.counterbore_depth:g}"
+        if self.counterbore_depth >= self.thickness:
+            yield "counterbore_depth", f"must be less than Q250 = {self.thickness:g}, got {self.counterbore_depth:g}"
+        yield from not_zero(self, "feed", purpose="to bore with")
+        yield from not_zero(self, "positioning_feed", purpose="to position with")
+
+    def steps(self, m: Machine) -> Iterator[Step]:
+        yield Write("memory", self.spindle_angle, "orientation")
+        lower = self.surface - self.thickness - self.edge_height
+        bored = back_bore(
+            above=self.above, below=lower - self.clearance, bottom=lower + self.counterbore_depth,
+            eccentricity=self.eccentricity, direction=int(self.disengage), angle=self.spindle_angle, feed=self.feed,
+            travel=rate(self.positioning_feed), dwell=self.dwell_bottom, turning=m.turning or 1,
+            coolant=m.modal.get("coolant") == "M9",
+        )  # fmt: skip
+        yield from as_if_not_mirrored(m, chain(bored, back_to_axis(self.end, m.turning)))
+
+
+@CYCLES("CYCL DEF 208", "Bore milling", source="4.9")
+class BoreMilling(AtSurface):
+    """Mills a hole on a helix from the set-up plane, with a full circle at the bottom; as wide as the tool it drills it.
+
+    The infeed per turn is reduced where the plunge angle of the tool (ANGLE) demands it. A mirrored plane does not change
+    climb into up-cut milling.
+    """
+
+    does = MILLS
+    clearance: float = addresses.clearance()
+    depth: float = addresses.depth()
+    feed: float = addresses.plunge_feed(also=("FAUTO", "FU", "FZ"))
+    pitch: float = distance("Q334", "infeed per turn of the helix", example=1.5)
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance()
+    diameter: float = length("Q335", "diameter of the bore", example=14)
+    roughing_diameter: float = length(
+        "Q342", "diameter roughed before", note="above 0 the bore may be wider than twice the tool", example=0
+    )
+    climb: float = addresses.climb(example=1)
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from super().check(m)
+        size = 2 * m.radius
+        if self.radius(m) < 0:
+            yield "diameter", f"must be at least the tool diameter {size:g}, got {self.diameter:g}"
+        if not self.roughing_diameter and self.diameter > 2 * size + DRIFT:
+            yield "diameter", f"must be at most twice the tool diameter {size:g} while Q342 is 0, got {self.diameter:g}"
+        if self.radius(m):
+            yield from not_zero(self, "pitch", purpose="to mill with")
+            yield from too_many("pitch", lambda: turns(self.clearance + abs(self.depth), self.pitch_on(m)))
+
+    def radius(self, m: Machine) -> float:
+        """Of the path of the tool centre; 0 where the bore is as wide as the tool."""
+        radius = self.diameter / 2 - m.radius
+        return 0.0 if abs(radius) < DRIFT else radius
+
+    def pitch_on(self, m: Machine) -> float:
+        """The infeed per turn that the tool allows."""
+        return min(self.pitch, steepest_pitch(self.radius(m), tool(m).plunge_angle))
+
+    def steps(self, m: Machine) -> Iterator[Step]:
+        pitch, sense = self.pitch_on(m), -1 if self.climb < 0 else 1
+        if pitch < self.pitch and self.radius(m):
+            allowed = f"the plunge angle {m.tool.plunge_angle:g} of tool {m.tool.number} allows {pitch:.4g}"
+            yield Say(f"Q334 {self.pitch:g} is reduced: {allowed}", word=m.cycle and m.cycle.words.get("pitch"))
+        yield from bore_milling(
+            self.bottom(m), above=self.above, radius=self.radius(m), pitch=pitch, sense=sense * m.orientation,
+            feed=self.feed, by_arc=True,
+        )  # fmt: skip
+        yield from (step._replace(x=0.0, y=0.0) for step in self.leave())  # turns end near the axis, not on it
+
+
+# Deep holes (4.8 and 4.10): universal pecking, 205, and single-lip deep-hole drilling, 241.
+# Both may begin in a hole that is there already, Q379 deep: a long drill stays in its guide, see `machining.holes.guided`.
+
+ENTRY: dict[float, str] = {3: "clockwise (M3)", 4: "counter-clockwise (M4)", 5: "stopped (M5)"}
+TURNING = {3: 1, 4: -1, 5: 0}
+
+
+def guide(c: AtSurface) -> Guided:
+    """Where drilling begins, and where chips are cleared."""
+    return guided(c.surface, c.start_depth, c.clearance, c.down)
+
+
+@CYCLES("CYCL DEF 205", "Universal pecking", source="4.8")
+class UniversalPecking(AtSurface):
+    """Drills in infeeds that may shrink, breaks the chip every Q257 within each, and clears the chips after it.
+
+    Back in the hole the rapid stops above the last depth: by Q258 the first time, by Q259 the last, evenly between.
+    """
+
+    clearance: float = addresses.clearance()
+    depth: float = addresses.depth()
+    feed: float = addresses.plunge_feed()
+    infeed: float = addresses.infeed()
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance()
+    decrement: float = addresses.decrement()
+    min_infeed: float = addresses.min_infeed()
+    first_stop: float = addresses.first_stop(example=0.5)
+    last_stop: float = distance("Q259", "lower advanced stop distance", example=1)
+    break_every: float = addresses.break_every(meaning="infeed between chip breaks", note="0: no chip breaks", example=2)
+    break_retract: float = addresses.break_retract()
+    dwell_bottom: float = addresses.dwell_bottom()
+    start_depth: float = addresses.start_depth()
+    positioning_feed: float | str = addresses.positioning_feed()
+    #: The cycle of the iTNC 530 had no Q208 at first and retracted at rapid: its programs still do.
+    retract_feed: float | str | None = addresses.retract_feed(at_most=addresses.FAR, default=None, default_means="FMAX")
+    reference: float = addresses.reference()
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from super().check(m)
+        if self.break_every and self.break_retract:
+            yield from not_zero(self, "positioning_feed", purpose="to return after a chip break")
+        yield from too_many("break_every", lambda: infeeds(self.begin, self.bottom(m), self.break_every))
+
+    def steps(self, m: Machine) -> Iterator[Step]:
+        levels, way = self.pecks(m), guide(self)
+        out = RAPID if self.retract_feed is None else rate(self.retract_feed, self.feed)
+        yield Go("to the start of the drilling", way.start, rate(self.positioning_feed))
+        yield from drill(
+            levels, above=way.clear, start=self.begin, feed=self.feed, dwell_bottom=self.dwell_bottom,
+            reenter=advanced_stops(self.first_stop, self.last_stop, len(levels) - 1), break_every=self.break_every,
+            back=self.break_retract, back_feed=out, approach=rate(self.positioning_feed),
+        )  # fmt: skip
+        yield from self.leave(out)
+
+
+@CYCLES("CYCL DEF 241", "Single-lip deep-hole drilling", source="4.10")
+class SingleLipDrilling(AtSurface):
+    """Drills deep with a single-lip drill: slow in and out, fast and with coolant while it cuts, no retraction between.
+
+    The spindle is left as it turns on the way out. A dwell on the way lasts as long as the one at the bottom.
+    """
+
+    own_spindle = True
+    clearance: float = addresses.clearance()
+    depth: float = addresses.depth()
+    feed: float = addresses.plunge_feed()
+    dwell_bottom: float = addresses.dwell_bottom()
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance()
+    start_depth: float = addresses.start_depth()
+    positioning_feed: float | str = addresses.positioning_feed()
+    retract_feed: float | str = addresses.retract_feed()
+    spindle_direction: float = choice("Q426", "spindle when entering and leaving", ENTRY, example=3)
+    entry_speed: float = count("Q427", "speed when entering and leaving", unit="rev/min", example=25)
+    drilling_speed: float = count("Q428", "speed when drilling", unit="rev/min", example=500)
+    coolant_on: float = count("Q429", "M function for coolant on", at_most=999, unit="choice", note="0: none", example=8)
+    coolant_off: float = count("Q430", "M function for coolant off", at_most=999, unit="choice", note="0: none", example=9)
+    dwell_depth: float = distance("Q435", "depth of a dwell on the way", default=0, note="0: none", example=10)
+    factor: float = percent("Q401", "feed rate factor after the dwell", at_least=0, at_most=100, default=100, example=50)
+    infeed: float | None = addresses.infeed(default=None, default_means="one pass")
+    decrement: float = addresses.decrement(default=0)
+    min_infeed: float = addresses.min_infeed(default=0)
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from super().check(m)
+        known = [code for code, function in m.control.functions.items() if function.group == "coolant"]
+        for name, number in (("coolant_on", self.coolant_on), ("coolant_off", self.coolant_off)):
+            if number and f"M{number:g}" not in known:
+                yield name, f"must switch the coolant ({', '.join(known)}) or be 0, got {number:g}"
+        yield from not_zero(self, "drilling_speed", purpose="to drill with")
+        if self.dwell_depth and self.depth:
+            yield from less_than_depth(self, "dwell_depth", self.depth)
+            start = self.down * (self.surface - guide(self).start)
+            if self.dwell_depth <= start:
+                yield "dwell_depth", f"must be more than {start:g}, where the drilling begins, got {self.dwell_depth:g}"
+            yield from not_zero(self, "factor", purpose="to drill on with")
+
+    def steps(self, m: Machine) -> Iterator[Step]:
+        way, out = guide(self), rate(self.retract_feed, self.feed)
+        on, off = (f"coolant M{code:g}" if code else "" for code in (self.coolant_on, self.coolant_off))
+        yield from gun_drill(
+            self.pecks(m), above=way.clear, start=way.start, feed=self.feed, approach=rate(self.positioning_feed),
+            retract=out, entry=(TURNING[int(self.spindle_direction)], self.entry_speed), speed=self.drilling_speed,
+            dwell=self.dwell_bottom, pause=self.surface - self.down * self.dwell_depth if self.dwell_depth else None,
+            feed_after=self.feed * self.factor / 100, coolant=(on, off), cool_until_slow=True,
+        )  # fmt: skip
+        yield Go("retract", self.above, out)
+        yield from self.leave()
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        yield from super().moves(m)
+        if self.depth:
+            yield Write("modal", f"M{self.spindle_direction:g}", "spindle")
+            for code in filter(None, (self.coolant_on, self.coolant_off)):
+                yield Write("modal", f"M{code:g}", "coolant")

@@ -10,8 +10,7 @@ from mnclab.controls.tnc_620 import engraved_text
 from mnclab.controls.tnc_620.clock import time_of_day
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, ratio
-from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, not_zero
-from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.controls.tnc_620.cycles.planes import SAME, AtSurface, Fault, not_zero
 from mnclab.controls.tnc_620.machining.engraving import Glyph, cells, engrave, length, on_arc, on_line
 from mnclab.machine.control import Setting
 from mnclab.machine.coordinates import MILLS

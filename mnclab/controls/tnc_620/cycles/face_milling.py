@@ -7,15 +7,13 @@ from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, distance, increment
-from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
-from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
+from mnclab.controls.tnc_620.cycles.planes import Fault, in_program_coordinates, not_zero, with_radius
 from mnclab.machine.coordinates import MILLS
 from mnclab.machine.cycle import Cycle, CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import DRIFT
 from mnclab.machining.milling.clearing import Clearing, numbered
-from mnclab.machining.milling.face_lines import lines, rows
-from mnclab.machining.milling.face_steps import Layer, face
+from mnclab.machining.milling.faces import Layer, face, lines, rows
 from mnclab.machining.steps import Go, Say, Step
 
 CYCLES = CycleTable()

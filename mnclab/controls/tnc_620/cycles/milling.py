@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from mnclab.controls.tnc_620.cycles.faults import Fault, less_than_depth, not_zero, with_radius
+from mnclab.controls.tnc_620.cycles.planes import Fault, less_than_depth, not_zero, with_radius
 from mnclab.machine.coordinates import tool
 from mnclab.machine.cycle import too_many
 from mnclab.machine.machine import Machine
@@ -23,8 +23,7 @@ from mnclab.path.tool import Tool
 
 if TYPE_CHECKING:
     from mnclab.controls.tnc_620.contours.trochoidal_slot import TrochoidalSlot
-    from mnclab.controls.tnc_620.cycles.pockets import AnyPocket
-    from mnclab.controls.tnc_620.cycles.slots import AnySlot
+    from mnclab.controls.tnc_620.cycles.pockets import AnyPocket, AnySlot
     from mnclab.controls.tnc_620.cycles.studs import AnyStud
 
 AnyFigure: TypeAlias = "AnyPocket | AnySlot | AnyStud | TrochoidalSlot"

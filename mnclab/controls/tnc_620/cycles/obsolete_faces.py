@@ -11,15 +11,13 @@ from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import coordinate, increment, number
-from mnclab.controls.tnc_620.cycles.faults import Fault, at_least, not_zero, with_radius
-from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
+from mnclab.controls.tnc_620.cycles.planes import Fault, at_least, in_program_coordinates, not_zero, with_radius
 from mnclab.controls.tnc_620.machining.ruled import mill_ruled, passes
 from mnclab.machine.control import Setting
 from mnclab.machine.coordinates import MILLS
 from mnclab.machine.cycle import Cycle, CycleTable, few_passes
 from mnclab.machine.machine import Machine
-from mnclab.machining.milling.face_lines import lines
-from mnclab.machining.milling.face_steps import Layer, face
+from mnclab.machining.milling.faces import Layer, face, lines
 from mnclab.machining.steps import Go, Say, Step
 
 CYCLES = CycleTable()

@@ -19,8 +19,7 @@ from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, increment, length, number
-from mnclab.controls.tnc_620.cycles.faults import Fault
-from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
+from mnclab.controls.tnc_620.cycles.planes import Fault, in_program_coordinates
 from mnclab.controls.tnc_620.machining import patterns
 from mnclab.machine.coordinates import faults, is_round
 from mnclab.machine.cycle import Cycle, CycleTable

@@ -15,12 +15,11 @@ import numpy as np
 
 from mnclab.controls.tnc_620.cycles import addresses, milling
 from mnclab.controls.tnc_620.cycles.addresses import choice, length, number
-from mnclab.controls.tnc_620.cycles.faults import Fault, at_least, at_most
 from mnclab.controls.tnc_620.cycles.milling import Figure, Place
-from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates, rate
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault, at_least, at_most, in_program_coordinates, rate
 from mnclab.controls.tnc_620.cycles.pockets import CORNER, SIGNS
 from mnclab.controls.tnc_620.machining import studs
-from mnclab.controls.tnc_620.machining.stud_steps import Stud, mill_stud
+from mnclab.controls.tnc_620.machining.studs import Stud, mill_stud
 from mnclab.machine.coordinates import MILLS
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine

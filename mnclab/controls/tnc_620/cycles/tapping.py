@@ -7,13 +7,12 @@ from typing import Any, Union
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAST, ratio
-from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, oriented
-from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault, not_zero, oriented
 from mnclab.machine.coordinates import TAPS
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
-from mnclab.machining.holes.tapping import tap
+from mnclab.machining.holes.drilling import tap
 from mnclab.machining.steps import Go, Spin, Step, Write
 
 CYCLES = CycleTable()

@@ -14,8 +14,7 @@ from typing import NamedTuple
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, increment
-from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
-from mnclab.controls.tnc_620.cycles.planes import AtSurface, rate
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault, not_zero, rate, with_radius
 from mnclab.controls.tnc_620.machining.thread_milling import (
     Path,
     centre_feed,

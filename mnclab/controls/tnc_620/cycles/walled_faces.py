@@ -14,19 +14,17 @@ import numpy as np
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, increment, length
-from mnclab.controls.tnc_620.cycles.faults import Fault, less_than_depth, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.milling import edges
-from mnclab.controls.tnc_620.cycles.planes import AtSurface, rate
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault, less_than_depth, not_zero, rate, with_radius
 from mnclab.controls.tnc_620.cycles.pockets import CORNERS, SIGNS
-from mnclab.controls.tnc_620.machining.between_walls import Walled
-from mnclab.controls.tnc_620.machining.wall_steps import Level, Passes, face_levels, finish_along
+from mnclab.controls.tnc_620.machining.walls import Level, Passes, Walled, face_levels, finish_along
 from mnclab.geometry.contours import Contour
 from mnclab.machine.coordinates import MILLS, remark, tool
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
 from mnclab.machining.milling.clearing import begin, numbered
-from mnclab.machining.milling.face_lines import rows, spiral_from
+from mnclab.machining.milling.faces import rows, spiral_from
 from mnclab.machining.steps import Go, Say, Step
 from mnclab.path.tool import Tool
 

@@ -1,24 +1,211 @@
-"""Small systems of quadratic equations, with all their real solutions.
-
-Incidence, tangency, distance and angle between points, oriented lines and oriented circles are equations of the second
-degree at most, when a line is (n, c) with n·p = c and |n| = 1, and a circle is its centre and its signed radius. So a
-system of them is solved in four steps: linear equations are eliminated; quadratic ones with proportional quadratic parts
-are subtracted, which leaves linear ones (the circles of Apollonius become a line and one quadric that way); what is left
-in one unknown is a quadratic equation, in two unknowns two conics, whose resultant has degree four. Three unknowns and
-more are found by Newton's method from many starts.
-
-Unknowns are numbered; the dimension of each is 1 (mm) or 0 (a component of a unit vector).
-"""
+"""Small systems of quadratic equations, with all their real solutions."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
+from itertools import product
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.controls.tnc_620.free_contours.newton import Work, conics, newton_from
-from mnclab.controls.tnc_620.free_contours.quadratic_form import Array, Form
+# A polynomial of the second degree in numbered unknowns: one equation about points, lines and circles.
+
+Array = NDArray[np.float64]
+Key = TypeVar("Key", bound=Hashable)
+
+
+class Form:
+    """A polynomial of degree two at most: `const`, `linear` {i: a}, `square` {(i, j): a} with i <= j."""
+
+    __slots__ = ("const", "linear", "square")
+
+    def __init__(self, const: float = 0.0, linear: dict[int, float] | None = None,
+                 square: dict[tuple[int, int], float] | None = None) -> None:  # fmt: skip
+        self.const = float(const)
+        self.linear = {i: a for i, a in (linear or {}).items() if a}
+        self.square = {ij: a for ij, a in (square or {}).items() if a}
+
+    def __add__(self, other: Form | float) -> Form:
+        if not isinstance(other, Form):
+            return Form(self.const + other, self.linear, self.square)
+        linear, square = _added(self.linear, other.linear.items()), _added(self.square, other.square.items())
+        return Form(self.const + other.const, linear, square)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Form:
+        return self * -1.0
+
+    def __sub__(self, other: Form | float) -> Form:
+        return self + (-other)
+
+    def __rsub__(self, other: float) -> Form:
+        return -self + other
+
+    def __mul__(self, other: Form | float) -> Form:
+        """The product; both factors must be linear unless one is a number."""
+        if not isinstance(other, Form):
+            square = {ij: a * other for ij, a in self.square.items()}
+            return Form(self.const * other, {i: a * other for i, a in self.linear.items()}, square)
+        assert not (self.square or other.square), "a product of degree three"
+        linear = {i: a * other.const for i, a in self.linear.items()}
+        linear = _added(linear, ((i, a * self.const) for i, a in other.linear.items()))
+        products = product(self.linear.items(), other.linear.items())
+        square = _added({}, (((min(i, j), max(i, j)), a * b) for (i, a), (j, b) in products))
+        return Form(self.const * other.const, linear, square)
+
+    __rmul__ = __mul__
+
+    @property
+    def variables(self) -> set[int]:
+        return set(self.linear) | {i for ij in self.square for i in ij}
+
+    def at(self, values: Array) -> float:
+        total = self.const
+        for i, a in self.linear.items():
+            total += a * values[i]
+        for (i, j), a in self.square.items():
+            total += a * values[i] * values[j]
+        return float(total)
+
+    def power(self, dims: Sequence[int]) -> int:
+        """The dimension of its value: mm to this power."""
+        return max([dims[i] for i in self.linear] + [dims[i] + dims[j] for i, j in self.square], default=1)
+
+    def gap(self, values: Array, dims: Sequence[int]) -> float:
+        """By how much the equation form = 0 is missed, mm; an angle counts as on an arm of 10 mm."""
+        value, power = abs(self.at(values)), self.power(dims)
+        if power == 0:
+            return 10 * value
+        if power == 1:
+            return value
+        sides = (term for (i, j), a in self.square.items() for term in ((i, a * values[j]), (j, a * values[i])))
+        slope = _added(self.linear, sides)
+        steep = np.sqrt(sum(a * a for i, a in slope.items() if dims[i]))
+        return float(value / max(steep, 1e-3))
+
+
+def _added(terms: Mapping[Key, float], more: Iterable[tuple[Key, float]]) -> dict[Key, float]:
+    total = dict(terms)
+    for key, a in more:
+        total[key] = total.get(key, 0.0) + a
+    return total
+
+
+# Newton's method for many starts at once, and where two conics meet; what a search may cost is counted.
+
+AT_ONCE = 100_000  # products in one multiplication of matrices: with more BLAS would wake its threads, which costs more
+
+
+class Exhausted(Exception):
+    """The search for solutions has cost as much as it may."""
+
+
+class Work:
+    """What a search may still cost: about a microsecond each, counted and not measured, so that it always ends alike."""
+
+    def __init__(self, left: float = 0.0) -> None:
+        self.left = left
+
+    def spend(self, amount: float) -> None:
+        """Count some work; Exhausted when none is left, until more is granted."""
+        self.left -= amount
+        if self.left < 0:
+            raise Exhausted
+
+
+Conic = tuple[Array, Array, float]
+_TURN = np.array([[np.cos(0.7), -np.sin(0.7)], [np.sin(0.7), np.cos(0.7)]])
+
+
+def conics(first: Conic, second: Conic) -> list[Array] | None:
+    """Where two conics xᵀAx + bx + c = 0 meet, points (2,): roots of the resultant of degree four, polished.
+
+    A point may come more than once. None when they have a curve in common. The axes are turned so that two of the points
+    hardly ever lie above each other.
+    """
+    (a1, b1, c1), (a2, b2, c2) = ((_TURN.T @ a @ _TURN, b @ _TURN, c) for a, b, c in (first, second))
+    p1, p2 = (np.array([a[1, 1]]) for a in (a1, a2))  # p y² + q(x) y + r(x), highest powers of x first
+    q1, q2 = (np.array([2 * a[0, 1], b[1]]) for a, b in ((a1, b1), (a2, b2)))
+    r1, r2 = (np.array([a[0, 0], b[0], c]) for a, b, c in ((a1, b1, c1), (a2, b2, c2)))
+    pr, pq, qr = _cross(p1, r1, p2, r2), _cross(p1, q1, p2, q2), _cross(q1, r1, q2, r2)
+    resultant = np.convolve(pr, pr) - np.convolve(pq, qr)
+    resultant[np.abs(resultant) < 1e-14 * np.abs(resultant).max()] = 0
+    if not resultant.any():
+        return None
+    nearly_real = [x.real for x in np.roots(resultant) if abs(x.imag) <= 1e-3 * (1 + abs(x))]
+    found = [
+        [x, y.real]
+        for x in nearly_real
+        for p, q, r in ((p1, q1, r1), (p2, q2, r2))
+        for y in np.roots([p[0], np.polyval(q, x), np.polyval(r, x)])
+    ]
+    if not found:
+        return []
+    a, b, c = np.array([a1, a2]), np.array([b1, b2]), np.array([c1, c2])
+    ends, _ = newton_from(a, b, c, np.array(found), rounds=60)
+    return [_TURN @ end for end in ends]
+
+
+def _cross(s: Array, t: Array, u: Array, v: Array) -> Array:
+    """The polynomial s v - u t."""
+    return np.asarray(np.convolve(s, v) - np.convolve(u, t))
+
+
+def newton_from(
+    a: Array, b: Array, c: Array, starts: Array, rounds: int = 80, work: Work | None = None
+) -> tuple[Array, NDArray[np.bool_]]:
+    """Solutions (m, v) of xᵀAx + bx + c = 0 (k equations) reached from starts (n, v), and which of them are single (m,).
+
+    Levenberg's damping fades with the residual, so that the last steps are Newton's. Of many starts, for which `work` is
+    counted, those that have arrived rest; at a solution that is not single steps stay long, and only many show what it is.
+    """
+    x, (k, v) = starts.copy(), b.shape
+    eye = np.eye(v)
+    scale = np.maximum(np.sqrt((a**2).sum(axis=(1, 2)) + (b**2).sum(axis=1)), 1e-300)
+    a, b, c = a / scale[:, None, None], b / scale[:, None], c / scale
+    flat = a.reshape(k * v, v).T
+    piece = max(1, AT_ONCE // max(1, k * v * v))
+
+    def value_and_slope(x: Array) -> tuple[Array, Array]:
+        if piece > 1:
+            parts = [x[i : i + piece] @ flat for i in range(0, max(1, len(x)), piece)]
+            ax = np.concatenate(parts).reshape(len(x), k, v)
+        else:
+            ax = (a @ x[:, None, :, None])[..., 0]
+        return (ax * x[:, None]).sum(axis=2) + x @ b.T + c, 2 * ax + b
+
+    going, last = np.arange(len(x)), np.full(len(x), np.inf)
+    for _ in range(rounds):
+        f, slope = value_and_slope(x[going])
+        arrived = np.abs(f).max(axis=1, initial=0) < 1e-14
+        if arrived.all():
+            break
+        if work is not None:
+            work.spend(50 + len(going) * (2 + k * v * v / 600))
+            on = ~arrived | (last[going] > 1e-10)
+            going, f, slope = going[on], f[on], slope[on]
+        damping = np.minimum((f**2).sum(axis=1), 1.0)[:, None, None] * 0.1 + 1e-13
+        matrix = slope.transpose(0, 2, 1) @ slope + damping * eye
+        step = np.linalg.solve(matrix, (f[:, None] @ slope)[:, 0, :, None])[:, :, 0]
+        length = np.linalg.norm(step, axis=1, keepdims=True)
+        x[going] -= step * np.minimum(1.0, 3.0 / np.maximum(length, 1e-300))
+        last[going] = length[:, 0]
+    f, slope = value_and_slope(x)
+    good = (np.abs(f).max(axis=1) < 1e-11) & (np.abs(x).max(axis=1) < 1e4)
+    steepness = np.linalg.svd(slope[good], compute_uv=False)[:, -1] if good.any() else np.empty(0)
+    return x[good], steepness > 1e-7
+
+
+# Small systems of quadratic equations, with all their real solutions.
+# Incidence, tangency, distance and angle between points, oriented lines and oriented circles are equations of the second
+# degree at most, when a line is (n, c) with n·p = c and |n| = 1, and a circle is its centre and its signed radius. So a
+# system of them is solved in four steps: linear equations are eliminated; quadratic ones with proportional quadratic parts
+# are subtracted, which leaves linear ones (the circles of Apollonius become a line and one quadric that way); what is left
+# in one unknown is a quadratic equation, in two unknowns two conics, whose resultant has degree four. Three unknowns and
+# more are found by Newton's method from many starts.
+# Unknowns are numbered; the dimension of each is 1 (mm) or 0 (a component of a unit vector).
 
 NEAR = 1e-3  # mm: data that are rounded as drawings are may contradict each other by as much
 SAME = 1e-7  # solutions closer than this, in units of the size of the contour, are one

@@ -16,9 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.controls.tnc_620.free_contours.newton import Exhausted, Work
-from mnclab.controls.tnc_620.free_contours.quadratic_form import Array, Form
-from mnclab.controls.tnc_620.free_contours.quadratics import NEAR, SAME, System
+from mnclab.controls.tnc_620.free_contours.quadratics import NEAR, SAME, Array, Exhausted, Form, System, Work
 
 Label = Any
 Choice = tuple[int, int]  # an unknown that tells alternatives apart, and the number of one of them

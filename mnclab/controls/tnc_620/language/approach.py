@@ -13,19 +13,20 @@ from typing import Any
 
 import numpy as np
 
+from mnclab.controls.tnc_620.language.auxiliary import feed
 from mnclab.controls.tnc_620.language.checks import above_zero, refuse_on_cylinder
 from mnclab.controls.tnc_620.language.motion import (
     SIDED,
     SIDES,
     coordinates,
     end,
-    feed,
     heading,
+    polar_point,
+    pole,
     refuse_rapid,
     scaled,
     side,
 )
-from mnclab.controls.tnc_620.language.pole import polar_point, pole
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import INF, Machine

@@ -14,11 +14,11 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.controls.tnc_620.language.auxiliary import FEED_WORDS, feed
 from mnclab.controls.tnc_620.language.checks import first
-from mnclab.controls.tnc_620.language.feeds import FEED_WORDS, feed
 from mnclab.controls.tnc_620.language.motion import coordinates
 from mnclab.controls.tnc_620.language.pattern_definitions import Pattern
-from mnclab.controls.tnc_620.language.tool_axis import check_cycle, turned
+from mnclab.controls.tnc_620.language.tools import check_cycle, turned
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words

@@ -6,11 +6,11 @@ where they stand, on a copy of the Q parameters: the cycles keep theirs.
 
 from __future__ import annotations
 
+from mnclab.controls.tnc_620.contours.area import fault
 from mnclab.controls.tnc_620.contours.formulas import Definitions, checked, described, joined
-from mnclab.controls.tnc_620.contours.outlines import fault
 from mnclab.controls.tnc_620.language.flow import call_program
 from mnclab.controls.tnc_620.language.parameters import text
-from mnclab.controls.tnc_620.reading.contour_words import JOINS
+from mnclab.controls.tnc_620.reading.definitions import JOINS
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.flow import Recording, determine

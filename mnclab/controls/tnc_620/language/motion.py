@@ -1,28 +1,134 @@
-"""Straight lines and arcs: L, C, CR, CT, polar LP, CP, CTP, with feed and side of the tool (catalogue: coordinates, R0 RL RR)."""
+"""Straight lines and arcs, Cartesian and polar, and what is put between them: L, C, CR, CT, CC, LP, CP, CTP, RND, CHF."""
 
 from __future__ import annotations
 
 import math
+from contextlib import AbstractContextManager
 from typing import Any
 
 from mnclab.controls.tnc_620.cycles.chain import to_angle, to_rotary
-from mnclab.controls.tnc_620.language import secondary_axes
-from mnclab.controls.tnc_620.language.checks import counted, one_of, refuse_on_cylinder
-from mnclab.controls.tnc_620.language.feeds import FEED_WORDS, feed
-from mnclab.controls.tnc_620.language.machine_datum import machine_target
-from mnclab.controls.tnc_620.language.pole import angle_here, plane_of, polar_point, pole, within_plane
-from mnclab.controls.tnc_620.language.rotary_rules import refuse_rotary
+from mnclab.controls.tnc_620.language import tools
+from mnclab.controls.tnc_620.language.auxiliary import FEED_WORDS, feed, machine_target, rate
+from mnclab.controls.tnc_620.language.checks import above_zero, counted, one_of, refuse_on_cylinder, written
+from mnclab.controls.tnc_620.language.m_functions import refuse_rotary
 from mnclab.controls.tnc_620.state import Place, memory
 from mnclab.geometry.arcs import tangent_arc_of_one
 from mnclab.machine.control import Function, FunctionTable, Words
 from mnclab.machine.coordinates import AXES as AXES_OF_ROTATION
 from mnclab.machine.coordinates import PLANES, Angles, angles, set_angles, turn_axes
 from mnclab.machine.machine import Machine
-from mnclab.path.corners import Corner
+from mnclab.path.corners import Chamfer, Corner, Open, Prolonged, Rounding
 from mnclab.text.program import Word
 
+# CC, the circle centre and pole, and points told by their distance and angle from it (catalogue: CC, LP, CP).
+# The pole lies in the plane of the axes that CC names: the working plane, or with the tool axis among them another one. Angles
+# count from X in XY, from Y in YZ and from Z in ZX, positive towards the other axis of the plane (angle reference axes of the
+# HEIDENHAIN pilots; DR+ turns the same way).
+
 FUNCTIONS = FunctionTable()
+NEAR = 1e-6  # mm from the pole, where a direction means nothing
 AXES = "XYZ"
+
+
+def axes_of(plane: str) -> tuple[str, str]:
+    """The letters of the first and the second axis of a plane."""
+    return plane[0], plane[1]
+
+
+def plane_of(m: Machine, words: Words) -> str:
+    """The plane of the axes that a block names: the working plane, unless the tool axis is one of two."""
+    named = [axis for axis in AXES if axis in words]
+    if set(named) <= set(m.plane):
+        return m.plane
+    outside = next(words[axis] for axis in named if axis not in m.plane)
+    if len(named) != 2:
+        what = f"{words.code} {outside}: outside the working plane {m.plane} a circle names the two axes of its plane"
+        m.alarm(what, outside, f"for example {words.code} {m.plane[0]}… {outside.address}…")
+    return next(plane for plane in ("XY", "YZ", "ZX") if set(plane) == set(named))
+
+
+def within_plane(m: Machine, words: Words, plane: str) -> AbstractContextManager[None]:
+    """Inside, arcs lie in a plane that need not be the working plane."""
+    if plane == m.plane:
+        return m.within()
+    if m.side:
+        what = f"{words.code}: an arc in {plane} cannot stand under radius compensation, which lies in {m.plane}"
+        m.alarm(what, hint="write R0 in a straight line before it")
+    return m.within(plane=plane)
+
+
+@FUNCTIONS("CC", "Circle centre, pole", takes="X Y Z", source="8.3, example")
+def centre(m: Machine, words: Words) -> None:
+    """No motion; a coordinate that is not written is that of the last programmed position, which IX and IY count from.
+
+    X and Z, or Y and Z, make a centre in the plane ZX or YZ.
+    """
+    refuse_on_cylinder(m, words)
+    plane = plane_of(m, words)
+    here = ((axis, m.programmed[AXES.index(axis)]) for axis in axes_of(plane))
+    u, v = (counted(m, words[axis], at) if axis in words else at for axis, at in here)
+    m.pole = u, v
+    m.log("pole", m.pole)
+    if plane != memory(m).pole_plane:
+        memory(m).pole_plane = plane
+        m.log("pole plane", plane)
+
+
+def pole(m: Machine, words: Words, meaning: str = "pole") -> tuple[str, tuple[float, float]]:
+    """The plane of the pole and the pole in it."""
+    refuse_on_cylinder(m, words)
+    if m.pole is None:
+        m.alarm(f"{words.code} needs a {meaning}: no CC was programmed", hint="write CC X… Y… before it")
+    plane = memory(m).pole_plane
+    return plane, m.pole
+
+
+def away(m: Machine, plane: str, about: tuple[float, float]) -> tuple[float, float]:
+    """From the pole to the present position."""
+    first, second, _ = PLANES[plane]
+    return m.programmed[first] - about[0], m.programmed[second] - about[1]
+
+
+def angle_here(m: Machine, words: Words) -> float:
+    """The polar angle of the present position, rad; an Alarm at the pole itself."""
+    u, v = away(m, *pole(m, words))
+    if math.hypot(u, v) < NEAR:
+        what = f"{words.code}: the tool stands at the pole, where it has no polar angle"
+        m.alarm(what, words.get("PA"), "write the angle PA, absolute")
+    return math.atan2(v, u)
+
+
+def polar_point(m: Machine, words: Words) -> dict[str, Any]:
+    """The point of PR and PA, by axes of its plane (`x=`, …); one that is not written stays as it is.
+
+    IPR and IPA count from the present position.
+    """
+    plane, (u, v) = pole(m, words)
+    if "PR" not in words and "PA" not in words:
+        m.alarm(f"{words.code} needs PR (polar radius) or PA (polar angle)")
+    radius = math.hypot(*away(m, plane, (u, v)))
+    if "PR" in words and (radius := counted(m, words["PR"], radius)) < 0:
+        m.alarm(f"{words.code} PR (polar radius) must be at least 0, got {written(m, words['PR'], radius):g}", words["PR"])
+    if "PA" not in words or words["PA"].incremental:
+        turn = m.value(words["PA"]) if "PA" in words else 0.0
+        angle = math.degrees(angle_here(m, words)) + turn if radius else 0.0
+    else:
+        angle = m.value(words["PA"])
+    c, s = cosine_and_sine(angle)
+    first, second = axes_of(plane.lower())
+    return {first: u + radius * c, second: v + radius * s}
+
+
+def cosine_and_sine(angle: float) -> tuple[float, float]:
+    """Of an angle in degrees, exact at whole quarters of a turn."""
+    quarters = angle / 90
+    if quarters == round(quarters):
+        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[round(quarters) % 4]
+    return math.cos(math.radians(angle)), math.sin(math.radians(angle))
+
+
+# Straight lines and arcs: L, C, CR, CT, polar LP, CP, CTP, with feed and side of the tool (catalogue: coordinates, R0 RL RR).
+
 SIDES = {"R0": 0, "RL": 1, "RR": -1}
 #: FMAX holds for its block alone, and the manual's own program C210 (6.10) has such a move after it.
 FEED_NEEDED = "write F or FMAX; with the setting feed_needed = False such a move is at rapid, with a warning"
@@ -64,7 +170,7 @@ def line(m: Machine, words: Words) -> None:
     """From the present position to the programmed point at feed, or with FMAX at rapid; axes not written keep their value."""
     f = feed(m, words)
     side(m, words, begins=True)
-    carried, to = secondary_axes.move(m, words), coordinates(m, words)
+    carried, to = tools.move(m, words), coordinates(m, words)
     if polar := [words[name] for name in ("PR", "PA") if name in words]:  # a block of the manual is printed so
         if to:
             m.alarm(f"{polar[0].address} and coordinates of axes stand in one block", polar[0], hint="write LP PR… PA…")
@@ -256,3 +362,58 @@ def scaled(m: Machine, length: float) -> float:
 def refuse_rapid(m: Machine, words: Words) -> None:
     if "FMAX" in words:
         m.alarm(f"{words.code} runs at feed: FMAX is for straight lines", words["FMAX"])
+
+
+# What is put between two path elements: RND, CHF (catalogue: RND, CHF), M97 and M98 at the end of a block.
+
+ELEMENTS = ("L", "LP", "C", "CR", "CT", "CP", "CTP", "FL", "FLT", "FC", "FCT")
+
+
+@FUNCTIONS("RND", "Corner rounding", takes="R F", collects=True, source="8.13, example")
+def rounding(m: Machine, words: Words) -> None:
+    """A tangent arc between the element before and the one after; F counts for the rounding alone."""
+    join(m, words, Rounding, "R", "rounding radius")
+
+
+@FUNCTIONS("CHF", "Chamfer", takes="length F", collects=True, source="9.2")
+def chamfer(m: Machine, words: Words) -> None:
+    """Cuts a corner of two lines off, the length along each of them; F counts for the chamfer alone."""
+    join(m, words, Chamfer, "length", "chamfer side length")
+
+
+def join(m: Machine, words: Words, make: type[Rounding] | type[Chamfer], address: str, meaning: str) -> None:
+    shown = f"{words.code} {address}" if address.isupper() else words.code
+    if address not in words:
+        m.alarm(f"{words.code} needs the {'radius R' if address == 'R' else meaning}")
+    size = scaled(m, above_zero(m, words[address], f"{shown} ({meaning})"))
+    own_feed = rate(m, words["F"], f"{words.code} F (feed rate)") if "F" in words else math.nan
+    if not m.mark_joint(make(size, m.step, own_feed)):
+        last = m.recorder.last()
+        hint = "M97 or M98 stands there" if last and isinstance(last[1], Prolonged | Open) else ""
+        m.alarm(f"{words.code} needs a path element directly before it", words[address], hint)
+
+
+@FUNCTIONS("M97", "Small contour steps", phase="end", modal=False, collects=True, source="Klartext, not described")
+def small_step(m: Machine, words: Words) -> None:
+    """At the outside corner that ends the block no arc is put in: the tool goes over the point where the offsets meet."""
+    mark(m, words, Prolonged(m.step))
+
+
+@FUNCTIONS("M98", "Open contour corners", phase="end", modal=False, collects=True, source="Klartext, not described")
+def open_corner(m: Machine, words: Words) -> None:
+    """The tool goes to the place square to the end of the block; where the contour goes on at an angle that is an alarm."""
+    mark(m, words, Open(m.step))
+
+
+def mark(m: Machine, words: Words, joint: Prolonged | Open) -> None:
+    """What the compensation does at the end of the block."""
+    word = words.words[0]
+    if m.recorded_only:
+        m.alarm(f"{words.code} cannot stand in a contour that a cycle reads", word)
+    program = m.flow.program
+    if program.keywords[program.keyword[m.flow.current]] not in ELEMENTS:
+        m.alarm(f"{words.code} stands in the block of a path element", word)
+    if m.pending is None:
+        heading(m, words)
+    if not m.mark_joint(joint):
+        m.alarm(f"{words.code} needs a path element that has no joint at its end yet", word)

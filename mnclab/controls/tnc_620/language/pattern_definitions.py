@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.language.checks import counted, not_negative, whole
 from mnclab.controls.tnc_620.machining import patterns
-from mnclab.controls.tnc_620.reading.pattern_words import ADDRESSES, CLOSED, FORMS
+from mnclab.controls.tnc_620.reading.definitions import ADDRESSES, CLOSING, FORMS
 from mnclab.controls.tnc_620.state import memory
-from mnclab.controls.tnc_620.tables import point_tables
+from mnclab.controls.tnc_620.tables import table_files
 from mnclab.controls.tnc_620.tables.table_files import read_table
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
@@ -35,7 +35,7 @@ MEANINGS = COUNTS | {
     "X": "coordinate", "Y": "coordinate", "Z": "workpiece surface", "D": "spacing or diameter", "DX": "spacing along X",
     "DY": "spacing along Y", "ROT": "rotation", "ROTX": "rotation of the first axis", "ROTY": "rotation of the second axis",
     "START": "starting angle", "STEP": "stepping angle", "END": "stopping angle", "POS": "single position", "ROW": "row",
-    "PAT": "grid", "FRAME": "frame of a grid", "CIRC": "circle", "PITCHCIRC": "part of a circle", CLOSED: "end of an element",
+    "PAT": "grid", "FRAME": "frame of a grid", "CIRC": "circle", "PITCHCIRC": "part of a circle", CLOSING: "end of an element",
 }  # fmt: skip
 
 
@@ -47,7 +47,7 @@ class Pattern(NamedTuple):
     table: bool
 
 
-TAKES = " ".join(f"{address}*" for address in (*FORMS, *ADDRESSES, CLOSED))
+TAKES = " ".join(f"{address}*" for address in (*FORMS, *ADDRESSES, CLOSING))
 
 
 @FUNCTIONS("PATTERN DEF,", "Point pattern", takes=TAKES, source="3.3")
@@ -68,7 +68,7 @@ def pattern_def(m: Machine, words: Words) -> None:
 @FUNCTIONS("SEL PATTERN,", "Point table", takes="file", source="3.4")
 def sel_pattern(m: Machine, words: Words) -> None:
     """The points of a file NAME.PNT; nothing moves."""
-    _, table = read_table(m, words["file"], "SEL PATTERN", "point table", ".PNT", point_tables.parse)
+    _, table = read_table(m, words["file"], "SEL PATTERN", "point table", ".PNT", table_files.parse_points)
     m.flow.spend(len(table.points))
     activate(m, Pattern(table.points[~table.hidden], table.clearance[~table.hidden], True))
 
@@ -134,7 +134,7 @@ def elements(m: Machine, words: Words) -> Iterator[Element]:
             element = Element(m, word, {})
             seen[word.address] += 1
             check_number(element, seen[word.address])
-        elif word.address == CLOSED:
+        elif word.address == CLOSING:
             yield element
             element = None
         else:

@@ -8,13 +8,20 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
+from mnclab.controls.tnc_620.cycles import chain
 from mnclab.controls.tnc_620.cycles.chain import TILT
-from mnclab.controls.tnc_620.cycles.tilting import WorkingPlane, axis_positions, position, results
-from mnclab.controls.tnc_620.language.checks import above_zero, not_negative, one_of
-from mnclab.controls.tnc_620.language.feeds import auto_feed
-from mnclab.controls.tnc_620.language.retraction import retract
-from mnclab.controls.tnc_620.language.rotary_rules import refuse_rotary
-from mnclab.controls.tnc_620.language.tool_axis import refuse_other
+from mnclab.controls.tnc_620.cycles.transformations import (
+    AXES,
+    DatumShift,
+    WorkingPlane,
+    axis_positions,
+    position,
+    results,
+)
+from mnclab.controls.tnc_620.language.auxiliary import auto_feed
+from mnclab.controls.tnc_620.language.checks import above_zero, counted, not_negative, one_of
+from mnclab.controls.tnc_620.language.m_functions import refuse_rotary, retract
+from mnclab.controls.tnc_620.language.tools import refuse_other
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import STILL, turning_feed
@@ -119,3 +126,21 @@ def turn(m: Machine, words: Words, how: Word) -> None:
     else:
         rate = auto_feed(m, word) / m.feed_unit if word.address == "FAUTO" else above_zero(m, word, f"{words.code} F (feed rate)")
     perform(m, words.code, position(m, to, rate, distance), ORIGIN)
+
+
+# TRANS DATUM: the datum shift of cycle 7 as one statement.
+
+@FUNCTIONS("TRANS DATUM AXIS,", "Datum shift", takes="X Y Z A B C", source=SOURCE)
+def shift(m: Machine, words: Words) -> None:
+    """Moves the datum as cycle 7 does: IX counts from the shift before, an axis that is not named keeps its own."""
+    before = dict(zip(AXES, (*chain.shift_of(m), *chain.rotary(m)[0]), strict=True))
+    given = {axis: counted(m, words[axis.upper()], before[axis]) for axis in AXES if axis.upper() in words}
+    if not given:
+        m.alarm("TRANS DATUM AXIS needs an axis", hint="for example TRANS DATUM AXIS X+60")
+    perform(m, words.code, DatumShift(**given).moves(m))
+
+
+@FUNCTIONS("TRANS DATUM RESET,", "End of a datum shift", source=SOURCE)
+def reset(m: Machine, words: Words) -> None:
+    """The shift is over, whoever defined it."""
+    perform(m, words.code, DatumShift(**dict.fromkeys(AXES, 0.0)).moves(m))

@@ -1,18 +1,77 @@
-"""TOOL CALL and TOOL DEF (catalogue: TOOL CALL, TOOL DEF)."""
+"""Tools and their axis: TOOL CALL, TOOL DEF, and the secondary axes U, V and W."""
 
 from __future__ import annotations
 
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 
-from mnclab.controls.tnc_620.language.checks import first, not_negative, written
-from mnclab.controls.tnc_620.language.feeds import rate, set_feed, with_another_tool
-from mnclab.controls.tnc_620.language.tool_axis import change_axis
+from mnclab.controls.tnc_620.cycles.chain import TILT
+from mnclab.controls.tnc_620.language.auxiliary import rate, set_feed, with_another_tool
+from mnclab.controls.tnc_620.language.checks import counted, first, not_negative, written
 from mnclab.controls.tnc_620.state import memory
+from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Setting, Words
-from mnclab.machine.coordinates import tool_axis
+from mnclab.machine.coordinates import FRAME, LOG, along_z, tool_axis
+from mnclab.machine.cycle import Cycle, Definition
 from mnclab.machine.machine import Machine
 from mnclab.path.tool import Tool
 from mnclab.text.program import Word
+
+# The tool axis of TOOL CALL: Z on the working plane XY, X on YZ, Y on ZX; cycles run along it.
+# Tool length, radius compensation, corners, arcs, angles and the heights of cycles follow it. What is not built so is refused.
+
+PLANES = {"Z": "XY", "X": "YZ", "Y": "ZX"}  # working plane by tool axis
+#: Cycles that work in the plane and along the tool axis alone, whichever these are …
+TURNED = frozenset(
+    f"CYCL DEF {n}"
+    for n in (
+        1, 2, 17, 18, 200, 201, 203, 205, 206, 207, 208, 209, *range(210, 216), 220, 221, 225, 232, 233, 240, 241,
+        *range(251, 255), *range(256, 259), *range(262, 266), 267,
+    )
+) | frozenset(f"TCH PROBE {n}" for n in (*range(408, 428), 430, 431))  # fmt: skip
+#: … and those that name axes by their letters, or none.
+NAMED = frozenset(f"CYCL DEF {n}" for n in (7, 8, 9, 10, 11, 13, 14, 20, 26, 32, 239, 247)) | {"GLOBAL DEF 120"}
+
+
+def letter(m: Machine) -> str:
+    return "XYZ"[tool_axis(m)]
+
+
+def refuse_other(m: Machine, what: str, word: Word | None = None) -> None:
+    """An Alarm unless the tool stands along Z."""
+    if (axis := letter(m)) != "Z":
+        m.alarm(f"{what} with the tool axis {axis}: not built yet", word, "with the tool axis Z it is")
+
+
+def check_cycle(m: Machine, cycle: type[Cycle]) -> None:
+    """An Alarm at a cycle that is built for the tool axis Z alone."""
+    if cycle.code not in TURNED | NAMED:
+        refuse_other(m, cycle.code)
+
+
+def turned(m: Machine, definition: Definition) -> AbstractContextManager[None]:
+    """What a cycle runs in."""
+    if m.plane == "XY" and FRAME not in m.frames:
+        return nullcontext()
+    check_cycle(m, definition.cycle)
+    return nullcontext() if FRAME in m.frames or definition.cycle.code in NAMED else along_z(m)
+
+
+def change_axis(m: Machine, words: Words) -> int:
+    """Take the tool axis that a TOOL CALL names; the number of the one before."""
+    before = tool_axis(m)
+    if "axis" not in words or (axis := str(words["axis"].value)) == letter(m):
+        return before
+    if axis not in PLANES:
+        m.alarm(f"TOOL CALL: the tool axis {axis} is not built yet, X, Y and Z are", words["axis"])
+    if TILT in m.frames:
+        m.alarm(f"TOOL CALL: the tool axis {axis} cannot stand in a tilted working plane", words["axis"], "reset cycle 19")
+    m.change("plane", PLANES[axis])
+    m.log(LOG, axis)
+    return before
+
+
+# TOOL CALL and TOOL DEF (catalogue: TOOL CALL, TOOL DEF).
 
 FUNCTIONS = FunctionTable()
 OTHERWISE = 'with the setting tool_def = "block" the block counts'
@@ -121,3 +180,37 @@ def tool_def(m: Machine, words: Words) -> None:
 def table_counts(m: Machine, number: int) -> bool:
     """Whether a tool is that of the table, though a block defines it; the magazine of a setup without tools is no table."""
     return m.settings["tool_def"] == "table" and m.setup.tools != m.control.magazine and number in (m.setup.tools or {})
+
+
+# The secondary axes U, V and W, which move the tool along X, Y and Z (public manuals: FUNCTION PARAXCOMP).
+# They have coordinates of their own, which no datum shifts, and those of X, Y and Z do not change with them: the tool stands at
+# the sum of both. That sum is what PARAXCOMP DISPLAY shows as its distance from the workpiece.
+
+SECONDARY = "secondary axes"
+AXES = "UVW"
+AXES_SETTINGS = (
+    Setting(
+        "secondary_axes", "sum", "what U, V and W do in a straight line", "Klartext, not described",
+        {"sum": "they carry the tool along X, Y, Z, whose coordinates stay", "refuse": "an alarm: there are none"},
+    ),
+)  # fmt: skip
+
+
+def move(m: Machine, words: Words) -> bool:
+    """Set U, V and W to where a straight line takes them; whether it names one."""
+    named = [words[axis] for axis in AXES if axis in words]
+    if not named:
+        return False
+    if m.settings["secondary_axes"] == "refuse":
+        m.alarm(f"{named[0]}: the machine has no secondary axis {named[0].address} (setting secondary_axes)", named[0])
+    if memory(m).machine_datum is not None:
+        m.alarm(f"{named[0]}: secondary axes under M91 or M92 are not built yet", named[0])
+    if m.side:
+        m.alarm(f"{named[0]}: secondary axes under radius compensation are not built yet", named[0], "write R0")
+    before = memory(m).secondary
+    u, v, w = (counted(m, words[axis], at) if axis in words else at for axis, at in zip(AXES, before, strict=True))
+    memory(m).secondary = u, v, w
+    m.set_frame(SECONDARY, frames.shift(u, v, w), keep="programmed")
+    if m.setup.limits.travel is not None:
+        m.warn(f"the travel of {named[0].address} is not known: its way counts as one of the axis beside it", named[0])
+    return True

@@ -1,29 +1,100 @@
-"""What the cycles 14xx share (TNC 620, 14.2): nominal places, the way of the probe from one to the next, results, tolerances.
-
-Places are nominal coordinates of the input system, also in a tilted plane. What is found goes to Q950 and on, deviations from
-the middle of the tolerances to Q980 and on; the status Q183 is worked out before the preset changes.
-"""
+"""What the cycles 14xx share (TNC 620, 14.2): nominal places, the way of touching, and what becomes of a measure."""
 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.controls.tnc_620.cycles.faults import Fault
-from mnclab.controls.tnc_620.probing.nominal import Nominal, read
+from mnclab.controls.tnc_620.cycles.addresses import FAR
+from mnclab.controls.tnc_620.cycles.planes import Fault
+from mnclab.controls.tnc_620.cycles.transformations import axis_positions, position
+from mnclab.controls.tnc_620.probing.cycle import store
+from mnclab.controls.tnc_620.probing.rotation import C, align, cannot_turn
+from mnclab.controls.tnc_620.state import active_preset
+from mnclab.geometry import frames
 from mnclab.machine.control import Setting
 from mnclab.machine.coordinates import in_mm
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import OK, REWORK, SCRAP, SLACK
+from mnclab.machine.setup import Datum
 from mnclab.machine.touching import Contact
+from mnclab.machining.probing import fits
+from mnclab.machining.probing.found import spatial_angles
 from mnclab.machining.probing.sequences import Approach, numbers, over_to
-from mnclab.machining.steps import Go, Measure, Orient, Pause, Step, Touch, Write
+from mnclab.machining.steps import RAPID, Go, Measure, Orient, Pause, Step, Touch, Write
 from mnclab.text.strings import TextFormula
 from mnclab.text.tables import html_table
+
+# Nominal values of the cycles 14xx: numbers, or texts with tolerances, an actual value, or a question (TNC 620, 14.2).
+#     10          the nominal value                     10+0.02     the band from 10 to 10.02
+#     +9-1-0,5    the band from 8 to 8.5                10@10.0123  not touched: it was found to be 10.0123
+#     ?10         the operator puts the probe there     ?           … and what is found is the nominal value
+# Deviations count from the middle of the band.
+
+_NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)"
+_TEXT = re.compile(rf"(\?)?([+-]?{_NUMBER})?((?:[+-]{_NUMBER})*)(?:@(?:([+-]?{_NUMBER})|(Q19\d\d)))?", re.ASCII)
+_TOLERANCE = re.compile(rf"[+-]{_NUMBER}", re.ASCII)
+MOST_TOLERANCES = 2
+
+
+class Nominal(NamedTuple):
+    """A nominal value with its limits, mm; None: what is found is the nominal value."""
+
+    value: float | None
+    lower: float = 0.0
+    upper: float = 0.0
+    actual: float | None = None
+    asked: bool = False
+
+    @property
+    def mean(self) -> float | None:
+        """The middle of the band."""
+        return None if self.value is None else (self.lower + self.upper) / 2
+
+    @property
+    def limited(self) -> bool:
+        return self.value is not None and self.lower < self.upper
+
+
+def read(given: float | str | TextFormula, variables: Mapping[str, Any], unit: float) -> Nominal:
+    """What a parameter says; numbers are mm, those of a text `unit` mm. ValueError with a sentence where it says nothing."""
+    if isinstance(given, int | float):
+        return Nominal(given, given, given)
+    text = given if isinstance(given, str) else given.evaluate(variables)
+    found = _TEXT.fullmatch(re.sub(r"\s", "", text).replace(",", ".").upper())
+    if found is None or not text.strip():
+        raise ValueError(f'is no nominal value such as "?10", "10+0.02-0.01" or "10@10.01", got "{text}"')
+    asks, value, tolerances, actual, variable = found.groups()
+    offsets = [float(each) for each in _TOLERANCE.findall(tolerances)]
+    if len(offsets) > MOST_TOLERANCES:
+        raise ValueError(f'takes {MOST_TOLERANCES} tolerances at most, got "{text}"')
+    if value is None and (offsets or not asks):
+        raise ValueError(f'needs a nominal value, got "{text}"')
+    if asks and (actual or variable):
+        raise ValueError(f'asks for a position (?) and gives it (@) in one, got "{text}"')
+    if variable and not isinstance(variables.get(variable), int | float):
+        raise ValueError(f"takes its actual value from {variable}, which has none")
+    found_value = float(variables[variable]) if variable else None if actual is None else float(actual)
+    is_ = None if found_value is None else found_value * unit
+    if value is None:
+        return Nominal(None, asked=True)
+    nominal = float(value) * unit
+    low, high = (min(offsets), max(offsets)) if len(offsets) == MOST_TOLERANCES else (min(0, *offsets, 0), max(0, *offsets, 0))
+    limits = nominal + low * unit, nominal + high * unit
+    for each in (nominal, *limits, is_ or 0.0):
+        if not abs(each) <= FAR:
+            raise ValueError(f"must be at least {-FAR:.10g} and at most {FAR:.10g}, got {each:.10g}")
+    return Nominal(nominal, *limits, is_, bool(asks))
+
+
+# What the cycles 14xx share (TNC 620, 14.2): nominal places, the way of the probe from one to the next, results, tolerances.
+# Places are nominal coordinates of the input system, also in a tilted plane. What is found goes to Q950 and on, deviations from
+# the middle of the tolerances to Q980 and on; the status Q183 is worked out before the preset changes.
 
 Floats = NDArray[np.float64]
 Given = float | str | TextFormula
@@ -211,3 +282,64 @@ def report(
         allowed = f"{worst.nominal.lower:.4f} to {worst.nominal.upper:.4f}"
         said = f"{c.code}: {worst.verdict}: {worst.what} is {worst.actual:.4f}, allowed {allowed}"
         m.alarm(in_mm(said, m.variable_unit, length=True))
+
+
+# What the cycles 14xx make of a measured place and rotation: the active preset changes, rotary axes turn (TNC 620, 14.2).
+# A measured point has its nominal coordinates in the new system. In a tilted plane, and for a plane that is not level,
+# the basic
+# rotation is one in space (SPA, SPB, SPC).
+
+BASIC, TABLE = 1, 2  # Q1121
+LEVEL = 1e-12  # of a turn that has no part about X and Y
+
+
+def contradictions(c: Any) -> Iterator[Fault]:
+    """Of the cycles with one angle: rotary axes are aligned where the rotary table takes the rotation over."""
+    if c.align_rotary_axis and c.confirm_rotation != TABLE:
+        yield "align_rotary_axis", "aligns the rotary axis: then Q1121 must be 2, and no basic rotation takes the angle over"
+
+
+def turn_faults(c: Any, m: Machine) -> Iterator[Fault]:
+    if c.confirm_rotation == TABLE:
+        yield from cannot_turn(m, C, "confirm_rotation")
+
+
+def angle(first: Floats, second: Floats) -> float:
+    """The direction from a point to another in the plane, degrees."""
+    return fits.angle(first[:2].tolist(), second[:2].tolist())
+
+
+def chosen(c: Any, points: Sequence[Floats]) -> Floats | None:
+    """The point that Q1120 names, their mean behind the last; None: no position is taken over."""
+    k = int(c.transfer_position)
+    return None if k == 0 else np.mean(points, axis=0) if k > len(points) else np.asarray(points[k - 1])
+
+
+def take_over(c: Any, m: Machine, found: Sequence[Found], nominal: Floats, turned: Floats, by: float) -> Iterator[Step]:
+    """Change the active preset: `nominal` (n, 3) are the middles of the tolerances, `turned` (3, 3) is the measured rotation,
+    `by` its angle in the plane, degrees, nan in space."""
+    here, should = chosen(c, [one.point for one in found]), chosen(c, list(nominal))
+    before, axes = m.tables.presets.get(active_preset(m), Datum()), m.frames["preset"][:3, :3]
+    inner = frames.inverse(m.frames.before("preset") @ m.frames["preset"]) @ m.matrix  # what acts behind the preset
+    new, origin, columns = axes, np.array(before[:3]), {}
+    if c.confirm_rotation == BASIC:
+        tilt = inner[:3, :3]
+        change = tilt @ turned @ tilt.T
+        new = axes @ change
+        level = not (math.isnan(by) or before.tilt_x or before.tilt_y) and np.abs(change[2, :2]).max() < LEVEL
+        space = dict(zip(("tilt_x", "tilt_y", "rotation"), spatial_angles(new), strict=True))
+        columns = {"rotation": before.rotation + by} if level else space
+    elif c.confirm_rotation == TABLE:
+        columns = {"c": before.c + by}
+    if here is not None and should is not None:
+        is_, gets = origin + axes @ frames.apply(inner, here), new @ frames.apply(inner, should)
+        if c.confirm_rotation == TABLE:
+            centre = (m.settings["table_x"], m.settings["table_y"], 0.0)
+            is_ = frames.apply(frames.turn(-math.radians(by), about=centre), is_)
+        columns |= dict(zip("xyz", (is_ - gets).tolist(), strict=True))
+    if columns:
+        yield from store(m, active_preset(m), **columns)
+    if c.align_rotary_axis and c.confirm_rotation == TABLE:
+        yield from align(m, C, by)
+    elif c.align_rotary_axis:
+        yield from position(m, axis_positions(m), RAPID, 0.0)

@@ -15,7 +15,7 @@ from typing import Any
 
 from mnclab.controls.tnc_620.clock import time_of_day
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
-from mnclab.controls.tnc_620.cycles.faults import Fault
+from mnclab.controls.tnc_620.cycles.planes import Fault
 from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed
 from mnclab.machine.control import Setting

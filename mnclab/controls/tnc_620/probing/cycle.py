@@ -1,26 +1,44 @@
-"""What all touch probe cycles of the TNC 620 share: their positions, what refuses them, how the probe approaches (chapter 13).
-
-Positions of the program are those of the south pole of the ball; nominal points in the plane and measuring heights those of
-the ball's center.
-"""
+"""What all touch probe cycles of the TNC 620 share: positions, figures that are touched, and where a measured point is saved."""
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Iterator, Sequence
+import math
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar
 
-from mnclab.controls.tnc_620.contours.other_tools import Named, in_table
+import numpy as np
+
+from mnclab.controls.tnc_620.contours.line import Named, in_table
 from mnclab.controls.tnc_620.cycles.chain import TILT
-from mnclab.controls.tnc_620.cycles.faults import Fault
-from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
+from mnclab.controls.tnc_620.cycles.planes import Fault, in_program_coordinates
 from mnclab.controls.tnc_620.probing.fast_probing import probe_in_force
+from mnclab.controls.tnc_620.state import active_preset
 from mnclab.machine.coordinates import FRAME, in_mm
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
+from mnclab.machine.setup import Datum
 from mnclab.machine.touching import PROBES, Contact, unfit
-from mnclab.machining.probing.sequences import Approach, numbers, results
-from mnclab.machining.steps import Measure, Step
+from mnclab.machining.probing import fits
+from mnclab.machining.probing.found import Circle, Rectangle
+from mnclab.machining.probing.sequences import (
+    ROUND,
+    Approach,
+    Pair,
+    Steps,
+    around,
+    from_above,
+    from_centre,
+    numbers,
+    results,
+    sides,
+)
+from mnclab.machining.probing.sketches import sketch
+from mnclab.machining.steps import Measure, Step, Write
 from mnclab.text.alarm import Alarm
+
+# What all touch probe cycles of the TNC 620 share: their positions, what refuses them, how the probe approaches (chapter 13).
+# Positions of the program are those of the south pole of the ball; nominal points in the plane and measuring heights those of
+# the ball's center.
 
 Moves = Generator[Step, Any, None]
 LEAST_STEP = 5.0  # degrees (15.6, 16.4)
@@ -104,3 +122,113 @@ def needed(fit: Any, *points: Any, m: Machine, code: str) -> Any:
         return fit(*points)
     except Alarm as alarm:
         m.alarm(in_mm(f"{code}: {alarm.message}", m.variable_unit))
+
+
+# Figures as presetting and inspecting cycles touch them: what is found, and the contacts (TNC 620, chapters 14 to 16).
+
+def circle(c: ProbingCycle, m: Machine, contacts: Sequence[Contact]) -> Circle:
+    """Of the ball's centres."""
+    found: Circle = needed(fits.circle, [each.point for each in contacts], "power", m=m, code=c.code)
+    return found
+
+
+def ring(c: ProbingCycle, m: Machine, a: Approach, centre: Pair, leave: bool = True) -> Steps:
+    """A hole or a round stud, as its angles say."""
+    angles, over = (c.starting_angle, c.stepping_angle, int(c.points)), c.traverse == 1
+    contacts = yield from around(a, centre, c.diameter / 2, *angles, c.inside, m.programmed[2], over, leave)
+    found = circle(c, m, contacts).grown(a.ball if c.inside else -a.ball)
+    yield sketch(Circle(*centre, c.diameter / 2), found, c.level, contacts)
+    return found, contacts
+
+
+def box(c: ProbingCycle, m: Machine, a: Approach, centre: Pair) -> Steps:
+    """A pocket or a stud with straight sides along the axes."""
+    contacts = yield from sides(a, centre, (c.length / 2, c.width / 2), ROUND, c.inside, m.programmed[2])
+    right, back, left, front = (each.point for each in contacts)
+    found = needed(fits.rectangle, [right, left, back, front], m=m, code=c.code).grown(a.ball if c.inside else -a.ball)
+    yield sketch(Rectangle(*centre, c.length, c.width), found, c.level, contacts)
+    return found, contacts
+
+
+def holes(c: ProbingCycle, m: Machine, a: Approach, places: Sequence[Pair]) -> Steps:
+    """The centres of holes, touched one after the other over the clearance height, and all contacts."""
+    found, contacts = [], []
+    for k, place in enumerate(places):
+        touched = yield from from_centre(a, place, a.height if k else m.programmed[2])
+        contacts += touched
+        found.append(circle(c, m, touched).centre)
+    return found, contacts
+
+
+def bolt_circle(c: ProbingCycle, m: Machine, a: Approach) -> Steps:
+    """The circle through three holes at their angles."""
+    x, y, radius = c.middle_x, c.middle_y, c.diameter / 2
+    turns = map(math.radians, (c.first_angle, c.second_angle, c.third_angle))
+    places = [(x + radius * math.cos(turn), y + radius * math.sin(turn)) for turn in turns]
+    centres, contacts = yield from holes(c, m, a, places)
+    found = needed(fits.circle, centres, m=m, code=c.code)
+    yield sketch(Circle(x, y, radius), found, c.level, contacts)
+    return found, contacts
+
+
+# Saving a measured point as preset or datum (TNC 620, 15.1): Q305 says which row, Q303 which table.
+# Q305 = 0 is row 0 of the preset table, a copy of the active row, which becomes active. Row n is written in the columns that
+# were measured; it counts at once if it is the active one. In the datum table (Q303 = 0) stands the shift from the preset.
+
+AXES = ("x", "y", "z")
+SAME = 1e-12
+
+
+def finish(c: ProbingCycle, m: Machine, a: Approach, found: dict[int, tuple[float, float]], turned: float = 0.0) -> Moves:
+    """Touch from above too, if the cycle asks for it (Q381), in the system that it began with; then save the preset."""
+    if c.probe_z:
+        contact = yield from from_above(a, c.top_x, c.top_y, c.top_z, a.height, leave="higher")
+        found[2] = contact.point[2] - a.ball, c.datum_z
+        yield from measured([contact], Z=(found[2][0], c.top_z))
+    yield from save(m, found, c.row, c.transfer, turned)
+
+
+def save(
+    m: Machine, found: Mapping[int, tuple[float, float]], row: float, transfer: float, turned: float = 0.0,
+) -> Iterator[Step]:  # fmt: skip
+    """Write what was measured: by axis (0, 1, 2 of the cycle) its measured coordinate and the one that it gets.
+
+    `turned` (degrees) is added to the basic rotation of the row: the point keeps its new coordinates in the turned system.
+    """
+    number = int(row)
+    measured, new = np.zeros(3), np.zeros(3)
+    for k, (is_, gets) in found.items():
+        measured[k], new[k] = is_, gets
+    if transfer == 0 and number:
+        shift, sets = _along(m.frames[FRAME][:3, :3], measured - new, found)
+        before = m.tables.datums.get(number, Datum())
+        yield Write("datums", before._replace(**{AXES[k]: float(shift[k]) for k in sets}), number)
+        return
+    linear = m.matrix[:3, :3]
+    angle = np.radians(turned)
+    turn = np.array([[np.cos(angle), -np.sin(angle), 0.0], [np.sin(angle), np.cos(angle), 0.0], [0.0, 0.0, 1.0]])
+    shift, sets = _along(linear, measured - turn @ new, found)
+    before = m.tables.presets.get(active_preset(m), Datum())
+    columns = {AXES[k]: float(before[k] + shift[k]) for k in sets}
+    if turned:
+        columns["rotation"] = before.rotation + turned
+    yield from store(m, number, **columns)
+
+
+def store(m: Machine, row: float, **columns: float) -> Iterator[Step]:
+    """Write columns of a preset row: row 0 is a copy of the active row that becomes active; the active row counts at once."""
+    number, active = int(row), active_preset(m)
+    copied = number in (0, active)
+    preset = m.tables.presets.get(active if copied else number, Datum())._replace(**columns)
+    yield Write("presets", preset, number)
+    if copied:
+        yield Write("memory", number, "preset")
+        yield Write("datum", preset, "preset")
+
+
+def _along(linear: np.ndarray, by: np.ndarray, found: Mapping[int, tuple[float, float]]) -> tuple[np.ndarray, list[int]]:
+    """A shift of the axes of the cycle in those behind a frame, and which of these it can change."""
+    mask = np.zeros(3)
+    mask[list(found)] = 1.0
+    changed = [k for k in range(3) if np.abs(linear[k] * mask).max() > SAME]
+    return linear @ (by * mask), changed

@@ -13,12 +13,11 @@ from typing import Any
 import numpy as np
 
 from mnclab.controls.tnc_620.cycles.addresses import angle, choice, count
-from mnclab.controls.tnc_620.cycles.faults import Fault
-from mnclab.controls.tnc_620.probing import addresses, aimed, taken_over
+from mnclab.controls.tnc_620.cycles.planes import Fault
+from mnclab.controls.tnc_620.probing import addresses, aimed
 from mnclab.controls.tnc_620.probing.addresses import FIRST, SECOND, TAKEN
 from mnclab.controls.tnc_620.probing.aimed import Finding, Floats, Found, Given, Judged
-from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed
-from mnclab.controls.tnc_620.probing.figures import circle
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, circle, needed
 from mnclab.controls.tnc_620.state import active_preset
 from mnclab.geometry import frames
 from mnclab.machine.coordinates import angles
@@ -27,10 +26,11 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import REWORK, SCRAP
 from mnclab.machine.setup import Datum
 from mnclab.machining.probing import fits
-from mnclab.machining.probing.found import Circle
+from mnclab.machining.probing.found import Circle, Plane, axes_on
 from mnclab.machining.probing.sequences import Approach, around, numbers
 from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure, Say, Step
+from mnclab.text.alarm import Alarm
 
 CYCLES = CycleTable(addresses=addresses, runs="definition")
 GEOMETRY: dict[float, str] = {0: "hole and hole", 1: "stud and stud", 2: "hole and stud", 3: "stud and hole"}
@@ -49,27 +49,27 @@ def line_results(
     c: Any, m: Machine, found: Sequence[Found], nominal: Floats, judged: Sequence[Judged], diameters: Mapping[int, float]
 ) -> Iterator[Step]:
     """Results, the status, and what they make of the preset; `diameters` are further results by number."""
-    is_ = needed(taken_over.angle, *(one.point for one in found), m=m, code=c.code)
-    by = fits.reduced(is_ - needed(taken_over.angle, *nominal, m=m, code=c.code), 360)
+    is_ = needed(aimed.angle, *(one.point for one in found), m=m, code=c.code)
+    by = fits.reduced(is_ - needed(aimed.angle, *nominal, m=m, code=c.code), 360)
     table = is_ + m.tables.presets.get(active_preset(m), Datum()).rotation + angles(m)[2]
     yield Measure("rotation", by, 0.0, unit="deg", touches=numbers([each for one in found for each in one.contacts]))
     yield from aimed.report(c, m, found, nominal, judged, {964: is_, 965: table, 994: by, 995: by}, diameters)
     turned = frames.turn(math.radians(by))[:3, :3]
-    yield from taken_over.take_over(c, m, found, nominal, turned, by)
+    yield from aimed.take_over(c, m, found, nominal, turned, by)
 
 
 @CYCLES("TCH PROBE 1410", "Probing on edge", source="14.4", takes=f"{FIRST} {SECOND} probing_direction {TAKEN}")
 class ProbingOnEdge(ProbingCycle):
     """Two touches along Q372; the line through them is compared with that of the nominal points."""
 
-    tilted, contradictions = True, taken_over.contradictions
+    tilted, contradictions = True, aimed.contradictions
     probing_direction: float = addresses.probing_direction()
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
         yield from aimed.faults(self, m)
         yield from no_line(self, m)
-        yield from taken_over.faults(self, m)
+        yield from aimed.turn_faults(self, m)
 
     def moves(self, m: Machine) -> Moves:
         found = yield from aimed.measure(self, m, 2, aimed.touch)
@@ -101,13 +101,13 @@ class ProbingTwoCircles(ProbingCycle):
     def contradictions(self) -> Iterator[Fault]:
         if not self.angular_length:
             yield "angular_length", "must not be 0: the touches would be one"
-        yield from taken_over.contradictions(self)
+        yield from aimed.contradictions(self)
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
         yield from aimed.faults(self, m, *DIAMETERS)
         yield from no_line(self, m)
-        yield from taken_over.faults(self, m)
+        yield from aimed.turn_faults(self, m)
         for name, hole, axes in zip(DIAMETERS, HOLES[int(self.geometry_type)], aimed.nominals(self, m), strict=True):
             known = aimed.nominal(self, m, name)
             if known.value is None or known.value < 0:
@@ -150,3 +150,56 @@ class ProbingTwoCircles(ProbingCycle):
         actual = one.diameter if known.actual is None else known.actual
         below, above = (REWORK, SCRAP) if hole else (SCRAP, REWORK)
         return aimed.judge(f"diameter {k + 1}", actual, known, one.contacts, below, above)
+
+
+# Probing in a plane, cycle 1420 (TNC 620, 14.3).
+
+SPACE: dict[float, str] = {0: "none", 1: "basic rotation in space"}
+OF_THREE: dict[float, str] = {**addresses.TRANSFERS, 3: "point 3", 4: "the mean of the points"}
+STEEP = 0.1  # part of a normal across Y, below which a level X does not say where X of the plane is
+
+
+@CYCLES(
+    "TCH PROBE 1420", "Probing in plane", source="14.3",
+    takes=f"{FIRST} {SECOND} third_point_ref_axis third_point_minor_axis third_point_tool_axis probing_direction {TAKEN}",
+)  # fmt: skip
+class ProbingInPlane(ProbingCycle):
+    """Three touches along Q372; Q961 to Q963 are the spatial angles of the plane, without a turn in itself."""
+
+    tilted = True
+    first_point_tool_axis: Given = addresses.first_point_tool_axis(example=0)
+    second_point_tool_axis: Given = addresses.second_point_tool_axis(example=0)
+    probing_direction: float = addresses.probing_direction(example=-3)
+    align_rotary_axis: float = addresses.align_rotary_axis()
+    transfer_position: float = addresses.transfer_position(choices=OF_THREE)
+    confirm_rotation: float = addresses.confirm_rotation(choices=SPACE)
+
+    def contradictions(self) -> Iterator[Fault]:
+        if self.align_rotary_axis and not self.confirm_rotation:
+            yield "align_rotary_axis", "aligns the rotary axes: then Q1121 must be 1, which takes the rotation over"
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from super().check(m)
+        yield from aimed.faults(self, m)
+        known = aimed.nominals(self, m)
+        if all(each.mean is not None for axes in known for each in axes):
+            try:
+                fits.plane([[each.mean or 0.0 for each in axes] for axes in known])
+            except Alarm as alarm:
+                yield "third_point_ref_axis", f"makes no plane with the other points: {alarm.message}"
+
+    def moves(self, m: Machine) -> Moves:
+        found = yield from aimed.measure(self, m, 2, aimed.touch)
+        nominal, points = aimed.means(aimed.nominals(self, m), found), np.array([one.point for one in found])
+        is_: Plane = needed(fits.plane, points, m=m, code=self.code)
+        should: Plane = needed(fits.plane, nominal, m=m, code=self.code)
+        angles = dict(zip((961, 962, 963), is_.spatial, strict=True))
+        yield from aimed.report(self, m, found, nominal, aimed.judge_places(self, m, found), angles, {})
+        yield from aimed.take_over(self, m, found, nominal, turn_between(should, is_), math.nan)
+
+
+def turn_between(first: Plane, second: Plane) -> Floats:
+    """The rotation (3, 3) that takes a plane to another: that of their axes with a level X, without a turn in themselves."""
+    up = np.array(second.up) * math.copysign(1.0, float(np.dot(first.up, second.up)))
+    ahead = (1.0, 0.0, 0.0) if math.hypot(first.up[0], first.up[2]) < STEEP else None
+    return np.asarray(axes_on(up, ahead) @ axes_on(first.up, ahead).T)

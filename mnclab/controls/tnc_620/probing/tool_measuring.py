@@ -14,8 +14,7 @@ from types import SimpleNamespace
 from typing import Any, ClassVar
 
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate
-from mnclab.controls.tnc_620.cycles.faults import Fault
-from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
+from mnclab.controls.tnc_620.cycles.planes import Fault, in_program_coordinates
 from mnclab.controls.tnc_620.probing.cycle import Moves
 from mnclab.controls.tnc_620.probing.tool_setter import Calibrated, known, start_height, unfit_for_tt
 from mnclab.machine.cycle import Cycle, CycleTable, param

@@ -12,8 +12,7 @@ from typing import Any, ClassVar, NamedTuple
 
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate
 from mnclab.controls.tnc_620.cycles.chain import FACTORS, MIRROR, SCALE, TILT
-from mnclab.controls.tnc_620.cycles.faults import SAME, Fault
-from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
+from mnclab.controls.tnc_620.cycles.planes import SAME, Fault, in_program_coordinates
 from mnclab.controls.tnc_620.probing.cycle import Moves
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import Setting

@@ -13,8 +13,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from mnclab.controls.tnc_620.reading.din_modes import MIXED, PATHS, Modes
-from mnclab.controls.tnc_620.reading.din_words import Given, put, unmixed
+from mnclab.controls.tnc_620.reading.din_words import MIXED, PATHS, Given, Modes, put, unmixed
 from mnclab.controls.tnc_620.reading.words import Cursor, Fault
 
 SIDES = {40: "R0", 41: "RL", 42: "RR"}

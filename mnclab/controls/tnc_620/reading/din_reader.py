@@ -11,13 +11,22 @@ import re
 from collections.abc import Sequence
 from itertools import takewhile
 
-from mnclab.controls.tnc_620.reading import din_formulas, din_statements, probe_blocks
-from mnclab.controls.tnc_620.reading.din_blocks import Raw, blocks
-from mnclab.controls.tnc_620.reading.din_modes import MIXED, PATHS, Modes, modes_before
+from mnclab.controls.tnc_620.reading import din_statements, sub_blocks
 from mnclab.controls.tnc_620.reading.din_motion import Departure, Motion, approach
-from mnclab.controls.tnc_620.reading.din_said import said
-from mnclab.controls.tnc_620.reading.din_statements import REFUSED, STATEMENTS
-from mnclab.controls.tnc_620.reading.din_words import MEASURED, Given, has_tail, put, read_words
+from mnclab.controls.tnc_620.reading.din_statements import REFUSED, STATEMENTS, said
+from mnclab.controls.tnc_620.reading.din_words import (
+    MEASURED,
+    MIXED,
+    PATHS,
+    Given,
+    Modes,
+    Raw,
+    blocks,
+    has_tail,
+    modes_before,
+    put,
+    read_words,
+)
 from mnclab.controls.tnc_620.reading.labels import name_of_program
 from mnclab.controls.tnc_620.reading.statements import cycle_parameters, recognize
 from mnclab.controls.tnc_620.reading.words import FLAGS, INCH, Cursor, Fault
@@ -116,10 +125,10 @@ class _Reader:
             self.percent(raw, cursor)
         elif _CONVERSATIONAL.match(self.text, begin, cursor.stop):
             self.conversational(raw, cursor)
-        elif function := cursor.match(din_formulas.FUNCTION):
+        elif function := cursor.match(din_statements.FUNCTION):
             number = int(function.group(1))
             self.builder.block(raw.start, f"FN {number}", raw.skip)
-            din_formulas.function(cursor, number, begin)
+            din_statements.function(cursor, number, begin)
         elif cursor.match(_CALL):
             self.builder.block(raw.start, "CALL LBL", raw.skip)
             din_statements.call_label(cursor)
@@ -313,7 +322,7 @@ class _Reader:
             self.builder.block(raw.start, keyword, raw.skip)
             if code == 55 and [modes.incremental + 90, *(word.code for word in words if word.code in (90, 91))][-1] == 91:
                 raise head.fault(self.builder, "takes absolute coordinates", "write G90 before it")
-            read = probe_blocks.in_words if code == 55 else cycle_parameters
+            read = sub_blocks.in_words if code == 55 else cycle_parameters
             read(cursor)
             for at, stop in rest:
                 if not cursor.done:

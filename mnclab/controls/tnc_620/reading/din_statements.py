@@ -1,8 +1,4 @@
-"""What the G functions are that are no path functions: statements and older cycles under other names, words renamed.
-
-`G54 X+25` is CYCL DEF 7 with X, `G25 R5` is RND with R, `G201 Q200=2` is CYCL DEF 201; the addresses are those that the
-language knows. Cycles that a machine tool builder or an obsolete control has are named, so that their refusal names them.
-"""
+"""What a DIN/ISO program says beside motion: G functions that are statements, D00 to D38, and how alarms are worded."""
 
 from __future__ import annotations
 
@@ -14,11 +10,172 @@ from typing import NamedTuple
 from mnclab.controls.tnc_620.reading import labels
 from mnclab.controls.tnc_620.reading.din_motion import AXES, PLANES
 from mnclab.controls.tnc_620.reading.din_words import Given, put, unmixed
-from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
-from mnclab.controls.tnc_620.reading.obsolete_blocks import PLACES
-from mnclab.controls.tnc_620.reading.sub_blocks import mirrored
-from mnclab.controls.tnc_620.reading.words import FLAGS, Cursor, Fault
+from mnclab.controls.tnc_620.reading.formulas import FILES, FN, OPERAND, add_target, system_data
+from mnclab.controls.tnc_620.reading.sub_blocks import PLACES, mirrored
+from mnclab.controls.tnc_620.reading.words import FLAGS, ISO_NAMES, Cursor, Fault
+from mnclab.text.alarm import ALARM, Alarm, Span
+from mnclab.text.expression import Expression, Token
+from mnclab.text.program import Block, Program
 
+# The functions D00 to D38 of DIN/ISO programs, which are FN 0 to FN 38: `D01 Q1 P01 +Q2 P02 +5`.
+# The parameters P01, P02 … stand for the operands in their order. Text of the conversational form (`D18 SYSREAD Q1 = …`)
+# is read as such.
+
+FUNCTION = re.compile(r"D[ \t]*(\d{1,3})(?![\d.,])[ \t]*:?", FLAGS)
+_OPERAND_MARKS = {number: re.compile(rf"[ \t]*P[ \t]*(?:0{number}|{number}(?![\d.,]))", FLAGS) for number in (1, 2, 3)}
+_Q = re.compile(r"Q([LR]?)[ \t]?(\d{1,6})(?!\d)", FLAGS)
+_EQUALS = re.compile(r"[ \t]*=", FLAGS)
+_ANY_P, _POINTS = re.compile(r"[ \t]*P[ \t]*\d\d?(?![\d.,])", FLAGS), re.compile(r"[ \t]*Q[ \t]?(\d{1,6})(?!\d)", FLAGS)
+_CONVERSATIONAL = re.compile(r"SYSREAD|SYSWRITE|ERROR|PRESET|(?:F-)?PRINT|IF(?![A-Z])", FLAGS)
+
+OPERATORS = {1: "+", 2: "-", 3: "*", 4: "DIV"}
+NAMES = {5: "SQRT", 6: "SIN", 7: "COS"}
+TWO = {8: ("first", "second"), 13: ("first", "second")}
+
+
+def function(cursor: Cursor, number: int, begin: int) -> None:
+    """The words of a function; its number was read already, at `begin`."""
+    if number in FILES and number != 15:
+        cursor.match(_OPERAND_MARKS[1])  # before the words of the dialog
+    if _CONVERSATIONAL.match(cursor.text, cursor.at, cursor.stop):
+        _as_conversational(cursor, number)
+    elif number in (*range(9), 13):
+        _calculation(cursor, number)
+    elif number in labels.JUMPS:
+        _jump(cursor, number)
+    elif number == 14:
+        _operand(cursor, number, 1, "number")
+    elif number in (17, 18):
+        _system(cursor, number)
+    elif number == 15 and not cursor.done:
+        while cursor.match(_ANY_P):
+            _item(cursor, number, "item")
+    elif number in (23, 24):
+        _target(cursor, number)
+        begin = _parameter(cursor, number, 1)
+        found = cursor.expect(_POINTS, "P01 needs the Q parameter with the first point", f"for example {example(number)}")
+        cursor.add("points", f"Q{int(found.group(1))}", begin)
+    elif number in FN or number in FILES:
+        _as_conversational(cursor, number)
+    else:
+        cursor.at = cursor.stop  # to the PLC, or refused by its name
+
+
+def _as_conversational(cursor: Cursor, number: int) -> None:
+    """A function in the words of the dialog; its faults are told under the name that stands here."""
+    read = FN.get(number) or FILES.get(number) or labels.JUMPS.get(number)
+    if read is None:
+        raise cursor.unexpected()
+    try:
+        read(cursor)
+    except Fault as fault:
+        message, hint = (part.replace(f"FN {number}", f"D{number:02}") for part in (fault.message, fault.hint))
+        raise Fault(message, fault.offset, fault.length, hint) from None
+
+
+def _parameter(cursor: Cursor, number: int, which: int) -> int:
+    """Pass over P01, P02 or P03; the place where it stands."""
+    begin = cursor.blanks()
+    if cursor.match(_OPERAND_MARKS[which]) is None:
+        raise Fault(f"D{number:02} needs P{which:02}", min(begin, cursor.stop - 1), hint=f"for example {example(number)}")
+    return begin
+
+
+def _expression(cursor: Cursor, number: int, which: int) -> tuple[Expression, int]:
+    begin = _parameter(cursor, number, which)
+    return _value(cursor, number), begin
+
+
+def _value(cursor: Cursor, number: int) -> Expression:
+    begin = min(cursor.blanks(), cursor.stop - 1)
+    found = cursor.match(OPERAND)
+    if found is None:
+        raise Fault("a number or a Q parameter was expected", begin, hint=f"for example {example(number)}")
+    return cursor.expression(found.start(), found.end())
+
+
+def _item(cursor: Cursor, number: int, address: str) -> None:
+    begin = cursor.blanks()
+    cursor.add(address, _value(cursor, number), begin)
+
+
+def _operand(cursor: Cursor, number: int, which: int, address: str) -> None:
+    value, begin = _expression(cursor, number, which)
+    cursor.add(address, value, begin)
+
+
+def _calculation(cursor: Cursor, number: int) -> None:
+    """D00 to D08 and D13: a parameter takes a value."""
+    _target(cursor, number)
+    if number in TWO:
+        for which, address in enumerate(TWO[number], start=1):
+            _operand(cursor, number, which, address)
+        return
+    first, at = _expression(cursor, number, 1)
+    if number in OPERATORS:
+        second, _ = _expression(cursor, number, 2)
+        value = _joined(first, OPERATORS[number], second, cursor.builder.span(at))
+    elif number in NAMES:
+        token = Token("name", NAMES[number], cursor.builder.span(at))
+        value = Expression(first.tokens, f"{token.text} {first.text}", steps=(*first.steps, token))
+    else:
+        value = first
+    cursor.add("value", value, at)
+
+
+def _joined(first: Expression, operator: str, second: Expression, span: Span) -> Expression:
+    """Two operands and what joins them, each at its own place."""
+    tokens = (*first.tokens, *second.tokens)
+    steps = (*first.steps, *second.steps, Token("mark", operator, span))
+    return Expression(tokens, f"{first.text} {operator} {second.text}", steps=steps)
+
+
+def _target(cursor: Cursor, number: int) -> None:
+    """The parameter that gets the value."""
+    begin = cursor.blanks()
+    found = cursor.match(_Q)
+    if found is None:
+        where = min(begin, cursor.stop - 1)
+        raise Fault(f"D{number:02} needs a Q parameter", where, hint=f"for example {example(number)}")
+    add_target(cursor, f"Q{found.group(1).upper()}{int(found.group(2))}", begin)
+
+
+def _jump(cursor: Cursor, number: int) -> None:
+    """D09 to D12: two operands and the label to go to."""
+    _operand(cursor, number, 1, "first")
+    _operand(cursor, number, 2, "second")
+    _parameter(cursor, number, 3)
+    labels.label(cursor, parameter=True)
+
+
+def _system(cursor: Cursor, number: int) -> None:
+    """D17 and D18 without the words of the dialog."""
+    if number == 17:
+        system_data(cursor, example(number))
+        if cursor.match(_EQUALS) is None:
+            raise Fault("= and a value are missing", min(cursor.blanks(), cursor.stop - 1), hint=f"for example {example(17)}")
+        _item(cursor, number, "value")
+        return
+    _target(cursor, number)
+    cursor.match(_EQUALS)
+    system_data(cursor, example(number))
+
+
+def example(number: int) -> str:
+    """How a function is written."""
+    if number in labels.JUMPS:
+        return f"D{number:02} P01 +Q1 P02 +Q3 P03 5"
+    special = {
+        0: "D00 Q1 P01 +60", 14: "D14 P01 1000", 15: "D15 P01 +Q1 P02 +Q2", 17: "D17 ID 990 NR 6 = +1",
+        18: "D18 Q25 ID210 NR4 IDX3", 23: "D23 Q20 P01 Q30", 24: "D24 Q20 P01 Q30",
+    }  # fmt: skip
+    two = number in OPERATORS or number in TWO
+    return special.get(number) or f"D{number:02} Q1 P01 +2{' P02 +3' * two}"
+
+
+# What the G functions are that are no path functions: statements and older cycles under other names, words renamed.
+# `G54 X+25` is CYCL DEF 7 with X, `G25 R5` is RND with R, `G201 Q200=2` is CYCL DEF 201; the addresses are those that the
+# language knows. Cycles that a machine tool builder or an obsolete control has are named, so that their refusal names them.
 
 class Renamed(NamedTuple):
     """A statement of the language, and the addresses of its words by their letters in DIN/ISO."""
@@ -156,3 +313,86 @@ def cycle_of(code: int) -> str:
     if 200 <= code < 400:
         return f"CYCL DEF {code}"
     return f"TCH PROBE {code}" if 400 <= code < 600 or 1400 <= code < 1500 else ""
+
+
+# How alarms about a DIN/ISO program are worded: with the G functions that stand there, and the block as it was read.
+# The language knows the conversational names alone. An alarm that says `CP needs a pole` is told as `G13 needs a pole`, and
+# its hint tells what the block is read as.
+
+_CYCLES = {code: name for name, code in ISO_NAMES.items()} | {
+    statement.keyword: f"G{code:02}" for code, statement in STATEMENTS.items() if code not in (53, 76, 78)
+}
+#: Statements that have one name only.
+_NAMES = {
+    "CTP": "G16", "CT": "G06", "CHF": "G24", "RND": "G25", "APPR LCT": "G26", "DEP LCT": "G27", "BLK FORM 0.1": "G30",
+    "BLK FORM 0.2": "G31", "STOP": "G38", "TOOL CALL": "T", "CYCL CALL PAT": "G79 PAT", "CYCL CALL POS": "G79:G01",
+    "CYCL CALL": "G79", "LBL": "G98 L", "CALL LBL": "L", "CALL PGM": "%", "BEGIN PGM": "%", "END PGM": "%",
+}  # fmt: skip
+_BY_SENSE = {"C": ("G02", "G03"), "CR": ("G02", "G03"), "CP": ("G12", "G13")}
+_BY_FEED = {"L": ("G00", "G01"), "LP": ("G10", "G11")}
+#: Addresses of the language by keyword, and the letters that stand for them.
+_LETTERS = {keyword: {"IPA": "G91 H", "IPR": "G91 R", "PA": "H", "PR": "R"} for keyword in ("LP", "CP", "CTP")}
+for _statement in STATEMENTS.values():
+    for _letter, _address in _statement.words.items():
+        if _address != _letter and _address not in "XY" and not _address.islower():
+            _LETTERS.setdefault(_statement.keyword, {}).setdefault(_address, _letter)
+#: What alarms say of other blocks.
+_ELSEWHERE = {keyword: name for keyword, name in _NAMES.items() if " " in keyword} | {
+    "R0": "G40", "RL": "G41", "RR": "G42", "CC X… Y…": "I… J…", "no CC": "no I J", "FMAX is": "G00 is",
+}  # fmt: skip
+_FN, _CYCLE = re.compile(r"FN (\d+)"), re.compile(r"CYCL DEF (\d+)(?:\.\d)?")
+
+
+def said(alarm: Alarm, program: Program) -> Alarm:
+    """The alarm in the words of the program that it is about."""
+    block = _block(alarm, program)
+    if block is None or not block.keyword or block.keyword == "Q":
+        return alarm
+    message, name = alarm.message, name_of(block)
+    if name:
+        message = _renamed(message, block.keyword, name)
+        for address, letter in _LETTERS.get(block.keyword, {}).items():
+            message = _renamed(message, address, letter)
+    message, hint = (_CYCLE.sub(_cycle, part) for part in (message, alarm.hint))
+    for keyword, other in _ELSEWHERE.items():
+        message, hint = (_renamed(part, keyword, other) for part in (message, hint))
+    if alarm.severity == ALARM and not re.fullmatch(r"G\d{3,}", name):  # whose words have the same letters
+        read = f"the block is read as {' '.join([block.keyword, *map(str, block.words)])}"
+        hint = f"{hint}; {read}" if hint else read
+    return alarm.changed(message=message, hint=hint, args=(message,))
+
+
+def name_of(block: Block) -> str:
+    """The G function of a block that was read as a statement of the language; empty if it stands there as it is."""
+    keyword, words = block.keyword, {word.address: word.value for word in block.words}
+    if keyword in _BY_SENSE:
+        return _BY_SENSE[keyword][words.get("DR") == "+"]
+    if keyword in _BY_FEED:
+        return _BY_FEED[keyword]["FMAX" not in words]
+    if keyword == "TOOL DEF":
+        return "G99" if {"L", "R"} & words.keys() else "G51"
+    if keyword == "CYCL DEF 7" and "#" in words:
+        return "G53"
+    if found := _FN.fullmatch(keyword):
+        return f"D{int(found[1]):02}"
+    found = _CYCLE.fullmatch(keyword)
+    return _cycle(found) if found else _CYCLES.get(keyword) or _NAMES.get(keyword, "")
+
+
+def _cycle(found: re.Match[str]) -> str:
+    """The G function of a cycle."""
+    return _CYCLES.get(f"CYCL DEF {found[1]}", f"G{int(found[1]):02}")
+
+
+def _renamed(message: str, name: str, by: str) -> str:
+    """The message with another word for a keyword or an address, which a number may follow."""
+    blank = " ?" if by == "%" else ""
+    return re.sub(rf"(?<![\w.]){re.escape(name)}(?![A-Za-z_.]){blank}", lambda _: by, message)
+
+
+def _block(alarm: Alarm, program: Program) -> Block | None:
+    """The block that an alarm stands in."""
+    if alarm.span is None or not len(program):
+        return None
+    offset = int(program.line_starts[alarm.span.line - 1]) + alarm.span.column - 1
+    return program[max(int(program.start.searchsorted(offset, "right")) - 1, 0)]

@@ -8,7 +8,6 @@ which become one block.
 So `Q200=5` without a number below a definition is a parameter of it; with a number it is an assignment, and so it is
 where the lines of the definition were joined by ~ and the last one has none. `Q1 = -5`, the way an assignment is
 written, below parameters that are written `Q200=5`: a parameter too, for the manual numbers assignments, with a warning.
-
 Plain straight lines (`12 L X+1.5 Y-2 F500 R0`) are found for the whole text at once; every other line is read one by
 one, and a fault ends the reading of its block alone.
 """
@@ -23,7 +22,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.reading import din_reader
-from mnclab.controls.tnc_620.reading.lines import bounds
 from mnclab.controls.tnc_620.reading.statements import (
     KEYWORDS_ONLY,
     WORDS,
@@ -33,7 +31,7 @@ from mnclab.controls.tnc_620.reading.statements import (
     passed_over,
     recognize,
 )
-from mnclab.controls.tnc_620.reading.words import FLAGS, INCH, Cursor, Fault
+from mnclab.controls.tnc_620.reading.words import FLAGS, INCH, Cursor, Fault, bounds
 from mnclab.text.alarm import KEPT, Alarm
 from mnclab.text.given import LARGEST
 from mnclab.text.program import NONE, BulkBlocks, Program, ProgramBuilder, first_words, readable

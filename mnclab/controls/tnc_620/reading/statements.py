@@ -11,10 +11,9 @@ from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
-from mnclab.controls.tnc_620.reading import contour_words, labels
-from mnclab.controls.tnc_620.reading.file_functions import FILES
-from mnclab.controls.tnc_620.reading.formulas import FN, assignment, declared_text, text_assignment, text_formula
-from mnclab.controls.tnc_620.reading.pattern_words import PatternWords
+from mnclab.controls.tnc_620.reading import definitions, labels
+from mnclab.controls.tnc_620.reading.definitions import PatternWords
+from mnclab.controls.tnc_620.reading.formulas import FILES, FN, assignment, declared_text, text_assignment, text_formula
 from mnclab.controls.tnc_620.reading.sub_blocks import READERS
 from mnclab.controls.tnc_620.reading.words import FLAGS, NUMBER, SIGNED, TEXT, Cursor, Fault, Read
 
@@ -206,7 +205,7 @@ WORDS: dict[str, Read] = {
     "TOOL CALL": partial(tool, words=with_axis), "TOOL DEF": partial(tool, words=with_radius),
     "DECLARE STRING": declared_text, "SEL PATTERN": file_name, "SEL TABLE": file_name,
     "PATTERN DEF": plain, "DECLARE CONTOUR": plain, "CONTOUR DEF": plain,  # whose lines LINES read
-    "SEL CONTOUR": contour_words.selected,
+    "SEL CONTOUR": definitions.selected,
     "BEGIN PGM": program_name, "END PGM": program_end, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
     "PLANE RESET": plane, "PLANE SPATIAL": plane, "TRANS DATUM AXIS": plain, "TRANS DATUM RESET": plain,
     "FUNCTION RESET TCPM": plain, "FUNCTION DWELL": waiting,
@@ -216,7 +215,7 @@ WORDS: dict[str, Read] = {
 
 #: Statements of several lines that go on anywhere between two words.
 LINES: dict[str, Callable[[], Read]] = {
-    "PATTERN DEF": PatternWords, "DECLARE CONTOUR": contour_words.DeclaredWords, "CONTOUR DEF": contour_words.PartWords,
+    "PATTERN DEF": PatternWords, "DECLARE CONTOUR": definitions.DeclaredWords, "CONTOUR DEF": definitions.PartWords,
 }  # fmt: skip
 #: Statements whose rest is not read: keyword -> whether further lines without a number belong to them.
 KEYWORDS_ONLY = {
@@ -275,7 +274,7 @@ def recognize(cursor: Cursor) -> Statement | None:
     if found := cursor.match(_TARGET):
         kind = found.group(1).upper()
         if kind == "C":
-            return Statement("QC", contour_words.FormulaWords(int(found.group(2)), begin, found.end() - begin))
+            return Statement("QC", definitions.FormulaWords(int(found.group(2)), begin, found.end() - begin))
         name = f"Q{kind}{int(found.group(2))}"
         return Statement("QS", text_assignment(name, begin)) if kind == "S" else Statement("Q", assignment(name, begin))
     if found := cursor.match(_SIGNED):

@@ -1,8 +1,4 @@
-"""How sub-blocks n.1, n.2 … of the older cycles are read: letters of axes, factors, and numbers behind a word.
-
-The words in front of the numbers are those of the dialog, in its language (`DWELL`, `TEMP`, `ANGLE`, `UNGHI` …):
-they are passed over, and what the number means follows from its place.
-"""
+"""The sub-blocks n.1, n.2 … of the older cycles, and words of the dialog before a number."""
 
 from __future__ import annotations
 
@@ -10,16 +6,36 @@ import re
 from collections.abc import Iterator, Mapping
 from functools import partial
 
-from mnclab.controls.tnc_620.reading import obsolete_blocks, probe_blocks
-from mnclab.controls.tnc_620.reading.dialog import dialog
 from mnclab.controls.tnc_620.reading.labels import program_of_cycle
-from mnclab.controls.tnc_620.reading.words import FLAGS, WHOLE, Cursor, Read, from_inches
+from mnclab.controls.tnc_620.reading.words import FLAGS, WHOLE, Cursor, Fault, Read, from_inches
+
+# Words of the dialog before a number, in the language of the control: `DWELL`, `V.ZEIT`, `CZAS ZWL.`, `T.ESPERA`.
+
+_LETTER = r"(?:(?!Q[LR]?\d)[^\d\s;~+.,=-]|(?<![\s\d])\.)"  # a point behind a blank begins a number
+_DIALOG_WORDS = re.compile(rf"{_LETTER}*+(?:[ \t]++{_LETTER}++)*+", FLAGS)
+_BEHIND_A_POINT = re.compile(r"(?<=\.)\d+(?![\d.,])")
+_EQUALS = re.compile(r"[ \t]*=", FLAGS)
+
+
+def dialog(cursor: Cursor) -> str:
+    """Pass over the words and `=`; the words, in capital letters without blanks. `V.ZEIT.5` may mean two numbers: a Fault."""
+    words = cursor.match(_DIALOG_WORDS)
+    if digits := _BEHIND_A_POINT.match(cursor.text, cursor.at, cursor.stop):
+        what, number = f".{digits.group()} may be 0.{digits.group()} or {digits.group()}", len(digits.group()) + 1
+        raise Fault(what, cursor.at - 1, number, "write a blank before the number, and a digit before its point")
+    cursor.match(_EQUALS)
+    return "".join(words.group().upper().split()) if words else ""
+
+
+# How sub-blocks n.1, n.2 … of the older cycles are read: letters of axes, factors, and numbers behind a word.
+# The words in front of the numbers are those of the dialog, in its language (`DWELL`, `TEMP`, `ANGLE`, `UNGHI` …):
+# they are passed over, and what the number means follows from its place.
 
 #: A title: all before the numbers that is no sign of one, no name and no parameter.
 _LABELS = re.compile(r'(?:(?!(?<![A-Z])Q[LRS]?\d)[^\d;~"+-]|[+-](?![ \t]*\d))*+', FLAGS)
 _SLASH = re.compile(r"[ \t]*/")
 _ROW = re.compile(r"#")
-_LETTER = re.compile(r"[ \t]*([XYZUVWABC])(?![A-Z\d])", FLAGS)
+_ANY_AXIS = re.compile(r"[ \t]*([XYZUVWABC])(?![A-Z\d])", FLAGS)
 _TOLERANCE = re.compile(r"T(?![A-Z])", FLAGS)
 _STATUS = re.compile(r"Q[LR]?\d{1,4}(?!\d)", FLAGS)
 _DISTANCE = re.compile(r"(?!FMAX|FAUTO)[A-Z]{3,}[ \t]*", FLAGS)
@@ -47,7 +63,7 @@ def mirrored(cursor: Cursor) -> None:
     """8.1: letters of axes, or none."""
     while not cursor.done:
         begin = cursor.at
-        found = cursor.expect(_LETTER, "only letters of axes stand here, for example X Y")
+        found = cursor.expect(_ANY_AXIS, "only letters of axes stand here, for example X Y")
         cursor.add("axes", found.group(1).upper(), begin)
 
 
@@ -120,10 +136,125 @@ def checked(cursor: Cursor) -> None:
         cursor.add("status parameter", found.group().upper(), begin)
 
 
+# The sub-blocks of the cycles 1 to 5 and 17: which value stands where, each behind a word of the dialog.
+# The words are those of the control's language (`DEPTH`, `TIEFE` …): what a number means follows from its place. A word that
+# is known and belongs to another place is refused, for then one of the two is wrong.
+
+_MILLED = ("SETUP", "DEPTH", "PECKG PECKG:F")
+#: By cycle, the addresses of the sub-blocks .1, .2, …; `PECKG:F` is the feed behind the infeed.
+PLACES: dict[int, tuple[str, ...]] = {
+    1: ("SETUP", "DEPTH", "PECKG", "DWELL", "F"), 2: ("SETUP", "DEPTH", "DWELL", "F"), 3: (*_MILLED, "X", "Y", "F"),
+    4: (*_MILLED, "X", "Y", "F DR RADIUS"), 5: (*_MILLED, "RADIUS", "F DR"), 17: ("SETUP", "DEPTH", "PITCH"),
+}  # fmt: skip
+
+
+def values(cursor: Cursor, addresses: str) -> None:
+    """The values of one sub-block, in any order where words tell them apart; those behind the first may be missing."""
+    left = addresses.split()
+    _value(cursor, left)
+    while left and not cursor.done:
+        _value(cursor, left)
+    begin = cursor.blanks()
+    if _MEANT.get(again := dialog(cursor), "-") in addresses:
+        raise Fault(f"{again} stands twice", begin, len(again))
+    cursor.at = begin
+
+
+#: The readers of all these sub-blocks; axes have letters.
+OBSOLETE_READERS: dict[str, Read] = {
+    f"CYCL DEF {cycle}.{part}": Cursor.words if addresses in ("X", "Y") else partial(values, addresses=addresses)
+    for cycle, places in PLACES.items()
+    for part, addresses in enumerate(places, 1)
+}
+
+
+_COMPONENT = re.compile(r"(I[XYZ])(?=[ \t]*[-+\d.,Q])", FLAGS)
+
+
+# How the sub-blocks of the cycles 0, 1, 3 and 4 are written, and G55, which is cycle 0 (TNC 620, 16.2, 16.3, 17.2, 17.3).
+#     TCH PROBE 0.0 REF. PLANE Q5 X-          TCH PROBE 3.1 Q1
+#     TCH PROBE 0.1 X+5 Y+0 Z-5               TCH PROBE 3.2 X ANGLE: +15
+#     TCH PROBE 1.1 X ANGLE: +30              TCH PROBE 3.3 ABST +10 F100 MB1 REFERENCE SYSTEM: 0
+#     TCH PROBE 4.2 IX-0.5 IY-1 IZ-1          TCH PROBE 3.4 ERRORMODE1
+# Words such as ANGLE are those of the dialog, in its language: what the number behind them means follows from its place.
+
+_RESULT = re.compile(r"Q[ \t]*(\d{1,4})(?!\d)", FLAGS)
+
+
+def _name(cursor: Cursor, pattern: re.Pattern[str], address: str, fault: str) -> None:
+    """A number of a Q parameter or letters that must stand here."""
+    begin = cursor.blanks()
+    text = cursor.expect(pattern, fault).group(1).upper()
+    cursor.add(address, float(text) if text.isdigit() else text, begin)
+
+
+result = partial(_name, pattern=_RESULT, address="Q", fault="Q and the number of the result parameter stand here, for example Q5")
+
+
+def plane_and_sense(cursor: Cursor) -> None:
+    """0.0: a name, the result parameter, the probing axis with its sense."""
+    dialog(cursor)
+    result(cursor)
+    begin = cursor.blanks()
+    found = cursor.expect(_PROBE_SENSE, "the probing axis and its sense stand here: X+, X-, Y+, Y-, Z+ or Z-")
+    cursor.add("axis", found.group(1).upper() + found.group(2), begin)
+
+
+def numbers(cursor: Cursor, pattern: re.Pattern[str], fault: str) -> None:
+    """Addresses with numbers, in any order."""
+    while not cursor.done:
+        begin = cursor.at
+        address = cursor.expect(pattern, fault).group(1).upper()
+        cursor.add(address, cursor.needed(f"{address} needs a number", begin, len(address)), begin)
+
+
+def axis_and_angle(cursor: Cursor) -> None:
+    """1.1, 3.2: the probing axis, and a number behind a word of the dialog."""
+    _name(cursor, _AXIS, "axis", "the probing axis stands here: X, Y or Z")
+    _last(cursor, "ANGLE", "probing angle")
+
+
+def way(cursor: Cursor) -> None:
+    """3.3, 4.3: how far, how fast, how far back, and the reference system behind words of the dialog."""
+    while not cursor.done:
+        begin = cursor.at
+        if found := cursor.match(_WAY):
+            name = found.group(1).upper()
+            value = cursor.needed(f"{name} needs a number", begin, len(name))
+            if name == "MB" and cursor.inch:
+                value = from_inches(value)
+            cursor.add("ABST" if name == "DIST" else name, value, begin)
+        else:
+            _last(cursor, "SYSTEM", "reference system, 0 or 1")
+
+
+def _last(cursor: Cursor, address: str, meaning: str) -> None:
+    """The number at the end of a sub-block, behind words of the dialog."""
+    begin = cursor.blanks()
+    words = dialog(cursor)
+    value = cursor.needed(f"a number is missing: the {meaning}", begin, max(1, len(words)))
+    cursor.add(address, value, begin)
+    if not cursor.done:
+        raise cursor.unexpected()
+
+
+_PLACE = re.compile(r"([XYZ])(?=[ \t]*[-+\d.,Q])", FLAGS)
+
+_places = partial(numbers, pattern=_PLACE, fault="only X, Y and Z of the pre-position stand here, absolute")
+PROBE_READERS: dict[str, Read] = {
+    "TCH PROBE 0.0": plane_and_sense, "TCH PROBE 0.1": _places,
+    "TCH PROBE 1.1": axis_and_angle, "TCH PROBE 1.2": _places,
+    "TCH PROBE 3.1": result, "TCH PROBE 3.2": axis_and_angle, "TCH PROBE 3.3": way,
+    "TCH PROBE 3.4": partial(_last, address="ERRORMODE", meaning="error mode, 0 or 1"),
+    "TCH PROBE 4.1": result, "TCH PROBE 4.3": way,
+    "TCH PROBE 4.2": partial(numbers, pattern=_COMPONENT, fault="IX, IY and IZ stand here: the direction"),
+}  # fmt: skip
+
+
 #: By cycle, or by cycle and number of the sub-block; the others are known by their number alone.
 READERS: dict[str, Read] = {
-    **obsolete_blocks.READERS,
-    **probe_blocks.READERS,
+    **OBSOLETE_READERS,
+    **PROBE_READERS,
     "CYCL DEF 7": datum_shift,
     "CYCL DEF 8": mirrored,
     "CYCL DEF 9.1": partial(after_dialog, address="DWELL", meaning="dwell in seconds"),
@@ -168,3 +299,69 @@ def written(code: str, title: str, words: Mapping[str, str]) -> Iterator[str]:
     lines = [[a for a in ([part] if part in words else part.split()) if a in words] for part in LINES[code]]
     for number, addresses in enumerate(filter(None, lines), 1):
         yield f"{code}.{number} " + " ".join(_HEADS.get(address, address) + words[address] for address in addresses)
+
+
+CODES = frozenset(f"CYCL DEF {cycle}" for cycle in PLACES)
+
+#: What an address means, and its words in English and German programs; the first one is written.
+NAMES: dict[str, tuple[str, ...]] = {
+    "SETUP": ("set-up clearance", "SET UP", "ABST"), "DEPTH": ("depth", "DEPTH", "TIEFE"),
+    "PECKG": ("infeed", "PECKG", "ZUSTLG"), "DWELL": ("dwell in seconds", "DWELL", "V.ZEIT"),
+    "PITCH": ("pitch of the thread", "PITCH", "STEIG"), "RADIUS": ("radius", "RADIUS"), "F": ("feed rate", "F"),
+    "DR": ("sense of rotation", "DR"),
+}  # fmt: skip
+_MEANT = {word.replace(" ", ""): address for address, (_, *words) in NAMES.items() for word in words}
+
+_AUTO = re.compile(r"F[ \t]*AUTO(?![A-Z])", FLAGS)
+_SENSE = re.compile(r"[ \t]*([+-])(?![ \t]*[\dQ.,])", FLAGS)
+
+
+def _value(cursor: Cursor, left: list[str]) -> None:
+    """One of the values that are `left`: that of a word that is known, else the next one."""
+    begin, kinds = cursor.blanks(), [address.rpartition(":")[2] for address in left]
+    if "F" in kinds and cursor.match(_AUTO):
+        cursor.add(left.pop(kinds.index("F")), "FAUTO", begin)
+        return
+    word = dialog(cursor)
+    kind = _MEANT.get(word, kinds[0])
+    if kind not in kinds or (kind in ("F", "DR") and word not in ("", kind)):
+        raise Fault(f"{word} stands where the {NAMES[kinds[0]][0]} belongs", begin, max(1, len(word)))
+    address = left.pop(kinds.index(kind))
+    if kind == "DR":
+        sense = cursor.expect(_SENSE, "DR needs + or -")
+        turning = 1.0 if sense.group(1) == "+" else -1.0  # no length, as DR is elsewhere
+        cursor.builder.word(address, turning, begin, cursor.at - begin)
+        return
+    value = cursor.needed(f"a number is missing: the {NAMES[kind][0]}", begin, max(1, cursor.at - begin))
+    cursor.add(address, value, begin)
+
+
+def obsolete_written(cycle: int, title: str, words: Mapping[str, str]) -> Iterator[str]:
+    """The lines of a definition, of the values that are there as they are written."""
+    yield f"CYCL DEF {cycle}.0 {title}"
+    for part, addresses in enumerate(PLACES[cycle], 1):
+        there = [(address.rpartition(":")[2], words[address]) for address in addresses.split() if address in words]
+        if there:
+            yield f"CYCL DEF {cycle}.{part} " + " ".join(NAMES.get(kind, ("", kind))[1] + text for kind, text in there)
+
+
+_PROBE_SENSE = re.compile(r"([XYZ])[ \t]*([+-])(?![ \t]*[\d.,])", FLAGS)
+_AXIS = re.compile(r"([XYZ])(?![A-Z\d+-])", FLAGS)
+_WAY = re.compile(r"(ABST|DIST|F|MB)(?=[ \t]*[-+\d.,Q])", FLAGS)
+_P01 = re.compile(r"P[ \t]*0?1[ \t]*(\d{1,4})(?!\d)", FLAGS)
+_P02 = re.compile(r"P[ \t]*0?2[ \t]*([XYZ])[ \t]*P[ \t]*0?3[ \t]*([01])(?![\d.,])", FLAGS)
+
+
+def in_words(cursor: Cursor) -> None:
+    """G55 P01 5 P02 X P03 0 X+5 Y+0 Z-5: P03 is 0 for the negative direction and 1 for the positive one."""
+    while not cursor.done:
+        begin = cursor.at
+        if found := cursor.match(_P01):
+            cursor.add("Q", float(found.group(1)), begin)
+        elif found := cursor.match(_P02):
+            cursor.add("axis", found.group(1).upper() + "-+"[int(found.group(2))], begin)
+        elif found := cursor.match(_PLACE):
+            address = found.group(1).upper()
+            cursor.add(address, cursor.needed(f"{address} needs a number", begin), begin)
+        else:
+            raise Fault("G55 takes P01, P02 with P03, X, Y and Z", begin, hint="for example G55 P01 5 P02 X P03 0 X+5 Y+0 Z-5")

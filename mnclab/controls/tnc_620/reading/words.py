@@ -1,12 +1,4 @@
-"""An address and its value, as conversational blocks write them: `X+10`, `IY-Q5`, `FMAX`, `RL`, `DR-`.
-
-Values are numbers with a decimal point or comma, or a Q parameter with a sign (then the word holds an expression).
-What stands without a number is a word without a value (`FMAX`, `FAUTO`, `RL`, `RR`, `R0`); `R F M` at the end of a block
-and `R` before a feed, as older controls write what stays as it is, are none; a sense of rotation is the word `DR` with the
-text `+` or `-`. Values without an address in the text get one in lower case: `tool`, `label`, `axis`, `name`, `unit`,
-`length`, `number`, `target`, `value`. Lengths of an INCH program become mm here, feeds where they are obeyed
-(`Machine.feed_unit`).
-"""
+"""An address and its value, as conversational blocks write them: `X+10`, `IZ-2`, `Q200=2`; and the DIN/ISO names of cycles."""
 
 from __future__ import annotations
 
@@ -15,11 +7,44 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
 from mnclab.text.alarm import hint as near
 from mnclab.text.expression import Expression, parse
 from mnclab.text.given import LARGEST
 from mnclab.text.program import INCREMENTAL, ProgramBuilder
+
+# The DIN/ISO names of cycles, which the manual prints in most of their headings; it prints no DIN/ISO program.
+# They find a cycle (`mnclab.help("G83" …)`) and explain a G word that strayed into a conversational program. Several are
+# other functions on other controls (G28, G54, G73, G80). Cycles 26, 200, 208 and some probing cycles have no such name.
+
+_OWN_NAMES = {
+    7: "G54", 8: "G28", 9: "G4", 10: "G73", 11: "G72", 12: "G39", 13: "G36", 14: "G37", 18: "G18", 19: "G80", 32: "G62",
+    **{n: f"G1{n}" for n in (20, 21, 22, 23, 24, 25, 27, 28, 29, 39)},
+}  # fmt: skip
+_CYCLES = (
+    201, 202, 203, 204, 205, 206, 207, 209, 220, 221, 225, 232, 233, 239, 240, 241, 247, 251, 252, 253, 254, 256, 257, 258,
+    262, 263, 264, 265, 267, 270, 275, 276,
+)  # fmt: skip
+_PROBING = (
+    *range(400, 406), *range(408, 428), 430, 431, 441, *range(450, 453), *range(460, 464), *range(480, 485), 1410, 1411, 1420,
+)  # fmt: skip
+
+#: DIN/ISO name -> the cycle in conversational programs.
+ISO_NAMES: dict[str, str] = {
+    **{name: f"CYCL DEF {number}" for number, name in _OWN_NAMES.items()},
+    "G53": "CYCL DEF 7",  # with a datum table
+    "G55": "TCH PROBE 0",
+    **{f"G{number}": f"CYCL DEF {number}" for number in _CYCLES},
+    **{f"G{number}": f"TCH PROBE {number}" for number in _PROBING},
+}
+
+
+# An address and its value, as conversational blocks write them: `X+10`, `IY-Q5`, `FMAX`, `RL`, `DR-`.
+# Values are numbers with a decimal point or comma, or a Q parameter with a sign (then the word holds an expression).
+# What stands without a number is a word without a value (`FMAX`, `FAUTO`, `RL`, `RR`, `R0`); `R F M` at the end of a block
+# and `R` before a feed, as older controls write what stays as it is, are none; a sense of rotation is the word `DR` with the
+# text `+` or `-`. Values without an address in the text get one in lower case: `tool`, `label`, `axis`, `name`, `unit`,
+# `length`, `number`, `target`, `value`. Lengths of an INCH program become mm here, feeds where they are obeyed
+# (`Machine.feed_unit`).
 
 INCH = 25.4  # mm
 
@@ -248,3 +273,24 @@ class Cursor:
 
 
 Read = Callable[[Cursor], None]
+
+
+# Where the words of a line stand: between its beginning and its comment, without the mark that joins it to the next.
+
+_BEFORE_COMMENT = re.compile(r'(?:[^;"]++|"[^"]*+(?:"|$))*+')
+
+
+def bounds(builder: ProgramBuilder, line: int) -> tuple[int, int, int, bool]:
+    """Begin and end of the words, the place of the comment or -1, and whether the line ends in ~."""
+    starts, text = builder.line_starts, builder.text
+    begin = int(starts[line])
+    end = int(starts[line + 1]) if line + 1 < len(starts) else len(text)
+    content = text[begin:end].rstrip()
+    if begin == 0 and content.startswith("\ufeff"):
+        begin, content = 1, content[1:]
+    tilde = content.endswith("~")
+    content = content.removesuffix("~")
+    comment = -1
+    if ";" in content and (words := _BEFORE_COMMENT.match(content)) and words.end() < len(content):
+        comment, content = begin + words.end(), words.group()
+    return begin, begin + len(content.rstrip(" \t")), comment, tilde

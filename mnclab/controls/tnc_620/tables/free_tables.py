@@ -16,8 +16,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from mnclab.controls.tnc_620.language.checks import whole
-from mnclab.controls.tnc_620.language.circle_data import following
 from mnclab.controls.tnc_620.language.parameters import give
+from mnclab.controls.tnc_620.language.system_access import following
 from mnclab.controls.tnc_620.state import memory
 from mnclab.controls.tnc_620.tables.table_files import Fault, Lines, read_table, value
 from mnclab.machine.control import FunctionTable, Words

@@ -1,25 +1,31 @@
-"""Files with tables that a program selects: point tables, datum tables; found as programs are.
-
-    NULLTAB.D MM
-    D X Y Z DOC
-    0 +100.334 +50.002 +0 first clamp
-    [END]
-
-Fields stand under the names of their columns, or one after the other where a row has all of them; a lone minus marks
-an empty one.
-"""
+"""Files with tables that a program selects: datum tables (11.3), point tables (3.4)."""
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Callable, Iterator
-from typing import TypeVar
+from collections.abc import Callable, Iterator, Mapping
+from types import MappingProxyType
+from typing import NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.reading.words import INCH
+from mnclab.controls.tnc_620.state import memory
+from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.running.interpreter import found
 from mnclab.text.given import LARGEST
 from mnclab.text.program import Word
+
+# Files with tables that a program selects: point tables, datum tables; found as programs are.
+#     NULLTAB.D MM
+#     D X Y Z DOC
+#     0 +100.334 +50.002 +0 first clamp
+#     [END]
+# Fields stand under the names of their columns, or one after the other where a row has all of them; a lone minus marks
+# an empty one.
 
 UNITS = {"MM": 1.0, "INCH": INCH}
 EMPTY = "-"
@@ -100,3 +106,93 @@ def value(field: str, name: str, number: int) -> float:
     if not NUMBER.fullmatch(field) or abs(result := float(field.replace(",", "."))) >= LARGEST:
         raise Fault(f"{name} must be a number, got {field}", number)
     return result
+
+
+# Datum tables, files of type .D (11.3): a row a datum, numbered in the column D, with columns X, Y, Z, A, B, C and DOC.
+# In an empty field no datum is defined: the shift of that axis stays as it is. Without SEL TABLE the datums of the Setup
+# are the active table, if it has any.
+
+FUNCTIONS = FunctionTable()
+LINEAR, ROTARY = "XYZ", "ABC"
+
+Rows = Mapping[int, Mapping[str, float]]
+DatumTable = tuple[str, Rows]  # its name, and its rows
+
+
+@FUNCTIONS("SEL TABLE,", "Datum table", takes="file", source="11.3")
+def select_table(m: Machine, words: Words) -> None:
+    """The table that cycle 7 reads with #; it stays active until another one is selected."""
+    _, rows = read_table(m, words["file"], "SEL TABLE", "datum table", ".D", parse_datums)
+    memory(m).datum_table = str(words["file"].value), MappingProxyType(rows)
+
+
+def row_of(m: Machine, row: int) -> Mapping[str, float]:
+    """Shifts by axis (x, y, z, a, b, c) in a row of the active table; a LookupError says what is missing."""
+    of_setup = {number: datum._asdict() for number, datum in m.tables.datums.items()}
+    name, rows = memory(m).datum_table or ("of the setup", of_setup)
+    if rows is of_setup and not rows:
+        raise LookupError("needs an active datum table: write SEL TABLE before, or give Setup(datums=…)")
+    if row not in rows:
+        known = ", ".join(map(str, sorted(rows)[:12]))
+        raise LookupError(f"names row {row}, which the datum table {name} does not have (rows: {known})")
+    return {axis: value for axis, value in rows[row].items() if axis in "xyzabc"}
+
+
+def parse_datums(text: str) -> Rows:
+    """Rows by their numbers: axis (x, y, z, a, b, c) -> mm or degrees, without the empty fields."""
+    lines = Lines(text)
+    for name in lines.columns:
+        if name not in ("D", "DOC", *LINEAR, *ROTARY):
+            raise Fault(f"the column {name} is not built yet" if name in "UVW" else f"{name} is no column", 2)
+    if "D" not in lines.columns:
+        raise Fault("the column D is missing", 2)
+    unit = dict.fromkeys(LINEAR, lines.unit)
+    rows: dict[int, Mapping[str, float]] = {}
+    for number, fields in lines.rows("DOC"):
+        values = {name: value(field, name, number) for name, field in fields.items()}
+        for name, field in fields.items():
+            if abs(values[name]) > 99999.9999:
+                raise Fault(f"{name} must be at least -99999.9999 and at most 99999.9999, got {field}", number)
+        row = values.pop("D", -1.0)
+        if row != int(row) or not 0 <= row <= 9999:
+            raise Fault("the column D must be a whole number from 0 to 9999", number)
+        if row in rows:
+            raise Fault(f"row {int(row)} is there twice", number)
+        rows[int(row)] = {name.lower(): found * unit.get(name, 1.0) for name, found in values.items()}
+    return rows
+
+
+# Point tables, files of type .PNT (3.4): a row a point, with X, Y and perhaps Z, FADE and CLEARANCE.
+
+HIDDEN = {"Y": True, "YES": True, "1": True, "N": False, "NO": False, "0": False, "": False}
+
+
+class PointTable(NamedTuple):
+    """Points (n, 3), mm; which are hidden (n,); clearance heights (n,), nan where there is none."""
+
+    points: NDArray[np.float64]
+    hidden: NDArray[np.bool_]
+    clearance: NDArray[np.float64]
+
+
+def parse_points(text: str) -> PointTable:
+    """A table from its text."""
+    lines = Lines(text)
+    for axis in "XY":
+        if axis not in lines.columns:
+            raise Fault(f"the column {axis} is missing", 2)
+    table = np.array([point(row, number) for number, row in lines.rows()], dtype=np.float64).reshape(-1, 5)
+    return PointTable(table[:, :3] * lines.unit, table[:, 3] != 0, table[:, 4] * lines.unit)
+
+
+def point(row: dict[str, str], number: int) -> tuple[float, ...]:
+    """x, y, z, hidden, clearance of a row."""
+    for axis in "XY":
+        if axis not in row:
+            raise Fault(f"{axis} is empty", number)
+    hidden = row.get("FADE", "").upper()
+    if hidden not in HIDDEN:
+        raise Fault(f"FADE must be Y or N, got {hidden}", number)
+    x, y, z = (value(row.get(axis, "0"), axis, number) for axis in "XYZ")
+    clearance = value(row["CLEARANCE"], "CLEARANCE", number) if "CLEARANCE" in row else math.nan
+    return x, y, z, float(HIDDEN[hidden]), clearance

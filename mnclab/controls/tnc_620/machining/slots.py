@@ -1,9 +1,4 @@
-"""Milling a trochoidal slot step by step: circles level by level, then its walls, then its floor. Lengths in mm.
-
-    rough     ↓ to the level at the begin of the line, a spiral, circles to its end, ↑ and back above it     for each layer
-    walls     ↓ on the centre line, a half circle to the wall, along it, off it                               for each infeed
-    floor     as a layer                                                                                      once
-"""
+"""Slots: cut to and fro along their centre line, or on circles."""
 
 from __future__ import annotations
 
@@ -11,13 +6,44 @@ from collections.abc import Iterator, Sequence
 
 from mnclab.geometry.contours import Contour
 from mnclab.machining.milling.clearing import Clearing, begin, numbered
-from mnclab.machining.milling.cutting_edge import along
 from mnclab.machining.milling.entries import Descent, descend, stroke_count, vertical
 from mnclab.machining.milling.entries import along as ramp
-from mnclab.machining.milling.pocket_steps import Down, Feeds, Work
-from mnclab.machining.milling.trochoidal_slots import Wall
-from mnclab.machining.steps import Go, Step
+from mnclab.machining.milling.pocket_steps import Down, Feeds, Work, along
+from mnclab.machining.milling.trochoids import Wall
+from mnclab.machining.steps import Along, Go, Step
 
+# Slots cut along their centre line, to and fro: with straight infeeds at the ends, or sinking on the way. Lengths in mm.
+# straight    ↓───►        oblique   ╲ there            both end with the whole line cut on the last level
+#             ◄───↓                  ╱ and back
+
+def straight_infeeds(line: Contour, levels: Sequence[float], feeds: Feeds) -> Iterator[Step]:
+    """Down where the tool stands, at the begin of the line, along it, down at its end, and back along it: as many as levels."""
+    for k, (name, level) in enumerate(zip(numbered("infeed", len(levels)), levels, strict=True)):
+        yield Go(f"{name}, down", level, feeds.plunge)
+        yield Along(f"{name}, along the slot", line.reversed() if k % 2 else line, feeds.level)
+
+
+def oblique_infeeds(line: Contour, surface: float, levels: Sequence[float], feed: float) -> Iterator[Step]:
+    """From the begin of the line at the `surface`, there and back to each of the levels, evenly down; at last level, there."""
+    top, back = surface, line.reversed()
+    for name, level in zip(numbered("infeed", len(levels)), levels, strict=True):
+        middle = (top + level) / 2
+        yield Along(f"{name}, there", line, feed, _evenly(line, top, middle))
+        yield Along(f"{name}, back", back, feed, _evenly(back, middle, level))
+        top = level
+    yield Along("along the floor", line, feed)
+
+
+def _evenly(line: Contour, top: float, bottom: float) -> list[float]:
+    """The heights of the points of an open contour whose pieces are alike."""
+    last = len(line.points) - 1
+    return [top + (bottom - top) * k / last for k in range(last + 1)]
+
+
+# Milling a trochoidal slot step by step: circles level by level, then its walls, then its floor. Lengths in mm.
+# rough     ↓ to the level at the begin of the line, a spiral, circles to its end, ↑ and back above it     for each layer
+# walls     ↓ on the centre line, a half circle to the wall, along it, off it                               for each infeed
+# floor     as a layer                                                                                      once
 
 def way_down(line: Contour, radius: float, angle: float) -> Down:
     """To and fro along the first two tool diameters of a line at a plunge angle (degrees), back at its begin; or straight."""

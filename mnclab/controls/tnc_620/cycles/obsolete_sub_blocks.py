@@ -1,36 +1,140 @@
-"""Obsolete cycles with sub-blocks that mill, which still run (1.2): slot 3, pocket 4 and circular pocket 5.
-
-They are those of earlier manuals (TNC 407 8.2, TNC 426/430 8.4). The ends of a slot are round. Readings where they are
-silent: a layer of a pocket ends with a lift by the set-up clearance and the way back to the middle; a slot is left on an
-arc like the one to its wall, which is a quarter circle, or a half one in a slot too short for that.
-"""
+"""Obsolete cycles with sub-blocks, which still run (1.2): holes 1, 2, 17, and milling 3, 4, 5."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
 
-from mnclab.controls.tnc_620.cycles import at_clearance
+from mnclab.controls.tnc_620.cycles import addresses, at_clearance
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, length
 from mnclab.controls.tnc_620.cycles.at_clearance import AtClearance
-from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, at_least, not_zero, with_radius
+from mnclab.controls.tnc_620.cycles.planes import SAME, Fault, at_least, not_zero, oriented, with_radius
 from mnclab.controls.tnc_620.cycles.pockets import CORNERS
-from mnclab.controls.tnc_620.machining.rounds import finish_rounds
-from mnclab.controls.tnc_620.machining.to_and_fro import straight_infeeds
+from mnclab.controls.tnc_620.cycles.tapping import pitch_of
+from mnclab.controls.tnc_620.machining.finishing import finish_rounds
+from mnclab.controls.tnc_620.machining.slots import straight_infeeds
 from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
-from mnclab.machine.coordinates import MILLS
-from mnclab.machine.cycle import CycleTable, few_passes, too_many
+from mnclab.machine.coordinates import MILLS, TAPS, depth_scale
+from mnclab.machine.cycle import CycleTable, few_passes, param, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machining.milling import concentric
+from mnclab.machining.holes.drilling import drill, tap
+from mnclab.machining.milling import faces
 from mnclab.machining.milling.clearing import Clearing
 from mnclab.machining.milling.figures import straight
-from mnclab.machining.milling.finishing import half_circles, quarter_circles
-from mnclab.machining.milling.pocket_steps import Feeds, rough
+from mnclab.machining.milling.pocket_steps import Feeds, half_circles, quarter_circles, rough
 from mnclab.machining.milling.spirals import round_pocket
-from mnclab.machining.steps import Go, Step
+from mnclab.machining.steps import Go, Step, Write
+
+# Obsolete cycles of holes, which still run (1.2): pecking 1, tapping with a floating holder 2 and rigidly 17.
+# They are those of earlier manuals (TNC 407 8.2, TNC 426/430 8.3). Readings where these are silent: under a scale the advanced
+# stop distance of pecking is that of the true depth; rigid tapping is one pass.
 
 CYCLES = CycleTable()
+
+
+def advanced_stop(depth: float) -> float:
+    """How far above the last depth a peck is entered again, mm: 0.6 to a depth of 30 mm, then a fiftieth of it, at most 7.
+
+    >>> [round(advanced_stop(depth), 3) for depth in (20, 30, 40, 400)]
+    [0.6, 0.6, 0.8, 7.0]
+    """
+    return 0.6 if depth <= 30 else min(depth / 50, 7.0)
+
+
+@CYCLES("CYCL DEF 1", "Pecking", source="1.2")
+class Pecking(AtClearance):
+    """Drills in infeeds with full retraction to where the tool stood, and waits at the bottom.
+
+    Written as 1.1 SET UP, 1.2 DEPTH, 1.3 PECKG, 1.4 DWELL, 1.5 F.
+    """
+
+    clearance: float = at_clearance.clearance()
+    depth: float = at_clearance.depth()
+    infeed: float = at_clearance.infeed()
+    dwell: float = addresses.seconds("DWELL", "dwell at the bottom", example=0.25)
+    feed: float = at_clearance.feed("F", "feed rate for drilling", example=150)
+
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        return not_zero(self, "feed", purpose="to drill with")
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        if not self.down:
+            yield self.left_out
+            return
+        above, scale = m.programmed[2], depth_scale(m)
+        stop = advanced_stop(abs(self.depth) * scale) / scale
+        yield from drill(self.levels(m), above=above, feed=self.feed, reenter=stop, dwell_bottom=self.dwell)
+        yield Go("retract", above)
+
+
+@CYCLES("CYCL DEF 2", "Tapping with a floating holder", source="1.2")
+class FloatingTapping(AtClearance):
+    """Taps at a feed in one pass with the spindle as it turns, reversed at the bottom and where the tool stood.
+
+    Written as 2.1 SET UP, 2.2 DEPTH, 2.3 DWELL, 2.4 F.
+    """
+
+    does = TAPS
+    clearance: float = at_clearance.clearance(note="about four pitches")
+    depth: float = at_clearance.depth()
+    dwell: float = addresses.seconds("DWELL", "dwell at the bottom", note="0 to 0.5 s", example=0.25)
+    feed: float = at_clearance.feed("F", "feed rate for tapping", note="S times pitch", example=150)
+
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        yield from not_zero(self, "feed")
+        if not m.spindle_speed:
+            yield "", "needs a turning spindle: write S in TOOL CALL, and M3 or M4 before"
+        yield from pitch_of(m, "feed", self.feed / m.speed)
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        if not self.down:
+            yield self.left_out
+            return
+        yield from tap(
+            self.levels(m), above=m.programmed[2], sense=m.turning, end=m.turning, feed=self.feed, dwell=self.dwell,
+            dwell_first=False, stand=m.settings["thread_wait"],
+        )  # fmt: skip
+
+
+@CYCLES("CYCL DEF 17", "Rigid tapping", source="1.2")
+class RigidTapping(AtClearance):
+    """Taps with the spindle locked to the feed; it stops at the end, and M3 or M4 starts it again.
+
+    Written as 17.1 SET UP, 17.2 DEPTH, 17.3 PITCH.
+    """
+
+    does, own_spindle = TAPS, True
+    clearance: float = at_clearance.clearance()
+    depth: float = at_clearance.depth()
+    pitch: float = param(
+        "PITCH", "thread pitch", at_least=-99.9999, at_most=99.9999, modal=True, note="+ right-hand, - left-hand", example=1.5
+    )
+
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        if self.pitch == 0:
+            yield "pitch", "must not be 0"
+        if not m.speed:
+            yield "", "needs a spindle speed: write S in TOOL CALL"
+        yield from oriented(m)
+        yield from pitch_of(m, "pitch", abs(self.pitch))
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        if not self.down:
+            yield self.left_out
+            return
+        yield from tap(
+            self.levels(m), above=m.programmed[2], pitch=abs(self.pitch), sense=1 if self.pitch > 0 else -1, end=0,
+            stand=m.settings["thread_wait"],
+        )  # fmt: skip
+        yield Write("modal", "M5", "spindle")
+
+
+# Obsolete cycles with sub-blocks that mill, which still run (1.2): slot 3, pocket 4 and circular pocket 5.
+# They are those of earlier manuals (TNC 407 8.2, TNC 426/430 8.4). The ends of a slot are round. Readings where they are
+# silent: a layer of a pocket ends with a lift by the set-up clearance and the way back to the middle; a slot is left on an
+# arc like the one to its wall, which is a quarter circle, or a half one in a slot too short for that.
+
 SENSE: dict[float, str] = {1: "+: counter-clockwise, climb milling with M3", -1: "-: clockwise"}
 
 
@@ -87,7 +191,7 @@ class SlotMilling(AtClearance):
         x, y = line.points[0].tolist()
         yield Go("to the centre of the first end", x=x, y=y)
         yield from straight_infeeds(line, levels, feeds)
-        if inset > concentric.NOTHING:
+        if inset > faces.NOTHING:
             line = line.reversed() if len(levels) % 2 else line
             yield from finish_rounds(*_wall(line, inset), tuple(line.points[0].tolist()), levels[-1:], feeds)
         yield Go("retract", above)
@@ -135,7 +239,7 @@ class PocketMilling(AtClearance):
         yield from passes_to_wait_for(self, m)
 
     def clearing(self, m: Machine) -> Clearing:
-        return concentric.rectangle(
+        return faces.rectangle(
             self.x, self.y, m.radius, min(m.settings["overlap"], CORNERS) * m.radius, corner=self.corner_radius,
             climb=self.sense > 0, begin=int(self.x <= self.y),
         )  # fmt: skip
