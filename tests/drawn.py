@@ -3,8 +3,21 @@
 import math
 import random
 
-from mnclab.design.drawing.dimensions import Angle, Diameter, Linear, Note, Radius, value
-from mnclab.design.drawing.view import Axis, Cross, Cut, Kind, Line, View, thread_circle
+from mnclab.design.drawing.view import (
+    Angle,
+    Axis,
+    Cross,
+    Cut,
+    Diameter,
+    Kind,
+    Line,
+    Linear,
+    Note,
+    Radius,
+    View,
+    thread_circle,
+    value,
+)
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 

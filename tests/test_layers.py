@@ -29,8 +29,8 @@ WINGS = ("design", "lab")  # they import the core, which opens them by name: tex
 
 OUTSIDE = {  # package -> the only modules of mnclab that import it
     "shapely": ("geometry.shapely",),
-    "matplotlib": ("show.plot", "design.drawing", "design.plot"),
-    "pyvista": ("show.scene", "show.part_scene", "show.probed_scene", "design.difference_scene", "workpiece.part.mesh",
+    "matplotlib": ("show.plot", "design.drawing", "design.difference.plot", "design.difference.plot_sections"),
+    "pyvista": ("show.scene", "show.part_scene", "show.probed_scene", "design.difference.scene", "workpiece.part.mesh",
                 "workpiece.part.pictures"),
     "vtkmodules": ("show.scene", "show.part_scene", "workpiece.part.mesh"),
     "ezdxf": ("geometry.dxf",),
@@ -178,7 +178,7 @@ DOOR = "def plot(self):\n    'A door.'\n    from mnclab.show.plot import path\n 
         ("show/plot/part.py", "def plot():\n    from mnclab.lab import forms\n    return forms", "a floor above"),
         ("workpiece/workpiece.py", "def f():\n    from mnclab.design.model import Design\n    return Design", "a floor above"),
         ("workpiece/workpiece.py", "if TYPE_CHECKING:\n    from mnclab.design.model import Design", None),
-        ("design/filling.py", "from mnclab.runs.run import Run", "a design knows data"),
+        ("design/model/slabs.py", "from mnclab.runs.run import Run", "a design knows data"),
         ("controls/__init__.py", "from . import mnc, nc_31", None),
         ("controls/mnc/drilling.py", "from ..word_address import motion\nfrom . import polar", None),
         ("controls/mnc/drilling.py", "from mnclab.controls.nc_31 import grooving", "never another"),

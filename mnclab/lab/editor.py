@@ -19,8 +19,7 @@ from typing import Any
 
 from mnclab.controls.choice import choose, read_text
 from mnclab.controls.choice import run as run_text
-from mnclab.lab.forms.following import DRAWING, SIZE, verdict
-from mnclab.lab.forms.live import live_class
+from mnclab.lab.forms.live import DRAWING, SIZE, live_class, verdict
 from mnclab.machine.setup import Setup
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mnclab.design.filling import filled
+from mnclab.design.model.removals import filled
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 

@@ -3,8 +3,7 @@
 import pytest
 
 import mnclab
-from mnclab.lab.completion import completions
-from mnclab.lab.vocabulary import meaning_at, vocabulary
+from mnclab.lab.vocabulary import completions, meaning_at, vocabulary
 
 CONTROLS = list(mnclab.controls)
 CYCLE = "CYCL DEF 200 DRILLING ~\n  Q200=+2 ~\n  Q201=-20 ~\n  "

@@ -10,10 +10,9 @@ from milled import part
 from running import run
 
 from mnclab import Tool
+from mnclab.design.difference.plot import SHADES, marks_of, nice, plot_difference
+from mnclab.design.difference.plot_sections import sections_of
 from mnclab.design.model import Bore, Design, Hole, Pocket, TurnedDesign
-from mnclab.design.plot.difference import SHADES, nice, plot_difference
-from mnclab.design.plot.difference_marks import marks_of
-from mnclab.design.plot.difference_sections import sections_of
 from mnclab.text.alarm import Alarm
 
 TEXT = "G0 X13 Y13\nG0 Z2\nG1 Z-6.08\nG1 X47\nG1 Y27\nG1 X13\nG1 Y13\nG1 Y20\nG1 X47\nG0 Z5"

@@ -6,9 +6,8 @@ from dataclasses import replace
 import pytest
 from drawn import plate, shaft
 
-from mnclab.design.drawing.dimensions import Angle, Diameter, Linear, Note, Radius, value
 from mnclab.design.drawing.drawing import draw
-from mnclab.design.drawing.view import Axis, Kind, Line, View
+from mnclab.design.drawing.view import Angle, Axis, Diameter, Kind, Line, Linear, Note, Radius, View, value
 from mnclab.geometry.contours import Contour
 
 ezdxf = pytest.importorskip("ezdxf")

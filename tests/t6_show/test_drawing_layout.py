@@ -9,7 +9,7 @@ from drawn import plate, shaft
 from shapely import LineString, Polygon, STRtree
 
 from mnclab.design.drawing.drawing import draw
-from mnclab.design.drawing.lettering import value_block
+from mnclab.design.drawing.ink import value_block
 from mnclab.design.drawing.view import Kind
 
 TOUCH = 0.02  # mm²: what rounding makes of boxes that touch

@@ -9,12 +9,10 @@ import pytest
 from drawn import plate, rectangle
 from matplotlib.image import imread
 
-from mnclab.design.drawing.dimensions import Diameter, Linear, Note, Value, number, value
 from mnclab.design.drawing.drawing import draw
-from mnclab.design.drawing.frame import fitted
-from mnclab.design.drawing.lettering import width_of
-from mnclab.design.drawing.sheet import SIZES, Table, Title, scale_text
-from mnclab.design.drawing.view import Cross, Cut, Line, View
+from mnclab.design.drawing.ink import width_of
+from mnclab.design.drawing.sheet import SIZES, Table, Title, fitted, scale_text
+from mnclab.design.drawing.view import Cross, Cut, Diameter, Line, Linear, Note, Value, View, number, value
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.text.alarm import Alarm

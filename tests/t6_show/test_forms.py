@@ -12,7 +12,7 @@ import pytest
 import mnclab
 from mnclab import Alarm
 from mnclab.lab import forms
-from mnclab.lab.forms.groups import groups
+from mnclab.lab.forms.fields import groups
 from mnclab.show.plot import path as plot_of_path
 
 TEMPLATE = "G90 G54 S500 M3\nG0 X0 Y0 Z5\nG1 X{side} F{feed}\nY{side}\nX0\nY0\n"

@@ -8,7 +8,7 @@ import pytest
 
 import mnclab
 from mnclab import Alarm, Kind
-from mnclab.lab.forms.boxes import place_of
+from mnclab.lab.forms.fields import place_of
 from mnclab.show.plot import colours, ghost
 
 TEMPLATE = "G90 G54 S500 M3\nG0 X0 Y0 Z5\nG1 X{side} F{feed}\nY{side}\nX0\nY0\n"

@@ -8,7 +8,7 @@ import pytest
 import mnclab
 from mnclab import Design, Setup, Tool
 from mnclab.__main__ import main
-from mnclab.design.model.features import Hole
+from mnclab.design.model.holes import Hole
 from mnclab.workpiece.collision import Collisions
 
 BLANK = ((0, 0, -20), (60, 40, 0))

@@ -8,9 +8,8 @@ import pytest
 import mnclab
 from mnclab import Kind
 from mnclab.controls.word_address.reader import reader
-from mnclab.lab import forms
-from mnclab.lab.forms.following import DRAWING
-from mnclab.lab.magic import cell
+from mnclab.lab import cell, forms
+from mnclab.lab.forms.live import DRAWING
 from mnclab.machine.control import Control, FunctionTable
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.trial import number

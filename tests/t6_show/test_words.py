@@ -3,8 +3,7 @@
 import pytest
 
 import mnclab
-from mnclab.lab.magic.calls import call_at
-from mnclab.lab.magic.words import explanation, suggestions
+from mnclab.lab.cell import call_at, explanation, suggestions
 
 RUN = mnclab.run("G0 X1\n", "mnc")
 NAMES = {"mnc": mnclab, "run": mnclab.run, "r": RUN, "help": mnclab.help, "print": print, "tools": {1: mnclab.Tool(radius=3)},

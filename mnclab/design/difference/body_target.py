@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mnclab.design.difference.rays import ways
-from mnclab.design.difference.reading import Reading
-from mnclab.design.difference.target import BLANK, Grid, Owner, Slopes, Walls
+from mnclab.design.difference.target import BLANK, Grid, Owner, Reading, Slopes, Walls
 from mnclab.design.model.measures import Measure
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import left

@@ -9,20 +9,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mnclab.design.difference.target import BLANK, Grid, Owner, Slopes, Walls
-from mnclab.design.filling import filled
 from mnclab.design.model.design import Design
 from mnclab.design.model.measures import Measure
-from mnclab.design.model.removals import Flat, Slant, Slanting, Wedge, signed, within
+from mnclab.design.model.removals import Flat, Slant, Slanting, Wedge, filled, within
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import at_angle, left
 from mnclab.geometry.regions import Region
+from mnclab.geometry.signed import signed
 from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.workpiece.milling.raster import Raster
 from mnclab.workpiece.workpiece import Workpiece
 
 if TYPE_CHECKING:
     from mnclab.design.difference.deviations import Seen
-    from mnclab.design.difference.reading import Reading
+    from mnclab.design.difference.target import Reading
 
 FEWEST = 5  # places of an element
 TURN = np.radians(5)  # of an arc, between two places

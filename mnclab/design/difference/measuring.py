@@ -10,11 +10,11 @@ import numpy as np
 
 from mnclab.design.difference.deviations import Seen
 from mnclab.design.difference.drawn_target import DrawnTarget
-from mnclab.design.difference.fitting import line
-from mnclab.design.difference.outlines import GONE, NOT_CUT, ON, Faces, Found, between, of_circle, sizes
-from mnclab.design.difference.reading import NONE, Reading
-from mnclab.design.difference.target import BLANK
-from mnclab.design.model.features import Chamfer, Feature, Groove, Hole, Slope, Slot, along
+from mnclab.design.difference.outlines import GONE, NOT_CUT, ON, Faces, Found, between, line, of_circle, sizes
+from mnclab.design.difference.target import BLANK, NONE, Reading
+from mnclab.design.model.feature import Feature
+from mnclab.design.model.features import Chamfer, Groove, Slope, Slot, along
+from mnclab.design.model.holes import Hole
 from mnclab.design.model.measures import Measure
 from mnclab.design.model.removals import Flat, Slant, Wedge
 from mnclab.path.toolpath import Array, Index, Kind

@@ -8,7 +8,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.design.difference.fitting import circle, line
 from mnclab.design.model.shapes import Circle, Rectangle, Shape
 from mnclab.geometry.curves import turned
 from mnclab.path.toolpath import Array, Index, Mask
@@ -138,3 +137,31 @@ def turn(seen: Faces, half: tuple[float, float], degrees: float) -> Found:
     if not slopes:
         return Found(math.nan, seen.number[:0], GONE)
     return Found(degrees + math.degrees(math.atan(np.mean(slopes))) * (1 if axis else -1), np.concatenate(among))
+
+
+# Circles and lines through measured points.
+
+ROUNDS = 20
+
+
+def circle(points: Array, centre: Array) -> tuple[float, float, float]:
+    """x, y and radius of the circle with the least squares of distances from points (m, 2); `centre` (2,) is a first guess."""
+    x, y = (float(each) for each in centre)
+    radius = float(np.hypot(*(points - centre).T).mean())
+    for _ in range(ROUNDS):
+        dx, dy = (points - [x, y]).T
+        out = np.maximum(np.hypot(dx, dy), 1e-12)
+        columns = np.stack([dx / out, dy / out, np.ones(len(out))], axis=1)
+        by_x, by_y, _ = change = np.linalg.lstsq(columns, out - radius, rcond=None)[0]
+        x, y, radius = x + by_x, y + by_y, radius + change[2]
+        if np.abs(change).max() < 1e-12:
+            break
+    return x, y, radius
+
+
+def line(s: Array, z: Array) -> tuple[float, float]:
+    """Height at s = 0 and slope of the line with the least squares of heights z (m,) over places s (m,)."""
+    middle = s.mean()
+    spread = float(((s - middle) ** 2).sum())
+    slope = float(((s - middle) * (z - z.mean())).sum()) / spread if spread > 0 else 0.0
+    return float(z.mean() - slope * middle), slope

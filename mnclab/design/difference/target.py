@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.design.model.measures import Measure
 from mnclab.geometry.contours import Contour
 from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.workpiece.milling.raster import Raster
 
 if TYPE_CHECKING:
     from mnclab.design.difference.deviations import Seen
-    from mnclab.design.difference.reading import Reading
+
 
 BLANK = -1  # the owner of a face that no feature made
 
@@ -104,3 +106,20 @@ class Target(Protocol):
 
     def readings(self, seen: Seen) -> Iterator[Reading]:
         """What a measuring room reads off what was found on its faces."""
+
+
+NONE = np.zeros(0, dtype=np.int64)
+
+
+class Reading(NamedTuple):
+    """`side` is "top" or "back". `actual` is nan where nothing could be read, and `said` says why. `allowed` is how far it may
+    be off where the drawing gives no limits, mm or degrees. `among` are the places that it was read off: the worst of
+    them names the row."""
+
+    side: str
+    feature: str
+    measure: Measure
+    actual: float = math.nan
+    allowed: float = 0.0
+    among: Index = NONE
+    said: str = ""

@@ -12,11 +12,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.design.difference.difference import Difference, Worst, uncut
-from mnclab.design.difference.farthest import deepest, narrowed
-from mnclab.design.difference.half_surface import HalfSurface, Places
-from mnclab.design.difference.half_target import HalfTarget
-from mnclab.design.difference.table import Features
+from mnclab.design.difference.difference import Difference, Features, Worst, uncut
+from mnclab.design.difference.half_target import HalfSurface, HalfTarget, Places, deepest, narrowed
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.path.toolpath import Array, Index, Mask

@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.design.difference.fitting import circle
+from mnclab.design.difference.difference import OK, OUT, Row
 from mnclab.design.difference.half_target import SAME, HalfTarget
-from mnclab.design.difference.table import OK, OUT, Row
+from mnclab.design.difference.outlines import circle
 from mnclab.design.difference.turned_comparing import ALIKE, Compared, Looked, first_made, line_of
 from mnclab.design.model.measures import Measure
 from mnclab.design.model.turned_profile import Dimension

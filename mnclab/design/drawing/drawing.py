@@ -18,14 +18,12 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.backends.backend_pdf import PdfPages
 
-from mnclab.design.drawing import dxf, figure, frame, linear
-from mnclab.design.drawing.arrangement import EDGE, LEAST, arranged
-from mnclab.design.drawing.dimensions import Point
-from mnclab.design.drawing.frame import Printed
+from mnclab.design.drawing import dimension_places, dxf, figure
+from mnclab.design.drawing import sheet as paper
 from mnclab.design.drawing.ink import corners_of
-from mnclab.design.drawing.layout import Laid, NoRoom, lay_out
-from mnclab.design.drawing.sheet import SCALES, SIZES, Size, Table, Title, scale_text
-from mnclab.design.drawing.view import View
+from mnclab.design.drawing.layout import EDGE, LEAST, Laid, NoRoom, arranged, lay_out
+from mnclab.design.drawing.sheet import SCALES, SIZES, Printed, Size, Table, Title, scale_text
+from mnclab.design.drawing.view import Point, View
 from mnclab.geometry.curves import Floats
 from mnclab.show.export_part import named
 from mnclab.show.given_away import whole
@@ -134,7 +132,7 @@ def draw(
         size = choice(size, "size", SIZES)
     if scale is not None:
         check_number(scale, "the scale", above=0)
-    return _Attempt(tuple(views), title, tuple(map(frame.table, tables))).drawn(size, scale)
+    return _Attempt(tuple(views), title, tuple(map(paper.table, tables))).drawn(size, scale)
 
 
 class _Attempt:
@@ -200,7 +198,7 @@ class _Attempt:
 
     def _might(self, views: Sequence[View], size: Size, scale: float) -> bool:
         """Whether the views with their rows of dimensions would have room: the other texts may take more."""
-        x0, y0, x1, y1 = frame.inside(size)
+        x0, y0, x1, y1 = paper.inside(size)
         for axis, room in ((0, x1 - x0), (1, y1 - y0)):
             sizes = self._sizes(views, axis, scale)
             if sum(sizes.values()) + LEAST * (len(sizes) - 1) + 2 * EDGE > room:
@@ -212,7 +210,7 @@ class _Attempt:
         sizes = dict[int, float]()
         for view in views:
             length = float(np.ptp(view.bounds[:, axis])) * view.enlarged * scale
-            length += linear.room_for(view.dimensions, "yx"[axis])
+            length += dimension_places.room_for(view.dimensions, "yx"[axis])
             sizes[view.cell[axis]] = max(sizes.get(view.cell[axis], 0.0), length)
         return sizes
 
@@ -225,7 +223,7 @@ class _Attempt:
             if isinstance(found, NoRoom):
                 return None
             laid.append(found)
-        block = frame.title_block(self.title, size, scale, 1, 1).box
+        block = paper.title_block(self.title, size, scale, 1, 1).box
         places = arranged(laid, tables, size, block)
         if places is None:
             return None
@@ -243,8 +241,8 @@ class _Attempt:
     def _finished(self, sheets: Sequence[tuple[Sheet, Size]], scale: float) -> Drawing:
         whole_sheets = []
         for number, (sheet, size) in enumerate(sheets, 1):
-            block = frame.title_block(self.title, size, scale, number, len(sheets))
-            whole_sheets.append(Sheet(size, sheet.views, sheet.tables, (frame.frame(size), block)))
+            block = paper.title_block(self.title, size, scale, number, len(sheets))
+            whole_sheets.append(Sheet(size, sheet.views, sheet.tables, (paper.frame(size), block)))
         return Drawing(self.title, scale, tuple(whole_sheets))
 
     def _refused(self) -> Alarm:

@@ -9,15 +9,14 @@ several heights, whose lines are joined. mm.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.design.drawing.levels import Levels
-from mnclab.design.model.slabs import Slab
+from mnclab.design.model.slabs import Slab, Stack
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
@@ -300,3 +299,24 @@ def _joined(spans: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
         else:
             found.append((a, b))
     return found
+
+
+@dataclass(frozen=True, eq=False)
+class Levels:
+    """A stack of slabs; `nested` where no section has material above that a lower one lacks."""
+
+    stack: Stack
+    nested: bool = False
+    known: dict[tuple[int, float], Region] = field(default_factory=dict)
+
+    @property
+    def slabs(self) -> tuple[Slab, ...]:
+        return self.stack.slabs
+
+    def section(self, slab: Slab, z: float) -> Region:
+        if not slab.slants:
+            return slab.region
+        key = id(slab), z
+        if key not in self.known:
+            self.known[key] = slab.section(z)
+        return self.known[key]

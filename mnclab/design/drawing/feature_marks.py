@@ -3,16 +3,36 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from mnclab.design.drawing.dimensions import Point
-from mnclab.design.drawing.ledger import Draft
-from mnclab.design.drawing.view import Axis, Cross, Kind, Line, thread_circle
-from mnclab.design.model.features import Chamfer, Feature, Groove, Hole, Pocket, Slope, Slot, Stud
-from mnclab.design.model.shapes import Circle, Rectangle, Shape
-from mnclab.design.model.threads import core_of
+from mnclab.design.drawing.ledger import DIAMETER, SIGNS, TIMES, Draft, hole_lines, written
+from mnclab.design.drawing.sheet import Table
+from mnclab.design.drawing.view import (
+    Angle,
+    Axis,
+    Cross,
+    Diameter,
+    Kind,
+    Line,
+    Linear,
+    Note,
+    Point,
+    Value,
+    number,
+    thread_circle,
+    value,
+)
+from mnclab.design.model.feature import Feature
+from mnclab.design.model.features import Chamfer, Groove, Pocket, Slope, Slot, Stud, along
+from mnclab.design.model.holes import Hole, core_of
+from mnclab.design.model.measures import Measure
+from mnclab.design.model.shapes import Circle, Outline, Rectangle, Shape
 from mnclab.geometry.contours import Contour
+
+if TYPE_CHECKING:
+    from mnclab.design.drawing.milled_features import Side
+
 
 SAME = 1e-6  # mm
 
@@ -87,3 +107,202 @@ def point_of(at: Any) -> Point:
 def direction_of(way: Any) -> str:
     """The direction of a dimension along a way."""
     return "x" if abs(way[1]) < SAME else "y" if abs(way[0]) < SAME else "ab"
+
+
+# Equal holes in patterns, as drawings dimension them: evenly on a circle by its diameter, in equal steps by their number.
+
+LEAST = 3  # holes on a circle, or one after the other
+
+
+class Ring(NamedTuple):
+    """Holes evenly on a circle; `first` is the least angle of one, rad."""
+
+    centre: Point
+    radius: float
+    first: float
+
+
+class Lattice(NamedTuple):
+    """Holes at all crossings of columns and rows, three or more of which are equally far apart: their coordinates (mm)."""
+
+    x: tuple[float, ...]
+    y: tuple[float, ...]
+
+
+def pattern_of(features: Sequence[Feature]) -> Ring | Lattice | None:
+    """How equal features lie, where they are holes whose places have no tolerances of their own."""
+    holes = [each for each in features if isinstance(each, Hole) and not {"x", "y"} & set(each.tolerances)]
+    if len(holes) < LEAST or len(holes) < len(features):
+        return None
+    places = [(each.x, each.y) for each in holes]
+    return _lattice(places) or _ring(places)
+
+
+def _ring(places: Sequence[Point]) -> Ring | None:
+    count = len(places)
+    cx, cy = (sum(each) / count for each in zip(*places))
+    radii = [math.hypot(x - cx, y - cy) for x, y in places]
+    step = math.tau / count
+    angles = sorted(math.atan2(y - cy, x - cx) % math.tau for x, y in places)
+    even = all(abs(angle - angles[0] - k * step) * radii[0] < SAME for k, angle in enumerate(angles))
+    if max(radii) - min(radii) > SAME or not even or radii[0] < SAME:
+        return None
+    first = angles[0] if angles[0] + SAME < step else 0.0
+    if count == 4 and abs(first - step / 2) * radii[0] < SAME:  # the corners of a square are dimensioned as such
+        return None
+    return Ring((cx, cy), radii[0], first)
+
+
+def _lattice(places: Sequence[Point]) -> Lattice | None:
+    x, y = (tuple(sorted({round(each, 6) for each in some})) for some in zip(*places))
+    if len(x) * len(y) != len(places) or len({(round(u, 6), round(v, 6)) for u, v in places}) != len(places):
+        return None
+    return Lattice(x, y) if any(len(each) >= LEAST and _even(each) for each in (x, y)) else None
+
+
+def _even(some: Sequence[float]) -> bool:
+    step = (some[-1] - some[0]) / (len(some) - 1) if len(some) > 1 else 0.0
+    return len(some) >= LEAST and all(abs(each - some[0] - k * step) < 2 * SAME for k, each in enumerate(some))
+
+
+def write_pattern(side: Side, numbers: Sequence[int], pattern: Ring | Lattice) -> None:
+    """The places of holes in a pattern: the pattern, and where it stands."""
+    if isinstance(pattern, Ring):
+        _write_ring(side, numbers, pattern)
+        return
+    holes = [(k, side.features[k]) for k in numbers]
+    for axis, some, other in (("x", pattern.x, pattern.y), ("y", pattern.y, pattern.x)):
+        if not _even(some):
+            for k in numbers:
+                side.place(k, axis)
+            continue
+        rest = []
+        for k, hole in holes:
+            if abs(getattr(hole, axis) - some[0]) < 2 * SAME:
+                side.place(k, axis)
+            else:
+                rest.append(k)
+        count, whole = len(some) - 1, some[-1] - some[0]
+        text = f"{count}{TIMES} {number(whole / count)} (={number(whole)})"
+        ends = [(each, other[0]) if axis == "x" else (other[0], each) for each in (some[0], some[-1])]
+        told = Linear(ends[0], ends[1], Value(text), axis, "below" if axis == "x" else "left")
+        same = next((claims for said, claims in side.ledger.said if said in side.draft.dimensions and _alike(said, told)), None)
+        if same is None:
+            side.ledger.say(side.draft, told, side.claims(rest, axis))
+        else:
+            same += side.claims(rest, axis)
+
+
+def _alike(said: Any, told: Linear) -> bool:
+    """Whether a dimension says the same steps of other holes."""
+    if not isinstance(said, Linear) or (said.value, said.along) != (told.value, told.along):
+        return False
+    k = "xy".index(told.along)
+    return abs(said.a[k] - told.a[k]) < SAME and abs(said.b[k] - told.b[k]) < SAME
+
+
+def _write_ring(side: Side, numbers: Sequence[int], ring: Ring) -> None:
+    (cx, cy), radius = ring.centre, ring.radius
+    side.draft.lines.append(Line(Contour.circle(ring.centre, radius), Kind.CENTRE))
+    told = Diameter(ring.centre, radius, value(2 * radius, DIAMETER))
+    side.ledger.say(side.draft, told, side.claims(numbers, "x", "y"))
+    for axis, at in (("x", cx), ("y", cy)):
+        side.places[axis].append((Measure(axis, at, "place"), ring.centre, None))
+    quarters = [(ring.first + k * math.tau / len(numbers)) % (math.pi / 2) for k in range(len(numbers))]
+    if min(min(angle, math.pi / 2 - angle) for angle in quarters) * radius < SAME:
+        return  # one stands on a centre line, which says how they are turned
+    level, hole = (cx + radius, cy), (cx + radius * math.cos(ring.first), cy + radius * math.sin(ring.first))
+    side.draft.lines.append(Line(Contour([ring.centre, level], closed=False), Kind.THIN))
+    side.draft.dimensions.append(Angle(ring.centre, level, hole, value(math.degrees(ring.first), after="°")))
+
+
+# Tables beside the views: holes, corners of outlines, and all features where a view has no room for them.
+
+MOST, FEW = 30, 8  # corners of outlines on one side that are all told; of one outline that always are
+
+
+def hole_table(side: Side, holes: list[int]) -> None:
+    """Every hole by its place and sizes, numbered in the view."""
+    title = "holes from below" if side.back else "holes"
+    x, y = side.datum
+    rows = []
+    for row, k in enumerate(holes):
+        hole = side.features[k]
+        assert isinstance(hole, Hole)
+        label = f"{'B' if side.back else 'A'}{row + 1}"
+        known = {each.name: each for each in hole.measures()}
+        text = "  ".join(hole_lines(hole))
+        side.draft.dimensions.append(Note((hole.x, hole.y), (label,), mouth_of(hole) / 2))
+        rows.append((label, _said(known["x"], x), _said(known["y"], y), text))
+        for column, names in ((1, ("x",)), (2, ("y",)), (3, ())):
+            side.ledger.cell(title, row, column, side.claims([k], *names))
+        side.tops([k])
+    side.ledger.tables.append(Table(title, ("No.", "X", "Y", "hole"), tuple(rows)))
+
+
+def feature_table(side: Side, numbers: list[int]) -> None:
+    """Every feature by its measures: where a view has no room for them."""
+    title = "features from below" if side.back else "features"
+    rows = []
+    x, y = side.datum
+    for row, k in enumerate(numbers):
+        feature = side.features[k]
+        label = f"{'B' if side.back else 'A'}{row + 1}"
+        line = outline_of(feature)
+        assert line is not None  # a table holds what has a place
+        at = line.point_at(0.35 * line.length)[0]
+        shape = shape_in(feature)
+        to = Note((shape.x, shape.y), (label,), shape.diameter / 2) if isinstance(shape, Circle) else Note(point_of(at), (label,))
+        side.draft.dimensions.append(to)
+        known = {each.name: each for each in feature.measures() if each.kind == "place"}
+        said = [each for each in feature.measures() if each.kind != "place" or each.name == "top"]
+        told = [written(each) if each.name in SIGNS else f"{each.name} {written(each)}" for each in said]
+        rows.append((label, _said(known["x"], x), _said(known["y"], y), f"{side.names()[k]}: {', '.join(told)}"))
+        for column, names in ((1, ("x",)), (2, ("y",))):
+            side.ledger.cell(title, row, column, side.claims([k], *names))
+        side.ledger.cell(title, row, 3, [*side.claims([k]), *side.claims([k], "top")])
+        if isinstance(shape, Outline):
+            corner_table(side, shape, (), k)
+    side.ledger.tables.append(Table(title, ("No.", "X", "Y", "feature"), tuple(rows)))
+
+
+def corner_table(side: Side, shape: Outline, measures: Sequence[Measure], k: int, title: str = "") -> None:
+    """Numbered corners, and a table of them; with `measures` its middle and sizes below.
+
+    Where a side has more than `MOST` corners, as with contours made of chords, the table of a long contour has every second,
+    third, … of its points, and says so.
+    """
+    title, line = title or f"contour of {side.names()[k]}", shape.contour
+    each = -(-_corners(side) // MOST) if len(line.points) > FEW else 1
+    if each > 1:
+        title += f": 1 of every {each} of its {len(line.points)} points"
+    letter = chr(97 + len(side.ledger.tables) % 26)
+    x, y = side.datum
+    rows = []
+    radii = line.radii.tolist()
+    for n, (px, py) in list(enumerate(line.points.tolist()))[::each]:
+        label = f"{letter}{n + 1}"
+        side.draft.dimensions.append(Note((px, py), (label,)))
+        bend = line.bulge[n] if n < len(line.bulge) else 0.0
+        arc = f"R{number(radii[n])} {'ccw' if bend > 0 else 'cw'}" if n < len(radii) and bend else ""
+        rows.append((label, number(px - x), number(py - y), arc))
+    known = {each.name: each for each in measures}
+    if known:
+        rows.append(("middle", _said(known["x"], x), _said(known["y"], y), ""))
+        length, width = (name if name in known else along(name) for name in ("length", "width"))
+        rows.append(("size", written(known[length]), written(known[width]), ""))
+        for row, names in ((len(rows) - 2, ("x", "y")), (len(rows) - 1, (length, width))):
+            for column, name in enumerate(names, 1):
+                side.ledger.cell(title, row, column, side.claims([k], name))
+    side.ledger.tables.append(Table(title, ("No.", "X", "Y", "arc to next"), tuple(rows)))
+
+
+def _corners(side: Side) -> int:
+    """How many corners the outlines of a side have together."""
+    shapes = [shape_in(each) for each in side.features]
+    shapes += [island for each in side.features if isinstance(each, Pocket) for island in each.islands]
+    return sum(len(each.points) for each in shapes if isinstance(each, Outline))
+
+
+def _said(measure: Measure, datum: float) -> str:
+    return written(measure._replace(nominal=measure.nominal - datum))

@@ -14,10 +14,8 @@ from matplotlib.patches import PathPatch, Polygon
 from matplotlib.path import Path
 from matplotlib.transforms import Affine2D
 
-from mnclab.design.drawing.dimensions import Point
-from mnclab.design.drawing.ink import Arrow, Label, Stroke, corners_of
-from mnclab.design.drawing.lettering import CAPITAL, FACE
-from mnclab.design.drawing.view import Kind
+from mnclab.design.drawing.ink import CAPITAL, FACE, Arrow, Label, Stroke, corners_of
+from mnclab.design.drawing.view import Kind, Point
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
 

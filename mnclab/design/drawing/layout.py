@@ -11,18 +11,16 @@ import math
 from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.design.drawing import angles, cuts, leaders, linear
-from mnclab.design.drawing.dimensions import Angle, Dimension, Linear, Note, Point
-from mnclab.design.drawing.hatching import hatching
-from mnclab.design.drawing.ink import Label, Mark, Stroke, segment_boxes
-from mnclab.design.drawing.lettering import block
-from mnclab.design.drawing.origin import origin
+from mnclab.design.drawing import dimension_places, section
+from mnclab.design.drawing.ink import Label, Mark, Stroke, block, hatching, origin, segment_boxes
 from mnclab.design.drawing.placing import OUTLINE, SOFT, Batch, Ground, Offers, boxes_of, spans
-from mnclab.design.drawing.sheet import scale_text
-from mnclab.design.drawing.view import Axis, Kind, Origin, View
+from mnclab.design.drawing.sheet import Printed, Size, inside, scale_text
+from mnclab.design.drawing.view import Angle, Axis, Dimension, Kind, Linear, Note, Origin, Point, View
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
 
@@ -34,7 +32,7 @@ TITLE = 5.0  # mm, letters of sections
 MOVES, ROOM = 4, 3  # how often marks may be placed, for each of them; how much more room one may get
 LOOKS = 2  # how often each looks for a better place in the end
 LAYERS = {Kind.VISIBLE: "OUTLINE", Kind.HIDDEN: "HIDDEN", Kind.CENTRE: "CENTRE", Kind.THIN: "THIN", Kind.PHANTOM: "PHANTOM"}
-Written = Dimension | cuts.End
+Written = Dimension | section.End
 
 
 class NoRoom(Exception):
@@ -47,7 +45,7 @@ class NoRoom(Exception):
     @property
     def said(self) -> str:
         """What it would say on the drawing."""
-        if isinstance(self.what, cuts.End):
+        if isinstance(self.what, section.End):
             return self.what.cut.letter
         return self.what.lines[0] if isinstance(self.what, Note) else self.what.value.text
 
@@ -73,10 +71,10 @@ def lay_out(view: View, scale: float) -> Laid:
     for cut in view.cuts:
         way = np.array(cut.points) * scale
         ground.add(segment_boxes(np.stack([way[:-1], way[1:]], axis=1), WIDE), np.full(len(way) - 1, SOFT))
-    ends = [end for cut in view.cuts for end in cuts.ends_of(cut, scale, outline)]
+    ends = [end for cut in view.cuts for end in section.ends_of(cut, scale, outline)]
     marks = _placed([*ends, *view.dimensions], scale, outline, ground)
     for k, cut in enumerate(view.cuts):
-        strokes += cuts.strokes(cut, scale, marks[2 * k], marks[2 * k + 1])
+        strokes += section.strokes(cut, scale, marks[2 * k], marks[2 * k + 1])
     rows = [boxes_of(mark)[0] for mark in marks]
     ink = segment_boxes(np.concatenate([_chords(stroke.contour) for stroke in strokes]))
     bounds = _around(np.concatenate([ink, *rows]))
@@ -184,17 +182,129 @@ def _placed(things: Sequence[Written], scale: float, outline: Floats, ground: Gr
 
 def _rank(dimension: Written, scale: float) -> tuple[int, float]:
     if isinstance(dimension, Linear):
-        return 0, linear.length_of(dimension, scale)
-    if isinstance(dimension, cuts.End):
+        return 0, dimension_places.length_of(dimension, scale)
+    if isinstance(dimension, section.End):
         return 1, 0.0
     return (2, 0.0) if isinstance(dimension, Angle) else (3 + isinstance(dimension, Note), 0.0)
 
 
 def _offers(thing: Written, scale: float, outline: Floats, room: int) -> Offers:
-    if isinstance(thing, cuts.End):
-        return Offers(cuts.places(thing))
+    if isinstance(thing, section.End):
+        return Offers(section.letter_places(thing))
     if isinstance(thing, Linear):
-        return Offers(linear.places(thing, scale, outline, 4 * room))
+        return Offers(dimension_places.linear_places(thing, scale, outline, 4 * room))
     if isinstance(thing, Angle):
-        return Offers(angles.places(thing, scale, room))
-    return Offers(leaders.places(thing, scale, room))
+        return Offers(dimension_places.angle_places(thing, scale, room))
+    return Offers(dimension_places.leader_places(thing, scale, room))
+
+
+# Where views and tables stand on a sheet: in columns and rows by the method of projection, beside the title block.
+
+LEAST, MOST = 8.0, 22.0  # mm between views with all that is written to them
+EDGE = 4.0  # mm between the frame and what stands within
+Rectangle = tuple[float, float, float, float]
+
+
+class Track(NamedTuple):
+    """A column or a row: how far its views reach before and behind the points that they have in common, mm."""
+
+    before: float
+    behind: float
+
+    @property
+    def size(self) -> float:
+        return self.before + self.behind
+
+
+def tracks(laid: Sequence[Laid], axis: int) -> dict[int, Track]:
+    """The columns (axis 0) or rows (axis 1), by number; y of rows counts downwards."""
+    found = dict[int, Track]()
+    for number in sorted({each.view.cell[axis] for each in laid}):
+        mine = [each for each in laid if each.view.cell[axis] == number]
+        fixed = [each.bounds[:, axis] for each in mine if not each.view.free]
+        before = max([-float(bounds[0]) for bounds in fixed], default=0.0)
+        behind = max([float(bounds[1]) for bounds in fixed], default=0.0)
+        wide = max([float(each.bounds[1, axis] - each.bounds[0, axis]) for each in mine if each.view.free], default=0.0)
+        more = max(0.0, wide - before - behind) / 2
+        found[number] = Track(before + more, behind + more)
+    return found
+
+
+def arranged(laid: Sequence[Laid], tables: Sequence[Printed], size: Size, block: Rectangle) -> list[Point] | None:
+    """Where the points (0, 0) of the views and of the tables lie on the paper, or None where there is no room."""
+    x0, y0, x1, y1 = inside(size)
+    x0, y0, x1, y1 = x0 + EDGE, y0 + EDGE, x1 - EDGE, y1 - EDGE
+    columns, rows = tracks(laid, 0), tracks(laid, 1)
+    wide, high = (sum(track.size for track in each.values()) for each in (columns, rows))
+    above, near = block[3] + EDGE, (block[0] - EDGE, block[1], block[2], block[3] + EDGE)
+    for low, spread, right, up in _attempts(y0, above):
+        gaps = []
+        for count, room, taken in ((len(columns), x1 - x0, wide), (len(rows), y1 - low, high)):
+            free = (room - taken) / (count + 1)
+            gaps.append(min(MOST, max(LEAST, free)) if spread else LEAST)
+        whole = wide + gaps[0] * (len(columns) - 1), high + gaps[1] * (len(rows) - 1)
+        if whole[0] > x1 - x0 or whole[1] > y1 - low:
+            continue
+        start = x0 + right * (x1 - x0 - whole[0]), y1 - up * (y1 - low - whole[1])
+        places = list(_stood(laid, columns, rows, start, gaps))
+        boxes = [_moved(each.bounds, place) for each, place in zip(laid, places, strict=True)]
+        taken_up = [block, *boxes]
+        if any(_meet(box, near) for box in boxes):
+            continue
+        for table in tables:
+            spot = _free((x0, y0, x1, y1), table.box, taken_up)
+            if spot is None:
+                break
+            places.append(spot)
+            taken_up.append((*spot, spot[0] + table.box[2], spot[1] + table.box[3]))
+        else:
+            return places
+    return None
+
+
+def _attempts(low: float, above: float) -> Iterator[tuple[float, bool, float, float]]:
+    """From where up there is room, whether gaps grow, and the share of the free room to the left and above."""
+    yield from product((above,), (True, False), (0.5, 0.0), (0.5, 0.0))
+    yield from product((low,), (True, False), (0.5, 0.0), (0.0, 0.5))
+
+
+def _stood(
+    laid: Sequence[Laid], columns: dict[int, Track], rows: dict[int, Track], start: Point, gaps: Sequence[float]
+) -> Iterator[Point]:
+    x, y = start
+    lefts, tops = dict[int, float](), dict[int, float]()
+    for number, track in columns.items():
+        lefts[number] = x
+        x += track.size + gaps[0]
+    for number, track in rows.items():
+        tops[number] = y
+        y -= track.size + gaps[1]
+    for each in laid:
+        column, row = each.view.cell
+        across, down = columns[column], rows[row]
+        if each.view.free:
+            middle = each.bounds.mean(axis=0)
+            yield lefts[column] + across.size / 2 - float(middle[0]), tops[row] - down.size / 2 - float(middle[1])
+        else:
+            yield lefts[column] + across.before, tops[row] - down.behind
+
+
+def _moved(bounds: Floats, place: Point) -> Rectangle:
+    (a, b), (c, d) = (bounds + place).tolist()
+    return a, b, c, d
+
+
+def _meet(a: Rectangle, b: Rectangle) -> bool:
+    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
+
+
+def _free(area: Rectangle, box: Rectangle, taken: Sequence[Rectangle]) -> Point | None:
+    """A place for the lower left corner of a box, as far up and to the right as there is one."""
+    x0, y0, x1, y1 = area
+    wide, high = box[2], box[3]
+    for y in np.arange(y1 - high, y0 - 1e-9, -4.0).tolist():
+        for x in np.arange(x1 - wide, x0 - 1e-9, -4.0).tolist():
+            spot = x - EDGE, y - EDGE, x + wide + EDGE, y + high + EDGE
+            if not any(_meet(spot, other) for other in taken):
+                return x, y
+    return None

@@ -12,18 +12,16 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from mnclab.design.drawing import plan
-from mnclab.design.drawing.dimensions import Diameter, Linear, Point, value
-from mnclab.design.drawing.elevation import Elevation, Step
-from mnclab.design.drawing.ledger import BLANK, Claim, Draft, Ledger
-from mnclab.design.drawing.levels import Levels
+from mnclab.design.drawing.elevation import Elevation, Levels, Step
+from mnclab.design.drawing.ledger import BLANK, DIAMETER, Claim, Draft, Ledger, valued
 from mnclab.design.drawing.milled_features import Level, Side
-from mnclab.design.drawing.section_plane import Item, Plane, chosen
-from mnclab.design.drawing.view import Axis, Cross, Cut, Kind
-from mnclab.design.drawing.wording import DIAMETER, valued
+from mnclab.design.drawing.section import Item, Plane, chosen
+from mnclab.design.drawing.view import Axis, Cross, Cut, Diameter, Kind, Linear, Point, value
 from mnclab.design.model.design import Design
-from mnclab.design.model.features import Feature, Groove, Hole, Pocket, Slope, Slot
+from mnclab.design.model.feature import Feature
+from mnclab.design.model.features import Groove, Pocket, Slope, Slot
+from mnclab.design.model.holes import Hole, core_of
 from mnclab.design.model.shapes import Circle, Rectangle
-from mnclab.design.model.threads import core_of
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
 from mnclab.workpiece.blank import Box

@@ -9,28 +9,41 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.design.drawing.dimensions import Angle, Diameter, Linear, Note, Point, Radius
 from mnclab.design.drawing.feature_marks import (
     centre_of,
+    corner_table,
     direction_of,
     feature_marks,
+    feature_table,
     frame_at,
+    hole_table,
     mouth_of,
     outline_of,
+    pattern_of,
     point_of,
     shape_in,
     shape_marks,
+    write_pattern,
 )  # fmt: skip
-from mnclab.design.drawing.feature_tables import corner_table, feature_table, hole_table
-from mnclab.design.drawing.ledger import Claim, Draft, Ledger
-from mnclab.design.drawing.patterns import pattern_of, write_pattern
-from mnclab.design.drawing.view import Kind, Line, Origin
-from mnclab.design.drawing.wording import DIAMETER, at_place, chamfer_text, hole_lines, times, valued, written
+from mnclab.design.drawing.ledger import (
+    DIAMETER,
+    Claim,
+    Draft,
+    Ledger,
+    at_place,
+    chamfer_text,
+    hole_lines,
+    times,
+    valued,
+    written,
+)
+from mnclab.design.drawing.view import Angle, Diameter, Kind, Line, Linear, Note, Origin, Point, Radius
 from mnclab.design.model.design import Design
-from mnclab.design.model.features import Chamfer, Face, Feature, Groove, Hole, Pocket, Slope, Slot, Stud, along
+from mnclab.design.model.feature import Feature
+from mnclab.design.model.features import Chamfer, Face, Groove, Pocket, Slope, Slot, Stud, along
+from mnclab.design.model.holes import Hole, core_of
 from mnclab.design.model.measures import Measure
 from mnclab.design.model.shapes import Circle, Outline, Rectangle, Shape
-from mnclab.design.model.threads import core_of
 from mnclab.geometry.contours import Contour
 
 SAME = 1e-6  # mm

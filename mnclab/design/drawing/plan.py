@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.design.drawing.levels import Levels
+from mnclab.design.drawing.elevation import Levels
 from mnclab.design.model.removals import Slant, Wedge
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats

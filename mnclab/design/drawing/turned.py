@@ -6,18 +6,21 @@ The axis lies level, the front end to the right. Lengths count from the front en
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
-from mnclab.design.drawing.dimensions import Point
 from mnclab.design.drawing.elevation import SAME, Seen, Step, look
-from mnclab.design.drawing.ledger import Draft, Ledger
-from mnclab.design.drawing.turned_dimensions import Turning
-from mnclab.design.drawing.view import Axis, Kind, Origin
+from mnclab.design.drawing.ledger import BLANK, DEPTH, DIAMETER, TIMES, Claim, Draft, Ledger, valued, written
+from mnclab.design.drawing.view import Angle, Axis, Kind, Line, Linear, Note, Origin, Point, Radius, Value
+from mnclab.design.model.measures import Measure
 from mnclab.design.model.turned_design import TurnedDesign
-from mnclab.design.model.turned_features import Bore, FaceGroove
-from mnclab.design.model.turned_threads import Thread
+from mnclab.design.model.turned_feature import TurnedFeature
+from mnclab.design.model.turned_features import CENTRES, Bore, CentreHole, FaceGroove, RingGroove
+from mnclab.design.model.turned_profile import Dimension
+from mnclab.design.model.turned_threads import Thread, Undercut
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
@@ -131,3 +134,254 @@ def _thread(draft: Draft, region: Region, thread: Thread) -> None:
                 edge = thread.minor / 2 if thread.inside else thread.major / 2
                 line = [(low, edge), (low, r)] if thread.inside else [(low, edge), (low, -edge)]
                 draft.draw([Contour(line, closed=False)])
+
+
+# Its dimensions: diameters across, lengths from the front end, notes of its features.
+
+SAME_PLACE = 1e-6  # mm
+
+
+@dataclass
+class Turning:
+    """Writes the dimensions of a turned part to its view; the profile stands in the record as the blank does."""
+
+    design: TurnedDesign
+    draft: Draft
+    ledger: Ledger
+    lengths: list[tuple[float, float, Measure, Claim]] = field(default_factory=list)
+
+    def write(self) -> None:
+        """All of it."""
+        self.region = Region(tuple(self.design.section))
+        self.low, self.high = self.design.outline_as_drawn.ends
+        threaded = list(self._threads())
+        for place, each in enumerate(self.design.dimensions()):
+            self._of_profile(each, Claim(False, BLANK, place, each.measure.name), threaded)
+        for k, feature in enumerate(self.design.features):
+            self._of_feature(feature, k)
+        self._lengths()
+
+    # ---- the profile ----
+
+    def _of_profile(self, each: Dimension, claim: Claim, threaded: Sequence[tuple[Thread, list[Claim]]]) -> None:
+        measure, (z0, r0), (z1, r1) = each.measure, each.start, each.end
+        z, r = (z0 + z1) / 2, (r0 + r1) / 2
+        if claim.measure == "length":
+            told = Linear((self.low, -self._outer(self.low)), (self.high, -self._outer(self.high)), valued(measure), "x", "below")
+            self.ledger.say(self.draft, told, [claim])
+        elif measure.kind == "length":
+            self.lengths.append((z1, r1, measure, claim))
+        elif measure.kind == "diameter":
+            mine = [claims for thread, claims in threaded if self._is_thread(thread, each)]
+            if mine and measure.limits is None:
+                mine[0].append(claim)
+            elif self._inside(z, r):
+                self.ledger.say(self.draft, Note((z, r), (written(measure),)), [claim])
+            else:
+                self._across(z, r, valued(measure, DIAMETER), [claim])
+        elif measure.kind == "radius":
+            assert each.centre is not None
+            (cz, cr), radius = each.centre, measure.nominal
+            start, end = (math.atan2(y - cr, x - cz) for x, y in (each.start, each.end))
+            sweep = (end - start + math.pi) % math.tau - math.pi
+            self.ledger.say(self.draft, Radius((cz, cr), radius, start, sweep, valued(measure, "R")), [claim])
+        elif measure.kind == "angle":
+            self._taper(each, claim)
+        else:
+            self.ledger.say(self.draft, Note((z, r), (written(measure, ""),)), [claim])
+
+    def _across(self, z: float, r: float, said: Value, claims: list[Claim]) -> None:
+        """A diameter across the part, at the end to which its extension lines have a free way."""
+        free = [side for side, a, b in (("right", z, self.high), ("left", self.low, z)) if self._greatest(a, b) <= r + SAME_PLACE]
+        self.ledger.say(self.draft, Linear((z, -r), (z, r), said, "y", free[0] if free else ""), claims)
+
+    def _taper(self, each: Dimension, claim: Claim) -> None:
+        """The angle of a taper against a line along the axis through its narrow end."""
+        narrow, wide = sorted((each.start, each.end), key=lambda point: point[1])
+        if self._inside((narrow[0] + wide[0]) / 2, (narrow[1] + wide[1]) / 2):
+            middle = (narrow[0] + wide[0]) / 2, (narrow[1] + wide[1]) / 2
+            self.ledger.say(self.draft, Note(middle, (f"∠{written(each.measure, '')}",)), [claim])
+            return
+        level = wide[0], narrow[1]
+        self.draft.lines.append(Line(Contour([narrow, level], closed=False), Kind.THIN))
+        legs = (level, wide) if wide[0] > narrow[0] else (wide, level)
+        self.ledger.say(self.draft, Angle(narrow, *legs, valued(each.measure)), [claim])
+
+    def _is_thread(self, thread: Thread, each: Dimension) -> bool:
+        same = abs(2 * each.start[1] - thread.major) < SAME_PLACE and not thread.inside
+        low, high = sorted((each.start[0], each.end[0]))
+        return same and low < thread.start - SAME_PLACE and thread.end < high - SAME_PLACE
+
+    # ---- features ----
+
+    def _threads(self) -> Iterator[tuple[Thread, list[Claim]]]:
+        """Threads outside are dimensioned across their cylinder, which then needs no diameter."""
+        for k, each in enumerate(self.design.features):
+            if isinstance(each, Thread):
+                measure = each.measures()[0]
+                z, claims = (max(each.end, self.low) + min(each.start, self.high)) / 2, self._claims(k, "thread")
+                if each.inside:
+                    note = Note((z, each.minor / 2), (written(measure, ""),))
+                    self.ledger.say(self.draft, note, claims)
+                else:
+                    self._across(z, each.major / 2, Value(written(measure, "")), claims)
+                    claims = self.ledger.said[-1][1]
+                yield each, claims
+
+    def _of_feature(self, feature: TurnedFeature, k: int) -> None:
+        known = {each.name: each for each in feature.measures()}
+        front = getattr(feature, "from_end", "front") == "front"
+        if isinstance(feature, Thread):
+            r = (feature.minor if feature.inside else feature.major) / 2
+            told = Linear((feature.end, r), (feature.start, r), valued(known["length"]), "x", "above")
+            same = next((claims for said, claims in self.ledger.said if self._says(said, told)), None)
+            if same is None:
+                self.ledger.say(self.draft, told, self._claims(k, "length"))
+            else:
+                same += self._claims(k, "length")
+            self._from_front(k, feature.start, r)
+            return
+        if isinstance(feature, Bore):
+            at, lines = self._bore(feature, front), list(_bore_lines(known))
+        elif isinstance(feature, CentreHole):
+            at = (self.high if front else self.low), feature.sizes[0] / 2
+            lines = [f"ISO 6411–A{feature.pilot:g}/{feature.sizes[0]:g}"]
+            if CENTRES.get(float(feature.pilot)) != feature.sizes or any(each.limits for each in known.values()):
+                lines.append(f"{written(known['pilot diameter'])} {written(known['depth'])}")
+        elif isinstance(feature, RingGroove | Undercut):
+            at, lines = self._groove(feature), list(_groove_lines(known))
+            self._from_front(k, feature.z, at[1])
+        else:
+            assert isinstance(feature, FaceGroove)
+            at = self._face_groove(feature, front)
+            across = f"{written(known['inner diameter'])} / {written(known['outer diameter'])}"
+            lines = [f"{across} {written(known['depth'])}"]
+            lines += [written(known["corner radius"])] if "corner radius" in known else []
+        self.ledger.say(self.draft, Note(at, tuple(lines)), self._claims(k))
+
+    @staticmethod
+    def _says(said: Any, told: Linear) -> bool:
+        """Whether a length between the same ends is said already: that of a thread from end to end."""
+        if not isinstance(said, Linear) or (said.value, said.along) != (told.value, told.along):
+            return False
+        ends = (sorted((each.a[0], each.b[0])) for each in (said, told))
+        return all(abs(a - b) < SAME_PLACE for a, b in zip(*ends, strict=True))
+
+    def _bore(self, bore: Bore, front: bool) -> Point:
+        """A point on its wall."""
+        r, spots = bore.diameter / 2, np.linspace(0.02, 0.98, 97)
+        deep = self.high - self.low if bore.depth is None else bore.depth
+        z = self.high - spots * deep if front else self.low + spots * deep
+        on = self.region.distance(np.stack([z, np.full(len(z), r)], axis=1)) < 1e-6
+        return float(z[np.flatnonzero(on)[on.sum() // 2]] if on.any() else z[48]), r
+
+    def _groove(self, groove: RingGroove | Undercut) -> Point:
+        """The middle of its bottom."""
+        if isinstance(groove, Undercut):
+            diameter, width, _ = groove.sizes
+            return groove.z + width / 2 * (1 if groove.thread_at == "front" else -1), diameter / 2
+        z = groove.z - groove.width / 2
+        if groove.diameter is not None:
+            return z, groove.diameter / 2
+        return z, self._inner(z) if groove.inside else self._outer(z)
+
+    def _face_groove(self, groove: FaceGroove, front: bool) -> Point:
+        r = (groove.inner + groove.outer) / 4
+        ends = self._crossings(r)
+        return (max(ends) if front else min(ends)), r
+
+    def _from_front(self, k: int, z: float, r: float) -> None:
+        place, measure = next((p, m) for p, m in enumerate(self.design.features[k].measures()) if m.name == "z")
+        self.lengths.append((z, r, measure, Claim(False, k, place, "z")))
+
+    def _lengths(self) -> None:
+        """One dimension for each distance from the front end."""
+        same: dict[Any, list[tuple[float, float, Measure, Claim]]] = {}
+        for each in self.lengths:
+            same.setdefault((round(each[0], 6), each[2].limits, each[2].fit), []).append(each)
+        front = self._outer(self.high)
+        for found in same.values():
+            z, _, measure, _ = found[0]
+            claims = [each[3] for each in found]
+            if abs(z - self.high) < SAME_PLACE:
+                self.ledger.at_zero(self.draft, (self.high, 0.0), claims)
+                continue
+            inner = [each[1] for each in found if self._inside(z, each[1])]
+            said = valued(measure, "", self.high - z)
+            if len(inner) == len(found):
+                told = Linear((z, max(inner)), (self.high, front), said, "x", "above")
+            else:
+                told = Linear((z, -self._outer(z)), (self.high, -front), said, "x", "below")
+            self.ledger.say(self.draft, told, claims)
+
+    def _claims(self, k: int, *names: str) -> list[Claim]:
+        return [
+            Claim(False, k, place, each.name)
+            for place, each in enumerate(self.design.features[k].measures())
+            if (each.name in names if names else each.kind != "place")
+        ]
+
+    # ---- the section ----
+
+    def _outer(self, z: float) -> float:
+        """The greatest radius at z, or beside it where it steps."""
+        return max((float(r) for off in (-1e-7, 1e-7) for r in self._radii(z + off)), default=0.0)
+
+    def _inner(self, z: float) -> float:
+        return min(self._radii(z), default=0.0)
+
+    def _radii(self, z: float) -> list[float]:
+        turned = [loop.transformed(np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])) for loop in self.region.loops]
+        return _met(turned, z)
+
+    def _crossings(self, r: float) -> list[float]:
+        return _met(list(self.region.loops), r)
+
+    def _greatest(self, a: float, b: float) -> float:
+        """The greatest radius between two places."""
+        points = np.concatenate([loop.points_within(0.01) for loop in self.region.loops])
+        within = (points[:, 0] > a - SAME_PLACE) & (points[:, 0] < b + SAME_PLACE)
+        return float(points[within, 1].max(initial=0.0))
+
+    def _inside(self, z: float, r: float) -> bool:
+        """Whether a place on the section is one of the inside: there is material outside of it."""
+        return r < self._outer(z) - 1e-5
+
+
+def _met(loops: Sequence[Contour], w: float) -> list[float]:
+    """Where a level line meets contours, of the first coordinate."""
+    found = []
+    for loop in loops:
+        rows = zip(loop.starts, loop.ends, loop.sweeps, loop.centres, loop.radii, strict=True)
+        for (u0, w0), (u1, w1), sweep, (cu, cw), radius in rows:
+            if sweep == 0:
+                if (w0 - w) * (w1 - w) <= 0 and w0 != w1:
+                    found.append(float(u0 + (w - w0) / (w1 - w0) * (u1 - u0)))
+            elif abs(w - cw) <= radius:
+                half = math.sqrt(radius**2 - (w - cw) ** 2)
+                first = math.atan2(w0 - cw, u0 - cu)
+                for u in (cu - half, cu + half):
+                    ahead = (math.atan2(w - cw, u - cu) - first) * (1 if sweep > 0 else -1) % math.tau
+                    if ahead <= abs(sweep) + 1e-9:
+                        found.append(float(u))
+    return found
+
+
+def _bore_lines(known: dict[str, Measure]) -> Iterator[str]:
+    yield " ".join(written(known[name]) for name in ("diameter", "depth") if name in known)
+    if "point angle" in known:
+        yield f"point {written(known['point angle'])}"
+    if "chamfer" in known:
+        yield written(known["chamfer"], "")
+    if "corner radius" in known:
+        yield written(known["corner radius"])
+
+
+def _groove_lines(known: dict[str, Measure]) -> Iterator[str]:
+    """"3×⌀26", or the width and how deep it is."""
+    deep = written(known["diameter"], DIAMETER) if "diameter" in known else written(known["depth"], "")
+    yield f"{written(known['width'])}{TIMES}{deep}" if "diameter" in known else f"{written(known['width'])} {DEPTH}{deep}"
+    if "corner radius" in known:
+        yield written(known["corner radius"])
+    if "angle" in known:
+        yield written(known["angle"])

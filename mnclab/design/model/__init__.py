@@ -3,23 +3,19 @@
 `shapes` are outlines by their sizes, `features` what a mill makes, `removals` the simple bodies that these take away,
 `slabs` the part as a stack of them: section, volume, distance; `design` puts it together.
 
-Turned parts: `corners` and `turned_profile` the outline, `turned_holes`, `turned_grooves` and `turned_threads` what is
-cut into it, `turned_features` all of it by names, `turned_body` what they ask of the body, `turned_design` the whole.
+Turned parts: `turned_profile` the outline, `turned_features` and `turned_threads` what is cut into it, `turned_feature` what
+all of them share and ask of the body, `turned_design` the whole.
 """
 
 from mnclab.design.model.design import Design
-from mnclab.design.model.features import Chamfer, Face, Feature, Groove, Hole, Pocket, Slope, Slot, Stud
+from mnclab.design.model.feature import Feature
+from mnclab.design.model.features import Chamfer, Face, Groove, Pocket, Slope, Slot, Stud
+from mnclab.design.model.holes import Hole
 from mnclab.design.model.shapes import Circle, Outline, Rectangle
 from mnclab.design.model.turned_design import TurnedDesign
-from mnclab.design.model.turned_features import (
-    Bore,
-    CentreHole,
-    FaceGroove,
-    RingGroove,
-    Thread,
-    TurnedFeature,
-    Undercut,
-)
+from mnclab.design.model.turned_feature import TurnedFeature
+from mnclab.design.model.turned_features import Bore, CentreHole, FaceGroove, RingGroove
+from mnclab.design.model.turned_threads import Thread, Undercut
 
 __all__ = [
     "Bore", "CentreHole", "Chamfer", "Circle", "Design", "Face", "FaceGroove", "Feature", "Groove", "Hole", "Outline",

@@ -1,20 +1,21 @@
-"""A part as a drawing has it: a blank and features, on one side or on both; its exact body."""
+"""A part as a drawing has it: a blank and features, on one side or on both; its exact body, and that as a workpiece."""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mnclab.design.filling import filled
-from mnclab.design.model.as_drawn import AsDrawn
-from mnclab.design.model.features import FEATURES, Chamfer, Feature, Pocket, Site, Stud
+from mnclab.design.model.feature import Feature, Site
+from mnclab.design.model.features import FEATURES, Chamfer, Pocket, Stud
 from mnclab.design.model.measures import HEAD, rows
-from mnclab.design.model.removals import Flat, Removal
+from mnclab.design.model.removals import Flat, Removal, filled
 from mnclab.design.model.slabs import Stack
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
@@ -23,11 +24,16 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, choice, fitting_class, shown
 from mnclab.text.tables import exactly, html_table
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
+from mnclab.workpiece.cutting import Cutting
+from mnclab.workpiece.milling.milled import Milled
 from mnclab.workpiece.part import Part
 
 if TYPE_CHECKING:
+    import pyvista
+    from matplotlib.figure import Figure
 
     from mnclab.workpiece.workpiece import Workpiece
+
 
 TEXTS = ("title", "number", "material", "general", "author", "date")
 ROOM = 3.0  # sizes of the blank, beyond which nothing stands
@@ -39,6 +45,38 @@ class Taken(NamedTuple):
     feature: int
     back: bool
     body: Removal
+
+
+@fitting_class
+class AsDrawn(ABC):
+    """A part as drawn, milled or turned: its doors."""
+
+    @abstractmethod
+    def workpiece(self, step: float | None = None) -> Workpiece:
+        """The finished part, as `run.workpiece()` would have it of a perfect program; `step` mm of its cells."""
+
+    @staticmethod
+    def load(path: str | Path) -> Any:
+        """The design of a TOML file, a `Design` or a `TurnedDesign`; an Alarm shows the line that is wrong."""
+        from mnclab.design.model.design_file import load
+
+        return load(path)
+
+    def save(self, path: str | Path, **options: Any) -> Path:
+        """Write one file: toml the design; svg, pdf, png, dxf its drawing; stl, gltf, glb, vtk, csv its body."""
+        from mnclab.design.model.design_file import save
+
+        return save(self, path, **options)
+
+    def plot(self, **options: Any) -> Figure:
+        """The dimensioned drawing in true size; `size` "A4", "A4 landscape", "A3" or "A2", `scale` 0.5 for 1:2, and `sheet`."""
+        from mnclab.design.drawing import plot
+
+        return plot(self, **options)
+
+    def scene(self, **options: Any) -> pyvista.Plotter:
+        """The part as a body (needs pyvista)."""
+        return self.workpiece().scene(**{"colour": "none"} | options)
 
 
 @fitting_class
@@ -218,7 +256,6 @@ class Design(AsDrawn):
 
     def workpiece(self, step: float | None = None) -> Workpiece:
         """The finished part, as `run.workpiece()` would have it of a perfect program; `step` mm of its cells."""
-        from mnclab.design.model.drawn import Drawn
 
         return Drawn(self, step)
 
@@ -312,3 +349,43 @@ def _features(given: Any, name: str) -> tuple[Feature, ...]:
             known = ", ".join(cls.__name__ for cls in FEATURES.values())
             raise Alarm(f"{name}[{k}] of a design must be a feature, got {shown(each)}", hint=f"mnclab.design has {known}")
     return tuple(given)
+
+
+class Drawn(Milled):
+    """A `Milled` part that nothing cut: its heights, volume and distances are those of the design."""
+
+    def __init__(self, design: Design, step: float | None = None) -> None:
+        super().__init__(Cutting.of_nothing(design), step)
+        self.design = design
+        self.method, self.error = "as drawn", 0.0
+
+    @cached_property
+    def sides(self) -> tuple[Array, Array]:
+        """The lower and the upper side at the middles of the cells (ny, nx); its lowest place where there is nothing."""
+        low = float(self.design.bounds[0, 2])
+        floor, top = (np.where(np.isnan(side), low, side) for side in self.design.faces_over(self.x, self.y))
+        return floor, top
+
+    @cached_property
+    def heights(self) -> Array:
+        return self.sides[1]
+
+    @cached_property
+    def floor(self) -> Array:
+        return self.sides[0]
+
+    @property
+    def volume(self) -> float:
+        return self.design.volume
+
+    @cached_property
+    def removed(self) -> float:
+        """What a program has to take away from the blank of the design, mm³."""
+        return self.design.blank.volume - self.design.volume
+
+    def removed_by_row(self) -> Array:
+        return np.zeros(0)
+
+    @property
+    def part(self) -> Part:
+        return self.design.part

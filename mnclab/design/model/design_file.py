@@ -1,4 +1,7 @@
-"""Designs in files (TOML), as people write them: read with alarms that show the line, written so that they read back equal."""
+"""Designs in files: TOML as people write it, drawings (svg, pdf, png, dxf) and bodies (stl, gltf, glb, vtk, csv).
+
+TOML is read with alarms that show the line, and written so that it reads back equal.
+"""
 
 from __future__ import annotations
 
@@ -7,14 +10,13 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from mnclab.design import toml_text
-from mnclab.design.model import turned_file
+from mnclab.design.model import feature_file, turned_file
 from mnclab.design.model.design import TEXTS, Design
 from mnclab.design.model.feature_file import feature_of, pointing, table_of_feature
 from mnclab.design.model.features import FEATURES
 from mnclab.design.model.turned_design import TurnedDesign
 from mnclab.text.alarm import Alarm
-from mnclab.text.file import File, as_table, as_tables, check_names, parse
+from mnclab.text.file import File, as_table, as_tables, check_names, named, parse, replaced
 from mnclab.text.given import shown
 from mnclab.workpiece.blank_file import blank_of, table_of
 
@@ -136,7 +138,7 @@ def text_of(design: Any) -> str:
     texts = {name: getattr(design, name) for name in (*TEXTS, "turn")}
     said = {name: value for name, value in texts.items() if value != usual[name].default}
     parts = [*([("", said)] if said else []), *_parts(design)]
-    return "\n\n".join("\n".join([*([head] if head else []), *toml_text.lines(table)]) for head, table in parts) + "\n"
+    return "\n\n".join("\n".join([*([head] if head else []), *feature_file.lines(table)]) for head, table in parts) + "\n"
 
 
 def _parts(design: Design) -> Iterator[tuple[str, dict[str, Any]]]:
@@ -145,3 +147,31 @@ def _parts(design: Design) -> Iterator[tuple[str, dict[str, Any]]]:
     for side in SIDES:
         for each in getattr(design, side):
             yield f"[[{side}]]", table_of_feature(each)
+
+
+DRAWINGS = (".svg", ".pdf", ".png", ".dxf")
+BODIES = (".stl", ".gltf", ".glb", ".vtk", ".csv")
+
+
+def save(design: Any, path: str | Path, **options: Any) -> Path:
+    """Write one file and return its path; drawings take the options of `plot`, bodies those of `workpiece`."""
+    path, suffix = named(path, (".toml", *DRAWINGS, *BODIES), "cannot write a design as {}")
+    if suffix in DRAWINGS:
+        return _drawing(design, path, **options)
+    if suffix in BODIES:
+        return Path(design.workpiece(**options).save(path))
+    if options:
+        raise Alarm(f"{suffix} files have no options, got {', '.join(options)}")
+    text = text_of(design)
+    with replaced(path) as beside:
+        try:
+            beside.write_text(text, encoding="utf-8", newline="\n")
+        except UnicodeEncodeError as error:
+            raise Alarm(f"the design cannot be written: {error.object[error.start]!r} is no character") from None
+    return path
+
+
+def _drawing(design: Any, path: Path, **options: Any) -> Path:
+    from mnclab.design.drawing import save
+
+    return save(design, path, **options)

@@ -6,8 +6,9 @@ A rectangle, a circle or points stand flat among them (`x`, `y`, `length`, `widt
 
 from __future__ import annotations
 
+import json
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import MISSING, fields, is_dataclass
 from typing import Any, TypeVar
@@ -136,3 +137,51 @@ def _plain(value: Any) -> Any:
     if is_dataclass(value):
         return _said(value)
     return tuple(map(_plain, value)) if isinstance(value, tuple | list) else value
+
+
+# Writing TOML: what `tomllib` reads back equal, in the order and the lines that people would write.
+
+BARE = re.compile(r"[A-Za-z0-9_-]+")
+
+
+def toml(table: Mapping[str, Any], rows: Collection[str] = ()) -> str:
+    """A table as the text of a file: values first, then its tables, then its lists of tables, `[[name]]` each.
+
+    The lists named in `rows` have a line for each of their tables instead.
+    """
+    values, tables, lists = list[str](), list[str](), list[str]()
+    for name, value in table.items():
+        if isinstance(value, Mapping):
+            tables += ["", f"[{key(name)}]", *lines(value)]
+        elif name in rows:
+            values += [f"{key(name)} = [", *(f"    {of(each)}," for each in value), "]"]
+        elif isinstance(value, list | tuple) and value and isinstance(value[0], Mapping):
+            for each in value:
+                lists += ["", f"[[{key(name)}]]", *lines(each)]
+        else:
+            values.append(f"{key(name)} = {of(value)}")
+    return "\n".join([*values, *tables, *lists]).lstrip("\n") + "\n"
+
+
+def lines(table: Mapping[str, Any]) -> list[str]:
+    """A line for each key of a table; what is None is left out."""
+    return [f"{key(name)} = {of(value)}" for name, value in table.items() if value is not None]
+
+
+def key(name: str) -> str:
+    """A key, in quotes where it needs them."""
+    return name if BARE.fullmatch(name) else of(name)
+
+
+def of(value: Any) -> str:
+    """A number, a text, a list or a table as it is written in a line."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007F")
+    if isinstance(value, Mapping):
+        return f"{{ {', '.join(lines(value))} }}" if value else "{}"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(of, value))}]"
+    number = float(value)
+    return str(int(number)) if number == int(number) else repr(number)

@@ -13,22 +13,25 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Self
 
-from mnclab.design.model.chamfers import Chamfer
+import numpy as np
+
 from mnclab.design.model.feature import BESIDE, EXAMPLE, Feature, Site, area_of, check_positive, take_shape
 from mnclab.design.model.holes import Hole
 from mnclab.design.model.measures import Measure
-from mnclab.design.model.removals import Flat, Removal
-from mnclab.design.model.shapes import Circle, Rectangle, shape_of
-from mnclab.design.model.slopes import Slope
+from mnclab.design.model.removals import Flat, Removal, Slanting, Wedge
+from mnclab.design.model.shapes import LARGEST, Circle, Rectangle, shape_of
 from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_point, faults_as_alarms, shown
+from mnclab.text.given import check_number, check_point, faults_as_alarms, shown
 
 __all__ = [
     "EXAMPLE", "FEATURES", "Chamfer", "Face", "Feature", "Groove", "Hole", "Pocket", "Site", "Slope", "Slot", "Stud", "area_of",
 ]  # fmt: skip
+
+SAME = 1e-6  # mm, of two depths that make no slope
+LEAST = 1e-3  # mm, a slope is long and wide
 
 
 @dataclass(frozen=True, repr=False)
@@ -205,6 +208,108 @@ class Groove(Feature):
 def along(name: str) -> str:
     """What a measure of the outline that a groove goes along is called: its sizes are not those of the groove."""
     return f"outline {name}" if name in ("length", "width") else name
+
+
+@dataclass(frozen=True, repr=False)
+class Slope(Feature):
+    """A rectangle about (x, y), `length` along X, `width` along Y, the whole `turned` by degrees, with a plane floor that
+    goes from `start_depth` at its end of least X to `end_depth` at the other, mm.
+    """
+
+    kind = "slope"
+    x: float
+    y: float
+    length: float
+    width: float
+    start_depth: float
+    end_depth: float
+    turned: float = 0.0
+
+    def _check(self) -> None:
+        for name in ("length", "width"):
+            check_number(getattr(self, name), f"the {name} of a slope (mm)", at_least=LEAST, at_most=LARGEST)
+        self.contour  # noqa: B018  it must exist
+        for name in ("start_depth", "end_depth"):
+            check_number(getattr(self, name), f"the {name} of a slope (mm)", at_least=0, at_most=LARGEST)
+        if abs(self.start_depth - self.end_depth) <= SAME:
+            raise Alarm(f"the depths of a slope must differ, got {self.start_depth:g} at both ends", hint="Pocket.rectangle")
+
+    @cached_property
+    def contour(self) -> Rectangle:
+        """Its outline."""
+        return Rectangle(self.x, self.y, self.length, self.width, 0.0, self.turned)
+
+    def _measures(self) -> Iterator[Measure]:
+        yield from self.contour.measures()
+        yield Measure("start depth", self.start_depth, "depth")
+        yield Measure("end depth", self.end_depth, "depth")
+
+    def removals(self, site: Site) -> Iterator[Removal]:
+        top, turned = self.from_top(site), math.radians(self.turned)
+        falls = self.end_depth > self.start_depth
+        sense = -1.0 if falls else 1.0  # from the deep end to the other
+        c, s = sense * math.cos(turned), sense * math.sin(turned)
+        start = self.x - c * self.length / 2, self.y - s * self.length / 2
+        depths = max(self.start_depth, self.end_depth), min(self.start_depth, self.end_depth)
+        yield (wedge := Wedge(start, (c, s), self.length, self.width, top - depths[0], top - depths[1]))
+        yield wedge.sky
+
+    def moved(self, dx: float, dy: float, dz: float) -> Self:
+        return replace(self, x=self.x + dx, y=self.y + dy, **self.raised(dz))
+
+
+@dataclass(frozen=True, repr=False)
+class Chamfer(Feature):
+    """The edge along a contour broken by `width` in the plane, with a tool of an included `angle`, degrees.
+
+    On which side of the contour the material stands is found in the design, or said: `inside` True or False.
+    """
+
+    kind = "chamfer"
+    contour: Any
+    width: float
+    angle: float = 90.0
+    inside: bool | None = None
+
+    def _check(self) -> None:
+        take_shape(self)
+        check_positive(self, "width")
+        check_number(self.angle, "the included angle of the tool of a chamfer (degrees)", at_least=1, at_most=179)
+        if self.inside is not None and not isinstance(self.inside, bool):
+            raise Alarm(f"inside of a chamfer must be True, False or None, got {shown(self.inside)}")
+
+    @property
+    def height(self) -> float:
+        """How far the edge goes down, mm."""
+        return self.width / math.tan(math.radians(self.angle / 2))
+
+    def _measures(self) -> Iterator[Measure]:
+        yield Measure("width", self.width, "chamfer")
+        if self.angle != 90:
+            yield Measure("angle", 90 - self.angle / 2, "angle")
+
+    def removals(self, site: Site) -> Iterator[Removal]:
+        top, area = self.from_top(site), area_of(self.contour, "the contour of a chamfer")
+        inside = self._side(site, top - self.height / 2) if self.inside is None else self.inside
+        yield (slant := Slanting(area, 0.0, self.width, top - self.height, top, inside))
+        yield slant.sky
+
+    def _side(self, site: Site, z: float) -> bool:
+        line = self.contour.contour
+        spots, ahead = line.point_at(np.cumsum(line.lengths) - line.lengths / 2)
+        aside = np.stack([-ahead[:, 1], ahead[:, 0]], axis=1) * (BESIDE if line.area > 0 else -BESIDE)
+        stands = [site.outline.contains(spots + side * aside) for side in (1, -1)]
+        for flat in site.flats:
+            if flat.reaches(z):
+                stands = [on & ~flat.region.contains(spots + side * aside) for on, side in zip(stands, (1, -1))]
+        inside, outside = (int(on.sum()) for on in stands)
+        if inside == outside:
+            known = "on both sides of it" if inside else "neither inside nor outside of it"
+            raise Alarm(f"a chamfer stands on an edge: material is {known}", hint="give the contour of the edge, or inside=True")
+        return inside > outside
+
+    def moved(self, dx: float, dy: float, dz: float) -> Self:
+        return replace(self, contour=self.contour.moved(dx, dy), **self.raised(dz))
 
 
 FEATURES: dict[str, type[Feature]] = {each.kind: each for each in (Face, Pocket, Stud, Slot, Groove, Hole, Chamfer, Slope)}

@@ -1,4 +1,4 @@
-"""A turned part as a drawing has it: a profile and features about one axis; its exact half section."""
+"""A turned part as a drawing has it: a profile and features about one axis; its exact half section, and that as a workpiece."""
 
 from __future__ import annotations
 
@@ -10,26 +10,28 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mnclab.design.model.as_drawn import AsDrawn
-from mnclab.design.model.design import TEXTS, name_of
+from mnclab.design.model.design import TEXTS, AsDrawn, name_of
 from mnclab.design.model.measures import Measure, Tolerance, with_tolerances
 from mnclab.design.model.shapes import Outline
-from mnclab.design.model.turned_body import SAME, TurnedBody
-from mnclab.design.model.turned_features import TURNED_FEATURES, Thread, TurnedFeature
+from mnclab.design.model.turned_feature import SAME, TurnedBody, TurnedFeature
+from mnclab.design.model.turned_features import TURNED_FEATURES
 from mnclab.design.model.turned_profile import Dimension, Profile
+from mnclab.design.model.turned_threads import Thread
 from mnclab.geometry.contours import Contour
 from mnclab.path.toolpath import Array
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_point, faults_as_alarms, fitting_class, plain, shown
 from mnclab.text.tables import exactly, html_table
 from mnclab.workpiece.blank import Revolved, blank
+from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.turning import revolved
+from mnclab.workpiece.turning.turned import Turned
 from mnclab.workpiece.turning.turned_blank import TurnedBlank
 
 if TYPE_CHECKING:
-
     from mnclab.workpiece.workpiece import Workpiece
+
 
 EXAMPLE = "TurnedDesign([(0, 10), (-30, 10), (-30, 20), (-50, 20)])"
 
@@ -139,7 +141,6 @@ class TurnedDesign(AsDrawn):
 
     def workpiece(self, step: float | None = None) -> Workpiece:
         """The finished part, as `run.workpiece()` would have it of a perfect program; a `step` changes nothing."""
-        from mnclab.design.model.drawn_turned import DrawnTurned
 
         return DrawnTurned(self, step)
 
@@ -278,3 +279,20 @@ def _rows(design: TurnedDesign) -> list[tuple[str, ...]]:
             limits = "" if each.limits is None else each.fit or f"{each.limits[0]:+.4g} {each.limits[1]:+.4g}"
             rows.append((name, each.name, value, limits))
     return rows
+
+
+class DrawnTurned(Turned):
+    """A `Turned` part that nothing cut: its section is that of the design."""
+
+    def __init__(self, design: TurnedDesign, step: float | None = None) -> None:
+        super().__init__(Cutting.of_nothing(design.as_blank(), lathe=True), step)
+        self.design = design
+        self.method, self.error = "as drawn", 0.0
+
+    @property
+    def removed(self) -> float:
+        """What a program has to take away from the blank of the design, mm³; 0 where it has none."""
+        return 0.0 if self.design.blank is None else self.design.blank.volume - self.volume
+
+    def removed_by_row(self) -> Array:
+        return np.zeros(0)

@@ -8,10 +8,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from mnclab.design.model.design import TEXTS
-from mnclab.design.model.feature_file import feature_of, pointing, table_of_feature, tuples
+from mnclab.design.model.feature_file import feature_of, pointing, table_of_feature, toml, tuples
 from mnclab.design.model.turned_design import TurnedDesign
 from mnclab.design.model.turned_features import TURNED_FEATURES
-from mnclab.design.toml_text import toml
 from mnclab.geometry.contours import Contour
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import File, as_table, as_tables, check_names

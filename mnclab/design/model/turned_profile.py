@@ -14,12 +14,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.design.model.corners import Piece, check_corners, joined, pieces
 from mnclab.design.model.measures import Measure
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import Floats, cross, dot, length_of, unit_of
 from mnclab.geometry.regions import Region
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import faults_as_alarms, shown
+from mnclab.text.given import check_number, faults_as_alarms, shown, whole
 
 WHAT = "the profile"
 SAME = 1e-9  # mm
@@ -167,3 +167,150 @@ def _angles(sharp: tuple[Piece, ...]) -> Iterator[Dimension]:
         long, rise = abs(each.end[0] - each.start[0]), abs(each.end[1] - each.start[1])
         if not each.bulge and long > SAME and rise > SAME:
             yield Dimension(Measure("", math.degrees(math.atan2(rise, long)), "angle"), each.start, each.end)
+
+
+# Corners of a contour rounded and chamfered, as a drawing has them: exact lines and arcs. Lengths in mm.
+#              before         the rounding of radius R touches both neighbours, lines or arcs;
+#     .------------o          the chamfer w takes w of each of two lines, or, given as (w, angle), w of the line
+#   .'            .'| corner  along X (on a lathe Z, the axis) and leans from it by the angle, degrees.
+
+Chamfer = float | tuple[float, float]
+
+
+class Piece(NamedTuple):
+    """A line or an arc of the finished contour. `corner` is the number of the point that it breaks, None where it was given."""
+
+    start: tuple[float, float]
+    end: tuple[float, float]
+    bulge: float
+    corner: int | None = None
+
+    @property
+    def contour(self) -> Contour:
+        return Contour([self.start, self.end], [self.bulge, 0.0], closed=False)
+
+
+class _Cut(NamedTuple):
+    """What breaks a corner: it leaves the element before at `first` and joins the one after at `last`."""
+
+    first: Floats
+    last: Floats
+    bulge: float
+
+
+def pieces(
+    contour: Contour, roundings: Mapping[int, float], chamfers: Mapping[int, Chamfer], what: str, first: int = 0
+) -> list[Piece]:
+    """The elements of a closed contour and what breaks its corners, in order.
+
+    `what` is how alarms call the contour, `first` the number by which they call its first point.
+    """
+    cuts: dict[int, _Cut] = {}
+    for k, radius in roundings.items():
+        cuts[k - first] = _rounding(contour, k - first, radius, f"the rounding {radius:g} at corner {k} of {what}")
+    for k, chamfer in chamfers.items():
+        if k - first in cuts:
+            raise Alarm(f"corner {k} of {what} is either rounded or chamfered, got both")
+        cuts[k - first] = _chamfer(contour, k - first, chamfer, f"the chamfer at corner {k} of {what}")
+    n, found = len(contour.points), list[Piece]()
+    for i, (first_point, last_point, has, sweep) in enumerate(
+        zip(contour.starts, contour.ends, contour.lengths.tolist(), contour.sweeps.tolist())
+    ):
+        before, after = cuts.get(i), cuts.get((i + 1) % n)
+        start = before.last if before else first_point
+        end = after.first if after else last_point
+        left = has - (_way(contour, i, start, True) if before else 0.0) - (_way(contour, i, end, False) if after else 0.0)
+        if left < -SAME:
+            taken = has - left
+            corners = " and ".join(str(k + first) for k in (i, (i + 1) % n) if k in cuts)
+            raise Alarm(f"what breaks corner {corners} of {what} takes {taken:.6g} mm of an element that has {has:.6g}")
+        if before:
+            found.append(Piece(_pair(before.first), _pair(before.last), before.bulge, i + first))
+        if left > SAME:
+            found.append(Piece(_pair(start), _pair(end), math.tan(sweep * left / has / 4)))
+    return found
+
+
+def joined(found: list[Piece], closed: bool = True) -> Contour:
+    """Pieces as a contour."""
+    last = [] if closed else [found[-1].end]
+    points, bulge = [each.start for each in found] + last, [each.bulge for each in found] + [0.0] * len(last)
+    return Contour(points, bulge, closed)
+
+
+def check_corners(given: Any, name: str, count: int, pairs: bool = False) -> dict[int, Any]:
+    """What is given for corners by their numbers, 0 to count - 1, as a dict; an Alarm where it is none."""
+    if not isinstance(given, Mapping):
+        example = "{2: 1.5}"
+        raise Alarm(f"{name} are sizes by the number of the corner, got {shown(given)}", hint=f"{name}={example}")
+    found: dict[int, Any] = {}
+    for key, size in given.items():
+        number = whole(int(key) if isinstance(key, str) and key.isascii() and key.isdigit() else key, f"a corner of {name}")
+        if not 0 <= number < count:
+            raise Alarm(f"a corner of {name} must be 0 to {count - 1}, a point of the profile, got {number}")
+        if pairs and isinstance(size, list | tuple) and len(size) == 2:
+            for each in size:
+                check_number(each, f"the chamfer at corner {number}", above=0)
+            found[number] = (float(size[0]), float(size[1]))
+        else:
+            check_number(size, f"{name[:-1]} {number} (mm)", above=0)
+            found[number] = float(size)
+    return dict(sorted(found.items()))
+
+
+def _rounding(contour: Contour, k: int, radius: float, told: str) -> _Cut:
+    turn = float(contour.turns()[k])
+    if abs(turn) < SAME or abs(turn) > math.pi - SAME:
+        raise Alarm(f"{told} needs a corner there, the contour turns by {math.degrees(turn):.6g} degrees")
+    curves, sweeps = contour.curves, contour.sweeps
+    side = math.copysign(radius, turn)
+    near = [curves[i].moved_left(side, float(sweeps[i])) for i in (k - 1, k)]
+    if min(each.radius for each in near) < 0:
+        raise Alarm(f"{told} is greater than an arc beside it")
+    centre = near[0].meeting(near[1], contour.points[k])
+    first, last = (curves[i].foot(centre) for i in (k - 1, k))
+    if max(abs(float(length_of(foot - centre)) - radius) for foot in (first, last)) > 1e-7:
+        raise Alarm(f"{told} does not touch both its neighbours")
+    arms = first - centre, last - centre
+    sweep = math.atan2(float(cross(*arms)), float(dot(*arms)))
+    return _Cut(first, last, math.tan(sweep / 4))
+
+
+def _chamfer(contour: Contour, k: int, chamfer: Chamfer, told: str) -> _Cut:
+    if contour.sweeps[k - 1] or contour.sweeps[k]:
+        raise Alarm(f"{told} needs two lines, one of its neighbours is an arc")
+    corner = contour.points[k]
+    arms = unit_of(np.stack([contour.starts[k - 1] - corner, contour.ends[k] - corner]))
+    between = math.atan2(abs(float(cross(arms[0], arms[1]))), float(dot(arms[0], arms[1])))
+    if between > math.pi - SAME or between < SAME:
+        raise Alarm(f"{told} needs a corner there, the contour goes straight on or back")
+    legs = [chamfer, chamfer] if isinstance(chamfer, float) else _legs(arms, between, *chamfer, told)
+    return _Cut(corner + legs[0] * arms[0], corner + legs[1] * arms[1], 0.0)
+
+
+def _legs(arms: Floats, between: float, width: float, angle: float, told: str) -> list[float]:
+    along = [abs(float(arm[1])) < SAME for arm in arms]
+    if along[0] == along[1]:
+        raise Alarm(f"{told} with an angle needs one line along the axis, there {'are two' if along[0] else 'is none'}")
+    lean = math.radians(angle)
+    if lean + between >= math.pi - SAME:
+        allowed = math.degrees(math.pi - between)
+        raise Alarm(f"{told} must lean by less than {allowed:.6g} degrees, that of the other line, got {angle:g}")
+    other = width * math.sin(lean) / math.sin(lean + between)  # the law of sines
+    return [width, other] if along[0] else [other, width]
+
+
+def _way(contour: Contour, i: int, place: Floats, from_start: bool) -> float:
+    """How far a place on the curve of an element lies within it from its start or its end, along it; negative before it."""
+    start, end, sweep = contour.starts[i], contour.ends[i], float(contour.sweeps[i])
+    if not sweep:
+        ahead = unit_of(end - start)
+        return float(dot(place - start, ahead) if from_start else dot(end - place, ahead))
+    arms = [each - contour.centres[i] for each in ((start, place) if from_start else (place, end))]
+    turn = math.atan2(float(cross(*arms)), float(dot(*arms))) * math.copysign(1.0, sweep)
+    return turn * float(contour.radii[i])
+
+
+def _pair(point: Floats) -> tuple[float, float]:
+    x, y = point.tolist()
+    return x, y

@@ -14,10 +14,20 @@ from typing import Self
 import numpy as np
 
 from mnclab.design.model.feature import check_flag, check_positive
+from mnclab.design.model.holes import metric
 from mnclab.design.model.measures import Measure
-from mnclab.design.model.threads import metric
-from mnclab.design.model.turned_body import BESIDE, BEYOND, SAME, TurnedBody
-from mnclab.design.model.turned_feature import ENDS, Place, Point, TurnedFeature, given, outline
+from mnclab.design.model.turned_feature import (
+    BESIDE,
+    BEYOND,
+    ENDS,
+    SAME,
+    Place,
+    Point,
+    TurnedBody,
+    TurnedFeature,
+    given,
+    outline,
+)
 from mnclab.geometry.contours import Contour
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, choice

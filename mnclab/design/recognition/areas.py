@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.design.recognition.outlines import Stadium, named
+from mnclab.design.recognition.naming import Stadium, named
 from mnclab.design.recognition.sorting import Work
 from mnclab.design.recognition.tracks import Track, coarse, polygon, swept
 from mnclab.geometry import shapely

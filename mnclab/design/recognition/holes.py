@@ -6,13 +6,12 @@ import math
 from dataclasses import replace
 from typing import Any
 
-from mnclab.design.model.features import Groove, Hole, Pocket
+from mnclab.design.model.features import Groove, Pocket
+from mnclab.design.model.holes import Hole, core_of
 from mnclab.design.model.shapes import Circle
-from mnclab.design.model.threads import core_of
 from mnclab.design.recognition.areas import ON_EDGE
 from mnclab.design.recognition.figures import Found
-from mnclab.design.recognition.naming import designation
-from mnclab.design.recognition.outlines import number
+from mnclab.design.recognition.naming import designation, number
 from mnclab.design.recognition.sorting import Plunge, Threaded, Work
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region

@@ -8,8 +8,7 @@ from dataclasses import dataclass, field, replace
 from mnclab.design.model.design import Design
 from mnclab.design.model.features import Chamfer
 from mnclab.design.recognition.areas import areas_of
-from mnclab.design.recognition.chamfers import chamfers
-from mnclab.design.recognition.figures import figures
+from mnclab.design.recognition.figures import chamfers, figures
 from mnclab.design.recognition.holes import together
 from mnclab.design.recognition.naming import lines, names
 from mnclab.design.recognition.sorting import sort

@@ -11,8 +11,7 @@ import numpy as np
 from mnclab.design.model.turned_design import TurnedDesign
 from mnclab.design.model.turned_features import Bore
 from mnclab.design.model.turned_threads import Thread
-from mnclab.design.recognition.naming import designation, lines, names
-from mnclab.design.recognition.outlines import DIGITS, merged, number
+from mnclab.design.recognition.naming import DIGITS, designation, lines, merged, names, number
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.path.tool import Tool

@@ -5,6 +5,6 @@ when it appears. ipywidgets is imported inside the functions that use it.
 """
 
 from mnclab.lab.forms.cycle_form import form as form
-from mnclab.lab.forms.panels_of_runs import compensation_panel as compensation_panel
-from mnclab.lab.forms.panels_of_runs import profile_panel as profile_panel
-from mnclab.lab.forms.program_panel import panel as panel
+from mnclab.lab.forms.panels import compensation_panel as compensation_panel
+from mnclab.lab.forms.panels import panel as panel
+from mnclab.lab.forms.panels import profile_panel as profile_panel

@@ -1,30 +1,38 @@
-"""The form of a cycle, from its declaration: fields in groups that fold, beside them the picture and the steps."""
+"""The form of a cycle, from its declaration: fields in groups that fold, beside them the picture and the steps.
+
+While a field is typed into, a sketch shows what it measures and what is allowed. A cycle that probes and was given no
+part touches a small pad at each nominal point.
+"""
 
 from __future__ import annotations
 
+import operator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import reduce
 from html import escape
 from math import inf
 from typing import Any
 
+import numpy as np
+
 from mnclab.controls.choice import help as help_on
 from mnclab.controls.choice import run as run_text
 from mnclab.controls.cycle_steps import CycleSteps, steps
-from mnclab.lab.forms.about import about
-from mnclab.lab.forms.boxes import parameter_box, tick_of
-from mnclab.lab.forms.faults import field_of
-from mnclab.lab.forms.fields import Field, folded, grouped
-from mnclab.lab.forms.following import Work, following, of_run
-from mnclab.lab.trial_part import touched_part
+from mnclab.lab.forms.fields import Field, field_of, folded, grouped, groups, parameter_box, tick_of
+from mnclab.lab.forms.live import Work, following, of_run
+from mnclab.lab.sketches import sketch
 from mnclab.machine import trial
-from mnclab.machine.cycle import Cycle
+from mnclab.machine.cycle import Cycle, Parameter, left_out
 from mnclab.machine.setup import Setup
 from mnclab.machine.touching import FEELS, PROBES
+from mnclab.machining.steps import Touch
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import fitting, shown
 from mnclab.text.opening import require
 from mnclab.text.tables import html_table
+from mnclab.workpiece.part import Part, box
 
 SIZE = (4.9, 3.7)  # inches: beside the fields there is so much room in JupyterLab on a small laptop
 MOST = 60  # steps of the table
@@ -115,3 +123,59 @@ def steps_html(listed: CycleSteps) -> str:
     cells, numbers = listed.cells(), range(2, len(listed.head) - 1)
     more = f"<p>… and {len(cells) - MOST} more; <code>form.steps()</code> has all of them</p>" if len(cells) > MOST else ""
     return html_table(listed.head, cells[:MOST], numbers=numbers) + more
+
+
+# What a field is about: all cards are one widget; the style sheet shows the one whose field has the cursor or lies under the
+# mouse.
+
+def about(cycle: type[Cycle], parameters: Sequence[Parameter]) -> str:
+    """The cards of all parameters and the rules that show one of them, the first where no field is meant."""
+    shown = next(iter(groups(parameters).values()), [])[:1]
+    cards = ""
+    for k, p in enumerate(parameters):
+        cards += f'<div class="mnclab-about mnclab-a{k}{" mnclab-shown" * (p in shown)}">{card(cycle, p)}</div>'
+    rules = [".mnclab-form:not(:has(.mnclab-row:is(:focus-within, :hover))) .mnclab-shown"]
+    for k in range(len(parameters)):
+        rules += [
+            f".mnclab-form:has(.mnclab-p{k}:focus-within) .mnclab-a{k}",
+            f".mnclab-form:not(:has(.mnclab-row:focus-within)):has(.mnclab-p{k}:hover) .mnclab-a{k}",
+        ]
+    return f"<style>{', '.join(rules)} {{ display: flex }}</style>{cards}" if parameters else ""
+
+
+def card(cycle: type[Cycle], p: Parameter) -> str:
+    """The sketch of a parameter, its meaning, and what is said of it."""
+    otherwise = left_out(p)
+    facts = [p.allowed if not p.choices else "", p.note, f"left out: {otherwise}" if otherwise else ""]
+    said = "<br>".join(escape(fact) for fact in facts if fact)
+    return f"{sketch(cycle, p)}<p><strong>{escape(p.address)}</strong> {escape(p.meaning)}<br>{said}</p>"
+
+
+# A part for a cycle that probes, where nobody gave one.
+
+BALL = 2.0  # mm, the radius where a touch does not say it
+
+
+def touched_part(found: CycleSteps, clearance: float) -> Part | None:
+    """The pads before the touches of a cycle; `clearance` (mm) of the probe table, to which an own one of the cycle is added."""
+    if found.part is not None:
+        return found.part
+    gap = clearance + (found.values.get("clearance") or 0.0)
+    pads = list(_pads(found, gap))
+    return reduce(operator.or_, pads) if pads else None
+
+
+def _pads(found: CycleSteps, gap: float) -> Iterator[Part]:
+    place = np.array(found.start)
+    for row in found.rows:
+        end = place if row.end is None else np.array(row.end)
+        if isinstance(row.step, Touch) and (way := float(np.linalg.norm(end - place))) > 0:
+            ball = row.step.ball or BALL
+            ahead = (end - place) / way
+            side = np.cross((0.0, 0.0, 1.0), ahead) if abs(ahead[2]) < 0.9 else np.cross(ahead, (1.0, 0.0, 0.0))
+            side /= np.linalg.norm(side)
+            frame = np.eye(4)
+            frame[:3, :3] = np.column_stack([ahead, side, np.cross(ahead, side)])
+            frame[:3, 3] = place + (0.0, 0.0, ball) + ahead * (ball + gap)
+            yield box((0.0, -ball, -ball), (ball, ball, ball)).placed(frame)
+        place = end

@@ -1,12 +1,21 @@
-"""A field: a box, the tick of a word that may be left out, and the fault that stands below them."""
+"""A field of a form or a panel: a box to type in, the tick of a word that may be left out, the fault that stands below.
+
+The fields of a cycle stand in groups that fold: what it makes, how deep it goes, how fast, and how it is done. The group
+follows from the unit of a parameter and the words of its meaning; a cycle says nothing of it, so that one that is added
+tomorrow has groups, too.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
-from typing import Any
+from typing import Any, NamedTuple
 
-from mnclab.lab.forms.groups import groups
+from mnclab.machine import trial
+from mnclab.machine.cycle import Parameter, left_out
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, shown
 
 ROWS = 17  # of fields and heads that the first screen of a small laptop has room for
 LINE = 46  # letters of a name that stand in one line of a form
@@ -81,3 +90,203 @@ def grouped(parameters: Iterable[Any], fields: dict[str, Field]) -> list[Any]:
         head.add_class(f"mnclab-above{place}")
         head.add_class(f"mnclab-below{len(found) - 1 - place}")
     return parts
+
+
+# Boxes to type in: of a number, of a parameter of a cycle, and the tick of a word that may be left out.
+
+LONG = 50  # letters of a choice that have no room in a form in letters of the usual size
+STEPS = 100  # of a slider that was given none
+NO_UNITS = ("choice", "count", "text")
+ORDERS = "(value, least, greatest) or (least, greatest, step)"
+
+Number = float | tuple[float, float, float]
+
+
+class Place(NamedTuple):
+    """A number that may be changed: its first value, its limits and the step of its slider, where there are any."""
+
+    value: float
+    limits: tuple[float, float] | None = None
+    step: float | None = None
+
+
+def place_of(name: str, number: Any) -> Place:
+    """A number, `(value, least, greatest)`, or `(least, greatest, step)`, which begins on a step in the middle.
+
+    Which of the two orders is meant is never in doubt: the first of (40, 10, 60) lies between the others, that of
+    (-10, -1, 0.5) does not.
+    """
+    parts = number if isinstance(number, tuple) else (number,)
+    if len(parts) not in (1, 3):
+        raise Alarm(f"{name} takes a number, {ORDERS}, got {shown(number)}")
+    for part in parts:
+        check_number(part, name)
+    if len(parts) == 1:
+        return Place(parts[0])
+    first, second, third = parts
+    if second <= first <= third:
+        return Place(first, (second, third))
+    if first < second and 0 < third <= second - first:
+        return Place(on_step(first + (second - first) / 2, first, second, third), (first, second), third)
+    hint = f"{name}=(5, 0, 10) is 5 between 0 and 10; {name}=(0, 10, 0.5) is 0 to 10 in steps of 0.5"
+    raise Alarm(f"{name} must be {ORDERS}, and the value must lie between its limits, got {shown(number)}", hint=hint)
+
+
+def on_step(value: float, least: float, greatest: float, step: float) -> float:
+    """The nearest value that lies whole steps above the least one, not beyond the greatest, without a rest of digits."""
+    steps = min(round((value - least) / step), int((greatest - least) / step + 1e-9))
+    found = least + max(steps, 0) * step
+    return found if isinstance(found, int) else round(found, 9)
+
+
+def number_box(name: str, place: Place) -> Any:
+    """A box for a number; whole numbers stay whole."""
+    whole = all(isinstance(each, int) for each in (place.value, place.step or 0))
+    looks = {"description": name} | ({} if place.step is None else {"step": place.step})
+    return box_of(int if whole else float, place.value, place.limits or (), looks)
+
+
+def slider_of(box: Any, place: Place) -> Any:
+    """A slider for a box with limits, which follow each other.
+
+    It has no name for a screen reader: the box has, and is the one that the keyboard goes to. A slider says
+    10.000000000000002 for 10 when it appears; only another step than that of the box is a change.
+    """
+    import ipywidgets
+
+    low, high = place.limits or (0.0, 1.0)
+    whole = isinstance(box.value, int)
+    step = place.step or (1 if whole else (high - low) / STEPS or 1.0)
+    kind = ipywidgets.IntSlider if whole else ipywidgets.FloatSlider
+    slider = kind(value=box.value, min=low, max=high, step=step, readout=False, tabbable=False)
+    slider.add_class("mnclab-slider")
+
+    def slid(change: Any) -> None:
+        wanted = on_step(change["new"], low, high, step)
+        if wanted != on_step(box.value, low, high, step):
+            box.value = wanted
+
+    slider.observe(slid, "value")
+    box.observe(lambda change: setattr(slider, "value", change["new"]), "value")
+    return slider
+
+
+def box_of(kind: type, value: Any, limits: Sequence[float], looks: Mapping[str, Any]) -> Any:
+    """A box for whole or other numbers, between limits if there are any."""
+    import ipywidgets
+
+    whole = ipywidgets.IntText, ipywidgets.BoundedIntText
+    free, bounded = whole if kind is int else (ipywidgets.FloatText, ipywidgets.BoundedFloatText)
+    if not limits:
+        return free(value=kind(value), **looks)
+    return bounded(value=kind(value), min=kind(limits[0]), max=kind(limits[1]), **looks)
+
+
+def name_of(p: Parameter) -> str:
+    """What is written beside a box: `K depth of one peck [mm]`."""
+    return f"{p.address} {p.meaning}" + (f" [{p.unit}]" if p.unit and p.unit not in NO_UNITS and not p.mark else "")
+
+
+def parameter_box(p: Parameter) -> Any:
+    """The box that fits the kind of a parameter; the tooltip says the rest.
+
+    It takes any number: one outside the limits is not pushed back in silence but refused at its field.
+    """
+    import ipywidgets
+
+    value = trial.first_value(p)
+    otherwise = left_out(p)
+    facts = [p.meaning, p.allowed, p.note, f"left out: {otherwise}" if otherwise else ""]
+    looks = {"description": name_of(p), "tooltip": "; ".join(fact for fact in facts if fact)}
+    if trial.is_text(p) or p.several:
+        return ipywidgets.Text(value=value, **looks)
+    if p.choices:
+        options = [(f"{choice:g} {meaning}", choice) for choice, meaning in p.choices.items()]
+        box = ipywidgets.Dropdown(options=options, value=value, **looks)
+        if max(len(name) for name, _ in options) > LONG:
+            box.add_class("mnclab-long")
+        return box
+    return box_of(int if p.type == "integer" else float, value, (), looks)
+
+
+def tick_of(p: Parameter, box: Any) -> Any:
+    """The tick that writes a word which may be left out; its name is heard, and seen where the mouse rests."""
+    import ipywidgets
+
+    written = trial.written_first(p)
+    tick = ipywidgets.Checkbox(written, description=f"write {p.address}", indent=False, tooltip=f"write {p.address}")
+    tick.add_class("mnclab-tick")
+    box.disabled = not written
+    tick.observe(lambda change: setattr(box, "disabled", not change["new"]), "value")
+    return tick
+
+
+# The parameters of a cycle in groups that fold.
+
+FEW = 8  # parameters that need no groups
+SHAPE, DEPTH, FEED, STRATEGY, RESULT = (
+    "Shape and place", "Depths and heights", "Feeds, speed, dwell", "Strategy", "Tolerances and results",
+)  # fmt: skip
+#: What a meaning says -> its group; the first that fits counts, and of what fits none the unit decides.
+WORDS = (
+    (RESULT, r"toleranc|limit|permissible|greatest size|least size|monitored|log\b|protocol|result|new (system|coordinate)"
+             r"|datum (table|along)|preset|measured values|in table|taken over|Q parameter|beyond"),
+    (FEED, r"\b(feed|feeds|dwell|speed)\b(?! reference)"),
+    (DEPTH, r"depth|infeed|surface|clearance|height|level|bottom|peck|floor|retract|distance back|chip|tool axis|probe axis"
+            r"|stop distance|thickness|way back|depth of cut|per pass"),
+    (STRATEGY, r"strateg|operation|scope|climb|overlap|machining direction|direction of machining|kind of|sense"),
+    (SHAPE, r"position|corner|angle|slot|axis|direction along|factor along|number of"),
+)  # fmt: skip
+BY_UNIT = {
+    "choice": STRATEGY, "mark": STRATEGY, "ratio": STRATEGY, "%": STRATEGY, "count": STRATEGY, "": STRATEGY,
+    "mm/min": FEED, "s": FEED, "ms": FEED, "rev/min": FEED, "0.0001 mm/rev": FEED,
+}  # fmt: skip
+
+
+def group_of(parameter: Parameter) -> str:
+    """The group that a parameter belongs to."""
+    found = (group for group, words in WORDS if re.search(words, parameter.meaning))
+    return next(found, BY_UNIT.get(parameter.unit, SHAPE))
+
+
+def groups(parameters: Sequence[Parameter]) -> dict[str, list[Parameter]]:
+    """Parameters by the name of their group, in the order of the manual; a few of them stand in one without a name."""
+    if len(parameters) <= FEW:
+        return {"": list(parameters)}
+    found: dict[str, list[Parameter]] = {name: [] for name in (SHAPE, DEPTH, FEED, STRATEGY, RESULT)}
+    for parameter in parameters:
+        found[group_of(parameter)].append(parameter)
+    return {name: those for name, those in found.items() if those}
+
+
+# Which field an alarm speaks of: by the word that it points at, else by the address and meaning that it quotes.
+
+WORD = re.compile(r"[^\s~;]+")
+
+
+def field_of(alarm: Alarm, parameters: Sequence[Parameter], code: str = "") -> str:
+    """The name of the parameter that an alarm is about, empty where it is about none."""
+    quoted = [p for p in parameters if f"{p.address} ({p.meaning})" in alarm.message]
+    if quoted:
+        return min(quoted, key=lambda p: alarm.message.index(f"{p.address} ({p.meaning})")).name
+    word = pointed_at(alarm)
+    for p in sorted(parameters, key=lambda p: -len(p.address)):
+        if any(re.match(rf"{re.escape(each)}(?![A-Za-z])", word) for each in (p.address, *p.aliases)):
+            return p.name
+    named = [p for p in parameters if re.search(rf"\b{re.escape(code)} {re.escape(p.address)}\b", alarm.message)]
+    return named[0].name if named else ""
+
+
+def pointed_at(alarm: Alarm) -> str:
+    """The word of the program that an alarm points at, or into."""
+    if alarm.span is None or alarm.source is None or alarm.span.program:
+        return ""
+    words, at = WORD.finditer(alarm.source.line_text(alarm.span.line)), alarm.span.column - 1
+    return next((word[0] for word in words if word.start() <= at < word.end()), "")
+
+
+def at_field(alarm: Alarm, p: Parameter | None = None) -> str:
+    """The sentence of an alarm where its field stands above it: what must be, not whose."""
+    head, quoted, rest = alarm.message.partition(f"{p.address} ({p.meaning}) " if p else "\n")
+    said = rest if quoted and len(head.split()) <= 3 else alarm.message
+    return f"{said} ({alarm.hint})" if alarm.hint else said

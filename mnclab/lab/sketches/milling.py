@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from mnclab.lab.sketches import plan
-from mnclab.lab.sketches.drawn import drawn
+from mnclab.lab.sketches import views
 from mnclab.lab.sketches.ink import Sheet
 from mnclab.lab.sketches.kinds import Draw, Kind
-from mnclab.lab.sketches.plan import middle, place, size
-from mnclab.lab.sketches.rules import TABLE, Rule, axes, points
-from mnclab.lab.sketches.sections import level, spins, wait, way
+from mnclab.lab.sketches.rules import TABLE, Rule, axes, drawn, points
+from mnclab.lab.sketches.views import level, middle, place, size, spins, wait, way
 
 LETTERS = "edge 22,20 22,46 33,46; edge 46,20 46,46; edge 46,33 60,33; edge 60,20 60,46; edge 70,20 85,20; edge 77.5,20 77.5,46"
 LINES = "part b:19,14,81,50; dash 12,44 88,44; dash 12,32 88,32; dash 12,20 88,20; "
@@ -140,9 +138,9 @@ MILLS: tuple[Rule, ...] = (
     ("circle", "starting angle", drawn("figure; tool o:70.7,14.7,6; ang 50,32 13 0 40 20")),
     ("polygon", "number of corners",
      drawn("figure; head o:73.1,32,3 o:61.5,12,3 o:38.5,12,3 o:26.9,32,3 o:38.5,52,3 o:61.5,52,3")),
-    ("rectangle|slot|polygon", "angle of (rotation|the pocket|the first corner)", plan.rotation),
+    ("rectangle|slot|polygon", "angle of (rotation|the pocket|the first corner)", views.rotation),
     ("rectangle|circle|slot|polygon|contour|ridge",
-     "(finishing )?allowance (for side|of the walls|that stays at the side)|allowance in the first axis", plan.allowance),
+     "(finishing )?allowance (for side|of the walls|that stays at the side)|allowance in the first axis", views.allowance),
     ("face", "finishing allowance for side",
      drawn("part b:4,4,26,60; fill b:26,40,93,60; dash 36,4 36,60; tool o:56,30,14; dim 26,16 36,16")),
     *axes(".*", "(hole position|centre of the scaling) along {X}|(centre|starting point) (along|in) the {1st}", middle),
@@ -182,8 +180,8 @@ MILLS: tuple[Rule, ...] = (
     ("back boring", "shift off the axis",
      drawn("fill b:3,3,93,61; fill o:50,32,24; edge o:50,32,24; dash o:50,32,11; tool o:40,32,11; dim 50,32 40,32")),
     ("rectangle|circle|slot|polygon|contour|ridge", "milling feed|feed (rate for (mill|rough)ing|on the helix)",
-     plan.mills()),
-    ("rectangle|circle|slot|polygon|contour", "finishing feed( rate)?|feed rate for finishing", plan.mills(True)),
+     views.mills()),
+    ("rectangle|circle|slot|polygon|contour", "finishing feed( rate)?|feed rate for finishing", views.mills(True)),
     ("thread", "feed rate for approaching", drawn("figure; dash 50,32 60,32; go 60,32,10,180,360")),
     ("outside thread", "feed rate for approaching", drawn("figure; go 80,32,10,0,180; at 85,48")),
     ("thread", "feed rate for countersinking", drawn("figure; edge o:50,32,25; go 50,32,22.5,200,330; at 50,32")),

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from mnclab.lab.sketches.drawn import drawn
 from mnclab.lab.sketches.ink import Sheet, box, polar
 from mnclab.lab.sketches.kinds import Draw, Kind
-from mnclab.lab.sketches.plan import middle, place, size, touched
-from mnclab.lab.sketches.rules import TABLE, Rule, axes, points
+from mnclab.lab.sketches.rules import TABLE, Rule, axes, drawn, points
+from mnclab.lab.sketches.views import middle, place, size, touched
 
 HOLES = "dash o:48,33,25; edge o:71.5,24.4,3.4 o:56.6,9.5,3.4 o:35.5,11.3,3.4; "
 WALL = "fill 58,4 92,4 92,60 58,60; edge 58,4 58,60; "

@@ -75,7 +75,7 @@ def _(piece: Alarms) -> str:
 
 @written.register
 def _(piece: Compared) -> str:
-    found: str = opened("mnclab.design.export_difference", "record")(piece.difference)
+    found: str = opened("mnclab.design.difference.export", "record")(piece.difference)
     return found
 
 

@@ -1,28 +1,94 @@
-"""What may be typed next in a notebook, and what a word there means: in `%%mnc` cells, and in calls of mnclab.
+"""A cell of a notebook that is a part program: obeyed, its words completed and explained, those in calls of mnclab too.
 
-Nothing here knows IPython: a source, a cursor (characters from its beginning) and the names of the notebook are enough.
+    %%mnc --control tnc-620 --tools my_tools --name first
+    BEGIN PGM FIRST MM
+    …
+
+The run is bound to `run` (or to another name), its card with the alarms and their carets stands under the cell, and
+the picture below, if anything moved. What a name such as `my_tools` means is looked up in the notebook; `--setup` also
+takes a file. Nothing here knows IPython: a source, a cursor (characters from its beginning) and the names of the notebook
+are enough.
 """
 
 from __future__ import annotations
 
+import argparse
 import os
 import re
+import shlex
 from collections.abc import Mapping
+from dataclasses import replace
 from html import escape
 from itertools import islice
+from pathlib import Path
 from types import ModuleType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, NoReturn
 
 from mnclab.controls import CONTROLS
 from mnclab.controls.choice import choose, help
-from mnclab.lab.completion import Choices, completions, rest_of
-from mnclab.lab.magic.calls import Call, call_at
-from mnclab.lab.magic.cell import options
-from mnclab.lab.vocabulary import meaning_at, vocabulary
+from mnclab.controls.choice import run as run_text
+from mnclab.lab.vocabulary import Choices, completions, meaning_at, rest_of, vocabulary
 from mnclab.machine.control import Control
 from mnclab.machine.setup import Setup
+from mnclab.machine.setup_file import load
 from mnclab.path.limits import machines
+from mnclab.path.tool import Tool
+from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm
+
+
+class _Options(argparse.ArgumentParser):
+    """Options whose faults are alarms."""
+
+    def error(self, message: str) -> NoReturn:
+        raise Alarm(f"%%mnc: {message}", hint=" ".join(self.format_usage().split()))
+
+
+def options() -> argparse.ArgumentParser:
+    """What may stand beside %%mnc."""
+    parser = _Options(prog="%%mnc", add_help=False)
+    parser.add_argument("--control", metavar="NAME", help=f"one of {', '.join(CONTROLS)}; default: the text says")
+    parser.add_argument("--tools", metavar="NAME", help="a dict of the notebook: number -> Tool")
+    parser.add_argument("--setup", metavar="NAME", help="a Setup of the notebook, or a setup file")
+    parser.add_argument("--name", default="run", help="what the run is called in the notebook")
+    parser.add_argument("--colour", default="kind", help="what the colour of the cuts shows")
+    parser.add_argument("--quiet", action="store_true", help="show the alarms alone")
+    return parser
+
+
+def run_cell(line: str, cell: str, names: Mapping[str, Any]) -> tuple[str, Run, argparse.Namespace]:
+    """Run a cell; the name for it, the run, and the options. An Alarm for options that make no sense."""
+    try:
+        words = shlex.split(line)
+    except ValueError as fault:
+        raise Alarm(f"%%mnc: {fault}") from None
+    chosen = options().parse_args(words)
+    if not chosen.name.isidentifier():
+        raise Alarm(f"%%mnc: --name must be a name of Python, got {chosen.name!r}")
+    text = cell if cell.endswith("\n") else cell + "\n"
+    return chosen.name, run_text(text, chosen.control, _setup(chosen, names)), chosen
+
+
+def _setup(chosen: argparse.Namespace, names: Mapping[str, Any]) -> Setup:
+    setup = Setup()
+    if chosen.setup:
+        found = names.get(chosen.setup)
+        if isinstance(found, Setup):
+            setup = found
+        elif chosen.setup.endswith(".toml") or Path(chosen.setup).is_file():
+            setup = load(chosen.setup)
+        else:
+            raise Alarm(f"%%mnc: --setup {chosen.setup} is neither a Setup of this notebook nor a setup file")
+    if chosen.tools:
+        tools = names.get(chosen.tools)
+        if not isinstance(tools, Mapping) or not all(isinstance(tool, Tool) for tool in tools.values()):
+            what = f"%%mnc: --tools {chosen.tools} is no dict of tools in this notebook"
+            raise Alarm(what, hint="t = {1: Tool(radius=5)}")
+        setup = replace(setup, tools=tools)
+    return setup
+
+
+# What may be typed next in a notebook, and what a word there means: in `%%mnc` cells, and in calls of mnclab.
 
 MOST = 500  # files of a folder
 #: What the arguments of a function are, in their order.
@@ -200,3 +266,74 @@ def files(typed: str) -> list[str]:
     return sorted(
         os.path.join(folder, each) for each in wanted if each.endswith("/") or os.path.splitext(each)[1].lower() in suffixes
     )
+
+
+# Which call of Python a cursor stands in, and in which of its arguments, while the source is being typed.
+# Source that is half written cannot be parsed; brackets and texts are followed to the cursor, and no further.
+
+_NAME = re.compile(r"\s*+([\w.]*+)")  # of a function, read from its end
+_KEYWORD = re.compile(r"[(,]\s*(\w+)\s*$")
+
+
+class Call(NamedTuple):
+    """The function as written (`mnc.run`), the number or the keyword of the argument; the text that the cursor is in and
+    where in it (None outside a text), the texts given before, and the source after."""
+
+    function: str
+    position: int
+    keyword: str
+    text: str | None
+    at: int
+    texts: tuple[str, ...]
+    after: str
+
+
+class _Frame:
+    """A bracket that is open."""
+
+    def __init__(self, function: str) -> None:
+        self.function, self.position, self.keyword = function, 0, ""
+        self.texts: list[str] = []
+
+    def call(self, text: str | None, at: int, after: str) -> Call:
+        return Call(self.function, self.position, self.keyword, text, at, tuple(self.texts), after)
+
+
+def call_at(source: str, at: int) -> Call | None:
+    """The innermost call around a cursor; None outside of calls. A cursor beyond the source stands at its end."""
+    frames: list[_Frame] = []
+    k, at = 0, min(at, len(source))
+    while k < at:
+        sign = source[k]
+        if sign in "\"'":
+            quote = sign * 3 if source.startswith(sign * 3, k) else sign
+            begin = k + len(quote)
+            end = _end(source, begin, quote)
+            if end >= at >= begin and frames:
+                return frames[-1].call(source[begin:end], at - begin, source[end + len(quote) :])
+            if frames:
+                frames[-1].texts.append(source[begin:end])
+            k = max(end + len(quote), begin)
+            continue
+        if sign == "#":
+            k = source.find("\n", k) if "\n" in source[k:] else at
+        elif sign in "([{":
+            found = _NAME.match(source[:k][::-1]) if sign == "(" else None
+            frames.append(_Frame(found[1][::-1] if found else ""))
+        elif sign in ")]}" and frames:
+            frames.pop()
+        elif sign == "," and frames:
+            frames[-1].position, frames[-1].keyword = frames[-1].position + 1, ""
+        elif sign == "=" and frames and (named := _KEYWORD.search(source[:k])):
+            frames[-1].keyword = named[1]
+        k += 1
+    return frames[-1].call(None, 0, source[at:]) if frames and frames[-1].function else None
+
+
+def _end(source: str, begin: int, quote: str) -> int:
+    """Where a text ends: at its quote, a short one with its line at the latest."""
+    stop = len(source) if len(quote) == 3 else source.find("\n", begin) % (len(source) + 1)
+    k = begin
+    while k < stop and not source.startswith(quote, k):
+        k += 2 if source[k] == "\\" else 1
+    return min(k, stop)

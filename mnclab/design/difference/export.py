@@ -10,8 +10,7 @@ from inspect import signature
 from pathlib import Path
 from typing import Any
 
-from mnclab.design.difference.difference import Difference
-from mnclab.design.difference.table import HEAD
+from mnclab.design.difference.difference import HEAD, Difference
 from mnclab.show.report.page import page
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import named, replaced
@@ -30,7 +29,7 @@ def save(difference: Difference, path: str | Path, **options: Any) -> Path:
 
 def write_figure(difference: Difference, path: Path, **options: Any) -> None:
     """The picture of `Difference.plot`."""
-    from mnclab.design.plot.difference import plot_difference
+    from mnclab.design.difference.plot import plot_difference
     from mnclab.show.plot.picture import write
 
     write(plot_difference(difference, **options), path)
@@ -59,7 +58,7 @@ def write_html(difference: Difference, path: Path, **options: Any) -> None:
 
 def record(difference: Difference, **options: Any) -> str:
     """The measuring record as a piece of a page: what was found, the picture, the table."""
-    from mnclab.design.plot.difference import plot_difference
+    from mnclab.design.difference.plot import plot_difference
 
     picture: Any = plot_difference(difference, **options)
     first, *rest = difference.html_parts()

@@ -8,7 +8,7 @@ import numpy as np
 
 from mnclab.design.difference.columns import distances
 from mnclab.design.difference.difference import Difference
-from mnclab.design.plot.difference import GONE, LEFT, SHADES, usual_limit
+from mnclab.design.difference.plot import GONE, LEFT, SHADES, usual_limit
 from mnclab.path.toolpath import Array
 from mnclab.show import scene as scenes
 from mnclab.show.part_scene import ANGLE, BALL, EDGE, LOOK, PIN
@@ -18,6 +18,7 @@ from mnclab.workpiece.workpiece import Solid
 
 if TYPE_CHECKING:
     import pyvista
+
 
 TITLE = "deviation, mm"
 

@@ -1,7 +1,8 @@
 """What a notebook gets: `%load_ext mnclab`, and then `%%mnc` cells, completion of words (Tab), their meaning (Shift+Tab).
 
 `import mnclab` does the same in a running IPython: who does not know of the extension types `mnc.help("` and presses Tab.
-This is the only folder that imports IPython; what is done at a key is imported when the first key is pressed.
+IPython is imported here alone (and where a live box shows itself); what is done at a key is imported when the first key is
+pressed.
 """
 
 from __future__ import annotations
@@ -21,8 +22,8 @@ def load_ipython_extension(shell: Any) -> None:
     from IPython.display import display
 
     def mnc(line: str, cell: str) -> None:
-        """Obey the cell as a part program; see `mnclab.lab.magic.cell`."""
-        from mnclab.lab.magic.cell import run_cell
+        """Obey the cell as a part program; see `mnclab.lab.cell`."""
+        from mnclab.lab.cell import run_cell
 
         name, run, chosen = run_cell(line, cell, shell.user_ns)
         shell.push({name: run})
@@ -53,7 +54,7 @@ def complete_words(shell: Any) -> None:
 
     @context_matcher(identifier=MATCHER)
     def match(context: CompletionContext) -> dict[str, Any]:
-        from mnclab.lab.magic.words import suggestions
+        from mnclab.lab.cell import suggestions
 
         lines = context.full_text.split("\n")[: context.cursor_line]
         at = sum(len(line) + 1 for line in lines) + context.cursor_position
@@ -71,7 +72,7 @@ def explain_words(kernel: Any, shell: Any) -> None:
     usual = kernel.do_inspect
 
     def do_inspect(code: str, cursor_pos: int, *rest: Any, **more: Any) -> Any:
-        from mnclab.lab.magic.words import explanation
+        from mnclab.lab.cell import explanation
 
         found = explanation(code, cursor_pos, shell.user_ns)
         if not found:
