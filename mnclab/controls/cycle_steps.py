@@ -40,7 +40,7 @@ from mnclab.machining.steps import (
 from mnclab.path.listing import figure, point
 from mnclab.running.cycles import Place, instance, run_cycle, store, units_of, value_of
 from mnclab.running.interpreter import Interpreter
-from mnclab.runs.values import described, said
+from mnclab.runs.history import described, said
 from mnclab.text.alarm import Alarm, hint
 from mnclab.text.given import check_number, fitting, plain, shown
 from mnclab.text.program import Word, place_of

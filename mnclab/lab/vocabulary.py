@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from mnclab.machine.control import Control, Function
 from mnclab.machine.cycle import Cycle
-from mnclab.runs.meanings import meant
+from mnclab.runs.explanation import meant
 
 BACK = 200  # lines that are looked through for what is still on
 _WORDS = re.compile(r"([,#%]?[A-Z]+)(?:[ \t]*(\d+(?:\.\d+)?))?")

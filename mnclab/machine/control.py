@@ -161,7 +161,7 @@ class Control:
     of today, where the control's own is another. `trial` writes a short program around a cycle and its words (address and
     value), for its form; None where it cannot; `trial_files` are programs that it may call, by name, `trial_setup` is the
     machine that it runs on. `magazine` are the tools of a setup that was given none; of a control without tool words
-    `cycle_tools` says which of them cut, by the code of a cycle (`mnclab.runs.cycle_tools`).
+    `cycle_tools` says which of them cut, by the code of a cycle (`mnclab.runs.material`).
     `signs` tell its programs from those of others; `numbers` finds the numbers of blocks, and what names them.
     """
 

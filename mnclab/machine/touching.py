@@ -24,8 +24,7 @@ from mnclab.path.toolpath import Kind, Toolpath, concatenate
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 from mnclab.workpiece.part import Part, box, contact, cylinder, foot, hole
-from mnclab.workpiece.part.rows import blocked
-from mnclab.workpiece.part.touching import GRAZE
+from mnclab.workpiece.part.touching import GRAZE, blocked
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine

@@ -19,7 +19,7 @@ from mnclab.running.cycles import check_value, fault, value_of
 from mnclab.running.dispatch import Plan, Planner
 from mnclab.running.flow import Course
 from mnclab.running.interpreter import Interpreter
-from mnclab.runs.lint.still_spindle import HINT, SENTENCE
+from mnclab.runs.lint.forgotten import HINT, SENTENCE
 from mnclab.runs.written import blocks_with
 from mnclab.text.alarm import WARNING, Alarm, Span
 from mnclab.text.expression import Expression

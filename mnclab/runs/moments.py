@@ -26,7 +26,7 @@ from mnclab.runs.conditions import Condition, Node, parse
 from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
-    from mnclab.runs.moment import Moment
+    from mnclab.runs.history import Moment
     from mnclab.runs.run import Run
 
 LOOKS = 16

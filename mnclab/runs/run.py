@@ -31,17 +31,14 @@ from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Index, Kind
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
-from mnclab.runs import card, lint, material, outcome
+from mnclab.runs import card, lint, material
 from mnclab.runs.cutting_data import cutting_data, measuring_sheet, setup_sheet, tool_sheet
 from mnclab.runs.explanation import Explanation
 from mnclab.runs.faults_ahead import faults_ahead
-from mnclab.runs.history import History
+from mnclab.runs.history import History, Moment, tables_at_end
 from mnclab.runs.largest_radius import LargestRadius, largest_radius
-from mnclab.runs.moment import Moment
 from mnclab.runs.moments import Moments, when
-from mnclab.runs.pictures import Pictures
 from mnclab.runs.start import MissedOnes, start_at
-from mnclab.runs.tables import tables_at_end
 from mnclab.text.alarm import ALARM, Alarm, Span, by_place, quoted
 from mnclab.text.given import fitting_class, shown, whole
 from mnclab.text.program import Program
@@ -59,6 +56,38 @@ if TYPE_CHECKING:
     from mnclab.design.recognition.proposal import Proposal
     from mnclab.design.recognition.turned import TurnedProposal
     from mnclab.show.player import Player
+
+
+@fitting_class
+class Pictures:
+    """What a run shows beside its path."""
+
+    def plot_depth(self, **options: Any) -> Figure:
+        """Z over time: pecks, dwells and retractions of a hole, by `line`; see `mnclab.show.plot.depth`."""
+        from mnclab.show.plot.depth import plot_depth
+
+        return plot_depth(self, **options)
+
+    def plot_datums(self, **options: Any) -> Figure:
+        """Machine zero and the zero points of the program as vectors from it; see `mnclab.show.plot.datum_plan`."""
+        from mnclab.show.plot.datum_plan import plot_datums
+
+        return plot_datums(self, **options)
+
+    def plot_face(self, **options: Any) -> Figure:
+        """The spirals that a lathe cuts in a face, seen from the tailstock; see `mnclab.show.plot.face`."""
+        from mnclab.show.plot.face import plot_face
+
+        return plot_face(self, **options)
+
+    def plot_lengths(self, line: int, **options: Any) -> Figure:
+        """Spindle nose, tool and tip with their heights after a line: a wrong length offset is seen; see
+        `mnclab.show.plot.lengths`."""
+        from mnclab.show.plot.lengths import plot_lengths
+
+        return plot_lengths(self, line, **options)
+
+
 
 EXAMPLE = 'a machine is its limits: run(…, limits="small-mill"); a setup: ' "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
 
@@ -115,7 +144,7 @@ class Run(Pictures):
     @property
     def reach(self) -> str:
         """How far what is judged of a run goes that stopped: "up to line 12, where the run stopped"; empty of a whole one."""
-        return outcome.reach(self.halt, self.place_of_line)
+        return card.reach(self.halt, self.place_of_line)
 
     def at(self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0) -> Moment:
         """The machine after the `pass_`-th execution of a line (of one of `programs`), or after a step; else an Alarm.
@@ -253,7 +282,7 @@ class Run(Pictures):
 
     def outcome(self) -> Outcome | None:
         """What became of the blank, for a report: removal and collisions, or why they are not known; None without one."""
-        return outcome.outcome(self, outcome.REPORT)
+        return card.outcome(self, card.REPORT)
 
     def again(self, setup: Setup) -> Run:
         """The same program on the same control, with another setup."""

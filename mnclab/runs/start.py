@@ -16,7 +16,7 @@ import numpy as np
 
 from mnclab.path.listing import point
 from mnclab.running.flow import LEFT, RECORDED
-from mnclab.runs.values import does_nothing, told
+from mnclab.runs.history import does_nothing, told
 from mnclab.text.alarm import WARNING, Alarm, Span, by_place
 from mnclab.text.given import whole
 from mnclab.text.tables import html_table

@@ -13,8 +13,8 @@ from mnclab import Tool
 from mnclab.geometry.contours import Contour
 from mnclab.workpiece.blank import cylinder
 from mnclab.workpiece.turning.collisions import collisions_of
+from mnclab.workpiece.turning.revolved import TurnedBlank
 from mnclab.workpiece.turning.turned import Turned
-from mnclab.workpiece.turning.turned_blank import TurnedBlank
 
 DRILL = Tool(number=2, kind="drill", radius=5, angle=180)
 BLADE = Tool(number=4, kind="grooving", width=2)

@@ -5,9 +5,9 @@ import pytest
 
 from mnclab.workpiece.milling import erosion
 from mnclab.workpiece.milling.cutters import Cutter, edge_height
+from mnclab.workpiece.milling.erosion import BITS
 from mnclab.workpiece.milling.moves import Moves
 from mnclab.workpiece.milling.raster import Raster, lowered
-from mnclab.workpiece.milling.search import BITS
 
 CUTTERS = {
     "flat": Cutter(3.1, 3.1),

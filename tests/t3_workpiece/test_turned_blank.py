@@ -7,7 +7,7 @@ import pytest
 
 from mnclab.geometry.contours import Contour
 from mnclab.workpiece.blank import blank
-from mnclab.workpiece.turning.turned_blank import TurnedBlank
+from mnclab.workpiece.turning.revolved import TurnedBlank
 
 # a tube from -30 to 0, radius 20, bore 5; a ball end of radius 20 in front of it would be the second one
 TUBE = Contour([(-30, 5), (0, 5), (0, 20), (-30, 20)])

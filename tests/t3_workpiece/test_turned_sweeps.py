@@ -12,7 +12,7 @@ from t3_workpiece.lathe import BAR, NOSED, SHARP, turned
 from mnclab.path.inserts import cutting_part
 from mnclab.path.tool import Tool
 from mnclab.workpiece.blank import cylinder
-from mnclab.workpiece.turning.sweeping import along_arc, along_line, edges
+from mnclab.workpiece.turning.section import along_arc, along_line, edges
 
 FINE = 1e-6
 TOOLS = (

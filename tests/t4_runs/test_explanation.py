@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import mnclab
-from mnclab.runs.meanings import _meaning
+from mnclab.runs.explanation import _meaning
 from mnclab.text.program import Word, place_of
 
 SETUP = mnclab.Setup(datums={1: (100, 200, -50)}, tools={1: mnclab.Tool(radius=5, length=80)}, start=(100, 200, 200))

@@ -4,7 +4,7 @@ import pytest
 
 import mnclab
 from mnclab import Setup, Tool
-from mnclab.runs import outcome
+from mnclab.runs import card
 from mnclab.runs.card import MOST as CARD
 from mnclab.workpiece.removal import volume
 
@@ -48,7 +48,7 @@ def test_a_long_program_is_not_worked_out():
 def test_a_part_that_is_much_work_is_not_waited_for(effort, monkeypatch):
     """Wherever it is broken off, nothing half done is kept: asked for, the part is what it is."""
     usual, first = run(CRASH, stock=BLANK), run(CRASH, stock=BLANK)
-    monkeypatch.setattr(outcome, "EFFORT", effort)
+    monkeypatch.setattr(card, "EFFORT", effort)
     told = first._repr_html_()
     assert "removed: not worked out, which would take long: see run.removal(), run.collisions()" in told
     assert repr(first.removal()) == repr(usual.removal()) and first.collisions() == usual.collisions()

@@ -26,8 +26,8 @@ from mnclab.workpiece.blank import Revolved, blank
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.turning import revolved
+from mnclab.workpiece.turning.revolved import TurnedBlank
 from mnclab.workpiece.turning.turned import Turned
-from mnclab.workpiece.turning.turned_blank import TurnedBlank
 
 if TYPE_CHECKING:
     from mnclab.workpiece.workpiece import Workpiece

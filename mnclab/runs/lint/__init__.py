@@ -10,15 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from mnclab.runs.lint import (
-    above_blank,
-    feed_of_another_unit,
-    left_on,
-    rapid_in_blank,
-    still_spindle,
-    thread_beyond_axis,
-    unused,
-)
+from mnclab.runs.lint import forgotten, rapid_in_blank, thread_beyond_axis
 from mnclab.text.alarm import Alarm
 
 if TYPE_CHECKING:
@@ -37,6 +29,9 @@ def remarks(run: Run, m: Machine) -> Iterator[Alarm]:
     """The warnings about a run, one for each cause."""
     if run.settings["lint"] == "off" or not len(run.steps.block):
         return
-    yield from still_spindle.remarks(m, run.toolpath)
-    for rule in (rapid_in_blank, above_blank, left_on, unused, thread_beyond_axis, feed_of_another_unit):
-        yield from rule.remarks(run)
+    yield from forgotten.still_spindle(m, run.toolpath)
+    for remarks_of in (
+        rapid_in_blank.remarks, forgotten.above_blank, forgotten.left_on, forgotten.unused, thread_beyond_axis.remarks,
+        forgotten.feed_of_another_unit,
+    ):  # fmt: skip
+        yield from remarks_of(run)

@@ -22,7 +22,7 @@ from mnclab.workpiece.milling.bodies import TOLERANCE, Body, above_edges, edges,
 from mnclab.workpiece.milling.cutters import Cutter
 from mnclab.workpiece.milling.fixtures import in_fixtures
 from mnclab.workpiece.milling.judging import Judged, Judging, Met
-from mnclab.workpiece.milling.pieces import cut_up
+from mnclab.workpiece.milling.moves import cut_up
 
 ROUGH, FEW = 60, 200  # points of a cut, enough to see whether it takes anything, and of what is behind the edges
 FALL = 0.1  # mm, by which a move may fall before it is cut up: its edges are before its shank

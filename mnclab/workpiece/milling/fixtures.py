@@ -9,9 +9,8 @@ import numpy as np
 
 from mnclab.path.toolpath import Array, Index
 from mnclab.workpiece.blank import Blank
-from mnclab.workpiece.milling.bodies import TOLERANCE, Body, bodies_of
+from mnclab.workpiece.milling.bodies import TOLERANCE, Body, bodies_of, under
 from mnclab.workpiece.milling.cutters import Cutter
-from mnclab.workpiece.milling.footprint import under
 from mnclab.workpiece.milling.judging import MOST, Judging, Met
 from mnclab.workpiece.milling.raster import AT_ONCE
 from mnclab.workpiece.milling.swept import left_by

@@ -12,10 +12,9 @@ import numpy as np
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Array, Index, Kind, Mask
 from mnclab.workpiece.cutting import Cutting
-from mnclab.workpiece.milling.before import Points, depths
-from mnclab.workpiece.milling.bodies import TOLERANCE, Body
-from mnclab.workpiece.milling.footprint import under
+from mnclab.workpiece.milling.bodies import TOLERANCE, Body, under
 from mnclab.workpiece.milling.moves import STILL, Moves, moves_of
+from mnclab.workpiece.milling.sweep import Points, depths
 from mnclab.workpiece.milling.swept import left_by
 
 CELLS = 400  # along the longer side: so far apart are the points, by default

@@ -9,24 +9,76 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry.contours import Contour
-from mnclab.path.toolpath import Array, Index
-from mnclab.text.alarm import Alarm
+from mnclab.path.toolpath import Array, Index, Kind
+from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, choice, shown
 from mnclab.workpiece.ahead import Ahead
-from mnclab.workpiece.blank import Blank
+from mnclab.workpiece.blank import Blank, Revolved
 from mnclab.workpiece.clamped import Clamped, Placement, from_side
 from mnclab.workpiece.creases import creases
 from mnclab.workpiece.cutting import Cutting
-from mnclab.workpiece.milling import engaged, limits, volumes
-from mnclab.workpiece.milling.erosion import ERROR
-from mnclab.workpiece.milling.many import ManyMoves
-from mnclab.workpiece.milling.moves import CHORD, Moves, moves_of
+from mnclab.workpiece.milling import engaged, volumes
+from mnclab.workpiece.milling.erosion import ERROR, ManyMoves
+from mnclab.workpiece.milling.moves import CHORD, STILL, Moves, moves_of
 from mnclab.workpiece.milling.raster import NOISE, Raster
 from mnclab.workpiece.milling.sections import Shadow, level, traced, upright
 from mnclab.workpiece.milling.sweep import Mapped, Sweep
 from mnclab.workpiece.milling.touched import Touched
 from mnclab.workpiece.part import Part
+from mnclab.workpiece.turning.revolved import overhangs
 from mnclab.workpiece.workpiece import Solid, Workpiece
+
+# What a map of heights cannot hold of a milled part, in sentences for people.
+
+MANY = 20_000  # moves, beyond which undercuts are not looked for
+THREADS = ("tap", "thread mill")
+
+
+def notes_of(cutting: Cutting, sweep: Sweep) -> Iterator[str]:
+    """What is left out, and what looks other than it is."""
+    yield from cutting.notes()
+    if cutting.tilted is not None and (out := cutting.cuts & cutting.tilted).any():
+        number = int(out.sum())
+        left = "is" if number == 1 else "are"
+        yield f"{several(number, 'row')} of a tool not along Z {left} left out ({cutting.lines(out)})"
+    cuts = cutting.cuts
+    for kind in THREADS:
+        numbers = [number for number, tool in enumerate(cutting.tools) if tool.kind == kind]
+        if (threads := cuts & (cutting.path.kind != Kind.RAPID) & np.isin(cutting.which, numbers)).any():
+            yield f"a thread is shown without its flanks, at the radius of the {kind} ({cutting.lines(threads)})"
+    necks = np.array([_neck(tool.shank, tool.effective_radius) for tool in cutting.tools])[cutting.which]
+    thin, under = cuts & np.isfinite(necks), np.zeros(len(cutting), dtype=bool)
+    if thin.any() and len(sweep.moves) > MANY:
+        yield f"undercuts are not looked for; there may be some where a tool is thinner above ({cutting.lines(thin)})"
+    elif thin.any():
+        under[undercuts(necks, sweep)] = True
+    if under.any():
+        yield f"what overhangs an undercut is not shown: there the part is open upwards ({cutting.lines(under)})"
+    half = cutting.stock.half_section() if hasattr(cutting.stock, "half_section") else None
+    if half is not None and overhangs(half[0]):
+        yield "what overhangs in the turned blank is not shown: seen from above it is full down to its lowest place"
+    if isinstance(cutting.stock, Revolved) and cutting.stock.axis != "Z" and cutting.stock.bore > 0:
+        yield "the bore of a lying blank is not shown"
+
+
+def undercuts(necks: Array, sweep: Sweep) -> Index:
+    """Rows that take a tool sideways under material that reaches above its edges, which are `necks` (n,) high, mm."""
+    moves, rows = sweep.moves, []
+    neck = necks[moves.row]
+    sideways = (np.hypot(*(moves.end - moves.start)[:, :2].T) > STILL) | moves.arc
+    for tile in sweep.tiles:
+        x, y = sweep.raster.middles(tile)
+        for which, before, after in sweep.in_order(x, y):
+            over = (before > after + neck[which, None] + NOISE).any(axis=1) & sideways[which]
+            rows.append(moves.row[which[over]])
+    return np.unique(np.concatenate([np.zeros(0, dtype=np.int64), *rows]))
+
+
+def _neck(shank: tuple[float, float] | None, radius: float) -> float:
+    """How far above the tip a tool becomes thinner, mm; infinite where it does not."""
+    return shank[1] if shank is not None and shank[0] < radius - NOISE else np.inf
+
+
 
 CELLS, FEWEST = 400, 4  # along the longer side by default, and across a strip
 EXACT = 20_000  # moves that are swept exactly
@@ -72,7 +124,7 @@ class Milled(Workpiece):
     @cached_property
     def notes(self) -> tuple[str, ...]:  # type: ignore[override]
         of_map = ("level sections, solids and pictures follow the map: a wall stands within a cell",) if self.many else ()
-        return *limits.notes_of(self.cutting, self.sweep), *of_map
+        return *notes_of(self.cutting, self.sweep), *of_map
 
     @cached_property
     def heights(self) -> Array:

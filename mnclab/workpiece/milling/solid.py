@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mnclab.path.toolpath import Array, Index, Mask
-from mnclab.workpiece.milling.divided import divided
-from mnclab.workpiece.milling.lattice import Lattice, from_below, lattice_of, rows_at
+from mnclab.workpiece.milling.lattice import Lattice, divided, from_below, lattice_of, rows_at
 from mnclab.workpiece.workpiece import Solid
 
 if TYPE_CHECKING:

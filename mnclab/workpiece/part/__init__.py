@@ -7,9 +7,9 @@ Points `(n, 3)` in mm, distances `(n,)` in mm. Parts combine: `a | b` has the ma
     contact(part, start=(50, 30, -5), direction=(1, 0, 0), radius=2, reach=20)      # 10.0
 """
 
+from mnclab.workpiece.part.mesh import mesh
 from mnclab.workpiece.part.part import Part
 from mnclab.workpiece.part.shapes import ball, boss, box, cone, cylinder, hole, plane, pocket, slot
 from mnclab.workpiece.part.touching import contact, foot
-from mnclab.workpiece.part.triangles import mesh
 
 __all__ = ["Part", "ball", "boss", "box", "cone", "contact", "cylinder", "foot", "hole", "mesh", "plane", "pocket", "slot"]

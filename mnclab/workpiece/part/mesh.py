@@ -21,6 +21,8 @@ from mnclab.geometry.regions import Region
 from mnclab.path.toolpath import Array, Index
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import read
+from mnclab.text.given import shown
+from mnclab.workpiece.part.part import Part
 
 SUFFIXES = (".stl", ".ply", ".obj", ".vtk", ".vtp", ".glb", ".gltf")
 METRES = (".glb", ".gltf")  # in metres, Y upwards
@@ -283,3 +285,22 @@ def _contours(area: Any) -> list[Contour]:
             loop = Contour(shapely.get_coordinates(ring)[:-1])
             found.append(loop if loop.area * sense > 0 else loop.reversed())
     return found
+
+
+# A body of triangles as a part: a file (STL and others), or what pyvista has.
+
+AT_ONCE = 16  # places that a probe looks at in one go: each of them searches the triangles
+
+
+def mesh(given: Any) -> Part:
+    """A closed body of triangles as a part, mm: the path of a file (STL, PLY, OBJ …), or a mesh of pyvista."""
+
+    if isinstance(given, str | Path):
+        if Path(given).suffix.lower() not in SUFFIXES:
+            raise Alarm(f"a mesh is a file {', '.join(SUFFIXES)}, got {shown(str(given))}")
+        body = read_mesh(Path(given))
+    elif is_mesh(given):
+        body = mesh_of(given)
+    else:
+        raise Alarm(f"a mesh is the path of a file or a body of pyvista, got {shown(given)}")
+    return Part(body.distance, body.name, AT_ONCE, body.bounds)

@@ -128,7 +128,7 @@ class Part:
         up: ArrayLike = (0.0, 0.0, 1.0),
     ) -> float | None:  # fmt: skip
         """How far a ball gets on its row before it, or the stem on it, meets the part, mm; None where the row is free."""
-        from mnclab.workpiece.part.rows import blocked
+        from mnclab.workpiece.part.touching import blocked
 
         return blocked(self, start, end, ball, stem, length, up)
 

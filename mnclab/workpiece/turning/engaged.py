@@ -15,8 +15,8 @@ from mnclab.geometry import shapely
 from mnclab.path.profile.motions import along
 from mnclab.path.toolpath import Array, Index, Kind
 from mnclab.workpiece.ahead import Ahead
+from mnclab.workpiece.turning.section import Edge
 from mnclab.workpiece.turning.strokes import threads_of
-from mnclab.workpiece.turning.sweeping import Edge
 
 if TYPE_CHECKING:
     from mnclab.workpiece.turning.turned import Turned

@@ -20,7 +20,7 @@ from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Array, Kind, Toolpath
 from mnclab.text.alarm import several
 from mnclab.workpiece.cutting import CUTS, Cutting
-from mnclab.workpiece.turning.sweeping import Edge, Point, along_arc, along_line, edges, placed
+from mnclab.workpiece.turning.section import Edge, Point, along_arc, along_line, edges, placed
 
 ON_AXIS = 1e-6  # mm: a tool without a kind that moves there drills
 OUTSIDE = 1.0  # mm: how far a tool reaches out of the blank

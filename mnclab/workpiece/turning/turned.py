@@ -20,10 +20,9 @@ from mnclab.workpiece.clamped import Placement
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.turning import engaged, revolved
-from mnclab.workpiece.turning.section import Drawing, cuts, held, left_of, moment
+from mnclab.workpiece.turning.revolved import TurnedBlank
+from mnclab.workpiece.turning.section import CHORD_ERROR, Drawing, cuts, held, left_of, moment
 from mnclab.workpiece.turning.strokes import Strokes, strokes_of
-from mnclab.workpiece.turning.sweeping import CHORD_ERROR
-from mnclab.workpiece.turning.turned_blank import TurnedBlank
 from mnclab.workpiece.workpiece import Solid, Workpiece
 
 if TYPE_CHECKING:

@@ -25,7 +25,7 @@ from mnclab.running.flow import course
 from mnclab.text.program import Word
 from mnclab.workpiece.blank import Blank as Body
 from mnclab.workpiece.blank import Box, cylinder
-from mnclab.workpiece.turning.turned_blank import TurnedBlank
+from mnclab.workpiece.turning.revolved import TurnedBlank
 
 FUNCTIONS = FunctionTable()
 STOPS = {"M0": "Program stop", "M1": "Optional stop"}
