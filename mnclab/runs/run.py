@@ -352,7 +352,7 @@ class Run(Pictures):
         `design=`, or what else `Workpiece.compare` takes, adds a measuring record; `tolerance=0.05` mm. Times and limits are
         those of `machine=`, "small-mill" or limits; default the ones of the setup.
         """
-        from mnclab.show.report.saving import save_report
+        from mnclab.show.report.gathering import save_report
 
         return save_report(self, path, title, **options)
 

@@ -8,7 +8,7 @@ from mnclab.comparison.strategies import compare
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.shapes import rectangle
-from mnclab.show.plot.strategy import plot_strategies
+from mnclab.show.plot.side_by_side import plot_strategies
 
 AREA = Region.of(rectangle(60, 40), holes=[Contour.circle((0, 0), 8)])
 

@@ -20,7 +20,6 @@ from mnclab.workpiece.workpiece import Solid
 if TYPE_CHECKING:
     import pyvista
 
-
 TITLE = "deviation, mm"
 
 
