@@ -66,7 +66,7 @@ if TYPE_CHECKING:  # what OPENED says, for editors and for mypy
     from mnclab.lab.forms import panel as panel
     from mnclab.lab.forms import profile_panel as profile_panel
     from mnclab.lab.magic import load_ipython_extension as load_ipython_extension
-    from mnclab.show.plot.profiles import plot_profiles as plot_profiles
+    from mnclab.show.plot.over_time import plot_profiles as plot_profiles
     from mnclab.show.plot.variants import plot_runs as plot_runs
 
 __version__ = "0.1.0"
@@ -80,7 +80,7 @@ OPENED = Shelf("mnclab", "the names that need more than numpy", {
     "mnclab.lab.editor": "editor",
     "mnclab.lab.forms": "compensation_panel, form, panel, profile_panel",
     "mnclab.lab.magic": "load_ipython_extension",
-    "mnclab.show.plot.profiles": "plot_profiles",
+    "mnclab.show.plot.over_time": "plot_profiles",
     "mnclab.show.plot.variants": "plot_runs",
     "mnclab.design.model": "Design, TurnedDesign",
 })  # fmt: skip
@@ -108,7 +108,7 @@ area = Shelf("mnclab.area", "contours and regions: by numbers, or out of a drawi
     "mnclab.geometry.svg": "contours as svg",
     "mnclab.path.plane": "outline, outlines",
     "mnclab.machining.milling.terraces": "Joined, Part, terraces",
-    "mnclab.show.plot.regions": "plot_regions as plot",
+    "mnclab.show.plot.side_by_side": "plot_regions as plot",
 })  # fmt: skip
 
 strategies = Shelf("mnclab.strategies", "ways to clear an area with a mill; mnclab.compare puts them side by side", {
@@ -129,8 +129,7 @@ schemes = Shelf("mnclab.schemes", "ways to turn, groove and thread; mnclab.compa
     "mnclab.machining.turning": "groove_schemes as grooves, thread_schemes as threads",
     "mnclab.machining.turning.groove_schemes": "Groove",
     "mnclab.comparison.turning_schemes": "toolpath",
-    "mnclab.show.plot.turning_schemes": "plot_threads",
-    "mnclab.show.plot.zones": "plot_zones",
+    "mnclab.show.plot.turning_schemes": "plot_threads, plot_zones",
 })  # fmt: skip
 
 probing = Shelf("mnclab.probing", "what measured points are: circle(points), and how sure that is", {

@@ -30,8 +30,7 @@ WINGS = ("design", "lab")  # they import the core, which opens them by name: tex
 OUTSIDE = {  # package -> the only modules of mnclab that import it
     "shapely": ("geometry.shapely",),
     "matplotlib": ("show.plot", "design.drawing", "design.difference.plot", "design.difference.plot_sections"),
-    "pyvista": ("show.scene", "show.part_scene", "show.probed_scene", "design.difference.scene", "workpiece.part.mesh",
-                "workpiece.part.pictures"),
+    "pyvista": ("show.scene", "show.part_scene", "design.difference.scene", "workpiece.part.mesh", "workpiece.part.pictures"),
     "vtkmodules": ("show.scene", "show.part_scene", "workpiece.part.mesh"),
     "ezdxf": ("geometry.dxf",),
     "ipywidgets": ("lab.forms", "lab.editor"),

@@ -128,7 +128,7 @@ class Deviation:
 
     def plot(self, view: str = "auto", **options: Any) -> object:
         """Both paths in one `view`, with the largest deviation marked."""
-        from mnclab.show.plot.deviation import plot_deviation
+        from mnclab.show.plot.variants import plot_deviation
 
         return plot_deviation(self, view, **options)
 

@@ -70,7 +70,7 @@ class HolesCompared:
 
     def plot(self, **options: Any) -> Picture:
         """The holes from above at their diameters, told apart by what has them."""
-        from mnclab.show.plot.holes_compared import plot_holes
+        from mnclab.show.plot.holes import plot_holes
 
         return plot_holes(self, **options)
 

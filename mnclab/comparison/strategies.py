@@ -122,7 +122,7 @@ class Comparison(Table[Trial]):
 
     def plot(self, **options: Any) -> Picture:
         """The paths side by side, coloured by engagement (needs matplotlib)."""
-        from mnclab.show.plot.strategy import plot_strategies
+        from mnclab.show.plot.side_by_side import plot_strategies
 
         return plot_strategies(self, **options)
 

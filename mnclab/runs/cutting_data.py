@@ -65,7 +65,7 @@ def _of_tools(given: Any, name: str, tools: Mapping[int, Any]) -> dict[int, floa
 @fitting
 def setup_sheet(run: Run, path: str | Path, title: str | None = None) -> Path:
     """Write the set-up sheet, .html or .pdf: zero points, blank with a drawing, fixtures, tools."""
-    from mnclab.show.report.saving import save_sheet
+    from mnclab.show.report.gathering import save_sheet
 
     return save_sheet(run, "setup", path, title)
 
@@ -73,7 +73,7 @@ def setup_sheet(run: Run, path: str | Path, title: str | None = None) -> Path:
 @fitting
 def tool_sheet(run: Run, path: str | Path, title: str | None = None) -> Path:
     """Write the tool sheet, .html or .pdf: the tools with their sizes, and how they cut."""
-    from mnclab.show.report.saving import save_sheet
+    from mnclab.show.report.gathering import save_sheet
 
     return save_sheet(run, "tools", path, title)
 
@@ -81,6 +81,6 @@ def tool_sheet(run: Run, path: str | Path, title: str | None = None) -> Path:
 @fitting
 def measuring_sheet(run: Run, path: str | Path, title: str | None = None) -> Path:
     """Write the measuring record, .html or .pdf, with its pictures; an Alarm where nothing was measured."""
-    from mnclab.show.report.saving import save_sheet
+    from mnclab.show.report.gathering import save_sheet
 
     return save_sheet(run, "measuring", path, title)

@@ -64,13 +64,13 @@ class Pictures:
 
     def plot_depth(self, **options: Any) -> Figure:
         """Z over time: pecks, dwells and retractions of a hole, by `line`; see `mnclab.show.plot.depth`."""
-        from mnclab.show.plot.depth import plot_depth
+        from mnclab.show.plot.over_time import plot_depth
 
         return plot_depth(self, **options)
 
     def plot_datums(self, **options: Any) -> Figure:
         """Machine zero and the zero points of the program as vectors from it; see `mnclab.show.plot.datum_plan`."""
-        from mnclab.show.plot.datum_plan import plot_datums
+        from mnclab.show.plot.set_up import plot_datums
 
         return plot_datums(self, **options)
 
@@ -377,7 +377,7 @@ class Run(Pictures):
         `design=`, or what else `Workpiece.compare` takes, adds a measuring record; `tolerance=0.05` mm. Times and limits are
         those of `machine=`, "small-mill" or limits; default the ones of the setup.
         """
-        from mnclab.show.report.saving import save_report
+        from mnclab.show.report.gathering import save_report
 
         return save_report(self, path, title, **options)
 

@@ -21,7 +21,7 @@ from typing import Any
 
 from mnclab.shell.lessons import home
 from mnclab.shell.saying import CLEAN, sensible
-from mnclab.show.report.page import POLICY
+from mnclab.show.report.document import POLICY
 from mnclab.text.alarm import Alarm, hint
 from mnclab.text.file import replaced
 from mnclab.text.given import shown

@@ -18,12 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.path.toolpath import COLUMNS, Kind, Toolpath
-from mnclab.show import export_mesh, export_part
-from mnclab.show.export_dxf import write_dxf
+from mnclab.show import export_mesh
+from mnclab.show.export_drawing import write_dxf, write_true_size
 from mnclab.show.export_gcode import write_gcode
-from mnclab.show.export_svg import write_true_size
 from mnclab.show.given_away import named
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import named as with_suffix_of
 from mnclab.text.file import replaced
 from mnclab.text.given import choice
 
@@ -38,7 +38,7 @@ def save(run: Any, path: str | Path, picture: Callable[..., Figure] | None = Non
     glb, vtk) are those of the part, with `of="path"` those of the path.
     `picture` draws another figure of the run than the views of its path.
     """
-    path, suffix = export_part.named(path, WRITERS, "cannot write {} files")
+    path, suffix = with_suffix_of(path, WRITERS, "cannot write {} files")
     writer = WRITERS[suffix]
     if picture is not None:
         if suffix not in FIGURES:
@@ -139,10 +139,10 @@ def _plain(column: NDArray[Any]) -> list[Any]:
 FIGURES = (".svg", ".pdf", ".png")
 OF = ("part", "path")
 BODIES: dict[str, tuple[Callable[..., None], Callable[..., None]]] = {
-    ".stl": (export_part.write_stl, export_mesh.write_stl),
-    ".gltf": (export_part.write_gltf, export_mesh.write_gltf),
-    ".glb": (export_part.write_gltf, export_mesh.write_gltf),
-    ".vtk": (export_part.write_vtk, export_mesh.write_vtk),
+    ".stl": (export_mesh.write_part_stl, export_mesh.write_stl),
+    ".gltf": (export_mesh.write_part_gltf, export_mesh.write_gltf),
+    ".glb": (export_mesh.write_part_gltf, export_mesh.write_gltf),
+    ".vtk": (export_mesh.write_part_vtk, export_mesh.write_vtk),
 }
 WRITERS: dict[str, Callable[..., None]] = {
     ".svg": write_svg,

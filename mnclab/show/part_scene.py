@@ -1,4 +1,7 @@
-"""A part in three dimensions: the body that is left, shaded, with crisp edges; see `show.scene` for how it shows itself."""
+"""A part in three dimensions: the body that is left, shaded, with crisp edges; the part that a probe meets.
+
+See `show.scene` for how it shows itself.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,8 @@ import numpy as np
 
 from mnclab.path.toolpath import Array, Mask
 from mnclab.show import scene as scenes
-from mnclab.show.export_mesh import RAPID, STOCK
+from mnclab.show.export_mesh import PROBING, RAPID, STOCK
+from mnclab.show.probed import felt
 from mnclab.show.rulers import frame
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import choice, fitting, shown
@@ -116,3 +120,44 @@ def add_collisions(plotter: Any, collisions: Iterable[Collision], points: Array,
         heads[:, out] = np.maximum(places[:, out], points[:, out].max()) + PIN * side
         pins = pyvista.line_segments_from_points(np.stack([places, heads], axis=1).reshape(-1, 3))
         plotter.add_mesh(pins, color=RAPID, line_width=3, name="pins")
+
+
+# The part that a probe meets, and its touches: a ball at each touched place with its number.
+
+FACE, PROBED_EDGE, PROBED_ANGLE, BEAM = "#d9d5c8", "#7d7664", 25.0, "#2e7d32"
+TOUCH_BALL = 0.011  # radius of a mark, of the greatest side of the scene
+MOST, FEW = 60, 8  # touches with numbers, with values too
+PROBED_LOOK: dict[str, Any] = {
+    "color": FACE, "opacity": 0.6, "ambient": 0.3, "smooth_shading": True, "split_sharp_edges": True,
+    "feature_angle": PROBED_ANGLE,
+}  # fmt: skip
+
+
+def add_probed(plotter: Any, run: Any) -> Array | None:
+    """Add what the probe of a run meets; the corners (2, 3) of it in the coordinates of the path, None where there is none."""
+    import pyvista
+
+    found = felt(run)
+    if found is None:
+        return None
+    ends = found.ends(run.toolpath.bounds if len(run.toolpath) else np.zeros((2, 3)))
+    if found.part is not None:
+        points, triangles = found.part.surface(within=ends + found.origin)
+        if len(triangles):
+            mesh = pyvista.PolyData.from_regular_faces(points - found.origin, triangles).clean()
+            plotter.add_mesh(mesh, name="part to touch", **PROBED_LOOK)
+            edges = mesh.extract_feature_edges(feature_angle=PROBED_ANGLE, boundary_edges=False, non_manifold_edges=False)
+            if edges.n_cells:
+                plotter.add_mesh(edges, color=PROBED_EDGE, line_width=1.2, name="edges of the part to touch")
+    if found.beam is not None:
+        plotter.add_mesh(pyvista.Line(*found.beam), color=BEAM, line_width=3, name="beam")
+    if len(found.places):
+        ball = pyvista.Sphere(radius=TOUCH_BALL * float((ends[1] - ends[0]).max()))
+        balls = pyvista.PolyData(found.places).glyph(geom=ball, scale=False, orient=False)
+        plotter.add_mesh(balls, color=PROBING, name="touches")
+    if 0 < len(found.places) <= MOST:
+        plotter.add_point_labels(
+            found.places, [text[len(found.texts) > FEW] for text in found.texts], font_size=12, text_color="#4a148c",
+            shape_opacity=0.75, shape_color="white", show_points=False, always_visible=True, name="numbers of the touches",
+        )  # fmt: skip
+    return ends

@@ -1,5 +1,4 @@
-"""A run in three dimensions: path, tool, blank or part in a pyvista `Plotter`; pyvista is known here, in `part_scene` and
-in `probed_scene`.
+"""A run in three dimensions: path, tool, blank or part in a pyvista `Plotter`; pyvista is known here and in `part_scene`.
 
 The scene shows itself in Jupyter as a still picture, which works everywhere and needs no server. `scene.show()` does
 the same; `scene.show(jupyter_backend="html")` turns in the browser and needs `mnclab[html]`. VTK without OpenGL ends
@@ -113,7 +112,7 @@ def scene(
         edges = _surface(blank).extract_feature_edges()
         plotter.add_mesh(edges, color="#7d7664", line_width=1, name="edges of the blank")
     if probed and (run.setup.part is not None or run.setup.setter is not None):
-        from mnclab.show.probed_scene import add_probed
+        from mnclab.show.part_scene import add_probed
 
         bodies += [ends for ends in [add_probed(plotter, run)] if ends is not None]
     if given:

@@ -195,8 +195,8 @@ class Removal:
         return str(fastest.line) if not fastest.program else f"{fastest.program}:{fastest.line}"
 
     def plot(self, **options: Any) -> Figure:
-        """The feed over time and the removal rate under it; see `show.plot.removal.plot_removal`."""
-        from mnclab.show.plot.removal import plot_removal
+        """The feed over time and the removal rate under it; see `show.plot.over_time.plot_removal`."""
+        from mnclab.show.plot.over_time import plot_removal
 
         return plot_removal(self, **options)
 

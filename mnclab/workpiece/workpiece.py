@@ -211,7 +211,7 @@ class Workpiece(ABC):
 
     def save(self, path: str | Path, **options: Any) -> Path:
         """Write one file; the suffix says what: stl, gltf, glb, vtk (the body), svg, pdf, png (the picture), csv."""
-        from mnclab.show.export_part import save
+        from mnclab.show.export_mesh import save
 
         return save(self, path, **options)
 

@@ -9,8 +9,8 @@ from toy_probing import toy_run
 
 import mnclab
 from mnclab import __main__ as shell
-from mnclab.show.plot.pages.setting import sheets
-from mnclab.show.report.contents import Document, Image
+from mnclab.show.plot.pages import sheets
+from mnclab.show.report.document import Document, Image
 from mnclab.show.report.gathering import measuring
 from mnclab.workpiece.part import box, hole
 

@@ -10,11 +10,11 @@ import pytest
 from toy_probing import toy_run
 
 import mnclab
-from mnclab.show.felt import felt
 from mnclab.show.player.payload import payload
 from mnclab.show.plot.datums import places_of
-from mnclab.show.plot.material import draw_material
 from mnclab.show.plot.picture import VIEWS, Picture
+from mnclab.show.plot.probed import draw_material
+from mnclab.show.probed import felt
 from mnclab.workpiece.part import ball, box, hole, plane
 
 PART = box((0, 0, -20), (100, 60, 0)) - hole((50, 30, 0), 24, 10)

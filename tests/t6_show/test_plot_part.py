@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 import mnclab
 from mnclab import Alarm, Setup, Tool
-from mnclab.show.plot.relief import relief
+from mnclab.show.plot.part import relief
 from mnclab.workpiece.blank import cylinder
 from mnclab.workpiece.collision import Collision
 

@@ -13,10 +13,9 @@ from mnclab.comparison.turning_schemes import compare, toolpath
 from mnclab.geometry.contours import Contour
 from mnclab.machining.turning import thread_schemes as threads
 from mnclab.path.inserts import as_drawn, insert
-from mnclab.show.plot import insert as module
+from mnclab.show.plot import lathe as module
 from mnclab.show.plot.classes import classes
-from mnclab.show.plot.insert import CARBIDE, INSERT, STEEL
-from mnclab.show.plot.lathe import plot_speed, speed_strokes, speeds
+from mnclab.show.plot.lathe import CARBIDE, INSERT, STEEL, plot_speed, speed_strokes, speeds
 from mnclab.show.plot.path import plot_path
 from mnclab.show.plot.strokes import strokes
 from mnclab.show.plot.turning_schemes import plot_schemes, plot_threads

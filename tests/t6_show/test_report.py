@@ -6,11 +6,9 @@ import pytest
 
 import mnclab
 from mnclab import Alarm
-from mnclab.show.plot.pages.letters import width
-from mnclab.show.plot.pages.setting import sheets
-from mnclab.show.plot.pages.sheet import A4, LEFT, RIGHT
-from mnclab.show.report.gathering import document, report
-from mnclab.show.report.saving import PICTURE
+from mnclab.show.plot.page_sheet import A4, LEFT, RIGHT, width
+from mnclab.show.plot.pages import sheets
+from mnclab.show.report.gathering import PICTURE, document, report
 
 PROGRAM = "G90 G54 T1 S1000 M3\nG0 X10 Y0 Z5\nG1 Z-2 F100 // down <here>\nX30\nT2\nG4 P30\nG1 X4,5\n"
 SETUP = mnclab.Setup(limits=mnclab.Limits(acceleration=1e9, rapid=1e7))
@@ -124,8 +122,8 @@ def test_a_long_program_goes_on_over_pages_with_its_line_numbers():
 
 def test_numbers_of_a_table_stand_under_each_other_by_their_points():
     """The point of 12.25 and the end of 8 stand at one place, and the letters of both are as wide as the font says."""
-    from mnclab.show.plot.pages.tables import tabled
-    from mnclab.show.report.contents import Table
+    from mnclab.show.plot.page_sheet import tabled
+    from mnclab.show.report.document import Table
 
     made = tabled(Table(("n",), [("12.25",), ("8",), ("-0.5",)], (0,)), 400)
     points = [x + width(text.partition(".")[0], made.size) for row in made.rows for text, x in row.cells[0]]
@@ -133,8 +131,8 @@ def test_numbers_of_a_table_stand_under_each_other_by_their_points():
 
 
 def test_a_table_too_wide_for_the_page_is_folded():
-    from mnclab.show.plot.pages.tables import tabled
-    from mnclab.show.report.contents import Table
+    from mnclab.show.plot.page_sheet import tabled
+    from mnclab.show.report.document import Table
 
     made = tabled(Table(("a", "b"), [("word " * 60, "1"), ("w" * 200, "2")], (1,)), 300)
     assert made.wide <= 300.01

@@ -9,7 +9,7 @@ from mnclab import Alarm, Setup, Tool
 from mnclab import __main__ as shell
 from mnclab.show.plot.set_up import plot_set_up
 from mnclab.show.report import sheets
-from mnclab.show.report.contents import Table
+from mnclab.show.report.document import Table
 
 PROGRAM = "T1 M6\nG90 G55\nS2000 M3\nG43 H11 D3 G0 X-10 Y10 Z5\nG1 Z-2 F100\nX90 F300\n"
 PROGRAM += "T2 M6\nG43 H2 G0 Z5\nG81 X5 Y5 Z-9 R2 F80\n"

@@ -9,7 +9,7 @@ from matplotlib.colors import to_rgb
 
 import mnclab as mnc
 from mnclab.show.plot import band
-from mnclab.show.plot.step_names import BLOCKS, step_name
+from mnclab.show.plot.classes import BLOCKS, step_name
 
 PROGRAMS = Path(__file__).parents[2] / "data" / "programs"
 #: Passes 1 mm apart with a tool of radius 4, and the same 20 mm apart.

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from mnclab.design.difference.difference import HEAD, Difference
-from mnclab.show.report.page import page
+from mnclab.show.report.document import page
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import named, replaced
 

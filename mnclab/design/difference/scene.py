@@ -19,7 +19,6 @@ from mnclab.workpiece.workpiece import Solid
 if TYPE_CHECKING:
     import pyvista
 
-
 TITLE = "deviation, mm"
 
 

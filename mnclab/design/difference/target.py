@@ -17,7 +17,6 @@ from mnclab.workpiece.milling.raster import Raster
 if TYPE_CHECKING:
     from mnclab.design.difference.deviations import Seen
 
-
 BLANK = -1  # the owner of a face that no feature made
 
 

@@ -25,11 +25,10 @@ from mnclab.design.drawing.layout import EDGE, LEAST, Laid, NoRoom, arranged, la
 from mnclab.design.drawing.sheet import SCALES, SIZES, Printed, Size, Table, Title, scale_text
 from mnclab.design.drawing.view import Point, View
 from mnclab.geometry.curves import Floats
-from mnclab.show.export_part import named
 from mnclab.show.given_away import whole
 from mnclab.show.plot.picture import Picture
 from mnclab.text.alarm import Alarm
-from mnclab.text.file import replaced
+from mnclab.text.file import named, replaced
 from mnclab.text.given import check_number, choice
 
 A4, A3 = ("A4", "A4 landscape"), ("A3",)

@@ -26,7 +26,6 @@ from mnclab.show.given_away import whole
 if TYPE_CHECKING:
     from mnclab.design.drawing.drawing import Drawing, Sheet
 
-
 APART = 20.0  # mm between sheets
 FIRST = 0x100  # handle of the first entity: those below are of tables
 LINETYPES = {Kind.HIDDEN: "HIDDEN", Kind.CENTRE: "CENTER", Kind.PHANTOM: "PHANTOM"}

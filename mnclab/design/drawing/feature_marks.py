@@ -1,4 +1,4 @@
-"""What a feature takes up in its view, and the lines that belong to it: centre lines, thin lines of threads."""
+"""What features show in a view beside their edges: centre lines, thin lines of threads, patterns of equal holes, tables."""
 
 from __future__ import annotations
 
@@ -32,7 +32,6 @@ from mnclab.geometry.contours import Contour
 
 if TYPE_CHECKING:
     from mnclab.design.drawing.milled_features import Side
-
 
 SAME = 1e-6  # mm
 

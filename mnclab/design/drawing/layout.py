@@ -2,7 +2,7 @@
 
 Dimensions are placed one after the other, the short ones first, each at the best place that is free. Where one finds no
 room, those that stand in its way go and look for another place, the less willingly the oftener they had to. In the end
-each looks once more.
+each looks once more. Views and tables are then put on the sheet.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Which measure of which feature is written where: views as they are drafted, and a record of what they say."""
+"""Which measure of which feature is written where, and in what words: views as they are drafted, a record of what they say."""
 
 from __future__ import annotations
 

@@ -34,7 +34,6 @@ if TYPE_CHECKING:
 
     from mnclab.workpiece.workpiece import Workpiece
 
-
 TEXTS = ("title", "number", "material", "general", "author", "date")
 ROOM = 3.0  # sizes of the blank, beyond which nothing stands
 

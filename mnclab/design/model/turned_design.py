@@ -32,7 +32,6 @@ from mnclab.workpiece.turning.turned import Turned
 if TYPE_CHECKING:
     from mnclab.workpiece.workpiece import Workpiece
 
-
 EXAMPLE = "TurnedDesign([(0, 10), (-30, 10), (-30, 20), (-50, 20)])"
 
 

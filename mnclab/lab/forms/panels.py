@@ -218,6 +218,6 @@ def profile_panel(profile: Profile | Run, **options: Any) -> Any:
 
 def refuse_unknown(options: dict[str, Any], plot: Any) -> None:
     """An Alarm for options that a figure does not have: no value in a box would mend them."""
-    from mnclab.show.plot.options import ADDED, check_options
+    from mnclab.show.plot.sizes import ADDED, check_options
 
     check_options({name: value for name, value in options.items() if name not in ADDED}, plot.options)

@@ -13,9 +13,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from mnclab.path.profile import Profile
-from mnclab.show.felt import felt
 from mnclab.show.given_away import whole
 from mnclab.show.player.payload import payload
+from mnclab.show.probed import felt
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.file import replaced
 from mnclab.text.given import check_number, choice, fitting_class

@@ -1,21 +1,32 @@
-"""What the page needs to cut the part while it plays: the blank as two maps, and of each row its cutter and whether it cuts.
-
-The page sweeps the cutters itself (`swept.js`), by the formulas of `workpiece/milling`; nothing is computed beforehand.
-"""
+"""What the page needs of the part: to cut it while it plays, to turn it, and to show what a probe meets."""
 
 from __future__ import annotations
 
+from bisect import bisect
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from mnclab.geometry import shapely
+from mnclab.geometry.contours import Contour, steps_within
+from mnclab.path.inserts import as_drawn, cutting_part, holder, insert, lead_of
+from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Kind, Toolpath
-from mnclab.show.player.logs import log, parted
-from mnclab.show.player.packing import Packer
+from mnclab.show.player.packing import Packer, columns, log, parted
+from mnclab.show.probed import Felt
 from mnclab.text.alarm import several
+from mnclab.workpiece.blank import Revolved
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.cutters import cutter_of
 from mnclab.workpiece.milling.raster import Raster
+from mnclab.workpiece.turning.section import Drawing, cuts, held, left_of
+from mnclab.workpiece.turning.strokes import Strokes, strokes_of
+from mnclab.workpiece.turning.turned import half_section, room_of
+
+# To cut it: the blank as two maps, and of each row its cutter and whether it cuts. The page sweeps the cutters itself
+# (`swept.js`), by the formulas of `workpiece/milling`; nothing is computed beforehand.
 
 CELLS = 300  # along the longer side of the blank
 PARTS = 1e4  # of a millimetre, of the blank's heights
@@ -50,3 +61,144 @@ def part(pack: Packer, cutting: Cutting, path: Toolpath) -> dict[str, Any]:
 
 def _note(tilted: int) -> str:
     return f"{several(tilted, 'move')} of a tool not along Z: not cut here" if tilted else ""
+
+
+# To turn it: the bar, what each row takes away in the plane of z and r, the inserts. The areas are those of the kernel, as
+# lines within `OFF` mm; the page only takes them away one after the other. Between two rows it moves the convex cutting part
+# of the tool itself.
+
+OFF = 0.01  # mm
+BEHIND, JAWS = 0.3, 1.55  # of the radius of the bar: how long and how high a chuck is that nobody gave, behind the bar
+LONG, FINE = 0.09, 0.01  # edges of an insert, of the greatest side of what is shown; chords of its nose, of its edges
+MOST = 200_000  # corners of all areas; the page of more would be too large
+
+Array = NDArray[np.float64]
+
+
+def section(pack: Packer, cutting: Cutting) -> dict[str, Any]:
+    """The section of a lathe's part; corners are (z, r), mm."""
+    bar, axis, notes = half_section(cutting.stock)
+    low, high, radius = room_of(bar)
+    strokes = strokes_of(cutting, low, high, radius, axis)
+    rows, areas, fallen = _areas(strokes, bar, low)
+    told = [*notes, *strokes.notes]
+    count = np.array([len(area) for area in areas], dtype=np.int64)
+    kept = int(np.searchsorted(np.cumsum(count), MOST, "right"))
+    if kept < len(areas):
+        told.append(f"the section is shown up to row {rows[kept]} only")
+    corners = np.concatenate(areas[:kept]) if kept else np.empty((0, 2))
+    reach = high - low + radius
+    leads = [lead_of(cutting.path, cutting.which == k) for k in range(len(cutting.tools))]
+    shaped = [as_drawn(tool, lead) for tool, lead in zip(cutting.tools, leads, strict=True)]
+    return {
+        "bar": [_corners(loop.points_within(OFF)) for loop in bar],
+        "axis": axis,
+        "parts": PARTS,
+        "rows": pack.add(rows[:kept]),
+        "count": pack.add(count[:kept]),
+        "fallen": fallen,
+        "corners": columns(pack, parted(corners, PARTS)),
+        "which": log(pack, cutting.which),
+        "cuts": log(pack, cutting.cuts & ~cutting.from_home),
+        "blades": [_corners(cutting_part(tool, reach).points_within(OFF)) for tool in shaped],
+        "chuck": [_corners(loop.points) for each in cutting.fixtures if _turns(each) for loop in half_section(each)[0]]
+        or [[[low - BEHIND * radius, 0.0], [low, 0.0], [low, JAWS * radius], [low - BEHIND * radius, JAWS * radius]]],
+        "note": "; ".join(told),
+    }
+
+
+def _areas(strokes: Strokes, bar: Sequence[Contour], low: float) -> tuple[list[int], list[Array], list[int]]:
+    """Rows and outlines of what goes, in order: of all strokes of a row, then of the pieces that fall; and which these are."""
+    rows, areas = list(strokes.rows), _outlines(strokes.contours)
+    drawing = Drawing.of(bar, strokes.contours, rows)
+    fallen: list[int] = []
+    if not areas or not held(left_of(drawing), low)[1]:
+        return rows, areas, fallen
+    for row, _, off in cuts(drawing, low):
+        for piece in off:
+            fallen.append(bisect(rows, row))
+            areas.insert(fallen[-1], shapely.get_coordinates(shapely.simplify(piece.exterior, OFF / 2))[:-1])
+            rows.insert(fallen[-1], row)
+    return rows, areas, fallen
+
+
+def _outlines(contours: Sequence[Contour]) -> list[Array]:
+    """The corners of closed contours (m, 2): all at once, as one line."""
+    if not contours:
+        return []
+    points = np.concatenate([part for each in contours for part in (each.points, each.points[:1])])
+    bulge = np.concatenate([part for each in contours for part in (each.bulge, [0.0])])
+    line = Contour(points, bulge, closed=False)
+    steps = np.append(steps_within(line.radii, line.sweeps, OFF), 1)
+    size = np.array([len(each.points) + 1 for each in contours])
+    return np.split(line.points_within(OFF), np.add.reduceat(steps, np.cumsum(size) - size).cumsum()[:-1])
+
+
+def _turns(body: Any) -> bool:
+    return isinstance(body, Revolved) and body.axis == "Z"
+
+
+def inserts(pack: Packer, run: Any) -> dict[str, Any]:
+    """The insert and the holder of each row about its tip, as long as those of the figures of the run."""
+    path, (table, numbers) = run.toolpath, run.tools_that_cut
+    ends = [path.bounds] if len(path.motion) else []
+    ends += [run.stock.bounds] if run.stock else []
+    size = (LONG * float(np.ptp(np.concatenate(ends), axis=0).max()) if ends else 0.0) or 1.0
+    known = np.unique(numbers).tolist()
+    shapes = [as_drawn(table.get(number, Tool()), lead_of(path, numbers == number)) for number in known]
+    tools = [
+        {"insert": _corners(insert(tool, size).points_within(FINE * size)), "holder": _corners(holder(tool, size))}
+        for tool in shapes
+    ]
+    return {"which": log(pack, np.searchsorted(known, numbers)), "tools": tools}
+
+
+def _corners(points: Array | Sequence[Any]) -> list[list[float]]:
+    return [[float(z), float(r)] for z, r in np.round(np.asarray(points, dtype=np.float64), 4)]
+
+
+# To show what a probe meets: the map of its heights, and the touches with their numbers.
+
+PROBED_CELLS = 200  # along the longer side of the part
+DIGITS = 4
+
+
+def felt_part(pack: Packer, found: Felt, path: Toolpath) -> dict[str, Any]:
+    """The part as `player.part` has a blank, which no row cuts."""
+    ends = _ends(found, path)
+    step = float((ends[1] - ends[0])[:2].max()) / PROBED_CELLS
+    ends[0, :2], ends[1, :2] = ends[0, :2] - step, ends[1, :2] + step  # all its sides are walls of the map
+    raster = Raster.over(ends, step)
+    y, x = (each.ravel() for each in np.meshgrid(raster.y, raster.x, indexing="ij"))
+    low, high = ends[:, 2].tolist()
+    top = np.nan_to_num(found.heights(x, y, low, high, raster.step), nan=low)
+    nothing = np.zeros(len(path))
+    return {
+        "low": list(raster.low),
+        "high": ends[1, :2].tolist(),
+        "step": raster.step,
+        "shape": list(raster.shape),
+        "parts": PARTS,
+        "top": pack.add(parted(top, PARTS)),
+        "floor": pack.add(parted(np.full(len(top), low), PARTS)),
+        "cutters": [],
+        "which": log(pack, nothing),
+        "does": log(pack, np.full(len(path), NOTHING)),
+        "lift": log(pack, nothing),
+        "note": "",
+    }
+
+
+def felt_touches(found: Felt | None, path: Toolpath) -> dict[str, Any]:
+    """The corners of what is to be seen, the ends of a beam, and of each touch its row, its place and what is written there."""
+    if found is None:
+        return {"corners": [], "touches": [], "beam": []}
+    touches = zip(found.rows, found.places.round(DIGITS).tolist(), found.texts)
+    corners = _ends(found, path).round(DIGITS).tolist() if found.part is not None or found.beam is not None else []
+    beam = [] if found.beam is None else found.beam.round(DIGITS).tolist()
+    told = [{"row": row, "at": at, "text": text} for row, at, (text, _) in touches]
+    return {"corners": corners, "touches": told, "beam": beam}
+
+
+def _ends(found: Felt, path: Toolpath) -> Any:
+    return found.ends(path.bounds if len(path) else np.zeros((2, 3)))

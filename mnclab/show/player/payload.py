@@ -18,13 +18,10 @@ from numpy.typing import NDArray
 from mnclab.path.cylinder import parted_rapids
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Kind, Toolpath
-from mnclab.show.felt import Felt
 from mnclab.show.given_away import named
-from mnclab.show.player.felt import felt_part, felt_touches
-from mnclab.show.player.logs import changes, columns, log, parted, parts_of
-from mnclab.show.player.packing import Packer
-from mnclab.show.player.part import part
-from mnclab.show.player.section import inserts, section
+from mnclab.show.player.packing import Packer, changes, columns, log, parted, parts_of
+from mnclab.show.player.part import felt_part, felt_touches, inserts, part, section
+from mnclab.show.probed import Felt
 from mnclab.show.solids import cylinder_body
 from mnclab.text.alarm import Alarm, amounts, several
 from mnclab.text.program import Program

@@ -7,11 +7,13 @@ lighter with the value, so that grey print keeps the order; the slower a feed, t
 
 from __future__ import annotations
 
+import re
 from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.colors import to_hex
+from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
@@ -19,7 +21,7 @@ from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Dashes, Line
 from mnclab.show.plot.lathe import speed_at
-from mnclab.show.plot.step_names import ROUGHING, steps_of
+from mnclab.show.plot.picture import SMALL, Picture
 from mnclab.show.plot.strokes import Array, Strokes, parted
 from mnclab.text.given import choice
 
@@ -191,3 +193,72 @@ def hues(count: int) -> tuple[str, ...]:
 def ramp(count: int) -> tuple[str, ...]:
     """Colours from dark to light, equal steps in lightness; all of them have contrast on white."""
     return tuple(to_hex(colormaps["viridis"](LIGHTEST * k / max(count - 1, 1))) for k in range(count))
+
+
+# What a row of a path does in its cycle, in a word or two, for `colour="step"`: roughing, finishing, entry, a peck.
+# The names come out of the labels of the rows ("CYCL DEF 251 layer 1 of 3, ring 2"), whatever the control.
+
+BLOCKS, OTHERS, ROUGHING, FINISHING, ENTRY = "blocks of the program", "other steps", "roughing", "finishing", "entry"
+CODE = re.compile(r"(?:CYCL (?:DEF|CALL)(?: PAT| POS)?|G)\s?\d*\s*")
+NUMBERS = re.compile(r" ?(?<!\d)\d++ of \d++| \d++(?=,|$)")
+COARSE = ("layer", "level", "pass", "line", "opening")
+FINE = ("contour", "clean-up", "finishing")
+MOST = 6  # names; what makes the shortest way goes together beyond
+
+
+def step_name(label: str) -> str:
+    """The step of a label; what no cycle made is `BLOCKS`."""
+    code = CODE.match(label)
+    if code is None:
+        return BLOCKS
+    head, *tail = NUMBERS.sub("", label[code.end() :]).split(", ")
+    if any(piece.startswith(("entry", "plunge")) for piece in (head, *tail)):
+        return ENTRY
+    if head in FINE or (tail and tail[0] in FINE):
+        return FINISHING
+    return ROUGHING if head in COARSE else head or BLOCKS
+
+
+def steps_of(path: Toolpath) -> tuple[NDArray[np.int64], list[str]]:
+    """A number for each row (n,) of a path, and the names of the numbers, in the order of the program."""
+    names = [step_name(label) for label in path.labels]
+    known = list(dict.fromkeys(names[label] for label in dict.fromkeys(path.label.tolist())))
+    way = {name: 0.0 for name in known}
+    for label, length in enumerate(np.bincount(path.label, path.lengths * np.isfinite(path.feed), len(names)).tolist()):
+        if names[label] in way:
+            way[names[label]] += length
+    if len([name for name in known if way[name]]) > MOST:
+        kept = sorted(known, key=lambda name: -way[name])[: MOST - 1]
+        names = [name if name in kept else OTHERS for name in names]
+        known = [*(name for name in known if name in kept), OTHERS]
+    number = np.array([known.index(name) if name in known else 0 for name in names], dtype=np.int64)
+    return number[path.label], known
+
+
+# A small scale of colours above the views: steps between round numbers, named with their unit.
+
+LONGEST, THICK, TOP, LEFT = 3.6, 0.1, 0.07, 0.12  # inches
+LETTER = 0.075  # inches, wider than any at this size
+
+
+def write_scale(picture: Picture, scale: Scale) -> None:
+    """Draw the steps in one row at the top of a picture and a number at as many limits as have room.
+
+    Where a step is a single number, that stands below its middle.
+    """
+    width, height = float(picture.get_figwidth()), float(picture.get_figheight())
+    middle = 1 - (TOP + THICK / 2) / height
+    title = picture.text(LEFT / width, middle, scale.title, fontsize=SMALL, va="center", parse_math=False)
+    names = [number(limit) for limit in scale.limits[: -1 if scale.single else None]]
+    room = LETTER * max(map(len, names))
+    begin = LEFT + title.get_window_extent().width / picture.dpi + max(0.15, room / 2)
+    step = min(LONGEST, width - begin - max(0.1, room / 2)) / len(scale.colours)
+    for k, shade in enumerate(scale.colours):
+        corner = ((begin + k * step) / width, middle - THICK / 2 / height)
+        box = Rectangle(corner, step / width, THICK / height, facecolor=shade, edgecolor=colours.PAPER, linewidth=0.6)
+        box.set_transform(picture.transFigure)
+        picture.add_artist(box)
+    every = next(n for n in range(1, len(names) + 1) if n * step > room + 0.06 or n == len(names))
+    for k in range(0, len(names), every):
+        at = (begin + (k + scale.single / 2) * step) / width, middle - (THICK / 2 + 0.02) / height
+        picture.text(*at, names[k], fontsize=SMALL, ha="center", va="top", parse_math=False)

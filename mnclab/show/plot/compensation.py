@@ -40,9 +40,9 @@ from mnclab.show.plot.picture import (
     roomy,
     write_legend,
 )  # fmt: skip
+from mnclab.show.plot.side_by_side import TITLE, grid
 from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import Array, corners
-from mnclab.show.plot.trials import TITLE, grid
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, choice, shown
 

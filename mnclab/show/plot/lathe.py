@@ -10,15 +10,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_rgba
 from matplotlib.patches import Patch, Polygon
 from numpy.typing import NDArray
 
 from mnclab.path.feeds import spindle_speed
-from mnclab.path.inserts import as_drawn, lead_of
+from mnclab.path.inserts import as_drawn, holder, insert, lead_of
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.show.plot import colours
-from mnclab.show.plot.insert import STEEL, insert_patches
 from mnclab.show.plot.picture import SMALL, Picture
 from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import Array, Strokes
@@ -31,6 +31,7 @@ CUTS = (Kind.LINE, Kind.ARC)
 CHORD = 0.01  # mm, of arcs in what is filled
 BAR: dict[str, Any] = {"facecolor": "#f4f1e8", "edgecolor": "#8c8061", "linewidth": 0.8}
 FINISHED: dict[str, Any] = {"facecolor": "#d9d5c8", "edgecolor": "#55503f", "linewidth": 1.3}
+STEEL, CARBIDE = "#c9ccd1", "#e9c46a"  # as in `player/page.css`
 CHUCK: dict[str, Any] = {"facecolor": STEEL, "edgecolor": colours.INK, "linewidth": 0.9}
 PARTS = 24  # of a row along which the speed changes
 
@@ -183,3 +184,28 @@ def plot_speed(path: Toolpath, most: float = np.inf, size: tuple[float, float] =
 def plot_speed_of(run: Any, most: float = np.inf, **options: Any) -> Picture:
     """As `plot_speed`, for a run; not above the greatest speed of the machine's limits."""
     return plot_speed(run.toolpath, min(most, run.setup.limits.spindle), **options)
+
+
+# The insert of a lathe tool in a view of z and r, with the holder behind it; their shapes are in `path.inserts`.
+# Both are like glass: what the insert has cut, and the material beside it, is seen through them.
+
+GLASS, CLEAR = 0.5, 0.35  # how much of an insert and of a holder is there
+INSERT: dict[str, Any] = {"facecolor": to_rgba(CARBIDE, GLASS), "edgecolor": colours.INK}
+HOLDER: dict[str, Any] = {"facecolor": to_rgba(STEEL, CLEAR), "edgecolor": "#7c828a"}
+FINE = 0.01  # of the size of an insert: how far a chord of its nose may be off
+
+
+def insert_patches(
+    tool: Tool, tip: tuple[float, float], size: float, reach: float = 0.0, order: float = 4.4
+) -> list[Patch]:
+    """Holder and insert with the tip at a place (z, r); `order` of drawing: strokes have 2.5 to 3."""
+    outline = insert(tool, size, reach).points_within(FINE * size)[:-1]
+    return [
+        Polygon(holder(tool, size, reach) + tip, **HOLDER, linewidth=0.7, zorder=order),
+        Polygon(outline + tip, **INSERT, linewidth=0.9, joinstyle="round", zorder=order + 0.1),
+    ]
+
+
+def named_insert() -> Patch:
+    """What a legend shows of it."""
+    return Patch(**INSERT, linewidth=0.9, label="insert")

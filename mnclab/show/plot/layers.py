@@ -3,32 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
+from numpy.typing import NDArray
 
 from mnclab.path.toolpath import Kind, Toolpath
-from mnclab.show.felt import Felt
 from mnclab.show.plot import arrows as heads
 from mnclab.show.plot import colours
-from mnclab.show.plot.beside import beside
 from mnclab.show.plot.classes import Classes
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, crosses, segments, write_names
-from mnclab.show.plot.felt import draw_felt
 from mnclab.show.plot.holes import beside_holes
 from mnclab.show.plot.lathe import Lathe, draw_blank, draw_chucks, draw_insert
-from mnclab.show.plot.once import once
 from mnclab.show.plot.overlay import Overlay
+from mnclab.show.plot.part import relief
 from mnclab.show.plot.picture import View
+from mnclab.show.plot.placing import spread
+from mnclab.show.plot.probed import draw_felt
 from mnclab.show.plot.strokes import Array, Strokes, parted
-from mnclab.show.plot.symbols import spread
-from mnclab.show.plot.under import draw_under
+from mnclab.show.probed import Felt
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.workpiece import Workpiece
+
+if TYPE_CHECKING:
+    from mnclab.workpiece.milling.milled import Milled
+    from mnclab.workpiece.turning.turned import Turned
 
 MARKS = {Kind.DWELL: colours.DWELL, Kind.TOOL: colours.TOOL, Kind.STOP: colours.STOP}
 MANY, SMALL, THIN = 30, 4.0, 0.7  # plunges; points of the crosses of more: those of an engraving would cover its letters
@@ -138,3 +141,172 @@ def write(ax: Axes, view: View, drawing: Drawing, low: Array, high: Array) -> No
     if drawing.places:
         around = np.concatenate([np.empty((0, 2)), *occupied])
         write_names(ax, view, drawing.places, around, [xyz for _, xyz in drawing.lines])
+
+
+# The part under a path: pale, so that the path stays what one looks at.
+
+FACE, EDGE = "#d9d5c8", "#7d7664"
+PALE = 0.62  # of white in what lies under a path
+
+
+def draw_under(ax: Axes, view: View, workpiece: Workpiece) -> None:
+    """The part in one view: from above in light and shadow, from the side its outline, of a lathe its half section."""
+    if view.diameter:
+        from mnclab.show.plot.turned import draw_half
+
+        draw_half(ax, cast("Turned", workpiece))
+        return
+    part = cast("Milled", workpiece)
+    if 2 in (view.right, view.up):
+        _silhouette(ax, part, view)
+        return
+    from mnclab.show.plot.part import DEPTHS, draw_relief
+
+    seen = relief(part)
+    depth = float(part.cutting.stock.bounds[1, 2]) - seen.z
+    shades = DEPTHS(0.75 * depth / max(float(depth[seen.solid].max(initial=0.0)), 1e-9))[..., :3] * seen.light[..., None]
+    image = np.clip(PALE + (1 - PALE) * shades, 0.0, 1.0)
+    draw_relief(ax, seen, np.concatenate([image, seen.solid[..., None]], axis=2), order=0.6)
+
+
+def _silhouette(ax: Axes, part: Milled, view: View) -> None:
+    """How high the part reaches behind each place that goes to the right, over the lower side of the blank."""
+    along = 1 - view.right  # the axis of the map that one looks along: rows are Y, columns X
+    places = (part.x, part.y)[view.right]
+    axis = 0 if along == 1 else 1
+    heights, floor = part.heights.max(axis=axis), part.floor.min(axis=axis)
+    ends = part.cutting.stock.bounds[:, view.right]
+    places = np.clip(np.repeat(places, 2) + np.tile([-0.5, 0.5], len(places)) * part.step, *ends)
+    outline = np.concatenate([
+        np.stack([places, np.repeat(heights, 2)], axis=1), np.stack([places, np.repeat(floor, 2)], axis=1)[::-1],
+    ])  # fmt: skip
+    ax.add_patch(Polygon(outline, facecolor=FACE, edgecolor=EDGE, linewidth=0.9, zorder=0.8, label="_part"))
+
+
+# Rapids that run over one another are drawn once: two dashed lines on one line would fill each other's gaps.
+# What is left would be a thin solid line, which grey print cannot tell from a cut.
+
+RAPID = 0  # the class of rapids
+LONG = 5.0  # points, of a rapid at least; pieces of a bent one are shorter
+SHARED = 3.0  # points of the way over another at least
+TURN, ASIDE = 1e-3, 0.15  # rad and points, by which strokes on one line may differ
+
+
+def once(ax: Axes, drawn: Strokes, found: Classes, axes: list[int]) -> Array:
+    """The rapids of a view as one line (k, 2) broken by nan, none of it over another; the limits of `ax` are final."""
+    rapids = np.flatnonzero(found.group == RAPID)
+    figure = ax.get_figure(root=True)
+    flat = ax.transData.transform(drawn.xyz[:, axes]) / ((figure.dpi if figure else 72) / 72)
+    rapids = rapids[np.hypot(*(flat[rapids] - flat[rapids - 1]).T) > LONG]
+    if not len(rapids):
+        return parted(drawn.xyz, found.group, 1)[0][:, axes]
+    low, high, ends = _on_lines(flat, rapids)
+    order = np.argsort(low)
+    reached = np.maximum.accumulate(high[order])
+    runs = np.split(order, np.flatnonzero(low[order][1:] > reached[:-1] - SHARED) + 1)
+    group, pieces = found.group.copy(), []
+    for run in runs:
+        if len(run) > 1:
+            group[rapids[run]] = -1
+            whole = [ends[run[0], 0], ends[run[np.argmax(high[run])], 1]]
+            pieces.append(np.concatenate([np.full((1, 2), np.nan), drawn.xyz[whole][:, axes]]))
+    line = np.concatenate([parted(drawn.xyz, group, 1)[0][:, axes], *pieces])
+    return line[1:] if len(line) and np.isnan(line[0]).all() else line
+
+
+def _on_lines(flat: Array, rapids: NDArray[np.intp]) -> tuple[Array, Array, NDArray[np.intp]]:
+    """Where each rapid (m,) begins and ends on its line, and the points (m, 2) there; each line has a range of its own."""
+    begin, way = flat[rapids - 1], flat[rapids] - flat[rapids - 1]
+    turn = np.arctan2(way[:, 1], way[:, 0])
+    turn = (turn + TURN) % np.pi - TURN  # there and back are one line
+    x, y = np.cos(turn), np.sin(turn)
+    turned = _clusters(turn, np.zeros(len(turn)), TURN)
+    line = _clusters(begin[:, 1] * x - begin[:, 0] * y, turned, ASIDE)
+    places = np.stack([x * flat[each][:, 0] + y * flat[each][:, 1] for each in (rapids - 1, rapids)], axis=1)
+    ends = np.stack([rapids - 1, rapids], axis=1)
+    ends = np.where((places[:, 0] > places[:, 1])[:, None], ends[:, ::-1], ends)
+    places = np.sort(places, axis=1) - places.min()
+    places += (line * (places.max() + 2 * SHARED))[:, None]
+    return places[:, 0], places[:, 1], ends
+
+
+def _clusters(values: Array, within: NDArray[np.float64], gap: float) -> Array:
+    """Numbers (m,) of values that follow one another by less than a gap, apart for each number of `within`."""
+    order = np.lexsort((values, within))
+    new = (np.diff(values[order]) > gap) | (np.diff(within[order]) > 0)
+    found = np.empty(len(values))
+    found[order] = np.concatenate([[0], np.cumsum(new)])
+    return found
+
+
+# Rapids that run over a cut are drawn beside it, to the right of their way, so that both are seen.
+# Where several of them run the same way over one cut, each has a lane of its own, up to `LANES`.
+
+CUTS = 1  # classes from here on are not covered by rapids
+MOST, AT_ONCE = 500, 400_000  # rapids of a view that are looked at; pairs of rapid and cut looked at together
+ON = 1.2  # points from line to line
+OFF, NEXT, LANES = 2.4, 2.0, 2  # points from the cut to the first lane, and from lane to lane; how many lanes
+
+
+def beside(ax: Axes, drawn: Strokes, found: Classes, axes: list[int]) -> tuple[Strokes, Classes]:
+    """The strokes of a view whose coordinates `axes` are seen, with rapids beside the cuts; the limits of `ax` are final."""
+    rapids = np.flatnonzero(found.group == RAPID)
+    cuts = np.flatnonzero(found.group >= CUTS)
+    figure = ax.get_figure(root=True)
+    if not len(rapids) or not len(cuts) or figure is None:
+        return drawn, found
+    point = figure.dpi / 72
+    flat = ax.transData.transform(drawn.xyz[:, axes]) / point
+    rapids = rapids[np.hypot(*(flat[rapids] - flat[rapids - 1]).T) > LONG]
+    if not 0 < len(rapids) <= MOST:
+        return drawn, found
+    over = _over(flat, rapids, cuts)
+    rapids = rapids[over]
+    if not len(rapids):
+        return drawn, found
+    off = OFF + NEXT * _lanes(flat, rapids)
+    begin, way = flat[rapids - 1], flat[rapids] - flat[rapids - 1]
+    length = np.hypot(*way.T)
+    along = way / length[:, None]
+    aside = off[:, None] * np.stack([along[:, 1], -along[:, 0]], axis=1)
+    slant = np.minimum(off, length / 4)[:, None] * along
+    places = np.stack([begin + aside + slant, begin + way + aside - slant], axis=1).reshape(-1, 2)
+    xyz = np.repeat(drawn.xyz[rapids], 2, axis=0)
+    xyz[:, axes] = ax.transData.inverted().transform(places * point)
+    at = np.repeat(rapids, 2)
+    moved = Strokes(np.insert(drawn.xyz, at, xyz, axis=0), np.insert(drawn.row, at, drawn.row[at]))
+    return moved, found._replace(group=np.insert(found.group, at, RAPID))
+
+
+def _over(flat: Array, rapids: NDArray[np.intp], cuts: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Which rapids (m,) run over a cut."""
+    low, high = np.minimum(flat[cuts], flat[cuts - 1]), np.maximum(flat[cuts], flat[cuts - 1])
+    seen = cuts[(high - low).max(axis=1) > SHARED]
+    found = np.zeros(len(rapids), bool)
+    step = max(1, AT_ONCE // max(len(seen), 1))
+    for k in range(0, len(rapids), step):
+        found[k : k + step] = (_shared(flat, rapids[k : k + step], seen) > SHARED).any(axis=1)
+    return found
+
+
+def _shared(flat: Array, some: NDArray[np.intp], others: NDArray[np.intp]) -> Array:
+    """How much of the way strokes share with others on the same line (m, n), points; 0 on another line."""
+    begin, way = flat[some - 1], flat[some] - flat[some - 1]
+    length = np.hypot(*way.T)
+    x, y = (way / length[:, None]).T[:, :, None]
+    ends = [flat[each] - begin[:, None] for each in (others - 1, others)]
+    a, b = (x * each[..., 0] + y * each[..., 1] for each in ends)
+    aside = np.maximum(*(np.abs(x * each[..., 1] - y * each[..., 0]) for each in ends))
+    shared = np.minimum(np.maximum(a, b), length[:, None]) - np.maximum(np.minimum(a, b), 0.0)
+    return np.where(aside < ON, np.maximum(shared, 0.0), 0.0)
+
+
+def _lanes(flat: Array, rapids: NDArray[np.intp]) -> NDArray[np.int64]:
+    """The lane of each rapid (m,): the first that none before it has on the same line and in the same direction."""
+    way = flat[rapids] - flat[rapids - 1]
+    together = (_shared(flat, rapids, rapids) > 0) & (way @ way.T > 0)
+    lanes = np.zeros(len(rapids), np.int64)
+    for k in range(len(rapids)):
+        taken = set(lanes[:k][together[k, :k]].tolist())
+        lanes[k] = next((lane for lane in range(LANES) if lane not in taken), LANES - 1)
+    return lanes

@@ -16,7 +16,7 @@ from matplotlib.patches import Polygon, Rectangle
 from mnclab.geometry import frames
 from mnclab.path.listing import Unit
 from mnclab.show.plot import colours
-from mnclab.show.plot.chains import LENGTH, Chains
+from mnclab.show.plot.datums import LENGTH, Chains
 from mnclab.show.plot.picture import SMALL, Picture
 from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm

@@ -12,14 +12,14 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch
 
 from mnclab.path.listing import MM, Unit
-from mnclab.show.felt import part_of
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line, Mark
-from mnclab.show.plot.material import FACE, draw_material
 from mnclab.show.plot.measured_panels import Panel, panels
 from mnclab.show.plot.picture import LINE, SMALL, Foot, Picture, dress, write_legend
 from mnclab.show.plot.placing import write_beside
+from mnclab.show.plot.probed import FACE, draw_material
 from mnclab.show.plot.sizes import sized
+from mnclab.show.probed import part_of
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, shown, whole
 

@@ -17,8 +17,8 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.frames import apply, inverse
 from mnclab.path.listing import Unit
 from mnclab.path.toolpath import Array
-from mnclab.show.felt import touched_decimals
 from mnclab.show.plot.picture import VIEWS, View
+from mnclab.show.probed import touched_decimals
 
 SAMPLES = 48  # of an element of a contour
 SHARE = 0.1  # of the greatest side of a panel: how far the worst deviation is drawn at most

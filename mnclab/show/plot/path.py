@@ -5,6 +5,7 @@ Each class of moves is *one* line, broken by nan (see `strokes`), so that a mill
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, cast
@@ -17,29 +18,42 @@ from matplotlib.patches import Patch
 from mnclab.path.limits import Limits, limits_of
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Kind, Toolpath
-from mnclab.show.felt import Felt
-from mnclab.show.felt import felt as felt_of
 from mnclab.show.plot import arrows as heads
 from mnclab.show.plot import band as bands
 from mnclab.show.plot import colours, ghost
-from mnclab.show.plot.classes import Classes, classes
+from mnclab.show.plot.classes import Classes, classes, write_scale
 from mnclab.show.plot.classes import lines as lines_of
 from mnclab.show.plot.clickable import told_by
+from mnclab.show.plot.colours import Line
 from mnclab.show.plot.datums import Place, crosses, near, places_of
-from mnclab.show.plot.felt import names_of
-from mnclab.show.plot.framing import box_of, foot_of, in_words, views_of
-from mnclab.show.plot.holes import beside_holes
+from mnclab.show.plot.holes import beside_holes, holes_of
 from mnclab.show.plot.lathe import FINISHED, lathe, speed_strokes, with_blank
 from mnclab.show.plot.layers import INSERT, Drawing, draw, marks_of, plunges_of, write
-from mnclab.show.plot.no_moves import no_moves
-from mnclab.show.plot.overlay import Overlay
-from mnclab.show.plot.overlays import overlays_of
-from mnclab.show.plot.picture import SCALE, SIZE, Picture, arrange, dress, roomy, write_legend
-from mnclab.show.plot.scale import write_scale
+from mnclab.show.plot.original import original_of
+from mnclab.show.plot.overlay import Overlay, centres_of, polar_of
+from mnclab.show.plot.picture import (
+    LINE,
+    SCALE,
+    SIZE,
+    SMALL,
+    VIEWS,
+    Foot,
+    Picture,
+    View,
+    arrange,
+    dress,
+    roomy,
+    write_legend,
+)
+from mnclab.show.plot.probed import names_of
+from mnclab.show.plot.sections import fixtures_of
 from mnclab.show.plot.sizes import sized
-from mnclab.show.plot.strokes import Array, Strokes, line_of, strokes
+from mnclab.show.plot.strokes import Array, Strokes, corners, line_of, strokes
+from mnclab.show.probed import Felt
+from mnclab.show.probed import felt as felt_of
 from mnclab.show.rapids import rapids_of
-from mnclab.text.alarm import ALARM, Alarm
+from mnclab.text.alarm import ALARM, Alarm, several
+from mnclab.text.given import choice, shown
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.workpiece import Workpiece
 
@@ -102,7 +116,7 @@ def plot_path(
       False for none.
     - `part`: what is left of the blank, drawn under the path.
     - `home`: the path begins where the tool arrives from home.
-    - `felt`: what a probe meets, drawn behind the path (see `show.felt`).
+    - `felt`: what a probe meets, drawn behind the path (see `show.probed`).
     - `gouged`: the points (n, 3) of the contour that a compensated tool cuts; None: the ends of the rows that do.
     - `rapids`: limits of the machine, or its name, under which axes that do not wait for each other bend a rapid; else it is
       straight.
@@ -215,6 +229,84 @@ def _crowded(drawn: Strokes, found: Classes, span: Array, size: tuple[float, flo
     return bands.dense(drawn.xyz[:, :2], found.group >= CUTS, 0.85 * scale)
 
 
+# What is shown of it: the box, the views that it needs, and how it is told in words.
+
+MOSTLY = 0.9  # the cosine between two directions from which on they are taken for the same
+FAR = 5  # a box of all moves this many times that of the cuts is not shown whole
+
+
+def box_of(path: Toolpath, pieces: Sequence[tuple[Line, Array]], frame: str) -> tuple[Array, Array, bool]:
+    """The corners (3,) of the box that is shown, and whether rapids go beyond it; a lathe's holds the centre line."""
+    frame = choice(frame, "frame", ("auto", "all", "cuts"))
+    cuts = corners([points for line, points in pieces if line is not colours.RAPID], path.lathe)
+    rest = [points for line, points in pieces if line is colours.RAPID] + [path.start[:1], path.end[-1:]]
+    everything = corners([*rest, np.array(cuts).reshape(-1, 3)] if cuts else rest, path.lathe)
+    if everything is None:
+        return np.zeros(3), np.zeros(3), False
+    if cuts is None or frame == "all":
+        return *everything, False
+    spans = [float((high - low).max()) for low, high in (everything, cuts)]
+    if frame == "cuts" or spans[0] > FAR * spans[1] > 0:
+        return *cuts, spans[0] > spans[1]
+    return *everything, False
+
+
+def foot_of(stop: Alarm | None, beyond: bool) -> Foot | None:
+    """What is written below: the alarm that stopped the program, or that rapids are cut off."""
+    if stop:
+        return Foot.of(stop)
+    return Foot('rapids from far away are cut off; frame="all" shows them') if beyond else None
+
+
+def views_of(view: str, path: Toolpath, low: Array, high: Array, single: bool) -> list[View]:
+    """The views of a picture, a `single` one at most, that count in the unit of the path."""
+    view = choice(view, "view", ("auto", *VIEWS))
+    names = [view] if view != "auto" else ["ZX"] if path.lathe else _needed(path, high - low)
+    return [VIEWS[name]._replace(unit=path.unit) for name in names[: 1 if single else None]]
+
+
+def _needed(path: Toolpath, span: Array) -> list[str]:
+    """The views of a mill's path: along the tool, from the side, and on each plane that has arcs."""
+    cuts = np.flatnonzero((path.kind == Kind.LINE) | (path.kind == Kind.ARC))
+    arcs = cuts[path.kind[cuts] == Kind.ARC]
+    on_x, on_y = (bool((np.abs(path.axis[arcs][:, k]) > MOSTLY).any()) for k in (0, 1))
+    if len(cuts) and abs(path.axis[cuts[0], 2]) < 1 - MOSTLY:
+        for k, names in ((0, ["YZ", "XZ"]), (1, ["XZ", "XY"])):
+            if (np.abs(path.axis[cuts][:, k]) > MOSTLY).all():
+                return names if span[k] > 0 else names[:1]
+    if not span[2] > 0:
+        return ["XY"]
+    if on_x != on_y:
+        return ["XY", "YZ" if on_x else "XZ"]
+    return ["XY", "XZ", "YZ"] if on_x else ["XY", "YZ" if span[0] == 0 and span[1] > 0 else "XZ"]
+
+
+def in_words(path: Toolpath, low: Array, high: Array, stop: Alarm | None) -> str:
+    """What a person who cannot see the picture is told."""
+    moves, factors = int(path.is_motion.sum()), (2 if path.lathe else 1, 1, 1)
+    said = several(moves, "move") if moves else "no moves"
+    ends = zip("XYZ", factors, low / path.unit.length, high / path.unit.length)
+    ranges = [f"{axis} {f * a:.4g} to {f * b:.4g}" for axis, f, a, b in ends if b > a]
+    said += f", {', '.join(ranges)} {path.unit.short}" if ranges and moves else ""
+    return f"tool path: {said}{f'; stopped in line {stop.span.line}' if stop and stop.span else ''}"
+
+
+WIDE, LETTERS = 4.6, 70  # inches, and how many letters they hold
+
+
+def no_moves(stop: Alarm | None) -> Picture:
+    """A strip with words: axes around nothing would show a scale that means nothing."""
+    said = textwrap.wrap(Foot.of(stop).text, LETTERS)[:6] if stop else []
+    place = f"; stopped in line {stop.span.line}" if stop and stop.span else ""
+    picture = Picture((WIDE, 0.4 + LINE * len(said)), f"tool path: no moves{place}")
+    high = picture.get_figheight()
+    picture.text(0.1 / WIDE, 1 - 0.1 / high, "no moves", fontsize=SMALL + 2, color=colours.INK, va="top")
+    for k, line in enumerate(said):
+        down = 0.34 + LINE * k
+        picture.text(0.1 / WIDE, 1 - down / high, line, fontsize=SMALL, color=colours.ALARM.colour, va="top", parse_math=False)
+    return picture
+
+
 @sized(also=plot_path)
 def plot_run(
     run: Any, ax: Axes | None = None, view: str = "auto",
@@ -269,3 +361,13 @@ def _telling(run: Any, figure: Figure) -> Figure:
     if isinstance(figure, Picture):
         figure.told = told_by(run)
     return figure
+
+
+def overlays_of(run: Any, centres: bool | None, original: bool, holes: bool, fixtures: bool) -> list[Overlay]:
+    """Centres of arcs, the contour as written, holes and fixtures of a run."""
+    for name, given in {"centres": centres, "original": original, "holes": holes, "fixtures": fixtures}.items():
+        if not isinstance(given, bool | None):
+            raise Alarm(f"{name} must be True or False, got {shown(given)}")
+    found: list[Overlay | None] = [fixtures_of(run) if fixtures else None, original_of(run) if original else None]
+    found += [holes_of(run) if holes else None, polar_of(run), centres_of(run, centres)]
+    return [each for each in found if each is not None]

@@ -1,4 +1,4 @@
-"""Sections through a part as drawings have them: hatched, named by a letter at both ends of the line of the cut."""
+"""Sections through a part as drawings have them: hatched, named by a letter at both ends of the line; what holds it."""
 
 from __future__ import annotations
 
@@ -9,17 +9,18 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from matplotlib.patches import PathPatch, Polygon
+from matplotlib.patches import Patch, PathPatch, Polygon
 from matplotlib.path import Path
 from matplotlib.patheffects import withStroke
 
 from mnclab.geometry.contours import Contour
 from mnclab.path.toolpath import Array
 from mnclab.show.plot import colours
+from mnclab.show.plot.overlay import fits, grown
 from mnclab.show.plot.picture import SMALL, VIEWS, View
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, choice, shown
-from mnclab.workpiece.blank import Blank
+from mnclab.workpiece.blank import Blank, blank
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.workpiece import Workpiece
 
@@ -135,3 +136,40 @@ def mark_section(ax: Axes, section: Section, low: Array, high: Array) -> None:
             section.letter, tuple(tail), (0, -6 if fixed == 1 else 0), textcoords="offset points", fontsize=SMALL + 1,
             ha="center" if fixed == 1 else "left", va="center", weight="bold", bbox=CARD, zorder=3.2,
         )  # fmt: skip
+
+
+NAME = "fixture"
+LOOK: dict[str, Any] = {**FIXTURE, "hatch": "\\\\\\", "linestyle": "-", "edgecolor": "#77736a"}
+
+
+class Fixtures(NamedTuple):
+    """Bodies in the coordinates of the path."""
+
+    bodies: list[Blank]
+
+    def box(self, low: Array, high: Array) -> tuple[Array, Array]:
+        for each in self.bodies:
+            if fits(low, high, each.bounds):  # else it is cut off at the border
+                low, high = grown(low, high, each.bounds)
+        return low, high
+
+    def names(self, views: Sequence[View]) -> list[str]:
+        return [NAME]
+
+    def draw(self, ax: Axes, view: View) -> list[Any]:
+        for each in self.bodies:
+            for outline in each.outline(view.right, view.up):
+                ax.add_patch(Polygon(outline, **LOOK, zorder=1.2))
+        return [Patch(**LOOK, label=NAME)]
+
+    def write(self, ax: Axes, view: View, lines: Sequence[Array]) -> None:
+        return None
+
+
+def fixtures_of(run: Any) -> Fixtures | None:
+    """The fixtures of a mill whose outline is known; of a lathe the picture of the part has them."""
+    if run.toolpath.lathe:
+        return None
+    found = [blank(each) for each in run.setup.fixtures if not isinstance(each, Part)]
+    bodies = [each.moved(-np.asarray(run.toolpath.origin)) for each in found if each is not None]
+    return Fixtures(bodies) if bodies else None

@@ -1,26 +1,35 @@
-"""The blank as it is clamped, from above and from the side: its sizes, the datum as a quartered circle, what holds it."""
+"""The set-up of a program: the blank as it is clamped, and where the parts lie on the machine."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch, Polygon
+from matplotlib.patches import FancyArrowPatch, Patch, Polygon
 from matplotlib.path import Path
 
 from mnclab.geometry.frames import shift
+from mnclab.path.listing import Unit
 from mnclab.path.toolpath import Array
 from mnclab.show.plot import colours
-from mnclab.show.plot.datums import places_of
-from mnclab.show.plot.material import draw_material
-from mnclab.show.plot.picture import SMALL, VIEWS, Picture, View, arrange, write_legend
+from mnclab.show.plot.datums import LENGTH, ORIGINS, Place, places_of
+from mnclab.show.plot.overlay import line, texts
+from mnclab.show.plot.picture import SIZE, SMALL, VIEWS, Picture, View, arrange, dress, roomy, write_legend
+from mnclab.show.plot.probed import draw_material
+from mnclab.show.plot.sizes import sized
+from mnclab.show.plot.strokes import corners, line_of
+from mnclab.show.rapids import rapids_of
+from mnclab.text.given import choice
 from mnclab.workpiece.blank import blank
 from mnclab.workpiece.part import Part
 
-LENGTH = "frame length"  # of a control that compensates the length of tools
-SIZE = (6.8, 4.6)  # inches, at most
+# The blank from above and from the side: its sizes, the datum as a quartered circle, what holds it.
+
+TOOL_LENGTH = "frame length"  # of a control that compensates the length of tools
+SHEET_SIZE = (6.8, 4.6)  # inches, at most
 BLANK: dict[str, Any] = {"facecolor": "#f4f1e8", "edgecolor": "#8c8778", "linewidth": 1.0}
 FIXTURE: dict[str, Any] = {"facecolor": "#d0d0d0", "edgecolor": "#6b6b6b", "linewidth": 0.8, "hatch": "////"}
 QUARTERS = Path.make_compound_path(Path.wedge(0, 90), Path.wedge(180, 270))
@@ -38,7 +47,7 @@ def zero_points(run: Any) -> list[tuple[str, Array]]:
     return found or [("zero", np.zeros(3))]
 
 
-def plot_set_up(run: Any, size: tuple[float, float] = SIZE) -> Picture:
+def plot_set_up(run: Any, size: tuple[float, float] = SHEET_SIZE) -> Picture:
     """Views of a blank with its fixtures and zero points; of a lathe Z to the right and the diameter up."""
     stock, lathe, origin = run.stock, run.toolpath.lathe, np.array(run.toolpath.origin)
     views = [VIEWS["ZX"]] if lathe else [VIEWS["XY"], VIEWS["XZ"]]
@@ -118,3 +127,102 @@ def _datum(ax: Axes, view: View, name: str, xyz: Array) -> None:
     off, side = ((0, -9), "center") if below else ((8, 8), "left")
     where: dict[str, Any] = {"textcoords": "offset points", "ha": side, "va": "top" if below else "baseline"}
     ax.annotate(name, (x, y), off, fontsize=SMALL, zorder=4.2, bbox=card, **where)
+
+
+# Where the parts lie on the machine: machine zero, and from it a vector to every zero point that a program selects.
+# Numbers at the axes are machine coordinates. Where machine zero is so far away that the picture would be empty, the
+# vectors are broken: it stands at the border then, and that is said.
+
+FAR = 3.0  # times the size of what lies on the table: a machine zero beyond that is drawn at the border
+GAP = 0.35  # of that size: how far from it the border is
+ZERO_POINT = colours.DATUM._replace(name="zero point")
+ARROW: dict[str, Any] = {"arrowstyle": "-|>", "mutation_scale": 11, "shrinkA": 6, "shrinkB": 6, "linewidth": 1.3}
+
+
+@sized()
+def plot_datums(run: Any, ax: Axes | None = None, *, view: str = "XY", size: tuple[float, float] = SIZE) -> Figure:
+    """Machine zero, the zero points of a run and the cuts, in machine coordinates.
+
+    Work offsets and presets are vectors from machine zero, what G92, G52 or a datum shift moves is a vector from the zero
+    point before it; each says its name and its coordinates. `view` is "XY", "XZ" or "YZ"; on a lathe "ZX" (diameters).
+    """
+    path = run.toolpath
+    looked = VIEWS["ZX" if path.lathe and view == "XY" else choice(view, "view", VIEWS)]._replace(unit=path.unit)
+    origin = np.asarray(path.origin)
+    places = [place for place in places_of(run) if place.mark is colours.DATUM and np.isfinite(place.xyz).all()]
+    spots = np.array([place.xyz for place in places]).reshape(-1, 3) + origin
+    cuts = line_of(path, rapids=rapids_of(run)) + origin
+    around = corners([each for each in (cuts, spots) if len(each)], False) or (np.zeros(3), np.ones(3))
+    zero, broken = np.zeros(3), False
+    axes = [looked.right, looked.up]
+    reach, (low, high) = float((around[1] - around[0])[axes].max()), around
+    away = np.fmax(np.fmax(low, 0.0) - np.fmin(high, 0.0) - (high - low), 0.0)[axes]
+    if away.max() > FAR * max(reach, 1e-6):
+        broken = True
+        zero = np.clip(zero, low - GAP * reach, high + GAP * reach)
+    low, high = np.fmin(low, zero), np.fmax(high, zero)
+    said = f"zero points in machine coordinates: {'; '.join(_told(place, spot, path.unit) for place, spot in zip(places, spots))}"
+    handles: list[Any] = []
+    picture = None
+    if ax is None:
+        picture, (ax,) = arrange([looked], low, high, ["machine zero", "zero point", "cuts and rapids"], None, said, size)
+    else:
+        dress(ax, looked)
+        wide = roomy(low, high, [looked])
+        for limits, k in ((ax.set_xlim, looked.right), (ax.set_ylim, looked.up)):
+            limits(wide[0][k], wide[1][k])
+        ax.apply_aspect()
+    if len(cuts):
+        handles.append(line(ax, looked, cuts, colours.PROGRAMMED, label="cuts and rapids"))
+    vectors = []
+    for place, spot in zip(places, spots):
+        begin = _parent(place, places, spots, zero)
+        vectors.append(np.array([begin, spot]))
+        _vector(ax, looked, begin, spot, broken and begin is zero)
+    handles += [line(ax, looked, each, look) for each, look in ((zero[None], colours.MACHINE_ZERO), (spots, ZERO_POINT))]
+    names = ["machine zero, not to scale" if broken else "machine zero"]
+    middle = (low + high) / 2
+    wishes = np.array([(0.7, -0.7), *(_way(spot, middle, looked) for spot in spots)])
+    labels = [_told(place, spot, path.unit) for place, spot in zip(places, spots)]
+    texts(ax, looked, [*names, *labels], np.vstack([zero[None], spots]), wishes, [cuts, *vectors], mark=7.0)
+    if picture is None:
+        return cast(Figure, ax.get_figure(root=True))
+    write_legend(picture, handles)
+    return picture
+
+
+def _way(spot: Array, middle: Array, view: View) -> tuple[float, float]:
+    """Away from the middle of the picture."""
+    way = (spot - middle)[[view.right, view.up]]
+    size = float(np.hypot(*way))
+    return (float(way[0] / size), float(way[1] / size)) if size > 1e-9 else (0.7, 0.7)
+
+
+def _told(place: Place, spot: Array, unit: Unit) -> str:
+    """`G54 X100 Y50 Z20`, in machine coordinates."""
+    return f"{place.name}  " + " ".join(f"{axis}{unit.figure(value, 1)}" for axis, value in zip("XYZ", spot))
+
+
+def _parent(place: Place, places: list[Place], spots: Array, zero: Array) -> Array:
+    """From where a zero point is shifted: the work offset before it, machine zero for a work offset itself."""
+    shifts = {name for name in ORIGINS.values() if name not in ("", "preset")} | {"G52", LENGTH}
+    if set(place.name.split(", ")) <= shifts:
+        for k in range(places.index(place) - 1, -1, -1):
+            if not set(places[k].name.split(", ")) <= shifts:
+                return np.asarray(spots[k])
+    return zero
+
+
+def _vector(ax: Axes, view: View, begin: Array, end: Array, broken: bool) -> None:
+    a, b = begin[[view.right, view.up]], end[[view.right, view.up]]
+    if np.allclose(a, b):
+        return
+    ax.add_patch(FancyArrowPatch(tuple(a), tuple(b), color=colours.MACHINE_ZERO.colour, zorder=3.4, **ARROW))
+    if broken:  # two strokes across its middle, a gap between them
+        way = np.diff(ax.transData.transform([a, b]), axis=0)[0]
+        way /= np.hypot(*way)
+        look: dict[str, Any] = {"textcoords": "offset points", "xytext": (0, 0), "ha": "center", "va": "center", "zorder": 3.5}
+        angle = float(np.degrees(np.arctan2(way[1], way[0])))
+        box = {"boxstyle": "square,pad=0.02", "facecolor": colours.PAPER, "edgecolor": "none"}
+        middle = a + 0.45 * (b - a)
+        ax.annotate("//", tuple(middle), fontsize=9, rotation=angle, color=colours.MACHINE_ZERO.colour, bbox=box, **look)

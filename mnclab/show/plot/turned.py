@@ -20,13 +20,12 @@ from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Array
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import number, ramp
-from mnclab.show.plot.insert import insert_patches, named_insert
-from mnclab.show.plot.lathe import BAR, CHUCK, FINISHED, chucks_of
-from mnclab.show.plot.part_words import in_words, told
+from mnclab.show.plot.lathe import BAR, CHUCK, FINISHED, chucks_of, insert_patches, named_insert
 from mnclab.show.plot.picture import SIZE, SMALL, VIEWS, Foot, arrange, dress, write_legend
 from mnclab.show.plot.sections import CARD, CHORD, FACE, HATCH, outline_of
 from mnclab.workpiece.cutting import CUTS
 from mnclab.workpiece.turning.turned import Turned
+from mnclab.workpiece.workpiece import Workpiece
 
 OUTSIDE = "#e9e5d8"
 JAW = (0.3, 0.55)  # length and height of a jaw that nobody gave, in radii of the bar
@@ -181,3 +180,13 @@ def _colours(part: Turned, colour: str) -> list[tuple[str, str, list[Array]]]:
         (f"{colour}s {group[0]} to {group[-1]}", shade, [piece for value in group.tolist() for piece in found[value]])
         for group, shade in zip(groups, ramp(FEW))
     ]
+
+
+def told(part: Workpiece) -> str:
+    """How a part was found, how exact it is, what was removed, and what is to be noted."""
+    return "\n".join([f"{part.method}{part.error_told}; {part.removed:.3f} mm³ removed", *part.notes])
+
+
+def in_words(part: Workpiece) -> str:
+    """What a person who cannot see the picture is told."""
+    return f"the part: {part.volume:.3f} mm³ left, {part.removed:.3f} mm³ removed"

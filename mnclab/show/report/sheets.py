@@ -10,7 +10,7 @@ import numpy as np
 from mnclab.path.listing import Unit, figure
 from mnclab.path.tool import LATHE, Tool
 from mnclab.path.toolpath import Kind
-from mnclab.show.report.contents import BAD, Document, Image, Piece, Section, Table, Words
+from mnclab.show.report.document import BAD, Document, Image, Piece, Section, Table, Words
 from mnclab.show.times import clock
 from mnclab.workpiece.blank import Revolved
 

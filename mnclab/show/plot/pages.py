@@ -1,17 +1,43 @@
-"""A document set on pages of A4: what belongs together stays together, long tables and programs go on with their heads."""
+"""A document on pages of A4, as a PDF whose bytes are the same every time.
+
+What belongs together stays together, long tables and programs go on with their heads.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import singledispatchmethod
+from io import BytesIO
 from itertools import takewhile
+from pathlib import Path
+
+import matplotlib as mpl
+from matplotlib.backends.backend_pdf import PdfPages
 
 from mnclab.show.given_away import whole
 from mnclab.show.plot import colours
-from mnclab.show.plot.pages.letters import MONO, fitted, folded, width
-from mnclab.show.plot.pages.sheet import A4, BOTTOM, LEFT, POINTS, QUIET, RIGHT, TALL, TOP, WIDE, Sheet
-from mnclab.show.plot.pages.tables import AIR, LINE, Line, Setting, tabled
-from mnclab.show.report.contents import (
+from mnclab.show.plot.page_sheet import (
+    A4,
+    AIR,
+    BOTTOM,
+    LEFT,
+    LINE,
+    MONO,
+    POINTS,
+    QUIET,
+    RIGHT,
+    TALL,
+    TOP,
+    WIDE,
+    Line,
+    Setting,
+    Sheet,
+    fitted,
+    folded,
+    tabled,
+    width,
+)
+from mnclab.show.report.document import (
     BAD,
     QUOTED,
     Alarms,
@@ -24,8 +50,19 @@ from mnclab.show.report.contents import (
     Section,
     Table,
     Words,
-)  # fmt: skip
+)
 from mnclab.text.alarm import ALARM, WARNING, first_of
+
+
+def write(document: Document, path: Path) -> None:
+    """Write the pages; the same document gives the same bytes."""
+    data = BytesIO()
+    undated = {"CreationDate": None, "Title": whole(document.title)}
+    with mpl.rc_context({"pdf.fonttype": 42}), PdfPages(data, metadata=undated) as pages:
+        for sheet in sheets(document):
+            pages.savefig(sheet)
+    path.write_bytes(data.getvalue())
+
 
 TITLE, LONG_TITLE, HEADING, BODY, CAPTION, CODE, FOOT = 19.0, 12.0, 11.5, 9.0, 8.0, 7.8, 8.0  # points
 LONG = 70  # letters of a title from which on it is set smaller

@@ -1,0 +1,190 @@
+"""A path as a drawing in true size: SVG for a plotter, a laser or an overlay, DXF for CAD; arcs stay arcs.
+
+`run.save("part.svg", true_size=True)` is the SVG: one millimetre of the path is one on paper. It is seen from above (XY); on a
+lathe Z goes to the right and the radius X up. Because SVG counts downwards, vertical coordinates are negative.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+from xml.sax.saxutils import escape
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.path.toolpath import Kind, Toolpath
+from mnclab.show.export_gcode import number
+from mnclab.text.given import choice
+
+MARGIN = 2.0  # mm
+VIEWS = {"XY": (0, 1), "XZ": (0, 2), "YZ": (1, 2), "ZX": (2, 0)}
+CLASSES = {Kind.RAPID: "rapid", Kind.LINE: "feed", Kind.ARC: "feed", Kind.PROBE: "probing"}
+STYLE = (
+    "path{fill:none;stroke-width:.25;stroke-linejoin:round}.feed{stroke:#1259a8}"
+    ".rapid{stroke:#c62828;stroke-width:.15;stroke-dasharray:2 1.2}.probing{stroke:#7b1fa2;stroke-dasharray:.4 .6}"
+)
+
+
+def write_true_size(run: Any, path: Path, view: str = "auto") -> None:
+    """Write the toolpath of a run as a drawing in true size."""
+    with path.open("w", encoding="utf-8", errors="replace", newline="\n") as file:
+        file.writelines(line + "\n" for line in lines(run.toolpath, view, run.program.title))
+
+
+def lines(path: Toolpath, view: str = "auto", title: str = "tool path") -> Iterator[str]:
+    """The lines of the file: one path element for each run of moves of a class."""
+    view = choice(view, "view", ("auto", *VIEWS))
+    view = ("ZX" if path.lathe else "XY") if view == "auto" else view
+    right, up = VIEWS[view]
+    low, high = np.nan_to_num(path.bounds)
+    width, height = (float(high[k] - low[k]) + 2 * MARGIN for k in (right, up))
+    box = f"{number(low[right] - MARGIN)} {number(-high[up] - MARGIN)} {number(width)} {number(height)}"
+    size = f'width="{number(width)}mm" height="{number(height)}mm"'
+    yield f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="{box}">'
+    yield f"<title>{escape(title)}</title>"
+    yield f"<style>{STYLE}</style>"
+    for kind, commands in groups(path, right, up):
+        yield f'<path class="{kind}" d="{" ".join(commands)}"/>'
+    yield "</svg>"
+
+
+def groups(path: Toolpath, right: int, up: int) -> Iterator[tuple[str, list[str]]]:
+    """Runs of moves of one class, as commands of a path."""
+    current, commands = "", [""]
+    here: tuple[float, float] | None = None
+    for row in np.flatnonzero(path.is_motion).tolist():
+        kind = CLASSES[Kind(int(path.kind[row]))]
+        start = float(path.start[row, right]), float(path.start[row, up])
+        if kind != current or start != here:
+            if current and len(commands) > 1:
+                yield current, commands
+            current, commands = kind, [f"M{number(start[0])} {number(-start[1])}"]
+        commands += strokes(path, row, right, up)
+        here = float(path.end[row, right]), float(path.end[row, up])
+    if current and len(commands) > 1:
+        yield current, commands
+
+
+def strokes(path: Toolpath, row: int, right: int, up: int) -> Iterator[str]:
+    """The commands of one move: arcs seen along their axis are arcs, of at most half a turn each."""
+    if path.kind[row] == Kind.ARC:
+        along = 3 - right - up
+        if abs(path.axis[row, along]) > 1 - 1e-12:
+            yield from turns(path, row, right, up, along)
+            return
+        for point in path[row : row + 1].points(0.001)[0][1:].tolist():
+            yield f"L{number(point[right])} {number(-point[up])}"
+    elif (path.start[row, [right, up]] != path.end[row, [right, up]]).any():
+        yield f"L{number(path.end[row, right])} {number(-path.end[row, up])}"
+
+
+def turns(path: Toolpath, row: int, right: int, up: int, along: int) -> Iterator[str]:
+    """An arc as commands A."""
+    sense = 1.0 if np.linalg.det(np.eye(3)[[right, up, along]]) * path.axis[row, along] > 0 else -1.0
+    sweep = float(path.sweep[row]) * sense
+    centre, start = path.centre[row, [right, up]], path.start[row, [right, up]]
+    spoke = start - centre
+    radius = float(np.hypot(*spoke))
+    parts = int(np.ceil(abs(sweep) / np.pi - 1e-9))
+    for k in range(1, parts + 1):
+        angle = sweep * k / parts
+        c, s = np.cos(angle), np.sin(angle)
+        to = centre + [c * spoke[0] - s * spoke[1], s * spoke[0] + c * spoke[1]]
+        if k == parts:
+            to = path.end[row, [right, up]]
+        # a flag of 0 turns counter-clockwise on paper, where the vertical axis is turned over
+        yield f"A{number(radius)} {number(radius)} 0 0 {0 if sweep > 0 else 1} {number(to[0])} {number(-to[1])}"
+
+
+# DXF: lines as LINE, arcs as ARC and CIRCLE, helices as 3D polylines, one layer a kind of move.
+# AutoCAD's release 12, ASCII: the oldest form that keeps arcs, and the one that every reader reads. Millimetres, three
+# dimensions, positions of the tool tip; an arc stands in the coordinates of its plane (the *extrusion* of the format).
+
+CHORD = 0.001  # mm, of helices
+#: Layer, colour number of AutoCAD, line type.
+RAPID, FEED, PROBING = ("RAPID", 1, "DASHED"), ("FEED", 5, "CONTINUOUS"), ("PROBING", 6, "CONTINUOUS")
+LAYERS = {Kind.RAPID: RAPID, Kind.LINE: FEED, Kind.ARC: FEED, Kind.PROBE: PROBING}
+Tag = tuple[int, Any]
+
+
+def write_dxf(run: Any, path: Path) -> None:
+    """Write the toolpath of a run as a drawing."""
+    with path.open("w", encoding="ascii", newline="\n") as file:
+        file.writelines(f"{code:3d}\n{_text(value)}\n" for code, value in tags(run.toolpath))
+
+
+def _text(value: Any) -> str:
+    return repr(float(value) + 0.0) if isinstance(value, float) else str(value)
+
+
+def tags(path: Toolpath) -> Iterator[Tag]:
+    """The drawing as pairs of a group code and a value."""
+    low, high = np.nan_to_num(path.bounds)
+    yield 999, "tool path in millimetres"
+    yield from [(0, "SECTION"), (2, "HEADER"), (9, "$ACADVER"), (1, "AC1009")]
+    yield from [(9, "$EXTMIN"), *_point(low), (9, "$EXTMAX"), *_point(high)]
+    yield from [(0, "ENDSEC"), (0, "SECTION"), (2, "TABLES")]
+    yield from [(0, "TABLE"), (2, "LTYPE"), (70, 2)]
+    yield from [(0, "LTYPE"), (2, "CONTINUOUS"), (70, 0), (3, "Solid line"), (72, 65), (73, 0), (40, 0.0)]
+    yield from [(0, "LTYPE"), (2, "DASHED"), (70, 0), (3, "Rapids"), (72, 65), (73, 2), (40, 5.0)]
+    yield from [(49, 3.0), (49, -2.0)]
+    yield from [(0, "ENDTAB"), (0, "TABLE"), (2, "LAYER"), (70, 3)]
+    for name, colour, dashes in dict.fromkeys(LAYERS.values()):
+        yield from [(0, "LAYER"), (2, name), (70, 0), (62, colour), (6, dashes)]
+    yield from [(0, "ENDTAB"), (0, "ENDSEC"), (0, "SECTION"), (2, "ENTITIES")]
+    yield from entities(path)
+    yield from [(0, "ENDSEC"), (0, "EOF")]
+
+
+def entities(path: Toolpath) -> Iterator[Tag]:
+    """The moves of a path, in their order."""
+    climb = np.einsum("ij,ij->i", path.end - path.start, path.axis)
+    columns = (path.kind, path.start, path.end, climb, path.is_motion)
+    for row, (kind, start, end, rise, moves) in enumerate(zip(*(column.tolist() for column in columns))):
+        if not moves:
+            continue
+        layer = LAYERS[Kind(kind)][0]
+        if kind != Kind.ARC:
+            yield from [(0, "LINE"), (8, layer), *_point(start), *_point(end, 11)]
+        elif abs(rise) > 1e-9:
+            yield from polyline(path[row : row + 1].points(CHORD)[0].tolist(), layer)
+        else:
+            yield from arc(path, row, layer)
+
+
+def arc(path: Toolpath, row: int, layer: str) -> Iterable[Tag]:
+    """An arc in the coordinates of its plane, always counter-clockwise about the extrusion; whole turns are a circle."""
+    axis, centre, sweep = path.axis[row], path.centre[row], float(path.sweep[row])
+    basis = plane(axis)
+    spoke = basis @ (path.start[row] - centre)
+    middle = basis @ centre
+    middle[2] = float(axis @ path.start[row])
+    head = [(8, layer), *_point(middle), (40, float(np.hypot(spoke[0], spoke[1])))]
+    extrusion = list(_point(axis, 210)) if axis[2] != 1.0 else []
+    if abs(sweep) >= 2 * np.pi - 1e-12:
+        return [(0, "CIRCLE"), *head, *extrusion]
+    angle = np.arctan2(spoke[1], spoke[0])
+    ends = np.degrees([angle, angle + sweep] if sweep > 0 else [angle + sweep, angle]) % 360.0
+    return [(0, "ARC"), *head, (50, float(ends[0])), (51, float(ends[1])), *extrusion]
+
+
+def plane(axis: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Unit vectors (3, 3) of the coordinates that DXF gives a plane by its normal (the format's arbitrary axis)."""
+    near_z = abs(axis[0]) < 1 / 64 and abs(axis[1]) < 1 / 64
+    first = np.cross([0.0, 1.0, 0.0] if near_z else [0.0, 0.0, 1.0], axis)
+    first /= np.linalg.norm(first)
+    return np.stack([first, np.cross(axis, first), axis])
+
+
+def polyline(points: list[list[float]], layer: str) -> Iterator[Tag]:
+    """A line through points in space."""
+    yield from [(0, "POLYLINE"), (8, layer), (66, 1), *_point((0.0, 0.0, 0.0)), (70, 8)]
+    for point in points:
+        yield from [(0, "VERTEX"), (8, layer), *_point(point), (70, 32)]
+    yield from [(0, "SEQEND"), (8, layer)]
+
+
+def _point(xyz: Iterable[float], code: int = 10) -> Iterator[Tag]:
+    yield from ((code + 10 * k, float(value)) for k, value in enumerate(xyz))

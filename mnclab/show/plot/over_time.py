@@ -1,0 +1,254 @@
+"""Pictures over time: feed-rate profiles under one another, material taken away a minute, a hole as it grows peck by peck."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, cast
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
+
+from mnclab.path.listing import MM, Unit, figure
+from mnclab.path.profile import Profile
+from mnclab.path.toolpath import Kind
+from mnclab.show.plot import colours
+from mnclab.show.plot.colours import Line
+from mnclab.show.plot.picture import SMALL, Picture, calm, write_legend
+from mnclab.show.plot.profile import curve, plot_profile
+from mnclab.show.plot.sizes import sized
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import choice, fitting, shown
+
+# Feed-rate profiles of several machines, limits or programs in one figure.
+
+WIDTH, HIGH = 7.0, 1.75  # inches: of the figure, and of one profile at most
+MOST = 8
+LOOKS = ("#12304f", "#c26a12")  # dark and pale in turn
+RAPID = "#e9c9c5"
+
+
+@sized()
+@fitting
+def plot_profiles(
+    profile: Any, *others: Any, names: Sequence[str] = (), over: str = "time", width: float = WIDTH
+) -> Picture:
+    """The feed of several profiles, or runs, under one another: `plot_profiles(run.profile("small-mill"), run)`.
+
+    They may be a list, too. All begin at 0 and have the same scales; bands stand for rapids. `names` are what they are called
+    (default: program and machine), each with its time; `over` "time" (s) or "path"; `width` of the figure in inches. Lengths
+    are in inches where all programs are, else in mm.
+    """
+    over = choice(over, "over", ("time", "path"))
+    found = [_profile(each) for each in (*(profile if isinstance(profile, list | tuple) else [profile]), *others)]
+    if not 0 < len(found) <= MOST:
+        hint = 'plot_profiles(run.profile("small-mill"), run.profile("fast-mill"))'
+        raise Alarm(f"a picture has 1 to {MOST} profiles, got {len(found)}", hint=hint)
+    named = isinstance(names, tuple | list) and all(isinstance(name, str) for name in names)
+    if not named or names and len(names) != len(found):
+        raise Alarm(f"there must be a name for each of {len(found)} profiles, got {shown(names)}")
+    called = [f"{name}: {each.time:.2f} s" for name, each in zip(names or _names(found), found)]
+    height = min(HIGH, 0.5 * width) * len(found) + 0.75
+    picture = Picture((width, height), f"feed over {over}: {'; '.join(called)}")
+    left, low, above = 0.72 / width, 0.48 / height, 0.27 / height
+    grid = picture.add_gridspec(len(found), 1, left=left, right=1 - 0.15 / width, bottom=low, top=1 - above, hspace=0.12)
+    rows: list[Axes] = []
+    for k in range(len(found)):
+        rows.append(picture.add_subplot(grid[k, 0], sharex=rows[0] if rows else None, sharey=rows[0] if rows else None))
+    units = {each.path.unit for each in found}
+    unit = units.pop() if len(units) == 1 else MM
+    drawn = [_draw(ax, each, over, LOOKS[k % 2], unit) for k, (ax, each) in enumerate(zip(rows, found))]
+    top = 1.3 * max(most for _, most in drawn) or 1.0
+    rows[0].set(xlim=(0, max(*(end for end, _ in drawn), 1e-9)), ylim=(0, top))
+    for ax, name in zip(rows, called):
+        calm(ax)
+        ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 5, 10]))
+        ax.tick_params(labelbottom=ax is rows[-1])
+        ax.text(0.005, 0.96, name, transform=ax.transAxes, va="top", fontsize=SMALL, parse_math=False,
+                bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5, "alpha": 0.85})  # fmt: skip
+    rows[-1].set_xlabel("time, s" if over == "time" else f"path, {unit.short}", fontsize=SMALL + 1)
+    said = f"feed, {unit.short}/min"
+    picture.text(0.16 / width, (low + 1 - above) / 2, said, rotation=90, va="center", ha="center", fontsize=SMALL + 1)
+    write_legend(picture, [Line2D([], [], color=LOOKS[0], label="feed"), Patch(facecolor=RAPID, label="rapid")])
+    return picture
+
+
+def _draw(ax: Axes, profile: Profile, over: str, shade: str, unit: Unit) -> tuple[float, float]:
+    """The feed of one profile and its rapids as bands; returns where it ends and its greatest feed."""
+    drawn = curve(profile, over).counted(unit.length)
+    x, v = (drawn.t if over == "time" else drawn.s), drawn.v * 60
+    if not len(x):
+        return 0.0, 0.0
+    rapid = profile.path.kind[profile.move[drawn.piece]] == Kind.RAPID
+    feed = np.where(rapid, np.nan, v)
+    ax.fill_between(x, 0, 1, where=rapid, transform=ax.get_xaxis_transform(), color=RAPID, linewidth=0.6, zorder=1)
+    ax.fill_between(x, feed, color=shade, alpha=0.18, linewidth=0, zorder=2)
+    ax.plot(x, feed, color=shade, linewidth=1.3, zorder=3)
+    return float(x[-1]), float(np.nanmax(feed, initial=0.0))
+
+
+def _profile(given: Any) -> Profile:
+    found = given if isinstance(given, Profile) else given.profile() if hasattr(given, "toolpath") else None
+    if found is None:
+        raise Alarm(f"a profile is that of a run, got {shown(given)}", hint='run.profile("small-mill")')
+    return found
+
+
+def _names(profiles: Sequence[Profile]) -> list[str]:
+    """What each is called; those that are called alike by their number."""
+    called = [each.name or "path" for each in profiles]
+    return [f"{name} ({k})" if called.count(name) > 1 else name for k, name in enumerate(called, 1)]
+
+
+# Removal over time as a picture: the feed, and under it how much material is taken away a minute.
+
+SIZE = (7.0, 4.6)  # inches
+SHADE = 0.28  # of the area under the rate
+FAST = 2.5  # times the largest rate at feed, beyond which what rapids take away is cut off
+CARD = {"facecolor": colours.PAPER, "edgecolor": "none", "pad": 1.5, "alpha": 0.85}
+
+
+@sized()
+def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
+    """Feed (in the unit of the program) and removal rate (mm³/min, the mean of each row) over time (s), the largest at feed
+    marked with its line.
+
+    `size`: width and height in inches.
+    """
+    most = removal.largest
+    said = f"removal: {removal.volume:.1f} mm³ in {removal.profile.time:.4g} s"
+    picture = Picture(size, f"{said}, {removal.at_most} {most.rate:.0f} mm³/min in line {removal.place(most)}" if most else said)
+    width, height = size
+    grid = picture.add_gridspec(
+        2, 1, left=0.85 / width, right=1 - 0.15 / width, bottom=0.5 / height, top=1 - 0.12 / height, hspace=0.12
+    )
+    feed = picture.add_subplot(grid[0, 0])
+    rate = picture.add_subplot(grid[1, 0], sharex=feed)
+    plot_profile(removal.profile, feed, limits=False)
+    begin, end = removal.profile.starts[:-1][: len(removal.rate)], removal.profile.starts[1:][: len(removal.rate)]
+    t, height_of = np.stack([begin, end], axis=1).ravel(), np.repeat(removal.rate, 2)
+    rate.fill_between(t, height_of, color=colours.REACHED.colour, alpha=SHADE, linewidth=0)
+    rate.plot(t, height_of, color=colours.REACHED.colour, linewidth=1.2)
+    top = 1.25 * max(float(removal.rate.max(initial=0.0)), most.rate if most else 0.0) or 1.0
+    rate.set_ylim(0, top)
+    if most and top > FAST * most.rate:  # a rapid in material takes away in no time
+        rate.set_ylim(0, 1.25 * most.rate)
+        rate.text(
+            0.995, 0.96, f"cut off: rapids reach {removal.rate.max():.0f} mm³/min", transform=rate.transAxes, ha="right",
+            va="top", fontsize=SMALL - 1, color=colours.RAPID.colour, bbox=CARD, zorder=5,
+        )  # fmt: skip
+    if most:
+        middle = (begin[most.row] + end[most.row]) / 2
+        rate.plot([middle], [most.rate], **colours.SLOW_CORNER.style())
+        late = middle > removal.profile.time / 2
+        rate.annotate(
+            f"line {removal.place(most)}: {removal.at_most} {most.rate:.0f} mm³/min", (middle, most.rate), (-6 if late else 6, 5),
+            textcoords="offset points", fontsize=SMALL, ha="right" if late else "left", color=colours.INK,
+        )  # fmt: skip
+    rate.set_ylabel("mean of a row, mm³/min", fontsize=SMALL)
+    for axes in (feed, rate):
+        axes.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
+        calm(axes)
+    feed.set_xlabel("")
+    feed.tick_params(labelbottom=False)
+    rate.set_xlabel("time, s", fontsize=SMALL + 1)
+    picture.align_ylabels([feed, rate])
+    return picture
+
+
+# Depth over time: how a hole grows peck by peck, where the drill comes out, where it waits.
+
+POINTS = 24  # of a row, along which the speed changes
+WAITS = Line("dwell", colours.DWELL.colour, "-", 3.2, 3.1)
+OF_KIND = {Kind.RAPID: colours.RAPID, Kind.LINE: colours.FEED, Kind.ARC: colours.FEED, Kind.DWELL: WAITS}
+MOST_ROWS, LABELLED = 5000, 24  # rows, and depths that are written
+LETTER, LINE_HIGH = 0.62 * SMALL, 1.3 * SMALL  # points: a figure of a depth, and its line
+FAR = 5.0  # times the height of what is cut: rapids from beyond are cut off
+
+
+@sized()
+def plot_depth(
+    run: Any, ax: Axes | None = None, *, line: int | None = None, pass_: int = 1, size: tuple[float, float] = (7.0, 3.6)
+) -> Figure:
+    """Z of the tip over time: feeds solid, rapids dashed, dwells thick; the depth of each peck beside its lowest point.
+
+    `line` shows what one block does (its `pass_`-th execution), None the whole program. Times are those of `run.profile()`.
+    An Alarm where nothing moves, or too much for a picture.
+    """
+    path, profile = run.toolpath, run.profile()
+    rows = np.arange(len(path)) if line is None else np.arange(len(path))[run.at(line, pass_).rows]
+    rows = rows[np.isin(path.kind[rows], list(OF_KIND))]
+    if not len(rows) or not path.is_motion[rows].any():
+        raise Alarm(f"line {line} moves nothing" if line is not None else "nothing moves")
+    if len(rows) > MOST_ROWS:
+        raise Alarm(f"{len(rows)} rows are too many for a picture of depths", hint="run.plot_depth(line=5)")
+    unit, begin = path.unit, profile.starts[rows[0]]
+    picture = None
+    if ax is None:
+        deepest = unit.figure(path.end[rows, 2].min(), 1)
+        said = f"depth over time: {figure(profile.starts[rows[-1] + 1] - begin, 2)} s, down to Z {deepest} {unit.short}"
+        picture = Picture(size, said)
+        ax = picture.add_axes((0.72 / size[0], 0.5 / size[1], 1 - 0.9 / size[0], 1 - 0.9 / size[1]))
+    drawn: dict[str, list[Any]] = {}
+    for row in rows.tolist():
+        times = np.linspace(profile.starts[row], profile.starts[row + 1], POINTS)
+        inside = np.clip(times, times[0] + 1e-9 * np.ptp(times), times[-1] - 1e-9 * np.ptp(times))
+        heights = profile.at(inside).position[:, 2] if path.is_motion[row] else np.full(POINTS, path.end[row, 2])
+        if path.is_motion[row]:  # the ends are exact
+            heights[[0, -1]] = path.start[row, 2], path.end[row, 2]
+        drawn.setdefault(OF_KIND[Kind(path.kind[row])].name, []).append(
+            np.column_stack([[*(times - begin), np.nan], [*heights / unit.length, np.nan]])
+        )
+    looks = {look.name: look for look in OF_KIND.values() if look.name in drawn}
+    handles = [ax.add_line(Line2D(*np.concatenate(drawn[name]).T, **look.style())) for name, look in looks.items()]
+    total = max(float(profile.starts[rows[-1] + 1] - begin), 1e-9)
+    low, high = (float(f(path.end[rows, 2])) / unit.length for f in (np.min, np.max))
+    low, high = min(low, float(path.start[rows[0], 2]) / unit.length), max(high, float(path.start[rows[0], 2]) / unit.length)
+    cut = rows[path.kind[rows] != Kind.RAPID]
+    ends = np.concatenate([path.start[cut, 2], path.end[cut, 2]]) / unit.length
+    if len(cut) and high - low > FAR * np.ptp(ends) > 0:
+        low, high = float(ends.min()), float(ends.max())
+        low, high = low - 0.1 * (high - low), high + 0.5 * (high - low)
+        look: dict[str, Any] = {"ha": "right", "va": "top", "fontsize": SMALL - 1, "color": colours.RAPID.colour, "zorder": 5}
+        ax.text(0.995, 0.98, "rapids from far away are cut off", transform=ax.transAxes, **look)
+    room = max(high - low, 1e-6)
+    ax.set(xlim=(-0.01 * total, 1.01 * total), ylim=(low - 0.16 * room, high + 0.06 * room))
+    if run.stock is not None and not path.lathe:
+        ax.axhline(float(run.stock.bounds[1, 2]) / unit.length, **{**colours.BLANK.style(), "label": "_top of the blank"})
+    ax.set_xlabel("time, s", fontsize=SMALL + 1)
+    ax.set_ylabel(f"Z, {unit.short}", fontsize=SMALL + 1)
+    calm(ax)
+    if picture is not None and (box := ax.get_tightbbox()) is not None:  # long numbers stand beside the axis
+        left = (0.72 - min(0.0, box.x0 / picture.dpi - 0.04)) / size[0]
+        ax.set_position((left, 0.5 / size[1], 1 - 0.18 / size[0] - left, 1 - 0.9 / size[1]))
+    _depths(ax, path, rows, profile.starts - begin)
+    if picture is None:
+        return cast(Figure, ax.get_figure(root=True))
+    write_legend(picture, handles)
+    return picture
+
+
+def _depths(ax: Axes, path: Any, rows: Any, starts: Any) -> None:
+    """The depth at the end of each way down at feed that the tool leaves again."""
+    down = rows[(path.kind[rows] == Kind.LINE) & (path.end[rows, 2] < path.start[rows, 2])]
+    turning = down[~np.isin(down + 1, down)].tolist()
+    wide, high = np.array(ax.get_window_extent().size) * 72 / cast(Figure, ax.get_figure(root=True)).dpi
+    (left, right), (low, top) = ax.get_xlim(), ax.get_ylim()
+    taken: list[tuple[float, float, float]] = []  # points: left, right and top of what is written
+    for row in turning if len(turning) <= LABELLED else ():
+        at, depth = float(starts[row + 1]), float(path.end[row, 2])
+        text = path.unit.figure(depth, 1).replace("-", "\N{MINUS SIGN}")
+        half = LETTER * len(text) / 2
+        x, y = (at - left) / (right - left) * wide, (depth / path.unit.length - low) / (top - low) * high
+        aside = min(0.0, wide - 2 - half - x)  # not beyond the border
+        box = x + aside - half, x + aside + half, y
+        if all(box[1] < a or box[0] > b or abs(y - each) > LINE_HIGH for a, b, each in taken):
+            taken.append(box)
+            ax.annotate(
+                text, (at, depth / path.unit.length), (aside, -4), textcoords="offset points", ha="center", va="top",
+                fontsize=SMALL, zorder=4, parse_math=False,
+                bbox={"boxstyle": "square,pad=0.05", "fc": colours.PAPER, "ec": "none", "alpha": 0.8},
+            )  # fmt: skip
