@@ -45,8 +45,8 @@ def inverse_time(m: Machine, words: Words) -> None:
 
 @FUNCTIONS("G94 G95", FEEDS, group="feed mode", phase="plane", power_on="G94", source=ISO)
 def feed_mode(m: Machine, words: Words) -> None:
-    """What F means, mm/min or mm/rev; a new F must follow."""
-    if m.per_time:
+    """What F means, mm/min or mm/rev; a new F must follow (LinuxCNC: after each of them, though it changes nothing)."""
+    if m.per_time or m.settings["dialect"] == "linuxcnc":
         m.change("feed", None)
         m.change("per_time", False)
     SHARED[words.code].obey(m, words)
