@@ -1,4 +1,5 @@
-"""What a program gets ready and never uses: a cycle that nothing calls, a tool that is changed again before it cuts."""
+"""What a program gets ready and never uses: a cycle that nothing calls, a tool that is changed again before it cuts, a radius
+compensation of a tool without radius."""
 
 from __future__ import annotations
 
@@ -24,6 +25,7 @@ def remarks(run: Run) -> Iterator[Alarm]:
         hint = "a true tool says how a tool of the table really is; write it in Setup(tools=…) too"
         message = f"the setup knows {', '.join(strange)} as true tools, which have no row in the tool table"
         yield Alarm(message, None, WARNING, hint)
+    yield from _compensation(run)
     if run.ok:
         yield from _cycles(run)
         yield from _tools(run)
@@ -45,6 +47,15 @@ def _cycles(run: Run) -> Iterator[Alarm]:
         how = "M99" if "CYCL CALL" not in calls else "CYCL CALL or M99"
         message = "a cycle is defined here and never called: it does nothing"
         yield once(run, idle.tolist(), message, f"a cycle of this kind works where {how} stands")
+
+
+def _compensation(run: Run) -> Iterator[Alarm]:
+    """Moves beside a contour whose tool has no radius, and lies on it; the ISO mill says it at its word G41 or G42."""
+    path, message = run.toolpath, "compensates nothing"
+    idle = path.is_motion & (path.side != 0) & (path.radius == 0)
+    if idle.any() and not any(message in alarm.message or "has no row in" in alarm.message for alarm in run.alarms):
+        message = f"the radius compensation {message}: the radius of T{int(path.tool[idle][0])} is 0"
+        yield once(run, path.step[idle].tolist(), message, "call a tool, or give it its radius")
 
 
 def _executed(run: Run, codes: set[str]) -> Mask:

@@ -132,7 +132,8 @@ def _probes(scene: Judging) -> Iterator[Met]:
     mine = cutting.probed[among.moves.row]
     chosen = mine & ~among.rising & among.low_over(0.0)
     among.boxes[mine] = np.nan  # a ball clears nothing
-    balls = [Body("probe", Cutter(r, 0.0, r), TOLERANCE) for r in (max(t.effective_radius - TOLERANCE, 0.0) for t in cutting.tools)]
+    radii = [max(tool.effective_radius - TOLERANCE, 0.0) for tool in cutting.tools]
+    balls = [Body("probe", Cutter(radius, 0.0, radius), TOLERANCE) for radius in radii]
     yield from among.met([Judged(int(k), balls[among.which[k]], int(k)) for k in np.flatnonzero(chosen)])
 
 
