@@ -23,6 +23,7 @@ from mnclab.geometry.curves import Floats, cross, gap, length_of
 from mnclab.geometry.cutting import Outlines, boxes, inset, outlines_of
 from mnclab.geometry.tracing import GRID, SAME, Drawing, inset_by_bands
 from mnclab.text.alarm import Alarm
+from mnclab.text.given import shown
 
 
 class CrossesItself(ValueError):
@@ -243,6 +244,8 @@ def meeting(loop: Contour, start: Floats, way: Floats) -> Floats:
 
 def _tidy(contour: Contour) -> Contour:
     """A closed contour without elements of no length."""
+    if not isinstance(contour, Contour):
+        raise Alarm(f"an area is what contours enclose, got {shown(contour)}", hint="area.rectangle(60, 40), area.dxf(path) …")
     if not contour.closed:
         raise ValueError("only a closed contour encloses an area")
     some = contour.lengths > SAME

@@ -7,7 +7,7 @@ in its block; the interpreter hands out the words and refuses those that nobody 
 
 from __future__ import annotations
 
-import math
+import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from html import escape
@@ -293,7 +293,7 @@ class Setting(NamedTuple):
         elif isinstance(self.default, Mapping):
             good = isinstance(value, Mapping)
         else:
-            good = isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
+            good = isinstance(value, Real) and not isinstance(value, bool) and abs(value) <= sys.float_info.max
             good = good and not (self.whole and float(value) % 1)
             good = good and (self.at_least is None or float(value) >= self.at_least)
             good = good and (self.at_most is None or float(value) <= self.at_most)

@@ -23,6 +23,7 @@ from mnclab.path.listing import point
 from mnclab.path.places import points_at, spokes, turning_points, turns_of_sum
 from mnclab.path.toolpath import Kind
 from mnclab.runs.conditions import Condition, Node, parse
+from mnclab.runs.history import unit_of
 from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
@@ -64,12 +65,19 @@ class Moments(tuple["Moment", ...]):
 
     def rows(self) -> list[tuple[str, ...]]:
         shares = (f"{100 * moment.share:.4g} %" if moment.row >= 0 else "" for moment in self)
-        return [(str(m.line), str(m.block), point(m.point, lathe=m.lathe), share) for m, share in zip(self, shares)]
+        places = (point(moment.point, unit_of(moment.state), moment.lathe) for moment in self)
+        return [(str(m.line), str(m.block), *rest) for m, *rest in zip(self, places, shares)]
+
+    @property
+    def counts(self) -> str:
+        """What is said where a program counts inches: a condition does not."""
+        return "the condition counts mm, the places count inches" if any(unit_of(moment.state).short == "in" for moment in self) else ""
 
     def __str__(self) -> str:
         if not self:
             return f"{self.condition}: never {self.reach}".rstrip()
-        return "\n".join(f"line {line}: {place}  {share:8s}  {block}" for line, block, place, share in self.rows())
+        told = [f"line {line}: {place}  {share:8s}  {block}" for line, block, place, share in self.rows()]
+        return "\n".join([*told, *filter(None, [self.counts])])
 
     __repr__ = __str__
 
@@ -78,7 +86,8 @@ class Moments(tuple["Moment", ...]):
             return f"<p><code>{escape(self.condition)}</code>: never {escape(self.reach)}".rstrip() + "</p>"
         table = html_table(("line", "block", "tool tip", "of the move"), self.rows()[:50], numbers=(0, 3))
         more = f"<p>… {len(self) - 50} more</p>" if len(self) > 50 else ""
-        told = "" if self.exact else f"<br>looked at in {LOOKS} places of each line and quarter of a turn"
+        told = f"<br>{self.counts}" if self.counts else ""
+        told += "" if self.exact else f"<br>looked at in {LOOKS} places of each line and quarter of a turn"
         return f"<p><code>{escape(self.condition)}</code>{told}</p>{table}{more}"
 
 

@@ -17,6 +17,7 @@ KINDS = {
     "holder": "the holder in material",
     "fixture": "the tool in a fixture",
     "spindle": "cutting with a spindle that stands still or turns the wrong way",
+    "probe": "a probe in material between the measurements",
     "travel": "beyond the travel of the machine",
     "insert": "the back of the insert or its holder in material",
     "chuck": "the tool in the chuck",

@@ -94,6 +94,15 @@ class Cutting:
         return np.asarray(moves & bodies[self.which] if len(bodies) else moves & False)
 
     @cached_property
+    def probed(self) -> Mask:
+        """Rows (n,) on which the program itself moves a probe, but for those away from a touch: cycles watch over theirs."""
+        path = self.path
+        probes = np.array([tool.kind == "probe" for tool in self.tools] or [False])
+        touched = np.append(False, path.kind[:-1] == Kind.PROBE)[: len(path)]
+        moves = np.isin(path.kind, (*CUTS, Kind.RAPID)) & (np.arange(len(path)) >= self.arrived)
+        return np.asarray(moves & probes[self.which] & (path.label == 0) & ~touched)
+
+    @cached_property
     def held(self) -> Mask:
         """Rows (n,) of a mill whose spindle a cycle has stopped: the one edge of a boring tool is led clear of the wall."""
         path = self.path

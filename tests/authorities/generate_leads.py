@@ -5,7 +5,8 @@
 Random entries by arcs on both sides, one or two lines, exits in all directions. Positions are mm. What LinuxCNC refuses is
 drawn again, and so are joints of less than 3 degrees, which it rounds off. Behind the entry the contour goes straight on or
 turns away from the tool. leads_inside.json has those where it turns towards the tool, into a line or an arc: LinuxCNC
-shortens the arc of the entry there. What it refuses of them is kept with its sentence.
+shortens the arc of the entry there. What it refuses of them is kept with its sentence. leads_lines.json has entries by a
+line, before corners of both kinds, and after some of the contours G40 and a move along Z.
 """
 
 import math
@@ -14,7 +15,7 @@ import random
 from recording import ask, motion, save
 
 SEED = 41
-COUNT, INSIDE = 120, 80
+COUNT, INSIDE, LINES = 120, 80, 80
 BENT = math.radians(3)
 
 
@@ -73,6 +74,20 @@ def inside(rng):
     return "\n".join([*head, *lines, "G40", "M2"]) + "\n"
 
 
+def straight(rng):
+    """A text whose entry is a line; joints that LinuxCNC rounds off, and such as all but turn back, are left out."""
+    at, heading = [0.0, 0.0], rng.uniform(0, math.tau)
+    lines = []
+    for k in range(rng.randint(2, 4)):
+        heading += rng.choice((-1, 1)) * rng.uniform(BENT, math.pi - 2 * BENT) if k else 0.0
+        way = rng.uniform(15, 50)
+        at = [at[0] + way * math.cos(heading), at[1] + way * math.sin(heading)]
+        lines.append(f"G1 X{at[0]:.9f} Y{at[1]:.9f}")
+    lines += ["G40", rng.choice(("G0 Z9", "G1 Z-1", "G1 X0 Y0")), "G1 X100 Y100"]
+    head = ["G21 G17 G90 G54 G64", "F200", "G0 X0 Y0", f"{rng.choice(('G41.1', 'G42.1'))} D{rng.choice((2, 4, 6))}"]
+    return "\n".join([*head, *lines, "M2"]) + "\n"
+
+
 def main():
     rng, records = random.Random(SEED), []
     while len(records) < COUNT:
@@ -89,6 +104,13 @@ def main():
         said = {} if answer["ok"] else {"error": answer["error"]}
         records.append({"name": f"inside-{k}", "text": text, "motion": motion(answer, {k: k for k in range(1, 99)})} | said)
     save("leads_inside.json", SEED + 1, records)
+    rng, records = random.Random(SEED + 2), []
+    for k in range(LINES):
+        text = straight(rng)
+        answer = ask(text)
+        said = {} if answer["ok"] else {"error": answer["error"]}
+        records.append({"name": f"lines-{k}", "text": text, "motion": motion(answer, {k: k for k in range(1, 99)})} | said)
+    save("leads_lines.json", SEED + 2, records)
 
 
 if __name__ == "__main__":

@@ -271,3 +271,9 @@ def test_an_empty_area_answers_in_words():
     for made in (empty.union(square), square.union(empty), square.difference(empty), square.without([empty])):
         assert made.area == pytest.approx(100)
     assert list(empty.insets(1)) == [] and square.intersection(empty).loops == ()
+
+
+@pytest.mark.parametrize("wrong", [None, 3, "abc", [], [[1]], float])
+def test_an_area_of_anything_else_is_refused(wrong):
+    with pytest.raises(Alarm, match="an area is what contours enclose, got"):
+        Region.of(wrong)

@@ -343,3 +343,22 @@ def test_a_note_names_what_is_not_judged():
     assert found == () and found.notes == ("1 row of a tool not along Z not judged (program:4)",)
     assert repr(found) == "no collisions\n  note: 1 row of a tool not along Z not judged (program:4)"
     assert "<p>1 row of a tool not along Z not judged (program:4)</p>" in found._repr_html_()
+
+
+PROBED = "G54 G17 G90 T1 S800 M3\nG0 X20 Y20 Z5\nG1 Z-6 F100\nG0 Z5\nM5\nT2\n{way}\nG0 Z20\n"
+
+
+@pytest.mark.parametrize(("way", "depth"), [
+    ("G0 X-10 Y10\nZ-5\nX20", 5),  # in from the side, its pole 5 mm under the top
+    ("G0 X40 Y20\nG1 Z-3 F500", 3),
+    ("G0 X20 Y20\nZ-6", 0),  # into the hole of 12 mm that the mill has cut
+    ("G0 X24 Y20\nZ-6", 0),  # 4 mm beside its middle: the ball touches the wall
+    ("G0 X40 Y20\nZ0", 0),
+])  # fmt: skip
+def test_a_probe_driven_into_material(way, depth):
+    """What the program does with a probe between its cycles: the ball meets what stands there, and clears nothing."""
+    tools = {1: Tool(radius=6, number=1), 2: Tool(radius=2, number=2, kind="probe")}
+    run = mnclab.run(PROBED.format(way=way), "mnc", mnclab.Setup(tools=tools))
+    met = [each for each in run.collisions(stock=((0, 0, -20), (60, 40, 0))) if each.kind == "probe"]
+    assert [each.depth for each in met] == ([pytest.approx(depth, abs=1e-6)] if depth else [])
+    assert all(each.message.startswith("the probe in material") for each in met)

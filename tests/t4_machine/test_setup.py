@@ -166,3 +166,9 @@ def test_the_page_of_a_setup_is_in_words_with_units():
     assert "  limits: as usual\n" in repr(Setup()) and "  tools: those of the control\n" in repr(Setup())
     kept = mnclab.run("G00 X1\n", "jnc-t01").setup
     assert "  tools: the usual ones: roughing insert 80°, finishing insert 35°," in repr(kept)
+
+
+def test_a_setting_too_large_for_any_number():
+    for control in ("mnc", "g43", "jnc-t01"):
+        with pytest.raises(Alarm, match="setting arc_tolerance .* must be a number from 0"):
+            mnclab.run("", control, Setup(settings={"arc_tolerance": 10**400}))

@@ -209,3 +209,24 @@ def test_no_program_of_the_house_or_of_a_shop_is_blamed(path):
     found = mnclab.run(path, path.parent.name)
     expected = {TRUE[path.name][0]} if path.name in TRUE else set()
     assert {what for what, *_ in told(found) if what != SPINDLE or path in SAMPLES} == expected
+
+
+RL = "BEGIN PGM A MM|TOOL CALL {} Z S100 F100|L X+0 Y+0 R0 FMAX M3|L X+10 RL|L Y+10|L X+0 R0|END PGM A MM"
+G41 = "G17 G90 G54{} S800 M3|G41 G1 X10 F100|Y10|G40 X0"
+
+
+@pytest.mark.parametrize(("control", "text", "line", "said"), [
+    ("mnc", G41.format(""), 2, "T0"),
+    ("mnc", G41.format(" T9"), 2, "T9"),
+    ("mnc", G41.format(" T1"), None, ""),
+    ("tnc-620", RL.format(9), 4, "T9"),
+    ("tnc-620", RL.format(1), None, ""),
+])  # fmt: skip
+def test_a_compensation_of_no_radius(control, text, line, said):
+    """The tool then cuts on the contour, its middle on the line that was to be its edge."""
+    tools = {1: Tool(radius=2), 9: Tool()}
+    found = mnclab.run(text.replace("|", "\n") + "\n", control, Setup(tools=tools))
+    of_it = [(alarm.span.line, alarm.message) for alarm in found.alarms if "compensates nothing" in alarm.message]
+    assert found.ok and of_it == (
+        [(line, f"the radius compensation compensates nothing: the radius of {said} is 0")] if line else []
+    )

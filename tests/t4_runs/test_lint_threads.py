@@ -145,3 +145,25 @@ def test_a_lead_that_jumps_between_threads_is_told(control, text, line):
     found = warned(text, control, CHAIN)
     assert [alarm.span.line for alarm in found] == ([line] if line else [])
     assert all("from 2 to 4 mm" in alarm.message for alarm in found)
+
+
+TAP = {1: Tool(radius=3, number=1, kind="tap", pitch=1.27)}  # 20 threads an inch
+MILL = "G54 G17 G90|T1 M6 S1000 M3|G0 X0 Y0 Z5|G84 X1 Y1 Z-10 R2 F{feed}|G80|M30"
+
+
+@pytest.mark.parametrize(("control", "text", "fed"), [
+    ("mnc", MILL.replace(" M6", "").replace("|M30", "").format(feed=1270), ""),
+    ("mnc", MILL.replace(" M6", "").replace("|M30", "").format(feed=1000), "1 mm"),
+    ("g43", MILL.format(feed=1270), ""),
+    ("g43", MILL.format(feed=1500), "1.5 mm"),
+    ("g43", MILL.replace("G54", "G54 G20").format(feed=50), ""),  # inches a minute: 0.05 in a turn
+    ("g43", MILL.replace("G54", "G54 G20").format(feed=60), "0.06 in"),
+    ("jnc-t01", "M3|G97 S200 T1|G00 X0 Z5|G32 Z-20 F1.27|G00 Z5", ""),
+    ("jnc-t01", "M3|G97 S200 T1|G00 X0 Z5|G32 Z-20 F2|G00 Z5", "2 mm"),
+])  # fmt: skip
+def test_a_tap_of_another_pitch(control, text, fed):
+    """Pitch = feed / speed, 1000 rev/min on the mills."""
+    found = warned(text, control, "the tap of tool 1", tools=TAP)
+    own = "0.05 in" if "in" in fed else "1.27 mm"
+    said = [f"the tap of tool 1 has a pitch of {own} and is fed {fed} a turn"] if fed else []
+    assert [alarm.message for alarm in found] == said

@@ -9,7 +9,7 @@ without holes (K0), or in a block without X, Y, Z and R, the data are kept for l
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
 
 import numpy as np
@@ -256,6 +256,16 @@ class ChipBreaking(HoleCycle):
                      dwell_bottom=self.pause / 1000)  # fmt: skip
 
 
+def turns(sense: int) -> Callable[[Machine], Iterator[tuple[str, str]]]:
+    """A rule of LinuxCNC: the spindle turns as the thread does; on Fanuc and Haas the cycle turns it."""
+
+    def fault(m: Machine) -> Iterator[tuple[str, str]]:
+        if m.settings["dialect"] == "linuxcnc" and m.spindle_speed * sense < 0:
+            yield "", f"needs M{3 if sense > 0 else 4}, as its thread turns (LinuxCNC)"
+
+    return fault
+
+
 @CYCLES("G84", "Tapping, right-hand", runs="position", source=ISO, triggers=POSITION)
 class RightTapping(HoleCycle):
     """Taps a right-hand thread; the pitch is the feed per revolution, or F over S."""
@@ -269,7 +279,7 @@ class RightTapping(HoleCycle):
     times_out: float = times_out()
     feed: float | None = holes.feed()
     repeats: float = repeats()
-    needs = (holes.no_pitch,)
+    needs = (holes.no_pitch, turns(1))
     pecks = "tapping_peck"
 
     def work(self, m: Machine) -> Iterator[Step]:
@@ -289,7 +299,7 @@ class LeftTapping(HoleCycle):
     times_out: float = times_out()
     feed: float | None = holes.feed()
     repeats: float = repeats()
-    needs = (holes.no_pitch,)
+    needs = (holes.no_pitch, turns(-1))
     pecks = "tapping_peck"
 
     def work(self, m: Machine) -> Iterator[Step]:

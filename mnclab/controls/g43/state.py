@@ -120,4 +120,7 @@ def seconds_of_p(m: Machine, word: Word) -> float:
     counted = m.settings["dwell_p"]
     if counted == "point":
         counted = "seconds" if has_point(m, word) else "milliseconds"
+    elif counted == "milliseconds" and has_point(m, word):  # Fanuc permits it in X alone
+        hint = "write whole milliseconds, or X for seconds; setting dwell_p"
+        m.warn(f"{word.rounded} counts milliseconds, decimal point or not: {m.value(word) / 1000:g} s", word, hint)
     return 1.0 if counted == "seconds" else 0.001

@@ -147,7 +147,8 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
     corner = el.corner[a]
     straight = outside & ~reversal & (s * across < 0) & (corner != ROUND)
     straight &= (corner == STRAIGHT) | (along >= np.cos(ACUTE_TURN))
-    inside = bent & ~out & ~change & ~lead & ~leave
+    met_by_entry = rules.straight_exit & el.entry[b] & ~el.arc[b]  # the line of the entry ends on the next offset
+    inside = bent & ~out & ~change & (~lead | met_by_entry) & ~leave
     apart = np.zeros(len(c), dtype=bool)
     k = np.flatnonzero(el.entry[b] & el.arc[b] & bent & ~out & ~leave)
     if len(k):  # the arc of an entry is shortened

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.geometry.curves import cross, dot
+from mnclab.geometry.curves import beside, cross, dot
 from mnclab.path.compensation.elements import CLEAR, CORNER, SPIKE_TURN, TANGENT, Compensation, Elements, Report
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.fit import check
@@ -40,9 +40,11 @@ def apply(
     _check_leads(path, el, rules)
     _check_open(path, el)
     found = Equidistant(el, rules)
+    _check_entries(path, found)
     marked = check(found, path, view, gouge, report)
     _notice_spikes(path, found, report)
     _notice_again(path, el, report)
+    _notice_let_go(path, el, rules, report)
     return _tool_centre_path(path, view, found, marked)
 
 
@@ -62,6 +64,16 @@ def _check_leads(path: Toolpath, el: Elements, rules: Compensation) -> None:
     ):  # fmt: skip
         if bad.any():
             raise PathFault(message, int(path.step[el.rows[int(np.argmax(bad))]]), hint)
+
+
+def _check_entries(path: Toolpath, found: Equidistant) -> None:
+    """The line of an entry that ends on the next offset must be long enough for it."""
+    el = found.el
+    k = np.flatnonzero(el.entry & ~el.arc) if found.rules.straight_exit else np.arange(0)
+    back = dot(beside(el.end[k], el.t_out[k], el.R[k] * el.s[k]) - el.start[k], found.end[k] - el.start[k]) < 0
+    if back.any():
+        message = "the inside corner behind the entry leaves nothing of its line"
+        raise PathFault(message, int(path.step[el.rows[k[int(np.argmax(back))]]]), "take a smaller tool or a longer entry")
 
 
 def _check_open(path: Toolpath, el: Elements) -> None:
@@ -109,6 +121,8 @@ def _tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marke
         where = np.maximum.accumulate(at)  # the last element up to each row
         flat = found.end.take(where, axis=0, mode="clip")
         keep = (where < 0) | ~el.on[where]
+    if found.rules.straight_exit:
+        keep |= _let_go(path, rows)
     ends = view.to_space(np.arange(n), _joined(flat, view.end[:, 2]))
     ends[keep] = path.end[keep]  # not compensated: exactly as it was
 
@@ -151,6 +165,26 @@ def _tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marke
         ends = ends.take(source, axis=0, mode="clip")
         ends[inserted] = view.to_space(like, _joined(found.begin[k], w))
     return path.through(np.concatenate([path.start[:1], ends]), columns, CORNER)
+
+
+def _let_go(path: Toolpath, rows: Index) -> Mask:
+    """Rows (n,) from the first motion on that follows the end of a compensation, in whatever direction."""
+    n = np.arange(len(path))
+    element, free = np.full(len(path), -1), np.where(path.is_motion & (path.side == 0), n, -1)
+    element[rows] = rows
+    return np.asarray(np.maximum.accumulate(free) > np.maximum.accumulate(element))
+
+
+def _notice_let_go(path: Toolpath, el: Elements, rules: Compensation, report: Report) -> None:
+    """An exit along the normal alone: the tool goes to the programmed place at once, into the wall."""
+    if not rules.straight_exit:
+        return
+    let = _let_go(path, el.rows)
+    first = np.flatnonzero(let & ~np.concatenate([[False], let[:-1]]))
+    last = np.searchsorted(el.rows, first) - 1
+    for row in first[(last >= 0) & el.on[last]]:
+        message = "this move after the end of the compensation leads the centre of the tool onto the contour, as on LinuxCNC"
+        report.notices.append(PathFault(message, int(path.step[row]), "write a move in the plane, off the contour, behind G40"))
 
 
 def _entry_arcs(path: Toolpath, el: Elements, k: Index, end: Array) -> tuple[Array, Array]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mnclab.path.limits import extents
+from mnclab.path.listing import figure
 from mnclab.path.toolpath import Kind, Mask, Toolpath
 from mnclab.runs.lint.once import once
 from mnclab.runs.material import cutting_of
@@ -46,6 +47,7 @@ def unused(run: Run) -> Iterator[Alarm]:
         hint = "a true tool says how a tool of the table really is; write it in Setup(tools=…) too"
         message = f"the setup knows {', '.join(strange)} as true tools, which have no row in the tool table"
         yield Alarm(message, None, WARNING, hint)
+    yield from _compensation(run)
     if run.ok:
         yield from _cycles(run)
         yield from _tools(run)
@@ -67,6 +69,15 @@ def _cycles(run: Run) -> Iterator[Alarm]:
         how = "M99" if "CYCL CALL" not in calls else "CYCL CALL or M99"
         message = "a cycle is defined here and never called: it does nothing"
         yield once(run, idle.tolist(), message, f"a cycle of this kind works where {how} stands")
+
+
+def _compensation(run: Run) -> Iterator[Alarm]:
+    """Moves beside a contour whose tool has no radius, and lies on it; the ISO mill says it at its word G41 or G42."""
+    path, message = run.toolpath, "compensates nothing"
+    idle = path.is_motion & (path.side != 0) & (path.radius == 0)
+    if idle.any() and not any(message in alarm.message or "has no row in" in alarm.message for alarm in run.alarms):
+        message = f"the radius compensation {message}: the radius of T{int(path.tool[idle][0])} is 0"
+        yield once(run, path.step[idle].tolist(), message, "call a tool, or give it its radius")
 
 
 def _executed(run: Run, codes: set[str]) -> Mask:
@@ -125,13 +136,36 @@ def still_spindle(m: Machine, path: Toolpath) -> Iterator[Alarm]:
 
 
 # A feed in mm/rev that counts mm/min: F0.1 on a lathe whose feed is one per minute (G94), as it is at power on.
-# A micrometre in a turn of the spindle is no feed that anybody turns with, and such a cut would take hours.
+# A micrometre in a turn of the spindle is no feed that anybody turns with, and such a cut would take hours. Nor is a tap fed by
+# another pitch than its own: it strips the thread or breaks (the TNC 620 refuses it itself).
 
 LEAST = 0.001  # mm a turn
 MOST = 2.0  # mm/min: greater numbers are no feeds a turn
+SAME = 0.01  # of a pitch: inches are written in four places
 
 
 def feed_of_another_unit(run: Run) -> Iterator[Alarm]:
+    """A warning for each of these feeds."""
+    yield from _a_minute(run)
+    yield from _of_taps(run)
+
+
+def _of_taps(run: Run) -> Iterator[Alarm]:
+    """A warning for the threads that a tap of known pitch cuts with another one."""
+    path = run.toolpath
+    threads = path.synchronous & np.isin(path.kind, (Kind.LINE, Kind.ARC)) & np.isfinite(path.per_rev)
+    if not threads.any():
+        return
+    tools, which = run.tools_that_cut
+    for number, tool in tools.items():
+        mine = threads & (which == number) & (abs(path.per_rev - tool.pitch) > SAME * tool.pitch)
+        if tool.kind == "tap" and tool.pitch > 0 and mine.any():
+            fed, own = (figure(float(each) / path.unit.length, 4) for each in (path.per_rev[mine][0], tool.pitch))
+            message = f"the tap of tool {number} has a pitch of {own} {path.unit.short} and is fed {fed} {path.unit.short} a turn"
+            yield once(run, path.step[mine].tolist(), message, "the feed is pitch times speed (G94), or the pitch (G95)")
+
+
+def _a_minute(run: Run) -> Iterator[Alarm]:
     """A warning at the first cut of a lathe that goes less than a micrometre in a turn."""
     path = run.toolpath
     if not path.lathe:

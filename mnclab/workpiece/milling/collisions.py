@@ -22,7 +22,7 @@ from mnclab.workpiece.milling.bodies import TOLERANCE, Body, above_edges, edges,
 from mnclab.workpiece.milling.cutters import Cutter
 from mnclab.workpiece.milling.fixtures import in_fixtures
 from mnclab.workpiece.milling.judging import Judged, Judging, Met
-from mnclab.workpiece.milling.moves import cut_up
+from mnclab.workpiece.milling.moves import cut_up, moves_of
 
 ROUGH, FEW = 60, 200  # points of a cut, enough to see whether it takes anything, and of what is behind the edges
 FALL = 0.1  # mm, by which a move may fall before it is cut up: its edges are before its shank
@@ -82,6 +82,8 @@ def _kinds(scene: Judging) -> Iterator[tuple[str, str, Met]]:
     for kind, bodies in (("shank", above_edges), ("holder", holder)):
         for met in cut.met(_behind(cut, bodies), FEW):
             yield kind, f"the {met.body.name} in material", met
+    for met in _probes(scene):
+        yield "probe", "the probe in material", met
     yield from in_fixtures(scene)
 
 
@@ -118,6 +120,20 @@ def _plunges(scene: Judging) -> list[Judged]:
     chosen = blunt & down & scene.standing & ~scene.rapid & scene.low_over(0.0)
     middle = Body("middle", Cutter(0.0, 0.0), TOLERANCE)
     return [Judged(int(k), middle, int(k)) for k in np.flatnonzero(chosen)]
+
+
+def _probes(scene: Judging) -> Iterator[Met]:
+    """Where the ball of a probe, its south pole at the tip, goes through material."""
+    cutting = scene.cutting
+    if not cutting.probed.any():
+        return
+    among = Judging(cutting, moves_of(cutting, cutting.cuts | cutting.probed, TOLERANCE / 10), scene.step)
+    mine = cutting.probed[among.moves.row]
+    chosen = mine & ~among.rising & among.low_over(0.0)
+    among.boxes[mine] = np.nan  # a ball clears nothing
+    radii = [max(tool.effective_radius - TOLERANCE, 0.0) for tool in cutting.tools]
+    balls = [Body("probe", Cutter(radius, 0.0, radius), TOLERANCE) for radius in radii]
+    yield from among.met([Judged(int(k), balls[among.which[k]], int(k)) for k in np.flatnonzero(chosen)])
 
 
 def _still(scene: Judging) -> list[Judged]:

@@ -120,3 +120,28 @@ def test_q_and_p_hold_where_they_mean_the_same():
 def test_hole_data_end_with_g80(between):
     alarm = mnclab.run(f"{START}G83 X10 Z-20 R2 Q5\n{between}\nG73 X40 Q8\n", "g43").alarms[-1]
     assert (alarm.message, alarm.span.line) == ("G73 Z (bottom of the hole) is missing", 5)
+
+
+def test_the_spindle_of_linuxcnc_turns_as_the_thread_does():
+    """rs274 on G74 under M3: "Spindle turning clockwise in G74"; on the others the cycle turns the spindle itself."""
+    tools = {1: mnclab.Tool(radius=3, number=1, kind="tap", pitch=1)}
+    for code, good, bad in (("G84", "M3", "M4"), ("G74", "M4", "M3")):
+        text = f"G21 G90 G17 S100 {{}} T1 M6\nG0 X0 Y0 Z5\n{code} X1 Y1 Z-3 R1 F100\nG80\nM30\n"
+        for dialect in ("fanuc", "haas", "linuxcnc"):
+            setup = mnclab.Setup(tools=tools, settings={"dialect": dialect})
+            assert mnclab.run(text.format(good), "g43", setup).ok
+            run = mnclab.run(text.format(bad), "g43", setup)
+            said = [alarm.message for alarm in run.alarms]
+            assert said == ([f"{code} needs {good}, as its thread turns (LinuxCNC)"] if dialect == "linuxcnc" else [])
+
+
+@pytest.mark.parametrize(("text", "message"), [
+    ("G70", "G70 is no unit on Haas but drills holes on a circle: not built"),
+    ("G71", "G71 is no unit on Haas but drills holes on an arc: not built"),
+    ("G70 I50. J15. L8", "G70 I50 drills holes on a circle (Haas)"),
+    ("G71 I50. J15. K30. L8", "G71 I50 drills holes on a circle (Haas)"),
+])  # fmt: skip
+def test_bolt_hole_circles_of_haas_are_no_units(text, message):
+    """Haas Mill Operator's Manual: G70 Bolt Hole Circle, G71 Bolt Hole Arc; inches and millimetres are G20 and G21."""
+    run = mnclab.run(text + "\nG0 X1\n", "g43", mnclab.Setup(settings={"dialect": "haas"}))
+    assert [alarm.message for alarm in run.alarms] == [message]

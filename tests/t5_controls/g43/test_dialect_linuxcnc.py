@@ -233,3 +233,16 @@ def test_what_is_not_built_is_told(text, alarm):
 def test_a_change_of_material_is_one_of_the_machine():
     (found,) = mnclab.run("M190 P1\nM2\n", "g43", DIALECT).alarms
     assert found.severity == "warning" and "M190 is a function of the machine's maker" in found.message
+
+
+@pytest.mark.parametrize(("text", "runs"), [
+    ("F100 S100 M3|G94|G1 X1", False),  # rs274: Cannot do g1 with zero feed rate
+    ("F100 S100 M3|G95|G1 X1", False),
+    ("F100 S100 M3 G94|G1 X1", True),
+    ("S100 M3|G94 F100|G1 X1", True),
+])  # fmt: skip
+def test_a_feed_mode_forgets_the_feed(text, runs):
+    """LinuxCNC asks for F after each G94 and G95, even where it is active; Fanuc keeps the feed of G94 through G94."""
+    text = "G21\n" + text.replace("|", "\n") + "\nM2\n"
+    assert mnclab.run(text, "g43", DIALECT).ok is runs
+    assert mnclab.run(text, "g43").ok is (runs or "G94" in text)

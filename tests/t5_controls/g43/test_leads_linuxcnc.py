@@ -78,3 +78,30 @@ def test_an_inside_corner_shortens_the_arc_of_an_entry():
             if "centre" in other:
                 assert np.abs(row.centre - other["centre"]).max() < 1e-6 and abs(row.sweep - other["sweep"]) < 1e-6
     assert run_by_both >= 75
+
+
+LINES = json.loads((Path(__file__).parents[2] / "authorities" / "leads_lines.json").read_text("utf-8"))["records"]
+
+
+def test_entries_by_a_line_and_exits_along_the_normal():
+    """Before an inside corner the line ends where the offsets meet; after G40 any move leads to the programmed place."""
+    run_by_both = along_the_normal = 0
+    for record in LINES:
+        run = mnclab.run(record["text"], "g43", Setup(settings={"dialect": "linuxcnc", "stopped_spindle": "accept"}))
+        assert run.ok <= ("error" not in record), record["name"]
+        if not run.ok:  # a contour that the tool would cut into is refused here, by LinuxCNC not always
+            continue
+        run_by_both += 1
+        ends = [row.end for row in run.toolpath.motion]  # a rapid to where the tool is is no row
+        assert np.abs(np.array(ends) - [row["to"] for row in record["motion"][1:]]).max() < 1e-7, record["name"]
+        if "Z" in record["text"]:
+            along_the_normal += 1
+            (warning,) = [alarm for alarm in run.alarms if "onto the contour, as on LinuxCNC" in alarm.message]
+            assert warning.severity == "warning" and "G40" in warning.hint
+    assert run_by_both >= 55 and along_the_normal >= 30
+
+
+def test_an_entry_without_room_for_its_inside_corner():
+    text = "G0 X0 Y0\nG41.1 D4\nG1 X-4 Y-9 F100\nX17 Y17\nX-15 Y-11\nM2\n"  # rs274 refuses it
+    run = mnclab.run(text, "g43", Setup(settings={"dialect": "linuxcnc"}))
+    assert "the inside corner behind the entry leaves nothing of its line" in [alarm.message for alarm in run.alarms]

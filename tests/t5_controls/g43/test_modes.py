@@ -126,3 +126,15 @@ def test_what_stands_in_no_chapter_is_marked_in_help():
 def test_a_machine_may_begin_in_inches():
     found = run("X1\nG21 X1\n", units="inch")
     assert found.toolpath.end[:, 0].tolist() == [25.4, 1] and found.history["unit"][0] == "G20"
+
+
+def test_a_dwell_in_milliseconds_with_a_point():
+    """Fanuc: X "decimal point permitted", P "decimal point not permitted"; G4 P1.5 of other controls means seconds."""
+    for dialect, text, seconds, said in (
+        ("fanuc", "P1.5", 0.0015, ["P1.5 counts milliseconds, decimal point or not: 0.0015 s"]),
+        ("fanuc", "P1500", 1.5, []), ("fanuc", "X1.5", 1.5, []),
+        ("haas", "P1.5", 1.5, []), ("linuxcnc", "P1.5", 1.5, []),
+    ):  # fmt: skip
+        run = mnclab.run(f"G21\nG4 {text}\nM30\n", "g43", mnclab.Setup(settings={"dialect": dialect}))
+        assert run.ok and [alarm.message for alarm in run.alarms] == said
+        assert run.toolpath.time[run.toolpath.kind == mnclab.Kind.DWELL].tolist() == [pytest.approx(seconds)]

@@ -45,8 +45,8 @@ def inverse_time(m: Machine, words: Words) -> None:
 
 @FUNCTIONS("G94 G95", FEEDS, group="feed mode", phase="plane", power_on="G94", source=ISO)
 def feed_mode(m: Machine, words: Words) -> None:
-    """What F means, mm/min or mm/rev; a new F must follow."""
-    if m.per_time:
+    """What F means, mm/min or mm/rev; a new F must follow (LinuxCNC: after each of them, though it changes nothing)."""
+    if m.per_time or m.settings["dialect"] == "linuxcnc":
         m.change("feed", None)
         m.change("per_time", False)
     SHARED[words.code].obey(m, words)
@@ -130,6 +130,7 @@ def contour_control(m: Machine, words: Words) -> None:
 INCH = 25.4
 UNITS = {"G20": INCH, "G70": INCH, "G21": 1.0, "G71": 1.0}
 LATHE = {"G70": "finishes", "G71": "roughs"}  # on LinuxCNC
+CIRCLE = {"G70": "on a circle", "G71": "on an arc"}  # on Haas
 
 
 NAMES = {code: "Inches" if factor == INCH else "Millimetres" for code, factor in UNITS.items()}
@@ -148,6 +149,9 @@ def unit(m: Machine, words: Words) -> None:
     if words.code in LATHE and m.settings["dialect"] == "linuxcnc":
         hint = f"write G2{int(words.code == 'G71')} for the unit; lathes have the control jnc-t01"
         m.alarm(f"{words.code} is no unit on LinuxCNC but {LATHE[words.code]} a contour on a lathe", first_word(words), hint)
+    if words.code in CIRCLE and m.settings["dialect"] == "haas":
+        hint = f"write G2{int(words.code == 'G71')} for the unit, or a cycle and the places of its holes"
+        m.alarm(f"{words.code} is no unit on Haas but drills holes {CIRCLE[words.code]}: not built", first_word(words), hint)
     factor = UNITS[words.code]
     if factor != m.variable_unit:
         refuse_change(m, "unit", first_word(words))

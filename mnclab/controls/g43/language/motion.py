@@ -136,6 +136,10 @@ def together(control: Control, modal: Modal, keyword: str, words: list[Word]) ->
     if contour and len(codes) == 1 and (lathe := {"G70", "G71"} & codes.keys()):
         hint = "a program of a lathe; write G20 or G21 for the unit, and the motion itself"
         raise Alarm(f"{min(lathe)} {contour.rounded} is a contour cycle of a lathe", codes[min(lathe)].span, hint=hint)
+    circle = next((word for word in words if word.address in ("I", "J", "L")), None)
+    if circle and len(codes) == 1 and (holes := {"G70", "G71"} & codes.keys()):
+        hint = "not built; write a cycle and the places of its holes"
+        raise Alarm(f"{min(holes)} {circle.rounded} drills holes on a circle (Haas)", codes[min(holes)].span, hint=hint)
     arcs = [code for code in ARCS if code in codes] or [code for code in ARCS if modal.motion == code and axes]
     for code in LENGTHS:
         if code in codes and arcs and not {"G0", "G1"} & codes.keys():
