@@ -343,3 +343,12 @@ def test_a_note_names_what_is_not_judged():
     assert found == () and found.notes == ("1 row of a tool not along Z not judged (program:4)",)
     assert repr(found) == "no collisions\n  note: 1 row of a tool not along Z not judged (program:4)"
     assert "<p>1 row of a tool not along Z not judged (program:4)</p>" in found._repr_html_()
+
+
+def test_the_table_of_an_inch_program_tells_inches_alone():
+    """-.25 in below the top: what stands beside the message would be the same in mm."""
+    tools, stock = {1: Tool(diameter=12.7)}, ((0, 0, -25.4), (101.6, 76.2, 0))
+    setup = mnclab.Setup(tools=tools, stock=stock)
+    found = mnclab.run("G20 G54\nT1 M6\nS900 M3\nG0 X1 Y1 Z1\nG0 Z-.25\n", "g43", setup).collisions()
+    shown = found._repr_html_()
+    assert "0.250 in deep at X1.000 Y1.000 Z-0.250" in shown and "mm" not in shown
