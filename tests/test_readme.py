@@ -3,6 +3,9 @@
 import ast
 import re
 import shlex
+import sys
+from functools import partial
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -43,6 +46,7 @@ def test_every_call_of_the_table_runs(names):
     assert len(ROWS) == 15 and all(ROWS)
     for call in (call for row in ROWS[:-1] for call in row):
         exec(compile(ast.parse(call), call, "exec"), names)
+    assert mnclab.run(names["run"].program, setup=names["shop"]).workpiece().removed > 0  # its tools and its blank are those
 
 
 def test_every_command_is_known():
@@ -55,3 +59,27 @@ def test_the_map_of_the_house_names_what_is_there():
     section = (ROOT / "CONTRIBUTING.md").read_text("utf-8").partition("## One program's way")[2].partition("\n## ")[0]
     named = re.findall(r"`([a-z_0-9/]+(?:\.py|/))`", section)
     assert len(named) > 30 and not [name for name in named if not (ROOT / "mnclab" / name).exists()]
+
+
+def test_the_recipes_run_as_they_are_written(tmp_path, monkeypatch, request):
+    """Each file of a recipe can be run, the control by its entry in the list, and the picture shows all its words."""
+    text = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    made = []
+    for name, code in zip(("circle_", "press_", "heights_"), re.findall(r"```python\n(\"{3}.*?)```", text, re.S)):
+        (tmp_path / f"{name}.py").write_text(code, "utf-8")
+        made.append(import_module(name))
+        request.addfinalizer(partial(sys.modules.pop, name))
+    circle, press, heights = made
+    assert circle.CYCLES.keys() == {"G13"} and press.CONTROL.cycles.keys() == {"G81"}
+    ((name, folder),) = ast.literal_eval("{" + re.findall(r'^ +("[a-z-]+": "[a-z_]+")$', text, re.M)[0] + "}").items()
+    assert name == press.CONTROL.name and f"mnclab/controls/{folder}/__init__.py" in text
+    mnclab.controls.add(press.CONTROL)
+    request.addfinalizer(lambda: mnclab.controls.remove(name))
+    assert mnclab.run("F120 S800 M3\nG0 X10 Z5\nG81 Z-8 R5\n", name).ok
+    picture = heights.plot_heights(mnclab.run("G1 X10 F100\n", "mnc"))
+    picture.canvas.draw()
+    (axes,) = picture.axes
+    for label in (axes.xaxis.label, axes.yaxis.label):
+        box = label.get_window_extent()
+        assert picture.bbox.contains(box.x0, box.y0) and picture.bbox.contains(box.x1, box.y1)

@@ -7,8 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from mnclab.controls import MODULES
+
 ROOT = Path(__file__).resolve().parent.parent
-WINGS = ["design", "lab", "controls/mnc", "controls/jnc_t01", "controls/nc_31", "controls/g43", "controls/tnc_620"]
+WINGS = ["design", "lab", *(f"controls/{module.rpartition('.')[2]}" for module in MODULES.values())]
 MILLED = "mnclab.Setup(tools={1: mnclab.Tool(radius=4)}, stock=mnclab.box((0, 0, -10), (60, 40, 0)))"
 TURNED = "mnclab.Setup(start=(30, 0, 10), stock=mnclab.cylinder(radius=15, low=-40, high=0))"
 ISO = "G17 G90 G54 T1 M6\nG0 X-10 Y20 Z5 S900 M3\nZ-3\nG1 X70 F200\nG0 Z5\nM30\n"

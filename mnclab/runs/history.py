@@ -143,7 +143,7 @@ def _told(name: str, value: Any, state: Mapping[str, Any]) -> str:
     if value is None or does_nothing(name, value):
         return f"{title} none"
     if isinstance(value, int | float):
-        return f"{title} {short(value)} {unit}".rstrip()
+        return f"{title} {short(value)} {'x ' * unit[:1].isdigit()}{unit}".rstrip()  # such as 40 x 0.1 in/min
     return f"{title} {said(name, value, unit_of(state))}".rstrip()
 
 
@@ -164,7 +164,7 @@ def said(name: str, value: Any, unit: Unit = MM) -> str:
         value /= unit.feed
     if name == "rotary" and value is not None:
         return " ".join(f"{axis}{figure(np.degrees(angle), 6)}" for axis, angle in zip("ABC", value, strict=True))
-    return _plain(value, unit if name in ("position", "pole") or name.startswith("frame ") else MM)
+    return _plain(value, unit if name in ("position", "pole", "stock") or name.startswith("frame ") else MM)
 
 
 def _plain(value: Any, unit: Unit) -> str:
@@ -177,7 +177,9 @@ def _plain(value: Any, unit: Unit) -> str:
     if isinstance(value, tuple) and len(value) == 4 and np.shape(value[-1]) == (4,):
         return described(np.array(value), unit) or "none"
     if is_blank(value):
-        return " to ".join(point(corner) for corner in value.bounds)
+        return " to ".join(point(corner, unit) for corner in value.bounds)
+    if hasattr(value, "corners"):  # of a blank of which half may be missing
+        return " to ".join(point(corner, unit) for corner in value.corners)
     if isinstance(value, tuple) and type(value).__str__ is not tuple.__str__:  # it says itself what it is
         return str(value)
     if isinstance(value, tuple):

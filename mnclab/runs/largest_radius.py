@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from mnclab.path.listing import figure
+from mnclab.path.listing import MM, Unit
 from mnclab.text.alarm import Alarm
 
 if TYPE_CHECKING:
@@ -26,9 +26,10 @@ class LargestRadius:
     line: int | None = None
     other: int | None = None
     reach: str = ""
+    unit: Unit = MM  # in which it is told
 
     def __str__(self) -> str:
-        told = f"{'below ' if self.below else ''}{figure(self.radius)} mm"
+        told = f"{'below ' if self.below else ''}{self.unit.figure(self.radius)} {self.unit.short}"
         if math.isinf(self.radius) or self.radius <= EXACT:
             told = "no tool fits" if self.radius <= EXACT else "any radius fits"
         return " ".join(filter(None, [told + self._where, self.reach]))
@@ -70,7 +71,7 @@ def largest_radius(run: Run) -> LargestRadius:
     below = not worst.largest > EXACT or any(
         gouge.largest <= worst.largest + EXACT for gouge in _marked(run, worst.largest).gouges
     )
-    return LargestRadius(worst.largest, below, worst.line, worst.other, marked.reach)
+    return LargestRadius(worst.largest, below, worst.line, worst.other, marked.reach, run.toolpath.unit)
 
 
 def _marked(run: Run, radius: float) -> Run:

@@ -242,7 +242,8 @@ def _beyond_travel(run: Run) -> Iterator[Collision]:
     x, y, z = np.subtract(place, run.toolpath.origin).tolist()
     span = alarm.span or Span(0, 0)
     file = run.programs[span.program].name
-    message = f"{alarm.message}, {depth:.3f} mm beyond"
+    unit = run.toolpath.unit
+    message = f"{alarm.message}, {depth / unit.length:.3f} {unit.short} beyond"
     yield Collision("travel", message, span.line, span.program, len(run.toolpath) - 1, (x, y, z), depth, file)
 
 

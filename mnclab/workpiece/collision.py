@@ -23,7 +23,7 @@ KINDS = {
     "chuck": "the tool in the chuck",
     "axis": "a drill, or what else turns about its own axis, fed beside the axis of a part that turns",
 }
-HEAD = ("place", "kind", "depth", "at", "message")
+HEAD = ("place", "kind", "message")
 
 
 def coordinates(axes: str, place: Iterable[float]) -> str:
@@ -71,7 +71,7 @@ class Collisions(tuple[Collision, ...]):
     `reach` is "up to line 12, where the run stopped" if only a part of the program was judged, empty where all of it was.
     `ok` is whether all of the program was judged and there are none; the truth value is the opposite, so that what stands
     after `if not run.collisions()` is not reached by a run that stopped. `len` counts what was found. JSON has a tuple as a list,
-without `reach` and `notes`: `json.dumps(run.collisions().as_dict())`.
+    without `reach` and `notes`: `json.dumps(run.collisions().as_dict())`.
     """
 
     notes: tuple[str, ...]
@@ -124,11 +124,7 @@ without `reach` and `notes`: `json.dumps(run.collisions().as_dict())`.
 
     def _repr_html_(self) -> str:
         first, more = self._shown()
-        rows = [
-            (f"{each.file}:{each.line}".lstrip(":"), each.kind, f"{each.depth:.3f} mm",
-             f"{coordinates('XYZ', each.place)} mm", each.message + others)
-            for each, others in first
-        ]  # fmt: skip
-        table = html_table(HEAD, rows, numbers=(2,)) if rows else ""
+        rows = [(f"{each.file}:{each.line}".lstrip(":"), each.kind, each.message + others) for each, others in first]
+        table = html_table(HEAD, rows) if rows else ""
         said = self.sentence if self.reach or not rows else ""
         return table + "".join(f"<p>{escape(each)}</p>" for each in (more, said, *self.notes) if each)

@@ -154,12 +154,14 @@ def _notes(
     if removal is None:
         yield f"{unknown} ap, ae, hm and Q are not known, and moves in the air count."
     else:
-        yield "Q most is that at a place in the material, plunges too; ap and ae are the most of a row, hm goes with its most Q."
+        met, chip = _met(found), ", hm goes with its most Q" * any(cut.chip for cut in found)
+        most = f"; {met} {'are' if ' ' in met else 'is'} the most of a row{chip}" * bool(met)
+        yield f"Q most is that at a place in the material, plunges too{most}."
     if any(cut.open for cut in found):
-        yield "At least: more rows may have more than can be looked at, or a thread, at which nothing is."
+        yield "At least: there may be more in rows that are too many to look at, or in threads, which are not looked at."
     if few := [cut for cut in found if cut.depth and cut.seen[0] < cut.seen[1]]:
         told = ", ".join(f"{cut.seen[0]} of {cut.seen[1]} of T{cut.tool}" for cut in few)
-        yield f"The least ap, ae and hm are those of the rows that were looked at: {told}."
+        yield f"The least of {_met(few, chip=True)} is that of the rows that were looked at: {told}."
     if bent := ", ".join(f"T{cut.tool}" for cut in found if cut.width and cut.per_tooth and not cut.chip):
         yield f"hm of {bent} is empty: the chip thins along a round edge; its ae is the width of cut at the top of the material."
     if not any(cut.beyond for cut in found):
@@ -169,6 +171,13 @@ def _notes(
         fastest = speeds["X"] if alike else ", ".join(f"{axis} {speed}" for axis, speed in speeds.items())
         spindle = f"{figure(limits.spindle, 0)} rev/min and " if math.isfinite(limits.spindle) else ""
         yield f"All within the limits of the machine, {spindle}{fastest} {path.unit.short}/min."
+
+
+def _met(found: Sequence[Cut], chip: bool = False) -> str:
+    """What of the material is known of some of the tools: "ap and ae"."""
+    names = {"ap": "depth", "ae": "width"} | ({"hm": "chip"} if chip else {})
+    known = [short for short, name in names.items() if any(getattr(cut, name) for cut in found)]
+    return " and ".join(filter(None, [", ".join(known[:-1]), *known[-1:]]))
 
 
 def _cut(

@@ -362,3 +362,12 @@ def test_a_probe_driven_into_material(way, depth):
     met = [each for each in run.collisions(stock=((0, 0, -20), (60, 40, 0))) if each.kind == "probe"]
     assert [each.depth for each in met] == ([pytest.approx(depth, abs=1e-6)] if depth else [])
     assert all(each.message.startswith("the probe in material") for each in met)
+
+
+def test_the_table_of_an_inch_program_tells_inches_alone():
+    """-.25 in below the top: what stands beside the message would be the same in mm."""
+    tools, stock = {1: Tool(diameter=12.7)}, ((0, 0, -25.4), (101.6, 76.2, 0))
+    setup = mnclab.Setup(tools=tools, stock=stock)
+    found = mnclab.run("G20 G54\nT1 M6\nS900 M3\nG0 X1 Y1 Z1\nG0 Z-.25\n", "g43", setup).collisions()
+    shown = found._repr_html_()
+    assert "0.250 in deep at X1.000 Y1.000 Z-0.250" in shown and "mm" not in shown

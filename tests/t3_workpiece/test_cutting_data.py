@@ -135,3 +135,13 @@ def test_in_inches():
 def test_nothing_is_cut(text):
     found = mnclab.run(text, "mnc").cutting_data()
     assert len(found) == 0 and "nothing is cut" in repr(found) + found._repr_html_()
+
+
+def test_the_notes_name_what_stands_in_the_table():
+    """Of a tool without teeth hm is not known, of a turning tool ae neither."""
+    plain, turned = milled(5, -3, Tool(radius=5))(), Tool(corner=0.4, main_angle=95, auxiliary_angle=30, kind="turning")
+    assert "; ap and ae are the most of a row." in repr(plain) and "hm" not in repr(plain)
+    assert "hm goes with its most Q" in repr(milled(5, -3)())
+    text = "M3 S500 T1\nG95 F0.2\nG00 X18 Z2\nG01 Z-30\nG00 X40\n"
+    run = mnclab.run(text, "jnc-t01", Setup(tools={1: turned}, stock=mnclab.blank.cylinder(20, -60, 0)))
+    assert "; ap is the most of a row." in repr(run.cutting_data())

@@ -32,7 +32,7 @@ def tables(control):
     return found
 
 
-TABLES = {control: tables(control) for control in mnclab.controls if control != "g43"}  # its source has no cycles
+TABLES = {control: found for control in mnclab.controls if (found := tables(control))}  # the source of g43 has no cycles
 CYCLES = [(control, code) for control in TABLES for code in mnclab.controls[control].cycles]
 
 #: Our names where the table has a longer one: the word that the address does not say already.

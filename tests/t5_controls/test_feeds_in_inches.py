@@ -134,7 +134,9 @@ def test_the_iso_mill_counts_inches(unit: str, length: float) -> None:
 def test_what_is_told_are_the_numbers_of_the_program() -> None:
     run = klartext("INCH", "L X+1 R0 F40 M3\n")
     assert "F40" in str(run.toolpath) and "feeds in 0.1 in/min" in run.toolpath._repr_html_()
-    assert "feed 40 0.1 in/min" in str(run.at(3)) and "feed: 99 -> 40" in str(run.explain(3))
+    assert "feed 40 x 0.1 in/min" in str(run.at(3)) and "feed: 99 -> 40" in str(run.explain(3))
+    run = klartext("INCH", "BLK FORM 0.1 Z X+0 Y+0 Z-1\nBLK FORM 0.2 X+4 Y+3 Z+0\nL X+1 R0 F40 M3\n")
+    assert "stock X0 Y0 Z-1 to X4 Y3 Z0" in " ".join(str(run.at(5)).split())
     run = klartext("INCH", "L X+1 R0 F40 M3\n", inch_feed="inch")
     assert "F40" in str(run.toolpath) and "feed 40 in/min" in str(run.at(3))
 

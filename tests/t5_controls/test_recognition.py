@@ -14,7 +14,7 @@ from mnclab.controls import CONTROLS
 from mnclab.controls.recognition import candidates, leading
 
 FOLDER = Path(__file__).parents[1] / "recognition"
-OURS = sorted(file for name in CONTROLS for file in (FOLDER / name).iterdir())
+OURS = sorted(file for name in CONTROLS for file in (FOLDER / name).glob("*"))
 NONE = sorted((FOLDER / "none").iterdir())
 UNDECIDED = sorted((FOLDER / "undecided").iterdir())
 KINDS = {

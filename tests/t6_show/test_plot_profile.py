@@ -152,4 +152,5 @@ def test_the_feed_over_the_removal_counts_in_the_unit_of_the_program():
     text = "BEGIN PGM A INCH\nTOOL CALL 1 Z S1000\nL Z+2 R0 FMAX M3\nL X+0 Y+0 FMAX\nL Z-0.1 F100\nL X+1\nEND PGM A INCH\n"
     tools, stock = {1: mnclab.Tool(diameter=6.35)}, ((-10, -10, -10), (40, 40, 0))
     feed, rate = mnclab.run(text, "tnc-620", mnclab.Setup(tools=tools, stock=stock)).removal().plot().axes
-    assert feed.get_ylabel() == "feed, in/min" and 10 < feed.get_ylim()[1] < 20 and "mm³/min" in rate.get_ylabel()
+    assert feed.get_ylabel() == "feed, in/min" and 10 < feed.get_ylim()[1] < 20 and rate.get_ylabel().endswith("in³/min")
+    assert rate.texts[0].get_text() == "line 5: at most 0.491 in³/min"  # the plunge, π 0.125² · 10

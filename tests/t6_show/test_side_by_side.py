@@ -163,6 +163,13 @@ def test_the_way_to_the_contour_is_as_long_as_the_radius_at_least():
     assert str(mnc.run(straight, "mnc").largest_radius()) == "90 mm (lines 3 and 4)"  # MNC manual: the approach is Y-90 to Y0
 
 
+def test_the_largest_radius_of_an_inch_program_is_told_in_inches():
+    """A slot of a quarter of an inch has room for an eighth; the number itself stays mm."""
+    text = "G20 G17 G90 G54\nT1 M6\nS800 M3\nG0 X-2 Y-2\nG1 G41 D1 X0 Y0 F20\nY3\nX1\nY2\nX1.25\nY3\nX4\nY0\nX0\nG40 X-2 Y-2\n"
+    found = mnc.run(text, "g43", tools={1: mnc.Tool(radius=1)}).largest_radius()
+    assert str(found).startswith("0.125 in (lines ") and float(found) == pytest.approx(25.4 / 8)
+
+
 def test_nothing_is_said_of_what_a_stopped_run_did_not_reach(tmp_path):
     """The contour and the measuring cycle stand below the fault: their verdicts name how far is known."""
     run = mnc.run("T1\nS900 M3\nG0 X\nG41 X0 Y0\nX50\nG40 X60 Y20\n", "mnc", tools={1: mnc.Tool(radius=1)})

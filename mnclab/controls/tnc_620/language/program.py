@@ -133,8 +133,12 @@ class Blank(NamedTuple):
     maximum: Corner | None = None
 
     def __str__(self) -> str:
-        corners = (corner for corner in (self.minimum, self.maximum) if corner)
-        return " to ".join("X{:g} Y{:g} Z{:g}".format(*corner) for corner in corners)
+        return " to ".join("X{:g} Y{:g} Z{:g}".format(*corner) for corner in self.corners)
+
+    @property
+    def corners(self) -> list[Corner]:
+        """Those that were given."""
+        return [corner for corner in (self.minimum, self.maximum) if corner]
 
 
 def body(m: Machine) -> Body | None:
