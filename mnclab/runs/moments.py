@@ -71,7 +71,8 @@ class Moments(tuple["Moment", ...]):
     @property
     def counts(self) -> str:
         """What is said where a program counts inches: a condition does not."""
-        return "the condition counts mm, the places count inches" if any(unit_of(moment.state).short == "in" for moment in self) else ""
+        inches = any(unit_of(moment.state).short == "in" for moment in self)
+        return "the condition counts mm, the places count inches" if inches else ""
 
     def __str__(self) -> str:
         if not self:

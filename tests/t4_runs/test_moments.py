@@ -172,7 +172,8 @@ def test_a_lathe_says_that_x_is_a_radius():
 def test_places_of_a_program_in_inches():
     """The condition counts mm, as `PLACE` says; the place is told as the listing has it: 25.4 mm are 1 in."""
     found = mnclab.run("G20 G17 G90 S100 M3\nG0 X0 Y0\nG1 X2 F10\n", "g43").when("x > 25.4")
-    assert str(found).splitlines() == ["line 3: X1 Y0 Z0  50 %      G1 X2 F10", "the condition counts mm, the places count inches"]
+    said = "the condition counts mm, the places count inches"
+    assert str(found).splitlines() == ["line 3: X1 Y0 Z0  50 %      G1 X2 F10", said]
     assert "the condition counts mm" in found._repr_html_()
     metric = mnclab.run("G21 G17 G90 S100 M3\nG0 X0 Y0\nG1 X2 F10\n", "g43").when("x > 1")
     assert str(metric) == "line 3: X1 Y0 Z0  50 %      G1 X2 F10"
