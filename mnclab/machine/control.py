@@ -293,7 +293,8 @@ class Setting(NamedTuple):
         elif isinstance(self.default, Mapping):
             good = isinstance(value, Mapping)
         else:
-            good = isinstance(value, Real) and not isinstance(value, bool) and abs(value) <= sys.float_info.max
+            good = isinstance(value, Real) and not isinstance(value, bool)
+            good = good and not value < -sys.float_info.max and value <= sys.float_info.max  # nor an int beyond any float
             good = good and not (self.whole and float(value) % 1)
             good = good and (self.at_least is None or float(value) >= self.at_least)
             good = good and (self.at_most is None or float(value) <= self.at_most)
