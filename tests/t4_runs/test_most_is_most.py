@@ -167,6 +167,17 @@ def test_the_width_beside_a_pass_is_the_step(step):
     assert cut.width[0] == pytest.approx(step, abs=0.1) and cut.depth == pytest.approx([2, 2], abs=1e-6)
 
 
+@pytest.mark.parametrize("y", [-4, -2, 0, 1.234, 2, 3.5])
+def test_a_side_cut_is_exact(y):
+    """The blank ends at Y0: ae = R + y, engaged over acos(1 - ae / R), where the chip is fz ae / R over the angle thick."""
+    way = f"G54 G17 G90 T1 S1000 M3\nG0 X-20 Y{y} Z5\nG0 Z-4\nG1 X80 F300\nG0 Z20\n"
+    run = mnclab.run(way, "mnc", Setup(tools={1: Tool(diameter=10, number=1, teeth=2)}, stock=BLANK))
+    (cut,), width = run.cutting_data(), 5 + y
+    assert cut.depth[1] == pytest.approx(4, abs=1e-9) and cut.width[1] == pytest.approx(width, abs=1e-4)
+    assert cut.rate[1] == pytest.approx(4 * width * 300, rel=1e-4)
+    assert cut.chip[1] == pytest.approx(0.15 * width / 5 / math.acos(1 - width / 5), rel=1e-4)
+
+
 def test_why_there_is_no_chip_of_a_ball():
     run = milled(["G0 X-10 Y10", "G0 Z-2", "G1 X70"], MILLS["ball"])
     assert "hm of T1 is empty" in repr(run.cutting_data()) and "hm" not in run.cutting_data().table()[0]

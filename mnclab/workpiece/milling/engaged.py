@@ -1,9 +1,10 @@
 """What stands before a mill, at places of its way: how deep and how wide it is in the material, and the cross-section.
 
 At a place the front half of the rim is looked at, degree by degree: what stands higher there than the edge, before the row
-began, is cut. With θ from the heading and the radius R the width of cut is ae = R ∫ cos θ dθ over the engaged part, and the
-cross-section R ∫ a cos θ dθ of the depths a. The lower side adds its faces that go ahead into the material, ring by ring:
-those of round corners and cones, and of discs that go down. Exact but for the degree and the rings.
+began, is cut. Where the depth jumps between two of them, at a wall, its angle is found by halving. With θ from the heading
+and the radius R the width of cut is ae = R ∫ cos θ dθ over the engaged part, and the cross-section R ∫ a cos θ dθ of the
+depths a. The lower side adds its faces that go ahead into the material, ring by ring:
+those of round corners and cones, and of discs that go down. Exact but for slopes within a degree, and the rings.
 
 ap is how far the tip, the lowest point of a tool, lies below the highest material that the front meets. Of a ball and of a
 round corner ae is the width of cut at that material's top, where the tool is as wide as the cap or the ring that is ap deep:
@@ -13,6 +14,7 @@ between them; ISO 3002-3 measures ae across the feed. Their chip has no one thic
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,12 +29,14 @@ from mnclab.workpiece.milling.sweep import Points, depths
 if TYPE_CHECKING:
     from mnclab.workpiece.milling.milled import Milled
 
+BETWEEN = np.radians(np.arange(-90.0, 91.0))
 RIM, AROUND = np.radians(np.arange(-89.5, 90.0, 1.0)), np.radians(np.arange(-172.5, 180.0, 15.0))
-STEP, TURN = np.radians(1.0), np.radians(15.0)
+TURN = np.radians(15.0)
+JUMP, HALVINGS = 0.02, 12  # of the depth between two degrees, at a wall; of the degree until its angle is known, to 0.0003
 INSIDE, LEAST, UPRIGHT = 1 - 1e-6, 1e-3, 1e-6
 SPOTS = np.array([0.15, 0.5, 0.85, INSIDE])  # of the radius, where it is seen how high material stands
 FLAT, BENT = 4, 12  # rings of the flat and of the rising part of the lower side
-WIDE = float(np.cos(RIM).sum() * STEP)  # radii that the degrees of the rim are wide
+WIDE = 2.0  # radii that the rim is wide
 SAME = 1e-8  # mm, by which the ends of ways differ that are one
 
 
@@ -84,11 +88,21 @@ def ahead(part: Milled, rows: Index, share: Array) -> Ahead:
 
     some = np.flatnonzero(across > UPRIGHT)
     rim = np.zeros((len(known), len(RIM)))
-    rim[some] = deep(some, radius[some, None] * INSIDE, RIM, place[some, 2:] + height(some, radius[some, None]))[0][:, 0]
-    found.area[known] = across * radius * (rim @ np.cos(RIM)) * STEP
+
+    def front(which: Index, angle: Array, rho: Array, low: Array) -> Array:
+        """How deep rings rho (k, 1) are in front, at angles (r,) or one of its own each (k,)."""
+        angle = angle if angle is RIM else angle[:, None, None]
+        return deep(which, rho * INSIDE, angle, low)[0][:, 0]
+
+    rho, low = radius[some, None], place[some, 2:] + height(some, radius[some, None])
+    rim[some] = front(some, RIM, rho, low)
+    begin, end = np.tile(BETWEEN[:-1], (len(known), 1)), np.tile(BETWEEN[1:], (len(known), 1))
+    begin[some], end[some] = _walls(rim[some], lambda k, angle: front(some[k], angle, rho[k], low[k])[:, 0])
+    cosines = np.sin(end) - np.sin(begin)  # of each part of the rim the integral
+    found.area[known] = across * radius * (rim * cosines).sum(axis=1)
     plain, cuts, ap = (flat == radius) & (across > UPRIGHT), rim > 0, rim.max(axis=1)
-    wide = cuts @ np.cos(RIM)
-    for column, values in zip(found[1:], (ap, radius * wide * STEP, wide / cuts.sum(axis=1).clip(1))):
+    wide, angles = (cuts * cosines).sum(axis=1), (cuts * (end - begin)).sum(axis=1)
+    for column, values in zip(found[1:], (ap, radius * wide, np.divide(wide, angles, out=np.zeros_like(wide), where=angles > 0))):
         column[known] = np.where(plain, values, 0.0)
     some = np.flatnonzero((flat < radius) | (way[:, 2] < -UPRIGHT))
     stands = deep(some, radius[some, None] * SPOTS, AROUND[::3], place[some, 2:])[0].max(axis=(1, 2), initial=0.0)
@@ -103,13 +117,31 @@ def ahead(part: Milled, rows: Index, share: Array) -> Ahead:
     faces = rising - (way[some, 2, None] * (outer**2 - inner**2) / 2 * TURN)[:, :, None]
     found.area[known[some]] += np.where((met > 0) & (off == 0), faces, 0.0).clip(0.0).sum(axis=(1, 2))
     round_ = (flat < radius) & (moves.slope[move] == 0) & (across > UPRIGHT)
-    front = np.where((met > 0) & (np.cos(AROUND) > 0), met + middle[:, :, None], 0.0).max(axis=(1, 2))
-    ap[some] = np.maximum(front, np.where(ap[some] > 0, ap[some] + height(some, radius[some, None])[:, 0], 0.0))
+    highest = np.where((met > 0) & (np.cos(AROUND) > 0), met + middle[:, :, None], 0.0).max(axis=(1, 2))
+    ap[some] = np.maximum(highest, np.where(ap[some] > 0, ap[some] + height(some, radius[some, None])[:, 0], 0.0))
     some = np.flatnonzero(round_ & (ap > 2 * LEAST))
     cap = _rings(moves[move[some]], ap[some] - 2 * LEAST)[:, -1:]
-    top = deep(some, cap * INSIDE, RIM, place[some, 2:] + height(some, cap))[0][:, 0] > 0
-    found.depth[known[some]], found.width[known[some]] = ap[some], cap[:, 0] * (top @ np.cos(RIM)) * STEP
+    low = place[some, 2:] + height(some, cap)
+    top = front(some, RIM, cap, low) > 0
+    begin, end = _walls(top, lambda k, angle: front(some[k], angle, cap[k], low[k])[:, 0] > 0)
+    found.depth[known[some]], found.width[known[some]] = ap[some], cap[:, 0] * (top * (np.sin(end) - np.sin(begin))).sum(axis=1)
     return found
+
+
+def _walls(rim: Array, front: Callable[[Index, Array], Array]) -> tuple[Array, Array]:
+    """Where the parts of the rim begin and end (k, r), rad: in the middle between two of its degrees, or at a wall between
+    them, beyond which the depth (k, r) is another one. `front` gives the depth of places (m,) at an angle each (m,)."""
+    rim = rim.astype(float)
+    begin, end = np.tile(BETWEEN[:-1], (len(rim), 1)), np.tile(BETWEEN[1:], (len(rim), 1))
+    k, i = np.nonzero(np.abs(np.diff(rim, axis=1)) > JUMP * rim.max(axis=1, keepdims=True))
+    here, there = RIM[i], RIM[i + 1]
+    for _ in range(HALVINGS if len(k) else 0):
+        middle = (here + there) / 2
+        met = front(k, middle)
+        before = np.abs(met - rim[k, i]) < np.abs(met - rim[k, i + 1])
+        here, there = np.where(before, middle, here), np.where(before, there, middle)
+    end[k, i] = begin[k, i + 1] = (here + there) / 2
+    return begin, end
 
 
 def at_most(part: Milled, rows: Index) -> Ahead:
