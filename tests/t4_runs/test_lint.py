@@ -230,3 +230,15 @@ def test_a_compensation_of_no_radius(control, text, line, said):
     assert found.ok and of_it == (
         [(line, f"the radius compensation compensates nothing: the radius of {said} is 0")] if line else []
     )
+
+
+def test_a_tool_that_waits_for_its_change():
+    """T chooses a tool, and M6 puts it into the spindle."""
+    text = "G21 G17 G90 G54\n{}\nS1000 M3\nG0 X-10 Y10 Z5\nG0 Z-4\nG1 X80 F300\nG0 Z20\nM30\n"
+    setup = Setup(tools={1: Tool(diameter=10, number=1), 2: Tool(diameter=6, number=2)})
+    ready = [(words, []) for words in ("T1 M6", "M6 T1", "", "T0", "T1 M6\nT2")]
+    for words, says in (("T1", ["T1"]), ("T1\nT2", ["T2"]), *ready):
+        alarms = mnclab.run(text.format(words), "g43", setup).alarms
+        assert [alarm.message for alarm in alarms] == [
+            f"the program works without a tool: {tool} is chosen, but not in the spindle" for tool in says
+        ], words

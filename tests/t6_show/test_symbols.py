@@ -102,6 +102,6 @@ def test_both_ways_over_a_cut_are_red_somewhere():
 
 
 def test_a_feed_move_upwards_is_no_plunge():
-    text = "G90 G54 T1 S1000 M3\nG0 X0 Y0 Z5\n{}G1 X10 Y10 F100\nZ{}\n"
+    text = "G90 G54 T1 S1000 M3\nG0 X0 Y0 Z5\n{}G1 X10 Y10 F100\nZ{}\nX20\n"  # a plunge where nothing follows is a hole
     down, up = (mnc.run(text.format("", z), "mnc").plot(view="XY").axes[0] for z in (-2, 9))
     assert "plunge" in symbols(down) and "plunge" not in symbols(up)

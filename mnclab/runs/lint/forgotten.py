@@ -48,6 +48,7 @@ def unused(run: Run) -> Iterator[Alarm]:
         message = f"the setup knows {', '.join(strange)} as true tools, which have no row in the tool table"
         yield Alarm(message, None, WARNING, hint)
     yield from _compensation(run)
+    yield from _waiting(run)
     if run.ok:
         yield from _cycles(run)
         yield from _tools(run)
@@ -78,6 +79,19 @@ def _compensation(run: Run) -> Iterator[Alarm]:
     if idle.any() and not any(message in alarm.message or "has no row in" in alarm.message for alarm in run.alarms):
         message = f"the radius compensation {message}: the radius of T{int(path.tool[idle][0])} is 0"
         yield once(run, path.step[idle].tolist(), message, "call a tool, or give it its radius")
+
+
+def _waiting(run: Run) -> Iterator[Alarm]:
+    """A first move at feed without a tool, while one that T has chosen waits for its M6."""
+    path = run.toolpath
+    bare = np.isin(path.kind, (Kind.LINE, Kind.ARC)) & (path.tool == 0)
+    if "next tool" not in run.history or not bare.any():
+        return
+    first = int(path.step[bare.argmax()])
+    chosen = [number for step, number in run.history.changed("next tool") if step <= first][-1:]
+    if chosen and chosen[0] and not any("not in the spindle" in alarm.message for alarm in run.alarms):
+        message = f"the program works without a tool: T{chosen[0]} is chosen, but not in the spindle"
+        yield once(run, [first], message, "write M6 behind T")
 
 
 def _executed(run: Run, codes: set[str]) -> Mask:
