@@ -13,6 +13,7 @@ from mnclab.text.tables import html_table, written
 KINDS = {
     "rapid": "rapid motion in material",
     "plunge": "straight down into material with a tool that does not cut at its centre",
+    "sideways": "a drill, or what else cuts along its axis alone, fed across it in material",
     "shank": "the shank, or the tool above its edges, in material",
     "holder": "the holder in material",
     "fixture": "the tool in a fixture",

@@ -53,7 +53,7 @@ def test_a_rapid_into_the_side_of_the_blank(name, depth):
 @pytest.mark.parametrize("name", TOOLS)
 @pytest.mark.parametrize("place", [(10, 10), (50.13, 30.07), (99.9, 59.9)])
 def test_a_rapid_straight_down(name, place):
-    each = only(met(f"G0 X{place[0]} Y{place[1]} Z5|G0 Z-3|G1 X150 F100|G0 Z50", TOOLS[name]), "rapid", 4, 3)
+    each = only(met(f"G0 X{place[0]} Y{place[1]} Z5|G0 Z-3|G1 X150 F100|G0 Z50", TOOLS[name], "rapid"), "rapid", 4, 3)
     assert each.place == pytest.approx((*place, -3))
     assert "at feed" in each.message
 
@@ -362,6 +362,19 @@ def test_a_probe_driven_into_material(way, depth):
     met = [each for each in run.collisions(stock=((0, 0, -20), (60, 40, 0))) if each.kind == "probe"]
     assert [each.depth for each in met] == ([pytest.approx(depth, abs=1e-6)] if depth else [])
     assert all(each.message.startswith("the probe in material") for each in met)
+
+
+@pytest.mark.parametrize("kind", ["drill", "reamer", "tap", "mill", "countersink"])
+def test_a_drill_goes_along_its_axis(kind):
+    """A slot with a drill breaks it; beside the part, in a slot that a mill has cut before, and straight down it is well."""
+    slot = "G54 G17 G90 T1 S800 M3\nG0 X-10 Y10 Z5\nG0 Z-5\nG1 X70 F100\nG0 Z5\n"
+    drilled = "T2 S800 M3\nG0 X{x} Y{y} Z2\nG1 Z-4 F100\nG1 X50\nG0 Z20\n"
+    tools = {1: Tool(radius=6, number=1), 2: Tool(radius=3, number=2, kind=kind, pitch=1 if kind == "tap" else 0)}
+    through, milled, beside = drilled.format(x=10, y=30), slot + drilled.format(x=10, y=10), drilled.format(x=10, y=-9)
+    for text, bad in ((through, True), (milled, False), (beside, False)):
+        found = mnclab.run(text, "mnc", mnclab.Setup(tools=tools)).collisions(stock=((0, 0, -20), (60, 40, 0)))
+        met = [each.line for each in found if each.kind == "sideways"]
+        assert met == ([4] if bad and kind in ("drill", "reamer", "tap") else [])
 
 
 def test_the_table_of_an_inch_program_tells_inches_alone():

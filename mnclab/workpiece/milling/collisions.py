@@ -1,9 +1,9 @@
 """What a mill meets that it must not: a body of the tool goes along a move, and material stands where it passes.
 
-Looked at are points under the body (`footprint`), and of each the exact height of the material before that move
-(`before`); no cells, so nothing is blamed on a grid. Of a large program only the moves are looked at that may collide:
-rapids below the top of the blank that do not go where the same tool has been as deep, plunges of tools that do not cut at
-their centre, cuts with a spindle that is wrong, moves so deep that a shank or a holder comes below the top. The more of a
+Looked at are points under the body (`bodies`), and of each the exact height of the material before that move (`sweep`); no
+cells, so nothing is blamed on a grid. Of a large program only the moves are looked at that may collide: rapids below the top
+of the blank that do not go where the same tool has been as deep, plunges of tools that do not cut at their centre, drills
+that go sideways, cuts with a spindle that is wrong, moves so deep that a shank or a holder comes below the top. The more of a
 kind there are, the fewer points each gets, and of more than 20,000 of a kind only every second, third, … is looked at.
 """
 
@@ -27,6 +27,7 @@ from mnclab.workpiece.milling.moves import cut_up, moves_of
 ROUGH, FEW = 60, 200  # points of a cut, enough to see whether it takes anything, and of what is behind the edges
 FALL = 0.1  # mm, by which a move may fall before it is cut up: its edges are before its shank
 POINTED = ("drill", "reamer", "countersink", "tap")  # tools that go straight down, and may
+ALONG = ("drill", "reamer", "tap")  # tools that cut along their axis alone
 
 
 def collisions_of(cutting: Cutting, step: float | None = None) -> Collisions:
@@ -76,6 +77,8 @@ def _kinds(scene: Judging) -> Iterator[tuple[str, str, Met]]:
         yield "rapid", "rapid motion in material", met
     for met in scene.met(_plunges(scene)):
         yield "plunge", "straight down into material with a tool that does not cut at its centre", met
+    for met in scene.met(_sideways(scene), ROUGH):
+        yield "sideways", f"the {scene.cutting.tool(met.row).kind} goes sideways in material, where it has no edges", met
     for met in scene.met(_still(scene), ROUGH):
         yield "spindle", _of_spindle(scene.cutting, met.row), met
     cut = _cut_up(scene)
@@ -120,6 +123,14 @@ def _plunges(scene: Judging) -> list[Judged]:
     chosen = blunt & down & scene.standing & ~scene.rapid & scene.low_over(0.0)
     middle = Body("middle", Cutter(0.0, 0.0), TOLERANCE)
     return [Judged(int(k), middle, int(k)) for k in np.flatnonzero(chosen)]
+
+
+def _sideways(scene: Judging) -> list[Judged]:
+    """Moves at feed across the axis of a tool that cuts along it alone."""
+    along = scene.of_tools(lambda tool: float(tool.kind in ALONG)) > 0
+    chosen = along & ~scene.standing & ~scene.rapid & scene.low_over(0.0)
+    bodies = [edges(tool) for tool in scene.cutting.tools]
+    return [Judged(int(k), bodies[scene.which[k]], int(k)) for k in np.flatnonzero(chosen)]
 
 
 def _probes(scene: Judging) -> Iterator[Met]:
