@@ -1,4 +1,5 @@
-"""The settings of the ISO mill: where the makers of such controls differ, and what the operator chooses.
+"""The settings of the ISO mill: where the makers of such controls differ, and what the operator chooses. Behind them what the
+words of functions mean, and the signs by which its programs are known.
 
 `dialect` chooses for a maker all at once, any other setting for itself. The makers are those of public manuals: Fanuc's
 for machining centres, Haas's for mills, the documentation of LinuxCNC.
