@@ -28,7 +28,7 @@ SOURCE = Path(mnclab.__file__).parent
 SEEKS = ("search", "finditer", "findall", "sub", "subn", "split")
 #: Patterns that are put together where they are used, as a use makes them, and how they are used.
 PUT_TOGETHER = {
-    "din_said.py": (r"(?<![\w.])CP(?![A-Za-z_.])", "search"),
+    "din_statements.py": (r"(?<![\w.])CP(?![A-Za-z_.])", "search"),
     "labels.py": (r"GT(?![A-Z])", "match"),
     "formulas.py": (r"[ \t]*LEN(?![A-Z])", "match"),
     "feature_file.py": (r"\bdepth", "search"),
@@ -37,11 +37,12 @@ PUT_TOGETHER = {
     "program.py": (r"/[ \t]?/", "search"),
     "vocabulary.py": (r";|\(|\*[ \t]*-", "search"),
     "completion.py": (r";|\(|\*[ \t]*-", "search"),
-    "faults.py": (r"\b251 Q215\b", "search"),
-    "groups.py": (r"position|corner|\bangle\b(?! reference)", "search"),
+    "fields.py": (r"\b251 Q215\b", "search"),
+    "fields.py: groups": (r"position|corner|\bangle\b(?! reference)", "search"),
+    "fields.py: words": (r"Q215(?![A-Za-z])", "match"),
     "kinds.py": (r"straight side|\bangle\b|^measuring( in three dimensions)?$", "search"),
     "__init__.py": (r"(pocket|stud) (length|width)", "fullmatch"),
-    "toml_file.py": (r"""(?:^|[\s.{,])(["']?start["']?)\s*=""", "search"),
+    "file.py": (r"""(?:^|[\s.{,])(["']?start["']?)\s*=""", "search"),
 }
 
 
