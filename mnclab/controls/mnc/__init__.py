@@ -54,8 +54,8 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
         return f"G17 G90 G54\nT7\nG0 X20 Y10 Z20\n{in_block(cycle, words)}\n"
     if cycle.runs == "definition":  # milling
         return f"G17 G90 G54\nT1 S1000 M3\nG0 X20 Y10 Z20 F100\n{in_block(cycle, words)}\n"
-    call = "G80" if cycle.runs == "position" else "G0 X20 Y10 M99"
-    return f"G17 G90 G54\nT2 S1000 M3\nG0 X0 Y0 Z20 F100\n{in_block(cycle, words)}\n{call}\n"
+    call, tool = "G80" if cycle.runs == "position" else "G0 X20 Y10 M99", 1 if cycle.code == "G306" else 2  # which mills
+    return f"G17 G90 G54\nT{tool} S1000 M3\nG0 X0 Y0 Z20 F100\n{in_block(cycle, words)}\n{call}\n"
 
 
 #: What help lists, and hints name, before the others.
