@@ -122,8 +122,8 @@ def ahead(part: Milled, rows: Index, share: Array) -> Ahead:
     some = np.flatnonzero(round_ & (ap > 2 * LEAST))
     cap = _rings(moves[move[some]], ap[some] - 2 * LEAST)[:, -1:]
     low = place[some, 2:] + height(some, cap)
-    top = front(some, RIM, cap, low) > 0
-    begin, end = _walls(top, lambda k, angle: front(some[k], angle, cap[k], low[k])[:, 0] > 0)
+    top = np.sign(front(some, RIM, cap, low))  # 1 where there is material
+    begin, end = _walls(top, lambda k, angle: np.sign(front(some[k], angle, cap[k], low[k])[:, 0]))
     found.depth[known[some]], found.width[known[some]] = ap[some], cap[:, 0] * (top * (np.sin(end) - np.sin(begin))).sum(axis=1)
     return found
 
@@ -131,7 +131,6 @@ def ahead(part: Milled, rows: Index, share: Array) -> Ahead:
 def _walls(rim: Array, front: Callable[[Index, Array], Array]) -> tuple[Array, Array]:
     """Where the parts of the rim begin and end (k, r), rad: in the middle between two of its degrees, or at a wall between
     them, beyond which the depth (k, r) is another one. `front` gives the depth of places (m,) at an angle each (m,)."""
-    rim = rim.astype(float)
     begin, end = np.tile(BETWEEN[:-1], (len(rim), 1)), np.tile(BETWEEN[1:], (len(rim), 1))
     k, i = np.nonzero(np.abs(np.diff(rim, axis=1)) > JUMP * rim.max(axis=1, keepdims=True))
     here, there = RIM[i], RIM[i + 1]
