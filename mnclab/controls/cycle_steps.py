@@ -200,7 +200,6 @@ DETAILS: dict[type[Step], Callable[[Any], str]] = {
 }
 
 
-# A cycle looked at without a program: its steps in a table.
 # The cycle is bound as a program would bind it, and its steps are carried out on a machine that nobody else has; so the
 # table shows where each of them ends. What the cycle asks of the machine (a tool, a spindle that turns or stands) is looked
 # for among the tools of the setup; a touch finds the part of the setup, or one where it is aimed at; what needs a program is

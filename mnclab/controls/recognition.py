@@ -123,7 +123,6 @@ SUFFIXES = {
 }  # fmt: skip
 
 
-# Which control a program is for: signs are weighed, and none is chosen where two weigh about the same.
 # Each control declares its signs, and `foreign` those of programs that no control here reads. A suffix that only one control
 # uses decides by itself; those that many makers share say little.
 

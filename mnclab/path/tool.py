@@ -82,8 +82,6 @@ def _check_kind(value: Any, where: str, name: str) -> None:
             check_number(each, where, endless=True)
 
 
-# A tool: its dimensions, as a tool table holds them.
-
 TEXTS = ("name", "kind", "hand")
 HANDS = ("right", "left")
 KINDS = (

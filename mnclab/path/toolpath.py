@@ -179,7 +179,6 @@ class Move(fields("Move", COLUMNS)):  # type: ignore[misc]
         return f"<Move line {' '.join(row(self).split())}>"
 
 
-# The path of a tool as columns; `path[i]` is a row for people.
 # Units of the whole library: **mm, mm/min, rev/min, s; radians inside, degrees in programs and in anything shown.**
 # Positions are those of the tool tip along the machine's axes, relative to `Toolpath.origin` (the machine position
 # of the first work offset a program selects); a lathe's X is a radius.

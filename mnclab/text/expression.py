@@ -100,7 +100,6 @@ class Climber(ABC, Generic[T]):
         """Raise the Alarm at what is nested too deep."""
 
 
-# Arithmetic and variables inside words: `Q1`, `-Q2`, `3 * (Q5 + 1)`.
 # An expression is kept as it was written, with the place of every part, and evaluated when its block runs.
 # The notation here is the one that conversational controls share: numbers, variables, `+ - * / DIV % ^`, brackets, PI
 # and named functions in degrees. A reader that needs less simply refuses what it does not know.

@@ -236,7 +236,6 @@ def curves(tangent: Array, length: Array, lines: Mask, limits: Limits, slack: Sl
     return np.where(fits, np.nan_to_num(w, nan=0.0, posinf=np.inf), 0.0)
 
 
-# What each row allows: its length, greatest speed and acceleration along the path, and the speeds at its ends.
 # Speeds are squared, w = v², in mm²/s²; lengths mm; accelerations mm/s². A straight row with the unit vector u is held by
 # its slowest axis: v <= min(V_k / |u_k|), a <= min(A_k / |u_k|). On an arc each axis sees the path acceleration a and the
 # centripetal one, v² / r, at a phase that turns, so that over a full turn `(c a)² + (v²/r)² <= A_k²` must hold (c the

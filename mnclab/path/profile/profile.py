@@ -114,8 +114,6 @@ def _rapids(plan: Plan) -> Table:
     return rapids.rows[which], order, 2 * half, at[1] - at[0], v, a, j
 
 
-# When the tool is where, and how fast: the feed-rate profile of a path.
-
 #: What time goes to. "cutting" is what the programmed feed alone would take, "rapid" the axes' greatest speed;
 #: "acceleration" is all that speeding up, braking, corners and other limits of the machine add.
 CAUSES = ("cutting", "rapid", "probing", "acceleration", "dwell", "tool change", "spindle", "stop")

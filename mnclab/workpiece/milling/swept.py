@@ -115,7 +115,6 @@ def _half(out: Array, round_: Array, radius: Array) -> Array:
     return np.arccos(np.clip(np.where(product > 0, cosine, -1.0), -1.0, 1.0))
 
 
-# Exact: how high moves leave the material at points.
 # The height at a point is the least of `z(t) + h(rho(t))` along a move, where `h` is the lower side of the cutter and `rho`
 # the distance of the point from the tool's axis. `h` never falls outwards and is convex, so along a straight move the sum
 # is convex too: its least value lies where the slopes are equal, at the rim of the tool, or at an end of the move.

@@ -198,7 +198,6 @@ def newton_from(
     return x[good], steepness > 1e-7
 
 
-# Small systems of quadratic equations, with all their real solutions.
 # Incidence, tangency, distance and angle between points, oriented lines and oriented circles are equations of the second
 # degree at most, when a line is (n, c) with n·p = c and |n| = 1, and a circle is its centre and its signed radius. So a
 # system of them is solved in four steps: linear equations are eliminated; quadratic ones with proportional quadratic parts
