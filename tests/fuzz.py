@@ -41,7 +41,6 @@ CATALOGUE = TESTS / "authorities" / "catalogue"
 CONTROL_OF = {"jnc-t01": "jnc-t01", "nc-31": "nc-31", "turning": "jnc-t01", "tnc620": "tnc-620", "programs-tnc-620": "tnc-620"}
 CONTROLS = ["mnc", "jnc-t01", "nc-31", "g43", "tnc-620"]
 LONGEST_TIME, MOST_MEMORY = 2.0, 1 << 30  # s of processor, bytes
-OFTEN_SHOWN = 20  # of so many programs one is shown in all ways
 
 NUMBERS = [
     "0", "-0", "1", "-1", "0.001", "-0.001", "0.0000001", "999999", "-99999.999", "99999999", "1e9", "1e308", "nan", "inf",
@@ -340,17 +339,17 @@ class Found:
         print(f"# {what}: {self.calls} calls, {time.perf_counter() - self.begin:.0f} s, {self.bad} to look at", flush=True)
 
 
-def fuzz_programs(found, names, count, first, show):
+def fuzz_programs(found, names, count, first, show, often):
     for seed in range(first, first + count):
         for control in names:
             if show:
                 print(mutated(control, seed), flush=True)
             text, runs = mutated(control, seed), []
             found.of(f"{control} {seed}", text, survives, control, seed, runs)
-            if runs and seed % OFTEN_SHOWN == 0 and len(runs[0].toolpath) < 2000:
+            if runs and seed % often == 0 and len(runs[0].toolpath) < 2000:
                 for how in SHOWN:
                     found.of(f"{control} {seed} {how}", text, shown, runs[0], how)
-        if (seed + 1 - first) % 400 == 0:
+        if (seed + 1 - first) % 1000 == 0:
             found.say(f"seeds {first} to {seed}")
     found.say(f"{count} seeds")
 
@@ -371,6 +370,7 @@ def by_hand():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--programs", type=int, default=0)
     options.add_argument("--seed", type=int, default=0)
+    options.add_argument("--shown", type=int, default=20, help="of so many programs one is shown in all ways")
     options.add_argument("--cycles", action="store_true")
     options.add_argument("--control", choices=CONTROLS)
     options.add_argument("--only", default="", help="the code of one cycle")
@@ -385,7 +385,7 @@ def by_hand():
             shown(mnclab.run(mnclab.read(programs(control)[0], control)), show)
     found = Found(given.found)
     if given.programs:
-        fuzz_programs(found, names, given.programs, given.seed, given.show)
+        fuzz_programs(found, names, given.programs, given.seed, given.show, given.shown)
     if given.cycles:
         fuzz_cycles(found, names, given.seed, given.only)
 
