@@ -40,18 +40,20 @@ Remark = tuple[int, str, str]  # the word that it is about, a sentence, a hint
 
 class Modal(NamedTuple):
     """What the handing out of the words of a block depends on besides the block: the modal motion and the modal call of
-    a cycle, whether there is a pole, the cycle that runs at every position, and whether a function of motion ends it."""
+    a cycle, whether there is a pole, the cycle that runs at every position, whether a function of motion ends it, and whose
+    dialect a program is written in, where a control has several."""
 
     motion: str | None
     call: str | None
     polar: bool
     active: type[Cycle] | None
     ends: bool = False
+    dialect: str = ""
 
     @staticmethod
-    def ends_cycle(settings: Mapping[str, Any]) -> bool:
-        """Whether a function of motion ends a cycle, as the settings of a control have it."""
-        return settings.get("motion_in_cycle") == "ends"
+    def chosen(settings: Mapping[str, Any]) -> tuple[bool, str]:
+        """`ends` and `dialect` as the settings of a control have them."""
+        return settings.get("motion_in_cycle") == "ends", str(settings.get("dialect", ""))
 
 
 class Words(dict[str, Word]):

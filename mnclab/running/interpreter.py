@@ -167,7 +167,7 @@ class Interpreter:
         makes another function; nothing where a control works its formulas out before it hands the words out."""
         self.recent: deque[tuple[int, range, list[Any]]] = deque(maxlen=RECENT)  # of which program; window, blocks
         self.skips = switches(machine.settings)
-        self.ends = Modal.ends_cycle(machine.settings)
+        self.chosen = Modal.chosen(machine.settings)
         self.loaded: dict[int, Loaded] = {}
         self.alarms: list[Alarm] = []  # that readers found
         self.switch(0)
@@ -291,7 +291,8 @@ class Interpreter:
     def plan_for(self, keyword: str, kinds: tuple[Any, ...], words: list[Word]) -> Plan:
         machine = self.machine
         active = machine.position_cycle.cycle if machine.position_cycle else None
-        modal = machine.modal.get(self.control.motion), machine.modal.get("call"), machine.pole is not None, active, self.ends
+        motion, call = machine.modal.get(self.control.motion), machine.modal.get("call")
+        modal = motion, call, machine.pole is not None, active, *self.chosen
         plan = self.plans.get((keyword, kinds, modal))
         if plan is None:
             planner = Planner(self.control, Modal._make(modal), keyword, words)

@@ -200,7 +200,7 @@ def _plan(run: Run, moment: Moment) -> Plan | None:
     cycle = control.cycles.get(str(before("cycle")))
     active = cycle if cycle is not None and cycle.runs == "position" else None
     motion = before(control.motion) or control.power_on().get(control.motion)
-    modal = Modal(motion, before("call"), before("pole") is not None, active, Modal.ends_cycle(run.settings))
+    modal = Modal(motion, before("call"), before("pole") is not None, active, *Modal.chosen(run.settings))
     try:
         return Planner(control, modal, moment.block.keyword, list(moment.block.words)).plan()
     except Alarm:  # the run has the same alarm at this block, and the explanation shows it

@@ -59,7 +59,7 @@ class Ahead:
         actives = [m.position_cycle and m.position_cycle.cycle, None, *cycles.values()]
         polar = m.pole is not None
         for motion, call, pole, active in product(dict.fromkeys(motions), dict.fromkeys(calls), (polar, not polar), actives):
-            yield Modal(motion, call, pole, active, stopped.ends)
+            yield Modal(motion, call, pole, active, *stopped.chosen)
 
     def _sections(self, flow: Course) -> tuple[list[int], int]:
         """Where the blocks begin that come next: the rest of a running sub-program, then what stands below its call.

@@ -9,7 +9,13 @@ from __future__ import annotations
 from mnclab.controls.g43 import cycles
 from mnclab.controls.g43.language import corners, modes, motion, o_words, offsets, programs, tools, variables
 from mnclab.controls.g43.reading.reader import numbers, read
-from mnclab.controls.g43.refused import NOT_OF_LINUXCNC, REFUSED, unknown_to_linuxcnc
+from mnclab.controls.g43.refused import (
+    COMPENSATED,
+    NOT_OF_LINUXCNC,
+    REFUSED,
+    compensated_on_linuxcnc,
+    unknown_to_linuxcnc,
+)
 from mnclab.controls.g43.settings import MEANINGS, SETTINGS, SIGNS
 from mnclab.controls.g43.state import Memory
 from mnclab.controls.word_address.motion import more_helices
@@ -22,8 +28,8 @@ from mnclab.running.bulk import PlainWords
 
 #: Order inside a block.
 PHASES = (
-    *("plane", "feed", "spindle", "tool", "change", "data", "corrector", "length", "auxiliary", "frames", "local"),
-    *("transformation", "compensation", "dwell", "motion", "call", "end"),
+    *("plane", "feed", "spindle", "tool", "change", "auxiliary", "uncompensate", "data", "corrector", "length", "frames"),
+    *("local", "transformation", "compensation", "blending", "dwell", "motion", "call", "end"),
 )
 
 
@@ -45,6 +51,7 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
 FIRST = "G0 G1 G2 G3 G17 G18 G19 G90 G91 G54 G55 G56 G57 G58 G59 G53 G52 G92 G28 G68 G51 G10 F S G94 G95 G61 G64"
 _PARTS = (modes, motion, offsets, tools, variables, programs, corners, o_words)
 _ALL = {code: function for part in _PARTS for code, function in part.FUNCTIONS.items()}
+_ALL |= {code: compensated_on_linuxcnc(_ALL[code]) for code in COMPENSATED}
 _ALL |= {code: unknown_to_linuxcnc(_ALL[code]) for code in NOT_OF_LINUXCNC}
 FUNCTIONS = FunctionTable({code: _ALL[code] for code in (*FIRST.split(), *_ALL)})
 

@@ -31,6 +31,7 @@ MOST_HOLES = 9999  # of one block
 SAME = 1e-9  # mm, between two levels that are one
 
 POSITION = "X Y Z R"
+LENGTHS = ("bottom", "r_level", "peck", "tapping_peck")  # data that hold, of which other units make other lengths
 
 dwell = partial(param, "P", "dwell at the bottom, milliseconds", "ms", default=0, at_least=0, modal=True, example=500)
 repeats = partial(
@@ -64,24 +65,43 @@ def along_z(m: Machine, code: str, given: Given) -> None:
 
 def written_again(m: Machine, cycle: type[Cycle], given: Given, kept: Values) -> None:
     """On LinuxCNC the data of a hole hold as long as the cycle is the same: of another one they must be written."""
-    if m.settings["hole_data"] == "numbers" and kept.get("code", cycle.code) != cycle.code:
+    if m.settings["hole_data"] == "numbers" and kept.get("code") != cycle.code:
         needed = {"bottom", "r_level"} | {"G73": {"peck"}, "G83": {"peck"}}.get(cycle.code, set())
-        needed |= {"dwell"} if cycle.code in ("G82", "G86", "G88", "G89") else set()
+        needed |= {"dwell"} if cycle.code in ("G82", "G86", "G89") else set()
         for parameter in cycle.parameters():
             if parameter.name in needed - given.keys():
+                before = f": that of {kept['code']} counts no more" if "code" in kept else ""
                 m.alarm(
-                    f"{cycle.code} {parameter.address} is missing: that of {kept['code']} counts no more",
-                    next(iter(given.values()), None), "write it again where the cycle changes (LinuxCNC)",
+                    f"{cycle.code} {parameter.address} ({parameter.meaning}) is missing{before}",
+                    next(iter(given.values()), None), "write it where the cycle begins (LinuxCNC)",
                 )  # fmt: skip
     kept["code"] = cycle.code
+
+
+def keep_initial_level(m: Machine, kept: Values) -> None:
+    """The initial level is where the first hole began, or as `hole_data` may have it the number of that place counted anew."""
+    x, y, z = m.programmed
+    number = kept.setdefault("initial number", z / m.variable_unit)
+    if m.settings["hole_data"] == "numbers":
+        kept["initial"] = m.to_machine((x, y, number * m.variable_unit))[2]
+    kept.setdefault("initial", m.to_machine(m.programmed)[2])
+
+
+def at_a_place(m: Machine, code: str, values: Values, given: Given) -> None:
+    """On LinuxCNC a block of a cycle has an axis word, and drills once at least."""
+    if m.settings["dialect"] == "linuxcnc":
+        if given.keys().isdisjoint(("x", "y", "bottom")):
+            m.alarm(f"{code} needs X, Y or Z in its block", next(iter(given.values()), None), "LinuxCNC drills where one stands")
+        if values.get("repeats") == 0:
+            m.alarm(f"{code} L (number of holes) must be at least 1 on LinuxCNC", given["repeats"])
 
 
 def levels(m: Machine, values: Values, given: Given, kept: Values) -> None:
     """Z and R become coordinates: those of the block, or as `hole_data` may have it the last numbers counted anew."""
     numbers = kept.setdefault("numbers", {})
-    numbers |= {name: values[name] for name in ("bottom", "r_level") if name in given}
+    numbers |= {name: values[name] / m.variable_unit for name in LENGTHS if name in given}
     if m.settings["hole_data"] == "numbers":
-        values |= numbers
+        values |= {name: number * m.variable_unit for name, number in numbers.items() if name in values}
         given = numbers
     if m.modal["dimension"] == "G91":
         if "r_level" in given:
@@ -101,6 +121,11 @@ def warn_of_change(m: Machine, code: str, given: Given, kept: Values) -> None:
     kept["read"] = now
     written = {"r_level", "bottom"} <= given.keys()
     word = next(iter(given.values()), None)
+    if m.settings["hole_data"] == "numbers":
+        if now != before:
+            m.warn(f"{code} goes on after a change of the unit or of the origin of Z: the numbers of its levels count anew", word,
+                   hint="makers differ: write G80 before it")  # fmt: skip
+        return
     if now[0] != before[0] and not written:
         m.warn(f"{code} goes on after a change of the unit: level R and the bottom stay where they were", word,
                hint="makers differ: write Z and R again")  # fmt: skip
@@ -122,11 +147,12 @@ class HoleCycle(holes.AtHole, Cycle):
         """Increments become coordinates where they are programmed; offsets of the length compensation count from here on."""
         undescribed(m, Words((), cls.code))
         along_z(m, cls.code, given)
+        at_a_place(m, cls.code, values, given)
         if not memory(m).machine_coordinates:
             activate(m, "XYZ")
             settle_doubt(m, Words(tuple(given.values()), cls.code), given.keys() & {"x", "y"})
         written_again(m, cls, given, kept)
-        kept.setdefault("initial", m.to_machine(m.programmed)[2])
+        keep_initial_level(m, kept)
         warn_of_change(m, cls.code, given, kept)
         kept["step"] = (0.0, 0.0)
         kept["points"] = None

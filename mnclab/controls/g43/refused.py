@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from mnclab.controls.word_address.motion import first_word
+from mnclab.controls.word_address.motion import first_word, uncompensated
 from mnclab.machine.control import Function, Words
 from mnclab.machine.machine import Machine
 
@@ -52,6 +52,20 @@ NOT_OF_LINUXCNC = (
        "G44": "write G43.1 with the length below zero", "G54.1": "write G54 to G59.3", "M13": "write M3 and M8",
        "M14": "write M4 and M8", "M29": ""}
 )  # fmt: skip
+
+#: What LinuxCNC refuses under radius compensation, beside that which no control takes there.
+COMPENSATED = "G28.1 G30.1 G41 G42 G61 G61.1 G64 G98 G99 M48 M49 M50 M51 M52 M53 M62 M63 M64 M65 M66 M67 M68".split()
+
+
+def compensated_on_linuxcnc(function: Function) -> Function:
+    """The function, refused under radius compensation in the dialect linuxcnc."""
+
+    def obey(m: Machine, words: Words) -> None:
+        if m.settings["dialect"] == "linuxcnc":
+            uncompensated(m, words)
+        function.obey(m, words)
+
+    return replace(function, obey=obey)
 
 
 def unknown_to_linuxcnc(function: Function) -> Function:

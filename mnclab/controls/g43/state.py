@@ -50,6 +50,9 @@ class Memory(motion.Memory):
     return_to: Word | None = None  # the block after a subprogram, where M99 names one
     macro: object = None  # that G66 calls
     returned: float | None = None  # by the last subprogram of O words
+    coolants: set[str] = field(default_factory=set)  # M7 and M8 that are on
+    overrides: dict[str, bool] = field(default_factory=lambda: {"M50": True, "M51": True, "M52": False, "M53": True})
+    moves_a_minute: float = 0.0  # the last F, where G93 is active
     known: set[tuple[int, str]] = field(default_factory=set)  # subprograms of O words that were called or passed: file, label
 
     row: int = 1  # of the table of datums: G54

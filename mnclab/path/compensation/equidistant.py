@@ -140,7 +140,8 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
     if len(k):  # a change of side begins at A1; inside, an entry leads straight to A2 and an exit starts at A1
         square = ~outside[k] & on[k] & ~change[k]
         stays, to_first = k[~on[k]], k[on[k] & change[k] | square & leave[k]]
-        E[k[square & lead[k]]] = S[k[square & lead[k]]]
+        onto_next = square & lead[k] & ~(rules.straight_exit & leave[k])
+        E[k[onto_next]] = S[k[onto_next]]
         E[stays] = S[stays] = P[stays]
         S[to_first] = beside(P[to_first], t1[to_first], shift[to_first])
 

@@ -38,9 +38,11 @@ def apply(
         return path
     report = Report() if report is None else report
     _check_leads(path, el, rules)
+    _check_first_move(path, el, rules)
     _check_open(path, el)
     found = Equidistant(el, rules)
     _check_entries(path, found)
+    _check_stops(path, found)
     marked = check(found, path, view, gouge, report)
     _notice_spikes(path, found, report)
     _notice_again(path, el, report)
@@ -74,6 +76,33 @@ def _check_entries(path: Toolpath, found: Equidistant) -> None:
     if back.any():
         message = "the inside corner behind the entry leaves nothing of its line"
         raise PathFault(message, int(path.step[el.rows[k[int(np.argmax(back))]]]), "take a smaller tool or a longer entry")
+
+
+def _check_first_move(path: Toolpath, el: Elements, rules: Compensation) -> None:
+    """Where an entry may end on the next offset its first move leads farther in the plane than the tool's radius."""
+    if not rules.straight_exit:
+        return
+    on = path.is_motion & (path.side != 0)
+    begins = on & ~np.concatenate([[False], on[:-1]])
+    length = np.zeros(len(path))
+    length[el.rows] = el.length(slice(None))
+    short = np.flatnonzero(begins & (path.radius != 0) & (length <= np.abs(path.radius)))
+    for row in short[np.isin(short, el.rows[el.entry]) | ~np.isin(short, el.rows)]:
+        message = "the first move of the compensation is not longer than the tool radius"
+        raise PathFault(message, int(path.step[row]), "write a longer entry, in the plane")
+
+
+def _check_stops(path: Toolpath, found: Equidistant) -> None:
+    """LinuxCNC ends an element before a program stop as if no corner followed: at an inside one it would cut into the next."""
+    el = found.el
+    if not found.rules.straight_exit or not (path.kind == Kind.STOP).any():
+        return
+    stops = np.concatenate([[0], np.cumsum(path.kind == Kind.STOP)])
+    k = np.flatnonzero((found.rule[:-1] == Rule.INSIDE) & el.wall[:-1])
+    k = k[stops[el.rows[k + 1]] > stops[el.rows[k]]]
+    if len(k):
+        message = "the program stops at an inside corner: LinuxCNC leads the tool past it first, into the next element"
+        raise PathFault(message, int(path.step[el.rows[k[0]]]), "write the stop where the contour goes straight on or outside")
 
 
 def _check_open(path: Toolpath, el: Elements) -> None:

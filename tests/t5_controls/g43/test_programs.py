@@ -32,7 +32,7 @@ def test_subprograms_share_the_variables_of_their_caller():
 def test_named_variables_belong_to_one_program():
     """As LinuxCNC does it, but for those that begin with an underscore."""
     assert xs("#<a>=1\nM98 P2\nG0 X#<a>\nM2\nO2\n#<a>=5\nG0 X#<a>\nM99\n") == [5, 1]
-    assert xs("#<_a>=1\nM98 P2\nG0 X#<_a>\nM2\nO2\n#<_a>=#<_a>+4\nM99\n") == [5]
+    assert xs("#<_most>=1\nM98 P2\nG0 X#<_most>\nM2\nO2\n#<_most>=#<_most>+4\nM99\n") == [5]
 
 
 def test_the_return_to_a_block():

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from mnclab.controls.g43.language.offsets import refuse_transformed
-from mnclab.controls.g43.state import ISO, memory, remark
-from mnclab.controls.word_address.motion import FEEDS, PLANE_CODES, STOPS, first_word, functions, refuse_change
+from mnclab.controls.g43.state import ISO, memory, remark, whole
+from mnclab.controls.word_address.motion import COOLANT, FEEDS, PLANE_CODES, STOPS, first_word, functions, refuse_change
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.path.recorder import NAN
@@ -23,6 +25,9 @@ LINUXCNC = {
 SHARED = functions(remark, ISO, plane="7.1, example")
 FUNCTIONS = FunctionTable()
 FUNCTIONS |= SHARED
+FUNCTIONS["G40"] = replace(SHARED["G40"], phase="uncompensate")  # what may not stand under compensation may stand beside it
+FUNCTIONS |= {code: replace(SHARED[code], phase="blending") for code in ("G98", "G99")}
+FUNCTIONS |= {code: replace(SHARED[code], group="stop") for code in ("M0", "M1", "M2", "M30")}
 
 
 @FUNCTIONS("G17 G18 G19", PLANE_CODES, group="plane", phase="plane", power_on="G17", source="7.1, example")
@@ -38,6 +43,8 @@ def plane(m: Machine, words: Words) -> None:
 @FUNCTIONS("G93", "Inverse time feed", group="feed mode", phase="plane", source="LinuxCNC, Haas, Fanuc")
 def inverse_time(m: Machine, words: Words) -> None:
     """Every move at feed takes 1/F minutes; its block needs F."""
+    if not m.per_time:
+        memory(m).moves_a_minute = (m.feed or 0.0) / m.variable_unit
     m.change("feed", None)
     m.change("per_rev", False)
     m.change("per_time", True)
@@ -52,7 +59,7 @@ def feed_mode(m: Machine, words: Words) -> None:
     SHARED[words.code].obey(m, words)
 
 
-@FUNCTIONS("G64", STOPS, group="blending", phase="plane", takes="P Q", power_on="G64", source=ISO)
+@FUNCTIONS("G64", STOPS, group="blending", phase="blending", takes="P Q", power_on="G64", source=ISO)
 def blending(m: Machine, words: Words) -> None:
     """No exact stops; P is how far a corner may be cut (LinuxCNC). Short moves are not joined, whatever Q allows."""
     SHARED["G64"].obey(m, words)
@@ -65,7 +72,7 @@ def blending(m: Machine, words: Words) -> None:
         m.warn("G64 Q allows that short moves are joined: they are left as they are", words["Q"])
 
 
-@FUNCTIONS("G61 G61.1", STOPS | {"G61.1": STOPS["G61"]}, group="blending", phase="plane", source="ISO 6983, LinuxCNC")
+@FUNCTIONS("G61 G61.1", STOPS | {"G61.1": STOPS["G61"]}, group="blending", phase="blending", source="ISO 6983, LinuxCNC")
 def exact_stop(m: Machine, words: Words) -> None:
     """Every motion ends with exact positioning; by the setting g61 only G61.1, while G61 cuts no corner (LinuxCNC)."""
     corners = words.code == "G61" and m.settings["g61"] == "corners"
@@ -162,17 +169,36 @@ def unit(m: Machine, words: Words) -> None:
 
 BOTH = {"M13": "Spindle on clockwise, coolant on", "M14": "Spindle on counter-clockwise, coolant on"}
 OVERRIDES = {
-    "M29": "Rigid tapping, as G84 always is here",
     "M48": "Overrides on", "M49": "Overrides off", "M50": "Feed override", "M51": "Spindle override",
     "M52": "Adaptive feed", "M53": "Feed stop",
 }  # fmt: skip
-SIGNALS = "M62 M63 M64 M65 M66 M67 M68 M190"
+OUTPUTS = {
+    "M62": "Digital output on, with the motion", "M63": "Digital output off, with the motion", "M64": "Digital output on",
+    "M65": "Digital output off", "M67": "Analog output, with the motion", "M68": "Analog output",
+}  # fmt: skip
+WAYS = range(5)  # of L of M66: at once, rise, fall, high, low
+MOST_OF_LINUXCNC = 199  # the greatest number of a function of the maker
+
+
+@FUNCTIONS("M7 M8", COOLANT, group="coolant", phase="auxiliary", source=ISO)
+def coolant_on(m: Machine, words: Words) -> None:
+    """Before the motion of the block; the other one stays on."""
+    memory(m).coolants.add(words.code)
+    SHARED[words.code].obey(m, words)
+
+
+@FUNCTIONS("M9", COOLANT, group="coolant", phase="end", power_on="M9", source=ISO)
+def coolant_off(m: Machine, words: Words) -> None:
+    """After the motion of the block."""
+    memory(m).coolants.clear()
+    SHARED["M9"].obey(m, words)
 
 
 @FUNCTIONS("M13 M14", BOTH, group="spindle", phase="auxiliary", source=ISO)
 def spindle_and_coolant(m: Machine, words: Words) -> None:
     """Before the motion of the block."""
     m.spindle(turning=1 if words.code == "M13" else -1)
+    memory(m).coolants.add("M8")
     m.coolant()
 
 
@@ -196,19 +222,60 @@ def orient(m: Machine, words: Words) -> None:
     m.orient(m.value(word) if word else 0.0)
 
 
-@FUNCTIONS("M60", "Pallet change and stop", phase="end", modal=False, source=ISO)
+@FUNCTIONS("M60", "Pallet change and stop", group="stop", phase="end", modal=False, source=ISO)
 def pallet(m: Machine, words: Words) -> None:
     """Waits for the operator, after the motion of the block."""
     m.stop()
 
 
-@FUNCTIONS(" ".join(OVERRIDES), OVERRIDES, phase="auxiliary", takes="P", modal=False, source="Fanuc, Haas, LinuxCNC")
+@FUNCTIONS("M29", "Rigid tapping, as G84 always is here", phase="auxiliary", modal=False, source="Fanuc, Haas")
+def rigid_tapping(m: Machine, words: Words) -> None:
+    """How a tap is held changes no path."""
+
+
+@FUNCTIONS("M48 M49", OVERRIDES, group="override", phase="auxiliary", modal=False, source="Fanuc, Haas, LinuxCNC")
+@FUNCTIONS("M50 M51 M52 M53", OVERRIDES, group="override", phase="auxiliary", takes="P", modal=False, source="LinuxCNC")
 def overrides(m: Machine, words: Words) -> None:
-    """The path is the same: what the operator may turn at, and how a tap is held."""
+    """What the operator may turn at; P0 takes it from him. The path is the same."""
+    on = words.code != "M49" and not ("P" in words and m.value(words["P"]) == 0)
+    for code in ("M50", "M51") if words.code in ("M48", "M49") else (words.code,):
+        memory(m).overrides[code] = on
 
 
-@FUNCTIONS(SIGNALS, "Signals of the machine", phase="auxiliary", takes="P E L Q", modal=False, source="LinuxCNC")
+@FUNCTIONS("M62 M63 M64 M65", OUTPUTS, group="signal", phase="auxiliary", takes="P", modal=False, source="LinuxCNC")
+@FUNCTIONS("M67 M68", OUTPUTS, group="signal", phase="auxiliary", takes="E Q", modal=False, source="LinuxCNC")
+def output(m: Machine, words: Words) -> None:
+    """The output of number P or E; it moves nothing here."""
+    address = "E" if words.code in ("M67", "M68") else "P"
+    if address not in words:
+        m.alarm(f"{words.code} {address} (number of the signal) is missing", first_word(words))
+    number_of_signal(m, words, address)
+    of_the_maker(m, words)
+
+
+@FUNCTIONS("M66", "Wait for an input", group="signal", phase="auxiliary", takes="P E L Q", modal=False, source="LinuxCNC")
+def wait_for_input(m: Machine, words: Words) -> None:
+    """The digital input P or the analog input E; L says what to wait for, and Q for how many seconds at most."""
+    if ("P" in words) == ("E" in words):
+        m.alarm("M66 needs P or E, one of them: the number of the input", first_word(words))
+    number_of_signal(m, words, "P" if "P" in words else "E")
+    way = whole(m, words, "L", 0, WAYS.stop - 1) if "L" in words else 0
+    if way and "E" in words:
+        m.alarm(f"M66 L{way} waits for a digital input, and E is an analog one", words["L"], "write L0")
+    if way and not ("Q" in words and m.value(words["Q"]) > 0):
+        m.alarm(f"M66 L{way} needs Q above 0: for how long it waits", words["L"])
+    of_the_maker(m, words)
+
+
+def number_of_signal(m: Machine, words: Words, address: str) -> None:
+    if (number := m.value(words[address])) < 0:
+        m.alarm(f"{words.code} {address} (number of the signal) must be at least 0, got {number:g}", words[address])
+
+
+@FUNCTIONS("M190", "Change of material", phase="auxiliary", takes="P", modal=False, source="the maker of the machine")
 @FUNCTIONS("M", "Function of the maker", phase="auxiliary", modal=False, source="the maker of the machine")
-def makers(m: Machine, words: Words) -> None:
+def of_the_maker(m: Machine, words: Words) -> None:
     """What it does, the maker of the machine says; here it moves nothing."""
+    if m.settings["dialect"] == "linuxcnc" and float(words.code[1:]) > MOST_OF_LINUXCNC:
+        m.alarm(f"{words.code}: LinuxCNC does not know this code", first_word(words), f"M100 to M{MOST_OF_LINUXCNC} are free")
     m.warn(f"{words.code} is a function of the machine's maker: here it moves nothing", first_word(words))

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from mnclab.controls.g43.language import beside
 from mnclab.controls.g43.language.offsets import settle_doubt, transformed
 from mnclab.controls.g43.language.tools import activate, pending
 from mnclab.controls.g43.settings import REFERENCES
@@ -126,6 +127,8 @@ MOST_TURNS = 10_000
 
 def together(control: Control, modal: Modal, keyword: str, words: list[Word]) -> None:
     """The length compensation needs a straight motion; R beside a line is no corner; a unit has no contour."""
+    if modal.dialect == "linuxcnc" and not keyword:
+        beside.check(modal, words)
     codes = {f"G{digits(word.value)}": word for word in words if word.address == "G" and type(word.value) is float}
     axes = [word for word in words if word.address in AXES]
     if axes and (spline := {"G5", "G5.1"} & codes.keys()):
@@ -229,6 +232,7 @@ def feed(m: Machine, words: Words) -> None:
     value = m.value(words["F"])
     if value <= 0:
         m.alarm(f"F (moves a minute) must be greater than 0, got {value:g}", words["F"])
+    memory(m).moves_a_minute = value
     m.change("feed", 60 / value)
     m.at_block_end(lambda: m.change("feed", None))
 

@@ -1,7 +1,7 @@
 """O words of LinuxCNC: subprograms with arguments and a value, conditions and loops; of the dialect linuxcnc alone.
 
 A subprogram that the running file does not have is sought in a file of its name, among `Setup(files=…)` and beside the
-running file. It has #1 to #30 and variables with names of its own; #<_a> belongs to all.
+running file. It has #1 to #30 and variables with names of its own; #<_most> belongs to all.
 """
 
 from __future__ import annotations

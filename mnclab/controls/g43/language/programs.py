@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import NamedTuple
 
-from mnclab.controls.g43.language import variables
+from mnclab.controls.g43.language import parameters, variables
 from mnclab.controls.g43.reading.formulas import FANUC, LINUXCNC, Formula
 from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address.motion import first_word
@@ -380,7 +380,7 @@ def is_local(name: str) -> bool:
 
 
 def is_named(name: str) -> bool:
-    """Of those with names, which belong to one program; #<_a> does not (LinuxCNC, also for M98)."""
+    """Of those with names, which belong to one program; #<_most> does not (LinuxCNC, also for M98)."""
     return name[1] == "<" and name[2] != "_"
 
 
@@ -406,7 +406,7 @@ def run(m: Machine, program: int, times: int, code: str, word: Word | None) -> N
 
 def no_deeper(m: Machine, word: Word | None) -> None:
     """LinuxCNC has a limit of its own for calls inside each other; repeats do not count."""
-    if m.settings["macros"] == LINUXCNC and sum(not loop.times for loop in course(m).loops.running) >= DEEPEST:
+    if m.settings["macros"] == LINUXCNC and parameters.depth(m) >= DEEPEST:
         m.alarm(f"calls stand deeper inside each other than {DEEPEST}, the most on LinuxCNC", word)
 
 

@@ -167,8 +167,15 @@ def tool_change(m: Machine, words: Words) -> None:
 def radius_compensation(m: Machine, words: Words) -> None:
     """Takes effect with the next straight line in the plane: entry, change of side, exit."""
     undescribed(m, words)
+    check_plane(m, words)
     check_radius(m, words)
     m.change("side", SIDES[words.code])
+
+
+def check_plane(m: Machine, words: Words) -> None:
+    """LinuxCNC compensates in two planes alone."""
+    if m.settings["dialect"] == "linuxcnc" and m.plane == "YZ":
+        m.alarm(f"{words.code} cannot stand in the plane YZ on LinuxCNC", first_word(words), hint="write G17 or G18")
 
 
 def check_radius(m: Machine, words: Words) -> None:
@@ -191,6 +198,7 @@ def compensation_by_block(m: Machine, words: Words) -> None:
         hint = "setting dialect: linuxcnc"
         m.alarm(f"{words.code} is refused: outside LinuxCNC it turns the tool normal to the path, which is not built", head, hint)
     motion.uncompensated(m, words)
+    check_plane(m, words)
     if "D" not in words:
         m.alarm(f"{words.code} D (diameter) is missing", head)
     radius = m.length(words["D"]) / 2

@@ -9,10 +9,11 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from mnclab.controls.g43.language import offsets
+from mnclab.controls.g43.language import offsets, parameters
 from mnclab.controls.g43.language.offsets import FURTHER, MOST, refuse_transformed
+from mnclab.controls.g43.language.parameters import Reading, chosen_tool
 from mnclab.controls.g43.language.tools import choose, place, want
-from mnclab.controls.g43.reading.formulas import LINUXCNC, ORDINARY
+from mnclab.controls.g43.reading.formulas import FANUC, LINUXCNC, MOST_OF_LINUXCNC, ORDINARY
 from mnclab.controls.g43.state import ISO, memory, whole
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import AXES, first_word
@@ -196,10 +197,9 @@ KINDS: dict[int, Callable[[Machine, Words], None]] = {
 
 # Variables: `#1` to `#33` of a macro, common ones, named ones, and those by which the control tells what it knows.
 # The control's own are those whose meaning public manuals state exactly and the simulation knows: positions (`#5001` …, in the
-# unit of the program), work offsets (`#5221` …), active codes (`#4001` …), alarm and stop (`#3000`, `#3006`), and of LinuxCNC
-# tool, offset and position (`#5400` …).
+# unit of the program), work offsets (`#5221` …), active codes (`#4001` …), alarm and stop (`#3000`, `#3006`), tool, offset and
+# position (`#5400` …). What LinuxCNC keeps instead stands in `parameters`.
 
-Reading = Callable[[Machine], float | None]
 NAMES = re.compile(r"#(?:[1-9]\d{0,2}|<[a-z0-9_.]{1,80}>)")
 ROWS = {5221 + 20 * k: k + 1 for k in range(9)} | {7001 + 20 * k: FURTHER + k + 1 for k in range(48)}
 OFFSETS = {f"#{first + k}": (row, k) for first, row in ROWS.items() for k in range(3)}
@@ -224,12 +224,32 @@ def start(m: Machine) -> None:
 
 def give(m: Machine, word: Word, name: str, value: float | None, message: str) -> None:
     """Write a variable, or do what writing it means."""
-    if name[1] == "<" or 1 <= int(name[1:]) <= ORDINARY:
+    if name in parameters.NAMED:
+        m.alarm(f"{name} is kept by the control and cannot be written", word)
+    if m.settings["macros"] == LINUXCNC and name[1] != "<":
+        give_number(m, word, name, value or 0.0)
+    elif name[1] == "<" or 1 <= int(name[1:]) <= ORDINARY:
         if value is None:
             m.variables.forget(name)
         else:
             m.variables[name] = value
+    else:
+        give_own(m, word, name, value, message)
+
+
+def give_number(m: Machine, word: Word, name: str, value: float) -> None:
+    """Write a number on LinuxCNC: of a table, or a free one."""
+    if not 1 <= int(name[1:]) <= MOST_OF_LINUXCNC:
+        m.alarm(f"{name} is no variable of LinuxCNC", word, f"#1 to #{MOST_OF_LINUXCNC}")
+    if parameters.write(m, name, value):
         return
+    if name in parameters.NUMBERED:
+        m.alarm(f"{name} is kept by the control and cannot be written", word)
+    m.variables[name] = value
+
+
+def give_own(m: Machine, word: Word, name: str, value: float | None, message: str) -> None:
+    """Do what writing a number of Fanuc's control means."""
     if name == "#0":
         m.alarm("#0 is always vacant and cannot be written", word)
     said = message or "without a message"
@@ -272,13 +292,9 @@ def external(m: Machine, k: int) -> float:
     return float(m.frames["external"][k, 3]) / m.variable_unit
 
 
-def here(m: Machine, k: int) -> float:
-    return m.programmed[k] / m.variable_unit
-
-
 def end_of_block(m: Machine, k: int) -> float | None:
     """Where the last block ended; not known in a turned or scaled system."""
-    return None if m.shift is None else here(m, k)
+    return None if m.shift is None else m.programmed[k] / m.variable_unit
 
 
 def on_machine(m: Machine, k: int) -> float | None:
@@ -304,12 +320,6 @@ def active_cycle(m: Machine) -> float:
     return float(m.position_cycle.code[1:]) if m.position_cycle else 80.0
 
 
-def chosen_tool(m: Machine) -> float:
-    """The number of the last T."""
-    row = memory(m).next_tool
-    return float((row or m.tool).number)
-
-
 def length_offset(m: Machine, k: int) -> float:
     return memory(m).active_offsets[k] / m.variable_unit
 
@@ -320,19 +330,8 @@ def active_row(m: Machine) -> float | None:
     return float(row) if row < FURTHER else None
 
 
-#: Names that LinuxCNC gives to what it knows; those of states are 1 where they are active, else 0.
-NAMED: dict[str, Reading] = {
-    **{f"#<_{axis}>": partial(here, k=k) for k, axis in enumerate("xyz")},
-    "#<_metric>": lambda m: float(m.variable_unit == 1), "#<_imperial>": lambda m: float(m.variable_unit != 1),
-    "#<_absolute>": lambda m: float(m.modal["dimension"] == "G90"), "#<_task>": lambda m: 0.0,
-    "#<_incremental>": lambda m: float(m.modal["dimension"] == "G91"),
-    "#<_spindle_on>": lambda m: float(m.spindle_speed != 0), "#<_spindle_cw>": lambda m: float(m.spindle_speed > 0),
-    "#<_rpm>": lambda m: m.speed, "#<_feed>": lambda m: (m.feed or 0.0) / m.variable_unit,
-    "#<_plane>": lambda m: {"XY": 170.0, "ZX": 180.0, "YZ": 190.0}[m.plane],
-    "#<_ccomp>": lambda m: {0: 400.0, 1: 410.0, -1: 420.0}[m.side],
-    "#<_current_tool>": lambda m: float(m.tool.number), "#<_selected_tool>": chosen_tool,
-}  # fmt: skip
-PREASSIGNED: dict[str, Reading] = (
+#: What Fanuc and Haas keep in numbers.
+NUMBERED: dict[str, Reading] = (
     {f"#{5001 + k}": partial(end_of_block, k=k) for k in range(3)}
     | {f"#{5021 + k}": partial(on_machine, k=k) for k in range(3)}
     | {f"#{5041 + k}": partial(in_program, k=k) for k in range(3)}
@@ -343,8 +342,19 @@ PREASSIGNED: dict[str, Reading] = (
     | {"#4109": lambda m: (m.feed or 0.0) / m.variable_unit, "#4119": lambda m: m.speed}
     | {"#5400": lambda m: float(m.tool.number), "#5410": lambda m: 2 * m.tool.radius / m.variable_unit}
     | {f"#{5401 + k}": partial(length_offset, k=k) for k in range(3)}
-    | {f"#{5420 + k}": partial(here, k=k) for k in range(3)}
+    | {f"#{5420 + k}": partial(parameters.here, k=k) for k in range(3)}
     | {"#5220": active_row, "#4107": lambda m: float(memory(m).corrector)}
     | {"#4111": lambda m: float(memory(m).length_corrector or 0)}
-    | NAMED
 )
+NUMBERS = {FANUC: NUMBERED, LINUXCNC: parameters.NUMBERED}
+
+
+def kept_by(m: Machine, name: str) -> float | None:
+    """The value of a number that the control keeps, None if it is none of its maker's."""
+    reading = NUMBERS[m.settings["macros"]].get(name)
+    return None if reading is None else reading(m)
+
+
+PREASSIGNED: dict[str, Reading] = {
+    name: partial(kept_by, name=name) for name in NUMBERED | parameters.NUMBERED
+} | parameters.NAMED

@@ -27,6 +27,7 @@ _VARIABLE = "a variable is a number, #101, or a name of LinuxCNC, #<depth>"
 KINDS = ("number", "variable", "name", "mark")
 FANUC, LINUXCNC = "fanuc", "linuxcnc"
 ORDINARY = 999  # variables above it belong to the control
+MOST_OF_LINUXCNC = 5601  # the greatest number there; those that the control does not keep are free
 EQUAL = 1e-4  # numbers that differ by less are equal to LinuxCNC
 MOST = 2.0**31
 
@@ -167,7 +168,7 @@ def fetch(variables: Mapping[str, Any], token: Token, dialect: str) -> float | N
         try:
             known = variables[name]
         except KeyError:
-            if name[1] != "<":
+            if name[1] != "<" and (dialect != LINUXCNC or int(name[1:]) > MOST_OF_LINUXCNC):
                 raise Alarm(f"{name} is a variable of the control that is not built, or has no value", token.span) from None
     if known is None and name[1:2] == "<":
         _refuse("no value was given to", token)
