@@ -272,6 +272,18 @@ def number_of_signal(m: Machine, words: Words, address: str) -> None:
         m.alarm(f"{words.code} {address} (number of the signal) must be at least 0, got {number:g}", words[address])
 
 
+STATE = {"M70": "Modes kept", "M71": "Kept modes forgotten", "M72": "Kept modes back", "M73": "Modes back after a subprogram"}
+
+
+@FUNCTIONS("M70 M71 M72 M73", STATE, phase="auxiliary", modal=False, source="LinuxCNC")
+def kept_modes(m: Machine, words: Words) -> None:
+    """M72 and M73 bring modes back, which is not built; M70 and M71 alone change nothing."""
+    if m.settings["dialect"] != "linuxcnc":
+        of_the_maker(m, words)
+    elif words.code in ("M72", "M73"):
+        m.alarm(f"{words.code} is refused: bringing modes back is not built", first_word(words), "write the modes themselves")
+
+
 @FUNCTIONS("M190", "Change of material", phase="auxiliary", takes="P", modal=False, source="the maker of the machine")
 @FUNCTIONS("M", "Function of the maker", phase="auxiliary", modal=False, source="the maker of the machine")
 def of_the_maker(m: Machine, words: Words) -> None:

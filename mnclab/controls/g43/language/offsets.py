@@ -200,6 +200,8 @@ def select(m: Machine, row: int) -> None:
 def change(m: Machine, words: Words, row: int) -> None:
     if m.side:
         m.alarm("a work offset cannot change under radius compensation", first_word(words), hint="write G40 first")
+    if m.settings["dialect"] == "linuxcnc" and row == memory(m).row:  # it is not read anew
+        return
     if on := transformed(m):
         m.warn(f"the work offset changes while {on} is active, which now counts from the new one", first_word(words))
     if m.settings["g92_lasts"] == "ends":
