@@ -119,7 +119,8 @@ def collisions_of(cutting: Cutting, step: float | None = None) -> Collisions:
 def _collision(cutting: Cutting, row: int, met: Met) -> Collision:
     line, program = int(cutting.path.line[row]), int(cutting.path.program[row])
     z, x = met.place
-    message = f"{met.said}, {deep(met.depth, 'XZ', (x, z), cutting.path.unit)}"
+    typed = 2 * x if cutting.across == "diameter" else x
+    message = f"{met.said}, {deep(met.depth, 'XZ', (typed, z), cutting.path.unit)} (X is a {cutting.across})"
     file = str(cutting.name(line, program)).rpartition(":")[0]
     return Collision(met.kind, message, line, program, row, (x, 0.0, z), met.depth, file)
 
@@ -142,7 +143,7 @@ def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
             if met := _deepest("chuck", chuck, covered):
                 yield row, met
         if cutting.probed[row]:  # it takes nothing
-            if met := _deepest("probe", left, covered):
+            if met := _deeper(left, covered, _folded(_swept([shape], [way[:1]])[0]), len(way) > 1):
                 yield row, met
         elif shapely.intersects(left, covered):
             rest = shapely.difference(left, covered)
@@ -202,6 +203,12 @@ def _cut(
     yield from _bored(tool, shape, way, left, covered)
     if len(way) > 1 and not path.synchronous[row] and (back := taken_by_back(tool, shape, way, left)):
         yield _backed(back)
+
+
+def _deeper(left: Any, covered: Any, begun: Any, moves: bool) -> Met | None:
+    """Where a probe is in the material, unless it is nowhere deeper than where it `begun`: it withdraws."""
+    met, before = _deepest("probe", left, covered), _deepest("probe", left, begun) if moves else None
+    return met if met and not (before and before.depth > met.depth - TOLERANCE) else None
 
 
 def _backed(back: Back) -> Met:
