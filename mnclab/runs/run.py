@@ -293,7 +293,7 @@ class Run(Pictures):
 
     def holes(self) -> Holes:
         """The holes (see `path.holes`) as a table: place, heights, diameter, tool and lines, a row for each place and tool."""
-        return holes(self.toolpath, *self.tools_that_cut, self.reach)
+        return holes(self.toolpath, *self.tools_that_cut, self.reach, self.stock)
 
     def largest_radius(self) -> LargestRadius:
         """The largest tool radius, mm, that has room at all compensated contours: "6 mm", or "below 6 mm" where this itself has

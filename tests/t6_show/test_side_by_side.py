@@ -272,6 +272,34 @@ def test_the_table_and_the_picture_have_the_same_holes():
     assert sorted(named) == [(10, 10, 10), (60, 10, 8)]
 
 
+@pytest.mark.parametrize(("place", "bottom", "cuts"), [
+    ((30, 20), -5, True), ((30, 20), 0, False), ((30, 20), 2, False),
+    ((-5, 20), -5, False), ((-4, 20), -5, False), ((-3.9, 20), -5, True),  # a mill of 8 mm beside X0
+])  # fmt: skip
+def test_what_goes_down_above_or_beside_the_blank_is_no_hole(place, bottom, cuts):
+    text = f"G90 G54 T1 S1000 M3\nG0 X{place[0]} Y{place[1]} Z5\nG1 Z{bottom} F100\nG0 Z5\n"
+    setup = mnc.Setup(tools={1: mnc.Tool(diameter=8, kind="mill")})
+    blank = mnc.Setup(tools=setup.tools, stock=((0, 0, -20), (60, 40, 0)))
+    assert len(mnc.run(text, "mnc", setup).holes()) == 1
+    assert len(mnc.run(text, "mnc", blank).holes()) == cuts
+
+
+def test_a_point_cuts_where_its_cone_comes_below_the_top():
+    """3 mm beside the blank a point of 90 degrees is 3 mm higher than its tip: down to -2.5 it cuts nothing, to -3.5 it does."""
+    for bottom, cuts in ((-2.5, 0), (-3.5, 1)):
+        text = f"G90 G54 T1 S1000 M3\nG0 X-3 Y20 Z5\nG1 Z{bottom} F100\nG0 Z5\n"
+        setup = mnc.Setup(tools={1: mnc.Tool(diameter=8, kind="drill", angle=90)}, stock=((0, 0, -20), (60, 40, 0)))
+        assert len(mnc.run(text, "mnc", setup).holes()) == cuts
+
+
+def test_a_drill_in_the_bore_of_a_tube_makes_no_hole():
+    text = "G94 S500 M3 T1\nG0 X0 Z2\nG1 Z-20 F100\nG0 Z2\n"
+    tube = mnc.blank.Revolved(((20, -60), (20, 0)), bore=6)
+    for diameter, cuts in ((10, 0), (14, 1)):
+        setup = mnc.Setup(tools={1: mnc.Tool(diameter=diameter, kind="drill")}, stock=tube, start=(60, 0, 40))
+        assert len(mnc.run(text, "jnc-t01", setup).holes()) == cuts
+
+
 def test_a_bore_of_a_cycle_is_a_hole_of_both():
     """Cycle 208 with a mill of 10 mm bores 16 mm wide: Q335 is the diameter, Q201 the depth."""
     text = (
