@@ -26,7 +26,7 @@ from mnclab.path.tool import POINTED, Tool
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import replaced
-from mnclab.text.given import shown
+from mnclab.text.given import fitting_class, shown
 from mnclab.text.tables import csv_text, html_table, text_table
 
 BORED = re.compile(r" circle at the bottom$")  # labels of cycles that mill a bore
@@ -49,6 +49,7 @@ class HoleMade(NamedTuple):
     lines: tuple[int, ...]
 
 
+@fitting_class
 class Holes(Sequence[HoleMade]):
     """The holes of a path in the order of drilling: a row for each place and tool; a table when shown.
 

@@ -213,6 +213,7 @@ class Tool:
         if self.edges and self.teeth not in (0, len(self.edges)):
             raise Alarm(f"the edges of a tool must be as many as its teeth, got {len(self.edges)} and {self.teeth:g}")
 
+    @fitting
     def of_radius(self, radius: float, dr: float = 0.0) -> Tool:
         """The same tool with another radius, mm; a corner that this has no room for is as large as it."""
         room = self.kind in LATHE or not 0 < radius < self.corner
