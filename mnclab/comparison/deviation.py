@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.listing import figure, point
+from mnclab.path.listing import MM, Unit, figure, point
 from mnclab.path.places import points
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.given import check_number
@@ -70,6 +70,12 @@ class Deviation:
         return not (self.complete and self.largest < SAME)
 
     @property
+    def unit(self) -> Unit:
+        """In what it is told: the unit of both paths, mm where they have two."""
+        one, other = self.paths
+        return one.unit if one.unit.length == other.unit.length else MM
+
+    @property
     def largest(self) -> float:
         """The largest deviation, mm; nan when one path has no motion and the other has."""
         if not (len(self.one.row) and len(self.other.row)):
@@ -95,10 +101,11 @@ class Deviation:
 
     def rows(self) -> list[tuple[str, ...]]:
         """What the table shows: a quantity, and its value on each path."""
+        far, unit = self.where[:2] if self.where and not self.largest < SAME else (), self.unit
         quantities = [
-            ("farthest apart", map(point, self.where[:2] if self.where and not self.largest < SAME else ())),
+            ("farthest apart", (point(each, self.unit) for each in far)),
             ("moves", (str(int(path.is_motion.sum())) for path in self.paths)),
-            ("length", (f"{figure(path.length, 3)} mm" for path in self.paths)),
+            ("length", (f"{unit.figure(path.length, 1)} {unit.short}" for path in self.paths)),
             ("time", (f"{figure(time, 3)} s" for time in self.times or ())),
         ]
         return [(name, *pair) for name, values in quantities if (pair := tuple(values))]
@@ -114,8 +121,9 @@ class Deviation:
             return "no motion on either path" if self.largest == 0 else "only one of the paths has motion"
         if self.largest < SAME:
             return "the paths are the same"
-        largest = figure(self.largest, 3 if self.largest >= 0.001 else 6)
-        return f"largest deviation {largest} mm at line {where[2]} of {self.names[where[3]]}"
+        unit = self.unit
+        largest = figure(self.largest / unit.length, unit.decimals - 1 if self.largest >= 0.001 else unit.decimals + 2)
+        return f"largest deviation {largest} {unit.short} at line {where[2]} of {self.names[where[3]]}"
 
     def __str__(self) -> str:
         head = f"{self.names[0]} and {self.names[1]}: {self.sentence}"

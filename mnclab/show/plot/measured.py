@@ -165,7 +165,7 @@ def _texts(panel: Panel, unit: Unit) -> list[tuple[str, ...]]:
     if not panel.rows:
         return []
     rows = [[row.texts(unit)[k] for k in COLUMNS] for row in panel.rows]
-    head = HEAD if unit is MM else (f"in {unit.name}", *HEAD[1:])
+    head = f"in {unit.name}", *HEAD[1:]
     return [head, *((what, *(text.replace("-", "\N{MINUS SIGN}") for text in numbers)) for what, *numbers in rows)]
 
 

@@ -114,7 +114,7 @@ def plot_deviation(found: Any, view: str = "auto", size: tuple[float, float] = S
     low, high = corners([xyz for _, xyz in lines], lathe) or (np.zeros(3), np.zeros(3))
     view = choice(view, "view", ("auto", *VIEWS))
     views = [VIEWS["ZX"]] if lathe else [VIEWS["XY"]] if high[2] <= low[2] else [VIEWS["XY"], VIEWS["XZ"]]
-    views = views if view == "auto" else [VIEWS[view]]
+    views = [each._replace(unit=found.unit) for each in (views if view == "auto" else [VIEWS[view]])]
     where = found.where if found.largest > SHOWN else None
     names = [line.name for line, _ in lines if not line.name.startswith("_")] + ([APART.name] if where else [])
     picture, axes = arrange(views, low, high, names, Foot(found.sentence), f"two paths: {found.sentence}", size)
