@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.limits import Limits
 from mnclab.path.listing import MM, Unit, figure, point
 from mnclab.path.places import points
 from mnclab.path.toolpath import Toolpath
@@ -49,7 +50,8 @@ class Deviation:
     """Where two paths differ: `one` and `other` are the traces, `names` and `paths` what was compared, `times` s of both.
 
     `reaches` are "up to line 12, where the run stopped" for a path that ends before its program, else empty: `complete` is
-    whether both are whole, for two that stop alike have not shown that they are the same.
+    whether both are whole, for two that stop alike have not shown that they are the same. Under the limits of `rapids` those of
+    each path are drawn; what is measured are the straight lines between their ends, whatever the machines make of them.
     """
 
     paths: tuple[Toolpath, Toolpath]
@@ -59,6 +61,7 @@ class Deviation:
     step: float
     times: tuple[float, float] | None = None
     reaches: tuple[str, str] = ("", "")
+    rapids: tuple[Limits | None, Limits | None] = (None, None)
 
     @property
     def complete(self) -> bool:
@@ -144,7 +147,7 @@ class Deviation:
 def deviation(
     one: Toolpath, other: Toolpath, names: tuple[str, str] = ("first", "second"),
     step: float | None = None, chord_error: float = 1e-4, times: tuple[float, float] | None = None,
-    reaches: tuple[str, str] = ("", ""),
+    reaches: tuple[str, str] = ("", ""), rapids: tuple[Limits | None, Limits | None] = (None, None),
 ) -> Deviation:  # fmt: skip
     """Lay two paths over one another; `step` mm, by default a four-thousandth of the longer one."""
     longest = max(one.length, other.length, 1e-3)
@@ -153,7 +156,7 @@ def deviation(
     strokes = [_strokes(path, chord_error) for path in (one, other)]
     looks = [_places(*parts, step) for parts in strokes]
     first, second = (Traces(*look, _nearest(look[0], *against[:2])) for look, against in zip(looks, strokes[::-1]))
-    return Deviation((one, other), names, first, second, step, times, reaches)
+    return Deviation((one, other), names, first, second, step, times, reaches, rapids)
 
 
 def _strokes(path: Toolpath, chord_error: float) -> tuple[Array, Array, NDArray[np.int64]]:

@@ -77,8 +77,9 @@ def largest_radius(run: Run) -> LargestRadius:
 
 def _reach(run: Run, marked: Run, radius: float) -> str:
     """How far was looked, in words: as far as the run goes, or to where it refuses so large a tool for another reason."""
-    if run.halt or not marked.halt:
-        return run.reach
+    own = run if run.halt is None else run.again(run.setup.with_settings(gouge="mark"))
+    if own.halt or not marked.halt:
+        return marked.reach
     unit, place = run.toolpath.unit, marked.reach.removesuffix(", where the run stopped")
     return f"{place}, where the program takes no tool of radius {unit.figure(radius)} {unit.short}"
 

@@ -231,6 +231,12 @@ class Run(Pictures):
         said: dict[str, Any] = {"rapid_motion": motion, "waits": waits, "source": self.program, "name": name, "reach": self.reach}
         return Profile(path, limits, override=override, **said)
 
+    @property
+    def rapids(self) -> Limits:
+        """The limits of the setup; a rapid goes as the control has it (its setting `rapid_motion`) unless they say how."""
+        limits = self.setup.limits
+        return replace(limits, rapid_motion=limits.rapid_motion or str(self.settings.get("rapid_motion", "line")))
+
     def place_of_line(self, line: int, program: int = 0) -> str:
         """`FILE:LINE`, as alarms have it."""
         return f"{self.programs[program].name}:{line}"

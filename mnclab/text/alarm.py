@@ -157,7 +157,7 @@ class Alarm(Exception):
 class Refused(Alarm, ValueError):
     """What a function of numbers refuses: an Alarm to people, and a ValueError, whose text is the sentence alone, to Python."""
 
-    def __str__(self) -> str:
+    def __str__(self) -> str:  # type: ignore[override]  # without a width
         return self.message
 
 

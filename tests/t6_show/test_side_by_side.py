@@ -374,3 +374,13 @@ def test_a_plunge_is_one_hole_for_the_table_the_picture_and_the_design(kind, tai
     if kind == "mill":
         made = [each for each in run.design().features if each.kind == "hole"]
         assert [(each.x, each.y, each.diameter, -each.depth) for each in made] == wanted
+
+
+def test_a_radius_that_a_cycle_refuses_is_no_stop_of_the_run():
+    """The slot of the contour is 12 mm wide: radius 6. The pocket of 30 by 20 mm behind it takes no mill of radius 16, 32 …"""
+    contour = "G41 X0 Y0\nY40\nX8\nY20\nX20\nY40\nX40\nY0\nX-10\nG40 X-20 Y-20\nG0 Z50\n"
+    pocket = "X60 Y60\nG343 Q2 A30 B20 H-5 P2.5 Z0 K1 F200 V100\n"
+    run = mnc.run(f"G54 G17 G90 T1 S1000 M3\nG0 X-20 Y-20 Z5\nG1 Z-2 F200\n{contour}{pocket}", "mnc")
+    assert run.ok
+    found = run.largest_radius()
+    assert float(found) == 6 and "where the run stopped" not in str(found)

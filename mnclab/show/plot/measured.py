@@ -11,7 +11,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch
 
-from mnclab.path.listing import MM, Unit
+from mnclab.path.listing import Unit
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.measured_panels import Panel, panels

@@ -107,9 +107,9 @@ def plot_deviation(found: Any, view: str = "auto", size: tuple[float, float] = S
     lathe = one.lathe or other.lathe
     looks = [look._replace(name=name) for look, name in zip((FIRST, SECOND), found.names)]
     lines = [(look, line_of(path, CUTTING)) for look, path in zip(looks, found.paths)]
-    for look, path in zip(looks, found.paths):
+    for look, path, rapids in zip(looks, found.paths, found.rapids):
         dashed = look._replace(name="_" + look.name, dashes=RAPID.dashes, width=RAPID_WIDTH * look.width)
-        lines += [(dashed, line)] if len(line := line_of(path, (Kind.RAPID,))) else []
+        lines += [(dashed, line)] if len(line := line_of(path, (Kind.RAPID,), rapids)) else []
     lines[2:3] = [(look._replace(name=RAPID.name), line) for look, line in lines[2:3]]
     low, high = corners([xyz for _, xyz in lines], lathe) or (np.zeros(3), np.zeros(3))
     view = choice(view, "view", ("auto", *VIEWS))
