@@ -44,7 +44,8 @@ def test_two_inch_paths_are_told_in_inches():
 
 def test_the_crosses_where_a_tool_has_no_room_are_named():
     """A slot of 4 mm with a mill of radius 5: hatched is what it takes away, crosses stand at the elements without room."""
-    text = "G54 G17 G90 T1 S1000 M3\nG0 X-20 Y-20 Z5\nG1 Z-2 F200\nG41 X0 Y0\nY40\nX8\nY20\nX12\nY40\nX40\nY0\nX-10\nG40 X-20 Y-20\n"
+    begin = "G54 G17 G90 T1 S1000 M3\nG0 X-20 Y-20 Z5\nG1 Z-2 F200\n"
+    text = f"{begin}G41 X0 Y0\nY40\nX8\nY20\nX12\nY40\nX40\nY0\nX-10\nG40 X-20 Y-20\n"
     picture = mnc.run(text, "mnc").plot_compensation()
     legend = picture.legends[0]
     named = {each.get_text(): handle for each, handle in zip(legend.get_texts(), legend.legend_handles)}
