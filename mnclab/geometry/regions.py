@@ -23,7 +23,7 @@ from mnclab.geometry.curves import Floats, cross, gap, length_of
 from mnclab.geometry.cutting import Outlines, boxes, inset, outlines_of
 from mnclab.geometry.tracing import GRID, SAME, Drawing, inset_by_bands
 from mnclab.text.alarm import Alarm, Refused
-from mnclab.text.given import check_number, fitting_class, shown
+from mnclab.text.given import check_number, refusing_class, shown
 
 
 class CrossesItself(Refused):
@@ -37,7 +37,7 @@ class CrossesItself(Refused):
 CLEAR = 1e-3  # mm, between loops of which each lies whole within the other area or outside
 
 
-@fitting_class
+@refusing_class
 @dataclass(frozen=True, eq=False)
 class Region:
     """An area of one or more pieces, each a loop counter-clockwise followed by its islands clockwise.

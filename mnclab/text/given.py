@@ -128,8 +128,7 @@ def near_option(name: str, known: Collection[str]) -> str:
 
 
 def fitting(door: Door) -> Door:
-    """A function whose wrong calls are Alarms, and what it refuses by a ValueError is one too; calls that fit are as fast as
-    before."""
+    """A function whose wrong calls are Alarms; calls that fit are as fast as before."""
 
     @wraps(door)
     def called(*given: Any, **options: Any) -> Any:
@@ -137,8 +136,24 @@ def fitting(door: Door) -> Door:
             return door(*given, **options)
         except Alarm:
             raise
-        except FAULTS as error:
+        except FAULTS:  # an Alarm if the call is at fault; what else it was goes on as it is
             _check(door, given, options)
+            raise
+
+    return called  # type: ignore[return-value]
+
+
+def refusing(door: Door) -> Door:
+    """The same of a function of numbers alone: what it refuses by a ValueError, or cannot work out, is an Alarm too."""
+    fits = fitting(door)
+
+    @wraps(door)
+    def called(*given: Any, **options: Any) -> Any:
+        try:
+            return fits(*given, **options)
+        except Alarm:
+            raise
+        except FAULTS as error:
             if (told := _told(error, _name(door))) is None:
                 raise
             raise told from error
@@ -148,7 +163,7 @@ def fitting(door: Door) -> Door:
 
 def checked(door: Door) -> Door:
     """The same of a function that people call and the house does not: what it is given is judged before it works."""
-    fits = fitting(door)
+    fits = refusing(door)
 
     @wraps(door)
     def called(*given: Any, **options: Any) -> Any:
@@ -160,12 +175,21 @@ def checked(door: Door) -> Door:
 
 def fitting_class(made: Made) -> Made:
     """A class that is made, and whose own public methods are called, in this way."""
+    return _with_methods(made, fitting)
+
+
+def refusing_class(made: Made) -> Made:
+    """The same of a class of numbers alone."""
+    return _with_methods(made, refusing)
+
+
+def _with_methods(made: Made, way: Callable[[Any], Any]) -> Made:
     for name, door in list(vars(made).items()):
         if name in ("__init__", "__getitem__") or not name.startswith("_"):
             if isfunction(door):
-                setattr(made, name, fitting(door))
+                setattr(made, name, way(door))
             elif isinstance(door, classmethod):
-                setattr(made, name, classmethod(fitting(door.__func__)))
+                setattr(made, name, classmethod(way(door.__func__)))
     return made
 
 

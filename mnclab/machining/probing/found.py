@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mnclab.geometry.frames import Matrix, angles_of
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import fitting_class
+from mnclab.text.given import refusing_class
 
 # What a caller gives, checked: numbers in arrays, or an alarm that says what is wrong.
 
@@ -74,7 +74,7 @@ SQUARE = 1e-9  # rad: nearer to a right angle a direction does not say to which 
 Numbers = tuple[float, ...]
 
 
-@fitting_class
+@refusing_class
 class Found:
     """What all results share: the names of the numbers that they show."""
 
@@ -95,7 +95,7 @@ class Found:
         return f"{type(self).__name__}({', '.join(said)})"
 
 
-@fitting_class
+@refusing_class
 class Round(Found):
     """A circle or a ball."""
 
@@ -111,7 +111,7 @@ class Round(Found):
         return replace(self, radius=self.radius + by)  # type: ignore[type-var]
 
 
-@fitting_class
+@refusing_class
 class Flat(Found):
     """A line or a plane."""
 
@@ -137,7 +137,7 @@ class Flat(Found):
         return replace(self, **dict(zip("xyz", moved, strict=False)))  # type: ignore[type-var]
 
 
-@fitting_class
+@refusing_class
 @dataclass(frozen=True, repr=False)
 class Point(Found):
     """A point of the plane."""
@@ -147,7 +147,7 @@ class Point(Found):
     SHOWN = "x", "y"
 
 
-@fitting_class
+@refusing_class
 @dataclass(frozen=True, repr=False)
 class Line(Flat):
     """A line through the mean of its points, in their order, and its angle to X.
@@ -181,7 +181,7 @@ class Line(Flat):
         return float(at[0] - off * nx), float(at[1] - off * ny)
 
 
-@fitting_class
+@refusing_class
 @dataclass(frozen=True, repr=False)
 class Circle(Round):
     """A circle; `roundness` is the difference between the farthest and the nearest point from its centre."""
@@ -193,7 +193,7 @@ class Circle(Round):
     SHOWN = "x", "y", "diameter", "roundness"
 
 
-@fitting_class
+@refusing_class
 @dataclass(frozen=True, repr=False)
 class Sphere(Round):
     """A ball; `roundness` is the difference between the farthest and the nearest point from its centre."""
@@ -206,7 +206,7 @@ class Sphere(Round):
     SHOWN = "x", "y", "z", "diameter", "roundness"
 
 
-@fitting_class
+@refusing_class
 @dataclass(frozen=True, repr=False)
 class Width(Found):
     """The width of a slot or a ridge, and the middle between its two touches."""
@@ -221,7 +221,7 @@ class Width(Found):
         return replace(self, width=self.width + 2 * by)
 
 
-@fitting_class
+@refusing_class
 @dataclass(frozen=True, repr=False)
 class Rectangle(Found):
     """A rectangle: its middle, its length along the direction of `angle`, its width across."""
@@ -238,7 +238,7 @@ class Rectangle(Found):
         return replace(self, length=self.length + 2 * by, width=self.width + 2 * by)
 
 
-@fitting_class
+@refusing_class
 @dataclass(frozen=True, repr=False)
 class Plane(Flat):
     """A plane through the mean of its points, and its unit normal that points to +Z.

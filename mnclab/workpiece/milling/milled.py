@@ -261,7 +261,10 @@ class Milled(Workpiece):
 
     def faces(self, x: Array, y: Array) -> tuple[Array, Array]:
         """Exact; of very many moves between the middles of the cells."""
-        top, floor = self.surface.sides_at(*np.atleast_1d(np.asarray(x, np.float64), np.asarray(y, np.float64)))
+        x, y = np.atleast_1d(np.asarray(x, np.float64), np.asarray(y, np.float64))
+        if x.shape != y.shape:
+            raise Alarm(f"faces are asked for at points (x, y), got {x.size} x and {y.size} y")
+        top, floor = self.surface.sides_at(x, y)
         solid = top - floor > NOISE
         return np.where(solid, floor, np.nan), np.where(solid, top, np.nan)
 
