@@ -83,7 +83,7 @@ OPENED = Shelf("mnclab", "the names that need more than numpy", {
     "mnclab.show.plot.over_time": "plot_profiles",
     "mnclab.show.plot.variants": "plot_runs",
     "mnclab.design.model": "Design, TurnedDesign",
-})  # fmt: skip
+}, judges=False)  # fmt: skip
 
 part = Shelf("mnclab.part", "what a probe touches, for Setup(part=…); parts combine: a | b, a & b, a - b", {
     "mnclab.workpiece.part": "Part, ball, boss, box, cone, contact, cylinder, foot, hole, mesh, plane, pocket, slot",

@@ -18,12 +18,12 @@ SLACK = 40  # code lines: a mend must not wait for a budget
 
 #: Room -> code lines.
 BUDGETS = {
-    "front door": 414, "comparison": 758, "controls": 932, "controls/g43": 3_455, "controls/jnc_t01": 507,
+    "front door": 414, "comparison": 771, "controls": 932, "controls/g43": 3_455, "controls/jnc_t01": 507,
     "controls/mnc": 2_327, "controls/nc_31": 874, "controls/tnc_620": 14_914, "controls/word_address": 560,
-    "design": 9_965, "geometry": 2_528, "lab": 2_204, "machine": 2_838, "machining": 3_889, "path": 4_278,
-    "running": 1_759, "runs": 2_312, "shell": 356, "show": 8_219, "text": 1_749, "workpiece": 5_708,
+    "design": 9_967, "geometry": 2_531, "lab": 2_204, "machine": 2_841, "machining": 3_911, "path": 4_322,
+    "running": 1_759, "runs": 2_402, "shell": 356, "show": 8_225, "text": 1_924, "workpiece": 5_761,
 }  # fmt: skip
-FILES = 496
+FILES = 497
 
 
 def code_lines(text):

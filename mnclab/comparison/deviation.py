@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.listing import figure, point
+from mnclab.path.limits import Limits
+from mnclab.path.listing import MM, Unit, figure, point
 from mnclab.path.places import points
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.given import check_number
@@ -49,7 +50,8 @@ class Deviation:
     """Where two paths differ: `one` and `other` are the traces, `names` and `paths` what was compared, `times` s of both.
 
     `reaches` are "up to line 12, where the run stopped" for a path that ends before its program, else empty: `complete` is
-    whether both are whole, for two that stop alike have not shown that they are the same.
+    whether both are whole, for two that stop alike have not shown that they are the same. Under the limits of `rapids` those of
+    each path are drawn; what is measured are the straight lines between their ends, whatever the machines make of them.
     """
 
     paths: tuple[Toolpath, Toolpath]
@@ -59,6 +61,7 @@ class Deviation:
     step: float
     times: tuple[float, float] | None = None
     reaches: tuple[str, str] = ("", "")
+    rapids: tuple[Limits | None, Limits | None] = (None, None)
 
     @property
     def complete(self) -> bool:
@@ -68,6 +71,12 @@ class Deviation:
     def __bool__(self) -> bool:
         """Whether the paths differ, or a run that stopped has not shown that they do not."""
         return not (self.complete and self.largest < SAME)
+
+    @property
+    def unit(self) -> Unit:
+        """In what it is told: the unit of both paths, mm where they have two."""
+        one, other = self.paths
+        return one.unit if one.unit.length == other.unit.length else MM
 
     @property
     def largest(self) -> float:
@@ -95,10 +104,11 @@ class Deviation:
 
     def rows(self) -> list[tuple[str, ...]]:
         """What the table shows: a quantity, and its value on each path."""
+        far, unit = self.where[:2] if self.where and not self.largest < SAME else (), self.unit
         quantities = [
-            ("farthest apart", map(point, self.where[:2] if self.where and not self.largest < SAME else ())),
+            ("farthest apart", (point(each, self.unit) for each in far)),
             ("moves", (str(int(path.is_motion.sum())) for path in self.paths)),
-            ("length", (f"{figure(path.length, 3)} mm" for path in self.paths)),
+            ("length", (f"{unit.figure(path.length, 1)} {unit.short}" for path in self.paths)),
             ("time", (f"{figure(time, 3)} s" for time in self.times or ())),
         ]
         return [(name, *pair) for name, values in quantities if (pair := tuple(values))]
@@ -114,8 +124,9 @@ class Deviation:
             return "no motion on either path" if self.largest == 0 else "only one of the paths has motion"
         if self.largest < SAME:
             return "the paths are the same"
-        largest = figure(self.largest, 3 if self.largest >= 0.001 else 6)
-        return f"largest deviation {largest} mm at line {where[2]} of {self.names[where[3]]}"
+        unit = self.unit
+        largest = figure(self.largest / unit.length, unit.decimals - 1 if self.largest >= 0.001 else unit.decimals + 2)
+        return f"largest deviation {largest} {unit.short} at line {where[2]} of {self.names[where[3]]}"
 
     def __str__(self) -> str:
         head = f"{self.names[0]} and {self.names[1]}: {self.sentence}"
@@ -136,7 +147,7 @@ class Deviation:
 def deviation(
     one: Toolpath, other: Toolpath, names: tuple[str, str] = ("first", "second"),
     step: float | None = None, chord_error: float = 1e-4, times: tuple[float, float] | None = None,
-    reaches: tuple[str, str] = ("", ""),
+    reaches: tuple[str, str] = ("", ""), rapids: tuple[Limits | None, Limits | None] = (None, None),
 ) -> Deviation:  # fmt: skip
     """Lay two paths over one another; `step` mm, by default a four-thousandth of the longer one."""
     longest = max(one.length, other.length, 1e-3)
@@ -145,7 +156,7 @@ def deviation(
     strokes = [_strokes(path, chord_error) for path in (one, other)]
     looks = [_places(*parts, step) for parts in strokes]
     first, second = (Traces(*look, _nearest(look[0], *against[:2])) for look, against in zip(looks, strokes[::-1]))
-    return Deviation((one, other), names, first, second, step, times, reaches)
+    return Deviation((one, other), names, first, second, step, times, reaches, rapids)
 
 
 def _strokes(path: Toolpath, chord_error: float) -> tuple[Array, Array, NDArray[np.int64]]:

@@ -10,6 +10,7 @@ from typing import Any, Protocol, overload, runtime_checkable
 from mnclab.comparison.deviation import Deviation, deviation
 from mnclab.comparison.holes import TOLERANCE, HolesCompared, compare_holes
 from mnclab.path.holes import Holes, holes
+from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
@@ -24,6 +25,7 @@ class Ran(Protocol):
     program: Any
     control: Any
     reach: str
+    rapids: Limits
 
     def holes(self) -> Holes:
         """What is drilled."""
@@ -63,7 +65,13 @@ def diff(
     if not isinstance(one, Toolpath) and not isinstance(other, Toolpath):
         times = one.profile().time, other.profile().time
     paths = [each if isinstance(each, Toolpath) else each.toolpath for each in (one, other)]
-    return deviation(paths[0], paths[1], _names(one, other), step, times=times, reaches=(_reach(one), _reach(other)))
+    reaches, rapids = (_reach(one), _reach(other)), (_rapids(one), _rapids(other))
+    return deviation(paths[0], paths[1], _names(one, other), step, times=times, reaches=reaches, rapids=rapids)
+
+
+def _rapids(one: Ran | Toolpath) -> Limits | None:
+    """How the rapids of a run go; nobody knows it of a path."""
+    return None if isinstance(one, Toolpath) else one.rapids
 
 
 def _reach(one: Ran | Toolpath) -> str:

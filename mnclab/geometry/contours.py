@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry.curves import Curve, Floats, at_angle, cross, left, length_of, turned, unit_of
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, check_point, shown, whole
+from mnclab.text.given import check_number, check_point, refusing_class, shown, whole
 
 FULL_TURN = 2 * np.pi
 CUSP = 1e-8  # rad, by which opposite directions may be off
@@ -27,6 +27,7 @@ SHORTEST = 1e-9  # mm, of a piece
 FLAT = 1e-9  # a smaller bulge is a line: over a chord of 1 m it would rise by half a nanometre
 
 
+@refusing_class
 @dataclass(frozen=True, eq=False)
 class Contour:
     """Points `(n, 2)` joined by lines and arcs; element i runs from point i to point i + 1.

@@ -22,21 +22,22 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats, cross, gap, length_of
 from mnclab.geometry.cutting import Outlines, boxes, inset, outlines_of
 from mnclab.geometry.tracing import GRID, SAME, Drawing, inset_by_bands
-from mnclab.text.alarm import Alarm
-from mnclab.text.given import shown
+from mnclab.text.alarm import Alarm, Refused
+from mnclab.text.given import check_number, refusing_class, shown
 
 
-class CrossesItself(ValueError):
+class CrossesItself(Refused):
     """A contour that encloses no area, and where: (x, y) in mm, None where that is not known."""
 
     def __init__(self, place: tuple[float, float] | None) -> None:
         super().__init__("the contour crosses or touches itself" + (" near ({:.3f}, {:.3f})".format(*place) if place else ""))
-        self.place = place
+        self.where = place
 
 
 CLEAR = 1e-3  # mm, between loops of which each lies whole within the other area or outside
 
 
+@refusing_class
 @dataclass(frozen=True, eq=False)
 class Region:
     """An area of one or more pieces, each a loop counter-clockwise followed by its islands clockwise.
@@ -123,6 +124,7 @@ class Region:
 
     def insets(self, step: float) -> Iterator[Region]:
         """The area itself, its insets by `step` > 0, twice that and so on, until nothing is left."""
+        check_number(step, "the step of insets (mm)", at_least=1e-6)
         here, level = self, 0
         outlines: Outlines | None = outlines_of(self.loops) if self.loops else None
         while here.loops:

@@ -226,6 +226,11 @@ class Control:
         """The modal state at the start: group -> code."""
         return {f.group: f.code for f in self.functions.values() if f.group and f.power_on}
 
+    def across(self, settings: Mapping[str, Any]) -> str:
+        """What X is in the programs of a lathe, where its settings are these: a "diameter" or a "radius"."""
+        typed = settings.get("diameter") or self.meanings.get("X", "").startswith("diameter")
+        return "diameter" if typed else "radius"
+
     def __repr__(self) -> str:
         return f"<Control {self.name}: {self.title}; {len(self.functions)} functions, {len(self.cycles)} cycles>"
 

@@ -3,33 +3,36 @@
 This is what a hole is, for the table, for pictures and for comparing two programs. A visit is a stretch of rows along Z
 alone. It is a hole, whatever the tool (a drill, a tap, an end mill; not a probe), if it begins and ends at least as high as
 its first cut begins, or if its tool goes nowhere else after it: a plunge into a pocket ends below. A step of a cycle that is
-called drilling is one even if the tool goes on from there, to mill a thread. On a lathe it lies on the axis. A bore that a
+called drilling is one even if the tool goes on from there, to mill a thread. Where a blank is known, a way that ends above it
+or goes beside it cuts nothing and is no hole. On a lathe it lies on the axis. A bore that a
 cycle mills on a helix is a hole as well, as wide as what the mill sweeps in its circle at the bottom; one milled in single
 blocks is none here: `Run.design` names it, from what is left of the blank.
 """
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.path.listing import MM, Unit
-from mnclab.path.tool import Tool
+from mnclab.path.tool import POINTED, Tool
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import replaced
-from mnclab.text.given import shown
+from mnclab.text.given import fitting_class, shown
 from mnclab.text.tables import csv_text, html_table, text_table
 
 BORED = re.compile(r" circle at the bottom$")  # labels of cycles that mill a bore
 DRILLED = re.compile(r" (peck|drill|ream|bore|centre|countersink|cut the thread)( \d+ of \d+)?$")
 SAME = 1e-6  # mm: places nearer than this are one
+RINGS = 9  # under a tool, its axis among them, on which a blank is looked for
 HEAD = ("hole", "x", "y", "from z", "to z", "diameter", "tool", "lines")
 
 
@@ -46,6 +49,7 @@ class HoleMade(NamedTuple):
     lines: tuple[int, ...]
 
 
+@fitting_class
 class Holes(Sequence[HoleMade]):
     """The holes of a path in the order of drilling: a row for each place and tool; a table when shown.
 
@@ -106,8 +110,18 @@ class Holes(Sequence[HoleMade]):
         return self.reach if self else f"no holes {self.reach}".rstrip()
 
 
-def holes(path: Toolpath, tools: Mapping[int, Tool] | None = None, numbers: Index | None = None, reach: str = "") -> Holes:
-    """The holes of a path; `tools` by their numbers and the number of each row (n,) give the diameters."""
+class Stock(Protocol):
+    """A blank, in the coordinates of a path."""
+
+    def faces(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """How low and how high it reaches at points (m,); nan beside it."""
+
+
+def holes(
+    path: Toolpath, tools: Mapping[int, Tool] | None = None, numbers: Index | None = None, reach: str = "",
+    stock: Stock | None = None,
+) -> Holes:  # fmt: skip
+    """The holes of a path; `tools` by their numbers and the number of each row (n,) give the diameters, `stock` is the blank."""
     numbers, tools = path.tool.astype(np.int64) if numbers is None else numbers, tools or {}
     rows = np.flatnonzero(path.is_motion & ((path.start != path.end).any(axis=1) | (path.kind == Kind.ARC)))
     along = (np.abs(path.start[rows, :2] - path.end[rows, :2]) < SAME).all(axis=1) & (path.kind[rows] != Kind.ARC)
@@ -126,6 +140,8 @@ def holes(path: Toolpath, tools: Mapping[int, Tool] | None = None, numbers: Inde
     made: dict[tuple[float, float, float, int], HoleMade] = {}
     first: dict[tuple[float, float, float, int], int] = {}
     for row, hole in sorted(found, key=lambda each: each[0]):
+        if stock is not None and not _meets(hole, tools.get(hole.tool, Tool()), stock):
+            continue
         key = round(hole.x / SAME), round(hole.y / SAME), round(hole.diameter / SAME), hole.tool
         before = made.get(key)
         first.setdefault(key, row)
@@ -154,6 +170,16 @@ def _hole(
     diameter = 2 * tools[number].effective_radius if number in tools else 0.0
     lines = tuple(dict.fromkeys(path.line[visit[cuts]].tolist()))
     return int(visit[first]), HoleMade(x + 0.0, y + 0.0, top, bottom, diameter, number, lines)
+
+
+def _meets(hole: HoleMade, tool: Tool, stock: Stock) -> bool:
+    """Whether a tool meets a blank on its way down: at its axis, or on the rings of its point up to the rim."""
+    angle = tool.angle or POINTED.get(tool.kind, 0.0)
+    rise = 1 / math.tan(math.radians(angle) / 2) if tool.kind in POINTED and 0 < angle < 180 else 0.0
+    rho, turn = np.meshgrid(np.linspace(0, hole.diameter / 2 * (1 - SAME), RINGS), np.linspace(0, 2 * np.pi, 8 * RINGS))
+    floor, top = stock.faces((hole.x + rho * np.cos(turn)).ravel(), (hole.y + rho * np.sin(turn)).ravel())
+    edge = rise * rho.ravel()
+    return bool(((top > hole.bottom + edge + SAME) & (floor < hole.top + edge)).any())
 
 
 def _bored(path: Toolpath) -> Mask:

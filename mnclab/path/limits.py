@@ -16,7 +16,7 @@ from mnclab.path.toolpath import Array, Kind, Toolpath
 from mnclab.text.alarm import Alarm
 from mnclab.text.alarm import hint as near
 from mnclab.text.file import File, check_names, parse
-from mnclab.text.given import check_number, fitting, fitting_class, plain, shown
+from mnclab.text.given import check_number, choice, fitting, fitting_class, plain, shown
 from mnclab.text.tables import html_table, written
 
 PerAxis = float | tuple[float, ...]
@@ -33,6 +33,7 @@ RAPIDS = {
     "line": "along the straight line, as a feed move at the greatest speed",
 }
 LEAST, MOST = 1e-3, 1e9  # of every limit, in its unit: beyond them a time is no number any more
+PER_AXIS = ("rapid", "acceleration", "jerk", "corner_jump")
 TRAVEL = "travel=((0, 400), (0, 300), (-200, 0)): from and to of X, Y and Z, machine coordinates of the spindle, mm"
 
 
@@ -84,7 +85,7 @@ class Limits:
 
     def _check(self, name: str, least: float) -> None:
         value = getattr(self, name)
-        many = name in ("rapid", "acceleration", "jerk", "corner_jump") and isinstance(value, tuple | list)
+        many = name in PER_AXIS and isinstance(value, tuple | list)
         if many and len(value) not in (1, 3):
             raise Alarm(f"limit {name} takes one number or three (X Y Z), got {len(value)}")
         for each in value if many else (value,):
@@ -104,7 +105,7 @@ class Limits:
 
     def axes(self, name: str) -> Array:
         """A limit (3,) for X, Y, Z in mm and s; infinite where there is none."""
-        value = getattr(self, name)
+        value = getattr(self, choice(name, "the name of a limit of the axes", PER_AXIS))
         per_second = 60.0 if name in ("rapid", "corner_jump") else 1.0
         return np.broadcast_to(np.asarray(math.inf if value is None else value, np.float64), 3) / per_second
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mnclab.path.toolpath import Array, Index, Kind, Toolpath
+from mnclab.text.alarm import Refused
 
 
 def spokes(path: Toolpath, rows: Index) -> tuple[Array, Array]:
@@ -76,7 +77,7 @@ def points(path: Toolpath, chord_error: float = 0.01) -> tuple[Array, Index]:
     is cut into pieces of at most `2 acos(1 - e / r)`, whose sagitta is the chord error e (mm).
     """
     if not chord_error > 0:
-        raise ValueError(f"chord_error must be greater than 0 mm, got {chord_error:g}")
+        raise Refused(f"chord_error must be greater than 0 mm, got {chord_error:g}")
     rows = np.flatnonzero(path.is_motion)
     if not len(rows):
         return np.empty((0, 3)), np.empty(0, dtype=np.int64)

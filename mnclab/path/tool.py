@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import InitVar, dataclass, fields, replace
 from functools import wraps
 from inspect import Parameter, signature
@@ -89,6 +90,9 @@ KINDS = (
     "turning", "boring", "grooving", "face grooving", "thread",
 )  # fmt: skip
 LATHE = ("turning", "boring", "grooving", "face grooving", "thread")  # their corner is the nose, whatever the radius
+WIDENS = ("reamer", "tap")
+MINOR = 5 / 8 * math.sqrt(3) / 2  # of the pitch: how deep an ISO thread is, 5/8 of the height of its sharp triangle (ISO 68-1)
+CHAMFER = 3.0  # turns of a tap that lead it into its hole, narrower than its thread (DIN 2197, form C)
 POINTED = {"drill": 118.0, "countersink": 90.0, "chamfer": 90.0}  # degrees, the included angle where a tool gives none
 MOST = 1e9  # of every number of a tool
 BODIES = ("centre_cutting", "shank", "holder", "wear", "locked", "runout", "edges")  # no plain numbers
@@ -209,6 +213,7 @@ class Tool:
         if self.edges and self.teeth not in (0, len(self.edges)):
             raise Alarm(f"the edges of a tool must be as many as its teeth, got {len(self.edges)} and {self.teeth:g}")
 
+    @fitting
     def of_radius(self, radius: float, dr: float = 0.0) -> Tool:
         """The same tool with another radius, mm; a corner that this has no room for is as large as it."""
         room = self.kind in LATHE or not 0 < radius < self.corner
@@ -221,6 +226,19 @@ class Tool:
     @property
     def effective_length(self) -> float:
         return self.length + self.dl
+
+    @property
+    def opens_holes(self) -> bool:
+        """Whether it goes straight down into full material; a reamer and a tap widen a hole, unless the table says otherwise."""
+        return self.kind not in WIDENS or self.centre_cutting is True
+
+    @property
+    def core(self) -> float:
+        """The radius of the hole that a tap needs at least, mm: half the minor diameter of an ISO thread, D - 1.0825 P (ISO 724).
+
+        0 of any other tool, and where the table does not say the pitch.
+        """
+        return max(self.effective_radius - MINOR * self.pitch, 0.0) if self.kind == "tap" and self.pitch > 0 else 0.0
 
 
 def _pair(name: str, given: Any) -> tuple[float, float]:

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.text.alarm import several
+from mnclab.text.alarm import Absent, Alarm, several
+from mnclab.text.given import fitting_class, shown
 from mnclab.text.tables import fixed
 
 if TYPE_CHECKING:
@@ -186,6 +187,7 @@ class Move(fields("Move", COLUMNS)):  # type: ignore[misc]
 # of one array of vertices, so that every row begins where the one before ended; a selection of rows has arrays of its own.
 # Columns are read-only: what is to be changed is copied first (`Toolpath.replace` takes other columns).
 
+@fitting_class
 class Toolpath(Columns):
     """Moves and events in columns of n rows; the names and meanings are in `COLUMNS`.
 
@@ -246,12 +248,16 @@ class Toolpath(Columns):
     def __getitem__(self, index: slice | NDArray[Any] | Sequence[int]) -> Toolpath: ...
     def __getitem__(self, index: Any) -> Any:
         if isinstance(index, int | np.integer):
+            if not -self._n <= index < self._n:
+                raise Absent(f"the toolpath has {several(self._n, 'row')}, 0 is the first: there is no row {shown(index)}")
             i = range(self._n)[int(index)]
             row = {name: getattr(self, name)[i] for name in COLUMNS}
             plain = {name: value.item() if value.ndim == 0 else value for name, value in row.items()}
             plain["kind"], plain["label"] = Kind(plain["kind"]), self.labels[plain["label"]]
             plain["joint"] = self.joints[plain["joint"]] if plain["joint"] >= 0 else None
             return Move(**plain)
+        if not isinstance(index, slice) and np.asarray(index).dtype.kind not in "iub" and len(np.atleast_1d(index)):
+            raise Alarm(f"a row of a toolpath is named by a whole number, some by a slice, numbers or a mask, got {shown(index)}")
         return self.replace(**{name: getattr(self, name)[index] for name in COLUMNS})
 
     def __iter__(self) -> Iterator[Move]:

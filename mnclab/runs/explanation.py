@@ -219,9 +219,8 @@ def _meaning(here: _Here, what: Function, word: Word) -> str:
         relative = word.incremental or (here.incremental and own in control.relative)
         return _increment(says) if relative else says
     if address in ("X", "Y", "Z"):
-        across = "diameter" if here.settings.get("diameter") else "radius"
         says = f"increment along {address}" if word.incremental or here.incremental else f"coordinate {address}"
-        return f"{says}, {across}" if control.lathe and address == "X" else says
+        return f"{says}, {control.across(here.settings)}" if control.lathe and address == "X" else says
     if address in ("F", "S"):
         return here.feed if address == "F" else here.speed
     if (axis := address.rpartition(":")[2]) in ("A", "B", "C"):

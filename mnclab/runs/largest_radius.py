@@ -19,7 +19,8 @@ GROWTH, EXACT = 2.0, 1e-9
 class LargestRadius:
     """`radius` mm (inf: any fits); `below`: this radius itself does not fit, every smaller one does. `line` and `other` are
     those of the elements between which a larger one has no room, None without any. `reach` is "up to line 12, where the run
-    stopped" if only the contours so far are known, else empty."""
+    stopped" if only the contours so far are known, or "up to line 12, where the program takes no tool of radius 8 mm" if a
+    cycle there refuses the radius that was tried; else empty."""
 
     radius: float
     below: bool = False
@@ -65,13 +66,22 @@ def largest_radius(run: Run) -> LargestRadius:
         if found:
             break
         if radius > most:
-            return LargestRadius(math.inf, reach=marked.reach)
+            return LargestRadius(math.inf, reach=_reach(run, marked, radius))
         radius *= GROWTH
     worst = min(found, key=lambda gouge: gouge.largest)
     below = not worst.largest > EXACT or any(
         gouge.largest <= worst.largest + EXACT for gouge in _marked(run, worst.largest).gouges
     )
-    return LargestRadius(worst.largest, below, worst.line, worst.other, marked.reach, run.toolpath.unit)
+    return LargestRadius(worst.largest, below, worst.line, worst.other, _reach(run, marked, radius), run.toolpath.unit)
+
+
+def _reach(run: Run, marked: Run, radius: float) -> str:
+    """How far was looked, in words: as far as the run goes, or to where it refuses so large a tool for another reason."""
+    own = run if run.halt is None else run.again(run.setup.with_settings(gouge="mark"))
+    if own.halt or not marked.halt:
+        return marked.reach
+    unit, place = run.toolpath.unit, marked.reach.removesuffix(", where the run stopped")
+    return f"{place}, where the program takes no tool of radius {unit.figure(radius)} {unit.short}"
 
 
 def _marked(run: Run, radius: float) -> Run:

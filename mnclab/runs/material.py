@@ -106,6 +106,7 @@ def cutting_of(run: Run, stock: Any = None, named: bool = True) -> Cutting:
     known = start_known(path, start, *(() if any(start) or not named else _named(run)))
     fixtures = tuple(_placed(run, each) for each in run.setup.fixtures)
     said: dict[str, Any] = {"name": run.place_of_line, "origin": tuple(origin.tolist()), "reach": run.reach}
+    said["across"] = run.control.across(run.settings)
     return Cutting(lifted(path, lift), tools, which, body, *known, tilted, fixtures, **said)
 
 

@@ -231,6 +231,12 @@ class Run(Pictures):
         said: dict[str, Any] = {"rapid_motion": motion, "waits": waits, "source": self.program, "name": name, "reach": self.reach}
         return Profile(path, limits, override=override, **said)
 
+    @property
+    def rapids(self) -> Limits:
+        """The limits of the setup; a rapid goes as the control has it (its setting `rapid_motion`) unless they say how."""
+        limits = self.setup.limits
+        return replace(limits, rapid_motion=limits.rapid_motion or str(self.settings.get("rapid_motion", "line")))
+
     def place_of_line(self, line: int, program: int = 0) -> str:
         """`FILE:LINE`, as alarms have it."""
         return f"{self.programs[program].name}:{line}"
@@ -293,7 +299,7 @@ class Run(Pictures):
 
     def holes(self) -> Holes:
         """The holes (see `path.holes`) as a table: place, heights, diameter, tool and lines, a row for each place and tool."""
-        return holes(self.toolpath, *self.tools_that_cut, self.reach)
+        return holes(self.toolpath, *self.tools_that_cut, self.reach, self.stock)
 
     def largest_radius(self) -> LargestRadius:
         """The largest tool radius, mm, that has room at all compensated contours: "6 mm", or "below 6 mm" where this itself has

@@ -14,11 +14,13 @@ from xml.sax.saxutils import escape
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.profile.ramps import bent
 from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.show.export_gcode import number
 from mnclab.text.given import choice
 
 MARGIN = 2.0  # mm
+BENT = 0.01  # mm that a rapid may be beside its line
 VIEWS = {"XY": (0, 1), "XZ": (0, 2), "YZ": (1, 2), "ZX": (2, 0)}
 CLASSES = {Kind.RAPID: "rapid", Kind.LINE: "feed", Kind.ARC: "feed", Kind.PROBE: "probing"}
 STYLE = (
@@ -30,7 +32,12 @@ STYLE = (
 def write_true_size(run: Any, path: Path, view: str = "auto") -> None:
     """Write the toolpath of a run as a drawing in true size."""
     with path.open("w", encoding="utf-8", errors="replace", newline="\n") as file:
-        file.writelines(line + "\n" for line in lines(run.toolpath, view, run.program.title))
+        file.writelines(line + "\n" for line in lines(_as_it_goes(run), view, run.program.title))
+
+
+def _as_it_goes(run: Any) -> Toolpath:
+    """The toolpath of a run with rapids as its control has them, where no axis waits for another."""
+    return bent(run.toolpath, run.rapids, BENT)
 
 
 def lines(path: Toolpath, view: str = "auto", title: str = "tool path") -> Iterator[str]:
@@ -112,7 +119,7 @@ Tag = tuple[int, Any]
 def write_dxf(run: Any, path: Path) -> None:
     """Write the toolpath of a run as a drawing."""
     with path.open("w", encoding="ascii", newline="\n") as file:
-        file.writelines(f"{code:3d}\n{_text(value)}\n" for code, value in tags(run.toolpath))
+        file.writelines(f"{code:3d}\n{_text(value)}\n" for code, value in tags(_as_it_goes(run)))
 
 
 def _text(value: Any) -> str:

@@ -25,7 +25,6 @@ from mnclab.path.profile.ramps import courses
 from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.show import solids
 from mnclab.show.export_mesh import CHORD, FEED, PROBING, RAPID, STOCK, TOOL
-from mnclab.show.rapids import rapids_of
 from mnclab.show.rulers import frame, rounded, turning_rulers
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import fitting, shown
@@ -92,7 +91,7 @@ def scene(
         path, towards = _on_cylinders(path)
         drawn = _add_path(plotter, path, colour, None)
     else:
-        drawn = _add_path(plotter, path[run.rows_from_home :], colour, rapids_of(run))
+        drawn = _add_path(plotter, path[run.rows_from_home :], colour, run.rapids)
     given = run.stock if stock is True else as_blank(stock) if stock is not False else None
     if stock is not True and stock is not False and given is None:
         raise Alarm(f"stock must be True, False, two corners (3,) or a body of workpiece.blank, got {shown(stock)}")

@@ -154,6 +154,17 @@ class Alarm(Exception):
         }  # fmt: skip
 
 
+class Refused(Alarm, ValueError):
+    """What a function of numbers refuses: an Alarm to people, and a ValueError, whose text is the sentence alone, to Python."""
+
+    def __str__(self) -> str:  # type: ignore[override]  # without a width
+        return self.message
+
+
+class Absent(Alarm, IndexError):
+    """What was asked for by its place and is not there: an Alarm to people, and an IndexError to Python."""
+
+
 class Alarms(list[Alarm]):
     """Alarms as they come. A warning that was given before counts with the first; of alarms that differ in names and
     numbers alone the first thousand are kept, and the last of these counts the others.

@@ -11,10 +11,16 @@ from numbers import Real
 from reprlib import Repr
 from typing import Any, TypeVar
 
-from mnclab.text.alarm import Alarm, hint
+import numpy as np
+
+from mnclab.text.alarm import Absent, Alarm, Refused, hint
 
 #: No coordinate, feed, speed or other number is as large, whether it is written or worked out.
 LARGEST = 1e9
+#: Nor is one that is not 0 as small: its square would be none any more.
+SMALLEST = 1e-15
+#: How a call fails whose values are not what the function takes.
+FAULTS = (TypeError, ValueError, ArithmeticError, AttributeError, LookupError)
 _QUOTED = Repr()
 _QUOTED.maxstring = _QUOTED.maxother = 60
 
@@ -128,27 +134,71 @@ def fitting(door: Door) -> Door:
     def called(*given: Any, **options: Any) -> Any:
         try:
             return door(*given, **options)
-        except TypeError:
+        except Alarm:
+            raise
+        except FAULTS:  # an Alarm if the call is at fault; what else it was goes on as it is
             _check(door, given, options)
             raise
 
     return called  # type: ignore[return-value]
 
 
+def refusing(door: Door) -> Door:
+    """The same of a function of numbers alone: what it refuses by a ValueError, or cannot work out, is an Alarm too."""
+    fits = fitting(door)
+
+    @wraps(door)
+    def called(*given: Any, **options: Any) -> Any:
+        try:
+            return fits(*given, **options)
+        except Alarm:
+            raise
+        except FAULTS as error:
+            if (told := _told(error, _name(door))) is None:
+                raise
+            raise told from error
+
+    return called  # type: ignore[return-value]
+
+
+def checked(door: Door) -> Door:
+    """The same of a function that people call and the house does not: what it is given is judged before it works."""
+    fits = refusing(door)
+
+    @wraps(door)
+    def called(*given: Any, **options: Any) -> Any:
+        _judge(door, given, options)
+        return fits(*given, **options)
+
+    return called  # type: ignore[return-value]
+
+
 def fitting_class(made: Made) -> Made:
     """A class that is made, and whose own public methods are called, in this way."""
+    return _with_methods(made, fitting)
+
+
+def refusing_class(made: Made) -> Made:
+    """The same of a class of numbers alone."""
+    return _with_methods(made, refusing)
+
+
+def _with_methods(made: Made, way: Callable[[Any], Any]) -> Made:
     for name, door in list(vars(made).items()):
-        if isfunction(door) and (name == "__init__" or not name.startswith("_")):
-            setattr(made, name, fitting(door))
+        if name in ("__init__", "__getitem__") or not name.startswith("_"):
+            if isfunction(door):
+                setattr(made, name, way(door))
+            elif isinstance(door, classmethod):
+                setattr(made, name, classmethod(way(door.__func__)))
     return made
 
 
 def _check(door: Callable[..., Any], given: tuple[Any, ...], options: dict[str, Any]) -> None:
-    """An Alarm where a call does not fit; nothing where the fault is another."""
+    """An Alarm where a call does not fit, or a value is not what the signature says; nothing where the fault is another."""
     takes = {name: each for name, each in signature(door).parameters.items() if name != "self"}
     free = any(each.kind == Parameter.VAR_KEYWORD for each in takes.values())
     named = [n for n, each in takes.items() if each.kind in (Parameter.POSITIONAL_OR_KEYWORD, Parameter.KEYWORD_ONLY)]
-    what = door.__qualname__.removesuffix(".__init__").rpartition(".")[2]
+    what = _name(door)
     for name in options:
         if name not in named and not free:
             raise Alarm(f"{what} has no option {name!r}", hint=near_option(name, named) if named else "it takes none")
@@ -157,3 +207,23 @@ def _check(door: Callable[..., Any], given: tuple[Any, ...], options: dict[str, 
     except TypeError as error:
         written = ", ".join(name if each.default is Parameter.empty else f"{name}=…" for name, each in takes.items())
         raise Alarm(f"{what}: {error}", hint=f"{what}({written})") from None
+    _judge(door, given, options)
+
+
+def _judge(door: Callable[..., Any], given: tuple[Any, ...], options: dict[str, Any]) -> None:
+    from mnclab.text.signatures import judge  # which quotes values as this file does
+
+    judge(door, given, options)
+
+
+def _told(error: Exception, what: str) -> Alarm | None:
+    """The alarm that a fault of values is; None for one that may be ours."""
+    if type(error) in (ValueError, np.linalg.LinAlgError):
+        return Refused(str(error))
+    if isinstance(error, ArithmeticError):
+        return Refused(f"{what}: {error}")
+    return Absent(f"{what}: {error}") if type(error) in (IndexError, KeyError, LookupError) else None
+
+
+def _name(door: Callable[..., Any]) -> str:
+    return door.__qualname__.removesuffix(".__init__").removesuffix(".__getitem__").rpartition(".")[2]

@@ -8,12 +8,13 @@ import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from importlib import import_module
-from inspect import getdoc
+from inspect import getdoc, isfunction
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 from mnclab.text.alarm import Alarm, hint
+from mnclab.text.given import checked
 
 # Names that are opened when they are first asked for, so that `import mnclab` needs numpy only.
 # What is opened is the real thing: its signature, its docstring, its own file. Where it stands is written as an import
@@ -44,11 +45,15 @@ def opened(module: str, name: str) -> Any:
 class Shelf(ModuleType):
     """A module of names that stand in several files: `mnc.part.box(…)`. Printed, it says what each of them is.
 
-    One with a folder of its own, as a wing has, is a package besides: `__path__` says where its files are.
+    One with a folder of its own, as a wing has, is a package besides: `__path__` says where its files are. One that
+    `judges` gives out functions that look at what they are given first, which the house, whose files import each other, need not.
     """
 
-    def __init__(self, name: str, doc: str, imports: Mapping[str, str], folder: Path | None = None) -> None:
+    def __init__(
+        self, name: str, doc: str, imports: Mapping[str, str], folder: Path | None = None, judges: bool = True
+    ) -> None:  # fmt: skip
         super().__init__(name, doc)
+        self._judges = judges
         if folder is not None:
             self.__path__ = [str(folder)]
         written = ((module, each.split(" as ")) for module, names in imports.items() for each in names.split(", "))
@@ -61,6 +66,10 @@ class Shelf(ModuleType):
             near = "" if name.startswith("_") else hint(name, self._places)
             raise AttributeError(f"{self.__name__} has no {name!r}" + (f" ({near})" if near else ""))
         found = opened(*self._places[name])
+        if self._judges and isfunction(found):
+            found = checked(found)
+        elif self._judges and isinstance(found, ModuleType):
+            found = _shelf_of(found, f"{self.__name__}.{name}")
         setattr(self, name, found)
         return found
 
@@ -73,8 +82,17 @@ class Shelf(ModuleType):
         return "\n".join([f"{self.__name__}: {self.__doc__}", *lines])
 
 
+def _shelf_of(module: ModuleType, name: str) -> Shelf:
+    """A module of functions and classes as a shelf of its own."""
+    own = [each for each, thing in vars(module).items() if getattr(thing, "__module__", module.__name__) == module.__name__]
+    public = [each for each in own if not each.startswith("_") and not isinstance(vars(module)[each], ModuleType)]
+    return Shelf(name, (getdoc(module) or "").partition("\n")[0], {module.__name__: ", ".join(public)})
+
+
 def _said(found: Any) -> str:
-    """The first line about something; of a table its names."""
+    """The first line about something; of a table its names, of a value what it is."""
+    if isinstance(found, str | int | float):
+        return repr(found)
     return ", ".join(map(str, found)) if isinstance(found, Mapping) else (getdoc(found) or "").partition("\n")[0]
 
 

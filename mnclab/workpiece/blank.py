@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, check_point, either, fitting, shown
+from mnclab.text.given import check_number, check_point, either, fitting, refusing_class, shown
 from mnclab.text.tables import written
 
 CORNERS = 96  # of a circle in a picture
@@ -19,6 +19,7 @@ FARTHEST = 1e9  # mm, where a blank may stand
 Array = NDArray[np.float64]
 
 
+@refusing_class
 class Box(NamedTuple):
     """A box between two opposite corners (3,), mm."""
 
@@ -68,6 +69,7 @@ class Sized(Box):
     __slots__ = ()
 
 
+@refusing_class
 class Revolved(NamedTuple):
     """A body turned about an axis parallel to X, Y or Z. `profile`: pairs of radius and place along the axis, mm, from
     one end to the other; `at`: a point on the axis. `bore`: the radius of a hole all along it, for a tube."""

@@ -7,12 +7,14 @@ from html import escape
 from typing import NamedTuple
 
 from mnclab.path.listing import Unit
+from mnclab.path.tool import Tool
 from mnclab.text.alarm import SHOWN, several
 from mnclab.text.tables import html_table, written
 
 KINDS = {
     "rapid": "rapid motion in material",
     "plunge": "straight down into material with a tool that does not cut at its centre",
+    "solid": "a reamer or a tap, which make no hole of their own, where there is none, or too small a one",
     "sideways": "a drill, or what else cuts along its axis alone, fed across it in material",
     "shank": "the shank, or the tool above its edges, in material",
     "holder": "the holder in material",
@@ -36,6 +38,13 @@ def deep(depth: float, axes: str, place: Iterable[float], unit: Unit) -> str:
     """How deep and where something was met, lengths in mm, as people read it: in the unit of the program."""
     places = coordinates(axes, (value / unit.length for value in place))
     return f"{depth / unit.length:.3f} {unit.short} deep at {places}"
+
+
+def solid(tool: Tool, bored: bool, unit: Unit) -> str:
+    """What is said of a tool that opens no hole, where there is none, or (`bored`) too small a one for the core of a tap."""
+    if bored:
+        return f"the tap in a hole narrower than {unit.figure(2 * tool.core)} {unit.short}, the minor diameter of its thread"
+    return f"the {tool.kind} in full material, where it needs a hole"
 
 
 class Collision(NamedTuple):

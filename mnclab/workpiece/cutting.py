@@ -37,7 +37,8 @@ class Cutting:
     `known` on the start of every row: before, the tool comes from home, and only where it arrives counts. `tilted` rows
     are made with a tool that does not stand along Z. `fixtures` hold the blank. `name` says in which program a line
     stands ("FILE:LINE"). `origin` (3,) is where the zero of the path stands on the machine. `reach` is "up to line 12, where
-    the run stopped" if the path ends before its program, else empty.
+    the run stopped" if the path ends before its program, else empty. `across` is what X is in the program of a lathe, a
+    "radius" or a "diameter".
     """
 
     path: Toolpath
@@ -51,6 +52,7 @@ class Cutting:
     name: Any = field(default=_lines)
     origin: Sequence[float] = (0.0, 0.0, 0.0)
     reach: str = ""
+    across: str = "radius"
 
     def __len__(self) -> int:
         return len(self.path)

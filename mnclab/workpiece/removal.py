@@ -11,7 +11,7 @@ from mnclab.path.listing import MM, Unit
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Array, Index, Kind
-from mnclab.text.given import choice
+from mnclab.text.given import choice, fitting_class
 from mnclab.text.tables import Rounded, html_table, written
 from mnclab.workpiece.ahead import FEW, RATE, Looks
 from mnclab.workpiece.workpiece import Workpiece
@@ -38,6 +38,7 @@ class Fastest(NamedTuple):
         return written(self)
 
 
+@fitting_class
 class Removal:
     """What a workpiece lost while a profile went on; both belong to the same path of n rows.
 

@@ -27,9 +27,58 @@ def test_a_call_that_fits_is_that_of_the_function() -> None:
 
 
 def test_a_fault_inside_stays_what_it_is() -> None:
-    wrong: Any = None
+    @fitting
+    def faulty(length: float) -> Any:
+        return None + length  # type: ignore[operator]
+
     with pytest.raises(TypeError, match="unsupported operand"):
+        faulty(2.0)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        (None, "must be a number, got None"), ("abc", "must be a number, got 'abc'"), ([], "must be a number, got []"),
+        (True, None), (3, None), (10**400, "must be a finite number of at most 1e+09, got 1000000000"),
+    ],
+)  # fmt: skip
+def test_a_value_of_another_kind_than_its_annotation(wrong: Any, said: str | None) -> None:
+    """The call fails in Python's own way first: what Python can work with stays as it was."""
+    if said is None:
+        assert weigh(wrong) == 7.85 * wrong
+        return
+    with pytest.raises(mnc.Alarm) as caught:
         weigh(wrong)
+    assert caught.value.message.startswith(f"weigh: length {said}")
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda: mnc.area.Contour("abc"), "Contour: points must be numbers, got 'abc'"),
+        (lambda: mnc.area.rectangle(1e-320, 5), "rectangle: length must be 0, or a number of at least 1e-15, got 1e-320"),
+        (lambda: mnc.area.terraces(mnc.area.Part(mnc.area.Region(()), 5), None), "terraces: whole must be a number, got None"),
+        (lambda: mnc.strategies.zigzag(1.5, 1.5, 1.5), "zigzag: region must be of the kind Region, got 1.5"),
+        (lambda: mnc.Probe(deflection=None), "Probe: deflection must be a sequence, got None"),
+        (lambda: mnc.probing.spatial_angles(0), "the axes of a system must be an array (3, 3), got one ()"),
+        (lambda: mnc.probing.reduced(0, 0), "a turn must be greater than 0 degrees, got 0"),
+        (lambda: RUN.toolpath["abc"], "a row of a toolpath is named by a whole number, some by a slice, numbers or a mask"),
+        (lambda: RUN.toolpath[None], "a row of a toolpath is named by a whole number, some by a slice, numbers or a mask"),
+    ],
+)
+def test_values_that_are_none_of_a_function(call: Any, said: str) -> None:
+    with pytest.raises(mnc.Alarm) as caught:
+        call()
+    assert caught.value.message.startswith(said)
+
+
+def test_a_refusal_is_what_python_calls_it_too() -> None:
+    """For `except ValueError` and `except IndexError` of those who work with contours and paths as with numbers."""
+    with pytest.raises(ValueError, match="^a contour needs at least two points, got 1$") as refused:
+        mnc.area.Contour([(0, 0)])
+    with pytest.raises(IndexError, match="there is no row 999") as absent:
+        RUN.toolpath[999]
+    assert isinstance(refused.value, mnc.Alarm) and isinstance(absent.value, mnc.Alarm)
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 measuring cycles as they were worked out by hand."""
 
 import importlib
+import inspect
 import math
 
 import numpy as np
@@ -339,7 +340,7 @@ def test_results_show_three_decimals_and_units():
 
 def test_the_shelf_holds_what_the_package_gives():
     package = importlib.import_module("mnclab.machining.probing")
-    assert all(getattr(probing, name) is getattr(package, name) for name in probing.__all__)
+    assert all(inspect.unwrap(getattr(probing, name)) is getattr(package, name) for name in probing.__all__)
 
 
 def test_points_in_space_are_seen_from_above():

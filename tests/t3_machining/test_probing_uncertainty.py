@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from mnclab import Alarm, probing
+from mnclab.machining.probing.fits import CIRCLES
 
 NOISE = 0.002
 QUADRANTS = np.array([[20, 0], [-20, 0], [0, 20], [0, -20.0]])
@@ -16,7 +17,7 @@ def close(value):
     return pytest.approx(value, rel=0.09)
 
 
-@pytest.mark.parametrize("by", probing.circle.__globals__["CIRCLES"])
+@pytest.mark.parametrize("by", CIRCLES)
 def test_a_circle_of_four_touches(by):
     """The middle of two touches has noise / √2, the mean of four radii noise / 2: so the diameter has the noise of one."""
     found = probing.uncertainty(lambda p: probing.circle(p, by=by), QUADRANTS, NOISE)

@@ -227,3 +227,53 @@ def test_travel_is_judged_on_the_radius():
     for depth in range(1, 17):
         found = mnclab.run(f"M3 S500 T1\nG00 X18 Z2\nG00 X{30 + depth}\n", "jnc-t01", setup).collisions()
         assert [(each.kind, each.line) for each in found] == [("travel", 3)] and found[0].depth == pytest.approx(depth)
+
+
+# --- what needs a hole, and what must not touch ----------------------------------------------------------------------
+
+HOLE = "M3 S500 G97 G94 F100 T1\nG00 X0 Z20\n{drill}G00 X0 Z20\nT2\nG00 X0 Z2\nG01 Z-12\nZ2\nG00 Z20\n"
+
+
+@pytest.mark.parametrize(("tool", "drilled", "depth", "said"), [
+    (Tool(diameter=10, kind="reamer"), 9.8, None, ""),
+    (Tool(diameter=10, kind="reamer"), 0, 12, "the reamer in full material, where it needs a hole"),
+    (Tool(diameter=10, kind="tap", pitch=1.5), 8.5, None, ""),
+    (Tool(diameter=10, kind="tap", pitch=1.5), 8.2, 0.0881, "narrower than 8.3762 mm"),  # (8.3762 - 8.2) / 2 into the wall
+    (Tool(diameter=10, kind="tap", pitch=1.5), 0, 12, "the tap in full material, where it needs a hole"),
+])  # fmt: skip
+def test_a_reamer_and_a_tap_need_a_hole_on_the_axis(tool, drilled, depth, said):
+    """ISO 724: the minor diameter of M10 is 10 - 1.082532 * 1.5 = 8.3762 mm."""
+    drill = "G00 Z2\nG01 Z-20\n" if drilled else ""
+    setup = Setup(stock=BAR, start=(60, 0, 40), tools={1: Tool(diameter=drilled or 1, kind="drill"), 2: tool})
+    found = mnclab.run(HOLE.format(drill=drill), "jnc-t01", setup).collisions()
+    assert [(each.kind, each.line) for each in found] == [("solid", 6 + 2 * bool(drill))] * (depth is not None)
+    assert all(said in each.message and each.depth == pytest.approx(depth, abs=1e-3) for each in found)
+
+
+@pytest.mark.parametrize(("way", "depth"), [
+    ("G01 X30 Z-20|X23.005", None),
+    ("G01 X30 Z-20|X19", 4.0),  # the ball of 3 mm reaches down to X16
+    ("G00 X30 Z-20|X19", 4.0),
+    ("G00 X0 Z5|Z-1", 1.0),  # its south pole is the tip
+])  # fmt: skip
+def test_a_probe_driven_into_the_part(way, depth):
+    """A bar of radius 20: the deepest place of the ball; it takes nothing away, and its way back is no second collision."""
+    found = met(f"{way}|{way[4:].partition('|')[0]}|X40 Z20", Tool(radius=3, kind="probe"))
+    if depth is None:
+        assert not len(found)
+    else:
+        only(found, "probe", 4, depth)
+        assert "the probe in material" in found[0].message
+
+
+@pytest.mark.parametrize(("control", "settings", "text", "said"), [
+    ("jnc-t01", {}, "M3 S500 T1\nG00 X40 Z20\nX18 Z2\nZ-30\n", ("X18.000", "(X is a radius)")),
+    ("jnc-t01", {"diameter": True}, "M3 S500 T1\nG00 X80 Z20\nX36 Z2\nZ-30\n", ("X36.000", "(X is a diameter)")),
+    ("nc-31", {}, "S500\nM3\nX8000~*\nZ2000~\nX3600~*\nZ200~\nZ-3000~\n", ("X36.000", "(X is a diameter)")),
+])  # fmt: skip
+def test_x_is_said_as_it_is_typed(control, settings, text, said):
+    """A rapid 2 mm under the surface of a bar of 40 mm: a radius of 18, a diameter of 36."""
+    setup = Setup(stock=BAR, start=(60, 0, 40), tools={0: Tool(kind="turning"), 1: Tool(kind="turning")}, settings=settings)
+    (each,) = mnclab.run(text, control, setup).collisions()
+    assert all(each_said in each.message for each_said in ("2.000 mm deep at", *said))
+    assert each.place[0] == pytest.approx(18)

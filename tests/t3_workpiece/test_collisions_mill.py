@@ -384,3 +384,49 @@ def test_the_table_of_an_inch_program_tells_inches_alone():
     found = mnclab.run("G20 G54\nT1 M6\nS900 M3\nG0 X1 Y1 Z1\nG0 Z-.25\n", "g43", setup).collisions()
     shown = found._repr_html_()
     assert "0.250 in deep at X1.000 Y1.000 Z-0.250" in shown and "mm" not in shown
+
+
+HOLE = "N30 G54 G17 G90 T1 S500 M3\nG0 X30 Y20 Z2\n{drill}G0 Z20\nT2 S200 M3\nG0 X30 Y20 Z2\n{into}\nG1 Z2\nG0 Z20\n"
+NARROW = "narrower than 8.3762 mm, the minor diameter of its thread"
+FULL = "in full material, where it needs a hole"
+
+
+@pytest.mark.parametrize(("tool", "drilled", "met", "said"), [
+    ("reamer", 9.8, None, ""),
+    ("reamer", 0, 12, FULL),
+    ("tap", 8.5, None, ""),  # the drill of a thread M10
+    ("tap", 8.38, None, ""),
+    ("tap", 8.2, 12 - 3 * 1.5, NARROW),  # its chamfer of three turns goes before
+    ("tap", 0, 12, FULL),
+    ("end-cutting", 0, None, ""),  # a reamer that cuts at its centre, by its table
+    ("countersink", 0, None, ""),
+])  # fmt: skip
+def test_a_reamer_and_a_tap_need_a_hole(tool, drilled, met, said):
+    """ISO 724: the minor diameter of M10 is 10 - 1.082532 * 1.5 = 8.3762 mm."""
+    tools = {
+        "reamer": Tool(diameter=10, kind="reamer"),
+        "end-cutting": Tool(diameter=10, kind="reamer", centre_cutting=True),
+        "tap": Tool(diameter=10, kind="tap", pitch=1.5),
+        "countersink": Tool(diameter=10, kind="countersink"),
+    }
+    drill = "G1 Z-18 F100\n" if drilled else ""
+    text = HOLE.format(drill=drill, into="G1 Z-12 F100")
+    setup = mnclab.Setup(tools={1: Tool(diameter=drilled or 1, kind="drill"), 2: tools[tool]}, stock=((0, 0, -20), (60, 40, 0)))
+    run = mnclab.run(text, "mnc", setup)
+    found = run.collisions()
+    assert run.ok and [(each.kind, each.line) for each in found] == [("solid", 6 + bool(drill))] * (met is not None)
+    assert all(said in each.message and each.depth == pytest.approx(met, abs=1e-6) for each in found)
+
+
+def test_a_tap_that_goes_deeper_than_its_hole():
+    """8 mm drilled with a point of 118 degrees, 8.5 / 2 / tan 59 high: at Z-12 the tap is 4 mm in full material."""
+    tools = {1: Tool(diameter=8.5, kind="drill", angle=118), 2: Tool(diameter=10, kind="tap", pitch=1.5)}
+    text = HOLE.format(drill="G1 Z-8 F100\n", into="G1 Z-12 F100")
+    (each,) = mnclab.run(text, "mnc", mnclab.Setup(tools=tools, stock=((0, 0, -20), (60, 40, 0)))).collisions()
+    assert each.kind == "solid" and FULL in each.message and each.depth == pytest.approx(4, abs=1e-6)
+
+
+def test_a_tap_without_a_pitch_is_judged_by_its_axis_alone():
+    tools = {1: Tool(diameter=3, kind="drill"), 2: Tool(diameter=10, kind="tap")}
+    text = HOLE.format(drill="G1 Z-18 F100\n", into="G1 Z-12 F100")
+    assert not len(mnclab.run(text, "mnc", mnclab.Setup(tools=tools, stock=((0, 0, -20), (60, 40, 0)))).collisions())

@@ -167,3 +167,39 @@ def test_a_tap_of_another_pitch(control, text, fed):
     own = "0.05 in" if "in" in fed else "1.27 mm"
     said = [f"the tap of tool 1 has a pitch of {own} and is fed {fed} a turn"] if fed else []
     assert [alarm.message for alarm in found] == said
+
+
+APART = "they do not meet in one groove"
+PASS = "G00 X{x} Z5|G32 Z-20 F2|G00 X15"
+
+
+@pytest.mark.parametrize(
+    ("between", "told"),
+    [
+        ("S500", None), ("S800", "800 rev/min, the one before it at 500 rev/min"), ("G94 F100", None),
+        ("M4", "500 rev/min counter-clockwise, the one before it at 500 rev/min"),
+        ("S800|T2", None),  # another tool cuts another thread
+    ],
+)  # fmt: skip
+def test_passes_of_one_thread_have_one_speed(between, told):
+    """The angle of the spindle at which a pass begins is that of the one before only where the lag of the axis is the same."""
+    text = f"M3|G97 S500 T1|{PASS.format(x=9.5)}|{between}|{PASS.format(x=9)}|M5"
+    found = warned(text, "jnc-t01", APART)
+    assert [alarm.span.line for alarm in found] == [8 + between.count("|")] * (told is not None)
+    assert all(told in alarm.message and alarm.severity == "warning" for alarm in found)
+
+
+@pytest.mark.parametrize(
+    ("again", "told"),
+    [("G00 X9 Z-25|G32 Z-40 F2", 0), ("G00 X9 Z5|G32 Z-20 F3", 0), ("G00 X9 Z6|G32 Z-20 F2", 1), ("G00 X9 Z5|G01 Z-20", 0)],
+)
+def test_another_thread_may_have_another_speed(again, told):
+    """Behind the first one, or with another lead, or cut by no thread at all; a second start of the same one may not."""
+    assert len(warned(f"M3|G97 S500 T1|G94 F100|{PASS.format(x=9)}|S800|{again}|G00 X15|M5", "jnc-t01", APART)) == told
+
+
+def test_a_constant_cutting_speed_turns_each_pass_faster():
+    """G96 S60: at X10 1000 * 60 / (2 pi 10) = 954.9 rev/min, at X9.5 1005.2."""
+    text = f"M3|G97 S500 T1|G96 S60|{PASS.format(x=10)}|{PASS.format(x=9.5)}|M5"
+    (alarm,) = warned(text, "jnc-t01", APART)
+    assert "1005.2 rev/min" in alarm.message and "954.9 rev/min" in alarm.message

@@ -272,6 +272,34 @@ def test_the_table_and_the_picture_have_the_same_holes():
     assert sorted(named) == [(10, 10, 10), (60, 10, 8)]
 
 
+@pytest.mark.parametrize(("place", "bottom", "cuts"), [
+    ((30, 20), -5, True), ((30, 20), 0, False), ((30, 20), 2, False),
+    ((-5, 20), -5, False), ((-4, 20), -5, False), ((-3.9, 20), -5, True),  # a mill of 8 mm beside X0
+])  # fmt: skip
+def test_what_goes_down_above_or_beside_the_blank_is_no_hole(place, bottom, cuts):
+    text = f"G90 G54 T1 S1000 M3\nG0 X{place[0]} Y{place[1]} Z5\nG1 Z{bottom} F100\nG0 Z5\n"
+    setup = mnc.Setup(tools={1: mnc.Tool(diameter=8, kind="mill")})
+    blank = mnc.Setup(tools=setup.tools, stock=((0, 0, -20), (60, 40, 0)))
+    assert len(mnc.run(text, "mnc", setup).holes()) == 1
+    assert len(mnc.run(text, "mnc", blank).holes()) == cuts
+
+
+def test_a_point_cuts_where_its_cone_comes_below_the_top():
+    """3 mm beside the blank a point of 90 degrees is 3 mm higher than its tip: down to -2.5 it cuts nothing, to -3.5 it does."""
+    for bottom, cuts in ((-2.5, 0), (-3.5, 1)):
+        text = f"G90 G54 T1 S1000 M3\nG0 X-3 Y20 Z5\nG1 Z{bottom} F100\nG0 Z5\n"
+        setup = mnc.Setup(tools={1: mnc.Tool(diameter=8, kind="drill", angle=90)}, stock=((0, 0, -20), (60, 40, 0)))
+        assert len(mnc.run(text, "mnc", setup).holes()) == cuts
+
+
+def test_a_drill_in_the_bore_of_a_tube_makes_no_hole():
+    text = "G94 S500 M3 T1\nG0 X0 Z2\nG1 Z-20 F100\nG0 Z2\n"
+    tube = mnc.blank.Revolved(((20, -60), (20, 0)), bore=6)
+    for diameter, cuts in ((10, 0), (14, 1)):
+        setup = mnc.Setup(tools={1: mnc.Tool(diameter=diameter, kind="drill")}, stock=tube, start=(60, 0, 40))
+        assert len(mnc.run(text, "jnc-t01", setup).holes()) == cuts
+
+
 def test_a_bore_of_a_cycle_is_a_hole_of_both():
     """Cycle 208 with a mill of 10 mm bores 16 mm wide: Q335 is the diameter, Q201 the depth."""
     text = (
@@ -346,3 +374,13 @@ def test_a_plunge_is_one_hole_for_the_table_the_picture_and_the_design(kind, tai
     if kind == "mill":
         made = [each for each in run.design().features if each.kind == "hole"]
         assert [(each.x, each.y, each.diameter, -each.depth) for each in made] == wanted
+
+
+def test_a_radius_that_a_cycle_refuses_is_no_stop_of_the_run():
+    """The slot of the contour is 12 mm wide: radius 6. The pocket of 30 by 20 mm behind it takes no mill of radius 16, 32 …"""
+    contour = "G41 X0 Y0\nY40\nX8\nY20\nX20\nY40\nX40\nY0\nX-10\nG40 X-20 Y-20\nG0 Z50\n"
+    pocket = "X60 Y60\nG343 Q2 A30 B20 H-5 P2.5 Z0 K1 F200 V100\n"
+    run = mnc.run(f"G54 G17 G90 T1 S1000 M3\nG0 X-20 Y-20 Z5\nG1 Z-2 F200\n{contour}{pocket}", "mnc")
+    assert run.ok
+    found = run.largest_radius()
+    assert float(found) == 6 and "where the run stopped" not in str(found)

@@ -12,7 +12,7 @@ from mnclab.design.model.removals import Flat, Removal
 from mnclab.design.model.shapes import LARGEST, Shape, check_place, shape_of
 from mnclab.geometry.regions import Region
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, faults_as_alarms, plain, shown
+from mnclab.text.given import check_number, faults_as_alarms, fitting_class, plain, shown
 from mnclab.text.tables import exactly
 
 SMALLEST = 1e-6  # mm, of a size
@@ -40,6 +40,9 @@ class Named(ABC):
 
     name: str = ""
     tolerances: Mapping[str, Tolerance] = field(default_factory=dict, hash=False)
+
+    def __init_subclass__(cls) -> None:
+        fitting_class(cls)
 
     def __post_init__(self) -> None:
         if not isinstance(self.name, str):

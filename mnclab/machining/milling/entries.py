@@ -25,7 +25,7 @@ from mnclab.machining.depths import MOST, TooMany
 from mnclab.machining.milling.clearing import Clearing, Piece, begin
 from mnclab.machining.steps import RAPID, Along, Go, Step, Turn, traced
 from mnclab.path.toolpath import Toolpath
-from mnclab.text.given import check_number
+from mnclab.text.given import check_number, refusing_class
 
 DRIFT = 1e-9
 CHORDS = 16  # of a quarter circle in a vertical plane: a hundredth of a millimetre off at a radius of 8 mm
@@ -44,6 +44,7 @@ class Descent(NamedTuple):
         return len(self.heights) < 3 or bool(self.heights[-2] == self.heights[-1])
 
 
+@refusing_class
 @dataclass(frozen=True)
 class Entry:
     """How to go down: `kind` is "vertical", "helix" or "ramp"; `angle` the steepest plunge in degrees.

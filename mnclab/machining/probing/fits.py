@@ -78,6 +78,8 @@ def reduced(angle: float, turn: float = 180.0) -> float:
 
     A line without a direction is the same after 180 degrees. TNC 620: 400, 401, 403, 414, 415. MNC: G420.
     """
+    if not number(turn, "a turn") > 0:
+        raise Alarm(f"a turn must be greater than 0 degrees, got {turn:g}")
     rest = math.remainder(number(angle, "an angle"), turn)
     return turn / 2 if rest <= -turn / 2 else rest
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from mnclab.geometry.frames import Matrix, angles_of
 from mnclab.text.alarm import Alarm
+from mnclab.text.given import refusing_class
 
 # What a caller gives, checked: numbers in arrays, or an alarm that says what is wrong.
 
@@ -73,6 +74,7 @@ SQUARE = 1e-9  # rad: nearer to a right angle a direction does not say to which 
 Numbers = tuple[float, ...]
 
 
+@refusing_class
 class Found:
     """What all results share: the names of the numbers that they show."""
 
@@ -93,6 +95,7 @@ class Found:
         return f"{type(self).__name__}({', '.join(said)})"
 
 
+@refusing_class
 class Round(Found):
     """A circle or a ball."""
 
@@ -108,6 +111,7 @@ class Round(Found):
         return replace(self, radius=self.radius + by)  # type: ignore[type-var]
 
 
+@refusing_class
 class Flat(Found):
     """A line or a plane."""
 
@@ -133,6 +137,7 @@ class Flat(Found):
         return replace(self, **dict(zip("xyz", moved, strict=False)))  # type: ignore[type-var]
 
 
+@refusing_class
 @dataclass(frozen=True, repr=False)
 class Point(Found):
     """A point of the plane."""
@@ -142,6 +147,7 @@ class Point(Found):
     SHOWN = "x", "y"
 
 
+@refusing_class
 @dataclass(frozen=True, repr=False)
 class Line(Flat):
     """A line through the mean of its points, in their order, and its angle to X.
@@ -168,10 +174,14 @@ class Line(Flat):
 
     def foot(self, point: Vector) -> tuple[float, float]:
         """Its place that is nearest to a point."""
-        off, (nx, ny) = float(self.distance(point[:2])), self.normal
-        return float(point[0] - off * nx), float(point[1] - off * ny)
+        at = numbers(point, "a point")
+        if at.shape not in ((2,), (3,)):
+            raise Alarm(f"a point must be two numbers (x, y), got {point!r}")
+        off, (nx, ny) = float(self.distance(at[:2])), self.normal
+        return float(at[0] - off * nx), float(at[1] - off * ny)
 
 
+@refusing_class
 @dataclass(frozen=True, repr=False)
 class Circle(Round):
     """A circle; `roundness` is the difference between the farthest and the nearest point from its centre."""
@@ -183,6 +193,7 @@ class Circle(Round):
     SHOWN = "x", "y", "diameter", "roundness"
 
 
+@refusing_class
 @dataclass(frozen=True, repr=False)
 class Sphere(Round):
     """A ball; `roundness` is the difference between the farthest and the nearest point from its centre."""
@@ -195,6 +206,7 @@ class Sphere(Round):
     SHOWN = "x", "y", "z", "diameter", "roundness"
 
 
+@refusing_class
 @dataclass(frozen=True, repr=False)
 class Width(Found):
     """The width of a slot or a ridge, and the middle between its two touches."""
@@ -209,6 +221,7 @@ class Width(Found):
         return replace(self, width=self.width + 2 * by)
 
 
+@refusing_class
 @dataclass(frozen=True, repr=False)
 class Rectangle(Found):
     """A rectangle: its middle, its length along the direction of `angle`, its width across."""
@@ -225,6 +238,7 @@ class Rectangle(Found):
         return replace(self, length=self.length + 2 * by, width=self.width + 2 * by)
 
 
+@refusing_class
 @dataclass(frozen=True, repr=False)
 class Plane(Flat):
     """A plane through the mean of its points, and its unit normal that points to +Z.
@@ -282,5 +296,8 @@ def spatial_angles(axes: Matrix) -> tuple[float, float, float]:
 
     They are turns about the fixed axes X, then Y, then Z, as cycle 19 takes them (TNC 620 § 11.9, 16.13).
     """
-    a, b, c = (math.degrees(angle) for angle in angles_of(axes))
+    given = numbers(axes, "the axes of a system")
+    if given.shape != (3, 3):
+        raise Alarm(f"the axes of a system must be an array (3, 3), got one {given.shape}")
+    a, b, c = (math.degrees(angle) for angle in angles_of(given))
     return a, b, c

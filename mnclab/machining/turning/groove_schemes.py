@@ -23,6 +23,7 @@ from mnclab.machining.turning.profiles import SAME
 from mnclab.machining.turning.schemes import loop, semi_finish
 from mnclab.machining.turning.strokes import FINISH, PLUNGE, Pen, Plan
 from mnclab.path.tool import Tool
+from mnclab.text.given import refusing_class
 
 OUT = 1.0  # mm outside the blank
 OVERLAP = 1.0  # mm that two neighbouring plunges have in common at least
@@ -33,6 +34,7 @@ CONTOUR_TOOL = Tool(main_angle=95.0, auxiliary_angle=30.0, kind="turning")
 SHOULDER_TOOL = Tool(main_angle=90.0, auxiliary_angle=30.0, kind="turning")
 
 
+@refusing_class
 @dataclass(frozen=True)
 class Groove:
     """`right` and `width` at the bottom, radii of the `bottom` and of the `rim`, mm; slopes of the walls from radial, degrees."""

@@ -204,6 +204,17 @@ def courses(path: Toolpath, limits: Limits, fine: float, least: float = 0.0) -> 
     return np.concatenate(which), np.concatenate(places)
 
 
+def bent(path: Toolpath, limits: Limits, fine: float) -> Toolpath:
+    """The same path, whose rapids are cut into straight rows along their true course where that is `fine` mm beside the line."""
+    which, places = courses(path, limits, fine)
+    row = np.sort(np.concatenate([np.arange(len(path)), which]), kind="stable")
+    goes_on = np.append(row[1:] == row[:-1], False) if len(row) else np.zeros(0, dtype=bool)
+    start, end = path.start[row].copy(), path.end[row].copy()
+    end[goes_on] = places
+    start[1:][goes_on[:-1]] = places
+    return path[row].replace(start=start, end=end)
+
+
 def _course(path: Toolpath, rows: Index, limits: Limits, fine: float) -> tuple[Index, Array]:
     rapids = Rapids(path, rows, limits, str(limits.rapid_motion))
     breaks = rapids.breaks()

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from mnclab.runs.lint import forgotten, rapid_in_blank, thread_beyond_axis
+from mnclab.runs.lint import beyond_machine, forgotten, rapid_in_blank, thread_beyond_axis
 from mnclab.text.alarm import Alarm
 
 if TYPE_CHECKING:
@@ -32,6 +32,6 @@ def remarks(run: Run, m: Machine) -> Iterator[Alarm]:
     yield from forgotten.still_spindle(m, run.toolpath)
     for remarks_of in (
         rapid_in_blank.remarks, forgotten.above_blank, forgotten.left_on, forgotten.unused, thread_beyond_axis.remarks,
-        forgotten.feed_of_another_unit,
+        forgotten.feed_of_another_unit, beyond_machine.remarks,
     ):  # fmt: skip
         yield from remarks_of(run)

@@ -12,9 +12,9 @@ if TYPE_CHECKING:
 
 
 def has(run: Run, step: int, *words: str) -> Span | None:
-    """The first of some words ("G41") in the block of a step; None, where it has none of them."""
+    """The first of some words ("G41"), or of an address ("F"), in the block of a step; None, where it has none of them."""
     which, block = int(run.steps.program[step]), int(run.steps.block[step])
-    found = (word.span for word in run.programs[which][block].words if str(word) in words)
+    found = (word.span for word in run.programs[which][block].words if str(word) in words or word.address in words)
     return next((span._replace(program=which) for span in found), None)
 
 

@@ -1,21 +1,28 @@
-"""A thread that the axes cannot follow: the spindle turns so fast that an axis would have to go faster than it can.
+"""A thread that the axes cannot follow: the spindle turns so fast that an axis would have to go faster than it can. And one
+whose passes are cut at different speeds.
 
 A locked move goes pitch times speed along its way, v = P n. Every control takes its threads and taps from the same rows, and
 each axis k has its own share of v: |d_k| v against `Limits.rapid`. On a lathe the axis begins from rest, so that the first
 v² / 2a of a thread have another pitch, and as much at its end: they belong into the air. A tap follows a spindle that speeds up
 and slows down with it, so of that nothing is said. Nor can it jump to another lead where one thread goes on from another:
 controls take that without a word. What a cycle makes of one thread, its run-out, is no other thread.
+
+Passes of one thread meet when each begins at the same angle of the spindle. But the axis lags behind the spindle by a time of
+the drive, so by an angle that grows with the speed, and so does the way in which it gets up to its own: at another speed, or
+another sense of turning, a pass does not run in the groove of the one before.
 """
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mnclab.path.feeds import spindle_speed
 from mnclab.path.listing import figure
-from mnclab.path.toolpath import Array, Index, Kind, Toolpath
+from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 from mnclab.runs.lint.once import once
 from mnclab.text.alarm import Alarm
 from mnclab.workpiece.turning.turned import Turned
@@ -27,6 +34,7 @@ MORE = 1 + 1e-9
 SMALL = 1e-9  # mm
 SAME = 1e-6  # of a lead
 ON_AXIS = 1e-6  # mm: a tool that threads there is a tap
+PASSES = 100  # of a thread that are looked back to
 FLOATING = "cut the thread"  # the label of a tap, in a holder that floats too: there the axis runs at the feed
 PLACES = 400  # of a thread that are looked at for where its material begins
 
@@ -58,6 +66,7 @@ def remarks(run: Run) -> Iterator[Alarm]:
     if path.lathe:
         yield from _jumps(run)
         yield from _without_run_in(run, rows[~fast], speed[~fast], share[~fast])
+        yield from _passes_apart(run, rows)
 
 
 def _jumps(run: Run) -> Iterator[Alarm]:
@@ -87,12 +96,10 @@ def _speed(path: Toolpath, rows: Index, spindle: float) -> Array:
 
 def _without_run_in(run: Run, rows: Index, speed: Array, share: Array) -> Iterator[Alarm]:
     """Threads of a lathe that cut before the axis has their speed."""
-    path, tools = run.toolpath, run.tools_that_cut
+    path = run.toolpath
     acceleration = (run.setup.limits.axes("acceleration") / np.maximum(share, SMALL)).min(axis=1)
     needs = speed**2 / (2 * acceleration)
-    taps = [number for number, tool in tools[0].items() if tool.kind == "tap"]
-    on_axis = (np.abs(path.start[rows, 0]) < ON_AXIS) & (np.abs(path.end[rows, 0]) < ON_AXIS)
-    tapped = on_axis | np.isin(tools[1][rows], taps)
+    tapped = _tapped(run, rows)
     begins = np.flatnonzero(~np.isin(rows - 1, rows))  # rows of one thread follow each other
     late: list[tuple[int, float, float]] = []
     seen = set[int]()
@@ -113,6 +120,45 @@ def _without_run_in(run: Run, rows: Index, speed: Array, share: Array) -> Iterat
             f"and there {'are' if air else 'is'} {figure(air / unit, 2) if air else 'none'}{f' {short}' if air else ''}"
         )
         yield once(run, [each for each, *_ in late], message, "begin farther from the material, or turn slower")
+
+
+def _tapped(run: Run, rows: Index) -> Mask:
+    """Which rows (k,) of a lathe are cut by a tap: along the axis of the bar, or by a tool of this kind."""
+    path, (tools, numbers) = run.toolpath, run.tools_that_cut
+    on_axis = (np.abs(path.start[rows, 0]) < ON_AXIS) & (np.abs(path.end[rows, 0]) < ON_AXIS)
+    return np.asarray(on_axis | np.isin(numbers[rows], [number for number, tool in tools.items() if tool.kind == "tap"]))
+
+
+def _passes_apart(run: Run, rows: Index) -> Iterator[Alarm]:
+    """Passes of one thread, of one tool, one lead and one stretch of the bar, whose spindle turns at another speed."""
+    path, numbers = run.toolpath, run.tools_that_cut[1]
+    rows = rows[~_tapped(run, rows) & np.isfinite(path.per_rev[rows])]
+    turning = path.spindle[rows]
+    surface = np.isfinite(path.surface[rows])
+    if surface.any():  # at a constant cutting speed it turns as where the pass begins
+        speeds = spindle_speed(path.surface[rows], path.start[rows, 0] - path.spindle_x[rows], path.speed_limit[rows])
+        turning = np.where(surface, np.copysign(speeds, turning), turning)
+    turning = turning.clip(-run.setup.limits.spindle, run.setup.limits.spindle)
+    along = np.abs(np.diff(np.stack([path.start[rows], path.end[rows]]), axis=0)[0]).argmax(axis=1)
+    lead = path.per_rev[rows] * np.abs(path.end[rows] - path.start[rows]).max(axis=1) / path.lengths[rows]
+    cut: dict[tuple[int, int, int], deque[tuple[float, float, float]]] = {}  # where passes went, and how fast the spindle was
+    apart: list[tuple[int, float, float]] = []
+    for k, row in enumerate(rows.tolist()):
+        axis = int(along[k])
+        low, high = sorted((float(path.start[row, axis]), float(path.end[row, axis])))
+        before = cut.setdefault((int(numbers[row]), axis, round(float(lead[k]) / (SAME * 10))), deque(maxlen=PASSES))
+        speed = float(turning[k])
+        other = next((was for begin, end, was in before if begin < high - SMALL and low < end - SMALL), speed)
+        if abs(other - speed) > SAME * abs(other):
+            apart.append((int(path.step[row]), other, speed))
+        elif (low, high, speed) not in before:
+            before.append((low, high, speed))
+    if apart:
+        _, was, speed = apart[0]
+        sense = ("", " counter-clockwise")
+        before_said, said = (f"{figure(abs(each), 1)} rev/min{sense[each < 0]}" for each in (was, speed))
+        message = f"a pass of the thread is cut at {said}, the one before it at {before_said}: they do not meet in one groove"
+        yield once(run, [step for step, *_ in apart], message, "one speed (G97) for all passes of a thread")
 
 
 def _air(run: Run, row: int, enough: float) -> float:

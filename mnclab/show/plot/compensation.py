@@ -47,6 +47,7 @@ from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, choice, shown
 
 #: The kinds of places that do not fit, in few words.
+NO_ROOM = "no room for the tool"
 GOUGES = {
     "arc": "inside arc too small",
     "element": "used up by its corners",
@@ -261,6 +262,7 @@ def _handles(panels: Sequence[Panel]) -> list[Any]:
     found: list[Any] = [Line2D([], [], **look, marker=marker, markersize=3.5) for look, marker in looks]
     if any(panel.run.gouges for panel in panels):
         found.append(Patch(facecolor="none", edgecolor=colours.GOUGE, hatch="/////", linewidth=0.6, label="gouge"))
+        found.append(Line2D([], [], **{**colours.ALARM.style(), "markersize": 6, "label": NO_ROOM}))
     return found
 
 

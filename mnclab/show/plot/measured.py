@@ -11,7 +11,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch
 
-from mnclab.path.listing import MM, Unit
+from mnclab.path.listing import Unit
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.measured_panels import Panel, panels
@@ -165,7 +165,7 @@ def _texts(panel: Panel, unit: Unit) -> list[tuple[str, ...]]:
     if not panel.rows:
         return []
     rows = [[row.texts(unit)[k] for k in COLUMNS] for row in panel.rows]
-    head = HEAD if unit is MM else (f"in {unit.name}", *HEAD[1:])
+    head = f"in {unit.name}", *HEAD[1:]
     return [head, *((what, *(text.replace("-", "\N{MINUS SIGN}") for text in numbers)) for what, *numbers in rows)]
 
 

@@ -72,14 +72,15 @@ def plot_part(
         return plot_turned(cast("Turned", workpiece), ax, marks, MARK, colour, size)
     part = cast("Milled", workpiece)
     seen, cuts = relief(part), sections_of(part, section, at)
+    above = VIEWS["XY"]._replace(unit=part.cutting.path.unit)
     image, names, scale = _coloured(part, seen, colour)
     low, high = part.cutting.stock.bounds
     if ax is not None:
         _draw(ax, part, seen, image, marks)
-        dress(ax, VIEWS["XY"])
+        dress(ax, above)
         ax.autoscale_view()
         return cast(Figure, ax.get_figure(root=True))
-    views = [VIEWS["XY"], *(each.view for each in cuts)]
+    views = [above, *(each.view for each in cuts)]
     handles: list[Any] = [Patch(facecolor=shade, edgecolor=colours.INK, linewidth=0.5, label=name) for name, shade in names]
     handles.append(Line2D([], [], **BLANK))
     if fixtures := held(part):
@@ -141,7 +142,9 @@ def _coloured(part: Milled, seen: Relief, colour: str) -> tuple[Array, list[tupl
         thick = float(np.ptp(part.cutting.stock.bounds[:, 2]))
         deepest = max(min(ROOM * float(depth.max()), thick), 1e-9)
         shades = DEPTHS(depth / deepest)[..., :3]
-        scale = ("depth, mm", 0.0, deepest, DEPTHS) if depth.any() else None  # nothing is deep where all holes go through
+        unit = part.cutting.path.unit
+        scale = (f"depth, {unit.short}", 0.0, deepest / unit.length, DEPTHS)
+        scale = scale if depth.any() else None  # nothing is deep where all holes go through
     else:
         row = seen.rows(part)
         values = part.cutting.of_rows(getattr(part.cutting.path, colour), row)

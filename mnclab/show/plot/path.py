@@ -51,7 +51,6 @@ from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import Array, Strokes, corners, line_of, strokes
 from mnclab.show.probed import Felt
 from mnclab.show.probed import felt as felt_of
-from mnclab.show.rapids import rapids_of
 from mnclab.text.alarm import ALARM, Alarm, several
 from mnclab.text.given import choice, shown
 from mnclab.workpiece.blank import Blank
@@ -333,7 +332,7 @@ def plot_run(
 
         return _telling(run, plot_unrolled(run.toolpath, ax, **options))
     given = {"programmed": None if run.programmed is run.toolpath else run.programmed, "alarms": run.alarms}
-    given |= {"stock": run.stock if stock else None, "rapids": rapids_of(run)}
+    given |= {"stock": run.stock if stock else None, "rapids": run.rapids}
     done = set(run.programmed.step.tolist())  # of a stopped run those that it warns of, not what it left undone
     given["gouged"] = np.array([gouge.place for gouge in run.gouges if gouge.step in done]).reshape(-1, 3)
     path, insert = run.toolpath, options.get("insert", True)

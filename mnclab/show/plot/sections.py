@@ -14,6 +14,7 @@ from matplotlib.path import Path
 from matplotlib.patheffects import withStroke
 
 from mnclab.geometry.contours import Contour
+from mnclab.path.listing import MM, Unit
 from mnclab.path.toolpath import Array
 from mnclab.show.plot import colours
 from mnclab.show.plot.overlay import fits, grown
@@ -45,15 +46,16 @@ class Section(NamedTuple):
     at: float
     letter: str
     contours: list[Contour]
+    unit: Unit = MM
 
     @property
     def view(self) -> View:
-        return VIEWS[self.plane]._replace(head=HEAD)
+        return VIEWS[self.plane]._replace(head=HEAD, unit=self.unit)
 
     @property
     def title(self) -> str:
-        value = f"{self.at:.6g}".replace("-", "\N{MINUS SIGN}")
-        return f"{self.letter}\N{EN DASH}{self.letter}   {'XYZ'[ACROSS[self.plane]]} = {value} mm"
+        value = f"{self.at / self.unit.length:.6g}".replace("-", "\N{MINUS SIGN}")
+        return f"{self.letter}\N{EN DASH}{self.letter}   {'XYZ'[ACROSS[self.plane]]} = {value} {self.unit.short}"
 
 
 def sections_of(workpiece: Workpiece, planes: str | Sequence[str], at: float | Sequence[float] | None) -> list[Section]:
@@ -71,7 +73,7 @@ def sections_of(workpiece: Workpiece, planes: str | Sequence[str], at: float | S
     if len(places) != len(several):
         raise Alarm(f"each section needs a place, got {len(places)} for {len(several)}", hint='section=["XZ", "YZ"], at=[10, 30]')
     return [
-        Section(plane, float(place), letter, workpiece.cut(plane, float(place)))
+        Section(plane, float(place), letter, workpiece.cut(plane, float(place)), workpiece.cutting.path.unit)
         for plane, place, letter in zip(several, places, ascii_uppercase)
     ]
 

@@ -21,7 +21,6 @@ from mnclab.show.plot.picture import SIZE, SMALL, VIEWS, Picture, View, arrange,
 from mnclab.show.plot.probed import draw_material
 from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import corners, line_of
-from mnclab.show.rapids import rapids_of
 from mnclab.text.given import choice
 from mnclab.workpiece.blank import blank
 from mnclab.workpiece.part import Part
@@ -151,7 +150,7 @@ def plot_datums(run: Any, ax: Axes | None = None, *, view: str = "XY", size: tup
     origin = np.asarray(path.origin)
     places = [place for place in places_of(run) if place.mark is colours.DATUM and np.isfinite(place.xyz).all()]
     spots = np.array([place.xyz for place in places]).reshape(-1, 3) + origin
-    cuts = line_of(path, rapids=rapids_of(run)) + origin
+    cuts = line_of(path, rapids=run.rapids) + origin
     around = corners([each for each in (cuts, spots) if len(each)], False) or (np.zeros(3), np.ones(3))
     zero, broken = np.zeros(3), False
     axes = [looked.right, looked.up]

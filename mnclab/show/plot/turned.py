@@ -59,14 +59,16 @@ def plot_turned(
         *(Line2D([], [], color=shade, linewidth=2.2, label=name) for name, shade, _ in names),
         *([Line2D([], [], **mark)] if len(marks) else []),
     ]
+    unit = part.cutting.path.unit
+    view = VIEW._replace(unit=unit)
     if ax is None:
         labels = [str(each.get_label()) for each in handles]
-        picture, (own,) = arrange([VIEW], low, high, labels, Foot(told(part)), in_words(part), size)
+        picture, (own,) = arrange([view], low, high, labels, Foot(told(part)), in_words(part), size)
         write_legend(picture, handles)
     else:
         own = ax
-        dress(own, VIEW)
-    own.yaxis.set_major_formatter(lambda value, _: number(abs(2 * round(value, 9))))
+        dress(own, view)
+    own.yaxis.set_major_formatter(lambda value, _: number(abs(round(2 * value / unit.length, 9))))
     _draw(own, part, chucks, known)
     for _, shade, lines in names:
         own.add_collection(LineCollection(lines, colors=shade, linewidths=2.2, capstyle="butt", zorder=2.6))
@@ -144,7 +146,7 @@ def _outside(ax: Axes, part: Turned) -> None:
     outer = np.asarray(part.at(around))
     profile = np.concatenate([[(around[0], 0.0)], np.stack([around, -outer], axis=1), [(around[-1], 0.0)]])
     ax.add_patch(Polygon(profile, facecolor=OUTSIDE, edgecolor=colours.INK, linewidth=1.1, zorder=1.5, label="_outside"))
-    edges, span = [], part.high - part.low
+    edges, span, unit = [], part.high - part.low, part.cutting.path.unit
     for loop in part.section:
         ends = loop.points
         after = np.asarray(part.at(ends[:, 0] + 1e-7)), np.asarray(part.at(ends[:, 0] - 1e-7))
@@ -156,7 +158,7 @@ def _outside(ax: Axes, part: Turned) -> None:
                 continue
             middle = (z0 + z1) / 2
             if abs(float(part.at(middle)) - r0) < 1e-6:
-                text = f"⌀{number(round(2 * r0, 3))}"
+                text = f"⌀{number(round(2 * r0 / unit.length, unit.decimals - 1))}"
                 card = CARD | {"facecolor": OUTSIDE}
                 ax.annotate(text, (middle, -r0 / 2), ha="center", va="center", fontsize=SMALL, bbox=card, zorder=3.0)
     ax.add_collection(LineCollection(edges, colors=colours.INK, linewidths=0.6, zorder=1.7))
@@ -184,9 +186,15 @@ def _colours(part: Turned, colour: str) -> list[tuple[str, str, list[Array]]]:
 
 def told(part: Workpiece) -> str:
     """How a part was found, how exact it is, what was removed, and what is to be noted."""
-    return "\n".join([f"{part.method}{part.error_told}; {part.removed:.3f} mm³ removed", *part.notes])
+    return "\n".join([f"{part.method}{part.error_told}; {_volume(part, part.removed)} removed", *part.notes])
 
 
 def in_words(part: Workpiece) -> str:
     """What a person who cannot see the picture is told."""
-    return f"the part: {part.volume:.3f} mm³ left, {part.removed:.3f} mm³ removed"
+    return f"the part: {_volume(part, part.volume)} left, {_volume(part, part.removed)} removed"
+
+
+def _volume(part: Workpiece, volume: float) -> str:
+    """A volume in mm³ with three decimals; of a program in inches in in³, with as many figures."""
+    unit = part.cutting.path.unit
+    return f"{volume:.3f} mm³" if unit.length == 1 else f"{volume / unit.length**3:.6g} {unit.short}³"

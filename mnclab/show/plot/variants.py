@@ -107,14 +107,14 @@ def plot_deviation(found: Any, view: str = "auto", size: tuple[float, float] = S
     lathe = one.lathe or other.lathe
     looks = [look._replace(name=name) for look, name in zip((FIRST, SECOND), found.names)]
     lines = [(look, line_of(path, CUTTING)) for look, path in zip(looks, found.paths)]
-    for look, path in zip(looks, found.paths):
+    for look, path, rapids in zip(looks, found.paths, found.rapids):
         dashed = look._replace(name="_" + look.name, dashes=RAPID.dashes, width=RAPID_WIDTH * look.width)
-        lines += [(dashed, line)] if len(line := line_of(path, (Kind.RAPID,))) else []
+        lines += [(dashed, line)] if len(line := line_of(path, (Kind.RAPID,), rapids)) else []
     lines[2:3] = [(look._replace(name=RAPID.name), line) for look, line in lines[2:3]]
     low, high = corners([xyz for _, xyz in lines], lathe) or (np.zeros(3), np.zeros(3))
     view = choice(view, "view", ("auto", *VIEWS))
     views = [VIEWS["ZX"]] if lathe else [VIEWS["XY"]] if high[2] <= low[2] else [VIEWS["XY"], VIEWS["XZ"]]
-    views = views if view == "auto" else [VIEWS[view]]
+    views = [each._replace(unit=found.unit) for each in (views if view == "auto" else [VIEWS[view]])]
     where = found.where if found.largest > SHOWN else None
     names = [line.name for line, _ in lines if not line.name.startswith("_")] + ([APART.name] if where else [])
     picture, axes = arrange(views, low, high, names, Foot(found.sentence), f"two paths: {found.sentence}", size)

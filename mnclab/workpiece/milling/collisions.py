@@ -13,10 +13,10 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from mnclab.path.tool import Tool
+from mnclab.path.tool import CHAMFER, Tool
 from mnclab.path.toolpath import Mask
 from mnclab.text.alarm import several
-from mnclab.workpiece.collision import Collision, Collisions, deep
+from mnclab.workpiece.collision import Collision, Collisions, deep, solid
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.bodies import TOLERANCE, Body, above_edges, edges, holder
 from mnclab.workpiece.milling.cutters import Cutter
@@ -27,6 +27,7 @@ from mnclab.workpiece.milling.moves import cut_up, moves_of
 ROUGH, FEW = 60, 200  # points of a cut, enough to see whether it takes anything, and of what is behind the edges
 FALL = 0.1  # mm, by which a move may fall before it is cut up: its edges are before its shank
 POINTED = ("drill", "reamer", "countersink", "tap")  # tools that go straight down, and may
+MIDDLE = Body("middle", Cutter(0.0, 0.0), TOLERANCE)  # the axis of a tool
 ALONG = ("drill", "reamer", "tap")  # tools that cut along their axis alone
 
 
@@ -77,6 +78,8 @@ def _kinds(scene: Judging) -> Iterator[tuple[str, str, Met]]:
         yield "rapid", "rapid motion in material", met
     for met in scene.met(_plunges(scene)):
         yield "plunge", "straight down into material with a tool that does not cut at its centre", met
+    for met in scene.met(_widened(scene)):
+        yield "solid", solid(scene.cutting.tool(met.row), met.body.cutter.radius > 0, scene.cutting.path.unit), met
     for met in scene.met(_sideways(scene), ROUGH):
         yield "sideways", f"the {scene.cutting.tool(met.row).kind} goes sideways in material, where it has no edges", met
     for met in scene.met(_still(scene), ROUGH):
@@ -121,8 +124,23 @@ def _plunges(scene: Judging) -> list[Judged]:
     blunt = scene.of_tools(lambda tool: float(tool.centre_cutting is False and tool.kind not in POINTED)) > 0
     down = scene.moves.end[:, 2] < scene.moves.start[:, 2]
     chosen = blunt & down & scene.standing & ~scene.rapid & scene.low_over(0.0)
-    middle = Body("middle", Cutter(0.0, 0.0), TOLERANCE)
-    return [Judged(int(k), middle, int(k)) for k in np.flatnonzero(chosen)]
+    return [Judged(int(k), MIDDLE, int(k)) for k in np.flatnonzero(chosen)]
+
+
+def _widened(scene: Judging) -> list[Judged]:
+    """Moves straight down at feed of what opens no hole: its axis, and of a tap what does not fit into the hole."""
+    down = scene.moves.end[:, 2] < scene.moves.start[:, 2]
+    chosen = down & scene.standing & ~scene.rapid & scene.low_over(0.0)
+    bodies = [_without_hole(tool) for tool in scene.cutting.tools]
+    return [Judged(int(k), body, int(k)) for k in np.flatnonzero(chosen) for body in bodies[scene.which[k]]]
+
+
+def _without_hole(tool: Tool) -> list[Body]:
+    """Of a tool that opens no hole, what must find one. The chamfer of a tap is narrower than its thread."""
+    if tool.opens_holes:
+        return []
+    core = tool.core - TOLERANCE
+    return [*([Body("core", Cutter(core, core), CHAMFER * tool.pitch + TOLERANCE)] if core > 0 else []), MIDDLE]
 
 
 def _sideways(scene: Judging) -> list[Judged]:

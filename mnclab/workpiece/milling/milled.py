@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from mnclab.geometry.contours import Contour
 from mnclab.path.toolpath import Array, Index, Kind
 from mnclab.text.alarm import Alarm, several
-from mnclab.text.given import check_number, choice, shown
+from mnclab.text.given import check_number, choice, fitting_class, shown
 from mnclab.workpiece.ahead import Ahead
 from mnclab.workpiece.blank import Blank, Revolved
 from mnclab.workpiece.clamped import Clamped, Placement, from_side
@@ -87,6 +87,7 @@ COARSE = 150  # cells along the longer side, of the lines that show it in space
 ALONG = 4  # samples of an upright section for each cell, before it is looked at closer
 
 
+@fitting_class
 class Milled(Workpiece):
     """`x` (nx,), `y` (ny,): middles of the cells; `heights` (ny, nx) mm: the top of the material there.
 
@@ -260,6 +261,9 @@ class Milled(Workpiece):
 
     def faces(self, x: Array, y: Array) -> tuple[Array, Array]:
         """Exact; of very many moves between the middles of the cells."""
+        x, y = np.atleast_1d(np.asarray(x, np.float64), np.asarray(y, np.float64))
+        if x.shape != y.shape:
+            raise Alarm(f"faces are asked for at points (x, y), got {x.size} x and {y.size} y")
         top, floor = self.surface.sides_at(x, y)
         solid = top - floor > NOISE
         return np.where(solid, floor, np.nan), np.where(solid, top, np.nan)

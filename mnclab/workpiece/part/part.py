@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry import frames
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, check_point, shown
+from mnclab.text.given import check_number, check_point, refusing_class, shown
 from mnclab.workpiece.part.prisms import Operation, Prisms
 
 if TYPE_CHECKING:
@@ -32,6 +32,7 @@ ENDLESS = np.array([[-np.inf] * 3, [np.inf] * 3])
 WHICH: dict[Operation, tuple[np.ufunc, float]] = {"|": (np.minimum, 1.0), "&": (np.maximum, 1.0), "-": (np.maximum, -1.0)}
 
 
+@refusing_class
 @dataclass(frozen=True)
 class Part:
     """Material, given by its signed distance; `name` says what it is, `at_once` at how many places a ball is tried in

@@ -22,17 +22,18 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
 from mnclab.geometry.sweeps import CHORD_ERROR, broad
 from mnclab.path.inserts import EDGE, cutting_part, mirror_of, turns
-from mnclab.path.tool import LATHE, Tool
+from mnclab.path.tool import CHAMFER, LATHE, Tool
 from mnclab.path.toolpath import Index, Kind
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import shown
-from mnclab.workpiece.collision import Collision, Collisions, deep
+from mnclab.workpiece.collision import Collision, Collisions, deep, solid
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.turning.backs import TOLERANCE, Back, left_by_lean, taken_by_back
 from mnclab.workpiece.turning.section import Drawing
 from mnclab.workpiece.turning.turned import half_section
 
 NOSE_ERROR = 1e-4  # mm, of a nose
+ROUND = 128  # corners of the ball of a probe, its four poles among them
 THIN = 0.008  # mm: half a tool that has no width, less than what counts
 
 
@@ -45,7 +46,10 @@ def area_of(body: Any) -> Any:
 
 
 def outline(tool: Tool, height: float) -> Floats:
-    """The cutting part about the tip up to a height (k, 2); a tool without width is a thin one."""
+    """The cutting part about the tip up to a height (k, 2); a tool without width is a thin one, a probe its ball alone."""
+    if tool.kind == "probe" and tool.effective_radius > 0:
+        angle = np.linspace(0, 2 * np.pi, ROUND, endpoint=False)
+        return np.asarray(tool.effective_radius * np.stack([1 + np.cos(angle), np.sin(angle)], axis=1))
     corners = cutting_part(tool, height).points_within(NOSE_ERROR)
     if len(np.unique(corners, axis=0)) > 2:
         return corners
@@ -85,6 +89,7 @@ SAID = {
     "chuck": "the tool in the chuck",
     "shank": "the shank in material",
     "holder": "the holder in material",
+    "probe": "the probe in material",
 }
 HOLDER = "the holder of the insert in material"
 BAR = "the bar of the boring tool in material: it stands between its tip and the axis"
@@ -114,7 +119,8 @@ def collisions_of(cutting: Cutting, step: float | None = None) -> Collisions:
 def _collision(cutting: Cutting, row: int, met: Met) -> Collision:
     line, program = int(cutting.path.line[row]), int(cutting.path.program[row])
     z, x = met.place
-    message = f"{met.said}, {deep(met.depth, 'XZ', (x, z), cutting.path.unit)}"
+    typed = 2 * x if cutting.across == "diameter" else x
+    message = f"{met.said}, {deep(met.depth, 'XZ', (typed, z), cutting.path.unit)} (X is a {cutting.across})"
     file = str(cutting.name(line, program)).rpartition(":")[0]
     return Collision(met.kind, message, line, program, row, (x, 0.0, z), met.depth, file)
 
@@ -122,13 +128,13 @@ def _collision(cutting: Cutting, row: int, met: Met) -> Collision:
 def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
     path, left, spared = cutting.path, area_of(cutting.stock), shapely.Polygon()
     chucks = [area_of(each) for each in cutting.fixtures]
-    rows = np.flatnonzero(cutting.cuts)
+    rows = np.flatnonzero(cutting.cuts | cutting.probed)
     height = _height(cutting, rows, left)
     shapes = [outline(tool, height) for tool in cutting.tools]
     bodies = [behind(tool, height) for tool in cutting.tools]
     ways = [_way(cutting, row) for row in rows.tolist()]
     areas = _swept([shapes[k] for k in cutting.which[rows].tolist()], ways)
-    later = _Later(path.step[rows].tolist(), (path.kind[rows] != Kind.RAPID).tolist(), areas)
+    later = _Later(path.step[rows].tolist(), (cutting.cuts & (path.kind != Kind.RAPID))[rows].tolist(), areas)
     for k, (row, way, covered) in enumerate(zip(rows.tolist(), ways, areas, strict=True)):
         which = int(cutting.which[row])
         tool, shape = cutting.tools[which], shapes[which]
@@ -136,7 +142,10 @@ def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
         for chuck in chucks:
             if met := _deepest("chuck", chuck, covered):
                 yield row, met
-        if shapely.intersects(left, covered):
+        if cutting.probed[row]:  # it takes nothing
+            if met := _deeper(left, covered, _folded(_swept([shape], [way[:1]])[0]), len(way) > 1):
+                yield row, met
+        elif shapely.intersects(left, covered):
             rest = shapely.difference(left, covered)
             found = list(_cut(cutting, row, tool, shape, way, left, spared, covered))
             if found and found[-1].kind == "insert":  # again, where nothing is judged that this cycle takes all the same
@@ -189,9 +198,17 @@ def _cut(
     beside = float(np.abs(way[:, 1]).max())
     if not turns(tool) and beside > TOLERANCE and (met := _deepest("axis", left, covered)):
         yield met._replace(said=BESIDE.format(tool.kind, beside))
+    else:
+        yield from _widened(cutting, tool, way, left, covered)
     yield from _bored(tool, shape, way, left, covered)
     if len(way) > 1 and not path.synchronous[row] and (back := taken_by_back(tool, shape, way, left)):
         yield _backed(back)
+
+
+def _deeper(left: Any, covered: Any, begun: Any, moves: bool) -> Met | None:
+    """Where a probe is in the material, unless it is nowhere deeper than where it `begun`: it withdraws."""
+    met, before = _deepest("probe", left, covered), _deepest("probe", left, begun) if moves else None
+    return met if met and not (before and before.depth > met.depth - TOLERANCE) else None
 
 
 def _backed(back: Back) -> Met:
@@ -226,11 +243,29 @@ def _bored(tool: Tool, shape: Floats, way: Floats, left: Any, covered: Any) -> I
         if len(bar) and (met := _deepest("holder", left, _swept([bar], [way])[0])):
             yield met._replace(said=BAR)
             return
-    if tool.kind == "boring" and way[:, 1].min() > TOLERANCE:
-        low, _, high, _ = left.bounds
-        core = shapely.intersection(shapely.intersection(left, covered), shapely.box(low, 0.0, high, TOLERANCE))
-        if core.area > TOLERANCE * TOLERANCE and (met := _deepest("holder", left, covered)):
+    if tool.kind == "boring" and way[:, 1].min() > TOLERANCE and _on_axis(left, covered):
+        if met := _deepest("holder", left, covered):
             yield met._replace(said=FULL)
+
+
+def _on_axis(left: Any, covered: Any) -> bool:
+    """Whether what is covered has material on the axis of the part: no hole is there."""
+    low, _, high, _ = left.bounds
+    core = shapely.intersection(shapely.intersection(left, covered), shapely.box(low, 0.0, high, TOLERANCE))
+    return bool(core.area > TOLERANCE * TOLERANCE)
+
+
+def _widened(cutting: Cutting, tool: Tool, way: Floats, left: Any, covered: Any) -> Iterator[Met]:
+    """What opens no hole where there is none, and a tap whose core does not fit into the hole."""
+    if tool.opens_holes:
+        return
+    unit = cutting.path.unit
+    if _on_axis(left, covered) and (met := _deepest("solid", left, covered)):
+        yield met._replace(said=solid(tool, False, unit))
+    elif tool.core:
+        core = _bar(tool, tool.core, CHAMFER * tool.pitch, float(np.ptp(np.asarray(left.bounds)[[0, 2]]))) * mirror_of(tool)
+        if met := _deepest("solid", left, _swept([core], [way])[0]):
+            yield met._replace(said=solid(tool, True, unit))
 
 
 def _height(cutting: Cutting, rows: Index, left: Any) -> float:

@@ -13,7 +13,7 @@ from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
 from mnclab.path.toolpath import Array, Index
 from mnclab.text.alarm import Alarm, several
-from mnclab.text.given import check_number, choice, shown
+from mnclab.text.given import check_number, choice, fitting_class, shown
 from mnclab.workpiece.ahead import Ahead
 from mnclab.workpiece.blank import Blank, Box, Revolved
 from mnclab.workpiece.clamped import Placement
@@ -32,6 +32,7 @@ NEAR = 1e-6  # mm from an end
 PLANES = ("ZX", "XZ", "ZY", "YZ", "XY")
 
 
+@fitting_class
 class Turned(Workpiece):
     """`section`: closed contours (z, r), mm, from the axis of the spindle outwards; outer ones counter-clockwise, holes
     clockwise. `parted` are the pieces that fell off: the bar hangs in a chuck where its z is lowest.

@@ -71,7 +71,7 @@ def enclosed(m: Machine, recording: Recording, what: str) -> tuple[Contour, Regi
         return contour, Region.of(contour)
     except CrossesItself as error:
         rows = chain(path).rows
-        element = _last_at(contour, error.place, len(rows))
+        element = _last_at(contour, error.where, len(rows))
         fault(m, int(path.step[rows[element]]), f"the contour of {what}: {error}")
     except ValueError as error:
         fault(m, recording.step, f"the contour of {what}: {error}")
