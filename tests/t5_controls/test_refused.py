@@ -7,7 +7,7 @@ import re
 
 import numpy as np
 import pytest
-from refusals import FILES, refusals
+from refusals import FILES, changed, refusals, written
 from together import together
 
 import mnclab
@@ -52,6 +52,34 @@ def test_an_alarm_is_written_anew_in_its_place(tmp_path):
     assert (one.text, two.text) == ("; 2:1 alarm: old\nG0\n", "; 2:1 alarm: old\nG1\n")
     two.rewrite("2:4: alarm: new: as \\1 says (a hint)")
     assert file.read_text("utf-8") == f"; == one\n{one.text}\n; == two\n; 2:4 alarm: new: as \\1 says (a hint)\nG1\n"
+
+
+def test_one_like_a_sample_is_written_anew_in_its_place(tmp_path):
+    file = tmp_path / "two.g43"
+    sample, change = "; -- both\nG0\nG1\n\n", "@@ 3\n-G1\n+G2\n+G3\n"
+    file.write_text(f"{sample}; == one like both\n; 2:1 alarm: old\n{change}", encoding="utf-8")
+    (one,) = refusals(file)
+    assert one.text == "; 2:1 alarm: old\nG0\nG2\nG3\n"
+    one.rewrite("2:4: alarm: new")
+    assert file.read_text("utf-8") == f"{sample}; == one like both\n; 2:4 alarm: new\n{change}"
+
+
+def test_changes_of_a_sample_name_the_lines_of_the_new_program():
+    """The same as `patch` makes of them, with comments of its own in front."""
+    sample = "a\nb\nc\nd\n"
+    assert changed(sample, "; 1\n@@ 3\n-b\n@@ 4\n+e\n@@ 6\n+f\n", "") == "; 1\na\nc\ne\nd\nf\n"
+    assert changed(sample, "; 1\n; 2\n@@ 3\n-a\n+A\n", "") == "; 1\n; 2\nA\nb\nc\nd\n"
+    for wrong in ("; 1\n@@ 3\n-c\n", "; 1\n@@ 1\n-a\n", "; 1\n@@ 9\n+e\n", "; 1\n@@ 2\na\n"):
+        with pytest.raises(AssertionError, match="here: "):
+            changed(sample, wrong, "here")
+
+
+def test_a_sample_has_no_fault_of_its_own():
+    """What is refused is what a program changes in it: alone it runs, or lacks nothing but a part to touch."""
+    for file in FILES:
+        for name, text in written(file).samples.items():
+            wrong = [alarm.headline for alarm in mnclab.run(text, file.parent.name).alarms if alarm.severity == "alarm"]
+            assert not wrong or "there is no part to touch" in wrong[0], (file.stem, name, wrong)
 
 
 @pytest.mark.deep
