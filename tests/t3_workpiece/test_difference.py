@@ -5,8 +5,8 @@ import math
 
 import numpy as np
 import pytest
-from milled import MILL, part
-from t3_workpiece.cut_from_drawings import Writer, cut
+from design.cut_from_drawings import Writer, cut
+from tools.milled import MILL, part
 
 from mnclab import Alarm, Tool
 from mnclab.design.model import Chamfer, Design, Face, Groove, Hole, Pocket, Rectangle, Slot, Stud

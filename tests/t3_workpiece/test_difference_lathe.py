@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from design.turned_designs import shaft
 from t3_workpiece.lathe import BAR, NOSED, SHARP, cutting, turned
-from t3_workpiece.turned_designs import shaft
 
 from mnclab.design.model import Bore, Design, Face, RingGroove, Thread, TurnedDesign
 from mnclab.path.tool import Tool

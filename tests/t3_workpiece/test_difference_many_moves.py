@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from milled import part
+from tools.milled import part
 
 from mnclab import Tool
 from mnclab.design.model import Design, Pocket

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from milled import DRILL, MILL, part
-from running import run
+from tools.milled import DRILL, MILL, part
+from tools.running import run
 
 from mnclab import Setup, Tool
 from mnclab.design.model import Design, Hole, Pocket, TurnedDesign

@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from t3_workpiece.cut_from_drawings import DRILL, MILL, R, cut, random_design, written
+from design.cut_from_drawings import DRILL, MILL, R, cut, random_design, written
 
 from mnclab import Tool
 from mnclab.design.model import Design

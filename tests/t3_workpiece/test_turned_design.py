@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from t3_workpiece.turned_designs import frustum, ring, rounded, shaft
+from design.turned_designs import frustum, ring, rounded, shaft
 
 import mnclab as mnc
 from mnclab.design.model import Bore, CentreHole, FaceGroove, RingGroove, Thread, TurnedDesign, Undercut

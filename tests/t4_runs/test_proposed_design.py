@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from designs_as_programs import TIP3, TOOLS, plate, run_of, studs
+from design.designs_as_programs import TIP3, TOOLS, plate, run_of, studs
 
 import mnclab
 from mnclab import Alarm, Setup, Tool

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from probed import gaps
-from probing_mnc import DATUM, at, examples, measured, probes
+from t5_controls.mnc.probing_mnc import DATUM, at, examples, measured, probes
+from tools.probed import gaps
 
 import mnclab as mnc
 from mnclab import Kind, Probe, Setup, Tool

@@ -4,7 +4,7 @@ import re
 from itertools import product
 
 import pytest
-from together import together
+from tools.together import together
 
 import mnclab
 from mnclab import Alarm

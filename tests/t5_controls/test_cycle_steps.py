@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from together import together
+from tools.together import together
 
 import mnclab as mnc
 from mnclab.controls.cycle_steps import written

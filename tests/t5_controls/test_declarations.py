@@ -13,7 +13,7 @@ from html import escape
 from pathlib import Path
 
 import pytest
-from together import together
+from tools.together import together
 
 import mnclab
 from mnclab.machine.cycle import Cycle, param

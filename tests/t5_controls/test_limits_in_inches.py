@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from together import together
+from tools.together import together
 
 import mnclab as mnc
 from mnclab.controls.g43 import CONTROL as G43

@@ -6,8 +6,8 @@ changes the path. Cycles begin with the examples of their declaration.
 
 import numpy as np
 import pytest
-from running import run
-from together import together
+from tools.running import run
+from tools.together import together
 
 import mnclab
 from mnclab import Kind

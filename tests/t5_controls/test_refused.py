@@ -1,4 +1,4 @@
-"""Programs of all controls that must be refused, each with its alarm as its first comment; see `refusals.py`.
+"""Programs of all controls that must be refused, each with its alarm as its first comment; see `tools/refusals.py`.
 
 `python3 tests tests/t5_controls/test_refused.py --rewrite` writes the alarms anew: read every change before it is kept.
 """
@@ -7,8 +7,8 @@ import re
 
 import numpy as np
 import pytest
-from refusals import FILES, changed, refusals, written
-from together import together
+from tools.refusals import FILES, changed, refusals, written
+from tools.together import together
 
 import mnclab
 from mnclab import Alarm

@@ -9,9 +9,9 @@ from functools import partial
 
 import numpy as np
 import pytest
-import running
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tools import running
 
 import mnclab as mnc
 from mnclab.path.toolpath import COLUMNS

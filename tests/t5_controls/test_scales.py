@@ -11,7 +11,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from together import together
+from tools.together import together
 
 import mnclab
 from mnclab import Kind, Setup, Tool

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 import pytest
-from milled import part
-from running import run
+from tools.milled import part
+from tools.running import run
 
 from mnclab import Tool
 from mnclab.design.difference.plot import SHADES, marks_of, nice, plot_difference

@@ -8,7 +8,7 @@ import ezdxf
 import numpy as np
 import pytest
 import shapely
-from random_designs import milled, turned
+from design.random_designs import milled, turned
 from shapely import Polygon
 
 from mnclab.design import model as d

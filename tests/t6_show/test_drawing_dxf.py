@@ -4,7 +4,7 @@ import math
 from dataclasses import replace
 
 import pytest
-from drawn import plate, shaft
+from design.drawn import plate, shaft
 
 from mnclab.design.drawing.drawing import draw
 from mnclab.design.drawing.view import Angle, Axis, Diameter, Kind, Line, Linear, Note, Radius, View, value

@@ -5,7 +5,7 @@ from time import process_time
 
 import numpy as np
 import pytest
-from drawn import plate, shaft
+from design.drawn import plate, shaft
 from shapely import LineString, Polygon, STRtree
 
 from mnclab.design.drawing.drawing import draw

@@ -6,7 +6,7 @@ from shutil import which
 
 import numpy as np
 import pytest
-from drawn import plate, rectangle
+from design.drawn import plate, rectangle
 from matplotlib.image import imread
 
 from mnclab.design.drawing.drawing import draw

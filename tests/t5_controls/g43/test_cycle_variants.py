@@ -5,7 +5,7 @@ from functools import partial
 
 import numpy as np
 import pytest
-import running
+from tools import running
 
 import mnclab
 from mnclab import Kind, Setup

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import running
-from together import together
+from tools import running
+from tools.together import together
 
 import mnclab
 from mnclab import Kind, Setup, Tool

@@ -5,7 +5,7 @@ import math
 from pathlib import Path
 
 import pytest
-from running import run
+from tools.running import run
 
 import mnclab
 from mnclab import Setup

@@ -8,7 +8,7 @@ import math
 from functools import partial
 
 import pytest
-import running
+from tools import running
 
 import mnclab
 from mnclab import Setup

@@ -1,7 +1,7 @@
 """What stands in an odd order, or as only some makers mean it, is obeyed in one way and named in a warning."""
 
 import pytest
-import running
+from tools import running
 
 HEAD = "S800 M3\nG0 X10 Y5 Z20\n"
 CYCLE = "G81 X5 Y5 Z-5 R2 F100\n"

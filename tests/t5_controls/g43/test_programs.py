@@ -2,7 +2,7 @@
 
 from functools import partial
 
-import running
+from tools import running
 
 import mnclab
 from mnclab import Setup

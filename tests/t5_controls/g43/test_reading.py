@@ -4,7 +4,7 @@ import math
 from functools import partial
 
 import numpy as np
-import running
+from tools import running
 
 import mnclab
 

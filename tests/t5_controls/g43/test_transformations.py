@@ -5,9 +5,9 @@ from functools import partial
 
 import numpy as np
 import pytest
-import running
 from hypothesis import given
 from hypothesis import strategies as st
+from tools import running
 
 from mnclab import Kind
 

@@ -9,8 +9,8 @@ import random
 
 import numpy as np
 import pytest
-from running import run
 from shapely import LineString, Polygon, box
+from tools.running import run
 
 from mnclab import Kind
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from running import run
+from tools.running import run
 
 from mnclab import Kind, Limits
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from running import run
+from tools.running import run
 
 import mnclab
 from mnclab import Kind

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from together import together
+from tools.together import together
 
 import mnclab
 from mnclab import Kind, Setup, Tool

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-from together import together
+from tools.together import together
 
 import mnclab
 from mnclab.text.alarm import slips_between

@@ -5,10 +5,10 @@ from functools import partial
 
 import numpy as np
 import pytest
-import running
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from running import lines
+from tools import running
+from tools.running import lines
 
 import mnclab
 from mnclab import Kind, Setup, Tool

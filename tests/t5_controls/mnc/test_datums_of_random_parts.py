@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from probed import gaps
+from tools.probed import gaps
 
-from probing_mnc import (  # isort: skip
+from t5_controls.mnc.probing_mnc import (  # isort: skip
     BEFORE, DATUM, at, base_of, box, disc, measured, rows_of, to_round, to_wall, turn, walls, working,
 )  # fmt: skip
 

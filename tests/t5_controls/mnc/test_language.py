@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from running import run
+from tools.running import run
 
 import mnclab
 from mnclab import Kind, Tool

@@ -8,8 +8,22 @@ import re
 
 import numpy as np
 import pytest
-from probed import gaps
-from probing_mnc import DATUM, PROBE, at, box, disc, examples, feature, measured, near, probes, to_round, to_wall, walls
+from t5_controls.mnc.probing_mnc import (
+    DATUM,
+    PROBE,
+    at,
+    box,
+    disc,
+    examples,
+    feature,
+    measured,
+    near,
+    probes,
+    to_round,
+    to_wall,
+    walls,
+)
+from tools.probed import gaps
 
 import mnclab
 from mnclab import Kind, Probe, Setup, Tool

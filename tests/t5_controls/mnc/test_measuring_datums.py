@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from probed import gaps
-from probing_mnc import DATUM, at, base_of, box, disc, measured, probes, rows_of, working
+from t5_controls.mnc.probing_mnc import DATUM, at, base_of, box, disc, measured, probes, rows_of, working
+from tools.probed import gaps
 
 from mnclab import Datum, Kind
 from mnclab.workpiece import part as parts

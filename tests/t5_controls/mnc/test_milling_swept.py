@@ -7,8 +7,8 @@ is never left by more than a micrometre, and the allowances are what stays.
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from running import labelled, run
 from shapely import LineString, Point, affinity, box, union_all
+from tools.running import labelled, run
 
 import mnclab
 from mnclab import Kind, Setup, Tool

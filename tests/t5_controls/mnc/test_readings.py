@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from running import lines, run
+from tools.running import lines, run
 
 import mnclab
 from mnclab import Kind, Tool

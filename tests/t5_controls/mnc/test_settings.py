@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from running import lines, run
+from tools.running import lines, run
 
 import mnclab
 from mnclab import Alarm, Kind, Limits, Tool

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import running
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from tools import running
 
 import mnclab
 from mnclab import Alarm

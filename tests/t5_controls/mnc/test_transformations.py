@@ -12,10 +12,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import running
 from hypothesis import given
 from hypothesis import strategies as st
-from together import together
+from tools import running
+from tools.together import together
 
 import mnclab
 from mnclab import Kind, Setup, Tool

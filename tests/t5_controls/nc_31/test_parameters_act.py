@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 import pytest
-from running import run
+from tools.running import run
 
 import mnclab
 from mnclab import Kind, Setup

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.alignment import PRESET, bored, cycle, ends, plate, points, run, studs
 
 from mnclab import Kind
-from tests.alignment import PRESET, bored, cycle, ends, plate, points, run, studs
 
 FILE = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-probing-alignment.json"
 EXAMPLES = json.loads(FILE.read_text(encoding="utf-8"))
@@ -125,8 +125,9 @@ def test_401_and_402_as_printed(code, number):
 
 def test_the_program_of_the_manual_runs_and_calls_another():
     """14.13: row 0 with C_OFFS, C shows 0 where it stands; then the program 35K47 goes on."""
-    import mnclab
     from tests.alignment import setup
+
+    import mnclab
 
     program, check = example(401, 1)
     (x, y), (x2, y2) = check["centers"]
@@ -177,8 +178,9 @@ def test_403_an_edge():
 
 def test_403_as_printed():
     """Touched along -X, material on the side of -X of the line through (0, 0) and (20, 30)."""
-    from mnclab.workpiece.part import plane
     from tests.alignment import placed
+
+    from mnclab.workpiece.part import plane
 
     program, check = example(403, 0)
     part = placed(plane((0, 0, 0), (30 / math.hypot(20, 30), -20 / math.hypot(20, 30), 0)))
@@ -268,8 +270,9 @@ def test_a_row_that_was_measured_turns_the_program_once_it_is_active():
 
 def test_din_iso_and_inch():
     """G400 is cycle 400; an inch program says its places in inches."""
-    import mnclab
     from tests.alignment import setup
+
+    import mnclab
 
     values = " ".join(f"Q{q}={v}" for q, v in zip(
         (263, 264, 265, 266, 272, 267, 261, 320, 260, 301, 307, 305), (10, 0, 90, 0, 2, 1, -5, 0, 20, 0, 0, 1), strict=True

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.alignment import PRESET, bored, cycle, ends, plate, points, run, studs
 
 from mnclab import Datum
 from mnclab.controls.tnc_620.probing.aimed import read
 from mnclab.geometry import frames
 from mnclab.workpiece.part import plane
-from tests.alignment import PRESET, bored, cycle, ends, plate, points, run, studs
 
 FILE = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-probing-alignment.json"
 EXAMPLES = json.loads(FILE.read_text(encoding="utf-8"))
@@ -294,8 +294,9 @@ def test_material_that_is_left_is_rework_and_what_is_missing_is_scrap(sense):
 
 def test_an_inch_program_has_its_texts_and_results_in_inches():
     """10 mm in X with a tolerance of 0.01 inch: nominal values, limits and results count in inches, angles in degrees."""
-    import mnclab
     from tests.alignment import setup
+
+    import mnclab
 
     lengths = ("Q1103", "Q1105", "Q260", "Q320")
     values = {name: value / 25.4 if name in lengths else value for name, value in EDGE.items()} | {"Q1120": 0, "Q1121": 0}

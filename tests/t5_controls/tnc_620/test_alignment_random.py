@@ -8,13 +8,13 @@ import math
 
 import numpy as np
 import pytest
+from tests.alignment import PRESET, cycle, run, studs
+from tests.alignment import bored as drilled
+from tests.probed import gaps
 
 from mnclab import Datum
 from mnclab.geometry import frames
 from mnclab.workpiece.part import box, plane
-from tests.alignment import PRESET, cycle, run, studs
-from tests.alignment import bored as drilled
-from tests.probed import gaps
 
 SEEDS = range(20)
 ANGLE = 1e-7

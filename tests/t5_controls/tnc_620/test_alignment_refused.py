@@ -1,10 +1,10 @@
 """What the misalignment cycles refuse, each at its place: rules of parameters, the machine, and what the probe meets."""
 
 import pytest
-from together import together
+from tests.alignment import PRESET, bored, cycle, plate, run, studs
+from tools.together import together
 
 from mnclab import Datum, Setup, Tool
-from tests.alignment import PRESET, bored, cycle, plate, run, studs
 
 POINTS = {"Q263": 10, "Q264": 0, "Q265": 90, "Q266": 0, "Q272": 2, "Q267": 1, "Q261": -5, "Q320": 0, "Q260": 20, "Q301": 0}
 PLACES = {"Q1100": 10, "Q1101": 0, "Q1102": -5, "Q1103": 90, "Q1104": 0, "Q1105": -5}

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from together import together
+from tools.together import together
 
 import mnclab as mnc
 

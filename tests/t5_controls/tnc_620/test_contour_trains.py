@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from tests.running import labels
 
 import mnclab
 from mnclab import Kind, Setup, Tool
-from tests.running import labels
 
 TOOLS = {1: Tool(radius=5, number=1), 2: Tool(radius=12, number=2, name="COARSE"), 3: Tool(radius=10, number=3)}
 CORNER = "L X+10 Y+10 RL\nL X+50\nL Y+50"

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from probed import gaps
+from tools.probed import gaps
 
 import mnclab as mnc
 from mnclab import Kind, Probe, Setup, Tool, part

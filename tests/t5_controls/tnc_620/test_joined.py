@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 import pytest
-import running
+from tools import running
 
 import mnclab as mnc
 

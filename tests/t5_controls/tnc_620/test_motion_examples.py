@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
-from running import run
+from tools.running import run
 
 import mnclab as mnc
 from mnclab import Kind

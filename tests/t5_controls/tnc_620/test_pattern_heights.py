@@ -10,7 +10,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from together import together
+from tools.together import together
 
 import mnclab as mnc
 from mnclab.controls.tnc_620.language.calls import PLACED_BY_DATUM

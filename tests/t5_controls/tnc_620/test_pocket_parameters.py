@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from running import run
-from together import together
+from tools.running import run
+from tools.together import together
 
 import mnclab
 from mnclab import Kind

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from running import labelled, run
 from shapely import LineString, Point, affinity, box, union_all
+from tools.running import labelled, run
 
 import mnclab
 from mnclab import Kind, Setup, Tool

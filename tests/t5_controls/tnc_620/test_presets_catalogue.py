@@ -7,8 +7,8 @@ import re
 
 import numpy as np
 import pytest
-from presetting import BALL, CASES, PRESET, example, part_of, probing
-from probed import gaps
+from t5_controls.tnc_620.presetting import BALL, CASES, PRESET, example, part_of, probing
+from tools.probed import gaps
 
 from mnclab import Kind
 

@@ -12,8 +12,8 @@ from itertools import product
 
 import numpy as np
 import pytest
-from probed import gaps
-from together import together
+from tools.probed import gaps
+from tools.together import together
 
 import mnclab as mnc
 from mnclab.workpiece.part import Part, box, cylinder, hole

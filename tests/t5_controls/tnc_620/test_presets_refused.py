@@ -3,8 +3,8 @@
 import re
 
 import pytest
-from presetting import CASES, example, part_of, probing
-from together import together
+from t5_controls.tnc_620.presetting import CASES, example, part_of, probing
+from tools.together import together
 
 import mnclab as mnc
 from mnclab.workpiece.part import box, cylinder, hole

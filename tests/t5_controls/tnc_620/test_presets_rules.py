@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from presetting import CASES, PRESET, example, part_of, probing
-from probed import gaps
+from t5_controls.tnc_620.presetting import CASES, PRESET, example, part_of, probing
+from tools.probed import gaps
 
 import mnclab as mnc
 from mnclab import Kind

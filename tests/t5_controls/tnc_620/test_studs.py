@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from running import changed, of_cycles, run
+from tools.running import changed, of_cycles, run
 
 import mnclab
 from mnclab import Kind, Tool

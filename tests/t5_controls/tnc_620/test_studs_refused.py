@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from together import together
+from tools.together import together
 
 import mnclab
 from mnclab import Setup, Tool

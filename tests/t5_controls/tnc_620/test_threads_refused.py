@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from together import together
+from tools.together import together
 
 import mnclab as mnc
 

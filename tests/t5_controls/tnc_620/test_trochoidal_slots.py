@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from running import run
+from tools.running import run
 
 from mnclab import Kind, Tool
 from mnclab.controls.tnc_620.contours.trochoidal_slot import TrochoidalSlot

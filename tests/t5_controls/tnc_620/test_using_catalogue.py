@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import running
+from tools import running
 
 import mnclab as mnc
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import mnclab as mnc
 from mnclab.workpiece.part import box, cylinder, hole, plane, pocket, slot
 
-FILE = Path(__file__).parent / "authorities" / "catalogue" / "tnc620-probing-presets.json"
+FILE = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-probing-presets.json"
 CASES = json.loads(FILE.read_text(encoding="utf-8"))
 PRESET = (100, 200, -300)
 BALL = 2

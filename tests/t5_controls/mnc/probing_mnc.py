@@ -32,7 +32,7 @@ def measured(program, part, ball=3.0, before=BEFORE, place=None, **more):
 
 def examples(*codes):
     """The examples of the catalogue with their checks."""
-    found = json.loads((Path(__file__).parent / "authorities/catalogue/mnc-probing.json").read_text(encoding="utf-8"))
+    found = json.loads((Path(__file__).parents[2] / "authorities/catalogue/mnc-probing.json").read_text(encoding="utf-8"))
     return [each for each in found if each["code"] in codes]
 
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
-from random_regions import Figure, random_task
+from tools.random_regions import Figure, random_task
 
 import mnclab
 from mnclab import Tool

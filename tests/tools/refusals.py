@@ -26,7 +26,7 @@ from mnclab import Setup
 from mnclab.controls.choice import read_text
 from mnclab.text.program import Program
 
-FOLDER = Path(__file__).parent / "refused"
+FOLDER = Path(__file__).parent.parent / "refused"
 FILES = sorted(FOLDER.glob("*/*"))
 HEAD = re.compile(r"(?:\A|(?<=\n)\n)(?:;|//|') (==|--) (\S+)(?: like (\S+))?\n")
 PLACE = re.compile(r"@@ (\d+)")

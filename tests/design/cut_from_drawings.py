@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import random
 
-from running import run
+from tools.running import run
 
 from mnclab import Tool
 from mnclab.design.model import Chamfer, Design, Face, Hole, Pocket, Slot, Stud

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from running import run
 
 from mnclab import Tool
 from mnclab.workpiece.milling.milled import Milled
+from tools.running import run
 
 MILL = Tool(radius=5, number=1, kind="mill")
 BALL = Tool(radius=4, corner=4, number=1, kind="mill")
