@@ -34,6 +34,14 @@ def pytest_addoption(parser):
     parser.addoption("--rewrite", action="store_true", help="write golden listings anew for review")
 
 
+def pytest_ignore_collect(collection_path, config):
+    """Of `-m deep` and its like only those files are imported that say so: most do not, and importing all takes a while."""
+    mark = config.option.markexpr
+    if mark not in ("deep", "browser", "benchmark") or not collection_path.match("test_*.py"):
+        return None
+    return mark not in collection_path.parts and mark not in collection_path.read_text(encoding="utf-8") or None
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_collection():
     """Thousands of tests are made and all of them stay: garbage is looked for once, after that, and never among them."""
