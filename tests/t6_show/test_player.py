@@ -25,7 +25,7 @@ from mnclab.workpiece.blank import cylinder
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAMS = sorted(
     path
-    for pattern in ("data/programs/*/*", "tests/programs/*/*", "tests/t5_controls/nc_31/examples/*")
+    for pattern in ("data/programs/*/*", "tests/programs/*/*", "tests/controls/nc_31/examples/*")
     for path in ROOT.glob(pattern)
     if path.is_file() and path.suffix != ".expected"
 )

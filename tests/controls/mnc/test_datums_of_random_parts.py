@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from tools.probed import gaps
 
-from t5_controls.mnc.probing_mnc import (  # isort: skip
+from controls.mnc.probing_mnc import (  # isort: skip
     BEFORE, DATUM, at, base_of, box, disc, measured, rows_of, to_round, to_wall, turn, walls, working,
 )  # fmt: skip
 

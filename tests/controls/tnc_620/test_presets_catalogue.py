@@ -7,7 +7,7 @@ import re
 
 import numpy as np
 import pytest
-from t5_controls.tnc_620.presetting import BALL, CASES, PRESET, example, part_of, probing
+from controls.tnc_620.presetting import BALL, CASES, PRESET, example, part_of, probing
 from tools.probed import gaps
 
 from mnclab import Kind

@@ -1,6 +1,6 @@
 """Programs of all controls that must be refused, each with its alarm as its first comment; see `tools/refusals.py`.
 
-`python3 tests tests/t5_controls/test_refused.py --rewrite` writes the alarms anew: read every change before it is kept.
+`python3 tests tests/controls/test_refused.py --rewrite` writes the alarms anew: read every change before it is kept.
 """
 
 import re

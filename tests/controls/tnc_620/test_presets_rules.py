@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from t5_controls.tnc_620.presetting import CASES, PRESET, example, part_of, probing
+from controls.tnc_620.presetting import CASES, PRESET, example, part_of, probing
 from tools.probed import gaps
 
 import mnclab as mnc

@@ -10,9 +10,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import shapely
-from t5_controls.tnc_620.cuts import Cuts
-from t5_controls.tnc_620.sl_programs import random_job
-from t5_controls.tnc_620.swept_areas import capsules, edges, grown, shrunk, within_reach
+from controls.tnc_620.cuts import Cuts
+from controls.tnc_620.sl_programs import random_job
+from controls.tnc_620.swept_areas import capsules, edges, grown, shrunk, within_reach
 
 HAIRS = 1e-3, 1e-4  # mm, by which polygons may be off: the finer ones decide where the coarse ones find a fault
 CROOKED = 5  # hairs by which the corner of two shallow arcs may be off

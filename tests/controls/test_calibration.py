@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from t5_controls.mnc.probing_mnc import DATUM, at, examples, measured, probes
+from controls.mnc.probing_mnc import DATUM, at, examples, measured, probes
 from tools.probed import gaps
 
 import mnclab as mnc

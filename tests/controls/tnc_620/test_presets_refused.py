@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from t5_controls.tnc_620.presetting import CASES, example, part_of, probing
+from controls.tnc_620.presetting import CASES, example, part_of, probing
 from tools.together import together
 
 import mnclab as mnc

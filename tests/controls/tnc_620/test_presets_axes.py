@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from t5_controls.tnc_620.presetting import CASES, PRESET, example, part_of, probing
+from controls.tnc_620.presetting import CASES, PRESET, example, part_of, probing
 
 import mnclab as mnc
 

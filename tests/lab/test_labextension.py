@@ -33,7 +33,7 @@ def test_every_control_has_its_suffix_coloured():
 
 
 def test_the_words_are_those_that_the_controls_declare(rewrite):
-    """`python3 tests tests/t6_show/test_labextension.py --rewrite` writes them anew after a cycle has changed."""
+    """`python3 tests tests/lab/test_labextension.py --rewrite` writes them anew after a cycle has changed."""
     file = FOLDER / "static" / "words.json"
     told = {}
     for name, control in mnclab.controls.items():

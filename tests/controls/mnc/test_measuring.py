@@ -8,7 +8,7 @@ import re
 
 import numpy as np
 import pytest
-from t5_controls.mnc.probing_mnc import (
+from controls.mnc.probing_mnc import (
     DATUM,
     PROBE,
     at,

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from t5_controls.mnc.probing_mnc import DATUM, at, base_of, box, disc, measured, probes, rows_of, working
+from controls.mnc.probing_mnc import DATUM, at, base_of, box, disc, measured, probes, rows_of, working
 from tools.probed import gaps
 
 from mnclab import Datum, Kind

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from t5_controls.mnc.probing_mnc import DATUM, PROBE, at, base_of, box, disc, measured, probes, rows_of, turn, working
+from controls.mnc.probing_mnc import DATUM, PROBE, at, base_of, box, disc, measured, probes, rows_of, turn, working
 
 from mnclab import Datum, Probe, Tool
 from mnclab.workpiece import part as parts

@@ -2,7 +2,7 @@
 
 Material is a polygon of (Z, radius), checked with shapely: a cut takes away what its edge passes over, and a move at rapid
 must not touch what is left. The contour is written down here from the source's tables, not taken from the library. The
-suite runs a few hundred programs; `python tests/t5_controls/nc_31/test_cycles_swept.py 500` runs so many of each cycle.
+suite runs a few hundred programs; `python tests/controls/nc_31/test_cycles_swept.py 500` runs so many of each cycle.
 """
 
 import math
