@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
+import pytest
 from tools.together import together
 
 import mnclab as mnc
@@ -62,11 +63,22 @@ def written(number: float) -> str:
     return f"{number:.10g}"
 
 
-@each_limit(TNC, ["MM", "INCH"])
-def test_every_limit_of_the_tnc_620(cycle: type[Cycle], p: Parameter, unit: str) -> None:
+def limits_hold(cycle: type[Cycle], p: Parameter, unit: str) -> None:
     for within, beyond in limits(p):
         assert refusals(klartext(cycle, p, within, unit), p) == []
         assert refusals(klartext(cycle, p, beyond, unit), p) == [written(beyond)]
+
+
+@each_limit(TNC, ["INCH"])
+def test_every_limit_of_the_tnc_620(cycle: type[Cycle], p: Parameter, unit: str) -> None:
+    limits_hold(cycle, p, unit)
+
+
+@pytest.mark.deep
+@each_limit(TNC, ["MM"])
+def test_every_limit_of_the_tnc_620_in_mm(cycle: type[Cycle], p: Parameter, unit: str) -> None:
+    """What test_declarations asks of the declaration alone is asked of programs here."""
+    limits_hold(cycle, p, unit)
 
 
 @each_limit(G43, ["G21", "G20"])

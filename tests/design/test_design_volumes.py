@@ -6,6 +6,7 @@ from math import pi, radians, tan
 from pathlib import Path
 
 import pytest
+from tools.chance import seeds
 
 from mnclab import Design
 from mnclab.design import Chamfer, Circle, Face, Groove, Hole, Pocket, Rectangle, Slot, Stud
@@ -73,7 +74,7 @@ def cells(rng, x, y):
     yield lambda: both(Circle(x, y, a)), pi * a * a / 4 * depth + round_
 
 
-@pytest.mark.parametrize("seed", [pytest.param(k, marks=[pytest.mark.deep] * (k >= 5)) for k in range(25)])
+@pytest.mark.parametrize("seed", seeds(5, deep=25))
 def test_features_that_stand_apart_add_up(seed):
     """On a plate of 5 by 3 cells, on both sides."""
     rng = random.Random(seed)

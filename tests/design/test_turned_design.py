@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 from design.turned_designs import frustum, ring, rounded, shaft
+from tools.chance import seeds
 
 import mnclab as mnc
 from mnclab.design.model import Bore, CentreHole, FaceGroove, RingGroove, Thread, TurnedDesign, Undercut
@@ -14,7 +15,7 @@ from mnclab.workpiece.part import contact
 
 QUARTER = math.tan(math.pi / 8)
 FEW = range(6)
-MANY = [*FEW, *(pytest.param(seed, marks=pytest.mark.deep) for seed in range(6, 90))]
+MANY = seeds(len(FEW), deep=90)
 shaft = functools.cache(shaft)
 
 
