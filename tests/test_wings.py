@@ -40,7 +40,7 @@ FLOORS = sorted(folder.name for folder in (ROOT / "tests").glob("t[0-9]_*"))
 RUN_ALONE = ("t0_text", "t4_comparison", "t4_machine", "t4_running")
 WING = re.compile(rf"^(?:from|import) (?:mnclab\.)?(?:{'|'.join(WINGS).replace('/', '[.]')})\b", re.M)
 #: What a file of tests says that asks for another control than the one that is there, or for a wing.
-NAMES_ANOTHER = re.compile(r"tnc-620|BEGIN PGM|g43|jnc-t01|nc-31|[Dd]esign|mnclab\.(?:lab|form)\b|\.compare\(")
+NAMES_ANOTHER = re.compile(r"tnc-620|BEGIN PGM|g43|jnc-t01|nc-31|[Dd]esign|\.(?:lab|form|editor|compare)\b")
 SCRIPT = """
 import mnclab
 assert mnclab.__file__.startswith({home!r}), mnclab.__file__
