@@ -34,6 +34,14 @@ def pytest_addoption(parser):
     parser.addoption("--rewrite", action="store_true", help="write golden listings anew for review")
 
 
+def pytest_ignore_collect(collection_path, config):
+    """Of `-m deep` and its like only those files are imported that say so: most do not, and importing all takes a while."""
+    mark = config.option.markexpr
+    if mark not in ("deep", "browser", "benchmark") or not collection_path.match("test_*.py"):
+        return None
+    return mark not in collection_path.parts and mark not in collection_path.read_text(encoding="utf-8") or None
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_collection():
     """Thousands of tests are made and all of them stay: garbage is looked for once, after that, and never among them."""
@@ -56,7 +64,7 @@ def rewrite(request) -> bool:
 def fragments(request, monkeypatch) -> None:
     """Most tests of machines and controls run fragments that start no spindle: only those marked so hear what lint says."""
     folder = request.path.relative_to(request.config.rootpath / "tests").parts[0]
-    if folder[:2] in ("t2", "t3", "t4", "t5") and not request.node.get_closest_marker("lint"):
+    if (folder[:2] in ("t2", "t3", "t4") or folder in ("controls", "design")) and not request.node.get_closest_marker("lint"):
         monkeypatch.setattr(lint, "remarks", lambda run, m: ())
 
 

@@ -33,7 +33,7 @@ from mnclab.machine import trial
 
 sys.path.insert(0, str(Path(__file__).parent / "authorities"))
 import iso_programs
-import refusals
+from tools import refusals
 
 TESTS = Path(__file__).resolve().parent
 SAMPLES = TESTS.parent / "data" / "programs"

@@ -1,7 +1,7 @@
 """What the MNC manual leaves open (chapters 1 to 8): each has a setting, or a reason why one reading is enough.
 
 The names and the adopted readings are in tests/authorities/catalogue/ambiguities.json; the adopted reading is the default.
-That it is, tests/t5_controls/mnc/test_readings.py shows; both readings of a setting are in test_settings.py beside it.
+That it is, tests/controls/mnc/test_readings.py shows; both readings of a setting are in test_settings.py beside it.
 """
 
 import json
@@ -138,5 +138,5 @@ def test_every_setting_that_names_an_ambiguity_stands_beside_it():
 
 @pytest.mark.parametrize("name", [n for n, verdict in READINGS.items() if verdict.split(":")[0] in ("setting", "one")])
 def test_a_test_shows_that_the_default_is_the_adopted_reading(name):
-    texts = [path.read_text(encoding="utf-8") for path in (TESTS / "t5_controls" / "mnc").glob("test_*.py")]
+    texts = [path.read_text(encoding="utf-8") for path in (TESTS / "controls" / "mnc").glob("test_*.py")]
     assert any(re.search(rf"\b{name}(?![\w-])", text) for text in texts)

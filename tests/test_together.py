@@ -1,7 +1,7 @@
 """Checks that are made together: none is left out, each that fails is named, and fixtures come through."""
 
 import pytest
-from together import together
+from tools.together import together
 
 SEEN = []
 

@@ -1,5 +1,11 @@
-"""The core stands by itself, with one control: a copy of the house without its wings runs, plots, cuts and saves."""
+"""The core stands by itself, with one control: a copy of the house without its wings runs, plots, cuts and saves.
 
+The tests of a wing are a folder of their own: `controls/NAME`, `design`, `lab`. What lies directly in `controls` asks all
+controls that there are. The tests of the core import no wing, and those of them that name none pass in the copy too.
+"""
+
+import os
+import re
 import shutil
 import subprocess
 import sys
@@ -29,6 +35,12 @@ ALONE = {
     "jnc_t01": ("jnc-t01", JNC, TURNED, SHAFT),
     "nc_31": ("nc-31", NC_31, TURNED, SHAFT),
 }
+FLOORS = sorted(folder.name for folder in (ROOT / "tests").glob("t[0-9]_*"))
+#: Floors whose tests are run in the copy: they run programs and take seconds.
+RUN_ALONE = ("t0_text", "t4_comparison", "t4_machine", "t4_running")
+WING = re.compile(rf"^(?:from|import) (?:mnclab\.)?(?:{'|'.join(WINGS).replace('/', '[.]')})\b", re.M)
+#: What a file of tests says that asks for another control than the one that is there, or for a wing.
+NAMES_ANOTHER = re.compile(r"tnc-620|BEGIN PGM|g43|jnc-t01|nc-31|[Dd]esign|\.(?:lab|form|editor|compare)\b")
 SCRIPT = """
 import mnclab
 assert mnclab.__file__.startswith({home!r}), mnclab.__file__
@@ -54,11 +66,19 @@ for door in (lambda: mnclab.Design, lambda: mnclab.design.Hole, lambda: mnclab.f
 def core(tmp_path_factory):
     """A copy of the house without any wing."""
     home = tmp_path_factory.mktemp("core")
+    home.joinpath("tests").mkdir()
     leave = shutil.ignore_patterns("__pycache__")
     shutil.copytree(ROOT / "mnclab", home / "mnclab", ignore=leave)
     for wing in WINGS:
         shutil.rmtree(home / "mnclab" / wing)
     return home
+
+
+def test_the_tests_of_the_core_import_no_wing():
+    for folder in ("tools", *FLOORS):
+        for file in (ROOT / "tests" / folder).glob("*.py"):
+            found = WING.search(file.read_text("utf-8"))
+            assert not found, f"tests/{folder}/{file.name} says {found[0]}: it belongs into the folder of that wing"
 
 
 @pytest.mark.deep
@@ -73,3 +93,22 @@ def test_the_core_with_one_control_runs(core, folder):
         assert found.returncode == 0, found.stderr[-3000:]
     finally:
         shutil.rmtree(core / "mnclab" / "controls" / folder)
+
+
+@pytest.mark.deep
+def test_the_core_passes_its_own_tests(core):
+    """With one control, and without the folders of tests of all others."""
+    shutil.copytree(ROOT / "mnclab" / "controls" / "mnc", core / "mnclab" / "controls" / "mnc")
+    for name in ("conftest.py", "tools", "authorities", *RUN_ALONE):
+        (shutil.copytree if (ROOT / "tests" / name).is_dir() else shutil.copy)(ROOT / "tests" / name, core / "tests" / name)
+    shutil.copy(ROOT / "pyproject.toml", core)
+    files = [file for name in RUN_ALONE for file in sorted((core / "tests" / name).glob("test_*.py"))]
+    chosen = [file for file in files if not NAMES_ANOTHER.search(file.read_text("utf-8"))]
+    assert len(chosen) > len(files) / 3
+    environment = os.environ | {"MPLBACKEND": "agg", "PYTHONPATH": str(core)}
+    try:
+        command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-m", "not deep", *chosen]
+        found = subprocess.run(command, cwd=core, capture_output=True, text=True, env=environment)
+        assert found.returncode == 0, found.stdout[-3000:] + found.stderr[-1000:]
+    finally:
+        shutil.rmtree(core / "mnclab" / "controls" / "mnc")

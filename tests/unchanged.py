@@ -28,7 +28,7 @@ from pathlib import Path
 os.environ.setdefault("MPLBACKEND", "agg")
 
 import numpy as np
-import refusals
+from tools import refusals
 
 import mnclab
 

@@ -8,7 +8,7 @@ Prints processor seconds without those of the heights and of the design; the aim
 import time
 
 import pytest
-from milled import part
+from tools.milled import part
 
 from mnclab import Tool
 from mnclab.design.model import Design, Pocket

@@ -8,7 +8,7 @@ import time
 
 import numpy as np
 import pytest
-from random_regions import large_task
+from tools.random_regions import large_task
 
 from mnclab.machining.milling.rings import rings
 

@@ -1,7 +1,7 @@
 """The player shows the part that a probe meets, and its touches as they come."""
 
 import pytest
-from toy_probing import toy_run
+from tools.toy_probing import toy_run
 
 from mnclab.workpiece.part import box, hole
 

@@ -4,7 +4,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from together import together
+from tools.together import together
 
 from mnclab import Alarm
 from mnclab.geometry.contours import Contour, arc, polygon, rectangle, slot

@@ -7,7 +7,7 @@ the hollow of a corner turned by t takes R tan(t / 2) of each side, and walls th
 import numpy as np
 import pytest
 import shapely
-from running import run
+from tools.running import run
 
 from mnclab import Kind, Tool
 from mnclab.path.toolpath import Toolpath

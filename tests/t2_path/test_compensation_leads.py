@@ -7,7 +7,7 @@ import warnings
 
 import numpy as np
 import pytest
-from running import run
+from tools.running import run
 
 import mnclab
 from mnclab import Kind, Setup, Tool

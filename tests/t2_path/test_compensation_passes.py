@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from running import run
+from tools.running import run
 
 from mnclab import Tool
 

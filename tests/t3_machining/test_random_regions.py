@@ -11,7 +11,7 @@ long as one of their places may lie too far from all passes. What is nearer to i
 import numpy as np
 import pytest
 import shapely
-from random_regions import random_task
+from tools.random_regions import random_task
 
 from mnclab.machining.milling.rings import rings
 

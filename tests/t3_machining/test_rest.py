@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import shapely
-from random_regions import random_task
+from tools.random_regions import random_task
 
 from mnclab.geometry.contours import Contour, polygon, rectangle
 from mnclab.geometry.regions import Region

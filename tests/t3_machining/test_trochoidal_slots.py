@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import shapely
+from tools.chance import seeds
 
 from mnclab.geometry.contours import Contour
 from mnclab.machining.depths import TooMany
@@ -47,7 +48,7 @@ def full_circles(contour):
     return np.flatnonzero(pair) + 2, centres[:-1][pair]
 
 
-@pytest.mark.parametrize("seed", range(220))
+@pytest.mark.parametrize("seed", seeds(30, deep=220))
 def test_random_lines(seed):
     rng = np.random.default_rng(1000 + seed)
     line, radius = random_line(seed), rng.uniform(2, 6)

@@ -6,8 +6,8 @@ import pickle
 
 import numpy as np
 import pytest
-from milled import BALL, BULL, DRILL, MILL, part
-from running import run
+from tools.milled import BALL, BULL, DRILL, MILL, part
+from tools.running import run
 
 import mnclab
 from mnclab import Tool

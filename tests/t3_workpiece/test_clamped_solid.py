@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from milled import BALL, BULL, DRILL, MILL, is_closed, part
+from tools.milled import BALL, BULL, DRILL, MILL, is_closed, part
 
 from mnclab import Tool
 from mnclab.geometry.contours import Contour

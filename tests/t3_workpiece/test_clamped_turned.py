@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from milled import MILL, part
-from running import run
 from t3_workpiece.lathe import BAR, SHARP, cutting, turned
+from tools.milled import MILL, part
+from tools.running import run
 
 import mnclab
 from mnclab import Tool

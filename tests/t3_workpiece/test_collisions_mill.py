@@ -4,7 +4,7 @@ from math import hypot
 
 import numpy as np
 import pytest
-from running import lines, run
+from tools.running import lines, run
 
 import mnclab
 from mnclab import Limits, Tool

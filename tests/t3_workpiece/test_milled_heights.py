@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from milled import BALL, BLOCK, BULL, DRILL, MILL, part
-from running import run
+from tools.milled import BALL, BLOCK, BULL, DRILL, MILL, part
+from tools.running import run
 
 from mnclab import Alarm, Tool
 from mnclab.workpiece.blank import cylinder

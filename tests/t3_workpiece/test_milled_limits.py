@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from milled import BLOCK, MILL, part
-from running import run
+from tools.milled import BLOCK, MILL, part
+from tools.running import run
 
 from mnclab import Tool
 from mnclab.workpiece.blank import cylinder

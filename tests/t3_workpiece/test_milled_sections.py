@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from milled import BALL, DRILL, part
+from tools.milled import BALL, DRILL, part
 
 from mnclab import Alarm, Tool
 from mnclab.workpiece.blank import cylinder

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from milled import is_closed
+from tools.milled import is_closed
 
 import mnclab
 from mnclab import Setup, Tool

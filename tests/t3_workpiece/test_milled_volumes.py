@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from milled import BALL, BLOCK, BULL, DRILL, MILL, part
-from running import run
+from tools.milled import BALL, BLOCK, BULL, DRILL, MILL, part
+from tools.running import run
 
 from mnclab import Alarm, Tool
 from mnclab.workpiece.blank import Box, cylinder

@@ -7,7 +7,6 @@ import pytest
 
 import mnclab
 from mnclab import Setup
-from mnclab.design import Design, Pocket, TurnedDesign
 from mnclab.text.alarm import Alarm
 from mnclab.workpiece.part import ball, boss, box, cylinder, hole, mesh, plane, pocket
 from mnclab.workpiece.part.part import Part
@@ -53,7 +52,7 @@ def test_sections_over_a_grid():
 
 
 def test_sections_of_others_are_their_own():
-    design = Design(((0, 0, -20), (100, 60, 0)), [Pocket.circle(50, 30, 24, 10)])
+    design = mnclab.Design(((0, 0, -20), (100, 60, 0)), [mnclab.design.Pocket.circle(50, 30, 24, 10)])
     assert area(design.part.section(-5)) == pytest.approx(6000 - pi * 144, abs=1e-9)
     pyvista = pytest.importorskip("pyvista")
     assert area(mesh(pyvista.Box((0, 10, 0, 20, 0, 30))).section(15)) == pytest.approx(200, abs=1e-6)
@@ -119,9 +118,9 @@ def test_a_part_by_its_distance_alone():
 def test_bounds_of_others():
     """A design has those of its blank, a turned part those of its largest radius, what was cut those of the blank."""
     low_high = [[0, 0, -20], [100, 60, 0]]
-    design = Design(((0, 0, -20), (100, 60, 0)), [Pocket.circle(50, 30, 24, 10)])
+    design = mnclab.Design(((0, 0, -20), (100, 60, 0)), [mnclab.design.Pocket.circle(50, 30, 24, 10)])
     assert design.part.bounds.tolist() == low_high
-    bar = TurnedDesign([(0, 10), (-20, 10), (-20, 15), (-50, 15)])
+    bar = mnclab.design.TurnedDesign([(0, 10), (-20, 10), (-20, 15), (-50, 15)])
     assert bar.part.bounds == pytest.approx(np.array([[-15, -15, -50], [15, 15, 0]]))
     run = mnclab.run("T1 M6\nS1000 M3\nG0 X50 Y30 Z5\nG1 Z-4 F100\nG0 Z50\n", "g43", Setup(stock=low_high))
     assert run.workpiece().part.bounds.tolist() == low_high

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from together import together
+from tools.together import together
 
 import mnclab
 from mnclab import Alarm, Datum, Limits, Probe, Setup, Tool

@@ -3,8 +3,8 @@
 from functools import partial
 
 import pytest
-import running
-from running import lines
+from tools import running
+from tools.running import lines
 
 import mnclab
 from mnclab import Limits, Tool

@@ -4,7 +4,7 @@ import random
 from pathlib import Path
 
 import pytest
-from together import together
+from tools.together import together
 
 import mnclab
 from mnclab import Alarm

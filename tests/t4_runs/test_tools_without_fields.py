@@ -18,6 +18,7 @@ from mnclab.path.tool import KINDS, LATHE
 from mnclab.workpiece.blank import Box, cylinder
 
 BAR, TUBE, PLATE = cylinder(20, -60, 0), cylinder(20, -60, 0, bore=10), Box((0, 0, -20), (60, 40, 0))
+BLOCK = Box((24, 14, -20), (36, 26, 0))  # about one hole
 INSERTS = {"corner": 0.4, "angle": 55.0, "cutting_length": 3.0, "width": 3.0, "main_angle": 75.0, "auxiliary_angle": 35.0}
 TURNING = {"radius": 4.0, "corner": 0.4, "angle": 100.0, "cutting_length": 12.0, "teeth": 2, "length": 50.0}
 ROUND = tuple(kind for kind in KINDS if kind and kind not in (*LATHE, "probe"))
@@ -62,7 +63,7 @@ def test_what_turns_about_its_own_axis_cuts_its_hole_or_says_that_it_has_no_radi
     usual = {"drill": 118.0, "countersink": 90.0, "chamfer": 90.0}
     for fields in every(TURNING):
         text = "M3|G97 S500 T1|G94 F100|G00 X0 Z5|G01 Z-15" if lathe else "T1 S500 M3|G0 X30 Y20 Z5|G1 Z-15 F100"
-        run = turned(Tool(kind=kind, centre_cutting=True, **fields), text, BAR if lathe else PLATE, control)
+        run = turned(Tool(kind=kind, centre_cutting=True, **fields), text, BAR if lathe else BLOCK, control)
         part = run.workpiece(step=0.25) if not lathe else run.workpiece()
         if not fields.get("radius"):
             assert part.removed == 0 and any("cut nothing" in each or "no radius" in each for each in part.notes), fields

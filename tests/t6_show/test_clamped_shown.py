@@ -4,9 +4,9 @@ import functools
 
 import numpy as np
 import pytest
-from milled import MILL
-from running import run
 from t3_workpiece.lathe import SHARP
+from tools.milled import MILL
+from tools.running import run
 
 import mnclab
 from mnclab.geometry.contours import Contour

@@ -8,7 +8,6 @@ import mnclab
 from mnclab import Alarm
 from mnclab import __main__ as shell
 from mnclab.geometry import dxf
-from mnclab.lab import forms
 
 PROGRAM = "T1 S500 M3\nG0 X0 Y0 Z5\nG1 X10 F100\nG1 Y20\n"
 LAB, DXF = 'pip install "mnclab[lab]" brings it', 'pip install "mnclab[dxf]" brings it'
@@ -64,7 +63,7 @@ def test_boxes_name_ipywidgets(run, tmp_path, without, door):
         if door in BOXES:
             PICTURES[door](run, tmp_path)
         else:
-            getattr(forms, door)(run if door == "compensation_panel" else run.profile())
+            getattr(mnclab, door)(run if door == "compensation_panel" else run.profile())
     assert "ipywidgets" in caught.value.message and LAB in caught.value.hint
 
 

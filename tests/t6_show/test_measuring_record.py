@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from toy_probing import toy_run
+from tools.toy_probing import toy_run
 
 import mnclab
 from mnclab import __main__ as shell

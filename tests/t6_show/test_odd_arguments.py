@@ -3,8 +3,8 @@
 import random
 import warnings
 
-import odd_arguments
 import pytest
+from tools import odd_arguments
 
 from mnclab import Alarm
 

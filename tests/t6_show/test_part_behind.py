@@ -7,7 +7,7 @@ import zlib
 
 import numpy as np
 import pytest
-from toy_probing import toy_run
+from tools.toy_probing import toy_run
 
 import mnclab
 from mnclab.show.player.payload import payload

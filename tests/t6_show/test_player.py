@@ -25,7 +25,7 @@ from mnclab.workpiece.blank import cylinder
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAMS = sorted(
     path
-    for pattern in ("data/programs/*/*", "tests/programs/*/*", "tests/t5_controls/nc_31/examples/*")
+    for pattern in ("data/programs/*/*", "tests/programs/*/*", "tests/controls/nc_31/examples/*")
     for path in ROOT.glob(pattern)
     if path.is_file() and path.suffix != ".expected"
 )
@@ -150,12 +150,13 @@ def chosen():
     return {path: [dice.random() for _ in range(-(-INDICES // len(EVERY)))] for path in EVERY}
 
 
+@pytest.mark.parametrize("looks", [slice(2), pytest.param(slice(2, None), marks=pytest.mark.deep)], ids=["few", "others"])
 @pytest.mark.parametrize("path", EVERY, ids=lambda path: "/".join(path.parts[-2:]) if path else "called")
-def test_state_at_any_step_is_that_of_a_fresh_run(path, chosen, monkeypatch):
+def test_state_at_any_step_is_that_of_a_fresh_run(path, looks, chosen, monkeypatch):
     run = run_of(path)
     steps = len(run.steps.block)
     data = Data(payload(run, run.profile()))
-    for share in chosen[path]:
+    for share in chosen[path][looks]:
         step = int(share * steps)
         other = fresh(run, step, monkeypatch)
         expected = {name: plain(value) for name, value in other.at(step=step).state.items()}

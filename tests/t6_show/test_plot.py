@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import running
 from matplotlib.figure import Figure
+from tools import running
 
 import mnclab
 from mnclab import Alarm, Kind, Setup, Tool, Toolpath

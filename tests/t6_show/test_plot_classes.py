@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import running
 from matplotlib.collections import PathCollection
 from matplotlib.colors import to_rgb
+from tools import running
 
 import mnclab
 from mnclab import Alarm, Kind, Toolpath

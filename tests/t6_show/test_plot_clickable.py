@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import running
+from tools import running
 
 import mnclab
 from mnclab.show.plot.clickable import MOST

@@ -10,7 +10,6 @@ from matplotlib.quiver import Quiver
 
 import mnclab
 from mnclab import Alarm, Setup, Tool
-from mnclab.lab import forms
 from mnclab.path.toolpath import RULE_NAMES, Rule
 from mnclab.show import plot
 from mnclab.show.plot import colours
@@ -279,7 +278,7 @@ def test_no_text_covers_another(program, options):
 
 
 def test_the_panel_follows_radius_and_rule():
-    live = forms.compensation_panel(mnclab.run(KEYHOLE))
+    live = mnclab.compensation_panel(mnclab.run(KEYHOLE))
     assert live.boxes["radius"].value == 3 and "alert" not in live.alarms.value and "gouge" not in live.picture.value
     live.boxes["radius"].value = 4.26  # the mouth is 8.5 wide
     assert "largest radius for the whole contour is 4.25 mm" in live.alarms.value and "gouges" in live.picture.value

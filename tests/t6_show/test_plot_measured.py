@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 from matplotlib.patches import Circle
-from toy_probing import toy_run
+from tools.toy_probing import toy_run
 
 import mnclab
 from mnclab import Alarm

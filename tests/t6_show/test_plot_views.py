@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import mnclab as mnc
-from mnclab.controls.g43 import CONTROL as G43
 
 HEAD = "BEGIN PGM VIEWS MM\nTOOL CALL 1 {axis} S1000 F200\n"
 END = "\nEND PGM VIEWS MM"
@@ -54,4 +53,4 @@ def test_the_shifts_of_g52_and_g92_have_their_own_names():
     above = run.plot().axes[0]
     written = {text.get_text(): text.xy for text in above.texts}  # G92 Y0 at X20 Y30: the zero of Y is there
     assert written["G52"] == pytest.approx((20, 0)) and written["G92"] == pytest.approx((20, 30))
-    assert "set" in G43.frames
+    assert "set" in mnc.controls["g43"].frames

@@ -6,9 +6,8 @@ import json
 import pytest
 
 import mnclab
-from mnclab import Design, Setup, Tool
+from mnclab import Setup, Tool
 from mnclab.__main__ import main
-from mnclab.design.model.holes import Hole
 from mnclab.workpiece.collision import Collisions
 
 BLANK = ((0, 0, -20), (60, 40, 0))
@@ -46,8 +45,8 @@ VERDICTS = {
     "removal": lambda run: repr(run.removal()),
     "removal, a page": lambda run: html(run.removal()),
     "the outcome": lambda run: run.outcome().html(),
-    "compared": lambda run: repr(run.workpiece().compare(Design(BLANK))),
-    "compared, a page": lambda run: html(run.workpiece().compare(Design(BLANK))),
+    "compared": lambda run: repr(run.workpiece().compare(mnclab.Design(BLANK))),
+    "compared, a page": lambda run: html(run.workpiece().compare(mnclab.Design(BLANK))),
     "compared with itself": lambda run: run.workpiece().compare(run.workpiece()).verdict,
     "measurements": lambda run: repr(run.measurements),
     "measurements, a page": lambda run: html(run.measurements),
@@ -143,6 +142,6 @@ def test_a_thread_that_nothing_cuts_is_not_cut(tapped):
     tools = {2: Tool(number=2, radius=3.4, kind="drill", length=80), 3: Tool(number=3, radius=4, kind="tap", length=80)}
     run = mnclab.run(text + tap * tapped + "M30\n", "g43", Setup(tools=tools, stock=BLANK))
     assert run.ok
-    drawn = Design(BLANK, [Hole(20, 20, None, thread="M8")])
+    drawn = mnclab.Design(BLANK, [mnclab.design.Hole(20, 20, None, thread="M8")])
     (row,) = [row for row in run.workpiece().compare(drawn).features if row.measure == "thread"]
     assert row.verdict == ("not measured" if tapped else "not cut") and row.ok is tapped

@@ -71,152 +71,78 @@ Q315=-6
 Q320=0
 Q301=0
 
-; == tch-probe-403-q265-is-that-of-the
+; -- cycle-403
+1 TOOL CALL 6 Z
+2 L Z+100 R0 FMAX
+3 TCH PROBE 403 NAME
+Q263=10
+Q264=0
+Q265=90
+Q266=0
+Q272=2
+Q267=1
+Q261=-5
+Q320=0
+Q260=20
+Q301=0
+Q312=6
+Q337=1
+Q305=3
+Q303=1
+Q380=0
+
+; == tch-probe-403-q265-is-that-of-the like cycle-403
 ; 7:1 alarm: TCH PROBE 403 Q265 (second touch point, reference axis) is that of the first touch point: two places make a line
-1 TOOL CALL 6 Z
-2 L Z+100 R0 FMAX
-3 TCH PROBE 403 NAME
-Q263=10
-Q264=0
-Q265=10
-Q266=0
-Q272=2
-Q267=1
-Q261=-5
-Q320=0
-Q260=20
-Q301=0
-Q312=6
-Q337=1
-Q305=3
-Q303=1
-Q380=0
+@@ 7
+-Q265=90
++Q265=10
 
-; == tch-probe-403-q266-is-that-of-the
+; == tch-probe-403-q266-is-that-of-the like cycle-403
 ; 8:1 alarm: TCH PROBE 403 Q266 (second touch point, minor axis) is that of the first touch point: two places make a line
-1 TOOL CALL 6 Z
-2 L Z+100 R0 FMAX
-3 TCH PROBE 403 NAME
-Q263=10
-Q264=0
-Q265=90
-Q266=0
-Q272=3
-Q267=1
-Q261=-5
-Q320=0
-Q260=20
-Q301=0
-Q312=4
-Q337=1
-Q305=3
-Q303=1
-Q380=0
+@@ 9
+-Q272=2
++Q272=3
+@@ 15
+-Q312=6
++Q312=4
 
-; == tch-probe-403-q312-0-the-touch-points
+; == tch-probe-403-q312-0-the-touch-points like cycle-403
 ; 15:1 alarm: TCH PROBE 403 Q312 (rotary axis) 0: the touch points lie apart in both axes: choose 4 (A) or 5 (B)
-1 TOOL CALL 6 Z
-2 L Z+100 R0 FMAX
-3 TCH PROBE 403 NAME
-Q263=10
-Q264=0
-Q265=90
-Q266=5
-Q272=3
-Q267=1
-Q261=-5
-Q320=0
-Q260=20
-Q301=0
-Q312=0
-Q337=1
-Q305=3
-Q303=1
-Q380=0
+@@ 8
+-Q266=0
+-Q272=2
++Q266=5
++Q272=3
+@@ 15
+-Q312=6
++Q312=0
 
-; == tch-probe-403-q312-a-is-not-shown
+; == tch-probe-403-q312-a-is-not-shown like cycle-403
 ; 15:1 alarm: TCH PROBE 403 Q312 (rotary axis) A is not shown by touches along the minor axis
-1 TOOL CALL 6 Z
-2 L Z+100 R0 FMAX
-3 TCH PROBE 403 NAME
-Q263=10
-Q264=0
-Q265=90
-Q266=0
-Q272=2
-Q267=1
-Q261=-5
-Q320=0
-Q260=20
-Q301=0
-Q312=4
-Q337=1
-Q305=3
-Q303=1
-Q380=0
+@@ 15
+-Q312=6
++Q312=4
 
-; == tch-probe-403-q312-c-is-not-shown
+; == tch-probe-403-q312-c-is-not-shown like cycle-403
 ; 15:1 alarm: TCH PROBE 403 Q312 (rotary axis) C is not shown by touches along the touch probe axis
-1 TOOL CALL 6 Z
-2 L Z+100 R0 FMAX
-3 TCH PROBE 403 NAME
-Q263=10
-Q264=0
-Q265=90
-Q266=0
-Q272=3
-Q267=1
-Q261=-5
-Q320=0
-Q260=20
-Q301=0
-Q312=6
-Q337=1
-Q305=3
-Q303=1
-Q380=0
+@@ 9
+-Q272=2
++Q272=3
 
-; == tch-probe-403-q312-must-be-one-of
+; == tch-probe-403-q312-must-be-one-of like cycle-403
 ; 15:1 alarm: TCH PROBE 403 Q312 (rotary axis) must be one of 0, 4, 5, 6, got 1
-1 TOOL CALL 6 Z
-2 L Z+100 R0 FMAX
-3 TCH PROBE 403 NAME
-Q263=10
-Q264=0
-Q265=90
-Q266=0
-Q272=2
-Q267=1
-Q261=-5
-Q320=0
-Q260=20
-Q301=0
-Q312=1
-Q337=1
-Q305=3
-Q303=1
-Q380=0
+@@ 15
+-Q312=6
++Q312=1
 
-; == tch-probe-403-q312-needs-the-rotary-axis
+; == tch-probe-403-q312-needs-the-rotary-axis like cycle-403
 ; 15:1 alarm: TCH PROBE 403 Q312 (rotary axis) needs the rotary axis B: the machine has A and C (setting rotary_axes)
-1 TOOL CALL 6 Z
-2 L Z+100 R0 FMAX
-3 TCH PROBE 403 NAME
-Q263=10
-Q264=0
-Q265=90
-Q266=0
-Q272=3
-Q267=1
-Q261=-5
-Q320=0
-Q260=20
-Q301=0
-Q312=5
-Q337=1
-Q305=3
-Q303=1
-Q380=0
+@@ 9
+-Q272=2
++Q272=3
+@@ 15
+-Q312=6
++Q312=5
 
 ; == tch-probe-404-q305-must-be-a-whole
 ; 6:1 alarm: TCH PROBE 404 Q305 (number in table) must be a whole number and at least -1 and at most 99999, got -2

@@ -66,101 +66,61 @@ Q400=1
 2 TCH PROBE 450 X
 Q263=1
 
-; == tch-probe-460-half-a-point
+; -- cycle-460
+BEGIN PGM A MM
+TOOL CALL 6 Z
+L X+0 Y+0 Z+20 R0 FMAX
+TCH PROBE 460 X
+Q407=12.5
+Q320=0
+Q301=1
+Q423=4
+Q380=0
+Q433=0
+Q434=0
+Q455=0
+
+; == tch-probe-460-half-a-point like cycle-460
 ; 10:1 alarm: TCH PROBE 460 Q423 (number of touch points) must be a whole number and at least 3 and at most 8, got 4.5
 ; 17.6: a number of points
-BEGIN PGM A MM
-TOOL CALL 6 Z
-L X+0 Y+0 Z+20 R0 FMAX
-TCH PROBE 460 X
-Q407=12.5
-Q320=0
-Q301=1
-Q423=4.5
-Q380=0
-Q433=0
-Q434=0
-Q455=0
+@@ 10
+-Q423=4
++Q423=4.5
 
-; == tch-probe-460-no-radius
+; == tch-probe-460-no-radius like cycle-460
 ; 7:1 alarm: TCH PROBE 460 Q407 (exact radius of the calibration sphere) must be at least 0.0001 and at most 99.9999, got 0
 ; 17.6: at least 0.0001
-BEGIN PGM A MM
-TOOL CALL 6 Z
-L X+0 Y+0 Z+20 R0 FMAX
-TCH PROBE 460 X
-Q407=0
-Q320=0
-Q301=1
-Q423=4
-Q380=0
-Q433=0
-Q434=0
-Q455=0
+@@ 7
+-Q407=12.5
++Q407=0
 
-; == tch-probe-460-q301
+; == tch-probe-460-q301 like cycle-460
 ; 9:1 alarm: TCH PROBE 460 Q301 (height between measuring points) must be one of 0, 1, got 2
 ; 17.6: Q301 is 0 or 1
-BEGIN PGM A MM
-TOOL CALL 6 Z
-L X+0 Y+0 Z+20 R0 FMAX
-TCH PROBE 460 X
-Q407=12.5
-Q320=0
-Q301=2
-Q423=4
-Q380=0
-Q433=0
-Q434=0
-Q455=0
+@@ 9
+-Q301=1
++Q301=2
 
-; == tch-probe-460-q433
+; == tch-probe-460-q433 like cycle-460
 ; 12:1 alarm: TCH PROBE 460 Q433 (calibrating the length too) must be one of 0, 1, got -1
 ; 17.6: Q433 is 0 or 1
-BEGIN PGM A MM
-TOOL CALL 6 Z
-L X+0 Y+0 Z+20 R0 FMAX
-TCH PROBE 460 X
-Q407=12.5
-Q320=0
-Q301=1
-Q423=4
-Q380=0
-Q433=-1
-Q434=0
-Q455=0
+@@ 12
+-Q433=0
++Q433=-1
 
-; == tch-probe-460-too-many-points-3d
+; == tch-probe-460-too-many-points-3d like cycle-460
 ; 14:1 alarm: TCH PROBE 460 Q455 (touch points from pole to equator) must be a whole number and at least 0 and at most 30, got 31
 ; 17.6: at most 30
-BEGIN PGM A MM
-TOOL CALL 6 Z
-L X+0 Y+0 Z+20 R0 FMAX
-TCH PROBE 460 X
-Q407=12.5
-Q320=0
-Q301=1
-Q423=4
-Q380=0
-Q433=0
-Q434=0
-Q455=31
+@@ 14
+-Q455=0
++Q455=31
 
-; == tch-probe-460-two-points
+; == tch-probe-460-two-points like cycle-460
 ; 10:1 alarm: TCH PROBE 460 Q423 (number of touch points) must be a whole number and at least 3 and at most 8, got 2
 ; 17.6: 3 to 8 points
-BEGIN PGM A MM
-TOOL CALL 6 Z
-L X+0 Y+0 Z+20 R0 FMAX
-TCH PROBE 460 X
-Q407=12.5
-Q320=0
-Q301=1
-Q423=2
-Q380=0
-Q433=0
-Q434=0
-Q455=0
+@@ 10
+-Q423=4
++Q423=2
 
 ; == tch-probe-461-under-a-shift
 ; 8:1 alarm: TCH PROBE 461 cannot run while a shift is active

@@ -7,10 +7,9 @@ LBL 1
 LBL 0
 9 END PGM A MM
 
-; == contour-def-encloses-nothing
-; 3:15 alarm: CONTOUR DEF encloses nothing
+; -- square
 0 BEGIN PGM A MM
-1 CONTOUR DEF P1 = LBL 1 I2 = LBL 1
+1 CONTOUR DEF P1 = LBL 1
 2 M30
 LBL 1
 L X+0 Y+0
@@ -21,19 +20,17 @@ L Y+0
 LBL 0
 9 END PGM A MM
 
-; == contour-def-first-an-island
+; == contour-def-encloses-nothing like square
+; 3:15 alarm: CONTOUR DEF encloses nothing
+@@ 3
+-1 CONTOUR DEF P1 = LBL 1
++1 CONTOUR DEF P1 = LBL 1 I2 = LBL 1
+
+; == contour-def-first-an-island like square
 ; 3:15 alarm: CONTOUR DEF I1: the first part must be a pocket, the deepest one
-0 BEGIN PGM A MM
-1 CONTOUR DEF I1 = LBL 1 P2 = LBL 1
-2 M30
-LBL 1
-L X+0 Y+0
-L X+40
-L Y+40
-L X+0
-L Y+0
-LBL 0
-9 END PGM A MM
+@@ 3
+-1 CONTOUR DEF P1 = LBL 1
++1 CONTOUR DEF I1 = LBL 1 P2 = LBL 1
 
 ; == contour-def-first-is-p2
 ; 3:15 alarm: CONTOUR DEF P2: the first part is P1, the deepest pocket
@@ -44,62 +41,30 @@ LBL 1
 LBL 0
 9 END PGM A MM
 
-; == contour-def-negative-depth
+; == contour-def-negative-depth like square
 ; 3:26 alarm: CONTOUR DEF P1 DEPTH (depth of the contour) must be at least 0, got -5
-0 BEGIN PGM A MM
-1 CONTOUR DEF P1 = LBL 1 DEPTH-5
-2 M30
-LBL 1
-L X+0 Y+0
-L X+40
-L Y+40
-L X+0
-L Y+0
-LBL 0
-9 END PGM A MM
+@@ 3
+-1 CONTOUR DEF P1 = LBL 1
++1 CONTOUR DEF P1 = LBL 1 DEPTH-5
 
-; == contour-def-no-label
+; == contour-def-no-label like square
 ; 3:35 alarm: label "HOLE" does not exist (labels of this program: 1)
-0 BEGIN PGM A MM
-1 CONTOUR DEF P1 = LBL 1 I2 = LBL "HOLE"
-2 M30
-LBL 1
-L X+0 Y+0
-L X+40
-L Y+40
-L X+0
-L Y+0
-LBL 0
-9 END PGM A MM
+@@ 3
+-1 CONTOUR DEF P1 = LBL 1
++1 CONTOUR DEF P1 = LBL 1 I2 = LBL "HOLE"
 
-; == contour-def-no-program
+; == contour-def-no-program like square
 ; 3:31 alarm: CONTOUR DEF I2 NONE: there is no program of this name (Setup(files=…) has no files; the folder of contour-def-no-program.h has none)
-0 BEGIN PGM A MM
-1 CONTOUR DEF P1 = LBL 1 I2 = "NONE"
-2 M30
-LBL 1
-L X+0 Y+0
-L X+40
-L Y+40
-L X+0
-L Y+0
-LBL 0
-9 END PGM A MM
+@@ 3
+-1 CONTOUR DEF P1 = LBL 1
++1 CONTOUR DEF P1 = LBL 1 I2 = "NONE"
 
-; == contour-def-number-twice
+; == contour-def-number-twice like square
 ; 4:1 alarm: CONTOUR DEF P2: the number 2 stands twice
-0 BEGIN PGM A MM
-1 CONTOUR DEF P1 = LBL 1 I2 = LBL 1
-P2 = LBL 1
-2 M30
-LBL 1
-L X+0 Y+0
-L X+40
-L Y+40
-L X+0
-L Y+0
-LBL 0
-9 END PGM A MM
+@@ 3
+-1 CONTOUR DEF P1 = LBL 1
++1 CONTOUR DEF P1 = LBL 1 I2 = LBL 1
++P2 = LBL 1
 
 ; == contour-def-part-begins-with-one-coordinate
 ; 6:1 alarm: the contour of label 1 must begin with both coordinates of the plane
@@ -152,20 +117,10 @@ L X+0
 LBL 0
 9 END PGM A MM
 
-; == contour-def-part-without-name
+; == contour-def-part-without-name like square
 ; 4:6 alarm: I2 needs the name of a program, or LBL and a label (for example CONTOUR DEF P1 = "POCKET" I2 = "ISLAND" DEPTH5)
-0 BEGIN PGM A MM
-1 CONTOUR DEF P1 = LBL 1
-I2 = DEPTH5
-2 M30
-LBL 1
-L X+0 Y+0
-L X+40
-L Y+40
-L X+0
-L Y+0
-LBL 0
-9 END PGM A MM
+@@ 4
++I2 = DEPTH5
 
 ; == contour-def-part-without-value
 ; 8:5 alarm: no value was given to Q77
@@ -179,34 +134,18 @@ L Y+Q77
 LBL 0
 9 END PGM A MM
 
-; == contour-def-ten-parts
+; == contour-def-ten-parts like square
 ; 3:114 alarm: CONTOUR DEF P10: there are at most 9 parts, 1 to 9
-0 BEGIN PGM A MM
-1 CONTOUR DEF P1 = LBL 1 P2 = LBL 1 P3 = LBL 1 P4 = LBL 1 P5 = LBL 1 P6 = LBL 1 P7 = LBL 1 P8 = LBL 1 P9 = LBL 1 P10 = LBL 1
-2 M30
-LBL 1
-L X+0 Y+0
-L X+40
-L Y+40
-L X+0
-L Y+0
-LBL 0
-9 END PGM A MM
+@@ 3
+-1 CONTOUR DEF P1 = LBL 1
++1 CONTOUR DEF P1 = LBL 1 P2 = LBL 1 P3 = LBL 1 P4 = LBL 1 P5 = LBL 1 P6 = LBL 1 P7 = LBL 1 P8 = LBL 1 P9 = LBL 1 P10 = LBL 1
 
-; == contour-def-with-tool-axis-x
+; == contour-def-with-tool-axis-x like square
 ; 4:22 alarm: CONTOUR DEF P1: contours are built for the tool axis Z alone
-0 BEGIN PGM A MM
-1 TOOL CALL 1 X S100
-CONTOUR DEF P1 = LBL 1
-2 M30
-LBL 1
-L X+0 Y+0
-L X+40
-L Y+40
-L X+0
-L Y+0
-LBL 0
-9 END PGM A MM
+@@ 3
+-1 CONTOUR DEF P1 = LBL 1
++1 TOOL CALL 1 X S100
++CONTOUR DEF P1 = LBL 1
 
 ; == contour-def-within-a-part
 ; 6:13 alarm: CONTOUR DEF cannot stand in the description of a contour
@@ -230,19 +169,11 @@ L Y+0
 LBL 0
 9 END PGM A MM
 
-; == contour-def-without-parts
+; == contour-def-without-parts like square
 ; 3:1 alarm: CONTOUR DEF needs at least one pocket (for example CONTOUR DEF P1 = "POCKET")
-0 BEGIN PGM A MM
-1 CONTOUR DEF
-2 M30
-LBL 1
-L X+0 Y+0
-L X+40
-L Y+40
-L X+0
-L Y+0
-LBL 0
-9 END PGM A MM
+@@ 3
+-1 CONTOUR DEF P1 = LBL 1
++1 CONTOUR DEF
 
 ; == declare-contour-depth-twice
 ; 3:36 alarm: the depth stands twice (keep one of them)

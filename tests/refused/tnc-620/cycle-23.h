@@ -56,49 +56,12 @@ L Y+0
 LBL 0
 9 END PGM A MM
 
-; == feed-fmax
-; 19:1 alarm: CYCL DEF 23 Q12 (feed rate for finishing) must be a number, FAUTO, FU, FZ, got FMAX (FU has its value behind it, for example Q12=FU0.1)
+; -- pocket-with-island
 0 BEGIN PGM A MM
 TOOL CALL 1 Z S2000 F500
 L X+0 Y+0 Z+100 R0 FMAX M3
 CYCL DEF 14.0 CONTOUR
 CYCL DEF 14.1 CONTOUR LABEL 1/2
-CYCL DEF 20 DATA
-Q1=-10
-Q2=+1
-Q3=+0.5
-Q4=+0.2
-Q5=+0
-Q6=+2
-Q7=+50
-Q8=+0
-Q9=+1
-CYCL DEF 23 FLOOR
-Q11=+120
-Q12=FMAX
-Q208=+8000
-CYCL CALL
-L Z+100 R0 FMAX M2
-LBL 1
-L X+10 Y+20 RR
-L Y+80
-L X+90
-L Y+20
-L X+10
-LBL 0
-LBL 2
-CC X+50 Y+50
-L X+40 Y+50 RL
-C X+40 Y+50 DR-
-LBL 0
-
-; == islands-alone
-; 21:1 alarm: the contour has no pocket (a pocket is clockwise with RR or counter-clockwise with RL)
-0 BEGIN PGM A MM
-TOOL CALL 1 Z S2000 F500
-L X+0 Y+0 Z+100 R0 FMAX M3
-CYCL DEF 14.0 CONTOUR
-CYCL DEF 14.1 CONTOUR LABEL 2
 CYCL DEF 20 DATA
 Q1=-10
 Q2=+1
@@ -127,6 +90,18 @@ CC X+50 Y+50
 L X+40 Y+50 RL
 C X+40 Y+50 DR-
 LBL 0
+
+; == feed-fmax like pocket-with-island
+; 19:1 alarm: CYCL DEF 23 Q12 (feed rate for finishing) must be a number, FAUTO, FU, FZ, got FMAX (FU has its value behind it, for example Q12=FU0.1)
+@@ 19
+-Q12=+300
++Q12=FMAX
+
+; == islands-alone like pocket-with-island
+; 21:1 alarm: the contour has no pocket (a pocket is clockwise with RR or counter-clockwise with RL)
+@@ 6
+-CYCL DEF 14.1 CONTOUR LABEL 1/2
++CYCL DEF 14.1 CONTOUR LABEL 2
 
 ; == needs-contour-data
 ; 11:1 alarm: CYCL DEF 23 needs its contour data: CYCL DEF 20 comes before it
@@ -165,75 +140,13 @@ Q12=+300
 Q208=+8000
 CYCL CALL
 
-; == plunging-feed-0
+; == plunging-feed-0 like pocket-with-island
 ; 18:1 alarm: CYCL DEF 23 Q11 (feed rate for plunging) must be greater than 0 to mill with, got 0
-0 BEGIN PGM A MM
-TOOL CALL 1 Z S2000 F500
-L X+0 Y+0 Z+100 R0 FMAX M3
-CYCL DEF 14.0 CONTOUR
-CYCL DEF 14.1 CONTOUR LABEL 1/2
-CYCL DEF 20 DATA
-Q1=-10
-Q2=+1
-Q3=+0.5
-Q4=+0.2
-Q5=+0
-Q6=+2
-Q7=+50
-Q8=+0
-Q9=+1
-CYCL DEF 23 FLOOR
-Q11=+0
-Q12=+300
-Q208=+8000
-CYCL CALL
-L Z+100 R0 FMAX M2
-LBL 1
-L X+10 Y+20 RR
-L Y+80
-L X+90
-L Y+20
-L X+10
-LBL 0
-LBL 2
-CC X+50 Y+50
-L X+40 Y+50 RL
-C X+40 Y+50 DR-
-LBL 0
+@@ 18
+-Q11=+120
++Q11=+0
 
-; == strange-parameter
+; == strange-parameter like pocket-with-island
 ; 21:1 alarm: Q10=5 has no meaning in this block (CYCL DEF 23 does not take Q10) (a line Q… without a block number belongs to the definition above it: number it to assign a variable)
-0 BEGIN PGM A MM
-TOOL CALL 1 Z S2000 F500
-L X+0 Y+0 Z+100 R0 FMAX M3
-CYCL DEF 14.0 CONTOUR
-CYCL DEF 14.1 CONTOUR LABEL 1/2
-CYCL DEF 20 DATA
-Q1=-10
-Q2=+1
-Q3=+0.5
-Q4=+0.2
-Q5=+0
-Q6=+2
-Q7=+50
-Q8=+0
-Q9=+1
-CYCL DEF 23 FLOOR
-Q11=+120
-Q12=+300
-Q208=+8000
-Q10=+5
-CYCL CALL
-L Z+100 R0 FMAX M2
-LBL 1
-L X+10 Y+20 RR
-L Y+80
-L X+90
-L Y+20
-L X+10
-LBL 0
-LBL 2
-CC X+50 Y+50
-L X+40 Y+50 RL
-C X+40 Y+50 DR-
-LBL 0
+@@ 21
++Q10=+5

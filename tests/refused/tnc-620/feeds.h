@@ -4,8 +4,7 @@
 1 TOOL CALL 1 Z S1000 F100
 2 L X+5 F
 
-; == f-greater-than-0-got-0-2
-; 14:29 alarm: F (feed rate) must be greater than 0, got 0
+; -- cycle-200
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
 2 CYCL DEF 200 D
@@ -17,8 +16,12 @@ Q210=0
 Q203=0
 Q204=20
 Q211=0
-3 L Z+50 R0 FMAX M3
-4 CYCL CALL POS X+1 Y+2 Z+2 F0
+
+; == f-greater-than-0-got-0-2 like cycle-200
+; 14:29 alarm: F (feed rate) must be greater than 0, got 0
+@@ 13
++3 L Z+50 R0 FMAX M3
++4 CYCL CALL POS X+1 Y+2 Z+2 F0
 
 ; == f-greater-than-0-got-0
 ; 4:9 alarm: F (feed rate) must be greater than 0, got 0
@@ -38,22 +41,12 @@ Q211=0
 1 TOOL CALL 1 Z S1000 F100
 2 L X+5 F MAXX
 
-; == f100-fmax-stand-one-block-one
+; == f100-fmax-stand-one-block-one like cycle-200
 ; 15:22 alarm: F100 and FMAX stand in one block: one feed is allowed
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 CYCL DEF 200 D
-Q200=2
-Q201=-15
-Q206=250
-Q202=0
-Q210=0
-Q203=0
-Q204=20
-Q211=0
-3 L Z+50 R0 FMAX M3
-4 PATTERN DEF POS1 (X+10 Y+10 Z+0) POS2 (X+30 Y+10 Z+0)
-5 CYCL CALL PAT F100 FMAX
+@@ 13
++3 L Z+50 R0 FMAX M3
++4 PATTERN DEF POS1 (X+10 Y+10 Z+0) POS2 (X+30 Y+10 Z+0)
++5 CYCL CALL PAT F100 FMAX
 
 ; == f100-fu0-1-stand-one-block
 ; 4:14 alarm: F100 and FU0.1 stand in one block: one feed is allowed
@@ -180,19 +173,13 @@ Q12=FZ.1
 2 CYCL DEF 200 D
 Q206=FU0
 
-; == q206-fu-needs-value
+; == q206-fu-needs-value like cycle-200
 ; 7:1 alarm: Q206=FU needs its value (FU is the feed per revolution: write for example Q206=FU0.1)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 CYCL DEF 200 D
-Q200=2
-Q201=-15
-Q206=FU
-Q202=5
-Q210=0
-Q203=0
-Q204=20
-Q211=0
+@@ 7
+-Q206=250
+-Q202=0
++Q206=FU
++Q202=5
 
 ; == q206-fu0-1-needs-spindle-speed
 ; 6:1 alarm: Q206=FU0.1 needs a spindle speed (write S in the TOOL CALL block before the definition)
@@ -202,30 +189,18 @@ Q211=0
 3 CYCL DEF 200 D
 Q206=FU0.1
 
-; == q206-fz-needs-value
+; == q206-fz-needs-value like cycle-200
 ; 7:1 alarm: Q206=FZ needs its value (FZ is the feed per tooth: write for example Q206=FZ0.1)
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 CYCL DEF 200 D
-Q200=2
-Q201=-15
-Q206 = FZ
-Q202=5
-Q210=0
-Q203=0
-Q204=20
-Q211=0
+@@ 7
+-Q206=250
+-Q202=0
++Q206 = FZ
++Q202=5
 
-; == q206-needs-number
+; == q206-needs-number like cycle-200
 ; 7:1 alarm: Q206 needs a number
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 CYCL DEF 200 D
-Q200=2
-Q201=-15
-Q206=
-Q202=5
-Q210=0
-Q203=0
-Q204=20
-Q211=0
+@@ 7
+-Q206=250
+-Q202=0
++Q206=
++Q202=5

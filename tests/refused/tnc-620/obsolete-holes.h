@@ -1,72 +1,45 @@
-; == cycle-1-pecking-depth-positive
+; -- cycle-1
+BEGIN PGM A MM
+TOOL CALL 1 Z S1000
+L X+20 Y+10 Z+2 R0 FMAX M3
+CYCL DEF 1.0 X
+CYCL DEF 1.1 SET UP 2
+CYCL DEF 1.2 DEPTH -20
+CYCL DEF 1.3 PECKG 5
+CYCL DEF 1.4 DWELL 0
+CYCL DEF 1.5 F80
+CYCL CALL
+END PGM A MM
+
+; == cycle-1-pecking-depth-positive like cycle-1
 ; 7:14 alarm: CYCL DEF 1 DEPTH (depth) must be negative, got 20: a positive depth works upwards
-BEGIN PGM A MM
-TOOL CALL 1 Z S1000
-L X+20 Y+10 Z+2 R0 FMAX M3
-CYCL DEF 1.0 X
-CYCL DEF 1.1 SET UP 2
-CYCL DEF 1.2 DEPTH 20
-CYCL DEF 1.3 PECKG 5
-CYCL DEF 1.4 DWELL 0
-CYCL DEF 1.5 F80
-CYCL CALL
-END PGM A MM
+@@ 7
+-CYCL DEF 1.2 DEPTH -20
++CYCL DEF 1.2 DEPTH 20
 
-; == cycle-1-pecking-feed-0
+; == cycle-1-pecking-feed-0 like cycle-1
 ; 10:14 alarm: CYCL DEF 1 F (feed rate for drilling) must be greater than 0 to drill with, got 0
-BEGIN PGM A MM
-TOOL CALL 1 Z S1000
-L X+20 Y+10 Z+2 R0 FMAX M3
-CYCL DEF 1.0 X
-CYCL DEF 1.1 SET UP 2
-CYCL DEF 1.2 DEPTH -20
-CYCL DEF 1.3 PECKG 5
-CYCL DEF 1.4 DWELL 0
-CYCL DEF 1.5 F0
-CYCL CALL
-END PGM A MM
+@@ 10
+-CYCL DEF 1.5 F80
++CYCL DEF 1.5 F0
 
-; == cycle-1-pecking-infeed-0
+; == cycle-1-pecking-infeed-0 like cycle-1
 ; 8:14 alarm: CYCL DEF 1 PECKG (infeed depth) must be greater than 0, got 0
-BEGIN PGM A MM
-TOOL CALL 1 Z S1000
-L X+20 Y+10 Z+2 R0 FMAX M3
-CYCL DEF 1.0 X
-CYCL DEF 1.1 SET UP 2
-CYCL DEF 1.2 DEPTH -20
-CYCL DEF 1.3 PECKG 0
-CYCL DEF 1.4 DWELL 0
-CYCL DEF 1.5 F80
-CYCL CALL
-END PGM A MM
+@@ 8
+-CYCL DEF 1.3 PECKG 5
++CYCL DEF 1.3 PECKG 0
 
-; == cycle-1-pecking-infeed-too-small
+; == cycle-1-pecking-infeed-too-small like cycle-1
 ; 8:14 alarm: CYCL DEF 1 PECKG (infeed depth) 0.001 divides 20 into more than 10000 infeeds
-BEGIN PGM A MM
-TOOL CALL 1 Z S1000
-L X+20 Y+10 Z+2 R0 FMAX M3
-CYCL DEF 1.0 X
-CYCL DEF 1.1 SET UP 2
-CYCL DEF 1.2 DEPTH -20
-CYCL DEF 1.3 PECKG 0.001
-CYCL DEF 1.4 DWELL 0
-CYCL DEF 1.5 F80
-CYCL CALL
-END PGM A MM
+@@ 8
+-CYCL DEF 1.3 PECKG 5
++CYCL DEF 1.3 PECKG 0.001
 
-; == cycle-1-pecking-two-feeds
+; == cycle-1-pecking-two-feeds like cycle-1
 ; 10:18 alarm: F stands twice
-BEGIN PGM A MM
-TOOL CALL 1 Z S1000
-L X+20 Y+10 Z+2 R0 FMAX M3
-CYCL DEF 1.0 X
-CYCL DEF 1.1 SET UP 2
-CYCL DEF 1.2 DEPTH -20
-CYCL DEF 1.3 PECKG 5
-CYCL DEF 1.4 DWELL 0
-CYCL DEF 1.5 F80 F90
-CYCL CALL
-END PGM A MM
+@@ 10
+-CYCL DEF 1.5 F80
++CYCL DEF 1.5 F80 F90
 
 ; == cycle-1-pecking-without-feed
 ; 5:1 alarm: CYCL DEF 1 F (feed rate for drilling) is missing

@@ -1,6 +1,6 @@
 /* What a word of a part program means: `mnclab.lab.vocabulary` in the browser, where a file has no kernel to ask.
 
-   The words come from words.json, which the declarations of the controls make (tests/t6_show/test_labextension.py). */
+   The words come from words.json, which the declarations of the controls make (tests/lab/test_labextension.py). */
 const BACK = 200; // lines that are looked through for what is still on
 let table = null;
 
