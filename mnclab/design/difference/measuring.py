@@ -16,7 +16,7 @@ from mnclab.design.model.feature import Feature
 from mnclab.design.model.features import Chamfer, Groove, Slope, Slot, along
 from mnclab.design.model.holes import Hole
 from mnclab.design.model.measures import Measure
-from mnclab.design.model.removals import Flat, Slant, Wedge
+from mnclab.design.model.removals import Flat, Ramp, Sloped
 from mnclab.path.toolpath import Array, Index, Kind
 from mnclab.workpiece.milling.raster import NOISE
 
@@ -95,10 +95,10 @@ class _Room:
             yield from self._hole(feature)
             return
         if isinstance(feature, Chamfer):
-            yield from self._slant("slant", "width", "angle", 1.0)
+            yield from self._slant("bevel", "width", "angle", 1.0)
             return
         if isinstance(feature, Slope):
-            yield from sizes(feature.contour, self._walls("slope"), 0.0)
+            yield from sizes(feature.contour, self._walls("floor"), 0.0)
             yield from self._fall(feature)
             return
         if isinstance(feature, Slot):
@@ -118,17 +118,17 @@ class _Room:
             if not self.own and len(faces.place):
                 faces = faces.some(feature.contour.contour.distance(faces.place) <= ON)
             yield from sizes(feature.contour, faces, 0.0)
-        yield "depth", self._depth(self._of_role(""), self.top - feature.depth)
+        yield "depth", self._depth(self._of_part(""), self.top - feature.depth)
 
     # --- its faces, in the frame in which it is drawn ----------------------------------------------------------------
 
-    def _of_role(self, role: str) -> list[int]:
+    def _of_part(self, part: str) -> list[int]:
         if not self.own:
             return self.mine
-        return [k for k in self.mine if self.target.role(k) == role]
+        return [k for k in self.mine if self.target.design.taken[k].body.part == part]
 
-    def _walls(self, role: str) -> Faces:
-        walls, owners = self.seen.walls, self._of_role(role)
+    def _walls(self, part: str) -> Faces:
+        walls, owners = self.seen.walls, self._of_part(part)
         index = np.flatnonzero(np.isin(walls.owner[walls.spot], owners) & walls.mid)
         spot = walls.spot[index]
         place, moved = walls.place[spot], self.seen.moved[index, None] * walls.normal[spot]
@@ -194,11 +194,11 @@ class _Room:
         if hole.tip:
             yield from self._point(hole, found)
         elif hole.depth is not None:
-            yield "depth", self._depth(self._of_role(""), self.top - hole.depth)
+            yield "depth", self._depth(self._of_part(""), self.top - hole.depth)
         if hole.counterbore:
             around = dict(of_circle(float(hole.x), float(hole.y), self._walls("counterbore")))
             yield "counterbore diameter", around["diameter"]
-            yield "counterbore depth", self._depth(self._of_role("counterbore"), self.top - hole.counterbore[1])
+            yield "counterbore depth", self._depth(self._of_part("counterbore"), self.top - hole.counterbore[1])
         if hole.countersink:
             yield from self._slant("countersink", "countersink diameter", "countersink angle", 2.0)
 
@@ -219,9 +219,9 @@ class _Room:
         yield "depth", Found(self.top - (start + slope * wide / 2), np.concatenate([index, around["diameter"].among]))
         yield "point angle", Found(2 * math.degrees(math.atan(1 / slope)), index)
 
-    def _slant(self, role: str, size: str, angle: str, sides: float) -> Iterator[tuple[str, Found]]:
+    def _slant(self, part: str, size: str, angle: str, sides: float) -> Iterator[tuple[str, Found]]:
         """How wide a chamfer or a countersink is at its upper edge, and its angle."""
-        s, z, index, body = self._cone(role)
+        s, z, index, body = self._cone(part)
         if body is None or not len(s):
             yield from ((name, Found(math.nan, NONE, GONE)) for name in (size, angle))
             return
@@ -240,9 +240,9 @@ class _Room:
 
     def _fall(self, slope: Slope) -> Iterator[tuple[str, Found]]:
         """Depths at both ends, by a straight line through the floor found between them."""
-        s, z, index, body = self._cone("slope")
+        s, z, index, body = self._cone("floor")
         ends = "start depth", "end depth"
-        if not isinstance(body, Wedge) or not len(s):
+        if not isinstance(body, Ramp) or not len(s):
             yield from ((name, Found(math.nan, NONE, GONE)) for name in ends)
             return
         deep, rise = line(s, z)
@@ -250,9 +250,9 @@ class _Room:
         yield names[0], Found(self.top - deep, index)
         yield names[1], Found(self.top - (deep + rise * slope.length), index)
 
-    def _cone(self, role: str, centre: tuple[float, float] | None = None) -> tuple[Array, Array, Index, Slant | None]:
+    def _cone(self, part: str, centre: tuple[float, float] | None = None) -> tuple[Array, Array, Index, Sloped | None]:
         """Distances from the base of a slant and the heights found there, seen from the side of the feature."""
-        owners, slopes = self._of_role(role), self.seen.slopes
+        owners, slopes = self._of_part(part), self.seen.slopes
         body = self.target.design.taken[owners[0]].body if owners else None
         index = np.flatnonzero(np.isin(slopes.owner, owners) & slopes.middle)
         still = np.isin(self.seen.owner[self.seen.of_slopes][index], owners)  # where no other face has come nearer

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.design.drawing.elevation import Levels
-from mnclab.design.model.removals import Slant, Wedge
+from mnclab.design.model.removals import Bevel, Sloped
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region, Where, joined, where
@@ -69,7 +69,7 @@ def _mitres(levels: Levels, below: bool) -> Iterator[Contour]:
     """Where two slanting faces meet: lines from the corners of the upper edge to those of the lower one."""
     for slab in levels.slabs:
         for each in slab.slants:
-            if not isinstance(each, Wedge) and isinstance(each.base, Region) and each.up != below:
+            if isinstance(each, Bevel) and each.up != below:
                 upper, lower = (_corners(levels.section(slab, z), each, z) for z in (slab.high, slab.low))
                 wide = abs(each.at(slab.high) - each.at(slab.low))
                 for corner in upper:
@@ -78,7 +78,7 @@ def _mitres(levels: Levels, below: bool) -> Iterator[Contour]:
                         yield Contour([corner, lower[off.argmin()]], closed=False)
 
 
-def _corners(section: Region, slant: Slant, z: float) -> Floats:
+def _corners(section: Region, slant: Sloped, z: float) -> Floats:
     """Sharp corners (n, 2) of a section that lie on a slanting face."""
     spots = [loop.starts[np.abs(loop.turns()) > SHARP] for loop in section.loops]
     found = np.concatenate([np.zeros((0, 2)), *spots])

@@ -18,7 +18,7 @@ import numpy as np
 from mnclab.design.model.feature import BESIDE, EXAMPLE, Feature, Site, area_of, check_positive, take_shape
 from mnclab.design.model.holes import Hole
 from mnclab.design.model.measures import Measure
-from mnclab.design.model.removals import Flat, Removal, Slanting, Wedge
+from mnclab.design.model.removals import Bevel, Flat, Ramp, Removal
 from mnclab.design.model.shapes import LARGEST, Circle, Rectangle, shape_of
 from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
@@ -251,8 +251,8 @@ class Slope(Feature):
         c, s = sense * math.cos(turned), sense * math.sin(turned)
         start = self.x - c * self.length / 2, self.y - s * self.length / 2
         depths = max(self.start_depth, self.end_depth), min(self.start_depth, self.end_depth)
-        yield (wedge := Wedge(start, (c, s), self.length, self.width, top - depths[0], top - depths[1]))
-        yield wedge.sky
+        yield (ramp := Ramp(start, (c, s), self.width, far=self.length, deep=top - depths[0], open=top - depths[1], part="floor"))
+        yield ramp.clearance
 
     def moved(self, dx: float, dy: float, dz: float) -> Self:
         return replace(self, x=self.x + dx, y=self.y + dy, **self.raised(dz))
@@ -291,8 +291,8 @@ class Chamfer(Feature):
     def removals(self, site: Site) -> Iterator[Removal]:
         top, area = self.from_top(site), area_of(self.contour, "the contour of a chamfer")
         inside = self._side(site, top - self.height / 2) if self.inside is None else self.inside
-        yield (slant := Slanting(area, 0.0, self.width, top - self.height, top, inside))
-        yield slant.sky
+        yield (bevel := Bevel(area, inside, far=self.width, deep=top - self.height, open=top, part="bevel"))
+        yield bevel.clearance
 
     def _side(self, site: Site, z: float) -> bool:
         line = self.contour.contour
