@@ -11,7 +11,7 @@ import numpy as np
 from mnclab.design.difference.target import BLANK, Grid, Owner, Slopes, Walls
 from mnclab.design.model.design import Design
 from mnclab.design.model.measures import Measure
-from mnclab.design.model.removals import CLEARANCE, Bevel, Cone, Flat, Ramp, Sloped, filled, within
+from mnclab.design.model.removals import CLEARANCE, Bevel, Cone, Flat, Ramp, Sloped, within
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import at_angle, left
 from mnclab.geometry.regions import Region
@@ -51,24 +51,7 @@ class DrawnTarget:
         return self.design.stack.distance(points)
 
     def grid(self, raster: Raster) -> Grid:
-        x, y, (low, high) = raster.x, raster.y, self.bounds[:, 2].tolist()
-        floor, top = np.full(raster.shape, np.nan), np.full(raster.shape, np.nan)
-        owner, under = (np.full(raster.shape, BLANK, dtype=np.int16) for _ in range(2))
-        rows, columns, inside = filled(self.design.outline_of_blank, x, y)
-        floor[rows, columns][inside], top[rows, columns][inside] = low, high
-        for k, (_, _, body) in enumerate(self.design.taken):
-            side, whose = (top, owner) if body.up else (floor, under)
-            rows, columns, inside = filled(body.reach, x, y)
-            j, i = np.nonzero(inside)
-            level = body.level_within(x[columns][i], y[rows][j])
-            here = side[rows, columns][inside]
-            cut = level < here if body.up else level > here
-            side[rows, columns][inside] = np.where(cut, level, here)
-            whose[rows, columns][inside] = np.where(cut, k, whose[rows, columns][inside])
-        with np.errstate(invalid="ignore"):
-            gone = ~(top > floor)
-        floor[gone] = top[gone] = np.nan
-        return Grid(floor, top, owner, under)
+        return Grid(*self.design.faces_over(raster.x, raster.y))
 
     def cut(self, plane: str, at: float) -> list[Contour]:
         """A section, as of a workpiece."""

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, fields
-from typing import Any, ClassVar, NamedTuple, Self
+from dataclasses import dataclass, field, fields, replace
+from typing import ClassVar, NamedTuple, Self
 
-from mnclab.design.model.measures import Measure, Tolerance, with_tolerances
+from mnclab.design.model.measures import Measure, Tolerance, tolerances_of, with_tolerances
 from mnclab.design.model.removals import Flat, Removal
 from mnclab.design.model.shapes import LARGEST, Shape, check_place, shape_of
 from mnclab.geometry.regions import Region
@@ -44,10 +44,7 @@ class Named(ABC):
     def __post_init__(self) -> None:
         if not isinstance(self.name, str):
             raise Alarm(f"the name of a {self.kind} must be a text, got {shown(self.name)}")
-        if not isinstance(self.tolerances, Mapping):
-            raise Alarm(f"tolerances of a {self.kind} are names and values, got {shown(self.tolerances)}", hint=EXAMPLE)
-        given = {name: tuple(each) if isinstance(each, list) else each for name, each in self.tolerances.items()}
-        object.__setattr__(self, "tolerances", given)
+        object.__setattr__(self, "tolerances", tolerances_of(self.tolerances, f"a {self.kind}", EXAMPLE))
         for each in fields(self):
             object.__setattr__(self, each.name, plain(getattr(self, each.name)))
         self._check()
@@ -83,9 +80,19 @@ class Feature(Named):
     def removals(self, site: Site) -> Iterator[Removal]:
         """What it takes away."""
 
-    @abstractmethod
     def moved(self, dx: float, dy: float, dz: float) -> Self:
-        """The same elsewhere; what counts from the top of the blank still does."""
+        """The same elsewhere, by mm: its places and its `top`; what counts from the top of the blank still does."""
+        by = {"x": dx, "y": dy, "top": dz}
+        given = {each.name: getattr(self, each.name) for each in fields(self)}
+        there = {name: given[name] + way for name, way in by.items() if given.get(name) is not None}
+        for name in ("start", "end"):
+            if name in given:
+                there[name] = given[name][0] + dx, given[name][1] + dy
+        if "contour" in given:
+            there["contour"] = given["contour"].moved(dx, dy)
+        if "islands" in given:
+            there["islands"] = tuple(each.moved(dx, dy) for each in given["islands"])
+        return replace(self, **there)
 
     def measures(self) -> tuple[Measure, ...]:
         found = list(self._measures())
@@ -96,10 +103,6 @@ class Feature(Named):
     def from_top(self, site: Site) -> float:
         """The height that its depths count from."""
         return site.top if self.top is None else self.top
-
-    def raised(self, dz: float) -> dict[str, Any]:
-        """Its `top`, where it has one, higher by `dz`."""
-        return {} if self.top is None else {"top": self.top + dz}
 
 
 EXAMPLE = 'tolerances={"depth": 0.1}'

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Self
 
@@ -50,9 +50,6 @@ class Face(Feature):
     def removals(self, site: Site) -> Iterator[Removal]:
         yield Flat(site.around, self.from_top(site) - self.depth)
 
-    def moved(self, dx: float, dy: float, dz: float) -> Self:
-        return replace(self, **self.raised(dz))
-
 
 @dataclass(frozen=True, repr=False)
 class _Outlined(Feature):
@@ -87,9 +84,6 @@ class _Outlined(Feature):
         yield from self.contour.measures()
         yield Measure("depth", self.depth, "depth")
 
-    def moved(self, dx: float, dy: float, dz: float) -> Self:
-        return replace(self, contour=self.contour.moved(dx, dy), **self.raised(dz))
-
 
 @dataclass(frozen=True, repr=False)
 class Pocket(_Outlined):
@@ -110,10 +104,6 @@ class Pocket(_Outlined):
         for each in self.islands:
             region = region.difference(area_of(each, "an island of a pocket"))
         yield Flat(region, self.from_top(site) - self.depth)
-
-    def moved(self, dx: float, dy: float, dz: float) -> Self:
-        islands = tuple(each.moved(dx, dy) for each in self.islands)
-        return replace(super().moved(dx, dy, dz), islands=islands)
 
 
 @dataclass(frozen=True, repr=False)
@@ -161,10 +151,6 @@ class Slot(Feature):
     def removals(self, site: Site) -> Iterator[Removal]:
         yield Flat(Region.of(self.outline), self.from_top(site) - self.depth)
 
-    def moved(self, dx: float, dy: float, dz: float) -> Self:
-        start, end = ((x + dx, y + dy) for x, y in (self.start, self.end))
-        return replace(self, start=start, end=end, **self.raised(dz))
-
 
 @dataclass(frozen=True, repr=False)
 class Groove(Feature):
@@ -200,9 +186,6 @@ class Groove(Feature):
 
     def removals(self, site: Site) -> Iterator[Removal]:
         yield Flat(self.area, self.from_top(site) - self.depth)
-
-    def moved(self, dx: float, dy: float, dz: float) -> Self:
-        return replace(self, contour=self.contour.moved(dx, dy), **self.raised(dz))
 
 
 def along(name: str) -> str:
@@ -254,9 +237,6 @@ class Slope(Feature):
         yield (ramp := Ramp(start, (c, s), self.width, far=self.length, deep=top - depths[0], open=top - depths[1], part="floor"))
         yield ramp.clearance
 
-    def moved(self, dx: float, dy: float, dz: float) -> Self:
-        return replace(self, x=self.x + dx, y=self.y + dy, **self.raised(dz))
-
 
 @dataclass(frozen=True, repr=False)
 class Chamfer(Feature):
@@ -307,9 +287,6 @@ class Chamfer(Feature):
             known = "on both sides of it" if inside else "neither inside nor outside of it"
             raise Alarm(f"a chamfer stands on an edge: material is {known}", hint="give the contour of the edge, or inside=True")
         return inside > outside
-
-    def moved(self, dx: float, dy: float, dz: float) -> Self:
-        return replace(self, contour=self.contour.moved(dx, dy), **self.raised(dz))
 
 
 FEATURES: dict[str, type[Feature]] = {each.kind: each for each in (Face, Pocket, Stud, Slot, Groove, Hole, Chamfer, Slope)}

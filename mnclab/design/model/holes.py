@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Self
 
 from mnclab.design.model.feature import Feature, Site, check_positive
@@ -157,9 +157,6 @@ class Hole(Feature):
             deep = seat - (out - r) / math.tan(math.radians(self.countersink[1] / 2))
             yield (cone := Cone(centre, near=r, far=out, deep=deep, open=seat, part="countersink"))
             yield cone.clearance
-
-    def moved(self, dx: float, dy: float, dz: float) -> Self:
-        return replace(self, x=self.x + dx, y=self.y + dy, **self.raised(dz))
 
 
 def _count(value: Any, what: str) -> int:
