@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.design.difference.difference import OK, OUT, Row
+from mnclab.design.difference.difference import Row, judged, made_by
 from mnclab.design.difference.half_target import SAME, HalfTarget
 from mnclab.design.difference.outlines import circle
-from mnclab.design.difference.turned_comparing import ALIKE, Compared, Looked, first_made, line_of
+from mnclab.design.difference.turned_comparing import ALIKE, Compared, Looked, first_made
 from mnclab.design.model.measures import Measure
 from mnclab.design.model.turned_profile import Dimension
 from mnclab.design.model.turned_threads import Thread
@@ -71,22 +71,12 @@ def _form(found: Compared, target: HalfTarget, off: Off, owner: int, tolerance: 
 
 
 def _row(found: Compared, name: str, measure: Measure, read: Found, allowed: float, error: float) -> Row:
-    deviation = read.actual - measure.nominal
-    deviation = 0.0 if abs(deviation) <= error else deviation
-    lower, upper = measure.limits or (-allowed, allowed)
-    verdict = read.said or (OK if lower - error <= deviation <= upper + error else OUT)
-    row, place = -1, None
+    made: dict[str, Any] = {}
     worst = np.flatnonzero((np.abs(read.off) > error) & (np.abs(read.off) >= np.abs(read.off).max(initial=0.0) - ALIKE))
     if len(worst):
         k, row = first_made(found, read.at, worst)
-        z, r = read.at[k].tolist()
-        place = (found.part.axis + r, 0.0, z)
-    line, program, where = line_of(found.part, row)
-    where = where or ("nothing cut here" if place else "")
-    return Row(
-        "", name, measure.name, measure.nominal, measure.nominal + deviation, deviation, lower, upper, verdict, line, row, place,
-        program, where,
-    )  # fmt: skip
+        made = made_by(found.part.cutting, found.in_space(read.at[k]), row, 1.0)
+    return judged("", name, measure, read.actual, allowed, error, error, read.said, made)
 
 
 def _allowed(dimension: Dimension, tolerance: float) -> float:
