@@ -11,8 +11,8 @@ import numpy as np
 from mnclab.design.difference.rays import ways
 from mnclab.design.difference.target import BLANK, Grid, Owner, Reading, Slopes, Walls
 from mnclab.design.model.measures import Measure
+from mnclab.design.model.shapes import on_elements, spread
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.curves import left
 from mnclab.path.toolpath import Array, Index
 from mnclab.workpiece.milling.milled import Milled
 from mnclab.workpiece.milling.raster import Raster
@@ -131,7 +131,7 @@ class PartTarget(BodyTarget):
         found = [(np.zeros((0, 2)), np.zeros((0, 2)), np.zeros(0))]
         for z in (levels[1:] + levels[:-1]) / 2:
             for loop in self.part.cut("XY", float(z)):
-                place, aside = _along(loop, spacing)
+                _, place, aside = on_elements(loop, *spread(loop, spacing, FEWEST, aside=EDGE))
                 found.append((place + self.shift[:2], -aside, np.full(len(place), z + self.shift[2])))
         place, normal, height = (np.concatenate(column) for column in zip(*found))
         inside = place - self.shift[:2] - CHORDS * normal  # sections are chords: the wall itself is looked for
@@ -167,15 +167,3 @@ class MeshTarget(BodyTarget):
 def _grid(floor: Array, top: Array) -> Grid:
     owner = np.full(top.shape, BLANK, dtype=np.int16)
     return Grid(floor, top, owner, owner)
-
-
-def _along(loop: Contour, spacing: float) -> tuple[Array, Array]:
-    """Places (m, 2) along a loop, a hair inside the ends of its elements, and the direction to the left there."""
-    lengths = loop.lengths
-    count = np.maximum(np.ceil(lengths / spacing).astype(int), FEWEST)
-    element = np.repeat(np.arange(len(count)), count)
-    rank = np.arange(len(element)) - np.repeat(np.cumsum(count) - count, count)
-    hair = np.minimum(EDGE / np.maximum(lengths, EDGE), 0.01)[element]
-    share = hair + (1 - 2 * hair) * rank / (count[element] - 1)
-    spots, ahead = loop.point_at((np.cumsum(lengths) - lengths)[element] + share * lengths[element])
-    return spots, left(ahead)

@@ -12,8 +12,9 @@ from mnclab.design.difference.target import BLANK, Grid, Owner, Slopes, Walls
 from mnclab.design.model.design import Design
 from mnclab.design.model.measures import Measure
 from mnclab.design.model.removals import CLEARANCE, Bevel, Cone, Flat, Ramp, Sloped, within
+from mnclab.design.model.shapes import on_elements, spread
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.curves import at_angle, left
+from mnclab.geometry.curves import at_angle
 from mnclab.geometry.regions import Region
 from mnclab.geometry.signed import signed
 from mnclab.path.toolpath import Array, Index, Mask
@@ -223,12 +224,6 @@ class DrawnTarget:
 def _along(loop: Contour, spacing: float) -> tuple[Array, Array, Array]:
     """Places (m, 2) along a loop, a hair inside the ends of its elements, the direction to the left of it there, and
     whether they are in the middle half of an element."""
-    lengths = loop.lengths
-    count = np.maximum(np.ceil(lengths / spacing), np.ceil(np.abs(loop.sweeps) / TURN)).astype(int)
-    count = np.maximum(count, FEWEST) | 1
-    element = np.repeat(np.arange(len(count)), count)
-    place = np.arange(len(element)) - np.repeat(np.cumsum(count) - count, count)
-    hair = np.minimum(EDGE / np.maximum(lengths, EDGE), 0.01)[element]
-    share = hair + (1 - 2 * hair) * place / (count[element] - 1)
-    spots, ahead = loop.point_at((np.cumsum(lengths) - lengths)[element] + share * lengths[element])
-    return spots, left(ahead), np.abs(share - 0.5) <= 0.25 + SAME
+    element, share = spread(loop, spacing, FEWEST, TURN, EDGE)
+    _, spots, aside = on_elements(loop, element, share)
+    return spots, aside, np.abs(share - 0.5) <= 0.25 + SAME

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from mnclab.design.drawing.ledger import DIAMETER, SIGNS, TIMES, Draft, hole_lines, written
+from mnclab.design.drawing.ledger import DIAMETER, SAME, SIGNS, TIMES, Draft, hole_lines, written
 from mnclab.design.drawing.sheet import Table
 from mnclab.design.drawing.view import (
     Angle,
@@ -32,8 +32,6 @@ from mnclab.geometry.contours import Contour
 
 if TYPE_CHECKING:
     from mnclab.design.drawing.milled_features import Side
-
-SAME = 1e-6  # mm
 
 
 def feature_marks(draft: Draft, feature: Feature) -> None:
@@ -185,19 +183,7 @@ def write_pattern(side: Side, numbers: Sequence[int], pattern: Ring | Lattice) -
         text = f"{count}{TIMES} {number(whole / count)} (={number(whole)})"
         ends = [(each, other[0]) if axis == "x" else (other[0], each) for each in (some[0], some[-1])]
         told = Linear(ends[0], ends[1], Value(text), axis, "below" if axis == "x" else "left")
-        same = next((claims for said, claims in side.ledger.said if said in side.draft.dimensions and _alike(said, told)), None)
-        if same is None:
-            side.ledger.say(side.draft, told, side.claims(rest, axis))
-        else:
-            same += side.claims(rest, axis)
-
-
-def _alike(said: Any, told: Linear) -> bool:
-    """Whether a dimension says the same steps of other holes."""
-    if not isinstance(said, Linear) or (said.value, said.along) != (told.value, told.along):
-        return False
-    k = "xy".index(told.along)
-    return abs(said.a[k] - told.a[k]) < SAME and abs(said.b[k] - told.b[k]) < SAME
+        side.ledger.say_once(side.draft, told, side.claims(rest, axis))
 
 
 def _write_ring(side: Side, numbers: Sequence[int], ring: Ring) -> None:

@@ -27,11 +27,13 @@ from mnclab.design.drawing.feature_marks import (
 )  # fmt: skip
 from mnclab.design.drawing.ledger import (
     DIAMETER,
+    SAME,
     Claim,
     Draft,
     Ledger,
     at_place,
     chamfer_text,
+    claims_of,
     hole_lines,
     times,
     valued,
@@ -46,7 +48,6 @@ from mnclab.design.model.measures import Measure
 from mnclab.design.model.shapes import Circle, Outline, Rectangle, Shape
 from mnclab.geometry.contours import Contour
 
-SAME = 1e-6  # mm
 MOST_HOLES = 10  # with dimensions of their own; more stand in a table
 MOST_PLACES = 9  # coordinates in one direction
 MOST_KINDS = 14  # different features with dimensions of their own; more stand in a table
@@ -100,12 +101,7 @@ class Side:
 
     def claims(self, numbers: Sequence[int], *names: str) -> list[Claim]:
         """The measures of these names, or all but places, of equal features."""
-        return [
-            Claim(self.back, k, place, each.name)
-            for k in numbers
-            for place, each in enumerate(self.features[k].measures())
-            if (each.name in names if names else each.kind != "place")
-        ]
+        return claims_of(self.features, numbers, names, self.back)
 
     def write(self) -> None:
         """All of it."""

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from mnclab.design.drawing.elevation import Levels
 from mnclab.design.model.removals import Bevel, Sloped
+from mnclab.design.model.shapes import stretches
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region, Where, joined, where
@@ -112,19 +113,4 @@ def _spots(line: Contour) -> Floats:
 
 def _stretches(line: Contour, spots: NDArray[np.bool_]) -> Iterator[Contour]:
     """The elements of which some spots (m, 5) are shown, those that follow each other as one."""
-    shown: NDArray[np.bool_] = np.asarray(spots.any(axis=1))
-    count = len(shown)
-    if shown.all():
-        yield line
-        return
-    if not shown.any():
-        return
-    first = int(np.flatnonzero(shown & ~np.roll(shown, 1))[0]) if line.closed else 0
-    run: list[int] = []
-    for k in [*((first + k) % count for k in range(count)), None]:
-        if k is not None and shown[k]:
-            run.append(k)
-        elif run:
-            points = [*line.starts[run], line.ends[run[-1]]]
-            yield Contour(points, [*line.bulge[run], 0.0], closed=False)
-            run = []
+    return stretches(line, np.asarray(spots.any(axis=1)))
