@@ -11,14 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.design.difference.body_target import MeshTarget, PartTarget
 from mnclab.design.difference.columns import columns, off
 from mnclab.design.difference.deviations import Seen, seen, volumes
 from mnclab.design.difference.difference import Difference, Features, Row, Worst, judged, made_by
 from mnclab.design.difference.drawn_target import DrawnTarget
 from mnclab.design.difference.half_target import HalfTarget
 from mnclab.design.difference.rays import PAIRS, about, sides, ways
-from mnclab.design.difference.target import NONE, Reading, Target
+from mnclab.design.difference.target import NONE, MeshTarget, PartTarget, Reading, Target
 from mnclab.design.difference.turned_comparing import compare_turned
 from mnclab.design.model.design import Design, Drawn
 from mnclab.design.model.turned_design import DrawnTurned, TurnedDesign

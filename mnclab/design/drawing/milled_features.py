@@ -57,7 +57,7 @@ Place = tuple[Measure, Point, Claim | None]  # a coordinate, whose it is, and th
 
 
 @dataclass
-class Level:
+class DepthLine:
     """A depth in the section: from a height to a height, at the wall u."""
 
     start: float
@@ -79,8 +79,8 @@ class Side:
     side_shows: frozenset[tuple[bool, int]]
     tabled: int
     places: dict[str, list[Place]] = field(default_factory=lambda: {"x": [], "y": []})
-    levels: list[Level] = field(default_factory=list)
-    side_levels: list[Level] = field(default_factory=list)
+    levels: list[DepthLine] = field(default_factory=list)
+    side_levels: list[DepthLine] = field(default_factory=list)
 
     @property
     def features(self) -> tuple[Feature, ...]:
@@ -272,7 +272,7 @@ class Side:
                 x, y = frame_at((cut.x, cut.y), cut.turned)(side * cut.length / 2, 0.0)
                 u = float((self.design.flip[0] @ [x, y, 1.0])[0]) if self.back else x
                 top = self.top(slope)
-                self.levels.append(Level(self._across(top), self._across(top - depth.nominal), u, depth, claims))
+                self.levels.append(DepthLine(self._across(top), self._across(top - depth.nominal), u, depth, claims))
             else:
                 at = frame_at((slope.x, slope.y), slope.turned)(0.47 * side * slope.length, 0.3 * slope.width)
                 self.ledger.say(self.draft, Note(at, (times(len(numbers)) + written(depth),)), claims)
@@ -282,7 +282,7 @@ class Side:
         first = self.features[numbers[0]]
         depth = next(each for each in first.measures() if each.name == "depth")
         low, high = self._across(self.top(first)), self._across(self.top(first) - depth.nominal)
-        level = Level(low, high, self._wall(line, axis), depth, self.claims(numbers, "depth"))
+        level = DepthLine(low, high, self._wall(line, axis), depth, self.claims(numbers, "depth"))
         (self.side_levels if axis else self.levels).append(level)
 
     def _wall(self, line: Contour, axis: int) -> float:
@@ -305,7 +305,7 @@ class Side:
         measure = next(each for each in first.measures() if each.name == "top")
         line = outline_of(first) or self.design.outline_of_blank.loops[0]
         start, end = self._across(float(self.design.bounds[1, 2])), self._across(first.top)
-        self.levels.append(Level(start, end, self._wall(line, 0), measure, self.claims(numbers, "top")))
+        self.levels.append(DepthLine(start, end, self._wall(line, 0), measure, self.claims(numbers, "top")))
 
     # ---- places ----
 

@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.design.drawing.elevation import SAME, Seen, Step, look
 from mnclab.design.drawing.ledger import BLANK, DEPTH, DIAMETER, TIMES, Claim, Draft, Ledger, claims_of, valued, written
+from mnclab.design.drawing.projection import SAME, Seen, Step, look
 from mnclab.design.drawing.view import Angle, Axis, Kind, Line, Linear, Note, Origin, Point, Radius, Value
 from mnclab.design.model.measures import Measure
 from mnclab.design.model.turned_design import TurnedDesign
