@@ -24,7 +24,7 @@ from mnclab.design.drawing.view import (
     value,
 )
 from mnclab.design.model.feature import Feature
-from mnclab.design.model.features import Chamfer, Groove, Pocket, Slope, Slot, Stud, along
+from mnclab.design.model.features import Chamfer, Groove, Pocket, Slot, along
 from mnclab.design.model.holes import Hole, core_of
 from mnclab.design.model.measures import Measure
 from mnclab.design.model.shapes import Circle, Outline, Rectangle, Shape
@@ -36,9 +36,9 @@ if TYPE_CHECKING:
 
 def feature_marks(draft: Draft, feature: Feature) -> None:
     """Centre lines, and the thin lines of a thread."""
-    shape = shape_in(feature)
+    shape = feature.shape
     if isinstance(feature, Hole):
-        wide = mouth_of(feature)
+        wide = feature.mouth
         if feature.thread:
             draft.lines.append(thread_circle((feature.x, feature.y), core_of(feature.thread, 0.0) / 2))
             wide = max(wide, core_of(feature.thread, 0.0))
@@ -62,26 +62,6 @@ def shape_marks(draft: Draft, shape: Shape, wider: float = 0.0) -> None:
     elif isinstance(shape, Rectangle):
         at, a, b = frame_at((shape.x, shape.y), shape.turned), shape.length / 2, shape.width / 2
         draft.axes += [Axis(at(-a, 0), at(a, 0)), Axis(at(0, -b), at(0, b))]
-
-
-def mouth_of(hole: Hole) -> float:
-    """The greatest diameter of a hole without its thread, mm."""
-    return max(hole.wide, (hole.counterbore or (0.0,))[0], (hole.countersink or (0.0,))[0])
-
-
-def shape_in(feature: Feature) -> Shape | None:
-    """The outline that a feature was given, if it has one."""
-    return feature.contour if isinstance(feature, Pocket | Stud | Groove | Chamfer | Slope) else None
-
-
-def outline_of(feature: Feature) -> Contour | None:
-    """What a feature takes up in its view."""
-    if isinstance(feature, Hole):
-        return Contour.circle((feature.x, feature.y), feature.wide / 2)
-    if isinstance(feature, Slot):
-        return feature.outline
-    shape = shape_in(feature)
-    return shape.contour if shape is not None else None
 
 
 def centre_of(feature: Feature) -> Point:
@@ -217,7 +197,7 @@ def hole_table(side: Side, holes: list[int]) -> None:
         label = f"{'B' if side.back else 'A'}{row + 1}"
         known = {each.name: each for each in hole.measures()}
         text = "  ".join(hole_lines(hole))
-        side.draft.dimensions.append(Note((hole.x, hole.y), (label,), mouth_of(hole) / 2))
+        side.draft.dimensions.append(Note((hole.x, hole.y), (label,), hole.mouth / 2))
         rows.append((label, _said(known["x"], x), _said(known["y"], y), text))
         for column, names in ((1, ("x",)), (2, ("y",)), (3, ())):
             side.ledger.cell(title, row, column, side.claims([k], *names))
@@ -233,10 +213,10 @@ def feature_table(side: Side, numbers: list[int]) -> None:
     for row, k in enumerate(numbers):
         feature = side.features[k]
         label = f"{'B' if side.back else 'A'}{row + 1}"
-        line = outline_of(feature)
+        line = feature.outline
         assert line is not None  # a table holds what has a place
         at = line.point_at(0.35 * line.length)[0]
-        shape = shape_in(feature)
+        shape = feature.shape
         to = Note((shape.x, shape.y), (label,), shape.diameter / 2) if isinstance(shape, Circle) else Note(point_of(at), (label,))
         side.draft.dimensions.append(to)
         known = {each.name: each for each in feature.measures() if each.kind == "place"}
@@ -284,7 +264,7 @@ def corner_table(side: Side, shape: Outline, measures: Sequence[Measure], k: int
 
 def _corners(side: Side) -> int:
     """How many corners the outlines of a side have together."""
-    shapes = [shape_in(each) for each in side.features]
+    shapes = [each.shape for each in side.features]
     shapes += [island for each in side.features if isinstance(each, Pocket) for island in each.islands]
     return sum(len(each.points) for each in shapes if isinstance(each, Outline))
 

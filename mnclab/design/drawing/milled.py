@@ -18,7 +18,7 @@ from mnclab.design.drawing.section import Item, Plane, chosen
 from mnclab.design.drawing.view import Axis, Cross, Cut, Diameter, Kind, Linear, Point, value
 from mnclab.design.model.design import Design
 from mnclab.design.model.feature import Feature
-from mnclab.design.model.features import Groove, Pocket, Slope, Slot
+from mnclab.design.model.features import Groove, Pocket, Slope
 from mnclab.design.model.holes import Hole, core_of
 from mnclab.design.model.shapes import Circle, Rectangle
 from mnclab.geometry.contours import Contour
@@ -78,7 +78,7 @@ def _items(design: Design, turn: Floats) -> Iterator[Item]:
     told = set[object]()
     for back, features in ((False, design.features), (True, design.back)):
         for k, each in enumerate(features):
-            if not isinstance(each, Pocket | Slot | Groove | Hole | Slope):
+            if not each.recess:
                 continue
             key = type(each), back, tuple(m for m in each.measures() if m.kind != "place" or m.name == "top")
             worth = _worth(each) if key not in told else 0.1
@@ -102,16 +102,12 @@ def _worth(feature: Feature) -> float:
 
 def _placed(design: Design, feature: Feature, back: bool, turn: Floats) -> Contour:
     """What a feature takes up in the plane, in the frame of a view."""
+    line: Contour | None
     if isinstance(feature, Hole):
-        wide = max(feature.wide, (feature.counterbore or (0.0,))[0], (feature.countersink or (0.0,))[0])
-        line = Contour.circle((feature.x, feature.y), wide / 2)
-    elif isinstance(feature, Slot):
-        line = feature.outline
-    elif isinstance(feature, Groove):
-        line = feature.area.loops[0]
+        line = Contour.circle((feature.x, feature.y), feature.mouth / 2)
     else:
-        assert isinstance(feature, Pocket | Slope)
-        line = feature.contour.contour
+        line = feature.area.loops[0] if isinstance(feature, Groove) else feature.outline
+    assert line is not None  # of a recess
     return line.transformed(turn @ design.flip[0] if back else turn)
 
 

@@ -17,11 +17,8 @@ from mnclab.design.drawing.feature_marks import (
     feature_table,
     frame_at,
     hole_table,
-    mouth_of,
-    outline_of,
     pattern_of,
     point_of,
-    shape_in,
     shape_marks,
     write_pattern,
 )  # fmt: skip
@@ -108,7 +105,7 @@ class Side:
         alike: dict[Any, list[int]] = {}
         for k, each in enumerate(self.features):
             key = type(each), tuple(m for m in each.measures() if m.kind != "place" or m.name == "top")
-            alike.setdefault((*key, k) if isinstance(shape_in(each), Outline) else key, []).append(k)
+            alike.setdefault((*key, k) if isinstance(each.shape, Outline) else key, []).append(k)
         patterns = {tuple(some): found for some in alike.values() if (found := pattern_of([self.features[k] for k in some]))}
         ordered = {k for some in patterns for k in some}
         holes = [k for k, each in enumerate(self.features) if isinstance(each, Hole) and k not in ordered]
@@ -140,7 +137,7 @@ class Side:
 
     def _sizes(self, first: Feature, numbers: list[int]) -> None:
         known = {each.name: each for each in reversed(first.measures())}
-        shape = shape_in(first)
+        shape = first.shape
         if isinstance(first, Face):
             self._level(numbers, self.design.outline_of_blank.loops[0])
         elif isinstance(first, Chamfer):
@@ -242,7 +239,7 @@ class Side:
         self._deep(numbers, line)
 
     def _hole(self, hole: Hole, numbers: list[int]) -> None:
-        wide = core_of(hole.thread, 0.0) if hole.thread else mouth_of(hole)
+        wide = core_of(hole.thread, 0.0) if hole.thread else hole.mouth
         note = Note((hole.x, hole.y), hole_lines(hole, len(numbers)), wide / 2)
         self.ledger.say(self.draft, note, self.claims(numbers))
 
@@ -255,7 +252,7 @@ class Side:
         for shown, axis in ((self.shows, 0), (self.side_shows, 1)):
             cut = next((k for k in numbers if (self.back, k) in shown), None)
             if cut is not None or (isinstance(first, Stud) and axis == 0):
-                line = outline if cut is None else outline_of(self.features[cut])
+                line = outline if cut is None else self.features[cut].outline
                 assert line is not None
                 self._level(numbers, line, axis)
                 return
@@ -303,7 +300,7 @@ class Side:
         if first.top is None:
             return
         measure = next(each for each in first.measures() if each.name == "top")
-        line = outline_of(first) or self.design.outline_of_blank.loops[0]
+        line = first.outline or self.design.outline_of_blank.loops[0]
         start, end = self._across(float(self.design.bounds[1, 2])), self._across(first.top)
         self.levels.append(DepthLine(start, end, self._wall(line, 0), measure, self.claims(numbers, "top")))
 
@@ -311,7 +308,7 @@ class Side:
 
     def place(self, k: int, axes: str = "xy") -> None:
         """The coordinates of a feature are dimensioned."""
-        shape = shape_in(self.features[k])
+        shape = self.features[k].shape
         if isinstance(shape, Outline):
             return
         centre = centre_of(self.features[k])

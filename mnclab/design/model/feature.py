@@ -10,6 +10,7 @@ from typing import ClassVar, NamedTuple, Self
 from mnclab.design.model.measures import Measure, Tolerance, tolerances_of, with_tolerances
 from mnclab.design.model.removals import Flat, Removal
 from mnclab.design.model.shapes import LARGEST, Shape, check_place, shape_of
+from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, faults_as_alarms, plain, shown
@@ -69,6 +70,8 @@ class Named(ABC):
 class Feature(Named):
     """What all features of a milled part share."""
 
+    recess: ClassVar[bool] = False  # whether a section through it shows more than the view from above
+
     top: float | None = None
 
     def __post_init__(self) -> None:
@@ -99,6 +102,16 @@ class Feature(Named):
         if self.top is not None:
             found.append(Measure("top", self.top, "place"))
         return with_tolerances(found, self.tolerances, self.name or f"a {self.kind}")
+
+    @property
+    def shape(self) -> Shape | None:
+        """The shape that is dimensioned in its view; None if it has none."""
+        return getattr(self, "contour", None)
+
+    @property
+    def outline(self) -> Contour | None:
+        """What it takes up in its view, a groove the middle of it; None for the whole top."""
+        return None if self.shape is None else self.shape.contour
 
     def from_top(self, site: Site) -> float:
         """The height that its depths count from."""

@@ -90,6 +90,7 @@ class Pocket(_Outlined):
     """All within a contour, down to `depth`; `islands` are contours that stay. A `Stud` of the same depth in it is one."""
 
     kind = "pocket"
+    recess = True
     islands: tuple[Any, ...] = ()
 
     def _check(self) -> None:
@@ -121,6 +122,7 @@ class Slot(Feature):
     """A straight slot with round ends: `start` and `end` (x, y) are the centres of these, mm."""
 
     kind = "slot"
+    recess = True
     start: tuple[float, float]
     end: tuple[float, float]
     width: float
@@ -157,6 +159,7 @@ class Groove(Feature):
     """What a tool of a `width` leaves along a contour, open or closed, the middle of the groove."""
 
     kind = "groove"
+    recess = True
     contour: Any
     width: float
     depth: float
@@ -200,6 +203,7 @@ class Slope(Feature):
     """
 
     kind = "slope"
+    recess = True
     x: float
     y: float
     length: float

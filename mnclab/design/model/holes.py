@@ -32,6 +32,7 @@ class Hole(Feature):
     """
 
     kind = "hole"
+    recess = True
     x: float
     y: float
     diameter: float | None
@@ -117,6 +118,15 @@ class Hole(Feature):
     def wide(self) -> float:
         """The diameter, mm."""
         return float(self.diameter or 0.0)
+
+    @property
+    def mouth(self) -> float:
+        """The greatest diameter without the thread, mm."""
+        return max(self.wide, (self.counterbore or (0.0,))[0], (self.countersink or (0.0,))[0])
+
+    @property
+    def outline(self) -> Contour:
+        return Contour.circle((self.x, self.y), self.wide / 2)
 
     @property
     def tip(self) -> float:
