@@ -26,6 +26,7 @@ from mnclab.design.difference.plot_sections import (
     draw_magnified,
     draw_surface,
     draw_target,
+    nice,
     sections_of,
     write_factor,
 )
@@ -44,7 +45,6 @@ GONE, RIGHT, LEFT = "#0b2a78", "#f4f1e6", "#d9541e"
 SHADES = LinearSegmentedColormap.from_list("difference", [GONE, "#3f68b5", "#a9bfe0", RIGHT, "#f6c3a0", "#ee8a4d", LEFT])
 HATCHES = {-1: "xxxx", 1: "...."}
 OUTLINE: dict[str, Any] = {"colors": colours.INK, "linewidths": 0.8, "zorder": 2.0}
-STEPS = (1.0, 2.0, 5.0)
 DOTS = 9.0  # points², of a place of a wall
 NAMES = ("gouge", "rest")
 
@@ -71,9 +71,7 @@ def plot_difference(
     """
     if not isinstance(table, bool):
         raise Alarm(f"table must be True or False, got {shown(table)}")
-    if limit is not None:
-        check_number(limit, "the limit of the scale (mm)", above=0)
-    most = float(limit) if limit else usual_limit(difference)
+    most = limit_of(difference, limit)
     lathe = difference.workpiece.cutting.lathe
     cuts = sections_of(difference, section, at)
     if ax is not None:
@@ -101,16 +99,13 @@ def plot_difference(
     return picture
 
 
-def usual_limit(difference: Difference) -> float:
-    """The ends of the scale: the worst deviation, but two tolerances at least and ten at most."""
+def limit_of(difference: Difference, given: float | None) -> float:
+    """The ends of the scale, mm: those given, else the worst deviation, but two tolerances at least and ten at most."""
+    if given is not None:
+        check_number(given, "the limit of the scale (mm)", above=0)
+        return float(given)
     worst, tolerance = max(difference.worst_gouge.value, difference.worst_rest.value), difference.tolerance
     return nice(min(max(worst, 2 * tolerance), FULL * tolerance))
-
-
-def nice(value: float) -> float:
-    """The next number 1, 2 or 5 times a power of ten that is not less."""
-    power = 10.0 ** math.floor(math.log10(value))
-    return next((step * power for step in STEPS if step * power >= value * (1 - 1e-9)), 10 * power)
 
 
 def _widen(picture: Picture, axes: Sequence[Axes], wide: float) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -88,16 +89,19 @@ def magnified(difference: Difference, section: Section) -> Magnified:
     whole = Region(tuple(section.contours))
     gone, left = (a.difference(b) if a.loops and off.any() else Region(()) for a, b in ((target, whole), (whole, target)))
     worst = float(np.clip(np.abs(off).max(initial=0.0), difference.tolerance, FULL * difference.tolerance))
-    factor = float(np.clip(_nice(float(span.min()) / SHARE / worst), LEAST, GREATEST))
+    factor = float(np.clip(nice(float(span.min()) / SHARE / worst, up=False), LEAST, GREATEST))
     joined_, most = np.concatenate(joined)[:-1], FULL * difference.tolerance
     small = np.where(np.abs(off) > most, 0.0, off)
     return Magnified(section, target, gone, left, factor, spots, foot, small, joined_, difference.tolerance, off)
 
 
-def _nice(value: float) -> float:
-    """The number 1, 2 or 5 times a power of ten that is not greater."""
-    power = 10.0 ** np.floor(np.log10(value))
-    return float(max(step * power for step in (1, 2, 5) if step * power <= value * (1 + 1e-9)))
+def nice(value: float, up: bool = True) -> float:
+    """The next number 1, 2 or 5 times a power of ten that is not less, or not greater."""
+    power = 10.0 ** math.floor(math.log10(value))
+    known = [step * power for step in (1.0, 2.0, 5.0, 10.0)]
+    if up:
+        return min(each for each in known if each >= value * (1 - 1e-9))
+    return max(each for each in known if each <= value * (1 + 1e-9))
 
 
 def draw_magnified(ax: Axes, cut: Magnified, shades: tuple[str, str]) -> None:

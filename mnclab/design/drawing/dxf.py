@@ -48,7 +48,7 @@ def content(drawing: Drawing) -> bytes:
     import ezdxf
 
     size, across = 1 / drawing.scale, 0.0
-    document = ezdxf.new("R2000", units=MILLIMETRES)
+    document: Any = ezdxf.new("R2000", units=MILLIMETRES)
     _declare(document, size)
     for sheet in drawing.sheets:
         _Sheet(document, size, across).draw(sheet)
