@@ -74,7 +74,7 @@ class DrawnTarget:
 
     def walls(self, spacing: float) -> Walls:
         (x0, y0), (x1, y1) = self.bounds[:, :2].tolist()
-        found, owners, wide = list[tuple[Array, Array, Array]](), list[Index](), EDGE * np.ones(2)
+        found, owners, wide = list[tuple[Array, Array, Mask]](), list[Index](), EDGE * np.ones(2)
         for number, region, void in self._upright:
             for loop in region.loops:
                 spots, aside, mid = _along(loop, spacing)
@@ -221,7 +221,7 @@ class DrawnTarget:
         return readings(self, seen)
 
 
-def _along(loop: Contour, spacing: float) -> tuple[Array, Array, Array]:
+def _along(loop: Contour, spacing: float) -> tuple[Array, Array, Mask]:
     """Places (m, 2) along a loop, a hair inside the ends of its elements, the direction to the left of it there, and
     whether they are in the middle half of an element."""
     element, share = spread(loop, spacing, FEWEST, TURN, EDGE)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mnclab.design.model.feature import Feature, Named, Site
+from mnclab.design.model.feature import Feature, Site
 from mnclab.design.model.features import FEATURES, Chamfer, Pocket, Stud
 from mnclab.design.model.measures import HEAD, rows
 from mnclab.design.model.removals import Flat, Removal, filled
@@ -354,7 +354,7 @@ class Taking(NamedTuple):
     """Which features a design takes: its own name, their class, those that there are, how alarms call one, an example."""
 
     design: str
-    kind: type[Named]
+    kind: type[Any]
     known: Mapping[str, type[Any]]
     one: str
     example: str
