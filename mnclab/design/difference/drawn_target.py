@@ -52,7 +52,7 @@ class DrawnTarget:
         return self.design.stack.distance(points)
 
     def grid(self, raster: Raster) -> Grid:
-        return Grid(*self.design.faces_over(raster.x, raster.y))
+        return Grid(*self.design.makers_over(raster.x, raster.y))
 
     def cut(self, plane: str, at: float) -> list[Contour]:
         """A section, as of a workpiece."""

@@ -233,9 +233,12 @@ class Design(AsDrawn):
         floor[gone] = top[gone] = np.nan
         return floor, top
 
-    def faces_over(self, x: Array, y: Array) -> tuple[Array, Array, NDArray[np.int16], NDArray[np.int16]]:
-        """The same over a lattice x (nx,), y (ny,) of many points, and which of `taken` made the upper and the lower side, -1
-        for none: four arrays (ny, nx)."""
+    def faces_over(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """The same over a lattice x (nx,), y (ny,) of many points: two arrays (ny, nx)."""
+        return self.makers_over(x, y)[:2]
+
+    def makers_over(self, x: Array, y: Array) -> tuple[Array, Array, NDArray[np.int16], NDArray[np.int16]]:
+        """The faces over a lattice, and which of `taken` made the upper and the lower one, -1 for none: four arrays (ny, nx)."""
         shape = len(y), len(x)
         sides = {False: np.full(shape, np.nan), True: np.full(shape, np.nan)}
         makers = {up: np.full(shape, -1, dtype=np.int16) for up in sides}
@@ -389,7 +392,7 @@ class Drawn(Milled):
     def sides(self) -> tuple[Array, Array]:
         """The lower and the upper side at the middles of the cells (ny, nx); its lowest place where there is nothing."""
         low = float(self.design.bounds[0, 2])
-        floor, top = (np.where(np.isnan(side), low, side) for side in self.design.faces_over(self.x, self.y)[:2])
+        floor, top = (np.where(np.isnan(side), low, side) for side in self.design.faces_over(self.x, self.y))
         return floor, top
 
     @cached_property
