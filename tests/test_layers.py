@@ -32,7 +32,7 @@ OUTSIDE = {  # package -> the only modules of mnclab that import it
     "matplotlib": ("show.plot", "design.drawing", "design.difference.plot", "design.difference.plot_sections"),
     "pyvista": ("show.scene", "show.part_scene", "design.difference.scene", "workpiece.part.mesh", "workpiece.part.pictures"),
     "vtkmodules": ("show.scene", "show.part_scene", "workpiece.part.mesh"),
-    "ezdxf": ("geometry.dxf",),
+    "ezdxf": ("geometry.dxf", "design.drawing.dxf"),
     "ipywidgets": ("lab.forms", "lab.editor"),
     "IPython": ("lab.magic", "lab.forms.live"),
     "tqdm": ("text.opening",),

@@ -86,6 +86,9 @@ def test_drawings_name_ezdxf(tmp_path, without):
     with pytest.raises(Alarm, match="need ezdxf") as caught:
         dxf.contours(tmp_path / "a.dxf")
     assert DXF in caught.value.hint
+    with pytest.raises(Alarm, match="DXF drawings need ezdxf") as caught:
+        mnclab.design.Design(((0, 0, -5), (10, 10, 0))).save(tmp_path / "b.dxf")
+    assert DXF in caught.value.hint and not list(tmp_path.iterdir())
 
 
 def test_a_package_that_is_broken_counts_as_missing(run, tmp_path, without, monkeypatch):

@@ -11,14 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.design.difference.body_target import MeshTarget, PartTarget
 from mnclab.design.difference.columns import columns, off
 from mnclab.design.difference.deviations import Seen, seen, volumes
-from mnclab.design.difference.difference import OK, OUT, Difference, Features, Row, Worst, uncut
+from mnclab.design.difference.difference import Difference, Features, Row, Worst, judged, made_by
 from mnclab.design.difference.drawn_target import DrawnTarget
 from mnclab.design.difference.half_target import HalfTarget
 from mnclab.design.difference.rays import PAIRS, about, sides, ways
-from mnclab.design.difference.target import NONE, Reading, Target
+from mnclab.design.difference.target import NONE, MeshTarget, PartTarget, Reading, Target
 from mnclab.design.difference.turned_comparing import compare_turned
 from mnclab.design.model.design import Design, Drawn
 from mnclab.design.model.turned_design import DrawnTurned, TurnedDesign
@@ -79,9 +78,16 @@ def _worst(found: Seen, sign: float, k: int, row: int) -> Worst:
     """The worst place of one sign, `k` of those that were looked at, -1 for none."""
     if k < 0:
         return Worst()
-    x, y, z = found.place[k].tolist()
     name = found.target.owner(int(found.owner[k])).name
-    return Worst(float((sign * found.off).max()), (x, y, z), *_line(found, row), name, _where(found, row, k))
+    return Worst(float((sign * found.off).max()), feature=name, **_made(found, k, row))
+
+
+def _made(found: Seen, k: int, row: int) -> dict[str, Any]:
+    """What is said of the place `k` of those that were looked at, -1 for none, and of the row that made it."""
+    if k < 0:
+        return {}
+    x, y, z = found.place[k].tolist()
+    return made_by(found.workpiece.cutting, (x, y, z), row, float(found.off[k]))
 
 
 def _followed(found: Seen) -> Seen:
@@ -106,7 +112,7 @@ def _first(found: Seen, groups: list[Index]) -> list[tuple[int, int]]:
     made it; -1 and -1 for an empty group."""
     groups = [among[:: len(among) // MOST + 1] for among in groups]
     some, where = np.unique(np.concatenate(groups), return_inverse=True)
-    rows = guilty(found.workpiece, found.target, found.place[some], found.void[some], found.off[some])[where.reshape(-1)]
+    rows = rows_that_made(found.workpiece, found.target, found.place[some], found.void[some], found.off[some])[where.reshape(-1)]
     first, begin = [], 0
     for among in groups:
         mine = rows[begin : begin + len(among)]
@@ -117,39 +123,10 @@ def _first(found: Seen, groups: list[Index]) -> list[tuple[int, int]]:
     return first
 
 
-def _line(found: Seen, row: int) -> tuple[int, int, int]:
-    """Line, row and program of a row; line 0 of none."""
-    path = found.workpiece.cutting.path
-    return (int(path.line[row]), row, int(path.program[row])) if row >= 0 else (0, -1, 0)
-
-
-def _where(found: Seen, row: int, k: int) -> str:
-    """"FILE:LINE" of the row that made a place, or that none did; nothing of no place."""
-    line, _, program = _line(found, row)
-    if row >= 0:
-        return str(found.workpiece.cutting.name(line, program))
-    return uncut(float(found.off[k])) if k >= 0 else ""
-
-
-def _row(found: Seen, reading: Reading, k: int, row: int) -> Row:
+def _row(found: Seen, each: Reading, k: int, row: int) -> Row:
     """A reading as a row of the table; `k` is the worst of its places, -1 for none, which a row made."""
-    measure, actual = reading.measure, reading.actual
-    deviation = actual - measure.nominal
-    deviation = 0.0 if abs(deviation) <= NOISE else deviation
-    lower, upper = measure.limits or (-reading.allowed, reading.allowed)
-    if reading.said:
-        verdict = reading.said
-    else:
-        verdict = OK if lower - found.least <= deviation <= upper + found.least else OUT
-    place = None
-    if k >= 0:
-        x, y, z = found.place[k].tolist()
-        place = x, y, z
-    line, row, program = _line(found, row)
-    return Row(
-        reading.side, reading.feature, measure.name, measure.nominal, measure.nominal + deviation, deviation, lower, upper,
-        verdict, line, row, place, program, _where(found, row, k),
-    )  # fmt: skip
+    said = each.side, each.feature, each.measure, each.actual, each.allowed
+    return judged(*said, NOISE, found.least, each.said, _made(found, k, row))
 
 
 def _worst_of(found: Seen, among: Index) -> Index:
@@ -264,7 +241,7 @@ def first_cuts(workpiece: Milled, places: Array) -> Index:
     return found
 
 
-def guilty(workpiece: Milled, target: Target, place: Array, void: Array, value: Array) -> Index:
+def rows_that_made(workpiece: Milled, target: Target, place: Array, void: Array, value: Array) -> Index:
     """The rows (m,) that made the surface at places (m, 3), off by `value` (m,), in whose void `void` (m, 3) lies; -1 where
     nothing was cut there.
 

@@ -1,4 +1,4 @@
-"""A part as drawn against the part as cut: where it is off, by how much, which row is guilty, and the verdict."""
+"""A part as drawn against the part as cut: where it is off, by how much, which row made it, and the verdict."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from mnclab.design.model.measures import Measure
 from mnclab.path.toolpath import Array
-from mnclab.text.tables import html_table
+from mnclab.text.tables import html_table, text_table
+from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.workpiece import ROUNDING
 
 if TYPE_CHECKING:
@@ -17,9 +19,18 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def uncut(off: float) -> str:
-    """Why no line made a place that is off: + what is left there, - what is gone."""
-    return "nothing cut here" if off > 0 else "missing from the start"
+Place = tuple[float, float, float]
+
+
+def made_by(cutting: Cutting, place: Place | None, row: int, off: float) -> dict[str, Any]:
+    """What a `Worst` and a `Row` say of a place that is `off`, + left, - gone, and of the row of the path that made it, -1 for
+    none."""
+    if place is None:
+        return {}
+    if row < 0:
+        return {"place": place, "where": "nothing cut here" if off > 0 else "missing from the start"}
+    line, program = int(cutting.path.line[row]), int(cutting.path.program[row])
+    return {"place": place, "line": line, "row": row, "program": program, "where": str(cutting.name(line, program))}
 
 
 class Worst(NamedTuple):
@@ -31,7 +42,7 @@ class Worst(NamedTuple):
     """
 
     value: float = 0.0
-    place: tuple[float, float, float] | None = None
+    place: Place | None = None
     line: int = 0
     row: int = -1
     program: int = 0
@@ -168,7 +179,7 @@ class Row(NamedTuple):
     verdict: str
     line: int = 0
     row: int = -1
-    place: tuple[float, float, float] | None = None
+    place: Place | None = None
     program: int = 0
     where: str = ""
 
@@ -190,6 +201,19 @@ class Row(NamedTuple):
         """For JSON: nan as None."""
         found = self._asdict()
         return {name: None if isinstance(value, float) and math.isnan(value) else value for name, value in found.items()}
+
+
+def judged(
+    side: str, feature: str, measure: Measure, actual: float, allowed: float, noise: float, least: float, said: str, made: Any
+) -> Row:  # fmt: skip
+    """A measure with its verdict: the limits of the drawing, else as far as `allowed`; a deviation within `noise` mm is none,
+    and within `least` more it is not out. `said` is why it was not measured, `made` what `made_by` says of its worst place."""
+    deviation = actual - measure.nominal
+    deviation = 0.0 if abs(deviation) <= noise else deviation
+    lower, upper = measure.limits or (-allowed, allowed)
+    verdict = said or (OK if lower - least <= deviation <= upper + least else OUT)
+    found = measure.nominal + deviation
+    return Row(side, feature, measure.name, measure.nominal, found, deviation, lower, upper, verdict, **made)
 
 
 class Features(Sequence[Row]):
@@ -214,12 +238,7 @@ class Features(Sequence[Row]):
         return Features([row for row in self if not row.ok])
 
     def __repr__(self) -> str:
-        cells = [HEAD, *(row.texts() for row in self)]
-        widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-        cells.insert(1, tuple("-" * width for width in widths))
-        aligned = [[str.rjust if k in NUMBERS else str.ljust for k in range(len(HEAD))]] * len(cells)
-        lines = ("  ".join(to(text, n) for to, text, n in zip(*each)) for each in zip(aligned, cells, [widths] * len(cells)))
-        return "\n".join(line.rstrip() for line in lines)
+        return text_table(HEAD, [row.texts() for row in self], NUMBERS)
 
     def _repr_html_(self) -> str:
         return html_table(HEAD, [row.texts() for row in self], numbers=NUMBERS)

@@ -11,9 +11,10 @@ import numpy as np
 from mnclab.design.difference.target import BLANK, Grid, Owner, Slopes, Walls
 from mnclab.design.model.design import Design
 from mnclab.design.model.measures import Measure
-from mnclab.design.model.removals import Flat, Slant, Slanting, Wedge, filled, within
+from mnclab.design.model.removals import CLEARANCE, Bevel, Cone, Flat, Ramp, Sloped, within
+from mnclab.design.model.shapes import on_elements, spread
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.curves import at_angle, left
+from mnclab.geometry.curves import at_angle
 from mnclab.geometry.regions import Region
 from mnclab.geometry.signed import signed
 from mnclab.path.toolpath import Array, Index, Mask
@@ -34,7 +35,7 @@ SHARES = (0.02, 0.15, 0.35, 0.5, 0.65, 0.85, 0.98)  # of a slant, from its foot 
 
 
 class DrawnTarget:
-    """An owner is the number of what a feature takes away, in `design.taken`."""
+    """The owner of a face is the number of the body that made it, an index into `design.taken`."""
 
     def __init__(self, design: Design, tolerance: float) -> None:
         self.design, self.tolerance = design, tolerance
@@ -51,24 +52,7 @@ class DrawnTarget:
         return self.design.stack.distance(points)
 
     def grid(self, raster: Raster) -> Grid:
-        x, y, (low, high) = raster.x, raster.y, self.bounds[:, 2].tolist()
-        floor, top = np.full(raster.shape, np.nan), np.full(raster.shape, np.nan)
-        owner, under = (np.full(raster.shape, BLANK, dtype=np.int16) for _ in range(2))
-        rows, columns, inside = filled(self.design.outline_of_blank, x, y)
-        floor[rows, columns][inside], top[rows, columns][inside] = low, high
-        for k, (_, _, body) in enumerate(self.design.taken):
-            side, whose = (top, owner) if body.up else (floor, under)
-            rows, columns, inside = filled(body.reach, x, y)
-            j, i = np.nonzero(inside)
-            level = body.level_within(x[columns][i], y[rows][j])
-            here = side[rows, columns][inside]
-            cut = level < here if body.up else level > here
-            side[rows, columns][inside] = np.where(cut, level, here)
-            whose[rows, columns][inside] = np.where(cut, k, whose[rows, columns][inside])
-        with np.errstate(invalid="ignore"):
-            gone = ~(top > floor)
-        floor[gone] = top[gone] = np.nan
-        return Grid(floor, top, owner, under)
+        return Grid(*self.design.makers_over(raster.x, raster.y))
 
     def cut(self, plane: str, at: float) -> list[Contour]:
         """A section, as of a workpiece."""
@@ -85,12 +69,12 @@ class DrawnTarget:
         """Owner, region, and on which side of its boundary the void is: 1 left."""
         yield BLANK, self.design.outline_of_blank, -1.0
         for k, (_, _, body) in enumerate(self.design.taken):
-            if not isinstance(body, Slanting):
+            if isinstance(body, Flat | Ramp):
                 yield k, body.region, 1.0
 
     def walls(self, spacing: float) -> Walls:
         (x0, y0), (x1, y1) = self.bounds[:, :2].tolist()
-        found, owners, wide = list[tuple[Array, Array, Array]](), list[Index](), EDGE * np.ones(2)
+        found, owners, wide = list[tuple[Array, Array, Mask]](), list[Index](), EDGE * np.ones(2)
         for number, region, void in self._upright:
             for loop in region.loops:
                 spots, aside, mid = _along(loop, spacing)
@@ -102,19 +86,19 @@ class DrawnTarget:
         spots = np.concatenate([place - ASIDE * normal, place + ASIDE * normal])
         spot, heights, talls = list[Index](), list[Array](), list[Array]()
         tallest = np.zeros(len(place))
-        levels = self._levels
-        for low, high in zip(levels, levels[1:]):
+        for slab in self.design.stack.slabs:  # where what stands upright may change
+            low, high = slab.low, slab.high
             tall, hair = high - low, min(EDGE, (high - low) / 4)
             stands = self._material(spots, (low + high) / 2)
             on = stands[: len(place)] & ~stands[len(place) :] & self._reached(owner, (low + high) / 2)
-            falls = any(isinstance(body, Wedge) and body.low < high and body.high > low for body in self._slants)
+            falls = any(isinstance(body, Ramp) and body.low < high and body.high > low for body in self._slants)
             for z, counts in ((low + hair, 0.0), ((low + high) / 2, tall), (high - hair, 0.0)):
                 if falls:
                     stands = self._material(spots, z)
                     on = stands[: len(place)] & ~stands[len(place) :] & self._reached(owner, z)
                 here = np.flatnonzero(on)
                 for body in self._slants:
-                    if isinstance(body, Slanting) and body.low < z < body.high:
+                    if not body.upright and body.low < z < body.high:
                         here = here[body.taken(spots[here, 0], spots[here, 1], np.full(len(here), z)) > ASIDE]
                 spot.append(here)
                 heights.append(np.full(len(here), z))
@@ -125,38 +109,28 @@ class DrawnTarget:
         return Walls(place, normal, owner, middle.astype(bool), index, np.concatenate(heights), mid.astype(bool))
 
     @cached_property
-    def _levels(self) -> list[float]:
-        """The heights at which what stands upright may change."""
-        low, high = self.bounds[:, 2].tolist()
-        heights = [low, high, *(each.body.floor for each in self.design.taken if isinstance(each.body, Flat))]
-        heights += [z for body in self._slants for z in (body.low, body.high)]
-        inside = sorted(z for z in heights if low <= z <= high)
-        return [z for k, z in enumerate(inside) if k == 0 or z - inside[k - 1] > SAME]
-
-    @cached_property
-    def _slants(self) -> list[Slant]:
+    def _slants(self) -> list[Sloped]:
         return [each.body for each in self.design.taken if not isinstance(each.body, Flat)]
 
     def _material(self, spots: Array, z: float) -> Mask:
         """Whether upright material stands at places (m, 2) in a height, with what slants off."""
         found = self.design.outline_of_blank.contains(spots)
         for each in self.design.taken:
-            if not isinstance(each.body, Slanting) and each.body.reaches(z):
+            if each.body.upright and each.body.reaches(z):
                 some = np.flatnonzero(found)
-                found[some[within(_at(each.body, z), *spots[some].T)]] = False
+                found[some[within(each.body.section(z), *spots[some].T)]] = False
         return found
 
     def _reached(self, owner: Index, z: float) -> Mask:
         """Whether the feature that a wall belongs to (m,) goes as far as a height."""
-        taken = self.design.taken
-        reaches = [bool(each.body.reaches(z)) if not isinstance(each.body, Slanting) else False for each in taken]
+        reaches = [each.body.upright and bool(each.body.reaches(z)) for each in self.design.taken]
         return np.array([*reaches, True])[owner]
 
     def slopes(self, spacing: float, step: float) -> Slopes:
         found = []
         for k, (_, _, body) in enumerate(self.design.taken):
             if isinstance(body, Flat):
-                for spots in self._inside(body, spacing, step) if self.role(k) != "sky" else ():
+                for spots in self._inside(body, spacing, step) if body.part != CLEARANCE else ():
                     found.append((spots, *(np.full(len(spots), value) for value in (body.floor, 0.0, k, body.up, True))))
                 continue
             for share in SHARES:
@@ -185,17 +159,18 @@ class DrawnTarget:
                 inside = spots + share * wide * aside
                 yield inside[((inside >= low) & (inside <= high)).all(axis=1)]
 
-    def _rings(self, body: Slant, out: float, spacing: float) -> Iterator[Array]:
+    def _rings(self, body: Sloped, out: float, spacing: float) -> Iterator[Array]:
         """Places at a distance from the base of a slant."""
-        if isinstance(body, Wedge):
+        if isinstance(body, Ramp):
             across = np.linspace(-0.5, 0.5, max(int(np.ceil(body.width / spacing)), FEWEST) + 2)[1:-1, None] * body.width
             (c, s), away = body.ahead, out * np.array(body.ahead)
             yield np.array(body.start) + away + across * (-s, c)
             return
-        if not isinstance(body.base, Region):
+        if isinstance(body, Cone):
             count = max(int(np.ceil(2 * np.pi / (2 * TURN))), 8)
-            yield np.array(body.base) + out * at_angle(2 * np.pi * np.arange(count) / count)
+            yield np.array(body.centre) + out * at_angle(2 * np.pi * np.arange(count) / count)
             return
+        assert isinstance(body, Bevel)
         low, high = self.bounds[:, :2]
         for loop in body.edges:
             spots, aside, _ = _along(loop, spacing)
@@ -226,18 +201,6 @@ class DrawnTarget:
     def _measures(self) -> tuple[list[tuple[Measure, ...]], ...]:
         return tuple([each.measures() for each in side] for side in (self.design.features, self.design.back))
 
-    def role(self, number: int) -> str:
-        """What of its feature a body is: "", "point", "counterbore", "countersink", "slant" (of a chamfer), "slope" or "sky"."""
-        feature, back, body = self.design.taken[number]
-        if isinstance(body, Wedge):
-            return "slope"
-        if isinstance(body, Slanting):
-            return "slant" if isinstance(body.base, Region) else ("point" if body.near == 0 else "countersink")
-        if number == 0 or self.design.taken[number - 1][:2] != (feature, back):
-            return ""
-        before = self.design.taken[number - 1].body
-        return "sky" if not isinstance(before, Flat) and self.role(number - 1) != "point" else "counterbore"
-
     def owners(self, points: Array, off: Array) -> Index:
         low, high = self.bounds[:, 2].tolist()
         x, y, z = points.T
@@ -245,9 +208,9 @@ class DrawnTarget:
         best = np.abs(np.minimum(np.minimum(side, np.abs(z - low)), np.abs(high - z)) - off)
         found = np.full(len(points), BLANK)
         for k, (_, _, body) in enumerate(self.design.taken):
-            if not len(points) or self.role(k) == "sky":
+            if not len(points) or body.part == CLEARANCE:
                 continue
-            miss = np.abs(_from_faces(body, x, y, z) - off)
+            miss = np.abs(body.from_faces(x, y, z) - off)
             better = miss <= best + SAME
             found[better], best = k, np.minimum(best, miss)
         return found
@@ -258,38 +221,9 @@ class DrawnTarget:
         return readings(self, seen)
 
 
-def _along(loop: Contour, spacing: float) -> tuple[Array, Array, Array]:
+def _along(loop: Contour, spacing: float) -> tuple[Array, Array, Mask]:
     """Places (m, 2) along a loop, a hair inside the ends of its elements, the direction to the left of it there, and
     whether they are in the middle half of an element."""
-    lengths = loop.lengths
-    count = np.maximum(np.ceil(lengths / spacing), np.ceil(np.abs(loop.sweeps) / TURN)).astype(int)
-    count = np.maximum(count, FEWEST) | 1
-    element = np.repeat(np.arange(len(count)), count)
-    place = np.arange(len(element)) - np.repeat(np.cumsum(count) - count, count)
-    hair = np.minimum(EDGE / np.maximum(lengths, EDGE), 0.01)[element]
-    share = hair + (1 - 2 * hair) * place / (count[element] - 1)
-    spots, ahead = loop.point_at((np.cumsum(lengths) - lengths)[element] + share * lengths[element])
-    return spots, left(ahead), np.abs(share - 0.5) <= 0.25 + SAME
-
-
-def _at(body: Flat | Wedge, z: float) -> Region:
-    """What it takes away at a height that it reaches."""
-    return body.region if isinstance(body, Flat) else body.section(z)
-
-
-def _from_faces(body: Flat | Slant, x: Array, y: Array, z: Array) -> Array:
-    """How far points (m,) are from the faces that a body makes, mm."""
-    if isinstance(body, Flat):
-        beside = signed(body.region, np.stack([x, y], axis=1))
-        above = z - body.floor if body.up else body.floor - z
-        wall = np.hypot(np.abs(beside), np.maximum(-above, 0.0))
-        return np.minimum(wall, np.where(beside <= 0, np.abs(above), np.inf))
-    if isinstance(body, Wedge):  # outside it the distance from it; within, from its floor, or its walls
-        above = (z - body.level_within(x, y)) * (1.0 if body.up else -1.0)
-        floor = np.abs(above) / np.hypot(1.0, (body.open - body.deep) / body.far)
-        beside = signed(body.region, np.stack([x, y], axis=1))
-        walls = np.where(above > 0, -beside, np.inf)
-        return np.where(beside > 0, np.hypot(beside, np.maximum(-above, 0.0)), np.minimum(floor, walls))
-    s, ds, dz = body.away(x, y), body.far - body.near, body.open - body.deep
-    share = np.clip(((s - body.near) * ds + (z - body.deep) * dz) / (ds * ds + dz * dz), 0.0, 1.0)
-    return np.hypot(s - body.near - share * ds, z - body.deep - share * dz)
+    element, share = spread(loop, spacing, FEWEST, TURN, EDGE)
+    _, spots, aside = on_elements(loop, element, share)
+    return spots, aside, np.abs(share - 0.5) <= 0.25 + SAME

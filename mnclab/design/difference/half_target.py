@@ -11,10 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mnclab.design.model.shapes import on_elements, spread, stretches
 from mnclab.design.model.turned_design import TurnedDesign
 from mnclab.design.model.turned_threads import Thread
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.curves import Floats, left
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
 from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.text.alarm import Alarm
@@ -132,14 +133,11 @@ class Places(NamedTuple):
 
 
 class HalfSurface:
-    """`section`: closed contours (z, r), mm, the material to their left. `lines` are those without what lies on the axis,
-    `origins` (k,) for each line which contour and which element its elements were, (k, 2)."""
+    """`section`: closed contours (z, r), mm, the material to their left. `lines` are those without what lies on the axis."""
 
     def __init__(self, section: Sequence[Contour]) -> None:
         self.region = Region(tuple(section))
-        found = [each for k, loop in enumerate(section) for each in _off_axis(k, loop)]
-        self.lines = [line for line, _ in found]
-        self.origins = [origin for _, origin in found]
+        self.lines = [line for loop in section for line in _off_axis(loop)]
 
     def contains(self, points: Array) -> Mask:
         """Whether points (m, 2) lie in the material; those on the axis, too."""
@@ -161,22 +159,13 @@ class HalfSurface:
         """Places on all elements, about so many mm apart; `aside` (mm) from their ends, which are places themselves at 0."""
         found: list[Places] = []
         for number, line in enumerate(self.lines):
-            lengths = line.lengths
-            count = np.maximum(np.ceil(lengths / spacing), np.ceil(np.abs(line.sweeps) / TURN)).astype(int)
-            count = np.maximum(count, FEWEST)
-            element = np.repeat(np.arange(len(count)), count)
-            rank = np.arange(len(element)) - np.repeat(np.cumsum(count) - count, count)
-            hair = np.minimum(aside / np.maximum(lengths, AXIS), 0.01)[element]
-            share = hair + (1 - 2 * hair) * rank / (count[element] - 1)
-            found.append(self.at(number, element, share))
+            found.append(self.at(number, *spread(line, spacing, FEWEST, TURN, aside)))
         return Places(*(np.concatenate(column) for column in zip(*found))) if found else _none()
 
     def at(self, line: int, element: Index, share: Array) -> Places:
         """Places on elements of a line, at shares (m,) of them."""
-        lengths = self.lines[line].lengths
-        way = (np.cumsum(lengths) - lengths)[element] + share * lengths[element]
-        spots, ahead = self.lines[line].point_at(np.minimum(way, np.nextafter(lengths.sum(), 0)))
-        return Places(spots, -left(ahead), np.full(len(element), line), element, share, way)
+        way, spots, aside = on_elements(self.lines[line], element, share)
+        return Places(spots, -aside, np.full(len(element), line), element, share, way)
 
     @cached_property
     def _elements(self) -> tuple[Floats, ...]:
@@ -227,23 +216,10 @@ class HalfSurface:
         return np.where(np.isfinite(chosen), chosen, np.nan)
 
 
-def _off_axis(number: int, loop: Contour) -> Iterator[tuple[Contour, Index]]:
-    """The pieces of a closed contour between its lines on the axis, and which elements of it they are (k, 2)."""
+def _off_axis(loop: Contour) -> Iterator[Contour]:
+    """The pieces of a closed contour between its lines on the axis."""
     on = (np.maximum(loop.starts[:, 1], loop.ends[:, 1]) <= AXIS) & (loop.sweeps == 0)
-    count = len(on)
-    if not on.any():
-        yield loop, np.stack([np.full(count, number), np.arange(count)], axis=1)
-        return
-    first = int(on.argmax())
-    run: list[int] = []
-    for k in [*((first + 1 + np.arange(count)) % count).tolist()]:
-        if not on[k]:
-            run.append(k)
-            continue
-        if run:
-            points = np.vstack([loop.points[run], loop.ends[run[-1]]])
-            yield Contour(points, np.append(loop.bulge[run], 0.0), closed=False), np.array([(number, each) for each in run])
-        run = []
+    return stretches(loop, ~on)
 
 
 def _cross(a: Array, b: Array) -> Array:

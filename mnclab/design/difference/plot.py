@@ -15,16 +15,27 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch, PathPatch
+from matplotlib.patches import Patch
 
 from mnclab.design.difference.difference import HEAD, NUMBERS, Difference
-from mnclab.design.difference.plot_sections import FULL, Magnified, draw_magnified, sections_of
+from mnclab.design.difference.plot_sections import (
+    BAND,
+    DASHES,
+    FULL,
+    Magnified,
+    draw_magnified,
+    draw_surface,
+    draw_target,
+    nice,
+    sections_of,
+    write_factor,
+)
 from mnclab.geometry.contours import Contour
 from mnclab.path.toolpath import Array
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import number
 from mnclab.show.plot.picture import LINE, SCALE, SIZE, SMALL, VIEWS, Foot, Picture, arrange, dress, write_legend
-from mnclab.show.plot.sections import CARD, FACE, HALO, HATCH, mark_section, outline_of
+from mnclab.show.plot.sections import HALO, mark_section
 from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
@@ -34,7 +45,6 @@ GONE, RIGHT, LEFT = "#0b2a78", "#f4f1e6", "#d9541e"
 SHADES = LinearSegmentedColormap.from_list("difference", [GONE, "#3f68b5", "#a9bfe0", RIGHT, "#f6c3a0", "#ee8a4d", LEFT])
 HATCHES = {-1: "xxxx", 1: "...."}
 OUTLINE: dict[str, Any] = {"colors": colours.INK, "linewidths": 0.8, "zorder": 2.0}
-STEPS = (1.0, 2.0, 5.0)
 DOTS = 9.0  # points², of a place of a wall
 NAMES = ("gouge", "rest")
 
@@ -61,9 +71,7 @@ def plot_difference(
     """
     if not isinstance(table, bool):
         raise Alarm(f"table must be True or False, got {shown(table)}")
-    if limit is not None:
-        check_number(limit, "the limit of the scale (mm)", above=0)
-    most = float(limit) if limit else usual_limit(difference)
+    most = limit_of(difference, limit)
     lathe = difference.workpiece.cutting.lathe
     cuts = sections_of(difference, section, at)
     if ax is not None:
@@ -91,16 +99,13 @@ def plot_difference(
     return picture
 
 
-def usual_limit(difference: Difference) -> float:
-    """The ends of the scale: the worst deviation, but two tolerances at least and ten at most."""
+def limit_of(difference: Difference, given: float | None) -> float:
+    """The ends of the scale, mm: those given, else the worst deviation, but two tolerances at least and ten at most."""
+    if given is not None:
+        check_number(given, "the limit of the scale (mm)", above=0)
+        return float(given)
     worst, tolerance = max(difference.worst_gouge.value, difference.worst_rest.value), difference.tolerance
     return nice(min(max(worst, 2 * tolerance), FULL * tolerance))
-
-
-def nice(value: float) -> float:
-    """The next number 1, 2 or 5 times a power of ten that is not less."""
-    power = 10.0 ** math.floor(math.log10(value))
-    return next((step * power for step in STEPS if step * power >= value * (1 - 1e-9)), 10 * power)
 
 
 def _widen(picture: Picture, axes: Sequence[Axes], wide: float) -> None:
@@ -178,19 +183,11 @@ def _draw_walls(ax: Axes, difference: Difference, norm: Normalize) -> None:
 
 def _draw_half(ax: Axes, difference: Difference, most: float) -> None:
     target, looked = difference.compared, difference.looked
-    shape = outline_of(target.section)
-    ax.add_patch(PathPatch(shape, **FACE, zorder=1.5))
-    hatch = PathPatch(shape, **(HATCH | {"edgecolor": "#b9b5a8"}), zorder=1.6)
-    hatch.set_hatch_linewidth(0.5)
-    ax.add_patch(hatch)
     factor = factor_of(difference)
     place, normal, off = looked.places.place, looked.places.normal, np.nan_to_num(looked.off)
     much = (np.abs(off) > FULL * difference.tolerance) | np.isnan(looked.moved)
     off = np.where(much, 0.0, off)  # too much to be magnified: areas as they are
-    for region, shade in ((looked.gone, GONE), (looked.left, LEFT)):
-        if region.loops:
-            face = {"facecolor": shade + "66", "edgecolor": shade, "linewidth": 0.6}
-            ax.add_patch(PathPatch(outline_of(region.loops), **face, zorder=1.7))
+    draw_target(ax, target.section, looked.gone, looked.left, (GONE, LEFT))
     drawn = place + factor * off[:, None] * normal
     same = (np.diff(looked.places.line) == 0) & (np.diff(looked.places.element) == 0)
     quads = np.stack([place[:-1], place[1:], drawn[1:], drawn[:-1]], axis=1)
@@ -198,20 +195,15 @@ def _draw_half(ax: Axes, difference: Difference, most: float) -> None:
     some = same & (off[:-1] * off[1:] > 0)
     ax.add_collection(PolyCollection(list(quads[some]), array=mean[some], cmap=SHADES, norm=Normalize(-most, most), zorder=2.0))
     edges = np.stack([drawn[:-1], drawn[1:]], axis=1)
-    for sign, shade, dashes in ((-1, GONE, "-"), (1, LEFT, (0, (4, 1)))):
-        mine = some & (np.sign(mean) == sign)
-        ax.add_collection(LineCollection(list(edges[mine]), colors=shade, linestyles=dashes, linewidths=1.1, zorder=2.2))
+    draw_surface(ax, edges, some, mean, (GONE, LEFT))
     for side in (-1, 1):
         band = place + side * factor * difference.tolerance * normal
         lines = np.stack([band[:-1], band[1:]], axis=1)[same]
-        ax.add_collection(LineCollection(list(lines), colors="#8c8778", linewidths=0.5, linestyles=(0, (2, 2)), zorder=1.9))
+        ax.add_collection(LineCollection(list(lines), colors=BAND, linewidths=0.5, linestyles=DASHES, zorder=1.9))
     low, high = target.ends
     reach = 0.04 * (high - low)
     ax.add_line(Line2D([low - reach, high + reach], [0, 0], **{**colours.CENTRE_LINE.style(), "zorder": 2.8, "label": "_centre"}))
-    ax.annotate(
-        f"deviation × {number(factor)}", (0.5, 1.0), (0, -3), xycoords="axes fraction", textcoords="offset points", ha="center",
-        va="top", fontsize=SMALL + 1, bbox=CARD, zorder=5,
-    )  # fmt: skip
+    write_factor(ax, "", factor)
 
 
 def factor_of(difference: Difference) -> float:
@@ -234,7 +226,7 @@ def _handles(difference: Difference, cuts: Sequence[Magnified]) -> list[Any]:
     found += [Patch(facecolor=GONE, edgecolor="#ffffff", hatch="" if lathe else HATCHES[-1], label="gouge")]
     found += [Patch(facecolor=LEFT, edgecolor="#6b2a08", hatch="" if lathe else HATCHES[1], label="rest")]
     if lathe or cuts:
-        found.append(Line2D([], [], color="#8c8778", linewidth=0.7, linestyle=(0, (2, 2)), label="tolerance"))
+        found.append(Line2D([], [], color=BAND, linewidth=0.7, linestyle=DASHES, label="tolerance"))
     return found
 
 

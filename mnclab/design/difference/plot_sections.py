@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -11,6 +12,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.patches import PathPatch
 
 from mnclab.design.difference.difference import Difference
+from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.path.toolpath import Array
 from mnclab.show.plot.classes import number
@@ -23,6 +25,7 @@ PLACES = 1200  # along the longer side
 FULL = 10.0  # tolerances: what is off by more has the full colour, and is not magnified
 SHARE = 14  # the worst deviation is drawn as this part of the smaller side of a section
 LEAST, GREATEST = 1.0, 1000.0
+BAND, DASHES = "#8c8778", (0, (2, 2))  # the tolerance on either side
 
 
 class Magnified(NamedTuple):
@@ -86,44 +89,64 @@ def magnified(difference: Difference, section: Section) -> Magnified:
     whole = Region(tuple(section.contours))
     gone, left = (a.difference(b) if a.loops and off.any() else Region(()) for a, b in ((target, whole), (whole, target)))
     worst = float(np.clip(np.abs(off).max(initial=0.0), difference.tolerance, FULL * difference.tolerance))
-    factor = float(np.clip(_nice(float(span.min()) / SHARE / worst), LEAST, GREATEST))
+    factor = float(np.clip(nice(float(span.min()) / SHARE / worst, up=False), LEAST, GREATEST))
     joined_, most = np.concatenate(joined)[:-1], FULL * difference.tolerance
     small = np.where(np.abs(off) > most, 0.0, off)
     return Magnified(section, target, gone, left, factor, spots, foot, small, joined_, difference.tolerance, off)
 
 
-def _nice(value: float) -> float:
-    """The number 1, 2 or 5 times a power of ten that is not greater."""
-    power = 10.0 ** np.floor(np.log10(value))
-    return float(max(step * power for step in (1, 2, 5) if step * power <= value * (1 + 1e-9)))
+def nice(value: float, up: bool = True) -> float:
+    """The next number 1, 2 or 5 times a power of ten that is not less, or not greater."""
+    power = 10.0 ** math.floor(math.log10(value))
+    known = [step * power for step in (1.0, 2.0, 5.0, 10.0)]
+    if up:
+        return min(each for each in known if each >= value * (1 - 1e-9))
+    return max(each for each in known if each <= value * (1 + 1e-9))
 
 
 def draw_magnified(ax: Axes, cut: Magnified, shades: tuple[str, str]) -> None:
     """The target hatched, the part as a line that is off by the factor, what lies between in the colour of its kind."""
-    if cut.target.loops:
-        shape = outline_of(cut.target.loops)
-        ax.add_patch(PathPatch(shape, **FACE, zorder=1.5))
-        hatch = PathPatch(shape, **(HATCH | {"edgecolor": "#b9b5a8"}), zorder=1.6)
-        hatch.set_hatch_linewidth(0.5)
-        ax.add_patch(hatch)
-    for region, shade in ((cut.gone, shades[0]), (cut.left, shades[1])):
-        if region.loops:
-            ax.add_patch(PathPatch(outline_of(region.loops), facecolor=shade + "66", edgecolor=shade, linewidth=0.6, zorder=1.7))
+    draw_target(ax, cut.target.loops, cut.gone, cut.left, shades)
     drawn = cut.foot + cut.factor * (cut.there - cut.foot)
     quads = np.stack([cut.foot[:-1], cut.foot[1:], drawn[1:], drawn[:-1]], axis=1)
     lines = np.stack([drawn[:-1], drawn[1:]], axis=1)
     joined = cut.joined & (np.hypot(*np.diff(cut.foot, axis=0).T) < 5 * np.hypot(*np.diff(cut.there, axis=0).T) + 1e-9)
     mean = (cut.off[:-1] + cut.off[1:]) / 2
-    for sign, shade, dashes in ((-1, shades[0], "-"), (1, shades[1], (0, (4, 1)))):
+    for sign, shade in zip((-1, 1), shades):
         some = joined & (np.sign(mean) == sign)
         ax.add_collection(PolyCollection(list(quads[some]), facecolors=shade + "66", edgecolors="none", zorder=2.0))
-        ax.add_collection(LineCollection(list(lines[some]), colors=shade, linestyles=dashes, linewidths=1.1, zorder=2.2))
+    draw_surface(ax, lines, joined, mean, shades)
     for loop in cut.target.loops:
         area = Region((loop,)) if loop.area > 0 else Region((loop.reversed(),))
         for side in (-1, 1):
             for each in area.inset(side * cut.factor * cut.tolerance).loops:
-                ax.plot(*each.points_within(0.02).T, color="#8c8778", linewidth=0.5, linestyle=(0, (2, 2)), zorder=1.9)
+                ax.plot(*each.points_within(0.02).T, color=BAND, linewidth=0.5, linestyle=DASHES, zorder=1.9)
+    write_factor(ax, f"{cut.section.title}, ", cut.factor)
+
+
+def draw_target(ax: Axes, loops: Sequence[Contour], gone: Region, left: Region, shades: tuple[str, str]) -> None:
+    """A target hatched, with the areas that are gone or left as they are."""
+    if loops:
+        shape = outline_of(loops)
+        ax.add_patch(PathPatch(shape, **FACE, zorder=1.5))
+        hatch = PathPatch(shape, **(HATCH | {"edgecolor": "#b9b5a8"}), zorder=1.6)
+        hatch.set_hatch_linewidth(0.5)
+        ax.add_patch(hatch)
+    for region, shade in zip((gone, left), shades):
+        if region.loops:
+            ax.add_patch(PathPatch(outline_of(region.loops), facecolor=shade + "66", edgecolor=shade, linewidth=0.6, zorder=1.7))
+
+
+def draw_surface(ax: Axes, lines: Array, some: Array, off: Array, shades: tuple[str, str]) -> None:
+    """Some of the lines (k, 2, 2) of a part by the sign of what they are off: full where it is gone, dashed where it is left."""
+    for sign, shade, dashes in ((-1, shades[0], "-"), (1, shades[1], (0, (4, 1)))):
+        mine = some & (np.sign(off) == sign)
+        ax.add_collection(LineCollection(list(lines[mine]), colors=shade, linestyles=dashes, linewidths=1.1, zorder=2.2))
+
+
+def write_factor(ax: Axes, title: str, factor: float) -> None:
+    """By how much deviations are magnified, at the upper edge."""
     ax.annotate(
-        f"{cut.section.title}, deviation × {number(cut.factor)}", (0.5, 1.0), (0, -2), xycoords="axes fraction",
-        textcoords="offset points", ha="center", va="top", fontsize=SMALL + 1, bbox=CARD, zorder=5,
+        f"{title}deviation × {number(factor)}", (0.5, 1.0), (0, -2), xycoords="axes fraction", textcoords="offset points",
+        ha="center", va="top", fontsize=SMALL + 1, bbox=CARD, zorder=5,
     )  # fmt: skip

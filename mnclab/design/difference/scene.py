@@ -8,12 +8,12 @@ import numpy as np
 
 from mnclab.design.difference.columns import distances
 from mnclab.design.difference.difference import Difference
-from mnclab.design.difference.plot import GONE, LEFT, SHADES, usual_limit
+from mnclab.design.difference.plot import GONE, LEFT, SHADES, limit_of
 from mnclab.path.toolpath import Array
 from mnclab.show import scene as scenes
 from mnclab.show.part_scene import ANGLE, BALL, EDGE, LOOK, PIN
 from mnclab.show.rulers import frame
-from mnclab.text.given import check_number, fitting
+from mnclab.text.given import fitting
 from mnclab.workpiece.workpiece import Solid
 
 if TYPE_CHECKING:
@@ -32,9 +32,7 @@ def scene(
     """
     import pyvista
 
-    if limit is not None:
-        check_number(limit, "the limit of the scale (mm)", above=0)
-    most = float(limit) if limit else usual_limit(difference)
+    most = limit_of(difference, limit)
     scenes.check_drawing()
     lathe = difference.workpiece.cutting.lathe
     plotter = scenes.new_plotter(repr(difference).splitlines()[0], size)

@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.design.difference.difference import Difference, Features, Worst, uncut
+from mnclab.design.difference.difference import Difference, Features, Place, Worst, made_by
 from mnclab.design.difference.half_target import HalfSurface, HalfTarget, Places, deepest, narrowed
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
@@ -64,6 +64,11 @@ class Compared:
                 k = min(int(np.searchsorted(way, loop.nearest(place))), len(rows) - 1)
                 best, row = nearest, int(rows[k])
         return row if best < 1e-3 else -1
+
+    def in_space(self, place: Array) -> Place:
+        """A place (z, r) of the section as (x, y, z)."""
+        z, r = place.tolist()
+        return self.part.axis + r, 0.0, z
 
     def behind(self, points: Array) -> Mask:
         """Which points (m, 2) lie where the bar was cut off in thought."""
@@ -166,10 +171,8 @@ def _worst(found: Compared, target: HalfTarget, at: Array, off: Array, owner: In
     if not off.max(initial=0.0) > 0:
         return Worst()
     k, row = first_made(found, at, np.flatnonzero(off >= off.max() - ALIKE))
-    line, program, where = line_of(found.part, row)
-    z, r = at[k].tolist()
-    where = where or uncut(sign)
-    return Worst(float(off.max()), (found.part.axis + r, 0.0, z), line, row, program, target.names[owner[k]], where)
+    made = made_by(found.part.cutting, found.in_space(at[k]), row, sign)
+    return Worst(float(off.max()), feature=target.names[owner[k]], **made)
 
 
 def first_made(found: Compared, at: Array, among: Index) -> tuple[int, int]:
@@ -186,15 +189,6 @@ def first_made(found: Compared, at: Array, among: Index) -> tuple[int, int]:
         cut = known[(known >= 0) & (count > min(1, len(some) // 3))]
         row = int(cut.min()) if len(cut) else int(known[known >= 0].min())
     return int(some[(rows == row).argmax()]), row
-
-
-def line_of(part: Turned, row: int) -> tuple[int, int, str]:
-    """Line and program of a row and "FILE:LINE"; line 0 of none."""
-    if row < 0:
-        return 0, 0, ""
-    path = part.cutting.path
-    line, program = int(path.line[row]), int(path.program[row])
-    return line, program, str(part.cutting.name(line, program))
 
 
 def _notes(found: Compared, target: HalfTarget) -> Iterator[str]:

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.design.difference.difference import OK, OUT, Row
+from mnclab.design.difference.difference import Row, judged, made_by
 from mnclab.design.difference.half_target import SAME, HalfTarget
-from mnclab.design.difference.outlines import circle
-from mnclab.design.difference.turned_comparing import ALIKE, Compared, Looked, first_made, line_of
+from mnclab.design.difference.measuring import circle
+from mnclab.design.difference.turned_comparing import ALIKE, Compared, Looked, first_made
 from mnclab.design.model.measures import Measure
 from mnclab.design.model.turned_profile import Dimension
 from mnclab.design.model.turned_threads import Thread
@@ -30,7 +30,7 @@ Point = tuple[float, float]
 Off = tuple[Array, Array, Index]
 
 
-class Found(NamedTuple):
+class Measured(NamedTuple):
     """`actual` nan where nothing could be read, and `said` why; it was read off places `at` (k, 2), which are `off` (k,)."""
 
     actual: float = math.nan
@@ -39,7 +39,7 @@ class Found(NamedTuple):
     said: str = ""
 
 
-NOTHING = Found(said=UNMEASURED)
+NOTHING = Measured(said=UNMEASURED)
 
 
 def rows_of(
@@ -66,27 +66,17 @@ def _form(found: Compared, target: HalfTarget, off: Off, owner: int, tolerance: 
     at, value, owners = off
     mine = np.flatnonzero(owners == owner)
     worst = float(value[mine][np.abs(value[mine]).argmax()]) if len(mine) else 0.0
-    read = Found(math.nan, said=unmade) if unmade and not len(mine) else Found(worst, at[mine], value[mine])
+    read = Measured(math.nan, said=unmade) if unmade and not len(mine) else Measured(worst, at[mine], value[mine])
     return _row(found, target.names[owner], Measure(FORM, 0.0, "form"), read, target.allowed(owner, tolerance), error)
 
 
-def _row(found: Compared, name: str, measure: Measure, read: Found, allowed: float, error: float) -> Row:
-    deviation = read.actual - measure.nominal
-    deviation = 0.0 if abs(deviation) <= error else deviation
-    lower, upper = measure.limits or (-allowed, allowed)
-    verdict = read.said or (OK if lower - error <= deviation <= upper + error else OUT)
-    row, place = -1, None
+def _row(found: Compared, name: str, measure: Measure, read: Measured, allowed: float, error: float) -> Row:
+    made: dict[str, Any] = {}
     worst = np.flatnonzero((np.abs(read.off) > error) & (np.abs(read.off) >= np.abs(read.off).max(initial=0.0) - ALIKE))
     if len(worst):
         k, row = first_made(found, read.at, worst)
-        z, r = read.at[k].tolist()
-        place = (found.part.axis + r, 0.0, z)
-    line, program, where = line_of(found.part, row)
-    where = where or ("nothing cut here" if place else "")
-    return Row(
-        "", name, measure.name, measure.nominal, measure.nominal + deviation, deviation, lower, upper, verdict, line, row, place,
-        program, where,
-    )  # fmt: skip
+        made = made_by(found.part.cutting, found.in_space(read.at[k]), row, 1.0)
+    return judged("", name, measure, read.actual, allowed, error, error, read.said, made)
 
 
 def _allowed(dimension: Dimension, tolerance: float) -> float:
@@ -152,7 +142,7 @@ class _Room:
                     start, end, bool(sweep), places.place[mine], moved[mine], places.normal[mine], self.there[middle]
                 ))  # fmt: skip
 
-    def read(self, dimension: Dimension) -> Found:
+    def read(self, dimension: Dimension) -> Measured:
         """What a dimension is on the part."""
         kind, (a, b) = dimension.measure.kind, (dimension.start, dimension.end)
         if kind == "angle":
@@ -168,9 +158,9 @@ class _Room:
         axis = 0 if abs(a[0] - b[0]) > SAME else 1
         one, other = self._coordinate(a, axis), self._coordinate(b, axis)
         both = np.concatenate([one.at, other.at]), np.concatenate([one.off, other.off])
-        return Found(abs(one.actual - other.actual), *both, said=one.said or other.said)
+        return Measured(abs(one.actual - other.actual), *both, said=one.said or other.said)
 
-    def thread(self, thread: Thread, dimension: Dimension) -> Found:
+    def thread(self, thread: Thread, dimension: Dimension) -> Measured:
         """Of a thread outside the diameter over its crests; that it is there at all."""
         if dimension.measure.kind != "thread" or not len(self.found.part.cutting):  # a drawing has no teeth
             return NOTHING
@@ -178,13 +168,13 @@ class _Room:
         radii = revolved.radii_at(self.found.surface.region.loops, middle)
         ours = np.array([(each[0] if thread.inside else each[-1]) if len(each) else np.nan for each in radii])
         if not np.isfinite(ours).any():
-            return Found(said=NOT_CUT)
+            return Measured(said=NOT_CUT)
         deep = np.nanmax(ours) > thread.flanks / 2 if thread.inside else np.nanmin(ours) < thread.flanks / 2
         if not deep:
-            return Found(said=NOT_CUT)
-        return NOTHING if thread.inside else Found(2 * float(np.nanmax(ours)))
+            return Measured(said=NOT_CUT)
+        return NOTHING if thread.inside else Measured(2 * float(np.nanmax(ours)))
 
-    def _coordinate(self, point: Point, axis: int) -> Found:
+    def _coordinate(self, point: Point, axis: int) -> Measured:
         """z (0) or r (1) of a point of the drawing as it was found."""
         other = 1 - axis
         faces = [each for each in self.faces if each.supports(point)]
@@ -192,7 +182,7 @@ class _Room:
         if across:
             face = min(across, key=lambda each: each.from_(point))
             if self.found.hangs and axis == 0 and abs(point[0] - self.target.ends[0]) <= SAME:
-                return Found(said=IN_CHUCK)
+                return Measured(said=IN_CHUCK)
             return self._of_face(face, point, axis)
         slanting = sorted(faces, key=lambda each: each.from_(point))
         for k, one in enumerate(slanting):
@@ -202,19 +192,19 @@ class _Room:
         along = [each for each in self.faces if each.supports(point) and abs(each.end[other] - each.start[other]) <= STRAIGHT]
         return self._end(point) if axis == 0 and not along else NOTHING
 
-    def _of_face(self, face: _Face, point: Point, axis: int) -> Found:
+    def _of_face(self, face: _Face, point: Point, axis: int) -> Measured:
         spots = face.middle[:, axis]
         if np.isnan(spots).any() or not len(spots):
             return self._lost(face)
         off = spots - point[axis]
         worst = int(np.abs(off).argmax())
-        return Found(float(spots[worst]), face.middle, off)
+        return Measured(float(spots[worst]), face.middle, off)
 
-    def _lost(self, face: _Face) -> Found:
+    def _lost(self, face: _Face) -> Measured:
         """What is said of a face that was not found: where a thread has its teeth it is not looked for."""
-        return NOTHING if self.target.toothed(face.at).any() else Found(said=NOT_CUT)
+        return NOTHING if self.target.toothed(face.at).any() else Measured(said=NOT_CUT)
 
-    def _meeting(self, one: _Face, two: _Face, axis: int) -> Found:
+    def _meeting(self, one: _Face, two: _Face, axis: int) -> Measured:
         (a, u), (b, v) = one.line, two.line
         if np.isnan(a).any() or np.isnan(b).any():
             return self._lost(one if np.isnan(a).any() else two)
@@ -224,16 +214,16 @@ class _Room:
         share = _cross(b - a, v) / across
         spots = np.concatenate([one.middle, two.middle])
         off = np.concatenate([_beside(each.middle, each) for each in (one, two)])
-        return Found(float((a + share * u)[axis]), spots, off)
+        return Measured(float((a + share * u)[axis]), spots, off)
 
-    def _end(self, point: Point) -> Found:
+    def _end(self, point: Point) -> Measured:
         """The end of a part that is round there."""
         for way, end, mine in zip((0, 1), self.target.ends, self.found.surface.region.bounds[:, 0]):
             if abs(point[0] - end) <= SAME and not (way == 0 and self.found.hangs):
-                return Found(float(mine), np.array([[mine, 0.0]]), np.array([mine - end]))
+                return Measured(float(mine), np.array([[mine, 0.0]]), np.array([mine - end]))
         return NOTHING
 
-    def _angle(self, dimension: Dimension) -> Found:
+    def _angle(self, dimension: Dimension) -> Measured:
         a, b = dimension.start, dimension.end
         faces = [each for each in self.faces if each.supports(a) and each.supports(b)]
         if not faces:
@@ -245,9 +235,9 @@ class _Room:
         lean = math.degrees(math.atan2(abs(ahead[1]), abs(ahead[0])))
         drawn = math.degrees(math.atan2(abs(face.ahead[1]), abs(face.ahead[0])))
         whole = 2.0 if abs(dimension.measure.nominal - 2 * drawn) < abs(dimension.measure.nominal - drawn) else 1.0
-        return Found(whole * lean, face.middle, _beside(face.middle, face))
+        return Measured(whole * lean, face.middle, _beside(face.middle, face))
 
-    def _radius(self, dimension: Dimension) -> Found:
+    def _radius(self, dimension: Dimension) -> Measured:
         centre = np.array(dimension.centre)
         for face in self.faces:
             reach, there = (float(np.hypot(*(end - centre))) for end in (face.start, face.end))
@@ -255,7 +245,7 @@ class _Room:
                 if np.isnan(face.middle).any():
                     return self._lost(face)
                 *_, radius = circle(face.middle, centre)
-                return Found(float(radius), face.middle, np.hypot(*(face.middle - centre).T) - reach)
+                return Measured(float(radius), face.middle, np.hypot(*(face.middle - centre).T) - reach)
         return NOTHING
 
 

@@ -56,6 +56,11 @@ class Sheet:
     tables: tuple[tuple[Printed, Point], ...]
     printed: tuple[Printed, ...]
 
+    @property
+    def all_printed(self) -> list[tuple[Printed, Point]]:
+        """Frame, title block and tables, each with its place."""
+        return [*((each, (0.0, 0.0)) for each in self.printed), *self.tables]
+
 
 @dataclass(frozen=True, eq=False)
 class Drawing:
@@ -253,16 +258,14 @@ class _Attempt:
 
 
 def _boxes(sheet: Sheet, number: int) -> Iterator[Boxed]:
-    for printed, kind in zip(sheet.printed, ("frame", "title block"), strict=True):
+    tables = [("table", "", each) for each, _ in sheet.tables]
+    for (printed, place), (kind, text, of) in zip(
+        sheet.all_printed, [("frame", "", None), ("title block", "", None), *tables], strict=True
+    ):
         x0, y0, x1, y1 = printed.box
-        yield Boxed(number, kind, "", None, np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]))
+        yield Boxed(number, kind, text, of, np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]) + place)
         for label in printed.labels:
-            yield Boxed(number, "text", label.text, kind, corners_of(np.array([label.box()]))[0])
-    for printed, place in sheet.tables:
-        x0, y0, x1, y1 = printed.box
-        yield Boxed(number, "table", "", printed, np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]) + place)
-        for label in printed.labels:
-            yield Boxed(number, "text", label.text, printed, corners_of(np.array([label.box()]))[0] + place)
+            yield Boxed(number, "text", label.text, of or kind, corners_of(np.array([label.box()]))[0] + place)
     for laid, place in sheet.views:
         if laid.title:
             yield Boxed(number, "text", laid.title.text, laid.view, corners_of(np.array([laid.title.box()]))[0] + place)
@@ -279,8 +282,7 @@ def _figure(sheet: Sheet, alt: str) -> Picture:
     ax.set_axis_off()
     ax.set_xlim(0, sheet.size.width)
     ax.set_ylim(0, sheet.size.height)
-    here = (0.0, 0.0)
-    for printed, place in [*((each, here) for each in sheet.printed), *sheet.tables]:
+    for printed, place in sheet.all_printed:
         figure.draw_strokes(ax, printed.strokes, place)
         for label in printed.labels:
             figure.draw_label(ax, label, place)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from mnclab.design.drawing.ledger import DIAMETER, SIGNS, TIMES, Draft, hole_lines, written
+from mnclab.design.drawing.ledger import DIAMETER, SAME, SIGNS, TIMES, Draft, hole_lines, written
 from mnclab.design.drawing.sheet import Table
 from mnclab.design.drawing.view import (
     Angle,
@@ -24,7 +24,7 @@ from mnclab.design.drawing.view import (
     value,
 )
 from mnclab.design.model.feature import Feature
-from mnclab.design.model.features import Chamfer, Groove, Pocket, Slope, Slot, Stud, along
+from mnclab.design.model.features import Chamfer, Groove, Pocket, Slot, along
 from mnclab.design.model.holes import Hole, core_of
 from mnclab.design.model.measures import Measure
 from mnclab.design.model.shapes import Circle, Outline, Rectangle, Shape
@@ -33,14 +33,12 @@ from mnclab.geometry.contours import Contour
 if TYPE_CHECKING:
     from mnclab.design.drawing.milled_features import Side
 
-SAME = 1e-6  # mm
-
 
 def feature_marks(draft: Draft, feature: Feature) -> None:
     """Centre lines, and the thin lines of a thread."""
-    shape = shape_in(feature)
+    shape = feature.shape
     if isinstance(feature, Hole):
-        wide = mouth_of(feature)
+        wide = feature.mouth
         if feature.thread:
             draft.lines.append(thread_circle((feature.x, feature.y), core_of(feature.thread, 0.0) / 2))
             wide = max(wide, core_of(feature.thread, 0.0))
@@ -64,26 +62,6 @@ def shape_marks(draft: Draft, shape: Shape, wider: float = 0.0) -> None:
     elif isinstance(shape, Rectangle):
         at, a, b = frame_at((shape.x, shape.y), shape.turned), shape.length / 2, shape.width / 2
         draft.axes += [Axis(at(-a, 0), at(a, 0)), Axis(at(0, -b), at(0, b))]
-
-
-def mouth_of(hole: Hole) -> float:
-    """The greatest diameter of a hole without its thread, mm."""
-    return max(hole.wide, (hole.counterbore or (0.0,))[0], (hole.countersink or (0.0,))[0])
-
-
-def shape_in(feature: Feature) -> Shape | None:
-    """The outline that a feature was given, if it has one."""
-    return feature.contour if isinstance(feature, Pocket | Stud | Groove | Chamfer | Slope) else None
-
-
-def outline_of(feature: Feature) -> Contour | None:
-    """What a feature takes up in its view."""
-    if isinstance(feature, Hole):
-        return Contour.circle((feature.x, feature.y), feature.wide / 2)
-    if isinstance(feature, Slot):
-        return feature.outline
-    shape = shape_in(feature)
-    return shape.contour if shape is not None else None
 
 
 def centre_of(feature: Feature) -> Point:
@@ -185,19 +163,7 @@ def write_pattern(side: Side, numbers: Sequence[int], pattern: Ring | Lattice) -
         text = f"{count}{TIMES} {number(whole / count)} (={number(whole)})"
         ends = [(each, other[0]) if axis == "x" else (other[0], each) for each in (some[0], some[-1])]
         told = Linear(ends[0], ends[1], Value(text), axis, "below" if axis == "x" else "left")
-        same = next((claims for said, claims in side.ledger.said if said in side.draft.dimensions and _alike(said, told)), None)
-        if same is None:
-            side.ledger.say(side.draft, told, side.claims(rest, axis))
-        else:
-            same += side.claims(rest, axis)
-
-
-def _alike(said: Any, told: Linear) -> bool:
-    """Whether a dimension says the same steps of other holes."""
-    if not isinstance(said, Linear) or (said.value, said.along) != (told.value, told.along):
-        return False
-    k = "xy".index(told.along)
-    return abs(said.a[k] - told.a[k]) < SAME and abs(said.b[k] - told.b[k]) < SAME
+        side.ledger.say_once(side.draft, told, side.claims(rest, axis))
 
 
 def _write_ring(side: Side, numbers: Sequence[int], ring: Ring) -> None:
@@ -231,7 +197,7 @@ def hole_table(side: Side, holes: list[int]) -> None:
         label = f"{'B' if side.back else 'A'}{row + 1}"
         known = {each.name: each for each in hole.measures()}
         text = "  ".join(hole_lines(hole))
-        side.draft.dimensions.append(Note((hole.x, hole.y), (label,), mouth_of(hole) / 2))
+        side.draft.dimensions.append(Note((hole.x, hole.y), (label,), hole.mouth / 2))
         rows.append((label, _said(known["x"], x), _said(known["y"], y), text))
         for column, names in ((1, ("x",)), (2, ("y",)), (3, ())):
             side.ledger.cell(title, row, column, side.claims([k], *names))
@@ -247,10 +213,10 @@ def feature_table(side: Side, numbers: list[int]) -> None:
     for row, k in enumerate(numbers):
         feature = side.features[k]
         label = f"{'B' if side.back else 'A'}{row + 1}"
-        line = outline_of(feature)
+        line = feature.outline
         assert line is not None  # a table holds what has a place
         at = line.point_at(0.35 * line.length)[0]
-        shape = shape_in(feature)
+        shape = feature.shape
         to = Note((shape.x, shape.y), (label,), shape.diameter / 2) if isinstance(shape, Circle) else Note(point_of(at), (label,))
         side.draft.dimensions.append(to)
         known = {each.name: each for each in feature.measures() if each.kind == "place"}
@@ -298,7 +264,7 @@ def corner_table(side: Side, shape: Outline, measures: Sequence[Measure], k: int
 
 def _corners(side: Side) -> int:
     """How many corners the outlines of a side have together."""
-    shapes = [shape_in(each) for each in side.features]
+    shapes = [each.shape for each in side.features]
     shapes += [island for each in side.features if isinstance(each, Pocket) for island in each.islands]
     return sum(len(each.points) for each in shapes if isinstance(each, Outline))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -18,6 +18,7 @@ from mnclab.design.drawing.view import (
     Dimension,
     Kind,
     Line,
+    Linear,
     Origin,
     Point,
     Tolerance,
@@ -25,6 +26,7 @@ from mnclab.design.drawing.view import (
     View,
     value,
 )
+from mnclab.design.model.feature import Named
 from mnclab.design.model.holes import Hole
 from mnclab.design.model.measures import Measure
 from mnclab.geometry.contours import Contour
@@ -32,6 +34,7 @@ from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
 
 ORIGIN_BOX = RADIUS * np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])  # mm about the zero point
+SAME = 1e-6  # mm
 BLANK = -1  # the number of the blank among the features
 
 
@@ -93,6 +96,14 @@ class Ledger:
         draft.dimensions.append(dimension)
         self.said.append((dimension, list(claims)))
 
+    def say_once(self, draft: Draft, dimension: Linear, claims: Sequence[Claim]) -> None:
+        """The same, but where the view has a dimension of this value between such ends that one says these measures too."""
+        for said, known in self.said:
+            if said in draft.dimensions and _alike(said, dimension):
+                known += claims
+                return
+        self.say(draft, dimension, claims)
+
     def cell(self, table: str, row: int, column: int, claims: Sequence[Claim]) -> None:
         """A cell of a table by its title; rows count from 0 below the head."""
         self.cells.append((table, row, column, list(claims)))
@@ -123,6 +134,25 @@ class Ledger:
             corners = ORIGIN_BOX + np.array(point) * laid.scale + at
             found += [Dimensioned(c.feature, c.back, c.measure, "0", number, corners) for c in claims]
         return tuple(found)
+
+
+def _alike(one: Any, other: Linear) -> bool:
+    """Whether two dimensions along x or y have one value between ends that lie at the same places along it."""
+    if not isinstance(one, Linear) or (one.value, one.along) != (other.value, other.along):
+        return False
+    k = "xy".index(other.along)
+    first, second = (sorted((each.a[k], each.b[k])) for each in (one, other))
+    return all(abs(a - b) < SAME for a, b in zip(first, second, strict=True))
+
+
+def claims_of(features: Sequence[Named], numbers: Iterable[int], names: Collection[str], back: bool = False) -> list[Claim]:
+    """The measures of these names, or all but places, of some of the features of a side."""
+    return [
+        Claim(back, k, place, each.name)
+        for k in numbers
+        for place, each in enumerate(features[k].measures())
+        if (each.name in names if names else each.kind != "place")
+    ]
 
 
 def _title(printed: Printed) -> str:

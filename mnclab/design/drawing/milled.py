@@ -11,15 +11,14 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from mnclab.design.drawing import plan
-from mnclab.design.drawing.elevation import Elevation, Levels, Step
 from mnclab.design.drawing.ledger import BLANK, DIAMETER, Claim, Draft, Ledger, valued
-from mnclab.design.drawing.milled_features import Level, Side
+from mnclab.design.drawing.milled_features import DepthLine, Side
+from mnclab.design.drawing.projection import Elevation, Levels, Step, edges_from_above
 from mnclab.design.drawing.section import Item, Plane, chosen
 from mnclab.design.drawing.view import Axis, Cross, Cut, Diameter, Kind, Linear, Point, value
 from mnclab.design.model.design import Design
 from mnclab.design.model.feature import Feature
-from mnclab.design.model.features import Groove, Pocket, Slope, Slot
+from mnclab.design.model.features import Groove, Pocket, Slope
 from mnclab.design.model.holes import Hole, core_of
 from mnclab.design.model.shapes import Circle, Rectangle
 from mnclab.geometry.contours import Contour
@@ -43,7 +42,7 @@ def drafts(design: Design, ledger: Ledger, tabled: int = 0, beside: bool = False
     first = chosen(items)
     shows = first.shows if first else frozenset[tuple[bool, int]]()
     top = Draft("from above", (0, 1))
-    top.draw(plan.edges(levels))
+    top.draw(edges_from_above(levels))
     front = _elevation(design, levels, FRONT, first, "A", (0, 0))
     found = [front, top]
     if first:
@@ -57,7 +56,7 @@ def drafts(design: Design, ledger: Ledger, tabled: int = 0, beside: bool = False
     if design.back:
         said = "from below" + (" (turned over about Y)" if design.turn == "y" else "")
         below = Draft("from below", (1, 1) if beside else (0, -1), said, free=beside or design.turn == "y")
-        below.draw([line.transformed(design.flip[0]) for line in plan.edges(levels, below=True)])
+        below.draw([line.transformed(design.flip[0]) for line in edges_from_above(levels, below=True)])
         below.axes += _through(design)
         found.append(below)
         sides.append(Side(design, True, below, ledger, shows, second.shows if second else frozenset(), tabled))
@@ -79,7 +78,7 @@ def _items(design: Design, turn: Floats) -> Iterator[Item]:
     told = set[object]()
     for back, features in ((False, design.features), (True, design.back)):
         for k, each in enumerate(features):
-            if not isinstance(each, Pocket | Slot | Groove | Hole | Slope):
+            if not each.recess:
                 continue
             key = type(each), back, tuple(m for m in each.measures() if m.kind != "place" or m.name == "top")
             worth = _worth(each) if key not in told else 0.1
@@ -103,16 +102,12 @@ def _worth(feature: Feature) -> float:
 
 def _placed(design: Design, feature: Feature, back: bool, turn: Floats) -> Contour:
     """What a feature takes up in the plane, in the frame of a view."""
+    line: Contour | None
     if isinstance(feature, Hole):
-        wide = max(feature.wide, (feature.counterbore or (0.0,))[0], (feature.countersink or (0.0,))[0])
-        line = Contour.circle((feature.x, feature.y), wide / 2)
-    elif isinstance(feature, Slot):
-        line = feature.outline
-    elif isinstance(feature, Groove):
-        line = feature.area.loops[0]
+        line = Contour.circle((feature.x, feature.y), feature.mouth / 2)
     else:
-        assert isinstance(feature, Pocket | Slope)
-        line = feature.contour.contour
+        line = feature.area.loops[0] if isinstance(feature, Groove) else feature.outline
+    assert line is not None  # of a recess
     return line.transformed(turn @ design.flip[0] if back else turn)
 
 
@@ -228,9 +223,9 @@ def _height(design: Design, front: Draft, ledger: Ledger) -> None:
     ledger.say(front, Linear((x1, low), (x1, high), value(high - low), "y", "right"), [_of_blank("height")])
 
 
-def _depths(design: Design, draft: Draft, levels: Sequence[Level], ledger: Ledger) -> None:
+def _depths(design: Design, draft: Draft, levels: Sequence[DepthLine], ledger: Ledger) -> None:
     """One dimension for each step from a height to another; where depths begin a floor may tell, or a flight of them."""
-    told: dict[object, Level] = {}
+    told: dict[object, DepthLine] = {}
     for each in levels:
         key = round(each.start, 6), round(each.end, 6), each.measure.limits, each.measure.fit
         if key in told:
@@ -247,11 +242,11 @@ def _depths(design: Design, draft: Draft, levels: Sequence[Level], ledger: Ledge
 
 
 
-def _said_by_others(levels: list[Level]) -> list[Level]:
+def _said_by_others(levels: list[DepthLine]) -> list[DepthLine]:
     """Levels without those that only say where depths begin, and end where others lead to one after the other: these have
     their claims."""
     floors = [each for each in levels if each.measure.name != "top"]
-    kept = list[Level]()
+    kept = list[DepthLine]()
     for each in levels:
         heights, last = {round(each.start, 6)}, None
         for _ in floors if each.measure.name == "top" and each.measure.limits is None else ():

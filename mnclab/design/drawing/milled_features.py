@@ -17,21 +17,20 @@ from mnclab.design.drawing.feature_marks import (
     feature_table,
     frame_at,
     hole_table,
-    mouth_of,
-    outline_of,
     pattern_of,
     point_of,
-    shape_in,
     shape_marks,
     write_pattern,
 )  # fmt: skip
 from mnclab.design.drawing.ledger import (
     DIAMETER,
+    SAME,
     Claim,
     Draft,
     Ledger,
     at_place,
     chamfer_text,
+    claims_of,
     hole_lines,
     times,
     valued,
@@ -46,7 +45,6 @@ from mnclab.design.model.measures import Measure
 from mnclab.design.model.shapes import Circle, Outline, Rectangle, Shape
 from mnclab.geometry.contours import Contour
 
-SAME = 1e-6  # mm
 MOST_HOLES = 10  # with dimensions of their own; more stand in a table
 MOST_PLACES = 9  # coordinates in one direction
 MOST_KINDS = 14  # different features with dimensions of their own; more stand in a table
@@ -56,7 +54,7 @@ Place = tuple[Measure, Point, Claim | None]  # a coordinate, whose it is, and th
 
 
 @dataclass
-class Level:
+class DepthLine:
     """A depth in the section: from a height to a height, at the wall u."""
 
     start: float
@@ -78,8 +76,8 @@ class Side:
     side_shows: frozenset[tuple[bool, int]]
     tabled: int
     places: dict[str, list[Place]] = field(default_factory=lambda: {"x": [], "y": []})
-    levels: list[Level] = field(default_factory=list)
-    side_levels: list[Level] = field(default_factory=list)
+    levels: list[DepthLine] = field(default_factory=list)
+    side_levels: list[DepthLine] = field(default_factory=list)
 
     @property
     def features(self) -> tuple[Feature, ...]:
@@ -100,19 +98,14 @@ class Side:
 
     def claims(self, numbers: Sequence[int], *names: str) -> list[Claim]:
         """The measures of these names, or all but places, of equal features."""
-        return [
-            Claim(self.back, k, place, each.name)
-            for k in numbers
-            for place, each in enumerate(self.features[k].measures())
-            if (each.name in names if names else each.kind != "place")
-        ]
+        return claims_of(self.features, numbers, names, self.back)
 
     def write(self) -> None:
         """All of it."""
         alike: dict[Any, list[int]] = {}
         for k, each in enumerate(self.features):
             key = type(each), tuple(m for m in each.measures() if m.kind != "place" or m.name == "top")
-            alike.setdefault((*key, k) if isinstance(shape_in(each), Outline) else key, []).append(k)
+            alike.setdefault((*key, k) if isinstance(each.shape, Outline) else key, []).append(k)
         patterns = {tuple(some): found for some in alike.values() if (found := pattern_of([self.features[k] for k in some]))}
         ordered = {k for some in patterns for k in some}
         holes = [k for k, each in enumerate(self.features) if isinstance(each, Hole) and k not in ordered]
@@ -144,7 +137,7 @@ class Side:
 
     def _sizes(self, first: Feature, numbers: list[int]) -> None:
         known = {each.name: each for each in reversed(first.measures())}
-        shape = shape_in(first)
+        shape = first.shape
         if isinstance(first, Face):
             self._level(numbers, self.design.outline_of_blank.loops[0])
         elif isinstance(first, Chamfer):
@@ -246,7 +239,7 @@ class Side:
         self._deep(numbers, line)
 
     def _hole(self, hole: Hole, numbers: list[int]) -> None:
-        wide = core_of(hole.thread, 0.0) if hole.thread else mouth_of(hole)
+        wide = core_of(hole.thread, 0.0) if hole.thread else hole.mouth
         note = Note((hole.x, hole.y), hole_lines(hole, len(numbers)), wide / 2)
         self.ledger.say(self.draft, note, self.claims(numbers))
 
@@ -259,7 +252,7 @@ class Side:
         for shown, axis in ((self.shows, 0), (self.side_shows, 1)):
             cut = next((k for k in numbers if (self.back, k) in shown), None)
             if cut is not None or (isinstance(first, Stud) and axis == 0):
-                line = outline if cut is None else outline_of(self.features[cut])
+                line = outline if cut is None else self.features[cut].outline
                 assert line is not None
                 self._level(numbers, line, axis)
                 return
@@ -276,7 +269,7 @@ class Side:
                 x, y = frame_at((cut.x, cut.y), cut.turned)(side * cut.length / 2, 0.0)
                 u = float((self.design.flip[0] @ [x, y, 1.0])[0]) if self.back else x
                 top = self.top(slope)
-                self.levels.append(Level(self._across(top), self._across(top - depth.nominal), u, depth, claims))
+                self.levels.append(DepthLine(self._across(top), self._across(top - depth.nominal), u, depth, claims))
             else:
                 at = frame_at((slope.x, slope.y), slope.turned)(0.47 * side * slope.length, 0.3 * slope.width)
                 self.ledger.say(self.draft, Note(at, (times(len(numbers)) + written(depth),)), claims)
@@ -286,7 +279,7 @@ class Side:
         first = self.features[numbers[0]]
         depth = next(each for each in first.measures() if each.name == "depth")
         low, high = self._across(self.top(first)), self._across(self.top(first) - depth.nominal)
-        level = Level(low, high, self._wall(line, axis), depth, self.claims(numbers, "depth"))
+        level = DepthLine(low, high, self._wall(line, axis), depth, self.claims(numbers, "depth"))
         (self.side_levels if axis else self.levels).append(level)
 
     def _wall(self, line: Contour, axis: int) -> float:
@@ -307,15 +300,15 @@ class Side:
         if first.top is None:
             return
         measure = next(each for each in first.measures() if each.name == "top")
-        line = outline_of(first) or self.design.outline_of_blank.loops[0]
+        line = first.outline or self.design.outline_of_blank.loops[0]
         start, end = self._across(float(self.design.bounds[1, 2])), self._across(first.top)
-        self.levels.append(Level(start, end, self._wall(line, 0), measure, self.claims(numbers, "top")))
+        self.levels.append(DepthLine(start, end, self._wall(line, 0), measure, self.claims(numbers, "top")))
 
     # ---- places ----
 
     def place(self, k: int, axes: str = "xy") -> None:
         """The coordinates of a feature are dimensioned."""
-        shape = shape_in(self.features[k])
+        shape = self.features[k].shape
         if isinstance(shape, Outline):
             return
         centre = centre_of(self.features[k])

@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.design.drawing.elevation import Step
 from mnclab.design.drawing.ink import Arrow, Label, Mark, Stroke, block
 from mnclab.design.drawing.placing import LEADER
+from mnclab.design.drawing.projection import Step
 from mnclab.design.drawing.view import Cut, Kind, Point
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats

@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.design.drawing.elevation import SAME, Seen, Step, look
-from mnclab.design.drawing.ledger import BLANK, DEPTH, DIAMETER, TIMES, Claim, Draft, Ledger, valued, written
+from mnclab.design.drawing.ledger import BLANK, DEPTH, DIAMETER, TIMES, Claim, Draft, Ledger, claims_of, valued, written
+from mnclab.design.drawing.projection import SAME, Seen, Step, look
 from mnclab.design.drawing.view import Angle, Axis, Kind, Line, Linear, Note, Origin, Point, Radius, Value
 from mnclab.design.model.measures import Measure
 from mnclab.design.model.turned_design import TurnedDesign
@@ -24,9 +24,10 @@ from mnclab.design.model.turned_threads import Thread, Undercut
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
+from mnclab.workpiece.turning import revolved
 
 FAR = 1e6  # mm
-SKY = np.diag([1.0, -1.0, 1.0])  # depth grows from outside to the axis
+FROM_OUTSIDE = np.diag([1.0, -1.0, 1.0])  # depth grows from outside to the axis
 
 
 def drafts(design: TurnedDesign, ledger: Ledger) -> list[Draft]:
@@ -37,7 +38,7 @@ def drafts(design: TurnedDesign, ledger: Ledger) -> list[Draft]:
     cut = _hollow(look(first)) or any(isinstance(each, Bore | FaceGroove) for each in design.features)
     draft = Draft("from the side", (0, 0))
     lower = list(_outside(outside))
-    draft.draw([line.transformed(np.diag([1.0, -1.0, 1.0])) for line in lower])
+    draft.draw([line.transformed(FROM_OUTSIDE) for line in lower])
     if cut:
         draft.hatches = (region,)
         draft.draw([line for loop in region.loops for line in _off_axis(loop)])
@@ -57,7 +58,7 @@ def drafts(design: TurnedDesign, ledger: Ledger) -> list[Draft]:
 
 
 def _turned(region: Region) -> Region:
-    return Region(tuple(loop.transformed(SKY) for loop in region.loops))
+    return Region(tuple(loop.transformed(FROM_OUTSIDE) for loop in region.loops))
 
 
 def _hollow(inside: Seen) -> bool:
@@ -138,8 +139,6 @@ def _thread(draft: Draft, region: Region, thread: Thread) -> None:
 
 # Its dimensions: diameters across, lengths from the front end, notes of its features.
 
-SAME_PLACE = 1e-6  # mm
-
 
 @dataclass
 class Turning:
@@ -192,7 +191,7 @@ class Turning:
 
     def _across(self, z: float, r: float, said: Value, claims: list[Claim]) -> None:
         """A diameter across the part, at the end to which its extension lines have a free way."""
-        free = [side for side, a, b in (("right", z, self.high), ("left", self.low, z)) if self._greatest(a, b) <= r + SAME_PLACE]
+        free = [side for side, a, b in (("right", z, self.high), ("left", self.low, z)) if self._greatest(a, b) <= r + SAME]
         self.ledger.say(self.draft, Linear((z, -r), (z, r), said, "y", free[0] if free else ""), claims)
 
     def _taper(self, each: Dimension, claim: Claim) -> None:
@@ -208,9 +207,9 @@ class Turning:
         self.ledger.say(self.draft, Angle(narrow, *legs, valued(each.measure)), [claim])
 
     def _is_thread(self, thread: Thread, each: Dimension) -> bool:
-        same = abs(2 * each.start[1] - thread.major) < SAME_PLACE and not thread.inside
+        same = abs(2 * each.start[1] - thread.major) < SAME and not thread.inside
         low, high = sorted((each.start[0], each.end[0]))
-        return same and low < thread.start - SAME_PLACE and thread.end < high - SAME_PLACE
+        return same and low < thread.start - SAME and thread.end < high - SAME
 
     # ---- features ----
 
@@ -234,11 +233,7 @@ class Turning:
         if isinstance(feature, Thread):
             r = (feature.minor if feature.inside else feature.major) / 2
             told = Linear((feature.end, r), (feature.start, r), valued(known["length"]), "x", "above")
-            same = next((claims for said, claims in self.ledger.said if self._says(said, told)), None)
-            if same is None:
-                self.ledger.say(self.draft, told, self._claims(k, "length"))
-            else:
-                same += self._claims(k, "length")
+            self.ledger.say_once(self.draft, told, self._claims(k, "length"))
             self._from_front(k, feature.start, r)
             return
         if isinstance(feature, Bore):
@@ -258,14 +253,6 @@ class Turning:
             lines = [f"{across} {written(known['depth'])}"]
             lines += [written(known["corner radius"])] if "corner radius" in known else []
         self.ledger.say(self.draft, Note(at, tuple(lines)), self._claims(k))
-
-    @staticmethod
-    def _says(said: Any, told: Linear) -> bool:
-        """Whether a length between the same ends is said already: that of a thread from end to end."""
-        if not isinstance(said, Linear) or (said.value, said.along) != (told.value, told.along):
-            return False
-        ends = (sorted((each.a[0], each.b[0])) for each in (said, told))
-        return all(abs(a - b) < SAME_PLACE for a, b in zip(*ends, strict=True))
 
     def _bore(self, bore: Bore, front: bool) -> Point:
         """A point on its wall."""
@@ -287,8 +274,8 @@ class Turning:
 
     def _face_groove(self, groove: FaceGroove, front: bool) -> Point:
         r = (groove.inner + groove.outer) / 4
-        ends = self._crossings(r)
-        return (max(ends) if front else min(ends)), r
+        back, face = revolved.ends_at(self.region.loops, np.array([r]))
+        return float((face if front else back)[0]), r
 
     def _from_front(self, k: int, z: float, r: float) -> None:
         place, measure = next((p, m) for p, m in enumerate(self.design.features[k].measures()) if m.name == "z")
@@ -303,7 +290,7 @@ class Turning:
         for found in same.values():
             z, _, measure, _ = found[0]
             claims = [each[3] for each in found]
-            if abs(z - self.high) < SAME_PLACE:
+            if abs(z - self.high) < SAME:
                 self.ledger.at_zero(self.draft, (self.high, 0.0), claims)
                 continue
             inner = [each[1] for each in found if self._inside(z, each[1])]
@@ -315,11 +302,7 @@ class Turning:
             self.ledger.say(self.draft, told, claims)
 
     def _claims(self, k: int, *names: str) -> list[Claim]:
-        return [
-            Claim(False, k, place, each.name)
-            for place, each in enumerate(self.design.features[k].measures())
-            if (each.name in names if names else each.kind != "place")
-        ]
+        return claims_of(self.design.features, [k], names)
 
     # ---- the section ----
 
@@ -331,40 +314,17 @@ class Turning:
         return min(self._radii(z), default=0.0)
 
     def _radii(self, z: float) -> list[float]:
-        turned = [loop.transformed(np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])) for loop in self.region.loops]
-        return _met(turned, z)
-
-    def _crossings(self, r: float) -> list[float]:
-        return _met(list(self.region.loops), r)
+        return revolved.radii_at(self.region.loops, np.array([z]))[0].tolist()
 
     def _greatest(self, a: float, b: float) -> float:
         """The greatest radius between two places."""
         points = np.concatenate([loop.points_within(0.01) for loop in self.region.loops])
-        within = (points[:, 0] > a - SAME_PLACE) & (points[:, 0] < b + SAME_PLACE)
+        within = (points[:, 0] > a - SAME) & (points[:, 0] < b + SAME)
         return float(points[within, 1].max(initial=0.0))
 
     def _inside(self, z: float, r: float) -> bool:
         """Whether a place on the section is one of the inside: there is material outside of it."""
         return r < self._outer(z) - 1e-5
-
-
-def _met(loops: Sequence[Contour], w: float) -> list[float]:
-    """Where a level line meets contours, of the first coordinate."""
-    found = []
-    for loop in loops:
-        rows = zip(loop.starts, loop.ends, loop.sweeps, loop.centres, loop.radii, strict=True)
-        for (u0, w0), (u1, w1), sweep, (cu, cw), radius in rows:
-            if sweep == 0:
-                if (w0 - w) * (w1 - w) <= 0 and w0 != w1:
-                    found.append(float(u0 + (w - w0) / (w1 - w0) * (u1 - u0)))
-            elif abs(w - cw) <= radius:
-                half = math.sqrt(radius**2 - (w - cw) ** 2)
-                first = math.atan2(w0 - cw, u0 - cu)
-                for u in (cu - half, cu + half):
-                    ahead = (math.atan2(w - cw, u - cu) - first) * (1 if sweep > 0 else -1) % math.tau
-                    if ahead <= abs(sweep) + 1e-9:
-                        found.append(float(u))
-    return found
 
 
 def _bore_lines(known: dict[str, Measure]) -> Iterator[str]:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from mnclab.design.model.feature import Feature, Site
 from mnclab.design.model.features import FEATURES, Chamfer, Pocket, Stud
@@ -49,6 +49,12 @@ class Taken(NamedTuple):
 @fitting_class
 class AsDrawn(ABC):
     """A part as drawn, milled or turned: its doors."""
+
+    def check_texts(self) -> None:
+        """An Alarm unless what stands in the title block is text."""
+        for name in TEXTS:
+            if not isinstance(getattr(self, name), str):
+                raise Alarm(f"the {name} of a design must be a text, got {shown(getattr(self, name))}")
 
     @abstractmethod
     def workpiece(self, step: float | None = None) -> Workpiece:
@@ -106,11 +112,9 @@ class Design(AsDrawn):
     def __post_init__(self) -> None:
         object.__setattr__(self, "blank", _blank(self.blank))
         for name in ("features", "back"):
-            object.__setattr__(self, name, _features(getattr(self, name), name))
+            object.__setattr__(self, name, MILLED.features(getattr(self, name), name))
         object.__setattr__(self, "turn", choice(self.turn, "the axis that a design is turned over about", ("x", "y")))
-        for name in TEXTS:
-            if not isinstance(getattr(self, name), str):
-                raise Alarm(f"the {name} of a design must be a text, got {shown(getattr(self, name))}")
+        self.check_texts()
         self.taken  # noqa: B018  every feature must fit
 
     def __repr__(self) -> str:
@@ -231,17 +235,29 @@ class Design(AsDrawn):
 
     def faces_over(self, x: Array, y: Array) -> tuple[Array, Array]:
         """The same over a lattice x (nx,), y (ny,) of many points: two arrays (ny, nx)."""
-        floor, top = (side.reshape(len(y), len(x)) for side in self.blank.faces(*(each.ravel() for each in np.meshgrid(x, y))))
-        for each in self.taken:
-            rows, columns, inside = filled(each.body.reach, x, y)
-            some = np.nonzero(inside)
-            level = each.body.level_within(x[columns][some[1]], y[rows][some[0]])
-            side, deeper = (top, np.minimum) if each.body.up else (floor, np.maximum)
-            here = side[rows, columns]
-            here[inside] = deeper(here[inside], level)
-        gone = ~(top > floor)
+        return self.makers_over(x, y)[:2]
+
+    def makers_over(self, x: Array, y: Array) -> tuple[Array, Array, NDArray[np.int16], NDArray[np.int16]]:
+        """The faces over a lattice, and which of `taken` made the upper and the lower one, -1 for none: four arrays (ny, nx)."""
+        shape = len(y), len(x)
+        sides = {False: np.full(shape, np.nan), True: np.full(shape, np.nan)}
+        makers = {up: np.full(shape, -1, dtype=np.int16) for up in sides}
+        rows, columns, inside = filled(self.outline_of_blank, x, y)
+        for up, height in zip(sides, self.bounds[:, 2].tolist()):
+            sides[up][rows, columns][inside] = height
+        for k, (_, _, body) in enumerate(self.taken):
+            rows, columns, inside = filled(body.reach, x, y)
+            j, i = np.nonzero(inside)
+            level = body.level_within(x[columns][i], y[rows][j])
+            here, made = sides[body.up][rows, columns], makers[body.up][rows, columns]
+            cut = level < here[inside] if body.up else level > here[inside]
+            here[inside] = np.where(cut, level, here[inside])
+            made[inside] = np.where(cut, k, made[inside])
+        floor, top = sides.values()
+        with np.errstate(invalid="ignore"):
+            gone = ~(top > floor)
         floor[gone] = top[gone] = np.nan
-        return floor, top
+        return floor, top, makers[True], makers[False]
 
     def section(self, z: float) -> Region:
         """What a level plane cuts, exact; at the height of a step what is below it."""
@@ -337,17 +353,31 @@ def _blank(given: Any) -> Blank:
     return found
 
 
-def _features(given: Any, name: str) -> tuple[Feature, ...]:
-    if isinstance(given, Feature):
-        given = (given,)
-    if not isinstance(given, tuple | list):
-        raise Alarm(f"{name} of a design must be features, got {shown(given)}", hint="mnclab.design.Pocket.circle(30, 20, 12, 5)")
-    given = [one for each in given for one in (each if isinstance(each, tuple | list) else [each])]  # patterns are tuples
-    for k, each in enumerate(given):
-        if not isinstance(each, Feature):
-            known = ", ".join(cls.__name__ for cls in FEATURES.values())
-            raise Alarm(f"{name}[{k}] of a design must be a feature, got {shown(each)}", hint=f"mnclab.design has {known}")
-    return tuple(given)
+class Taking(NamedTuple):
+    """Which features a design takes: its own name, their class, those that there are, how alarms call one, an example."""
+
+    design: str
+    kind: type[Any]
+    known: Mapping[str, type[Any]]
+    one: str
+    example: str
+
+    def features(self, given: Any, name: str) -> tuple[Any, ...]:
+        """What was given as features, one, several or patterns of them, as a tuple; an Alarm for all else."""
+        given = (given,) if isinstance(given, self.kind) else given
+        if not isinstance(given, tuple | list):
+            hint = f"mnclab.design.{self.example}"
+            raise Alarm(f"{name} of a {self.design} must be features, got {shown(given)}", hint=hint)
+        found = [one for each in given for one in (each if isinstance(each, tuple | list) else [each])]  # patterns are tuples
+        for k, each in enumerate(found):
+            if not isinstance(each, self.kind):
+                known = ", ".join(cls.__name__ for cls in self.known.values())
+                fault = f"{name}[{k}] of a {self.design} must be {self.one}, got {shown(each)}"
+                raise Alarm(fault, hint=f"mnclab.design has {known}")
+        return tuple(found)
+
+
+MILLED = Taking("design", Feature, FEATURES, "a feature", "Pocket.circle(30, 20, 12, 5)")
 
 
 class Drawn(Milled):

@@ -5,18 +5,18 @@ TOML is read with alarms that show the line, and written so that it reads back e
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mnclab.design.model import feature_file, turned_file
+from mnclab.design.model import turned_file
 from mnclab.design.model.design import TEXTS, Design
-from mnclab.design.model.feature_file import feature_of, pointing, table_of_feature
+from mnclab.design.model.feature_file import features_of, pointing_at_features, table_of_feature, texts_of, toml
 from mnclab.design.model.features import FEATURES
 from mnclab.design.model.turned_design import TurnedDesign
+from mnclab.design.model.turned_features import TURNED_FEATURES
 from mnclab.text.alarm import Alarm
-from mnclab.text.file import File, as_table, as_tables, check_names, named, parse, replaced
+from mnclab.text.file import File, as_table, check_names, named, parse, replaced
 from mnclab.text.given import shown
 from mnclab.workpiece.blank_file import blank_of, table_of
 
@@ -108,45 +108,35 @@ def design_of(table: Mapping[str, Any], file: File) -> Design:
     check_names(table, KNOWN, "a design", file)
     if "blank" not in table:
         raise Alarm("a design has no blank", hint="[blank] with low and high, two corners [x, y, z]; a turned one: profile")
-    given = {name: table[name] for name in (*TEXTS, "turn") if name in table}
+    given: dict[str, Any] = dict(texts_of(table, file))
     with file.at("blank"):
         blank = blank_of(as_table(table["blank"], "blank"), "blank", file, "blank")
         Design(blank)
-    for name in given:
-        with file.at(name):
-            Design(blank, **{name: given[name]})
+    if "turn" in table:
+        with file.at("turn"):
+            given["turn"] = Design(blank, turn=table["turn"]).turn
     for side in SIDES:
-        with file.at(side):
-            tables = as_tables(table.get(side, []), side)
-            given[side] = tuple(feature_of(each, FEATURES, file, side, str(k)) for k, each in enumerate(tables))
-    try:
+        given[side] = features_of(table, side, FEATURES, file)
+    with pointing_at_features(table, file):  # of a feature that does not fit the others
         return Design(blank, **given)
-    except Alarm as alarm:  # of a feature that does not fit the others
-        if found := re.search(r"\((features|back)\[(\d+)\]\)", alarm.message):
-            with pointing(file, {}, found[1], found[2]):
-                raise
-        raise
 
 
 def text_of(design: Any) -> str:
     """A design as it is written in a file."""
+    known: Any = TURNED_FEATURES if isinstance(design, TurnedDesign) else FEATURES
+    sides = {side: getattr(design, side, ()) for side in SIDES}
+    if wrong := [each for some in sides.values() for each in some if type(each) not in known.values()]:
+        raise Alarm(f"a file knows no feature such as {shown(wrong[0])}", hint=f"known: {', '.join(known)}")
+    usual = type(design).__dataclass_fields__
+    texts = {name: getattr(design, name) for name in (*TEXTS, "turn") if name in usual}
+    table: dict[str, Any] = {name: value for name, value in texts.items() if value != usual[name].default}
     if isinstance(design, TurnedDesign):
-        return turned_file.text_of(design)
-    if wrong := [each for each in (*design.features, *design.back) if type(each) not in FEATURES.values()]:
-        raise Alarm(f"a file knows no feature such as {shown(wrong[0])}", hint=f"known: {', '.join(FEATURES)}")
-    usual = Design.__dataclass_fields__
-    texts = {name: getattr(design, name) for name in (*TEXTS, "turn")}
-    said = {name: value for name, value in texts.items() if value != usual[name].default}
-    parts = [*([("", said)] if said else []), *_parts(design)]
-    return "\n\n".join("\n".join([*([head] if head else []), *feature_file.lines(table)]) for head, table in parts) + "\n"
-
-
-def _parts(design: Design) -> Iterator[tuple[str, dict[str, Any]]]:
-    """The tables of a file with their heads."""
-    yield "[blank]", table_of(design.blank)
-    for side in SIDES:
-        for each in getattr(design, side):
-            yield f"[[{side}]]", table_of_feature(each)
+        table |= turned_file.table_of_profile(design)
+    if design.blank is not None:
+        table["blank"] = table_of(design.blank)
+    table |= {"tolerances": dict(given)} if (given := getattr(design, "tolerances", {})) else {}
+    table |= {side: [table_of_feature(each) for each in some] for side, some in sides.items() if some}
+    return toml(table, rows=("profile",))
 
 
 DRAWINGS = (".svg", ".pdf", ".png", ".dxf")

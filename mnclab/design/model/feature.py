@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, fields
-from typing import Any, ClassVar, NamedTuple, Self
+from dataclasses import dataclass, field, fields, replace
+from typing import ClassVar, NamedTuple, Self
 
-from mnclab.design.model.measures import Measure, Tolerance, with_tolerances
+from mnclab.design.model.measures import Measure, Tolerance, tolerances_of, with_tolerances
 from mnclab.design.model.removals import Flat, Removal
 from mnclab.design.model.shapes import LARGEST, Shape, check_place, shape_of
+from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, faults_as_alarms, fitting_class, plain, shown
@@ -47,10 +48,7 @@ class Named(ABC):
     def __post_init__(self) -> None:
         if not isinstance(self.name, str):
             raise Alarm(f"the name of a {self.kind} must be a text, got {shown(self.name)}")
-        if not isinstance(self.tolerances, Mapping):
-            raise Alarm(f"tolerances of a {self.kind} are names and values, got {shown(self.tolerances)}", hint=EXAMPLE)
-        given = {name: tuple(each) if isinstance(each, list) else each for name, each in self.tolerances.items()}
-        object.__setattr__(self, "tolerances", given)
+        object.__setattr__(self, "tolerances", tolerances_of(self.tolerances, f"a {self.kind}", EXAMPLE))
         for each in fields(self):
             object.__setattr__(self, each.name, plain(getattr(self, each.name)))
         self._check()
@@ -75,6 +73,8 @@ class Named(ABC):
 class Feature(Named):
     """What all features of a milled part share."""
 
+    recess: ClassVar[bool] = False  # whether a section through it shows more than the view from above
+
     top: float | None = None
 
     def __post_init__(self) -> None:
@@ -86,9 +86,19 @@ class Feature(Named):
     def removals(self, site: Site) -> Iterator[Removal]:
         """What it takes away."""
 
-    @abstractmethod
     def moved(self, dx: float, dy: float, dz: float) -> Self:
-        """The same elsewhere; what counts from the top of the blank still does."""
+        """The same elsewhere, by mm: its places and its `top`; what counts from the top of the blank still does."""
+        by = {"x": dx, "y": dy, "top": dz}
+        given = {each.name: getattr(self, each.name) for each in fields(self)}
+        there = {name: given[name] + way for name, way in by.items() if given.get(name) is not None}
+        for name in ("start", "end"):
+            if name in given:
+                there[name] = given[name][0] + dx, given[name][1] + dy
+        if "contour" in given:
+            there["contour"] = given["contour"].moved(dx, dy)
+        if "islands" in given:
+            there["islands"] = tuple(each.moved(dx, dy) for each in given["islands"])
+        return replace(self, **there)
 
     def measures(self) -> tuple[Measure, ...]:
         found = list(self._measures())
@@ -96,13 +106,19 @@ class Feature(Named):
             found.append(Measure("top", self.top, "place"))
         return with_tolerances(found, self.tolerances, self.name or f"a {self.kind}")
 
+    @property
+    def shape(self) -> Shape | None:
+        """The shape that is dimensioned in its view; None if it has none."""
+        return getattr(self, "contour", None)
+
+    @property
+    def outline(self) -> Contour | None:
+        """What it takes up in its view, a groove the middle of it; None for the whole top."""
+        return None if self.shape is None else self.shape.contour
+
     def from_top(self, site: Site) -> float:
         """The height that its depths count from."""
         return site.top if self.top is None else self.top
-
-    def raised(self, dz: float) -> dict[str, Any]:
-        """Its `top`, where it has one, higher by `dz`."""
-        return {} if self.top is None else {"top": self.top + dz}
 
 
 EXAMPLE = 'tolerances={"depth": 0.1}'

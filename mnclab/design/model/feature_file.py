@@ -13,14 +13,44 @@ from contextlib import contextmanager
 from dataclasses import MISSING, fields, is_dataclass
 from typing import Any, TypeVar
 
+from mnclab.design.model.design import TEXTS
 from mnclab.design.model.shapes import Circle, Outline, Rectangle
 from mnclab.text.alarm import Alarm, hint
-from mnclab.text.file import File, as_table, check_names
+from mnclab.text.file import File, as_table, as_tables, check_names
 from mnclab.text.given import shown
 
 SHAPES: tuple[type[Any], ...] = (Circle, Outline, Rectangle)
 RECTANGLE = "{ x = 30, y = 20, length = 40, width = 25 }"
 Kind = TypeVar("Kind")
+
+
+def texts_of(table: Mapping[str, Any], file: File) -> dict[str, str]:
+    """What the table of a design says for its title block."""
+    for name in TEXTS:
+        with file.at(name):
+            if not isinstance(table.get(name, ""), str):
+                raise Alarm(f"the {name} of a design must be a text, got {shown(table[name])}")
+    return {name: table[name] for name in TEXTS if name in table}
+
+
+def features_of(table: Mapping[str, Any], side: str, kinds: Mapping[str, type[Kind]], file: File) -> tuple[Kind, ...]:
+    """The features of a side of a design, of some kinds by their names."""
+    with file.at(side):
+        tables = as_tables(table.get(side, []), side)
+        return tuple(feature_of(each, kinds, file, side, str(k)) for k, each in enumerate(tables))
+
+
+@contextmanager
+def pointing_at_features(table: Mapping[str, Any], file: File) -> Iterator[None]:
+    """Alarms that name a feature of a design by its side and number show it, or the key of it that they name first."""
+    try:
+        yield
+    except Alarm as alarm:
+        if found := re.search(r"\((\w+)\[(\d+)\]\)", alarm.message):
+            side, k = found.groups()
+            with pointing(file, {name: None for name in table[side][int(k)] if name != "kind"}, side, k):
+                raise
+        raise
 
 
 def feature_of(table: Any, kinds: Mapping[str, type[Kind]], file: File, *keys: str) -> Kind:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Self
 
@@ -18,7 +18,7 @@ import numpy as np
 from mnclab.design.model.feature import BESIDE, EXAMPLE, Feature, Site, area_of, check_positive, take_shape
 from mnclab.design.model.holes import Hole
 from mnclab.design.model.measures import Measure
-from mnclab.design.model.removals import Flat, Removal, Slanting, Wedge
+from mnclab.design.model.removals import Bevel, Flat, Ramp, Removal
 from mnclab.design.model.shapes import LARGEST, Circle, Rectangle, shape_of
 from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
@@ -49,9 +49,6 @@ class Face(Feature):
 
     def removals(self, site: Site) -> Iterator[Removal]:
         yield Flat(site.around, self.from_top(site) - self.depth)
-
-    def moved(self, dx: float, dy: float, dz: float) -> Self:
-        return replace(self, **self.raised(dz))
 
 
 @dataclass(frozen=True, repr=False)
@@ -87,15 +84,13 @@ class _Outlined(Feature):
         yield from self.contour.measures()
         yield Measure("depth", self.depth, "depth")
 
-    def moved(self, dx: float, dy: float, dz: float) -> Self:
-        return replace(self, contour=self.contour.moved(dx, dy), **self.raised(dz))
-
 
 @dataclass(frozen=True, repr=False)
 class Pocket(_Outlined):
     """All within a contour, down to `depth`; `islands` are contours that stay. A `Stud` of the same depth in it is one."""
 
     kind = "pocket"
+    recess = True
     islands: tuple[Any, ...] = ()
 
     def _check(self) -> None:
@@ -110,10 +105,6 @@ class Pocket(_Outlined):
         for each in self.islands:
             region = region.difference(area_of(each, "an island of a pocket"))
         yield Flat(region, self.from_top(site) - self.depth)
-
-    def moved(self, dx: float, dy: float, dz: float) -> Self:
-        islands = tuple(each.moved(dx, dy) for each in self.islands)
-        return replace(super().moved(dx, dy, dz), islands=islands)
 
 
 @dataclass(frozen=True, repr=False)
@@ -131,6 +122,7 @@ class Slot(Feature):
     """A straight slot with round ends: `start` and `end` (x, y) are the centres of these, mm."""
 
     kind = "slot"
+    recess = True
     start: tuple[float, float]
     end: tuple[float, float]
     width: float
@@ -161,16 +153,13 @@ class Slot(Feature):
     def removals(self, site: Site) -> Iterator[Removal]:
         yield Flat(Region.of(self.outline), self.from_top(site) - self.depth)
 
-    def moved(self, dx: float, dy: float, dz: float) -> Self:
-        start, end = ((x + dx, y + dy) for x, y in (self.start, self.end))
-        return replace(self, start=start, end=end, **self.raised(dz))
-
 
 @dataclass(frozen=True, repr=False)
 class Groove(Feature):
     """What a tool of a `width` leaves along a contour, open or closed, the middle of the groove."""
 
     kind = "groove"
+    recess = True
     contour: Any
     width: float
     depth: float
@@ -201,9 +190,6 @@ class Groove(Feature):
     def removals(self, site: Site) -> Iterator[Removal]:
         yield Flat(self.area, self.from_top(site) - self.depth)
 
-    def moved(self, dx: float, dy: float, dz: float) -> Self:
-        return replace(self, contour=self.contour.moved(dx, dy), **self.raised(dz))
-
 
 def along(name: str) -> str:
     """What a measure of the outline that a groove goes along is called: its sizes are not those of the groove."""
@@ -217,6 +203,7 @@ class Slope(Feature):
     """
 
     kind = "slope"
+    recess = True
     x: float
     y: float
     length: float
@@ -251,11 +238,8 @@ class Slope(Feature):
         c, s = sense * math.cos(turned), sense * math.sin(turned)
         start = self.x - c * self.length / 2, self.y - s * self.length / 2
         depths = max(self.start_depth, self.end_depth), min(self.start_depth, self.end_depth)
-        yield (wedge := Wedge(start, (c, s), self.length, self.width, top - depths[0], top - depths[1]))
-        yield wedge.sky
-
-    def moved(self, dx: float, dy: float, dz: float) -> Self:
-        return replace(self, x=self.x + dx, y=self.y + dy, **self.raised(dz))
+        yield (ramp := Ramp(start, (c, s), self.width, far=self.length, deep=top - depths[0], open=top - depths[1], part="floor"))
+        yield ramp.clearance
 
 
 @dataclass(frozen=True, repr=False)
@@ -291,8 +275,8 @@ class Chamfer(Feature):
     def removals(self, site: Site) -> Iterator[Removal]:
         top, area = self.from_top(site), area_of(self.contour, "the contour of a chamfer")
         inside = self._side(site, top - self.height / 2) if self.inside is None else self.inside
-        yield (slant := Slanting(area, 0.0, self.width, top - self.height, top, inside))
-        yield slant.sky
+        yield (bevel := Bevel(area, inside, far=self.width, deep=top - self.height, open=top, part="bevel"))
+        yield bevel.clearance
 
     def _side(self, site: Site, z: float) -> bool:
         line = self.contour.contour
@@ -307,9 +291,6 @@ class Chamfer(Feature):
             known = "on both sides of it" if inside else "neither inside nor outside of it"
             raise Alarm(f"a chamfer stands on an edge: material is {known}", hint="give the contour of the edge, or inside=True")
         return inside > outside
-
-    def moved(self, dx: float, dy: float, dz: float) -> Self:
-        return replace(self, contour=self.contour.moved(dx, dy), **self.raised(dz))
 
 
 FEATURES: dict[str, type[Feature]] = {each.kind: each for each in (Face, Pocket, Stud, Slot, Groove, Hole, Chamfer, Slope)}

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Self
 
 from mnclab.design.model.feature import Feature, Site, check_positive
 from mnclab.design.model.measures import Measure
-from mnclab.design.model.removals import Flat, Removal, Slanting
+from mnclab.design.model.removals import Cone, Flat, Removal
 from mnclab.design.model.shapes import LARGEST, check_place
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
@@ -32,6 +32,7 @@ class Hole(Feature):
     """
 
     kind = "hole"
+    recess = True
     x: float
     y: float
     diameter: float | None
@@ -119,6 +120,15 @@ class Hole(Feature):
         return float(self.diameter or 0.0)
 
     @property
+    def mouth(self) -> float:
+        """The greatest diameter without the thread, mm."""
+        return max(self.wide, (self.counterbore or (0.0,))[0], (self.countersink or (0.0,))[0])
+
+    @property
+    def outline(self) -> Contour:
+        return Contour.circle((self.x, self.y), self.wide / 2)
+
+    @property
     def tip(self) -> float:
         """How far the point goes beyond the shoulder, mm."""
         return 0.0 if self.depth is None else self.wide / 2 / math.tan(math.radians(self.point / 2)) * (self.point < 180)
@@ -147,18 +157,16 @@ class Hole(Feature):
         shoulder = site.bottom - BEYOND if self.depth is None else top - self.depth
         yield Flat(Region((Contour.circle(centre, r),)), shoulder)
         if self.tip:
-            yield Slanting(centre, 0.0, r, shoulder - self.tip, shoulder)
+            yield Cone(centre, far=r, deep=shoulder - self.tip, open=shoulder, part="point")
         if self.counterbore:
-            yield Flat(Region((Contour.circle(centre, self.counterbore[0] / 2),)), top - self.counterbore[1])
+            around = Region((Contour.circle(centre, self.counterbore[0] / 2),))
+            yield Flat(around, top - self.counterbore[1], part="counterbore")
         if self.countersink:
             out = self.countersink[0] / 2
             seat = top - (self.counterbore[1] if self.counterbore else 0.0)
             deep = seat - (out - r) / math.tan(math.radians(self.countersink[1] / 2))
-            yield (cone := Slanting(centre, r, out, deep, seat))
-            yield cone.sky
-
-    def moved(self, dx: float, dy: float, dz: float) -> Self:
-        return replace(self, x=self.x + dx, y=self.y + dy, **self.raised(dz))
+            yield (cone := Cone(centre, near=r, far=out, deep=deep, open=seat, part="countersink"))
+            yield cone.clearance
 
 
 def _count(value: Any, what: str) -> int:

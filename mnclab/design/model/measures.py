@@ -98,6 +98,13 @@ def _of_class(written: str, nominal: float, what: str) -> tuple[float, float]:
     return (off, off + wide) if found[1].isupper() else (-off - wide, -off)
 
 
+def tolerances_of(given: Any, what: str, example: str) -> dict[str, Tolerance]:
+    """Tolerances by the names of measures, as they are kept; an Alarm where that is not what was given."""
+    if not isinstance(given, Mapping):
+        raise Alarm(f"tolerances of {what} are names and values, got {shown(given)}", hint=example)
+    return {name: tuple(each) if isinstance(each, list) else each for name, each in given.items()}
+
+
 def with_tolerances(measures: list[Measure], tolerances: Mapping[str, Tolerance], where: str) -> tuple[Measure, ...]:
     """Measures with the tolerances given by their names; an Alarm for a name that none of them has."""
     names = [each.name for each in measures]

@@ -1,5 +1,5 @@
-"""What features take away, as simple bodies: all above a level within a region, what a cone or a chamfer slants off, and
-all above a plane that falls.
+"""What features take away, as simple bodies: all above a level within a region, a cone about a point, the bevel of an edge,
+and all above a ramp.
 
 The lower side of a part has the same bodies upside down: what they take away lies below.
 """
@@ -7,8 +7,11 @@ The lower side of a part has the same bodies upside down: what they take away li
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,23 +21,31 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.signed import contains, signed
+from mnclab.geometry.tracing import bands_beside
 from mnclab.path.toolpath import Array, Mask
 
 NOTHING = Region(())
 TINY = 1e-6  # mm, by which a section is wide that is none
+CLEARANCE = "clearance"  # the part of a feature that is the room above a sloped face
 
 
 @dataclass(frozen=True, eq=False)
 class Flat:
-    """All of a region above `floor`, mm; with `up` False all below it."""
+    """All of a region above `floor`, mm; with `up` False all below it. `part` is which part of its feature it is."""
 
     region: Region
     floor: float
     up: bool = True
+    part: str = ""
+    upright = True
 
     def reaches(self, z: float) -> bool:
         """Whether material at a height is taken away."""
         return z > self.floor if self.up else z < self.floor
+
+    def section(self, z: float) -> Region:
+        """What it takes away at a height that it reaches."""
+        return self.region
 
     def level(self, x: Array, y: Array) -> Array:
         """How far down (up) it reaches at points (m,); infinite beside it."""
@@ -49,24 +60,36 @@ class Flat:
         """The same at points (m,) within its reach."""
         return self.floor
 
+    def from_faces(self, x: Array, y: Array, z: Array) -> Array:
+        """How far points (m,) are from the faces that it makes, mm."""
+        beside = signed(self.region, np.stack([x, y], axis=1))
+        above = z - self.floor if self.up else self.floor - z
+        wall = np.hypot(np.abs(beside), np.maximum(-above, 0.0))
+        return np.minimum(wall, np.where(beside <= 0, np.abs(above), np.inf))
+
     def turned_over(self, flip: Array, z: float) -> Flat:
         """The same after the part was turned over: `flip` (3, 3) in the plane, heights count from `z` down."""
-        return Flat(flipped(self.region, flip), z - self.floor, not self.up)
+        return replace(self, region=flipped(self.region, flip), floor=z - self.floor, up=not self.up)
 
 
-class _Sloped:
-    """What goes from the height `deep` to the height `open`, where it meets the air; mm."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Sloped(ABC):
+    """What goes from the height `deep` to the height `open`, where it meets the air: at the distance `near` from its base it
+    is at the one, at `far` at the other; mm. `part` is which part of its feature it is.
 
+    `upright`: it has walls besides its sloped face.
+    """
+
+    near: float = 0.0
+    far: float
     deep: float
     open: float
+    part: str = ""
+    upright = False
 
     @property
     def up(self) -> bool:
         return self.open > self.deep
-
-    def reaches(self, z: float) -> bool:
-        """Whether material at a height, or at one beyond it, is taken away."""
-        return z > self.deep if self.up else z < self.deep
 
     @property
     def low(self) -> float:
@@ -76,147 +99,175 @@ class _Sloped:
     def high(self) -> float:
         return max(self.deep, self.open)
 
-
-@dataclass(frozen=True, eq=False)
-class Slanting(_Sloped):
-    """A slanting face about a contour, or a cone about a point, and all between it and the feature that it stands on.
-
-    At a distance `near` from `base`, mm, it is at the height `deep`, at `far` at the height `open`. The base is a region,
-    from whose edge distances count outwards (`inside`: inwards), or a point.
-    """
-
-    base: Region | tuple[float, float]
-    near: float
-    far: float
-    deep: float
-    open: float
-    inside: bool = False
-
-    def away(self, x: Array, y: Array) -> Array:
-        """How far points (m,) are from the base; negative before its edge."""
-        if isinstance(self.base, Region):
-            return signed(self.base, np.stack([x, y], axis=1)) * (-1.0 if self.inside else 1.0)
-        return np.hypot(x - self.base[0], y - self.base[1])
+    def reaches(self, z: float) -> bool:
+        """Whether material at a height, or at one beyond it, is taken away."""
+        return z > self.deep if self.up else z < self.deep
 
     def at(self, z: float) -> float:
         """How far out it reaches at a height, mm; `near` where it does not."""
         share = (z - self.deep) / (self.open - self.deep)
         return self.near + (self.far - self.near) * min(max(share, 0.0), 1.0)
 
+    @abstractmethod
+    def away(self, x: Array, y: Array) -> Array:
+        """How far points (m,) are from the base; negative before its edge."""
+
+    @abstractmethod
     def section(self, z: float) -> Region:
         """What it takes away at a height between both ends."""
-        out = self.at(z)
-        if out <= self.near + TINY:
-            return NOTHING
-        if isinstance(self.base, Region):
-            grown = self.grown(out)
-            return self.base.difference(grown) if self.inside else grown.difference(self.base)
-        return self.grown(out)
+
+    @abstractmethod
+    def bands(self, out: float) -> Iterator[Contour]:
+        """What lies nearer to the base than a distance, on its side."""
 
     @property
-    def edges(self) -> tuple[Contour, ...]:
-        """The edge of its base, the slant to the right of it; none of a cone."""
-        loops = self.base.loops if isinstance(self.base, Region) else ()
-        return tuple(loop.reversed() for loop in loops) if self.inside else loops
-
-    def grown(self, out: float) -> Region:
-        """The base with its edge moved by a distance."""
-        if isinstance(self.base, Region):
-            return self.base.inset(out) if self.inside else self.base.offset(out)
-        return Region((Contour.circle(self.base, out),))
-
-    @cached_property
-    def sky(self) -> Flat:
-        """What is above it: no tool comes there without taking it away."""
-        return Flat(self.section(self.open), self.open, self.up)
-
-    def level(self, x: Array, y: Array) -> Array:
-        """How far down (up) it reaches at points (m,); infinite beside it."""
-        found = np.full(len(x), np.inf if self.up else -np.inf)
-        about = np.flatnonzero(self._box(x, y))
-        out = self.away(x[about], y[about])
-        least = self.near if isinstance(self.base, Region) else -np.inf
-        on = (out > least) & (out <= self.far)
-        found[about[on]] = self._height(out[on])
-        return found
-
-    @property
+    @abstractmethod
     def reach(self) -> Region:
         """All that it takes something of, from above."""
-        return self.sky.region
+
+    @abstractmethod
+    def level(self, x: Array, y: Array) -> Array:
+        """How far down (up) it reaches at points (m,); infinite beside it."""
+
+    @abstractmethod
+    def turned_over(self, flip: Array, z: float) -> Self:
+        """The same after the part was turned over: `flip` (3, 3) in the plane, heights count from `z` down."""
+
+    @cached_property
+    def clearance(self) -> Flat:
+        """What is above it: no tool comes there without taking it away."""
+        return Flat(self.reach, self.open, self.up, CLEARANCE)
 
     def level_within(self, x: Array, y: Array) -> Array:
-        """The same at points (m,) within its reach."""
-        if isinstance(self.base, Region):
-            return self._height(np.minimum(self.base.distance(np.stack([x, y], axis=1)), self.far))
-        return self._height(np.minimum(self.away(x, y), self.far))
+        """How far down (up) it reaches at points (m,) within its reach."""
+        return self._height(self.away(x, y))
 
     def _height(self, out: Array) -> Array:
-        share = np.maximum(out - self.near, 0.0) / (self.far - self.near)
+        share = np.clip((out - self.near) / (self.far - self.near), 0.0, 1.0)
         return np.asarray(self.deep + share * (self.open - self.deep))
 
-    def _box(self, x: Array, y: Array) -> Mask:
-        if isinstance(self.base, Region):
-            (x0, y0), (x1, y1) = self.base.bounds
-        else:
-            (x0, y0), (x1, y1) = self.base, self.base
-        return (x >= x0 - self.far) & (x <= x1 + self.far) & (y >= y0 - self.far) & (y <= y1 + self.far)
-
-    def turned_over(self, flip: Array, z: float) -> Slanting:
-        base: Region | tuple[float, float]
-        if isinstance(self.base, Region):
-            base = flipped(self.base, flip)
-        else:
-            px, py, _ = (flip @ [*self.base, 1.0]).tolist()
-            base = px, py
-        return replace(self, base=base, deep=z - self.deep, open=z - self.open)
+    def from_faces(self, x: Array, y: Array, z: Array) -> Array:
+        """How far points (m,) are from the face that it makes, mm."""
+        s, ds, dz = self.away(x, y), self.far - self.near, self.open - self.deep
+        share = np.clip(((s - self.near) * ds + (z - self.deep) * dz) / (ds * ds + dz * dz), 0.0, 1.0)
+        return np.hypot(s - self.near - share * ds, z - self.deep - share * dz)
 
     # Distances are those of triangles in the plane of the distance from the base and the height.
 
+    def across(self, along: Array, x: Array, y: Array) -> Array:
+        """Distances `along` (m,) in that plane as those of points (m,)."""
+        return along
+
     def taken(self, x: Array, y: Array, z: Array) -> Array:
         """How far points (m,) are from what it takes away, mm; 0 within."""
-        return self.taken_out(self.away(x, y), z)
+        return self.across(self.taken_out(self.away(x, y), z), x, y)
 
     def taken_out(self, out: Array, z: Array) -> Array:
-        """The same at distances `out` (m,) from the base."""
+        """The same in the plane, at distances `out` (m,) from the base."""
         return in_triangle((self.near, self.deep), (self.near, self.open), (self.far, self.open), out, z)
 
     def left(self, low: float, high: float, out: Array, z: Array) -> Array:
-        """How far points (m,), `out` from the base, are from the material under the slant between two heights, mm; 0 within."""
-        if self.up:
-            corners = (self.at(low), low), (self.at(high), low), (self.at(high), high)
-        else:
-            corners = (self.at(high), high), (self.at(low), high), (self.at(low), low)
-        return in_triangle(*corners, out, z)
+        """How far points (m,) of the plane are from the material under the slope between two heights, mm; 0 within."""
+        first, last = (low, high) if self.up else (high, low)
+        return in_triangle((self.at(first), first), (self.at(last), first), (self.at(last), last), out, z)
 
 
 @dataclass(frozen=True, eq=False)
-class Wedge(_Sloped):
-    """All above a plane over a rectangle, up to the height `open`: its floor rises from `deep` at the middle of its first
-    edge, `start` (x, y), over `far` mm in the unit direction `ahead`; `width` mm across. Upside down with `open` below.
+class Cone(Sloped):
+    """A cone about the point `centre` (x, y)."""
+
+    centre: tuple[float, float]
+
+    def away(self, x: Array, y: Array) -> Array:
+        return np.hypot(x - self.centre[0], y - self.centre[1])
+
+    def section(self, z: float) -> Region:
+        out = self.at(z)
+        return NOTHING if out <= self.near + TINY else Region((Contour.circle(self.centre, out),))
+
+    def bands(self, out: float) -> Iterator[Contour]:
+        yield Contour.circle(self.centre, out)
+
+    @property
+    def reach(self) -> Region:
+        return self.section(self.open)
+
+    def level(self, x: Array, y: Array) -> Array:
+        out = self.away(x, y)
+        return np.where(out <= self.far, self._height(out), np.inf if self.up else -np.inf)
+
+    def turned_over(self, flip: Array, z: float) -> Self:
+        px, py, _ = (flip @ [*self.centre, 1.0]).tolist()
+        return replace(self, centre=(px, py), deep=z - self.deep, open=z - self.open)
+
+
+@dataclass(frozen=True, eq=False)
+class Bevel(Sloped):
+    """The sloped face about a region, from whose edge distances count outwards (`inside`: inwards), and all between it and the
+    feature that it stands on.
+    """
+
+    base: Region
+    inside: bool = False
+
+    def away(self, x: Array, y: Array) -> Array:
+        return signed(self.base, np.stack([x, y], axis=1)) * (-1.0 if self.inside else 1.0)
+
+    def section(self, z: float) -> Region:
+        out = self.at(z)
+        if out <= self.near + TINY:
+            return NOTHING
+        grown = self.grown(out)
+        return self.base.difference(grown) if self.inside else grown.difference(self.base)
+
+    def bands(self, out: float) -> Iterator[Contour]:
+        for edge in self.edges:
+            yield from bands_beside(edge.reversed(), out)
+
+    @cached_property
+    def reach(self) -> Region:
+        return self.section(self.open)
+
+    @property
+    def edges(self) -> tuple[Contour, ...]:
+        """The edge of its base, the slope to the right of it."""
+        return tuple(loop.reversed() for loop in self.base.loops) if self.inside else self.base.loops
+
+    def grown(self, out: float) -> Region:
+        """The base with its edge moved by a distance."""
+        return self.base.inset(out) if self.inside else self.base.offset(out)
+
+    def level(self, x: Array, y: Array) -> Array:
+        found = np.full(len(x), np.inf if self.up else -np.inf)
+        (x0, y0), (x1, y1) = self.base.bounds
+        box = (x >= x0 - self.far) & (x <= x1 + self.far) & (y >= y0 - self.far) & (y <= y1 + self.far)
+        about = np.flatnonzero(box)
+        out = self.away(x[about], y[about])
+        on = (out > self.near) & (out <= self.far)
+        found[about[on]] = self._height(out[on])
+        return found
+
+    def level_within(self, x: Array, y: Array) -> Array:
+        return self._height(self.base.distance(np.stack([x, y], axis=1)))
+
+    def turned_over(self, flip: Array, z: float) -> Self:
+        return replace(self, base=flipped(self.base, flip), deep=z - self.deep, open=z - self.open)
+
+
+@dataclass(frozen=True, eq=False)
+class Ramp(Sloped):
+    """All above a plane over a rectangle: its floor rises from the middle of its first edge, `start` (x, y), in the unit
+    direction `ahead`; `width` mm across.
     """
 
     start: tuple[float, float]
     ahead: tuple[float, float]
-    far: float
     width: float
-    deep: float
-    open: float
-    near = 0.0
+    upright = True
 
     def away(self, x: Array, y: Array) -> Array:
-        """How far points (m,) are from the deep edge, along."""
         (x0, y0), (c, s) = self.start, self.ahead
         return np.asarray(c * (x - x0) + s * (y - y0))
-
-    def beside(self, x: Array, y: Array) -> Array:
-        """How far points (m,) are beside the rectangle, across."""
-        (x0, y0), (c, s) = self.start, self.ahead
-        return np.maximum(np.abs(c * (y - y0) - s * (x - x0)) - self.width / 2, 0.0)
-
-    def at(self, z: float) -> float:
-        """How far out it reaches at a height, mm."""
-        return self.far * min(max((z - self.deep) / (self.open - self.deep), 0.0), 1.0)
 
     def outline(self, out: float) -> Contour:
         """The part of the rectangle within `out` mm of the deep edge."""
@@ -225,9 +276,11 @@ class Wedge(_Sloped):
         return contours.rectangle(out, self.width, 0.0, centre=middle, angle=math.atan2(s, c))
 
     def section(self, z: float) -> Region:
-        """What it takes away at a height between both ends."""
         out = self.at(z)
         return Region((self.outline(out),)) if out > TINY else NOTHING
+
+    def bands(self, out: float) -> Iterator[Contour]:
+        yield self.outline(out)
 
     @cached_property
     def region(self) -> Region:
@@ -236,42 +289,28 @@ class Wedge(_Sloped):
 
     @property
     def reach(self) -> Region:
-        """All that it takes something of, from above."""
         return self.region
 
-    @cached_property
-    def sky(self) -> Flat:
-        """What is above it."""
-        return Flat(self.region, self.open, self.up)
-
     def level(self, x: Array, y: Array) -> Array:
-        """How far down (up) it reaches at points (m,); infinite beside it."""
         return np.where(within(self.region, x, y), self.level_within(x, y), np.inf if self.up else -np.inf)
 
-    def level_within(self, x: Array, y: Array) -> Array:
-        """The same at points (m,) within its reach."""
-        share = np.clip(self.away(x, y) / self.far, 0.0, 1.0)
-        return np.asarray(self.deep + share * (self.open - self.deep))
+    def from_faces(self, x: Array, y: Array, z: Array) -> Array:
+        """Outside it the distance from it; within, from its floor, or its walls."""
+        above = (z - self.level_within(x, y)) * (1.0 if self.up else -1.0)
+        floor = np.abs(above) / np.hypot(1.0, (self.open - self.deep) / self.far)
+        beside = signed(self.region, np.stack([x, y], axis=1))
+        walls = np.where(above > 0, -beside, np.inf)
+        return np.where(beside > 0, np.hypot(beside, np.maximum(-above, 0.0)), np.minimum(floor, walls))
 
-    def turned_over(self, flip: Array, z: float) -> Wedge:
+    def across(self, along: Array, x: Array, y: Array) -> Array:
+        (x0, y0), (c, s) = self.start, self.ahead
+        beside = np.abs(c * (y - y0) - s * (x - x0)) - self.width / 2
+        return np.hypot(along, np.maximum(beside, 0.0))
+
+    def turned_over(self, flip: Array, z: float) -> Self:
         x, y, _ = (flip @ [*self.start, 1.0]).tolist()
         c, s = (flip[:2, :2] @ self.ahead).tolist()
         return replace(self, start=(x, y), ahead=(c, s), deep=z - self.deep, open=z - self.open)
-
-    # Distances along it are those of triangles in the plane of the way along and the height; `beside` stands across them.
-
-    def taken(self, x: Array, y: Array, z: Array) -> Array:
-        """How far points (m,) are from what it takes away, mm; 0 within."""
-        return np.hypot(self.taken_out(self.away(x, y), z), self.beside(x, y))
-
-    def taken_out(self, out: Array, z: Array) -> Array:
-        """The same along, at distances `out` (m,) from the deep edge."""
-        return in_triangle((0.0, self.deep), (0.0, self.open), (self.far, self.open), out, z)
-
-    def left(self, low: float, high: float, out: Array, z: Array) -> Array:
-        """How far points (m,), `out` from the deep edge, are along from the material under the slant between two heights."""
-        first, last = (low, high) if self.up else (high, low)
-        return in_triangle((self.at(first), first), (self.at(last), first), (self.at(last), last), out, z)
 
 
 def in_triangle(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float], s: Array, z: Array) -> Array:
@@ -301,8 +340,7 @@ def flipped(region: Region, flip: Array) -> Region:
     return Region(tuple(loop.transformed(flip).reversed() for loop in region.loops))
 
 
-Slant = Slanting | Wedge
-Removal = Flat | Slant
+Removal = Flat | Sloped
 
 
 # Which of many points on a lattice lie in an area: row by row, from where its edge crosses the rows.

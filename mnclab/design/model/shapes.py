@@ -12,6 +12,8 @@ import numpy as np
 from mnclab.design.model.measures import Measure
 from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import left
+from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, faults_as_alarms, plain, shown
 from mnclab.text.tables import exactly
@@ -184,3 +186,41 @@ def _outline(contour: Contour) -> Outline:
         contour = contour.reversed()
     bulge = tuple(contour.bulge.tolist()) if contour.bulge.any() else ()
     return Outline(plain(contour.points.tolist()), bulge, contour.closed)
+
+
+# Places on contours, and stretches of them: what drawings and comparisons look at.
+
+
+def spread(loop: Contour, spacing: float, fewest: int, turn: float = np.inf, aside: float = 0.0) -> tuple[Index, Array]:
+    """Places on all elements of a contour: the numbers of their elements (m,), and how far along these they are (m,), 0 to 1.
+
+    They are at most `spacing` mm and of an arc `turn` rad apart, an odd number, `fewest` at least; the first and the last are
+    `aside` mm from the ends of their element.
+    """
+    lengths = loop.lengths
+    count = np.maximum(np.ceil(lengths / spacing), np.ceil(np.abs(loop.sweeps) / turn)).astype(int)
+    count = np.maximum(count, fewest) | 1
+    element = np.repeat(np.arange(len(count)), count)
+    rank = np.arange(len(element)) - np.repeat(np.cumsum(count) - count, count)
+    hair = np.minimum(aside / np.maximum(lengths, ROUND), 0.01)[element]
+    return element, hair + (1 - 2 * hair) * rank / (count[element] - 1)
+
+
+def on_elements(loop: Contour, element: Index, share: Array) -> tuple[Array, Array, Array]:
+    """How far along a contour such places are (m,), where (m, 2), and the unit directions to the left there (m, 2)."""
+    lengths = loop.lengths
+    way = (np.cumsum(lengths) - lengths)[element] + share * lengths[element]
+    spots, ahead = loop.point_at(np.minimum(way, np.nextafter(lengths.sum(), 0)))
+    return way, spots, left(ahead)
+
+
+def stretches(loop: Contour, some: Mask) -> Iterator[Contour]:
+    """Some elements of a contour (k,), those that follow each other as one; the whole of it where all are."""
+    if some.all():
+        yield loop
+        return
+    starts = np.flatnonzero(some & ~np.roll(some, 1))
+    first = int(starts[0]) if loop.closed and len(starts) else 0
+    for run in np.split(order := np.roll(np.arange(len(some)), -first), np.flatnonzero(np.diff(some[order])) + 1):
+        if some[run[0]]:
+            yield Contour([*loop.starts[run], loop.ends[run[-1]]], [*loop.bulge[run], 0.0], closed=False)

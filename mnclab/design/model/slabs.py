@@ -7,7 +7,7 @@ slants off has a core that stands upright and, under each slant, a wedge.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce
 from itertools import combinations
@@ -15,12 +15,11 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.design.model.removals import NOTHING, TINY, Flat, Removal, Slant, Slanting, Wedge
+from mnclab.design.model.removals import NOTHING, TINY, Bevel, Cone, Flat, Ramp, Removal, Sloped
 from mnclab.geometry import shapely
-from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import EDGES_APART, Region, less, rough
 from mnclab.geometry.signed import signed
-from mnclab.geometry.tracing import bands_beside, covered, polygons_of
+from mnclab.geometry.tracing import covered, polygons_of
 from mnclab.path.toolpath import Array, Index, Mask
 
 THIN = 1e-9  # mm, of a slab that is none
@@ -33,7 +32,7 @@ class Slab:
     low: float
     high: float
     region: Region
-    slants: tuple[Slant, ...] = ()
+    slants: tuple[Sloped, ...] = ()
 
     def section(self, z: float) -> Region:
         return less(self.region, [each.section(z) for each in self.slants])
@@ -119,21 +118,19 @@ class _Planes:
     def signed(self, region: Region, index: Index) -> Array:
         return self._once(region, index, lambda some: signed(region, some))
 
-    def away(self, slant: Slant, index: Index) -> Array:
+    def away(self, slant: Sloped, index: Index) -> Array:
         return self._once(slant, index, lambda some: slant.away(*some.T))
 
-    def taken(self, slant: Slant, index: Index, z: Array) -> Array:
+    def taken(self, slant: Sloped, index: Index, z: Array) -> Array:
         """How far points are from what a slant takes away; 0 within."""
-        return self._across(slant, index, slant.taken_out(self.away(slant, index), z[index]))
+        return slant.across(slant.taken_out(self.away(slant, index), z[index]), *self._spots[index].T)
 
-    def left(self, slab: Slab, slant: Slant, index: Index, z: Array) -> Array:
+    def left(self, slab: Slab, slant: Sloped, index: Index, z: Array) -> Array:
         """How far points are from what a slant leaves of a slab, at least."""
-        return self._across(slant, index, slant.left(slab.low, slab.high, self.away(slant, index), z[index]))
+        along = slant.left(slab.low, slab.high, self.away(slant, index), z[index])
+        return slant.across(along, *self._spots[index].T)
 
-    def _across(self, slant: Slant, index: Index, along: Array) -> Array:
-        return along if isinstance(slant, Slanting) else np.hypot(along, slant.beside(*self._spots[index].T))
-
-    def _once(self, what: Region | Slant, index: Index, of: Callable[[Array], Array]) -> Array:
+    def _once(self, what: Region | Sloped, index: Index, of: Callable[[Array], Array]) -> Array:
         known = self._known.setdefault(id(what), np.full(len(self._spots), np.nan))
         new = index[np.isnan(known[index])]
         if len(new):
@@ -169,7 +166,7 @@ MEETING = 3e-9  # of the volume of a slab, by which what is taken of it may be o
 HALVINGS = 12
 
 
-def slanted_off(region: Region, slants: Sequence[Slant], low: float, high: float) -> float:
+def slanted_off(region: Region, slants: Sequence[Sloped], low: float, high: float) -> float:
     """mm³ that slants take away of a slab that stands on a region."""
     if not region.loops or not slants:
         return 0.0
@@ -199,16 +196,16 @@ def _groups(widest: list[Region]) -> list[list[int]]:
     return [[k for k, each in enumerate(group) if each == which] for which in dict.fromkeys(group)]
 
 
-def _alone(region: Region, slant: Slant, widest: Region, far: float) -> Callable[[float], float] | None:
+def _alone(region: Region, slant: Sloped, widest: Region, far: float) -> Callable[[float], float] | None:
     """The area that a slant takes of a region, by how far it reaches, at most `far`; None where anything else is in its way."""
-    if isinstance(slant, Slanting) and not isinstance(slant.base, Region):
+    if isinstance(slant, Cone):
         return _cone(region, slant, widest)
     if abs(region.intersection(widest).area - widest.area) > SAME * max(widest.area, 1.0):
         return None
-    if isinstance(slant, Wedge):
+    if isinstance(slant, Ramp):
         width = slant.width
         return lambda out: width * out
-    assert isinstance(slant.base, Region)
+    assert isinstance(slant, Bevel)
     base, sign = slant.base.area, -1 if slant.inside else 1
     whole = widest.area
     half, part = (sign * (slant.grown(far * share).area - base) for share in (0.5, 0.75))
@@ -219,9 +216,9 @@ def _alone(region: Region, slant: Slant, widest: Region, far: float) -> Callable
     return lambda out: out / far * (b + c * out / far)
 
 
-def _cone(region: Region, slant: Slanting, widest: Region) -> Callable[[float], float] | None:
+def _cone(region: Region, slant: Cone, widest: Region) -> Callable[[float], float] | None:
     """The same of a cone about a point, with its own hole in the middle or none."""
-    centre, far, hole = np.array([slant.base]), np.sqrt(widest.area / np.pi), 0.0
+    centre, far, hole = np.array([slant.centre]), np.sqrt(widest.area / np.pi), 0.0
     for loop in region.loops:
         if loop.distance(centre)[0] > far + SAME:
             continue
@@ -234,7 +231,7 @@ def _cone(region: Region, slant: Slanting, widest: Region) -> Callable[[float], 
     return lambda out: np.pi * (out * out - hole * hole)
 
 
-def _together(near: Region, slants: Sequence[Slant]) -> Callable[[float], float]:
+def _together(near: Region, slants: Sequence[Sloped]) -> Callable[[float], float]:
     """The area that some slants take together of a region, by the height: of fine polygons, none of which is traced."""
     places = [_open_to(near, each) for each in slants]
 
@@ -242,27 +239,16 @@ def _together(near: Region, slants: Sequence[Slant]) -> Callable[[float], float]
         gone = []
         for each, place in zip(slants, places):
             if (out := each.at(z)) > each.near + TINY:
-                gone.append(shapely.intersection(place, covered(list(_bands(each, out)))))
+                gone.append(shapely.intersection(place, covered(list(each.bands(out)))))
         return float(shapely.union_all(gone).area)
 
     return area
 
 
-def _bands(slant: Slant, out: float) -> Iterator[Contour]:
-    """What lies nearer to the edge of its base than a distance, on its side."""
-    if isinstance(slant, Wedge):
-        yield slant.outline(out)
-    elif isinstance(slant.base, Region):
-        for edge in slant.edges:
-            yield from bands_beside(edge.reversed(), out)
-    else:
-        yield Contour.circle(slant.base, out)
-
-
-def _open_to(near: Region, slant: Slant) -> Any:
+def _open_to(near: Region, slant: Sloped) -> Any:
     """Where a slant may take something of a region: on its side of the edge."""
     place = polygons_of(near.loops)
-    if isinstance(slant, Wedge) or not isinstance(slant.base, Region):
+    if not isinstance(slant, Bevel):
         return place
     cut = shapely.intersection if slant.inside else shapely.difference
     return cut(place, polygons_of(slant.base.loops))

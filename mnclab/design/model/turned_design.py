@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mnclab.design.model.design import TEXTS, AsDrawn, name_of
-from mnclab.design.model.measures import Measure, Tolerance, with_tolerances
+from mnclab.design.model.design import AsDrawn, Taking, name_of
+from mnclab.design.model.measures import HEAD, Measure, Tolerance, rows, tolerances_of, with_tolerances
 from mnclab.design.model.shapes import Outline
 from mnclab.design.model.turned_feature import SAME, TurnedBody, TurnedFeature
 from mnclab.design.model.turned_features import TURNED_FEATURES
@@ -32,6 +32,7 @@ from mnclab.workpiece.turning.turned import Turned
 if TYPE_CHECKING:
     from mnclab.workpiece.workpiece import Workpiece
 
+TURNED = Taking("turned design", TurnedFeature, TURNED_FEATURES, "one that turns", "Bore(12, 30)")
 EXAMPLE = "TurnedDesign([(0, 10), (-30, 10), (-30, 20), (-50, 20)])"
 
 
@@ -61,19 +62,14 @@ class TurnedDesign(AsDrawn):
     date: str = field(default="", kw_only=True)
 
     def __post_init__(self) -> None:
-        for name in TEXTS:
-            if not isinstance(getattr(self, name), str):
-                raise Alarm(f"the {name} of a design must be a text, got {shown(getattr(self, name))}")
-        if not isinstance(self.tolerances, Mapping):
-            raise Alarm(f"tolerances of a design are names and values, got {shown(self.tolerances)}",
-                        hint='tolerances={"diameter 1": "h6"}')  # fmt: skip
-        given = {name: tuple(each) if isinstance(each, list) else each for name, each in self.tolerances.items()}
-        object.__setattr__(self, "tolerances", given)
+        self.check_texts()
+        tolerances = tolerances_of(self.tolerances, "a design", 'tolerances={"diameter 1": "h6"}')
+        object.__setattr__(self, "tolerances", tolerances)
         object.__setattr__(self, "profile", _profile(self.profile))
         outline = self.outline_as_drawn
         object.__setattr__(self, "roundings", outline.roundings)
         object.__setattr__(self, "chamfers", outline.chamfers)
-        object.__setattr__(self, "features", _features(self.features))
+        object.__setattr__(self, "features", TURNED.features(self.features, "features"))
         object.__setattr__(self, "blank", _blank(self.blank))
         self.measures()
         self.bodies  # noqa: B018  every feature must fit
@@ -83,7 +79,8 @@ class TurnedDesign(AsDrawn):
         return exactly(self)
 
     def _repr_html_(self) -> str:
-        return html_table(("what", "measure", "value", "tolerance"), _rows(self), numbers=(2, 3))
+        measured = (self.measures(), *(each.measures() for each in self.features))
+        return html_table(HEAD, rows(zip(("profile", *self.drawn_names()), measured)), numbers=(2, 3))
 
     # --- its body ----------------------------------------------------------------------------------------------------
 
@@ -243,19 +240,6 @@ def _profile(given: Any) -> Outline:
     return Outline(plain(contour.points.tolist()), bulge, contour.closed)
 
 
-def _features(given: Any) -> tuple[TurnedFeature, ...]:
-    if isinstance(given, TurnedFeature):
-        given = (given,)
-    if not isinstance(given, tuple | list):
-        raise Alarm(f"features of a turned design must be features, got {shown(given)}", hint="mnclab.design.Bore(12, 30)")
-    for k, each in enumerate(given):
-        if not isinstance(each, TurnedFeature):
-            known = ", ".join(cls.__name__ for cls in TURNED_FEATURES.values())
-            raise Alarm(f"features[{k}] of a turned design must be one that turns, got {shown(each)}",
-                        hint=f"mnclab.design has {known}")  # fmt: skip
-    return tuple(given)
-
-
 def _blank(given: Any) -> Revolved | None:
     """The blank, a cylinder about Z."""
     if given is None:
@@ -266,18 +250,6 @@ def _blank(given: Any) -> Revolved | None:
         raise Alarm(f"the blank of a turned design must be a cylinder about Z, got {shown(given)}",
                     hint="mnclab.blank.cylinder(25, -60, 0)")  # fmt: skip
     return found
-
-
-def _rows(design: TurnedDesign) -> list[tuple[str, ...]]:
-    """What, measure, value and tolerance of the profile and of each feature, as a table shows them."""
-    rows: list[tuple[str, ...]] = []
-    names = ("profile", *design.drawn_names())
-    for name, measures in zip(names, (design.measures(), *(each.measures() for each in design.features))):
-        for each in measures:
-            value = each.text or f"{'⌀' if each.kind == 'diameter' else ''}{each.nominal:.6g}{'°' * (each.kind == 'angle')}"
-            limits = "" if each.limits is None else each.fit or f"{each.limits[0]:+.4g} {each.limits[1]:+.4g}"
-            rows.append((name, each.name, value, limits))
-    return rows
 
 
 class DrawnTurned(Turned):

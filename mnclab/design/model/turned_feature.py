@@ -16,6 +16,7 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from mnclab.design.model.feature import Named
+from mnclab.design.model.removals import flipped
 from mnclab.design.model.shapes import LARGEST
 from mnclab.design.model.turned_profile import Dimension, joined, pieces
 from mnclab.geometry.contours import Contour
@@ -26,6 +27,8 @@ from mnclab.text.given import check_number, choice
 from mnclab.workpiece.turning import revolved
 
 ENDS = ("front", "back")
+PLACES = ("z", "start", "end")  # of features that stand somewhere along the axis
+MIRROR = np.diag([-1.0, 1.0, 1.0])  # z reversed
 Point = tuple[float, float]
 Place = tuple[Point, Point, Point | None]  # from where to where, (z, r), and the centre of a radius
 
@@ -57,9 +60,10 @@ class TurnedFeature(Named):
     def turned_over(self, middle: float) -> Self:
         """The same on the part turned end for end: z becomes `middle` less z."""
 
-    @abstractmethod
     def moved(self, dz: float) -> Self:
-        """The same farther along the axis."""
+        """The same farther along the axis, mm; what counts from an end stays."""
+        places = [each.name for each in fields(self) if each.name in PLACES]
+        return replace(self, **{name: getattr(self, name) + dz for name in places})
 
 
 def _back(point: Point) -> Point:
@@ -92,7 +96,7 @@ class FromEnd(TurnedFeature):
         if self.from_end == "front":
             return self._from_front(body)
         found = self._from_front(body.mirrored())
-        return None if found is None else Contour(found.points * (-1, 1), -found.bulge).reversed()
+        return None if found is None else found.transformed(MIRROR).reversed()
 
     def places(self, body: TurnedBody) -> dict[str, Place]:
         if self.from_end == "front":
@@ -108,9 +112,6 @@ class FromEnd(TurnedFeature):
 
     def turned_over(self, middle: float) -> Self:
         return replace(self, from_end=ENDS[self.from_end == "front"])
-
-    def moved(self, dz: float) -> Self:
-        return self
 
 
 # A half section while features take away of it: what a feature asks of the body that it is cut into.
@@ -146,8 +147,7 @@ class TurnedBody(NamedTuple):
 
     def mirrored(self) -> TurnedBody:
         """The same with z reversed: its back end is the front."""
-        loops = (Contour(loop.points * (-1, 1), -loop.bulge).reversed() for loop in self.section.loops)
-        return TurnedBody(Region(tuple(loops)))
+        return TurnedBody(flipped(self.section, MIRROR))
 
     def ends_at(self, radius: float) -> tuple[float, float]:
         """The lowest and the highest z of the material at a radius; nan where there is none."""

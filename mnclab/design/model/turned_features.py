@@ -103,9 +103,6 @@ class RingGroove(TurnedFeature):
     def turned_over(self, middle: float) -> Self:
         return replace(self, z=middle - (self.z - self.width))
 
-    def moved(self, dz: float) -> Self:
-        return replace(self, z=self.z + dz)
-
 
 @dataclass(frozen=True, repr=False)
 class FaceGroove(FromEnd):

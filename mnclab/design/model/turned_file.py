@@ -8,14 +8,14 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from mnclab.design.model.design import TEXTS
-from mnclab.design.model.feature_file import feature_of, pointing, table_of_feature, toml, tuples
+from mnclab.design.model.feature_file import features_of, pointing_at_features, texts_of, tuples
 from mnclab.design.model.turned_design import TurnedDesign
 from mnclab.design.model.turned_features import TURNED_FEATURES
 from mnclab.geometry.contours import Contour
 from mnclab.text.alarm import Alarm
-from mnclab.text.file import File, as_table, as_tables, check_names
+from mnclab.text.file import File, as_table, check_names
 from mnclab.text.given import check_number, faults_as_alarms, shown
-from mnclab.workpiece.blank_file import blank_of, table_of
+from mnclab.workpiece.blank_file import blank_of
 
 #: The format, as the help of the command line shows it.
 FORMAT = """\
@@ -84,11 +84,7 @@ NAMED = re.compile(r"(?:corner|points?) (\d+)")  # what in an alarm says where t
 def design_of(table: Mapping[str, Any], file: File) -> TurnedDesign:
     """The design that a table of a file describes."""
     check_names(table, KNOWN, "a turned design", file)
-    more: dict[str, Any] = {name: table[name] for name in TEXTS if name in table}
-    for name in TEXTS:
-        with file.at(name):
-            if not isinstance(table.get(name, ""), str):
-                raise Alarm(f"{name} must be a text, got {shown(table[name])}")
+    more: dict[str, Any] = dict(texts_of(table, file))
     profile, corners = _profile(table, file)
     more |= corners
     if "blank" in table:
@@ -96,33 +92,13 @@ def design_of(table: Mapping[str, Any], file: File) -> TurnedDesign:
             more["blank"] = blank_of(as_table(table["blank"], "blank"), "blank", file, "blank")
     with file.at("tolerances"):
         more["tolerances"] = tuples(as_table(table.get("tolerances", {}), "tolerances"))
-    with file.at("features"):
-        features = as_tables(table.get("features", []), "features")
-        made = tuple(feature_of(each, TURNED_FEATURES, file, "features", str(k)) for k, each in enumerate(features))
+    features = features_of(table, "features", TURNED_FEATURES, file)
     try:
-        return TurnedDesign(profile, made, **more)
+        with pointing_at_features(table, file):
+            return TurnedDesign(profile, features, **more)
     except Alarm as fault:
-        if found := re.search(r"\(features\[(\d+)\]\): (.*)", fault.message, re.DOTALL):
-            with pointing(file, {name: None for name in features[int(found[1])] if name != "kind"}, "features", found[1]):
-                raise
         fault.span = fault.span or _place(fault.message, file)
         raise
-
-
-def text_of(design: TurnedDesign) -> str:
-    """The design as the text of a file."""
-    table: dict[str, Any] = {name: getattr(design, name) for name in TEXTS if getattr(design, name) != _default(name)}
-    outline = design.profile
-    if outline.closed:
-        table["closed"] = True
-    table["profile"] = list(_rows(design))
-    if design.blank is not None:
-        table["blank"] = table_of(design.blank)
-    if design.tolerances:
-        table["tolerances"] = dict(design.tolerances)
-    if design.features:
-        table["features"] = [table_of_feature(each) for each in design.features]
-    return toml(table, rows=("profile",))
 
 
 # ---- reading ----
@@ -202,8 +178,9 @@ def _place(message: str, file: File) -> Any:
 # ---- writing ----
 
 
-def _default(name: str) -> Any:
-    return TurnedDesign.__dataclass_fields__[name].default
+def table_of_profile(design: TurnedDesign) -> dict[str, Any]:
+    """The profile of a design, and whether it is the whole half section, as a file has them."""
+    return ({"closed": True} if design.profile.closed else {}) | {"profile": list(_rows(design))}
 
 
 def _rows(design: TurnedDesign) -> Iterator[dict[str, Any]]:

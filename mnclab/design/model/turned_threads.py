@@ -131,9 +131,6 @@ class Thread(TurnedFeature):
     def turned_over(self, middle: float) -> Self:
         return replace(self, start=middle - self.end, end=middle - self.start)
 
-    def moved(self, dz: float) -> Self:
-        return replace(self, start=self.start + dz, end=self.end + dz)
-
 
 @dataclass(frozen=True, repr=False)
 class Undercut(TurnedFeature):
@@ -234,6 +231,3 @@ class Undercut(TurnedFeature):
 
     def turned_over(self, middle: float) -> Self:
         return replace(self, z=middle - self.z, thread_at=ENDS[self.thread_at == "front"])
-
-    def moved(self, dz: float) -> Self:
-        return replace(self, z=self.z + dz)

@@ -60,7 +60,7 @@ DIGITS = 9  # of a size that is said, mm
 
 
 @dataclass(frozen=True)
-class Stadium:
+class StraightSlot:
     """A straight slot: the centres of its round ends and its width, mm."""
 
     start: tuple[float, float]
@@ -69,7 +69,7 @@ class Stadium:
 
 
 @dataclass(frozen=True)
-class Bow:
+class ArcSlot:
     """A slot along an arc, with round ends: the ends of the arc, its bulge, the width, mm."""
 
     start: tuple[float, float]
@@ -171,13 +171,13 @@ def _corner(one: Stretch, other: Stretch) -> Array:
     return np.asarray((one.end + other.start) / 2)
 
 
-Figure = Circle | Stadium | Bow | Rectangle | Outline
+Figure = Circle | StraightSlot | ArcSlot | Rectangle | Outline
 
 
 def named(loop: Contour) -> Figure:
     """What a loop is, walked either way."""
     loop = merged(loop)
-    return _circle(loop) or _stadium(loop) or _bow(loop) or _rectangle(loop) or outline_of(loop)
+    return _circle(loop) or _straight_slot(loop) or _arc_slot(loop) or _rectangle(loop) or outline_of(loop)
 
 
 def _circle(loop: Contour) -> Circle | None:
@@ -189,7 +189,7 @@ def _circle(loop: Contour) -> Circle | None:
     return Circle(number(x), number(y), number(2 * loop.radii.mean()))
 
 
-def _stadium(loop: Contour) -> Stadium | None:
+def _straight_slot(loop: Contour) -> StraightSlot | None:
     bent = loop.bulge != 0
     if len(loop.points) != 4 or bent.sum() != 2 or bent[0] == bent[1] or bent[0] != bent[2]:
         return None
@@ -197,10 +197,10 @@ def _stadium(loop: Contour) -> Stadium | None:
     if abs(radii[0] - radii[1]) > SAME or np.abs(loop.sweeps[bent] - np.pi).max() > ALIKE:
         return None
     (x0, y0), (x1, y1) = sorted(loop.centres[bent].round(DIGITS).tolist())
-    return Stadium((x0 + 0.0, y0 + 0.0), (x1 + 0.0, y1 + 0.0), number(2 * radii.mean()))
+    return StraightSlot((x0 + 0.0, y0 + 0.0), (x1 + 0.0, y1 + 0.0), number(2 * radii.mean()))
 
 
-def _bow(loop: Contour) -> Bow | None:
+def _arc_slot(loop: Contour) -> ArcSlot | None:
     """Two arcs about one centre, joined by two half circles."""
     if len(loop.points) != 4 or not loop.bulge.all():
         return None
@@ -215,7 +215,7 @@ def _bow(loop: Contour) -> Bow | None:
     if bent > 10 * SAME or math.dist(centres[inner], centres[out]) > 10 * SAME:
         return None
     (x0, y0), (x1, y1) = centres[ends].tolist()
-    return Bow((number(x0), number(y0)), (number(x1), number(y1)), number(loop.bulge[out]), number(width))
+    return ArcSlot((number(x0), number(y0)), (number(x1), number(y1)), number(loop.bulge[out]), number(width))
 
 
 def _rectangle(loop: Contour) -> Rectangle | None:

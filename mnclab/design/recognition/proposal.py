@@ -8,8 +8,7 @@ from dataclasses import dataclass, field, replace
 from mnclab.design.model.design import Design
 from mnclab.design.model.features import Chamfer
 from mnclab.design.recognition.areas import areas_of
-from mnclab.design.recognition.figures import chamfers, figures
-from mnclab.design.recognition.holes import together
+from mnclab.design.recognition.figures import chamfers, figures, together
 from mnclab.design.recognition.naming import lines, names
 from mnclab.design.recognition.sorting import sort
 from mnclab.text.alarm import Alarm
@@ -32,7 +31,7 @@ def proposed(cutting: Cutting) -> Proposal:
     design = Proposal(cutting.stock)
     blank, (low, high) = design.outline_of_blank, design.bounds[:, 2].tolist()
     work = sort(cutting)
-    areas, sloping = areas_of(work, blank)
+    areas, sloping = areas_of(work.levels, work.slopes, blank)
     found = [each for area in areas for each in figures(area, blank, work, high, low)]
     found, threads, points = together(found, work, high, low)
     edges, engraved = chamfers(found, work.cones, blank, high)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from mnclab.design.recognition.tracks import Track
+from mnclab.design.recognition.areas import Track
 from mnclab.geometry.contours import FULL_TURN
 from mnclab.path.toolpath import Mask
 from mnclab.workpiece.cutting import Cutting
