@@ -22,7 +22,6 @@ from mnclab.controls.tnc_620.cycles import (
     program_call,
     special,
     studs,
-    tapping,
     threads,
     transformations,
     walled_faces,
@@ -116,7 +115,7 @@ FUNCTIONS = (
     | output.FUNCTIONS | free_tables.FUNCTIONS | contour_definitions.FUNCTIONS
 )  # fmt: skip
 CHAPTERS = (
-    defaults, drilling, tapping, threads, point_patterns, pockets, studs, walled_faces,
+    defaults, drilling, threads, point_patterns, pockets, studs, walled_faces,
     contour_data, area_cycles, train, trochoidal_slot, cylinder,
     transformations, special, engraving, face_milling, program_call,
     presets, calibration, fast_probing, rotation, measuring, tool_setter, tool_measuring, line, single,

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Generator, Iterator
+from functools import partial
 from typing import Any
 
 from mnclab.controls.tnc_620.contours.line import Line, with_labels
@@ -41,23 +42,26 @@ SETTINGS = (
     ),
     Setting("spindle_error", True, "28, 29 and 39 need a turning spindle (displaySpindleErr, no. 201002)", "9.3 to 9.5"),
 )  # fmt: skip
+SHARED = "depth side_allowance clearance infeed plunge_feed feed cylinder_radius dimension_type"
+allowance = partial(increment, "Q3", "finishing allowance for side", example=0)
+width = partial(param, "Q20", unit="mm", modal=True, above=0, example=12)
 WAYS = 4  # of a level at least: in, along the contour, out, and back
 IN: dict[float, str] = {0: "in degrees", 1: "in mm, or in inches"}
 
 
 class OnCylinder(Cycle):
-    """What the four share; who inherits declares the parameters and says in `machine` what it does with a contour."""
+    """What the four share; who inherits says in `machine` what it does with a contour."""
 
     does = MILLS
     about = in_program_coordinates
-    depth: float
-    side_allowance: float
-    clearance: float
-    infeed: float
-    plunge_feed: float
-    feed: float
-    cylinder_radius: float
-    dimension_type: float
+    depth: float = increment("Q1", "milling depth from the surface to the floor", example=-8)
+    side_allowance: float = allowance(note="on the side of the radius compensation")
+    clearance: float = distance("Q6", "set-up clearance", note="of the tool tip over the cylinder", example=8)
+    infeed: float = increment("Q10", "infeed per cut", example=3)
+    plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=100)
+    feed: float = addresses.feed("Q12", "feed rate for roughing", also=addresses.PLANE, at_most=FAR, example=350)
+    cylinder_radius: float = length("Q16", "radius of the cylinder", example=25)
+    dimension_type: float = choice("Q17", "type of dimension of the rotary axis", IN, example=0)
     sided = True
 
     def check(self, m: Machine) -> Iterator[Fault]:
@@ -111,55 +115,11 @@ class OnCylinder(Cycle):
         return iter(())
 
 
-def milling_depth() -> Any:
-    return increment("Q1", "milling depth from the surface to the floor", example=-8)
-
-
-def allowance(where: str) -> Any:
-    return increment("Q3", "finishing allowance for side", note=where, example=0)
-
-
-def set_up_clearance() -> Any:
-    return distance("Q6", "set-up clearance", note="of the tool tip over the cylinder", example=8)
-
-
-def plunging_depth() -> Any:
-    return increment("Q10", "infeed per cut", example=3)
-
-
-def plunging_feed() -> Any:
-    return addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=100)
-
-
-def roughing_feed() -> Any:
-    return addresses.feed("Q12", "feed rate for roughing", also=addresses.PLANE, at_most=FAR, example=350)
-
-
-def radius() -> Any:
-    return length("Q16", "radius of the cylinder", example=25)
-
-
-def dimension() -> Any:
-    return choice("Q17", "type of dimension of the rotary axis", IN, example=0)
-
-
-def width(what: str) -> Any:
-    return param("Q20", what, "mm", modal=True, above=0, example=12)
-
-
-@CYCLES("CYCL DEF 27", "Cylinder surface", runs="call", source="9.2")
+@CYCLES("CYCL DEF 27", "Cylinder surface", source="9.2", takes=SHARED)
 class CylinderSurface(OnCylinder):
     """A contour rolled onto a cylinder; the tool always points to its axis, the rotary axis makes the whole way round."""
 
     sided = False
-    depth: float = milling_depth()
-    side_allowance: float = allowance("on the side of the radius compensation")
-    clearance: float = set_up_clearance()
-    infeed: float = plunging_depth()
-    plunge_feed: float = plunging_feed()
-    feed: float = roughing_feed()
-    cylinder_radius: float = radius()
-    dimension_type: float = dimension()
 
     def machine(self, m: Machine, on: Surface, line: Line, height: float) -> Iterator[Step]:
         if self.side_allowance and not line.side:
@@ -168,20 +128,13 @@ class CylinderSurface(OnCylinder):
         return over_contour(self, on, line, m.radius, height)
 
 
-@CYCLES("CYCL DEF 28", "Cylinder surface slot", runs="call", source="9.3")
+@CYCLES("CYCL DEF 28", "Cylinder surface slot", source="9.3", takes=f"{SHARED} slot_width tolerance")
 class CylinderSlot(OnCylinder):
     """A slot about its midpoint path; the rotary axis stays over the midpoint and the linear axes make the offset, so that the
     walls are parallel and equally far apart at every depth."""
 
-    depth: float = milling_depth()
-    side_allowance: float = allowance("on each wall")
-    clearance: float = set_up_clearance()
-    infeed: float = plunging_depth()
-    plunge_feed: float = plunging_feed()
-    feed: float = roughing_feed()
-    cylinder_radius: float = radius()
-    dimension_type: float = dimension()
-    slot_width: float = width("slot width")
+    side_allowance: float = allowance(note="on each wall")
+    slot_width: float = width(meaning="slot width")
     tolerance: float = length("Q21", "tolerance", at_most=9.9999, default=0, note="0: no remachining", example=0.02)
 
     def check(self, m: Machine) -> Iterator[Fault]:
@@ -197,19 +150,12 @@ class CylinderSlot(OnCylinder):
         return along_slot(self, on, line, width / 2 - m.radius, height, straight, self.tolerance)
 
 
-@CYCLES("CYCL DEF 29", "Cylinder surface ridge", runs="call", source="9.4")
+@CYCLES("CYCL DEF 29", "Cylinder surface ridge", source="9.4", takes=f"{SHARED} ridge_width")
 class CylinderRidge(OnCylinder):
     """A ridge about its midpoint path, with half circles at its ends: a groove as wide as the tool round it."""
 
-    depth: float = milling_depth()
-    side_allowance: float = allowance("on the wall of the ridge")
-    clearance: float = set_up_clearance()
-    infeed: float = plunging_depth()
-    plunge_feed: float = plunging_feed()
-    feed: float = roughing_feed()
-    cylinder_radius: float = radius()
-    dimension_type: float = dimension()
-    ridge_width: float = width("ridge width")
+    side_allowance: float = allowance(note="on the wall of the ridge")
+    ridge_width: float = width(meaning="ridge width")
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
@@ -224,18 +170,9 @@ class CylinderRidge(OnCylinder):
         return round_ridge(self, on, line, half, m.radius, height)
 
 
-@CYCLES("CYCL DEF 39", "Cylinder surface contour", runs="call", source="9.5")
+@CYCLES("CYCL DEF 39", "Cylinder surface contour", source="9.5", takes=SHARED)
 class CylinderContour(OnCylinder):
     """A contour whose wall is parallel to the radial direction at the contour: the linear axes make the offset."""
-
-    depth: float = milling_depth()
-    side_allowance: float = allowance("on the side of the radius compensation")
-    clearance: float = set_up_clearance()
-    infeed: float = plunging_depth()
-    plunge_feed: float = plunging_feed()
-    feed: float = roughing_feed()
-    cylinder_radius: float = radius()
-    dimension_type: float = dimension()
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)

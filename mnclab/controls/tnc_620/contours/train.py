@@ -221,37 +221,26 @@ def _refuse_damage(
 # `milling.trains` finds the way beside the contour, `milling.train_passes` the passes; `train_plan` joins them with cycle 270.
 
 SENSE: dict[float, str] = {1: "climb", -1: "up-cut", 0: "to and fro, infeeds at both ends"}
+SHARED = "height infeed plunge_feed feed sense coarse_tool accepted connected extended"
 CLEAR = 2.0  # mm above the surface, to which the tool goes down at rapid (the manual names no set-up clearance)
-
-milling_depth = increment("Q1", "milling depth from the surface to the floor", example=-20)
-side_allowance = increment("Q3", "finishing allowance for side", example=0)
-clearance_height = coordinate("Q7", "clearance height", example=50)
-infeed = increment("Q10", "infeed per cut", example=5)
-plunge_feed = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=100)
-milling_feed = addresses.feed("Q12", "feed rate for roughing", also=addresses.PLANE, at_most=FAR, example=350)
-sense = choice("Q15", "climb or up-cut milling", SENSE, example=1)
-coarse_tool = count(("Q18", "QS18"), "coarse roughing tool", type="text", default=0)
-accepted = length("Q446", "accepted residual material", at_least=0.001, at_most=9.999, default=0.01)
-connected = length("Q447", "connection distance", at_most=999.9999, default=10)
-extended = length("Q448", "path extension", at_most=99.999, default=2)
 
 
 class Train(Cycle):
-    """What both cycles share; who inherits declares the parameters."""
+    """What both cycles share."""
 
     does = MILLS
     about = in_program_coordinates
-    depth: float
-    side_allowance: float
-    height: float
-    infeed: float
-    plunge_feed: float
-    feed: float
-    sense: float
-    coarse_tool: Named
-    accepted: float
-    connected: float
-    extended: float
+    depth: float = increment("Q1", "milling depth from the surface to the floor", example=-20)
+    side_allowance: float = increment("Q3", "finishing allowance for side", example=0)
+    height: float = coordinate("Q7", "clearance height", example=50)
+    infeed: float = increment("Q10", "infeed per cut", example=5)
+    plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=100)
+    feed: float = addresses.feed("Q12", "feed rate for roughing", also=addresses.PLANE, at_most=FAR, example=350)
+    sense: float = choice("Q15", "climb or up-cut milling", SENSE, example=1)
+    coarse_tool: Named = count(("Q18", "QS18"), "coarse roughing tool", type="text", default=0)
+    accepted: float = length("Q446", "accepted residual material", at_least=0.001, at_most=9.999, default=0.01)
+    connected: float = length("Q447", "connection distance", at_most=999.9999, default=10)
+    extended: float = length("Q448", "path extension", at_most=99.999, default=2)
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from with_labels(m)
@@ -280,22 +269,11 @@ class Train(Cycle):
         return Feeds(self.plunge_feed, self.feed, self.height, surface + CLEAR if self.depth < 0 else INF, edge, m.radius)
 
 
-@CYCLES("CYCL DEF 25", "Contour train", source="8.9")
+@CYCLES("CYCL DEF 25", "Contour train", source="8.9", takes=f"depth side_allowance surface {SHARED}")
 class ContourTrain(Train):
     """Along an open or closed contour, level by level; under a mirror image climb stays climb."""
 
-    depth: float = milling_depth
-    side_allowance: float = side_allowance
     surface: float = coordinate("Q5", "coordinate of the workpiece surface", example=0)
-    height: float = clearance_height
-    infeed: float = infeed
-    plunge_feed: float = plunge_feed
-    feed: float = milling_feed
-    sense: float = sense
-    coarse_tool: Named = coarse_tool
-    accepted: float = accepted
-    connected: float = connected
-    extended: float = extended
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
@@ -313,21 +291,11 @@ class ContourTrain(Train):
         yield from leave(m, before, self.height)
 
 
-@CYCLES("CYCL DEF 276", "Three-dimensional contour train", source="8.10")
+@CYCLES(
+    "CYCL DEF 276", "Three-dimensional contour train", source="8.10", takes=f"depth side_allowance {SHARED}"
+)
 class SpaceTrain(Train):
     """Along a contour with heights: at them, or in infeeds down from them; under a mirror image climb stays climb."""
-
-    depth: float = milling_depth
-    side_allowance: float = side_allowance
-    height: float = clearance_height
-    infeed: float = infeed
-    plunge_feed: float = plunge_feed
-    feed: float = milling_feed
-    sense: float = sense
-    coarse_tool: Named = coarse_tool
-    accepted: float = accepted
-    connected: float = connected
-    extended: float = extended
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)

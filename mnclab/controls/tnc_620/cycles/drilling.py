@@ -49,7 +49,7 @@ from mnclab.machining.steps import RAPID, Go, Say, Step, Wait, Write
 
 # Centring, drilling and reaming (4.2 to 4.4, 4.6): cycles 240, 200, 201 and 203.
 
-CYCLES = CycleTable()
+CYCLES = CycleTable(addresses=addresses.shared(feed=addresses.plunge_feed))
 CENTRED: dict[float, str] = {0: "to the depth Q201", 1: "to the diameter Q344"}
 
 
@@ -95,19 +95,14 @@ class Centering(AtSurface):
         yield from self.leave()
 
 
-@CYCLES("CYCL DEF 200", "Drilling", source="4.3")
+@CYCLES(
+    "CYCL DEF 200", "Drilling", source="4.3",
+    takes="clearance depth feed infeed dwell_top surface second_clearance dwell_bottom reference",
+)  # fmt: skip
 class Drilling(AtSurface):
     """Drills in infeeds with full retraction to the set-up plane, a dwell after each infeed, and a rapid to the end plane."""
 
-    clearance: float = addresses.clearance()
-    depth: float = addresses.depth()
-    feed: float = addresses.plunge_feed()
-    infeed: float = addresses.infeed()
-    dwell_top: float = addresses.dwell_top()
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance()
     dwell_bottom: float = addresses.dwell_bottom(default=0)  # older programs lack it
-    reference: float = addresses.reference()
 
     def steps(self, m: Machine) -> Iterator[Step]:
         yield from drill(
@@ -117,17 +112,11 @@ class Drilling(AtSurface):
         yield from self.leave()
 
 
-@CYCLES("CYCL DEF 201", "Reaming", source="4.4")
+@CYCLES("CYCL DEF 201", "Reaming", source="4.4", takes="clearance depth feed dwell_bottom retract_feed surface second_clearance")
 class Reaming(AtSurface):
     """In and out at feed: a reamer does not leave its hole at rapid."""
 
-    clearance: float = addresses.clearance()
-    depth: float = addresses.depth()
-    feed: float = addresses.plunge_feed()
-    dwell_bottom: float = addresses.dwell_bottom()
     retract_feed: float = addresses.retract_feed(also=())
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance()
 
     def steps(self, m: Machine) -> Iterator[Step]:
         out = rate(self.retract_feed, self.feed)
@@ -135,7 +124,11 @@ class Reaming(AtSurface):
         yield from self.leave()
 
 
-@CYCLES("CYCL DEF 203", "Universal drilling", source="4.6")
+@CYCLES(
+    "CYCL DEF 203", "Universal drilling", source="4.6",
+    takes="clearance depth feed infeed dwell_top surface second_clearance decrement chip_breaks min_infeed dwell_bottom "
+          "retract_feed break_retract reference",
+)  # fmt: skip
 class UniversalDrilling(AtSurface):
     """Drills with infeeds that may shrink; breaks the chip Q213 times before each full retraction.
 
@@ -143,20 +136,7 @@ class UniversalDrilling(AtSurface):
     hole the rapid ends Q256 above the last depth, or Q200 above it where Q256 is 0.
     """
 
-    clearance: float = addresses.clearance()
-    depth: float = addresses.depth()
-    feed: float = addresses.plunge_feed()
-    infeed: float = addresses.infeed()
-    dwell_top: float = addresses.dwell_top()
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance()
-    decrement: float = addresses.decrement()
     chip_breaks: float = count("Q213", "chip breaks before each retraction", example=1)
-    min_infeed: float = addresses.min_infeed()
-    dwell_bottom: float = addresses.dwell_bottom()
-    retract_feed: float | str = addresses.retract_feed()
-    break_retract: float = addresses.break_retract()
-    reference: float = addresses.reference()
 
     def steps(self, m: Machine) -> Iterator[Step]:
         yield from drill(
@@ -179,19 +159,12 @@ def as_if_not_mirrored(m: Machine, steps: Iterable[Step]) -> Iterator[Step]:
     return with_the_spindle(m, steps, plain.matrix)
 
 
-@CYCLES("CYCL DEF 202", "Boring", source="4.5")
+@CYCLES(
+    "CYCL DEF 202", "Boring", source="4.5",
+    takes="clearance depth feed dwell_bottom retract_feed surface second_clearance disengage spindle_angle",
+)  # fmt: skip
 class Boring(AtSurface):
     """Bores, stops the spindle at an angle, moves 0.2 mm off the wall and withdraws; ends on the axis of the hole."""
-
-    clearance: float = addresses.clearance()
-    depth: float = addresses.depth()
-    feed: float = addresses.plunge_feed()
-    dwell_bottom: float = addresses.dwell_bottom()
-    retract_feed: float | str = addresses.retract_feed()
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance()
-    disengage: float = addresses.disengage()
-    spindle_angle: float = addresses.spindle_angle()
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from oriented(m)
@@ -273,7 +246,7 @@ class BoreMilling(AtSurface):
     roughing_diameter: float = length(
         "Q342", "diameter roughed before", note="above 0 the bore may be wider than twice the tool", example=0
     )
-    climb: float = addresses.climb(example=1)
+    climb: float = addresses.milling_type(example=1)
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
@@ -319,31 +292,22 @@ def guide(c: AtSurface) -> Guided:
     return guided(c.surface, c.start_depth, c.clearance, c.down)
 
 
-@CYCLES("CYCL DEF 205", "Universal pecking", source="4.8")
+@CYCLES(
+    "CYCL DEF 205", "Universal pecking", source="4.8",
+    takes="clearance depth feed infeed surface second_clearance decrement min_infeed first_stop last_stop break_every "
+          "break_retract dwell_bottom start_depth positioning_feed retract_feed reference",
+)  # fmt: skip
 class UniversalPecking(AtSurface):
     """Drills in infeeds that may shrink, breaks the chip every Q257 within each, and clears the chips after it.
 
     Back in the hole the rapid stops above the last depth: by Q258 the first time, by Q259 the last, evenly between.
     """
 
-    clearance: float = addresses.clearance()
-    depth: float = addresses.depth()
-    feed: float = addresses.plunge_feed()
-    infeed: float = addresses.infeed()
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance()
-    decrement: float = addresses.decrement()
-    min_infeed: float = addresses.min_infeed()
     first_stop: float = addresses.first_stop(example=0.5)
     last_stop: float = distance("Q259", "lower advanced stop distance", example=1)
     break_every: float = addresses.break_every(meaning="infeed between chip breaks", note="0: no chip breaks", example=2)
-    break_retract: float = addresses.break_retract()
-    dwell_bottom: float = addresses.dwell_bottom()
-    start_depth: float = addresses.start_depth()
-    positioning_feed: float | str = addresses.positioning_feed()
     #: The cycle of the iTNC 530 had no Q208 at first and retracted at rapid: its programs still do.
     retract_feed: float | str | None = addresses.retract_feed(at_most=addresses.FAR, default=None, default_means="FMAX")
-    reference: float = addresses.reference()
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
@@ -363,7 +327,11 @@ class UniversalPecking(AtSurface):
         yield from self.leave(out)
 
 
-@CYCLES("CYCL DEF 241", "Single-lip deep-hole drilling", source="4.10")
+@CYCLES(
+    "CYCL DEF 241", "Single-lip deep-hole drilling", source="4.10",
+    takes="clearance depth feed dwell_bottom surface second_clearance start_depth positioning_feed retract_feed "
+          "spindle_direction entry_speed drilling_speed coolant_on coolant_off dwell_depth factor infeed decrement min_infeed",
+)  # fmt: skip
 class SingleLipDrilling(AtSurface):
     """Drills deep with a single-lip drill: slow in and out, fast and with coolant while it cuts, no retraction between.
 
@@ -371,15 +339,6 @@ class SingleLipDrilling(AtSurface):
     """
 
     own_spindle = True
-    clearance: float = addresses.clearance()
-    depth: float = addresses.depth()
-    feed: float = addresses.plunge_feed()
-    dwell_bottom: float = addresses.dwell_bottom()
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance()
-    start_depth: float = addresses.start_depth()
-    positioning_feed: float | str = addresses.positioning_feed()
-    retract_feed: float | str = addresses.retract_feed()
     spindle_direction: float = choice("Q426", "spindle when entering and leaving", ENTRY, example=3)
     entry_speed: float = count("Q427", "speed when entering and leaving", unit="rev/min", example=25)
     drilling_speed: float = count("Q428", "speed when drilling", unit="rev/min", example=500)

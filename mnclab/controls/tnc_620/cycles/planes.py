@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from mnclab.machine.coordinates import tool
 from mnclab.machine.cycle import Cycle, too_many
@@ -86,6 +86,9 @@ class AtSurface(Cycle):
     min_infeed = 0.0
     start_depth = 0.0
     reference = 0.0
+    dwell_top = dwell_bottom = break_retract = spindle_angle = disengage = 0.0
+    retract_feed: Any = 0.0
+    positioning_feed: Any = 0.0
 
     works: ClassVar[tuple[str, ...]] = ("depth",)
     """Its depths, in the order in which their signs are evaluated."""
@@ -130,6 +133,10 @@ class AtSurface(Cycle):
         if self.down < 0:
             yield Go("retract", self.above, feed)
         yield Go("retract", self.end, feed)
+
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        """Faults of the shape that is milled and of the tool."""
+        yield from ()
 
     # --- holes -------------------------------------------------------------------------------------------------------
 

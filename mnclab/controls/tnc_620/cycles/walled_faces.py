@@ -46,7 +46,7 @@ class WalledFaceMilling(AtSurface):
     """Mills a level surface that up to three walls may bound: levels in equal infeeds, a last one finishes, then the walls."""
 
     does = MILLS
-    machining_operation: float = addresses.operation()
+    machining_operation: float = addresses.machining_operation()
     strategy: float = choice("Q389", "machining strategy", STRATEGIES, example=2)
     milling_direction: float = choice("Q350", "milling direction", DIRECTIONS, example=1)
     first_side_length: float = increment("Q218", "first side length", note=INTO, example=120)
