@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from mnclab.controls.tnc_620.contours.area import ContourData, ContourGeometry
 from mnclab.controls.tnc_620.contours.area_cycles import RoughOut
-from mnclab.controls.tnc_620.contours.data import ContourData, ContourGeometry
 from mnclab.controls.tnc_620.contours.train import ContourTrain, TrainData
 from mnclab.controls.tnc_620.reading import sub_blocks
 from mnclab.machine.cycle import Cycle

@@ -7,7 +7,7 @@ import math
 import pytest
 
 import mnclab as mnc
-from mnclab.controls.tnc_620.printing.output import Fault, parse
+from mnclab.controls.tnc_620.printing import Fault, parse
 
 #: 2018-09-05 07:08:09 UTC, counted from 1970: 17779 days, 7 hours, 8 minutes and 9 seconds.
 CLOCK = 17779 * 86400.0 + 7 * 3600 + 8 * 60 + 9

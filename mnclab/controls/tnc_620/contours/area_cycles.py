@@ -7,8 +7,7 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import Any
 
-from mnclab.controls.tnc_620.contours.area import contour_terraces
-from mnclab.controls.tnc_620.contours.data import ContourData, contour_data, prepared, some_infeeds
+from mnclab.controls.tnc_620.contours.area import ContourData, contour_data, contour_terraces, prepared, some_infeeds
 from mnclab.controls.tnc_620.contours.line import Named, in_table, leave, named_tool
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, count, increment, percent

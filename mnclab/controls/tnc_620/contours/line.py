@@ -8,8 +8,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.controls.tnc_620.contours.area import MOST_ELEMENTS, fault
-from mnclab.controls.tnc_620.contours.data import Labels
+from mnclab.controls.tnc_620.contours.area import MOST_ELEMENTS, Labels, fault
 from mnclab.controls.tnc_620.cycles.planes import Fault
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour

@@ -8,7 +8,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from mnclab.controls.tnc_620.contours.data import as_they_stand
+from mnclab.controls.tnc_620.contours.area import as_they_stand
 from mnclab.controls.tnc_620.contours.line import Line, Named, contour_line, in_table, leave, named_tool, with_labels
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, count, increment, length

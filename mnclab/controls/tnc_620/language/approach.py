@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from mnclab.controls.tnc_620.language.auxiliary import feed
-from mnclab.controls.tnc_620.language.checks import above_zero, refuse_on_cylinder
 from mnclab.controls.tnc_620.language.motion import (
     SIDED,
     SIDES,
@@ -27,6 +26,7 @@ from mnclab.controls.tnc_620.language.motion import (
     scaled,
     side,
 )
+from mnclab.controls.tnc_620.language.values import above_zero, refuse_on_cylinder
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import INF, Machine

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from mnclab.controls.tnc_620.language.checks import above_zero, one_of, written
+from mnclab.controls.tnc_620.language.values import above_zero, one_of, written
 from mnclab.controls.tnc_620.state import Place, memory
 from mnclab.machine.control import FunctionTable, Setting, Words
 from mnclab.machine.coordinates import tool_axis

@@ -21,10 +21,10 @@ from mnclab.controls.tnc_620.free_contours.free_contour import Element, FreeCont
 from mnclab.controls.tnc_620.free_contours.quadratics import Exhausted, Form
 from mnclab.controls.tnc_620.free_contours.readings import Contradiction, TooManyReadings
 from mnclab.controls.tnc_620.language.auxiliary import feed
-from mnclab.controls.tnc_620.language.checks import above_zero, counted, first, not_negative, refuse_on_cylinder
 from mnclab.controls.tnc_620.language.motion import SIDED, TOLERANCE, refuse_rapid, sense, side
 from mnclab.controls.tnc_620.language.program import body
 from mnclab.controls.tnc_620.language.tools import refuse_other
+from mnclab.controls.tnc_620.language.values import above_zero, counted, first, not_negative, refuse_on_cylinder
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.flow import Reading, as_of, reading

@@ -9,8 +9,8 @@ from typing import Any
 from mnclab.controls.tnc_620.cycles.chain import to_angle, to_rotary
 from mnclab.controls.tnc_620.language import tools
 from mnclab.controls.tnc_620.language.auxiliary import FEED_WORDS, feed, machine_target, rate
-from mnclab.controls.tnc_620.language.checks import above_zero, counted, one_of, refuse_on_cylinder, written
 from mnclab.controls.tnc_620.language.m_functions import refuse_rotary
+from mnclab.controls.tnc_620.language.values import above_zero, counted, one_of, refuse_on_cylinder, written
 from mnclab.controls.tnc_620.state import Place, memory
 from mnclab.geometry.arcs import tangent_arc_of_one
 from mnclab.machine.control import Function, FunctionTable, Words

@@ -19,9 +19,9 @@ from mnclab.controls.tnc_620.cycles.transformations import (
     results,
 )
 from mnclab.controls.tnc_620.language.auxiliary import auto_feed
-from mnclab.controls.tnc_620.language.checks import above_zero, counted, not_negative, one_of
 from mnclab.controls.tnc_620.language.m_functions import refuse_rotary, retract
 from mnclab.controls.tnc_620.language.tools import refuse_other
+from mnclab.controls.tnc_620.language.values import above_zero, counted, not_negative, one_of
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import STILL, turning_feed

@@ -10,13 +10,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.controls.tnc_620.clock import time_of_day
 from mnclab.controls.tnc_620.cycles import chain
-from mnclab.controls.tnc_620.engraved_text import TIMES
+from mnclab.controls.tnc_620.cycles.engraving import TIMES
 from mnclab.controls.tnc_620.language.auxiliary import above_tip
-from mnclab.controls.tnc_620.language.parameters import PREASSIGNED
-from mnclab.controls.tnc_620.state import active_preset, memory
-from mnclab.controls.tnc_620.tables.table_files import row_of
+from mnclab.controls.tnc_620.language.values import PREASSIGNED
+from mnclab.controls.tnc_620.state import active_preset, memory, time_of_day
+from mnclab.controls.tnc_620.tables import row_of
 from mnclab.machine.control import Setting
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from mnclab.controls.tnc_620.cycles.chain import TILT
 from mnclab.controls.tnc_620.language.auxiliary import rate, set_feed, with_another_tool
-from mnclab.controls.tnc_620.language.checks import counted, first, not_negative, written
+from mnclab.controls.tnc_620.language.values import counted, first, not_negative, written
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Setting, Words

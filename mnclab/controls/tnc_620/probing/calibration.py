@@ -13,11 +13,11 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from mnclab.controls.tnc_620.clock import time_of_day
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
 from mnclab.controls.tnc_620.cycles.planes import Fault
 from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed
+from mnclab.controls.tnc_620.state import time_of_day
 from mnclab.machine.control import Setting
 from mnclab.machine.coordinates import in_mm
 from mnclab.machine.cycle import CycleTable

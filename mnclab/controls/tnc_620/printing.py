@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from functools import lru_cache
 from typing import NamedTuple
 
-from mnclab.controls.tnc_620.clock import time_of_day
-from mnclab.controls.tnc_620.state import memory
+from mnclab.controls.tnc_620.state import memory, time_of_day
 from mnclab.machine.control import FunctionTable, Setting, Words
 from mnclab.machine.flow import put_out
 from mnclab.machine.machine import Machine
