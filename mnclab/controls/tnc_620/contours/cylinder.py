@@ -25,18 +25,7 @@ from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, distance, increment, length
 from mnclab.controls.tnc_620.cycles.chain import TILT, rotary
 from mnclab.controls.tnc_620.cycles.planes import Fault, in_program_coordinates, not_zero, with_radius
-from mnclab.controls.tnc_620.machining.cylinder import (
-    Way,
-    beside,
-    lead,
-    linked,
-    remachining,
-    round_about,
-    shrunk,
-    slot_round,
-    standing,
-    way_along,
-)
+from mnclab.controls.tnc_620.machining import cylinder as rolled
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
@@ -86,14 +75,14 @@ class Surface(NamedTuple):
             return found
         return found._replace(contour=found.contour.transformed(np.diag([u, y, 1])), side=found.side * u * y)
 
-    def along(self, label: str, way: Way, height: float, feed: float) -> Rolled:
+    def along(self, label: str, way: rolled.Way, height: float, feed: float) -> Rolled:
         """Through the places of a way, with the tip at a distance from the axis; the tool is at the first one, if no way
         leads there."""
         k = slice(0 if way.ways[0] else 1, None)
         feet = way.feet[k]
         return Rolled(label, self.cylinder, self._tips(feet, way.shifts[k], height), self._angles(feet), way.ways[k], feed)
 
-    def to(self, label: str, way: Way, height: float, feed: float = RAPID, length: float = 1.0) -> Rolled:
+    def to(self, label: str, way: rolled.Way, height: float, feed: float = RAPID, length: float = 1.0) -> Rolled:
         """Straight to the first place of a way; `length` mm is how far that is, at feed."""
         points = self._tips(way.feet[:1], way.shifts[:1], height)
         return Rolled(label, self.cylinder, points, self._angles(way.feet[:1]), np.array([length]), feed)
@@ -197,13 +186,13 @@ def developed_line(m: Machine, degrees: bool, on: Surface) -> Generator[Step, An
 
 # How cycles 27, 28, 29 and 39 go over a cylinder, level by level (9.2 to 9.5); heights are distances from its axis.
 
-Ways = Sequence[tuple[str, Way]]
+Ways = Sequence[tuple[str, rolled.Way]]
 SAME_ROUND = 1e-6  # mm between the end of a round and its begin
 
 
 def over_contour(c: OnCylinder, on: Surface, line: Line, radius: float, height: float) -> Iterator[Step]:
     """27: along the contour, the tool always pointing to the axis; on the contour itself where it has no side."""
-    way = way_along(beside(line.contour, line.side * (radius + c.side_allowance), line.steps))
+    way = rolled.way_along(rolled.beside(line.contour, line.side * (radius + c.side_allowance), line.steps))
     yield from rounds(c, on, [("contour", way)], height, lifts=True)
     yield on.to("retract", way.last, height)
 
@@ -217,12 +206,12 @@ def along_slot(
     Where remachining is asked for, more rounds at the floor follow, whose walls take their direction from deeper down.
     """
     distance = -line.side * shift
-    ways = slot_round(line.contour, distance, straight, steps=line.steps)
+    ways = rolled.slot_round(line.contour, distance, straight, steps=line.steps)
     yield from rounds(c, on, ways, height)
     floor = c.levels()[-1]
-    others = remachining(line.contour, distance, c.cylinder_radius, floor, tolerance)
+    others = rolled.remachining(line.contour, distance, c.cylinder_radius, floor, tolerance)
     for name, at in zip(numbered("remachining", len(others)), others, strict=True):
-        more = slot_round(shrunk(line.contour, at / c.cylinder_radius), distance, straight, c.cylinder_radius / at)
+        more = rolled.slot_round(rolled.shrunk(line.contour, at / c.cylinder_radius), distance, straight, c.cylinder_radius / at)
         yield from through(c, on, more, floor, name)
     yield on.to("retract", ways[-1][1].last, height)
 
@@ -231,25 +220,26 @@ def round_ridge(c: OnCylinder, on: Surface, line: Line, half: float, radius: flo
     """29: round the ridge, `half` as wide as it is, from a place one tool diameter beside it: with RL on the left, with RR on
     the right."""
     distance = line.side * (half + c.side_allowance + radius)
-    loop = round_about(line.contour, distance, line.steps)
+    loop = rolled.round_about(line.contour, distance, line.steps)
     gap = line.side * (radius - c.side_allowance)
-    yield from with_leads(c, on, loop, way_along(loop, distance), gap, height, straight=False)
+    yield from with_leads(c, on, loop, rolled.way_along(loop, distance), gap, height, straight=False)
 
 
 def beside_contour(c: OnCylinder, on: Surface, line: Line, radius: float, height: float, straight: bool) -> Iterator[Step]:
     """39: along the wall, from a place one tool diameter beside it."""
     distance = line.side * (radius + c.side_allowance)
-    path = beside(line.contour, distance, line.steps)
-    yield from with_leads(c, on, path, way_along(path, distance), line.side * (radius - c.side_allowance), height, straight)
+    path = rolled.beside(line.contour, distance, line.steps)
+    gap = line.side * (radius - c.side_allowance)
+    yield from with_leads(c, on, path, rolled.way_along(path, distance), gap, height, straight)
 
 
 def with_leads(
-    c: OnCylinder, on: Surface, path: Contour, way: Way, gap: float, height: float, straight: bool
+    c: OnCylinder, on: Surface, path: Contour, way: rolled.Way, gap: float, height: float, straight: bool
 ) -> Iterator[Step]:
     """Along a wall path from a place that lies `gap` to the left of its begin (or right), and to that beside its end."""
-    there, off = (lead(path, gap, arrives, straight) for arrives in (True, False))
+    there, off = (rolled.lead(path, gap, arrives, straight) for arrives in (True, False))
     foot, end = way.feet[0], way.feet[-1]
-    ways = linked([("approach", standing(foot, there)), ("wall", way), ("departure", standing(end, off))])
+    ways = rolled.linked([("approach", rolled.standing(foot, there)), ("wall", way), ("departure", rolled.standing(end, off))])
     yield from rounds(c, on, ways, height)
     yield on.to("retract", ways[-1][1].last, height)
 

@@ -14,17 +14,7 @@ from datetime import datetime
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, ratio
 from mnclab.controls.tnc_620.cycles.planes import SAME, AtSurface, Fault, not_zero
-from mnclab.controls.tnc_620.machining.engraving import (
-    DOWN,
-    NEW_LINE,
-    TAB,
-    Glyph,
-    cells,
-    engrave,
-    length,
-    on_arc,
-    on_line,
-)
+from mnclab.controls.tnc_620.machining import engraving as letters
 from mnclab.controls.tnc_620.state import time_of_day
 from mnclab.machine.control import Setting
 from mnclab.machine.coordinates import MILLS
@@ -38,7 +28,7 @@ ALLOWED = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456
 NAMED = {
     "%": "%", "ae": "ä", "oe": "ö", "ue": "ü", "AE": "Ä", "OE": "Ö", "UE": "Ü", "ss": "ß", "D": "ø", "at": "@", "CE": "CE",
 }  # fmt: skip
-FORMATTING = {"n": NEW_LINE, "t": TAB, "v": DOWN, "\\": "\\"}
+FORMATTING = {"n": letters.NEW_LINE, "t": letters.TAB, "v": letters.DOWN, "\\": "\\"}
 #: Of %time00 to %time15; as SYSSTR ID321 numbers them.
 TIMES = (
     "{t:%d.%m.%Y %H:%M:%S}", "{t.day}.{t:%m.%Y} {t.hour}:{t:%M:%S}", "{t.day}.{t:%m.%Y} {t.hour}:{t:%M}",
@@ -158,7 +148,7 @@ class Engraving(AtSurface):
         except ValueError as error:
             yield "text", str(error)
             return
-        long, most = length(cells(found, self.spacing_factor)) * height, self.maximum_text_length
+        long, most = letters.length(letters.cells(found, self.spacing_factor)) * height, self.maximum_text_length
         if most and long > most + SAME:
             yield "maximum_text_length", f"is {most:g}, the text is {long:.3f} long"
 
@@ -171,16 +161,16 @@ class Engraving(AtSurface):
         """The height of a capital; ValueError for a text without width that should have a length."""
         if self.character_height:
             return self.character_height
-        if not (long := length(cells(found, self.spacing_factor))):
+        if not (long := letters.length(letters.cells(found, self.spacing_factor))):
             raise ValueError("has no character whose height Q574 could give")
         return self.maximum_text_length / long
 
-    def glyphs(self, found: list[str], height: float) -> list[Glyph]:
-        row, angle, reference = cells(found, self.spacing_factor), math.radians(self.angle), int(self.text_position)
+    def glyphs(self, found: list[str], height: float) -> list[letters.Glyph]:
+        row, angle, reference = letters.cells(found, self.spacing_factor), math.radians(self.angle), int(self.text_position)
         if self.text_layout == 0:
-            return on_line(row, height, reference, angle)
+            return letters.on_line(row, height, reference, angle)
         sense = 1 if self.text_layout == 1 and self.angle % 360 > 180 else -1
-        return on_arc(row, height, reference, angle, self.arc_radius, sense)
+        return letters.on_arc(row, height, reference, angle, self.arc_radius, sense)
 
     def moves(self, m: Machine) -> Iterator[Step]:
         if not self.down:
@@ -190,7 +180,7 @@ class Engraving(AtSurface):
         height = self.height(found)
         if m.programmed[2] < self.above and self.down > 0:
             yield Go("to the clearance level", self.above)
-        yield from engrave(
+        yield from letters.engrave(
             self.glyphs(found, height), height, above=self.above, floor=self.surface + self.depth,
             plunge=self.plunge_feed, feed=self.feed,
         )  # fmt: skip

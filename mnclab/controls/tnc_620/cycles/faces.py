@@ -8,19 +8,10 @@ from functools import partial
 
 import numpy as np
 
-from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles import addresses, planes
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, distance, increment, length, number
 from mnclab.controls.tnc_620.cycles.milling import edges
-from mnclab.controls.tnc_620.cycles.planes import (
-    AtSurface,
-    Fault,
-    at_least,
-    in_program_coordinates,
-    less_than_depth,
-    not_zero,
-    rate,
-    with_radius,
-)
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault
 from mnclab.controls.tnc_620.cycles.pockets import CORNERS, SIGNS
 from mnclab.controls.tnc_620.machining.faces import Level, Passes, Walled, face_levels, finish_along, mill_ruled, passes
 from mnclab.geometry.contours import Contour
@@ -44,7 +35,7 @@ class FaceMilling(Cycle):
     """Mills a level surface in several infeeds, each level backwards over the one before; the last one finishes."""
 
     does = MILLS
-    about = in_program_coordinates
+    about = planes.in_program_coordinates
     strategy: float = choice("Q389", "machining strategy", STRATEGIES, example=2)
     start_1st_axis: float = coordinate("Q225", "starting point, first axis", example=10)
     start_2nd_axis: float = coordinate("Q226", "starting point, second axis", example=12)
@@ -76,11 +67,11 @@ class FaceMilling(Cycle):
         if self.height == 0:
             return
         if self.roughing > DRIFT:
-            yield from not_zero(self, "maximum_plunging_depth")
-        yield from with_radius(m)
+            yield from planes.not_zero(self, "maximum_plunging_depth")
+        yield from planes.with_radius(m)
         if self.flat(m) <= 0:
             yield "", f"needs a tool that is flat below, got R {m.radius * m.scale:g} and R2 {m.tool.corner:g}"
-        yield from not_zero(self, "feed", "finishing_feed", "prepositioning_feed")
+        yield from planes.not_zero(self, "feed", "finishing_feed", "prepositioning_feed")
         yield from too_many("maximum_plunging_depth", self.levels)
         yield from too_many("maximum_overlap", lambda: self.across(self.flat(m)))
         if len(self.levels()) * len(self.across(self.flat(m))) > MOST:
@@ -265,8 +256,8 @@ class WalledFaceMilling(AtSurface):
             if (limit := getattr(self, name)) and self.strategy == 4:
                 yield name, f"must be 0 in spiral machining (Q389 = 4), got {limit:g}"
         if depth := self.end_tool_axis - self.surface:
-            yield from not_zero(self, "max_plunging_depth")
-            yield from less_than_depth(self, "floor_allowance", depth)
+            yield from planes.not_zero(self, "max_plunging_depth")
+            yield from planes.less_than_depth(self, "floor_allowance", depth)
 
     def check(self, m: Machine) -> Iterator[Fault]:
         if self.down == 0:
@@ -274,13 +265,13 @@ class WalledFaceMilling(AtSurface):
         if self.down < 0 and m.settings["depth_error"]:
             found = f"{self.surface:g}, got {self.end_tool_axis:g}: it works upwards"
             yield "end_tool_axis", f"must lie below Q227 = {found}"
-        yield from with_radius(m)
+        yield from planes.with_radius(m)
         for name in ("first_side_length", "second_side_length"):
             if getattr(self, name) == 0:
                 yield name, "must not be 0"
         roughs, finishes = self.machining_operation != 2, self.finishes_side or self.finishes_floor
         used = {"milling_feed": roughs, "finishing_feed": finishes, "prepositioning_feed": True}
-        yield from not_zero(self, *(name for name, needed in used.items() if needed), purpose="to mill with")
+        yield from planes.not_zero(self, *(name for name, needed in used.items() if needed), purpose="to mill with")
         yield from self.check_walls(m.radius)
         yield from too_many("max_plunging_depth", partial(self.rough_levels, tool(m)))
         yield from too_many("finishing_infeed", partial(self.wall_levels, tool(m)))
@@ -327,7 +318,7 @@ class WalledFaceMilling(AtSurface):
         yield Go("to the second set-up clearance", max(m.programmed[2], self.end))
         yield Go("over the start", x=x, y=y)
         yield Go("to the set-up clearance", self.above)
-        position = rate(self.prepositioning_feed)
+        position = planes.rate(self.prepositioning_feed)
         yield from face_levels(passes, levels, lift, position)
         yield from finish_along(walls, self.wall_levels(tool(m)), self.above, self.finishing_feed, position)
         yield from self.leave()
@@ -352,7 +343,7 @@ class MultipassMilling(Cycle):
     """Mills a level surface once, on parallel lines to and fro."""
 
     does = MILLS
-    about = in_program_coordinates
+    about = planes.in_program_coordinates
     start_1st_axis: float = coordinate("Q225", "starting point, first axis", example=10)
     start_2nd_axis: float = coordinate("Q226", "starting point, second axis", example=12)
     start_3rd_axis: float = coordinate("Q227", "coordinate of the milled surface", example=2.5)
@@ -365,11 +356,11 @@ class MultipassMilling(Cycle):
     clearance: float = addresses.clearance()
 
     def check(self, m: Machine) -> Iterator[Fault]:
-        yield from with_radius(m)
-        yield from not_zero(self, "plunging_feed", "milling_feed", "stepover_feed", purpose="to mill with")
+        yield from planes.with_radius(m)
+        yield from planes.not_zero(self, "plunging_feed", "milling_feed", "stepover_feed", purpose="to mill with")
         yield from few_passes("cuts", 1, int(self.cuts))
         if self.cuts > 1:
-            yield from at_least(self, "second_side_length", 2 * m.radius, "the tool diameter")
+            yield from planes.at_least(self, "second_side_length", 2 * m.radius, "the tool diameter")
 
     def stepover(self, m: Machine) -> float:
         if m.settings["multipass"] == "width":
@@ -391,7 +382,7 @@ class RuledSurface(Cycle):
     """Mills the surface between the lines 1-2 and 4-3 with the tip of the tool on straight lines, all the same way."""
 
     does = MILLS
-    about = in_program_coordinates
+    about = planes.in_program_coordinates
     x_1: float = coordinate("Q225", "starting point, first axis", example=0)
     y_1: float = coordinate("Q226", "starting point, second axis", example=5)
     z_1: float = coordinate("Q227", "starting point, tool axis", example=-2)
@@ -408,8 +399,8 @@ class RuledSurface(Cycle):
     milling_feed: float = addresses.milling_feed()
 
     def check(self, m: Machine) -> Iterator[Fault]:
-        yield from with_radius(m)
-        yield from not_zero(self, "milling_feed", purpose="to mill with")
+        yield from planes.with_radius(m)
+        yield from planes.not_zero(self, "milling_feed", purpose="to mill with")
         yield from few_passes("cuts", 1, int(self.cuts))
 
     def moves(self, m: Machine) -> Iterator[Step]:

@@ -13,15 +13,8 @@ from collections.abc import Iterable, Iterator
 from functools import partial
 from typing import Any, ClassVar, NamedTuple
 
-from mnclab.controls.tnc_620.cycles import addresses
-from mnclab.controls.tnc_620.cycles.planes import (
-    AtSurface,
-    Fault,
-    in_program_coordinates,
-    less_than_depth,
-    not_zero,
-    with_radius,
-)
+from mnclab.controls.tnc_620.cycles import addresses, planes
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault
 from mnclab.machine.coordinates import MILLS, tool
 from mnclab.machine.cycle import too_many
 from mnclab.machine.machine import Machine
@@ -64,7 +57,7 @@ class MilledFigure(AtSurface):
     """A pocket, a slot or a stud; who inherits names the parameters, and says in `fits` what its shape needs."""
 
     does = MILLS
-    about = in_program_coordinates
+    about = planes.in_program_coordinates
     stands: ClassVar[bool] = False
     """Whether it is a stud, whose Q385 of 0 is the milling feed too."""
     machining_operation = side_allowance = floor_allowance = milling_feed = milling_type = plunging_feed = finishing_infeed = 0.0
@@ -76,8 +69,8 @@ class MilledFigure(AtSurface):
         """An infeed; not all of the depth is allowance. A depth of 0 is not executed, so nothing of it can be wrong."""
         if self.depth == 0:
             return
-        yield from not_zero(self, "infeed")
-        yield from less_than_depth(self, "floor_allowance", self.depth)
+        yield from planes.not_zero(self, "infeed")
+        yield from planes.less_than_depth(self, "floor_allowance", self.depth)
         yield from too_many("finishing_infeed", lambda: wall_levels(self))
 
     def check(self, m: Machine) -> Iterator[Fault]:
@@ -85,13 +78,13 @@ class MilledFigure(AtSurface):
         if self.depth == 0:
             return
         yield from self.signs(m)
-        yield from with_radius(m)
+        yield from planes.with_radius(m)
         finishes = self.machining_operation != 1 and (self.side_allowance > 0 or self.floor_allowance > 0)
         used = {
             "milling_feed": self.machining_operation != 2 or (finishes and self.finishing_feed is None), "plunging_feed": True,
             "finishing_feed": finishes and not finishing_feed(self),
         }  # fmt: skip
-        yield from not_zero(self, *(name for name, needed in used.items() if needed), purpose="to mill with")
+        yield from planes.not_zero(self, *(name for name, needed in used.items() if needed), purpose="to mill with")
         yield from too_many("infeed", lambda: levels(self, m))
         yield from self.fits(m)
 

@@ -9,18 +9,9 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles import addresses, planes
 from mnclab.controls.tnc_620.cycles.addresses import coordinate, distance, length
-from mnclab.controls.tnc_620.cycles.planes import (
-    SAME,
-    AtSurface,
-    Fault,
-    at_least,
-    at_most,
-    in_program_coordinates,
-    not_zero,
-    with_radius,
-)
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault
 from mnclab.controls.tnc_620.machining.finishing import finish_rounds
 from mnclab.controls.tnc_620.machining.slots import oblique_infeeds
 from mnclab.geometry import contours
@@ -64,7 +55,7 @@ class ReciprocatingSlot(AtSurface):
     """What both share: all of it counts from the centre Q216, Q217."""
 
     does = MILLS
-    about = in_program_coordinates
+    about = planes.in_program_coordinates
     straight: ClassVar[bool] = False
     """Whether roughing ends with the way back to where finishing begins, even if none follows."""
     milling_feed = machining_operation = centre_x = centre_y = slot_width = finishing_infeed = 0.0
@@ -74,7 +65,7 @@ class ReciprocatingSlot(AtSurface):
     def contradictions(self) -> Iterator[Fault]:
         """An infeed; a depth of 0 is not executed, so nothing of it can be wrong."""
         if self.depth:
-            yield from not_zero(self, "infeed")
+            yield from planes.not_zero(self, "infeed")
             yield from too_many("finishing_infeed", self.finishing_levels)
 
     def check(self, m: Machine) -> Iterator[Fault]:
@@ -82,10 +73,10 @@ class ReciprocatingSlot(AtSurface):
         if not self.depth:
             return
         yield from self.signs(m)
-        yield from with_radius(m)
-        yield from not_zero(self, "milling_feed", purpose="to mill with")
-        yield from at_least(self, "slot_width", 2 * m.radius, "the tool diameter")
-        if self.slot_width > (most := WIDEST * 2 * m.radius) + SAME:
+        yield from planes.with_radius(m)
+        yield from planes.not_zero(self, "milling_feed", purpose="to mill with")
+        yield from planes.at_least(self, "slot_width", 2 * m.radius, "the tool diameter")
+        if self.slot_width > (most := WIDEST * 2 * m.radius) + planes.SAME:
             yield "slot_width", f"must be at most three times the tool diameter, {most:g}, got {self.slot_width:g}"
         yield from too_many("infeed", lambda: self.pecks(m))
         yield from self.fits(m)
@@ -191,7 +182,7 @@ class Finishing(AtSurface):
     """What the four share; who inherits says where its wall is, and what of the sizes does not fit."""
 
     does = MILLS
-    about = in_program_coordinates
+    about = planes.in_program_coordinates
     infeed: float
     plunging_feed = milling_feed = centre_x = centre_y = first_side_length = second_side_length = corner_radius = allowance = 0.0
 
@@ -200,8 +191,8 @@ class Finishing(AtSurface):
         if not self.depth:
             return
         yield from self.signs(m)
-        yield from with_radius(m)
-        yield from not_zero(self, "plunging_feed", "infeed", "milling_feed", purpose="to mill with")
+        yield from planes.with_radius(m)
+        yield from planes.not_zero(self, "plunging_feed", "infeed", "milling_feed", purpose="to mill with")
         yield from too_many("infeed", lambda: self.pecks(m))
         yield from self.fits(m)
 
@@ -222,7 +213,7 @@ class Finishing(AtSurface):
 
 
 def fitting_corner(c: Finishing) -> Iterator[Fault]:
-    yield from at_most(c, "corner_radius", min(c.first_side_length, c.second_side_length) / 2, "half the shorter side")
+    yield from planes.at_most(c, "corner_radius", min(c.first_side_length, c.second_side_length) / 2, "half the shorter side")
 
 
 @CYCLES(
@@ -236,8 +227,8 @@ class PocketFinishing(Finishing):
 
     def fits(self, m: Machine) -> Iterator[Fault]:
         for name in ("first_side_length", "second_side_length"):
-            yield from at_least(self, name, 3 * m.radius, "three times the tool radius")
-        if 0 < self.corner_radius < m.radius - SAME:
+            yield from planes.at_least(self, name, 3 * m.radius, "three times the tool radius")
+        if 0 < self.corner_radius < m.radius - planes.SAME:
             yield "corner_radius", f"must be 0 or at least the tool radius, {m.radius:g}, got {self.corner_radius:g}"
         yield from fitting_corner(self)
 
@@ -259,7 +250,7 @@ class StudFinishing(Finishing):
     corner_radius: float = length("Q220", "corner radius", example=5)
 
     def fits(self, m: Machine) -> Iterator[Fault]:
-        yield from not_zero(self, "first_side_length", "second_side_length")
+        yield from planes.not_zero(self, "first_side_length", "second_side_length")
         yield from fitting_corner(self)
 
     def moves(self, m: Machine) -> Iterator[Step]:
@@ -277,7 +268,7 @@ class CircularPocketFinishing(Finishing):
     finished_diameter: float = length("Q223", "diameter of the finished pocket", example=80)
 
     def fits(self, m: Machine) -> Iterator[Fault]:
-        yield from at_least(self, "finished_diameter", 3 * m.radius, "three times the tool radius")
+        yield from planes.at_least(self, "finished_diameter", 3 * m.radius, "three times the tool radius")
         if self.blank_diameter >= self.finished_diameter:
             found = f"{self.finished_diameter:g}, got {self.blank_diameter:g}"
             yield "blank_diameter", f"must be less than the diameter of the finished pocket Q223, {found}"
@@ -295,7 +286,7 @@ class CircularStudFinishing(Finishing):
     finished_diameter: float = length("Q223", "diameter of the finished stud", example=80)
 
     def fits(self, m: Machine) -> Iterator[Fault]:
-        yield from not_zero(self, "finished_diameter")
+        yield from planes.not_zero(self, "finished_diameter")
         if self.blank_diameter <= self.finished_diameter:
             found = f"{self.finished_diameter:g}, got {self.blank_diameter:g}"
             yield "blank_diameter", f"must be greater than the diameter of the finished stud Q223, {found}"

@@ -15,15 +15,7 @@ from typing import Any, NamedTuple
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAST, choice, increment, ratio
 from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault, not_zero, oriented, rate, with_radius
-from mnclab.controls.tnc_620.machining.thread_milling import (
-    Path,
-    centre_feed,
-    chamfer,
-    countersink,
-    helices,
-    mill_thread,
-    path_of,
-)
+from mnclab.controls.tnc_620.machining import thread_milling
 from mnclab.machine.coordinates import MILLS_THREADS, TAPS
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
@@ -234,7 +226,7 @@ class ThreadMillingCountersinking(ThreadMilling):
                 yield Go("to the countersinking depth", level, feed)
             lead = abs(self.pitch)
             radius = (self.nominal_diameter - CORE * lead) / 2 - m.radius - self.side_clearance
-            yield from chamfer(radius, lead, sense=way(self).rotation, feed=feed, position_feed=position)
+            yield from thread_milling.chamfer(radius, lead, sense=way(self).rotation, feed=feed, position_feed=position)
         yield from front(self, m, feed)
         yield from thread(self, m)
         yield from self.leave()
@@ -358,17 +350,17 @@ def hand(c: ThreadMilling) -> int:
     return 1 if c.pitch > 0 else -1
 
 
-def path(c: ThreadMilling, m: Machine) -> Path:
+def path(c: ThreadMilling, m: Machine) -> thread_milling.Path:
     """Where the tool centre runs."""
-    return path_of(c.nominal_diameter, m.radius, abs(c.pitch), way(c).external)
+    return thread_milling.path_of(c.nominal_diameter, m.radius, abs(c.pitch), way(c).external)
 
 
 def passes(c: ThreadMilling) -> list[tuple[float, float]]:
     """Start and end levels of the helices; a thread upwards is one downwards turned over at its end."""
     bottom, upwards, lead = c.surface + c.thread_depth, hand(c) * way(c).rotation > 0, abs(c.pitch)
     if c.thread_depth < 0:
-        return helices(-c.thread_depth, lead, bottom, upwards, way(c).a_step)
-    found = helices(c.thread_depth, lead, 0.0, not upwards, way(c).a_step)
+        return thread_milling.helices(-c.thread_depth, lead, bottom, upwards, way(c).a_step)
+    found = thread_milling.helices(c.thread_depth, lead, 0.0, not upwards, way(c).a_step)
     return [(bottom - begin, bottom - end) for begin, end in found]
 
 
@@ -405,8 +397,10 @@ def thread(c: ThreadMilling, m: Machine) -> Iterator[Step]:
     """Every helix with its approach and departure; nothing without a depth."""
     if c.thread_depth:
         slow = c.approach_feed or c.milling_feed  # cycle 265 has no Q512
-        of_centre = partial(centre_feed, nominal=c.nominal_diameter, tool_radius=m.radius, external=way(c).external)
-        yield from mill_thread(
+        of_centre = partial(
+            thread_milling.centre_feed, nominal=c.nominal_diameter, tool_radius=m.radius, external=way(c).external
+        )
+        yield from thread_milling.mill_thread(
             path(c, m), passes(c), pitch=abs(c.pitch), sense=way(c).rotation, feed=of_centre(c.milling_feed),
             approach_feed=of_centre(slow), position_feed=rate(c.prepositioning_feed), external=way(c).external,
         )  # fmt: skip
@@ -417,4 +411,6 @@ def front(c: ThreadMilling, m: Machine, feed: float, plunge: float | None = None
     if c.depth_at_front:
         down = rate(c.prepositioning_feed) if plunge is None else plunge
         yield Go("to the depth at front", c.surface + c.depth_at_front, down)
-        yield from countersink(path(c, m), c.offset_at_front, sense=way(c).rotation, feed=feed, external=way(c).external)
+        yield from thread_milling.countersink(
+            path(c, m), c.offset_at_front, sense=way(c).rotation, feed=feed, external=way(c).external
+        )

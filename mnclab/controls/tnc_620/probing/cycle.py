@@ -20,20 +20,9 @@ from mnclab.machine.machine import INF, Machine
 from mnclab.machine.probe import Probe
 from mnclab.machine.setup import Datum
 from mnclab.machine.touching import PROBES, Contact, unfit
-from mnclab.machining.probing import fits
+from mnclab.machining.probing import fits, sequences
 from mnclab.machining.probing.found import Circle, Rectangle
-from mnclab.machining.probing.sequences import (
-    ROUND,
-    Approach,
-    Pair,
-    Steps,
-    around,
-    from_above,
-    from_centre,
-    numbers,
-    results,
-    sides,
-)
+from mnclab.machining.probing.sequences import Approach, Pair, Steps
 from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure, Step, Write
 from mnclab.text.alarm import Alarm
@@ -110,12 +99,12 @@ class ProbingCycle(Cycle):
 
 def lengths(m: Machine, **values: float) -> Iterable[Step]:
     """Q parameters that hold lengths: mm here, the unit of the program there."""
-    return results(**{name: value / m.variable_unit for name, value in values.items()})
+    return sequences.results(**{name: value / m.variable_unit for name, value in values.items()})
 
 
 def measured(contacts: Sequence[Contact], **found: tuple[float, float]) -> Iterable[Step]:
     """Lines of the measuring record without limits: `measured(contacts, X=(actual, nominal))`."""
-    return [Measure(what, actual, nominal, touches=numbers(contacts)) for what, (actual, nominal) in found.items()]
+    return [Measure(what, actual, nominal, touches=sequences.numbers(contacts)) for what, (actual, nominal) in found.items()]
 
 
 def needed(fit: Any, *points: Any, m: Machine, code: str) -> Any:
@@ -137,7 +126,7 @@ def circle(c: ProbingCycle, m: Machine, contacts: Sequence[Contact]) -> Circle:
 def ring(c: ProbingCycle, m: Machine, a: Approach, centre: Pair, leave: bool = True) -> Steps:
     """A hole or a round stud, as its angles say."""
     angles, over = (c.starting_angle, c.stepping_angle, int(c.points)), c.traverse == 1
-    contacts = yield from around(a, centre, c.diameter / 2, *angles, c.inside, m.programmed[2], over, leave)
+    contacts = yield from sequences.around(a, centre, c.diameter / 2, *angles, c.inside, m.programmed[2], over, leave)
     found = circle(c, m, contacts).grown(a.ball if c.inside else -a.ball)
     yield sketch(Circle(*centre, c.diameter / 2), found, c.level, contacts)
     return found, contacts
@@ -145,7 +134,7 @@ def ring(c: ProbingCycle, m: Machine, a: Approach, centre: Pair, leave: bool = T
 
 def box(c: ProbingCycle, m: Machine, a: Approach, centre: Pair) -> Steps:
     """A pocket or a stud with straight sides along the axes."""
-    contacts = yield from sides(a, centre, (c.length / 2, c.width / 2), ROUND, c.inside, m.programmed[2])
+    contacts = yield from sequences.sides(a, centre, (c.length / 2, c.width / 2), sequences.ROUND, c.inside, m.programmed[2])
     right, back, left, front = (each.point for each in contacts)
     found = needed(fits.rectangle, [right, left, back, front], m=m, code=c.code).grown(a.ball if c.inside else -a.ball)
     yield sketch(Rectangle(*centre, c.length, c.width), found, c.level, contacts)
@@ -156,7 +145,7 @@ def holes(c: ProbingCycle, m: Machine, a: Approach, places: Sequence[Pair]) -> S
     """The centres of holes, touched one after the other over the clearance height, and all contacts."""
     found, contacts = [], []
     for k, place in enumerate(places):
-        touched = yield from from_centre(a, place, a.height if k else m.programmed[2])
+        touched = yield from sequences.from_centre(a, place, a.height if k else m.programmed[2])
         contacts += touched
         found.append(circle(c, m, touched).centre)
     return found, contacts
@@ -184,7 +173,7 @@ SAME = 1e-12
 def finish(c: ProbingCycle, m: Machine, a: Approach, found: dict[int, tuple[float, float]], turned: float = 0.0) -> Moves:
     """Touch from above too, if the cycle asks for it (Q381), in the system that it began with; then save the preset."""
     if c.probe_z:
-        contact = yield from from_above(a, c.top_x, c.top_y, c.top_z, a.height, leave="higher")
+        contact = yield from sequences.from_above(a, c.top_x, c.top_y, c.top_z, a.height, leave="higher")
         found[2] = contact.point[2] - a.ball, c.datum_z
         yield from measured([contact], Z=(found[2][0], c.top_z))
     yield from save(m, found, c.row, c.transfer, turned)
