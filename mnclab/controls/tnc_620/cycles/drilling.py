@@ -32,8 +32,26 @@ CYCLES = CycleTable(addresses=addresses.shared(feed=addresses.plunge_feed))
 CENTRED: dict[float, str] = {0: "to the depth Q201", 1: "to the diameter Q344"}
 
 
+class Hole(AtSurface):
+    """A cycle that begins in the set-up plane over a hole."""
+
+    def moves(self, m: Machine) -> Iterable[Step]:
+        return [Go("to the set-up clearance", self.above), *self.steps(m)] if self.down else [self.left_out]
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from self.signs(m)
+        if self.reference == 1:
+            yield from planes.with_angle(m, "reference")
+        yield from planes.not_zero(self, "feed", purpose="to drill with")
+        if self.depth:
+            yield from planes.less_than_depth(self, "start_depth", self.depth)
+        if self.start_depth:
+            yield from planes.not_zero(self, "positioning_feed", purpose="to reach the starting point")
+        yield from too_many("infeed", lambda: self.pecks(m))
+
+
 @CYCLES("CYCL DEF 240", "Centering", source="4.2")
-class Centering(AtSurface):
+class Centering(Hole):
     """Centres to a depth, or so deep that the point of the tool leaves a cone of a diameter on the surface."""
 
     clearance: float = addresses.clearance()
@@ -78,7 +96,7 @@ class Centering(AtSurface):
     "CYCL DEF 200", "Drilling", source="4.3",
     takes="clearance depth feed infeed dwell_top surface second_clearance dwell_bottom reference",
 )  # fmt: skip
-class Drilling(AtSurface):
+class Drilling(Hole):
     """Drills in infeeds with full retraction to the set-up plane, a dwell after each infeed, and a rapid to the end plane."""
 
     dwell_bottom: float = addresses.dwell_bottom(default=0)  # older programs lack it
@@ -92,7 +110,7 @@ class Drilling(AtSurface):
 
 
 @CYCLES("CYCL DEF 201", "Reaming", source="4.4", takes="clearance depth feed dwell_bottom retract_feed surface second_clearance")
-class Reaming(AtSurface):
+class Reaming(Hole):
     """In and out at feed: a reamer does not leave its hole at rapid."""
 
     retract_feed: float = addresses.retract_feed(also=())
@@ -108,7 +126,7 @@ class Reaming(AtSurface):
     takes="clearance depth feed infeed dwell_top surface second_clearance decrement chip_breaks min_infeed dwell_bottom "
           "retract_feed break_retract reference",
 )  # fmt: skip
-class UniversalDrilling(AtSurface):
+class UniversalDrilling(Hole):
     """Drills with infeeds that may shrink; breaks the chip Q213 times before each full retraction.
 
     The infeed after the last chip break ends with the retraction, so Q213 + 1 infeeds lie between two of them. Back in the
@@ -142,7 +160,7 @@ def as_if_not_mirrored(m: Machine, steps: Iterable[Step]) -> Iterator[Step]:
     "CYCL DEF 202", "Boring", source="4.5",
     takes="clearance depth feed dwell_bottom retract_feed surface second_clearance disengage spindle_angle",
 )  # fmt: skip
-class Boring(AtSurface):
+class Boring(Hole):
     """Bores, stops the spindle at an angle, moves 0.2 mm off the wall and withdraws; ends on the axis of the hole."""
 
     def check(self, m: Machine) -> Iterator[Fault]:
@@ -159,7 +177,7 @@ class Boring(AtSurface):
 
 
 @CYCLES("CYCL DEF 204", "Back boring", source="4.7")
-class BackBoring(AtSurface):
+class BackBoring(Hole):
     """Counterbores from below, with a bar that goes through the hole off its axis.
 
     Levels count for the lower end of the bar; its edge is Q252 above that.
@@ -207,7 +225,7 @@ class BackBoring(AtSurface):
 
 
 @CYCLES("CYCL DEF 208", "Bore milling", source="4.9")
-class BoreMilling(AtSurface):
+class BoreMilling(Hole):
     """Mills a hole on a helix from the set-up plane, with a full circle at the bottom; as wide as the tool it drills it.
 
     The infeed per turn is reduced where the plunge angle of the tool (ANGLE) demands it. A mirrored plane does not change
@@ -276,7 +294,7 @@ def guide(c: AtSurface) -> holes.Guided:
     takes="clearance depth feed infeed surface second_clearance decrement min_infeed first_stop last_stop break_every "
           "break_retract dwell_bottom start_depth positioning_feed retract_feed reference",
 )  # fmt: skip
-class UniversalPecking(AtSurface):
+class UniversalPecking(Hole):
     """Drills in infeeds that may shrink, breaks the chip every Q257 within each, and clears the chips after it.
 
     Back in the hole the rapid stops above the last depth: by Q258 the first time, by Q259 the last, evenly between.
@@ -311,7 +329,7 @@ class UniversalPecking(AtSurface):
     takes="clearance depth feed dwell_bottom surface second_clearance start_depth positioning_feed retract_feed "
           "spindle_direction entry_speed drilling_speed coolant_on coolant_off dwell_depth factor infeed decrement min_infeed",
 )  # fmt: skip
-class SingleLipDrilling(AtSurface):
+class SingleLipDrilling(Hole):
     """Drills deep with a single-lip drill: slow in and out, fast and with coolant while it cuts, no retraction between.
 
     The spindle is left as it turns on the way out. A dwell on the way lasts as long as the one at the bottom.

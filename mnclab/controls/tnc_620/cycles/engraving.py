@@ -172,10 +172,7 @@ class Engraving(AtSurface):
         sense = 1 if self.text_layout == 1 and self.angle % 360 > 180 else -1
         return letters.on_arc(row, height, reference, angle, self.arc_radius, sense)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
-        if not self.down:
-            yield self.left_out
-            return
+    def steps(self, m: Machine) -> Iterator[Step]:
         found = self.tokens(m)
         height = self.height(found)
         if m.programmed[2] < self.above and self.down > 0:

@@ -299,10 +299,7 @@ class WalledFaceMilling(AtSurface):
         x, y = (np.array(m.programmed[:2]) + away).tolist()
         return x, y
 
-    def moves(self, m: Machine) -> Iterator[Step]:
-        if not self.down:
-            yield self.left_out
-            return
+    def steps(self, m: Machine) -> Iterator[Step]:
         passes, levels, lift = self.passes(m.radius), self.levels(tool(m)), self.down * self.clearance
         walls = self.along(m.radius, 0.0) if self.finishes_side else ()
         if not (levels or walls):

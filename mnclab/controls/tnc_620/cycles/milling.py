@@ -130,9 +130,6 @@ def mill(
 
     `why` there may be nothing to do.
     """
-    if not c.down:
-        yield c.left_out
-        return
     if work.is_nothing:
         yield Say(f"Q215=2 finishes nothing: {why}")
         return

@@ -88,9 +88,7 @@ class ReciprocatingSlot(AtSurface):
         """Roughing from the begin of the line, finishing from the end of the way back; all counts from Q216 and Q217."""
         inset = self.slot_width / 2 - m.radius
         finishes = self.machining_operation != 1 and inset > NOTHING
-        if not self.down:
-            yield self.left_out
-        elif self.machining_operation == 2 and not finishes:
+        if self.machining_operation == 2 and not finishes:
             yield Say("Q215=2 finishes nothing: the slot is as wide as the tool")
         else:
             x, y = (slot.back.points[-1] if self.machining_operation == 2 else slot.line.points[0]).tolist()
@@ -134,7 +132,7 @@ class StraightSlot(ReciprocatingSlot):
             least = max(4 * m.radius, self.slot_width)
             yield "slot_length", f"must be greater than twice the tool diameter and Q219, {least:g}, got {self.slot_length:g}"
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         """From the middle of the slot the half circle leads to the wall on the right of the line."""
         half = max(self.slot_length - self.slot_width, 0.0) / 2
         ahead = contours.placed(np.array([(half, 0.0)]), (0, 0), math.radians(self.rotation_angle))
@@ -160,7 +158,7 @@ class CircularSlot(ReciprocatingSlot):
         if (way := self.pitch_circle_diameter / 2 * math.radians(self.angular_length)) <= NOTHING:
             yield "angular_length", f"must make a way for the plunge, got {way:g} mm"
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         begin, sweep = math.radians(self.starting_angle), math.radians(self.angular_length)
         line = contours.arc(self.pitch_circle_diameter / 2, begin, sweep)
         return self.mill(m, Slot(line, line.reversed()))
@@ -198,9 +196,6 @@ class Finishing(AtSurface):
 
     def finish(self, m: Machine, wall: Contour, start: float, aside: float) -> Iterator[Step]:
         """By way of C to S, so far on its right, round on every level, and back over C; half circles are as wide as `aside`."""
-        if not self.down:
-            yield self.left_out
-            return
         x, y = self.centre_x, self.centre_y
         arcs, feeds = half_circles(wall, aside, 1), Feeds(self.milling_feed, self.plunging_feed)
         yield Go("to the second set-up clearance", max(m.programmed[2], self.end))
@@ -232,7 +227,7 @@ class PocketFinishing(Finishing):
             yield "corner_radius", f"must be 0 or at least the tool radius, {m.radius:g}, got {self.corner_radius:g}"
         yield from fitting_corner(self)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         r, corner = m.radius, max(self.corner_radius, m.radius) - m.radius
         wall = contours.rectangle(self.first_side_length - 2 * r, self.second_side_length - 2 * r, corner)
         wide = self.first_side_length / 2 - r
@@ -253,7 +248,7 @@ class StudFinishing(Finishing):
         yield from planes.not_zero(self, "first_side_length", "second_side_length")
         yield from fitting_corner(self)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         r = m.radius
         wall = contours.rectangle(self.first_side_length + 2 * r, self.second_side_length + 2 * r, self.corner_radius + r)
         start = self.first_side_length / 2 + self.allowance + ASIDE * r
@@ -273,7 +268,7 @@ class CircularPocketFinishing(Finishing):
             found = f"{self.finished_diameter:g}, got {self.blank_diameter:g}"
             yield "blank_diameter", f"must be less than the diameter of the finished pocket Q223, {found}"
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         reach, start = self.finished_diameter / 2 - m.radius, max(0.0, self.blank_diameter / 2 - m.radius)
         return self.finish(m, Contour.circle((0, 0), reach), start, reach - start)
 
@@ -291,6 +286,6 @@ class CircularStudFinishing(Finishing):
             found = f"{self.finished_diameter:g}, got {self.blank_diameter:g}"
             yield "blank_diameter", f"must be greater than the diameter of the finished stud Q223, {found}"
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         reach, start = self.finished_diameter / 2 + m.radius, self.blank_diameter / 2 + ASIDE * m.radius
         return self.finish(m, Contour.circle((0, 0), reach, clockwise=True), start, start - reach)

@@ -69,7 +69,7 @@ class RectangularPocket(MilledFigure):
             corner=self.corner_radius, angle=math.radians(self.rotation_angle), climb=self.milling_type >= 0, begin=0,
         )  # fmt: skip
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         """C lies half the sides away from the tool, turned about the tool."""
         sides = self.first_side_length, self.second_side_length
         u, v = (np.array(SIGNS[int(self.pocket_position)]) * sides / 2).tolist()
@@ -99,7 +99,7 @@ class CircularPocket(MilledFigure):
     def pocket(self, m: Machine) -> Pocket:
         return figures.circular(self.circle_diameter, m.radius, self.overlap * m.radius, climb=self.milling_type >= 0)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         """Roughing alone ends at the second set-up clearance before the tool goes to the middle."""
         end = self.end if self.machining_operation == 1 and self.depth < 0 else None
         return mill(self, m, self.pocket(m), m.programmed[:2], end)
@@ -218,7 +218,7 @@ class StraightSlot(MilledFigure):
     def line(self) -> Contour:
         return Contour(np.outer([0.0, self.line_length], self.ahead), closed=False)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         """Turned about the tool, which goes back to the centre if it was there; else it stays above the left arc."""
         half, reach = self.slot_length / 2, self.line_length / 2
         to_centre = (0.0, half, reach, -reach, -half)[int(self.slot_position)]
@@ -271,7 +271,7 @@ class CircularSlot(MilledFigure):
             dx, dy = arc.points[0].tolist()
             yield (x + dx, y + dy), Contour(arc.points - (dx, dy), arc.bulge, closed=False)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         """To the centre of the circle at the end if the tool has no place of its own; else it stays above the last slot."""
         return mill_slots(self, m, self.places(m), None if self.slot_position else self.centre(m))
 

@@ -103,7 +103,7 @@ class RectangularStud(StudMilling):
         x, y = SIGNS[int(self.approach_position)]
         return Stud(partial(self.clearing, m.radius), milling.turned(-x * u, -y * v, self.rotation_angle), aside)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         """C lies half the sides away from the tool, turned about the tool."""
         u, v = SIGNS[int(self.stud_position)]
         x, y = milling.turned(u * self.first_side_length / 2, v * self.second_side_length / 2, self.rotation_angle)
@@ -152,7 +152,7 @@ class CircularStud(StudMilling):
         away = max(self.blank_diameter / 2 + aside, self.finished_diameter / 2 + self.side_allowance) + m.radius
         return Stud(partial(self.clearing, m.radius), milling.turned(away, 0.0, self.angle), aside)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         return mill(self, m, m.programmed[:2], [milling.back(m.programmed[:2])])
 
 
@@ -211,7 +211,7 @@ class PolygonStud(StudMilling):
         start = milling.turned(away, 0.0, self.rotation_angle)
         return Stud(partial(self.clearing, m.radius), start, aside, self.end)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         return mill(self, m, m.programmed[:2])
 
 # --- what they share ------------------------------------------------------------------------------------------------

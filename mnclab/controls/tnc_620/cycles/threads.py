@@ -167,8 +167,18 @@ class ThreadMilling(AtSurface):
 
     does = MILLS_THREADS
     nominal_diameter = pitch = thread_depth = threads_per_step = milling_type = milling_feed = approach_feed = 0.0
-    depth_at_front = offset_at_front = countersinking_feed = 0.0
+    depth_at_front = offset_at_front = countersinking_feed = countersinking_depth = total_hole_depth = 0.0
     prepositioning_feed: Any = 0.0
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        """To the set-up clearance, what it does from there, and away."""
+        if not self.down:  # of 262 alone, the others are refused
+            yield self.left_out
+            return
+        yield from remark_on_the_end(self, m, self.countersinking_depth or self.total_hole_depth)
+        yield Go("to the set-up clearance", self.above)
+        yield from self.steps(m)
+        yield from self.leave()
 
 
 @CYCLES(
@@ -185,13 +195,8 @@ class InnerThreadMilling(ThreadMilling):
         if self.thread_depth:
             yield from check(self, m, milling_feed=True)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
-        if not self.down:
-            yield self.left_out
-            return
-        yield Go("to the set-up clearance", self.above)
+    def steps(self, m: Machine) -> Iterator[Step]:
         yield from thread(self, m)
-        yield from self.leave()
 
 
 @CYCLES(
@@ -213,9 +218,7 @@ class ThreadMillingCountersinking(ThreadMilling):
         sinks = bool(self.countersinking_depth or self.depth_at_front)
         return check(self, m, milling_feed=bool(self.thread_depth), countersinking_feed=sinks)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
-        yield from remark_on_the_end(self, m, self.countersinking_depth)
-        yield Go("to the set-up clearance", self.above)
+    def steps(self, m: Machine) -> Iterator[Step]:
         feed, position = self.countersinking_feed, rate(self.prepositioning_feed)
         if self.countersinking_depth:
             level = self.surface + self.countersinking_depth
@@ -229,7 +232,6 @@ class ThreadMillingCountersinking(ThreadMilling):
             yield from thread_milling.chamfer(radius, lead, sense=way(self).rotation, feed=feed, position_feed=position)
         yield from front(self, m, feed)
         yield from thread(self, m)
-        yield from self.leave()
 
 
 @CYCLES(
@@ -249,12 +251,10 @@ class OutsideThreadMilling(ThreadMilling):
         if sinks and self.offset_at_front == 0:
             yield "offset_at_front", "must be greater than 0 with Q358: the tool would go into the stud"
 
-    def moves(self, m: Machine) -> Iterator[Step]:
-        yield Go("to the set-up clearance", self.above)
+    def steps(self, m: Machine) -> Iterator[Step]:
         yield Go("to the start point beside the stud", x=path(self, m).start, y=0.0)
         yield from front(self, m, self.countersinking_feed)
         yield from thread(self, m)
-        yield from self.leave()
 
 
 @CYCLES(
@@ -287,9 +287,7 @@ class ThreadDrillingMilling(ThreadMilling):
     def levels(self) -> tuple[float, ...]:
         return infeeds(self.surface, self.surface + self.total_hole_depth, self.infeed)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
-        yield from remark_on_the_end(self, m, self.total_hole_depth)
-        yield Go("to the set-up clearance", self.above)
+    def steps(self, m: Machine) -> Iterator[Step]:
         if self.total_hole_depth:
             every = self.chip_breaking_depth
             yield from drill(
@@ -299,7 +297,6 @@ class ThreadDrillingMilling(ThreadMilling):
             )  # fmt: skip
         yield from front(self, m, self.milling_feed)
         yield from thread(self, m)
-        yield from self.leave()
 
 
 @CYCLES(
@@ -317,16 +314,14 @@ class HelicalThreadMilling(ThreadMilling):
     def check(self, m: Machine) -> Iterator[Fault]:
         return check(self, m, milling_feed=bool(self.thread_depth), countersinking_feed=bool(self.depth_at_front))
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         """Before the thread the tool countersinks on its way down, after it on its way up."""
         feed = self.countersinking_feed
-        yield Go("to the set-up clearance", self.above)
         if self.countersink_order == 0:
             yield from front(self, m, feed, feed)
         yield from thread(self, m)
         if self.countersink_order == 1:
             yield from front(self, m, feed)
-        yield from self.leave()
 
 
 # --- what all share --------------------------------------------------------------------------------------------------
