@@ -297,7 +297,7 @@ class _Reader:
             raise before.fault(self.builder, f"does not belong to G{code:02}", "write two blocks")
         if code == 28:
             self.builder.block(raw.start, "CYCL DEF 8", raw.skip)
-            din_statements.mirror(cursor)
+            sub_blocks.mirrored(cursor)
         elif code == 39:
             self.builder.block(raw.start, "CYCL DEF 12", raw.skip)
             din_statements.program_name(cursor, head)
