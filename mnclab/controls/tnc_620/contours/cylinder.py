@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mnclab.controls.tnc_620.contours.area import Labels
-from mnclab.controls.tnc_620.contours.line import Line, contour_line, with_labels
+from mnclab.controls.tnc_620.contours.line import ContourLine, contour_line, with_labels
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, distance, increment, length
 from mnclab.controls.tnc_620.cycles.chain import TILT, rotary
@@ -68,21 +68,21 @@ class Surface(NamedTuple):
     turned: float
     mirrored: tuple[int, int]
 
-    def line(self, found: Line) -> Line:
+    def line(self, found: ContourLine) -> ContourLine:
         """A contour as it lies on the cylinder."""
         u, y = self.mirrored
         if u == y == 1:
             return found
         return found._replace(contour=found.contour.transformed(np.diag([u, y, 1])), side=found.side * u * y)
 
-    def along(self, label: str, way: rolled.Way, height: float, feed: float) -> Rolled:
+    def along(self, label: str, way: rolled.RolledWay, height: float, feed: float) -> Rolled:
         """Through the places of a way, with the tip at a distance from the axis; the tool is at the first one, if no way
         leads there."""
         k = slice(0 if way.ways[0] else 1, None)
         feet = way.feet[k]
         return Rolled(label, self.cylinder, self._tips(feet, way.shifts[k], height), self._angles(feet), way.ways[k], feed)
 
-    def to(self, label: str, way: rolled.Way, height: float, feed: float = RAPID, length: float = 1.0) -> Rolled:
+    def to(self, label: str, way: rolled.RolledWay, height: float, feed: float = RAPID, length: float = 1.0) -> Rolled:
         """Straight to the first place of a way; `length` mm is how far that is, at feed."""
         points = self._tips(way.feet[:1], way.shifts[:1], height)
         return Rolled(label, self.cylinder, points, self._angles(way.feet[:1]), np.array([length]), feed)
@@ -171,7 +171,7 @@ def _directions(m: Machine, axis: int) -> tuple[float, float, float]:
     return float(along @ changed @ along), float(across @ changed @ across), float(out @ changed @ out)
 
 
-def developed_line(m: Machine, degrees: bool, on: Surface) -> Generator[Step, Any, Line]:
+def developed_line(m: Machine, degrees: bool, on: Surface) -> Generator[Step, Any, ContourLine]:
     """The contour of cycle 14 on the developed surface, mm; its X is in `degrees` or in lengths of the program.
 
     Degrees become mm where the coordinate is read, so that roundings, chamfers, radii and tangents count in mm.
@@ -186,11 +186,11 @@ def developed_line(m: Machine, degrees: bool, on: Surface) -> Generator[Step, An
 
 # How cycles 27, 28, 29 and 39 go over a cylinder, level by level (9.2 to 9.5); heights are distances from its axis.
 
-Ways = Sequence[tuple[str, rolled.Way]]
+Ways = Sequence[tuple[str, rolled.RolledWay]]
 SAME_ROUND = 1e-6  # mm between the end of a round and its begin
 
 
-def over_contour(c: OnCylinder, on: Surface, line: Line, radius: float, height: float) -> Iterator[Step]:
+def over_contour(c: OnCylinder, on: Surface, line: ContourLine, radius: float, height: float) -> Iterator[Step]:
     """27: along the contour, the tool always pointing to the axis; on the contour itself where it has no side."""
     way = rolled.way_along(rolled.beside(line.contour, line.side * (radius + c.side_allowance), line.steps))
     yield from rounds(c, on, [("contour", way)], height, lifts=True)
@@ -198,7 +198,7 @@ def over_contour(c: OnCylinder, on: Surface, line: Line, radius: float, height: 
 
 
 def along_slot(
-    c: OnCylinder, on: Surface, line: Line, shift: float, height: float, straight: bool, tolerance: float
+    c: OnCylinder, on: Surface, line: ContourLine, shift: float, height: float, straight: bool, tolerance: float
 ) -> Iterator[Step]:
     """28: with RL forward along the wall on the right and back along the left one, `shift` beside the middle; with RR the other
     way round.
@@ -216,7 +216,7 @@ def along_slot(
     yield on.to("retract", ways[-1][1].last, height)
 
 
-def round_ridge(c: OnCylinder, on: Surface, line: Line, half: float, radius: float, height: float) -> Iterator[Step]:
+def round_ridge(c: OnCylinder, on: Surface, line: ContourLine, half: float, radius: float, height: float) -> Iterator[Step]:
     """29: round the ridge, `half` as wide as it is, from a place one tool diameter beside it: with RL on the left, with RR on
     the right."""
     distance = line.side * (half + c.side_allowance + radius)
@@ -225,7 +225,7 @@ def round_ridge(c: OnCylinder, on: Surface, line: Line, half: float, radius: flo
     yield from with_leads(c, on, loop, rolled.way_along(loop, distance), gap, height, straight=False)
 
 
-def beside_contour(c: OnCylinder, on: Surface, line: Line, radius: float, height: float, straight: bool) -> Iterator[Step]:
+def beside_contour(c: OnCylinder, on: Surface, line: ContourLine, radius: float, height: float, straight: bool) -> Iterator[Step]:
     """39: along the wall, from a place one tool diameter beside it."""
     distance = line.side * (radius + c.side_allowance)
     path = rolled.beside(line.contour, distance, line.steps)
@@ -234,7 +234,7 @@ def beside_contour(c: OnCylinder, on: Surface, line: Line, radius: float, height
 
 
 def with_leads(
-    c: OnCylinder, on: Surface, path: Contour, way: rolled.Way, gap: float, height: float, straight: bool
+    c: OnCylinder, on: Surface, path: Contour, way: rolled.RolledWay, gap: float, height: float, straight: bool
 ) -> Iterator[Step]:
     """Along a wall path from a place that lies `gap` to the left of its begin (or right), and to that beside its end."""
     there, off = (rolled.lead(path, gap, arrives, straight) for arrives in (True, False))
@@ -338,7 +338,7 @@ class OnCylinder(Cycle):
             yield Go("retract", height)
         yield from steps
 
-    def machine(self, m: Machine, on: Surface, line: Line, height: float) -> Iterator[Step]:
+    def machine(self, m: Machine, on: Surface, line: ContourLine, height: float) -> Iterator[Step]:
         """The steps over the cylinder, which end at the `height` that they begin at; a PathFault where the tool does not fit.
 
         Of itself nothing.
@@ -352,7 +352,7 @@ class CylinderSurface(OnCylinder):
 
     sided = False
 
-    def machine(self, m: Machine, on: Surface, line: Line, height: float) -> Iterator[Step]:
+    def machine(self, m: Machine, on: Surface, line: ContourLine, height: float) -> Iterator[Step]:
         if self.side_allowance and not line.side:
             what = f"Q3={self.side_allowance:g} (finishing allowance for side) needs RL or RR in the contour"
             raise PathFault(what, int(line.steps[0]), "with R0 the tool is on the contour")
@@ -375,7 +375,7 @@ class CylinderSlot(OnCylinder):
         if (free := self.slot_width - 2 * self.side_allowance) < 2 * m.radius - 1e-9:
             yield "slot_width", f"less Q3 on both walls is {free:g}, too narrow for the tool diameter {2 * m.radius:g}"
 
-    def machine(self, m: Machine, on: Surface, line: Line, height: float) -> Iterator[Step]:
+    def machine(self, m: Machine, on: Surface, line: ContourLine, height: float) -> Iterator[Step]:
         width = self.slot_width - 2 * self.side_allowance
         straight = m.settings["cylinder_approach"] == "LineNormal"
         return along_slot(self, on, line, width / 2 - m.radius, height, straight, self.tolerance)
@@ -392,7 +392,7 @@ class CylinderRidge(OnCylinder):
         yield from super().check(m)
         yield from room_for_approach(self, m)
 
-    def machine(self, m: Machine, on: Surface, line: Line, height: float) -> Iterator[Step]:
+    def machine(self, m: Machine, on: Surface, line: ContourLine, height: float) -> Iterator[Step]:
         half = self.ridge_width / 2
         du, dy = line.contour.ends[-1] - line.contour.points[0]
         if math.hypot(math.remainder(du, math.tau * self.cylinder_radius), dy) < half:
@@ -409,7 +409,7 @@ class CylinderContour(OnCylinder):
         yield from super().check(m)
         yield from room_for_approach(self, m)
 
-    def machine(self, m: Machine, on: Surface, line: Line, height: float) -> Iterator[Step]:
+    def machine(self, m: Machine, on: Surface, line: ContourLine, height: float) -> Iterator[Step]:
         return beside_contour(self, on, line, m.radius, height, m.settings["cylinder_approach"] == "LineNormal")
 
 

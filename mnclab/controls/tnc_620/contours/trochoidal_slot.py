@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mnclab.controls.tnc_620.contours.line import Line, contour_line, leave, with_labels
+from mnclab.controls.tnc_620.contours.line import ContourLine, contour_line, leave, with_labels
 from mnclab.controls.tnc_620.cycles import addresses, milling
 from mnclab.controls.tnc_620.cycles.planes import Fault, at_least, at_most, not_zero
 from mnclab.controls.tnc_620.cycles.pockets import check_angle, feeds
@@ -100,7 +100,7 @@ class TrochoidalSlot(milling.MilledFigure):
         yield from mill(self, m, line, found.approach is not None, here)
 
 
-def with_approach(m: Machine, found: Line) -> Contour:
+def with_approach(m: Machine, found: ContourLine) -> Contour:
     """The centre line of a slot: its contour, and the way to it where the tool enters from outside."""
     line, approach = found.contour, found.approach
     if approach is None:

@@ -13,7 +13,15 @@ from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, distanc
 from mnclab.controls.tnc_620.cycles.milling import edges
 from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault
 from mnclab.controls.tnc_620.cycles.pockets import CORNERS, SIGNS
-from mnclab.controls.tnc_620.machining.faces import Level, Passes, Walled, face_levels, finish_along, mill_ruled, passes
+from mnclab.controls.tnc_620.machining.faces import (
+    FacingLevel,
+    Passes,
+    Walled,
+    face_levels,
+    finish_along,
+    mill_ruled,
+    passes,
+)
 from mnclab.geometry.contours import Contour
 from mnclab.machine.control import Setting
 from mnclab.machine.coordinates import MILLS, remark, tool
@@ -205,7 +213,7 @@ class WalledFaceMilling(AtSurface):
         infeed = min(self.finishing_infeed or math.inf, edges(tool))
         return infeeds(self.surface, self.end_tool_axis, infeed if infeed < math.inf else 0.0)
 
-    def levels(self, tool: Tool) -> list[Level]:
+    def levels(self, tool: Tool) -> list[FacingLevel]:
         """Of roughing, then of finishing: one, more where the edges are shorter."""
         parts = []
         if self.machining_operation != 2:
@@ -214,7 +222,7 @@ class WalledFaceMilling(AtSurface):
             last = rows(self.left_over, self.end_tool_axis, min(self.floor_allowance, edges(tool)))[1:]
             parts.append(("floor finishing", self.left_over, last, self.finishing_feed))
         return [
-            Level(*each, feed)
+            FacingLevel(*each, feed)
             for what, top, heights, feed in parts
             for each in zip(numbered(what, len(heights)), heights, (top, *heights))
         ]

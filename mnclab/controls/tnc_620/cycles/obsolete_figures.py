@@ -43,7 +43,7 @@ SLOT = "clearance depth milling_feed infeed machining_operation surface second_c
 WIDEST = 3  # tool diameters
 
 
-class Slot(NamedTuple):
+class CentreLine(NamedTuple):
     """The centre line of a slot; the way from its end to where finishing begins; how far along the wall that leads to it."""
 
     line: Contour
@@ -84,7 +84,7 @@ class ReciprocatingSlot(AtSurface):
     def finishing_levels(self) -> tuple[float, ...]:
         return infeeds(self.surface, self.surface + self.depth, self.finishing_infeed)
 
-    def mill(self, m: Machine, slot: Slot) -> Iterator[Step]:
+    def mill(self, m: Machine, slot: CentreLine) -> Iterator[Step]:
         """Roughing from the begin of the line, finishing from the end of the way back; all counts from Q216 and Q217."""
         inset = self.slot_width / 2 - m.radius
         finishes = self.machining_operation != 1 and inset > NOTHING
@@ -98,7 +98,7 @@ class ReciprocatingSlot(AtSurface):
             yield from moved(self.cut(slot, inset if finishes else 0.0), self.centre_x, self.centre_y)
             yield from self.leave()
 
-    def cut(self, slot: Slot, inset: float) -> Iterator[Step]:
+    def cut(self, slot: CentreLine, inset: float) -> Iterator[Step]:
         """From the set-up clearance down to the bottom; several infeeds of finishing begin at the set-up clearance again."""
         levels, feed = self.finishing_levels(), self.milling_feed
         if self.machining_operation != 2:
@@ -137,7 +137,7 @@ class StraightSlot(ReciprocatingSlot):
         half = max(self.slot_length - self.slot_width, 0.0) / 2
         ahead = contours.placed(np.array([(half, 0.0)]), (0, 0), math.radians(self.rotation_angle))
         line, back = (Contour(np.vstack([one, two]), closed=False) for one, two in ((-ahead, ahead), (ahead, 0 * ahead)))
-        return self.mill(m, Slot(line, back, (self.slot_width / 2 - m.radius) * math.pi / 2 + half))
+        return self.mill(m, CentreLine(line, back, (self.slot_width / 2 - m.radius) * math.pi / 2 + half))
 
 
 @CYCLES(
@@ -161,7 +161,7 @@ class CircularSlot(ReciprocatingSlot):
     def steps(self, m: Machine) -> Iterator[Step]:
         begin, sweep = math.radians(self.starting_angle), math.radians(self.angular_length)
         line = contours.arc(self.pitch_circle_diameter / 2, begin, sweep)
-        return self.mill(m, Slot(line, line.reversed()))
+        return self.mill(m, CentreLine(line, line.reversed()))
 
 
 # Obsolete finishing of pockets and studs, which still runs (1.2): 212 and 213 rectangular, 214 and 215 circular.

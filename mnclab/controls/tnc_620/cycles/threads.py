@@ -149,7 +149,7 @@ ORDER: dict[float, str] = {0: "before thread milling", 1: "after thread milling"
 CORE = 5 / 8 * math.sqrt(3)  # pitches by which the core of an ISO metric nut is narrower than its nominal diameter
 
 
-class Way(NamedTuple):
+class ThreadSense(NamedTuple):
     """How a thread is milled: `rotation` is +1 where the tool centre goes round counter-clockwise, and its product with the
     hand of the thread the way along the axis (the table of 5.5).
 
@@ -327,17 +327,17 @@ class HelicalThreadMilling(ThreadMilling):
 # --- what all share --------------------------------------------------------------------------------------------------
 
 
-def way(c: ThreadMilling) -> Way:
+def way(c: ThreadMilling) -> ThreadSense:
     """Climb milling runs counter-clockwise inside a thread, clockwise outside.
 
     265 mills one continuous helix, always downwards: the hand of the thread alone says which way round.
     """
     if isinstance(c, HelicalThreadMilling):
-        return Way(-hand(c), 1, either_way=True)
+        return ThreadSense(-hand(c), 1, either_way=True)
     inside = -1 if c.milling_type < 0 else 1
     if isinstance(c, OutsideThreadMilling):
-        return Way(-inside, int(c.threads_per_step), external=True)
-    return Way(inside, int(c.threads_per_step) if isinstance(c, InnerThreadMilling) else 0)
+        return ThreadSense(-inside, int(c.threads_per_step), external=True)
+    return ThreadSense(inside, int(c.threads_per_step) if isinstance(c, InnerThreadMilling) else 0)
 
 
 def hand(c: ThreadMilling) -> int:

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple, NoReturn
 import numpy as np
 
 from mnclab.controls.tnc_620.free_contours import free_contour
-from mnclab.controls.tnc_620.free_contours.free_contour import Element, FreeContour, Pair, Piece, known, normal_of
+from mnclab.controls.tnc_620.free_contours.free_contour import Element, FreeContour, FreePiece, Pair, known, normal_of
 from mnclab.controls.tnc_620.free_contours.quadratics import Exhausted, Form
 from mnclab.controls.tnc_620.free_contours.readings import Contradiction, TooManyReadings
 from mnclab.controls.tnc_620.language.auxiliary import feed
@@ -181,7 +181,7 @@ class Chain:
         what = f"{block.code}: the free contour is not determined, {need}; not known here: {unknown}"
         m.alarm(what, m.flow.span_of_step(block.moment.step))
 
-    def likely(self, m: Machine, solutions: list[list[Piece]]) -> int:
+    def likely(self, m: Machine, solutions: list[list[FreePiece]]) -> int:
         """The one solution that closes, stays inside the blank and does not cross itself; an alarm if it is not alone."""
         blank = body(m)
         left = [k for k, pieces in enumerate(solutions) if free_contour.is_closed(pieces, self.start)]

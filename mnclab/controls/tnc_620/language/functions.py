@@ -9,11 +9,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mnclab.controls.tnc_620.language.system_data import COLUMNS, ROWS, TABLES, Asked, Missing, named, written
+from mnclab.controls.tnc_620.language.system_data import COLUMNS, ROWS, TABLES, Asked, Missing, named, with_column
 from mnclab.controls.tnc_620.language.values import give, whole
 from mnclab.controls.tnc_620.reading.formulas import GREATEST
 from mnclab.controls.tnc_620.state import active_preset, memory
-from mnclab.controls.tnc_620.tables import Fault, Lines, read_table, value
+from mnclab.controls.tnc_620.tables import Lines, TableFault, read_table, value
 from mnclab.geometry.arcs import circle_through
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.flow import put_out
@@ -86,7 +86,7 @@ def write_tool(m: Machine, to: Asked, value: float, what: str, words: Words) -> 
         if not to.index.is_integer():
             raise Missing("needs IDX, the number of the tool")
         column, row = COLUMNS[int(to.number)], named(m, to)
-        m.write_table("tools", int(to.index), written(m, row, int(to.number), value))
+        m.write_table("tools", int(to.index), with_column(m, row, int(to.number), value))
         if not column.place and value:
             m.warn(f"{what} ({column.title}): it can be read again, and nothing here acts on it", words["NR"])
     except StopIteration:
@@ -226,26 +226,26 @@ class FreeTable:
 def parse(text: str) -> FreeTable:
     table = Lines(text)
     if table.unit != 1:
-        raise Fault("a table in inches is not built yet", 1)
+        raise TableFault("a table in inches is not built yet", 1)
     names = sorted(table.columns, key=lambda name: table.columns[name])
     ends = [*(table.columns[name] for name in names[1:]), -1]
     columns = {name: (table.columns[name], end) for name, end in zip(names, ends, strict=True)}
     if NUMBERS not in columns:
-        raise Fault(f"the column {NUMBERS} is missing", 2)
+        raise TableFault(f"the column {NUMBERS} is missing", 2)
     found = FreeTable("", tuple(table.lines), {}, columns)
     rows: dict[int, int] = {}
     for k, line in enumerate(table.lines[2:], start=2):
         if line.strip().upper() == "[END]":
             return FreeTable("", found.lines, rows, columns)
         if any(len(line[begin - 1 : begin + 1].strip()) == 2 for begin in table.columns.values() if begin):
-            raise Fault("a field stands under two columns", k + 1)
+            raise TableFault("a field stands under two columns", k + 1)
         if line.strip():
             here = FreeTable("", found.lines, {0: k}, columns)
             number = value(here.field(0, NUMBERS) or "-", NUMBERS, k + 1)
             if number != int(number) or not 0 <= number <= MOST or number in rows:
-                raise Fault(f"{NUMBERS} must be a whole number that no other row has", k + 1)
+                raise TableFault(f"{NUMBERS} must be a whole number that no other row has", k + 1)
             rows[int(number)] = k
-    raise Fault("[END] is missing", len(table.lines) + 1)
+    raise TableFault("[END] is missing", len(table.lines) + 1)
 
 
 @FUNCTIONS("FN 26,", "Opening a table", takes="file", source="Klartext, not described")
@@ -288,7 +288,7 @@ def read_fields(m: Machine, words: Words) -> None:
         if not name.startswith("QS"):
             try:
                 found = value(text or "nothing", column, table.rows[row] + 1)
-            except Fault as fault:
+            except TableFault as fault:
                 m.alarm(f"FN 28: {table.name}, {fault}", words["columns"])
         give(m, words["target"]._replace(value=name), found)
 

@@ -36,24 +36,24 @@ def counted(m: Machine, word: Word, before: float, unit: float = 1.0) -> float:
     return before + value if word.incremental else value
 
 
-def written(m: Machine, word: Word, value: float) -> float:
+def in_units(m: Machine, word: Word, value: float) -> float:
     """A length in mm as the program writes it; what is no length stays."""
-    in_units = word.address in LENGTHS and m.variable_unit != 1
-    return float(f"{value / m.variable_unit:.12g}") if in_units else value
+    is_told = word.address in LENGTHS and m.variable_unit != 1
+    return float(f"{value / m.variable_unit:.12g}") if is_told else value
 
 
 def above_zero(m: Machine, word: Word, name: str, most: float = INF) -> float:
     value = m.value(word)
     if not 0 < value <= most:
         limit = f" and at most {most:g}" if most < INF else ""
-        m.alarm(f"{name} must be greater than 0{limit}, got {written(m, word, value):g}", word)
+        m.alarm(f"{name} must be greater than 0{limit}, got {in_units(m, word, value):g}", word)
     return value
 
 
 def not_negative(m: Machine, word: Word, name: str) -> float:
     value = m.value(word)
     if value < 0:
-        m.alarm(f"{name} must be at least 0, got {written(m, word, value):g}", word)
+        m.alarm(f"{name} must be at least 0, got {in_units(m, word, value):g}", word)
     return value
 
 

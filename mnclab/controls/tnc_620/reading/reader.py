@@ -294,7 +294,7 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
     for i in range(0, len(count), PIECE):
         here = slice(int(first[i]), int(first[min(i + PIECE, len(count))]))
         letter, heads = found.letter[here], first[i : i + PIECE][: len(count) - i] - first[i]
-        good[i : i + PIECE] &= _plain(letter, found.value[here], found.length[here], heads)
+        good[i : i + PIECE] &= _are_plain(letter, found.value[here], found.length[here], heads)
         keep = np.repeat(good[i : i + PIECE], count[i : i + PIECE])
         keep[heads] = False
         letter = letter[keep]
@@ -327,7 +327,7 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
     )
 
 
-def _plain(
+def _are_plain(
     letter: NDArray[np.uint8], value: NDArray[np.float64], length: NDArray[np.int16], heads: NDArray[np.int32]
 ) -> NDArray[np.bool_]:
     """Which lines are an L alone and plain words, each once; of their words (w,), `heads` are the first ones."""

@@ -284,7 +284,7 @@ _HEADS = {
 UNSIGNED = ("Q", "F", "MB", "SYSTEM", "ERRORMODE", "CHECK", "PROBING THE TEETH")
 
 
-def written(code: str, title: str, words: Mapping[str, str]) -> Iterator[str]:
+def lines_of(code: str, title: str, words: Mapping[str, str]) -> Iterator[str]:
     """The lines of a definition, of the values that are there as they are written."""
     yield f"{code}.0 {title}"
     lines = [[a for a in ([part] if part in words else part.split()) if a in words] for part in LINES[code]]
@@ -327,7 +327,7 @@ def _value(cursor: Cursor, left: list[str]) -> None:
     cursor.add(address, value, begin)
 
 
-def obsolete_written(cycle: int, title: str, words: Mapping[str, str]) -> Iterator[str]:
+def lines_of_obsolete(cycle: int, title: str, words: Mapping[str, str]) -> Iterator[str]:
     """The lines of a definition, of the values that are there as they are written."""
     yield f"CYCL DEF {cycle}.0 {title}"
     for part, addresses in enumerate(PLACES[cycle], 1):
