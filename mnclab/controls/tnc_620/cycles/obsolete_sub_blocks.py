@@ -209,26 +209,6 @@ class MilledAtClearance(AtClearance):
         yield from not_zero(self, "feed", "plunge_feed", purpose="to mill with")
 
 
-class Pocket(MilledAtClearance):
-    """A pocket that is roughed layer by layer from the middle, and up to where the tool stood."""
-
-    sense = 0.0
-
-    def clearing(self, m: Machine) -> Clearing:
-        """The passes of a layer."""
-        raise NotImplementedError
-
-    def passes_to_wait_for(self, m: Machine) -> Iterator[Fault]:
-        yield from too_many("feed", lambda: self.clearing(m))
-        yield from few_passes("infeed", len(self.levels(m)), sum(len(way.starts) for way in self.clearing(m).passes))
-
-    def steps(self, m: Machine) -> Iterable[Step]:
-        return rough(
-            self.clearing(m), self.levels(m), surface=self.surface(m), clearance=self.down * abs(self.clearance), down=straight,
-            feeds=Feeds(self.feed, self.plunge_feed), departure=0.0, side=1 if self.sense > 0 else -1, end=m.programmed[2],
-        )  # fmt: skip
-
-
 @CYCLES("CYCL DEF 3", "Slot milling", source="1.2", takes="clearance depth infeed plunge_feed x y feed")
 class SlotMilling(MilledAtClearance):
     """Mills a slot along X or Y: along its middle with an infeed at each end, then once round its wall in climb milling.
@@ -291,7 +271,7 @@ def _wall(line: Contour, inset: float) -> tuple[Contour, tuple[Contour, ...]]:
 @CYCLES(
     "CYCL DEF 4", "Pocket milling", source="1.2", takes="clearance depth infeed plunge_feed x y feed sense corner_radius"
 )
-class PocketMilling(Pocket):
+class PocketMilling(MilledAtClearance):
     """Roughs a rectangular pocket about the tool in layers, outwards on rectangles, from the middle and back to it.
 
     Each layer begins in the positive direction of the longer side, of two equal ones in that of Y.
@@ -312,7 +292,7 @@ class PocketMilling(Pocket):
             yield "corner_radius", f"must be 0 or at least the tool radius, {m.radius:g}, got {self.corner_radius:g}"
         if self.y <= (least := 2 * self.corner_radius + m.settings["overlap"] * m.radius):
             yield "y", f"must be greater than twice RADIUS and the stepover, {least:g}, got {self.y:g}"
-        yield from self.passes_to_wait_for(m)
+        yield from passes_to_wait_for(self, m)
 
     def clearing(self, m: Machine) -> Clearing:
         return faces.rectangle(
@@ -320,9 +300,12 @@ class PocketMilling(Pocket):
             climb=self.sense > 0, begin=int(self.x <= self.y),
         )  # fmt: skip
 
+    def steps(self, m: Machine) -> Iterator[Step]:
+        return layers(self, m)
+
 
 @CYCLES("CYCL DEF 5", "Circular pocket", source="1.2", takes="clearance depth infeed plunge_feed radius feed sense")
-class CircularPocket(Pocket):
+class CircularPocket(MilledAtClearance):
     """Roughs a circular pocket about the tool in layers, each on a spiral from the middle to the wall.
 
     Written as 5.1 SET UP, 5.2 DEPTH, 5.3 PECKG and F, 5.4 RADIUS, 5.5 F and DR.
@@ -334,7 +317,23 @@ class CircularPocket(Pocket):
     def fits(self, m: Machine) -> Iterator[Fault]:
         yield from super().fits(m)
         yield from at_least(self, "radius", m.radius, "the tool radius")
-        yield from self.passes_to_wait_for(m)
+        yield from passes_to_wait_for(self, m)
 
     def clearing(self, m: Machine) -> Clearing:
         return round_pocket(2 * self.radius, m.radius, m.settings["overlap"] * m.radius, climb=self.sense > 0)
+
+    def steps(self, m: Machine) -> Iterator[Step]:
+        return layers(self, m)
+
+
+def passes_to_wait_for(c: PocketMilling | CircularPocket, m: Machine) -> Iterator[Fault]:
+    yield from too_many("feed", lambda: c.clearing(m))
+    yield from few_passes("infeed", len(c.levels(m)), sum(len(way.starts) for way in c.clearing(m).passes))
+
+
+def layers(c: PocketMilling | CircularPocket, m: Machine) -> Iterator[Step]:
+    """Layer by layer from the middle, and up to where the tool stood."""
+    return rough(
+        c.clearing(m), c.levels(m), surface=c.surface(m), clearance=c.down * abs(c.clearance), down=straight,
+        feeds=Feeds(c.feed, c.plunge_feed), departure=0.0, side=1 if c.sense > 0 else -1, end=m.programmed[2],
+    )  # fmt: skip

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from functools import partial
+from typing import TypeAlias
 
 import numpy as np
 
@@ -38,29 +39,16 @@ CYCLES = CycleTable(addresses=addresses.shared(**milling.PARAMETERS | {
 }))  # fmt: skip
 
 
-class StudMilling(MilledFigure):
-    """What the three share: what `clearing` and `stud` make of the size is milled level by level."""
-
-    stands = True
-
-    def clearing(self, radius: float, allowance: float, blank: bool) -> Clearing:
-        """The passes of a level about the stud and its allowance, from the `blank` inwards or along the stud alone."""
-        raise NotImplementedError
-
-    def stud(self, m: Machine) -> Stud:
-        """The stud as it is milled with the tool in the spindle."""
-        raise NotImplementedError
-
-
 @CYCLES(
     "CYCL DEF 256", "Rectangular stud", source="6.6",
     takes="first_side_length blank_side_1 second_side_length blank_side_2 corner_radius_or_chamfer side_allowance "
           "rotation_angle stud_position milling_feed milling_type depth infeed plunging_feed clearance surface second_clearance "
           "overlap approach_position machining_operation floor_allowance finishing_infeed finishing_feed",
 )  # fmt: skip
-class RectangularStud(StudMilling):
+class RectangularStud(MilledFigure):
     """Mills a rectangular stud free: roughing in layers from the blank inwards, then its side, then the floor about it."""
 
+    stands = True
     first_side_length: float = length("Q218", "first side length", example=60)
     blank_side_1: float = length("Q424", "first side of the blank", note="at least Q218", example=74)
     second_side_length: float = length("Q219", "second side length", example=40)
@@ -115,9 +103,10 @@ class RectangularStud(StudMilling):
     takes="finished_diameter blank_diameter side_allowance milling_feed milling_type depth infeed plunging_feed clearance "
           "surface second_clearance overlap starting_angle machining_operation floor_allowance finishing_infeed finishing_feed",
 )  # fmt: skip
-class CircularStud(StudMilling):
+class CircularStud(MilledFigure):
     """Mills a circular stud about the tool position free: on a spiral from the blank inwards, then its side and the floor."""
 
+    stands = True
     finished_diameter: float = length("Q223", "diameter of the finished stud", example=50)
     blank_diameter: float = length("Q222", "diameter of the blank", note="at least Q223", example=80)
     starting_angle: float = addresses.angle(
@@ -162,9 +151,10 @@ class CircularStud(StudMilling):
           "milling_feed milling_type depth infeed plunging_feed clearance surface second_clearance overlap machining_operation "
           "floor_allowance finishing_infeed finishing_feed",
 )  # fmt: skip
-class PolygonStud(StudMilling):
+class PolygonStud(MilledFigure):
     """Mills a regular polygon about the tool position free: on a spiral from the round blank inwards, then side and floor."""
 
+    stands = True
     reference_circle: float = choice("Q573", "reference circle", CIRCLES, example=0)
     reference_diameter: float = length("Q571", "diameter of the reference circle", example=50)
     blank_diameter: float = length("Q222", "diameter of the blank", note="greater than Q571", example=80)
@@ -214,10 +204,14 @@ class PolygonStud(StudMilling):
     def steps(self, m: Machine) -> Iterator[Step]:
         return mill(self, m, m.programmed[:2])
 
+
+AnyStud: TypeAlias = RectangularStud | CircularStud | PolygonStud
+
+
 # --- what they share ------------------------------------------------------------------------------------------------
 
 
-def check_passes(c: StudMilling, m: Machine) -> Iterator[Fault]:
+def check_passes(c: AnyStud, m: Machine) -> Iterator[Fault]:
     """A number of passes that somebody would wait for."""
     made: list[Clearing] = []
     yield from too_many("overlap", lambda: made.append(c.clearing(m.radius, c.side_allowance, True)))
@@ -225,7 +219,7 @@ def check_passes(c: StudMilling, m: Machine) -> Iterator[Fault]:
     yield from few_passes("infeed", len(milling.levels(c, m)), sum(len(contour.starts) for contour in passes) // 4)
 
 
-def mill(c: StudMilling, m: Machine, centre: Place, last: Iterable[Step] = ()) -> Iterator[Step]:
+def mill(c: AnyStud, m: Machine, centre: Place, last: Iterable[Step] = ()) -> Iterator[Step]:
     """To S, and from there roughing in layers, the side in infeeds, the floor; at the end the tool stays above S."""
     plunge = rate(c.plunging_feed)
     finishing = Feeds(milling.finishing_feed(c), plunge)

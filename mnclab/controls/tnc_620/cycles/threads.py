@@ -54,27 +54,23 @@ class Tapping(AtSurface):
         return [Go("to the set-up clearance", self.above), *self.steps(m), *self.leave(), again]
 
 
-class RigidTapping(Tapping):
-    """207 and 209."""
+def rigid(c: Tapping, m: Machine) -> Iterator[Fault]:
+    """`check` of 207 and 209; nothing where the depth is 0, for then nothing is done."""
+    if not c.thread_depth:
+        return
+    yield from c.signs(m)
+    if c.pitch == 0:
+        yield "pitch", "must not be 0"
+    if not m.speed:
+        yield "", "needs a spindle speed: write S in TOOL CALL"
+    yield from oriented(m)
+    yield from pitch_of(m, "pitch", abs(c.pitch))
 
-    own_spindle = True
 
-    def check(self, m: Machine) -> Iterator[Fault]:
-        """Nothing where the depth is 0, for then nothing is done."""
-        if not self.thread_depth:
-            return
-        yield from self.signs(m)
-        if self.pitch == 0:
-            yield "pitch", "must not be 0"
-        if not m.speed:
-            yield "", "needs a spindle speed: write S in TOOL CALL"
-        yield from oriented(m)
-        yield from pitch_of(m, "pitch", abs(self.pitch))
-
-    def locked(self, m: Machine, levels: Sequence[float], **more: Any) -> Iterator[Step]:
-        """The spindle turns as M3 for a right-hand thread, as M4 for a left-hand one, and stops."""
-        stand, lead = m.settings["thread_wait"], abs(self.pitch)
-        return tap(levels, above=self.above, pitch=lead, sense=1 if self.pitch > 0 else -1, end=0, stand=stand, **more)
+def locked(c: Tapping, m: Machine, levels: Sequence[float], **more: Any) -> Iterator[Step]:
+    """The spindle turns as M3 for a right-hand thread, as M4 for a left-hand one, and stops."""
+    stand, lead = m.settings["thread_wait"], abs(c.pitch)
+    return tap(levels, above=c.above, pitch=lead, sense=1 if c.pitch > 0 else -1, end=0, stand=stand, **more)
 
 
 @CYCLES("CYCL DEF 206", "Tapping with a floating tap holder", source="5.2")
@@ -106,20 +102,24 @@ class FloatingTapping(Tapping):
 
 
 @CYCLES("CYCL DEF 207", "Rigid tapping", source="5.3", takes=RIGID)
-class RigidTappingInOnePass(RigidTapping):
+class RigidTappingInOnePass(Tapping):
     """Taps in one pass with the spindle locked to the feed; afterwards it turns as before the cycle."""
 
+    own_spindle = True
+    check = rigid
+
     def steps(self, m: Machine) -> Iterator[Step]:
-        return self.locked(m, [self.surface + self.thread_depth])
+        return locked(self, m, [self.surface + self.thread_depth])
 
 
 @CYCLES(
     "CYCL DEF 209", "Tapping with chip breaking", source="5.4",
     takes=f"{RIGID} chip_breaking_depth chip_breaking_retract_factor spindle_angle retract_rpm_factor",
 )  # fmt: skip
-class ChipBreakingTapping(RigidTapping):
+class ChipBreakingTapping(Tapping):
     """Taps in several passes in phase, with the spindle locked to the feed and oriented before the first of them."""
 
+    own_spindle = True
     chip_breaking_depth: float = addresses.break_every(note="0: in one pass")
     chip_breaking_retract_factor: float = ratio(
         "Q256", "retraction for chip breaking, in pitches", at_least=0, at_most=FAST, note="0: out of the hole", example=1
@@ -128,7 +128,7 @@ class ChipBreakingTapping(RigidTapping):
     retract_rpm_factor: float = ratio("Q403", "factor of the speed for retracting", at_most=10, example=1.5)
 
     def check(self, m: Machine) -> Iterator[Fault]:
-        yield from super().check(m)
+        yield from rigid(self, m)
         if self.thread_depth:
             yield from too_many("chip_breaking_depth", self.passes)
 
@@ -138,8 +138,8 @@ class ChipBreakingTapping(RigidTapping):
     def steps(self, m: Machine) -> Iterator[Step]:
         yield Write("memory", self.spindle_angle, "orientation")
         back, out = self.chip_breaking_retract_factor * abs(self.pitch), self.retract_rpm_factor * m.speed
-        yield from self.locked(
-            m, self.passes(), speed=m.speed, out_speed=min(out, m.setup.limits.spindle), back=back, angle=self.spindle_angle
+        yield from locked(
+            self, m, self.passes(), speed=m.speed, out_speed=min(out, m.setup.limits.spindle), back=back, angle=self.spindle_angle
         )
 
 
