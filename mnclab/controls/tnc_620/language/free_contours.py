@@ -1,6 +1,6 @@
 """Free contour programming: FPOL, FL, FLT, FC, FCT, FSELECT (catalogue: FK).
 
-Each block tells what is known of an element; `geometry.free_contour` finds the contours that fit. The blocks
+Each block tells what is known of an element; `free_contours.free_contour` finds the contours that fit. The blocks
 wait in `machine.pending` until something follows that is no free element: then everything must be settled. RND, CHF,
 FPOL, FSELECT and assignments may stand between.
 

@@ -1,7 +1,7 @@
 """Reading DIN/ISO programs (`%PART G71 *` … `N99999999 %PART G71 *`): the same statements as conversational ones, in G words.
 
 The blocks that come out have the keywords and addresses of the conversational language, and the places of their words in
-the DIN/ISO text. What is modal is worked out while reading, see `din_modes`. Statements that have no DIN/ISO form (PATTERN
+the DIN/ISO text. What is modal is worked out while reading, see `din_words`. Statements that have no DIN/ISO form (PATTERN
 DEF, SEL TABLE, …) stand in these programs as they do in the others.
 """
 
