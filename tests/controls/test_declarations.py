@@ -507,7 +507,8 @@ def test_a_parameter_can_be_explained(control, code, parameter, row):
 
 
 @pytest.mark.parametrize("name", sorted(mnclab.controls))
-def test_no_family_of_cycles_is_deeper_than_two_classes(name):
+def test_no_family_of_cycles_is_deeper_than_three_classes(name):
+    """A cycle, what the cycles of its chapter share, and what all cycles at a surface share: nobody looks farther for a rule."""
     for cycle in mnclab.controls[name].cycles.values():
         family = [each.__name__ for each in cycle.__mro__ if issubclass(each, Cycle) and each is not Cycle]
-        assert len(family) <= 2, family
+        assert len(family) <= 3, family

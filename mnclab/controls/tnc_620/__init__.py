@@ -6,64 +6,53 @@ functions, `cycles` holds the fixed cycles by chapter of the manual, `later` nam
 
 from __future__ import annotations
 
-from mnclab.controls.tnc_620 import later, trial
-from mnclab.controls.tnc_620.contours import area_cycles, cylinder, surface, train, trochoidal_slot
-from mnclab.controls.tnc_620.contours import data as contour_data
+from mnclab.controls.tnc_620 import later, printing, tables, trial
+from mnclab.controls.tnc_620.contours import area, area_cycles, cylinder, formulas, train, trochoidal_slot
 from mnclab.controls.tnc_620.contours import line as contour_line
 from mnclab.controls.tnc_620.cycles import (
     defaults,
     drilling,
     engraving,
-    face_milling,
-    obsolete_faces,
+    faces,
     obsolete_figures,
     obsolete_sub_blocks,
     pockets,
-    program_call,
     special,
     studs,
-    tapping,
     threads,
     transformations,
-    walled_faces,
 )
 from mnclab.controls.tnc_620.cycles import patterns as point_patterns
 from mnclab.controls.tnc_620.language import (
     approach,
     auxiliary,
-    calls,
-    contour_definitions,
     flow,
     free_contours,
+    functions,
     m_functions,
     motion,
-    parameters,
     pattern_definitions,
     plane,
     program,
-    system_access,
     system_data,
     tools,
+    values,
 )
-from mnclab.controls.tnc_620.printing import output
 from mnclab.controls.tnc_620.probing import (
     aimed,
     calibration,
-    fast_probing,
+    cycle,
     line,
     measuring,
     presets,
     rotation,
     single,
-    tool_measuring,
     tool_setter,
 )
 from mnclab.controls.tnc_620.reading import reader
-from mnclab.controls.tnc_620.reading.numbers import numbers
 from mnclab.controls.tnc_620.reading.words import ISO_NAMES
-from mnclab.controls.tnc_620.signs import SIGNS
+from mnclab.controls.tnc_620.signs import SIGNS, numbers
 from mnclab.controls.tnc_620.state import Memory
-from mnclab.controls.tnc_620.tables import free_tables, table_files
 from mnclab.controls.tnc_620.trial import SETUP, trial_program
 from mnclab.machine.control import Control, Setting
 from mnclab.machine.cycle import CycleTable
@@ -100,27 +89,27 @@ SETTINGS = (
     ),
     *auxiliary.SETTINGS, *tools.SETTINGS, *m_functions.SETTINGS, *m_functions.AWAY_SETTINGS,
     *transformations.SETTINGS, *engraving.SETTINGS,
-    *obsolete_faces.SETTINGS, *tools.AXES_SETTINGS, *system_data.SETTINGS, *output.SETTINGS,
+    *faces.SETTINGS, *tools.AXES_SETTINGS, *system_data.SETTINGS, *printing.SETTINGS,
     *tool_setter.SETTINGS,
     *aimed.SETTINGS,
-    *contour_line.SETTINGS, *cylinder.SETTINGS, *surface.SETTINGS,
+    *contour_line.SETTINGS, *cylinder.SETTINGS,
     *calibration.SETTINGS,
     Setting("max_touch_feed", 3000.0, "upper limit of the probing feed (maxTouchFeed, no. 122602)", "13.2", {}, "mm/min", 1),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
 FUNCTIONS = (
-    motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS
-    | program.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS | m_functions.FUNCTIONS | plane.FUNCTIONS
-    | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | table_files.FUNCTIONS | system_access.FUNCTIONS
-    | output.FUNCTIONS | free_tables.FUNCTIONS | contour_definitions.FUNCTIONS
+    motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | values.FUNCTIONS | tools.FUNCTIONS
+    | program.FUNCTIONS | auxiliary.FUNCTIONS | m_functions.FUNCTIONS | plane.FUNCTIONS
+    | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | tables.FUNCTIONS | functions.FUNCTIONS
+    | printing.FUNCTIONS | formulas.FUNCTIONS
 )  # fmt: skip
 CHAPTERS = (
-    defaults, drilling, tapping, threads, point_patterns, pockets, studs, walled_faces,
-    contour_data, area_cycles, train, trochoidal_slot, cylinder,
-    transformations, special, engraving, face_milling, program_call,
-    presets, calibration, fast_probing, rotation, measuring, tool_setter, tool_measuring, line, single,
-    obsolete_sub_blocks, obsolete_figures, obsolete_faces,
+    defaults, drilling, threads, point_patterns, pockets, studs, faces,
+    area, area_cycles, train, trochoidal_slot, cylinder,
+    transformations, special, engraving,
+    presets, calibration, cycle, rotation, measuring, tool_setter, line, single,
+    obsolete_sub_blocks, obsolete_figures,
 )  # fmt: skip
 CYCLES = CycleTable()
 for chapter in CHAPTERS:
@@ -154,7 +143,7 @@ MEANINGS = {
     **{f"M118:{axis}": f"greatest turn of the handwheel around {axis}" for axis in "ABC"},
     "TIME": "seconds", "REV": "turns of the spindle", **m_functions.WORDS, **m_functions.ROTARY_WORDS, **m_functions.AWAY_WORDS,
     **{f"{code} {word}": plane.WORDS[word] for code, one in plane.FUNCTIONS.items() for word in one.takes if word in plane.WORDS},
-    **contour_definitions.MEANINGS,
+    **formulas.MEANINGS,
     "FSELECT number": "number of the solution, as the control shows them", **free_contours.WORDS,
     **{f"PATTERN DEF {address}": meaning for address, meaning in pattern_definitions.MEANINGS.items()},
 }  # fmt: skip
@@ -167,8 +156,8 @@ CONTROL = Control(
     trial_files=trial.FILES,
     trial_setup=SETUP,
     settings=SETTINGS, memory=Memory, start=program.start, frames=(tools.SECONDARY, "preset"),
-    storage="variables", preassigned={**parameters.PREASSIGNED, **system_data.TEXTS}, local_variables="QL",
-    named=auxiliary.named, predefined=defaults.predefined, calls_again=calls.calls_again, turned=tools.turned,
+    storage="variables", preassigned={**values.PREASSIGNED, **system_data.TEXTS}, local_variables="QL",
+    named=auxiliary.named, predefined=defaults.predefined, calls_again=flow.calls_again, turned=tools.turned,
     compensation=Compensation(approach="perpendicular", rapid=True),
     bulk=PlainWords(
         motions={None: ("L", 1)}, keyword="L", feed=lambda m: m.feed_unit,

@@ -1,8 +1,13 @@
-"""Signs of programs for the TNC: Klartext, and DIN/ISO with its asterisks at the ends of blocks."""
+"""By what programs for the TNC are known, Klartext and DIN/ISO with its asterisks, and the numbers of their blocks."""
 
 from __future__ import annotations
 
-from mnclab.text.dialect import sign
+import re
+
+from mnclab.controls.tnc_620.reading import din_reader
+from mnclab.controls.word_address import reader as words
+from mnclab.text.dialect import Numbered, Numbers, sign
+from mnclab.text.program import Program
 
 _BLOCK = r"^[ \t/]*(?:\d+[ \t]*)?"
 
@@ -33,3 +38,18 @@ SIGNS = (
     sign(r"(?<![A-Z])G2\d\d[ \t]+Q2\d\d[ \t]*=", 10, "a cycle of DIN/ISO"),
     sign(r"\bD0?\d[ \t]+Q\d+[ \t]+P0?1", 8, "a parameter of DIN/ISO"),
 )
+
+
+# The numbers of blocks of the TNC: 0, 1, 2 … of Klartext, N of DIN/ISO. Jumps lead to labels, so nothing names them.
+
+_NUMBER = re.compile(r"[ \t\ufeff]*+(?:/[ \t]*+)?(\d++)(?![.,])")
+
+
+def numbers(program: Program) -> Numbers:
+    """Those of blocks that have one; where none has, each block gets one."""
+    if din_reader.begins(program.text):
+        return words.numbers(program)
+    starts = program.start.tolist()
+    matches = [_NUMBER.match(program.text, at) for at in starts]
+    blocks = [Numbered(match.start(1), len(match[1]), match[1]) for match in matches if match]
+    return Numbers(blocks or [Numbered(at, 0, "") for at in starts], first=0, step=1)

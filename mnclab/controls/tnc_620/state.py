@@ -4,23 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
 from mnclab.machine.machine import Machine
 from mnclab.text.program import Word
 
 if TYPE_CHECKING:
-    from mnclab.controls.tnc_620.contours.data import ContourData, Labels
+    from mnclab.controls.tnc_620.contours.area import ContourData, Labels
     from mnclab.controls.tnc_620.contours.formulas import Definitions
     from mnclab.controls.tnc_620.contours.train import TrainData
     from mnclab.controls.tnc_620.free_contours.free_contour import Pair
     from mnclab.controls.tnc_620.language.free_contours import Earlier
+    from mnclab.controls.tnc_620.language.functions import FreeTable
     from mnclab.controls.tnc_620.language.pattern_definitions import Pattern
     from mnclab.controls.tnc_620.language.program import Blank
-    from mnclab.controls.tnc_620.probing.fast_probing import FastProbing
+    from mnclab.controls.tnc_620.probing.cycle import FastProbing
     from mnclab.controls.tnc_620.probing.tool_setter import Calibrated
-    from mnclab.controls.tnc_620.tables.free_tables import FreeTable
-    from mnclab.controls.tnc_620.tables.table_files import DatumTable
+    from mnclab.controls.tnc_620.tables import DatumTable
     from mnclab.machining.milling.terraces import Formula
     from mnclab.path.tool import Tool
     from mnclab.workpiece.blank import Blank as Body
@@ -98,3 +99,12 @@ def active_preset(m: Machine) -> int:
     """The active row of the preset table."""
     row = memory(m).preset
     return int(m.settings["preset"]) if row is None else row
+
+
+def time_of_day(m: Machine) -> datetime | None:
+    """The time in UTC, which a run has only where the setting `clock` gives it one; an Alarm if the setting is no time."""
+    clock = float(m.settings["clock"])
+    try:
+        return datetime.fromtimestamp(clock, UTC) if clock else None
+    except (ValueError, OverflowError, OSError):
+        m.alarm(f"setting clock: {clock:g} seconds from 1970 are no time that can be written")

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from mnclab.controls.tnc_620.contours.area import ContourData, ContourGeometry
 from mnclab.controls.tnc_620.contours.area_cycles import RoughOut
-from mnclab.controls.tnc_620.contours.data import ContourData, ContourGeometry
 from mnclab.controls.tnc_620.contours.train import ContourTrain, TrainData
 from mnclab.controls.tnc_620.reading import sub_blocks
 from mnclab.machine.cycle import Cycle
@@ -38,12 +38,12 @@ def as_sub_blocks(cycle: type[Cycle], words: Sequence[tuple[str, Any]]) -> list[
         plain: tuple[str, ...] = sub_blocks.UNSIGNED if cycle.code.startswith("TCH PROBE") else ()
         texts = {a: value if isinstance(value, str) else (number if a in plain else klartext)(value) for a, value in words}
         head = f" Q{texts.get('Q', '')} {texts.get('axis', '')}" if cycle.code == "TCH PROBE 0" else ""
-        return list(sub_blocks.written(cycle.code, cycle.title.upper() + head, texts))
+        return list(sub_blocks.lines_of(cycle.code, cycle.title.upper() + head, texts))
     plain = ("DWELL", "F", "PECKG:F")
     texts = {address: number(value) if address in plain else klartext(value) for address, value in words}
     if "DR" in texts:
         texts["DR"] = texts["DR"][0]  # the sign alone
-    return list(sub_blocks.obsolete_written(int(cycle.code.split()[-1]), cycle.title.upper(), texts))
+    return list(sub_blocks.lines_of_obsolete(int(cycle.code.split()[-1]), cycle.title.upper(), texts))
 
 
 def definition(cycle: type[Cycle], words: TrialWords) -> list[str]:

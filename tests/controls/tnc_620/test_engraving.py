@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import mnclab as mnc
-from mnclab.controls.tnc_620.engraved_text import Fault, tokens
+from mnclab.controls.tnc_620.cycles.engraving import TextFault, tokens
 from mnclab.controls.tnc_620.machining import engraving
 
 EXAMPLES = json.loads(
@@ -125,7 +125,7 @@ def test_tokens() -> None:
 def test_any_text_is_engraved_or_refused(text: str) -> None:
     try:
         found = tokens(text, NOW, 12)
-    except Fault:
+    except TextFault:
         return
     assert all(sign in engraving.GLYPHS or sign in "\n\t\v" for sign in found)
 

@@ -13,7 +13,7 @@ import pytest
 from tools.together import together
 
 import mnclab as mnc
-from mnclab.controls.tnc_620.language.calls import PLACED_BY_DATUM
+from mnclab.controls.tnc_620.language.flow import PLACED_BY_DATUM
 from mnclab.machine import trial
 
 CYCLES = {

@@ -7,7 +7,7 @@ import math
 import pytest
 
 import mnclab as mnc
-from mnclab.controls.tnc_620.printing.output import Fault, parse
+from mnclab.controls.tnc_620.printing import MaskFault, parse
 
 #: 2018-09-05 07:08:09 UTC, counted from 1970: 17779 days, 7 hours, 8 minutes and 9 seconds.
 CLOCK = 17779 * 86400.0 + 7 * 3600 + 8 * 60 + 9
@@ -142,7 +142,7 @@ def test_nothing_counts_that_was_written_after_a_fault(inside) -> None:
     ],
 )  # fmt: skip
 def test_a_faulty_mask_is_refused_at_its_line(mask: str, message: str, inside) -> None:
-    with pytest.raises(Fault, match="line"):
+    with pytest.raises(MaskFault, match="line"):
         parse(mask)
     (alarm,) = printed(inside, mask, f"2 Q1 = 5\n3 {PRINT}").alarms
     assert alarm.message.startswith(f"FN 16: mask TNC:\\MASK\\LOG.A, {message}") and alarm.span[:2] == (4, 18)

@@ -14,7 +14,7 @@ import pytest
 
 import mnclab
 from mnclab import Kind, Setter, Setup, Tool, Wear
-from mnclab.controls.tnc_620.probing.tool_measuring import status
+from mnclab.controls.tnc_620.probing.tool_setter import status
 from mnclab.machining.steps import Orient
 
 EXAMPLES = json.loads(

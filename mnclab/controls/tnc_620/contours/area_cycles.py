@@ -7,23 +7,13 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import Any
 
-from mnclab.controls.tnc_620.contours.area import contour_terraces
-from mnclab.controls.tnc_620.contours.data import ContourData, contour_data, prepared, some_infeeds
+from mnclab.controls.tnc_620.contours.area import ContourData, contour_data, contour_terraces, prepared, some_infeeds
 from mnclab.controls.tnc_620.contours.line import Named, in_table, leave, named_tool
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, count, increment, percent
 from mnclab.controls.tnc_620.cycles.obsolete_sub_blocks import advanced_stop
 from mnclab.controls.tnc_620.cycles.planes import SAME, Fault, in_program_coordinates, not_zero, rate, with_radius
-from mnclab.controls.tnc_620.machining import roughing
-from mnclab.controls.tnc_620.machining.finishing import (
-    Descent,
-    Wall,
-    finish_floor,
-    finish_walls,
-    floor_passes,
-    wall_loops,
-)
-from mnclab.controls.tnc_620.machining.finishing import Heights as WallHeights
+from mnclab.controls.tnc_620.machining import finishing, roughing
 from mnclab.controls.tnc_620.machining.roughing import Cut, Feeds, Heights
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.regions import Region
@@ -182,7 +172,7 @@ def residue(m: Machine, data: ContourData, cut: Cut) -> Iterator[Say]:
         yield Say(f"Q2={data.overlap:.10g} {sentence}", "Q2=1 leaves nothing")
 
 
-# Cycle 23: finishing the floors of a contour (8.7); `milling.floor_finishing` does the geometry.
+# Cycle 23: finishing the floors of a contour (8.7); `machining.finishing` does the geometry.
 
 OVER_ALLOWANCE = 1.0  # mm on the machine, how far above the allowance the arc to the floor begins with a tool not smaller
 
@@ -211,7 +201,7 @@ class FloorFinishing(Cycle):
         found = yield from contour_terraces(m, data)
         try:
             floors = list(
-                floor_passes(
+                finishing.floor_passes(
                     found, m.radius, data.overlap * m.radius, allowance=data.side_allowance, climb=data.climb(m),
                     corner_radius=data.corner,
                 )
@@ -220,15 +210,15 @@ class FloorFinishing(Cycle):
             m.alarm(in_mm(f"{self.code}: {error}{remark(m)}", m.variable_unit), hint="take a smaller tool")
         arcs = abs(depth_scale(m) - plane_scale(m)) < SAME  # else they would be ellipses
         arc = min(data.floor_allowance + OVER_ALLOWANCE / m.scale, m.radius) if arcs else 0.0
-        down = Descent(data.height, data.above, max(arc, 0.0), -data.down, self.plunge_feed)
+        down = finishing.Descent(data.height, data.above, max(arc, 0.0), -data.down, self.plunge_feed)
         for name, floor in zip(numbered("floor", len(floors)), floors, strict=True):
             if not floor.clearing.pieces:
                 yield Say(f"does not reach the floor {floor.depth:.10g} mm below the surface: the tool is too wide")
-            yield from finish_floor(name, floor.clearing, data.surface + data.down * floor.depth, down, self.feed)
+            yield from finishing.finish_floor(name, floor.clearing, data.surface + data.down * floor.depth, down, self.feed)
         yield from leave(m, before, data.height, rate(self.retract_feed, self.feed))
 
 
-# Cycle 24: finishing the walls of a contour, or of islands alone (8.8); `milling.contour_finishing` does the geometry.
+# Cycle 24: finishing the walls of a contour, or of islands alone (8.8); `machining.finishing` does the geometry.
 
 OVER_WALL = 0.5  # mm on the machine, how much wider than the allowance the arcs to the wall are
 SHARE = 25  # of the set-up clearance: where the helices of the last infeed begin
@@ -282,15 +272,15 @@ class SideFinishing(Cycle):
                 m.alarm(in_mm(f"{self.code} Q10={self.infeed:.10g} {sentence}", m.variable_unit, length=True))
             for x, y in (wall.contour.points[0].tolist() for wall in walls if not wall.tangential):
                 yield Say(f"has no room for an arc to the wall at X{x:.3f} Y{y:.3f}: the tool comes straight to it")
-            yield from finish_walls(walls, heights, self.plunge_feed, self.feed)
+            yield from finishing.finish_walls(walls, heights, self.plunge_feed, self.feed)
         yield from leave(m, before, data.height)
 
 
-def walls_of(c: SideFinishing, m: Machine, data: ContourData, terrace: Terrace) -> tuple[Wall, ...]:
+def walls_of(c: SideFinishing, m: Machine, data: ContourData, terrace: Terrace) -> tuple[finishing.Wall, ...]:
     """The walls of a terrace; an Alarm where the tool does not fit."""
     taken = data.side_allowance - c.side_allowance
     try:
-        return wall_loops(
+        return finishing.wall_loops(
             terrace.region, m.radius, allowance=c.side_allowance, corner_radius=data.corner,
             climb=c.sense * m.orientation > 0, lead=max(m.radius / 2, taken + OVER_WALL / m.scale), least=max(taken, 0.0),
             solid=terrace.solid,
@@ -299,7 +289,7 @@ def walls_of(c: SideFinishing, m: Machine, data: ContourData, terrace: Terrace) 
         m.alarm(in_mm(f"{c.code}: {error}{remark(m)}", m.variable_unit), hint="take a smaller tool")
 
 
-def heights_of(found: Sequence[Terrace], data: ContourData, infeed: float) -> Iterator[WallHeights]:
+def heights_of(found: Sequence[Terrace], data: ContourData, infeed: float) -> Iterator[finishing.Heights]:
     """The levels of each terrace; only the way to the very first wall leads at the clearance height."""
     made = levels(found, data.surface, data.down, infeed)
     before = (data.surface, *(level.height for level in made))
@@ -307,4 +297,4 @@ def heights_of(found: Sequence[Terrace], data: ContourData, infeed: float) -> It
         own = [number for number, level in enumerate(made) if level.terrace == k]
         last = abs(made[own[-1]].height - before[own[-1]])
         rise = -data.down * min(data.clearance / SHARE, last)
-        yield WallHeights([made[number].height for number in own], rise, data.above if k else data.height, data.above)
+        yield finishing.Heights([made[number].height for number in own], rise, data.above if k else data.height, data.above)

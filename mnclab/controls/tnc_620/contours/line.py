@@ -8,8 +8,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.controls.tnc_620.contours.area import MOST_ELEMENTS, fault
-from mnclab.controls.tnc_620.contours.data import Labels
+from mnclab.controls.tnc_620.contours.area import MOST_ELEMENTS, Labels, fault
 from mnclab.controls.tnc_620.cycles.planes import Fault
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
@@ -94,7 +93,7 @@ CLOSED = 1e-6  # mm, from the end to the beginning of a closed contour
 FLAT = 1e-9  # mm
 
 
-class Line(NamedTuple):
+class ContourLine(NamedTuple):
     """A contour with the side that its compensation says: +1 left, -1 right, 0 none.
 
     `heights` (n,) are those of its n points; `steps` and `lines` (m,) name the blocks of its m elements, for alarms.
@@ -120,7 +119,7 @@ def with_labels(m: Machine, single: bool = False) -> Iterator[Fault]:
         yield "", f"takes a single contour, but CYCL DEF 14 names {len(labels.names)} labels"
 
 
-def contour_line(m: Machine, in_space: bool = False) -> Generator[Step, Any, Line]:
+def contour_line(m: Machine, in_space: bool = False) -> Generator[Step, Any, ContourLine]:
     """The contour of the first label of cycle 14, in coordinates of the program.
 
     An Alarm where it leaves its plane; `in_space` it may have heights, and its first block needs all three coordinates.
@@ -149,4 +148,5 @@ def contour_line(m: Machine, in_space: bool = False) -> Generator[Step, Any, Lin
         fault(m, int(path.step[-1]), f"the contour of label {label} has no length in the plane XY")
     if np.hypot(*(contour.points[-1] - contour.points[0])) <= CLOSED and abs(heights[-1] - heights[0]) <= CLOSED:
         contour, heights = Contour(contour.points[:-1], contour.bulge[:-1]), heights[:-1]
-    return Line(contour, recording.side, heights, path.step[rows], path.line[rows], recording.approach, recording.departure)
+    ends = recording.approach, recording.departure
+    return ContourLine(contour, recording.side, heights, path.step[rows], path.line[rows], *ends)

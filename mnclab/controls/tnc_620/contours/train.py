@@ -4,18 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Generator, Iterator
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 
-from mnclab.controls.tnc_620.contours.data import as_they_stand
-from mnclab.controls.tnc_620.contours.line import Line, Named, contour_line, in_table, leave, named_tool, with_labels
+from mnclab.controls.tnc_620.contours.area import as_they_stand
+from mnclab.controls.tnc_620.contours.line import (
+    ContourLine,
+    Named,
+    contour_line,
+    in_table,
+    leave,
+    named_tool,
+    with_labels,
+)
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, count, increment, length
 from mnclab.controls.tnc_620.cycles.planes import SAME, Fault, in_program_coordinates, not_zero, with_radius
 from mnclab.controls.tnc_620.machining.train_passes import Feeds, leading_off, leading_to, mill
 from mnclab.controls.tnc_620.machining.train_passes import Train as Passes
-from mnclab.controls.tnc_620.machining.trains import Beside, Way, beside, cuts_into, rests
+from mnclab.controls.tnc_620.machining.trains import Beside, SpaceWay, beside, cuts_into, rests
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
 from mnclab.machine.coordinates import MILLS, in_mm
@@ -71,6 +79,7 @@ class TrainData(Cycle):
 # The passes of a contour train: the way beside the contour, what leads to it and off it, what a coarser tool has left.
 # Cycle 270 says side and approach; without it the contour does, by RL and RR, by APPR and DEP.
 
+SpaceWays: TypeAlias = tuple[SpaceWay, ...]
 SAME_PLACE = 1e-6  # mm
 LEFT = 5e-4  # mm, the thinnest rest that is told
 
@@ -86,7 +95,7 @@ class Wanted(Protocol):
 
 
 def trains(
-    m: Machine, c: Wanted, line: Line, coarse_radius: float | None, place: Span | None
+    m: Machine, c: Wanted, line: ContourLine, coarse_radius: float | None, place: Span | None
 ) -> Generator[Step, Any, tuple[Passes, ...]]:
     """The trains along a line in the sense of the cycle; with a coarse tool only where that has left something.
 
@@ -113,7 +122,7 @@ def trains(
     return tuple(train if ahead else train.reversed() for train in planned)
 
 
-def _remarks(c: Wanted, line: Line, data: TrainData | None, side: int) -> Iterator[str]:
+def _remarks(c: Wanted, line: ContourLine, data: TrainData | None, side: int) -> Iterator[str]:
     """What of the program does not count."""
     if data is not None and line.side and line.side != side:
         yield "takes the radius compensation from Q391 of cycle 270: RL or RR of the contour does not count"
@@ -125,7 +134,7 @@ def _remarks(c: Wanted, line: Line, data: TrainData | None, side: int) -> Iterat
         yield "runs on the contour without radius compensation, in its own sense: it is neither climb nor up-cut"
 
 
-def _beside(m: Machine, c: Wanted, line: Line, radius: float, side: int) -> Beside:
+def _beside(m: Machine, c: Wanted, line: ContourLine, radius: float, side: int) -> Beside:
     """The ways of a tool beside the line; an Alarm in the block of the contour where there is none."""
     try:
         return beside(line.contour, radius + c.side_allowance, side, line.heights, line.lines)
@@ -138,7 +147,7 @@ def _with_allowance(c: Wanted) -> str:
     return f" (the allowance Q3 = {c.side_allowance:g} is counted as part of the radius)" if c.side_allowance else ""
 
 
-def _span(m: Machine, line: Line, fault: PathFault) -> Any:
+def _span(m: Machine, line: ContourLine, fault: PathFault) -> Any:
     """The block of the element at fault."""
     return m.flow.span_of_step(int(line.steps[min(max(fault.step, 0), len(line.steps) - 1)]))
 
@@ -150,7 +159,7 @@ def _left_standing(found: Beside, fault: PathFault, place: Span | None) -> Say:
     return Say(f"{rest}: {fault.message}", fault.hint, place)
 
 
-def _after(m: Machine, c: Wanted, line: Line, ways: tuple[Way, ...], side: int, radius: float) -> tuple[Way, ...]:
+def _after(m: Machine, c: Wanted, line: ContourLine, ways: SpaceWays, side: int, radius: float) -> SpaceWays:
     """The stretches of ways where a coarse tool of a radius has left something; everything where it had no way at all."""
     try:
         coarse = beside(line.contour, radius + c.side_allowance, side, line.heights).ways
@@ -164,14 +173,14 @@ def _after(m: Machine, c: Wanted, line: Line, ways: tuple[Way, ...], side: int, 
     )
 
 
-def _walls(m: Machine, c: Wanted, line: Line, side: int) -> tuple[tuple[Contour, ...], float]:
+def _walls(m: Machine, c: Wanted, line: ContourLine, side: int) -> tuple[tuple[Contour, ...], float]:
     """What the tool centre keeps a distance from: the contour, or what is to stand where the tool goes beyond the contour."""
     if (distance := m.radius + c.side_allowance) >= 0:
         return (line.contour,), distance
     return tuple(way.contour for way in _beside(m, c, line, 0.0, side).ways), m.radius
 
 
-def _with_leads(m: Machine, line: Line, data: TrainData | None, piece: Way, whole: Way, side: int) -> Passes:
+def _with_leads(m: Machine, line: ContourLine, data: TrainData | None, piece: SpaceWay, whole: SpaceWay, side: int) -> Passes:
     """A way with its approach and departure: those of cycle 270, or of the contour at its own ends."""
     if data is not None:
         lead = data.lead(m)
@@ -187,7 +196,7 @@ def _with_leads(m: Machine, line: Line, data: TrainData | None, piece: Way, whol
     return Passes(piece, to, off, side)
 
 
-def _recorded(m: Machine, recorded: RecordedLead, piece: Way) -> Way:
+def _recorded(m: Machine, recorded: RecordedLead, piece: SpaceWay) -> SpaceWay:
     """The way of an APPR or DEP block."""
     lead, place = recorded.lead, recorded.place
     span = m.flow.span_of_step(lead.step)
@@ -202,7 +211,7 @@ def _recorded(m: Machine, recorded: RecordedLead, piece: Way) -> Way:
 
 
 def _refuse_damage(
-    m: Machine, line: Line, train: Passes, walls: tuple[Contour, ...], distance: float, place: Span | None
+    m: Machine, line: ContourLine, train: Passes, walls: tuple[Contour, ...], distance: float, place: Span | None
 ) -> None:  # fmt: skip
     """An Alarm where the ways to the contour or off it, or what is put on at its ends, lead the tool into walls."""
     for way, recorded, name in (
@@ -218,40 +227,29 @@ def _refuse_damage(
 
 
 # Cycles 25 and 276: contour trains, along an open or closed contour in the plane or in space (8.9, 8.10).
-# `milling.trains` finds the way beside the contour, `milling.train_passes` the passes; `train_plan` joins them with cycle 270.
+# `machining.trains` finds the way beside the contour, `machining.train_passes` the passes.
 
 SENSE: dict[float, str] = {1: "climb", -1: "up-cut", 0: "to and fro, infeeds at both ends"}
+SHARED = "height infeed plunge_feed feed sense coarse_tool accepted connected extended"
 CLEAR = 2.0  # mm above the surface, to which the tool goes down at rapid (the manual names no set-up clearance)
-
-milling_depth = increment("Q1", "milling depth from the surface to the floor", example=-20)
-side_allowance = increment("Q3", "finishing allowance for side", example=0)
-clearance_height = coordinate("Q7", "clearance height", example=50)
-infeed = increment("Q10", "infeed per cut", example=5)
-plunge_feed = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=100)
-milling_feed = addresses.feed("Q12", "feed rate for roughing", also=addresses.PLANE, at_most=FAR, example=350)
-sense = choice("Q15", "climb or up-cut milling", SENSE, example=1)
-coarse_tool = count(("Q18", "QS18"), "coarse roughing tool", type="text", default=0)
-accepted = length("Q446", "accepted residual material", at_least=0.001, at_most=9.999, default=0.01)
-connected = length("Q447", "connection distance", at_most=999.9999, default=10)
-extended = length("Q448", "path extension", at_most=99.999, default=2)
 
 
 class Train(Cycle):
-    """What both cycles share; who inherits declares the parameters."""
+    """What both cycles share."""
 
     does = MILLS
     about = in_program_coordinates
-    depth: float
-    side_allowance: float
-    height: float
-    infeed: float
-    plunge_feed: float
-    feed: float
-    sense: float
-    coarse_tool: Named
-    accepted: float
-    connected: float
-    extended: float
+    depth: float = increment("Q1", "milling depth from the surface to the floor", example=-20)
+    side_allowance: float = increment("Q3", "finishing allowance for side", example=0)
+    height: float = coordinate("Q7", "clearance height", example=50)
+    infeed: float = increment("Q10", "infeed per cut", example=5)
+    plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=100)
+    feed: float = addresses.feed("Q12", "feed rate for roughing", also=addresses.PLANE, at_most=FAR, example=350)
+    sense: float = choice("Q15", "climb or up-cut milling", SENSE, example=1)
+    coarse_tool: Named = count(("Q18", "QS18"), "coarse roughing tool", type="text", default=0)
+    accepted: float = length("Q446", "accepted residual material", at_least=0.001, at_most=9.999, default=0.01)
+    connected: float = length("Q447", "connection distance", at_most=999.9999, default=10)
+    extended: float = length("Q448", "path extension", at_most=99.999, default=2)
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from with_labels(m)
@@ -280,22 +278,11 @@ class Train(Cycle):
         return Feeds(self.plunge_feed, self.feed, self.height, surface + CLEAR if self.depth < 0 else INF, edge, m.radius)
 
 
-@CYCLES("CYCL DEF 25", "Contour train", source="8.9")
+@CYCLES("CYCL DEF 25", "Contour train", source="8.9", takes=f"depth side_allowance surface {SHARED}")
 class ContourTrain(Train):
     """Along an open or closed contour, level by level; under a mirror image climb stays climb."""
 
-    depth: float = milling_depth
-    side_allowance: float = side_allowance
     surface: float = coordinate("Q5", "coordinate of the workpiece surface", example=0)
-    height: float = clearance_height
-    infeed: float = infeed
-    plunge_feed: float = plunge_feed
-    feed: float = milling_feed
-    sense: float = sense
-    coarse_tool: Named = coarse_tool
-    accepted: float = accepted
-    connected: float = connected
-    extended: float = extended
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
@@ -313,21 +300,11 @@ class ContourTrain(Train):
         yield from leave(m, before, self.height)
 
 
-@CYCLES("CYCL DEF 276", "Three-dimensional contour train", source="8.10")
+@CYCLES(
+    "CYCL DEF 276", "Three-dimensional contour train", source="8.10", takes=f"depth side_allowance {SHARED}"
+)
 class SpaceTrain(Train):
     """Along a contour with heights: at them, or in infeeds down from them; under a mirror image climb stays climb."""
-
-    depth: float = milling_depth
-    side_allowance: float = side_allowance
-    height: float = clearance_height
-    infeed: float = infeed
-    plunge_feed: float = plunge_feed
-    feed: float = milling_feed
-    sense: float = sense
-    coarse_tool: Named = coarse_tool
-    accepted: float = accepted
-    connected: float = connected
-    extended: float = extended
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)

@@ -1,4 +1,4 @@
-"""Cycle 275: a slot about a centre line, roughed on circles (8.12); `milling.trochoidal_slots` does the geometry.
+"""Cycle 275: a slot about a centre line, roughed on circles (8.12); `machining.slots` does the geometry.
 
 A closed slot begins in the material, an open one outside of it, where its APPR block begins. The manual names no clearance
 height: it is the second set-up clearance. Where two readings are possible, the floor comes after the walls, with the same
@@ -12,13 +12,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mnclab.controls.tnc_620.contours.line import Line, contour_line, leave, with_labels
+from mnclab.controls.tnc_620.contours.line import ContourLine, contour_line, leave, with_labels
 from mnclab.controls.tnc_620.cycles import addresses, milling
-from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault, at_least, at_most, in_program_coordinates, not_zero
+from mnclab.controls.tnc_620.cycles.planes import Fault, at_least, at_most, not_zero
 from mnclab.controls.tnc_620.cycles.pockets import check_angle, feeds
 from mnclab.controls.tnc_620.machining import slots
 from mnclab.geometry.contours import Contour
-from mnclab.machine.coordinates import MILLS, in_mm, remark, tool
+from mnclab.machine.coordinates import in_mm, remark, tool
 from mnclab.machine.cycle import CycleTable, few_passes
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
@@ -29,43 +29,33 @@ from mnclab.path.leads import way
 from mnclab.path.toolpath import PathFault
 from mnclab.text.alarm import Span
 
-CYCLES = CycleTable()
+CYCLES = CycleTable(addresses=addresses.shared(**milling.PARAMETERS))
 PLUNGE: dict[float, str] = {0: "vertical", 1: "no function: as 0", 2: "reciprocating"}
 CORNER = 0.01  # rad, of a turn that is more than rounded coordinates
 
 
-@CYCLES("CYCL DEF 275", "Trochoidal slot", source="8.12")
-class TrochoidalSlot(AtSurface):
+@CYCLES(
+    "CYCL DEF 275", "Trochoidal slot", source="8.12",
+    takes="machining_operation slot_width side_allowance advance milling_feed roughing_feed milling_type depth infeed "
+          "plunging_feed finishing_infeed finishing_feed clearance surface second_clearance plunging_strategy floor_allowance "
+          "feed_reference",
+)  # fmt: skip
+class TrochoidalSlot(milling.MilledFigure):
     """Mills a slot along a contour: circles level by level, then its walls, then its floor; a mirror image keeps its climb."""
 
-    does = MILLS
-    about = in_program_coordinates
-    contradictions = milling.contradictions
-    machining_operation: float = addresses.operation()
-    slot_width: float = addresses.slot_width()
-    side_allowance: float = addresses.side_allowance()
     advance: float = addresses.length("Q436", "infeed per revolution", unit="mm/rev", note="the greatest engagement", example=2)
-    milling_feed: float = addresses.milling_feed()
     roughing_feed: float | None = addresses.feed(
         "Q12", "feed rate for roughing", also=addresses.PLANE, at_most=addresses.FAR, default=None, default_means="not used",
         note="Q207 counts",
     )  # fmt: skip
-    milling_type: float = addresses.climb(predef=True)
-    depth: float = addresses.depth()
     infeed: float = addresses.infeed(note="greater than 0")
-    plunging_feed: float = addresses.plunge_feed(also=addresses.PLANE)
-    finishing_infeed: float = addresses.finishing_infeed()
     finishing_feed: float = addresses.finishing_feed(example=500)
-    clearance: float = addresses.clearance(predef=True)
-    surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance(example=50)
     plunging_strategy: float = addresses.plunging(PLUNGE, example=0)
-    floor_allowance: float = addresses.floor_allowance()
-    feed_reference: float = addresses.feed_reference()
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from with_labels(m, single=True)
-        yield from milling.check(self, m)
+        yield from super().check(m)
 
     def fits(self, m: Machine) -> Iterator[Fault]:
         """The tool and its step fit the slot; how the tool gets down."""
@@ -110,7 +100,7 @@ class TrochoidalSlot(AtSurface):
         yield from mill(self, m, line, found.approach is not None, here)
 
 
-def with_approach(m: Machine, found: Line) -> Contour:
+def with_approach(m: Machine, found: ContourLine) -> Contour:
     """The centre line of a slot: its contour, and the way to it where the tool enters from outside."""
     line, approach = found.contour, found.approach
     if approach is None:

@@ -6,6 +6,7 @@ Every Q parameter is modal: it holds its value until a program writes it again, 
 from __future__ import annotations
 
 from functools import partial
+from types import SimpleNamespace
 from typing import Any
 
 from mnclab.machine.cycle import param
@@ -91,8 +92,8 @@ positioning_feed = partial(feed, "Q253", "feed rate for pre-positioning", also=P
 feed_reference = partial(choice, "Q439", "feed rate reference", EDGE, default=0, example=0)
 
 # --- pockets, slots, studs and faces ---------------------------------------------------------------------------------
-operation = partial(choice, "Q215", "machining operation", OPERATION, example=0)
-climb = partial(choice, "Q351", "climb or conventional milling", CLIMB, example=1)
+machining_operation = partial(choice, "Q215", "machining operation", OPERATION, example=0)
+milling_type = partial(choice, "Q351", "climb or conventional milling", CLIMB, example=1)
 layer = partial(infeed, note="greater than 0; at most the length of the edges, LCUTS")  # of roughing, never 0
 greatest_infeed = partial(distance, "Q202", "greatest infeed")
 finishing_infeed = partial(distance, "Q338", "infeed for finishing", note="0: in one infeed", example=5)
@@ -123,5 +124,10 @@ approach_feed = partial(feed, "Q512", "feed rate for approaching", also=("FAUTO"
 countersinking_feed = partial(
     feed, "Q254", meaning="feed rate for countersinking", also=("FAUTO", "FU"), at_most=FAR, example=150
 )
-front_depth = partial(increment, "Q358", "depth at front", note="0: no countersink", example=0)
-front_offset = partial(distance, "Q359", meaning="offset at front", example=0)
+depth_at_front = partial(increment, "Q358", "depth at front", note="0: no countersink", example=0)
+offset_at_front = partial(distance, "Q359", meaning="offset at front", example=0)
+
+
+def shared(**own: Any) -> SimpleNamespace:
+    """All of these for the cycles of one chapter, with those that differ there or stand there under another name."""
+    return SimpleNamespace(**{**globals(), **own})

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Iterator
 from itertools import chain
 
-from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles import addresses, planes
 from mnclab.controls.tnc_620.cycles.addresses import (
     choice,
     coordinate,
@@ -18,43 +18,40 @@ from mnclab.controls.tnc_620.cycles.addresses import (
     seconds,
 )
 from mnclab.controls.tnc_620.cycles.chain import MIRROR
-from mnclab.controls.tnc_620.cycles.planes import (
-    AtSurface,
-    Fault,
-    less_than_depth,
-    not_zero,
-    oriented,
-    point_length,
-    rate,
-    with_angle,
-)
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault
 from mnclab.machine.coordinates import MILLS, SHIFTS, is_round, tool, with_the_spindle
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import DRIFT, advanced_stops, infeeds
-from mnclab.machining.holes.drilling import (
-    Guided,
-    back_bore,
-    back_to_axis,
-    bore,
-    bore_milling,
-    drill,
-    guided,
-    gun_drill,
-    ream,
-    steepest_pitch,
-    turns,
-)
+from mnclab.machining.holes import drilling as holes
 from mnclab.machining.steps import RAPID, Go, Say, Step, Wait, Write
 
 # Centring, drilling and reaming (4.2 to 4.4, 4.6): cycles 240, 200, 201 and 203.
 
-CYCLES = CycleTable()
+CYCLES = CycleTable(addresses=addresses.shared(feed=addresses.plunge_feed))
 CENTRED: dict[float, str] = {0: "to the depth Q201", 1: "to the diameter Q344"}
 
 
+class Hole(AtSurface):
+    """A cycle that begins in the set-up plane over a hole."""
+
+    def moves(self, m: Machine) -> Iterable[Step]:
+        return [Go("to the set-up clearance", self.above), *self.steps(m)] if self.down else [self.left_out]
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from self.signs(m)
+        if self.reference == 1:
+            yield from planes.with_angle(m, "reference")
+        yield from planes.not_zero(self, "feed", purpose="to drill with")
+        if self.depth:
+            yield from planes.less_than_depth(self, "start_depth", self.depth)
+        if self.start_depth:
+            yield from planes.not_zero(self, "positioning_feed", purpose="to reach the starting point")
+        yield from too_many("infeed", lambda: self.pecks(m))
+
+
 @CYCLES("CYCL DEF 240", "Centering", source="4.2")
-class Centering(AtSurface):
+class Centering(Hole):
     """Centres to a depth, or so deep that the point of the tool leaves a cone of a diameter on the surface."""
 
     clearance: float = addresses.clearance()
@@ -73,15 +70,15 @@ class Centering(AtSurface):
     def reach(self, m: Machine) -> float:
         if not self.mode:
             return self.depth
-        return math.copysign(point_length(abs(self.diameter) / 2, tool(m).angle), self.diameter)
+        return math.copysign(planes.point_length(abs(self.diameter) / 2, tool(m).angle), self.diameter)
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from self.signs(m)
         if self.mode:
-            yield from with_angle(m, "mode")
+            yield from planes.with_angle(m, "mode")
             if not is_round(m):
                 yield "mode", "1 cannot run under unequal scales of the plane: a diameter would be two"
-        yield from not_zero(self, "feed", purpose="to drill with")
+        yield from planes.not_zero(self, "feed", purpose="to drill with")
 
     def moves(self, m: Machine) -> Iterator[Step]:
         if self.mode and abs(self.diameter) > 2 * m.radius > 0:
@@ -95,73 +92,53 @@ class Centering(AtSurface):
         yield from self.leave()
 
 
-@CYCLES("CYCL DEF 200", "Drilling", source="4.3")
-class Drilling(AtSurface):
+@CYCLES(
+    "CYCL DEF 200", "Drilling", source="4.3",
+    takes="clearance depth feed infeed dwell_top surface second_clearance dwell_bottom reference",
+)  # fmt: skip
+class Drilling(Hole):
     """Drills in infeeds with full retraction to the set-up plane, a dwell after each infeed, and a rapid to the end plane."""
 
-    clearance: float = addresses.clearance()
-    depth: float = addresses.depth()
-    feed: float = addresses.plunge_feed()
-    infeed: float = addresses.infeed()
-    dwell_top: float = addresses.dwell_top()
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance()
     dwell_bottom: float = addresses.dwell_bottom(default=0)  # older programs lack it
-    reference: float = addresses.reference()
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        yield from drill(
+        yield from holes.drill(
             self.pecks(m), above=self.above, feed=self.feed, reenter=self.clearance, dwell_top=self.dwell_top,
             dwell_each=self.dwell_bottom, dwell_bottom=self.dwell_bottom,
         )  # fmt: skip
         yield from self.leave()
 
 
-@CYCLES("CYCL DEF 201", "Reaming", source="4.4")
-class Reaming(AtSurface):
+@CYCLES("CYCL DEF 201", "Reaming", source="4.4", takes="clearance depth feed dwell_bottom retract_feed surface second_clearance")
+class Reaming(Hole):
     """In and out at feed: a reamer does not leave its hole at rapid."""
 
-    clearance: float = addresses.clearance()
-    depth: float = addresses.depth()
-    feed: float = addresses.plunge_feed()
-    dwell_bottom: float = addresses.dwell_bottom()
     retract_feed: float = addresses.retract_feed(also=())
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance()
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        out = rate(self.retract_feed, self.feed)
-        yield from ream(self.bottom(m), above=self.above, feed=self.feed, retract=out, dwell=self.dwell_bottom)
+        out = planes.rate(self.retract_feed, self.feed)
+        yield from holes.ream(self.bottom(m), above=self.above, feed=self.feed, retract=out, dwell=self.dwell_bottom)
         yield from self.leave()
 
 
-@CYCLES("CYCL DEF 203", "Universal drilling", source="4.6")
-class UniversalDrilling(AtSurface):
+@CYCLES(
+    "CYCL DEF 203", "Universal drilling", source="4.6",
+    takes="clearance depth feed infeed dwell_top surface second_clearance decrement chip_breaks min_infeed dwell_bottom "
+          "retract_feed break_retract reference",
+)  # fmt: skip
+class UniversalDrilling(Hole):
     """Drills with infeeds that may shrink; breaks the chip Q213 times before each full retraction.
 
     The infeed after the last chip break ends with the retraction, so Q213 + 1 infeeds lie between two of them. Back in the
     hole the rapid ends Q256 above the last depth, or Q200 above it where Q256 is 0.
     """
 
-    clearance: float = addresses.clearance()
-    depth: float = addresses.depth()
-    feed: float = addresses.plunge_feed()
-    infeed: float = addresses.infeed()
-    dwell_top: float = addresses.dwell_top()
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance()
-    decrement: float = addresses.decrement()
     chip_breaks: float = count("Q213", "chip breaks before each retraction", example=1)
-    min_infeed: float = addresses.min_infeed()
-    dwell_bottom: float = addresses.dwell_bottom()
-    retract_feed: float | str = addresses.retract_feed()
-    break_retract: float = addresses.break_retract()
-    reference: float = addresses.reference()
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        yield from drill(
+        yield from holes.drill(
             self.pecks(m), above=self.above, feed=self.feed, reenter=self.break_retract or self.clearance,
-            withdraw=rate(self.retract_feed, self.feed), dwell_top=self.dwell_top, dwell_bottom=self.dwell_bottom,
+            withdraw=planes.rate(self.retract_feed, self.feed), dwell_top=self.dwell_top, dwell_bottom=self.dwell_bottom,
             breaks=int(self.chip_breaks), back=self.break_retract,
         )  # fmt: skip
         yield from self.leave()
@@ -179,35 +156,28 @@ def as_if_not_mirrored(m: Machine, steps: Iterable[Step]) -> Iterator[Step]:
     return with_the_spindle(m, steps, plain.matrix)
 
 
-@CYCLES("CYCL DEF 202", "Boring", source="4.5")
-class Boring(AtSurface):
+@CYCLES(
+    "CYCL DEF 202", "Boring", source="4.5",
+    takes="clearance depth feed dwell_bottom retract_feed surface second_clearance disengage spindle_angle",
+)  # fmt: skip
+class Boring(Hole):
     """Bores, stops the spindle at an angle, moves 0.2 mm off the wall and withdraws; ends on the axis of the hole."""
 
-    clearance: float = addresses.clearance()
-    depth: float = addresses.depth()
-    feed: float = addresses.plunge_feed()
-    dwell_bottom: float = addresses.dwell_bottom()
-    retract_feed: float | str = addresses.retract_feed()
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance()
-    disengage: float = addresses.disengage()
-    spindle_angle: float = addresses.spindle_angle()
-
     def check(self, m: Machine) -> Iterator[Fault]:
-        yield from oriented(m)
+        yield from planes.oriented(m)
         yield from super().check(m)
 
     def steps(self, m: Machine) -> Iterator[Step]:
         yield Write("memory", self.spindle_angle, "orientation")
-        bored = bore(
-            self.bottom(m), above=self.above, feed=self.feed, retract=rate(self.retract_feed, self.feed),
+        bored = holes.bore(
+            self.bottom(m), above=self.above, feed=self.feed, retract=planes.rate(self.retract_feed, self.feed),
             dwell=self.dwell_bottom, angle=self.spindle_angle, direction=int(self.disengage),
         )  # fmt: skip
-        yield from as_if_not_mirrored(m, chain(bored, back_to_axis(self.end, m.turning)))
+        yield from as_if_not_mirrored(m, chain(bored, holes.back_to_axis(self.end, m.turning)))
 
 
 @CYCLES("CYCL DEF 204", "Back boring", source="4.7")
-class BackBoring(AtSurface):
+class BackBoring(Hole):
     """Counterbores from below, with a bar that goes through the hole off its axis.
 
     Levels count for the lower end of the bar; its edge is Q252 above that.
@@ -234,28 +204,28 @@ class BackBoring(AtSurface):
         return {"counterbore_depth": -self.counterbore_depth}
 
     def check(self, m: Machine) -> Iterator[Fault]:
-        yield from oriented(m)
+        yield from planes.oriented(m)
         if self.counterbore_depth < 0:
             yield "counterbore_depth", f"must not be negative, got {self.counterbore_depth:g}"
         if self.counterbore_depth >= self.thickness:
             yield "counterbore_depth", f"must be less than Q250 = {self.thickness:g}, got {self.counterbore_depth:g}"
-        yield from not_zero(self, "feed", purpose="to bore with")
-        yield from not_zero(self, "positioning_feed", purpose="to position with")
+        yield from planes.not_zero(self, "feed", purpose="to bore with")
+        yield from planes.not_zero(self, "positioning_feed", purpose="to position with")
 
     def steps(self, m: Machine) -> Iterator[Step]:
         yield Write("memory", self.spindle_angle, "orientation")
         lower = self.surface - self.thickness - self.edge_height
-        bored = back_bore(
+        bored = holes.back_bore(
             above=self.above, below=lower - self.clearance, bottom=lower + self.counterbore_depth,
             eccentricity=self.eccentricity, direction=int(self.disengage), angle=self.spindle_angle, feed=self.feed,
-            travel=rate(self.positioning_feed), dwell=self.dwell_bottom, turning=m.turning or 1,
+            travel=planes.rate(self.positioning_feed), dwell=self.dwell_bottom, turning=m.turning or 1,
             coolant=m.modal.get("coolant") == "M9",
         )  # fmt: skip
-        yield from as_if_not_mirrored(m, chain(bored, back_to_axis(self.end, m.turning)))
+        yield from as_if_not_mirrored(m, chain(bored, holes.back_to_axis(self.end, m.turning)))
 
 
 @CYCLES("CYCL DEF 208", "Bore milling", source="4.9")
-class BoreMilling(AtSurface):
+class BoreMilling(Hole):
     """Mills a hole on a helix from the set-up plane, with a full circle at the bottom; as wide as the tool it drills it.
 
     The infeed per turn is reduced where the plunge angle of the tool (ANGLE) demands it. A mirrored plane does not change
@@ -273,7 +243,7 @@ class BoreMilling(AtSurface):
     roughing_diameter: float = length(
         "Q342", "diameter roughed before", note="above 0 the bore may be wider than twice the tool", example=0
     )
-    climb: float = addresses.climb(example=1)
+    climb: float = addresses.milling_type(example=1)
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
@@ -283,8 +253,8 @@ class BoreMilling(AtSurface):
         if not self.roughing_diameter and self.diameter > 2 * size + DRIFT:
             yield "diameter", f"must be at most twice the tool diameter {size:g} while Q342 is 0, got {self.diameter:g}"
         if self.radius(m):
-            yield from not_zero(self, "pitch", purpose="to mill with")
-            yield from too_many("pitch", lambda: turns(self.clearance + abs(self.depth), self.pitch_on(m)))
+            yield from planes.not_zero(self, "pitch", purpose="to mill with")
+            yield from too_many("pitch", lambda: holes.turns(self.clearance + abs(self.depth), self.pitch_on(m)))
 
     def radius(self, m: Machine) -> float:
         """Of the path of the tool centre; 0 where the bore is as wide as the tool."""
@@ -293,14 +263,14 @@ class BoreMilling(AtSurface):
 
     def pitch_on(self, m: Machine) -> float:
         """The infeed per turn that the tool allows."""
-        return min(self.pitch, steepest_pitch(self.radius(m), tool(m).plunge_angle))
+        return min(self.pitch, holes.steepest_pitch(self.radius(m), tool(m).plunge_angle))
 
     def steps(self, m: Machine) -> Iterator[Step]:
         pitch, sense = self.pitch_on(m), -1 if self.climb < 0 else 1
         if pitch < self.pitch and self.radius(m):
             allowed = f"the plunge angle {m.tool.plunge_angle:g} of tool {m.tool.number} allows {pitch:.4g}"
             yield Say(f"Q334 {self.pitch:g} is reduced: {allowed}", word=m.cycle and m.cycle.words.get("pitch"))
-        yield from bore_milling(
+        yield from holes.bore_milling(
             self.bottom(m), above=self.above, radius=self.radius(m), pitch=pitch, sense=sense * m.orientation,
             feed=self.feed, by_arc=True,
         )  # fmt: skip
@@ -314,72 +284,58 @@ ENTRY: dict[float, str] = {3: "clockwise (M3)", 4: "counter-clockwise (M4)", 5: 
 TURNING = {3: 1, 4: -1, 5: 0}
 
 
-def guide(c: AtSurface) -> Guided:
+def guide(c: AtSurface) -> holes.Guided:
     """Where drilling begins, and where chips are cleared."""
-    return guided(c.surface, c.start_depth, c.clearance, c.down)
+    return holes.guided(c.surface, c.start_depth, c.clearance, c.down)
 
 
-@CYCLES("CYCL DEF 205", "Universal pecking", source="4.8")
-class UniversalPecking(AtSurface):
+@CYCLES(
+    "CYCL DEF 205", "Universal pecking", source="4.8",
+    takes="clearance depth feed infeed surface second_clearance decrement min_infeed first_stop last_stop break_every "
+          "break_retract dwell_bottom start_depth positioning_feed retract_feed reference",
+)  # fmt: skip
+class UniversalPecking(Hole):
     """Drills in infeeds that may shrink, breaks the chip every Q257 within each, and clears the chips after it.
 
     Back in the hole the rapid stops above the last depth: by Q258 the first time, by Q259 the last, evenly between.
     """
 
-    clearance: float = addresses.clearance()
-    depth: float = addresses.depth()
-    feed: float = addresses.plunge_feed()
-    infeed: float = addresses.infeed()
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance()
-    decrement: float = addresses.decrement()
-    min_infeed: float = addresses.min_infeed()
     first_stop: float = addresses.first_stop(example=0.5)
     last_stop: float = distance("Q259", "lower advanced stop distance", example=1)
     break_every: float = addresses.break_every(meaning="infeed between chip breaks", note="0: no chip breaks", example=2)
-    break_retract: float = addresses.break_retract()
-    dwell_bottom: float = addresses.dwell_bottom()
-    start_depth: float = addresses.start_depth()
-    positioning_feed: float | str = addresses.positioning_feed()
     #: The cycle of the iTNC 530 had no Q208 at first and retracted at rapid: its programs still do.
     retract_feed: float | str | None = addresses.retract_feed(at_most=addresses.FAR, default=None, default_means="FMAX")
-    reference: float = addresses.reference()
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
         if self.break_every and self.break_retract:
-            yield from not_zero(self, "positioning_feed", purpose="to return after a chip break")
+            yield from planes.not_zero(self, "positioning_feed", purpose="to return after a chip break")
         yield from too_many("break_every", lambda: infeeds(self.begin, self.bottom(m), self.break_every))
 
     def steps(self, m: Machine) -> Iterator[Step]:
         levels, way = self.pecks(m), guide(self)
-        out = RAPID if self.retract_feed is None else rate(self.retract_feed, self.feed)
-        yield Go("to the start of the drilling", way.start, rate(self.positioning_feed))
-        yield from drill(
+        out = RAPID if self.retract_feed is None else planes.rate(self.retract_feed, self.feed)
+        yield Go("to the start of the drilling", way.start, planes.rate(self.positioning_feed))
+        yield from holes.drill(
             levels, above=way.clear, start=self.begin, feed=self.feed, dwell_bottom=self.dwell_bottom,
             reenter=advanced_stops(self.first_stop, self.last_stop, len(levels) - 1), break_every=self.break_every,
-            back=self.break_retract, back_feed=out, approach=rate(self.positioning_feed),
+            back=self.break_retract, back_feed=out, approach=planes.rate(self.positioning_feed),
         )  # fmt: skip
         yield from self.leave(out)
 
 
-@CYCLES("CYCL DEF 241", "Single-lip deep-hole drilling", source="4.10")
-class SingleLipDrilling(AtSurface):
+@CYCLES(
+    "CYCL DEF 241", "Single-lip deep-hole drilling", source="4.10",
+    takes="clearance depth feed dwell_bottom surface second_clearance start_depth positioning_feed retract_feed "
+          "spindle_direction entry_speed drilling_speed coolant_on coolant_off dwell_depth factor infeed decrement min_infeed",
+)  # fmt: skip
+class SingleLipDrilling(Hole):
     """Drills deep with a single-lip drill: slow in and out, fast and with coolant while it cuts, no retraction between.
 
     The spindle is left as it turns on the way out. A dwell on the way lasts as long as the one at the bottom.
     """
 
     own_spindle = True
-    clearance: float = addresses.clearance()
-    depth: float = addresses.depth()
-    feed: float = addresses.plunge_feed()
-    dwell_bottom: float = addresses.dwell_bottom()
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance()
-    start_depth: float = addresses.start_depth()
-    positioning_feed: float | str = addresses.positioning_feed()
-    retract_feed: float | str = addresses.retract_feed()
     spindle_direction: float = choice("Q426", "spindle when entering and leaving", ENTRY, example=3)
     entry_speed: float = count("Q427", "speed when entering and leaving", unit="rev/min", example=25)
     drilling_speed: float = count("Q428", "speed when drilling", unit="rev/min", example=500)
@@ -397,19 +353,19 @@ class SingleLipDrilling(AtSurface):
         for name, number in (("coolant_on", self.coolant_on), ("coolant_off", self.coolant_off)):
             if number and f"M{number:g}" not in known:
                 yield name, f"must switch the coolant ({', '.join(known)}) or be 0, got {number:g}"
-        yield from not_zero(self, "drilling_speed", purpose="to drill with")
+        yield from planes.not_zero(self, "drilling_speed", purpose="to drill with")
         if self.dwell_depth and self.depth:
-            yield from less_than_depth(self, "dwell_depth", self.depth)
+            yield from planes.less_than_depth(self, "dwell_depth", self.depth)
             start = self.down * (self.surface - guide(self).start)
             if self.dwell_depth <= start:
                 yield "dwell_depth", f"must be more than {start:g}, where the drilling begins, got {self.dwell_depth:g}"
-            yield from not_zero(self, "factor", purpose="to drill on with")
+            yield from planes.not_zero(self, "factor", purpose="to drill on with")
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        way, out = guide(self), rate(self.retract_feed, self.feed)
+        way, out = guide(self), planes.rate(self.retract_feed, self.feed)
         on, off = (f"coolant M{code:g}" if code else "" for code in (self.coolant_on, self.coolant_off))
-        yield from gun_drill(
-            self.pecks(m), above=way.clear, start=way.start, feed=self.feed, approach=rate(self.positioning_feed),
+        yield from holes.gun_drill(
+            self.pecks(m), above=way.clear, start=way.start, feed=self.feed, approach=planes.rate(self.positioning_feed),
             retract=out, entry=(TURNING[int(self.spindle_direction)], self.entry_speed), speed=self.drilling_speed,
             dwell=self.dwell_bottom, pause=self.surface - self.down * self.dwell_depth if self.dwell_depth else None,
             feed_after=self.feed * self.factor / 100, coolant=(on, off), cool_until_slow=True,

@@ -1,23 +1,91 @@
-"""Engraving, cycle 225 (12.6): a text on a straight line or round a circle."""
+"""Engraving a text, cycle 225 (12.6): which characters it takes, and what stands behind % and the backslash.
+
+`%ae` is ä, `%time08` the date, `%count2` the counter with two digits; `\\n` begins a new line. Both signs are written
+twice where they are meant. The mark CE is engraved as the letters C and E.
+"""
 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from datetime import datetime
 
-from mnclab.controls.tnc_620 import engraved_text
-from mnclab.controls.tnc_620.clock import time_of_day
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, ratio
 from mnclab.controls.tnc_620.cycles.planes import SAME, AtSurface, Fault, not_zero
-from mnclab.controls.tnc_620.machining.engraving import Glyph, cells, engrave, length, on_arc, on_line
+from mnclab.controls.tnc_620.machining import engraving as letters
+from mnclab.controls.tnc_620.state import time_of_day
 from mnclab.machine.control import Setting
 from mnclab.machine.coordinates import MILLS
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Go, Step
 from mnclab.text.strings import TextFormula
+
+LONGEST = 255
+ALLOWED = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 !#$&'()*+,-./:;<=>?@[]_`ß")
+NAMED = {
+    "%": "%", "ae": "ä", "oe": "ö", "ue": "ü", "AE": "Ä", "OE": "Ö", "UE": "Ü", "ss": "ß", "D": "ø", "at": "@", "CE": "CE",
+}  # fmt: skip
+FORMATTING = {"n": letters.NEW_LINE, "t": letters.TAB, "v": letters.DOWN, "\\": "\\"}
+#: Of %time00 to %time15; as SYSSTR ID321 numbers them.
+TIMES = (
+    "{t:%d.%m.%Y %H:%M:%S}", "{t.day}.{t:%m.%Y} {t.hour}:{t:%M:%S}", "{t.day}.{t:%m.%Y} {t.hour}:{t:%M}",
+    "{t.day}.{t:%m.%y} {t.hour}:{t:%M}", "{t:%Y-%m-%d %H:%M:%S}", "{t:%Y-%m-%d %H:%M}", "{t:%Y-%m-%d} {t.hour}:{t:%M}",
+    "{t:%y-%m-%d} {t.hour}:{t:%M}", "{t:%d.%m.%Y}", "{t.day}.{t:%m.%Y}", "{t.day}.{t:%m.%y}", "{t:%Y-%m-%d}",
+    "{t:%y-%m-%d}", "{t:%H:%M:%S}", "{t.hour}:{t:%M:%S}", "{t.hour}:{t:%M}",
+)  # fmt: skip
+
+_TIME = re.compile(r"time(\d\d)", re.ASCII)
+_COUNT = re.compile(r"count([1-9])", re.ASCII)
+_NAME = re.compile("|".join(sorted(map(re.escape, NAMED), key=len, reverse=True)))
+
+
+class TextFault(ValueError):
+    """What is wrong in a text."""
+
+
+def tokens(text: str, now: datetime, counter: int) -> list[str]:
+    """The characters to engrave, and the signs of formatting; a TextFault for what cannot be engraved."""
+    if len(text) > LONGEST:
+        raise TextFault(f"must have at most {LONGEST} characters, got {len(text)}")
+    found: list[str] = []
+    at = 0
+    while at < len(text):
+        sign, at = text[at], at + 1
+        if sign == "%":
+            piece, at = _named(text, at, now, counter)
+            found += piece
+        elif sign == "\\":
+            sign, at = text[at : at + 1], at + 1
+            if sign not in FORMATTING:
+                raise TextFault(f"has an incomplete \\{sign}: \\n, \\t, \\v and \\\\ are allowed")
+            found.append(FORMATTING[sign])
+        elif sign in ALLOWED:
+            found.append(sign)
+        else:
+            instead = next((f": write %{name}" for name, character in NAMED.items() if character == sign), "")
+            raise TextFault(f"has the character {sign!r}, which cannot be engraved{instead}")
+    return found
+
+
+def _named(text: str, at: int, now: datetime, counter: int) -> tuple[str, int]:
+    if found := _TIME.match(text, at):
+        if (number := int(found.group(1))) >= len(TIMES):
+            raise TextFault(f"has %time{number}: %time00 to %time15 are allowed")
+        return TIMES[number].format(t=now), found.end()
+    if found := _COUNT.match(text, at):
+        digits = int(found.group(1))
+        if counter >= 10**digits:
+            raise TextFault(f"has %count{digits}, and the counter stands at {counter}")
+        return f"{counter:0{digits}d}", found.end()
+    if found := _NAME.match(text, at):
+        return NAMED[found.group()], found.end()
+    raise TextFault(f"has %{text[at : at + 5]}, which means nothing: write %% for the sign itself")
+
+
+# Engraving, cycle 225 (12.6): a text on a straight line or round a circle.
 
 CYCLES = CycleTable()
 SETTINGS = (
@@ -80,39 +148,36 @@ class Engraving(AtSurface):
         except ValueError as error:
             yield "text", str(error)
             return
-        long, most = length(cells(found, self.spacing_factor)) * height, self.maximum_text_length
+        long, most = letters.length(letters.cells(found, self.spacing_factor)) * height, self.maximum_text_length
         if most and long > most + SAME:
             yield "maximum_text_length", f"is {most:g}, the text is {long:.3f} long"
 
     def tokens(self, m: Machine) -> list[str]:
         now = time_of_day(m) or datetime.now()
         text = self.text if isinstance(self.text, str) else self.text.evaluate(m.variables)
-        return engraved_text.tokens(text, now, int(m.settings["counter"]))
+        return tokens(text, now, int(m.settings["counter"]))
 
     def height(self, found: list[str]) -> float:
         """The height of a capital; ValueError for a text without width that should have a length."""
         if self.character_height:
             return self.character_height
-        if not (long := length(cells(found, self.spacing_factor))):
+        if not (long := letters.length(letters.cells(found, self.spacing_factor))):
             raise ValueError("has no character whose height Q574 could give")
         return self.maximum_text_length / long
 
-    def glyphs(self, found: list[str], height: float) -> list[Glyph]:
-        row, angle, reference = cells(found, self.spacing_factor), math.radians(self.angle), int(self.text_position)
+    def glyphs(self, found: list[str], height: float) -> list[letters.Glyph]:
+        row, angle, reference = letters.cells(found, self.spacing_factor), math.radians(self.angle), int(self.text_position)
         if self.text_layout == 0:
-            return on_line(row, height, reference, angle)
+            return letters.on_line(row, height, reference, angle)
         sense = 1 if self.text_layout == 1 and self.angle % 360 > 180 else -1
-        return on_arc(row, height, reference, angle, self.arc_radius, sense)
+        return letters.on_arc(row, height, reference, angle, self.arc_radius, sense)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
-        if not self.down:
-            yield self.left_out
-            return
+    def steps(self, m: Machine) -> Iterator[Step]:
         found = self.tokens(m)
         height = self.height(found)
         if m.programmed[2] < self.above and self.down > 0:
             yield Go("to the clearance level", self.above)
-        yield from engrave(
+        yield from letters.engrave(
             self.glyphs(found, height), height, above=self.above, floor=self.surface + self.depth,
             plunge=self.plunge_feed, feed=self.feed,
         )  # fmt: skip

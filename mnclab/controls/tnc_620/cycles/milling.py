@@ -10,10 +10,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from functools import partial
+from typing import Any, ClassVar, NamedTuple
 
-from mnclab.controls.tnc_620.cycles.planes import Fault, less_than_depth, not_zero, with_radius
-from mnclab.machine.coordinates import tool
+from mnclab.controls.tnc_620.cycles import addresses, planes
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault
+from mnclab.machine.coordinates import MILLS, tool
 from mnclab.machine.cycle import too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
@@ -21,15 +23,7 @@ from mnclab.machining.milling.pocket_steps import Feeds, Work
 from mnclab.machining.steps import Go, Say, Step, moved
 from mnclab.path.tool import Tool
 
-if TYPE_CHECKING:
-    from mnclab.controls.tnc_620.contours.trochoidal_slot import TrochoidalSlot
-    from mnclab.controls.tnc_620.cycles.pockets import AnyPocket, AnySlot
-    from mnclab.controls.tnc_620.cycles.studs import AnyStud
-
-AnyFigure: TypeAlias = "AnyPocket | AnySlot | AnyStud | TrochoidalSlot"
-
 Place = tuple[float, float]
-STUDS = ("CYCL DEF 256", "CYCL DEF 257", "CYCL DEF 258")
 
 
 class Figure(NamedTuple):
@@ -45,22 +39,72 @@ def edges(tool: Tool) -> float:
     return tool.cutting_length if tool.cutting_length > 0 else math.inf
 
 
-def levels(c: AnyFigure, m: Machine) -> tuple[float, ...]:
+#: Parameters as the cycles of chapter 6 have them.
+PARAMETERS: dict[str, Any] = {
+    "clearance": partial(addresses.clearance, predef=True),
+    "second_clearance": partial(addresses.second_clearance, predef=True, example=50),
+    "infeed": addresses.layer,
+    "milling_type": partial(addresses.milling_type, predef=True),
+    "plunging_feed": partial(addresses.plunge_feed, also=addresses.PLANE),
+    "rotation_angle": partial(addresses.rotation, "Q224"),
+    "first_side_length": partial(addresses.distance, "Q218", "first side length", example=80),
+    "second_side_length": partial(addresses.distance, "Q219", "second side length", example=60),
+    "finishing_feed": partial(addresses.finishing_feed, default=None, default_means="as Q207", example=500),
+}
+
+
+class MilledFigure(AtSurface):
+    """A pocket, a slot or a stud; who inherits names the parameters, and says in `fits` what its shape needs."""
+
+    does = MILLS
+    about = planes.in_program_coordinates
+    stands: ClassVar[bool] = False
+    """Whether it is a stud, whose Q385 of 0 is the milling feed too."""
+    machining_operation = side_allowance = floor_allowance = milling_feed = milling_type = plunging_feed = finishing_infeed = 0.0
+    slot_width = overlap = plunging_strategy = feed_reference = rotation_angle = first_side_length = second_side_length = 0.0
+    infeed: float
+    finishing_feed: float | None = 0.0
+
+    def contradictions(self) -> Iterator[Fault]:
+        """An infeed; not all of the depth is allowance. A depth of 0 is not executed, so nothing of it can be wrong."""
+        if self.depth == 0:
+            return
+        yield from planes.not_zero(self, "infeed")
+        yield from planes.less_than_depth(self, "floor_allowance", self.depth)
+        yield from too_many("finishing_infeed", lambda: wall_levels(self))
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        """The sign of the depth, a tool with a radius, feeds for all that is done, a number of levels to wait for; its shape."""
+        if self.depth == 0:
+            return
+        yield from self.signs(m)
+        yield from planes.with_radius(m)
+        finishes = self.machining_operation != 1 and (self.side_allowance > 0 or self.floor_allowance > 0)
+        used = {
+            "milling_feed": self.machining_operation != 2 or (finishes and self.finishing_feed is None), "plunging_feed": True,
+            "finishing_feed": finishes and not finishing_feed(self),
+        }  # fmt: skip
+        yield from planes.not_zero(self, *(name for name, needed in used.items() if needed), purpose="to mill with")
+        yield from too_many("infeed", lambda: levels(self, m))
+        yield from self.fits(m)
+
+
+def levels(c: MilledFigure, m: Machine) -> tuple[float, ...]:
     """Of roughing."""
     return infeeds(c.surface, left_over(c), min(c.infeed, edges(tool(m))))
 
 
-def left_over(c: AnyFigure) -> float:
+def left_over(c: MilledFigure) -> float:
     """Where roughing and side finishing end."""
     return float(c.surface + c.depth + c.down * c.floor_allowance)
 
 
-def wall_levels(c: AnyFigure) -> tuple[float, ...]:
+def wall_levels(c: MilledFigure) -> tuple[float, ...]:
     """Of side finishing."""
     return infeeds(c.surface, left_over(c), c.finishing_infeed)
 
 
-def work(c: AnyFigure, m: Machine, feeds: tuple[Feeds, Feeds, Feeds]) -> Work:
+def work(c: MilledFigure, m: Machine, feeds: tuple[Feeds, Feeds, Feeds]) -> Work:
     """What is done of the cycle; Q351 = 0 is climb milling too."""
     roughs, finishes = c.machining_operation != 2, c.machining_operation != 1
     return Work(
@@ -71,49 +115,21 @@ def work(c: AnyFigure, m: Machine, feeds: tuple[Feeds, Feeds, Feeds]) -> Work:
     )  # fmt: skip
 
 
-def contradictions(c: AnyFigure) -> Iterator[Fault]:
-    """An infeed; not all of the depth is allowance. A depth of 0 is not executed, so nothing of it can be wrong."""
-    if c.depth == 0:
-        return
-    yield from not_zero(c, "infeed")
-    yield from less_than_depth(c, "floor_allowance", c.depth)
-    yield from too_many("finishing_infeed", lambda: wall_levels(c))
-
-
-def finishing_feed(c: AnyFigure) -> float:
+def finishing_feed(c: MilledFigure) -> float:
     """Q385, which came later than the cycles: without it the milling feed counts, for studs with 0 too."""
     if c.finishing_feed is None:
         return c.milling_feed
-    return float(c.finishing_feed or (c.milling_feed if c.code in STUDS else 0.0))
-
-
-def check(c: AnyFigure, m: Machine) -> Iterator[Fault]:
-    """The sign of the depth, a tool with a radius, feeds for all that is done, a number of levels to wait for; its shape."""
-    if c.depth == 0:
-        return
-    yield from c.signs(m)
-    yield from with_radius(m)
-    finishes = c.machining_operation != 1 and (c.side_allowance > 0 or c.floor_allowance > 0)
-    used = {
-        "milling_feed": c.machining_operation != 2 or (finishes and c.finishing_feed is None), "plunging_feed": True,
-        "finishing_feed": finishes and not finishing_feed(c),
-    }  # fmt: skip
-    yield from not_zero(c, *(name for name, needed in used.items() if needed), purpose="to mill with")
-    yield from too_many("infeed", lambda: levels(c, m))
-    yield from c.fits(m)
+    return float(c.finishing_feed or (c.milling_feed if c.stands else 0.0))
 
 
 def mill(
-    c: AnyFigure, m: Machine, work: Work, figures: Iterable[Figure], last: Iterable[Step] = (),
+    c: MilledFigure, m: Machine, work: Work, figures: Iterable[Figure], last: Iterable[Step] = (),
     why: str = "neither Q368 nor Q369 is given",
 ) -> Iterator[Step]:  # fmt: skip
     """Figure after figure, at rapid from the second set-up plane and back to it, and what comes `last`.
 
     `why` there may be nothing to do.
     """
-    if not c.down:
-        yield c.left_out
-        return
     if work.is_nothing:
         yield Say(f"Q215=2 finishes nothing: {why}")
         return

@@ -4,22 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import NamedTuple, TypeAlias
+from functools import partial
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from mnclab.controls.tnc_620.cycles import addresses
-from mnclab.controls.tnc_620.cycles.addresses import coordinate, increment, length
-from mnclab.controls.tnc_620.cycles.planes import (
-    SAME,
-    AtSurface,
-    Fault,
-    at_least,
-    at_most,
-    in_program_coordinates,
-    not_zero,
-    with_radius,
-)
+from mnclab.controls.tnc_620.cycles import addresses, planes
+from mnclab.controls.tnc_620.cycles.addresses import coordinate, distance, length
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault
 from mnclab.controls.tnc_620.machining.finishing import finish_rounds
 from mnclab.controls.tnc_620.machining.slots import oblique_infeeds
 from mnclab.geometry import contours
@@ -38,120 +30,20 @@ from mnclab.machining.steps import Along, Go, Say, Step, moved
 # round the wall. Readings where they are silent: one reciprocating movement is there and back, so each way sinks by half of
 # Q202; finishing goes up to the wall and off it on half circles, in 210 from the middle of the line, in 211 from its begin.
 
-CYCLES = CycleTable()
+CYCLES = CycleTable(addresses=addresses.shared(
+    second_clearance=partial(addresses.second_clearance, example=50), plunging_feed=addresses.plunge_feed,
+    infeed=partial(addresses.infeed, note="greater than 0"), finishing_infeed=partial(addresses.finishing_infeed, default=0),
+    centre_x=partial(coordinate, "Q216", "centre along the first axis", example=50),
+    centre_y=partial(coordinate, "Q217", "centre along the second axis", example=50),
+    first_side_length=partial(distance, "Q218", "first side length", example=80),
+    second_side_length=partial(distance, "Q219", "second side length", example=60),
+    allowance=partial(distance, "Q221", "allowance in the first axis", note="for pre-positioning", example=2),
+))  # fmt: skip
+SLOT = "clearance depth milling_feed infeed machining_operation surface second_clearance centre_x centre_y"
 WIDEST = 3  # tool diameters
 
 
-@CYCLES("CYCL DEF 210", "Slot with reciprocating plunge", source="1.2")
-class StraightSlot(AtSurface):
-    """Mills a straight slot along its middle, to and fro and down on the way, then round its wall."""
-
-    does = MILLS
-    about = in_program_coordinates
-    clearance: float = addresses.clearance()
-    depth: float = addresses.depth()
-    milling_feed: float = addresses.milling_feed()
-    infeed: float = addresses.infeed(note="of one way there and back")
-    machining_operation: float = addresses.operation()
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance(example=50)
-    centre_x: float = coordinate("Q216", "centre along the first axis", example=50)
-    centre_y: float = coordinate("Q217", "centre along the second axis", example=50)
-    slot_length: float = length("Q218", "slot length", note="over all", example=80)
-    slot_width: float = addresses.slot_width()
-    rotation_angle: float = addresses.angle("Q224", "angle of rotation", note="about the centre of the slot", example=15)
-    finishing_infeed: float = addresses.finishing_infeed(default=0)
-    plunging_feed: float = addresses.plunge_feed(default=0, note="of finishing; 0: as Q207")
-
-    def contradictions(self) -> Iterator[Fault]:
-        return infeed_given(self)
-
-    def check(self, m: Machine) -> Iterator[Fault]:
-        yield from check_slot(self, m)
-        if self.depth and self.slot_length <= max(4 * m.radius, self.slot_width) + NOTHING:
-            least = max(4 * m.radius, self.slot_width)
-            yield "slot_length", f"must be greater than twice the tool diameter and Q219, {least:g}, got {self.slot_length:g}"
-
-    def moves(self, m: Machine) -> Iterator[Step]:
-        """From the middle of the slot the half circle leads to the wall on the right of the line."""
-        half = max(self.slot_length - self.slot_width, 0.0) / 2
-        ahead = contours.placed(np.array([(half, 0.0)]), (0, 0), math.radians(self.rotation_angle))
-        line, back = (Contour(np.vstack([one, two]), closed=False) for one, two in ((-ahead, ahead), (ahead, 0 * ahead)))
-        return mill(self, m, Slot(line, back, (self.slot_width / 2 - m.radius) * math.pi / 2 + half))
-
-
-@CYCLES("CYCL DEF 211", "Circular slot with reciprocating plunge", source="1.2")
-class CircularSlot(AtSurface):
-    """Mills a slot on an arc along its middle, to and fro and down on the way, then round its wall."""
-
-    does = MILLS
-    about = in_program_coordinates
-    clearance: float = addresses.clearance()
-    depth: float = addresses.depth()
-    milling_feed: float = addresses.milling_feed()
-    infeed: float = addresses.infeed(note="of one way there and back")
-    machining_operation: float = addresses.operation()
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance(example=50)
-    centre_x: float = coordinate("Q216", "centre along the first axis", example=50)
-    centre_y: float = coordinate("Q217", "centre along the second axis", example=50)
-    pitch_circle_diameter: float = length("Q244", "diameter of the pitch circle", example=80)
-    slot_width: float = addresses.slot_width()
-    starting_angle: float = addresses.angle("Q245", "starting angle", example=45)
-    angular_length: float = addresses.angle("Q248", "angular length of the slot", incremental=True, at_least=0, example=90)
-    finishing_infeed: float = addresses.finishing_infeed(default=0)
-    plunging_feed: float = addresses.plunge_feed(default=0, note="of finishing; 0: as Q207")
-
-    def contradictions(self) -> Iterator[Fault]:
-        return infeed_given(self)
-
-    def check(self, m: Machine) -> Iterator[Fault]:
-        yield from check_slot(self, m)
-        if not self.depth:
-            return
-        if self.pitch_circle_diameter <= self.slot_width + NOTHING:
-            found = f"{self.slot_width:g}, got {self.pitch_circle_diameter:g}"
-            yield "pitch_circle_diameter", f"must be greater than the slot width Q219, {found}"
-        if (way := self.pitch_circle_diameter / 2 * math.radians(self.angular_length)) <= NOTHING:
-            yield "angular_length", f"must make a way for the plunge, got {way:g} mm"
-
-    def moves(self, m: Machine) -> Iterator[Step]:
-        begin, sweep = math.radians(self.starting_angle), math.radians(self.angular_length)
-        line = contours.arc(self.pitch_circle_diameter / 2, begin, sweep)
-        return mill(self, m, Slot(line, line.reversed()))
-
-
-AnySlot: TypeAlias = StraightSlot | CircularSlot
-
-
-# --- what both share ------------------------------------------------------------------------------------------------
-
-
-def infeed_given(c: AnySlot) -> Iterator[Fault]:
-    """An infeed; a depth of 0 is not executed, so nothing of it can be wrong."""
-    if c.depth:
-        yield from not_zero(c, "infeed")
-        yield from too_many("finishing_infeed", lambda: finishing_levels(c))
-
-
-def check_slot(c: AnySlot, m: Machine) -> Iterator[Fault]:
-    """The tool fits into the slot, and is not less than a third as wide."""
-    if not c.depth:
-        return
-    yield from c.signs(m)
-    yield from with_radius(m)
-    yield from not_zero(c, "milling_feed", purpose="to mill with")
-    yield from at_least(c, "slot_width", 2 * m.radius, "the tool diameter")
-    if c.slot_width > (most := WIDEST * 2 * m.radius) + SAME:
-        yield "slot_width", f"must be at most three times the tool diameter, {most:g}, got {c.slot_width:g}"
-    yield from too_many("infeed", lambda: c.pecks(m))
-
-
-def finishing_levels(c: AnySlot) -> tuple[float, ...]:
-    return infeeds(c.surface, c.surface + c.depth, c.finishing_infeed)
-
-
-class Slot(NamedTuple):
+class CentreLine(NamedTuple):
     """The centre line of a slot; the way from its end to where finishing begins; how far along the wall that leads to it."""
 
     line: Contour
@@ -159,38 +51,117 @@ class Slot(NamedTuple):
     along: float = 0.0
 
 
-def mill(c: AnySlot, m: Machine, slot: Slot) -> Iterator[Step]:
-    """Roughing from the begin of the line, finishing from the end of the way back; all counts from Q216 and Q217."""
-    inset = c.slot_width / 2 - m.radius
-    finishes = c.machining_operation != 1 and inset > NOTHING
-    if not c.down:
-        yield c.left_out
-    elif c.machining_operation == 2 and not finishes:
-        yield Say("Q215=2 finishes nothing: the slot is as wide as the tool")
-    else:
-        x, y = (slot.back.points[-1] if c.machining_operation == 2 else slot.line.points[0]).tolist()
-        yield Go("to the second set-up clearance", max(m.programmed[2], c.end))
-        yield Go("over the start", x=c.centre_x + x, y=c.centre_y + y)
-        yield Go("to the set-up clearance", c.above)
-        yield from moved(cut(c, slot, inset if finishes else 0.0), c.centre_x, c.centre_y)
-        yield from c.leave()
+class ReciprocatingSlot(AtSurface):
+    """What both share: all of it counts from the centre Q216, Q217."""
+
+    does = MILLS
+    about = planes.in_program_coordinates
+    straight: ClassVar[bool] = False
+    """Whether roughing ends with the way back to where finishing begins, even if none follows."""
+    milling_feed = machining_operation = centre_x = centre_y = slot_width = finishing_infeed = 0.0
+    infeed: float = addresses.infeed(note="of one way there and back")
+    plunging_feed: float = addresses.plunge_feed(default=0, note="of finishing; 0: as Q207")
+
+    def contradictions(self) -> Iterator[Fault]:
+        """An infeed; a depth of 0 is not executed, so nothing of it can be wrong."""
+        if self.depth:
+            yield from planes.not_zero(self, "infeed")
+            yield from too_many("finishing_infeed", self.finishing_levels)
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        """The tool fits into the slot, and is not less than a third as wide."""
+        if not self.depth:
+            return
+        yield from self.signs(m)
+        yield from planes.with_radius(m)
+        yield from planes.not_zero(self, "milling_feed", purpose="to mill with")
+        yield from planes.at_least(self, "slot_width", 2 * m.radius, "the tool diameter")
+        if self.slot_width > (most := WIDEST * 2 * m.radius) + planes.SAME:
+            yield "slot_width", f"must be at most three times the tool diameter, {most:g}, got {self.slot_width:g}"
+        yield from too_many("infeed", lambda: self.pecks(m))
+        yield from self.fits(m)
+
+    def finishing_levels(self) -> tuple[float, ...]:
+        return infeeds(self.surface, self.surface + self.depth, self.finishing_infeed)
+
+    def mill(self, m: Machine, slot: CentreLine) -> Iterator[Step]:
+        """Roughing from the begin of the line, finishing from the end of the way back; all counts from Q216 and Q217."""
+        inset = self.slot_width / 2 - m.radius
+        finishes = self.machining_operation != 1 and inset > NOTHING
+        if self.machining_operation == 2 and not finishes:
+            yield Say("Q215=2 finishes nothing: the slot is as wide as the tool")
+        else:
+            x, y = (slot.back.points[-1] if self.machining_operation == 2 else slot.line.points[0]).tolist()
+            yield Go("to the second set-up clearance", max(m.programmed[2], self.end))
+            yield Go("over the start", x=self.centre_x + x, y=self.centre_y + y)
+            yield Go("to the set-up clearance", self.above)
+            yield from moved(self.cut(slot, inset if finishes else 0.0), self.centre_x, self.centre_y)
+            yield from self.leave()
+
+    def cut(self, slot: CentreLine, inset: float) -> Iterator[Step]:
+        """From the set-up clearance down to the bottom; several infeeds of finishing begin at the set-up clearance again."""
+        levels, feed = self.finishing_levels(), self.milling_feed
+        if self.machining_operation != 2:
+            yield Go("to the surface", self.surface, feed)
+            levels_of_roughing = infeeds(self.surface, self.surface + self.depth, self.infeed)
+            yield from oblique_infeeds(slot.line, self.surface, levels_of_roughing, feed)
+            if inset or self.straight:
+                yield Along("back", slot.back, feed)
+            if inset and len(levels) > 1:
+                yield Go("to the set-up clearance", self.above)
+        if inset:
+            wall = contours.slot(slot.line.reversed(), 2 * inset).started_at(slot.along)
+            start = slot.back.points[-1].tolist()
+            feeds = Feeds(feed, self.plunging_feed or feed)
+            yield from finish_rounds(wall, half_circles(wall, inset, 1), (start[0], start[1]), levels, feeds)
 
 
-def cut(c: AnySlot, slot: Slot, inset: float) -> Iterator[Step]:
-    """From the set-up clearance down to the bottom; several infeeds of finishing begin at the set-up clearance again."""
-    levels, feed = finishing_levels(c), c.milling_feed
-    if c.machining_operation != 2:
-        yield Go("to the surface", c.surface, feed)
-        yield from oblique_infeeds(slot.line, c.surface, infeeds(c.surface, c.surface + c.depth, c.infeed), feed)
-        if inset or isinstance(c, StraightSlot):
-            yield Along("back", slot.back, feed)
-        if inset and len(levels) > 1:
-            yield Go("to the set-up clearance", c.above)
-    if inset:
-        wall = contours.slot(slot.line.reversed(), 2 * inset).started_at(slot.along)
-        start = slot.back.points[-1].tolist()
-        feeds = Feeds(feed, c.plunging_feed or feed)
-        yield from finish_rounds(wall, half_circles(wall, inset, 1), (start[0], start[1]), levels, feeds)
+@CYCLES(
+    "CYCL DEF 210", "Slot with reciprocating plunge", source="1.2",
+    takes=f"{SLOT} slot_length slot_width rotation_angle finishing_infeed plunging_feed",
+)  # fmt: skip
+class StraightSlot(ReciprocatingSlot):
+    """Mills a straight slot along its middle, to and fro and down on the way, then round its wall."""
+
+    straight = True
+    slot_length: float = length("Q218", "slot length", note="over all", example=80)
+    rotation_angle: float = addresses.angle("Q224", "angle of rotation", note="about the centre of the slot", example=15)
+
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        if self.slot_length <= max(4 * m.radius, self.slot_width) + NOTHING:
+            least = max(4 * m.radius, self.slot_width)
+            yield "slot_length", f"must be greater than twice the tool diameter and Q219, {least:g}, got {self.slot_length:g}"
+
+    def steps(self, m: Machine) -> Iterator[Step]:
+        """From the middle of the slot the half circle leads to the wall on the right of the line."""
+        half = max(self.slot_length - self.slot_width, 0.0) / 2
+        ahead = contours.placed(np.array([(half, 0.0)]), (0, 0), math.radians(self.rotation_angle))
+        line, back = (Contour(np.vstack([one, two]), closed=False) for one, two in ((-ahead, ahead), (ahead, 0 * ahead)))
+        return self.mill(m, CentreLine(line, back, (self.slot_width / 2 - m.radius) * math.pi / 2 + half))
+
+
+@CYCLES(
+    "CYCL DEF 211", "Circular slot with reciprocating plunge", source="1.2",
+    takes=f"{SLOT} pitch_circle_diameter slot_width starting_angle angular_length finishing_infeed plunging_feed",
+)  # fmt: skip
+class CircularSlot(ReciprocatingSlot):
+    """Mills a slot on an arc along its middle, to and fro and down on the way, then round its wall."""
+
+    pitch_circle_diameter: float = length("Q244", "diameter of the pitch circle", example=80)
+    starting_angle: float = addresses.angle("Q245", "starting angle", example=45)
+    angular_length: float = addresses.angle("Q248", "angular length of the slot", incremental=True, at_least=0, example=90)
+
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        if self.pitch_circle_diameter <= self.slot_width + NOTHING:
+            found = f"{self.slot_width:g}, got {self.pitch_circle_diameter:g}"
+            yield "pitch_circle_diameter", f"must be greater than the slot width Q219, {found}"
+        if (way := self.pitch_circle_diameter / 2 * math.radians(self.angular_length)) <= NOTHING:
+            yield "angular_length", f"must make a way for the plunge, got {way:g} mm"
+
+    def steps(self, m: Machine) -> Iterator[Step]:
+        begin, sweep = math.radians(self.starting_angle), math.radians(self.angular_length)
+        line = contours.arc(self.pitch_circle_diameter / 2, begin, sweep)
+        return self.mill(m, CentreLine(line, line.reversed()))
 
 
 # Obsolete finishing of pockets and studs, which still runs (1.2): 212 and 213 rectangular, 214 and 215 circular.
@@ -201,175 +172,120 @@ def cut(c: AnySlot, slot: Slot, inset: float) -> Iterator[Step]:
 # Readings where they are silent: the ways up to the wall and off it are half circles that end where the tool is nearest to S;
 # in a narrow pocket they are as wide as it.
 
+FINISHED = "clearance depth plunging_feed infeed milling_feed surface second_clearance centre_x centre_y"
 ASIDE = 3.5  # times R, from the blank of a stud to S
 
 
-@CYCLES("CYCL DEF 212", "Pocket finishing", source="1.2")
-class PocketFinishing(AtSurface):
-    """Finishes the wall of a rectangular pocket on each infeed."""
+class Finishing(AtSurface):
+    """What the four share; who inherits says where its wall is, and what of the sizes does not fit."""
 
     does = MILLS
-    about = in_program_coordinates
-    clearance: float = addresses.clearance()
-    depth: float = addresses.depth()
-    plunging_feed: float = addresses.plunge_feed()
-    infeed: float = addresses.infeed(note="greater than 0")
-    milling_feed: float = addresses.milling_feed()
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance(example=50)
-    centre_x: float = coordinate("Q216", "centre along the first axis", example=50)
-    centre_y: float = coordinate("Q217", "centre along the second axis", example=50)
-    first_side_length: float = increment("Q218", "first side length", at_least=0, example=80)
-    second_side_length: float = increment("Q219", "second side length", at_least=0, example=60)
-    corner_radius: float = length("Q220", "corner radius", note="0: the tool radius", example=8)
-    allowance: float = increment("Q221", "allowance in the first axis", note="for pre-positioning", at_least=0, example=2)
+    about = planes.in_program_coordinates
+    infeed: float
+    plunging_feed = milling_feed = centre_x = centre_y = first_side_length = second_side_length = corner_radius = allowance = 0.0
 
     def check(self, m: Machine) -> Iterator[Fault]:
-        yield from check(self, m)
+        """The sign of the depth, feeds and infeeds; a depth of 0 is not executed, so nothing of it can be wrong."""
         if not self.depth:
             return
+        yield from self.signs(m)
+        yield from planes.with_radius(m)
+        yield from planes.not_zero(self, "plunging_feed", "infeed", "milling_feed", purpose="to mill with")
+        yield from too_many("infeed", lambda: self.pecks(m))
+        yield from self.fits(m)
+
+    def finish(self, m: Machine, wall: Contour, start: float, aside: float) -> Iterator[Step]:
+        """By way of C to S, so far on its right, round on every level, and back over C; half circles are as wide as `aside`."""
+        x, y = self.centre_x, self.centre_y
+        arcs, feeds = half_circles(wall, aside, 1), Feeds(self.milling_feed, self.plunging_feed)
+        yield Go("to the second set-up clearance", max(m.programmed[2], self.end))
+        yield Go("over the centre", x=x, y=y)
+        yield Go("over the start", x=x + start)
+        yield Go("to the set-up clearance", self.above)
+        yield from moved(finish_rounds(wall, arcs, (start, 0.0), self.pecks(m), feeds), x, y)
+        yield from self.leave()
+        yield Go("over the centre", x=x, y=y)
+
+
+def fitting_corner(c: Finishing) -> Iterator[Fault]:
+    yield from planes.at_most(c, "corner_radius", min(c.first_side_length, c.second_side_length) / 2, "half the shorter side")
+
+
+@CYCLES(
+    "CYCL DEF 212", "Pocket finishing", source="1.2",
+    takes=f"{FINISHED} first_side_length second_side_length corner_radius allowance",
+)  # fmt: skip
+class PocketFinishing(Finishing):
+    """Finishes the wall of a rectangular pocket on each infeed."""
+
+    corner_radius: float = length("Q220", "corner radius", note="0: the tool radius", example=8)
+
+    def fits(self, m: Machine) -> Iterator[Fault]:
         for name in ("first_side_length", "second_side_length"):
-            yield from at_least(self, name, 3 * m.radius, "three times the tool radius")
-        if 0 < self.corner_radius < m.radius - SAME:
+            yield from planes.at_least(self, name, 3 * m.radius, "three times the tool radius")
+        if 0 < self.corner_radius < m.radius - planes.SAME:
             yield "corner_radius", f"must be 0 or at least the tool radius, {m.radius:g}, got {self.corner_radius:g}"
         yield from fitting_corner(self)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         r, corner = m.radius, max(self.corner_radius, m.radius) - m.radius
         wall = contours.rectangle(self.first_side_length - 2 * r, self.second_side_length - 2 * r, corner)
         wide = self.first_side_length / 2 - r
         start = max(0.0, wide - self.allowance) if self.allowance else 0.0
-        return finish(self, m, wall, start, min(wide - start, self.second_side_length - 2 * r))
+        return self.finish(m, wall, start, min(wide - start, self.second_side_length - 2 * r))
 
 
-@CYCLES("CYCL DEF 213", "Stud finishing", source="1.2")
-class StudFinishing(AtSurface):
+@CYCLES(
+    "CYCL DEF 213", "Stud finishing", source="1.2",
+    takes=f"{FINISHED} first_side_length second_side_length corner_radius allowance",
+)  # fmt: skip
+class StudFinishing(Finishing):
     """Finishes the side of a rectangular stud on each infeed."""
 
-    does = MILLS
-    about = in_program_coordinates
-    clearance: float = addresses.clearance()
-    depth: float = addresses.depth()
-    plunging_feed: float = addresses.plunge_feed()
-    infeed: float = addresses.infeed(note="greater than 0")
-    milling_feed: float = addresses.milling_feed()
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance(example=50)
-    centre_x: float = coordinate("Q216", "centre along the first axis", example=50)
-    centre_y: float = coordinate("Q217", "centre along the second axis", example=50)
-    first_side_length: float = increment("Q218", "first side length", at_least=0, example=80)
-    second_side_length: float = increment("Q219", "second side length", at_least=0, example=60)
     corner_radius: float = length("Q220", "corner radius", example=5)
-    allowance: float = increment("Q221", "allowance in the first axis", note="for pre-positioning", at_least=0, example=2)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
-        yield from check(self, m)
-        if self.depth:
-            yield from not_zero(self, "first_side_length", "second_side_length")
-            yield from fitting_corner(self)
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        yield from planes.not_zero(self, "first_side_length", "second_side_length")
+        yield from fitting_corner(self)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         r = m.radius
         wall = contours.rectangle(self.first_side_length + 2 * r, self.second_side_length + 2 * r, self.corner_radius + r)
         start = self.first_side_length / 2 + self.allowance + ASIDE * r
-        return finish(self, m, wall.reversed(), start, start - self.first_side_length / 2 - r)
+        return self.finish(m, wall.reversed(), start, start - self.first_side_length / 2 - r)
 
 
-@CYCLES("CYCL DEF 214", "Circular pocket finishing", source="1.2")
-class CircularPocketFinishing(AtSurface):
+@CYCLES("CYCL DEF 214", "Circular pocket finishing", source="1.2", takes=f"{FINISHED} blank_diameter finished_diameter")
+class CircularPocketFinishing(Finishing):
     """Finishes the wall of a circular pocket on each infeed."""
 
-    does = MILLS
-    about = in_program_coordinates
-    clearance: float = addresses.clearance()
-    depth: float = addresses.depth()
-    plunging_feed: float = addresses.plunge_feed()
-    infeed: float = addresses.infeed(note="greater than 0")
-    milling_feed: float = addresses.milling_feed()
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance(example=50)
-    centre_x: float = coordinate("Q216", "centre along the first axis", example=50)
-    centre_y: float = coordinate("Q217", "centre along the second axis", example=50)
     blank_diameter: float = length("Q222", "diameter of the rough pocket", note="less than Q223; 0: down at C", example=76)
     finished_diameter: float = length("Q223", "diameter of the finished pocket", example=80)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
-        yield from check(self, m)
-        if not self.depth:
-            return
-        yield from at_least(self, "finished_diameter", 3 * m.radius, "three times the tool radius")
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        yield from planes.at_least(self, "finished_diameter", 3 * m.radius, "three times the tool radius")
         if self.blank_diameter >= self.finished_diameter:
             found = f"{self.finished_diameter:g}, got {self.blank_diameter:g}"
             yield "blank_diameter", f"must be less than the diameter of the finished pocket Q223, {found}"
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         reach, start = self.finished_diameter / 2 - m.radius, max(0.0, self.blank_diameter / 2 - m.radius)
-        return finish(self, m, Contour.circle((0, 0), reach), start, reach - start)
+        return self.finish(m, Contour.circle((0, 0), reach), start, reach - start)
 
 
-@CYCLES("CYCL DEF 215", "Circular stud finishing", source="1.2")
-class CircularStudFinishing(AtSurface):
+@CYCLES("CYCL DEF 215", "Circular stud finishing", source="1.2", takes=f"{FINISHED} blank_diameter finished_diameter")
+class CircularStudFinishing(Finishing):
     """Finishes the side of a circular stud on each infeed."""
 
-    does = MILLS
-    about = in_program_coordinates
-    clearance: float = addresses.clearance()
-    depth: float = addresses.depth()
-    plunging_feed: float = addresses.plunge_feed()
-    infeed: float = addresses.infeed(note="greater than 0")
-    milling_feed: float = addresses.milling_feed()
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance(example=50)
-    centre_x: float = coordinate("Q216", "centre along the first axis", example=50)
-    centre_y: float = coordinate("Q217", "centre along the second axis", example=50)
     blank_diameter: float = length("Q222", "diameter of the blank", note="greater than Q223", example=84)
     finished_diameter: float = length("Q223", "diameter of the finished stud", example=80)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
-        yield from check(self, m)
-        if not self.depth:
-            return
-        yield from not_zero(self, "finished_diameter")
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        yield from planes.not_zero(self, "finished_diameter")
         if self.blank_diameter <= self.finished_diameter:
             found = f"{self.finished_diameter:g}, got {self.blank_diameter:g}"
             yield "blank_diameter", f"must be greater than the diameter of the finished stud Q223, {found}"
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         reach, start = self.finished_diameter / 2 + m.radius, self.blank_diameter / 2 + ASIDE * m.radius
-        return finish(self, m, Contour.circle((0, 0), reach, clockwise=True), start, start - reach)
-
-
-AnyFinishing: TypeAlias = PocketFinishing | StudFinishing | CircularPocketFinishing | CircularStudFinishing
-
-
-# --- what all share -------------------------------------------------------------------------------------------------
-
-
-def check(c: AnyFinishing, m: Machine) -> Iterator[Fault]:
-    """The sign of the depth, feeds and infeeds; a depth of 0 is not executed, so nothing of it can be wrong."""
-    if not c.depth:
-        return
-    yield from c.signs(m)
-    yield from with_radius(m)
-    yield from not_zero(c, "plunging_feed", "infeed", "milling_feed", purpose="to mill with")
-    yield from too_many("infeed", lambda: c.pecks(m))
-
-
-def fitting_corner(c: PocketFinishing | StudFinishing) -> Iterator[Fault]:
-    yield from at_most(c, "corner_radius", min(c.first_side_length, c.second_side_length) / 2, "half the shorter side")
-
-
-def finish(c: AnyFinishing, m: Machine, wall: Contour, start: float, aside: float) -> Iterator[Step]:
-    """By way of C to S, so far on its right, round on every level, and back over C; `aside` is as wide as the half circles."""
-    if not c.down:
-        yield c.left_out
-        return
-    x, y = c.centre_x, c.centre_y
-    arcs, feeds = half_circles(wall, aside, 1), Feeds(c.milling_feed, c.plunging_feed)
-    yield Go("to the second set-up clearance", max(m.programmed[2], c.end))
-    yield Go("over the centre", x=x, y=y)
-    yield Go("over the start", x=x + start)
-    yield Go("to the set-up clearance", c.above)
-    yield from moved(finish_rounds(wall, arcs, (start, 0.0), c.pecks(m), feeds), x, y)
-    yield from c.leave()
-    yield Go("over the centre", x=x, y=y)
+        return self.finish(m, Contour.circle((0, 0), reach, clockwise=True), start, start - reach)

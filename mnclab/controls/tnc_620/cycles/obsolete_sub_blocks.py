@@ -1,36 +1,112 @@
-"""Obsolete cycles with sub-blocks, which still run (1.2): holes 1, 2, 17, and milling 3, 4, 5."""
+"""Obsolete cycles with sub-blocks, which still run (1.2): holes 1, 2, 17, and milling 3, 4, 5.
+
+The tool stands at the set-up clearance when they are called, and ends there. Z is where it stands, S = Z - SETUP the surface,
+S + DEPTH the bottom. The sign of DEPTH is the direction (for a positive one see the setting "depth_error"); set-up clearance
+and infeed are lengths, which older programs write with the sign of the depth: -2, -20, -5.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from functools import partial
+from types import SimpleNamespace
 
-from mnclab.controls.tnc_620.cycles import addresses, at_clearance
-from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, length
-from mnclab.controls.tnc_620.cycles.at_clearance import AtClearance
+from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, increment, length
 from mnclab.controls.tnc_620.cycles.planes import SAME, Fault, at_least, not_zero, oriented, with_radius
 from mnclab.controls.tnc_620.cycles.pockets import CORNERS
-from mnclab.controls.tnc_620.cycles.tapping import pitch_of
+from mnclab.controls.tnc_620.cycles.threads import pitch_of
 from mnclab.controls.tnc_620.machining.finishing import finish_rounds
 from mnclab.controls.tnc_620.machining.slots import straight_infeeds
 from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
 from mnclab.machine.coordinates import MILLS, TAPS, depth_scale
-from mnclab.machine.cycle import CycleTable, few_passes, param, too_many
+from mnclab.machine.cycle import Cycle, CycleTable, few_passes, param, too_many
 from mnclab.machine.machine import Machine
+from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.drilling import drill, tap
 from mnclab.machining.milling import faces
 from mnclab.machining.milling.clearing import Clearing
 from mnclab.machining.milling.figures import straight
 from mnclab.machining.milling.pocket_steps import Feeds, half_circles, quarter_circles, rough
 from mnclab.machining.milling.spirals import round_pocket
-from mnclab.machining.steps import Go, Step, Write
+from mnclab.machining.steps import Go, Say, Step, Write
+
+SHARED = SimpleNamespace(
+    clearance=partial(
+        increment, "SETUP", "set-up clearance", note="from the tool to the surface; its sign is that of the depth, or +",
+        example=2,
+    ),
+    depth=partial(increment, "DEPTH", "depth", note=addresses.DOWN, example=-20),
+    infeed=partial(increment, "PECKG", "infeed depth", note="its sign is that of the depth, or +", example=5),
+    dwell=partial(addresses.seconds, "DWELL", "dwell at the bottom", example=0.25),
+    plunge_feed=partial(addresses.feed, "PECKG:F", "feed rate for plunging", also=("FAUTO",), example=150),
+    feed=partial(addresses.feed, "F", "feed rate for milling", also=("FAUTO",), example=500),
+)  # fmt: skip
+CYCLES = CycleTable(addresses=SHARED)
+
+
+class AtClearance(Cycle):
+    """What they share; who inherits declares the parameters."""
+
+    clearance: float
+    depth: float
+    infeed: float | None = None
+    dwell = feed = plunge_feed = 0.0
+
+    @property
+    def down(self) -> float:
+        """+1 where the cycle works downwards, -1 upwards, 0 where it has nothing to do."""
+        return -math.copysign(1.0, self.depth) if self.depth else 0.0
+
+    @property
+    def left_out(self) -> Say:
+        return Say("DEPTH makes a depth of 0: the cycle is not executed")
+
+    def surface(self, m: Machine) -> float:
+        """S, before the cycle has moved."""
+        return m.programmed[2] - self.down * abs(self.clearance)
+
+    def levels(self, m: Machine) -> tuple[float, ...]:
+        """Of the infeeds, before the cycle has moved."""
+        surface = self.surface(m)
+        return infeeds(surface, surface + self.depth, None if self.infeed is None else abs(self.infeed))
+
+    def contradictions(self) -> Iterator[Fault]:
+        """Lengths have the sign of the depth, or none; an infeed is one."""
+        if not self.depth:
+            return
+        for name in ("clearance", "infeed"):
+            value = getattr(self, name) or 0.0
+            if value < 0 < self.depth:
+                yield name, f"must have the sign of the depth or be positive, got {value:g}"
+        yield from not_zero(self, "infeed")
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        """The direction, and a number of infeeds that somebody would wait for; nothing where nothing is done."""
+        if not self.depth:
+            return
+        if self.depth > 0 and m.settings["depth_error"]:
+            yield "depth", f"must be negative, got {self.depth:g}: a positive depth works upwards"
+        yield from too_many("infeed", lambda: self.levels(m))
+        yield from self.fits(m)
+
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        """Faults of the feed, the tool and the shape."""
+        yield from ()
+
+    def steps(self, m: Machine) -> Iterable[Step]:
+        """All that it does at a depth other than 0."""
+        return ()
+
+    def moves(self, m: Machine) -> Iterable[Step]:
+        return self.steps(m) if self.down else [self.left_out]
+
 
 # Obsolete cycles of holes, which still run (1.2): pecking 1, tapping with a floating holder 2 and rigidly 17.
 # They are those of earlier manuals (TNC 407 8.2, TNC 426/430 8.3). Readings where these are silent: under a scale the advanced
 # stop distance of pecking is that of the true depth; rigid tapping is one pass.
-
-CYCLES = CycleTable()
 
 
 def advanced_stop(depth: float) -> float:
@@ -42,33 +118,26 @@ def advanced_stop(depth: float) -> float:
     return 0.6 if depth <= 30 else min(depth / 50, 7.0)
 
 
-@CYCLES("CYCL DEF 1", "Pecking", source="1.2")
+@CYCLES("CYCL DEF 1", "Pecking", source="1.2", takes="clearance depth infeed dwell feed")
 class Pecking(AtClearance):
     """Drills in infeeds with full retraction to where the tool stood, and waits at the bottom.
 
     Written as 1.1 SET UP, 1.2 DEPTH, 1.3 PECKG, 1.4 DWELL, 1.5 F.
     """
 
-    clearance: float = at_clearance.clearance()
-    depth: float = at_clearance.depth()
-    infeed: float = at_clearance.infeed()
-    dwell: float = addresses.seconds("DWELL", "dwell at the bottom", example=0.25)
-    feed: float = at_clearance.feed("F", "feed rate for drilling", example=150)
+    feed: float = addresses.feed("F", "feed rate for drilling", also=("FAUTO",), example=150)
 
     def fits(self, m: Machine) -> Iterator[Fault]:
         return not_zero(self, "feed", purpose="to drill with")
 
-    def moves(self, m: Machine) -> Iterator[Step]:
-        if not self.down:
-            yield self.left_out
-            return
+    def steps(self, m: Machine) -> Iterator[Step]:
         above, scale = m.programmed[2], depth_scale(m)
         stop = advanced_stop(abs(self.depth) * scale) / scale
         yield from drill(self.levels(m), above=above, feed=self.feed, reenter=stop, dwell_bottom=self.dwell)
         yield Go("retract", above)
 
 
-@CYCLES("CYCL DEF 2", "Tapping with a floating holder", source="1.2")
+@CYCLES("CYCL DEF 2", "Tapping with a floating holder", source="1.2", takes="clearance depth dwell feed")
 class FloatingTapping(AtClearance):
     """Taps at a feed in one pass with the spindle as it turns, reversed at the bottom and where the tool stood.
 
@@ -76,10 +145,9 @@ class FloatingTapping(AtClearance):
     """
 
     does = TAPS
-    clearance: float = at_clearance.clearance(note="about four pitches")
-    depth: float = at_clearance.depth()
+    clearance: float = SHARED.clearance(note="about four pitches")
     dwell: float = addresses.seconds("DWELL", "dwell at the bottom", note="0 to 0.5 s", example=0.25)
-    feed: float = at_clearance.feed("F", "feed rate for tapping", note="S times pitch", example=150)
+    feed: float = addresses.feed("F", "feed rate for tapping", also=("FAUTO",), note="S times pitch", example=150)
 
     def fits(self, m: Machine) -> Iterator[Fault]:
         yield from not_zero(self, "feed")
@@ -87,17 +155,14 @@ class FloatingTapping(AtClearance):
             yield "", "needs a turning spindle: write S in TOOL CALL, and M3 or M4 before"
         yield from pitch_of(m, "feed", self.feed / m.speed)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
-        if not self.down:
-            yield self.left_out
-            return
+    def steps(self, m: Machine) -> Iterator[Step]:
         yield from tap(
             self.levels(m), above=m.programmed[2], sense=m.turning, end=m.turning, feed=self.feed, dwell=self.dwell,
             dwell_first=False, stand=m.settings["thread_wait"],
         )  # fmt: skip
 
 
-@CYCLES("CYCL DEF 17", "Rigid tapping", source="1.2")
+@CYCLES("CYCL DEF 17", "Rigid tapping", source="1.2", takes="clearance depth pitch")
 class RigidTapping(AtClearance):
     """Taps with the spindle locked to the feed; it stops at the end, and M3 or M4 starts it again.
 
@@ -105,8 +170,6 @@ class RigidTapping(AtClearance):
     """
 
     does, own_spindle = TAPS, True
-    clearance: float = at_clearance.clearance()
-    depth: float = at_clearance.depth()
     pitch: float = param(
         "PITCH", "thread pitch", at_least=-99.9999, at_most=99.9999, modal=True, note="+ right-hand, - left-hand", example=1.5
     )
@@ -119,10 +182,7 @@ class RigidTapping(AtClearance):
         yield from oriented(m)
         yield from pitch_of(m, "pitch", abs(self.pitch))
 
-    def moves(self, m: Machine) -> Iterator[Step]:
-        if not self.down:
-            yield self.left_out
-            return
+    def steps(self, m: Machine) -> Iterator[Step]:
         yield from tap(
             self.levels(m), above=m.programmed[2], pitch=abs(self.pitch), sense=1 if self.pitch > 0 else -1, end=0,
             stand=m.settings["thread_wait"],
@@ -138,8 +198,19 @@ class RigidTapping(AtClearance):
 SENSE: dict[float, str] = {1: "+: counter-clockwise, climb milling with M3", -1: "-: clockwise"}
 
 
-@CYCLES("CYCL DEF 3", "Slot milling", source="1.2")
-class SlotMilling(AtClearance):
+class MilledAtClearance(AtClearance):
+    """What the three share."""
+
+    does = MILLS
+    depth: float = SHARED.depth(example=-12)
+
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        yield from with_radius(m)
+        yield from not_zero(self, "feed", "plunge_feed", purpose="to mill with")
+
+
+@CYCLES("CYCL DEF 3", "Slot milling", source="1.2", takes="clearance depth infeed plunge_feed x y feed")
+class SlotMilling(MilledAtClearance):
     """Mills a slot along X or Y: along its middle with an infeed at each end, then once round its wall in climb milling.
 
     The tool stands a tool radius within the end of the slot. A slot as wide as the tool has no wall to finish.
@@ -147,14 +218,8 @@ class SlotMilling(AtClearance):
     Written as 3.1 SET UP, 3.2 DEPTH, 3.3 PECKG and F, 3.4 X, 3.5 Y, 3.6 F.
     """
 
-    does = MILLS
-    clearance: float = at_clearance.clearance()
-    depth: float = at_clearance.depth(example=-12)
-    infeed: float = at_clearance.infeed()
-    plunge_feed: float = at_clearance.plunge_feed()
     x: float = coordinate("X", "side along X", note="the longer side is the length, its sign the first direction", example=50)
     y: float = coordinate("Y", "side along Y", note="the shorter side is the width", example=12)
-    feed: float = at_clearance.feed("F", "feed rate for milling", example=500)
 
     @property
     def sides(self) -> tuple[str, float, str, float]:
@@ -168,8 +233,7 @@ class SlotMilling(AtClearance):
             yield name, f"must be less than the other side, {abs(long):g}, got {width:g}"
 
     def fits(self, m: Machine) -> Iterator[Fault]:
-        yield from with_radius(m)
-        yield from not_zero(self, "feed", "plunge_feed", purpose="to mill with")
+        yield from super().fits(m)
         _, _, name, width = self.sides
         yield from at_least(self, name, 2 * m.radius, "the tool diameter")
         if width > 4 * m.radius + SAME:
@@ -182,10 +246,7 @@ class SlotMilling(AtClearance):
         near, far = sign * inset, sign * (abs(long) - width + inset)
         return Contour([(near, 0.0), (far, 0.0)] if name == "x" else [(0.0, near), (0.0, far)], closed=False)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
-        if not self.down:
-            yield self.left_out
-            return
+    def steps(self, m: Machine) -> Iterator[Step]:
         above, levels, line, feeds = m.programmed[2], self.levels(m), self.line(m), Feeds(self.feed, self.plunge_feed)
         inset = self.sides[3] / 2 - m.radius
         x, y = line.points[0].tolist()
@@ -207,8 +268,10 @@ def _wall(line: Contour, inset: float) -> tuple[Contour, tuple[Contour, ...]]:
     return side, quarter_circles(side, inset, 1)
 
 
-@CYCLES("CYCL DEF 4", "Pocket milling", source="1.2")
-class PocketMilling(AtClearance):
+@CYCLES(
+    "CYCL DEF 4", "Pocket milling", source="1.2", takes="clearance depth infeed plunge_feed x y feed sense corner_radius"
+)
+class PocketMilling(MilledAtClearance):
     """Roughs a rectangular pocket about the tool in layers, outwards on rectangles, from the middle and back to it.
 
     Each layer begins in the positive direction of the longer side, of two equal ones in that of Y.
@@ -216,20 +279,13 @@ class PocketMilling(AtClearance):
     Written as 4.1 SET UP, 4.2 DEPTH, 4.3 PECKG and F, 4.4 X, 4.5 Y, 4.6 F, DR and RADIUS.
     """
 
-    does = MILLS
-    clearance: float = at_clearance.clearance()
-    depth: float = at_clearance.depth(example=-12)
-    infeed: float = at_clearance.infeed()
-    plunge_feed: float = at_clearance.plunge_feed()
     x: float = length("X", "side along X", example=80)
     y: float = length("Y", "side along Y", note="greater than twice RADIUS and the stepover", example=40)
-    feed: float = at_clearance.feed("F", "feed rate for milling", example=500)
     sense: float = choice("DR", "sense of the path", SENSE, example=1)
     corner_radius: float = length("RADIUS", "corner radius", default=0, note="0: the tool radius", example=8)
 
     def fits(self, m: Machine) -> Iterator[Fault]:
-        yield from with_radius(m)
-        yield from not_zero(self, "feed", "plunge_feed", purpose="to mill with")
+        yield from super().fits(m)
         for name in ("x", "y"):
             yield from at_least(self, name, 2 * max(m.radius, self.corner_radius), "twice the radius of tool and corner")
         if 0 < self.corner_radius < m.radius - SAME:
@@ -244,36 +300,29 @@ class PocketMilling(AtClearance):
             climb=self.sense > 0, begin=int(self.x <= self.y),
         )  # fmt: skip
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         return layers(self, m)
 
 
-@CYCLES("CYCL DEF 5", "Circular pocket", source="1.2")
-class CircularPocket(AtClearance):
+@CYCLES("CYCL DEF 5", "Circular pocket", source="1.2", takes="clearance depth infeed plunge_feed radius feed sense")
+class CircularPocket(MilledAtClearance):
     """Roughs a circular pocket about the tool in layers, each on a spiral from the middle to the wall.
 
     Written as 5.1 SET UP, 5.2 DEPTH, 5.3 PECKG and F, 5.4 RADIUS, 5.5 F and DR.
     """
 
-    does = MILLS
-    clearance: float = at_clearance.clearance()
-    depth: float = at_clearance.depth(example=-12)
-    infeed: float = at_clearance.infeed()
-    plunge_feed: float = at_clearance.plunge_feed()
     radius: float = length("RADIUS", "radius of the pocket", example=30)
-    feed: float = at_clearance.feed("F", "feed rate for milling", example=500)
     sense: float = choice("DR", "sense of the path", SENSE, example=1)
 
     def fits(self, m: Machine) -> Iterator[Fault]:
-        yield from with_radius(m)
-        yield from not_zero(self, "feed", "plunge_feed", purpose="to mill with")
+        yield from super().fits(m)
         yield from at_least(self, "radius", m.radius, "the tool radius")
         yield from passes_to_wait_for(self, m)
 
     def clearing(self, m: Machine) -> Clearing:
         return round_pocket(2 * self.radius, m.radius, m.settings["overlap"] * m.radius, climb=self.sense > 0)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         return layers(self, m)
 
 
@@ -284,10 +333,7 @@ def passes_to_wait_for(c: PocketMilling | CircularPocket, m: Machine) -> Iterato
 
 def layers(c: PocketMilling | CircularPocket, m: Machine) -> Iterator[Step]:
     """Layer by layer from the middle, and up to where the tool stood."""
-    if not c.down:
-        yield c.left_out
-        return
-    yield from rough(
+    return rough(
         c.clearing(m), c.levels(m), surface=c.surface(m), clearance=c.down * abs(c.clearance), down=straight,
         feeds=Feeds(c.feed, c.plunge_feed), departure=0.0, side=1 if c.sense > 0 else -1, end=m.programmed[2],
     )  # fmt: skip

@@ -1,10 +1,6 @@
-"""Point patterns (chapter 7): cycles 220 and 221 run the cycle defined last at points on a circle or on lines, at once.
+"""Point patterns: rows, grids, frames and circles of points in the order in which a tool goes to them, and cycles 220 and 221.
 
-Their Q200, Q203, Q204 (and Q224) are those of that cycle from then on: it reads the same Q parameters.
-
-With Q301 = 0 the tool traverses at the set-up clearance *between the operations*, and that is where it stops (step 3): so
-the cycle retracts to it, and to the second set-up clearance only after the last point. To rise there at every point and
-come down again before the way across would make Q301 = 0 the longer way of the two, and protect nothing.
+Lengths in mm, angles in rad, counter-clockwise from the first axis; the functions give points (n, 2).
 """
 
 from __future__ import annotations
@@ -20,11 +16,74 @@ from numpy.typing import NDArray
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, increment, length, number
 from mnclab.controls.tnc_620.cycles.planes import Fault, in_program_coordinates
-from mnclab.controls.tnc_620.machining import patterns
 from mnclab.machine.coordinates import faults, is_round
 from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Call, Each, Go, Step, Turn
+
+Points = NDArray[np.float64]
+Pair = tuple[float, float]
+
+TURN = 2 * math.pi
+
+
+def row(start: Pair, spacing: float, count: int, rotation: float = 0.0) -> Points:
+    """Points on a straight line from `start`, `spacing` apart in the direction `rotation`."""
+    along = np.arange(count)[:, None] * spacing
+    return np.array(start) + along * [math.cos(rotation), math.sin(rotation)]
+
+
+def grid(start: Pair, spacing: Pair, count: tuple[int, int], rotation: float = 0.0, lean: Pair = (0.0, 0.0)) -> Points:
+    """Columns along the first axis, rows along the second, row by row, to and fro.
+
+    The whole is turned about `start` by `rotation`; `lean` turns each of its two axes further, and the spacing
+    along them stays.
+    """
+    i, j = (index.ravel() for index in np.meshgrid(np.arange(count[0]), np.arange(count[1])))
+    i = np.where(j % 2 == 0, i, count[0] - 1 - i)
+    return _placed(i, j, start, spacing, rotation, lean)
+
+
+def frame(start: Pair, spacing: Pair, count: tuple[int, int], rotation: float = 0.0, lean: Pair = (0.0, 0.0)) -> Points:
+    """The outer points of a grid, once around from `start`, the first row first."""
+    last, top = count[0] - 1, count[1] - 1
+    if last == 0 or top == 0:
+        return grid(start, spacing, count, rotation, lean)
+    across, up = np.arange(last), np.arange(top)
+    i = np.concatenate([across, np.full(top, last), last - across, np.zeros(top, dtype=int)])
+    j = np.concatenate([np.zeros(last, dtype=int), up, np.full(last, top), top - up])
+    return _placed(i, j, start, spacing, rotation, lean)
+
+
+def _placed(
+    i: NDArray[np.integer], j: NDArray[np.integer], start: Pair, spacing: Pair, rotation: float, lean: Pair
+) -> Points:
+    """The points of columns `i` and rows `j` of a grid."""
+    first, second = rotation + lean[0], rotation + lean[1]
+    u = np.array([math.cos(first), math.sin(first)]) * spacing[0]
+    v = np.array([-math.sin(second), math.cos(second)]) * spacing[1]
+    return np.array(start) + i[:, None] * u + j[:, None] * v
+
+
+def circle(centre: Pair, radius: float, start: float, step: float, count: int) -> Points:
+    """Points on a circle from the angle `start`, each turned by `step` from the one before."""
+    angle = start + np.arange(count) * step
+    return np.array(centre) + radius * np.column_stack([np.cos(angle), np.sin(angle)])
+
+
+def step_between(start: float, end: float, count: int, closed: bool = False) -> float:
+    """The angle from point to point of `count` from `start` to `end`; on a `closed` circle the last lies one step before it."""
+    gaps = count if closed else count - 1
+    return (end - start) / gaps if gaps else 0.0
+
+
+# Point patterns (chapter 7): cycles 220 and 221 run the cycle defined last at points on a circle or on lines, at once.
+#
+# Their Q200, Q203, Q204 (and Q224) are those of that cycle from then on: it reads the same Q parameters.
+#
+# With Q301 = 0 the tool traverses at the set-up clearance *between the operations*, and that is where it stops (step 3): so
+# the cycle retracts to it, and to the second set-up clearance only after the last point. To rise there at every point and
+# come down again before the way across would make Q301 = 0 the longer way of the two, and protect nothing.
 
 CYCLES = CycleTable()
 MOST = 100_000  # points
@@ -140,14 +199,14 @@ class PolarPattern(PointPattern):
             return math.radians(self.stepping_angle)
         start, end = math.radians(self.starting_angle), math.radians(self.stopping_angle)
         closed = abs(abs(self.stopping_angle - self.starting_angle) - 360) <= 1e-9
-        return patterns.step_between(start, end, int(self.nr_of_repetitions), closed)
+        return step_between(start, end, int(self.nr_of_repetitions), closed)
 
     def centre(self) -> tuple[float, float]:
         return self.center_in_1st_axis, self.center_in_2nd_axis
 
     def points(self) -> Floats:
         start, radius = math.radians(self.starting_angle), self.pitch_circle_diameter / 2
-        return patterns.circle(self.centre(), radius, start, self.step(), int(self.nr_of_repetitions))
+        return circle(self.centre(), radius, start, self.step(), int(self.nr_of_repetitions))
 
     def others(self, m: Machine, points: Floats) -> Iterator[Step]:
         """Straight, or along the pitch circle, as fast as each axis may go: an arc has a feed rate."""
@@ -191,4 +250,4 @@ class CartesianPattern(PointPattern):
         start = self.starting_point_1st_axis, self.starting_point_2nd_axis
         spacing = self.spacing_in_1st_axis, self.spacing_in_2nd_axis
         count = int(self.number_of_columns), int(self.number_of_lines)
-        return patterns.grid(start, spacing, count, math.radians(self.angle_of_rotation))
+        return grid(start, spacing, count, math.radians(self.angle_of_rotation))

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from mnclab.machine.coordinates import tool
-from mnclab.machine.cycle import Cycle, too_many
+from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
 from mnclab.machining.steps import RAPID, Go, Say, Step
@@ -71,10 +71,7 @@ def in_program_coordinates(c: Cycle, m: Machine) -> tuple[float, float]:
 
 
 class AtSurface(Cycle):
-    """What cycles at a surface share; who inherits declares the parameters.
-
-    `check` and `moves` are those of a hole, which says in `steps` what happens below A; others have their own.
-    """
+    """What cycles at a surface share; who inherits declares the parameters, and says in `steps` what it does."""
 
     clearance: float
     surface: float
@@ -86,6 +83,9 @@ class AtSurface(Cycle):
     min_infeed = 0.0
     start_depth = 0.0
     reference = 0.0
+    dwell_top = dwell_bottom = break_retract = spindle_angle = disengage = 0.0
+    retract_feed: Any = 0.0
+    positioning_feed: Any = 0.0
 
     works: ClassVar[tuple[str, ...]] = ("depth",)
     """Its depths, in the order in which their signs are evaluated."""
@@ -131,31 +131,27 @@ class AtSurface(Cycle):
             yield Go("retract", self.above, feed)
         yield Go("retract", self.end, feed)
 
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        """Faults of the shape that is milled and of the tool."""
+        yield from ()
+
+    def steps(self, m: Machine) -> Iterable[Step]:
+        """All that it does at a depth other than 0; of a hole from the set-up plane down, and back to it or higher."""
+        return ()
+
+    def moves(self, m: Machine) -> Iterable[Step]:
+        return self.steps(m) if self.down else [self.left_out]
+
     # --- holes -------------------------------------------------------------------------------------------------------
 
     def reach(self, m: Machine) -> float:
         """Where the hole ends, counted from the surface, mm."""
         return self.depth
 
-    def steps(self, m: Machine) -> Iterable[Step]:
-        """From the set-up plane down, and back to it or to the second set-up clearance: none but at a hole."""
-        return ()
-
     def bottom(self, m: Machine) -> float:
         """B, where the tip of the tool ends: with Q395 = 1 its cylindrical part reaches the depth."""
         point = point_length(tool(m).effective_radius, tool(m).angle) if self.reference == 1 else 0.0
         return self.surface + self.reach(m) - self.down * point
-
-    def check(self, m: Machine) -> Iterator[Fault]:
-        yield from self.signs(m)
-        if self.reference == 1:
-            yield from with_angle(m, "reference")
-        yield from not_zero(self, "feed", purpose="to drill with")
-        if self.depth:
-            yield from less_than_depth(self, "start_depth", self.depth)
-        if self.start_depth:
-            yield from not_zero(self, "positioning_feed", purpose="to reach the starting point")
-        yield from too_many("infeed", lambda: self.pecks(m))
 
     @property
     def begin(self) -> float:
@@ -165,9 +161,6 @@ class AtSurface(Cycle):
     def pecks(self, m: Machine) -> tuple[float, ...]:
         """The depths of the infeeds."""
         return infeeds(self.begin, self.bottom(m), self.infeed, self.decrement, self.min_infeed)
-
-    def moves(self, m: Machine) -> Iterable[Step]:
-        return [Go("to the set-up clearance", self.above), *self.steps(m)] if self.down else [self.left_out]
 
 
 def point_length(radius: float, angle: float) -> float:

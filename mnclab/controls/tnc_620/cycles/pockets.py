@@ -5,17 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from functools import partial
-from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from mnclab.controls.tnc_620.cycles import addresses, milling
-from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, distance, length
-from mnclab.controls.tnc_620.cycles.milling import Figure, Place
-from mnclab.controls.tnc_620.cycles.planes import SAME, AtSurface, Fault, at_least, at_most, in_program_coordinates
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
+from mnclab.controls.tnc_620.cycles.milling import Figure, MilledFigure, Place
+from mnclab.controls.tnc_620.cycles.planes import SAME, Fault, at_least, at_most
 from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
-from mnclab.machine.coordinates import MILLS, tool
+from mnclab.machine.coordinates import tool
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.milling import figures
@@ -25,51 +24,32 @@ from mnclab.machining.milling.figures import Pocket, Slot, mill_pocket, mill_slo
 from mnclab.machining.milling.pocket_steps import Down, Feeds, Room, way_down
 from mnclab.machining.steps import Step
 
-if TYPE_CHECKING:
-    from mnclab.controls.tnc_620.contours.trochoidal_slot import TrochoidalSlot
-
-
 # Rectangular and circular pockets: cycles 251 (6.2) and 252 (6.3), and how a tool goes down into a pocket or a slot.
 # C is the centre of the pocket, R the tool radius, Room where the centre of the tool may go about C.
 
-CYCLES = CycleTable()
+CYCLES = CycleTable(addresses=addresses.shared(**milling.PARAMETERS))
+WORK = "milling_feed milling_type depth infeed floor_allowance plunging_feed finishing_infeed clearance surface second_clearance"
+LAST = "plunging_strategy finishing_feed feed_reference"
 ENTRIES = ("vertical", "helix", "ramp")
 CORNER = {0: "the tool is at the centre"} | addresses.CORNERS
 SIGNS = ((0, 0), (1, 1), (-1, 1), (-1, -1), (1, -1))  # from the tool to the centre, in half sides
 CORNERS = 1.4  # times R, the widest step between two rectangles with sharp corners that leaves nothing between them
 
 
-@CYCLES("CYCL DEF 251", "Rectangular pocket", source="6.2")
-class RectangularPocket(AtSurface):
+@CYCLES(
+    "CYCL DEF 251", "Rectangular pocket", source="6.2",
+    takes=f"machining_operation first_side_length second_side_length corner_radius side_allowance rotation_angle "
+          f"pocket_position {WORK} overlap {LAST}",
+)  # fmt: skip
+class RectangularPocket(MilledFigure):
     """Mills a rectangular pocket: roughing in layers from the centre outwards, then its walls, then its floor."""
 
-    does = MILLS
-    about = in_program_coordinates
-    check = milling.check
-    machining_operation: float = addresses.operation()
-    first_side_length: float = distance("Q218", "first side length", example=80)
-    second_side_length: float = distance("Q219", "second side length", example=60)
     corner_radius: float = length("Q220", "corner radius", note="0: the tool radius", example=8)
-    side_allowance: float = addresses.side_allowance()
-    rotation_angle: float = addresses.rotation("Q224")
     pocket_position: float = choice("Q367", "pocket position", CORNER, example=0)
-    milling_feed: float = addresses.milling_feed()
-    milling_type: float = addresses.climb(predef=True)
-    depth: float = addresses.depth()
-    infeed: float = addresses.layer()
-    floor_allowance: float = addresses.floor_allowance()
-    plunging_feed: float = addresses.plunge_feed(also=addresses.PLANE)
-    finishing_infeed: float = addresses.finishing_infeed()
-    clearance: float = addresses.clearance(predef=True)
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance(predef=True, example=50)
-    overlap: float = addresses.overlap(at_least=0.0001)
     plunging_strategy: float = addresses.plunging(addresses.PLUNGE)
-    finishing_feed: float | None = addresses.finishing_feed(default=None, default_means="as Q207", example=500)
-    feed_reference: float = addresses.feed_reference()
 
     def contradictions(self) -> Iterator[Fault]:
-        yield from milling.contradictions(self)
+        yield from super().contradictions()
         if self.depth:
             half = min(self.first_side_length, self.second_side_length) / 2
             yield from at_most(self, "corner_radius", half, "half the shorter side")
@@ -89,39 +69,24 @@ class RectangularPocket(AtSurface):
             corner=self.corner_radius, angle=math.radians(self.rotation_angle), climb=self.milling_type >= 0, begin=0,
         )  # fmt: skip
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         """C lies half the sides away from the tool, turned about the tool."""
         sides = self.first_side_length, self.second_side_length
         u, v = (np.array(SIGNS[int(self.pocket_position)]) * sides / 2).tolist()
-        c, s = math.cos(math.radians(self.rotation_angle)), math.sin(math.radians(self.rotation_angle))
-        return mill(self, m, self.pocket(m), (m.programmed[0] + c * u - s * v, m.programmed[1] + s * u + c * v))
+        x, y = milling.turned(u, v, self.rotation_angle)
+        return mill(self, m, self.pocket(m), (m.programmed[0] + x, m.programmed[1] + y))
 
 
-@CYCLES("CYCL DEF 252", "Circular pocket", source="6.3")
-class CircularPocket(AtSurface):
+@CYCLES(
+    "CYCL DEF 252", "Circular pocket", source="6.3",
+    takes=f"machining_operation circle_diameter side_allowance {WORK} overlap {LAST}",
+)  # fmt: skip
+class CircularPocket(MilledFigure):
     """Mills a circular pocket about the tool position: roughing in layers outwards, then its wall, then its floor."""
 
-    does = MILLS
-    about = in_program_coordinates
-    check = milling.check
-    contradictions = milling.contradictions
-    machining_operation: float = addresses.operation()
     circle_diameter: float = length("Q223", "circle diameter", example=60)
-    side_allowance: float = addresses.side_allowance()
-    milling_feed: float = addresses.milling_feed()
-    milling_type: float = addresses.climb(predef=True)
-    depth: float = addresses.depth()
-    infeed: float = addresses.layer()
-    floor_allowance: float = addresses.floor_allowance()
-    plunging_feed: float = addresses.plunge_feed(also=addresses.PLANE)
-    finishing_infeed: float = addresses.finishing_infeed()
-    clearance: float = addresses.clearance(predef=True)
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance(predef=True, example=50)
     overlap: float = addresses.overlap(at_least=0.1)
     plunging_strategy: float = addresses.plunging({0: "vertical", 1: "helical"})
-    finishing_feed: float | None = addresses.finishing_feed(default=None, default_means="as Q207", example=500)
-    feed_reference: float = addresses.feed_reference()
 
     def fits(self, m: Machine) -> Iterator[Fault]:
         least = 2 * (m.radius + self.side_allowance)
@@ -134,19 +99,16 @@ class CircularPocket(AtSurface):
     def pocket(self, m: Machine) -> Pocket:
         return figures.circular(self.circle_diameter, m.radius, self.overlap * m.radius, climb=self.milling_type >= 0)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         """Roughing alone ends at the second set-up clearance before the tool goes to the middle."""
         end = self.end if self.machining_operation == 1 and self.depth < 0 else None
         return mill(self, m, self.pocket(m), m.programmed[:2], end)
 
 
-AnyPocket: TypeAlias = RectangularPocket | CircularPocket
-
-
 # --- what both share ------------------------------------------------------------------------------------------------
 
 
-def check_pocket(c: AnyPocket, m: Machine, pocket: Pocket) -> Iterator[Fault]:
+def check_pocket(c: MilledFigure, m: Machine, pocket: Pocket) -> Iterator[Fault]:
     """No more passes than somebody would wait for, and the tool gets down."""
     yield from too_many("overlap", lambda: pocket.clearing(0.0))
     levels, room = milling.levels(c, m), pocket.room(c.side_allowance)
@@ -164,33 +126,33 @@ def check_pocket(c: AnyPocket, m: Machine, pocket: Pocket) -> Iterator[Fault]:
     yield from too_many("plunging_strategy", lambda: way_in(c, m, room)(0.0, levels[0] - c.surface))
 
 
-def check_angle(c: AnyPocket | AnySlot | TrochoidalSlot, m: Machine) -> Iterator[Fault]:
+def check_angle(c: MilledFigure, m: Machine) -> Iterator[Fault]:
     """All strategies but the vertical one need a plunge angle."""
     if c.plunging_strategy and not 0 < m.tool.plunge_angle <= 90:
         angle = f"the plunge angle (ANGLE) of tool {m.tool.number}, greater than 0 and at most 90"
         yield "plunging_strategy", f"{c.plunging_strategy:g} needs {angle}, in the tool table"
 
 
-def slopes(c: AnyPocket | AnySlot, m: Machine) -> bool:
+def slopes(c: MilledFigure, m: Machine) -> bool:
     """Whether the tool goes down on a helix or a ramp; at 90 degrees both are straight down."""
     return bool(c.plunging_strategy > 0 and m.tool.plunge_angle < 90)
 
 
-def way_in(c: AnyPocket, m: Machine, room: Room) -> Down:
+def way_in(c: MilledFigure, m: Machine, room: Room) -> Down:
     """The way from one level to another; straight down where a helix is as narrow as the tool."""
     sloping = slopes(c, m) and not (c.plunging_strategy == 1 and room.half_width < NOTHING)
     entry = Entry(ENTRIES[int(c.plunging_strategy)], tool(m).plunge_angle) if sloping else Entry()
     return partial(way_down, entry, room, m.radius, c.milling_type >= 0)
 
 
-def feeds(c: AnyPocket | AnySlot | TrochoidalSlot, m: Machine) -> tuple[Feeds, Feeds, Feeds]:
+def feeds(c: MilledFigure, m: Machine) -> tuple[Feeds, Feeds, Feeds]:
     """Of roughing, the side and the floor: from which Q439 on they count at the cutting edge; ways down never do."""
     first, second, third = (m.radius if c.feed_reference >= least else 0.0 for least in (3, 1, 2))
     plunge, finish = c.plunging_feed, milling.finishing_feed(c)
     return Feeds(c.milling_feed, plunge, first), Feeds(finish, plunge, second), Feeds(finish, plunge, third)
 
 
-def mill(c: AnyPocket, m: Machine, pocket: Pocket, centre: Place, end: float | None = None) -> Iterator[Step]:
+def mill(c: MilledFigure, m: Machine, pocket: Pocket, centre: Place, end: float | None = None) -> Iterator[Step]:
     """Roughing in layers, the walls in infeeds, the floor; then back to where the tool was called."""
     whole, work = pocket.room(0.0), milling.work(c, m, feeds(c, m))
 
@@ -227,33 +189,17 @@ ON_CIRCLE: dict[float, str] = {
 }  # fmt: skip
 
 
-@CYCLES("CYCL DEF 253", "Slot milling", source="6.4")
-class StraightSlot(AtSurface):
+@CYCLES(
+    "CYCL DEF 253", "Slot milling", source="6.4",
+    takes=f"machining_operation slot_length slot_width side_allowance rotation_angle slot_position {WORK} {LAST}",
+)  # fmt: skip
+class StraightSlot(MilledFigure):
     """Mills a straight slot: roughing in layers, to and fro on a ramp, then its side, then its floor."""
 
-    does = MILLS
-    about = in_program_coordinates
-    check = milling.check
-    contradictions = milling.contradictions
-    machining_operation: float = addresses.operation()
     slot_length: float = length("Q218", "slot length", note="over all", example=80)
-    slot_width: float = addresses.slot_width()
-    side_allowance: float = addresses.side_allowance()
     rotation_angle: float = addresses.rotation("Q374")
     slot_position: float = choice("Q367", "slot position", LENGTHWISE, example=0)
-    milling_feed: float = addresses.milling_feed()
-    milling_type: float = addresses.climb(predef=True)
-    depth: float = addresses.depth()
-    infeed: float = addresses.layer()
-    floor_allowance: float = addresses.floor_allowance()
-    plunging_feed: float = addresses.plunge_feed(also=addresses.PLANE)
-    finishing_infeed: float = addresses.finishing_infeed()
-    clearance: float = addresses.clearance(predef=True)
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance(predef=True, example=50)
     plunging_strategy: float = addresses.plunging(PLUNGE)
-    finishing_feed: float | None = addresses.finishing_feed(default=None, default_means="as Q207", example=500)
-    feed_reference: float = addresses.feed_reference()
 
     def fits(self, m: Machine) -> Iterator[Fault]:
         yield from at_least(self, "slot_length", self.slot_width, "the width Q219")
@@ -272,7 +218,7 @@ class StraightSlot(AtSurface):
     def line(self) -> Contour:
         return Contour(np.outer([0.0, self.line_length], self.ahead), closed=False)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         """Turned about the tool, which goes back to the centre if it was there; else it stays above the left arc."""
         half, reach = self.slot_length / 2, self.line_length / 2
         to_centre = (0.0, half, reach, -reach, -half)[int(self.slot_position)]
@@ -280,17 +226,14 @@ class StraightSlot(AtSurface):
         return mill_slots(self, m, [((x, y), self.line())], None if self.slot_position else m.programmed[:2])
 
 
-@CYCLES("CYCL DEF 254", "Circular slot", source="6.5")
-class CircularSlot(AtSurface):
+@CYCLES(
+    "CYCL DEF 254", "Circular slot", source="6.5",
+    takes=f"machining_operation slot_width side_allowance pitch_circle_diameter slot_position centre_x centre_y "
+          f"starting_angle angular_length stepping_angle repetitions {WORK} {LAST}",
+)  # fmt: skip
+class CircularSlot(MilledFigure):
     """Mills slots on a pitch circle: each roughed in layers, to and fro on a ramp, then its side, then its floor."""
 
-    does = MILLS
-    about = in_program_coordinates
-    check = milling.check
-    contradictions = milling.contradictions
-    machining_operation: float = addresses.operation()
-    slot_width: float = addresses.slot_width()
-    side_allowance: float = addresses.side_allowance()
     pitch_circle_diameter: float = length("Q375", "pitch circle diameter", example=80)
     slot_position: float = choice("Q367", "reference of the slot position", ON_CIRCLE, example=0)
     centre_x: float = coordinate("Q216", "centre in the first axis", note="only with Q367 = 0", example=50)
@@ -299,19 +242,9 @@ class CircularSlot(AtSurface):
     angular_length: float = addresses.angle("Q248", "opening angle of the slot", at_least=0, incremental=True, example=90)
     stepping_angle: float = addresses.angle("Q378", "stepping angle", incremental=True, example=180)
     repetitions: float = count("Q377", "number of slots", at_least=1, example=2)
-    milling_feed: float = addresses.milling_feed()
-    milling_type: float = addresses.climb(predef=True)
-    depth: float = addresses.depth()
-    infeed: float = addresses.layer()
-    floor_allowance: float = addresses.floor_allowance()
-    plunging_feed: float = addresses.plunge_feed(also=addresses.PLANE)
-    finishing_infeed: float = addresses.finishing_infeed()
     clearance: float = addresses.clearance()
-    surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance(example=50)
     plunging_strategy: float = addresses.plunging(PLUNGE)
-    finishing_feed: float | None = addresses.finishing_feed(default=None, default_means="as Q207", example=500)
-    feed_reference: float = addresses.feed_reference()
 
     def fits(self, m: Machine) -> Iterator[Fault]:
         if self.pitch_circle_diameter <= self.slot_width + NOTHING:
@@ -338,23 +271,20 @@ class CircularSlot(AtSurface):
             dx, dy = arc.points[0].tolist()
             yield (x + dx, y + dy), Contour(arc.points - (dx, dy), arc.bulge, closed=False)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         """To the centre of the circle at the end if the tool has no place of its own; else it stays above the last slot."""
         return mill_slots(self, m, self.places(m), None if self.slot_position else self.centre(m))
-
-
-AnySlot: TypeAlias = StraightSlot | CircularSlot
 
 
 # --- what both share ------------------------------------------------------------------------------------------------
 
 
-def slot(c: AnySlot, m: Machine, line: Contour) -> Slot:
+def slot(c: MilledFigure, m: Machine, line: Contour) -> Slot:
     """The shape of one slot."""
     return Slot(line, c.slot_width, m.radius, c.milling_type >= 0)
 
 
-def check_slot(c: AnySlot, m: Machine, line: Contour, length: float, count: int = 1) -> Iterator[Fault]:
+def check_slot(c: MilledFigure, m: Machine, line: Contour, length: float, count: int = 1) -> Iterator[Fault]:
     """The tool fits, and gets down; no more passes than somebody would wait for."""
     shape = slot(c, m, line)
     if not shape.is_full:
@@ -370,13 +300,13 @@ def check_slot(c: AnySlot, m: Machine, line: Contour, length: float, count: int 
     yield from few_passes("infeed", len(levels), count * len(shape.clearing(c.side_allowance).passes))
 
 
-def slot_way_in(c: AnySlot, m: Machine, line: Contour) -> Down:
+def slot_way_in(c: MilledFigure, m: Machine, line: Contour) -> Down:
     """To and fro along the line, or straight down at its beginning."""
     angle = tool(m).plunge_angle
     return (lambda top, bottom: swing(line, top, bottom, angle)) if slopes(c, m) else straight
 
 
-def mill_slots(c: AnySlot, m: Machine, places: Iterable[tuple[Place, Contour]], last: Place | None) -> Iterator[Step]:
+def mill_slots(c: MilledFigure, m: Machine, places: Iterable[tuple[Place, Contour]], last: Place | None) -> Iterator[Step]:
     """Each slot from the second set-up plane: roughing, side, floor."""
     work, why = milling.work(c, m, feeds(c, m)), "neither Q368 nor Q369 is given"
     if not work.is_nothing and abs(c.slot_width / 2 - m.radius) <= NOTHING:

@@ -1,4 +1,4 @@
-"""Special cycles (chapter 12): dwell, spindle orientation, tolerance, ascertaining the load, thread cutting.
+"""Special cycles (chapter 12): dwell, program call, spindle orientation, tolerance, ascertaining the load, thread cutting.
 
 Engraving and face milling have files of their own.
 """
@@ -10,11 +10,14 @@ from collections.abc import Iterator
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, increment, length, seconds
 from mnclab.controls.tnc_620.cycles.planes import Fault
+from mnclab.controls.tnc_620.language.flow import call_program
 from mnclab.machine.coordinates import TAPS
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
-from mnclab.machining.steps import Say, Spin, Step, Thread, Wait, Write
+from mnclab.machining.steps import Blocks, Say, Spin, Step, Thread, Wait, Write
 from mnclab.path.recorder import NAN
+from mnclab.running import interpreter
+from mnclab.text.alarm import Alarm
 
 CYCLES = CycleTable()
 FILTERS: dict[float, str] = {0: "finishing: more exact", 1: "roughing: faster"}
@@ -110,3 +113,22 @@ class ThreadCutting(Cycle):
             yield Thread("cut the thread", m.programmed[2] + self.thread_depth, abs(self.thread_pitch))
             yield Spin("stop the spindle", 0)
             yield Wait("wait for the spindle", m.settings["thread_wait"])
+
+
+# Another program as a cycle (12.3).
+
+
+@CYCLES("CYCL DEF 12", "Program call", source="12.3")
+class ProgramCall(Cycle):
+    """Makes a program the cycle that CYCL CALL and M99 run; Q parameters count for both programs."""
+
+    program_name: str = param("PGM", "name of the program", "text", type="text", modal=True)
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        try:
+            interpreter.called(m, self.program_name, self.code)
+        except Alarm as missing:
+            yield "program_name", missing.message.removeprefix(f"{self.code} ")
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        yield Blocks(lambda: call_program(m, self.program_name, self.code, None))

@@ -15,55 +15,48 @@ import numpy as np
 
 from mnclab.controls.tnc_620.cycles import addresses, milling
 from mnclab.controls.tnc_620.cycles.addresses import choice, length, number
-from mnclab.controls.tnc_620.cycles.milling import Figure, Place
-from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault, at_least, at_most, in_program_coordinates, rate
+from mnclab.controls.tnc_620.cycles.milling import Figure, MilledFigure, Place
+from mnclab.controls.tnc_620.cycles.planes import Fault, at_least, at_most, rate
 from mnclab.controls.tnc_620.cycles.pockets import CORNER, SIGNS
 from mnclab.controls.tnc_620.machining import studs
 from mnclab.controls.tnc_620.machining.studs import Stud, mill_stud
-from mnclab.machine.coordinates import MILLS
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.milling.clearing import Clearing
 from mnclab.machining.milling.pocket_steps import Feeds
 from mnclab.machining.steps import Step
 
-CYCLES = CycleTable()
 ASIDE = 2.0  # mm, from the blank to the edge of the tool at the start, and off the stud after a pass
 APPROACH = {0: "on the right of the stud"} | addresses.CORNERS
 CIRCLES: dict[float, str] = {0: "the size is that of the inscribed circle", 1: "of the circumscribed circle"}
-PLUNGE = ("FMAX", *addresses.PLANE)
+CYCLES = CycleTable(addresses=addresses.shared(**milling.PARAMETERS | {
+    "machining_operation": partial(addresses.machining_operation, default=1),
+    "plunging_feed": partial(addresses.plunge_feed, also=("FMAX", *addresses.PLANE)),
+    "overlap": partial(addresses.overlap, at_least=0.0001),
+    "floor_allowance": partial(addresses.floor_allowance, default=0),
+    "finishing_infeed": partial(addresses.finishing_infeed, default=0),
+    "finishing_feed": partial(addresses.finishing_feed, default=0, example=800),
+}))  # fmt: skip
 
 
-@CYCLES("CYCL DEF 256", "Rectangular stud", source="6.6")
-class RectangularStud(AtSurface):
+@CYCLES(
+    "CYCL DEF 256", "Rectangular stud", source="6.6",
+    takes="first_side_length blank_side_1 second_side_length blank_side_2 corner_radius_or_chamfer side_allowance "
+          "rotation_angle stud_position milling_feed milling_type depth infeed plunging_feed clearance surface second_clearance "
+          "overlap approach_position machining_operation floor_allowance finishing_infeed finishing_feed",
+)  # fmt: skip
+class RectangularStud(MilledFigure):
     """Mills a rectangular stud free: roughing in layers from the blank inwards, then its side, then the floor about it."""
 
-    does = MILLS
-    about = in_program_coordinates
-    check = milling.check
-    contradictions = milling.contradictions
+    stands = True
     first_side_length: float = length("Q218", "first side length", example=60)
     blank_side_1: float = length("Q424", "first side of the blank", note="at least Q218", example=74)
     second_side_length: float = length("Q219", "second side length", example=40)
     blank_side_2: float = length("Q425", "second side of the blank", note="at least Q219", example=60)
     corner_radius_or_chamfer: float = addresses.corner(example=5)
-    side_allowance: float = addresses.side_allowance()
-    rotation_angle: float = addresses.rotation("Q224")
     stud_position: float = choice("Q367", "stud position", CORNER, example=0)
-    milling_feed: float = addresses.milling_feed()
-    milling_type: float = addresses.climb(predef=True)
-    depth: float = addresses.depth()
-    infeed: float = addresses.layer()
-    plunging_feed: float = addresses.plunge_feed(also=PLUNGE)
-    clearance: float = addresses.clearance(predef=True)
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance(predef=True, example=50)
     overlap: float = addresses.overlap(at_least=0.1)
     approach_position: float = choice("Q437", "approach position", APPROACH, default=0, example=0)
-    machining_operation: float = addresses.operation(default=1)
-    floor_allowance: float = addresses.floor_allowance(default=0)
-    finishing_infeed: float = addresses.finishing_infeed(default=0)
-    finishing_feed: float = addresses.finishing_feed(default=0, example=800)
 
     def fits(self, m: Machine) -> Iterator[Fault]:
         yield from at_least(self, "blank_side_1", self.first_side_length, "the side of the stud Q218", 0.0)
@@ -98,43 +91,31 @@ class RectangularStud(AtSurface):
         x, y = SIGNS[int(self.approach_position)]
         return Stud(partial(self.clearing, m.radius), milling.turned(-x * u, -y * v, self.rotation_angle), aside)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         """C lies half the sides away from the tool, turned about the tool."""
         u, v = SIGNS[int(self.stud_position)]
         x, y = milling.turned(u * self.first_side_length / 2, v * self.second_side_length / 2, self.rotation_angle)
         return mill(self, m, (m.programmed[0] + x, m.programmed[1] + y))
 
 
-@CYCLES("CYCL DEF 257", "Circular stud", source="6.7")
-class CircularStud(AtSurface):
+@CYCLES(
+    "CYCL DEF 257", "Circular stud", source="6.7",
+    takes="finished_diameter blank_diameter side_allowance milling_feed milling_type depth infeed plunging_feed clearance "
+          "surface second_clearance overlap starting_angle machining_operation floor_allowance finishing_infeed finishing_feed",
+)  # fmt: skip
+class CircularStud(MilledFigure):
     """Mills a circular stud about the tool position free: on a spiral from the blank inwards, then its side and the floor."""
 
-    does = MILLS
-    about = in_program_coordinates
-    check = milling.check
+    stands = True
     finished_diameter: float = length("Q223", "diameter of the finished stud", example=50)
     blank_diameter: float = length("Q222", "diameter of the blank", note="at least Q223", example=80)
-    side_allowance: float = addresses.side_allowance()
-    milling_feed: float = addresses.milling_feed()
-    milling_type: float = addresses.climb(predef=True)
-    depth: float = addresses.depth()
-    infeed: float = addresses.layer()
-    plunging_feed: float = addresses.plunge_feed(also=PLUNGE)
-    clearance: float = addresses.clearance(predef=True)
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance(predef=True, example=50)
-    overlap: float = addresses.overlap(at_least=0.0001)
     starting_angle: float = addresses.angle(
         "Q376", "starting angle", at_least=-1, default=-1, note="from the centre of the stud; -1: as the control likes, 0",
         example=0,
     )  # fmt: skip
-    machining_operation: float = addresses.operation(default=1)
-    floor_allowance: float = addresses.floor_allowance(default=0)
-    finishing_infeed: float = addresses.finishing_infeed(default=0)
-    finishing_feed: float = addresses.finishing_feed(default=0, example=800)
 
     def contradictions(self) -> Iterator[Fault]:
-        yield from milling.contradictions(self)
+        yield from super().contradictions()
         if -1 < self.starting_angle < 0:
             yield "starting_angle", f"must be -1 or at least 0, got {self.starting_angle:g}"
 
@@ -160,18 +141,20 @@ class CircularStud(AtSurface):
         away = max(self.blank_diameter / 2 + aside, self.finished_diameter / 2 + self.side_allowance) + m.radius
         return Stud(partial(self.clearing, m.radius), milling.turned(away, 0.0, self.angle), aside)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         return mill(self, m, m.programmed[:2], [milling.back(m.programmed[:2])])
 
 
-@CYCLES("CYCL DEF 258", "Polygon stud", source="6.8")
-class PolygonStud(AtSurface):
+@CYCLES(
+    "CYCL DEF 258", "Polygon stud", source="6.8",
+    takes="reference_circle reference_diameter blank_diameter corners rotation_angle corner_radius_or_chamfer side_allowance "
+          "milling_feed milling_type depth infeed plunging_feed clearance surface second_clearance overlap machining_operation "
+          "floor_allowance finishing_infeed finishing_feed",
+)  # fmt: skip
+class PolygonStud(MilledFigure):
     """Mills a regular polygon about the tool position free: on a spiral from the round blank inwards, then side and floor."""
 
-    does = MILLS
-    about = in_program_coordinates
-    check = milling.check
-    contradictions = milling.contradictions
+    stands = True
     reference_circle: float = choice("Q573", "reference circle", CIRCLES, example=0)
     reference_diameter: float = length("Q571", "diameter of the reference circle", example=50)
     blank_diameter: float = length("Q222", "diameter of the blank", note="greater than Q571", example=80)
@@ -179,16 +162,7 @@ class PolygonStud(AtSurface):
     rotation_angle: float = addresses.angle("Q224", "angle of the first corner", example=15)
     corner_radius_or_chamfer: float = addresses.corner(example=2)
     side_allowance: float = addresses.side_allowance(at_least=-addresses.FAR, note="negative: so much smaller")
-    milling_feed: float = addresses.milling_feed()
-    milling_type: float = addresses.climb(predef=True)
-    depth: float = addresses.depth()
-    infeed: float = addresses.layer()
-    plunging_feed: float = addresses.plunge_feed(also=PLUNGE)
-    clearance: float = addresses.clearance(predef=True)
-    surface: float = addresses.surface()
-    second_clearance: float = addresses.second_clearance(predef=True, example=50)
-    overlap: float = addresses.overlap(at_least=0.0001)
-    machining_operation: float = addresses.operation()
+    machining_operation: float = addresses.machining_operation()
     floor_allowance: float = addresses.floor_allowance()
     finishing_infeed: float = addresses.finishing_infeed()
     finishing_feed: float = addresses.finishing_feed(example=800)
@@ -227,11 +201,12 @@ class PolygonStud(AtSurface):
         start = milling.turned(away, 0.0, self.rotation_angle)
         return Stud(partial(self.clearing, m.radius), start, aside, self.end)
 
-    def moves(self, m: Machine) -> Iterator[Step]:
+    def steps(self, m: Machine) -> Iterator[Step]:
         return mill(self, m, m.programmed[:2])
 
 
 AnyStud: TypeAlias = RectangularStud | CircularStud | PolygonStud
+
 
 # --- what they share ------------------------------------------------------------------------------------------------
 

@@ -16,7 +16,7 @@ from mnclab.controls.tnc_620.cycles.addresses import angle, coordinate, count, d
 from mnclab.controls.tnc_620.cycles.chain import Given, Values
 from mnclab.controls.tnc_620.cycles.planes import Fault, in_program_coordinates, not_zero
 from mnclab.controls.tnc_620.state import memory
-from mnclab.controls.tnc_620.tables.table_files import row_of
+from mnclab.controls.tnc_620.tables import row_of
 from mnclab.geometry import frames
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.control import Setting

@@ -74,7 +74,7 @@ class Element(NamedTuple):
         return self.centre
 
 
-class Piece(NamedTuple):
+class FreePiece(NamedTuple):
     """A solved element: `centre` is None for a line, `sense` +1 for a counter-clockwise arc, -1 for a clockwise one."""
 
     start: tuple[float, float]
@@ -251,13 +251,13 @@ class FreeContour(Readings):
                 return _low_first(pair, values)
         return super().rank(values, before, window)
 
-    def pieces(self, reading: Reading) -> list[Piece]:
+    def pieces(self, reading: Reading) -> list[FreePiece]:
         """The elements of a reading that has settled everything."""
         v, found = reading.values, []
         for element in self.elements:
             start, end = ((p.x.at(v), p.y.at(v)) for p in (element.start, element.end))
             centre = None if element.centre is None else (element.centre.x.at(v), element.centre.y.at(v))
-            found.append(Piece(start, end, centre, 0 if centre is None else int(np.sign(element.radius.at(v)))))
+            found.append(FreePiece(start, end, centre, 0 if centre is None else int(np.sign(element.radius.at(v)))))
         return found
 
 
@@ -273,7 +273,7 @@ STEPS = 48  # chords of an element
 ALONG = 1e-6  # mm: a point inside one element as near to another lies on it
 
 
-def outline(pieces: Sequence[Piece]) -> Floats:
+def outline(pieces: Sequence[FreePiece]) -> Floats:
     """Points (n, STEPS + 1, 2) along n elements, from start to end."""
     shares = np.linspace(0, 1, STEPS + 1)[:, None]
     found = []
@@ -287,18 +287,18 @@ def outline(pieces: Sequence[Piece]) -> Floats:
     return np.array(found)
 
 
-def is_closed(pieces: Sequence[Piece], start: tuple[float, float]) -> bool:
+def is_closed(pieces: Sequence[FreePiece], start: tuple[float, float]) -> bool:
     """Whether the last element ends at a point."""
     return bool(np.hypot(*np.subtract(pieces[-1].end, start)) < CLOSED)
 
 
-def is_within(pieces: Sequence[Piece], low: Sequence[float], high: Sequence[float]) -> bool:
+def is_within(pieces: Sequence[FreePiece], low: Sequence[float], high: Sequence[float]) -> bool:
     """Whether the elements stay in a rectangle."""
     points = outline(pieces).reshape(-1, 2)
     return bool((points >= np.array(low) - CLOSED).all() and (points <= np.array(high) + CLOSED).all())
 
 
-def crosses_itself(pieces: Sequence[Piece]) -> bool:
+def crosses_itself(pieces: Sequence[FreePiece]) -> bool:
     """Whether the path runs through itself or along itself; touching at a point is neither."""
     points = outline(pieces)
     apart = (1e-9 * max(1.0, float(np.ptp(points))) ** 2) ** 2
@@ -315,7 +315,7 @@ def crosses_itself(pieces: Sequence[Piece]) -> bool:
     return False
 
 
-def _curves(pieces: Sequence[Piece]) -> Curves:
+def _curves(pieces: Sequence[FreePiece]) -> Curves:
     start, end = (np.array([getattr(piece, name) for piece in pieces]) for name in ("start", "end"))
     centre = np.array([piece.centre or (np.nan, np.nan) for piece in pieces])
     sweep = [sweep_of_one(p.start, p.end, p.centre, p.sense) if p.centre else 0.0 for p in pieces]

@@ -102,7 +102,7 @@ class Exhausted(Exception):
     """The search for solutions has cost as much as it may."""
 
 
-class Work:
+class Effort:
     """What a search may still cost: about a microsecond each, counted and not measured, so that it always ends alike."""
 
     def __init__(self, left: float = 0.0) -> None:
@@ -154,7 +154,7 @@ def _cross(s: Array, t: Array, u: Array, v: Array) -> Array:
 
 
 def newton_from(
-    a: Array, b: Array, c: Array, starts: Array, rounds: int = 80, work: Work | None = None
+    a: Array, b: Array, c: Array, starts: Array, rounds: int = 80, work: Effort | None = None
 ) -> tuple[Array, NDArray[np.bool_]]:
     """Solutions (m, v) of xᵀAx + bx + c = 0 (k equations) reached from starts (n, v), and which of them are single (m,).
 
@@ -246,12 +246,12 @@ class System:
             c[row] /= scale
         self.a, self.b, self.c = a, b, c
 
-    def solve(self, work: Work | None = None, newton: bool = False) -> list[Array] | None:
+    def solve(self, work: Effort | None = None, newton: bool = False) -> list[Array] | None:
         """All real solutions (v,), in mm; None if there are infinitely many, or without `newton` if they would need it.
 
         `work` is what the search may cost; nothing bounds it without.
         """
-        self.work = work or Work(np.inf)
+        self.work = work or Effort(np.inf)
         a, b, c = self.a, self.b, self.c
         begin, basis = np.zeros(len(self.unknowns)), np.eye(len(self.unknowns))
         while True:
@@ -354,14 +354,14 @@ class System:
 
         At any other place equations that follow from each other would look independent. 0 where no solution is found.
         """
-        return min((free.shape[1] for free in self._free(Work(np.inf))), default=0)
+        return min((free.shape[1] for free in self._free(Effort(np.inf))), default=0)
 
-    def settled(self, work: Work) -> set[int]:
+    def settled(self, work: Effort) -> set[int]:
         """The unknowns that cannot move at some solution; all of them where no solution is found."""
         moving = [np.abs(directions).max(axis=1, initial=0) > 1e-6 for directions in self._free(work)]
         return {i for k, i in enumerate(self.unknowns) if not moving or not all(moves[k] for moves in moving)}
 
-    def _free(self, work: Work) -> list[Array]:
+    def _free(self, work: Effort) -> list[Array]:
         """The directions (v, d) in which the unknowns can move at each of some solutions."""
         random = np.random.default_rng(len(self.unknowns))
         starts = random.normal(0, 1.0, (20, len(self.unknowns)))

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.controls.tnc_620.free_contours.quadratics import NEAR, SAME, Array, Exhausted, Form, System, Work
+from mnclab.controls.tnc_620.free_contours.quadratics import NEAR, SAME, Array, Effort, Exhausted, Form, System
 
 Label = Any
 Choice = tuple[int, int]  # an unknown that tells alternatives apart, and the number of one of them
@@ -72,7 +72,7 @@ class Readings:
         self.readings = [Reading(np.empty(0), ())]
         self.size = 1.0
         self.conflict: tuple[Label, float] | None = None
-        self.work = Work(MOST_WORK)
+        self.work = Effort(MOST_WORK)
         self.paid: set[int] = set()  # unknowns that have brought some work
 
     def rank(self, values: Array, before: Array, window: Sequence[int]) -> list[float]:

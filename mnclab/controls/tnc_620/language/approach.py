@@ -13,20 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from mnclab.controls.tnc_620.language import motion
 from mnclab.controls.tnc_620.language.auxiliary import feed
-from mnclab.controls.tnc_620.language.checks import above_zero, refuse_on_cylinder
-from mnclab.controls.tnc_620.language.motion import (
-    SIDED,
-    SIDES,
-    coordinates,
-    end,
-    heading,
-    polar_point,
-    pole,
-    refuse_rapid,
-    scaled,
-    side,
-)
+from mnclab.controls.tnc_620.language.values import above_zero, refuse_on_cylinder
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import INF, Machine
@@ -52,29 +41,29 @@ def shape(m: Machine, words: Words) -> Lead:
     """The form of the block with its lengths, for the side of the tool as it is now."""
     lead = Lead(form(words), m.step, m.side * m.orientation)
     if lead.form in ("LT", "LN"):
-        return lead._replace(length=scaled(m, positive(m, words, "LEN", "length of the line")))
+        return lead._replace(length=motion.scaled(m, positive(m, words, "LEN", "length of the line")))
     if lead.form == "LCT":
-        return lead._replace(radius=scaled(m, positive(m, words, "R", "radius of the arc")))
+        return lead._replace(radius=motion.scaled(m, positive(m, words, "R", "radius of the arc")))
     angle = math.radians(positive(m, words, "CCA", "centre angle of the arc", 360))
     if "R" not in words:
         m.alarm(f"{words.code} needs R (radius of the arc)")
     radius = m.value(words["R"])
     if radius == 0:
         m.alarm(f"{words.code} R (radius of the arc) must not be 0", words["R"])
-    return lead._replace(radius=scaled(m, radius), angle=angle)
+    return lead._replace(radius=motion.scaled(m, radius), angle=angle)
 
 
-@FUNCTIONS("APPR LT,", "Approach on a tangent line", takes=f"X Y Z LEN {SIDED}", source="8.12")
-@FUNCTIONS("APPR LN,", "Approach on a line square to the contour", takes=f"X Y Z LEN {SIDED}", source="8.12")
-@FUNCTIONS("APPR CT,", "Approach on a tangent arc", takes=f"X Y Z CCA R {SIDED}", source="8.12")
-@FUNCTIONS("APPR LCT,", "Approach on a line and a tangent arc", takes=f"X Y Z R {SIDED}", source="8.12")
-@FUNCTIONS("APPR PLT,", "Approach on a tangent line, polar", takes=f"PR PA X Y Z LEN {SIDED}", source="8.12")
-@FUNCTIONS("APPR PLN,", "Approach on a square line, polar", takes=f"PR PA X Y Z LEN {SIDED}", source="8.12")
-@FUNCTIONS("APPR PCT,", "Approach on a tangent arc, polar", takes=f"PR PA X Y Z CCA R {SIDED}", source="8.12")
-@FUNCTIONS("APPR PLCT,", "Approach on a line and a tangent arc, polar", takes=f"PR PA X Y Z R {SIDED}", source="8.12")
+@FUNCTIONS("APPR LT,", "Approach on a tangent line", takes=f"X Y Z LEN {motion.SIDED}", source="8.12")
+@FUNCTIONS("APPR LN,", "Approach on a line square to the contour", takes=f"X Y Z LEN {motion.SIDED}", source="8.12")
+@FUNCTIONS("APPR CT,", "Approach on a tangent arc", takes=f"X Y Z CCA R {motion.SIDED}", source="8.12")
+@FUNCTIONS("APPR LCT,", "Approach on a line and a tangent arc", takes=f"X Y Z R {motion.SIDED}", source="8.12")
+@FUNCTIONS("APPR PLT,", "Approach on a tangent line, polar", takes=f"PR PA X Y Z LEN {motion.SIDED}", source="8.12")
+@FUNCTIONS("APPR PLN,", "Approach on a square line, polar", takes=f"PR PA X Y Z LEN {motion.SIDED}", source="8.12")
+@FUNCTIONS("APPR PCT,", "Approach on a tangent arc, polar", takes=f"PR PA X Y Z CCA R {motion.SIDED}", source="8.12")
+@FUNCTIONS("APPR PLCT,", "Approach on a line and a tangent arc, polar", takes=f"PR PA X Y Z R {motion.SIDED}", source="8.12")
 def approach(m: Machine, words: Words) -> None:
     """To the first contour point, compensated from there on; the line to the auxiliary point keeps the feed before."""
-    refuse_rapid(m, words)
+    motion.refuse_rapid(m, words)
     before = lead_feed(m)
     f, to = feed(m, words), point(m, words, "the first contour point")
     begin_side(m, words)
@@ -90,20 +79,20 @@ def lead_feed(m: Machine) -> float:
         kind = last[0]
     else:
         settled = (path.kind[path.is_motion] for path in reversed(m.settled))
-        kind = next((motion[-1] for motion in settled if len(motion)), None)
+        kind = next((kinds[-1] for kinds in settled if len(kinds)), None)
     return INF if kind == Kind.RAPID else m.feed_of(None)
 
 
 def point(m: Machine, words: Words, meaning: str) -> dict[str, Any]:
     """Where an approach ends, or a departure of the form LCT; the height where it is written."""
-    to = coordinates(m, words)
+    to = motion.coordinates(m, words)
     if words.code.split()[1].startswith("P"):
-        plane, _ = pole(m, words)
+        plane, _ = motion.pole(m, words)
         if plane != m.plane:
             m.alarm(f"{words.code}: the pole CC lies in {plane}, approaches and departures in {m.plane}")
         if inside := next((words[axis] for axis in m.plane if axis in words), None):
             m.alarm(f"{inside} has no meaning in this block ({words.code} does not take {inside.address})", inside)
-        to |= polar_point(m, words)
+        to |= motion.polar_point(m, words)
     elif not {*m.plane.lower()} <= to.keys():
         m.alarm(f"{words.code} needs {' and '.join(m.plane)} of {meaning}")
     return to
@@ -111,14 +100,14 @@ def point(m: Machine, words: Words, meaning: str) -> dict[str, Any]:
 
 def begin_side(m: Machine, words: Words) -> None:
     """RL or RR; R0 where the form needs no side. What was compensated before ends where the tool stands."""
-    given = [words[name] for name in SIDES if name in words]
+    given = [words[name] for name in motion.SIDES if name in words]
     if not given and not m.side:
         m.alarm(f"{words.code} needs RL or RR", hint="the side on which the tool runs beside the contour")
     if form(words) in ("LN", "CT") and given and given[0].address == "R0":
         m.alarm(f"{words.code} needs RL or RR: without a side it has no direction", given[0])
     if m.side and not m.recorded_only:
         m.observe()
-    side(m, words, begins=True)
+    motion.side(m, words, begins=True)
 
 
 @FUNCTIONS("DEP LT,", "Departure on a tangent line", takes="X Y Z LEN R0 F FAUTO FU FZ", source="8.10")
@@ -137,7 +126,7 @@ def departure(m: Machine, words: Words) -> None:
         lead = lead._replace(feed=INF)
     if form(words) in ("LN", "CT") and not m.side:
         m.alarm(f"{words.code} needs radius compensation: without a side it has no direction")
-    heading(m, words)
+    motion.heading(m, words)
     to = last_point(m, words, lead)
     m.change("side", 0)
     m.line(*to, f=f, joint=lead)
@@ -146,7 +135,7 @@ def departure(m: Machine, words: Words) -> None:
 def last_point(m: Machine, words: Words, lead: Lead) -> tuple[float, float, float]:
     """Where a departure ends: written for LCT, else where the form leads the tool that touches the contour."""
     if lead.form == "LCT":
-        return end(m, point(m, words, "its end"))
+        return motion.end(m, point(m, words, "its end"))
     first, second, across = PLANES[m.plane]
     if inside := next((words[axis] for axis in m.plane if axis in words), None):
         m.alarm(f"{inside} has no meaning in this block ({words.code} does not take {inside.address})", inside)
@@ -155,5 +144,5 @@ def last_point(m: Machine, words: Words, lead: Lead) -> tuple[float, float, floa
     place, t = here[[first, second]] + m.radius * normal, along[[first, second]]
     here[[first, second]] = way(lead._replace(side=-lead.side), place, place, -t).by
     to = list(m.to_program(here))
-    to[across] = end(m, coordinates(m, words))[across]
+    to[across] = motion.end(m, motion.coordinates(m, words))[across]
     return to[0], to[1], to[2]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from mnclab.controls.tnc_620.language.checks import above_zero, one_of, written
+from mnclab.controls.tnc_620.language.values import above_zero, in_units, one_of
 from mnclab.controls.tnc_620.state import Place, memory
 from mnclab.machine.control import FunctionTable, Setting, Words
 from mnclab.machine.coordinates import tool_axis
@@ -116,7 +116,7 @@ def set_feed(m: Machine, value: float | None, per_rev: bool = False) -> None:
 
 def teeth(m: Machine, word: Word) -> int:
     if m.tool.teeth <= 0:
-        found = word if isinstance(word.value, str) else f"{word.address}{written(m, word, m.value(word)):g}"
+        found = word if isinstance(word.value, str) else f"{word.address}{in_units(m, word, m.value(word)):g}"
         m.alarm(f"{found} needs the number of teeth of tool {m.tool.number} (column CUT of the tool table)", word)
     return m.tool.teeth
 

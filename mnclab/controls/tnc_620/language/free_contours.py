@@ -1,6 +1,6 @@
 """Free contour programming: FPOL, FL, FLT, FC, FCT, FSELECT (catalogue: FK).
 
-Each block tells what is known of an element; `geometry.free_contour` finds the contours that fit. The blocks
+Each block tells what is known of an element; `free_contours.free_contour` finds the contours that fit. The blocks
 wait in `machine.pending` until something follows that is no free element: then everything must be settled. RND, CHF,
 FPOL, FSELECT and assignments may stand between.
 
@@ -17,14 +17,14 @@ from typing import Any, NamedTuple, NoReturn
 import numpy as np
 
 from mnclab.controls.tnc_620.free_contours import free_contour
-from mnclab.controls.tnc_620.free_contours.free_contour import Element, FreeContour, Pair, Piece, known, normal_of
+from mnclab.controls.tnc_620.free_contours.free_contour import Element, FreeContour, FreePiece, Pair, known, normal_of
 from mnclab.controls.tnc_620.free_contours.quadratics import Exhausted, Form
 from mnclab.controls.tnc_620.free_contours.readings import Contradiction, TooManyReadings
 from mnclab.controls.tnc_620.language.auxiliary import feed
-from mnclab.controls.tnc_620.language.checks import above_zero, counted, first, not_negative, refuse_on_cylinder
 from mnclab.controls.tnc_620.language.motion import SIDED, TOLERANCE, refuse_rapid, sense, side
 from mnclab.controls.tnc_620.language.program import body
 from mnclab.controls.tnc_620.language.tools import refuse_other
+from mnclab.controls.tnc_620.language.values import above_zero, counted, first, not_negative, refuse_on_cylinder
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.flow import Reading, as_of, reading
@@ -181,7 +181,7 @@ class Chain:
         what = f"{block.code}: the free contour is not determined, {need}; not known here: {unknown}"
         m.alarm(what, m.flow.span_of_step(block.moment.step))
 
-    def likely(self, m: Machine, solutions: list[list[Piece]]) -> int:
+    def likely(self, m: Machine, solutions: list[list[FreePiece]]) -> int:
         """The one solution that closes, stays inside the blank and does not cross itself; an alarm if it is not alone."""
         blank = body(m)
         left = [k for k, pieces in enumerate(solutions) if free_contour.is_closed(pieces, self.start)]

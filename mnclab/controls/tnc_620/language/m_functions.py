@@ -6,7 +6,7 @@ import math
 
 from mnclab.controls.tnc_620.cycles.chain import TILT
 from mnclab.controls.tnc_620.language.auxiliary import above_tip, rate
-from mnclab.controls.tnc_620.language.checks import not_negative, one_of, warn_once, whole
+from mnclab.controls.tnc_620.language.values import not_negative, one_of, warn_once, whole
 from mnclab.machine.control import FunctionTable, Setting, Words
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import INF, Machine

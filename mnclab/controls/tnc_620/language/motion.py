@@ -9,8 +9,8 @@ from typing import Any
 from mnclab.controls.tnc_620.cycles.chain import to_angle, to_rotary
 from mnclab.controls.tnc_620.language import tools
 from mnclab.controls.tnc_620.language.auxiliary import FEED_WORDS, feed, machine_target, rate
-from mnclab.controls.tnc_620.language.checks import above_zero, counted, one_of, refuse_on_cylinder, written
 from mnclab.controls.tnc_620.language.m_functions import refuse_rotary
+from mnclab.controls.tnc_620.language.values import above_zero, counted, in_units, one_of, refuse_on_cylinder
 from mnclab.controls.tnc_620.state import Place, memory
 from mnclab.geometry.arcs import tangent_arc_of_one
 from mnclab.machine.control import Function, FunctionTable, Words
@@ -108,7 +108,7 @@ def polar_point(m: Machine, words: Words) -> dict[str, Any]:
         m.alarm(f"{words.code} needs PR (polar radius) or PA (polar angle)")
     radius = math.hypot(*away(m, plane, (u, v)))
     if "PR" in words and (radius := counted(m, words["PR"], radius)) < 0:
-        m.alarm(f"{words.code} PR (polar radius) must be at least 0, got {written(m, words['PR'], radius):g}", words["PR"])
+        m.alarm(f"{words.code} PR (polar radius) must be at least 0, got {in_units(m, words['PR'], radius):g}", words["PR"])
     if "PA" not in words or words["PA"].incremental:
         turn = m.value(words["PA"]) if "PA" in words else 0.0
         angle = math.degrees(angle_here(m, words)) + turn if radius else 0.0

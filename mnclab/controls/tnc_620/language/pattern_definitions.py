@@ -13,12 +13,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.controls.tnc_620.language.checks import counted, not_negative, whole
-from mnclab.controls.tnc_620.machining import patterns
+from mnclab.controls.tnc_620.cycles import patterns
+from mnclab.controls.tnc_620.language.values import counted, not_negative, whole
 from mnclab.controls.tnc_620.reading.definitions import ADDRESSES, CLOSING, FORMS
 from mnclab.controls.tnc_620.state import memory
-from mnclab.controls.tnc_620.tables import table_files
-from mnclab.controls.tnc_620.tables.table_files import read_table
+from mnclab.controls.tnc_620.tables import parse_points, read_table
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.text.program import Word
@@ -68,7 +67,7 @@ def pattern_def(m: Machine, words: Words) -> None:
 @FUNCTIONS("SEL PATTERN,", "Point table", takes="file", source="3.4")
 def sel_pattern(m: Machine, words: Words) -> None:
     """The points of a file NAME.PNT; nothing moves."""
-    _, table = read_table(m, words["file"], "SEL PATTERN", "point table", ".PNT", table_files.parse_points)
+    _, table = read_table(m, words["file"], "SEL PATTERN", "point table", ".PNT", parse_points)
     m.flow.spend(len(table.points))
     activate(m, Pattern(table.points[~table.hidden], table.clearance[~table.hidden], True))
 

@@ -8,20 +8,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from mnclab.controls.tnc_620.cycles import chain
+from mnclab.controls.tnc_620.cycles import chain, transformations
 from mnclab.controls.tnc_620.cycles.chain import TILT
-from mnclab.controls.tnc_620.cycles.transformations import (
-    AXES,
-    DatumShift,
-    WorkingPlane,
-    axis_positions,
-    position,
-    results,
-)
 from mnclab.controls.tnc_620.language.auxiliary import auto_feed
-from mnclab.controls.tnc_620.language.checks import above_zero, counted, not_negative, one_of
 from mnclab.controls.tnc_620.language.m_functions import refuse_rotary, retract
 from mnclab.controls.tnc_620.language.tools import refuse_other
+from mnclab.controls.tnc_620.language.values import above_zero, counted, not_negative, one_of
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import STILL, turning_feed
@@ -47,7 +39,7 @@ ORIGIN = (0.0, 0.0)  # steps count in coordinates of the program
 def plane_reset(m: Machine, words: Words) -> None:
     """Cycle 19 and PLANE SPATIAL are over; with MOVE and TURN the tool turns to Z, with STAY the rotary axes stay."""
     how = behaviour(m, words)
-    perform(m, words.code, WorkingPlane().moves(m), ORIGIN)
+    perform(m, words.code, transformations.WorkingPlane().moves(m), ORIGIN)
     turn(m, words, how)
 
 
@@ -77,12 +69,12 @@ def tilt(m: Machine, degrees: Mapping[str, float]) -> Iterator[Step]:
     """The tilted system, and where the rotary axes must stand for it."""
     yield Write("memory", degrees, "tilt_angles")
     yield Write("frame", frames.spatial(*map(math.radians, degrees.values())), TILT)
-    yield from results(axis_positions(m))
+    yield from transformations.results(transformations.axis_positions(m))
 
 
 def untilt(m: Machine) -> Iterator[Step]:
-    yield from WorkingPlane().moves(m)
-    yield from results(dict.fromkeys("ABC", 0.0))
+    yield from transformations.WorkingPlane().moves(m)
+    yield from transformations.results(dict.fromkeys("ABC", 0.0))
 
 
 def behaviour(m: Machine, words: Words) -> Word:
@@ -114,7 +106,7 @@ def turn(m: Machine, words: Words, how: Word) -> None:
     distance = not_negative(m, below, f"{words.code} {below.address} ({WORDS['ABST']})") if below is not None else 0.0
     if below is not None and how.address == "TURN" and distance:
         m.alarm(f"{words.code} {below.address} ({WORDS['ABST']}) is for MOVE: with TURN the axes move alone", below)
-    to = axis_positions(m)
+    to = transformations.axis_positions(m)
     if all(abs(angle - m.rotary[k]) < STILL for k, angle in enumerate(to.values())):
         return
     refuse_rotary(m, how)
@@ -125,7 +117,7 @@ def turn(m: Machine, words: Words, how: Word) -> None:
         rate = INF
     else:
         rate = auto_feed(m, word) / m.feed_unit if word.address == "FAUTO" else above_zero(m, word, f"{words.code} F (feed rate)")
-    perform(m, words.code, position(m, to, rate, distance), ORIGIN)
+    perform(m, words.code, transformations.position(m, to, rate, distance), ORIGIN)
 
 
 # TRANS DATUM: the datum shift of cycle 7 as one statement.
@@ -133,14 +125,14 @@ def turn(m: Machine, words: Words, how: Word) -> None:
 @FUNCTIONS("TRANS DATUM AXIS,", "Datum shift", takes="X Y Z A B C", source=SOURCE)
 def shift(m: Machine, words: Words) -> None:
     """Moves the datum as cycle 7 does: IX counts from the shift before, an axis that is not named keeps its own."""
-    before = dict(zip(AXES, (*chain.shift_of(m), *chain.rotary(m)[0]), strict=True))
-    given = {axis: counted(m, words[axis.upper()], before[axis]) for axis in AXES if axis.upper() in words}
+    before = dict(zip(transformations.AXES, (*chain.shift_of(m), *chain.rotary(m)[0]), strict=True))
+    given = {axis: counted(m, words[axis.upper()], before[axis]) for axis in transformations.AXES if axis.upper() in words}
     if not given:
         m.alarm("TRANS DATUM AXIS needs an axis", hint="for example TRANS DATUM AXIS X+60")
-    perform(m, words.code, DatumShift(**given).moves(m))
+    perform(m, words.code, transformations.DatumShift(**given).moves(m))
 
 
 @FUNCTIONS("TRANS DATUM RESET,", "End of a datum shift", source=SOURCE)
 def reset(m: Machine, words: Words) -> None:
     """The shift is over, whoever defined it."""
-    perform(m, words.code, DatumShift(**dict.fromkeys(AXES, 0.0)).moves(m))
+    perform(m, words.code, transformations.DatumShift(**dict.fromkeys(transformations.AXES, 0.0)).moves(m))

@@ -7,12 +7,12 @@ from typing import NamedTuple
 import numpy as np
 
 from mnclab.controls.tnc_620.cycles.chain import cancel
-from mnclab.controls.tnc_620.language import parameters
-from mnclab.controls.tnc_620.language.checks import above_zero, counted, first, not_negative, written
+from mnclab.controls.tnc_620.language import values
 from mnclab.controls.tnc_620.language.flow import label_name
+from mnclab.controls.tnc_620.language.functions import put_out_tables
+from mnclab.controls.tnc_620.language.values import above_zero, counted, first, in_units, not_negative
 from mnclab.controls.tnc_620.reading.words import INCH
 from mnclab.controls.tnc_620.state import count_in, memory
-from mnclab.controls.tnc_620.tables.free_tables import put_out_tables
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.machine.control import FunctionTable, Words
@@ -36,7 +36,7 @@ def start(m: Machine) -> None:
     row = m.settings["preset"]
     preset = m.tables.presets.get(row, Datum())
     m.select_datum(preset, "preset")
-    parameters.start(m)
+    values.start(m)
 
 
 @FUNCTIONS("BEGIN PGM,", "Program begin", takes="name unit", source="4.11, example")
@@ -191,7 +191,7 @@ def greatest_corner(m: Machine, words: Words) -> None:
     greatest = corner(m, words, blank.minimum)
     for axis, low, high in zip("XYZ", blank.minimum, greatest, strict=True):
         if not high > low:
-            least, found = (written(m, words[axis], at) for at in (low, high))
+            least, found = (in_units(m, words[axis], at) for at in (low, high))
             m.alarm(f"BLK FORM 0.2 {axis} (greatest corner) must be greater than {least:g}, got {found:g}", words[axis])
     give(m, blank._replace(maximum=greatest))
 

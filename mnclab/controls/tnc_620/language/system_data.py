@@ -10,13 +10,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.controls.tnc_620.clock import time_of_day
 from mnclab.controls.tnc_620.cycles import chain
-from mnclab.controls.tnc_620.engraved_text import TIMES
+from mnclab.controls.tnc_620.cycles.engraving import TIMES
 from mnclab.controls.tnc_620.language.auxiliary import above_tip
-from mnclab.controls.tnc_620.language.parameters import PREASSIGNED
-from mnclab.controls.tnc_620.state import active_preset, memory
-from mnclab.controls.tnc_620.tables.table_files import row_of
+from mnclab.controls.tnc_620.language.values import PREASSIGNED
+from mnclab.controls.tnc_620.state import active_preset, memory, time_of_day
+from mnclab.controls.tnc_620.tables import row_of
 from mnclab.machine.control import Setting
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
@@ -80,7 +79,7 @@ def is_empty(m: Machine, tool: Tool, number: int) -> bool:
     return not COLUMNS[number].place and (tool.number, number) not in memory(m).tool_fields
 
 
-def written(m: Machine, tool: Tool, number: int, value: float) -> Tool:
+def with_column(m: Machine, tool: Tool, number: int, value: float) -> Tool:
     """The tool with a value in a column; an Alarm or StopIteration where it cannot stand there."""
     column = COLUMNS[number]
     if not column.place:
@@ -121,7 +120,7 @@ class Missing(Exception):
 Read = Callable[[Machine, Asked], float | None]
 
 
-class Row(NamedTuple):
+class SystemDatum(NamedTuple):
     """One of the system data: what it is, how it is read, its indices (None: any), and the one that is meant without."""
 
     title: str
@@ -293,68 +292,68 @@ def never(m: Machine, asked: Asked) -> float:
 
 LINEAR, AXES = range(1, 4), range(1, 7)  # X Y Z, and A B C
 OVERSIZE = range(1, 4)
-ROWS: dict[tuple[float, float], Row] = {
-    (10, 1): Row("unit of the main program", kept("Q113")),
-    (10, 2): Row("overlap factor of pockets", kept("Q112")),
-    (10, 3): Row("number of the active machining cycle", number_of_cycle),
-    (20, 1): Row("number of the active tool", lambda m, a: float(int(m.tool.number))),
-    (20, 3): Row("active tool axis", kept("Q109")),
-    (20, 4): Row("programmed spindle speed", lambda m, a: m.speed),
-    (20, 5): Row("active spindle status", kept("Q110")),
-    (20, 8): Row("coolant status", kept("Q111")),
-    (20, 9): Row("active feed rate", feed),
-    (20, 11): Row("index of the active tool", lambda m, a: index_of(m.tool)),
-    (30, 1): Row("set-up clearance of the active cycle", parameter("Q200")),
-    (30, 2): Row("depth of the active cycle", parameter("Q201")),
-    (30, 3): Row("plunging depth of the active cycle", parameter("Q202")),
-    (30, 4): Row("feed rate for plunging of the active cycle", parameter("Q206")),
-    (30, 10): Row("feed rate for milling of the active cycle", parameter("Q207")),
-    (35, 2): Row("radius compensation", lambda m, a: float(m.side != 0)),
-    (60, 1): Row("number of the tool of TOOL CALL", lambda m, a: float(int(m.tool.number))),
-    (60, 2): Row("tool axis of TOOL CALL", kept("Q109")),
-    (60, 3): Row("spindle speed of TOOL CALL", lambda m, a: m.speed),
-    (60, 4): Row("delta length of TOOL CALL", lambda m, a: m.tool.dl - active(m, a).dl),
-    (60, 5): Row("delta radius of TOOL CALL", lambda m, a: m.tool.dr - active(m, a).dr),
-    (60, 7): Row("delta corner radius of TOOL CALL", lambda m, a: m.tool.corner - active(m, a).corner),
-    (60, 8): Row("tool index of TOOL CALL", lambda m, a: index_of(m.tool)),
-    (200, 1): Row("active radius", with_deltas("radius", "dr"), OVERSIZE, 3),
-    (200, 2): Row("active length", with_deltas("length", "dl"), OVERSIZE, 3),
-    (200, 3): Row("active corner radius", with_deltas("corner", ""), OVERSIZE, 3),
-    (210, 1): Row("basic rotation", lambda m, a: m.tables.presets.get(active_preset(m), Datum()).rotation),
-    (210, 2): Row("programmed rotation", lambda m, a: chain.angle_of(m)),
-    (210, 3): Row("mirrored axes: 1 X, 2 Y, 4 Z, or their sum", mirrored),
-    (210, 4): Row("active scaling factor", scale, LINEAR, 1),
-    (210, 5): Row("tilt angle A, B, C", lambda m, a: memory(m).tilt_angles.get("abc"[int(a.index) - 1], 0.0), LINEAR),
-    (210, 6): Row("tilted working plane, -1 or 0", lambda m, a: -float(chain.TILT in m.frames)),
-    (210, 10): Row("kind of the tilt: 0 none, 1 axes, 2 spatial angles", kind_of_tilt),
-    (220, 2): Row("active datum shift", shift, AXES),
-    (230, 2): Row("negative limit switch", travel(0), LINEAR),
-    (230, 3): Row("positive limit switch", travel(1), LINEAR),
-    (230, 5): Row("limit switches: 0 on, 1 off", lambda m, a: float(m.setup.limits.travel is None), LINEAR, 1),
-    (240, 1): Row("nominal position in the REF system", on_the_machine, AXES),
-    (240, 8): Row("actual position in the REF system", on_the_machine, AXES),
-    (270, 1): Row("position in the active coordinate system", in_the_program, AXES),
-    (280, 1): Row("M128 is active", lambda m, asked: holds(m, "M128")),
-    (310, 116): Row("M116 is active", lambda m, asked: holds(m, "M116")),
-    (310, 128): Row("M128 is active", lambda m, asked: holds(m, "M128")),
-    (310, 144): Row("M144 is active", never),
-    (320, 1): Row("system time, seconds from 1970", clock, (0,), 0),
-    (505, 1): Row("a datum table is selected", lambda m, a: float(bool(memory(m).datum_table or m.tables.datums))),
-    (530, 1): Row("number of the active preset", lambda m, a: float(active_preset(m))),
-    (990, 10): Row("block scan is active", never),
-    (992, 10): Row("block scan is active", never),
-    (992, 16): Row("really executed, 1 or 0", lambda m, a: float(m.settings["execution"])),
+ROWS: dict[tuple[float, float], SystemDatum] = {
+    (10, 1): SystemDatum("unit of the main program", kept("Q113")),
+    (10, 2): SystemDatum("overlap factor of pockets", kept("Q112")),
+    (10, 3): SystemDatum("number of the active machining cycle", number_of_cycle),
+    (20, 1): SystemDatum("number of the active tool", lambda m, a: float(int(m.tool.number))),
+    (20, 3): SystemDatum("active tool axis", kept("Q109")),
+    (20, 4): SystemDatum("programmed spindle speed", lambda m, a: m.speed),
+    (20, 5): SystemDatum("active spindle status", kept("Q110")),
+    (20, 8): SystemDatum("coolant status", kept("Q111")),
+    (20, 9): SystemDatum("active feed rate", feed),
+    (20, 11): SystemDatum("index of the active tool", lambda m, a: index_of(m.tool)),
+    (30, 1): SystemDatum("set-up clearance of the active cycle", parameter("Q200")),
+    (30, 2): SystemDatum("depth of the active cycle", parameter("Q201")),
+    (30, 3): SystemDatum("plunging depth of the active cycle", parameter("Q202")),
+    (30, 4): SystemDatum("feed rate for plunging of the active cycle", parameter("Q206")),
+    (30, 10): SystemDatum("feed rate for milling of the active cycle", parameter("Q207")),
+    (35, 2): SystemDatum("radius compensation", lambda m, a: float(m.side != 0)),
+    (60, 1): SystemDatum("number of the tool of TOOL CALL", lambda m, a: float(int(m.tool.number))),
+    (60, 2): SystemDatum("tool axis of TOOL CALL", kept("Q109")),
+    (60, 3): SystemDatum("spindle speed of TOOL CALL", lambda m, a: m.speed),
+    (60, 4): SystemDatum("delta length of TOOL CALL", lambda m, a: m.tool.dl - active(m, a).dl),
+    (60, 5): SystemDatum("delta radius of TOOL CALL", lambda m, a: m.tool.dr - active(m, a).dr),
+    (60, 7): SystemDatum("delta corner radius of TOOL CALL", lambda m, a: m.tool.corner - active(m, a).corner),
+    (60, 8): SystemDatum("tool index of TOOL CALL", lambda m, a: index_of(m.tool)),
+    (200, 1): SystemDatum("active radius", with_deltas("radius", "dr"), OVERSIZE, 3),
+    (200, 2): SystemDatum("active length", with_deltas("length", "dl"), OVERSIZE, 3),
+    (200, 3): SystemDatum("active corner radius", with_deltas("corner", ""), OVERSIZE, 3),
+    (210, 1): SystemDatum("basic rotation", lambda m, a: m.tables.presets.get(active_preset(m), Datum()).rotation),
+    (210, 2): SystemDatum("programmed rotation", lambda m, a: chain.angle_of(m)),
+    (210, 3): SystemDatum("mirrored axes: 1 X, 2 Y, 4 Z, or their sum", mirrored),
+    (210, 4): SystemDatum("active scaling factor", scale, LINEAR, 1),
+    (210, 5): SystemDatum("tilt angle A, B, C", lambda m, a: memory(m).tilt_angles.get("abc"[int(a.index) - 1], 0.0), LINEAR),
+    (210, 6): SystemDatum("tilted working plane, -1 or 0", lambda m, a: -float(chain.TILT in m.frames)),
+    (210, 10): SystemDatum("kind of the tilt: 0 none, 1 axes, 2 spatial angles", kind_of_tilt),
+    (220, 2): SystemDatum("active datum shift", shift, AXES),
+    (230, 2): SystemDatum("negative limit switch", travel(0), LINEAR),
+    (230, 3): SystemDatum("positive limit switch", travel(1), LINEAR),
+    (230, 5): SystemDatum("limit switches: 0 on, 1 off", lambda m, a: float(m.setup.limits.travel is None), LINEAR, 1),
+    (240, 1): SystemDatum("nominal position in the REF system", on_the_machine, AXES),
+    (240, 8): SystemDatum("actual position in the REF system", on_the_machine, AXES),
+    (270, 1): SystemDatum("position in the active coordinate system", in_the_program, AXES),
+    (280, 1): SystemDatum("M128 is active", lambda m, asked: holds(m, "M128")),
+    (310, 116): SystemDatum("M116 is active", lambda m, asked: holds(m, "M116")),
+    (310, 128): SystemDatum("M128 is active", lambda m, asked: holds(m, "M128")),
+    (310, 144): SystemDatum("M144 is active", never),
+    (320, 1): SystemDatum("system time, seconds from 1970", clock, (0,), 0),
+    (505, 1): SystemDatum("a datum table is selected", lambda m, a: float(bool(memory(m).datum_table or m.tables.datums))),
+    (530, 1): SystemDatum("number of the active preset", lambda m, a: float(active_preset(m))),
+    (990, 10): SystemDatum("block scan is active", never),
+    (992, 10): SystemDatum("block scan is active", never),
+    (992, 16): SystemDatum("really executed, 1 or 0", lambda m, a: float(m.settings["execution"])),
 }  # fmt: skip
 #: Groups whose number is the row of a table.
-TABLES: dict[float, Row] = {
-    500: Row("value of the active datum table", datum, AXES),
-    503: Row("value of the preset table", preset, LINEAR),
-    507: Row("value of the preset table", preset, LINEAR),
+TABLES: dict[float, SystemDatum] = {
+    500: SystemDatum("value of the active datum table", datum, AXES),
+    503: SystemDatum("value of the preset table", preset, LINEAR),
+    507: SystemDatum("value of the preset table", preset, LINEAR),
 }  # fmt: skip
 
 for _number, _column in COLUMNS.items():
-    ROWS[50, _number] = Row(f"{_column.title} of a tool", column(_number, named), None)
-    ROWS[950, _number] = Row(f"{_column.title} of the active tool", column(_number, active))
+    ROWS[50, _number] = SystemDatum(f"{_column.title} of a tool", column(_number, named), None)
+    ROWS[950, _number] = SystemDatum(f"{_column.title} of the active tool", column(_number, active))
 
 
 # System data that are texts, SYSSTR: by the names under which they are asked for (TNC 7, "System data").

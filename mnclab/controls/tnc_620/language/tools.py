@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from mnclab.controls.tnc_620.cycles.chain import TILT
 from mnclab.controls.tnc_620.language.auxiliary import rate, set_feed, with_another_tool
-from mnclab.controls.tnc_620.language.checks import counted, first, not_negative, written
+from mnclab.controls.tnc_620.language.values import counted, first, in_units, not_negative
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Setting, Words
@@ -118,7 +118,7 @@ def put_in(m: Machine, tool: Tool | None, deltas: dict[str, float], words: Words
     kept = {} if tool else {name: getattr(m.tool, name) - getattr(base, name) for name in DELTAS.values()}
     changed = {name: getattr(base, name) + value for name, value in (kept | deltas).items()}
     if changed.get("corner", 0) < 0:
-        corner, found = base.corner / m.variable_unit, written(m, words["DR2"], m.value(words["DR2"]))
+        corner, found = base.corner / m.variable_unit, in_units(m, words["DR2"], m.value(words["DR2"]))
         least = f"{0 - corner:g}, got {found:g}: the corner radius is {corner:g}"
         m.alarm(f"TOOL CALL DR2 (delta corner radius) must be at least {least}", words["DR2"])
     if tool:

@@ -31,7 +31,7 @@ LEAST = 1e-9  # mm: an offset or a radius below is none
 Steps = Sequence[int] | NDArray[np.int64]
 
 
-class Way(NamedTuple):
+class RolledWay(NamedTuple):
     """n places of a tool on the developed surface: feet (n, 2), shifts (n, 2); `ways` (n,) lead there, 0 the first one."""
 
     feet: Floats
@@ -39,9 +39,9 @@ class Way(NamedTuple):
     ways: Floats
 
     @property
-    def last(self) -> Way:
+    def last(self) -> RolledWay:
         """Its last place."""
-        return Way(self.feet[-1:], self.shifts[-1:], np.zeros(1))
+        return RolledWay(self.feet[-1:], self.shifts[-1:], np.zeros(1))
 
     @property
     def centres(self) -> Floats:
@@ -99,7 +99,7 @@ def joined(pieces: Sequence[Contour]) -> Contour:
     return Contour(points, np.concatenate([*(piece.bulge[:-1] for piece in pieces), [0.0]]), closed=False)
 
 
-def way_along(path: Contour, shift: float = 0.0, about: float = 1.0) -> Way:
+def way_along(path: Contour, shift: float = 0.0, about: float = 1.0) -> RolledWay:
     """The places of a tool whose centre runs along a contour, with the foot `shift` to the right of it (to the left with a
     minus): a wall path `beside` a contour at that distance to the left has its feet on the contour.
 
@@ -112,7 +112,7 @@ def way_along(path: Contour, shift: float = 0.0, about: float = 1.0) -> Way:
     return _way((centres - shifts) * [about, 1.0], shifts)
 
 
-def standing(foot: ArrayLike, path: Contour, about: float = 1.0) -> Way:
+def standing(foot: ArrayLike, path: Contour, about: float = 1.0) -> RolledWay:
     """The places of a tool whose centre runs along a contour while its foot stands: the linear axes alone move."""
     here = np.asarray(foot, dtype=float)
     shifts = _sampled(path, 0.0)[0] - here
@@ -130,18 +130,18 @@ def _sampled(path: Contour, reserve: float) -> tuple[Floats, Floats]:
     return path.at(share, element)
 
 
-def _way(feet: Floats, shifts: Floats) -> Way:
+def _way(feet: Floats, shifts: Floats) -> RolledWay:
     """Places without those where nothing moves."""
     centre_ways = np.append(0.0, length_of(np.diff(feet + shifts, axis=0)))
     foot_ways = np.append(0.0, length_of(np.diff(feet, axis=0)))
     ways = np.where(centre_ways > LEAST, centre_ways, foot_ways)
     keep = np.append(True, ways[1:] > LEAST)
-    return Way(feet[keep], shifts[keep], ways[keep])
+    return RolledWay(feet[keep], shifts[keep], ways[keep])
 
 
 def slot_round(
     contour: Contour, distance: float, straight: bool = False, about: float = 1.0, steps: Steps = ()
-) -> list[tuple[str, Way]]:
+) -> list[tuple[str, RolledWay]]:
     """Once round inside a slot, from the begin of its midpoint path and back there: along the wall `distance` to its left (or
     with a minus right), across at its end, back along the other wall. On to the walls and off them the tool goes on half
     circles, or `straight`.
@@ -163,7 +163,7 @@ def slot_round(
     )  # fmt: skip
 
 
-def linked(pieces: Sequence[tuple[str, Way]]) -> list[tuple[str, Way]]:
+def linked(pieces: Sequence[tuple[str, RolledWay]]) -> list[tuple[str, RolledWay]]:
     """Ways that follow each other, each with the way from the end of the one before to its first place."""
     found = [*pieces[:1]]
     for (_, before), (label, way) in pairwise(pieces):

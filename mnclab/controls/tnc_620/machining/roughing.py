@@ -135,7 +135,7 @@ def sloping_down(
     return along(first.between(0.0, min(stroke, first.length)), top, bottom, angle)
 
 
-class Ways:
+class WaysBetween:
     """Ways of the tool at a level from one place of a piece to another; they keep off the walls as far as they can.
 
     The farthest from them that joins both places is found among the distances of the rings.
@@ -178,7 +178,7 @@ def rough_out(
 
     At rapid the tool goes down to the set-up clearance, or in a place where it has been down before to as much above that.
     """
-    ways = [[Ways(piece) for piece in cut.clearing.pieces] for cut in cuts]
+    ways = [[WaysBetween(piece) for piece in cut.clearing.pieces] for cut in cuts]
     planned = [[list(_with_feeds(each, cut, feeds)) for each in some] for cut, some in zip(cuts, ways, strict=True)]
     before: Level | None = None
     height = heights.height
@@ -211,7 +211,7 @@ def _down(label: str, way: Descent, feeds: Feeds) -> Iterator[Step]:
         yield from descend(way._replace(label=f"{label}, {way.label}"), feeds.plunge, feeds.slot)
 
 
-def _with_feeds(ways: Ways, cut: Cut, feeds: Feeds) -> Iterator[tuple[Contour, float]]:
+def _with_feeds(ways: WaysBetween, cut: Cut, feeds: Feeds) -> Iterator[tuple[Contour, float]]:
     """The passes of a piece and the ways between them, each with its feed, in stretches where that changes."""
     moves = list(ways.passes)
     if feeds.slot == feeds.level:

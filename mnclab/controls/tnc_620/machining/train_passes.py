@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.controls.tnc_620.machining.trains import Way
+from mnclab.controls.tnc_620.machining.trains import SpaceWay
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats, turned
 from mnclab.machining.milling.clearing import numbered
@@ -31,9 +31,9 @@ class Train(NamedTuple):
     """A way along a contour, and those that lead to its beginning and off its end, if any; on which `side` of the contour
     the tool runs (+1 left, -1 right, 0 on it)."""
 
-    along: Way
-    to: Way | None = None
-    off: Way | None = None
+    along: SpaceWay
+    to: SpaceWay | None = None
+    off: SpaceWay | None = None
     side: int = 0
 
     @property
@@ -70,7 +70,7 @@ class Feeds(NamedTuple):
     radius: float = 0.0
 
 
-def leading_to(along: Way, lead: Lead, start: tuple[float, float, float] | None = None) -> Way:
+def leading_to(along: SpaceWay, lead: Lead, start: tuple[float, float, float] | None = None) -> SpaceWay:
     """The way to the beginning of a way, on its height: by the auxiliary point of the lead, or from `start` by it.
 
     From the height of `start` the tool comes along the straight piece before the auxiliary point, without one along the whole.
@@ -89,10 +89,10 @@ def leading_to(along: Way, lead: Lead, start: tuple[float, float, float] | None 
         points, bulge, heights = [np.array(start[:2]), *points], [0.0, *bulge], np.append(start[2], heights)
     elif start is not None:
         heights = np.linspace(start[2], height, len(heights))
-    return Way(Contour([*points, place], [*bulge, 0.0], closed=False), heights)
+    return SpaceWay(Contour([*points, place], [*bulge, 0.0], closed=False), heights)
 
 
-def leading_off(along: Way, lead: Lead, end: tuple[float, float, float] | None = None) -> Way:
+def leading_off(along: SpaceWay, lead: Lead, end: tuple[float, float, float] | None = None) -> SpaceWay:
     """The way off the end of a way: an approach to the way back, backwards."""
     return leading_to(along.reversed(), lead._replace(side=-(lead.side or 1)), end).reversed()
 
@@ -133,13 +133,13 @@ def _down(label: str, train: Train, level: float, feeds: Feeds) -> Iterator[Step
     yield Go(f"{label}, down", goal, feeds.plunge)
 
 
-def _follow(label: str, run: Way | None, level: float, feed: float) -> Iterator[Step]:
+def _follow(label: str, run: SpaceWay | None, level: float, feed: float) -> Iterator[Step]:
     if run is not None:
         heights = run.heights + level
         yield Along(label, run.contour, feed, None if np.ptp(heights) <= SAME else tuple(heights.tolist()))
 
 
-def _at_edge(train: Train, feeds: Feeds) -> Iterator[tuple[Way, float]]:
+def _at_edge(train: Train, feeds: Feeds) -> Iterator[tuple[SpaceWay, float]]:
     """The pieces of a way that have one feed of the tool centre each."""
     contour, heights = train.along
     inside = train.side * contour.sweeps > 0
@@ -150,4 +150,4 @@ def _at_edge(train: Train, feeds: Feeds) -> Iterator[tuple[Way, float]]:
     ends = np.flatnonzero(factor[1:] != factor[:-1]) + 1
     for a, b in pairwise([0, *ends.tolist(), len(factor)]):
         piece = Contour(contour.points[a : b + 1], contour.bulge[a : b + 1], closed=False)
-        yield Way(piece, heights[a : b + 1]), feeds.level * float(factor[a])
+        yield SpaceWay(piece, heights[a : b + 1]), feeds.level * float(factor[a])

@@ -36,7 +36,7 @@ CUTS = 1e-4  # mm, by which measured ways may be off their arcs
 RULES = Compensation(approach="perpendicular", rapid=True, look_ahead=True)
 
 
-class Way(NamedTuple):
+class SpaceWay(NamedTuple):
     """An open contour and the heights (n,) of its n points."""
 
     contour: Contour
@@ -56,11 +56,11 @@ class Way(NamedTuple):
         apart = np.hypot(*(self.end - self.begin)) <= SAME
         return bool(apart and abs(self.heights[-1] - self.heights[0]) <= SAME)
 
-    def reversed(self) -> Way:
-        return Way(self.contour.reversed(), self.heights[::-1])
+    def reversed(self) -> SpaceWay:
+        return SpaceWay(self.contour.reversed(), self.heights[::-1])
 
 
-def part(along: Way, first: float, last: float) -> Way:
+def part(along: SpaceWay, first: float, last: float) -> SpaceWay:
     """The part of a way between two ways along it; beyond the ends straight on, or round where the way closes."""
     contour, heights = along
     length = contour.length
@@ -69,7 +69,7 @@ def part(along: Way, first: float, last: float) -> Way:
             np.vstack([contour.points[:-1], contour.points]), np.append(contour.bulge[:-1], contour.bulge), closed=False
         )
         shift = length if first < 0 else 0.0
-        return part(Way(twice, np.append(heights[:-1], heights)), first + shift, last + shift)
+        return part(SpaceWay(twice, np.append(heights[:-1], heights)), first + shift, last + shift)
     upto = np.append(0.0, np.cumsum(contour.lengths))
     a, b = max(first, 0.0), min(last, length)
     inner = np.flatnonzero((upto > a + DRIFT) & (upto < b - DRIFT))
@@ -86,13 +86,13 @@ def part(along: Way, first: float, last: float) -> Way:
             points = np.vstack([points, more]) if at_end else np.vstack([more, points])
             bulge = np.append(bulge, 0.0) if at_end else np.append(0.0, bulge)
             z = np.append(z, z[-1]) if at_end else np.append(z[0], z)
-    return Way(Contour(points, np.append(bulge, 0.0), closed=False), z)
+    return SpaceWay(Contour(points, np.append(bulge, 0.0), closed=False), z)
 
 
 class Beside(NamedTuple):
     """The ways beside a contour, and where the tool has no room, why, and how thick what is left is at which place (x, y)."""
 
-    ways: tuple[Way, ...]
+    ways: tuple[SpaceWay, ...]
     fault: PathFault | None = None
     left: float = 0.0
     place: tuple[float, float] = (0.0, 0.0)
@@ -132,10 +132,10 @@ def beside(
             raise
         ways = (_rooms if contour.closed else _room)(contour, size, outwards, fault)
         thickness, (x, y) = _left(contour, size, ways)
-        return Beside(tuple(Way(way, np.full(len(way.points), level[0])) for way in ways), fault, thickness, (x, y))
+        return Beside(tuple(SpaceWay(way, np.full(len(way.points), level[0])) for way in ways), fault, thickness, (x, y))
 
 
-def cuts_into(contour: Contour, way: Way, distance: float) -> tuple[float, float] | None:
+def cuts_into(contour: Contour, way: SpaceWay, distance: float) -> tuple[float, float] | None:
     """The place (x, y) of a way that lies nearest to a contour, if the tool centre comes nearer there than `distance`."""
     chords = way.contour.points_within(CUTS)
     pieces = shapely.linestrings(np.stack([chords[:-1], chords[1:]], axis=1))
@@ -160,21 +160,21 @@ def _nearest(contours: Sequence[Contour], shapes: NDArray[np.object_]) -> tuple[
     return chords[found], np.asarray(room)
 
 
-def _opened(contour: Contour, heights: Floats) -> Way:
+def _opened(contour: Contour, heights: Floats) -> SpaceWay:
     """A contour as an open one; a closed one ends at its first point."""
     if not contour.closed:
-        return Way(contour, heights)
+        return SpaceWay(contour, heights)
     points, bulge = np.vstack([contour.points, contour.points[:1]]), np.append(contour.bulge, 0.0)
-    return Way(Contour(points, bulge, closed=False), np.append(heights, heights[0]))
+    return SpaceWay(Contour(points, bulge, closed=False), np.append(heights, heights[0]))
 
 
-def _open(contour: Contour, distance: float, side: int, heights: Floats, lines: Any) -> Way:
+def _open(contour: Contour, distance: float, side: int, heights: Floats, lines: Any) -> SpaceWay:
     """The compensated way of an open contour, whose elements have `lines`, from square to its beginning to square to its end."""
-    path = _compensated(Way(contour, heights), distance, side, lines, np.arange(len(lines)))
+    path = _compensated(SpaceWay(contour, heights), distance, side, lines, np.arange(len(lines)))
     return _way(path)
 
 
-def _closed(contour: Contour, distance: float, side: int, heights: Floats, lines: Any) -> Way:
+def _closed(contour: Contour, distance: float, side: int, heights: Floats, lines: Any) -> SpaceWay:
     """The compensated way of a closed contour, worked out from the middle of its longest element on and begun where it does."""
     k, n = int(contour.lengths.argmax()), len(lines)
     whole = _opened(contour, heights)
@@ -184,7 +184,7 @@ def _closed(contour: Contour, distance: float, side: int, heights: Floats, lines
     points = np.vstack([middle, contour.points[order], middle])
     bulge = np.concatenate([[half], contour.bulge[order[:-1]], [half, 0.0]])
     z = (whole.heights[k] + whole.heights[k + 1]) / 2
-    round_ = Way(Contour(points, bulge, closed=False), np.concatenate([[z], heights[order], [z]]))
+    round_ = SpaceWay(Contour(points, bulge, closed=False), np.concatenate([[z], heights[order], [z]]))
     element = np.append(k, order)
     path = _halves_joined(_compensated(round_, distance, side, lines[element], element))
     own = np.flatnonzero((path.step == 0) & (np.array(path.labels)[path.label] != CORNER))
@@ -198,7 +198,7 @@ def _halves_joined(path: Toolpath) -> Toolpath:
     return path.replace(start=start, sweep=sweep)[:-1]
 
 
-def _compensated(way: Way, distance: float, side: int, lines: Any, steps: Any) -> Toolpath:
+def _compensated(way: SpaceWay, distance: float, side: int, lines: Any, steps: Any) -> Toolpath:
     """The rows of the tool centre; their steps tell the element. The straight move square to the contour, by which the
     compensation begins, is left out."""
     contour, heights = way
@@ -220,9 +220,9 @@ def _compensated(way: Way, distance: float, side: int, lines: Any, steps: Any) -
     return path[1:]
 
 
-def _way(path: Toolpath) -> Way:
+def _way(path: Toolpath) -> SpaceWay:
     found = chain(path)
-    return Way(found.contour, found.heights)
+    return SpaceWay(found.contour, found.heights)
 
 
 def _rooms(contour: Contour, distance: float, side: int, fault: PathFault) -> list[Contour]:
@@ -294,9 +294,9 @@ HALVINGS = 40
 
 
 def rests(
-    along: Way, radius: float, side: int, coarse: Sequence[Contour], coarse_radius: float, accepted: float,
+    along: SpaceWay, radius: float, side: int, coarse: Sequence[Contour], coarse_radius: float, accepted: float,
     connected: float = 0.0, extended: float = 0.0,
-) -> tuple[Way, ...]:  # fmt: skip
+) -> tuple[SpaceWay, ...]:  # fmt: skip
     """The stretches of a way, with the tool of a `radius` to its `side`, where more than `accepted` stands after a coarse tool.
 
     `coarse` are the ways of that tool along the same contour. Stretches at most `connected` apart are joined, each is

@@ -110,7 +110,7 @@ STATUS = {OK: 0, REWORK: 1, SCRAP: 2}
 LOG = "TCHPRAUTO.html"
 
 
-class Found(NamedTuple):
+class FoundPlace(NamedTuple):
     """A place as it was found, and the diameter of a circle there, mm."""
 
     point: Floats
@@ -128,7 +128,7 @@ class Judged(NamedTuple):
     contacts: Sequence[Contact]
 
 
-Finding = Generator[Step, Any, Found]
+Finding = Generator[Step, Any, FoundPlace]
 
 
 def names(c: Any) -> list[tuple[str, str, str]]:
@@ -173,7 +173,7 @@ def by_hand(m: Machine, k: int) -> Floats | None:
     return found if found.shape == (3,) and np.isfinite(found).all() else None
 
 
-def measure(c: Any, m: Machine, apart: float, find: Callable[..., Finding]) -> Generator[Step, Any, list[Found]]:
+def measure(c: Any, m: Machine, apart: float, find: Callable[..., Finding]) -> Generator[Step, Any, list[FoundPlace]]:
     """Find each place (`touch`, or what has its parameters), except those whose actual values are given; between them it goes
     to the clearance height from the mode `apart` on."""
     a, mode = c.approach(m, over=c.clearance_height_mode == 2), c.clearance_height_mode
@@ -181,7 +181,7 @@ def measure(c: Any, m: Machine, apart: float, find: Callable[..., Finding]) -> G
     first, moved = True, [k for k, each in enumerate(known) if each[0].actual is None]
     for k, each in enumerate(known):
         if k not in moved:
-            found.append(Found(np.array([one.actual for one in each], dtype=np.float64)))
+            found.append(FoundPlace(np.array([one.actual for one in each], dtype=np.float64)))
             continue
         asked = any(one.asked for one in each)
         where = by_hand(m, k) if asked else np.array([one.value for one in each], dtype=np.float64)
@@ -207,7 +207,7 @@ def touch(c: Any, m: Machine, a: Approach, k: int, where: Floats, rise: float) -
     to_x, to_y, to_z = (np.array([x, y, z - a.ball]) + a.reach * way).tolist()
     contact = yield Touch(f"touch {k + 1}", to_x, to_y, to_z, a.feed, a.ball)
     yield a.go("back", z - a.ball, x, y)
-    return Found(np.array(contact.point) + a.ball * way, contacts=(contact,))
+    return FoundPlace(np.array(contact.point) + a.ball * way, contacts=(contact,))
 
 
 def along(number: float) -> Floats:
@@ -228,7 +228,7 @@ def arrive(a: Approach, k: int, x: float, y: float, z: float, rise: float) -> It
 # --- results --------------------------------------------------------------------------------------------------------------
 
 
-def means(known: Sequence[Sequence[Nominal]], found: Sequence[Found]) -> Floats:
+def means(known: Sequence[Sequence[Nominal]], found: Sequence[FoundPlace]) -> Floats:
     """The middles of the tolerances (n, 3); what has no nominal value is where it was found."""
     return np.array([[at if each.mean is None else each.mean for each, at in zip(axes, one.point, strict=True)]
                      for axes, one in zip(known, found, strict=True)])  # fmt: skip
@@ -242,7 +242,7 @@ def judge(what: str, actual: float, limits: Nominal, contacts: Sequence[Contact]
     return Judged(what, float(actual), limits, verdict, contacts)
 
 
-def judge_places(c: Any, m: Machine, found: Sequence[Found]) -> list[Judged]:
+def judge_places(c: Any, m: Machine, found: Sequence[FoundPlace]) -> list[Judged]:
     """The coordinates of the places. Where it was touched along an axis, material that is left is rework; anything else is
     scrap, and what a touch across it did not measure is not judged."""
     way = along(c.probing_direction) if hasattr(c, "probing_direction") else np.zeros(3)
@@ -257,7 +257,7 @@ def judge_places(c: Any, m: Machine, found: Sequence[Found]) -> list[Judged]:
 
 
 def report(
-    c: Any, m: Machine, found: Sequence[Found], nominal: Floats, judged: Sequence[Judged], angles: Mapping[int, float],
+    c: Any, m: Machine, found: Sequence[FoundPlace], nominal: Floats, judged: Sequence[Judged], angles: Mapping[int, float],
     lengths: Mapping[int, float],
 ) -> Iterator[Step]:  # fmt: skip
     """The places and their deviations, further angles and lengths by the numbers of their Q parameters, the status, the record,
@@ -315,7 +315,7 @@ def chosen(c: Any, points: Sequence[Floats]) -> Floats | None:
     return None if k == 0 else np.mean(points, axis=0) if k > len(points) else np.asarray(points[k - 1])
 
 
-def take_over(c: Any, m: Machine, found: Sequence[Found], nominal: Floats, turned: Floats, by: float) -> Iterator[Step]:
+def take_over(c: Any, m: Machine, found: Sequence[FoundPlace], nominal: Floats, turned: Floats, by: float) -> Iterator[Step]:
     """Change the active preset: `nominal` (n, 3) are the middles of the tolerances, `turned` (3, 3) is the measured rotation,
     `by` its angle in the plane, degrees, nan in space."""
     here, should = chosen(c, [one.point for one in found]), chosen(c, list(nominal))

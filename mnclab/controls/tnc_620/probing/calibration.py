@@ -13,11 +13,11 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from mnclab.controls.tnc_620.clock import time_of_day
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
 from mnclab.controls.tnc_620.cycles.planes import Fault
 from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed
+from mnclab.controls.tnc_620.state import time_of_day
 from mnclab.machine.control import Setting
 from mnclab.machine.coordinates import in_mm
 from mnclab.machine.cycle import CycleTable
@@ -35,7 +35,7 @@ MOST = 99.9999  # mm, of a radius; that of a ring is printed as 9.9999
 SETTINGS = (
     Setting("tool_comp_3d", True, "software option 92, 3D-ToolComp: cycle 460 can calibrate in three dimensions", "17.6"),
 )
-Found = Generator[Step, Any, Any]
+Finding = Generator[Step, Any, Any]
 touches = partial(count, "Q423", "number of touch points", at_least=3, at_most=8)
 first = partial(addresses.reference_angle, at_least=0)
 
@@ -77,7 +77,7 @@ class OnSphere(ProbingCycle):
             longer = m.tool.effective_length - before.effective_length
             yield from self.all_over(m, (x, y, equator - a.ball + m.radius - longer))
 
-    def equator(self, m: Machine, a: Approach) -> Found:
+    def equator(self, m: Machine, a: Approach) -> Finding:
         """Three touches above one another on the side of the reference angle; the height of the ball's center at the equator."""
         (x, y, z), way = m.programmed, math.radians(self.reference_angle)
         cos, sin, out = math.cos(way), math.sin(way), self.radius + a.away
@@ -182,7 +182,7 @@ def oriented(m: Machine, turn: float = 0.0) -> Iterator[Step]:
         yield Orient("turn the probe", (m.tables.probe.angle + turn) % 360)
 
 
-def circle_found(c: Round, m: Machine, a: Approach, middle: Pair, inside: bool, count: int) -> Found:
+def circle_found(c: Round, m: Machine, a: Approach, middle: Pair, inside: bool, count: int) -> Finding:
     """Touches around a middle, and to the centre of the circle that the spindle axis found; returns circle and touches."""
     step, now = 360 / count, m.programmed[2]
     contacts = yield from around(a, middle, c.radius, c.reference_angle, step, count, inside, now, arc=False)
@@ -191,7 +191,7 @@ def circle_found(c: Round, m: Machine, a: Approach, middle: Pair, inside: bool, 
     return found, tuple(each.number for each in contacts)
 
 
-def radius_and_offset(c: Round, m: Machine, a: Approach, about: Pair, inside: bool) -> Found:
+def radius_and_offset(c: Round, m: Machine, a: Approach, about: Pair, inside: bool) -> Finding:
     """Rough, fine, and turned by 180 degrees; writes radius and offset, and returns the centre of the spindle axis."""
     rough, _ = yield from circle_found(c, m, a, about, inside, int(c.points))
     fine, touches = yield from circle_found(c, m, a, rough.centre, inside, int(c.points))

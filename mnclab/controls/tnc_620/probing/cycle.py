@@ -4,34 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, ClassVar
 
 import numpy as np
 
 from mnclab.controls.tnc_620.contours.line import Named, in_table
+from mnclab.controls.tnc_620.cycles.addresses import FAR, POSITIONING, choice, feed
 from mnclab.controls.tnc_620.cycles.chain import TILT
 from mnclab.controls.tnc_620.cycles.planes import Fault, in_program_coordinates
-from mnclab.controls.tnc_620.probing.fast_probing import probe_in_force
-from mnclab.controls.tnc_620.state import active_preset
+from mnclab.controls.tnc_620.state import active_preset, memory
 from mnclab.machine.coordinates import FRAME, in_mm
-from mnclab.machine.cycle import Cycle
-from mnclab.machine.machine import Machine
+from mnclab.machine.cycle import Cycle, CycleTable
+from mnclab.machine.machine import INF, Machine
+from mnclab.machine.probe import Probe
 from mnclab.machine.setup import Datum
 from mnclab.machine.touching import PROBES, Contact, unfit
-from mnclab.machining.probing import fits
+from mnclab.machining.probing import fits, sequences
 from mnclab.machining.probing.found import Circle, Rectangle
-from mnclab.machining.probing.sequences import (
-    ROUND,
-    Approach,
-    Pair,
-    Steps,
-    around,
-    from_above,
-    from_centre,
-    numbers,
-    results,
-    sides,
-)
+from mnclab.machining.probing.sequences import Approach, Pair, Steps
 from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure, Step, Write
 from mnclab.text.alarm import Alarm
@@ -108,12 +99,12 @@ class ProbingCycle(Cycle):
 
 def lengths(m: Machine, **values: float) -> Iterable[Step]:
     """Q parameters that hold lengths: mm here, the unit of the program there."""
-    return results(**{name: value / m.variable_unit for name, value in values.items()})
+    return sequences.results(**{name: value / m.variable_unit for name, value in values.items()})
 
 
 def measured(contacts: Sequence[Contact], **found: tuple[float, float]) -> Iterable[Step]:
     """Lines of the measuring record without limits: `measured(contacts, X=(actual, nominal))`."""
-    return [Measure(what, actual, nominal, touches=numbers(contacts)) for what, (actual, nominal) in found.items()]
+    return [Measure(what, actual, nominal, touches=sequences.numbers(contacts)) for what, (actual, nominal) in found.items()]
 
 
 def needed(fit: Any, *points: Any, m: Machine, code: str) -> Any:
@@ -135,7 +126,7 @@ def circle(c: ProbingCycle, m: Machine, contacts: Sequence[Contact]) -> Circle:
 def ring(c: ProbingCycle, m: Machine, a: Approach, centre: Pair, leave: bool = True) -> Steps:
     """A hole or a round stud, as its angles say."""
     angles, over = (c.starting_angle, c.stepping_angle, int(c.points)), c.traverse == 1
-    contacts = yield from around(a, centre, c.diameter / 2, *angles, c.inside, m.programmed[2], over, leave)
+    contacts = yield from sequences.around(a, centre, c.diameter / 2, *angles, c.inside, m.programmed[2], over, leave)
     found = circle(c, m, contacts).grown(a.ball if c.inside else -a.ball)
     yield sketch(Circle(*centre, c.diameter / 2), found, c.level, contacts)
     return found, contacts
@@ -143,7 +134,7 @@ def ring(c: ProbingCycle, m: Machine, a: Approach, centre: Pair, leave: bool = T
 
 def box(c: ProbingCycle, m: Machine, a: Approach, centre: Pair) -> Steps:
     """A pocket or a stud with straight sides along the axes."""
-    contacts = yield from sides(a, centre, (c.length / 2, c.width / 2), ROUND, c.inside, m.programmed[2])
+    contacts = yield from sequences.sides(a, centre, (c.length / 2, c.width / 2), sequences.ROUND, c.inside, m.programmed[2])
     right, back, left, front = (each.point for each in contacts)
     found = needed(fits.rectangle, [right, left, back, front], m=m, code=c.code).grown(a.ball if c.inside else -a.ball)
     yield sketch(Rectangle(*centre, c.length, c.width), found, c.level, contacts)
@@ -154,7 +145,7 @@ def holes(c: ProbingCycle, m: Machine, a: Approach, places: Sequence[Pair]) -> S
     """The centres of holes, touched one after the other over the clearance height, and all contacts."""
     found, contacts = [], []
     for k, place in enumerate(places):
-        touched = yield from from_centre(a, place, a.height if k else m.programmed[2])
+        touched = yield from sequences.from_centre(a, place, a.height if k else m.programmed[2])
         contacts += touched
         found.append(circle(c, m, touched).centre)
     return found, contacts
@@ -182,7 +173,7 @@ SAME = 1e-12
 def finish(c: ProbingCycle, m: Machine, a: Approach, found: dict[int, tuple[float, float]], turned: float = 0.0) -> Moves:
     """Touch from above too, if the cycle asks for it (Q381), in the system that it began with; then save the preset."""
     if c.probe_z:
-        contact = yield from from_above(a, c.top_x, c.top_y, c.top_z, a.height, leave="higher")
+        contact = yield from sequences.from_above(a, c.top_x, c.top_y, c.top_z, a.height, leave="higher")
         found[2] = contact.point[2] - a.ball, c.datum_z
         yield from measured([contact], Z=(found[2][0], c.top_z))
     yield from save(m, found, c.row, c.transfer, turned)
@@ -232,3 +223,47 @@ def _along(linear: np.ndarray, by: np.ndarray, found: Mapping[int, tuple[float, 
     mask[list(found)] = 1.0
     changed = [k for k in range(3) if np.abs(linear[k] * mask).max() > SAME]
     return linear @ (by * mask), changed
+
+
+# Cycle 441 FAST PROBING: how all touch probe cycles after it position, until the program ends (TNC 620, 17.10).
+
+CYCLES = CycleTable(runs="definition")
+SWITCH: dict[float, str] = {0: "no", 1: "yes"}
+PREPOSITION: dict[float, str] = {0: "at the feed rate of Q396", 1: "at the rapid traverse of the machine"}
+TABLE: dict[str, Any] = {"default": None, "default_means": "as the touch probe table has it"}
+OWN: dict[str, Any] = {"default": None, "default_means": "as the measuring cycle says"}
+
+
+@CYCLES("TCH PROBE 441", "Fast probing", source="17.10")
+class FastProbing(Cycle):
+    """Nothing moves; what is left out stays as the touch probe table has it."""
+
+    positioning: float | str | None = feed("Q396", "positioning feed rate", also=POSITIONING, at_most=FAR, example=3000, **TABLE)
+    rapid: float | None = choice("Q397", "pre-positioning", PREPOSITION, example=0, **TABLE)
+    track: float | None = choice("Q399", "orienting the probe before each touch", SWITCH, example=1, **TABLE)
+    interruption: float | None = choice("Q400", "stop with the results of a measuring cycle", SWITCH, example=1, **OWN)
+
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        if self.positioning == 0 and not self.rapid:
+            yield "positioning", "must be greater than 0 where Q397 is 0"
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        yield Write("memory", self, "fast_probing")
+
+
+def probe_in_force(m: Machine) -> Probe:
+    """The touch probe table with what cycle 441 put in its place."""
+    probe, fast = m.tables.probe, memory(m).fast_probing
+    if fast is None:
+        return probe
+    if fast.rapid is not None:
+        probe = replace(probe, positioning="machine" if fast.rapid else "probe")
+    if fast.positioning is not None and not fast.rapid:
+        probe = replace(probe, rapid=INF if fast.positioning == "FMAX" else float(fast.positioning), positioning="probe")
+    return probe if fast.track is None else replace(probe, track=fast.track == 1)
+
+
+def shows_results(m: Machine, chosen: bool) -> bool:
+    """Whether a measuring cycle stops with its results: as it was `chosen` in it (Q281 = 2), or as Q400 says for all of them."""
+    fast = memory(m).fast_probing
+    return chosen if fast is None or fast.interruption is None else fast.interruption == 1

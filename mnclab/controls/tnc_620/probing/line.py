@@ -16,7 +16,7 @@ from mnclab.controls.tnc_620.cycles.addresses import angle, choice, count
 from mnclab.controls.tnc_620.cycles.planes import Fault
 from mnclab.controls.tnc_620.probing import addresses, aimed
 from mnclab.controls.tnc_620.probing.addresses import FIRST, SECOND, TAKEN
-from mnclab.controls.tnc_620.probing.aimed import Finding, Floats, Found, Given, Judged
+from mnclab.controls.tnc_620.probing.aimed import Finding, Floats, FoundPlace, Given, Judged
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, circle, needed
 from mnclab.controls.tnc_620.state import active_preset
 from mnclab.geometry import frames
@@ -46,7 +46,7 @@ def no_line(c: Any, m: Machine) -> Iterator[Fault]:
 
 
 def line_results(
-    c: Any, m: Machine, found: Sequence[Found], nominal: Floats, judged: Sequence[Judged], diameters: Mapping[int, float]
+    c: Any, m: Machine, found: Sequence[FoundPlace], nominal: Floats, judged: Sequence[Judged], diameters: Mapping[int, float]
 ) -> Iterator[Step]:
     """Results, the status, and what they make of the preset; `diameters` are further results by number."""
     is_ = needed(aimed.angle, *(one.point for one in found), m=m, code=c.code)
@@ -132,7 +132,7 @@ class ProbingTwoCircles(ProbingCycle):
         contacts = yield from around(a, (x, y), radius, self.starting_angle, step, count, hole, now, arc=False, leave=False)
         found = circle(self, m, contacts).grown(a.ball if hole else -a.ball)
         yield sketch(Circle(x, y, radius), found, z, contacts)
-        return Found(np.array([found.x, found.y, z]), found.diameter, contacts)
+        return FoundPlace(np.array([found.x, found.y, z]), found.diameter, contacts)
 
     def moves(self, m: Machine) -> Moves:
         found = yield from aimed.measure(self, m, 1, ProbingTwoCircles.find)
@@ -144,7 +144,7 @@ class ProbingTwoCircles(ProbingCycle):
             results |= {966 + k: size.actual, 996 + k: size.actual - (size.nominal.mean or 0.0)}
         yield from line_results(self, m, found, nominal, judged, results)
 
-    def judged_diameter(self, m: Machine, k: int, one: Found, hole: bool) -> Judged:
+    def judged_diameter(self, m: Machine, k: int, one: FoundPlace, hole: bool) -> Judged:
         """Material that is left is rework, what is missing scrap."""
         known = aimed.nominal(self, m, DIAMETERS[k])
         actual = one.diameter if known.actual is None else known.actual

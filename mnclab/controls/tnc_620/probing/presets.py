@@ -7,21 +7,9 @@ from collections.abc import Iterator, Sequence
 
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, distance
 from mnclab.controls.tnc_620.cycles.planes import Fault, not_zero
-from mnclab.controls.tnc_620.probing import addresses
+from mnclab.controls.tnc_620.probing import addresses, cycle
 from mnclab.controls.tnc_620.probing.addresses import CENTRE, CENTRES, HEIGHTS, ROUND, TOP
-from mnclab.controls.tnc_620.probing.cycle import (
-    Moves,
-    ProbingCycle,
-    bolt_circle,
-    box,
-    finish,
-    holes,
-    lengths,
-    measured,
-    needed,
-    ring,
-    save,
-)
+from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, needed
 from mnclab.machine.coordinates import tool_axis
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
@@ -50,8 +38,8 @@ def middle(c: ProbingCycle, m: Machine) -> Moves:
     at = found.centre[k]
     yield from measured(contacts, **{"XY"[k]: (at, centre[k]), "width": (found.width, c.width)})
     yield sketch(Width(*centre, c.width), found, c.level, contacts, 90 * k)
-    yield from lengths(m, Q157=at, Q166=found.width)
-    yield from finish(c, m, a, {k: (at, c.datum)})
+    yield from cycle.lengths(m, Q157=at, Q166=found.width)
+    yield from cycle.finish(c, m, a, {k: (at, c.datum)})
 
 
 @CYCLES("TCH PROBE 408", "Preset at a slot centre", source="15.2", takes=f"{SLOT} move_to_clearance row datum {TOP}")
@@ -76,7 +64,7 @@ class PresetOnRidge(ProbingCycle):
 def box_middle(c: ProbingCycle, m: Machine) -> Moves:
     """All sides are touched; the middle is the preset of both axes."""
     a, centre = c.approach(m), (c.centre_x, c.centre_y)
-    found, contacts = yield from box(c, m, a, centre)
+    found, contacts = yield from cycle.box(c, m, a, centre)
     sizes = {"length": (found.length, c.length), "width": (found.width, c.width)}
     results = {"Q154": found.length, "Q155": found.width}
     yield from preset(c, m, a, found.centre, centre, contacts, sizes, results)
@@ -104,7 +92,7 @@ class PresetOnRectangle(ProbingCycle):
 def ring_middle(c: ProbingCycle, m: Machine) -> Moves:
     """It is touched all around; the middle is the preset of both axes."""
     a, centre = c.approach(m), (c.centre_x, c.centre_y)
-    found, contacts = yield from ring(c, m, a, centre)
+    found, contacts = yield from cycle.ring(c, m, a, centre)
     size = {"diameter": (found.diameter, c.diameter)}
     yield from preset(c, m, a, found.centre, centre, contacts, size, {"Q153": found.diameter})
 
@@ -135,7 +123,7 @@ class PresetInBoltCircle(ProbingCycle):
 
     def moves(self, m: Machine) -> Moves:
         a = self.approach(m)
-        found, contacts = yield from bolt_circle(self, m, a)
+        found, contacts = yield from cycle.bolt_circle(self, m, a)
         size = {"diameter": (found.diameter, self.diameter)}
         yield from preset(self, m, a, found.centre, (self.middle_x, self.middle_y), contacts, size, {"Q153": found.diameter})
 
@@ -156,7 +144,7 @@ class PresetBetweenHoles(ProbingCycle):
         a, names = self.approach(m), ("first", "second", "third", "fourth")
         places = [(getattr(self, f"{name}_center_axis_1"), getattr(self, f"{name}_center_axis_2")) for name in names]
         nominal = needed(centre_of_four, places, m=m, code=self.code)
-        centres, contacts = yield from holes(self, m, a, places)
+        centres, contacts = yield from cycle.holes(self, m, a, places)
         found = needed(centre_of_four, centres, m=m, code=self.code)
         yield sketch([*places, places[0]], [*centres, centres[0]], self.level)
         yield from preset(self, m, a, found.centre, nominal.centre, contacts, {}, {})
@@ -168,8 +156,8 @@ def preset(
 ) -> Moves:  # fmt: skip
     """The place that was found, and `sizes` (measured and nominal) by name: the record, Q151, Q152 and further results."""
     yield from measured(contacts, X=(found[0], nominal[0]), Y=(found[1], nominal[1]), **sizes)
-    yield from lengths(m, Q151=found[0], Q152=found[1], **results)
-    yield from finish(c, m, a, {0: (found[0], c.datum_x), 1: (found[1], c.datum_y)})
+    yield from cycle.lengths(m, Q151=found[0], Q152=found[1], **results)
+    yield from cycle.finish(c, m, a, {0: (found[0], c.datum_x), 1: (found[1], c.datum_y)})
 
 
 # Presets by a single touch, or in a corner (TNC 620, 15.8, 15.9, 15.11, 15.13).
@@ -243,8 +231,8 @@ class PresetInProbeAxis(ProbingCycle):
         contact = yield from from_above(a, self.x, self.y, self.z, m.programmed[2])
         z = contact.point[2] - a.ball
         yield from measured([contact], Z=(z, self.z))
-        yield from lengths(m, Q160=z)
-        yield from save(m, {2: (z, self.datum_z)}, self.row, self.transfer)
+        yield from cycle.lengths(m, Q160=z)
+        yield from cycle.save(m, {2: (z, self.datum_z)}, self.row, self.transfer)
 
 
 @CYCLES("TCH PROBE 419", "Preset in one axis", source="15.13", takes=f"x y {HEIGHTS} axis direction row datum_z transfer")
@@ -259,7 +247,7 @@ class PresetInOneAxis(ProbingCycle):
         contacts = yield from in_one_axis(a, k, self.direction, [nominal], m.programmed[2])
         found = contacts[0].point[k] + self.direction * a.ball
         yield from measured(contacts, **{"XYZ"[k]: (found, nominal[k])})
-        yield from save(m, {k: (found, self.datum_z)}, self.row, self.transfer)
+        yield from cycle.save(m, {k: (found, self.datum_z)}, self.row, self.transfer)
 
 
 def two_lines(c: ProbingCycle, m: Machine) -> Iterator[Fault]:
@@ -284,9 +272,9 @@ def both_sides(c: ProbingCycle, m: Machine, a: Approach, *lines: tuple[Sequence[
     ends = [side.foot(balls[2 * k + far[k]]) for k, side in enumerate(sides)]
     ideal = [points[k] for (points, _), k in zip(lines, far)]
     yield sketch([ideal[0], nominal, ideal[1]], [ends[0], found.centre, ends[1]], c.level, contacts)
-    yield from lengths(m, Q151=found.x, Q152=found.y)
+    yield from cycle.lengths(m, Q151=found.x, Q152=found.y)
     turned = angle if c.basic_rotation else 0.0
-    yield from finish(c, m, a, {0: (found.x, c.datum_x), 1: (found.y, c.datum_y)}, turned)
+    yield from cycle.finish(c, m, a, {0: (found.x, c.datum_x), 1: (found.y, c.datum_y)}, turned)
 
 
 def crossing(balls: Sequence[Pair], ways: Sequence[Pair], ball: float) -> tuple[Point, list[Line]]:

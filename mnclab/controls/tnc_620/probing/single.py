@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, increment
 from mnclab.controls.tnc_620.cycles.planes import Fault, not_zero
-from mnclab.controls.tnc_620.language.parameters import KEPT
+from mnclab.controls.tnc_620.language.values import KEPT
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine

@@ -140,7 +140,7 @@ class Motion:
             assert path is not None or first is not None
             raise (path or first).fault(builder, "moves one axis alone")  # type: ignore[union-attr]
         keyword = KEYWORDS.get(code) or ("CR" if any(word.letter == "R" for word in rest) else "C")
-        self.begin(keyword, words, keyword == "L" and not auxiliary and code not in RAPID and _plain(rest, side))
+        self.begin(keyword, words, keyword == "L" and not auxiliary and code not in RAPID and _is_plain(rest, side))
         if side:
             put(self.cursor, SIDES[side.code], side, None)
         renamed = {"R": "PR", "H": "PA"} if code in POLAR else {}
@@ -191,7 +191,7 @@ class Motion:
         self.put_all(auxiliary)
 
 
-def _plain(rest: Sequence[Given], side: Given | None) -> bool:
+def _is_plain(rest: Sequence[Given], side: Given | None) -> bool:
     """Whether a straight line can be obeyed together with others like it."""
     letters = [word.letter for word in rest]
     plain = all(word.letter in "XYZF" and type(word.value) is float and not word.incremental for word in rest)

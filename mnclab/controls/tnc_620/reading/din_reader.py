@@ -1,7 +1,7 @@
 """Reading DIN/ISO programs (`%PART G71 *` … `N99999999 %PART G71 *`): the same statements as conversational ones, in G words.
 
 The blocks that come out have the keywords and addresses of the conversational language, and the places of their words in
-the DIN/ISO text. What is modal is worked out while reading, see `din_modes`. Statements that have no DIN/ISO form (PATTERN
+the DIN/ISO text. What is modal is worked out while reading, see `din_words`. Statements that have no DIN/ISO form (PATTERN
 DEF, SEL TABLE, …) stand in these programs as they do in the others.
 """
 
@@ -11,22 +11,10 @@ import re
 from collections.abc import Sequence
 from itertools import takewhile
 
-from mnclab.controls.tnc_620.reading import din_statements, sub_blocks
+from mnclab.controls.tnc_620.reading import din_statements, din_words, sub_blocks
 from mnclab.controls.tnc_620.reading.din_motion import Departure, Motion, approach
 from mnclab.controls.tnc_620.reading.din_statements import REFUSED, STATEMENTS, said
-from mnclab.controls.tnc_620.reading.din_words import (
-    MEASURED,
-    MIXED,
-    PATHS,
-    Given,
-    Modes,
-    Raw,
-    blocks,
-    has_tail,
-    modes_before,
-    put,
-    read_words,
-)
+from mnclab.controls.tnc_620.reading.din_words import Given, Modes, Raw
 from mnclab.controls.tnc_620.reading.labels import name_of_program
 from mnclab.controls.tnc_620.reading.statements import cycle_parameters, recognize
 from mnclab.controls.tnc_620.reading.words import FLAGS, INCH, Cursor, Fault
@@ -60,9 +48,9 @@ def begins(text: str) -> bool:
 def read(text: str, name: str = "program") -> Program:
     """The blocks of a DIN/ISO program."""
     builder = ProgramBuilder(text, name, "tnc-620", line_starts(characters(text)), ";")
-    raw = list(blocks(builder))
+    raw = list(din_words.blocks(builder))
     reader = _Reader(builder, _INCH.match(text) is not None)
-    for one, (modes, above) in zip(raw, modes_before(text, raw), strict=True):
+    for one, (modes, above) in zip(raw, din_words.modes_before(text, raw), strict=True):
         reader.above = above
         reader.read(one, modes)
     reader.finish()
@@ -196,9 +184,9 @@ class _Reader:
         cursor = Cursor(self.builder, *rest[0], self.inch)
         while rest:
             cursor = Cursor(self.builder, *rest.pop(0), self.inch)
-            more, incremental = read_words(cursor, incremental)
+            more, incremental = din_words.read_words(cursor, incremental)
             given += more
-            if more and more[-1].letter == "G" and has_tail(more[-1].code):
+            if more and more[-1].letter == "G" and din_words.has_tail(more[-1].code):
                 break
         heads = [word for word in given if word.letter == "G" and (word.code in STATEMENTS or self.known(word))]
         strange = [word for word in given if word.letter == "G" and word not in heads and word.code not in _MODAL]
@@ -221,17 +209,18 @@ class _Reader:
     def warn_of_ways(self, given: Sequence[Given], modes: Modes) -> None:
         """Where a mode comes from a call or a repeat, and another one stands above in the text."""
         inherited = list(takewhile(lambda word: word.letter != "G" or word.code not in (90, 91), given))
-        word = next((word for word in inherited if word.letter in MEASURED), None)
+        word = next((word for word in inherited if word.letter in din_words.MEASURED), None)
         if word and self.called:
             what = f"{word.shown(self.builder)} is read with G9{modes.incremental} as before %{self.called}"
             self.builder.alarm(what, word.at, word.length, "write G90 or G91 in this block", "warning")
         if word or len(inherited) < len(given):
             self.called = ""
-        if word and MIXED != modes.incremental != self.above.incremental:
+        if word and din_words.MIXED != modes.incremental != self.above.incremental:
             self.warn(word, f"G9{modes.incremental}", f"G9{self.above.incremental}")
-        word = next((word for word in given if word.letter in MEASURED), None)
-        written = any(one.letter == "G" and one.code in PATHS for one in given)
-        if word and not written and MIXED != modes.path != self.above.path and None not in (modes.path, self.above.path):
+        word = next((word for word in given if word.letter in din_words.MEASURED), None)
+        written = any(one.letter == "G" and one.code in din_words.PATHS for one in given)
+        known = None not in (modes.path, self.above.path)
+        if word and not written and known and din_words.MIXED != modes.path != self.above.path:
             self.warn(word, f"G{modes.path:02}", f"G{self.above.path:02}")
 
     def warn(self, word: Given, active: str, above: str) -> None:
@@ -262,7 +251,7 @@ class _Reader:
         """Add the tool axis that G17 to G19 mean."""
         codes = [word for word in given if word.letter == "G" and word.code in (17, 18, 19, 20)]
         for word in codes:
-            put(cursor, "axis", word, din_statements.axis_of(self.text, word))
+            din_words.put(cursor, "axis", word, din_statements.axis_of(self.text, word))
         return din_statements.PLANES[codes[-1].code] if codes else ""
 
     def statement(
@@ -286,7 +275,7 @@ class _Reader:
             plain = [w for w in plain if not (w.letter == "G" and w.code in din_statements.PLANES)]
             din_statements.renamed(cursor, code, STATEMENTS[code], plain)
             if code in din_statements.SENSES:
-                put(cursor, "DR", head, din_statements.SENSES[code], inches=False)
+                din_words.put(cursor, "DR", head, din_statements.SENSES[code], inches=False)
             return
         self.with_tail(raw, cursor, head, words, rest, modes)
 
@@ -308,7 +297,7 @@ class _Reader:
             raise before.fault(self.builder, f"does not belong to G{code:02}", "write two blocks")
         if code == 28:
             self.builder.block(raw.start, "CYCL DEF 8", raw.skip)
-            din_statements.mirror(cursor)
+            sub_blocks.mirrored(cursor)
         elif code == 39:
             self.builder.block(raw.start, "CYCL DEF 12", raw.skip)
             din_statements.program_name(cursor, head)
@@ -335,19 +324,19 @@ class _Reader:
     def cycle_call(self, raw: Raw, cursor: Cursor, modes: Modes) -> None:
         """G79 calls the cycle here, G79 PAT at the points of a pattern, G79:G01 X Y Z at a position."""
         keyword = din_statements.called(cursor)
-        words, _ = read_words(cursor, modes.incremental)
-        paths = [word for word in words if word.letter == "G" and word.code in PATHS]
+        words, _ = din_words.read_words(cursor, modes.incremental)
+        paths = [word for word in words if word.letter == "G" and word.code in din_words.PATHS]
         if paths and paths[0].code in (0, 1) and keyword == "CYCL CALL":
             keyword = "CYCL CALL POS"
         self.builder.block(raw.start, keyword, raw.skip)
         for word in words:
             if word.letter != "G":
-                put(cursor, word.letter, word)
+                din_words.put(cursor, word.letter, word)
             elif word.code not in (90, 91) and word is not next(iter(paths), None):
                 raise word.fault(self.builder, "does not belong to G79", "write two blocks")
         if paths and paths[0].code == 0:
-            put(cursor, "FMAX", paths[0], None)
+            din_words.put(cursor, "FMAX", paths[0], None)
 
 
 _OTHERS = frozenset((26, 27, 28, 39, 55, 79, 98))
-_MODAL = PATHS | {17, 18, 19, 20, 40, 41, 42, 43, 44, 90, 91}
+_MODAL = din_words.PATHS | {17, 18, 19, 20, 40, 41, 42, 43, 44, 90, 91}

@@ -11,9 +11,9 @@ from mnclab.controls.tnc_620.reading import labels
 from mnclab.controls.tnc_620.reading.din_motion import AXES, PLANES
 from mnclab.controls.tnc_620.reading.din_words import Given, put, unmixed
 from mnclab.controls.tnc_620.reading.formulas import FILES, FN, OPERAND, add_target, system_data
-from mnclab.controls.tnc_620.reading.sub_blocks import PLACES, mirrored
+from mnclab.controls.tnc_620.reading.sub_blocks import PLACES
 from mnclab.controls.tnc_620.reading.words import FLAGS, ISO_NAMES, Cursor, Fault
-from mnclab.text.alarm import ALARM, Alarm, Span
+from mnclab.text.alarm import ALARM, Alarm
 from mnclab.text.expression import Expression, Token
 from mnclab.text.program import Block, Program
 
@@ -66,10 +66,15 @@ def _as_conversational(cursor: Cursor, number: int) -> None:
     read = FN.get(number) or FILES.get(number) or labels.JUMPS.get(number)
     if read is None:
         raise cursor.unexpected()
+    told(cursor, read, f"FN {number}", f"D{number:02}")
+
+
+def told(cursor: Cursor, read: Callable[[Cursor], object], name: str, by: str) -> None:
+    """What reads words of the dialog; its faults have another name for what these programs write otherwise."""
     try:
         read(cursor)
     except Fault as fault:
-        message, hint = (part.replace(f"FN {number}", f"D{number:02}") for part in (fault.message, fault.hint))
+        message, hint = (part.replace(name, by) for part in (fault.message, fault.hint))
         raise Fault(message, fault.offset, fault.length, hint) from None
 
 
@@ -79,11 +84,6 @@ def _parameter(cursor: Cursor, number: int, which: int) -> int:
     if cursor.match(_OPERAND_MARKS[which]) is None:
         raise Fault(f"D{number:02} needs P{which:02}", min(begin, cursor.stop - 1), hint=f"for example {example(number)}")
     return begin
-
-
-def _expression(cursor: Cursor, number: int, which: int) -> tuple[Expression, int]:
-    begin = _parameter(cursor, number, which)
-    return _value(cursor, number), begin
 
 
 def _value(cursor: Cursor, number: int) -> Expression:
@@ -100,8 +100,8 @@ def _item(cursor: Cursor, number: int, address: str) -> None:
 
 
 def _operand(cursor: Cursor, number: int, which: int, address: str) -> None:
-    value, begin = _expression(cursor, number, which)
-    cursor.add(address, value, begin)
+    begin = _parameter(cursor, number, which)
+    cursor.add(address, _value(cursor, number), begin)
 
 
 def _calculation(cursor: Cursor, number: int) -> None:
@@ -111,23 +111,17 @@ def _calculation(cursor: Cursor, number: int) -> None:
         for which, address in enumerate(TWO[number], start=1):
             _operand(cursor, number, which, address)
         return
-    first, at = _expression(cursor, number, 1)
+    at = _parameter(cursor, number, 1)
+    value, span = _value(cursor, number), cursor.builder.span(at)
     if number in OPERATORS:
-        second, _ = _expression(cursor, number, 2)
-        value = _joined(first, OPERATORS[number], second, cursor.builder.span(at))
+        _parameter(cursor, number, 2)
+        second, token = _value(cursor, number), Token("mark", OPERATORS[number], span)
+        tokens, written = (*value.tokens, *second.tokens), f"{value.text} {token.text} {second.text}"
+        value = Expression(tokens, written, steps=(*value.steps, *second.steps, token))
     elif number in NAMES:
-        token = Token("name", NAMES[number], cursor.builder.span(at))
-        value = Expression(first.tokens, f"{token.text} {first.text}", steps=(*first.steps, token))
-    else:
-        value = first
+        token = Token("name", NAMES[number], span)
+        value = Expression(value.tokens, f"{token.text} {value.text}", steps=(*value.steps, token))
     cursor.add("value", value, at)
-
-
-def _joined(first: Expression, operator: str, second: Expression, span: Span) -> Expression:
-    """Two operands and what joins them, each at its own place."""
-    tokens = (*first.tokens, *second.tokens)
-    steps = (*first.steps, *second.steps, Token("mark", operator, span))
-    return Expression(tokens, f"{first.text} {operator} {second.text}", steps=steps)
 
 
 def _target(cursor: Cursor, number: int) -> None:
@@ -260,11 +254,6 @@ def renamed(cursor: Cursor, code: int, statement: Renamed, words: Sequence[Given
         put(cursor, address or word.letter, word, inches=UNITS.get((code, word.letter)))
 
 
-def mirror(cursor: Cursor) -> None:
-    """G28 X Y: letters of axes, none ends the mirror image."""
-    mirrored(cursor)
-
-
 def program_name(cursor: Cursor, head: Given) -> None:
     """G39 P01 NAME: the program that becomes a cycle."""
     cursor.match(_NAME_OF_PROGRAM)
@@ -275,16 +264,7 @@ def set_label(cursor: Cursor, head: Given) -> None:
     """G98 L1: a jump target."""
     if cursor.match(_L) is None:
         raise Fault("G98 needs L and the label", head.at, head.length, "for example G98 L1")
-    named(cursor, labels.set_label)
-
-
-def named(cursor: Cursor, read: Callable[[Cursor], object]) -> None:
-    """What reads a label; its faults are told in the words of these programs."""
-    try:
-        read(cursor)
-    except Fault as fault:
-        message, hint = (part.replace("LBL ", "G98 L") for part in (fault.message, fault.hint))
-        raise Fault(message, fault.offset, fault.length, hint) from None
+    told(cursor, labels.set_label, "LBL ", "G98 L")
 
 
 def call_label(cursor: Cursor) -> None:
@@ -296,7 +276,7 @@ def call_label(cursor: Cursor) -> None:
             raise Fault(f"a label must be a number from 0 to 65535, got {got}", begin, len(got))
         cursor.builder.word("label", float(found.group(1)), begin, len(found.group(1)))
     else:
-        named(cursor, partial(labels.label, parameter=True))
+        told(cursor, partial(labels.label, parameter=True), "LBL ", "G98 L")
     if (found := cursor.match(_REPEATS)) and int(found.group(1)):
         cursor.builder.word("REP", float(found.group(1)), found.start(1), len(found.group(1)))
 

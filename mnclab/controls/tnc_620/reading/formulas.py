@@ -150,6 +150,13 @@ def needs_equals(cursor: Cursor, number: int, example: str) -> None:
         raise Fault(f"FN {number} needs a Q parameter and =", cursor.blanks(), hint=example)
 
 
+def target_of(cursor: Cursor, number: int, example: str) -> tuple[str, int]:
+    """The parameter that FN gives a value, where it stands, and the = behind it."""
+    found = numeric_target(cursor, number, example)
+    needs_equals(cursor, number, example)
+    return found
+
+
 def arithmetic(number: int) -> Read:
     """FN 0 to FN 7; FN 0 can also take a value away."""
 
@@ -172,9 +179,7 @@ def pair(number: int) -> Read:
     def read(cursor: Cursor) -> None:
         word = PAIRS[number]
         example = f"FN {number}: Q1 = +5 {word} +4"
-        name, begin = numeric_target(cursor, number, example)
-        needs_equals(cursor, number, example)
-        start = value_begins(cursor, name, begin)
+        start = value_begins(cursor, *target_of(cursor, number, example))
         operand(cursor, "first", example)
         if not cursor.match(re.compile(rf"[ \t]*{word}(?![A-Z])", FLAGS)):
             raise Fault(f"the function must have the form {example}", start, max(1, cursor.stop - start))
@@ -204,9 +209,7 @@ def circle_data(number: int) -> Read:
 
     def read(cursor: Cursor) -> None:
         example = f"FN {number}: Q20 = CDATA Q30"
-        name, begin = numeric_target(cursor, number, example)
-        needs_equals(cursor, number, example)
-        add_target(cursor, name, begin)
+        add_target(cursor, *target_of(cursor, number, example))
         cursor.expect(_CDATA, f"FN {number} needs CDATA", f"for example {example}")
         points, begin = numeric_target(cursor, number, example)
         cursor.add("points", points, begin)
@@ -257,9 +260,7 @@ def system_read(cursor: Cursor) -> None:
     example = "FN 18: SYSREAD Q25 = ID210 NR4 IDX3"
     if not cursor.match(_READ):
         raise Fault("FN 18 needs SYSREAD", cursor.blanks(), hint=f"for example {example}")
-    name, begin = numeric_target(cursor, 18, example)
-    needs_equals(cursor, 18, example)
-    add_target(cursor, name, begin)
+    add_target(cursor, *target_of(cursor, 18, example))
     system_data(cursor, example)
 
 

@@ -21,16 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.controls.tnc_620.reading import din_reader
-from mnclab.controls.tnc_620.reading.statements import (
-    KEYWORDS_ONLY,
-    WORDS,
-    Statement,
-    cycle_parameters,
-    like_a_block,
-    passed_over,
-    recognize,
-)
+from mnclab.controls.tnc_620.reading import din_reader, statements
 from mnclab.controls.tnc_620.reading.words import FLAGS, INCH, Cursor, Fault, bounds
 from mnclab.text.alarm import KEPT, Alarm
 from mnclab.text.given import LARGEST
@@ -93,7 +84,7 @@ class _Lines:
     def __init__(self, builder: ProgramBuilder, inch: bool) -> None:
         self.builder, self.text, self.inch = builder, builder.text, inch
         self.last = -1  # the line read last
-        self.statement: Statement | None = None  # of the block that may go on
+        self.statement: statements.Statement | None = None  # of the block that may go on
         self.tilde = False  # the line before ended in ~
         self.remark = False  # and stood in a comment, which goes on
         self.over = False  # the last line of a block was joined by a ~ and has none itself
@@ -124,7 +115,7 @@ class _Lines:
         at = begin if joined else head.end()
         if joined and remark and (self.statement is None or self.statement.more is None):
             self.remark = tilde
-            passed_over(Cursor(self.builder, at, stop, self.inch), what="the comment above")
+            statements.passed_over(Cursor(self.builder, at, stop, self.inch), what="the comment above")
             return
         goes_on = self.statement is not None and self.statement.keyword == "PATTERN DEF" and not head.group(2)
         if at < stop and self.text[at] == "(" and not joined and not goes_on:
@@ -173,14 +164,16 @@ class _Lines:
     def rest_of_comment(self, line: int, at: int, stop: int) -> bool:
         """Whether the line, without a number, is passed over as what was wrapped out of the comment above it."""
         reads = self.statement.more if self.statement else None
-        if reads not in (None, cycle_parameters) or not _PROSE.match(self.text, at, stop) or not self.below_comment(line):
+        if reads not in (None, statements.cycle_parameters):
+            return False
+        if not _PROSE.match(self.text, at, stop) or not self.below_comment(line):
             return False
         try:
-            if recognize(Cursor(self.builder, at, stop, self.inch)) is not None:
+            if statements.recognize(Cursor(self.builder, at, stop, self.inch)) is not None:
                 return False
         except Fault:
             return False
-        if like_a_block(self.text, at, stop) or near(self.text[at:stop], 0.75):
+        if statements.like_a_block(self.text, at, stop) or near(self.text[at:stop], 0.75):
             return False
         self.wrapped = line
         self.builder.alarm("this line is read as the rest of the comment above", at, stop - at, WRAPPED, "warning")
@@ -193,15 +186,15 @@ class _Lines:
         if self.statement is None or self.statement.more is None or self.over or self.text[at] == "*":
             return False
         try:
-            begins = recognize(Cursor(self.builder, at, stop, self.inch))
+            begins = statements.recognize(Cursor(self.builder, at, stop, self.inch))
         except Fault:
             return False
-        return begins is None or (begins.keyword in ("Q", "QS") and self.statement.more is cycle_parameters)
+        return begins is None or (begins.keyword in ("Q", "QS") and self.statement.more is statements.cycle_parameters)
 
     def go_on(self, cursor: Cursor) -> None:
         if self.statement is None or self.faulty:
             return
-        if self.statement.more is cycle_parameters:
+        if self.statement.more is statements.cycle_parameters:
             spaced = _SPACED.match(self.text, cursor.at, cursor.stop)
             if spaced and self.tight:
                 message = f"Q{spaced.group(1)} is read as a parameter of the {self.statement.keyword} above it"
@@ -220,7 +213,7 @@ class _Lines:
             return
         begin = cursor.at
         try:
-            statement = recognize(cursor)
+            statement = statements.recognize(cursor)
         except Fault:
             self.builder.block(start, skip=skip)
             raise
@@ -277,7 +270,7 @@ def near(text: str, least: float = 0.6) -> list[str]:
     word = found.group().upper() if (found := _WORD.match(text)) else ""
     if not 0 < len(word) <= MOST_LETTERS:
         return []
-    known = [*WORDS, *KEYWORDS_ONLY]
+    known = [*statements.WORDS, *statements.KEYWORDS_ONLY]
     return get_close_matches(first, [*known, "CYCL DEF", "TCH PROBE"], 1, 0.7) or get_close_matches(word, known, 2, least)
 
 
@@ -301,7 +294,7 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
     for i in range(0, len(count), PIECE):
         here = slice(int(first[i]), int(first[min(i + PIECE, len(count))]))
         letter, heads = found.letter[here], first[i : i + PIECE][: len(count) - i] - first[i]
-        good[i : i + PIECE] &= _plain(letter, found.value[here], found.length[here], heads)
+        good[i : i + PIECE] &= _are_plain(letter, found.value[here], found.length[here], heads)
         keep = np.repeat(good[i : i + PIECE], count[i : i + PIECE])
         keep[heads] = False
         letter = letter[keep]
@@ -334,7 +327,7 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
     )
 
 
-def _plain(
+def _are_plain(
     letter: NDArray[np.uint8], value: NDArray[np.float64], length: NDArray[np.int16], heads: NDArray[np.int32]
 ) -> NDArray[np.bool_]:
     """Which lines are an L alone and plain words, each once; of their words (w,), `heads` are the first ones."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, nullcontext
 from functools import partial
 
 from mnclab.controls.tnc_620.reading.labels import program_of_cycle
@@ -35,6 +36,7 @@ def dialog(cursor: Cursor) -> str:
 _LABELS = re.compile(r'(?:(?!(?<![A-Z])Q[LRS]?\d)[^\d;~"+-]|[+-](?![ \t]*\d))*+', FLAGS)
 _SLASH = re.compile(r"[ \t]*/")
 _ROW = re.compile(r"#")
+_CENTRE = re.compile(r"I?CC", FLAGS)
 _ANY_AXIS = re.compile(r"[ \t]*([XYZUVWABC])(?![A-Z\d])", FLAGS)
 _TOLERANCE = re.compile(r"T(?![A-Z])", FLAGS)
 _STATUS = re.compile(r"Q[LR]?\d{1,4}(?!\d)", FLAGS)
@@ -67,19 +69,21 @@ def mirrored(cursor: Cursor) -> None:
         cursor.add("axes", found.group(1).upper(), begin)
 
 
-def of_two_units(cursor: Cursor, lengths: re.Pattern[str]) -> None:
-    """Words of which only those that begin so are in the unit of the program."""
-    inch = cursor.inch
+@contextmanager
+def without_unit(cursor: Cursor) -> Iterator[None]:
+    """Inside, no word is a length."""
+    inch, cursor.inch = cursor.inch, False
     try:
-        while not cursor.done:
-            cursor.inch = inch and lengths.match(cursor.text, cursor.at, cursor.stop) is not None
-            cursor.word()
+        yield
     finally:
         cursor.inch = inch
 
 
-#: 26.1: a factor for each axis, which has no unit, and the coordinates of the centre.
-factors = partial(of_two_units, lengths=re.compile(r"I?CC", FLAGS))
+def factors(cursor: Cursor) -> None:
+    """26.1: a factor for each axis, which has no unit, and the coordinates of the centre, which have that of the program."""
+    while not cursor.done:
+        with nullcontext() if _CENTRE.match(cursor.text, cursor.at, cursor.stop) else without_unit(cursor):
+            cursor.word()
 
 
 def tilting(cursor: Cursor) -> None:
@@ -90,15 +94,12 @@ def tilting(cursor: Cursor) -> None:
             name = found.group().rstrip()
             cursor.add("ABST", cursor.needed(f"{name} needs a number", begin, len(name)), begin)
         else:
-            inch, cursor.inch = cursor.inch, False
-            try:
+            with without_unit(cursor):
                 cursor.word()
-            finally:
-                cursor.inch = inch
 
 
 def after_dialog(cursor: Cursor, address: str, meaning: str) -> None:
-    """One number behind the words of the dialog and perhaps `=`."""
+    """One number behind the words of the dialog and perhaps `=`, at the end of a sub-block."""
     begin = cursor.blanks()
     dialog(cursor)
     value = cursor.needed(f"a number is missing: the {meaning}", begin, max(1, cursor.at - begin))
@@ -211,7 +212,7 @@ def numbers(cursor: Cursor, pattern: re.Pattern[str], fault: str) -> None:
 def axis_and_angle(cursor: Cursor) -> None:
     """1.1, 3.2: the probing axis, and a number behind a word of the dialog."""
     _name(cursor, _AXIS, "axis", "the probing axis stands here: X, Y or Z")
-    _last(cursor, "ANGLE", "probing angle")
+    after_dialog(cursor, "ANGLE", "probing angle")
 
 
 def way(cursor: Cursor) -> None:
@@ -225,17 +226,7 @@ def way(cursor: Cursor) -> None:
                 value = from_inches(value)
             cursor.add("ABST" if name == "DIST" else name, value, begin)
         else:
-            _last(cursor, "SYSTEM", "reference system, 0 or 1")
-
-
-def _last(cursor: Cursor, address: str, meaning: str) -> None:
-    """The number at the end of a sub-block, behind words of the dialog."""
-    begin = cursor.blanks()
-    words = dialog(cursor)
-    value = cursor.needed(f"a number is missing: the {meaning}", begin, max(1, len(words)))
-    cursor.add(address, value, begin)
-    if not cursor.done:
-        raise cursor.unexpected()
+            after_dialog(cursor, "SYSTEM", "reference system, 0 or 1")
 
 
 _PLACE = re.compile(r"([XYZ])(?=[ \t]*[-+\d.,Q])", FLAGS)
@@ -245,7 +236,7 @@ PROBE_READERS: dict[str, Read] = {
     "TCH PROBE 0.0": plane_and_sense, "TCH PROBE 0.1": _places,
     "TCH PROBE 1.1": axis_and_angle, "TCH PROBE 1.2": _places,
     "TCH PROBE 3.1": result, "TCH PROBE 3.2": axis_and_angle, "TCH PROBE 3.3": way,
-    "TCH PROBE 3.4": partial(_last, address="ERRORMODE", meaning="error mode, 0 or 1"),
+    "TCH PROBE 3.4": partial(after_dialog, address="ERRORMODE", meaning="error mode, 0 or 1"),
     "TCH PROBE 4.1": result, "TCH PROBE 4.3": way,
     "TCH PROBE 4.2": partial(numbers, pattern=_COMPONENT, fault="IX, IY and IZ stand here: the direction"),
 }  # fmt: skip
@@ -293,7 +284,7 @@ _HEADS = {
 UNSIGNED = ("Q", "F", "MB", "SYSTEM", "ERRORMODE", "CHECK", "PROBING THE TEETH")
 
 
-def written(code: str, title: str, words: Mapping[str, str]) -> Iterator[str]:
+def lines_of(code: str, title: str, words: Mapping[str, str]) -> Iterator[str]:
     """The lines of a definition, of the values that are there as they are written."""
     yield f"{code}.0 {title}"
     lines = [[a for a in ([part] if part in words else part.split()) if a in words] for part in LINES[code]]
@@ -336,7 +327,7 @@ def _value(cursor: Cursor, left: list[str]) -> None:
     cursor.add(address, value, begin)
 
 
-def obsolete_written(cycle: int, title: str, words: Mapping[str, str]) -> Iterator[str]:
+def lines_of_obsolete(cycle: int, title: str, words: Mapping[str, str]) -> Iterator[str]:
     """The lines of a definition, of the values that are there as they are written."""
     yield f"CYCL DEF {cycle}.0 {title}"
     for part, addresses in enumerate(PLACES[cycle], 1):

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mnclab.controls.tnc_620.machining import patterns
+from mnclab.controls.tnc_620.cycles import patterns
 
 PLACE = st.tuples(st.floats(-100, 100), st.floats(-100, 100))
 SPACING = st.floats(0.5, 20).flatmap(lambda d: st.sampled_from([d, -d]))

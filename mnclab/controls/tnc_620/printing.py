@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from functools import lru_cache
 from typing import NamedTuple
 
-from mnclab.controls.tnc_620.clock import time_of_day
-from mnclab.controls.tnc_620.state import memory
+from mnclab.controls.tnc_620.state import memory, time_of_day
 from mnclab.machine.control import FunctionTable, Setting, Words
 from mnclab.machine.flow import put_out
 from mnclab.machine.machine import Machine
@@ -43,7 +42,7 @@ _PLACE = re.compile(r"%(%|\"|([+-]?)(0?)(\d{0,3})(?:\.(\d{1,2}))?(L?F|L?D|I|R?S)
 _PARAMETER = re.compile(r"Q[LRS]?\d{1,4}", re.IGNORECASE | re.ASCII)
 
 
-class Fault(Exception):
+class MaskFault(Exception):
     """What is wrong in a line of the mask."""
 
     def __init__(self, message: str, line: int) -> None:
@@ -80,7 +79,7 @@ class Statement(NamedTuple):
 
 @lru_cache(maxsize=16)
 def parse(text: str) -> tuple[Statement, ...]:
-    """The statements of a mask; a Fault names the line that is none."""
+    """The statements of a mask; a MaskFault names the line that is none."""
     return tuple(_statements(text.lstrip("\ufeff")))
 
 
@@ -96,7 +95,7 @@ def _statements(text: str) -> Iterator[Statement]:
         found = _STATEMENT.match(text, at)
         assert found is not None
         if text[found.end() : found.end() + 1] != ";":
-            raise Fault("a statement ends with ;", line)
+            raise MaskFault("a statement ends with ;", line)
         yield _statement(found.group().strip(), line)
         line += text.count("\n", at, found.end())
         at = found.end() + 1
@@ -106,23 +105,23 @@ def _statement(text: str, line: int) -> Statement:
     if not text.startswith('"'):
         keyword = text.upper()
         if any(keyword.startswith(name) for name in REFUSED):
-            raise Fault(f"{keyword[:20]} is not built yet", line)
+            raise MaskFault(f"{keyword[:20]} is not built yet", line)
         if keyword not in MODES and keyword not in SPOKEN:
-            raise Fault(f"{text[:20]} is no keyword of a mask", line)
+            raise MaskFault(f"{text[:20]} is no keyword of a mask", line)
         return Statement(line, keyword)
     found = _FORMAT.match(text)
     assert found is not None
     parts = tuple(_parts(found.group(1), line))
     rest = text[found.end() :].strip()
     if rest and not rest.startswith(","):
-        raise Fault("a comma stands between the text and what is put out in it", line)
+        raise MaskFault("a comma stands between the text and what is put out in it", line)
     values = tuple(_value(each.strip(), line) for each in rest.split(",")[1:])
     fields = [part for part in parts if isinstance(part, Field)]
     if len(values) != len(fields):
-        raise Fault(f"{len(fields)} places in the text, and {len(values)} values", line)
+        raise MaskFault(f"{len(fields)} places in the text, and {len(values)} values", line)
     for field, value in zip(fields, values, strict=True):
         if (field.kind == "S") != (value.startswith("QS") or value == "CALL_PATH"):
-            raise Fault(f"%{field.kind} does not put out {value}: %S is for texts, %F and %D are for numbers", line)
+            raise MaskFault(f"%{field.kind} does not put out {value}: %S is for texts, %F and %D are for numbers", line)
     return Statement(line, "", parts, values)
 
 
@@ -133,13 +132,13 @@ def _parts(text: str, line: int) -> Iterator[str | Field]:
         at = found.end()
         whole, align, zeros, width, decimals, kind, escaped, alone = found.groups()
         if alone:
-            raise Fault(f"{text[found.start() : found.start() + 6]} is no format", line)
+            raise MaskFault(f"{text[found.start() : found.start() + 6]} is no format", line)
         if escaped:
             yield "\n" if escaped == "n" else escaped
         elif kind is None:
             yield whole
         elif int(width or 0) > WIDEST:
-            raise Fault(f"a field has at most {WIDEST} characters", line)
+            raise MaskFault(f"a field has at most {WIDEST} characters", line)
         else:
             kind = {"I": "D"}.get(kind[-1].upper(), kind[-1].upper())
             yield Field(kind, int(width or 0), int(decimals or 6), align == "-", bool(zeros))
@@ -151,9 +150,9 @@ def _value(text: str, line: int) -> str:
     if name in TIMES or name == "CALL_PATH":
         return name
     if name in REFUSED:
-        raise Fault(f"{name} is not built yet", line)
+        raise MaskFault(f"{name} is not built yet", line)
     if not _PARAMETER.fullmatch(name):
-        raise Fault(f"{text[:20] or 'nothing'} cannot be put out", line)
+        raise MaskFault(f"{text[:20] or 'nothing'} cannot be put out", line)
     kind = name.rstrip("0123456789")
     return f"{kind}{int(name[len(kind) :])}"
 
@@ -193,7 +192,7 @@ def print_formatted(m: Machine, words: Words) -> None:
         return
     try:
         statements = parse(text)
-    except Fault as fault:
+    except MaskFault as fault:
         m.alarm(f"FN 16: mask {name}, {fault}", words["mask"])
     lines = "".join(line for statement in spoken(m, statements) for line in put(m, statement, words["mask"]))
     keywords, key = {statement.keyword for statement in statements}, output.lower()

@@ -35,7 +35,7 @@ FIELD = re.compile(r"\S+")
 Table = TypeVar("Table")
 
 
-class Fault(Exception):
+class TableFault(Exception):
     """What is wrong in a line of the file."""
 
     def __init__(self, message: str, line: int) -> None:
@@ -57,7 +57,7 @@ def read_table(
     text = found(m, name, statement, m.span_of(word), kind).text
     try:
         return name, parse(text)
-    except Fault as fault:
+    except TableFault as fault:
         m.alarm(f"{statement} {name}, {fault}", word)
 
 
@@ -69,7 +69,7 @@ class Lines:
         head, names = (*self.lines[:2], "", "")[:2]
         units = [UNITS[part] for part in head.upper().split() if part in UNITS]
         if len(units) != 1:
-            raise Fault("the first line must say MM or INCH", 1)
+            raise TableFault("the first line must say MM or INCH", 1)
         self.unit, self.columns = units[0], {name.group().upper(): name.start() for name in FIELD.finditer(names)}
 
     def rows(self, comment: str = "") -> Iterator[tuple[int, dict[str, str]]]:
@@ -83,7 +83,7 @@ class Lines:
             if line.strip():
                 fields = self.fields(line, number, comment)
                 yield number, {name: field for name, field in fields.items() if field != EMPTY}
-        raise Fault("[END] is missing", len(self.lines) + 1)
+        raise TableFault("[END] is missing", len(self.lines) + 1)
 
     def fields(self, line: str, number: int, comment: str) -> dict[str, str]:
         named, found = {name: at for name, at in self.columns.items() if name != comment}, FIELD.findall(line)
@@ -97,14 +97,14 @@ class Lines:
                 break
             under = [name for name, start in named.items() if start <= field.start()]
             if not under or under[-1] in row:
-                raise Fault(f"{field.group()} stands under no column of its own", number)
+                raise TableFault(f"{field.group()} stands under no column of its own", number)
             row[under[-1]] = field.group()
         return row
 
 
 def value(field: str, name: str, number: int) -> float:
     if not NUMBER.fullmatch(field) or abs(result := float(field.replace(",", "."))) >= LARGEST:
-        raise Fault(f"{name} must be a number, got {field}", number)
+        raise TableFault(f"{name} must be a number, got {field}", number)
     return result
 
 
@@ -143,21 +143,21 @@ def parse_datums(text: str) -> Rows:
     lines = Lines(text)
     for name in lines.columns:
         if name not in ("D", "DOC", *LINEAR, *ROTARY):
-            raise Fault(f"the column {name} is not built yet" if name in "UVW" else f"{name} is no column", 2)
+            raise TableFault(f"the column {name} is not built yet" if name in "UVW" else f"{name} is no column", 2)
     if "D" not in lines.columns:
-        raise Fault("the column D is missing", 2)
+        raise TableFault("the column D is missing", 2)
     unit = dict.fromkeys(LINEAR, lines.unit)
     rows: dict[int, Mapping[str, float]] = {}
     for number, fields in lines.rows("DOC"):
         values = {name: value(field, name, number) for name, field in fields.items()}
         for name, field in fields.items():
             if abs(values[name]) > 99999.9999:
-                raise Fault(f"{name} must be at least -99999.9999 and at most 99999.9999, got {field}", number)
+                raise TableFault(f"{name} must be at least -99999.9999 and at most 99999.9999, got {field}", number)
         row = values.pop("D", -1.0)
         if row != int(row) or not 0 <= row <= 9999:
-            raise Fault("the column D must be a whole number from 0 to 9999", number)
+            raise TableFault("the column D must be a whole number from 0 to 9999", number)
         if row in rows:
-            raise Fault(f"row {int(row)} is there twice", number)
+            raise TableFault(f"row {int(row)} is there twice", number)
         rows[int(row)] = {name.lower(): found * unit.get(name, 1.0) for name, found in values.items()}
     return rows
 
@@ -180,7 +180,7 @@ def parse_points(text: str) -> PointTable:
     lines = Lines(text)
     for axis in "XY":
         if axis not in lines.columns:
-            raise Fault(f"the column {axis} is missing", 2)
+            raise TableFault(f"the column {axis} is missing", 2)
     table = np.array([point(row, number) for number, row in lines.rows()], dtype=np.float64).reshape(-1, 5)
     return PointTable(table[:, :3] * lines.unit, table[:, 3] != 0, table[:, 4] * lines.unit)
 
@@ -189,10 +189,10 @@ def point(row: dict[str, str], number: int) -> tuple[float, ...]:
     """x, y, z, hidden, clearance of a row."""
     for axis in "XY":
         if axis not in row:
-            raise Fault(f"{axis} is empty", number)
+            raise TableFault(f"{axis} is empty", number)
     hidden = row.get("FADE", "").upper()
     if hidden not in HIDDEN:
-        raise Fault(f"FADE must be Y or N, got {hidden}", number)
+        raise TableFault(f"FADE must be Y or N, got {hidden}", number)
     x, y, z = (value(row.get(axis, "0"), axis, number) for axis in "XYZ")
     clearance = value(row["CLEARANCE"], "CLEARANCE", number) if "CLEARANCE" in row else math.nan
     return x, y, z, float(HIDDEN[hidden]), clearance

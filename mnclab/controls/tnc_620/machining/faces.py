@@ -1,4 +1,4 @@
-"""Facing a rectangle some sides of which are walls: where lines lie and end, and the way along the walls.
+"""Facing: a rectangle some sides of which are walls, where lines lie and end and the way along the walls; a ruled surface.
 
     open side: lines end as far outside as they may        wall: the tool centre stays c = R + allowance in front of it
 
@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mnclab.geometry.contours import QUARTER, Contour
-from mnclab.geometry.curves import left
+from mnclab.geometry.curves import Floats, left
 from mnclab.machining.milling.clearing import begin, numbered
 from mnclab.machining.milling.faces import rows
 from mnclab.machining.milling.pocket_steps import onto
@@ -25,7 +25,7 @@ Place = tuple[float, float]
 SIDES = (-2, 1, 2, -1)  # below, right, above, left: -2 is the side where Y is least, 1 that where X is greatest
 
 
-class Line(NamedTuple):
+class FacingLine(NamedTuple):
     """One line, and whether its ends lie outside, in the clear."""
 
     begin: Place
@@ -51,7 +51,7 @@ class Walled:
     def lines(
         self, radius: float, stepover: float, *, axis: int, ahead: int, across: int, outside: float, over: float,
         first: float, allowance: float = 0.0, one_way: bool = False,
-    ) -> tuple[Line, ...]:  # fmt: skip
+    ) -> tuple[FacingLine, ...]:  # fmt: skip
         """Lines along X (`axis` 0) or Y (1) in the sense `ahead`, one after the other in the sense `across`.
 
         They begin `outside` the rectangle and end `over` its edge; those that turn round begin `over` it too. The first
@@ -72,7 +72,7 @@ class Walled:
             ends = [(-near, not near_wall and (over >= outside or not turned)), (far, not far_wall and over >= outside)]
             (a, a_out), (b, b_out) = ends[::-1] if turned and k % 2 else ends
             one, other = ((v, ahead * a), (v, ahead * b)) if axis else ((ahead * a, v), (ahead * b, v))
-            found.append(Line(one, other, a_out, b_out))
+            found.append(FacingLine(one, other, a_out, b_out))
         return tuple(found)
 
     def along(self, radius: float, *, outside: Place, allowance: float = 0.0) -> tuple[Contour, ...]:
@@ -124,7 +124,7 @@ AHEAD = {side: np.array(way) for side, way in zip(SIDES, ((1, 0), (0, 1), (-1, 0
 # Facing between walls step by step: over every level, and then along the walls. Lengths in mm, feeds in mm/min.
 # Each level ends with a lift and the way back to its start outside.
 
-class Level(NamedTuple):
+class FacingLevel(NamedTuple):
     """One level: where it is, what stood above it, and the feed along lines and wherever material may be."""
 
     name: str
@@ -141,19 +141,19 @@ class Passes(NamedTuple):
 
     start: Place
     outside: bool
-    lines: tuple[Line, ...] = ()
+    lines: tuple[FacingLine, ...] = ()
     one_way: bool = False
     walls: tuple[Contour, ...] = ()
     spiral: Contour | None = None
 
-    def scrapes(self, levels: Sequence[Level], lift: float) -> float:
+    def scrapes(self, levels: Sequence[FacingLevel], lift: float) -> float:
         """How far a line that still stands reaches above the rapid way back over it, mm; 0 where none does."""
         if not self.one_way or not any(line.begins_outside for line in self.lines[1:]):
             return 0.0
         return max(0.0, max((abs(each.top - each.level) for each in levels), default=0.0) - lift)
 
 
-def face_levels(passes: Passes, levels: Sequence[Level], lift: float, position: float) -> Iterator[Step]:
+def face_levels(passes: Passes, levels: Sequence[FacingLevel], lift: float, position: float) -> Iterator[Step]:
     """Every level; `lift` is the way up after it, `position` the feed through the air at depth."""
     for k, at in enumerate(levels):
         yield Go(f"{at.name}, down", at.level, position if k and passes.outside else at.feed)
@@ -170,7 +170,7 @@ def face_levels(passes: Passes, levels: Sequence[Level], lift: float, position: 
         yield Go(f"{at.name}, back to the start", x=passes.start[0], y=passes.start[1])
 
 
-def _over_lines(passes: Passes, at: Level, lift: float, position: float) -> Iterator[Step]:
+def _over_lines(passes: Passes, at: FacingLevel, lift: float, position: float) -> Iterator[Step]:
     """From the first line over all of them; one way, with a lift and straight back, over all that stands to a wall."""
     before = None
     for label, line in zip(numbered("line", len(passes.lines)), passes.lines, strict=True):
@@ -198,3 +198,35 @@ def finish_along(
             yield Along(name, way, feed)
     if ways:
         yield Go("side finishing, lift", above)
+
+
+# A ruled surface between two lines: straight passes from the one to the other. Lengths in mm, feeds in mm/min.
+#
+#     4 ────────► 3        passes i = 0 … n - 1 from  P1 + (P4 - P1)·i/(n - 1)  to  P2 + (P3 - P2)·i/(n - 1)
+#     1 ────────► 2
+
+Point = Sequence[float]
+
+
+def passes(first: Point, second: Point, third: Point, fourth: Point, count: int) -> tuple[Floats, Floats]:
+    """Where the passes begin and where they end, `(count, 3)` each."""
+    share = np.linspace(0, 1, count)[:, None]
+    one, two, three, four = (np.asarray(point, dtype=float) for point in (first, second, third, fourth))
+    return one + (four - one) * share, two + (three - two) * share
+
+
+def mill_ruled(begins: Floats, ends: Floats, lift: float, feed: float, slow: float) -> Iterator[Step]:
+    """Along all passes the same way, the first one and the way to it at the feed `slow`; back at rapid, `lift` over the pass."""
+    above = None
+    for k, label in enumerate(numbered("line", len(begins))):
+        x, y, z = begins[k].tolist()
+        if above is not None:
+            bx, by, bz = begins[k - 1].tolist()
+            yield Go(f"{label}, lift", above)
+            yield Go(f"{label}, back", bz + lift, RAPID, bx, by)
+            yield Go(f"{label}, down", bz, feed)
+        yield Go(f"{label}, to its begin", z, feed if k else slow, x, y)
+        x, y, z = ends[k].tolist()
+        yield Go(label, z, feed if k else slow, x, y)
+        above = z + lift
+    yield Go("retract", float(max(begins[:, 2].max(), ends[:, 2].max())) + lift)

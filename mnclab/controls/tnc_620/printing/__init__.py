@@ -1,1 +1,0 @@
-"""Texts that a program writes, FN 15 and FN 16."""

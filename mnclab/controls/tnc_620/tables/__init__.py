@@ -1,1 +1,0 @@
-"""Datum and point tables of the TNC, as files."""
