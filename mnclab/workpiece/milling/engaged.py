@@ -22,8 +22,7 @@ import numpy as np
 from mnclab.path.profile.motions import along
 from mnclab.path.toolpath import Array, Index, Kind
 from mnclab.workpiece.ahead import Ahead
-from mnclab.workpiece.milling.cutters import edge_height
-from mnclab.workpiece.milling.moves import Moves, moves_of
+from mnclab.workpiece.milling.moves import Moves, edge_height, moves_of
 from mnclab.workpiece.milling.sweep import Points, depths
 
 if TYPE_CHECKING:

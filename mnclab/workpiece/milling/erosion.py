@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.path.toolpath import Array, Index, Mask
-from mnclab.workpiece.milling.cutters import Cutter, edge_height
-from mnclab.workpiece.milling.moves import STILL, Moves
+from mnclab.workpiece.milling.moves import STILL, Cutter, Moves, edge_height
 from mnclab.workpiece.milling.raster import Raster
 from mnclab.workpiece.milling.sweep import Sweep
 from mnclab.workpiece.milling.swept import left_by

@@ -15,13 +15,13 @@ from mnclab.text.given import check_number, choice, shown
 from mnclab.workpiece.ahead import Ahead
 from mnclab.workpiece.blank import Blank, Revolved
 from mnclab.workpiece.clamped import Clamped, Placement, from_side
-from mnclab.workpiece.creases import creases
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling import engaged, volumes
 from mnclab.workpiece.milling.erosion import ERROR, ManyMoves
 from mnclab.workpiece.milling.moves import CHORD, STILL, Moves, moves_of
 from mnclab.workpiece.milling.raster import NOISE, Raster
 from mnclab.workpiece.milling.sections import Shadow, level, traced, upright
+from mnclab.workpiece.milling.solid import creases
 from mnclab.workpiece.milling.sweep import Mapped, Sweep
 from mnclab.workpiece.milling.touched import Touched
 from mnclab.workpiece.part import Part

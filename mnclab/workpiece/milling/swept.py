@@ -7,8 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mnclab.path.toolpath import Array, Index, Mask
-from mnclab.workpiece.milling.cutters import Cutter, edge_height
-from mnclab.workpiece.milling.moves import STILL, Moves
+from mnclab.workpiece.milling.moves import STILL, Cutter, Moves, edge_height
 from mnclab.workpiece.outcome import spend
 
 # Exact: how high arcs about Z that go up or down leave the material at points.

@@ -14,8 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from mnclab.path.toolpath import Array, Index, Mask
-from mnclab.workpiece.milling.cutters import edge_height
-from mnclab.workpiece.milling.moves import Moves
+from mnclab.workpiece.milling.moves import Moves, edge_height
 from mnclab.workpiece.milling.raster import NOISE, chunks, near
 from mnclab.workpiece.milling.sweep import Sweep
 from mnclab.workpiece.milling.swept import left_by

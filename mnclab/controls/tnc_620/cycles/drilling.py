@@ -32,7 +32,7 @@ from mnclab.machine.coordinates import MILLS, SHIFTS, is_round, tool, with_the_s
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import DRIFT, advanced_stops, infeeds
-from mnclab.machining.holes.drilling import (
+from mnclab.machining.holes import (
     Guided,
     back_bore,
     back_to_axis,

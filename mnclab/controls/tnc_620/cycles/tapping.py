@@ -12,7 +12,7 @@ from mnclab.machine.coordinates import TAPS
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
-from mnclab.machining.holes.drilling import tap
+from mnclab.machining.holes import tap
 from mnclab.machining.steps import Go, Spin, Step, Write
 
 CYCLES = CycleTable()

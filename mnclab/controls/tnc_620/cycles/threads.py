@@ -1,6 +1,6 @@
 """Thread milling (chapter 5.5 to 5.10): cycles 262, 263 and 267; 264 and 265, which begin in solid material.
 
-The geometry is that of `machining.holes.thread_milling`. Readings where the manual is silent: feeds of the thread,
+The geometry is that of `tnc_620.machining.thread_milling`. Readings where the manual is silent: feeds of the thread,
 that of the approach among them, are those of the cutting edge; a depth of 0 leaves its step out, and a cycle whose depths
 are all 0 is refused where it has several; 262 is not executed, as its manual says.
 """
@@ -28,7 +28,7 @@ from mnclab.machine.coordinates import MILLS_THREADS
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import MOST, infeeds
-from mnclab.machining.holes.drilling import drill
+from mnclab.machining.holes import drill
 from mnclab.machining.steps import Go, Say, Step
 
 CYCLES = CycleTable()

@@ -19,7 +19,7 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
 from mnclab.machine.touching import PROBES, Contact, unfit
 from mnclab.machining.probing import fits
-from mnclab.machining.probing.found import Circle, Rectangle
+from mnclab.machining.probing.found import Circle, Rectangle, sketch
 from mnclab.machining.probing.sequences import (
     ROUND,
     Approach,
@@ -32,7 +32,6 @@ from mnclab.machining.probing.sequences import (
     results,
     sides,
 )
-from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure, Step, Write
 from mnclab.text.alarm import Alarm
 

@@ -19,9 +19,8 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import REWORK, SCRAP
 from mnclab.machine.touching import Contact
 from mnclab.machining.probing.fits import angle, plane, reduced
-from mnclab.machining.probing.found import Circle, axes_on, spatial_angles
+from mnclab.machining.probing.found import Circle, axes_on, sketch, spatial_angles
 from mnclab.machining.probing.sequences import Aim, between, in_one_axis, in_plane
-from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Say
 
 # Inspection of angles, coordinates and planes (TNC 620, 16.4, 16.11, 16.13).
