@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mnclab.geometry.curves import Curve, Floats, at_angle, cross, left, length_of, turned, unit_of
+from mnclab.geometry.curves import Curve, Curves, Floats, at_angle, cross, left, length_of, turned, whole_curves
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, shown, whole
 
@@ -116,8 +116,8 @@ class Contour:
     @property
     def curves(self) -> list[Curve]:
         """The whole lines and circles on which the m elements lie."""
-        rows = zip(self.starts, unit_of(self.ends - self.starts), self.centres, self.radii, strict=True)
-        return [Curve(s, u, r) if np.isinf(r) else Curve(c, u, r) for s, u, c, r in rows]
+        radii = np.where(np.isinf(self.radii), np.nan, self.radii)
+        return whole_curves(Curves(self.starts, self.ends, self.centres, radii, self.sweeps))
 
     def tangents(self) -> tuple[Floats, Floats]:
         """Unit tangents at the start and at the end of every element, each `(m, 2)`."""

@@ -259,6 +259,12 @@ def gap(a: Curves, b: Curves) -> Floats:
     return least
 
 
+def whole_curves(curve: Curves) -> list[Curve]:
+    """The whole lines and circles on which curves lie, one by one."""
+    columns = zip(curve.start, unit_of(curve.end - curve.start), curve.centre, curve.r, strict=True)
+    return [Curve(s, u, np.inf) if np.isnan(r) else Curve(c, u, r) for s, u, c, r in columns]
+
+
 def part(curve: Curves, begin: Floats, end: Floats) -> Curves:
     """What lies between two shares (n,) of curves, 0 at their start and 1 at their end."""
     travel, turn = curve.end - curve.start, np.where(curve.arc, curve.sweep, 0.0)
@@ -276,6 +282,44 @@ def crossings(a: Curves, b: Curves) -> tuple[Floats, Floats]:
     for p in found:
         p[~(on(p, a) & on(p, b))] = np.nan
     return found
+
+
+def at_levels(curve: Curves, level: Floats, axis: int = 1) -> tuple[NDArray[np.int64], Floats]:
+    """Where curves cross levels (k,) of a coordinate: the number (m,) of the level, and the other coordinate (m,) there.
+
+    Half open: a curve meets a level that it comes down to, or begins at on its way down, and none that it rises from. So a
+    closed outline meets every level an even number of times, also at its corners; `axis` is that of the levels, 0 or 1.
+    """
+    across, n = 1 - axis, len(curve.r)
+    # an arc is parted at its highest and its lowest place, which lie half a turn from each other: three pieces at most
+    spoke, sense = curve.start - curve.centre, np.sign(curve.sweep) * (1 if axis else -1)
+    first, whole = np.arctan2(spoke[:, axis], spoke[:, across]), np.abs(curve.sweep)
+    top = np.where(curve.arc, np.mod((np.pi / 2 - first) * sense, np.pi), 0.0)
+    cut = np.stack([np.zeros(n), np.minimum(top, whole), np.minimum(top + np.pi, whole), whole])
+    height = curve.centre[:, axis] + curve.r * np.sin(first + sense * cut)
+    height = np.where(cut < whole, height, curve.end[:, axis])  # where pieces meet, and at the ends, to the last bit
+    height = np.where(cut > 0, height, curve.start[:, axis])
+    height[-1] = curve.end[:, axis]  # a line is its last piece alone
+    side = np.sign(np.cos(first + sense * (cut[1:] + cut[:-1]) / 2)).ravel()
+    low, high = np.minimum(height[1:], height[:-1]).ravel(), np.maximum(height[1:], height[:-1]).ravel()
+    # of the levels in rising order each piece meets those from one number to another
+    order = np.argsort(level, kind="stable")
+    begin, end = (np.searchsorted(level[order], ends, "right") for ends in (low, high))
+    piece = np.repeat(np.arange(len(low)), end - begin)
+    rank = np.arange(len(piece)) - np.repeat(np.cumsum(end - begin) - (end - begin), end - begin)
+    number, of = order[begin[piece] + rank], piece % n
+    off = level[number] - curve.centre[of, axis]
+    on_arc = curve.centre[of, across] + side[piece] * np.sqrt(np.maximum(curve.r[of] ** 2 - off**2, 0.0))
+    travel = (curve.end - curve.start)[of]
+    share = (level[number] - curve.start[of, axis]) / np.where(travel[:, axis] != 0, travel[:, axis], 1.0)
+    return number, np.where(curve.arc[of], on_arc, curve.start[of, across] + share * travel[:, across])
+
+
+def crossed(curve: Curves, level: Floats, axis: int = 1) -> list[Floats]:
+    """The same level by level, each in rising order."""
+    number, place = at_levels(curve, level, axis)
+    order = np.lexsort((place, number))
+    return np.split(place[order], np.searchsorted(number[order], np.arange(1, len(level))))[: len(level)]
 
 
 def _whole(curve: Curves) -> Element:

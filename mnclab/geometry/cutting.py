@@ -65,13 +65,14 @@ class Outlines(NamedTuple):
 
 def outlines_of(loops: Sequence[Contour]) -> Outlines:
     """Closed contours as one list of elements."""
-    radii = np.concatenate([each.radii for each in loops])
-    curves = Curves(
-        np.concatenate([each.starts for each in loops]), np.concatenate([each.ends for each in loops]),
-        np.concatenate([each.centres for each in loops]), np.where(np.isinf(radii), np.nan, radii),
-        np.concatenate([each.sweeps for each in loops]),
-    )  # fmt: skip
-    return Outlines(curves, np.repeat(np.arange(len(loops)), [len(each.points) for each in loops]))
+    none, sizes = np.zeros((0, 2)), np.array([len(each.points) for each in loops], dtype=np.intp)
+    start, end = np.vstack([none, *(each.points for each in loops)]), np.vstack([none, *(each.ends for each in loops)])
+    bulge = np.concatenate([none[:, 0], *(each.bulge for each in loops)])
+    b = np.where(bulge == 0, np.nan, bulge)  # as `Contour` has radii and centres, of a line nan
+    centre = (start + end) / 2 + left(end - start) * ((1 - b * b) / (4 * b))[:, None]
+    r = length_of(end - start) * (1 + b * b) / (4 * np.abs(b))
+    curves = Curves(start, end, centre, r, 4 * np.arctan(bulge))
+    return Outlines(curves, np.repeat(np.arange(len(loops)), sizes))
 
 
 def lengths(curves: Curves) -> Floats:

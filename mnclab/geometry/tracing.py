@@ -254,15 +254,16 @@ def inset_by_bands(loops: Sequence[Contour], distance: float) -> tuple[Contour, 
     return drawing.traced(change(drawing.area(loops, 0), strip, grid_size=GRID))
 
 
-def bands_beside(loop: Contour, width: float) -> Iterator[Contour]:
-    """Bands along the left side of each element, and fans where the loop turns to the right."""
-    begin, end = loop.tangents()
-    first, last = loop.starts + width * left(begin), loop.ends + width * left(end)
-    turns, bulge = loop.turns(), loop.bulge
+def bands_beside(line: Contour, width: float) -> Iterator[Contour]:
+    """Bands along the left side of each element, and fans where the line turns to the right."""
+    begin, end = line.tangents()
+    first, last = line.starts + width * left(begin), line.ends + width * left(end)
+    turns, bulge = line.turns(), line.bulge[: len(line.starts)]
     smooth = np.abs(turns) <= SMOOTH
+    smooth[0] &= line.closed
     first[smooth] = np.roll(last, 1, axis=0)[smooth]  # no gap as wide as a rounding error
-    to_centre = np.where(bulge > 0, loop.radii, np.inf)
-    for i, (start, stop, centre) in enumerate(zip(loop.starts, loop.ends, loop.centres, strict=True)):
+    to_centre = np.where(bulge > 0, line.radii, np.inf)
+    for i, (start, stop, centre) in enumerate(zip(line.starts, line.ends, line.centres, strict=True)):
         if to_centre[i] <= width + SAME:
             yield Contour([start, stop, centre], [bulge[i], 0.0, 0.0])
         else:

@@ -29,6 +29,7 @@ from mnclab.machining.milling.pocket_steps import (
     circular,
     mill_pocket,
     mill_slot,
+    rectangular,
     straight,
     way_down,
 )
