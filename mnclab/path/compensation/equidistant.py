@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.geometry.curves import Curves, beside, cross, dot, foot, gap, left, meet, meetings, part, share
+from mnclab.geometry.curves import Curves, beside, cross, dot, foot, gap, left, length_of, meet, meetings, part, share
 from mnclab.path.compensation.elements import ACUTE_TURN, CLEAR, CUSP, ROUND, STRAIGHT, TANGENT, Compensation, Elements
 from mnclab.path.toolpath import Array, Index, Mask, Rule
 
@@ -262,6 +262,17 @@ class Equidistant:
         self._remain(slice(n - 1, n))
         free = np.flatnonzero(~el.wall)
         self.sweep[free] = el.sweep[free]
+
+    def rows(self, k: Index) -> Curves:
+        """The rows of the tool centre beside elements k (m,)."""
+        el = self.el
+        r = np.abs(el.r[k] - el.s[k] * np.sign(el.sweep[k]) * el.R[k])
+        return Curves(self.begin[k], self.end[k], el.centre[k], np.where(el.arc[k], r, np.nan), self.sweep[k])
+
+    def arcs(self, k: Index) -> Curves:
+        """The arcs about corners that lead to elements k (m,)."""
+        start, corner = self.end[k - 1], self.el.end[k - 1]
+        return Curves(start, self.begin[k], corner, length_of(start - corner), self.turn[k])
 
     def looking_ahead(self) -> Equidistant:
         """The same for rules that look at the whole contour: what they find to be a gouge is more, the path is the same."""

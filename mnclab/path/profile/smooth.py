@@ -27,9 +27,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.path.limits import Limits
+from mnclab.path.places import Bends, divided
 from mnclab.path.profile import ramps
 from mnclab.path.profile.lookahead import reachable, running_sum
-from mnclab.path.profile.motions import TANGENT, TURNING, Bends, Rows, allowed, divided
+from mnclab.path.profile.motions import TANGENT, TURNING, Rows, allowed
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 
 SHARE = 0.5  # of a ramp from rest to the greatest speed: the least length of a group of short rows

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.path.profile.motions import along
+from mnclab.path.places import along
 from mnclab.path.toolpath import Array, Index, Kind
 from mnclab.workpiece.ahead import Ahead
 from mnclab.workpiece.milling.moves import Moves, edge_height, moves_of
@@ -173,13 +173,12 @@ def ceilings(part: Milled) -> Array:
     its rim then: so of a pocket in layers each has the one above it as its ceiling.
     """
     moves, highest, seen = part.moves, float(part.bounds[1, 2]), dict[bytes, float]()
-    shape = moves.radius, moves.flat, moves.corner, moves.slope
-    columns = [moves.start[:, :2], moves.end[:, :2], moves.centre, np.stack([moves.sweep, *shape], axis=1)]
+    columns = [moves.start[:, :2], moves.end[:, :2], moves.centre, np.stack([moves.sweep, *moves.shape], axis=1)]
     way = np.rint(np.concatenate(columns, axis=1) / SAME).astype(np.int64)
     back = (way[:, 0] > way[:, 2]) | ((way[:, 0] == way[:, 2]) & (way[:, 1] > way[:, 3]))
     way[back, :4], way[back, 6] = way[back][:, [2, 3, 0, 1]], -way[back, 6]
     found = np.full(len(moves), highest)
-    rim = np.maximum(moves.start[:, 2], moves.end[:, 2]) + edge_height(*shape)
+    rim = np.maximum(moves.start[:, 2], moves.end[:, 2]) + edge_height(*moves.shape)
     for k, key in enumerate(map(bytes, way)):
         found[k] = seen.get(key, highest)
         seen[key] = min(found[k], rim[k])

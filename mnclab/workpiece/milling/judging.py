@@ -90,43 +90,29 @@ def under(move: Moves, radius: float, bounds: Array, step: float, most: int) -> 
     """
     radius = max(radius - RIM, 0.0)
     first, last = _over(move, radius, bounds)
-    way = float(_length(move)) * (last - first)
+    way = float(move.ways[0]) * (last - first)
     apart = max(step, ((way * 2 * radius + 3 * radius * radius) / most) ** 0.5)
-    there = _disc(tips(move, np.array([last])), radius, int(np.clip(np.ceil(radius / apart), 2, RINGS)))
+    there = _disc(_tips(move, np.array([last])), radius, int(np.clip(np.ceil(radius / apart), 2, RINGS)))
     if way <= STILL:
         return there[:, 0], there[:, 1]
-    here = _disc(tips(move, np.array([first])), radius, 1)
+    here = _disc(_tips(move, np.array([first])), radius, 1)
     share = np.linspace(first, last, min(int(way / apart) + 2, STATIONS))
     lanes = np.linspace(-radius, radius, max(2 * int(np.ceil(radius / apart)), LANES) + 1)
     lanes = lanes[np.argsort(np.abs(lanes), kind="stable")]  # of places that are as deep the axis is named
-    between = tips(move, share)[:, None, :2] + lanes[:, None] * _aside(move, share)[:, None]
+    between = _tips(move, share)[:, None, :2] + lanes[:, None] * _aside(move, share)[:, None]
     found = np.concatenate([here, between.reshape(-1, 2), there])
     return found[:, 0], found[:, 1]
 
 
-def tips(move: Moves, share: Array) -> Array:
+def _tips(move: Moves, share: Array) -> Array:
     """Where the tip of one move is (n, 3), 0 at its start and 1 at its end."""
-    start, end = move.start[0], move.end[0]
-    places = start + np.multiply.outer(share, end - start)
-    if move.arc[0]:
-        centre, spoke = move.centre[0], start[:2] - move.centre[0]
-        cos, sin = np.cos(move.sweep[0] * share), np.sin(move.sweep[0] * share)
-        places[:, 0] = centre[0] + spoke[0] * cos - spoke[1] * sin
-        places[:, 1] = centre[1] + spoke[0] * sin + spoke[1] * cos
-    return np.asarray(places)
-
-
-def _length(move: Moves) -> float:
-    """Of the way in the plane, mm."""
-    if move.arc[0]:
-        return float(np.hypot(*(move.start[0, :2] - move.centre[0])) * abs(move.sweep[0]))
-    return float(np.hypot(*(move.end[0] - move.start[0])[:2]))
+    return move.tips(np.zeros(len(share), dtype=np.int64), share)
 
 
 def _aside(move: Moves, share: Array) -> Array:
     """The unit vector across the way (n, 2)."""
     if move.arc[0]:
-        out = tips(move, share)[:, :2] - move.centre[0]
+        out = _tips(move, share)[:, :2] - move.centre[0]
         return np.asarray(out / np.maximum(np.hypot(*out.T), STILL)[:, None])
     dx, dy = (move.end[0] - move.start[0])[:2]
     return np.broadcast_to(np.array([-dy, dx]) / np.hypot(dx, dy), (len(share), 2))

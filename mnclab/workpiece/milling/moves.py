@@ -93,6 +93,41 @@ class Moves:
         return len(self.row) > 1 and bool((np.diff(self.row) == 0).any())
 
     @property
+    def shape(self) -> tuple[Array, Array, Array, Array]:
+        """The columns of the cutters: radius, flat, corner, slope, each (k,)."""
+        return self.radius, self.flat, self.corner, self.slope
+
+    def by_cutter(self, which: Index) -> list[tuple[Cutter, Index]]:
+        """Some moves by the shape of their cutters."""
+        columns = [column[which] for column in self.shape]
+        if len(which) and all((column == column[0]).all() for column in columns):
+            return [(Cutter(*(float(column[0]) for column in columns)), which)]
+        shapes, shape = np.unique(np.stack(columns, axis=1), axis=0, return_inverse=True)
+        return [(Cutter(*each), which[shape.reshape(-1) == k]) for k, each in enumerate(shapes.tolist())]
+
+    @property
+    def ways(self) -> Array:
+        """How far each move goes in the plane (k,), mm."""
+        way = self.end - self.start
+        flat = np.hypot(way[:, 0], way[:, 1])
+        if self.arc.any():
+            spoke = self.start[self.arc, :2] - self.centre[self.arc]
+            flat[self.arc] = np.hypot(spoke[:, 0], spoke[:, 1]) * np.abs(self.sweep[self.arc])
+        return flat
+
+    def tips(self, which: Index, share: Array) -> Array:
+        """Where the tips of moves `which` (m,) are (m, 3) after shares (m,) of their ways."""
+        places = self.start[which] + (self.end - self.start)[which] * share[:, None]
+        on = self.arc[which]
+        if on.any():
+            arc = which[on]
+            spoke, angle = self.start[arc, :2] - self.centre[arc], self.sweep[arc] * share[on]
+            cos, sin = np.cos(angle), np.sin(angle)
+            places[on, 0] = self.centre[arc, 0] + spoke[:, 0] * cos - spoke[:, 1] * sin
+            places[on, 1] = self.centre[arc, 1] + spoke[:, 0] * sin + spoke[:, 1] * cos
+        return np.asarray(places)
+
+    @property
     def low(self) -> Array:
         """The lowest place of each tip (k,)."""
         return np.minimum(self.start[:, 2], self.end[:, 2])
@@ -165,18 +200,7 @@ def cut_up(moves: Moves, pieces: Index) -> Moves:
     count = pieces[owner]
     share = (np.arange(len(owner)) - first) / count
     found = moves[owner]
-    start, end = _tips(found, share), _tips(found, share + 1 / count)
+    start, end = moves.tips(owner, share), moves.tips(owner, share + 1 / count)
     last = share + 1 / count > 1 - 1e-12
     end[last] = found.end[last]
     return Moves(**{**vars(found), "start": start, "end": end, "sweep": found.sweep / count})
-
-
-def _tips(moves: Moves, share: Array) -> Array:
-    """Where the tip of each move is (k, 3) after a share of its way."""
-    places = moves.start + (moves.end - moves.start) * share[:, None]
-    arc = moves.arc
-    centre, spoke = moves.centre[arc], moves.start[arc, :2] - moves.centre[arc]
-    cos, sin = np.cos(moves.sweep[arc] * share[arc]), np.sin(moves.sweep[arc] * share[arc])
-    places[arc, 0] = centre[:, 0] + spoke[:, 0] * cos - spoke[:, 1] * sin
-    places[arc, 1] = centre[:, 1] + spoke[:, 0] * sin + spoke[:, 1] * cos
-    return np.asarray(places)

@@ -13,6 +13,7 @@ import numpy as np
 
 from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.workpiece.milling.lattice import Lattice, divided, from_below, lattice_of, rows_at
+from mnclab.workpiece.milling.sections import straightened
 from mnclab.workpiece.workpiece import Solid
 
 if TYPE_CHECKING:
@@ -245,7 +246,7 @@ def creases(solid: Solid) -> list[Array]:
     order = np.lexsort(np.sort(sides, axis=1).T)
     one, other = face[order[::2]], face[order[1::2]]  # every edge is one of two triangles
     sharp = (normal[one] * normal[other]).sum(axis=1) < SHARP
-    return [_straightened(solid.points[line]) for line in _lines(np.sort(sides[order[::2]][sharp], axis=1))]
+    return [straightened(solid.points[line], STRAIGHT) for line in _lines(np.sort(sides[order[::2]][sharp], axis=1))]
 
 
 def _lines(edges: Index) -> list[list[int]]:
@@ -268,22 +269,3 @@ def _lines(edges: Index) -> list[list[int]]:
             if len(line) > 1:
                 found.append(line)
     return found
-
-
-def _straightened(line: Array) -> Array:
-    """A line (k, 3) without the points that lie on a straight stretch."""
-    keep = np.zeros(len(line), dtype=bool)
-    keep[[0, -1]] = True
-    stack = [(0, len(line) - 1)]
-    while stack:
-        a, b = stack.pop()
-        if b - a < 2:
-            continue
-        way, off = line[b] - line[a], line[a + 1 : b] - line[a]
-        length = float(np.linalg.norm(way))
-        far = np.linalg.norm(np.cross(off, way / length), axis=1) if length > STRAIGHT else np.linalg.norm(off, axis=1)
-        if far.max() > STRAIGHT:
-            k = a + 1 + int(far.argmax())
-            keep[k] = True
-            stack += [(a, k), (k, b)]
-    return line[keep]

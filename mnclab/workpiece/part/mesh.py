@@ -18,6 +18,7 @@ import numpy as np
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
+from mnclab.geometry.sweeps import outlined
 from mnclab.path.toolpath import Array, Index
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import read
@@ -277,14 +278,8 @@ class Mesh:
 
 def _contours(area: Any) -> list[Contour]:
     """The rings of a shapely area."""
-    found = []
-    for piece in shapely.get_parts(area):
-        if piece.geom_type != "Polygon" or not piece.area > TINY:
-            continue
-        for ring, sense in [(piece.exterior, 1.0), *((ring, -1.0) for ring in piece.interiors)]:
-            loop = Contour(shapely.get_coordinates(ring)[:-1])
-            found.append(loop if loop.area * sense > 0 else loop.reversed())
-    return found
+    pieces = shapely.get_parts(area)
+    return list(outlined(pieces[shapely.area(pieces) > TINY]).loops)
 
 
 # A body of triangles as a part: a file (STL and others), or what pyvista has.

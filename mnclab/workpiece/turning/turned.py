@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
-from mnclab.path.profile.motions import along
+from mnclab.path.places import along
 from mnclab.path.toolpath import Array, Index, Kind
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, choice, shown
