@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mnclab.geometry.curves import Curve, Curves, Floats, at_angle, cross, left, length_of, turned, whole_curves
+from mnclab.geometry.curves import Curves, Floats, at_angle, cross, left, length_of, turned
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, shown, whole
 
@@ -114,10 +114,10 @@ class Contour:
         return [((x, y), s, (u, v)) for (x, y), s, (u, v) in zip(ends, self.sweeps.tolist(), centres, strict=True)]
 
     @property
-    def curves(self) -> list[Curve]:
-        """The whole lines and circles on which the m elements lie."""
+    def curves(self) -> Curves:
+        """The m elements as curves."""
         radii = np.where(np.isinf(self.radii), np.nan, self.radii)
-        return whole_curves(Curves(self.starts, self.ends, self.centres, radii, self.sweeps))
+        return Curves(self.starts, self.ends, self.centres, radii, self.sweeps)
 
     def tangents(self) -> tuple[Floats, Floats]:
         """Unit tangents at the start and at the end of every element, each `(m, 2)`."""

@@ -22,7 +22,7 @@ import numpy as np
 
 from mnclab.geometry import curves
 from mnclab.geometry.contours import Contour, joined
-from mnclab.geometry.curves import Curve, Floats
+from mnclab.geometry.curves import Floats
 from mnclab.geometry.curves import left as left_of
 from mnclab.path.inserts import angles_of
 from mnclab.path.tool import Tool
@@ -316,15 +316,15 @@ def _moved(whole: Contour, distance: float) -> Iterator[Contour]:
             yield Contour([starts[i], stops[i]], [bulge, 0.0], closed=False)
     for i, turn in enumerate(whole.turns()):
         if i and turn > 1e-9:
-            yield _corner(whole, i, Curve(stops[i - 1], ends[i - 1], np.inf), Curve(starts[i], begins[i], np.inf))
+            yield _corner(whole, i, stops[i - 1], starts[i], (ends[i - 1], begins[i], distance))
 
 
-def _corner(whole: Contour, i: int, before: Curve, after: Curve) -> Contour:
+def _corner(whole: Contour, i: int, start: Floats, end: Floats, offset: tuple[Floats, Floats, float]) -> Contour:
     """What joins two offsets at an outside corner: both prolonged if they are lines, else an arc about it."""
-    if not whole.bulge[i - 1] and not whole.bulge[i]:
-        meeting = before.meeting(after, before.point)
-        return Contour([before.point, meeting, after.point], closed=False)
-    return Contour([before.point, after.point], [math.tan(whole.turns()[i] / 4), 0.0], closed=False)
+    before, after, distance = offset
+    if not whole.bulge[i - 1] and not whole.bulge[i] and (along := 1 + float(before @ after)) > 1e-12:
+        return Contour([start, whole.points[i] - distance * left_of(before + after) / along, end], closed=False)
+    return Contour([start, end], [math.tan(whole.turns()[i] / 4), 0.0], closed=False)
 
 
 # Zones of turning: what a profile asks of the tool, and how a combined one is parted (NC-31, 3.20.1 and 3.20.2).

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import FULL_TURN, Contour, steps_within
-from mnclab.geometry.curves import Curve, Floats, at_angle, whole_curves
+from mnclab.geometry.curves import Floats, at_angle
 from mnclab.geometry.cutting import Outlines, outlines_of
 from mnclab.geometry.tracing import labels, traced
 
@@ -231,11 +231,6 @@ class Drawing:
         return points, points[after], element, contour, heads
 
     @cached_property
-    def curves(self) -> list[Curve]:
-        """The line or circle of every element."""
-        return whole_curves(self.outlines.curves)
-
-    @cached_property
     def areas(self) -> NDArray[Any]:
         """The contours (m,) as shapely areas."""
         points, _, _, contour, _ = self.pieces
@@ -258,7 +253,7 @@ class Drawing:
     def traced(self, area: Any) -> tuple[Contour, ...]:
         """A shapely area that was made of the contours, as lines and arcs."""
         starts, ends, element, _, _ = self.pieces
-        return traced(area, starts, ends, labels(self.curves)[element], self.curves)
+        return traced(area, starts, ends, labels(self.outlines.curves)[element], self.outlines.curves)
 
     @cached_property
     def _tree(self) -> Any:
