@@ -49,7 +49,7 @@ def at_angle(angle: ArrayLike) -> Floats:
     return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
 
 
-# Where lines and circles meet: the corners of equidistants and the centres of roundings.
+# Where whole lines and circles meet: the corners of equidistants and the centres of roundings.
 # An element is given by a point `q` (n, 2) on it, its unit tangent `t` (n, 2) there, and for a circle its centre
 # `c` (n, 2) and radius `r` (n,); `r` is nan for a line. Lengths in mm.
 
@@ -241,8 +241,8 @@ def crossings(a: Curves, b: Curves) -> tuple[Floats, Floats]:
 def at_levels(curve: Curves, level: Floats, axis: int = 1) -> tuple[NDArray[np.int64], Floats]:
     """Where curves cross levels (k,) of a coordinate: the number (m,) of the level, and the other coordinate (m,) there.
 
-    Half open: a curve meets a level that it comes down to, or begins at on its way down, and none that it rises from. So a
-    closed outline meets every level an even number of times, also at its corners; `axis` is that of the levels, 0 or 1.
+    Half open: a level at the upper end of a curve counts, one at its lower end does not. So a closed outline meets every level
+    an even number of times, also at its corners. `axis` is that of the levels, 0 or 1.
     """
     across, n = 1 - axis, len(curve.r)
     # an arc is parted at its highest and its lowest place, which lie half a turn from each other: three pieces at most
