@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.geometry.curves import Curves, Floats, cross, dot, foot, length_of, on, unit_of
+from mnclab.geometry.curves import Curves, Floats, counted, cross, dot, foot, length_of, on, unit_of
 
 # Which of many boxes lie near each other: a grid of cells, so that far ones are never compared.
 
@@ -32,8 +32,7 @@ def near(low: Floats, high: Floats, gap: float) -> Iterator[tuple[Index, Index]]
         if cells.sum() <= 8 * n + 64:
             break
         size *= 1.5
-    box = np.repeat(np.arange(n), cells)
-    nth = np.arange(len(box)) - np.repeat(np.cumsum(cells) - cells, cells)
+    box, nth = counted(cells)
     column = first[box, 0] + nth % count[box, 0]
     row = first[box, 1] + nth // count[box, 0]
     key = row * (int(first[:, 0].max() + count[:, 0].max()) + 1) + column

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mnclab.geometry.curves import Curves, Floats, at_angle, cross, left, length_of, turned
+from mnclab.geometry.curves import Curves, Floats, at_angle, counted, cross, left, length_of, turned
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, shown, whole
 
@@ -106,6 +106,11 @@ class Contour:
         b = self.bulge[: len(self.starts)]
         ratio = np.divide(np.arctan(b), b, out=np.ones_like(b), where=b != 0)
         return length_of(self.ends - self.starts) * (1 + b * b) * ratio
+
+    @property
+    def upto(self) -> Floats:
+        """The ways along the contour to where its m elements begin, and to its end, `(m + 1,)`."""
+        return np.append(0.0, np.cumsum(self.lengths))
 
     @cached_property
     def walk(self) -> list[tuple[tuple[float, float], float, tuple[float, float]]]:
@@ -200,10 +205,8 @@ class Contour:
         Ends where the contour ends: for a closed one the first point comes again.
         """
         steps = steps_within(self.radii, self.sweeps, chord_error)
-        element = np.repeat(np.arange(len(steps)), steps)
-        first = np.repeat(np.cumsum(steps) - steps, steps)
-        fraction = (np.arange(len(element)) - first) / steps[element]
-        places = self.at(fraction, element)[0]
+        element, rank = counted(steps)
+        places = self.at(rank / steps[element], element)[0]
         return np.vstack([places, self.ends[-1]])
 
     def distance(self, points: ArrayLike) -> Floats:
@@ -248,7 +251,7 @@ class Contour:
 
     def between(self, first: float, last: float) -> Contour:
         """The open piece from one way along the contour to a later one; past the begin of a closed one, once round at most."""
-        upto = np.concatenate([[0.0], np.cumsum(self.lengths)])
+        upto = self.upto
         if self.closed:
             start = float(np.mod(first, upto[-1]))
             first, last = start, start + min(last - first, float(upto[-1]))
@@ -296,7 +299,7 @@ class Contour:
 
     def _element_at(self, way: Floats) -> tuple[NDArray[np.intp], Floats]:
         """Element and fraction of it after each way along the contour."""
-        upto = np.concatenate([[0.0], np.cumsum(self.lengths)])
+        upto = self.upto
         way = np.mod(way, upto[-1]) if self.closed else np.clip(way, 0.0, upto[-1])
         element = np.clip(np.searchsorted(upto, way, side="right") - 1, 0, len(self.starts) - 1)
         span = np.where(self.lengths > 0, self.lengths, 1.0)[element]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -47,6 +47,12 @@ def turned(vectors: Floats, angle: ArrayLike) -> Floats:
 def at_angle(angle: ArrayLike) -> Floats:
     """Unit vectors `(…, 2)` in the direction of angles (rad)."""
     return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+
+
+def counted(counts: NDArray[Any]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Things that come so many times (n,), one after the other: which of them each is, and its rank among its like (m,)."""
+    of = np.repeat(np.arange(len(counts)), counts)
+    return of, np.arange(len(of)) - np.repeat(np.cumsum(counts) - counts, counts)
 
 
 # Where whole lines and circles meet: the corners of equidistants and the centres of roundings.
@@ -259,8 +265,7 @@ def at_levels(curve: Curves, level: Floats, axis: int = 1) -> tuple[NDArray[np.i
     # of the levels in rising order each piece meets those from one number to another
     order = np.argsort(level, kind="stable")
     begin, end = (np.searchsorted(level[order], ends, "right") for ends in (low, high))
-    piece = np.repeat(np.arange(len(low)), end - begin)
-    rank = np.arange(len(piece)) - np.repeat(np.cumsum(end - begin) - (end - begin), end - begin)
+    piece, rank = counted(end - begin)
     number, of = order[begin[piece] + rank], piece % n
     off = level[number] - curve.centre[of, axis]
     on_arc = curve.centre[of, across] + side[piece] * np.sqrt(np.maximum(curve.r[of] ** 2 - off**2, 0.0))

@@ -118,7 +118,7 @@ def skeleton(region: Region, spacing: float) -> Skeleton:
 
 def _spaced(loop: Contour, spacing: float) -> Floats:
     """Points on a contour, at most `spacing` apart, its corners among them."""
-    upto = np.append(0.0, np.cumsum(loop.lengths))
+    upto = loop.upto
     counts = np.maximum(np.ceil(loop.lengths / spacing).astype(int), 1)
     ways = [a + (b - a) * np.arange(n) / n for a, b, n in zip(upto, upto[1:], counts, strict=False)]
     return loop.point_at(np.concatenate(ways))[0]

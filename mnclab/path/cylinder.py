@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from mnclab.geometry.curves import counted
 from mnclab.geometry.frames import Matrix
 from mnclab.path import places
 from mnclab.path.toolpath import COLUMNS, Array, Index, Kind
@@ -147,7 +148,7 @@ def parted_rapids(path: Toolpath, turn: float) -> tuple[Toolpath, Index]:
     way = np.where((path.cylinder >= 0) & (path.kind == Kind.RAPID), np.abs(last - before), 0.0)
     pieces = np.clip(np.ceil(way / turn), 1, MOST).astype(np.int64)
     found, row = places.divided(path, pieces)
-    share = (np.arange(len(row)) - np.repeat(np.cumsum(pieces) - pieces, pieces)) / pieces[row]
+    share = counted(pieces)[1] / pieces[row]
     rotary, many = found.rotary.copy(), np.flatnonzero(pieces[row] > 1)
     of = np.array([one.rotary for one in path.cylinders], dtype=np.int64)[found.cylinder[many]] if len(many) else many
     begin = before[row[many]] + (last - before)[row[many]] * share[many]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from mnclab.geometry.curves import counted
 from mnclab.path.toolpath import COLUMNS, Array, Index, Kind, Toolpath
 
 
@@ -86,8 +87,7 @@ def points_at(path: Toolpath, rows: Index, share: Array) -> Array:
 def divided(path: Toolpath, counts: Index, until: Array | None = None) -> tuple[Toolpath, Index]:
     """The path with each row cut into `counts` (n,) equal parts, or into such as end at the shares `until` (m,) of their
     row, and the row (m,) of the path each part belongs to."""
-    row = np.repeat(np.arange(len(path)), counts)
-    k = np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)
+    row, k = counted(counts)
     many = counts[row]
     until = (k + 1) / many if until is None else until
     since = np.where(k == 0, 0.0, np.append(0.0, until[:-1]))
@@ -160,11 +160,10 @@ def points(path: Toolpath, chord_error: float = 0.01) -> tuple[Array, Index]:
     step = 2 * np.arccos(np.clip(1 - chord_error / np.maximum(radius, chord_error), 0.0, 1.0))
     pieces = np.where(arc, np.ceil(np.abs(path.sweep[rows]) / np.maximum(step, 1e-6)), 1)
     pieces = pieces.clip(1, FINEST).astype(np.int64)
-    row = np.repeat(np.arange(len(rows)), pieces)
-    k = np.arange(len(row)) - np.repeat(np.cumsum(pieces) - pieces, pieces) + 1
-    share = k / pieces[row]
+    row, k = counted(pieces)
+    share = (k + 1) / pieces[row]
     xyz = end[row]
-    bent = np.flatnonzero(arc[row] & (k < pieces[row]))
+    bent = np.flatnonzero(arc[row] & (k + 1 < pieces[row]))
     if len(bent):
         xyz[bent] = Bends(path, rows[row[bent]]).place(share[bent])
     return np.concatenate([path.start[rows[:1]], xyz]), np.concatenate([rows[:1], rows[row]])

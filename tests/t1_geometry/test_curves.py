@@ -45,7 +45,7 @@ def test_a_part_of_a_curve():
 
 
 def test_whole_lines_and_circles_meet():
-    """y = 3, circles of 5 about (0, 0) and (8, 0), the line through 0 by 3 : 4; then y = 6, which misses the first circle by 1."""
+    """y = 3, circles of 5 about (0, 0) and (8, 0), the line through 0 by 3 : 4; then y = 6, which misses a circle by 1."""
     none = (np.nan, np.nan), np.nan
     line, slope, high = ((0.0, 3.0), (1.0, 0.0), *none), ((0.0, 0.0), (0.6, 0.8), *none), ((0.0, 6.0), (1.0, 0.0), *none)
     circle, other = ((5.0, 0.0), (0.0, 1.0), (0.0, 0.0), 5.0), ((13.0, 0.0), (0.0, 1.0), (8.0, 0.0), 5.0)

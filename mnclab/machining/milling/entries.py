@@ -229,7 +229,7 @@ def _to_and_fro(line: Contour, count: int) -> Contour:
 
 def _sloping(way: Contour, top: float, bottom: float, label: str) -> Descent:
     """Evenly down along a way."""
-    upto = np.append(0.0, np.cumsum(way.lengths))
+    upto = way.upto
     return Descent(way, top + (bottom - top) * upto / upto[-1], label)
 
 

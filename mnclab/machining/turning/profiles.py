@@ -401,7 +401,7 @@ def _poured(contour: Contour) -> tuple[Contour, list[Contour]]:
     r = contour.points[:, 1]
     water = np.minimum(np.maximum.accumulate(r), np.maximum.accumulate(r[::-1])[::-1])
     wet = np.flatnonzero(r < water - SAME)
-    upto = np.concatenate([[0.0], np.cumsum(contour.lengths)])
+    upto = contour.upto
     dry: list[Contour | None] = []
     pools: list[Contour] = []
     at = 0.0

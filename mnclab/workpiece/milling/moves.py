@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mnclab.geometry.curves import counted
 from mnclab.path.places import points
 from mnclab.path.tool import POINTED, Tool
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
@@ -195,10 +196,9 @@ def _chords(path: Toolpath, row: int, chord: float) -> tuple[Index, Array, Array
 
 def cut_up(moves: Moves, pieces: Index) -> Moves:
     """Each of k moves in so many pieces (k,)."""
-    owner = np.repeat(np.arange(len(moves)), pieces)
-    first = np.repeat(np.cumsum(pieces) - pieces, pieces)
+    owner, rank = counted(pieces)
     count = pieces[owner]
-    share = (np.arange(len(owner)) - first) / count
+    share = rank / count
     found = moves[owner]
     start, end = moves.tips(owner, share), moves.tips(owner, share + 1 / count)
     last = share + 1 / count > 1 - 1e-12

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import FULL_TURN, Contour, steps_within
-from mnclab.geometry.curves import Floats, at_angle
+from mnclab.geometry.curves import Floats, at_angle, counted
 from mnclab.geometry.cutting import Outlines, outlines_of
 from mnclab.geometry.tracing import labels, traced
 
@@ -218,8 +218,7 @@ class Drawing:
             begin = np.where(sweeps != 0, np.floor(sense * first / step + 1e-6) + 1, 0.0)
             end = np.where(sweeps != 0, np.ceil(sense * (first + sweeps) / step - 1e-6) - 1, -1.0)
         inner[bent] = np.maximum(end - begin + 1, 0)[bent].astype(np.int64)
-        element = np.repeat(np.arange(len(starts)), inner + 1)
-        rank = np.arange(len(element)) - np.repeat(np.cumsum(inner + 1) - inner - 1, inner + 1)
+        element, rank = counted(inner + 1)
         angle = sense[element] * (begin[element] + rank - 1) * step[element]
         with np.errstate(invalid="ignore"):
             on_circle = centres[element] + radii[element, None] * at_angle(angle)
