@@ -222,18 +222,20 @@ def chords(walls: Walls, i: Index, j: Index) -> Chords:
     ends = []  # walls, points, whether they are the last of the walls, and whether they are theirs
     for k, curve in ((i, one), (j, two)):  # a vertex between two walls is that of the second
         ends += [(k, curve.start, False, np.ones(len(k), dtype=bool)), (k, curve.end, True, ~_after(walls, k)[1])]
+    # from vertex to vertex, within the wedges at both
     for a, p, p_last, p_own in ends[:2]:
         for b, q, q_last, q_own in ends[2:]:
             u = unit_of(q - p)
             valid = p_own & q_own & _in_cone(walls, a, p_last, u) & _in_cone(walls, b, q_last, -u)
             best.offer(every, p, q, valid)
+    # from a vertex square to the other wall
     for near_ends, b, curve, turned in ((ends[:2], j, two, False), (ends[2:], i, one, True)):
         for a, p, p_last, p_own in near_ends:
             q = foot(p, curve)
             u = unit_of(q - p)
             valid = p_own & on(q, curve, SLACK) & _in_cone(walls, a, p_last, u) & (dot(u, _normal(walls, b, q)) < 0)
             best.offer(every, p, q, valid, turned)
-    _between_curves(walls, i, j, best)
+    _between_curves(walls, i, j, best)  # square to both walls
     k = np.flatnonzero(np.isfinite(best.length))
     return Chords(i[k], j[k], best.p[k], best.q[k], best.length[k])
 

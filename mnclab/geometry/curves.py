@@ -227,13 +227,14 @@ def gap(a: Curves, b: Curves) -> Floats:
 
 def part(curve: Curves, begin: Floats, end: Floats) -> Curves:
     """What lies between two shares (n,) of curves, 0 at their start and 1 at their end."""
-    travel, turn = curve.end - curve.start, np.where(curve.arc, curve.sweep, 0.0)
+    return Curves(at(curve, begin), at(curve, end), curve.centre, curve.r, curve.sweep * (end - begin))
 
-    def at(where: Floats) -> Floats:
-        spoke = turned(curve.start - curve.centre, turn * where)
-        return np.where(curve.arc[:, None], curve.centre + spoke, curve.start + travel * where[:, None])
 
-    return Curves(at(begin), at(end), curve.centre, curve.r, curve.sweep * (end - begin))
+def at(curve: Curves, where: Floats | float) -> Floats:
+    """The points (n, 2) at shares (n,) of curves, 0 at their start and 1 at their end."""
+    here = np.broadcast_to(where, len(curve.r))
+    on_arc = curve.centre + turned(curve.start - curve.centre, curve.sweep * here)
+    return np.where(curve.arc[:, None], on_arc, curve.start + here[:, None] * (curve.end - curve.start))
 
 
 def crossings(a: Curves, b: Curves) -> tuple[Floats, Floats]:

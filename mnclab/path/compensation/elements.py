@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry.curves import Curves, Element, beside, dot, left
-from mnclab.geometry.cutting import boxes
+from mnclab.geometry.cutting import boxes, lengths
 from mnclab.path.corners import Prolonged
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Array, Index, Mask, PathFault, Toolpath
@@ -172,8 +172,7 @@ class Elements(NamedTuple):
 
     def length(self, k: Index | slice) -> Array:
         """How long elements k (m,) are, mm in the plane."""
-        straight = np.hypot(*(self.end[k] - self.start[k]).T)
-        return np.where(self.arc[k], np.abs(self.sweep[k]) * self.r[k], straight)
+        return lengths(self.curves(k))
 
     def curves(self, k: Index | slice) -> Curves:
         """Elements k (m,) as they are programmed."""

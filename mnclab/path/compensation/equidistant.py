@@ -117,6 +117,7 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
     P, t1, t2 = el.end[b], el.t_out[b], el.t_in[a]
     shift = R * s
     E, S = beside(P, t1, shift), beside(P, t2, shift)  # A1 and A2
+    # which corners bend, and to which side: in a cusp what the elements do beside it decides
     across, along = cross(t1, t2), dot(t1, t2)
     small = np.abs(across) < np.sin(TANGENT)
     reversal = small & (along < 0)  # straight back: an outside corner of half a turn
@@ -126,6 +127,7 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
     if cusp.any():
         k = np.flatnonzero(cusp)
         out[k] = ~inside_cusps(el, c[k], R[k], s[k])
+    # outside corners that are built: at an entry, an exit and a change of side as the rules have it
     lead, leave, change = el.entry[b] | el.change[b], el.exit[a], el.change[a]
     rule = np.where(on, Rule.SIDE, Rule.NONE).astype(np.uint8)
     outside = bent & out & ~change
@@ -144,6 +146,7 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
         E[stays] = S[stays] = P[stays]
         S[to_first] = beside(P[to_first], t1[to_first], shift[to_first])
 
+    # straight ones, and inside corners: where the offsets meet
     corner = el.corner[a]
     straight = outside & ~reversal & (s * across < 0) & (corner != ROUND)
     straight &= (corner == STRAIGHT) | (along >= np.cos(ACUTE_TURN))
@@ -169,6 +172,7 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
             apart[k[~met]] = code == Rule.INSIDE
             straight[k[~met]] = False
     rule[el.entry[b]], rule[el.change[b]] = Rule.ENTRY, Rule.CHANGE
+    # arcs about all others, and about inside corners whose offsets do not meet
     turn = np.zeros(len(c))
     k = np.flatnonzero(outside | apart)
     turn[k] = np.where(reversal[k], -s[k] * np.pi, np.arctan2(across[k], along[k]))
