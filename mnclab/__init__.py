@@ -125,8 +125,8 @@ strategies = Shelf("mnclab.strategies", "ways to clear an area with a mill; mncl
 schemes = Shelf("mnclab.schemes", "ways to turn, groove and thread; mnclab.compare_turning puts them side by side", {
     "mnclab.machining.turning.schemes":
         "SCHEMES, combined, contour, descent, equidistant, loop, pick_up, semi_finish, zigzag",
-    "mnclab.machining.turning.zones": "zone_of, zones",
-    "mnclab.machining.turning": "groove_schemes as grooves, thread_schemes as threads",
+    "mnclab.machining.turning.profiles": "zone_of, zones",
+    "mnclab.machining.turning": "groove_schemes as grooves, threading as threads",
     "mnclab.machining.turning.groove_schemes": "Groove",
     "mnclab.comparison.turning_schemes": "toolpath",
     "mnclab.show.plot.turning_schemes": "plot_threads, plot_zones",

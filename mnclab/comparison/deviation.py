@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.geometry.curves import counted
 from mnclab.path.limits import Limits
 from mnclab.path.listing import MM, Unit, figure, point
 from mnclab.path.places import points
@@ -180,8 +181,8 @@ def _places(start: Array, end: Array, row: NDArray[np.int64], step: float) -> tu
     upto = np.cumsum(length)
     begin = upto[first] - length[first]
     count = np.maximum(np.ceil((upto[last] - begin) / step), 1).astype(np.int64) + 1
-    which = np.repeat(np.arange(len(first)), count)
-    share = (np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)) / (count[which] - 1)
+    which, rank = counted(count)
+    share = rank / (count[which] - 1)
     way = begin[which] + share * (upto[last] - begin)[which]
     stroke = np.clip(np.searchsorted(upto, way), first[which], last[which])
     part = np.clip((way - upto[stroke] + length[stroke]) / np.where(length[stroke] > 0, length[stroke], 1.0), 0.0, 1.0)

@@ -36,10 +36,9 @@ from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import CHORD_ERROR, broad, outlined, swept, under
 from mnclab.machining.turning.passes import FRONT, LIFT
-from mnclab.machining.turning.profiles import checked, reachable
+from mnclab.machining.turning.profiles import CLOSED, COMBINED, OPEN, SEMI_OPEN, checked, reachable, zone_of
 from mnclab.machining.turning.schemes import SCHEMES
 from mnclab.machining.turning.strokes import PLUNGE, RAPID, ROLES, Plan
-from mnclab.machining.turning.zones import CLOSED, COMBINED, OPEN, SEMI_OPEN, zone_of
 from mnclab.path.inserts import edges_of
 from mnclab.path.limits import Limits, limits_of
 from mnclab.path.tool import Tool

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.geometry.curves import Curves, Floats, cross, dot, foot, length_of, on, unit_of
+from mnclab.geometry.curves import Curves, Floats, counted, cross, dot, foot, length_of, on, unit_of
 
 # Which of many boxes lie near each other: a grid of cells, so that far ones are never compared.
 
@@ -32,8 +32,7 @@ def near(low: Floats, high: Floats, gap: float) -> Iterator[tuple[Index, Index]]
         if cells.sum() <= 8 * n + 64:
             break
         size *= 1.5
-    box = np.repeat(np.arange(n), cells)
-    nth = np.arange(len(box)) - np.repeat(np.cumsum(cells) - cells, cells)
+    box, nth = counted(cells)
     column = first[box, 0] + nth % count[box, 0]
     row = first[box, 1] + nth // count[box, 0]
     key = row * (int(first[:, 0].max() + count[:, 0].max()) + 1) + column
@@ -223,18 +222,20 @@ def chords(walls: Walls, i: Index, j: Index) -> Chords:
     ends = []  # walls, points, whether they are the last of the walls, and whether they are theirs
     for k, curve in ((i, one), (j, two)):  # a vertex between two walls is that of the second
         ends += [(k, curve.start, False, np.ones(len(k), dtype=bool)), (k, curve.end, True, ~_after(walls, k)[1])]
+    # from vertex to vertex, within the wedges at both
     for a, p, p_last, p_own in ends[:2]:
         for b, q, q_last, q_own in ends[2:]:
             u = unit_of(q - p)
             valid = p_own & q_own & _in_cone(walls, a, p_last, u) & _in_cone(walls, b, q_last, -u)
             best.offer(every, p, q, valid)
+    # from a vertex square to the other wall
     for near_ends, b, curve, turned in ((ends[:2], j, two, False), (ends[2:], i, one, True)):
         for a, p, p_last, p_own in near_ends:
             q = foot(p, curve)
             u = unit_of(q - p)
             valid = p_own & on(q, curve, SLACK) & _in_cone(walls, a, p_last, u) & (dot(u, _normal(walls, b, q)) < 0)
             best.offer(every, p, q, valid, turned)
-    _between_curves(walls, i, j, best)
+    _between_curves(walls, i, j, best)  # square to both walls
     k = np.flatnonzero(np.isfinite(best.length))
     return Chords(i[k], j[k], best.p[k], best.q[k], best.length[k])
 

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mnclab.geometry.curves import Curve, Floats, at_angle, cross, left, length_of, turned, unit_of
+from mnclab.geometry.curves import Curves, Floats, at_angle, counted, cross, left, length_of, turned
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, refusing_class, shown, whole
 
@@ -108,6 +108,11 @@ class Contour:
         ratio = np.divide(np.arctan(b), b, out=np.ones_like(b), where=b != 0)
         return length_of(self.ends - self.starts) * (1 + b * b) * ratio
 
+    @property
+    def upto(self) -> Floats:
+        """The ways along the contour to where its m elements begin, and to its end, `(m + 1,)`."""
+        return np.append(0.0, np.cumsum(self.lengths))
+
     @cached_property
     def walk(self) -> list[tuple[tuple[float, float], float, tuple[float, float]]]:
         """End, sweep and centre of the m elements as plain numbers, for a walk one by one; worked out once."""
@@ -115,10 +120,10 @@ class Contour:
         return [((x, y), s, (u, v)) for (x, y), s, (u, v) in zip(ends, self.sweeps.tolist(), centres, strict=True)]
 
     @property
-    def curves(self) -> list[Curve]:
-        """The whole lines and circles on which the m elements lie."""
-        rows = zip(self.starts, unit_of(self.ends - self.starts), self.centres, self.radii, strict=True)
-        return [Curve(s, u, r) if np.isinf(r) else Curve(c, u, r) for s, u, c, r in rows]
+    def curves(self) -> Curves:
+        """The m elements as curves."""
+        radii = np.where(np.isinf(self.radii), np.nan, self.radii)
+        return Curves(self.starts, self.ends, self.centres, radii, self.sweeps)
 
     def tangents(self) -> tuple[Floats, Floats]:
         """Unit tangents at the start and at the end of every element, each `(m, 2)`."""
@@ -201,10 +206,8 @@ class Contour:
         Ends where the contour ends: for a closed one the first point comes again.
         """
         steps = steps_within(self.radii, self.sweeps, chord_error)
-        element = np.repeat(np.arange(len(steps)), steps)
-        first = np.repeat(np.cumsum(steps) - steps, steps)
-        fraction = (np.arange(len(element)) - first) / steps[element]
-        places = self.at(fraction, element)[0]
+        element, rank = counted(steps)
+        places = self.at(rank / steps[element], element)[0]
         return np.vstack([places, self.ends[-1]])
 
     def distance(self, points: ArrayLike) -> Floats:
@@ -249,7 +252,7 @@ class Contour:
 
     def between(self, first: float, last: float) -> Contour:
         """The open piece from one way along the contour to a later one; past the begin of a closed one, once round at most."""
-        upto = np.concatenate([[0.0], np.cumsum(self.lengths)])
+        upto = self.upto
         if self.closed:
             start = float(np.mod(first, upto[-1]))
             first, last = start, start + min(last - first, float(upto[-1]))
@@ -297,7 +300,7 @@ class Contour:
 
     def _element_at(self, way: Floats) -> tuple[NDArray[np.intp], Floats]:
         """Element and fraction of it after each way along the contour."""
-        upto = np.concatenate([[0.0], np.cumsum(self.lengths)])
+        upto = self.upto
         way = np.mod(way, upto[-1]) if self.closed else np.clip(way, 0.0, upto[-1])
         element = np.clip(np.searchsorted(upto, way, side="right") - 1, 0, len(self.starts) - 1)
         span = np.where(self.lengths > 0, self.lengths, 1.0)[element]

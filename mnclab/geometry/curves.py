@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -49,54 +49,13 @@ def at_angle(angle: ArrayLike) -> Floats:
     return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
 
 
-# Whole lines and circles, which elements of a contour lie on: where they meet. Lengths in mm.
-
-class Curve(NamedTuple):
-    """A whole line (radius inf, through `point` along the unit `direction`), or a circle about `point`."""
-
-    point: Floats
-    direction: Floats
-    radius: float
-
-    def moved_left(self, distance: float, sweep: float) -> Curve:
-        """The curve at a distance to the left of an element on it that turns by `sweep`."""
-        if np.isinf(self.radius):
-            return Curve(self.point + distance * left(self.direction), self.direction, np.inf)
-        return Curve(self.point, self.direction, self.radius - np.sign(sweep) * distance)
-
-    def foot(self, point: Floats) -> Floats:
-        """The point of the curve nearest to a point."""
-        arm = point - self.point
-        if np.isinf(self.radius):
-            return self.point + (arm @ self.direction) * self.direction
-        return self.point + arm * (self.radius / max(float(length_of(arm)), 1e-300))
-
-    def meeting(self, other: Curve, near: Floats) -> Floats:
-        """Where two curves cross, of two crossings the one nearer to `near`; where they touch, if they touch.
-
-        Two circles cross on their radical line, so that only line with line and line with circle remain.
-        """
-        line, ring = (self, other) if np.isinf(self.radius) else (other, self)
-        if np.isinf(ring.radius):
-            sine = cross(line.direction, ring.direction)
-            if abs(sine) < 1e-9:
-                return line.foot(near)
-            return line.point + cross(ring.point - line.point, ring.direction) / sine * line.direction
-        if np.isfinite(line.radius):
-            between = ring.point - line.point
-            apart = float(length_of(between))
-            if apart < 1e-9:
-                return ring.foot(near)
-            u = between / apart
-            along = (apart**2 + line.radius**2 - ring.radius**2) / (2 * apart)
-            line = Curve(line.point + along * u, left(u), np.inf)
-        middle = line.foot(ring.point)
-        high = float(length_of(middle - ring.point))
-        half = np.sqrt(max(ring.radius**2 - high**2, 0.0)) * line.direction
-        return min((middle - half, middle + half), key=lambda p: float(length_of(p - near)))
+def counted(counts: NDArray[Any]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Things that come so many times (n,), one after the other: which of them each is, and its rank among its like (m,)."""
+    of = np.repeat(np.arange(len(counts)), counts)
+    return of, np.arange(len(of)) - np.repeat(np.cumsum(counts) - counts, counts)
 
 
-# Where lines and circles meet: the corners of equidistants and the centres of roundings.
+# Where whole lines and circles meet: the corners of equidistants and the centres of roundings.
 # An element is given by a point `q` (n, 2) on it, its unit tangent `t` (n, 2) there, and for a circle its centre
 # `c` (n, 2) and radius `r` (n,); `r` is nan for a line. Lengths in mm.
 
@@ -121,23 +80,26 @@ def beside(p: Floats, t: Floats, shift: Floats) -> Floats:
     return moved
 
 
-def meet(first: Element, second: Element, near: Floats) -> Floats:
-    """The common point (n, 2) of two elements that lies nearer to `near` (n, 2); nan where there is none."""
-    p, q = meetings(first, second)
+def meet(first: Element, second: Element, near: Floats, touching: bool = False) -> Floats:
+    """The common point (n, 2) of two elements that lies nearer to `near` (n, 2); nan where there is none.
+
+    `touching`: of curves that just miss each other the place between them, where they would touch.
+    """
+    p, q = meetings(first, second, touching)
     closer = length_of(p - near) <= length_of(q - near)
     return np.where(closer[:, None], p, q)
 
 
-def meetings(first: Element, second: Element) -> tuple[Floats, Floats]:
+def meetings(first: Element, second: Element, touching: bool = False) -> tuple[Floats, Floats]:
     """Both common points (n, 2) of two elements, twice the same for two lines; nan where there is none."""
     found = np.full((2, *first.q.shape), np.nan)
     circle1, circle2 = ~np.isnan(first.r), ~np.isnan(second.r)
     with np.errstate(divide="ignore", invalid="ignore"):
         for mask, solve in (
             (~circle1 & ~circle2, _lines),
-            (~circle1 & circle2, _line_circle),
-            (circle1 & ~circle2, lambda a, b: _line_circle(b, a)),
-            (circle1 & circle2, _circles),
+            (~circle1 & circle2, lambda a, b: _line_circle(a, b, touching)),
+            (circle1 & ~circle2, lambda a, b: _line_circle(b, a, touching)),
+            (circle1 & circle2, lambda a, b: _circles(a, b, touching)),
         ):
             if mask.any():
                 found[:, mask] = solve(first.only(mask), second.only(mask))
@@ -149,23 +111,27 @@ def _lines(a: Element, b: Element) -> tuple[Floats, Floats]:
     return point, point
 
 
-def _line_circle(line: Element, circle: Element) -> tuple[Floats, Floats]:
+def _line_circle(line: Element, circle: Element, touching: bool) -> tuple[Floats, Floats]:
     # with h = t x (C - q) and l0 = (C - q) . t the points lie at q + (l0 ± sqrt(r² - h²)) t
     away = circle.c - line.q
     h, l0 = cross(line.t, away), dot(away, line.t)
-    reach = np.sqrt((circle.r - h) * (circle.r + h))[:, None]
+    reach = _half_chord((circle.r - h) * (circle.r + h), touching)
     foot = line.q + l0[:, None] * line.t
     return foot - reach * line.t, foot + reach * line.t
 
 
-def _circles(a: Element, b: Element) -> tuple[Floats, Floats]:
+def _circles(a: Element, b: Element, touching: bool) -> tuple[Floats, Floats]:
     d = b.c - a.c
     distance = length_of(d)
     along = (distance + (a.r - b.r) * (a.r + b.r) / distance) / 2
     unit = d / distance[:, None]
     foot = a.c + along[:, None] * unit
-    reach = np.sqrt((a.r - along) * (a.r + along))[:, None]
+    reach = _half_chord((a.r - along) * (a.r + along), touching)
     return foot - reach * left(unit), foot + reach * left(unit)
+
+
+def _half_chord(square: Floats, touching: bool) -> Floats:
+    return np.asarray(np.sqrt(np.maximum(square, 0.0) if touching else square)[:, None])
 
 
 # Lines and arcs as plain curves, and how far points and other curves are from them.
@@ -261,28 +227,88 @@ def gap(a: Curves, b: Curves) -> Floats:
 
 def part(curve: Curves, begin: Floats, end: Floats) -> Curves:
     """What lies between two shares (n,) of curves, 0 at their start and 1 at their end."""
-    travel, turn = curve.end - curve.start, np.where(curve.arc, curve.sweep, 0.0)
+    return Curves(at(curve, begin), at(curve, end), curve.centre, curve.r, curve.sweep * (end - begin))
 
-    def at(where: Floats) -> Floats:
-        spoke = turned(curve.start - curve.centre, turn * where)
-        return np.where(curve.arc[:, None], curve.centre + spoke, curve.start + travel * where[:, None])
 
-    return Curves(at(begin), at(end), curve.centre, curve.r, curve.sweep * (end - begin))
+def at(curve: Curves, where: Floats | float) -> Floats:
+    """The points (n, 2) at shares (n,) of curves, 0 at their start and 1 at their end."""
+    here = np.broadcast_to(where, len(curve.r))
+    on_arc = curve.centre + turned(curve.start - curve.centre, curve.sweep * here)
+    return np.where(curve.arc[:, None], on_arc, curve.start + here[:, None] * (curve.end - curve.start))
 
 
 def crossings(a: Curves, b: Curves) -> tuple[Floats, Floats]:
     """The common points (n, 2) of curves a and b, at most two of each pair; nan where there is none."""
-    found = meetings(_whole(a), _whole(b))
+    found = meetings(whole(a), whole(b))
     for p in found:
         p[~(on(p, a) & on(p, b))] = np.nan
     return found
 
 
-def _whole(curve: Curves) -> Element:
-    """The whole line or circle."""
+def at_levels(curve: Curves, level: Floats, axis: int = 1) -> tuple[NDArray[np.int64], Floats]:
+    """Where curves cross levels (k,) of a coordinate: the number (m,) of the level, and the other coordinate (m,) there.
+
+    Half open: a level at the upper end of a curve counts, one at its lower end does not. So a closed outline meets every level
+    an even number of times, also at its corners. `axis` is that of the levels, 0 or 1.
+    """
+    across, n = 1 - axis, len(curve.r)
+    # an arc is parted at its highest and its lowest place, which lie half a turn from each other: three pieces at most
+    spoke, sense = curve.start - curve.centre, np.sign(curve.sweep) * (1 if axis else -1)
+    first, whole = np.arctan2(spoke[:, axis], spoke[:, across]), np.abs(curve.sweep)
+    top = np.where(curve.arc, np.mod((np.pi / 2 - first) * sense, np.pi), 0.0)
+    cut = np.stack([np.zeros(n), np.minimum(top, whole), np.minimum(top + np.pi, whole), whole])
+    height = curve.centre[:, axis] + curve.r * np.sin(first + sense * cut)
+    height = np.where(cut < whole, height, curve.end[:, axis])  # where pieces meet, and at the ends, to the last bit
+    height = np.where(cut > 0, height, curve.start[:, axis])
+    height[-1] = curve.end[:, axis]  # a line is its last piece alone
+    side = np.sign(np.cos(first + sense * (cut[1:] + cut[:-1]) / 2)).ravel()
+    low, high = np.minimum(height[1:], height[:-1]).ravel(), np.maximum(height[1:], height[:-1]).ravel()
+    # of the levels in rising order each piece meets those from one number to another
+    order = np.argsort(level, kind="stable")
+    begin, end = (np.searchsorted(level[order], ends, "right") for ends in (low, high))
+    piece, rank = counted(end - begin)
+    number, of = order[begin[piece] + rank], piece % n
+    off = level[number] - curve.centre[of, axis]
+    on_arc = curve.centre[of, across] + side[piece] * np.sqrt(np.maximum(curve.r[of] ** 2 - off**2, 0.0))
+    travel = (curve.end - curve.start)[of]
+    share = (level[number] - curve.start[of, axis]) / np.where(travel[:, axis] != 0, travel[:, axis], 1.0)
+    return number, np.where(curve.arc[of], on_arc, curve.start[of, across] + share * travel[:, across])
+
+
+def crossed(curve: Curves, level: Floats, axis: int = 1) -> list[Floats]:
+    """The same level by level, each in rising order."""
+    number, place = at_levels(curve, level, axis)
+    order = np.lexsort((place, number))
+    return np.split(place[order], np.searchsorted(number[order], np.arange(1, len(level))))[: len(level)]
+
+
+def whole(curve: Curves, aside: Floats | float = 0.0) -> Element:
+    """The whole lines and circles of curves, or those at a distance (n,) to their left: of an arc with a radius below 0."""
     travel = curve.end - curve.start
     with np.errstate(divide="ignore", invalid="ignore"):
-        return Element(curve.start, travel / length_of(travel)[:, None], curve.centre, curve.r)
+        t = travel / length_of(travel)[:, None]
+    if np.ndim(aside) == 0 and not aside:
+        return Element(curve.start, t, curve.centre, curve.r)
+    return Element(beside(curve.start, t, np.asarray(aside)), t, curve.centre, curve.r - np.sign(curve.sweep) * aside)
+
+
+class Roundings(NamedTuple):
+    """n arcs that touch two curves each: their centres, where they begin and end (n, 2), and their sweeps (n,)."""
+
+    centre: Floats
+    first: Floats
+    last: Floats
+    sweep: Floats
+
+
+def rounded(before: Curves, after: Curves, radius: Floats, near: Floats) -> Roundings:
+    """The arcs between curves that meet in corners, of radii (n,) + to the left; of two the one about a place nearer to `near`.
+
+    The curves count as a whole: whether an arc fits between their ends, and touches both, is not asked.
+    """
+    centre = meet(whole(before, radius), whole(after, radius), near, touching=True)
+    first, last = foot(centre, before), foot(centre, after)
+    return Roundings(centre, first, last, np.arctan2(cross(first - centre, last - centre), dot(first - centre, last - centre)))
 
 
 def on(p: Floats, curve: Curves, slack: float = SLACK) -> NDArray[np.bool_]:

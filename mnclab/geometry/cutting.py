@@ -20,14 +20,15 @@ from mnclab.geometry.curves import (
     Curves,
     Element,
     Floats,
+    at,
     cross,
     dot,
     left,
     length_of,
     meetings,
     share,
-    turned,
     unit_of,
+    whole,
 )
 
 Index = NDArray[np.intp]
@@ -65,13 +66,14 @@ class Outlines(NamedTuple):
 
 def outlines_of(loops: Sequence[Contour]) -> Outlines:
     """Closed contours as one list of elements."""
-    radii = np.concatenate([each.radii for each in loops])
-    curves = Curves(
-        np.concatenate([each.starts for each in loops]), np.concatenate([each.ends for each in loops]),
-        np.concatenate([each.centres for each in loops]), np.where(np.isinf(radii), np.nan, radii),
-        np.concatenate([each.sweeps for each in loops]),
-    )  # fmt: skip
-    return Outlines(curves, np.repeat(np.arange(len(loops)), [len(each.points) for each in loops]))
+    none, sizes = np.zeros((0, 2)), np.array([len(each.points) for each in loops], dtype=np.intp)
+    start, end = np.vstack([none, *(each.points for each in loops)]), np.vstack([none, *(each.ends for each in loops)])
+    bulge = np.concatenate([none[:, 0], *(each.bulge for each in loops)])
+    b = np.where(bulge == 0, np.nan, bulge)  # as `Contour` has radii and centres, of a line nan
+    centre = (start + end) / 2 + left(end - start) * ((1 - b * b) / (4 * b))[:, None]
+    r = length_of(end - start) * (1 + b * b) / (4 * np.abs(b))
+    curves = Curves(start, end, centre, r, 4 * np.arctan(bulge))
+    return Outlines(curves, np.repeat(np.arange(len(loops)), sizes))
 
 
 def lengths(curves: Curves) -> Floats:
@@ -94,9 +96,9 @@ def pieces_of(moved: Curves, joints: Index) -> tuple[Index, Floats, Floats, Floa
     count = len(moved.r)
     touching = np.sort(joints.min(axis=1) * count + joints.max(axis=1))
     which, places, points = [np.arange(count)] * 2, [np.zeros(count), np.ones(count)], [moved.start, moved.end]
-    travel = moved.end - moved.start
-    lines = Element(moved.start, unit_of(travel), moved.centre, moved.r)
+    lines = whole(moved)
     slack = SAME / np.maximum(lengths(moved), TINY)
+    # of pairs whose boxes meet, but for those that touch smoothly: where the whole lines and circles cross
     for i, k in near(*boxes(moved), SAME):
         key = i * count + k
         at = np.minimum(np.searchsorted(touching, key), max(len(touching) - 1, 0))
@@ -106,10 +108,12 @@ def pieces_of(moved: Curves, joints: Index) -> tuple[Index, Floats, Floats, Floa
         one, two = meetings(lines.only(i), lines.only(k))
         straight = ~(a.arc | b.arc)
         two[straight] = np.nan
+        # what lies on one line or circle crosses nowhere: it is cut at the ends of either
         same = _coincide(lines, i, k)
         one[same] = two[same] = np.nan
         met = [(i, k, a, b, p) for p in (one, two)]
         met += [(i[same], k[same], a.take(same), b.take(same), p[same]) for p in (a.start, a.end, b.start, b.end)]
+        # a place counts where it lies on both pieces, or a hair beyond their ends
         for here, there, first, second, p in met:
             with np.errstate(invalid="ignore"):
                 s, t = share(p, first), share(p, second)
@@ -117,6 +121,7 @@ def pieces_of(moved: Curves, joints: Index) -> tuple[Index, Floats, Floats, Floa
             which += [here[on], there[on]]
             places += [s[on], t[on]]
             points += [p[on], p[on]]
+    # curve by curve in the order of their places: what lies between two neighbours is a piece, unless it is too short
     curve, place, point = np.concatenate(which), np.clip(np.concatenate(places), 0.0, 1.0), np.concatenate(points)
     order = np.lexsort((place, curve))
     curve, place, point = curve[order], place[order], point[order]
@@ -135,14 +140,6 @@ def _coincide(lines: Element, i: Index, k: Index) -> Mask:
     return np.asarray(line | circle)
 
 
-def at(curves: Curves, which: Index, place: Floats) -> Floats:
-    """Points `(p, 2)` at shares of curves."""
-    start, centre, sweep = curves.start[which], curves.centre[which], curves.sweep[which]
-    round_ = centre + turned(start - centre, sweep * place)
-    straight = start + place[:, None] * (curves.end[which] - start)
-    return np.where(curves.arc[which, None], round_, straight)
-
-
 def followers(pieces: Curves) -> Index | None:
     """The piece that follows each, -1 for those that lead nowhere; None if those are more than rounding errors.
 
@@ -159,8 +156,8 @@ def followers(pieces: Curves) -> Index | None:
     i, k = i[other], k[other]
     gap = length_of(pieces.end[i] - pieces.start[k])
     probe = np.minimum(0.5, PROBE / np.maximum(lengths(pieces), TINY))
-    ahead = at(pieces, np.arange(count), probe) - pieces.start
-    behind = pieces.end - at(pieces, np.arange(count), 1 - probe)
+    ahead = at(pieces, probe) - pieces.start
+    behind = pieces.end - at(pieces, 1 - probe)
     turn = np.arctan2(cross(behind[i], ahead[k]), dot(behind[i], ahead[k]))
     order = np.lexsort((-turn, gap > EXACT))
     follow, before = [-1] * count, [-1] * count
@@ -220,7 +217,7 @@ def loops_of(pieces: Curves, after: Index) -> Outlines:
 
 def _joined(loop: Curves) -> Curves | None:
     """The pieces of a loop with those on one curve joined; None if it encloses nothing."""
-    lines = Element(loop.start, unit_of(loop.end - loop.start), loop.centre, loop.r)
+    lines = whole(loop)
     index = np.arange(len(loop.r))
     same = _coincide(lines, index - 1, index) & (np.sign(loop.sweep) == np.sign(np.roll(loop.sweep, 1)))
     same &= loop.arc | (dot(lines.t, np.roll(lines.t, 1, axis=0)) > 0)
@@ -234,11 +231,11 @@ def _joined(loop: Curves) -> Curves | None:
     loop, same = loop.take(np.roll(index, -shift)), np.roll(same, -shift)
     first = np.flatnonzero(~same)
     sweep = np.add.reduceat(loop.sweep, first)
-    whole = np.abs(sweep) > MOST
+    round_ = np.abs(sweep) > MOST
     start = loop.start[first]
     merged = Curves(start, np.roll(start, -1, axis=0), loop.centre[first], loop.r[first], sweep)
-    if whole.any():
-        merged = _halved(merged, whole)
+    if round_.any():
+        merged = _halved(merged, round_)
     chord = merged.end - merged.start
     some = merged.arc | (length_of(chord) > TINY)
     area = cross(merged.start - merged.start[0], merged.end - merged.start[0]).sum() / 2
@@ -247,15 +244,15 @@ def _joined(loop: Curves) -> Curves | None:
     return merged.take(some) if abs(area) >= 10 * SAME * lengths(merged).sum() and some.sum() > 1 else None
 
 
-def _halved(loop: Curves, whole: Mask) -> Curves:
+def _halved(loop: Curves, round_: Mask) -> Curves:
     """Arcs of nearly a full turn cut in halves."""
-    middle = at(loop, np.arange(len(loop.r)), np.full(len(loop.r), 0.5))
-    twice = np.repeat(np.arange(len(loop.r)), np.where(whole, 2, 1))
+    middle = at(loop, 0.5)
+    twice = np.repeat(np.arange(len(loop.r)), np.where(round_, 2, 1))
     second = np.flatnonzero(np.diff(twice, prepend=-1) == 0)
     found = loop.take(twice)
     found.start[second] = middle[twice[second]]
     found.end[second - 1] = middle[twice[second]]
-    return found._replace(sweep=found.sweep / np.where(whole[twice], 2, 1))
+    return found._replace(sweep=found.sweep / np.where(round_[twice], 2, 1))
 
 
 # Insets of closed loops, exactly: every element is moved inwards, what of it comes too near to another one falls away.
@@ -274,7 +271,7 @@ def inset(outlines: Outlines, d: float) -> Outlines | None:
     moved, joints = _moved(outlines, d)
     moved, joints = _only(~_swallowed(outlines.curves, moved, d), moved, joints)
     which, begin, end, start, stop = pieces_of(moved, joints)
-    kept = _keeps(outlines.curves, at(moved, which, begin + ASIDE * (end - begin)), d)
+    kept = _keeps(outlines.curves, at(moved.take(which), begin + ASIDE * (end - begin)), d)
     pieces = Curves(
         start[kept], stop[kept], moved.centre[which[kept]], moved.r[which[kept]],
         moved.sweep[which[kept]] * (end - begin)[kept],
@@ -333,7 +330,7 @@ def _swallowed(source: Curves, moved: Curves, d: float) -> Mask:
         return np.zeros(0, dtype=bool)
     tip = np.where(source.arc[:, None], source.start, source.end)  # of an arc its start stands for it
     tree = shapely.STRtree(shapely.linestrings(np.stack([source.start, tip], axis=1)))
-    nearest = tree.nearest(shapely.points(at(moved, np.arange(len(moved.r)), np.full(len(moved.r), 0.5))))
+    nearest = tree.nearest(shapely.points(at(moved, 0.5)))
     start, chord = source.start[nearest], (tip - source.start)[nearest]
     size = dot(chord, chord)
     flat = np.abs(moved.sweep) < np.pi / 2
@@ -351,10 +348,12 @@ def _keeps(source: Curves, spots: Floats, d: float) -> Mask:
     if len(spots) > 1 and len(spots) * len(source.r) > MOST_PAIRS:
         half = len(spots) // 2
         return np.concatenate([_keeps(source, spots[:half], d), _keeps(source, spots[half:], d)])
+    # pairs of a spot and an element whose box is no farther than d
     low, high = boxes(source)
     tree = shapely.STRtree(shapely.box(*low.T, *high.T))
     spot, element = tree.query(shapely.box(*(spots - d).T, *(spots + d).T))
     p, start, chord = spots[spot], source.start[element], (source.end - source.start)[element]
+    # their distance: for lines by the foot on the chord, for arcs from the circle within their sector, else from the ends
     size = dot(chord, chord)
     reach = np.clip(dot(p - start, chord) / np.where(size > 0, size, 1.0), 0.0, 1.0)
     off = length_of(p - start - reach[:, None] * chord)
@@ -376,7 +375,7 @@ def _doubled(pieces: Curves) -> Mask:
     found = np.zeros(len(pieces.r), dtype=bool)
     if not len(found):
         return found
-    middles = shapely.points(at(pieces, np.arange(len(found)), np.full(len(found), 0.5)))
+    middles = shapely.points(at(pieces, 0.5))
     i, k = shapely.STRtree(middles).query(middles, predicate="dwithin", distance=SAME)
     back = (length_of(pieces.start[i] - pieces.end[k]) < CLOSE) & (length_of(pieces.end[i] - pieces.start[k]) < CLOSE)
     found[i[back & (i != k)]] = True

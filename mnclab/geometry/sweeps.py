@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.curves import Floats, left, length_of
+from mnclab.geometry.curves import Floats, crossed, length_of
+from mnclab.geometry.cutting import outlines_of
 from mnclab.geometry.regions import Region
-from mnclab.geometry.tracing import SAME, SMOOTH
+from mnclab.geometry.tracing import bands_beside
 
 CHORD_ERROR = 1e-3
 QUARTER_STEPS = 64  # corners of a quarter circle
@@ -117,7 +118,7 @@ def skeleton(region: Region, spacing: float) -> Skeleton:
 
 def _spaced(loop: Contour, spacing: float) -> Floats:
     """Points on a contour, at most `spacing` apart, its corners among them."""
-    upto = np.append(0.0, np.cumsum(loop.lengths))
+    upto = loop.upto
     counts = np.maximum(np.ceil(loop.lengths / spacing).astype(int), 1)
     ways = [a + (b - a) * np.arange(n) / n for a, b, n in zip(upto, upto[1:], counts, strict=False)]
     return loop.point_at(np.concatenate(ways))[0]
@@ -163,20 +164,8 @@ def strip(line: Contour, reach: float) -> Region:
 
 
 def _pieces(line: Contour, reach: float) -> Iterator[Contour]:
-    begins, ends = line.tangents()
-    first, last = left(begins), left(ends)
-    columns = zip(line.starts, line.ends, line.bulge, line.radii, line.centres, first, last, strict=False)
-    for start, stop, bulge, radius, centre, a, b in columns:
-        for side in (reach, -reach):
-            if bulge * side > 0 and radius <= reach + SAME:
-                yield Contour([start, stop, centre], [bulge, 0.0, 0.0])  # nothing is nearer beyond the centre
-            else:
-                yield Contour([start, stop, stop + side * b, start + side * a], [bulge, 0.0, -bulge, 0.0])
-    turns = line.turns()
-    for k in np.flatnonzero(np.abs(turns) > SMOOTH).tolist():
-        outside = -reach * np.sign(turns[k])
-        here = line.points[k]
-        yield Contour([here, here + outside * last[k - 1], here + outside * first[k]], [0.0, np.tan(turns[k] / 4), 0.0])
+    yield from bands_beside(line, reach)
+    yield from bands_beside(line.reversed(), reach)
     for place in () if line.closed else line.points[[0, -1]]:
         yield Contour.circle(place, reach)
 
@@ -189,26 +178,11 @@ LEVEL = 1e-9
 def scan(region: Region, heights: Floats) -> list[Floats]:
     """For each height y the stretches `(k, 2)` of x where the line at y lies in the region, from left to right."""
     found = []
-    for y in np.asarray(heights, dtype=float):
-        cuts = np.unique(np.concatenate([np.zeros(0), *(_crossings(loop, float(y)) for loop in region.loops)]))
-        middles = (cuts[1:] + cuts[:-1]) / 2
-        inside = region.contains(np.stack([middles, np.full(len(middles), y)], axis=1)) & (np.diff(cuts) > LEVEL)
-        edge = np.diff(np.concatenate([[False], inside, [False]]).astype(int))
-        found.append(np.stack([cuts[np.flatnonzero(edge == 1)], cuts[np.flatnonzero(edge == -1)]], axis=1))
+    for row in crossed(outlines_of(region.loops).curves, np.asarray(heights, dtype=float)):
+        kept = np.ones(len(row), dtype=bool)
+        least = np.where(np.arange(len(row) - 1) % 2, 0.0, LEVEL)  # of a gap between two stretches, and of a stretch
+        for k in np.flatnonzero(np.diff(row) <= least).tolist():
+            if kept[k]:
+                kept[k : k + 2] = False
+        found.append(row[kept].reshape(-1, 2))
     return found
-
-
-def _crossings(loop: Contour, y: float) -> Floats:
-    """Where the elements of a loop meet the line at y; a place too many does no harm."""
-    low, high = np.minimum(loop.starts[:, 1], loop.ends[:, 1]), np.maximum(loop.starts[:, 1], loop.ends[:, 1])
-    rise = loop.ends[:, 1] - loop.starts[:, 1]
-    flat = (loop.sweeps == 0) & (low <= y) & (y <= high)
-    steep = flat & (np.abs(rise) > LEVEL)
-    share = (y - loop.starts[steep, 1]) / rise[steep]
-    straight = loop.starts[steep, 0] + share * (loop.ends - loop.starts)[steep, 0]
-    level = flat & ~steep
-    bent = loop.sweeps != 0
-    half2 = loop.radii[bent] ** 2 - (y - loop.centres[bent, 1]) ** 2
-    half = np.sqrt(np.maximum(half2, 0.0))[half2 >= 0]
-    middle = loop.centres[bent, 0][half2 >= 0]
-    return np.concatenate([straight, loop.starts[level, 0], loop.ends[level, 0], middle - half, middle + half])

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -22,7 +21,8 @@ from numpy.typing import NDArray
 
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import FULL_TURN, Contour, steps_within
-from mnclab.geometry.curves import Curve, Floats, at_angle, cross, left, length_of, turned, unit_of
+from mnclab.geometry.curves import Curves, Floats, at_angle, cross, foot, left, length_of, meet, turned, unit_of, whole
+from mnclab.geometry.cutting import outlines_of
 
 CHORD_ERROR = 2e-5  # mm, of the polylines: decides only what touches and what does not
 GRID = 1e-9  # mm, on which shapely rounds corners, so that nearly equal ones become equal
@@ -37,26 +37,22 @@ class Drawing:
     contours: Sequence[Contour]
     rings: list[Floats] = field(default_factory=list)  # (k, 2) each, not closed
     tags: list[NDArray[np.intp]] = field(default_factory=list)  # (k,) each: which of the curves
-    curves: list[Curve] = field(default_factory=list)
+    curves: Curves = field(init=False)  # the elements of all contours
 
     def __post_init__(self) -> None:
-        for contour in self.contours:
-            self.curves.extend(contour.curves)
-        label = iter(labels(self.curves).tolist())
-        elements = [list(zip(c.starts, c.ends, c.sweeps, label)) for c in self.contours]
+        self.curves = c = outlines_of(self.contours).curves
+        label, arcs = labels(c).tolist(), np.flatnonzero(c.arc).tolist()
         arcs_on: dict[int, list[Floats]] = {}
-        for start, end, sweep, tag in chain(*elements):
-            if sweep:
-                arcs_on.setdefault(tag, []).extend([start, end])
-        for mine in elements:
-            pieces, tags = list[Floats](), list[int]()
-            for start, _, sweep, tag in mine:
-                circle = self.curves[tag]
-                between = _arc_points(circle, start, sweep, np.array(arcs_on[tag])) if sweep else np.zeros((0, 2))
-                pieces += [start[None], between]
-                tags += [tag] * (1 + len(between))
+        for k in arcs:
+            arcs_on.setdefault(label[k], []).extend([c.start[k], c.end[k]])
+        between = {k: _arc_points(c, label[k], c.start[k], c.sweep[k], np.array(arcs_on[label[k]])) for k in arcs}
+        first = 0
+        for contour in self.contours:
+            elements = range(first, first + len(contour.points))
+            pieces = [np.vstack([c.start[k : k + 1], *([between[k]] if k in between else [])]) for k in elements]
             self.rings.append(np.vstack(pieces))
-            self.tags.append(np.array(tags))
+            self.tags.append(np.repeat(label[first : elements.stop], [len(piece) for piece in pieces]))
+            first = elements.stop
 
     def area(self, loops: Sequence[Contour], first: int) -> Any:
         """Loops of a region, which stand in the drawing from `first` on, as a shapely area."""
@@ -89,7 +85,7 @@ def covered(contours: Sequence[Contour]) -> Any:
 
 
 def traced(
-    result: Any, starts: Floats, ends: Floats, tags: NDArray[np.intp], curves: Sequence[Curve]
+    result: Any, starts: Floats, ends: Floats, tags: NDArray[np.intp], curves: Curves
 ) -> tuple[Contour, ...]:
     """The loops of a shapely area, with lines and arcs found again.
 
@@ -116,109 +112,99 @@ def traced(
     return tuple(loops)
 
 
-def _found_again(ring: Floats, tag: NDArray[np.intp], curves: Sequence[Curve]) -> Contour | None:
+def _found_again(ring: Floats, tag: NDArray[np.intp], curves: Curves) -> Contour | None:
     """A ring `(m, 2)` of straight pieces with tags `(m,)` as lines and arcs; None for a sliver."""
     raw = Contour(ring)
     if abs(raw.area) < SAME * 10 * raw.length:
         return None
-    runs = list(_runs(raw, tag, curves))
-    if len(runs) == 1 and np.isfinite(curves[runs[0][0]].radius):
-        curve = curves[runs[0][0]]
-        arm = ring[0] - curve.point
-        return Contour.circle(curve.point, curve.radius, np.arctan2(arm[1], arm[0]), clockwise=raw.area < 0)
-    before = [*runs[-1:], *runs[:-1]]
-    corners = [_corner(curves[a[0]], curves[b[0]], ring[b[1]]) for a, b in zip(before, runs, strict=True)]
+    runs = _runs(raw, tag, curves)
+    mine = curves.take(np.array([which for which, _, _ in runs], dtype=np.int64))
+    if len(runs) == 1 and mine.arc[0]:
+        arm = ring[0] - mine.centre[0]
+        return Contour.circle(mine.centre[0], float(mine.r[0]), np.arctan2(arm[1], arm[0]), clockwise=raw.area < 0)
+    corners = _corners(mine.take(np.arange(len(runs)) - 1), mine, ring[[first for _, first, _ in runs]])
     points: list[Floats] = []
     bulge: list[float] = []
-    for (which, first, last), start, end in zip(runs, corners, [*corners[1:], *corners[:1]], strict=True):
-        curve = curves[which]
-        if np.isinf(curve.radius):
-            sweeps = [0.0]
-        else:
-            seen = _angle_swept(np.vstack([ring, ring])[first : last + 1] - curve.point)
-            exact = _angle_swept(np.array([start, end]) - curve.point)
+    columns = zip(runs, corners, np.roll(corners, -1, axis=0), mine.centre, mine.r, mine.arc, strict=True)
+    for (_, first, last), start, end, centre, radius, arc in columns:
+        sweeps = [0.0]
+        if arc:
+            seen = _angle_swept(np.vstack([ring, ring])[first : last + 1] - centre)
+            exact = _angle_swept(np.array([start, end]) - centre)
             sweep = seen + np.remainder(exact - seen + np.pi, FULL_TURN) - np.pi
             sweeps = [sweep] if abs(sweep) < 6 else [sweep / 2, sweep / 2]
         if length_of(end - start) < SAME and len(sweeps) == 1:
             continue
-        arm = start - curve.point
+        arm = start - centre
         for k, sweep in enumerate(sweeps):
-            points.append(start if k == 0 else curve.foot(curve.point + turned(arm, sweep)))
+            points.append(start if k == 0 else centre + radius * unit_of(turned(arm, sweep)))
             bulge.append(float(np.tan(sweep / 4)))
     exact_loop = Contour(points, bulge) if len(points) > 1 else raw
     plausible = abs(exact_loop.area - raw.area) < 10 * CHORD_ERROR * raw.length
     return exact_loop if plausible else raw
 
 
-def _runs(raw: Contour, tag: NDArray[np.intp], curves: Sequence[Curve]) -> Iterator[tuple[int, int, int]]:
+def _runs(raw: Contour, tag: NDArray[np.intp], curves: Curves) -> list[tuple[int, int, int]]:
     """Runs of pieces on one curve: (curve, first point, last point), the last one counted on past the end."""
     kept = np.flatnonzero((raw.lengths > 10 * SAME) & (tag >= 0))
-    if not len(kept):
-        return
-    fresh = [j for j, i in enumerate(kept) if not _same(curves, int(tag[kept[j - 1]]), int(tag[i]))]
+    mine = tag[kept]
+    before, here = curves.take(np.roll(mine, 1)), curves.take(mine)
+    in_line = np.abs(cross(unit_of(before.end - before.start), unit_of(here.end - here.start))) < SMOOTH
+    in_line &= ~(before.arc | here.arc) & (length_of(foot(here.start, before) - here.start) < SAME)
+    fresh = np.flatnonzero((np.roll(mine, 1) != mine) & ~in_line).tolist()
     if not fresh:
-        yield int(tag[kept[0]]), 0, len(tag)
-        return
+        return [(int(mine[0]), 0, len(tag))] if len(kept) else []
+    found = []
     for j, k in zip(fresh, [*fresh[1:], fresh[0] + len(kept)], strict=True):
-        last = kept[(k - 1) % len(kept)] + 1
-        first = kept[j]
-        yield int(tag[first]), int(first), int(last if last > first else last + len(tag))
+        first, last = int(kept[j]), int(kept[(k - 1) % len(kept)]) + 1
+        found.append((int(mine[j]), first, last if last > first else last + len(tag)))
+    return found
 
 
-def _corner(a: Curve, b: Curve, near: Floats) -> Floats:
-    """Where two neighbours meet; if they touch smoothly, the place found by shapely is the better one."""
-    on_both = max(np.hypot(*(curve.foot(near) - near)) for curve in (a, b)) < 10 * GRID
-    if on_both and abs(cross(_along(a, near), _along(b, near))) < 1e-3:
-        return near
-    meeting = a.meeting(b, near)
-    off = max(np.hypot(*(curve.foot(meeting) - meeting)) for curve in (a, b))
-    return meeting if off < SAME else near
+def _corners(a: Curves, b: Curves, near: Floats) -> Floats:
+    """Where neighbours meet `(m, 2)`; of those that touch smoothly the places found by shapely are the better ones."""
+    off = np.maximum(length_of(foot(near, a) - near), length_of(foot(near, b) - near))
+    smooth = (off < 10 * GRID) & (np.abs(cross(_along(a, near), _along(b, near))) < 1e-3)
+    met = meet(whole(a), whole(b), near, touching=True)
+    with np.errstate(invalid="ignore"):  # parallel lines meet nowhere
+        on_both = np.maximum(length_of(foot(met, a) - met), length_of(foot(met, b) - met)) < SAME
+    return np.where((on_both & ~smooth)[:, None], met, near)
 
 
-def labels(curves: Sequence[Curve]) -> NDArray[np.intp]:
-    """For each curve the first one that is the same circle; a line is its own."""
-    label = np.arange(len(curves))
-    bent = np.array([i for i, curve in enumerate(curves) if np.isfinite(curve.radius)], dtype=int)
+def labels(curves: Curves) -> NDArray[np.intp]:
+    """For each curve the first one that is on the same circle; a line is its own."""
+    label, bent = np.arange(len(curves.r)), np.flatnonzero(curves.arc)
     if len(bent):
-        centres = shapely.points(np.array([curves[i].point for i in bent]))
-        radius = np.array([curves[i].radius for i in bent])
+        centres, radius = shapely.points(curves.centre[bent]), curves.r[bent]
         i, k = shapely.STRtree(centres).query(centres, predicate="dwithin", distance=SAME)
         alike = np.abs(radius[i] - radius[k]) < SAME
         np.minimum.at(label, bent[i[alike]], bent[k[alike]])
     return label
 
 
-def _arc_points(circle: Curve, start: Floats, sweep: float, ends: Floats) -> Floats:
-    """Points strictly between the ends of an arc: those of a fixed grid on its circle, and all `ends` there.
+def _arc_points(curves: Curves, circle: int, start: Floats, sweep: float, ends: Floats) -> Floats:
+    """Points strictly between the ends of an arc: those of a fixed grid on its circle, that of a curve, and all `ends` there.
 
     They depend on the circle alone, so that two arcs over the same stretch have the same points.
     """
-    count = int(steps_within(np.array([circle.radius]), np.array([FULL_TURN]), CHORD_ERROR)[0])
-    step, arm = FULL_TURN / count, start - circle.point
+    centre, radius = curves.centre[circle], float(curves.r[circle])
+    count = int(steps_within(np.array([radius]), np.array([FULL_TURN]), CHORD_ERROR)[0])
+    step, arm = FULL_TURN / count, start - centre
     low = np.arctan2(arm[1], arm[0]) + min(sweep, 0.0)
     grid = np.arange(np.ceil(low / step), np.floor((low + abs(sweep)) / step) + 1)
     angle = np.mod(grid, count) * step
-    spots = circle.point + circle.radius * at_angle(angle)
-    arms = ends - circle.point
+    spots = centre + radius * at_angle(angle)
+    arms = ends - centre
     fixed = np.unique(np.mod(np.arctan2(arms[:, 1], arms[:, 0]) - low, FULL_TURN), return_index=True)
     places = np.concatenate([fixed[0], grid * step - low])
     spots = np.vstack([ends[fixed[1]], spots])
-    near = SAME / circle.radius
+    near = SAME / radius
     clear = (places > near) & (places < abs(sweep) - near)
     gap = np.abs(np.remainder(places[len(fixed[0]) :, None] - fixed[0] + np.pi, FULL_TURN) - np.pi)
     clear[len(fixed[0]) :] &= (gap > near).all(axis=1)
     clear[1 : len(fixed[0])] &= np.diff(fixed[0]) > near
     order = np.flatnonzero(clear)[np.argsort(places[clear])]
     return spots[order if sweep > 0 else order[::-1]]
-
-
-def _same(curves: Sequence[Curve], i: int, k: int) -> bool:
-    """Whether two tags mean one curve: equal ones, or two lines in line."""
-    a, b = curves[i], curves[k]
-    if i == k or np.isfinite(a.radius) or np.isfinite(b.radius):
-        return i == k
-    apart = length_of(a.foot(b.point) - b.point)
-    return bool(abs(cross(a.direction, b.direction)) < SMOOTH and apart < SAME)
 
 
 def _polygons(geometry: Any) -> list[Any]:
@@ -228,9 +214,11 @@ def _polygons(geometry: Any) -> list[Any]:
     return sorted(found, key=lambda g: g.bounds[:2])
 
 
-def _along(curve: Curve, point: Floats) -> Floats:
-    """The direction of a curve at a point."""
-    return curve.direction if np.isinf(curve.radius) else left(point - curve.point) / curve.radius
+def _along(curve: Curves, p: Floats) -> Floats:
+    """The directions of curves at points (n, 2)."""
+    with np.errstate(invalid="ignore"):
+        round_ = left(p - curve.centre) / curve.r[:, None]
+    return np.where(curve.arc[:, None], round_, unit_of(curve.end - curve.start))
 
 
 def _angle_swept(arms: Floats) -> float:
@@ -254,15 +242,16 @@ def inset_by_bands(loops: Sequence[Contour], distance: float) -> tuple[Contour, 
     return drawing.traced(change(drawing.area(loops, 0), strip, grid_size=GRID))
 
 
-def bands_beside(loop: Contour, width: float) -> Iterator[Contour]:
-    """Bands along the left side of each element, and fans where the loop turns to the right."""
-    begin, end = loop.tangents()
-    first, last = loop.starts + width * left(begin), loop.ends + width * left(end)
-    turns, bulge = loop.turns(), loop.bulge
+def bands_beside(line: Contour, width: float) -> Iterator[Contour]:
+    """Bands along the left side of each element, and fans where the line turns to the right."""
+    begin, end = line.tangents()
+    first, last = line.starts + width * left(begin), line.ends + width * left(end)
+    turns, bulge = line.turns(), line.bulge[: len(line.starts)]
     smooth = np.abs(turns) <= SMOOTH
+    smooth[0] &= line.closed
     first[smooth] = np.roll(last, 1, axis=0)[smooth]  # no gap as wide as a rounding error
-    to_centre = np.where(bulge > 0, loop.radii, np.inf)
-    for i, (start, stop, centre) in enumerate(zip(loop.starts, loop.ends, loop.centres, strict=True)):
+    to_centre = np.where(bulge > 0, line.radii, np.inf)
+    for i, (start, stop, centre) in enumerate(zip(line.starts, line.ends, line.centres, strict=True)):
         if to_centre[i] <= width + SAME:
             yield Contour([start, stop, centre], [bulge[i], 0.0, 0.0])
         else:

@@ -14,7 +14,7 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.file import File, as_table, as_tables, check_names, parse
 from mnclab.text.given import check_number, shown
 from mnclab.text.opening import opened
-from mnclab.workpiece.blank_file import blank_of, point_of
+from mnclab.workpiece.blank import blank_of, point_of
 from mnclab.workpiece.part import Part, box, mesh
 
 #: The format, as the help of the command line shows it.

@@ -22,7 +22,7 @@ from mnclab.machine.probe import Place, Setter
 from mnclab.machine.touching import Contact
 from mnclab.machining.steps import RAPID, Go, Step, Touch, Write
 from mnclab.path.tool import Tool
-from mnclab.workpiece.milling.cutters import Cutter, cutter_of, edge_height
+from mnclab.workpiece.milling.moves import Cutter, cutter_of, edge_height
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.geometry.curves import Element, cross, dot, left, meet
+from mnclab.geometry.curves import Curves, cross, dot, length_of, rounded
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Array, Index, Kind, Mask, PathFault, Toolpath
 
@@ -68,6 +68,7 @@ class Open(NamedTuple):
 
 Corner = Rounding | Chamfer
 NOTHING = 1e-9  # mm
+TOUCHES = 1e-6  # mm, by which a rounding may miss its elements
 
 
 def apply(path: Toolpath, unfinished: bool = False) -> Toolpath:
@@ -99,13 +100,10 @@ class _Work:
             raise PathFault(f"{what} needs a path element after it", step)
         return row + 1 + int(after[0])
 
-    def element(self, row: int, at_end: bool, offset: float) -> Element:
-        """A row shifted to its left by `offset`, seen from its end or its start."""
-        view = self.view
-        q = (self.end if at_end else self.begin)[row : row + 1, :2]
-        t = (view.tangent_end if at_end else view.tangent_start)[row : row + 1]
-        r = view.radius[row : row + 1] - np.sign(view.sweep[row]) * offset
-        return Element(q + offset * left(t), t, view.centre[row : row + 1], r)
+    def curve(self, row: int) -> Curves:
+        """A row in its plane, as it was programmed."""
+        view, k = self.view, slice(row, row + 1)
+        return Curves(view.start[k, :2], view.end[k, :2], view.centre[k], view.radius[k], view.sweep[k])
 
     def replace(self, row: int, joint: Corner) -> None:
         """Cut off the corner after a row and fill the gap."""
@@ -144,12 +142,13 @@ class _Work:
 
     def round(self, row: int, follow: int, offset: float) -> tuple[bool, Array, dict[str, Any]]:
         """Trim two elements for the arc between them: whether it fits, its end (2,), and its columns."""
-        first, second = self.element(row, True, offset), self.element(follow, False, offset)
-        centre = meet(first, second, self.view.end[row : row + 1, :2])[0]
-        if not np.isfinite(centre).all() or (first.r <= 0).any() or (second.r <= 0).any():
+        before, after = self.curve(row), self.curve(follow)
+        found = rounded(before, after, np.array([offset]), self.view.end[row : row + 1, :2])
+        centre, begin, end, sweep = (column[0] for column in found)
+        shrunk = (each.r - np.sign(each.sweep) * offset for each in (before, after))  # nan for lines
+        off = max(abs(length_of(foot - centre) - abs(offset)) for foot in (begin, end))
+        if not off <= TOUCHES or any((radius <= 0).any() for radius in shrunk):
             return False, centre, {}
-        begin, end = self.foot(row, centre), self.foot(follow, centre)
-        sweep = np.arctan2(cross(begin - centre, end - centre), dot(begin - centre, end - centre))
         arc = {"kind": Kind.ARC, "centre": (*centre, self.view.end[row, 2]), "sweep": sweep}
         return self.trim(row, follow, begin, end), end, arc
 
@@ -157,14 +156,6 @@ class _Work:
         """End one element earlier and begin the next later; False if nothing would be left of one of them."""
         self.end[row, :2], self.begin[follow, :2] = begin, end
         return self.remains(row) and self.remains(follow)
-
-    def foot(self, row: int, centre: Array) -> Array:
-        """The point of an element nearest to a centre."""
-        if self.view.arc[row]:
-            spoke = centre - self.view.centre[row]
-            return self.view.centre[row] + self.view.radius[row] * spoke / np.hypot(*spoke)
-        t = self.view.tangent_end[row]
-        return self.begin[row, :2] + dot(centre - self.begin[row, :2], t) * t
 
     def remains(self, row: int) -> bool:
         """Whether something is left of a trimmed row, whose sweep is set to that."""

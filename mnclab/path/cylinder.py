@@ -18,7 +18,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from mnclab.geometry.curves import counted
 from mnclab.geometry.frames import Matrix
+from mnclab.path import places
 from mnclab.path.toolpath import COLUMNS, Array, Index, Kind
 
 if TYPE_CHECKING:
@@ -145,20 +147,15 @@ def parted_rapids(path: Toolpath, turn: float) -> tuple[Toolpath, Index]:
         last[rows] = path.rotary[rows, one.rotary]
     way = np.where((path.cylinder >= 0) & (path.kind == Kind.RAPID), np.abs(last - before), 0.0)
     pieces = np.clip(np.ceil(way / turn), 1, MOST).astype(np.int64)
-    row = np.repeat(np.arange(len(path)), pieces)
-    share = (np.arange(len(row)) - np.repeat(np.cumsum(pieces) - pieces, pieces))[:, None] / pieces[row][:, None]
-    step = 1 / pieces[row][:, None]
-    travel = (path.end - path.start)[row]
-    found = path[row]
+    found, row = places.divided(path, pieces)
+    share = counted(pieces)[1] / pieces[row]
     rotary, many = found.rotary.copy(), np.flatnonzero(pieces[row] > 1)
     of = np.array([one.rotary for one in path.cylinders], dtype=np.int64)[found.cylinder[many]] if len(many) else many
-    begin = before[row[many]] + (last - before)[row[many]] * share[many, 0]
+    begin = before[row[many]] + (last - before)[row[many]] * share[many]
     from_angle = found.from_angle.copy()
     from_angle[many] = begin
-    rotary[many, of] = begin + (last - before)[row[many]] * step[many, 0]
-    start = path.start[row] + share * travel
-    end = np.where(pieces[row][:, None] > 1, start + step * travel, path.end[row])
-    return found.replace(start=start, end=end, rotary=rotary, from_angle=from_angle), row
+    rotary[many, of] = begin + (last - before)[row[many]] / pieces[row[many]]
+    return found.replace(rotary=rotary, from_angle=from_angle), row
 
 
 def _cylinder_of(path: Toolpath) -> Index:

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.geometry.curves import cross, dot, left
+from mnclab.geometry.curves import cross, dot, left, turned
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Array, Kind, PathFault, Toolpath, gathered
 
@@ -78,7 +78,7 @@ def way(lead: Lead, start: Array, to: Array, t: Array) -> Way:
         case "CT":
             centre = to + lead.radius * normal
             sense = lead.side * math.copysign(1, lead.radius)
-            return Way(centre + _turned(to - centre, -sense * lead.angle), centre, sense * lead.angle)
+            return Way(centre + turned(to - centre, -sense * lead.angle), centre, sense * lead.angle)
     return _line_and_arc(lead, start, to, t)
 
 
@@ -98,15 +98,10 @@ def _line_and_arc(lead: Lead, start: Array, to: Array, t: Array) -> Way:
         message = f"{lead.name} {outside} inside of its arc of R{lead.radius:g}: no line touches the arc from there"
         raise PathFault(message, lead.step, "take a smaller radius, or a point farther away")
     # the line has the centre at the distance R beside it
-    heading = _turned(away / distance, -sense * math.asin(min(1.0, lead.radius / distance)))
+    heading = turned(away / distance, -sense * math.asin(min(1.0, lead.radius / distance)))
     by = start + math.sqrt(max(0.0, (distance - lead.radius) * (distance + lead.radius))) * heading
     angle = sense * math.atan2(cross(heading, t), dot(heading, t)) % math.tau
     return Way(by, centre, sense * angle) if NEAR < angle < math.tau - NEAR else Way(to)
-
-
-def _turned(v: Array, angle: float) -> Array:
-    c, s = math.cos(angle), math.sin(angle)
-    return np.array([c * v[0] - s * v[1], s * v[0] + c * v[1]])
 
 
 def apply(path: Toolpath, contour: Toolpath, unfinished: bool = False) -> Toolpath:

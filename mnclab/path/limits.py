@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mnclab.path.listing import figure
+from mnclab.path.places import spokes
 from mnclab.path.tool import record
 from mnclab.path.toolpath import Array, Kind, Toolpath
 from mnclab.text.alarm import Alarm
@@ -264,18 +265,17 @@ def extents(path: Toolpath) -> tuple[Array, Array]:
     arcs = np.flatnonzero((path.kind == Kind.ARC) & (path.sweep != 0))
     if not len(arcs):
         return low, high
-    axis, centre, size = path.axis[arcs], path.centre[arcs], np.abs(path.sweep[arcs])[:, None]
-    spoke = path.start[arcs] - centre
-    level = np.einsum("ij,ij->i", spoke, axis)[:, None] * axis
-    across = np.cross(axis, spoke - level) * np.sign(path.sweep[arcs])[:, None]
+    axis, size = path.axis[arcs], np.abs(path.sweep[arcs])[:, None]
+    spoke, across = spokes(path, arcs)
+    across, middle = across * np.sign(path.sweep[arcs])[:, None], path.start[arcs] - spoke
     rise = np.einsum("ij,ij->i", path.end[arcs] - path.start[arcs], axis)[:, None] * axis
-    amplitude, phase = np.hypot(spoke - level, across), np.arctan2(across, spoke - level)
+    amplitude, phase = np.hypot(spoke, across), np.arctan2(across, spoke)
     with np.errstate(divide="ignore", invalid="ignore"):
         tilt = np.arcsin(rise / (amplitude * size))  # nan where the pitch never turns back
     for turning in (phase + tilt, phase + np.pi - tilt):
         first = np.mod(turning, 2 * np.pi)
         for angle in (first, first + 2 * np.pi * np.floor((size - first) / (2 * np.pi))):
-            place = centre + level + amplitude * np.cos(angle - phase) + rise * angle / size
+            place = middle + amplitude * np.cos(angle - phase) + rise * angle / size
             reached = (angle > 0) & (angle < size)  # false for nan
             low[arcs] = np.where(reached, np.minimum(low[arcs], place), low[arcs])
             high[arcs] = np.where(reached, np.maximum(high[arcs], place), high[arcs])

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import turned
 from mnclab.path.toolpath import Array, Index, Kind, Toolpath
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
@@ -114,7 +115,8 @@ def _chained(path: Toolpath, view: PlaneView, rows: np.ndarray) -> Chain:
     for row in rows.tolist():
         sweep, start = float(view.sweep[row]) if view.arc[row] else 0.0, view.start[row, :2]
         count = max(1, int(np.ceil(abs(sweep) / np.pi - 1e-9)))
-        points += [start, *(_turned(start, view.centre[row], sweep * k / count) for k in range(1, count))]
+        angles = sweep * np.arange(1, count)[:, None] / count
+        points += [start, *(view.centre[row] + turned(start - view.centre[row], angles).reshape(-1, 2))]
         bulges += [float(np.tan(sweep / count / 4))] * count
         heights += np.linspace(view.start[row, 2], view.end[row, 2], count, endpoint=False).tolist()
         source += [row] * count
@@ -125,12 +127,6 @@ def _chained(path: Toolpath, view: PlaneView, rows: np.ndarray) -> Chain:
 def _check_path(path: Toolpath) -> None:
     if not isinstance(path, Toolpath):
         raise Alarm(f"an outline is that of a Toolpath, got {shown(path)}", hint="the toolpath of a run: run.toolpath")
-
-
-def _turned(point: np.ndarray, centre: np.ndarray, angle: float) -> np.ndarray:
-    c, s = np.cos(angle), np.sin(angle)
-    x, y = point - centre
-    return centre + np.array([c * x - s * y, s * x + c * y])
 
 
 def outlines(path: Toolpath, tolerance: float = 0.01) -> tuple[Contour, ...]:

@@ -290,13 +290,14 @@ class Toolpath(Columns):
     @cached_property
     def lengths(self) -> Array:
         """Length of each row along the path, mm (n,); zero for events."""
+        from mnclab.path.places import spokes
+
         travel = self.end - self.start
         straight = np.linalg.norm(travel, axis=1)
         arc = self.kind == Kind.ARC
         if arc.any():
             along = np.einsum("ij,ij->i", travel[arc], self.axis[arc])
-            spoke = self.start[arc] - self.centre[arc]
-            spoke = spoke - np.einsum("ij,ij->i", spoke, self.axis[arc])[:, None] * self.axis[arc]
+            spoke = spokes(self, np.flatnonzero(arc))[0]
             straight[arc] = np.hypot(np.linalg.norm(spoke, axis=1) * self.sweep[arc], along)
         return fixed(np.where(self.is_motion, straight, 0.0))
 

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from mnclab.geometry.curves import counted
 from mnclab.path.toolpath import Array, Index, Mask
 
 if TYPE_CHECKING:
@@ -90,8 +91,8 @@ class Looks:
         rows, way, low, span = self.rows[which], self.way[which], self.low[which], self.span[which]
         best, at, gap = np.full((3, len(rows)), -1.0), np.zeros((2, len(rows))), span / count
         deep, chip = np.zeros((2, len(rows)))  # where the rate is the greatest
-        of = np.repeat(np.arange(len(rows)), count)
-        share = low[of] + (np.arange(len(of)) - np.repeat(np.cumsum(count) - count, count) + 0.5) * gap[of]
+        of, rank = counted(count)
+        share = low[of] + (rank + 0.5) * gap[of]
         for _ in range(ROUNDS):
             met = self.part.ahead(rows[of], share)
             self.left -= len(of)

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from mnclab.path.inserts import edgeless
-from mnclab.path.profile.motions import divided
+from mnclab.path.places import divided
 from mnclab.path.tool import LATHE, Tool
 from mnclab.path.toolpath import Index, Kind, Mask, Toolpath
 from mnclab.workpiece.blank import Blank

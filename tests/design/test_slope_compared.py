@@ -5,7 +5,7 @@ from math import hypot
 import pytest
 
 from mnclab import Design
-from mnclab.design import Slope
+from mnclab.design.model.features import Slope
 
 BLANK = ((0, 0, -20), (100, 60, 0))
 SLOPE = Slope(40, 30, 40, 20, 2, 8)

@@ -6,7 +6,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.curves import Curve
 
 QUARTER = np.tan(np.pi / 8)  # the bulge of a quarter circle counter-clockwise
 HALF_LENS = np.arccos(0.6)  # two circles r = 25, 30 mm apart: half of the angle of each arc
@@ -170,17 +169,6 @@ def test_what_is_no_contour_is_refused():
         Contour([(0, 0), (1, 1)], [0, 0, 0])
     with pytest.raises(ValueError, match="finite"):
         Contour([(0, 0), (1, np.nan)])
-
-
-def test_curves_meet():
-    line = Curve(np.array([0.0, 3.0]), np.array([1.0, 0.0]), np.inf)
-    circle = Curve(np.array([0.0, 0.0]), np.array([1.0, 0.0]), 5.0)
-    other = Curve(np.array([8.0, 0.0]), np.array([1.0, 0.0]), 5.0)
-    slope = Curve(np.array([0.0, 0.0]), np.array([0.6, 0.8]), np.inf)
-    assert line.meeting(circle, np.array([3.0, 3.0])) == pytest.approx([4, 3])
-    assert circle.meeting(line, np.array([-3.0, 3.0])) == pytest.approx([-4, 3])
-    assert circle.meeting(other, np.array([4.0, -1.0])) == pytest.approx([4, -3])
-    assert slope.meeting(line, np.array([9.0, 9.0])) == pytest.approx([2.25, 3])
 
 
 @st.composite

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from mnclab import Tool
 from mnclab.comparison.turning_schemes import compare
 from mnclab.machining.turning import groove_schemes as grooves
-from mnclab.machining.turning import thread_schemes as threads
+from mnclab.machining.turning import threading as threads
 from mnclab.machining.turning.groove_schemes import CONTOUR_TOOL, SHOULDER_TOOL, Groove
 from mnclab.machining.turning.strokes import RAPID, THREAD
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mnclab.machining.depths import MOST, TooMany, advanced_stops, infeeds
-from mnclab.machining.holes.drilling import DIRECTIONS, back_bore, back_to_axis, bore, drill, guided, gun_drill, ream
+from mnclab.machining.holes import DIRECTIONS, back_bore, back_to_axis, bore, drill, guided, gun_drill, ream
 from mnclab.machining.steps import RAPID, Coolant, Go, Orient, Spin, Wait
 
 sizes = st.integers(1, 4000).map(lambda n: n / 100)

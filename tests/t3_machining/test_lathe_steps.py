@@ -7,8 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mnclab.machining.steps import RAPID, Go, Thread, Wait
-from mnclab.machining.turning.grooving import grooves, places
-from mnclab.machining.turning.roughing import Shoulder, around, exchanged, loops, roughing, towards
+from mnclab.machining.turning.roughing import Shoulder, around, exchanged, grooves, loops, places, roughing, towards
 from mnclab.machining.turning.threading import lead_along, thread_passes
 
 

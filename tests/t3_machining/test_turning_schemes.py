@@ -16,10 +16,9 @@ from mnclab.geometry.contours import Contour
 from mnclab.machining.turning import schemes as schemes
 from mnclab.machining.turning.groove_schemes import Groove, plunges, scheme_5, side_steps
 from mnclab.machining.turning.passes import without_drop
-from mnclab.machining.turning.profiles import reachable
+from mnclab.machining.turning.profiles import reachable, zone_of, zones
 from mnclab.machining.turning.strokes import CLEANUP, PICK_UP, PLUNGE, RAPID
-from mnclab.machining.turning.thread_schemes import added, shifts
-from mnclab.machining.turning.zones import zone_of, zones
+from mnclab.machining.turning.threading import added, shifts
 from mnclab.path.inserts import angles_of
 
 CATALOGUE = Path(__file__).parent.parent / "authorities" / "catalogue" / "turning-technology.json"

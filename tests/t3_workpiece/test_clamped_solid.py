@@ -8,7 +8,7 @@ from tools.milled import BALL, BULL, DRILL, MILL, is_closed, part
 
 from mnclab import Tool
 from mnclab.geometry.contours import Contour
-from mnclab.workpiece.creases import creases
+from mnclab.workpiece.milling.solid import creases
 
 NARROW = Tool(radius=3, number=1, kind="mill")
 RING = "G0 X20 Y15\nG1 Z-8\nG2 X20 Y15 I10 J5\nG0 Z50\n"  # about 30 20, radii √125 ± 5

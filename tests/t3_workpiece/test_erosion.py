@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from mnclab.workpiece.milling import erosion
-from mnclab.workpiece.milling.cutters import Cutter, edge_height
 from mnclab.workpiece.milling.erosion import BITS
-from mnclab.workpiece.milling.moves import Moves
+from mnclab.workpiece.milling.moves import Cutter, Moves, edge_height
 from mnclab.workpiece.milling.raster import Raster, lowered
 
 CUTTERS = {

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mnclab.area import Contour
 
 import mnclab as mnc
+from mnclab.geometry.contours import Contour
 from mnclab.show.plot.face import faces, spiral
 from mnclab.show.plot.holes import holes_of
 from mnclab.show.plot.lengths import heights_of

@@ -11,7 +11,7 @@ from matplotlib.patches import Polygon
 from mnclab import Alarm, Limits, Setup, Tool, blank, run
 from mnclab.comparison.turning_schemes import compare, toolpath
 from mnclab.geometry.contours import Contour
-from mnclab.machining.turning import thread_schemes as threads
+from mnclab.machining.turning import threading as threads
 from mnclab.path.inserts import as_drawn, insert
 from mnclab.show.plot import lathe as module
 from mnclab.show.plot.classes import classes

@@ -23,7 +23,7 @@ from mnclab.controls.word_address import holes
 from mnclab.machine.control import Words
 from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param
 from mnclab.machine.machine import Machine
-from mnclab.machining.holes.drilling import back_bore, back_to_axis, bore_and_stop, drill, ream, tap
+from mnclab.machining.holes import back_bore, back_to_axis, bore_and_stop, drill, ream, tap
 from mnclab.machining.steps import RAPID, Each, Go, Step, moved
 
 CYCLES = CycleTable()

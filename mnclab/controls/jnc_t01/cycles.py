@@ -12,10 +12,9 @@ from mnclab.controls.jnc_t01.functions import coordinate, cutting_feed, scale, s
 from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import MOST, infeeds
-from mnclab.machining.holes.drilling import drill
+from mnclab.machining.holes import drill
 from mnclab.machining.steps import RAPID, Go, Say, Step
-from mnclab.machining.turning.grooving import grooves, places
-from mnclab.machining.turning.roughing import Crosswise, Shoulder, remove_stock
+from mnclab.machining.turning.roughing import Crosswise, Shoulder, grooves, places, remove_stock
 
 CYCLES = CycleTable()
 INCREMENT = "under G91 from the start"

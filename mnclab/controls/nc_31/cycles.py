@@ -11,16 +11,17 @@ from mnclab.controls.nc_31.functions import refuse_rapid
 from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
-from mnclab.machining.holes.drilling import drill
+from mnclab.machining.holes import drill
 from mnclab.machining.steps import RAPID, Go, Step, Write
-from mnclab.machining.turning.grooving import grooves, places
 from mnclab.machining.turning.roughing import (
     Crosswise,
     Shoulder,
     around,
     count_of_breaks,
     count_of_levels,
+    grooves,
     loops,
+    places,
     roughing,
 )
 from mnclab.text.program import INCREMENTAL, RAPID_MARK

@@ -16,7 +16,7 @@ from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
-from mnclab.machining.holes.drilling import tap
+from mnclab.machining.holes import tap
 from mnclab.machining.steps import Go, Step, Thread
 from mnclab.machining.turning.threading import lead_along, thread_passes
 from mnclab.text.program import INCREMENTAL, RAPID_MARK

@@ -18,7 +18,7 @@ from mnclab.design.model.turned_features import TURNED_FEATURES
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import File, as_table, check_names, named, parse, replaced
 from mnclab.text.given import shown
-from mnclab.workpiece.blank_file import blank_of, table_of
+from mnclab.workpiece.blank import blank_of, table_of
 
 #: The format, as the help of the command line shows it.
 FORMAT = """\

@@ -15,7 +15,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import File, as_table, check_names
 from mnclab.text.given import check_number, faults_as_alarms, shown
-from mnclab.workpiece.blank_file import blank_of
+from mnclab.workpiece.blank import blank_of
 
 #: The format, as the help of the command line shows it.
 FORMAT = """\

@@ -16,7 +16,7 @@ import numpy as np
 
 from mnclab.design.model.measures import Measure
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.curves import Floats, cross, dot, length_of, unit_of
+from mnclab.geometry.curves import Floats, cross, dot, length_of, rounded, unit_of
 from mnclab.geometry.regions import Region
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, faults_as_alarms, shown, whole
@@ -262,17 +262,13 @@ def _rounding(contour: Contour, k: int, radius: float, told: str) -> _Cut:
     turn = float(contour.turns()[k])
     if abs(turn) < SAME or abs(turn) > math.pi - SAME:
         raise Alarm(f"{told} needs a corner there, the contour turns by {math.degrees(turn):.6g} degrees")
-    curves, sweeps = contour.curves, contour.sweeps
-    side = math.copysign(radius, turn)
-    near = [curves[i].moved_left(side, float(sweeps[i])) for i in (k - 1, k)]
-    if min(each.radius for each in near) < 0:
+    before, after = (contour.curves.take(np.array([i])) for i in (k - 1, k))
+    side = np.array([math.copysign(radius, turn)])
+    if any((each.r - np.sign(each.sweep) * side < 0).any() for each in (before, after)):
         raise Alarm(f"{told} is greater than an arc beside it")
-    centre = near[0].meeting(near[1], contour.points[k])
-    first, last = (curves[i].foot(centre) for i in (k - 1, k))
-    if max(abs(float(length_of(foot - centre)) - radius) for foot in (first, last)) > 1e-7:
+    centre, first, last, sweep = (column[0] for column in rounded(before, after, side, contour.points[k][None]))
+    if not max(abs(float(length_of(foot - centre)) - radius) for foot in (first, last)) <= 1e-7:
         raise Alarm(f"{told} does not touch both its neighbours")
-    arms = first - centre, last - centre
-    sweep = math.atan2(float(cross(*arms)), float(dot(*arms)))
     return _Cut(first, last, math.tan(sweep / 4))
 
 

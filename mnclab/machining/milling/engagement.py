@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.curves import Floats
+from mnclab.geometry.curves import Floats, counted
 from mnclab.geometry.regions import Region
 from mnclab.text.tables import shapes
 
@@ -182,8 +182,7 @@ class _Cells:
             key = (self.at[here, 0] + i) * self.width + self.at[here, 1]
             first, last = np.searchsorted(self.key, key - 1), np.searchsorted(self.key, key + 1, side="right")
             count = last - first
-            mine = np.repeat(np.arange(len(here)), count)
-            within = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
+            mine, within = counted(count)
             other = self.order[np.repeat(first, count) + within]
             earlier = other < here[mine]
             pairs.append((mine[earlier], other[earlier]))

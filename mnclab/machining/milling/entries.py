@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mnclab.geometry.contours import Contour
+from mnclab.geometry.contours import Contour, joined
 from mnclab.geometry.curves import Floats
 from mnclab.machining.depths import MOST, TooMany
 from mnclab.machining.milling.clearing import Clearing, Piece, begin
@@ -223,14 +223,12 @@ def descent(
 
 def _to_and_fro(line: Contour, count: int) -> Contour:
     """So many strokes along an open contour, from its start."""
-    parts = [line if k % 2 == 0 else line.reversed() for k in range(count)]
-    points = np.vstack([*(part.points[:-1] for part in parts), parts[-1].points[-1:]])
-    return Contour(points, np.append(np.concatenate([part.bulge[:-1] for part in parts]), 0.0), closed=False)
+    return joined(line if k % 2 == 0 else line.reversed() for k in range(count))
 
 
 def _sloping(way: Contour, top: float, bottom: float, label: str) -> Descent:
     """Evenly down along a way."""
-    upto = np.append(0.0, np.cumsum(way.lengths))
+    upto = way.upto
     return Descent(way, top + (bottom - top) * upto / upto[-1], label)
 
 

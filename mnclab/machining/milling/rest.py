@@ -25,7 +25,7 @@ from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour, joined
 from mnclab.geometry.curves import Floats
 from mnclab.geometry.regions import Region
-from mnclab.geometry.sweeps import broad, covered, polygons
+from mnclab.geometry.sweeps import broad, covered, left_over, polygons
 from mnclab.machining.milling.clearing import Clearing, Piece, begin, end, numbered, tool_centres
 from mnclab.machining.milling.rings import rings_in_order, rounded
 
@@ -308,8 +308,6 @@ def left_by(clearing: Clearing, material: Region | None = None) -> float:
 
     Slivers of a thousandth of R do not count.
     """
-    from mnclab.geometry.sweeps import covered, left_over, polygons
-
     radius, ways = clearing.radius, list(clearing.passes)
     for piece in clearing.pieces:
         for linked, (a, b) in zip(piece.linked, pairwise(piece.passes), strict=True):

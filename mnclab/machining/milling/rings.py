@@ -18,7 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.curves import Curve, Floats, cross, left
+from mnclab.geometry.curves import Curves, Floats, cross, dot, left, length_of, unit_of
+from mnclab.geometry.curves import rounded as arcs_between
 from mnclab.geometry.regions import Region
 from mnclab.machining.milling.clearing import NOWHERE, Clearing, Piece, links, numbered, piecewise
 from mnclab.machining.milling.terraces import roomiest
@@ -65,26 +66,23 @@ def rings_within(
 def rounded(loop: Contour, radius: float) -> Contour:
     """A closed contour with an arc in place of every corner to the left in which an arc of this radius fits."""
     turns, curves, sweeps, lengths = loop.turns(), loop.curves, loop.sweeps, loop.lengths
-    ahead = loop.tangents()[0]
+    sharp = np.flatnonzero((turns > SHARP) & (turns < np.pi - SHARP) & (radius > 0))
+    before, after = curves.take(sharp - 1), curves.take(sharp)
+    half = (np.pi - turns[sharp]) / 2
+    ahead = loop.tangents()[0][sharp]
+    bisector = np.cos(half)[:, None] * ahead + np.sin(half)[:, None] * left(ahead)
+    corner = loop.points[sharp]
+    found = arcs_between(before, after, np.full(len(sharp), radius), corner + (radius / np.sin(half))[:, None] * bisector)
+    off = [np.abs(length_of(foot - found.centre) - radius) for foot in (found.first, found.last)]
+    fits = (np.maximum(*off) <= 1e-6) & (_reach(before, radius) > 0) & (_reach(after, radius) > 0)
+    cut = _way(before, found.first, corner), _way(after, corner, found.last)
     taken = np.zeros((2, len(lengths)))  # of each element, at its start and at its end
     arcs: dict[int, tuple[Floats, Floats, float]] = {}  # corner: where the arc begins and ends, its bulge
-    sharp = (turns > SHARP) & (turns < np.pi - SHARP) & (radius > 0)
-    for i in np.flatnonzero(sharp).tolist():
-        corner, half = loop.points[i], (np.pi - turns[i]) / 2
-        bisector = np.cos(half) * ahead[i] + np.sin(half) * left(ahead[i])
-        inner = curves[i - 1].moved_left(radius, sweeps[i - 1]), curves[i].moved_left(radius, sweeps[i])
-        if min(inner[0].radius, inner[1].radius) <= 0:
-            continue
-        centre = inner[0].meeting(inner[1], corner + radius / np.sin(half) * bisector)
-        first, last = curves[i - 1].foot(centre), curves[i].foot(centre)
-        arms = first - centre, last - centre
-        cut = _way(curves[i - 1], sweeps[i - 1], first, corner), _way(curves[i], sweeps[i], corner, last)
-        room = lengths[i - 1] - taken[0, i - 1], lengths[i] - taken[1, i]
-        touches = np.allclose([np.hypot(*arm) for arm in arms], radius, rtol=0, atol=1e-6)
-        if touches and 0 < cut[0] <= room[0] and 0 < cut[1] <= room[1]:
-            taken[1, i - 1], taken[0, i] = cut
-            sweep = np.arctan2(cross(*arms), np.dot(*arms))
-            arcs[i] = first, last, float(np.tan(sweep / 4))
+    for k in np.flatnonzero(fits).tolist():
+        i, first, last = int(sharp[k]), float(cut[0][k]), float(cut[1][k])
+        if 0 < first <= lengths[i - 1] - taken[0, i - 1] and 0 < last <= lengths[i] - taken[1, i]:
+            taken[1, i - 1], taken[0, i] = first, last
+            arcs[i] = found.first[k], found.last[k], float(np.tan(found.sweep[k] / 4))
     if not arcs:
         return loop
     kept = np.tan(sweeps * np.clip(1 - taken.sum(axis=0) / lengths, 0, 1) / 4)
@@ -98,12 +96,16 @@ def rounded(loop: Contour, radius: float) -> Contour:
     return Contour(full.points[some], full.bulge[some])
 
 
-def _way(curve: Curve, sweep: float, start: Floats, end: Floats) -> float:
-    """The signed way from start to end along a line, or along an arc in the sense of its sweep."""
-    if np.isinf(curve.radius):
-        return float((end - start) @ curve.direction)
-    arms = start - curve.point, end - curve.point
-    return float(curve.radius * np.sign(sweep) * np.arctan2(cross(*arms), np.dot(*arms)))
+def _reach(curve: Curves, distance: float) -> Floats:
+    """The radii (n,) of curves at a distance to their left, infinite for lines."""
+    return np.where(curve.arc, curve.r - np.sign(curve.sweep) * distance, np.inf)
+
+
+def _way(curve: Curves, start: Floats, end: Floats) -> Floats:
+    """The signed ways (n,) from start to end (n, 2) along lines, or along arcs in the sense of their sweeps."""
+    arms = start - curve.centre, end - curve.centre
+    round_ = curve.r * np.sign(curve.sweep) * np.arctan2(cross(*arms), dot(*arms))
+    return np.where(curve.arc, round_, dot(end - start, unit_of(curve.end - curve.start)))
 
 
 def _piece(

@@ -49,7 +49,7 @@ def turn_between(inner: Contour, outer: Contour, spacing: float) -> Contour:
 
     The point at the share t of the way round lies at the share t of the way from the inner contour to the outer one.
     """
-    upto = np.append(0.0, np.cumsum(outer.lengths))
+    upto = outer.upto
     fine = steps_within(outer.radii, outer.sweeps, CHORD)
     counts = np.maximum(fine, np.ceil(outer.lengths / spacing).astype(int))
     ways = [a + (b - a) * np.arange(n) / n for a, b, n in zip(upto, upto[1:], counts, strict=False)]

@@ -233,7 +233,7 @@ def _wall(way: Contour, line: Contour, reach: float, side: int, begins_outside: 
 
 def _smooth(loop: Contour, way: float) -> float:
     """A way along a loop, or the middle of its longest element where it would lie at a corner."""
-    upto = np.append(0.0, np.cumsum(loop.lengths))
+    upto = loop.upto
     corners = np.append(np.abs(loop.turns()) > SAME, False)
     corners[-1] = corners[0]
     if not corners[np.abs(upto - way) <= NOTHING].any():
@@ -253,7 +253,7 @@ def _ways(line: Contour, half: float, step: float) -> tuple[Floats, NDArray[np.b
     The outer wall advances by no more than a step: of a bend of the radius r its way counts, 1 + w/2r times as long, and at a
     corner that round it. A closed line has no circle at its end, where the first one is.
     """
-    upto, goes_on = np.append(0.0, np.cumsum(line.lengths)), np.append(line.turns(), 0.0)
+    upto, goes_on = line.upto, np.append(line.turns(), 0.0)
     outer = line.lengths * (1 + half / line.radii)
     if line.length + outer.sum() > MOST * step:
         raise TooMany(f"a step of {step:.10g} divides the slot into more than {MOST} circles")
@@ -270,7 +270,7 @@ def _ways(line: Contour, half: float, step: float) -> tuple[Floats, NDArray[np.b
 def _circles(line: Contour, half: float, reach: float, step: float, sense: float) -> Contour:
     """Circles joined along the equidistant on which they run forward: on the right of the line where they turn left."""
     ways, stops = _ways(line, half, step)
-    upto = np.append(0.0, np.cumsum(line.lengths))
+    upto = line.upto
     element = np.searchsorted(upto, ways[:-1], side="right") - 1
     sweep = line.sweeps[element] * np.diff(ways) / line.lengths[element]
     places, ahead = line.point_at(ways[:-1])

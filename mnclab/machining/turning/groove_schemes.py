@@ -18,8 +18,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mnclab.geometry.contours import Contour
-from mnclab.machining.turning.grooving import grooves
 from mnclab.machining.turning.profiles import SAME
+from mnclab.machining.turning.roughing import grooves
 from mnclab.machining.turning.schemes import loop, semi_finish
 from mnclab.machining.turning.strokes import FINISH, PLUNGE, Pen, Plan
 from mnclab.path.tool import Tool

@@ -1,4 +1,4 @@
-"""Turning down to a shoulder with a bevel: levels, where a pass meets the contour, chip breaks, and all as steps.
+"""Turning down to a shoulder with a bevel, and grooves: levels, where a pass meets the contour, chip breaks, all as steps.
 
 Coordinates are (across, along), mm. A longitudinal cut has the radius across and Z along; a facing cut has them the
 other way round. Nothing here knows which side is outside or which way Z points: signs follow from the numbers. ::
@@ -17,6 +17,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
+from mnclab.machining.depths import infeeds
 from mnclab.machining.steps import RAPID, Go, Step, Thread
 
 GRAIN = 1e-9  # relative: a stock of 0.3 holds three depths of 0.1
@@ -157,3 +158,31 @@ class Crosswise:
 def exchanged(steps: Iterable[Step]) -> Iterator[Step]:
     """The same steps for a cut along X, or a hole along it: across and along change places."""
     return (s._replace(x=s.z, z=s.x) if isinstance(s, Go | Thread) else s for s in steps)
+
+
+# --- grooves: plunges at places side by side, several grooves or a wide one -------------------------------------------
+# Coordinates are (across, along) as above, mm: the tool plunges across, the places lie along.
+
+def places(first: float, last: float, step: float | None) -> tuple[float, ...]:
+    """Where to plunge: `step` apart from the first on, and at the last; without a step at these two.
+
+    >>> places(20, 35, 6)
+    (20.0, 26.0, 32.0, 35.0)
+    >>> places(20, 20, 6)
+    (20.0,)
+    """
+    return (float(first), *(infeeds(first, last, step) if last != first else ()))
+
+
+def grooves(
+    across: float, bottom: float, along: Sequence[float], feed: float | None = None, home: bool = True,
+    shift: float | None = RAPID,
+) -> Iterator[Go]:  # fmt: skip
+    """From the level `across` to the bottom at each of the places, moved between at the feed `shift`, and to the first again."""
+    for number, place in enumerate(along, 1):
+        label = f"groove {number} of {len(along)}" if len(along) > 1 else "groove"
+        yield Go(f"to {label}", place, shift)
+        yield Go(label, x=bottom, feed=feed)
+        yield Go(f"out of {label}", x=across)
+    if home:
+        yield Go("return", along[0])

@@ -24,11 +24,22 @@ from typing import Any
 import numpy as np
 
 from mnclab.geometry.contours import Contour
-from mnclab.machining.turning.grooving import grooves
 from mnclab.machining.turning.passes import FRONT, LIFT, MOST, POINT, Cutter, Task, falls_again, task, without_drop
-from mnclab.machining.turning.profiles import SAME, between, entry_way, exit_way, lowest, offset, reachable
+from mnclab.machining.turning.profiles import (
+    CLOSED,
+    OPEN,
+    SAME,
+    between,
+    entry_way,
+    exit_way,
+    filled,
+    lowest,
+    offset,
+    reachable,
+    zones,
+)
+from mnclab.machining.turning.roughing import grooves
 from mnclab.machining.turning.strokes import CLEANUP, OUT, PICK_UP, PLUNGE, ROUGH, Pen, Plan, cleared
-from mnclab.machining.turning.zones import CLOSED, OPEN, filled, zones
 from mnclab.path.tool import Tool
 
 

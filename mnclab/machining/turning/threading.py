@@ -14,8 +14,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
 
 from mnclab.machining.steps import Go, Thread
+from mnclab.machining.turning.strokes import THREAD, Pen, Plan
 
 Place = tuple[float, float]  # (x, z)
 
@@ -58,3 +62,143 @@ def thread_passes(
         way = [(x + into * (depth + taper * (z - place) / (z - z1)), place) for place in places]
         yield from thread_pass(label, [*way, (x1, z)] if run_out else way, x1, pitch)
         yield Go(label, z=z1)
+
+
+# Threads cut in passes: how the tool is shifted along Z as it goes deeper (NC-31, 3.20.12 and its table of passes).
+#
+#     radial      straight in: both edges cut             pitches up to 2 mm, and finishing
+#     flank       along one flank: one edge cuts          roughing above 2 mm
+#     alternate   to one flank and to the other in turn   coarse threads: both edges wear alike
+#
+# `depths` are total depths on the radius, mm; a shift counts along Z in the direction of feed.
+#
+#     flank      s = c·d, or with the last pass at the nominal Z  s = c·(d - d_last), against the feed
+#     alternate  s = ±c·(d_last - d)                              c = 0.5 for 60°, 0.42 for 55°
+
+METHODS = ("radial", "flank", "alternate")
+FACTORS = {60.0: 0.5, 55.0: 0.42}
+RADIAL_UP_TO = 2.0  # mm of pitch
+#: Passes for external metric threads with radial infeed by pitch, mm: general figures, as the table is empty in the source.
+USUAL_PASSES = {
+    0.75: 4, 1.0: 5, 1.25: 6, 1.5: 6, 1.75: 8, 2.0: 8, 2.5: 10, 3.0: 12, 3.5: 12, 4.0: 14, 4.5: 14, 5.0: 14, 5.5: 16, 6.0: 16,
+}  # fmt: skip
+
+
+class PassCount(NamedTuple):
+    """How many passes, and whether the manual says so."""
+
+    passes: int
+    from_manual: bool
+
+
+def factor(profile: float = 60.0) -> float:
+    """The shift along Z for 1 mm of depth; the source prints it for profiles of 60 and 55 degrees.
+
+    It calls the angle half the profile angle less 5 degrees; the printed factors give 26.57 and 22.78 degrees.
+    """
+    if profile not in FACTORS:
+        raise ValueError(f"the factor is known for profiles of 60 and 55 degrees, got {profile:g}")
+    return FACTORS[profile]
+
+
+def shifts(
+    depths: Sequence[float], method: str = "radial", profile: float = 60.0, nominal_last: bool = False
+) -> tuple[float, ...]:
+    """The shift along Z of every pass, mm, in the direction of feed.
+
+    Of the one-sided infeed it counts from the first contact, or with `nominal_last` from the place of the last pass; then
+    it is negative, against the feed. The alternate infeed always ends in the middle.
+
+    >>> shifts((0.4, 0.8, 1.2), "flank")
+    (0.2, 0.4, 0.6)
+    """
+    _check(depths)
+    if method not in METHODS:
+        raise ValueError(f"the infeed must be one of {', '.join(METHODS)}, got {method!r}")
+    if method == "radial":
+        return (0.0,) * len(depths)
+    c, last = factor(profile), depths[-1]
+    if method == "alternate":
+        return tuple(round((-1) ** k * c * (last - d), 12) + 0.0 for k, d in enumerate(depths))
+    return tuple(round(c * (d - last if nominal_last else d), 12) + 0.0 for d in depths)
+
+
+def added(positions: Sequence[float]) -> tuple[float, ...]:
+    """The shift before each pass: the steps between the positions, the first one from 0."""
+    return tuple(round(b - a, 12) for a, b in zip((0.0, *positions), positions, strict=False))
+
+
+def even_chips(total: float, passes: int) -> tuple[float, ...]:
+    """Depths of passes that all cut the same area of a triangular thread: total · √(k / n)."""
+    if passes < 1 or not total > 0:
+        raise ValueError(f"a thread needs a depth and at least one pass, got {total:g} and {passes}")
+    return tuple(total * math.sqrt(k / passes) for k in range(1, passes + 1))
+
+
+def methods_for(pitch: float) -> tuple[str, ...]:
+    """Which infeeds the source recommends for roughing a pitch; finishing passes are always radial."""
+    if not pitch > 0:
+        raise ValueError(f"the pitch must be greater than 0, got {pitch:g}")
+    return ("radial",) if pitch <= RADIAL_UP_TO else ("flank", "alternate")
+
+
+def passes_for(pitch: float, manual: bool = False) -> PassCount:
+    """The usual number of passes for a metric thread of a pitch, marked as not from the manual.
+
+    The cells of the table are empty in the source: asked for the `manual` value it raises LookupError; a pitch that the
+    table does not list is a ValueError.
+    """
+    if pitch not in USUAL_PASSES:
+        raise ValueError(f"the table lists pitches {', '.join(f'{p:g}' for p in USUAL_PASSES)} mm, got {pitch:g}")
+    if manual:
+        raise LookupError(f"the number of passes for a pitch of {pitch:g} mm is empty in the table of the source")
+    return PassCount(USUAL_PASSES[pitch], False)
+
+
+def thread(
+    start: float, end: float, radius: float, depths: Sequence[float], method: str = "radial", profile: float = 60.0,
+    *, taper: float = 0.0, out: float = 1.0,
+) -> Plan:  # fmt: skip
+    """Passes of an external thread from z `start` to `end`; `radius` is that of its crests at the end, mm.
+
+    `taper` is how much the radius grows from start to end; `out` is how far outside the tool goes back. All passes have one
+    length: the last is not shifted, so that the thread ends in its nominal place.
+    """
+    if end == start:
+        raise ValueError("a thread needs a length")
+    forward = math.copysign(1.0, end - start)
+    outside = radius + max(0.0, -taper) + out
+    pen = Pen(start, outside)
+    for depth, shift in zip(depths, shifts(depths, method, profile, nominal_last=True), strict=True):
+        pen.number += 1
+        places = start + forward * shift, end + forward * shift
+        way = [(radius - depth - taper * (end - place) / (end - start), place) for place in places]
+        pen.follow(thread_pass("pass", way, outside, 1.0), THREAD)
+        pen.rapid(places[0], outside)
+    return pen.plan(f"thread, {method}")
+
+
+def edge_shares(
+    depths: Sequence[float], positions: Sequence[float], profile: float = 60.0
+) -> tuple[tuple[float, float], ...]:
+    """Areas, mm², that each pass cuts on the two sides of its tip: behind it and ahead of it along the feed.
+
+    `positions` are those of `shifts`. From a fine grid over the gap: within a thousandth of the whole.
+    """
+    _check(depths)
+    slope = math.tan(math.radians(profile) / 2)
+    reach = depths[-1] * slope + max(map(abs, positions))
+    x = np.linspace(-reach, reach, 8001)
+    gone, found = np.zeros_like(x), []
+    for depth, place in zip(depths, positions, strict=True):
+        gap = np.maximum(depth - np.abs(x - place) / slope, 0.0)
+        cut = np.maximum(gap - gone, 0.0) * (x[1] - x[0])
+        found.append((float(cut[x < place].sum()), float(cut[x >= place].sum())))
+        gone = np.maximum(gone, gap)
+    return tuple(found)
+
+
+def _check(depths: Sequence[float]) -> None:
+    if not len(depths) or not depths[0] > 0 or any(b < a for a, b in zip(depths, depths[1:], strict=False)):
+        got = ", ".join(f"{d:g}" for d in depths)
+        raise ValueError(f"the depths of the passes must be positive and grow, got {got}")

@@ -197,19 +197,12 @@ def overcuts(made: Construction, steps: Iterable[int]) -> Iterator[Overcut]:
         if not len(k):
             continue
         leads = np.flatnonzero((contour == which) & bad & ~el.wall)
-        tool = _rows(found, np.concatenate([k, leads]))
+        beside_it = np.concatenate([k, leads])
+        rows, arcs = found.rows(beside_it), found.arcs(beside_it[found.insert[beside_it]])
+        tool = Curves(*map(np.concatenate, zip(rows, arcs, strict=True)))
         row = int(el.rows[k[0]])
         n_in, n_out = (beside(np.zeros((1, 2)), t[k], el.s[k]) for t in (el.t_in, el.t_out))
         yield Overcut(el.curves(k), n_in, n_out, tool, float(el.R[k[0]]), row, float(made.view.end[row, 2]))
-
-
-def _rows(found: Equidistant, k: Index) -> Curves:
-    """The rows of the tool centre along elements k, and the arcs inserted before them."""
-    el, c = found.el, k[found.insert[k]]
-    start, end = np.concatenate([found.begin[k], found.end[c - 1]]), np.concatenate([found.end[k], found.begin[c]])
-    centre, sweep = np.concatenate([el.centre[k], el.end[c - 1]]), np.concatenate([found.sweep[k], found.turn[c]])
-    arc: Mask = np.concatenate([el.arc[k], np.ones(len(c), dtype=bool)])
-    return Curves(start, end, centre, np.where(arc, np.hypot(*(start - centre).T), np.nan), sweep)
 
 
 def _one(curves: Curves, k: int, count: int) -> Curves:

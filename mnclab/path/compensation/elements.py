@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry.curves import Curves, Element, beside, dot, left
+from mnclab.geometry.cutting import boxes, lengths
 from mnclab.path.corners import Prolonged
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Array, Index, Mask, PathFault, Toolpath
@@ -163,9 +164,7 @@ class Elements(NamedTuple):
 
     def boxes(self, k: Index, contour: Index) -> tuple[Array, Array]:
         """Low and high corners (m, 2) of boxes round elements k (m,); those of each contour (n,) lie far from all others."""
-        sagitta = np.nan_to_num(self.r[k]) * (1 - np.cos(np.minimum(np.abs(self.sweep[k]) / 2, np.pi)))
-        bulge = np.where(self.arc[k], sagitta, 0)[:, None]
-        low, high = np.minimum(self.start[k], self.end[k]) - bulge, np.maximum(self.start[k], self.end[k]) + bulge
+        low, high = boxes(self.curves(k))
         away = (high.max(axis=0) - low.min(axis=0) + 4 * self.R.max())[0] * (contour[k] - contour[k[0]])
         low[:, 0] += away
         high[:, 0] += away
@@ -173,8 +172,7 @@ class Elements(NamedTuple):
 
     def length(self, k: Index | slice) -> Array:
         """How long elements k (m,) are, mm in the plane."""
-        straight = np.hypot(*(self.end[k] - self.start[k]).T)
-        return np.where(self.arc[k], np.abs(self.sweep[k]) * self.r[k], straight)
+        return lengths(self.curves(k))
 
     def curves(self, k: Index | slice) -> Curves:
         """Elements k (m,) as they are programmed."""

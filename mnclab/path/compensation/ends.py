@@ -43,12 +43,10 @@ def cuts(found: Equidistant, i: Index, j: Index, allowed: Array) -> Mask:
     radius less what is `allowed` (m,)."""
     el, result = found.el, np.zeros(len(i), dtype=bool)
     there = np.flatnonzero((found.left_over[i] > 0) & ~found.apart[i])
-    result[there] = gap(_rows(found, i[there]), el.curves(j[there])) < (el.R[i] - allowed)[there]
+    result[there] = gap(found.rows(i[there]), el.curves(j[there])) < (el.R[i] - allowed)[there]
     for after in (i, np.minimum(i + 1, len(el.rows) - 1)):  # the arcs about the start and the end of an element
         k = np.flatnonzero(found.insert[after] & ~result)
-        c, r = after[k], el.R[i[k]]
-        about = Curves(found.end[c - 1], found.begin[c], el.end[c - 1], r, found.turn[c])
-        result[k] = gap(about, el.curves(j[k])) < r - allowed[k]
+        result[k] = gap(found.arcs(after[k]), el.curves(j[k])) < el.R[i[k]] - allowed[k]
     return result
 
 
@@ -144,7 +142,7 @@ def _given_up(found: Equidistant, k: Index, first: int, last: int) -> bool:
     el, standing = found.el, []
     for wall, other in ((first, last), (last, first)):
         p, normal = _places(el, wall)
-        cut = distance(p, _rows(found, np.full(len(p), other))) < el.R[wall] - CLEAR
+        cut = distance(p, found.rows(np.full(len(p), other))) < el.R[wall] - CLEAR
         p, normal = p[cut], normal[cut]
         standing.append(p[_stands(found, k, k < first, p - BEHIND * normal, normal)])
         if not len(p):
@@ -178,15 +176,8 @@ def _stands(found: Equidistant, k: Index, earlier: Mask, p: Array, normal: Array
     wall, q = np.repeat(k, len(p)), np.tile(p, (size, 1))
     along = _tangent(el.curves(wall), q)
     faces = np.repeat(earlier, len(p)) | (el.s[wall] * dot(left(along), np.tile(normal, (size, 1))) > 0)
-    swept = faces & (distance(q, _rows(found, wall)) < el.R[wall])
+    swept = faces & (distance(q, found.rows(wall)) < el.R[wall])
     return np.asarray(~swept.reshape(size, len(p)).any(axis=0))
-
-
-def _rows(found: Equidistant, k: Index) -> Curves:
-    """The rows of the tool centre beside elements k (m,)."""
-    el = found.el
-    r = np.abs(el.r[k] - el.s[k] * np.sign(el.sweep[k]) * el.R[k])
-    return Curves(found.begin[k], found.end[k], el.centre[k], np.where(el.arc[k], r, np.nan), found.sweep[k])
 
 
 def normals(el: Elements, k: Index, p: Array) -> Array:

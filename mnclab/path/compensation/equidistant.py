@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.geometry.curves import Curves, beside, cross, dot, foot, gap, left, meet, meetings, part, share
+from mnclab.geometry.curves import Curves, beside, cross, dot, foot, gap, left, length_of, meet, meetings, part, share
 from mnclab.path.compensation.elements import ACUTE_TURN, CLEAR, CUSP, ROUND, STRAIGHT, TANGENT, Compensation, Elements
 from mnclab.path.toolpath import Array, Index, Mask, Rule
 
@@ -117,6 +117,7 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
     P, t1, t2 = el.end[b], el.t_out[b], el.t_in[a]
     shift = R * s
     E, S = beside(P, t1, shift), beside(P, t2, shift)  # A1 and A2
+    # which corners bend, and to which side: in a cusp what the elements do beside it decides
     across, along = cross(t1, t2), dot(t1, t2)
     small = np.abs(across) < np.sin(TANGENT)
     reversal = small & (along < 0)  # straight back: an outside corner of half a turn
@@ -126,6 +127,7 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
     if cusp.any():
         k = np.flatnonzero(cusp)
         out[k] = ~inside_cusps(el, c[k], R[k], s[k])
+    # outside corners that are built: at an entry, an exit and a change of side as the rules have it
     lead, leave, change = el.entry[b] | el.change[b], el.exit[a], el.change[a]
     rule = np.where(on, Rule.SIDE, Rule.NONE).astype(np.uint8)
     outside = bent & out & ~change
@@ -145,6 +147,7 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
         E[stays] = S[stays] = P[stays]
         S[to_first] = beside(P[to_first], t1[to_first], shift[to_first])
 
+    # straight ones, and inside corners: where the offsets meet
     corner = el.corner[a]
     straight = outside & ~reversal & (s * across < 0) & (corner != ROUND)
     straight &= (corner == STRAIGHT) | (along >= np.cos(ACUTE_TURN))
@@ -170,6 +173,7 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
             apart[k[~met]] = code == Rule.INSIDE
             straight[k[~met]] = False
     rule[el.entry[b]], rule[el.change[b]] = Rule.ENTRY, Rule.CHANGE
+    # arcs about all others, and about inside corners whose offsets do not meet
     turn = np.zeros(len(c))
     k = np.flatnonzero(outside | apart)
     turn[k] = np.where(reversal[k], -s[k] * np.pi, np.arctan2(across[k], along[k]))
@@ -263,6 +267,17 @@ class Equidistant:
         self._remain(slice(n - 1, n))
         free = np.flatnonzero(~el.wall)
         self.sweep[free] = el.sweep[free]
+
+    def rows(self, k: Index) -> Curves:
+        """The rows of the tool centre beside elements k (m,)."""
+        el = self.el
+        r = np.abs(el.r[k] - el.s[k] * np.sign(el.sweep[k]) * el.R[k])
+        return Curves(self.begin[k], self.end[k], el.centre[k], np.where(el.arc[k], r, np.nan), self.sweep[k])
+
+    def arcs(self, k: Index) -> Curves:
+        """The arcs about corners that lead to elements k (m,)."""
+        start, corner = self.end[k - 1], self.el.end[k - 1]
+        return Curves(start, self.begin[k], corner, length_of(start - corner), self.turn[k])
 
     def looking_ahead(self) -> Equidistant:
         """The same for rules that look at the whole contour: what they find to be a gouge is more, the path is the same."""

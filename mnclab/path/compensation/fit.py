@@ -108,9 +108,7 @@ def _cut(found: Equidistant, k: int, wall: int) -> Array:
     Of places along them the best is looked about again and again, each time closer."""
     el, at = found.el, np.arange(k, min(k + 2, len(found.el.rows)))
     at = at[found.insert[at]]  # arcs that lead to these rows
-    start, end = np.append(found.end[at - 1], found.begin[[k]], axis=0), np.append(found.begin[at], found.end[[k]], axis=0)
-    centre, sweep = np.append(el.end[at - 1], el.centre[[k]], axis=0), np.append(found.turn[at], found.sweep[k])
-    rows = Curves(start, end, centre, np.hypot(*(start - centre).T), sweep)
+    rows = Curves(*map(np.concatenate, zip(found.arcs(at), found.rows(np.array([k])), strict=True)))
     which, share, gap = np.repeat(np.arange(len(at) + 1), SPOTS), np.tile(np.linspace(0, 1, SPOTS), len(at) + 1), 1 / SPOTS
     for _ in range(4):
         spots = part(rows.take(which), share, share).start

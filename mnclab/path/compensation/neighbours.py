@@ -15,6 +15,7 @@ import numpy as np
 
 from mnclab.geometry.chords import near
 from mnclab.geometry.curves import Curves, distance, dot, gap, part
+from mnclab.geometry.cutting import boxes
 from mnclab.path.compensation.elements import CUSP, Compensation, Elements, meet
 from mnclab.path.compensation.equidistant import Equidistant, corners, ends, remaining
 from mnclab.path.toolpath import Array, Index, Mask, Rule
@@ -139,11 +140,10 @@ def near_tips(found: Equidistant, contour: Index) -> tuple[Index, Index]:
     w = np.flatnonzero(el.wall)
     if not len(c):
         return c, c
-    low, high = np.minimum(el.start[w], el.end[w]), np.maximum(el.start[w], el.end[w])
-    bulge = np.where(el.arc[w], 2 * np.nan_to_num(el.r[w]), 0.0)[:, None]
+    low, high = boxes(el.curves(w))
     tip, reach = found.end[c], np.hypot(*(found.end[c] - el.end[c]).T)[:, None]
-    boxes = np.concatenate([tip - reach, low - bulge]), np.concatenate([tip + reach, high + bulge])
-    pairs = [np.empty((2, 0), np.int64), *(np.stack(pair) for pair in near(*boxes, 0.0))]
+    both = np.concatenate([tip - reach, low]), np.concatenate([tip + reach, high])
+    pairs = [np.empty((2, 0), np.int64), *(np.stack(pair) for pair in near(*both, 0.0))]
     a, b = np.concatenate(pairs, axis=1)
     mixed = (a < len(c)) & (b >= len(c))
     corner, wall = c[a[mixed]], w[b[mixed] - len(c)]

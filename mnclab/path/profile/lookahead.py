@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 
 from mnclab.path.limits import Limits
-from mnclab.path.profile.motions import Bends
+from mnclab.path.places import Bends
 from mnclab.path.toolpath import Array, Index, Toolpath
 
 BLOCK = 4096  # nodes

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from mnclab.path.limits import Limits, limits_of
 from mnclab.path.listing import point
+from mnclab.path.places import Bends
 from mnclab.path.profile.lookahead import running_sum
-from mnclab.path.profile.motions import Bends
 from mnclab.path.profile.timing import Plan, plan
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 from mnclab.text.alarm import Alarm

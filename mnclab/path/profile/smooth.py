@@ -26,10 +26,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.geometry.curves import counted
 from mnclab.path.limits import Limits
+from mnclab.path.places import Bends, divided
 from mnclab.path.profile import ramps
 from mnclab.path.profile.lookahead import reachable, running_sum
-from mnclab.path.profile.motions import TANGENT, TURNING, Bends, Rows, allowed, divided
+from mnclab.path.profile.motions import TANGENT, TURNING, Rows, allowed
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 
 SHARE = 0.5  # of a ramp from rest to the greatest speed: the least length of a group of short rows
@@ -267,8 +269,7 @@ def staged(path: Toolpath, rows: Rows, limits: Limits) -> Staged | None:
     counts[arcs] += np.isfinite(shares).sum(axis=0)
     until = np.ones(counts.sum())
     last = np.cumsum(counts) - 1
-    k = np.arange(len(until)) - np.repeat(last + 1 - counts, counts)
-    part = np.repeat(np.arange(len(path)), counts)
+    part, k = counted(counts)
     which = np.full(len(path), -1)
     which[arcs] = np.arange(len(arcs))
     open_ = np.flatnonzero(k + 1 < counts[part])

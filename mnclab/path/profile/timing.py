@@ -15,8 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mnclab.path.limits import Limits
+from mnclab.path.places import divided
 from mnclab.path.profile.lookahead import FEWEST, PART, Turns, reachable
-from mnclab.path.profile.motions import PIECE, Rows, divided, measure
+from mnclab.path.profile.motions import PIECE, Rows, measure
 from mnclab.path.profile.ramps import Rapids
 from mnclab.path.profile.smooth import Groups, smooth, staged
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath

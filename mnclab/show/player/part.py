@@ -19,7 +19,7 @@ from mnclab.show.probed import Felt
 from mnclab.text.alarm import several
 from mnclab.workpiece.blank import Revolved
 from mnclab.workpiece.cutting import Cutting
-from mnclab.workpiece.milling.cutters import cutter_of
+from mnclab.workpiece.milling.moves import cutter_of
 from mnclab.workpiece.milling.raster import Raster
 from mnclab.workpiece.turning.section import Drawing, cuts, held, left_of
 from mnclab.workpiece.turning.strokes import Strokes, strokes_of

@@ -15,8 +15,8 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from mnclab.path.listing import figure
+from mnclab.path.places import divided
 from mnclab.path.profile import Profile
-from mnclab.path.profile.motions import divided
 from mnclab.path.toolpath import Kind
 from mnclab.show.plot import colours, ghost
 from mnclab.show.plot.overlay import line, texts

@@ -16,8 +16,8 @@ from matplotlib.patches import Patch, Polygon
 
 from mnclab.comparison.turning_schemes import TurningComparison, TurningTrial
 from mnclab.geometry.contours import Contour
+from mnclab.machining.turning.profiles import CLOSED, KINDS, Zone, zones
 from mnclab.machining.turning.strokes import CLEANUP, FINISH, OUT, PICK_UP, PLUNGE, RAPID, ROUGH, THREAD
-from mnclab.machining.turning.zones import CLOSED, KINDS, Zone, zones
 from mnclab.path.inserts import holder, insert
 from mnclab.path.listing import figure
 from mnclab.path.tool import Tool

@@ -1,19 +1,17 @@
 """What a mill leaves: its tools swept along their moves over a map of heights.
 
-    cutters  what a tool is below: flat, corner, cone
-    moves    the rows of a path as straight moves and arcs, each with its cutter
+    moves    what a tool is below: flat, corner, cone; the rows of a path as straight moves and arcs of it
     swept    exact: how high each move leaves the material at points
     raster   the map: cells, tiles, and the order of moves over them
     sweep    the height at any points
     volumes  what was taken away, and by which row
     sections contours of the material
-    limits   what a map of heights cannot hold, in words
-    many     of very many moves: the map, what was taken away, and by which row
-    erosion  their map: for each cell the tip that cuts deepest, and what its move leaves
-    tips     where the tips of a cutter went, cell by cell
-    search   which of all tips about a cell leaves the least height
+    erosion  of very many moves: the map, what was taken away, and by which row
     lattice  nodes over the map, and the walls between them at their true places
-    divided  a cell that walls cross, as triangles
-    solid    the part as a closed surface
+    solid    the part as a closed surface, and its edges
+    engaged  what stands before a tool at a place of its way
+    touched  the part as a probe meets it
+    judging  the bodies of a tool, and where one of them is in the material before a move
+    collisions  which of them must not be there, and what of a tool is in a fixture
     milled   what is left, as people ask for it
 """

@@ -1,6 +1,6 @@
 """What a mill meets that it must not: a body of the tool goes along a move, and material stands where it passes.
 
-Looked at are points under the body (`bodies`), and of each the exact height of the material before that move (`sweep`); no
+Looked at are points under the body (`judging`), and of each the exact height of the material before that move (`sweep`); no
 cells, so nothing is blamed on a grid. Of a large program only the moves are looked at that may collide: rapids below the top
 of the blank that do not go where the same tool has been as deep, plunges of tools that do not cut at their centre, drills
 that go sideways, cuts with a spindle that is wrong, moves so deep that a shank or a holder comes below the top. The more of a
@@ -10,19 +10,33 @@ kind there are, the fewer points each gets, and of more than 20,000 of a kind on
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 
 from mnclab.path.tool import CHAMFER, Tool
-from mnclab.path.toolpath import Mask
+from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.text.alarm import several
+from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.collision import Collision, Collisions, deep, solid
 from mnclab.workpiece.cutting import Cutting
-from mnclab.workpiece.milling.bodies import TOLERANCE, Body, above_edges, edges, holder
-from mnclab.workpiece.milling.cutters import Cutter
-from mnclab.workpiece.milling.fixtures import in_fixtures
-from mnclab.workpiece.milling.judging import Judged, Judging, Met
-from mnclab.workpiece.milling.moves import cut_up, moves_of
+from mnclab.workpiece.milling.judging import (
+    MOST,
+    TOLERANCE,
+    Body,
+    Judged,
+    Judging,
+    Met,
+    above_edges,
+    bodies_of,
+    edges,
+    holder,
+    under,
+)
+from mnclab.workpiece.milling.moves import Cutter, cut_up, moves_of
+from mnclab.workpiece.milling.raster import AT_ONCE
+from mnclab.workpiece.milling.swept import left_by
+from mnclab.workpiece.part import Part
 
 ROUGH, FEW = 60, 200  # points of a cut, enough to see whether it takes anything, and of what is behind the edges
 FALL = 0.1  # mm, by which a move may fall before it is cut up: its edges are before its shank
@@ -207,3 +221,102 @@ def _behind(scene: Judging, bodies: Callable[[Tool], list[Body]]) -> list[Judged
                 before = int(scene.stay[k]) if hole else int(k)  # the pecks of a hole do not clear one another
                 found.append(Judged(int(k), body, before, 0.0 if upright else float(fall[k])))
     return sorted(found, key=lambda each: each.move)
+
+
+# A mill in what holds the blank: its edges, its shank or its holder lower than a fixture's top, at points of both.
+
+GRID, FINE = 60, 240  # points along each side of a fixture; of all that the tools reach, where a part is looked for
+ABOVE = 1000.0  # mm above the path, from where the top of a part is looked for
+CLOSED, STEPS = 1e-6, 400  # mm that count as touched, and steps down to it
+
+
+class Held(NamedTuple):
+    """Points (m,) of a fixture, its top there, and how far the points lie from one another, mm."""
+
+    x: Array
+    y: Array
+    top: Array
+    apart: float
+
+
+def in_fixtures(scene: Judging) -> Iterator[tuple[str, str, Met]]:
+    """Kind, sentence and place of whatever of a tool is in a fixture."""
+    for fixture in scene.cutting.fixtures:
+        held = _points(scene, fixture)
+        if not len(held.x):
+            continue
+        for index, tool in enumerate(scene.cutting.tools):
+            mine = (scene.which == index) & ~scene.rising
+            for body in bodies_of(tool) if mine.any() else ():
+                for met in _met(scene, fixture, held, np.asarray(mine), body):
+                    yield "fixture", f"the {body.name} in a fixture", met
+
+
+def _met(
+    scene: Judging, fixture: Blank | Part, held: Held, mine: Array, body: Body
+) -> Iterator[Met]:
+    x, y, top, apart = held
+    bounds = np.array([[x.min(), y.min(), -np.inf], [x.max(), y.max(), top.max()]])
+    ends, wide = scene.boxes, body.cutter.radius - scene.moves.radius
+    near = mine & (ends[:, 0] - wide < bounds[1, 0]) & (ends[:, 1] - wide < bounds[1, 1])
+    near &= (ends[:, 2] + wide > bounds[0, 0]) & (ends[:, 3] + wide > bounds[0, 1])
+    near &= scene.moves.low + body.lift < top.max()
+    step = max(apart, TOLERANCE)
+    for k in _close(scene, np.flatnonzero(near), held, body):
+        move = scene.moves[k : k + 1].with_cutter(np.array(body.cutter), body.lift)
+        own = under(move, body.cutter.radius, bounds, step, MOST)
+        own_top = _top(fixture, *own, float(scene.moves.low.min()), float(scene.moves.end[:, 2].max()))
+        px, py = np.concatenate([own[0], x]), np.concatenate([own[1], y])
+        low = left_by(move, px, py)[0]
+        deep = np.fmax(np.concatenate([own_top, top]) - low, 0.0)
+        deepest = int(np.round(deep, 6).argmax())
+        if deep[deepest] > 0:
+            place = float(px[deepest]), float(py[deepest]), float(low[deepest]) - TOLERANCE
+            yield Met(int(scene.moves.row[k]), body, place, float(deep[deepest]) + TOLERANCE)
+
+
+def _close(scene: Judging, moves: Index, held: Held, body: Body) -> Iterator[int]:
+    """Those of some moves whose body comes as near to a point of the fixture as its points lie to one another."""
+    x, y, top, apart = held
+    wider = body.cutter.radius + apart
+    many = max(AT_ONCE // len(x), 1)
+    for first in range(0, len(moves), many):
+        chunk = moves[first : first + many]
+        discs = scene.moves[chunk].with_cutter(np.array(Cutter(wider, wider)), body.lift)
+        yield from chunk[(left_by(discs, x, y) < top).any(axis=1)].tolist()
+
+
+def _points(scene: Judging, fixture: Blank | Part) -> Held:
+    """A fixture at points of its own, its edges among them: a narrow clamp is not missed.
+
+    How far a part goes nobody says: it is looked for wherever a tool comes.
+    """
+    moves, many = scene.moves, GRID
+    if not len(moves):
+        return Held(np.empty(0), np.empty(0), np.empty(0), 0.0)
+    if isinstance(fixture, Part):
+        many = FINE
+        wide = max(body.cutter.radius for tool in scene.cutting.tools for body in bodies_of(tool))
+        low, high = scene.boxes[:, :2].min(axis=0) - wide, scene.boxes[:, 2:].max(axis=0) + wide
+    else:
+        low, high = fixture.bounds[:, :2]
+    x, y = (axis.ravel() for axis in np.meshgrid(*np.linspace(low, high, many + 1).T))
+    top = _top(fixture, x, y, float(moves.low.min()), float(moves.end[:, 2].max()))
+    solid = np.isfinite(top)
+    return Held(x[solid], y[solid], top[solid], float(np.hypot(*(high - low))) / many)
+
+
+def _top(fixture: Blank | Part, x: Array, y: Array, low: float, high: float) -> Array:
+    """How high a fixture reaches at points (m,); nan beside it. A part is looked for between `low` and far above `high`."""
+    if not isinstance(fixture, Part):
+        return fixture.faces(x, y)[1]
+    z = np.full(len(x), high + ABOVE)
+    going = np.arange(len(x))
+    for _ in range(STEPS):
+        gap = fixture(np.stack([x[going], y[going], z[going]], axis=1))
+        z[going] -= np.maximum(gap, CLOSED)
+        going = going[(gap > CLOSED) & (z[going] > low)]
+        if not len(going):
+            break
+    z[going] = low  # grazed, not met
+    return np.where(z > low, z, np.nan)

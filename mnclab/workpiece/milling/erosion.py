@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.path.toolpath import Array, Index, Mask
-from mnclab.workpiece.milling.cutters import Cutter, edge_height
-from mnclab.workpiece.milling.moves import STILL, Moves
+from mnclab.workpiece.milling.moves import STILL, Cutter, Moves, edge_height
 from mnclab.workpiece.milling.raster import Raster
 from mnclab.workpiece.milling.sweep import Sweep
 from mnclab.workpiece.milling.swept import left_by
@@ -62,7 +61,7 @@ def engaged(raster: Raster, moves: Moves, material: Array, margin: int) -> Array
         on_i, on_j = (np.clip(at, 0, n - 1).astype(np.int64) for at, n in ((i, raster.shape[1]), (j, raster.shape[0])))
         near = np.maximum(np.abs(i - on_i), np.abs(j - on_j)) <= margin
         depth = np.where(near, np.maximum(material[on_j, on_i] - z, 0.0), 0.0)
-        length = np.hypot(_flat(moves[chunk]), moves.end[chunk, 2] - moves.start[chunk, 2])
+        length = np.hypot(moves[chunk].ways, moves.end[chunk, 2] - moves.start[chunk, 2])
         found[chunk] = np.bincount(own, depth, len(chunk)) * length / np.bincount(own, minlength=len(chunk))
     return found
 
@@ -86,35 +85,16 @@ def _pieces(moves: Moves, which: Index, step: float) -> Iterator[tuple[Index, In
 
 def _count(moves: Moves, which: Index, step: float) -> Index:
     """Into how many pieces each move is cut (k,); one that stands in the plane is one."""
-    flat, rise = _flat(moves[which]), moves.end[which, 2] - moves.start[which, 2]
+    flat, rise = moves[which].ways, moves.end[which, 2] - moves.start[which, 2]
     return np.maximum(np.ceil(np.where(flat > STILL, np.hypot(flat, rise), 0.0) / step * PIECES), 1).astype(np.int64)
-
-
-def _flat(moves: Moves) -> Array:
-    """How far each move goes in the plane (k,), mm."""
-    way = moves.end - moves.start
-    flat = np.hypot(way[:, 0], way[:, 1])
-    if moves.arc.any():
-        spoke = moves.start[moves.arc, :2] - moves.centre[moves.arc]
-        flat[moves.arc] = np.hypot(spoke[:, 0], spoke[:, 1]) * np.abs(moves.sweep[moves.arc])
-    return flat
 
 
 def _places(moves: Moves, own: Index, share: Array) -> tuple[Array, Array, Array]:
     """x, y and z (k,) of tips at shares of their moves; what only goes up or down stands at its lower end."""
-    way = moves.end - moves.start
-    x, y, z = (moves.start[own, axis] + way[own, axis] * share for axis in range(3))
-    still = ~moves.arc & (np.hypot(way[:, 0], way[:, 1]) <= STILL)
+    x, y, z = moves.tips(own, share).T
+    still = ~moves.arc & (moves.ways <= STILL)
     if still.any():
-        plunged = still[own]
-        z[plunged] = moves.low[own[plunged]]
-    if moves.arc.any():
-        on = moves.arc[own]
-        arc, centre = own[on], moves.centre
-        spoke = moves.start[:, :2] - centre
-        angle = np.arctan2(spoke[:, 1], spoke[:, 0])[arc] + moves.sweep[arc] * share[on]
-        out = np.hypot(spoke[:, 0], spoke[:, 1])[arc]
-        x[on], y[on] = centre[arc, 0] + out * np.cos(angle), centre[arc, 1] + out * np.sin(angle)
+        z[still[own]] = moves.low[own[still[own]]]
     return x, y, z
 
 
@@ -269,7 +249,7 @@ class Eroded(NamedTuple):
 def eroded(raster: Raster, moves: Moves, top: Array) -> Eroded:
     """What moves leave of material that reaches up to `top` (ny, nx), at the middles of the cells of a raster."""
     found = Eroded(np.array(top, dtype=np.float64), np.full(raster.shape, -1, dtype=np.int32))
-    for cutter, which in _by_cutter(moves, reaching(raster, moves, float(top.max()))):
+    for cutter, which in moves.by_cutter(reaching(raster, moves, float(top.max()))):
         footprint = Footprint.of(cutter, raster.step)
         tips = tips_of(raster, moves, which, footprint.reach)
         for j in range(0, raster.shape[0], ROWS):
@@ -289,16 +269,6 @@ def reaching(raster: Raster, moves: Moves, below: float) -> Index:
         near = (boxes[:, 0] <= x1) & (boxes[:, 1] <= y1) & (boxes[:, 2] >= x0) & (boxes[:, 3] >= y0)
         found.append(first + np.flatnonzero(near & (some.low < below)))
     return np.concatenate([np.zeros(0, dtype=np.int64), *found])
-
-
-def _by_cutter(moves: Moves, which: Index) -> list[tuple[Cutter, Index]]:
-    """Some moves by the shape of their cutters."""
-    columns = moves.radius, moves.flat, moves.corner, moves.slope
-    if len(which) and all((column[which] == column[which[0]]).all() for column in columns):
-        return [(Cutter(*(float(column[which[0]]) for column in columns)), which)]
-    table = np.stack([column[which] for column in columns], axis=1)
-    shapes, shape = np.unique(table, axis=0, return_inverse=True)
-    return [(Cutter(*each), which[shape.reshape(-1) == k]) for k, each in enumerate(shapes.tolist())]
 
 
 def _erode(
@@ -420,7 +390,7 @@ class ManyMoves:
     def _lots(self) -> Iterator[Index]:
         """The moves, some at a time: they end where the cutter changes, if it does not change more often than they do."""
         moves = self.sweep.moves
-        shape = np.stack([moves.radius, moves.flat, moves.corner, moves.slope], axis=1)
+        shape = np.stack(moves.shape, axis=1)
         changes = np.flatnonzero((shape[1:] != shape[:-1]).any(axis=1)) + 1
         ends = np.arange(1, CHUNKS) * len(moves) // CHUNKS
         if len(changes) <= CHUNKS:

@@ -12,16 +12,16 @@ from mnclab.geometry.contours import Contour
 from mnclab.path.toolpath import Array, Index, Kind
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, choice, fitting_class, shown
-from mnclab.workpiece.ahead import Ahead
 from mnclab.workpiece.blank import Blank, Revolved
 from mnclab.workpiece.clamped import Clamped, Placement, from_side
-from mnclab.workpiece.creases import creases
 from mnclab.workpiece.cutting import Cutting
-from mnclab.workpiece.milling import engaged, volumes
+from mnclab.workpiece.milling import volumes
+from mnclab.workpiece.milling.engaged import Engaged
 from mnclab.workpiece.milling.erosion import ERROR, ManyMoves
 from mnclab.workpiece.milling.moves import CHORD, STILL, Moves, moves_of
 from mnclab.workpiece.milling.raster import NOISE, Raster
 from mnclab.workpiece.milling.sections import Shadow, level, traced, upright
+from mnclab.workpiece.milling.solid import creases
 from mnclab.workpiece.milling.sweep import Mapped, Sweep
 from mnclab.workpiece.milling.touched import Touched
 from mnclab.workpiece.part import Part
@@ -88,7 +88,7 @@ ALONG = 4  # samples of an upright section for each cell, before it is looked at
 
 
 @fitting_class
-class Milled(Workpiece):
+class Milled(Engaged):
     """`x` (nx,), `y` (ny,): middles of the cells; `heights` (ny, nx) mm: the top of the material there.
 
     `floor` (ny, nx) is the lower side of the blank, which the heights do not pass: where nothing is left, both are equal.
@@ -196,27 +196,6 @@ class Milled(Workpiece):
             return found
         rows = volumes.removed_by_row(self.sweep, len(self.cutting))
         return rows * (self.removed / rows.sum()) if rows.any() else rows
-
-    @cached_property
-    def quarters(self) -> tuple[Moves, Index, Index]:
-        return engaged.quarters(self)
-
-    @cached_property
-    def boxes(self) -> Array:
-        return self.quarters[0].boxes
-
-    @cached_property
-    def ceilings(self) -> Array:
-        return engaged.ceilings(self)
-
-    def reach(self, rows: Index) -> Array:
-        return engaged.reach(self, rows)
-
-    def ahead(self, rows: Index, share: Array) -> Ahead:
-        return engaged.ahead(self, rows, share)
-
-    def at_most(self, rows: Index) -> Ahead:
-        return engaged.at_most(self, rows)
 
     @cached_property
     def blank_volume(self) -> float:

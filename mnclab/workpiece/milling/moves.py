@@ -1,18 +1,51 @@
-"""The rows of a path as moves of a cutter: straight ones and arcs about Z, in the order of the rows.
+"""The lower side of a mill, and the rows of a path as moves of it: straight ones and arcs about Z, in the order of the rows.
 
 Arcs in other planes, and arcs whose ends do not lie on one circle, become chords within `CHORD` mm.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
+from mnclab.geometry.curves import counted
 from mnclab.path.places import points
+from mnclab.path.tool import POINTED, Tool
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 from mnclab.workpiece.cutting import Cutting
-from mnclab.workpiece.milling.cutters import Cutter, cutter_of
+
+# The lower side of a mill, turned about its axis: a flat disc, then a round corner or a cone, up to its radius.
+#
+# The height of the edge above the tip at a distance rho from the axis is 0 up to `flat`, from there
+# `corner - sqrt(corner² - (rho - flat)²)` or `slope (rho - flat)`. A ball has `flat` 0, a drill its point's slope.
+
+class Cutter(NamedTuple):
+    """Lengths in mm; `slope` is the rise of the cone for each mm outwards."""
+
+    radius: float
+    flat: float
+    corner: float = 0.0
+    slope: float = 0.0
+
+
+def cutter_of(tool: Tool) -> Cutter:
+    """The lower side of a tool as its table gives it; one without radius has none."""
+    radius = max(tool.effective_radius, 0.0)
+    if tool.kind in POINTED:
+        half = math.radians(min(tool.angle or POINTED[tool.kind], 180.0)) / 2
+        return Cutter(radius, 0.0, 0.0, max(math.cos(half) / math.sin(half), 0.0))
+    corner = min(tool.corner, radius)
+    return Cutter(radius, radius - corner, corner)
+
+
+def edge_height(rho: Array, flat: Array | float, corner: Array | float, slope: Array | float) -> Array:
+    """Height of the edge above the tip at distances from the axis; all of them broadcast."""
+    out = np.maximum(rho - flat, 0.0)
+    return np.asarray(corner - np.sqrt(np.maximum(corner * corner - out * out, 0.0)) + slope * out)
+
 
 CHORD = 1e-4  # mm, of arcs that are not about Z
 ROUND = 1e-6  # mm, by which both ends of an arc may miss its circle
@@ -59,6 +92,41 @@ class Moves:
     def chords(self) -> bool:
         """Whether some of them are chords of an arc."""
         return len(self.row) > 1 and bool((np.diff(self.row) == 0).any())
+
+    @property
+    def shape(self) -> tuple[Array, Array, Array, Array]:
+        """The columns of the cutters: radius, flat, corner, slope, each (k,)."""
+        return self.radius, self.flat, self.corner, self.slope
+
+    def by_cutter(self, which: Index) -> list[tuple[Cutter, Index]]:
+        """Some moves by the shape of their cutters."""
+        columns = [column[which] for column in self.shape]
+        if len(which) and all((column == column[0]).all() for column in columns):
+            return [(Cutter(*(float(column[0]) for column in columns)), which)]
+        shapes, shape = np.unique(np.stack(columns, axis=1), axis=0, return_inverse=True)
+        return [(Cutter(*each), which[shape.reshape(-1) == k]) for k, each in enumerate(shapes.tolist())]
+
+    @property
+    def ways(self) -> Array:
+        """How far each move goes in the plane (k,), mm."""
+        way = self.end - self.start
+        flat = np.hypot(way[:, 0], way[:, 1])
+        if self.arc.any():
+            spoke = self.start[self.arc, :2] - self.centre[self.arc]
+            flat[self.arc] = np.hypot(spoke[:, 0], spoke[:, 1]) * np.abs(self.sweep[self.arc])
+        return flat
+
+    def tips(self, which: Index, share: Array) -> Array:
+        """Where the tips of moves `which` (m,) are (m, 3) after shares (m,) of their ways."""
+        places = self.start[which] + (self.end - self.start)[which] * share[:, None]
+        on = self.arc[which]
+        if on.any():
+            arc = which[on]
+            spoke, angle = self.start[arc, :2] - self.centre[arc], self.sweep[arc] * share[on]
+            cos, sin = np.cos(angle), np.sin(angle)
+            places[on, 0] = self.centre[arc, 0] + spoke[:, 0] * cos - spoke[:, 1] * sin
+            places[on, 1] = self.centre[arc, 1] + spoke[:, 0] * sin + spoke[:, 1] * cos
+        return np.asarray(places)
 
     @property
     def low(self) -> Array:
@@ -128,23 +196,11 @@ def _chords(path: Toolpath, row: int, chord: float) -> tuple[Index, Array, Array
 
 def cut_up(moves: Moves, pieces: Index) -> Moves:
     """Each of k moves in so many pieces (k,)."""
-    owner = np.repeat(np.arange(len(moves)), pieces)
-    first = np.repeat(np.cumsum(pieces) - pieces, pieces)
+    owner, rank = counted(pieces)
     count = pieces[owner]
-    share = (np.arange(len(owner)) - first) / count
+    share = rank / count
     found = moves[owner]
-    start, end = _tips(found, share), _tips(found, share + 1 / count)
+    start, end = moves.tips(owner, share), moves.tips(owner, share + 1 / count)
     last = share + 1 / count > 1 - 1e-12
     end[last] = found.end[last]
     return Moves(**{**vars(found), "start": start, "end": end, "sweep": found.sweep / count})
-
-
-def _tips(moves: Moves, share: Array) -> Array:
-    """Where the tip of each move is (k, 3) after a share of its way."""
-    places = moves.start + (moves.end - moves.start) * share[:, None]
-    arc = moves.arc
-    centre, spoke = moves.centre[arc], moves.start[arc, :2] - moves.centre[arc]
-    cos, sin = np.cos(moves.sweep[arc] * share[arc]), np.sin(moves.sweep[arc] * share[arc])
-    places[arc, 0] = centre[:, 0] + spoke[:, 0] * cos - spoke[:, 1] * sin
-    places[arc, 1] = centre[:, 1] + spoke[:, 0] * sin + spoke[:, 1] * cos
-    return np.asarray(places)

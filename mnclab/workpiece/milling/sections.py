@@ -74,23 +74,29 @@ def _walls_upright(along: Array) -> Array:
 def merged(points: Array) -> Array:
     """A closed line (n, 2) without the corners that lie within `STRAIGHT` on a straight stretch."""
     points = points[(np.abs(points - np.roll(points, 1, axis=0)) > WALL).any(axis=1)]
-    keep = np.zeros(len(points), dtype=bool)
-    first = int(np.lexsort(points.T)[0])
-    points = np.roll(points, -first, axis=0)  # begins at a corner: nothing lies further left
-    closed = np.concatenate([points, points[:1]])
-    stack = [(0, len(points))]
+    points = np.roll(points, -int(np.lexsort(points.T)[0]), axis=0)  # begins at a corner: nothing lies further left
+    return straightened(np.concatenate([points, points[:1]]), STRAIGHT)[:-1]
+
+
+def straightened(line: Array, within: float) -> Array:
+    """A line (k, 2) or (k, 3) without the points that lie within a distance of a straight stretch (Douglas and Peucker)."""
+    keep = np.zeros(len(line), dtype=bool)
+    keep[[0, -1]] = True
+    stack = [(0, len(line) - 1)]
     while stack:
         a, b = stack.pop()
-        keep[a] = True
         if b - a < 2:
             continue
-        way, off = closed[b] - closed[a], closed[a + 1 : b] - closed[a]
-        length = float(np.hypot(*way))
-        distance = np.abs(way[0] * off[:, 1] - way[1] * off[:, 0]) / length if length > WALL else np.hypot(*off.T)
-        far = int(distance.argmax())
-        if distance[far] > STRAIGHT:
-            stack += [(a, a + 1 + far), (a + 1 + far, b)]
-    return points[keep]
+        way, off = line[b] - line[a], line[a + 1 : b] - line[a]
+        length = float(np.linalg.norm(way))
+        if length > within:  # beside the stretch; one that comes back to where it began has no direction
+            off = off - np.outer(off @ way / length**2, way)
+        away = np.linalg.norm(off, axis=1)
+        if away.max() > within:
+            k = a + 1 + int(away.argmax())
+            keep[k] = True
+            stack += [(a, k), (k, b)]
+    return line[keep]
 
 
 @dataclass(frozen=True, eq=False)

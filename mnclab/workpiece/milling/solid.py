@@ -1,4 +1,4 @@
-"""A milled part as a closed surface: both sides with their walls upright, and what stands between their rims.
+"""A milled part as a closed surface, and its edges: both sides with their walls upright, and what stands between their rims.
 
 The lattice of nodes is one sheet above and one below, each with the walls of its side; both are joined at the rim of the
 blank and where something goes through. Cells that lie in one plane and were cut by one row are taken together in squares,
@@ -13,6 +13,7 @@ import numpy as np
 
 from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.workpiece.milling.lattice import Lattice, divided, from_below, lattice_of, rows_at
+from mnclab.workpiece.milling.sections import straightened
 from mnclab.workpiece.workpiece import Solid
 
 if TYPE_CHECKING:
@@ -227,3 +228,44 @@ def _is_free(corners: tuple[int, int, int], places: Array) -> bool:
     if turn(a, b, c) <= 0:
         return False
     return not ((turn(a, b, others) >= 0) & (turn(b, c, others) >= 0) & (turn(c, a, others) >= 0)).any()
+
+
+# The edges of a body: lines where two of its faces meet at an angle.
+
+SHARP = np.cos(np.radians(25.0))  # of the angle between two faces from which on their edge is one
+STRAIGHT = 0.02  # mm, within which a line is straight
+
+
+def creases(solid: Solid) -> list[Array]:
+    """Lines (k, 3), mm; those that go round end where they begin."""
+    a, b, c = solid.points[solid.triangles].transpose(1, 0, 2)
+    normal = np.cross(b - a, c - a)
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    sides = np.concatenate([solid.triangles[:, [i, j]] for i, j in ((0, 1), (1, 2), (2, 0))])
+    face = np.tile(np.arange(len(solid.triangles)), 3)
+    order = np.lexsort(np.sort(sides, axis=1).T)
+    one, other = face[order[::2]], face[order[1::2]]  # every edge is one of two triangles
+    sharp = (normal[one] * normal[other]).sum(axis=1) < SHARP
+    return [straightened(solid.points[line], STRAIGHT) for line in _lines(np.sort(sides[order[::2]][sharp], axis=1))]
+
+
+def _lines(edges: Index) -> list[list[int]]:
+    """Edges (e, 2) as lines of vertices, from one where more or fewer than two meet to the next."""
+    beside: dict[int, list[int]] = {}
+    for p, q in edges.tolist():
+        beside.setdefault(p, []).append(q)
+        beside.setdefault(q, []).append(p)
+    found, left = [], set(map(tuple, edges.tolist()))
+    ends = sorted(beside, key=lambda vertex: len(beside[vertex]) == 2)  # what goes round has no end: it is left to the last
+    for first in ends:
+        for following in beside[first]:
+            line, here = [first], following
+            while (edge := (min(line[-1], here), max(line[-1], here))) in left:
+                left.remove(edge)
+                line.append(here)
+                if len(beside[here]) != 2:
+                    break
+                here = next((each for each in beside[here] if each != line[-2]), here)
+            if len(line) > 1:
+                found.append(line)
+    return found

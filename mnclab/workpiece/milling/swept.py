@@ -7,8 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mnclab.path.toolpath import Array, Index, Mask
-from mnclab.workpiece.milling.cutters import Cutter, edge_height
-from mnclab.workpiece.milling.moves import STILL, Moves
+from mnclab.workpiece.milling.moves import STILL, Cutter, Moves, edge_height
 from mnclab.workpiece.outcome import spend
 
 # Exact: how high arcs about Z that go up or down leave the material at points.
@@ -90,7 +89,7 @@ def helix(moves: Moves, x: Array, y: Array) -> Array:
     half = _half(out, round_, moves.radius[which])
     turned = np.mod((np.arctan2(py, px) - np.arctan2(spoke[:, 1], spoke[:, 0])[which]) * sense[which], FULL_TURN)
     fall = ((top[:, 2] - bottom[:, 2]) / whole)[which]
-    cutter = (each[which] for each in (moves.radius, moves.flat, moves.corner, moves.slope))
+    cutter = (each[which] for each in moves.shape)
     pairs = Pairs(top[which, 2], fall, out, round_, *cutter)
     bent = pairs.flat < pairs.radius
     last = np.floor((whole[which] - turned + half) / FULL_TURN)
@@ -186,14 +185,12 @@ def _level(moves: Moves, x: Array, y: Array) -> Array:
 
 def _sloping(moves: Moves, x: Array, y: Array) -> Array:
     """Straight moves that go up or down, those of one cutter at a time."""
-    columns = moves.radius, moves.flat, moves.corner, moves.slope
-    if all((column == column[0]).all() for column in columns):
-        return _of_cutter(moves, Cutter(*(float(column[0]) for column in columns)), x, y)
-    shapes, shape = np.unique(np.stack(columns, axis=1), axis=0, return_inverse=True)
+    cutters = moves.by_cutter(np.arange(len(moves)))
+    if len(cutters) == 1:
+        return _of_cutter(moves, cutters[0][0], x, y)
     found = np.empty((len(moves), x.shape[-1]))
-    for k, each in enumerate(shapes.tolist()):
-        which = shape.reshape(-1) == k
-        found[which] = _of_cutter(moves[which], Cutter(*each), *((x[which], y[which]) if x.ndim == 2 else (x, y)))
+    for cutter, which in cutters:
+        found[which] = _of_cutter(moves[which], cutter, *((x[which], y[which]) if x.ndim == 2 else (x, y)))
     return found
 
 

@@ -14,8 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from mnclab.path.toolpath import Array, Index, Mask
-from mnclab.workpiece.milling.cutters import edge_height
-from mnclab.workpiece.milling.moves import Moves
+from mnclab.workpiece.milling.moves import Moves, edge_height
 from mnclab.workpiece.milling.raster import NOISE, chunks, near
 from mnclab.workpiece.milling.sweep import Sweep
 from mnclab.workpiece.milling.swept import left_by
@@ -174,16 +173,14 @@ class Rims:
     def _discs(self, radius: Array) -> Moves:
         """The moves of flat discs that stand as high as the rims of the tools, in thin grooves as their tips."""
         moves, none = self.sweep.moves, np.zeros_like(radius)
-        rim = np.where(self.thin, 0.0, edge_height(moves.radius, moves.flat, moves.corner, moves.slope))
+        rim = np.where(self.thin, 0.0, edge_height(*moves.shape))
         return moves.with_cutter(np.stack([radius, radius, none, none], axis=1), rim)
 
     @cached_property
     def slack(self) -> Array:
         """By how much both discs may differ in height because the moves go up or down (k,)."""
         moves = self.sweep.moves
-        spoke, way = moves.start[:, :2] - moves.centre, (moves.end - moves.start)[:, :2]
-        length = np.where(moves.arc, np.hypot(*spoke.T) * np.abs(moves.sweep), np.hypot(*way.T))
-        rise = np.abs(moves.end[:, 2] - moves.start[:, 2])
+        length, rise = moves.ways, np.abs(moves.end[:, 2] - moves.start[:, 2])
         slope = np.divide(rise, length, out=np.zeros_like(length), where=length > NOISE)
         return np.asarray(NOISE + STEEP * self.half * slope)
 

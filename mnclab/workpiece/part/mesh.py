@@ -17,7 +17,9 @@ import numpy as np
 
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import counted
 from mnclab.geometry.regions import Region
+from mnclab.geometry.sweeps import outlined
 from mnclab.path.toolpath import Array, Index
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import read
@@ -163,8 +165,7 @@ class Mesh:
         first = np.floor((corners.min(axis=1) - low) / side).astype(int)
         last = np.floor((corners.max(axis=1) - low) / side).astype(int)
         wide, deep = (last - first + 1).T
-        which = np.repeat(np.arange(len(level)), wide * deep)
-        rank = np.arange(len(which)) - np.repeat(np.cumsum(wide * deep) - wide * deep, wide * deep)
+        which, rank = counted(wide * deep)
         i, j = first[which, 0] + rank % wide[which], first[which, 1] + rank // wide[which]
         a = corners[which] - low - side * np.stack([i, j], axis=1)[:, None]  # from the lower corner of the square
         met = np.ones(len(which), dtype=bool)
@@ -191,9 +192,8 @@ class Mesh:
         start = 0
         while start < len(x):
             stop = max(int(np.searchsorted(upto, (upto[start - 1] if start else 0) + PAIRS)), start + 1)
-            part = np.arange(start, stop)
-            point = np.repeat(part, many[part])
-            rank = np.arange(len(point)) - np.repeat(np.cumsum(many[part]) - many[part], many[part])
+            point, rank = counted(many[start:stop])
+            point += start
             triangle = owner[begins[square[point]] + rank]
             z = self._height(triangle, spots[point])
             hit = np.isfinite(z)
@@ -277,14 +277,8 @@ class Mesh:
 
 def _contours(area: Any) -> list[Contour]:
     """The rings of a shapely area."""
-    found = []
-    for piece in shapely.get_parts(area):
-        if piece.geom_type != "Polygon" or not piece.area > TINY:
-            continue
-        for ring, sense in [(piece.exterior, 1.0), *((ring, -1.0) for ring in piece.interiors)]:
-            loop = Contour(shapely.get_coordinates(ring)[:-1])
-            found.append(loop if loop.area * sense > 0 else loop.reversed())
-    return found
+    pieces = shapely.get_parts(area)
+    return list(outlined(pieces[shapely.area(pieces) > TINY]).loops)
 
 
 # A body of triangles as a part: a file (STL and others), or what pyvista has.

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry.contours import Contour, steps_within
-from mnclab.geometry.curves import Floats
+from mnclab.geometry.curves import Floats, at_levels, crossed
+from mnclab.geometry.cutting import outlines_of
 from mnclab.geometry.regions import Region
 from mnclab.workpiece.blank import CORNERS, Array
 from mnclab.workpiece.part import Part
@@ -49,51 +50,21 @@ def moment(contour: Contour) -> float:
 
 def radii_at(section: Sequence[Contour], z: Floats) -> list[Floats]:
     """Over each place z (k,) the radii at which the material begins and ends, growing; at a shoulder those on its left."""
-    found: list[list[float]] = [[] for _ in z]
-    for contour in section:
-        for start, end, sweep, centre, radius in zip(
-            contour.starts, contour.ends, contour.sweeps, contour.centres, contour.radii
-        ):
-            if not sweep:
-                over = (np.minimum(start[0], end[0]) < z) & (z <= np.maximum(start[0], end[0]))
-                for k in np.flatnonzero(over):
-                    found[k].append(float(start[1] + (z[k] - start[0]) / (end[0] - start[0]) * (end[1] - start[1])))
-                continue
-            for (a, b), side in _halves(start, end, sweep, centre, radius):
-                for k in np.flatnonzero((min(a, b) < z) & (z <= max(a, b))):
-                    found[k].append(float(centre[1] + side * math.sqrt(max(radius**2 - (z[k] - centre[0]) ** 2, 0.0))))
-    return [np.array(sorted(each)) for each in found]
-
-
-def _halves(start: Floats, end: Floats, sweep: float, centre: Floats, radius: float) -> list[tuple[tuple[float, float], float]]:
-    """From where to where in z an arc runs above its centre (+1) and below it (-1)."""
-    first = math.atan2(start[1] - centre[1], start[0] - centre[0])
-    turns = [k * math.pi for k in range(-4, 5) if 1e-12 < (k * math.pi - first) / sweep < 1 - 1e-12]
-    angles = [first, *sorted(turns, reverse=bool(sweep < 0)), first + sweep]
-    places = [float(start[0]), *(float(centre[0] + radius * math.cos(a)) for a in angles[1:-1]), float(end[0])]
-    sides = [math.copysign(1.0, math.sin((a + b) / 2)) for a, b in zip(angles, angles[1:])]
-    return list(zip(zip(places, places[1:]), sides))
+    return crossed(outlines_of(section).curves, z, axis=0)
 
 
 def ends_at(section: Sequence[Contour], radius: Floats) -> tuple[Floats, Floats]:
     """The lowest and the highest z of the material at each radius, in its shape; nan where there is none."""
-    low, high = np.full(radius.shape, np.inf), np.full(radius.shape, -np.inf)
-    for contour in section:
-        rows = zip(contour.starts, contour.ends, contour.sweeps, contour.centres, contour.radii)
-        for (z0, r0), (z1, r1), sweep, (zc, rc), size in rows:
-            places = [(np.full(radius.shape, z), radius == r) for z, r in ((z0, r0), (z1, r1))]
-            if sweep:
-                first = math.atan2(r0 - rc, z0 - zc)
-                half = np.sqrt(np.maximum(size**2 - (radius - rc) ** 2, 0.0))
-                for side in (half, -half):
-                    ahead = np.mod((np.arctan2(radius - rc, side) - first) * np.sign(sweep), 2 * np.pi)
-                    places.append((zc + side, (np.abs(radius - rc) <= size) & (ahead <= abs(sweep))))
-            elif r0 != r1:
-                share = (radius - r0) / (r1 - r0)
-                places.append((z0 + share * (z1 - z0), (share >= 0) & (share <= 1)))
-            for z, there in places:
-                low, high = np.where(there, np.minimum(low, z), low), np.where(there, np.maximum(high, z), high)
-    return np.where(np.isfinite(low), low, np.nan), np.where(np.isfinite(high), high, np.nan)
+    curves, at = outlines_of(section).curves, radius.ravel()
+    level, z = at_levels(curves, at)
+    corner = curves.start[np.isin(curves.start[:, 1], at)]
+    of, number = np.nonzero(corner[:, 1:] == at)
+    level, z = np.concatenate([level, number]), np.concatenate([z, corner[of, 0]])
+    low, high = np.full(len(at), np.inf), np.full(len(at), -np.inf)
+    np.minimum.at(low, level, z)
+    np.maximum.at(high, level, z)
+    found = (np.where(np.isfinite(ends), ends, np.nan).reshape(radius.shape) for ends in (low, high))
+    return next(found), next(found)
 
 
 def both_halves(section: Sequence[Contour]) -> tuple[Contour, ...]:
@@ -106,8 +77,7 @@ def overhangs(section: Sequence[Contour]) -> bool:
     """Whether seen along the axis one part of the material stands over another, with air between them."""
     corners = np.unique(np.concatenate([contour.points[:, 1] for contour in section] or [np.zeros(0)]))
     middles = (corners[:-1] + corners[1:])[np.diff(corners) > AXIS] / 2
-    across = [Contour(contour.points[:, ::-1], -contour.bulge) for contour in section]
-    return any(len(places) > 2 for places in radii_at(across, middles))
+    return any(len(places) > 2 for places in crossed(outlines_of(section).curves, middles))
 
 
 def volume(section: Sequence[Contour]) -> float:

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import FULL_TURN, Contour, steps_within
-from mnclab.geometry.curves import Curve, Floats, at_angle, unit_of
+from mnclab.geometry.curves import Floats, at_angle, counted
+from mnclab.geometry.cutting import Outlines, outlines_of
 from mnclab.geometry.tracing import labels, traced
 
 # What a convex contour covers that moves without turning, exact: bounded by lines and arcs again.
@@ -198,23 +199,14 @@ class Drawing:
         return cls([*blank, *strokes], np.array([-1] * len(blank) + list(rows), dtype=np.int64), len(blank))
 
     @cached_property
-    def elements(self) -> tuple[Floats, Floats, Floats, Floats, Floats, NDArray[np.int64]]:
-        """Starts, ends, sweeps, centres, radii and contour of all elements."""
-        which = np.repeat(np.arange(len(self.contours)), [len(each.points) for each in self.contours])
-        points = np.concatenate([each.points for each in self.contours])
-        ends = np.concatenate([each.ends for each in self.contours])
-        bulge = np.concatenate([each.bulge for each in self.contours])
-        chord = ends - points
-        b = np.where(bulge == 0, 1.0, bulge)[:, None]
-        normal = np.stack([-chord[:, 1], chord[:, 0]], axis=1)
-        centres = (points + ends) / 2 + normal * (1 - b * b) / (4 * b)
-        radii = np.hypot(*chord.T) * (1 + b[:, 0] ** 2) / (4 * np.abs(b[:, 0]))
-        return points, ends, 4 * np.arctan(bulge), centres, np.where(bulge == 0, np.inf, radii), which
+    def outlines(self) -> Outlines:
+        """All elements, and the contour of each."""
+        return outlines_of(self.contours)
 
     @cached_property
     def pieces(self) -> tuple[Floats, Floats, NDArray[np.intp], NDArray[np.int64], NDArray[np.int64]]:
         """Starts, ends, tags and contours of the straight pieces, and the first piece of every contour."""
-        starts, _, sweeps, centres, radii, which = self.elements
+        (starts, _, centres, radii, sweeps), which = self.outlines
         step = np.zeros(len(starts))
         bent = np.flatnonzero(sweeps)
         step[bent] = FULL_TURN / steps_within(radii[bent], np.full(len(bent), FULL_TURN), DRAWN_ERROR)
@@ -226,24 +218,16 @@ class Drawing:
             begin = np.where(sweeps != 0, np.floor(sense * first / step + 1e-6) + 1, 0.0)
             end = np.where(sweeps != 0, np.ceil(sense * (first + sweeps) / step - 1e-6) - 1, -1.0)
         inner[bent] = np.maximum(end - begin + 1, 0)[bent].astype(np.int64)
-        element = np.repeat(np.arange(len(starts)), inner + 1)
-        rank = np.arange(len(element)) - np.repeat(np.cumsum(inner + 1) - inner - 1, inner + 1)
+        element, rank = counted(inner + 1)
         angle = sense[element] * (begin[element] + rank - 1) * step[element]
         with np.errstate(invalid="ignore"):
-            on_circle = centres[element] + np.where(np.isinf(radii), 0.0, radii)[element, None] * at_angle(angle)
+            on_circle = centres[element] + radii[element, None] * at_angle(angle)
         points: Floats = np.where((rank == 0)[:, None], starts[element], on_circle).round(PLACES)
         contour = which[element]
         heads = np.searchsorted(contour, np.arange(len(self.contours)))
         after = np.arange(1, len(points) + 1)
         after[np.append(heads[1:], len(points)) - 1] = heads
         return points, points[after], element, contour, heads
-
-    @cached_property
-    def curves(self) -> list[Curve]:
-        """The line or circle of every element."""
-        starts, ends, _, centres, radii, _ = self.elements
-        columns = zip(starts, unit_of(ends - starts), centres, radii)
-        return [Curve(s, u, r) if np.isinf(r) else Curve(c, u, r) for s, u, c, r in columns]
 
     @cached_property
     def areas(self) -> NDArray[Any]:
@@ -268,7 +252,7 @@ class Drawing:
     def traced(self, area: Any) -> tuple[Contour, ...]:
         """A shapely area that was made of the contours, as lines and arcs."""
         starts, ends, element, _, _ = self.pieces
-        return traced(area, starts, ends, labels(self.curves)[element], self.curves)
+        return traced(area, starts, ends, labels(self.outlines.curves)[element], self.outlines.curves)
 
     @cached_property
     def _tree(self) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -11,7 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
-from mnclab.path.toolpath import Array, Index
+from mnclab.path.places import along
+from mnclab.path.toolpath import Array, Index, Kind
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, choice, fitting_class, shown
 from mnclab.workpiece.ahead import Ahead
@@ -19,15 +21,17 @@ from mnclab.workpiece.blank import Blank, Box, Revolved
 from mnclab.workpiece.clamped import Placement
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.part import Part
-from mnclab.workpiece.turning import engaged, revolved
+from mnclab.workpiece.turning import revolved
 from mnclab.workpiece.turning.revolved import TurnedBlank
-from mnclab.workpiece.turning.section import CHORD_ERROR, Drawing, cuts, held, left_of, moment
-from mnclab.workpiece.turning.strokes import Strokes, strokes_of
+from mnclab.workpiece.turning.section import CHORD_ERROR, Drawing, Edge, cuts, held, left_of, moment
+from mnclab.workpiece.turning.strokes import Strokes, strokes_of, threads_of
 from mnclab.workpiece.workpiece import Solid, Workpiece
 
 if TYPE_CHECKING:
     from mnclab.workpiece.milling.moves import Moves
 
+CHORDS = 9  # of a quarter of a nose
+SIDE = 1e-9  # of an edge, by which it goes ahead
 NEAR = 1e-6  # mm from an end
 PLANES = ("ZX", "XZ", "ZY", "YZ", "XY")
 
@@ -89,14 +93,87 @@ class Turned(Workpiece):
             found.setdefault(row, []).append(cut)
         return {row: pieces[0] if len(pieces) == 1 else shapely.union_all(pieces) for row, pieces in found.items()}
 
+    # --- what stands before the tool at places of its way: exact but for the chords of its nose ---------------------------
+    #
+    # Of the cutting part the edges that go ahead are looked at: what of them lies in the area that the row takes away is in
+    # the material. Across the way that is the depth of cut, and times 2 π r the cross-section.
+
     def reach(self, rows: Index) -> Array:
-        return engaged.reach(self, rows)
+        """The shares (2, k) of rows between which the tool is in what they take away; arcs may everywhere."""
+        found, path = np.zeros((2, len(rows))) + [[0.0], [1.0]], self.cutting.path
+        for k, row in enumerate(rows.tolist()):
+            if path.kind[row] != Kind.ARC and row in self.areas:
+                way = (path.end[row] - path.start[row])[[2, 0]]
+                length = float(np.hypot(*way))
+                if not length:
+                    continue  # out of the plane
+                spots, tip = shapely.get_coordinates(self.areas[row]) - self._place(path.start[row]), self._about_tip(row)
+                u = way / length
+                front, passed = spots @ u - (tip @ u).max(), spots @ (-u[1], u[0])
+                ends = front.min(), front.max() + np.ptp(passed)  # it may lean back
+                found[:, k] = np.clip(np.array(ends) / length, 0.0, 1.0)
+        return found
 
     def ahead(self, rows: Index, share: Array) -> Ahead:
-        return engaged.ahead(self, rows, share)
+        """What stands before the tools of rows (k,) when a share (k,) of their way is behind and a turn before.
+
+        The less of both, for a chip is no shorter than a turn.
+        """
+        path = self.cutting.path
+        turn = np.nan_to_num(threads_of(path)[0][rows] / path.lengths[rows])
+        now, before = self._at(rows, share), self._at(rows, (share - turn).clip(0.0))
+        return Ahead(*np.where(before.area < now.area, before, now))
 
     def at_most(self, rows: Index) -> Ahead:
-        return engaged.at_most(self, rows)
+        """No less than `ahead` finds anywhere on rows (k,).
+
+        The edges that go ahead are those of a convex body: across the way they lie beside each other, so that what of them is
+        in the area reaches no further across than the area does; on an arc, whose way turns, no further than a line through
+        its box. No part of it is further from the axis than the area.
+        """
+        found, path = Ahead.none(len(rows)), self.cutting.path
+        for k, row in enumerate(rows.tolist()):
+            if row in self.areas:
+                spots, way = shapely.get_coordinates(self.areas[row]), (path.end[row] - path.start[row])[[2, 0]]
+                length = float(np.hypot(*way))
+                across = np.ptp(spots @ (-way[1], way[0])) / length if path.kind[row] != Kind.ARC and length else 0.0
+                found.depth[k] = across or math.hypot(*np.ptp(spots, axis=0))
+                found.area[k] = 2 * math.pi * found.depth[k] * np.abs(spots[:, 1]).max()
+        return found
+
+    def _at(self, rows: Index, share: Array) -> Ahead:
+        found, path = Ahead.none(len(rows)), self.cutting.path
+        place, way = along(path, rows, share)
+        for row in np.unique(rows).tolist():
+            if row not in self.areas:
+                continue
+            which, body, area = np.flatnonzero(rows == row), self._about_tip(row), self.areas[row]
+            edge = np.roll(body, -1, axis=0) - body
+            across = way[which][:, [2, 0]] @ np.array([edge[:, 1], -edge[:, 0]])
+            k, e = np.nonzero(across > SIDE * np.hypot(*edge.T))
+            start = self._place(place[which[k]]) + body[e]
+            lines = shapely.linestrings(np.stack([start, start + edge[e]], axis=1))
+            shapely.prepare(area)
+            cut = np.flatnonzero(shapely.intersects(area, lines))
+            inside = shapely.intersection(lines[cut], area)
+            depth = across[k, e][cut] * shapely.length(inside) / shapely.length(lines[cut])
+            np.add.at(found.depth, which[k[cut]], depth)
+            np.add.at(found.area, which[k[cut]], 2 * math.pi * depth * np.abs(shapely.get_y(shapely.centroid(inside))))
+        return found
+
+    def _place(self, place: Array) -> Array:
+        """Places (…, 3) of the path as (z, r)."""
+        return np.asarray(place[..., [2, 0]] - (0.0, self.axis))
+
+    def _about_tip(self, row: int) -> Array:
+        """The corners (m, 2) of the cutting part about its tip, counter-clockwise, its noses as chords."""
+        cutting, ends = self.cutting, (self.cutting.path.start[row], self.cutting.path.end[row])
+        start, end = (tuple(self._place(each).tolist()) for each in ends)
+        body: list[Edge] = self.strokes.body_of(cutting.tool(row), start, end)
+        counts = [math.ceil(abs(each.sweep) * CHORDS * 2 / math.pi) or 1 for each in body]
+        return np.array([each.at(k / count) for each, count in zip(body, counts) for k in range(count)])
+
+    # --- what it is ---------------------------------------------------------------------------------------------------
 
     @cached_property
     def parted(self) -> list[Contour]:

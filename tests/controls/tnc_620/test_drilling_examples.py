@@ -17,7 +17,7 @@ import mnclab as mnc
 from mnclab import Kind
 from mnclab.geometry import frames
 from mnclab.machine.machine import Machine
-from mnclab.machining.holes.drilling import guided
+from mnclab.machining.holes import guided
 from mnclab.running.cycles import perform
 from mnclab.running.flow import Course
 

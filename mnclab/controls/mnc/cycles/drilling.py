@@ -14,7 +14,7 @@ from mnclab.machine.coordinates import MILLS, SHIFTS, is_round, remark, tool, wi
 from mnclab.machine.cycle import CycleTable, Given, Values, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
-from mnclab.machining.holes.drilling import back_bore, bore, bore_milling, drill, gun_drill, ream, turns
+from mnclab.machining.holes import back_bore, bore, bore_milling, drill, gun_drill, ream, turns
 from mnclab.machining.steps import Go, Say, Step, Wait, Write
 
 # Drilling and centring (MNC, 9.4, 9.7, 9.10, 9.11): G300, G303, G305 and G307, called by M99.

@@ -11,7 +11,7 @@ from mnclab.controls.word_address import holes
 from mnclab.machine.coordinates import TAPS, depth_scale
 from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param
 from mnclab.machine.machine import Machine
-from mnclab.machining.holes.drilling import drill, ream, tap
+from mnclab.machining.holes import drill, ream, tap
 from mnclab.machining.steps import Step
 
 CYCLES = CycleTable()

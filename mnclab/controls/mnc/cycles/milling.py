@@ -19,8 +19,17 @@ from mnclab.machining.depths import MOST, infeeds
 from mnclab.machining.milling.clearing import Clearing, numbered
 from mnclab.machining.milling.entries import Entry
 from mnclab.machining.milling.faces import Layer, face, lines, rows
-from mnclab.machining.milling.figures import Pocket, circular, mill_pocket, rectangular
-from mnclab.machining.milling.pocket_steps import Down, Feeds, Work, quarter_circles, way_down
+from mnclab.machining.milling.pocket_steps import (
+    Down,
+    Feeds,
+    Pocket,
+    Work,
+    circular,
+    mill_pocket,
+    quarter_circles,
+    rectangular,
+    way_down,
+)
 from mnclab.machining.milling.rest import within
 from mnclab.machining.steps import Go, Say, Step
 

@@ -14,7 +14,7 @@ from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import TAPS
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
-from mnclab.machining.holes.drilling import back_to_axis, tap
+from mnclab.machining.holes import back_to_axis, tap
 from mnclab.machining.steps import Go, Say, Step, Write
 from mnclab.running.cycles import run_cycle
 

@@ -18,7 +18,7 @@ from mnclab.machine.measuring import DIGITS, OUT, judged
 from mnclab.machine.setup import Datum
 from mnclab.machine.touching import PROBES, Contact, unfit
 from mnclab.machining.probing.fits import circle, rectangle
-from mnclab.machining.probing.found import Circle, Rectangle, Width
+from mnclab.machining.probing.found import Circle, Rectangle, Width, sketch
 from mnclab.machining.probing.sequences import (
     MINUS_X,
     MINUS_Y,
@@ -31,7 +31,6 @@ from mnclab.machining.probing.sequences import (
     numbers,
     sides,
 )
-from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure, Pause, Say, Step, Write
 
 # The base rotation and the datum from a measurement (MNC 12: "base rotation", "datum from measurement").

@@ -26,9 +26,9 @@ from mnclab.machine.coordinates import NOTHING
 from mnclab.machine.cycle import CycleTable, Given, Values
 from mnclab.machine.machine import Machine
 from mnclab.machining.probing.fits import corner, line, reduced
+from mnclab.machining.probing.found import sketch
 from mnclab.machining.probing.sequences import Aim, Approach, Pair, Steps, from_above, in_plane, numbers, results
 from mnclab.machining.probing.sequences import corner as corner_touches
-from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure, Say
 from mnclab.text.alarm import Alarm
 

@@ -11,8 +11,8 @@ from mnclab.controls.mnc.probing.addresses import APPROACH, CENTRE, SIZE
 from mnclab.controls.mnc.probing.cycle import Check, MeasuringCycle, Moves, box, centre, conclude, ring, size
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
+from mnclab.machining.probing.found import sketch
 from mnclab.machining.probing.sequences import NORMALS, Aim, Approach, in_plane, results
-from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure
 
 CYCLES = CycleTable(addresses=addresses, runs="definition")

@@ -21,7 +21,7 @@ from mnclab.machine.coordinates import MILLS, depth_scale, in_mm, plane_scale, r
 from mnclab.machine.cycle import Cycle, CycleTable, few_passes
 from mnclab.machine.machine import INF, Machine
 from mnclab.machining.depths import infeeds
-from mnclab.machining.holes.drilling import drill
+from mnclab.machining.holes import drill
 from mnclab.machining.milling.clearing import numbered
 from mnclab.machining.milling.rest import left_by, rest, rest_passes
 from mnclab.machining.milling.rings import rings

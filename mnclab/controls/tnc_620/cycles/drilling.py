@@ -22,8 +22,8 @@ from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault
 from mnclab.machine.coordinates import MILLS, SHIFTS, is_round, tool, with_the_spindle
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
+from mnclab.machining import holes
 from mnclab.machining.depths import DRIFT, advanced_stops, infeeds
-from mnclab.machining.holes import drilling as holes
 from mnclab.machining.steps import RAPID, Go, Say, Step, Wait, Write
 
 # Centring, drilling and reaming (4.2 to 4.4, 4.6): cycles 240, 200, 201 and 203.

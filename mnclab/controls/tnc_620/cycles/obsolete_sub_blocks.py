@@ -25,11 +25,10 @@ from mnclab.machine.coordinates import MILLS, TAPS, depth_scale
 from mnclab.machine.cycle import Cycle, CycleTable, few_passes, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
-from mnclab.machining.holes.drilling import drill, tap
+from mnclab.machining.holes import drill, tap
 from mnclab.machining.milling import faces
 from mnclab.machining.milling.clearing import Clearing
-from mnclab.machining.milling.figures import straight
-from mnclab.machining.milling.pocket_steps import Feeds, half_circles, quarter_circles, rough
+from mnclab.machining.milling.pocket_steps import Feeds, half_circles, quarter_circles, rough, straight
 from mnclab.machining.milling.spirals import round_pocket
 from mnclab.machining.steps import Go, Say, Step, Write
 

@@ -17,11 +17,21 @@ from mnclab.geometry.contours import Contour
 from mnclab.machine.coordinates import tool
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machining.milling import figures
 from mnclab.machining.milling.entries import Descent, Entry, onto_floor, swing
 from mnclab.machining.milling.faces import NOTHING
-from mnclab.machining.milling.figures import Pocket, Slot, mill_pocket, mill_slot, straight
-from mnclab.machining.milling.pocket_steps import Down, Feeds, Room, way_down
+from mnclab.machining.milling.pocket_steps import (
+    Down,
+    Feeds,
+    Pocket,
+    Room,
+    Slot,
+    circular,
+    mill_pocket,
+    mill_slot,
+    rectangular,
+    straight,
+    way_down,
+)
 from mnclab.machining.steps import Step
 
 # Rectangular and circular pockets: cycles 251 (6.2) and 252 (6.3), and how a tool goes down into a pocket or a slot.
@@ -64,7 +74,7 @@ class RectangularPocket(MilledFigure):
 
     def pocket(self, m: Machine) -> Pocket:
         """Begun on the reference axis, along which a ramp swings."""
-        return figures.rectangular(
+        return rectangular(
             self.first_side_length, self.second_side_length, m.radius, min(self.overlap, CORNERS) * m.radius,
             corner=self.corner_radius, angle=math.radians(self.rotation_angle), climb=self.milling_type >= 0, begin=0,
         )  # fmt: skip
@@ -97,7 +107,7 @@ class CircularPocket(MilledFigure):
             yield "plunging_strategy", f"0 needs {angle}"
 
     def pocket(self, m: Machine) -> Pocket:
-        return figures.circular(self.circle_diameter, m.radius, self.overlap * m.radius, climb=self.milling_type >= 0)
+        return circular(self.circle_diameter, m.radius, self.overlap * m.radius, climb=self.milling_type >= 0)
 
     def steps(self, m: Machine) -> Iterator[Step]:
         """Roughing alone ends at the second set-up clearance before the tool goes to the middle."""

@@ -21,9 +21,12 @@ from mnclab.machine.probe import Probe
 from mnclab.machine.setup import Datum
 from mnclab.machine.touching import PROBES, Contact, unfit
 from mnclab.machining.probing import fits, sequences
-from mnclab.machining.probing.found import Circle, Rectangle
-from mnclab.machining.probing.sequences import Approach, Pair, Steps
-from mnclab.machining.probing.sketches import sketch
+from mnclab.machining.probing.found import Circle, Rectangle, sketch
+from mnclab.machining.probing.sequences import (
+    Approach,
+    Pair,
+    Steps,
+)
 from mnclab.machining.steps import Measure, Step, Write
 from mnclab.text.alarm import Alarm
 

@@ -26,9 +26,8 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import REWORK, SCRAP
 from mnclab.machine.setup import Datum
 from mnclab.machining.probing import fits
-from mnclab.machining.probing.found import Circle, Plane, axes_on
+from mnclab.machining.probing.found import Circle, Plane, axes_on, sketch
 from mnclab.machining.probing.sequences import Approach, around, numbers
-from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure, Say, Step
 from mnclab.text.alarm import Alarm
 

@@ -22,9 +22,8 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import OK, REWORK, SCRAP, SLACK, judged
 from mnclab.machine.touching import Contact
 from mnclab.machining.probing.fits import angle, plane, reduced
-from mnclab.machining.probing.found import Circle, axes_on, spatial_angles
+from mnclab.machining.probing.found import Circle, axes_on, sketch, spatial_angles
 from mnclab.machining.probing.sequences import Aim, between, in_one_axis, in_plane, numbers, results
-from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure, Pause, Say, Step, Write
 
 # The measuring log (TNC 620, 16.1): a text with the nominal values, the limits, the actual values and the deviations.

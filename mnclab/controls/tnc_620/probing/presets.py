@@ -16,9 +16,8 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.touching import Contact
 from mnclab.machining.probing import sequences
 from mnclab.machining.probing.fits import centre_of_four, corner, line, reduced, width
-from mnclab.machining.probing.found import Line, Point, Width
+from mnclab.machining.probing.found import Line, Point, Width, sketch
 from mnclab.machining.probing.sequences import Aim, Approach, Pair, from_above, in_one_axis, numbers, sides
-from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import Measure
 
 # Presets in the middle of a slot, ridge, pocket, stud or hole, or between holes (TNC 620, 15.2 to 15.7, 15.10, 15.12).

@@ -27,9 +27,8 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
 from mnclab.machine.touching import Contact
 from mnclab.machining.probing import fits
-from mnclab.machining.probing.found import Circle, Line
+from mnclab.machining.probing.found import Circle, Line, sketch
 from mnclab.machining.probing.sequences import Approach, Pair, around, from_centre, in_one_axis, numbers, results
-from mnclab.machining.probing.sketches import sketch
 from mnclab.machining.steps import RAPID, Measure, Say, Step, Swivel, Write
 
 STANDS = "a part of the setup does not turn with the table: the blocks that follow meet it as it stood"

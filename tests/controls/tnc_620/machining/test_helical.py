@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from mnclab.controls.tnc_620.machining.thread_milling import centre_feed, countersink, helices, mill_thread, path_of
 from mnclab.machining.depths import TooMany
-from mnclab.machining.holes.drilling import bore_milling, steepest_pitch, tap, turns
+from mnclab.machining.holes import bore_milling, steepest_pitch, tap, turns
 from mnclab.machining.steps import Go, Orient, Spin, Thread, Turn, Wait
 
 positive = st.integers(1, 2000).map(lambda n: n / 100)

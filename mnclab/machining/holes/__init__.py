@@ -1,1 +1,0 @@
-"""Holes: drilled, bored, tapped, milled."""
