@@ -32,11 +32,11 @@ from mnclab.path.toolpath import Index, Kind
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs import card, lint, material
-from mnclab.runs.cutting_data import cutting_data, measuring_sheet, setup_sheet, tool_sheet
 from mnclab.runs.explanation import Explanation
 from mnclab.runs.faults_ahead import faults_ahead
 from mnclab.runs.history import History, Moment, tables_at_end
 from mnclab.runs.largest_radius import LargestRadius, largest_radius
+from mnclab.runs.material import cutting_data, measuring_sheet, setup_sheet, tool_sheet
 from mnclab.runs.moments import Moments, when
 from mnclab.runs.start import MissedOnes, start_at
 from mnclab.text.alarm import ALARM, Alarm, Span, by_place, quoted
@@ -82,8 +82,8 @@ class Pictures:
 
     def plot_lengths(self, line: int, **options: Any) -> Figure:
         """Spindle nose, tool and tip with their heights after a line: a wrong length offset is seen; see
-        `mnclab.show.plot.lengths`."""
-        from mnclab.show.plot.lengths import plot_lengths
+        `mnclab.show.plot.set_up`."""
+        from mnclab.show.plot.set_up import plot_lengths
 
         return plot_lengths(self, line, **options)
 
@@ -230,6 +230,12 @@ class Run(Pictures):
         limits, name = limits_of(limits, machine) or self.setup.limits, f"{self.program.title}{f' on {Path(on).stem}' * bool(on)}"
         said: dict[str, Any] = {"rapid_motion": motion, "waits": waits, "source": self.program, "name": name, "reach": self.reach}
         return Profile(path, limits, override=override, **said)
+
+    @property
+    def rapids(self) -> Limits:
+        """How rapids go: as the limits of the setup say, or else as the control has it (its setting `rapid_motion`)."""
+        limits = self.setup.limits
+        return replace(limits, rapid_motion=limits.rapid_motion or str(self.settings.get("rapid_motion", "line")))
 
     def place_of_line(self, line: int, program: int = 0) -> str:
         """`FILE:LINE`, as alarms have it."""

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mnclab.path.toolpath import Array
-from mnclab.text.tables import html_table
+from mnclab.text.tables import Rows, html_table
 from mnclab.workpiece.workpiece import ROUNDING
 
 if TYPE_CHECKING:
@@ -192,17 +191,14 @@ class Row(NamedTuple):
         return {name: None if isinstance(value, float) and math.isnan(value) else value for name, value in found.items()}
 
 
-class Features(Sequence[Row]):
+class Features(Rows[Row]):
     """The rows of a comparison; it prints as a table."""
 
-    def __init__(self, rows: Sequence[Row]) -> None:
-        self._rows = tuple(rows)
+    HEAD, NUMBERS = HEAD, NUMBERS
 
-    def __len__(self) -> int:
-        return len(self._rows)
-
-    def __getitem__(self, which: Any) -> Any:
-        return Features(self._rows[which]) if isinstance(which, slice) else self._rows[which]
+    def texts(self) -> list[tuple[str, ...]]:
+        """What the table says, row by row."""
+        return [row.texts() for row in self]
 
     def of(self, feature: str, side: str | None = None) -> Features:
         """The rows of one feature."""
@@ -212,17 +208,6 @@ class Features(Sequence[Row]):
     def outside(self) -> Features:
         """The rows that are not within their limits."""
         return Features([row for row in self if not row.ok])
-
-    def __repr__(self) -> str:
-        cells = [HEAD, *(row.texts() for row in self)]
-        widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-        cells.insert(1, tuple("-" * width for width in widths))
-        aligned = [[str.rjust if k in NUMBERS else str.ljust for k in range(len(HEAD))]] * len(cells)
-        lines = ("  ".join(to(text, n) for to, text, n in zip(*each)) for each in zip(aligned, cells, [widths] * len(cells)))
-        return "\n".join(line.rstrip() for line in lines)
-
-    def _repr_html_(self) -> str:
-        return html_table(HEAD, [row.texts() for row in self], numbers=NUMBERS)
 
 
 def _written(number: float, sign: bool) -> str:

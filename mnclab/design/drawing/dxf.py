@@ -21,7 +21,7 @@ from mnclab.design.drawing.layout import Laid
 from mnclab.design.drawing.sheet import Printed
 from mnclab.design.drawing.view import Angle, Diameter, Kind, Linear, Point, Radius, number
 from mnclab.geometry.contours import Contour
-from mnclab.show.given_away import whole
+from mnclab.text.file import printable
 
 if TYPE_CHECKING:
     from mnclab.design.drawing.drawing import Drawing, Sheet
@@ -153,7 +153,7 @@ def point(xy: Iterable[float], code: int = 10) -> list[Tag]:
 
 def letters(text: str) -> str:
     """A text in the file's code page, as AutoCAD reads it: `%%c` is ⌀, `\\U+0219` is ș."""
-    return "".join(map(_letter, "".join(SIGNS.get(letter, letter) for letter in whole(text))))
+    return "".join(map(_letter, "".join(SIGNS.get(letter, letter) for letter in printable(text))))
 
 
 def _letter(letter: str) -> str:
