@@ -33,7 +33,8 @@ def test_a_listing_counts_in_its_unit():
 
 def test_a_slice_is_a_listing_and_a_row_is_a_row():
     some = Pegs(PEGS, INCHES, "up to line 3")[1:]
-    assert isinstance(some, Pegs) and some.unit is INCHES and some.reach == "up to line 3" and some[0] == PEGS[1] and len(some) == 2
+    assert isinstance(some, Pegs) and some.unit is INCHES and some.reach == "up to line 3"
+    assert some[0] == PEGS[1] and len(some) == 2
 
 
 def test_what_is_said_around_the_table():

@@ -7,6 +7,7 @@ import pytest
 import mnclab
 from mnclab import Alarm, Setup, Tool
 from mnclab import __main__ as shell
+from mnclab.show.plot.colours import QUARTERS
 from mnclab.show.plot.set_up import plot_set_up
 from mnclab.show.report import gathering
 from mnclab.show.report.document import Table
@@ -48,7 +49,7 @@ def test_the_drawing_has_the_blank_its_sizes_and_the_datum(plate):
     assert boxes[0].min(axis=0) == pytest.approx((100, 50)) and boxes[0].max(axis=0) == pytest.approx((180, 90))
     texts = [each.get_text() for ax in (above, side) for each in ax.texts]
     assert [text for text in texts if text in ("80", "40", "20")] == ["80", "40", "20"] and "G55" in texts
-    spots = [line.get_xydata().tolist() for line in above.lines if line.get_marker() == "o"]
+    spots = [line.get_xydata().tolist() for line in above.lines if line.get_marker() is QUARTERS]
     assert spots == [[[103, 52]]]
 
 

@@ -372,7 +372,7 @@ def stacked(
     width, height = picture.get_size_inches().tolist()
     grid = picture.add_gridspec(
         len(heights), 1, height_ratios=heights, left=left / width, right=1 - 0.15 / width, bottom=0.5 / height,
-        top=1 - top / height, hspace=0.12,
+        top=1 - top / height, hspace=0.1,
     )  # fmt: skip
     rows: list[Axes] = []
     for k in range(len(heights)):

@@ -9,7 +9,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch, Patch, Polygon, Rectangle
-from matplotlib.path import Path
 
 from mnclab.geometry import frames
 from mnclab.geometry.frames import shift
@@ -34,7 +33,6 @@ TOOL_LENGTH = "frame length"  # of a control that compensates the length of tool
 SHEET_SIZE = (6.8, 4.6)  # inches, at most
 BLANK: dict[str, Any] = {"facecolor": looks.RAW, "edgecolor": "#8c8778", "linewidth": 1.0}
 FIXTURE: dict[str, Any] = {"facecolor": "#d0d0d0", "edgecolor": "#6b6b6b", "linewidth": 0.8, "hatch": "////"}
-QUARTERS = Path.make_compound_path(Path.wedge(0, 90), Path.wedge(180, 270))
 ROOM = 0.2  # of the greatest side, around the blank for its dimensions
 DIMENSION: dict[str, Any] = {"arrowstyle": "<|-|>", "color": colours.INK, "linewidth": 0.7, "mutation_scale": 7}
 DIMENSION |= {"shrinkA": 0, "shrinkB": 0}
@@ -120,10 +118,7 @@ def _dimensions(ax: Axes, view: View, low: Array, high: Array) -> None:
 def _datum(ax: Axes, view: View, name: str, xyz: Array) -> None:
     """The symbol of a zero point: a circle with two quarters filled, and its name."""
     x, y = xyz[view.right], xyz[view.up]
-    for order, marker, fill, edge in ((4.0, "o", colours.PAPER, 1.0), (4.1, QUARTERS, colours.INK, 0.0)):
-        look: dict[str, Any] = {"marker": marker, "markerfacecolor": fill, "markeredgewidth": edge}
-        look |= {"markeredgecolor": colours.INK}
-        ax.add_line(Line2D([x], [y], linestyle="none", markersize=11, zorder=order, **look))
+    ax.add_line(Line2D([x], [y], **colours.DATUM.style()))
     card: dict[str, Any] = {"facecolor": colours.PAPER, "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
     below = view.diameter and y <= 0.0  # there the blank ends, and a dimension stands to the right
     off, side = ((0, -9), "center") if below else ((8, 8), "left")
