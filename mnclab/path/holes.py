@@ -54,6 +54,11 @@ class Holes(Rows[HoleMade]):
         super().__init__(rows, unit, reach)
         self.first = tuple(first)
 
+    @property
+    def rows(self) -> tuple[HoleMade, ...]:
+        """The holes as they are."""
+        return self._rows
+
     def __getitem__(self, which: Any) -> Any:
         found = super().__getitem__(which)
         if isinstance(which, slice):
