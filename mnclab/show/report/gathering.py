@@ -175,7 +175,8 @@ def measuring(run: Any, title: str) -> Section:
     rows = run.measurements
     pieces: list[Piece] = [Blanks([("program", title), *((name, "") for name in BLANKS)])]
     if rows:
-        pieces += [Table(*rows.table(), bold=rows.bold), Words(rows.verdict, BAD if rows.bold else "")]
+        head, texts, numbers = rows.table()
+        pieces += [Table(head, texts, numbers, rows.bold), Words(rows.verdict, BAD if rows.bold else "")]
     pictures, left_out = pages(run, PANELS, MOST_PANELS)
     pieces += [Image(picture, "what was measured, deviations magnified as each panel says") for picture in pictures]
     if left_out:
