@@ -67,7 +67,7 @@ if TYPE_CHECKING:  # what OPENED says, for editors and for mypy
     from mnclab.lab.forms import profile_panel as profile_panel
     from mnclab.lab.magic import load_ipython_extension as load_ipython_extension
     from mnclab.show.plot.over_time import plot_profiles as plot_profiles
-    from mnclab.show.plot.variants import plot_runs as plot_runs
+    from mnclab.show.plot.side_by_side import plot_runs as plot_runs
 
 __version__ = "0.1.0"
 
@@ -81,7 +81,7 @@ OPENED = Shelf("mnclab", "the names that need more than numpy", {
     "mnclab.lab.forms": "compensation_panel, form, panel, profile_panel",
     "mnclab.lab.magic": "load_ipython_extension",
     "mnclab.show.plot.over_time": "plot_profiles",
-    "mnclab.show.plot.variants": "plot_runs",
+    "mnclab.show.plot.side_by_side": "plot_runs",
     "mnclab.design.model": "Design, TurnedDesign",
 }, judges=False)  # fmt: skip
 

@@ -1,25 +1,16 @@
-"""Strategies on one area, side by side: way, time, what is left, and how hard the tool works.
-
-Lengths in mm, feeds in mm/min, times in s; angles in rad inside and in degrees wherever they are shown.
-
-    reachable = where the tool centre may go, grown by the tool radius
-    rest      = reachable less what the passes cover         corners = the area less its allowance less reachable
-
-Engagement and removal are those of one level of the given depth, for everything that runs at it: passes and links. The
-entries clear what is below them and are not counted. "fine" cuts only what a coarse tool has left; what that tool cleared
-counts as cleared, and as air.
-"""
+"""Trials side by side as a table, a row each; and strategies of clearing an area with a mill, which are trials."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 import numpy as np
 
-from mnclab.comparison.table import Table, Titles, Tried
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, left_over, polygons
@@ -29,13 +20,140 @@ from mnclab.machining.milling.entries import VERTICAL, Entry, descent, toolpath
 from mnclab.machining.milling.rest import reached, rest, rest_passes
 from mnclab.machining.milling.strategies import STRATEGIES, clear
 from mnclab.path.limits import Limits, limits_of
+from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
-from mnclab.text.alarm import Alarm
+from mnclab.path.toolpath import Kind, Toolpath
+from mnclab.text.alarm import Alarm, hint
+from mnclab.text.file import save_as
 from mnclab.text.given import check_number, choice, faults_as_alarms, fitting, plain, shown
 from mnclab.text.opening import progress
+from mnclab.text.tables import Listing, write_csv
 
 if TYPE_CHECKING:
     from mnclab.show.plot.picture import Picture
+
+
+Titles = dict[str, tuple[str, str, Callable[[Any], Any]]]  # of every column what it is, how it is written, and its value
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Tried:
+    """What is compared: a path under axis limits, or else with rapids at a rate in mm/min."""
+
+    titles: ClassVar[Titles]
+    name: str
+    path: Toolpath
+    limits: Limits | None
+    rapid_rate: float
+
+    @property
+    def row(self) -> dict[str, Any]:
+        return {name: value(self) for name, (_, _, value) in self.titles.items()}
+
+    def __repr__(self) -> str:
+        row, wide = self.row, max(len(title) for title, _, _ in self.titles.values())
+        return "\n".join(f"{title:{wide}}  {form.format(row[name])}" for name, (title, form, _) in self.titles.items())
+
+    @cached_property
+    def time(self) -> float:
+        """Seconds: by the feed-rate profile where axis limits are given, else length over feed."""
+        if self.limits is not None:
+            return Profile(self.path, self.limits).time
+        feed = np.where(np.isinf(self.path.feed), self.rapid_rate, self.path.feed)
+        return float((self.path.lengths / feed).sum() * 60)
+
+    def length(self, rapid: bool) -> float:
+        """Millimetres at rapid, or of everything else."""
+        return float(self.path.lengths[(self.path.kind == Kind.RAPID) == rapid].sum())
+
+
+One = TypeVar("One", bound=Tried)
+
+
+MORE = ("covered", "removed", "removal")  # columns of which more is better
+
+
+class Table(Listing, ABC, Generic[One]):
+    """Trials by number or by name."""
+
+    titles: ClassVar[Titles]
+    trials: tuple[One, ...]
+
+    @abstractmethod
+    def plot(self, **options: Any) -> Picture:
+        """The trials side by side."""
+
+    def __len__(self) -> int:
+        return len(self.trials)
+
+    def __getitem__(self, key: int | str) -> One:
+        if not isinstance(key, str):
+            return self.trials[key]
+        for trial in self.trials:
+            if trial.name == key:
+                return trial
+        raise KeyError(f"{key!r} was not compared; there are {', '.join(trial.name for trial in self.trials)}")
+
+    @cached_property
+    def rows(self) -> tuple[dict[str, Any], ...]:
+        return tuple(trial.row for trial in self.trials)
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """The table as arrays, for pandas, polars or matplotlib."""
+        return {name: np.array([row[name] for row in self.rows]) for name in self.titles}
+
+    def to_pandas(self) -> Any:
+        """The table as a data frame of pandas, its titles as columns."""
+        return super().to_pandas().rename(columns={name: title for name, (title, _, _) in self.titles.items()})
+
+    def best(self, by: str = "time") -> One:
+        """The trial with the least value in a column: its name (`columns()` lists them) or its title; the greatest where more
+        is better, as of what is covered and removed."""
+        names = list(self.titles)[1:]
+        titled = {title: name for name, (title, _, _) in self.titles.items()}
+        if titled.get(by, by) not in names:
+            near = hint(str(by)[:40], names, 1)
+            raise Alarm(f"trials are compared by {', '.join(names)}; got {shown(by)}", hint=near)
+        name = titled.get(by, by)
+        values = [row[name] for row in self.rows]
+        return self.trials[values.index(max(values) if name in MORE else min(values))]
+
+    def save(self, path: str | Path, **options: Any) -> Path:
+        """Write the table (.csv) or the picture (.svg, .pdf, .png); `options` are those of `plot`."""
+        return save_as(self, path, WRITERS, "cannot write a comparison as {}", **options)
+
+    @property
+    def head(self) -> tuple[str, ...]:
+        return tuple(title for title, _, _ in self.titles.values())
+
+    def texts(self) -> list[tuple[str, ...]]:
+        """What the table says, row by row, the numbers as they are shown."""
+        return [tuple(form.format(row[name]) for name, (_, form, _) in self.titles.items()) for row in self.rows]
+
+    def table(self) -> tuple[tuple[str, ...], list[tuple[str, ...]], Collection[int]]:
+        """Titles, rows of texts, and which columns are numbers."""
+        return self.head, self.texts(), range(1, len(self.titles))
+
+
+def _write_picture(table: Table[Any], path: Path, **options: Any) -> None:
+    from mnclab.show.plot.picture import write
+
+    write(table.plot(**options), path)
+
+
+WRITERS: dict[str, Callable[..., None]] = {".csv": write_csv, **dict.fromkeys((".svg", ".pdf", ".png"), _write_picture)}
+
+
+# Strategies on one area, side by side: way, time, what is left, and how hard the tool works.
+#
+# Lengths in mm, feeds in mm/min, times in s; angles in rad inside and in degrees wherever they are shown.
+#
+#     reachable = where the tool centre may go, grown by the tool radius
+#     rest      = reachable less what the passes cover         corners = the area less its allowance less reachable
+#
+# Engagement and removal are those of one level of the given depth, for everything that runs at it: passes and links. The
+# entries clear what is below them and are not counted. "fine" cuts only what a coarse tool has left; what that tool cleared
+# counts as cleared, and as air.
 
 Strategies = Iterable[str] | Mapping[str, str | Clearing | Callable[[Region, float, float], Clearing]]
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from html import escape
 from itertools import product
 from typing import Any, NamedTuple
 
@@ -44,7 +43,7 @@ from mnclab.runs.history import described, said
 from mnclab.text.alarm import Alarm, hint
 from mnclab.text.given import check_number, fitting, plain, shown
 from mnclab.text.program import Word, place_of
-from mnclab.text.tables import html_table, text_table
+from mnclab.text.tables import Listing
 from mnclab.workpiece.part import Part
 
 # The steps of a cycle as a table for a person: lengths in mm, and in words what a step does beside going to its end.
@@ -63,7 +62,7 @@ class Row(NamedTuple):
     feed: str = ""
 
 
-class CycleSteps(Sequence[Step]):
+class CycleSteps(Listing, Sequence[Step]):
     """The steps of a cycle from a place on, and the values (by parameter name) that they were made with.
 
     As a table it leaves out what the control keeps for itself, and for a lathe the column y.
@@ -115,14 +114,15 @@ class CycleSteps(Sequence[Step]):
             places = [""] * 3 if end is None else [figure(value, DECIMALS) for value in end]
             yield type(step).__name__.lower(), step.label, *places[:: 2 if self.lathe else 1], feed, detail
 
-    def __str__(self) -> str:
-        return f"{self.title}\n{text_table(self.head, self.cells())}"
+    texts = cells
 
-    __repr__ = __str__
+    def table(self) -> tuple[tuple[str, ...], list[tuple[str, ...]], Collection[int]]:
+        """Heads, rows of texts, and which columns are numbers."""
+        return self.head, self.cells(), range(2, len(self.head) - 1)
 
-    def _repr_html_(self) -> str:
-        numbers = range(2, len(self.head) - 1)
-        return f"<p>{escape(self.title)}</p>{html_table(self.head, self.cells(), numbers=numbers)}"
+    @property
+    def above(self) -> str:
+        return self.title
 
 
 def quoted(value: Any) -> str:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import os
 import re
 from collections.abc import Iterable, Iterator
@@ -19,7 +17,7 @@ from mnclab.machine.setup import Setup
 from mnclab.text.alarm import ALARM, WARNING, Alarm, amounts, several
 from mnclab.text.given import fitting, shown
 from mnclab.text.opening import progress
-from mnclab.text.tables import html_table, text_table
+from mnclab.text.tables import csv_text, html_table, text_table
 
 RAN, REFUSED, NOT_READ = "ran", "refused", "not read"
 #: Suffixes of part programs that many makers share, beside those of the controls.
@@ -146,13 +144,9 @@ class Survey:
 
     def csv(self) -> str:
         """The rows as comma-separated values, a line each."""
-        out = io.StringIO()
-        table = csv.writer(out, lineterminator="\n")
-        table.writerow(("file", "result", "control", "blocks", "moves", "alarms", "warnings", "line", "first alarm", "reason"))
-        for row in self.rows:
-            said = " ".join(row.first.message.split()) if row.first else ""
-            table.writerow((*row[:7], row.line or "", said, row.reason))
-        return out.getvalue()
+        head = ("file", "result", "control", "blocks", "moves", "alarms", "warnings", "line", "first alarm", "reason")
+        said = (" ".join(row.first.message.split()) if row.first else "" for row in self.rows)
+        return csv_text(head, *((*row[:7], row.line or "", why, row.reason) for row, why in zip(self.rows, said)))
 
 
 def reason(message: str) -> str:

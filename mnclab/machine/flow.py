@@ -15,7 +15,7 @@ from mnclab.path.leads import Lead
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Span, several
 from mnclab.text.program import Program
-from mnclab.text.tables import html_table, text_table
+from mnclab.text.tables import Listing
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -158,7 +158,6 @@ def as_of(m: Machine, then: Reading) -> Iterator[None]:
 
 FILE = "file "  # begins the names of files in the history
 CHARACTERS = 250  # that count as a block of the limit: a loop that writes for ever must end
-HEAD = ("file", "size", "begins with")
 
 
 @dataclass(frozen=True)
@@ -184,17 +183,14 @@ def put_out(m: Machine, name: str, text: str, anew: bool = False) -> None:
     m.log(key, Piece(text, anew or log is None))
 
 
-class Files(dict[str, str]):
+class Files(Listing, dict[str, str]):
     """Files by name, each a text."""
 
-    def _rows(self) -> list[tuple[str, str, str]]:
+    HEAD, CODE, NOTHING = ("file", "size", "begins with"), (0, 2), "no files were written"
+
+    def texts(self) -> list[tuple[str, ...]]:
+        """Name, lines and the first of them."""
         return [(name, several(text.count("\n"), "line"), text.partition("\n")[0][:60]) for name, text in self.items()]
-
-    def __repr__(self) -> str:
-        return text_table(HEAD, self._rows()) if self else "no files were written"
-
-    def _repr_html_(self) -> str:
-        return html_table(HEAD, self._rows(), code=(0, 2)) if self else "<p>no files were written</p>"
 
 
 def written(names: Iterable[str], changed: Callable[[str], list[tuple[int, Any]]]) -> Files:

@@ -5,11 +5,9 @@ Touches and figures are in machine coordinates while the program runs; `runs` gi
 
 from __future__ import annotations
 
-import csv
 import json
 import math
-from collections.abc import Callable, Sequence
-from html import escape
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -17,18 +15,16 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.path.listing import INCHES, MM, Unit
-from mnclab.text.alarm import Alarm, several
-from mnclab.text.file import replaced
-from mnclab.text.tables import html_table, text_table
+from mnclab.text.alarm import several
+from mnclab.text.file import save_as
+from mnclab.text.tables import Listing, Rows, csv_text, write_csv
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 Point = tuple[float, float, float]
 OK, OUT, REWORK, SCRAP = "ok", "out", "rework", "scrap"
-TOUCH_HEAD = ("number", "line", "what", "X", "Y", "Z", "ball")
-HEAD = ("line", "cycle", "what", "nominal", "actual", "deviation", "lower", "upper", "verdict")
-NUMBERS, TOUCH_NUMBERS, TOUCH_LENGTHS = range(3, 8), (0, 1, 3, 4, 5, 6), range(3, 7)
+REFUSED = "cannot write measurements as {}; run.report has them as .html or .pdf"
 DIGITS = 4
 INCH_DIGITS = 5
 SLACK = 1e-6  # mm or degrees, by which a value may be beyond its limit: it stands on it (MNC 12)
@@ -59,29 +55,21 @@ class Touched(NamedTuple):
         return self.found[self.names.index(name)]
 
 
-class Touches(tuple[Touched, ...]):
+class Touches(Listing, tuple[Touched, ...]):
     """The touches of a run; they print as a table of what they found, as the control took it, number 1 the first.
 
     The table counts in the `unit` of the program; the numbers of a touch are mm.
     """
 
+    HEAD = ("number", "line", "what", "X", "Y", "Z", "ball")
+    NUMBERS, LENGTHS, NOTHING = (0, 1, 3, 4, 5, 6), range(3, 7), "nothing was touched"
     unit: Unit = MM
-
-    @property
-    def head(self) -> tuple[str, ...]:
-        return tuple(f"{name}, {self.unit.short}" if k in TOUCH_LENGTHS else name for k, name in enumerate(TOUCH_HEAD))
 
     def texts(self) -> list[tuple[str, ...]]:
         """What the table says, row by row."""
         lengths = ((*map(each.coordinate, "XYZ"), each.ball) for each in self)
         numbers = (tuple(_written(value, unit=self.unit) for value in row) for row in lengths)
         return [(str(k), str(each.line), each.label, *row) for k, (each, row) in enumerate(zip(self, numbers), 1)]
-
-    def __repr__(self) -> str:
-        return text_table(self.head, self.texts(), TOUCH_NUMBERS) if self else "nothing was touched"
-
-    def _repr_html_(self) -> str:
-        return html_table(self.head, self.texts(), numbers=TOUCH_NUMBERS) if self else "<p>nothing was touched</p>"
 
 
 class Figure(NamedTuple):
@@ -144,37 +132,28 @@ class Measurement(NamedTuple):
         return self.where or str(self.line), self.cycle, self.what + own, *said, self.verdict
 
 
-class Measurements(Sequence[Measurement]):
+class Measurements(Rows[Measurement]):
     """The measuring record of a run; it prints as a table, in the `unit` of the program. The numbers of its rows are mm.
 
     `reach` is "up to line 12, where the run stopped" if the run stopped before its end, else empty.
     """
 
-    def __init__(self, rows: Sequence[Measurement], unit: Unit = MM, reach: str = "") -> None:
-        self._rows, self.unit, self.reach = tuple(rows), unit, reach
-
-    def _some(self, rows: Sequence[Measurement]) -> Measurements:
-        return Measurements(rows, self.unit, self.reach)
-
-    def __len__(self) -> int:
-        return len(self._rows)
-
-    def __getitem__(self, which: Any) -> Any:
-        return self._some(self._rows[which]) if isinstance(which, slice) else self._rows[which]
+    HEAD = ("line", "cycle", "what", "nominal", "actual", "deviation", "lower", "upper", "verdict")
+    NUMBERS = LENGTHS = range(3, 8)  # a measure that is no length says its unit itself
+    NOTHING = "nothing was measured"
 
     def of(self, what: str) -> Measurements:
         """The rows of a cycle ("G421") or of a measure ("diameter")."""
-        return self._some([row for row in self if what in (row.cycle, row.what)])
+        return self.some(row for row in self if what in (row.cycle, row.what))
 
     @property
     def outside(self) -> Measurements:
         """The rows beyond their limits."""
-        return self._some([row for row in self if row.verdict not in ("", OK)])
+        return self.some(row for row in self if row.verdict not in ("", OK))
 
     @property
-    def head(self) -> tuple[str, ...]:
-        """The heads of the table; a measure that is no length says its unit itself."""
-        return tuple(f"{name}, {self.unit.short}" if k in NUMBERS else name for k, name in enumerate(HEAD))
+    def bold(self) -> list[int]:
+        return [k for k, row in enumerate(self) if row.verdict not in ("", OK)]
 
     def texts(self) -> list[tuple[str, ...]]:
         """What the table says, row by row."""
@@ -192,18 +171,6 @@ class Measurements(Sequence[Measurement]):
     def _as_far(self) -> str:
         return f", {self.reach}" if self.reach else ""
 
-    def __repr__(self) -> str:
-        if not self:
-            return f"nothing was measured{self._as_far}"
-        return "\n".join([text_table(self.head, self.texts(), NUMBERS), *filter(None, [self.reach])])
-
-    def _repr_html_(self) -> str:
-        if not self:
-            return f"<p>nothing was measured{escape(self._as_far)}</p>"
-        bold = [k for k, row in enumerate(self) if row.verdict not in ("", OK)]
-        told = f"<p>{escape(self.reach)}</p>" if self.reach else ""
-        return html_table(self.head, self.texts(), numbers=NUMBERS, bold=bold) + told
-
     def as_dicts(self) -> list[dict[str, Any]]:
         """For JSON and for tables of other libraries: nan as None."""
         rows = [{**row._asdict(), "deviation": row.deviation} for row in self]
@@ -213,24 +180,21 @@ class Measurements(Sequence[Measurement]):
         """A row of mm in the unit of the program."""
         if row["unit"] != "mm" or self.unit is MM:
             return row
-        lengths = {name: row[name] / self.unit.length for name in (*HEAD[3:8],) if row[name] is not None}
+        lengths = {name: row[name] / self.unit.length for name in self.HEAD[3:8] if row[name] is not None}
         return row | lengths | {"unit": self.unit.short}
+
+    def csv(self) -> str:
+        """The table as comma-separated values in the unit of the program, numbers with all their digits."""
+        names = ("line", "cycle", "what", "unit", *self.HEAD[3:])
+        return csv_text(names, *([row[name] for name in names] for row in map(self._in_unit, self.as_dicts())))
 
     def save(self, path: str | Path) -> Path:
         """Write the table as .csv, in the unit of the program, or as .json, in mm, numbers with all their digits; the file."""
-        path = Path(path)
-        if path.suffix.lower() not in (".csv", ".json"):
-            hint = "run.report has it as .html or .pdf"
-            raise Alarm(f"measurements are written as .csv or .json, got {path.name!r}", hint=hint)
-        with replaced(path) as beside, beside.open("w", newline="", encoding="utf-8") as file:
-            if path.suffix.lower() == ".json":
-                json.dump(self.as_dicts(), file, indent=1)
-                return path
-            names = ("line", "cycle", "what", "unit", "nominal", "actual", "deviation", "lower", "upper", "verdict")
-            out = csv.DictWriter(file, names, extrasaction="ignore")
-            out.writeheader()
-            out.writerows(map(self._in_unit, self.as_dicts()))
-        return path
+        return save_as(self, path, {".csv": write_csv, ".json": _write_json}, REFUSED)
+
+
+def _write_json(measured: Measurements, path: Path) -> None:
+    path.write_text(json.dumps(measured.as_dicts(), indent=1), "utf-8")
 
 
 def record(

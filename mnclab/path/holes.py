@@ -13,9 +13,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from html import escape
-from pathlib import Path
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -24,16 +22,13 @@ from numpy.typing import NDArray
 from mnclab.path.listing import MM, Unit
 from mnclab.path.tool import POINTED, Tool
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
-from mnclab.text.alarm import Alarm
-from mnclab.text.file import replaced
-from mnclab.text.given import fitting_class, shown
-from mnclab.text.tables import csv_text, html_table, text_table
+from mnclab.text.given import fitting_class
+from mnclab.text.tables import Rows
 
 BORED = re.compile(r" circle at the bottom$")  # labels of cycles that mill a bore
 DRILLED = re.compile(r" (peck|drill|ream|bore|centre|countersink|cut the thread)( \d+ of \d+)?$")
 SAME = 1e-6  # mm: places nearer than this are one
 RINGS = 9  # under a tool, its axis among them, on which a blank is looked for
-HEAD = ("hole", "x", "y", "from z", "to z", "diameter", "tool", "lines")
 
 
 class HoleMade(NamedTuple):
@@ -50,21 +45,30 @@ class HoleMade(NamedTuple):
 
 
 @fitting_class
-class Holes(Sequence[HoleMade]):
+class Holes(Rows[HoleMade]):
     """The holes of a path in the order of drilling: a row for each place and tool; a table when shown.
 
     `first` are the rows of the path that cut each of them first. `reach` is "up to line 12, where the run stopped" if the
     path ends before its program, else empty.
     """
 
-    def __init__(self, rows: Sequence[HoleMade], unit: Unit = MM, reach: str = "", first: Sequence[int] = ()) -> None:
-        self.rows, self.unit, self.reach, self.first = tuple(rows), unit, reach, tuple(first)
+    HEAD = ("hole", "x", "y", "from z", "to z", "diameter", "tool", "lines")
+    NUMBERS, LENGTHS, NOTHING = range(6), range(1, 6), "no holes"
 
-    def __len__(self) -> int:
-        return len(self.rows)
+    def __init__(self, rows: Sequence[HoleMade], unit: Unit = MM, reach: str = "", first: Sequence[int] = ()) -> None:
+        super().__init__(rows, unit, reach)
+        self.first = tuple(first)
+
+    @property
+    def rows(self) -> tuple[HoleMade, ...]:
+        """The holes as they are."""
+        return self._rows
 
     def __getitem__(self, which: Any) -> Any:
-        return Holes(self.rows[which], self.unit, self.reach, self.first[which]) if isinstance(which, slice) else self.rows[which]
+        found = super().__getitem__(which)
+        if isinstance(which, slice):
+            found.first = self.first[which]
+        return found
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """The table as arrays, mm, without the lines."""
@@ -72,42 +76,13 @@ class Holes(Sequence[HoleMade]):
 
     def texts(self) -> list[tuple[str, ...]]:
         """The rows as they are shown, lengths in the unit of the program."""
-        return list(self._texts())
-
-    def _texts(self) -> Iterator[tuple[str, ...]]:
+        told = []
         for number, row in enumerate(self, 1):
             sizes = (self.unit.figure(size) for size in row[:4])
             wide = self.unit.figure(row.diameter) if row.diameter else ""
             lines = ", ".join(map(str, row.lines[:3])) + (" …" if len(row.lines) > 3 else "")
-            yield str(number), *sizes, wide, f"T{row.tool}" if row.tool else "", lines
-
-    @property
-    def _head(self) -> tuple[str, ...]:
-        return tuple(f"{name}, {self.unit.short}" if 0 < k < 6 else name for k, name in enumerate(HEAD))
-
-    def save(self, path: str | Path) -> Path:
-        """Write the table (.csv)."""
-        if not isinstance(path, str | Path) or Path(path).suffix.lower() != ".csv":
-            raise Alarm(f"holes are saved as .csv, got {shown(path)}", hint='run.holes().save("holes.csv")')
-        with replaced(Path(path)) as beside:
-            beside.write_text(self.csv(), "utf-8", newline="")
-        return Path(path)
-
-    def csv(self) -> str:
-        """The table as comma-separated values."""
-        return csv_text(self._head, *self.texts())
-
-    def __repr__(self) -> str:
-        return "\n".join(filter(None, [text_table(self._head, self.texts()) if self else "", self._told]))
-
-    def _repr_html_(self) -> str:
-        table = html_table(self._head, self.texts(), numbers=range(6)) if self else ""
-        return table + (f"<p>{escape(self._told)}</p>" if self._told else "")
-
-    @property
-    def _told(self) -> str:
-        """What is said below the table, or for it."""
-        return self.reach if self else f"no holes {self.reach}".rstrip()
+            told.append((str(number), *sizes, wide, f"T{row.tool}" if row.tool else "", lines))
+        return told
 
 
 class Stock(Protocol):

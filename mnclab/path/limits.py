@@ -18,7 +18,7 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.alarm import hint as near
 from mnclab.text.file import File, check_names, parse
 from mnclab.text.given import check_number, choice, fitting, fitting_class, plain, shown
-from mnclab.text.tables import html_table, written
+from mnclab.text.tables import Listing, written
 
 PerAxis = float | tuple[float, ...]
 
@@ -128,26 +128,21 @@ class MachineFile(NamedTuple):
     limits: Limits
 
 
-class Machines(tuple[MachineFile, ...]):
+class Machines(Listing, tuple[MachineFile, ...]):
     """The machines that have a name, shown as a table."""
 
     HEAD = ("name", "title", "rapid, mm/min", "acceleration, mm/s²", "spindle, rev/min", "tool change, s")
+    NUMBERS = range(2, 6)
 
     def rows(self) -> list[tuple[str, ...]]:
         """What the table says of each."""
         return [(each.name, each.title, *(_per_axis(getattr(each.limits, one)) for one in SAID)) for each in self]
 
+    texts = rows
+
     def __getitem__(self, which: Any) -> Any:
         """A machine by its name or its number."""
         return load(which) if isinstance(which, str) else super().__getitem__(which)
-
-    def __repr__(self) -> str:
-        rows = [self.HEAD, *self.rows()]
-        widths = [max(len(row[k]) for row in rows) for k in range(len(self.HEAD))]
-        return "\n".join("  ".join(cell.ljust(wide) for cell, wide in zip(row, widths)).rstrip() for row in rows)
-
-    def _repr_html_(self) -> str:
-        return html_table(self.HEAD, self.rows(), numbers=range(2, len(self.HEAD)))
 
 
 SAID = ("rapid", "acceleration", "spindle", "tool_change")

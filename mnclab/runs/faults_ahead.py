@@ -20,10 +20,9 @@ from mnclab.running.dispatch import Plan, Planner
 from mnclab.running.flow import Course
 from mnclab.running.interpreter import Interpreter
 from mnclab.runs.lint.forgotten import HINT, SENTENCE
-from mnclab.runs.written import blocks_with
 from mnclab.text.alarm import WARNING, Alarm, Span
 from mnclab.text.expression import Expression
-from mnclab.text.program import Word
+from mnclab.text.program import Word, blocks_with
 
 MOST = 5000  # blocks that are judged
 #: Functions that judge their numbers whatever the machine does; arcs only do so where nothing gives them a shape.

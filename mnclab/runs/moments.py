@@ -24,7 +24,7 @@ from mnclab.path.places import points_at, spokes, turning_points, turns_of_sum
 from mnclab.path.toolpath import Kind
 from mnclab.runs.conditions import Condition, Node, parse
 from mnclab.runs.history import unit_of
-from mnclab.text.tables import html_table
+from mnclab.text.tables import Listing
 
 if TYPE_CHECKING:
     from mnclab.runs.history import Moment
@@ -56,17 +56,21 @@ COLUMN = {
 FOLLOW_RADIUS = {"spindle", "feed"}
 
 
-class Moments(tuple["Moment", ...]):
+class Moments(Listing, tuple["Moment", ...]):
     """The moments at which a condition becomes true, in order; `exact`: whether nothing can lie between two looks. `reach` is
     "up to line 12, where the run stopped" of a run that stopped before its end, else empty."""
 
-    condition = reach = ""
+    HEAD, NUMBERS, CODE, MOST = ("line", "block", "tool tip", "of the move"), (0, 3), (1,), 50
+    condition = ""
     exact = True
 
     def rows(self) -> list[tuple[str, ...]]:
+        """Line, block, place of the tool tip, and how much of the move was done."""
         shares = (f"{100 * moment.share:.4g} %" if moment.row >= 0 else "" for moment in self)
         places = (point(moment.point, unit_of(moment.state), moment.lathe) for moment in self)
         return [(str(m.line), str(m.block), *rest) for m, *rest in zip(self, places, shares)]
+
+    texts = rows
 
     @property
     def counts(self) -> str:
@@ -85,11 +89,9 @@ class Moments(tuple["Moment", ...]):
     def _repr_html_(self) -> str:
         if not self:
             return f"<p><code>{escape(self.condition)}</code>: never {escape(self.reach)}".rstrip() + "</p>"
-        table = html_table(("line", "block", "tool tip", "of the move"), self.rows()[:50], numbers=(0, 3))
-        more = f"<p>… {len(self) - 50} more</p>" if len(self) > 50 else ""
         told = f"<br>{self.counts}" if self.counts else ""
         told += "" if self.exact else f"<br>looked at in {LOOKS} places of each line and quarter of a turn"
-        return f"<p><code>{escape(self.condition)}</code>{told}</p>{table}{more}"
+        return f"<p><code>{escape(self.condition)}</code>{told}</p>{super()._repr_html_()}"
 
 
 class Looks(NamedTuple):

@@ -32,11 +32,11 @@ from mnclab.path.toolpath import Index, Kind
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs import card, lint, material
-from mnclab.runs.cutting_data import cutting_data, measuring_sheet, setup_sheet, tool_sheet
 from mnclab.runs.explanation import Explanation
 from mnclab.runs.faults_ahead import faults_ahead
 from mnclab.runs.history import History, Moment, tables_at_end
 from mnclab.runs.largest_radius import LargestRadius, largest_radius
+from mnclab.runs.material import cutting_data, measuring_sheet, setup_sheet, tool_sheet
 from mnclab.runs.moments import Moments, when
 from mnclab.runs.start import MissedOnes, start_at
 from mnclab.text.alarm import ALARM, Alarm, Span, by_place, quoted
@@ -82,8 +82,8 @@ class Pictures:
 
     def plot_lengths(self, line: int, **options: Any) -> Figure:
         """Spindle nose, tool and tip with their heights after a line: a wrong length offset is seen; see
-        `mnclab.show.plot.lengths`."""
-        from mnclab.show.plot.lengths import plot_lengths
+        `mnclab.show.plot.set_up`."""
+        from mnclab.show.plot.set_up import plot_lengths
 
         return plot_lengths(self, line, **options)
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from copy import copy
-from html import escape
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -19,7 +18,7 @@ from mnclab.running.flow import LEFT, RECORDED
 from mnclab.runs.history import does_nothing, told
 from mnclab.text.alarm import WARNING, Alarm, Span, by_place
 from mnclab.text.given import whole
-from mnclab.text.tables import html_table
+from mnclab.text.tables import Listing
 
 if TYPE_CHECKING:
     from mnclab.runs.run import Run
@@ -42,15 +41,17 @@ class Missed(NamedTuple):
         return f"{self.about}: {self.says}{f' (line {self.line})' if self.line else ''}"
 
 
-class MissedOnes(tuple[Missed, ...]):
+class MissedOnes(Listing, tuple[Missed, ...]):
     """All that a start skips; shown as a table."""
 
-    def __repr__(self) -> str:
-        return "\n".join(map(str, self)) or "nothing is missed"
+    HEAD, NUMBERS, NOTHING = ("about", "what", "line"), (2,), "nothing is missed"
 
-    def _repr_html_(self) -> str:
-        rows = [(one.about, one.says, str(one.line or "")) for one in self]
-        return html_table(("about", "what", "line"), rows, numbers=(2,)) if rows else f"<p>{escape(repr(self))}</p>"
+    def texts(self) -> list[tuple[str, ...]]:
+        """What the table says, row by row."""
+        return [(one.about, one.says, str(one.line or "")) for one in self]
+
+    def __repr__(self) -> str:
+        return "\n".join(map(str, self)) or self.NOTHING
 
 
 def start_at(run: Run, line: int, pass_: int = 1, program: int = 0) -> Run:

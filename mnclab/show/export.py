@@ -21,10 +21,8 @@ from mnclab.path.toolpath import COLUMNS, Kind, Toolpath
 from mnclab.show import export_mesh
 from mnclab.show.export_drawing import write_dxf, write_true_size
 from mnclab.show.export_gcode import write_gcode
-from mnclab.show.given_away import named
 from mnclab.text.alarm import Alarm
-from mnclab.text.file import named as with_suffix_of
-from mnclab.text.file import replaced
+from mnclab.text.file import named, replaced
 from mnclab.text.given import choice
 
 if TYPE_CHECKING:
@@ -38,7 +36,7 @@ def save(run: Any, path: str | Path, picture: Callable[..., Figure] | None = Non
     glb, vtk) are those of the part, with `of="path"` those of the path.
     `picture` draws another figure of the run than the views of its path.
     """
-    path, suffix = with_suffix_of(path, WRITERS, "cannot write {} files")
+    path, suffix = named(path, WRITERS, "cannot write {} files")
     writer = WRITERS[suffix]
     if picture is not None:
         if suffix not in FIGURES:
@@ -103,7 +101,7 @@ def document(run: Any) -> dict[str, Any]:
     return {
         "summary": summary,
         "ok": run.ok,
-        "alarms": [named(alarm).as_dict() for alarm in run.alarms],
+        "alarms": [alarm.without_folders().as_dict() for alarm in run.alarms],
         **({"measurements": run.measurements.as_dicts()} if run.measurements else {}),
         "lathe": path.lathe,
         "origin": path.origin.tolist(),

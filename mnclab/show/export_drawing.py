@@ -17,16 +17,13 @@ from numpy.typing import NDArray
 from mnclab.path.profile.ramps import bent
 from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.show.export_gcode import number
+from mnclab.show.looks import MOVES, OF_KIND, RAPID
 from mnclab.text.given import choice
 
 MARGIN = 2.0  # mm
 BENT = 0.01  # mm that a rapid may be beside its line
 VIEWS = {"XY": (0, 1), "XZ": (0, 2), "YZ": (1, 2), "ZX": (2, 0)}
-CLASSES = {Kind.RAPID: "rapid", Kind.LINE: "feed", Kind.ARC: "feed", Kind.PROBE: "probing"}
-STYLE = (
-    "path{fill:none;stroke-width:.25;stroke-linejoin:round}.feed{stroke:#1259a8}"
-    ".rapid{stroke:#c62828;stroke-width:.15;stroke-dasharray:2 1.2}.probing{stroke:#7b1fa2;stroke-dasharray:.4 .6}"
-)
+STYLE = "path{fill:none;stroke-linejoin:round}" + "".join(move.css for move in MOVES)
 
 
 def write_true_size(run: Any, path: Path, view: str = "auto") -> None:
@@ -62,7 +59,7 @@ def groups(path: Toolpath, right: int, up: int) -> Iterator[tuple[str, list[str]
     current, commands = "", [""]
     here: tuple[float, float] | None = None
     for row in np.flatnonzero(path.is_motion).tolist():
-        kind = CLASSES[Kind(int(path.kind[row]))]
+        kind = OF_KIND[Kind(int(path.kind[row]))].name
         start = float(path.start[row, right]), float(path.start[row, up])
         if kind != current or start != here:
             if current and len(commands) > 1:
@@ -110,9 +107,6 @@ def turns(path: Toolpath, row: int, right: int, up: int, along: int) -> Iterator
 # dimensions, positions of the tool tip; an arc stands in the coordinates of its plane (the *extrusion* of the format).
 
 CHORD = 0.001  # mm, of helices
-#: Layer, colour number of AutoCAD, line type.
-RAPID, FEED, PROBING = ("RAPID", 1, "DASHED"), ("FEED", 5, "CONTINUOUS"), ("PROBING", 6, "CONTINUOUS")
-LAYERS = {Kind.RAPID: RAPID, Kind.LINE: FEED, Kind.ARC: FEED, Kind.PROBE: PROBING}
 Tag = tuple[int, Any]
 
 
@@ -138,8 +132,9 @@ def tags(path: Toolpath) -> Iterator[Tag]:
     yield from [(0, "LTYPE"), (2, "DASHED"), (70, 0), (3, "Rapids"), (72, 65), (73, 2), (40, 5.0)]
     yield from [(49, 3.0), (49, -2.0)]
     yield from [(0, "ENDTAB"), (0, "TABLE"), (2, "LAYER"), (70, 3)]
-    for name, colour, dashes in dict.fromkeys(LAYERS.values()):
-        yield from [(0, "LAYER"), (2, name), (70, 0), (62, colour), (6, dashes)]
+    for move in MOVES:
+        dashes = "DASHED" if move.line is RAPID else "CONTINUOUS"
+        yield from [(0, "LAYER"), (2, move.name.upper()), (70, 0), (62, move.number), (6, dashes)]
     yield from [(0, "ENDTAB"), (0, "ENDSEC"), (0, "SECTION"), (2, "ENTITIES")]
     yield from entities(path)
     yield from [(0, "ENDSEC"), (0, "EOF")]
@@ -152,7 +147,7 @@ def entities(path: Toolpath) -> Iterator[Tag]:
     for row, (kind, start, end, rise, moves) in enumerate(zip(*(column.tolist() for column in columns))):
         if not moves:
             continue
-        layer = LAYERS[Kind(kind)][0]
+        layer = OF_KIND[Kind(kind)].name.upper()
         if kind != Kind.ARC:
             yield from [(0, "LINE"), (8, layer), *_point(start), *_point(end, 11)]
         elif abs(rise) > 1e-9:

@@ -18,7 +18,6 @@ from typing import Any
 import numpy as np
 
 from mnclab.path.toolpath import COLUMNS, MOTION_KINDS, Kind, Toolpath, concatenate
-from mnclab.show.given_away import named
 
 CHORD = 0.001
 DECIMALS = 6  # a millionth of a millimetre: LinuxCNC compares the radii of an arc's ends
@@ -41,7 +40,7 @@ def lines(run: Any) -> Iterator[str]:
     yield "%"
     yield comment(f"{Path(run.program.name).name} for {run.control.title}, as plain moves")
     for alarm in run.alarms:
-        yield comment(named(alarm).headline)
+        yield comment(alarm.without_folders().headline)
     yield f"G21 {'G18 G8' if run.toolpath.lathe else 'G17'} G90 G94 G91.1 G40 G49 G80 G54 G61"
     yield from writer.rows(plain(run.toolpath))
     yield "M2"

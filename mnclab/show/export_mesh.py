@@ -17,17 +17,15 @@ import csv
 import json
 import struct
 from collections.abc import Callable
-from inspect import signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.toolpath import Kind
+from mnclab.show import looks
 from mnclab.show.solids import Body, size_of, stock_of, strokes, tool_of, tubes
-from mnclab.text.alarm import Alarm
-from mnclab.text.file import named, replaced
+from mnclab.text.file import save_as
 from mnclab.workpiece.workpiece import Workpiece
 
 if TYPE_CHECKING:
@@ -37,10 +35,6 @@ if TYPE_CHECKING:
 CHORD = 0.01  # mm
 TUBE = 1 / 500  # radius of a tube in parts of the path's size
 BESIDE = ("kind", "line", "step", "tool", "feed", "spindle")  # columns that VTK gets
-#: Colours, 0 to 1, of lines and bodies.
-RAPID, FEED, PROBING = (0.776, 0.157, 0.157), (0.071, 0.349, 0.659), (0.482, 0.122, 0.635)
-TOOL, STOCK = (0.45, 0.47, 0.5), (0.75, 0.72, 0.65)
-CLASSES = {"rapid": (RAPID, (Kind.RAPID,)), "feed": (FEED, (Kind.LINE, Kind.ARC)), "probing": (PROBING, (Kind.PROBE,))}
 TO_GLTF = [0.001, 0, 0, 0, 0, 0, -0.001, 0, 0, 0.001, 0, 0, 0, 0, 0, 1]  # mm and Z up -> m and Y up, by columns
 
 
@@ -82,21 +76,21 @@ class Gltf:
         self.accessors.append({**accessor, "count": len(data), **limits})
         return len(self.accessors) - 1
 
-    def material(self, name: str, colour: tuple[float, float, float], alpha: float = 1.0) -> int:
+    def material(self, name: str, colour: str, alpha: float = 1.0) -> int:
         """A colour; glTF counts linearly, the colours here are those of a screen."""
-        linear = [((c + 0.055) / 1.055) ** 2.4 if c > 0.04 else c / 12.92 for c in colour]
+        linear = [((c + 0.055) / 1.055) ** 2.4 if c > 0.04 else c / 12.92 for c in looks.rgb(colour)]
         surface = {"baseColorFactor": [*linear, alpha], "metallicFactor": 0, "roughnessFactor": 0.7}
         look = {"name": name, "pbrMetallicRoughness": surface}
         self.materials.append(look | ({"alphaMode": "BLEND"} if alpha < 1 else {}))
         return len(self.materials) - 1
 
-    def lines(self, name: str, pieces: NDArray[np.float64], colour: tuple[float, float, float]) -> None:
+    def lines(self, name: str, pieces: NDArray[np.float64], colour: str) -> None:
         """Separate strokes (n, 2, 3)."""
         if len(pieces):
             part = {"attributes": {"POSITION": self.array(pieces.reshape(-1, 3), "VEC3", 34962)}, "mode": 1}
             self.meshes.append({"name": name, "primitives": [part | {"material": self.material(name, colour)}]})
 
-    def body(self, name: str, body: Body, colour: tuple[float, float, float], alpha: float = 1.0) -> None:
+    def body(self, name: str, body: Body, colour: str, alpha: float = 1.0) -> None:
         part = {"attributes": {"POSITION": self.array(body.points, "VEC3", 34962)}, "mode": 4}
         part["indices"] = self.array(body.triangles.ravel(), "SCALAR", 34963)
         self.meshes.append({"name": name, "primitives": [part | {"material": self.material(name, colour, alpha)}]})
@@ -135,12 +129,12 @@ def write_gltf(run: Any, path: Path) -> None:
     """Write lines, tool and blank as glTF; the suffix .glb makes the binary form."""
     gltf = Gltf("tool path")
     pieces, row = strokes(run.toolpath, CHORD)
-    for name, (colour, kinds) in CLASSES.items():
-        gltf.lines(name, pieces[np.isin(run.toolpath.kind[row], kinds)], colour)
+    for move in looks.MOVES:
+        gltf.lines(move.name, pieces[np.isin(run.toolpath.kind[row], move.kinds)], move.line.colour)
     if tool := tool_of(run):
-        gltf.body("tool", tool, TOOL)
+        gltf.body("tool", tool, looks.TOOL_BODY)
     if stock := stock_of(run):
-        gltf.body("blank", stock, STOCK, 0.3)
+        gltf.body("blank", stock, looks.BLANK_BODY, 0.3)
     gltf.write(path)
 
 
@@ -175,13 +169,7 @@ def write_vtk(run: Any, path: Path) -> None:
 
 def save(workpiece: Workpiece, path: str | Path, **options: Any) -> Path:
     """Write a part to one file and return its path; pictures take the options of `Workpiece.plot`."""
-    path, suffix = named(path, WRITERS, "cannot write a part as {}")
-    writer = WRITERS[suffix]
-    if options and len(signature(writer).parameters) == 2:
-        raise Alarm(f"{suffix} files have no options, got {', '.join(options)}")
-    with replaced(path) as beside:
-        writer(workpiece, beside, **options)
-    return path
+    return save_as(workpiece, path, WRITERS, "cannot write a part as {}", **options)
 
 
 def write_part_stl(workpiece: Workpiece, path: Path) -> None:
@@ -194,7 +182,7 @@ def write_part_gltf(workpiece: Workpiece, path: Path) -> None:
     """The part as glTF; the suffix .glb makes the binary form."""
     solid = workpiece.solid()
     gltf = Gltf("part")
-    gltf.body("part", Body(solid.points, solid.triangles), STOCK)
+    gltf.body("part", Body(solid.points, solid.triangles), looks.BLANK_BODY)
     gltf.write(path)
 
 

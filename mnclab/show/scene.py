@@ -1,4 +1,4 @@
-"""A run in three dimensions: path, tool, blank or part in a pyvista `Plotter`; pyvista is known here and in `part_scene`.
+"""A run in three dimensions: path, tool, blank or part in a pyvista `Plotter`; pyvista is known here alone.
 
 The scene shows itself in Jupyter as a still picture, which works everywhere and needs no server. `scene.show()` does
 the same; `scene.show(jupyter_backend="html")` turns in the browser and needs `mnclab[html]`. VTK without OpenGL ends
@@ -11,6 +11,7 @@ import base64
 import ctypes.util
 import os
 import sys
+from collections.abc import Iterable
 from functools import cache
 from html import escape
 from io import BytesIO
@@ -22,18 +23,22 @@ from numpy.typing import ArrayLike
 from mnclab.path.cylinder import divided
 from mnclab.path.limits import Limits
 from mnclab.path.profile.ramps import courses
-from mnclab.path.toolpath import Kind, Toolpath
-from mnclab.show import solids
-from mnclab.show.export_mesh import CHORD, FEED, PROBING, RAPID, STOCK, TOOL
+from mnclab.path.toolpath import Array, Kind, Mask, Toolpath
+from mnclab.show import looks, solids
+from mnclab.show.export_mesh import CHORD
+from mnclab.show.probed import felt
 from mnclab.show.rulers import frame, rounded, turning_rulers
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import fitting, shown
+from mnclab.text.given import choice, fitting, shown
 from mnclab.text.opening import require
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.blank import blank as as_blank
+from mnclab.workpiece.collision import Collision
+from mnclab.workpiece.workpiece import Solid, Workpiece
 
 if TYPE_CHECKING:
     import pyvista
+
 
 COLOURS = ("kind", "feed", "tool", "z", "line")
 TITLES = {"feed": "feed, {unit}/min", "tool": "tool", "z": "Z, {unit}", "line": "line"}
@@ -100,19 +105,15 @@ def scene(
     if turning and blank is None:
         bodies = [solids.cylinder_body(run.toolpath, k).points for k in range(len(run.toolpath.cylinders))]
     if part:
-        from mnclab.show.part_scene import add_part
-
         left = run.workpiece(row=row) if len(path) else run.workpiece()
         solid = left.solid()
         bodies = [solid.points]
         add_part(plotter, left, solid, "none")
     elif blank:
-        plotter.add_mesh(_surface(blank), color=STOCK, opacity=0.25, name="blank")
+        plotter.add_mesh(_surface(blank), color=looks.BLANK_BODY, opacity=0.25, name="blank")
         edges = _surface(blank).extract_feature_edges()
-        plotter.add_mesh(edges, color="#7d7664", line_width=1, name="edges of the blank")
+        plotter.add_mesh(edges, color=looks.METAL_EDGE, line_width=1, name="edges of the blank")
     if probed and (run.setup.part is not None or run.setup.setter is not None):
-        from mnclab.show.part_scene import add_probed
-
         bodies += [ends for ends in [add_probed(plotter, run)] if ends is not None]
     if given:
         bodies += [_add_fixture(plotter, body, k) for k, body in enumerate(solids.fixtures_of(run))]
@@ -138,7 +139,7 @@ def _fitted(drawn: dict[str, np.ndarray]) -> list[np.ndarray]:
 def _add_tool(plotter: Any, run: Any, row: int, size: float) -> np.ndarray:
     """Add the tool after a row beside something of a `size`, mm; what of it (n, 3) the picture holds."""
     found = solids.turning_tool_of(run, row, size) if run.toolpath.lathe else {"tool": solids.tool_of(run, row)}
-    shades: dict[str, Any] = {"tool": "#e9c46a", "holder": "#c9ccd1"} if run.toolpath.lathe else {"tool": TOOL}
+    shades = {"tool": looks.CARBIDE if run.toolpath.lathe else looks.TOOL_BODY, "holder": looks.STEEL}
     tip, held = run.toolpath.end[row], [np.empty((0, 3))]
     for name, body in found.items():
         if body is None or np.ptp(body.points, axis=0).max() > 2 * FAR * max(size, 1e-9):
@@ -150,9 +151,9 @@ def _add_tool(plotter: Any, run: Any, row: int, size: float) -> np.ndarray:
 
 
 def _add_fixture(plotter: Any, body: solids.Body, number: int) -> np.ndarray:
-    plotter.add_mesh(_surface(body), color="#a9b0b7", opacity=0.45, name=f"fixture {number}")
+    plotter.add_mesh(_surface(body), color=looks.FIXTURE, opacity=0.45, name=f"fixture {number}")
     edges = _surface(body).extract_feature_edges()
-    plotter.add_mesh(edges, color="#5c6166", line_width=1, name=f"edges of fixture {number}")
+    plotter.add_mesh(edges, color=looks.FIXTURE_EDGE, line_width=1, name=f"edges of fixture {number}")
     return body.points
 
 
@@ -160,9 +161,9 @@ def add_cylinders(plotter: Any, path: Toolpath) -> None:
     """The cylinders that a path lies on, with their edges."""
     for number in range(len(path.cylinders)):
         body = _surface(solids.cylinder_body(path, number))
-        plotter.add_mesh(body, color=STOCK, opacity=0.35, name=f"cylinder {number}")
+        plotter.add_mesh(body, color=looks.BLANK_BODY, opacity=0.35, name=f"cylinder {number}")
         edges = body.extract_feature_edges(feature_angle=45)
-        plotter.add_mesh(edges, color="#7d7664", line_width=1, name=f"edges of cylinder {number}")
+        plotter.add_mesh(edges, color=looks.METAL_EDGE, line_width=1, name=f"edges of cylinder {number}")
 
 
 def _on_cylinders(path: Toolpath) -> tuple[Toolpath, tuple[float, float, float]]:
@@ -251,7 +252,7 @@ def _add_path(plotter: Any, path: Toolpath, colour: str, rapids: Limits | None) 
         strokes, row = solids.bent(strokes, row, *courses(path, rapids, BENT * size, SHORT * size))
     kind = path.kind[row]
     cuts, drawn = np.isin(kind, (Kind.LINE, Kind.ARC)), dict[str, np.ndarray]()
-    for name, one, look, width in (("rapids", Kind.RAPID, RAPID, 1.0), ("probing", Kind.PROBE, PROBING, 2.0)):
+    for name, one, look, width in (("rapids", Kind.RAPID, looks.RED, 1.0), ("probing", Kind.PROBE, looks.VIOLET, 2.0)):
         if (kind == one).any():
             plotter.add_mesh(_lines(strokes[kind == one]), color=look, line_width=width, name=name)
             drawn[name] = strokes[kind == one].reshape(-1, 3)
@@ -260,7 +261,7 @@ def _add_path(plotter: Any, path: Toolpath, colour: str, rapids: Limits | None) 
     drawn["cuts"] = strokes[cuts].reshape(-1, 3)
     mesh = _lines(strokes[cuts])
     if colour == "kind":
-        plotter.add_mesh(mesh, color=FEED, line_width=2.5, name="cuts")
+        plotter.add_mesh(mesh, color=looks.BLUE, line_width=2.5, name="cuts")
         return drawn
     values = strokes[cuts][:, :, 2].ravel() if colour == "z" else getattr(path, colour)[row[cuts]]
     if colour in LENGTHS and path.inches:
@@ -290,3 +291,145 @@ def _lines(strokes: np.ndarray) -> Any:
     count = len(strokes)
     pairs = np.arange(2 * count).reshape(-1, 2)
     return pyvista.PolyData(strokes.reshape(-1, 3), lines=np.insert(pairs, 0, 2, axis=1).ravel())
+
+
+# A part in three dimensions: the body that is left, shaded, with crisp edges; the part that a probe meets.
+
+PART_COLOURS = ("depth", "tool", "line", "none")
+DEPTHS = "YlGnBu"  # pale above, dark below, in grey print too
+EDGE, ANGLE = "#33312b", 25.0  # degrees between two faces from which their edge is drawn
+BALL, PIN = 0.012, 0.1  # where something collides: radius, and how far its pin stands out, of the greatest side of the part
+LOOK: dict[str, Any] = {
+    "smooth_shading": True, "split_sharp_edges": True, "feature_angle": ANGLE, "ambient": 0.22, "diffuse": 0.82,
+    "specular": 0.1, "name": "part",
+}  # fmt: skip
+
+
+@fitting
+def part_body(
+    workpiece: Workpiece,
+    colour: str = "depth",
+    *,
+    collisions: Iterable[Collision] = (),
+    axes: bool = True,
+    size: tuple[int, int] = SIZE,
+) -> pyvista.Plotter:
+    """The part as a body, seen from the front, right and above.
+
+    `colour`: "depth" (mm below the highest place; on a lathe the diameter), the "tool" or the "line" that cut a face, or
+    "none"; what nothing cut has the colour of the blank. `collisions` are red balls at their places, with pins that stand out
+    of the part. `size` in pixels.
+    """
+    choice(colour, "colour", PART_COLOURS)
+    check_drawing()
+    lathe = workpiece.cutting.lathe
+    plotter = new_plotter(repr(workpiece).splitlines()[0], size)
+    solid = workpiece.solid()
+    add_part(plotter, workpiece, solid, colour)
+    add_collisions(plotter, collisions, solid.points, lathe)
+    towards = (0.35, 1.0, 0.6) if lathe else (-0.5, -1.0, 1.0)
+    frame(plotter, solid.points, towards, lathe, unit=workpiece.cutting.path.unit, axes=axes)
+    return plotter
+
+
+def add_part(plotter: Any, workpiece: Workpiece, solid: Solid, colour: str) -> None:
+    """Add a body and its edges, and the scale of its colours."""
+    import pyvista
+
+    mesh = pyvista.PolyData.from_regular_faces(solid.points, solid.triangles)
+    edges = mesh.extract_feature_edges(feature_angle=ANGLE, boundary_edges=False, non_manifold_edges=False, manifold_edges=False)
+    plain = looks.BLANK_BODY
+    if colour == "none" or not (solid.row >= 0).any():
+        plotter.add_mesh(mesh, color=plain, **LOOK)
+    elif colour == "depth":
+        mesh, uncut = _apart(solid)
+        title, values = _depths(workpiece, mesh.points)
+        mesh.point_data[title] = np.where(uncut, np.nan, values)
+        cut = values[~uncut]
+        deep = not workpiece.cutting.lathe and cut.size and cut.max() > 0
+        bar, limits = bar_of(title, np.array([0.0, float(cut.max() if deep else values.max())]))
+        plotter.add_mesh(mesh, scalars=title, cmap=DEPTHS, clim=limits, nan_color=plain, scalar_bar_args=bar, **LOOK)
+    else:
+        values = workpiece.cutting.of_rows(getattr(workpiece.cutting.path, colour), solid.row).astype(np.float64)
+        mesh.cell_data[colour] = np.where(solid.row >= 0, values, np.nan)
+        bar, limits = bar_of(colour, values[solid.row >= 0], whole=True)
+        plotter.add_mesh(mesh, scalars=colour, cmap=MAP, clim=limits, nan_color=plain, scalar_bar_args=bar, **LOOK)
+    if edges.n_cells:
+        plotter.add_mesh(edges, color=EDGE, line_width=1.3, name="edges of the part")
+
+
+def _apart(solid: Solid) -> tuple[Any, Mask]:
+    """The mesh of a body where what nothing cut has points of its own, and which points (n,) these are."""
+    import pyvista
+
+    doubled = solid.triangles + np.where(solid.row < 0, len(solid.points), 0)[:, None]
+    used, index = np.unique(doubled, return_inverse=True)
+    points = solid.points[used % len(solid.points)]
+    return pyvista.PolyData.from_regular_faces(points, index.reshape(doubled.shape)), used >= len(solid.points)
+
+
+def _depths(workpiece: Workpiece, points: Array) -> tuple[str, Array]:
+    """What "depth" shows, with its unit, and its values (n,)."""
+    if workpiece.cutting.lathe:
+        return "diameter, mm", 2 * np.hypot(points[:, 0], points[:, 1])
+    return "depth, mm", float(workpiece.cutting.stock.bounds[1, 2]) - points[:, 2]
+
+
+def add_collisions(plotter: Any, collisions: Iterable[Collision], points: Array, lathe: bool) -> None:
+    """Red balls where something collides, and pins from them up, on a lathe along X: most are deep in the part."""
+    import pyvista
+
+    try:
+        places = np.array([each.place for each in collisions], dtype=np.float64).reshape(-1, 3)
+    except (TypeError, AttributeError):
+        raise Alarm(f"collisions must be those of a run, got {shown(collisions)}", hint="run.collisions()") from None
+    if len(places):
+        side, out = float(np.ptp(points, axis=0).max()), 0 if lathe else 2
+        ball = pyvista.Sphere(radius=BALL * side)
+        balls = pyvista.PolyData(places).glyph(geom=ball, scale=False, orient=False)
+        plotter.add_mesh(balls, color=looks.RED, name="collisions")
+        heads = places.copy()
+        heads[:, out] = np.maximum(places[:, out], points[:, out].max()) + PIN * side
+        pins = pyvista.line_segments_from_points(np.stack([places, heads], axis=1).reshape(-1, 3))
+        plotter.add_mesh(pins, color=looks.RED, line_width=3, name="pins")
+
+
+# The part that a probe meets, and its touches: a ball at each touched place with its number.
+
+PROBED_ANGLE = 25.0  # degrees
+TOUCH_BALL = 0.011  # radius of a mark, of the greatest side of the part_body
+MOST, FEW = 60, 8  # touches with numbers, with values too
+PROBED_LOOK: dict[str, Any] = {
+    "color": looks.METAL, "opacity": 0.6, "ambient": 0.3, "smooth_shading": True, "split_sharp_edges": True,
+    "feature_angle": PROBED_ANGLE,
+}  # fmt: skip
+
+
+def add_probed(plotter: Any, run: Any) -> Array | None:
+    """Add what the probe of a run meets; the corners (2, 3) of it in the coordinates of the path, None where there is none."""
+    import pyvista
+
+    found = felt(run)
+    if found is None:
+        return None
+    ends = found.ends(run.toolpath.bounds if len(run.toolpath) else np.zeros((2, 3)))
+    if found.part is not None:
+        points, triangles = found.part.surface(within=ends + found.origin)
+        if len(triangles):
+            mesh = pyvista.PolyData.from_regular_faces(points - found.origin, triangles).clean()
+            plotter.add_mesh(mesh, name="part to touch", **PROBED_LOOK)
+            edges = mesh.extract_feature_edges(feature_angle=PROBED_ANGLE, boundary_edges=False, non_manifold_edges=False)
+            if edges.n_cells:
+                plotter.add_mesh(edges, color=looks.METAL_EDGE, line_width=1.2, name="edges of the part to touch")
+    if found.beam is not None:
+        plotter.add_mesh(pyvista.Line(*found.beam), color=looks.BEAM, line_width=3, name="beam")
+    if len(found.places):
+        ball = pyvista.Sphere(radius=TOUCH_BALL * float((ends[1] - ends[0]).max()))
+        balls = pyvista.PolyData(found.places).glyph(geom=ball, scale=False, orient=False)
+        plotter.add_mesh(balls, color=looks.VIOLET, name="touches")
+    if 0 < len(found.places) <= MOST:
+        plotter.add_point_labels(
+            found.places, [text[len(found.texts) > FEW] for text in found.texts], font_size=12, text_color="#4a148c",
+            shape_opacity=0.75, shape_color="white", show_points=False, always_visible=True, name="numbers of the touches",
+        )  # fmt: skip
+    return ends

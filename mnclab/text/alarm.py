@@ -17,6 +17,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from html import escape
+from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
 ALARM, WARNING = "alarm", "warning"
@@ -50,6 +51,16 @@ class Source(Protocol):
         """The characters of one line, without its end."""
 
 
+class Named(NamedTuple):
+    """The source of an alarm under another name."""
+
+    name: str
+    source: Source
+
+    def line_text(self, line: int) -> str:
+        return self.source.line_text(line)
+
+
 class Alarm(Exception):
     """A fault in the program, where it stands.
 
@@ -70,6 +81,10 @@ class Alarm(Exception):
         other = copy.copy(self)
         vars(other).update(values)
         return other
+
+    def without_folders(self) -> Alarm:
+        """The same alarm for a file that is given away: its program has its name alone, without the folders here."""
+        return self.changed(source=self.source and Named(Path(self.source.name).name, self.source))
 
     def include(self, other: Alarm) -> None:
         """Count another one with this."""

@@ -13,6 +13,7 @@ import zlib
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from inspect import signature
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -141,6 +142,29 @@ def named(path: str | Path, known: Collection[str], refused: str) -> tuple[Path,
         what = refused.format(suffix) if suffix else f"{path.name!r} has no suffix to say what to write"
         raise Alarm(what, hint=f"known: {', '.join(known)}")
     return path, suffix
+
+
+CONTROLS = {code: "\N{REPLACEMENT CHARACTER}" for code in (*range(9), *range(14, 32), *range(127, 160))}
+
+
+def printable(text: str) -> str:
+    """A text that can be written: half a pair of surrogates, which is no letter, becomes a question mark, and a control
+    character, which no font has, the sign for what cannot be shown."""
+    return text.encode("utf-8", "replace").decode().translate(CONTROLS)
+
+
+def save_as(what: Any, path: str | Path, writers: Mapping[str, Callable[..., None]], refused: str, **options: Any) -> Path:
+    """Write something by the function that writes files of this suffix, `write(what, path, **options)`; the path.
+
+    An Alarm, in `refused` words, where none does, and where one that takes no options is given some.
+    """
+    path, suffix = named(path, writers, refused)
+    writer = writers[suffix]
+    if options and len(signature(writer).parameters) == 2:
+        raise Alarm(f"{suffix} files have no options, got {', '.join(options)}")
+    with replaced(path) as beside:
+        writer(what, beside, **options)
+    return path
 
 
 # Files that people write (TOML): read, and checked so that an alarm shows the line that is wrong.

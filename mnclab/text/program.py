@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import re
 from array import array
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import wraps
 from itertools import chain
@@ -442,3 +442,19 @@ class BulkBlocks(NamedTuple):
     first: NDArray[np.int32]
     plain: NDArray[np.bool_]
     form: NDArray[np.uint8] | None = None
+
+
+# Where a program has certain codes, found in its columns.
+
+WITH_NUMBERS = "GM"  # addresses that make codes with their numbers
+
+
+def blocks_with(program: Program, codes: Collection[str]) -> NDArray[np.bool_]:
+    """The blocks (b,) with one of some codes, as their keyword ("CYCL CALL") or as a word ("M99")."""
+    found = np.isin(program.keyword, [k for k, keyword in enumerate(program.keywords) if keyword in codes])
+    for k, address in enumerate(program.addresses):
+        values = [float(code[1:]) for code in codes if code[0] == address and address in WITH_NUMBERS and code[1:].isdigit()]
+        if values:
+            words = (program.address == k) & (program.form == NUMBER) & np.isin(program.value, values)
+            found[np.searchsorted(program.first, np.flatnonzero(words), "right") - 1] = True
+    return found

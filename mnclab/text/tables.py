@@ -6,12 +6,17 @@ import csv
 import io
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import MISSING, fields, is_dataclass
 from html import escape
 from itertools import zip_longest
-from typing import Any, TypeVar
+from pathlib import Path
+from typing import Any, ClassVar, Self, TypeVar
 
 import numpy as np
+
+from mnclab.text.file import save_as
+from mnclab.text.opening import require
 
 # Tables for people, as HTML and as text: rows of texts under their heads, a line end in a cell begins a new line in it.
 # Words stand to the left and numbers to the right, also where a notebook would set all to the right. Numbers of a column that
@@ -91,6 +96,119 @@ def text_table(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Coll
     lines.insert(below, tuple("-" * width for width in widths))
     sides = [str.rjust if k in longest else str.ljust for k in range(len(widths))]
     return "\n".join("  ".join(side(text, width) for side, text, width in zip(sides, line, widths)).rstrip() for line in lines)
+
+
+# Records that know their columns: one declaration gives the text, the table of a notebook, the file and the data frame.
+
+class Listing:
+    """What prints as a table and is saved as one: a class says its heads and the texts of its rows.
+
+    `NUMBERS` are the columns that stand to the right, `CODE` those of program text, `LENGTHS` those whose heads name the unit of
+    the program. `NOTHING` stands for a table without rows, and a notebook shows the first `MOST` ones. `reach` is "up to line 12,
+    where the run stopped" of what is known only so far, else empty; `notes` are sentences that stand below.
+    """
+
+    HEAD: ClassVar[tuple[str, ...]]
+    NUMBERS: ClassVar[Collection[int]] = ()
+    LENGTHS: ClassVar[Collection[int]] = ()
+    CODE: ClassVar[Collection[int]] = ()
+    NOTHING: ClassVar[str] = ""
+    MOST: ClassVar[int | None] = None
+    unit: Any = None
+    reach: str = ""
+    notes: Sequence[str] = ()
+
+    @property
+    def head(self) -> tuple[str, ...]:
+        """The heads of the columns, of lengths with their unit."""
+        return tuple(f"{name}, {self.unit.short}" if k in self.LENGTHS else name for k, name in enumerate(self.HEAD))
+
+    def texts(self) -> list[tuple[str, ...]]:
+        """What the table says, row by row, lengths in the unit of the program."""
+        raise NotImplementedError
+
+    def table(self) -> tuple[tuple[str, ...], list[tuple[str, ...]], Collection[int]]:
+        """Heads, rows of texts, and which columns are numbers."""
+        return self.head, self.texts(), self.NUMBERS
+
+    @property
+    def bold(self) -> list[int]:
+        """The rows that must be seen first."""
+        return []
+
+    @property
+    def above(self) -> str:
+        """What is said before the table."""
+        return ""
+
+    @property
+    def nothing(self) -> str:
+        """What is said in place of a table without rows."""
+        return f"{self.NOTHING} {self.reach}".strip()
+
+    def __repr__(self) -> str:
+        head, rows, numbers = self.table()
+        said = [text_table(head, rows, numbers), self.reach] if rows else [self.nothing]
+        return "\n".join(filter(None, [self.above, *said, *self.notes]))
+
+    def _repr_html_(self) -> str:
+        head, rows, numbers = self.table()
+        shown = html_table(head, rows[: self.MOST], numbers=numbers, code=self.CODE, bold=self.bold) if rows else ""
+        more = f"… {len(rows) - self.MOST} more" if self.MOST is not None and len(rows) > self.MOST else ""
+        said = [more, self.reach] if rows else [self.nothing]
+        return paragraphs(self.above) + shown + paragraphs(*said, *self.notes)
+
+    def csv(self) -> str:
+        """The table as comma-separated values."""
+        return csv_text(self.head, *self.texts())
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """The table as arrays, as it is shown."""
+        head, rows, _ = self.table()
+        return {name: np.array([row[k] for row in rows]) for k, name in enumerate(head)}
+
+    def to_pandas(self) -> Any:
+        """The table as a data frame of pandas."""
+        require("pandas", "data frames", "pandas", instead="columns() needs nothing")
+        import pandas
+
+        return pandas.DataFrame(self.columns())
+
+    def save(self, path: str | Path) -> Path:
+        """Write the table (.csv)."""
+        return save_as(self, path, {".csv": write_csv}, "tables are saved as .csv, not as {}")
+
+
+def write_csv(listing: Listing, path: Path) -> None:
+    """The table of a listing as a file."""
+    path.write_text(listing.csv(), "utf-8", newline="")
+
+
+def paragraphs(*sentences: str) -> str:
+    """Sentences as HTML, each in a paragraph of its own; empty ones are left out."""
+    return "".join(f"<p>{escape(each)}</p>" for each in sentences if each)
+
+
+Row = TypeVar("Row")
+
+
+class Rows(Listing, Sequence[Row]):
+    """A listing of rows in their order; a slice is a listing too."""
+
+    def __init__(self, rows: Iterable[Row], unit: Any = None, reach: str = "") -> None:
+        self._rows, self.unit, self.reach = tuple(rows), unit, reach
+
+    def some(self, rows: Iterable[Row]) -> Self:
+        """The same listing with other rows."""
+        found = copy(self)
+        found._rows = tuple(rows)
+        return found
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def __getitem__(self, which: Any) -> Any:
+        return self.some(self._rows[which]) if isinstance(which, slice) else self._rows[which]
 
 
 # How records print: as one would write them, or by the shapes of their columns; never their insides.

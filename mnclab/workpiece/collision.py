@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from html import escape
 from typing import NamedTuple
 
 from mnclab.path.listing import Unit
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import SHOWN, several
-from mnclab.text.tables import html_table, written
+from mnclab.text.tables import Listing, html_table, paragraphs, written
 
 KINDS = {
     "rapid": "rapid motion in material",
@@ -26,7 +25,6 @@ KINDS = {
     "chuck": "the tool in the chuck",
     "axis": "a drill, or what else turns about its own axis, fed beside the axis of a part that turns",
 }
-HEAD = ("place", "kind", "message")
 
 
 def coordinates(axes: str, place: Iterable[float]) -> str:
@@ -72,7 +70,7 @@ class Collision(NamedTuple):
         return self._asdict() | {"place": list(self.place)}
 
 
-class Collisions(tuple[Collision, ...]):
+class Collisions(Listing, tuple[Collision, ...]):
     """Collisions in the order of the rows, each row and kind once.
 
     Shows itself as a table of the first lines, where those of one kind in one line stand together: the deepest, and how
@@ -84,8 +82,7 @@ class Collisions(tuple[Collision, ...]):
     without `reach` and `notes`: `json.dumps(run.collisions().as_dict())`.
     """
 
-    notes: tuple[str, ...]
-    reach: str
+    HEAD = ("place", "kind", "message")
 
     def __new__(cls, found: Iterable[Collision] = (), notes: Iterable[str] = (), reach: str = "") -> Collisions:
         made = super().__new__(cls, sorted(found, key=lambda each: (each.row, each.kind)))
@@ -132,9 +129,17 @@ class Collisions(tuple[Collision, ...]):
         lines += [self.sentence] if self.reach or not lines else []
         return "\n".join([*lines, *(f"  note: {note}" for note in self.notes)])
 
+    def texts(self) -> list[tuple[str, ...]]:
+        """All collisions, row by row."""
+        return [_cells(each) for each in self]
+
     def _repr_html_(self) -> str:
         first, more = self._shown()
-        rows = [(f"{each.file}:{each.line}".lstrip(":"), each.kind, each.message + others) for each, others in first]
-        table = html_table(HEAD, rows) if rows else ""
+        rows = [_cells(each, others) for each, others in first]
+        table = html_table(self.HEAD, rows) if rows else ""
         said = self.sentence if self.reach or not rows else ""
-        return table + "".join(f"<p>{escape(each)}</p>" for each in (more, said, *self.notes) if each)
+        return table + paragraphs(more, said, *self.notes)
+
+
+def _cells(each: Collision, others: str = "") -> tuple[str, str, str]:
+    return f"{each.file}:{each.line}".lstrip(":"), each.kind, each.message + others

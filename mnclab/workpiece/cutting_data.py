@@ -22,7 +22,7 @@ from mnclab.path.limits import Limits
 from mnclab.path.listing import Unit, figure
 from mnclab.path.tool import POINTED, Tool
 from mnclab.path.toolpath import Array, Index, Kind, Toolpath
-from mnclab.text.tables import html_table, text_table
+from mnclab.text.tables import Rows
 from mnclab.workpiece.ahead import CHIP, DEPTH, WIDTH
 from mnclab.workpiece.removal import AT_LEAST, Removal
 
@@ -56,17 +56,14 @@ class Cut(NamedTuple):
     seen: tuple[int, int] = (0, 0)
 
 
-class CuttingData(Sequence[Cut]):
+class CuttingData(Rows[Cut]):
     """The cutting data of a run, one `Cut` a tool; it prints as a table, in the unit of the program."""
 
+    NOTHING = "nothing is cut"
+
     def __init__(self, cuts: Sequence[Cut], unit: Unit, notes: Sequence[str] = ()) -> None:
-        self._cuts, self.unit, self.notes = tuple(cuts), unit, tuple(notes)
-
-    def __len__(self) -> int:
-        return len(self._cuts)
-
-    def __getitem__(self, which: Any) -> Any:
-        return CuttingData(self._cuts[which], self.unit, self.notes) if isinstance(which, slice) else self._cuts[which]
+        super().__init__(cuts, unit)
+        self.notes = tuple(notes)
 
     def table(self) -> tuple[tuple[str, ...], list[tuple[str, ...]], range]:
         """Heads, rows of texts, and which columns are numbers; columns in which nothing stands are left out."""
@@ -94,20 +91,15 @@ class CuttingData(Sequence[Cut]):
         numbers = range(1, len(kept) - (len(head) - 1 in kept))
         return tuple(head[k] for k in kept), [tuple(row[k] for k in kept) for row in rows], numbers
 
+    @property
+    def head(self) -> tuple[str, ...]:
+        return self.table()[0]
+
     def rows(self) -> list[tuple[str, ...]]:
         """The table's rows of texts."""
         return self.table()[1]
 
-    def __repr__(self) -> str:
-        if not self:
-            return "\n".join(["nothing is cut", *self.notes])
-        head, rows, numbers = self.table()
-        return "\n".join([text_table(head, rows, numbers), *self.notes])
-
-    def _repr_html_(self) -> str:
-        head, rows, numbers = self.table()
-        notes = "".join(f"<p>{note}</p>" for note in self.notes)
-        return f"{html_table(head, rows, numbers=numbers) if self else '<p>nothing is cut</p>'}{notes}"
+    texts = rows
 
 
 def said(pair: Pair | None, unit: float, digits: int, open_: bool = False) -> str:

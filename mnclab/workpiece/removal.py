@@ -12,7 +12,7 @@ from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Array, Index, Kind
 from mnclab.text.given import choice, fitting_class
-from mnclab.text.tables import Rounded, html_table, written
+from mnclab.text.tables import Listing, Rounded, written
 from mnclab.workpiece.ahead import FEW, RATE, Looks
 from mnclab.workpiece.workpiece import Workpiece
 
@@ -23,7 +23,6 @@ KEYS = ("line", "tool")
 CUTS = (Kind.LINE, Kind.ARC)
 CELLS = 4
 AT_LEAST = "at least "
-HEAD = ("tool", "removed", "time in material", "mean rate", "largest rate", "in line")
 
 
 class Fastest(NamedTuple):
@@ -39,12 +38,15 @@ class Fastest(NamedTuple):
 
 
 @fitting_class
-class Removal:
+class Removal(Listing):
     """What a workpiece lost while a profile went on; both belong to the same path of n rows.
 
     `volumes` (n,) mm³ and `seconds` (n,) are those of each row, `rate` (n,) mm³/min its mean rate, 0 where it cuts
     nothing, and `greatest` (n,) its greatest: that of a place in the material, as `mnclab.workpiece.ahead` finds it.
     """
+
+    HEAD = ("tool", "removed", "time in material", "mean rate", "largest rate", "in line")
+    NUMBERS = range(1, 6)
 
     def __init__(self, workpiece: Workpiece, profile: Profile) -> None:
         self.workpiece, self.profile = workpiece, profile
@@ -170,7 +172,7 @@ class Removal:
         return f"T{number} {found.name if found else ''}".rstrip()
 
     def rows(self) -> list[tuple[str, ...]]:
-        """A row of texts for each tool that took something away, and for all of them: as `HEAD` has it."""
+        """A row of texts for each tool that took something away, and for all of them: as the heads have it."""
         numbers = list(self.by("tool"))
         cut_by = self.workpiece.cutting.numbers
         groups = [(self._tool(number), cut_by == number) for number in numbers]
@@ -186,6 +188,8 @@ class Removal:
                 self.place(most) if most else "",
             ))  # fmt: skip
         return told
+
+    texts = rows
 
     def told(self, value: float) -> str:
         """A volume, mm³, as `volume` says it, in the unit of the program."""
@@ -206,9 +210,9 @@ class Removal:
         head = f"{self.told(self.volume)} removed{self._as_far} in {self.time:.2f} s, {self.told(self.mean)}/min"
         return f"<Removal: {head}{f', {self.at_most} {self.told(most.rate)}/min in line {self.place(most)}' if most else ''}>"
 
-    def _repr_html_(self) -> str:
-        told = f"<p>removed{self._as_far}</p>" if self._as_far else ""
-        return html_table(HEAD, self.rows(), numbers=range(1, 6)) + told
+    @property
+    def above(self) -> str:
+        return f"removed{self._as_far}" if self._as_far else ""
 
     @property
     def at_most(self) -> str:

@@ -204,10 +204,10 @@ class Workpiece(ABC):
         return plot_part(self, **options)
 
     def scene(self, colour: str = "depth", **options: Any) -> pyvista.Plotter:
-        """The part as a body (needs pyvista); see `show.part_scene.scene`."""
-        from mnclab.show.part_scene import scene
+        """The part as a body (needs pyvista); see `show.scene.part_body`."""
+        from mnclab.show.scene import part_body
 
-        return scene(self, colour, **options)
+        return part_body(self, colour, **options)
 
     def save(self, path: str | Path, **options: Any) -> Path:
         """Write one file; the suffix says what: stl, gltf, glb, vtk (the body), svg, pdf, png (the picture), csv."""

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import mnclab
-from mnclab.show.player.packing import plain
+from mnclab.show.player.part import plain
 
 PROGRAM = """N10 G17 G90 G54
 N20 T1 S1200 M3

@@ -9,7 +9,8 @@ import pytest
 import mnclab
 from mnclab import Alarm, Kind
 from mnclab.lab.forms.fields import place_of
-from mnclab.show.plot import colours, ghost
+from mnclab.show.plot import colours
+from mnclab.show.plot.layers import gone, held_box
 
 TEMPLATE = "G90 G54 S500 M3\nG0 X0 Y0 Z5\nG1 X{side} F{feed}\nY{side}\nX0\nY0\n"
 
@@ -127,16 +128,16 @@ def test_a_picture_keeps_the_axes_of_the_one_before_while_it_fits():
 
 
 def test_a_slip_of_the_finger_does_not_make_the_picture_small_for_ever():
-    low, high = ghost.held(np.zeros(3), np.full(3, 40.0), (np.zeros(3), np.full(3, 4000.0)))
+    low, high = held_box(np.zeros(3), np.full(3, 40.0), (np.zeros(3), np.full(3, 4000.0)))
     assert high.tolist() == [40, 40, 40] and low.tolist() == [0, 0, 0]
 
 
 def test_a_ghost_has_only_what_is_no_longer_there():
     """Of a square whose feed alone is changed nothing is gone; of one with another side three of its four sides."""
     one, other = square(40), square(42)
-    assert len(ghost.gone(one.toolpath, mnclab.run(TEMPLATE.format(side=40, feed=50), "mnc").toolpath)) == 0
-    gone = ghost.gone(one.toolpath, other.toolpath)
-    assert len(gone) == 4 and (gone.kind == Kind.LINE).all()
+    assert len(gone(one.toolpath, mnclab.run(TEMPLATE.format(side=40, feed=50), "mnc").toolpath)) == 0
+    left = gone(one.toolpath, other.toolpath)
+    assert len(left) == 4 and (left.kind == Kind.LINE).all()
     assert len(grey(one.plot(under=one.toolpath).axes[0])) == 0
 
 

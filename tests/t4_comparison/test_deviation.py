@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import mnclab
 from mnclab import Alarm
-from mnclab.comparison.deviation import _nearest, deviation
+from mnclab.comparison.diff import _nearest, deviation
 
 SAMPLES = Path(__file__).parents[2] / "data" / "programs"
 PATH = "G90 G54 G17\nG0 X-20 Y0 Z0\nG41 G1 X-10 Y-20 F300\nX0\nG3 I0 J20\nG40 G1 X10 Y0\n"

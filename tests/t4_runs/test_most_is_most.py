@@ -201,7 +201,7 @@ def test_very_many_moves_are_looked_at_too(monkeypatch):
     (cut,) = run.cutting_data()
     assert "rate" not in cut.open and cut.rate[1] == pytest.approx(16 * math.pi * 500, rel=0.03)
     assert cut.width[1] == pytest.approx(8, rel=1e-3) and cut.depth[1] == pytest.approx(2)
-    monkeypatch.setattr("mnclab.runs.cutting_data.MOVES", 500)
+    monkeypatch.setattr("mnclab.runs.material.MOVES", 500)
     assert "Of more than 500 moves" in repr(run.cutting_data())
 
 

@@ -11,8 +11,8 @@ from tools.running import run
 import mnclab
 from mnclab.geometry.contours import Contour
 from mnclab.show import solids
-from mnclab.show.player.packing import Packer
 from mnclab.show.player.part import PARTS, part, section
+from mnclab.show.player.payload import Packer
 
 BLOCK = ((100, 50, -220), (160, 90, -200))
 SETUP = {"tools": {1: MILL}, "datums": {1: (100, 50, -200)}, "start": (100, 50, -150)}

@@ -145,8 +145,8 @@ def test_the_record_is_saved_as_csv_or_json_and_as_nothing_else(measured, tmp_pa
     saved = measured.measurements.save(tmp_path / "record.json")
     assert [row["what"] for row in json.loads(saved.read_text())] == [row.what for row in measured.measurements]
     assert measured.measurements.save(tmp_path / "record.csv").read_text().startswith("line,cycle,what")
-    for name in ("record.html", "record"):
-        with pytest.raises(mnclab.Alarm, match="written as .csv or .json, got 'record"):
+    for name, wrong in (("record.html", "as .html; run.report has them"), ("record", "'record' has no suffix")):
+        with pytest.raises(mnclab.Alarm, match=wrong):
             measured.measurements.save(tmp_path / name)
     with pytest.raises(mnclab.Alarm, match="cannot be written"):
         measured.measurements.save(tmp_path / "nowhere" / "record.csv")

@@ -18,7 +18,7 @@ import mnclab
 from mnclab import Alarm, Limits, Setup
 from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs.run import run_program
-from mnclab.show.player.packing import Packer, plain
+from mnclab.show.player.part import Packer, plain
 from mnclab.show.player.payload import payload
 from mnclab.workpiece.blank import cylinder
 

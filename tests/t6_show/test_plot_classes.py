@@ -11,7 +11,7 @@ from tools import running
 
 import mnclab
 from mnclab import Alarm, Kind, Toolpath
-from mnclab.show.plot import arrows, classes
+from mnclab.show.plot import classes, placing
 from mnclab.show.plot.path import plot_path
 
 FIRST = (Path(__file__).parents[2] / "data/programs/mnc/first_path.mnc").read_text("utf-8")
@@ -163,11 +163,11 @@ def test_arrowheads_lie_on_arcs_too():
 
 def test_no_arrowheads_where_they_say_nothing():
     assert not heads(run(SQUARE).plot(arrows=False).axes[0])
-    assert not heads(plot_path(waves(arrows.MANY + 1)).axes[0])
+    assert not heads(plot_path(waves(placing.MANY_MOVES + 1)).axes[0])
     assert not heads(plot_path(waves(40), view="XY").axes[0])  # forty short moves
     star = "".join(f"G1 X{50 * np.cos(k * 2.4):.3f} Y{50 * np.sin(k * 2.4):.3f} F100\n" for k in range(200))
     (artist,) = heads(run("G90 G54\n" + star).plot(view="XY").axes[0])
-    assert len(artist.get_offsets()) <= arrows.MOST
+    assert len(artist.get_offsets()) <= placing.MOST_HEADS
 
 
 # --- crosses ---------------------------------------------------------------------------------------------------------

@@ -11,9 +11,9 @@ import mnclab as mnc
 from mnclab.geometry.contours import Contour
 from mnclab.show.plot.face import faces, spiral
 from mnclab.show.plot.holes import holes_of
-from mnclab.show.plot.lengths import heights_of
 from mnclab.show.plot.original import original_of
 from mnclab.show.plot.overlay import centres_of, polar_of
+from mnclab.show.plot.set_up import heights_of
 
 PROGRAMS = Path(__file__).parents[2] / "data" / "programs"
 HEAD = "G17 G90 G54 T4 S800 M3\nG0 X0 Y0\n"

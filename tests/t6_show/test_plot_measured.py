@@ -9,8 +9,7 @@ from tools.toy_probing import toy_run
 
 import mnclab
 from mnclab import Alarm
-from mnclab.show.plot.measured import MOST
-from mnclab.show.plot.measured_panels import nice, panels
+from mnclab.show.plot.measured import MOST, nice, panels
 from mnclab.workpiece.part import box, hole, pocket
 
 BORE = box((0, 0, -20), (100, 60, 0)) - hole((50.1, 29.9, 0), 24.2, 10)

@@ -2,7 +2,6 @@
 
 import math
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,9 +12,9 @@ from mnclab.comparison.turning_schemes import compare, toolpath
 from mnclab.geometry.contours import Contour
 from mnclab.machining.turning import threading as threads
 from mnclab.path.inserts import as_drawn, insert
-from mnclab.show.plot import lathe as module
+from mnclab.show.looks import CARBIDE, STEEL, player_css
 from mnclab.show.plot.classes import classes
-from mnclab.show.plot.lathe import CARBIDE, INSERT, STEEL, plot_speed, speed_strokes, speeds
+from mnclab.show.plot.lathe import INSERT, plot_speed, speed_strokes, speeds
 from mnclab.show.plot.path import plot_path
 from mnclab.show.plot.strokes import strokes
 from mnclab.show.plot.turning_schemes import plot_schemes, plot_threads
@@ -96,9 +95,8 @@ def test_a_thread_without_a_tool_is_cut_by_the_point_of_its_profile():
 
 def test_what_an_insert_has_cut_is_seen_through_it():
     assert INSERT["facecolor"][3] < 0.6
-    page = (Path(module.__file__).parent.parent / "player" / "page.css").read_text("utf-8")
     for name, shade in (("insert", CARBIDE), ("holder", STEEL)):  # one colour in plots and player, light and dark
-        assert [each[:7] for each in re.findall(rf"--{name}: (#\w+)", page)] == [shade, shade]
+        assert [each[:7] for each in re.findall(rf"--{name}: (#\w+)", player_css())] == [shade, shade]
 
 
 def test_tables_of_a_lathe_say_that_x_is_a_radius():

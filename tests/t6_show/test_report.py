@@ -227,7 +227,7 @@ def test_removal_and_collisions_stand_in_it(tmp_path, text, collided):
     found = report(run)
     assert dict(found.facts)["removed"] == "2.4 cm³"
     assert dict(found.facts)["collisions"] == ("1" if collided else "none")
-    assert [row[:2] for row in found.removal] == [("T1 end mill 10", "2.4 cm³")]
+    assert [row[:2] for row in found.removal.rows()] == [("T1 end mill 10", "2.4 cm³")]
     page = run.report(tmp_path / "a.html").read_text("utf-8")
     assert page.count("rapid motion in material") == collided
     assert ("<h2>Collisions</h2><p>none</p>" in page) is not collided

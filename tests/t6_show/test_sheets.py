@@ -7,8 +7,9 @@ import pytest
 import mnclab
 from mnclab import Alarm, Setup, Tool
 from mnclab import __main__ as shell
+from mnclab.show.plot.colours import QUARTERS
 from mnclab.show.plot.set_up import plot_set_up
-from mnclab.show.report import sheets
+from mnclab.show.report import gathering
 from mnclab.show.report.document import Table
 
 PROGRAM = "T1 M6\nG90 G55\nS2000 M3\nG43 H11 D3 G0 X-10 Y10 Z5\nG1 Z-2 F100\nX90 F300\n"
@@ -33,7 +34,7 @@ def tables(pieces):
 
 def test_the_set_up_says_where_the_datum_stands(plate):
     """G55 stands at X103 Y52 Z-200: 3 and 2 mm from the sides of the blank and 1 mm above its top, -201."""
-    found = tables(sheets.set_up(plate).pieces)
+    found = tables(gathering.set_up(plate).pieces)
     assert found[0] == {"datum": "G55", "X": "103.000", "Y": "52.000", "Z": "-200.000"}
     said = dict(each for each in found if isinstance(each, tuple))
     assert said["blank"] == "80 x 40 x 20 mm" and said["fixture"] == "X 90 to 100, Y 50 to 90, Z -230 to -210 mm"
@@ -48,7 +49,7 @@ def test_the_drawing_has_the_blank_its_sizes_and_the_datum(plate):
     assert boxes[0].min(axis=0) == pytest.approx((100, 50)) and boxes[0].max(axis=0) == pytest.approx((180, 90))
     texts = [each.get_text() for ax in (above, side) for each in ax.texts]
     assert [text for text in texts if text in ("80", "40", "20")] == ["80", "40", "20"] and "G55" in texts
-    spots = [line.get_xydata().tolist() for line in above.lines if line.get_marker() == "o"]
+    spots = [line.get_xydata().tolist() for line in above.lines if line.get_marker() is QUARTERS]
     assert spots == [[[103, 52]]]
 
 
@@ -61,7 +62,7 @@ def test_tiny_and_huge_blanks(size, unit):
 
 def test_the_tools_with_their_sizes_and_correctors(plate):
     """Diameters, not radii: 10 and 6; the numbers H that the program calls."""
-    first, second = tables([sheets.tools_table(plate, sheets.used_tools(plate), plate.profile())])
+    first, second = tables([gathering.tools_table(plate, gathering.used_tools(plate), plate.profile())])
     assert [first[name] for name in ("tool", "diameter, mm", "length, mm", "teeth", "H")] == ["T1", "10", "80", "4", "11"]
     assert (second["diameter, mm"], second["point angle, °"], second["H"]) == ("6", "118", "2")
     assert "corner radius, mm" not in first  # no tool has one
@@ -69,7 +70,7 @@ def test_the_tools_with_their_sizes_and_correctors(plate):
 
 def test_a_lathe_tells_diameters():
     run = mnclab.run("M3 T1\nS500 G97\nG00 X26 Z2\nG01 Z-30 F100\n", "jnc-t01", Setup(stock=mnclab.blank.cylinder(30, -60, 1)))
-    said = dict(each for each in tables(sheets.set_up(run).pieces) if isinstance(each, tuple))
+    said = dict(each for each in tables(gathering.set_up(run).pieces) if isinstance(each, tuple))
     assert said["blank"] == "⌀60 x 61 mm" and said["zero stands"] == "on the axis of the spindle, 1 mm behind its face"
     assert "⌀60" in [each.get_text() for each in plot_set_up(run).axes[0].texts]
 

@@ -56,8 +56,8 @@ def test_a_comparison_is_saved(compared, tmp_path):
     assert [row[0] for row in rows[1:]] == ["rings", "zigzag"]
     assert float(rows[1][1]) == pytest.approx(compared["rings"].length(rapid=False), abs=0.5)
     assert "<svg" in compared.save(tmp_path / "t.svg").read_text(encoding="utf-8")
-    assert ".svg" in alarm_of(lambda: compared.save(tmp_path / "t.xls")).message
-    assert "without options" in alarm_of(lambda: compared.save(tmp_path / "t.csv", size=(5, 5))).message
+    assert ".svg" in alarm_of(lambda: compared.save(tmp_path / "t.xls")).hint
+    assert "files have no options" in alarm_of(lambda: compared.save(tmp_path / "t.csv", size=(5, 5))).message
 
 
 def test_schemes_on_a_machine_by_its_name():

@@ -8,7 +8,7 @@ import pytest
 from matplotlib.colors import to_rgb
 
 import mnclab as mnc
-from mnclab.show.plot import band
+from mnclab.show.plot import layers
 from mnclab.show.plot.classes import BLOCKS, step_name
 
 PROGRAMS = Path(__file__).parents[2] / "data" / "programs"
@@ -22,7 +22,7 @@ def passes(apart):
 
 
 def bands(ax):
-    return [line for line in ax.lines if isinstance(line, band.Band)]
+    return [line for line in ax.lines if isinstance(line, layers.Band)]
 
 
 def named(ax, name):
@@ -68,7 +68,7 @@ def test_a_crowd_of_passes_is_no_solid_bar():
     x, low = ax.transData.transform((30, 10))
     high = ax.transData.transform((30, 50))[1]
     column = image[len(image) - int(high) : len(image) - int(low), int(x)]
-    pale = (np.abs(column - np.array(to_rgb(band.SHADE)) * 255).max(axis=1) < 30).mean()
+    pale = (np.abs(column - np.array(to_rgb(layers.BAND_SHADE)) * 255).max(axis=1) < 30).mean()
     assert pale > 0.4
 
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mnclab.design.model.measures import Measure
 from mnclab.path.toolpath import Array
-from mnclab.text.tables import html_table, text_table
+from mnclab.text.tables import Rows, html_table
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.workpiece import ROUNDING
 
@@ -216,17 +215,14 @@ def judged(
     return Row(side, feature, measure.name, measure.nominal, found, deviation, lower, upper, verdict, **made)
 
 
-class Features(Sequence[Row]):
+class Features(Rows[Row]):
     """The rows of a comparison; it prints as a table."""
 
-    def __init__(self, rows: Sequence[Row]) -> None:
-        self._rows = tuple(rows)
+    HEAD, NUMBERS = HEAD, NUMBERS
 
-    def __len__(self) -> int:
-        return len(self._rows)
-
-    def __getitem__(self, which: Any) -> Any:
-        return Features(self._rows[which]) if isinstance(which, slice) else self._rows[which]
+    def texts(self) -> list[tuple[str, ...]]:
+        """What the table says, row by row."""
+        return [row.texts() for row in self]
 
     def of(self, feature: str, side: str | None = None) -> Features:
         """The rows of one feature."""
@@ -236,12 +232,6 @@ class Features(Sequence[Row]):
     def outside(self) -> Features:
         """The rows that are not within their limits."""
         return Features([row for row in self if not row.ok])
-
-    def __repr__(self) -> str:
-        return text_table(HEAD, [row.texts() for row in self], NUMBERS)
-
-    def _repr_html_(self) -> str:
-        return html_table(HEAD, [row.texts() for row in self], numbers=NUMBERS)
 
 
 def _written(number: float, sign: bool) -> str:

@@ -2,29 +2,21 @@
 
 from __future__ import annotations
 
-import csv
 import json
 from collections.abc import Callable
 from html import escape
-from inspect import signature
 from pathlib import Path
 from typing import Any
 
 from mnclab.design.difference.difference import HEAD, Difference
 from mnclab.show.report.document import page
-from mnclab.text.alarm import Alarm
-from mnclab.text.file import named, replaced
+from mnclab.text.file import save_as
+from mnclab.text.tables import csv_text
 
 
 def save(difference: Difference, path: str | Path, **options: Any) -> Path:
     """Write a difference to one file and return its path; pictures and records take the options of `Difference.plot`."""
-    path, suffix = named(path, WRITERS, "cannot write a difference as {}")
-    writer = WRITERS[suffix]
-    if options and len(signature(writer).parameters) == 2:
-        raise Alarm(f"{suffix} files have no options, got {', '.join(options)}")
-    with replaced(path) as beside:
-        writer(difference, beside, **options)
-    return path
+    return save_as(difference, path, WRITERS, "cannot write a difference as {}", **options)
 
 
 def write_figure(difference: Difference, path: Path, **options: Any) -> None:
@@ -37,11 +29,8 @@ def write_figure(difference: Difference, path: Path, **options: Any) -> None:
 
 def write_csv(difference: Difference, path: Path) -> None:
     """The table of measures, numbers in full, with the places of what is worst."""
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow([*HEAD[:-1], "line", "program", "x", "y", "z"])
-        for row in difference.features:
-            writer.writerow([*row[:9], row.line, row.program, *(row.place or ("", "", ""))])
+    rows = ([*row[:9], row.line, row.program, *(row.place or ("", "", ""))] for row in difference.features)
+    path.write_text(csv_text([*HEAD[:-1], "line", "program", "x", "y", "z"], *rows), "utf-8", newline="")
 
 
 def write_json(difference: Difference, path: Path) -> None:

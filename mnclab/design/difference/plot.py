@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -34,7 +34,21 @@ from mnclab.geometry.contours import Contour
 from mnclab.path.toolpath import Array
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import number
-from mnclab.show.plot.picture import LINE, SCALE, SIZE, SMALL, VIEWS, Foot, Picture, arrange, dress, write_legend
+from mnclab.show.plot.picture import (
+    LINE,
+    SCALE,
+    SIZE,
+    SMALL,
+    VIEWS,
+    Foot,
+    Picture,
+    arrange,
+    column_widths,
+    dress,
+    figure_of,
+    write_legend,
+    write_table,
+)  # fmt: skip
 from mnclab.show.plot.sections import HALO, mark_section
 from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
@@ -76,7 +90,7 @@ def plot_difference(
     cuts = sections_of(difference, section, at)
     if ax is not None:
         _draw(ax, difference, most)
-        return cast(Figure, ax.get_figure(root=True))
+        return figure_of(ax)
     low, high = difference.compared.bounds_3d if lathe else _bounds(difference)
     views = [VIEWS["ZX" if lathe else "XY"], *(each.section.view for each in cuts)]
     marks = marks_of(difference)
@@ -341,8 +355,6 @@ def draw_marks(ax: Axes, marks: list[Marked], axes: tuple[int, int], shades: tup
 # The table of measures below the picture of a difference.
 
 MOST_ROWS = 60  # rows that a picture has room for
-LETTER, GAP = 0.073, 0.16  # inches
-RED = "#b3261e"
 
 
 def lines_of(difference: Difference, marks: list[Marked]) -> list[tuple[str, ...]]:
@@ -356,30 +368,15 @@ def lines_of(difference: Difference, marks: list[Marked]) -> list[tuple[str, ...
 
 def wide_of(rows: list[tuple[str, ...]]) -> float:
     """How wide a picture must be for a table, inches."""
-    return 0.2 + sum(_widths(rows[1:])) if rows else 0.0
-
-
-def _widths(rows: list[tuple[str, ...]]) -> list[float]:
-    return [LETTER * max(map(len, column)) + GAP for column in zip(*rows)]
+    return 0.2 + sum(column_widths(rows[1:])) if rows else 0.0
 
 
 def draw_table(picture: Picture, rows: list[tuple[str, ...]]) -> None:
     """The rows in the room kept for them at the foot, what is out bold."""
     if not rows:
         return
-    rows = rows[1:]  # the first keeps room
-    width, height = picture.get_size_inches().tolist()
-    numbers = {HEAD[k] for k in NUMBERS}
-    right = [name in numbers for name in rows[0]]
-    wide = _widths(rows)
-    starts = [0.1 + sum(wide[:k]) for k in range(len(wide))]
-    verdict = rows[0].index("verdict")
-    for line, row in enumerate(rows):
-        y = (0.07 + LINE * (len(rows) - 1 - line)) / height
-        out = line > 0 and row[verdict] in ("out", "not cut")
-        for x, room, text, to_right in zip(starts, wide, row, right):
-            place = x + room - GAP if to_right else x
-            picture.text(
-                place / width, y, text, fontsize=SMALL, ha="right" if to_right else "left", va="bottom",
-                weight="bold" if out or line == 0 else "normal", color=RED if out else colours.INK, parse_math=False,
-            )  # fmt: skip
+    head, *others = rows[1:]  # the first keeps room
+    numbers = [head.index(HEAD[k]) for k in NUMBERS if HEAD[k] in head]
+    verdict = head.index("verdict")
+    out = [line for line, row in enumerate(others, 1) if row[verdict] in ("out", "not cut")]
+    write_table(picture, [head, *others], 0.1, 0.07, numbers, out)

@@ -11,8 +11,8 @@ from mnclab.design.difference.difference import Difference
 from mnclab.design.difference.plot import GONE, LEFT, SHADES, limit_of
 from mnclab.path.toolpath import Array
 from mnclab.show import scene as scenes
-from mnclab.show.part_scene import ANGLE, BALL, EDGE, LOOK, PIN
 from mnclab.show.rulers import frame
+from mnclab.show.scene import ANGLE, BALL, EDGE, LOOK, PIN
 from mnclab.text.given import fitting
 from mnclab.workpiece.workpiece import Solid
 

@@ -25,10 +25,9 @@ from mnclab.design.drawing.layout import EDGE, LEAST, Laid, NoRoom, arranged, la
 from mnclab.design.drawing.sheet import SCALES, SIZES, Printed, Size, Table, Title, scale_text
 from mnclab.design.drawing.view import Point, View
 from mnclab.geometry.curves import Floats
-from mnclab.show.given_away import whole
 from mnclab.show.plot.picture import Picture
 from mnclab.text.alarm import Alarm
-from mnclab.text.file import named, replaced
+from mnclab.text.file import named, printable, replaced
 from mnclab.text.given import check_number, choice
 
 A4, A3 = ("A4", "A4 landscape"), ("A3",)
@@ -103,7 +102,7 @@ class Drawing:
         data = BytesIO()
         with mpl.rc_context({"svg.hashsalt": "mnclab", "svg.fonttype": "path", "pdf.fonttype": 42}):
             if suffix == ".pdf":
-                with PdfPages(data, metadata={"CreationDate": None, "Title": whole(self.title.title)}) as book:
+                with PdfPages(data, metadata={"CreationDate": None, "Title": printable(self.title.title)}) as book:
                     for page in pages:
                         book.savefig(page)
             else:

@@ -18,7 +18,7 @@ from mnclab.design.drawing.ink import ARROW, GAP, HEIGHT, OVERSHOOT, Label, Mark
 from mnclab.design.drawing.layout import Laid
 from mnclab.design.drawing.view import Angle, Diameter, Kind, Linear, Point, Radius, number
 from mnclab.geometry.contours import Contour
-from mnclab.show.given_away import whole
+from mnclab.text.file import printable
 from mnclab.text.opening import require
 
 if TYPE_CHECKING:
@@ -192,7 +192,7 @@ class _Sheet:
 
 def letters(text: str) -> str:
     """A text in the file's code page, as AutoCAD reads it: `%%c` is ⌀, `\\U+0219` is ș."""
-    return "".join(map(_letter, "".join(SIGNS.get(letter, letter) for letter in whole(text))))
+    return "".join(map(_letter, "".join(SIGNS.get(letter, letter) for letter in printable(text))))
 
 
 def _letter(letter: str) -> str:

@@ -12,8 +12,8 @@ from mnclab.design.drawing.ink import ASCENT, HEIGHT, PITCH, SMALL, Label, Strok
 from mnclab.design.drawing.view import Kind
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
-from mnclab.show.given_away import whole
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import printable
 
 LEFT, MARGIN = 20.0, 10.0  # mm between the edge of the paper and the frame: on the left, on the other sides
 SCALES = (50.0, 20.0, 10.0, 5.0, 2.0, 1.0, 1 / 2, 1 / 5, 1 / 10, 1 / 20, 1 / 50, 1 / 100)
@@ -188,7 +188,7 @@ def _written(field: Field) -> Iterator[Label]:
 
 def fitted(text: str, width: float, height: float, sizes: tuple[float, ...] = LETTERS) -> tuple[list[str], float]:
     """The lines of a text in a box, and the height of the letters; what does not fit into the smallest ends with "…"."""
-    words = whole(text).split()
+    words = printable(text).split()
     if not words:
         return [], TINY
     for letters in sizes:
@@ -235,10 +235,10 @@ def table(given: Table) -> Printed:
     """A table with its lower left corner at (0, 0): title, head and rows."""
     height = HEIGHT if len(given.rows) <= 12 else SMALL
     rows = [given.head, *given.rows]
-    texts = [[block(whole(text), height) for text in row] for row in rows]
+    texts = [[block(printable(text), height) for text in row] for row in rows]
     widths = [max(row[k].width for row in texts) + CELL for k in range(len(given.head))]
     step = height + 2 * TALL
-    title = block(whole(given.title), height)
+    title = block(printable(given.title), height)
     if title.width + CELL > sum(widths):
         widths[-1] += title.width + CELL - sum(widths)
     ends: Floats = np.cumsum([0.0, *widths])

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from mnclab.runs.lint import beyond_machine, forgotten, rapid_in_blank, thread_beyond_axis
+from mnclab.runs.lint import beyond_machine, forgotten, motion
 from mnclab.text.alarm import Alarm
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def remarks(run: Run, m: Machine) -> Iterator[Alarm]:
         return
     yield from forgotten.still_spindle(m, run.toolpath)
     for remarks_of in (
-        rapid_in_blank.remarks, forgotten.above_blank, forgotten.left_on, forgotten.unused, thread_beyond_axis.remarks,
+        motion.rapids_in_blank, forgotten.above_blank, forgotten.left_on, forgotten.unused, motion.remarks,
         forgotten.feed_of_another_unit, beyond_machine.remarks,
     ):  # fmt: skip
         yield from remarks_of(run)

@@ -12,8 +12,8 @@ from mnclab.path.listing import figure
 from mnclab.path.toolpath import Kind, Mask, Toolpath
 from mnclab.runs.lint.once import once
 from mnclab.runs.material import cutting_of
-from mnclab.runs.written import blocks_with
 from mnclab.text.alarm import WARNING, Alarm
+from mnclab.text.program import blocks_with
 from mnclab.workpiece.cutting import CUTS
 
 if TYPE_CHECKING:

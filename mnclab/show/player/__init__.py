@@ -2,7 +2,8 @@
 
 `payload` packs what the page needs of a run, `page` puts it into one HTML text; the page itself is `page.html`
 with `page.css` and its scripts, in the order in which they build on each other: `data.js` (the run, unpacked),
-`shapes.js` (tools), `camera.js`, `strokes.js`, `touches.js` (of a probe, whose part `part` packs); the part of a mill:
+`shapes.js` (tools), `camera.js`, `strokes.js`, `touches.js` (of a probe, whose part `part` packs,
+as it does all values); the part of a mill:
 `swept.js` (what a cutter leaves), `heights.js` (the map), `carving.js` (at any place of the run), `relief.js` and
 `shaded.js` (to look at), `shown_part.js`; of a lathe: `section.js`; then
 `picture.js`, `curve.js`, `listing.js`, `state.js`, `player.js`.

@@ -13,11 +13,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from mnclab.path.profile import Profile
-from mnclab.show.given_away import whole
+from mnclab.show.looks import player_css
 from mnclab.show.player.payload import payload
 from mnclab.show.probed import felt
 from mnclab.text.alarm import Alarm, several
-from mnclab.text.file import replaced
+from mnclab.text.file import printable, replaced
 from mnclab.text.given import check_number, choice, fitting_class
 from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.cutting import Cutting
@@ -86,7 +86,7 @@ class Player:
 
     @property
     def name(self) -> str:
-        return whole(self.run.program.title)
+        return printable(self.run.program.title)
 
     @cached_property
     def page(self) -> str:
@@ -97,7 +97,7 @@ class Player:
         shown = self.cutting or (probed is not None and probed.part is not None and not self.run.toolpath.lathe)
         names = [*(CUTTING[self.run.toolpath.lathe] if shown else ()), *SCRIPTS]
         scripts = "\n".join(_short(here.joinpath(f"{name}.js").read_text("utf-8")) for name in names)
-        script, style = f'\n"use strict";\n{scripts}\n', f"\n{text['page.css']}\n"
+        script, style = f'\n"use strict";\n{scripts}\n', f"\n{player_css()}\n{text['page.css']}\n"
         parts = {
             "title": escape(f"{self.name} on {self.run.control.title}"),
             "theme": self.theme,
@@ -108,7 +108,7 @@ class Player:
             "script": script,
             "still": self.still,
         }
-        return whole(re.sub("@([a-z]+)@", lambda place: parts[place[1]], text["page.html"]))
+        return printable(re.sub("@([a-z]+)@", lambda place: parts[place[1]], text["page.html"]))
 
     @cached_property
     def picture(self) -> Picture | None:

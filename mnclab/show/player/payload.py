@@ -18,9 +18,19 @@ from numpy.typing import NDArray
 from mnclab.path.cylinder import parted_rapids
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Kind, Toolpath
-from mnclab.show.given_away import named
-from mnclab.show.player.packing import Packer, changes, columns, log, parted, parts_of
-from mnclab.show.player.part import felt_part, felt_touches, inserts, part, section
+from mnclab.show.player.part import (
+    Packer,
+    changes,
+    columns,
+    felt_part,
+    felt_touches,
+    inserts,
+    log,
+    part,
+    parted,
+    parts_of,
+    section,
+)
 from mnclab.show.probed import Felt
 from mnclab.show.solids import cylinder_body
 from mnclab.text.alarm import Alarm, amounts, several
@@ -65,7 +75,7 @@ def payload(
             alarm.as_dict()
             | {"text": str(alarm), "program": alarm.span.program if alarm.span else 0}
             | {"places": [[place.program, place.line] for place in alarm.places]}
-            for alarm in map(named, run.alarms)
+            for alarm in map(Alarm.without_folders, run.alarms)
         ],
         "more": more_than_first(run.alarms),
         "programs": [{"name": program.title, "text": program.text} for program in run.programs],

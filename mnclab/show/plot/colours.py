@@ -1,4 +1,4 @@
-"""How every line and mark looks, in one table.
+"""How every line and mark of a figure looks, in one table, on that of `show.looks`, which other media share.
 
 What differs in colour differs in form too (dashes, width, shape), for grey print and colour-blind eyes. All colours
 have a contrast of at least 3 to 1 on white, the ground of every figure, in light and dark notebooks.
@@ -11,23 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.path import Path
 
-PAPER, INK, FAINT = "#ffffff", "#1a1a1a", "#e3e3e3"
-
-Dashes = str | tuple[float, tuple[float, ...]]
-
-
-class Line(NamedTuple):
-    """A class of moves: dashes as matplotlib has them, width in points, higher `order` drawn later."""
-
-    name: str
-    colour: str
-    dashes: Dashes
-    width: float
-    order: float
-
-    def style(self) -> dict[str, Any]:
-        look = {"color": self.colour, "linestyle": self.dashes, "linewidth": self.width, "solid_capstyle": "butt"}
-        return look | {"zorder": self.order, "label": self.name}
+from mnclab.show import looks
+from mnclab.show.looks import BLANK, FAINT, FEED, INK, PAPER, PROBING, PROGRAMMED, RAPID, THREAD, Dashes, Line  # noqa: F401
 
 
 class Mark(NamedTuple):
@@ -47,8 +32,6 @@ class Mark(NamedTuple):
         return look | {"zorder": self.order, "label": self.name}
 
 
-
-
 def _quarters() -> Path:
     """The sign of a zero point: a circle in quarters, two opposite ones filled. Arcs there and back enclose nothing."""
     pieces = []
@@ -66,79 +49,71 @@ def _quarters() -> Path:
 
 QUARTERS = _quarters()
 
-#: Rapids are thinner than cuts and lie above them: where both run on one line (pecking), both are seen.
-RAPID = Line("rapid", "#c62828", (0, (5, 3)), 0.9, 3.0)
-FEED = Line("feed", "#1259a8", "-", 1.9, 2.6)
-#: A thread on a lathe: the tool goes on by the lead in every revolution.
-THREAD = Line("thread", "#00695c", (0, (7, 1.2, 1.5, 1.2)), 1.9, 2.7)
-PROBING = Line("probing", "#7b1fa2", (0, (1, 1.2)), 1.6, 2.8)
-PROGRAMMED = Line("programmed", "#8c8c8c", "-", 0.9, 2.2)
 #: What was there before a number was changed, behind all that is there now.
-GHOST = Line("_before", "#8c8c8c", "-", 1.1, 1.9)
-GHOST_RAPID = Line("_before, rapid", "#8c8c8c", (0, (1, 2)), 0.8, 1.9)
-BLANK = Line("blank", "#9a8f6e", "-", 0.8, 1.4)
+GHOST = Line("_before", looks.GREY, "-", 1.1, 1.9)
+GHOST_RAPID = Line("_before, rapid", looks.GREY, (0, (1, 2)), 0.8, 1.9)
 BLANK_FACE = "#f6f3ea"  # behind everything
 LEADER = Line("_leader", "#6b6b6b", "-", 0.7, 3.05)  # from a symbol to its place
 CENTRE_LINE = Line("", "#6b6b6b", (0, (10, 3, 1.5, 3)), 0.8, 1.5)
 
-PLUNGE = Mark("plunge", "#1259a8", "+", 7, True, 3.2)
-DWELL = Mark("dwell", "#8a5a00", "d", 6, False, 3.4)
-TOOL = Mark("tool change", "#00695c", "^", 6, False, 3.4)
-STOP = Mark("stop", "#8a5a00", "D", 6, False, 3.4)
+PLUNGE = Mark("plunge", looks.BLUE, "+", 7, True, 3.2)
+DWELL = Mark("dwell", looks.BROWN, "d", 6, False, 3.4)
+TOOL = Mark("tool change", looks.GREEN, "^", 6, False, 3.4)
+STOP = Mark("stop", looks.BROWN, "D", 6, False, 3.4)
 DATUM = Mark("datum", INK, QUARTERS, 14, True, 3.6)
-POLE = Mark("pole", "#8a5a00", "+", 8, True, 3.5)
-TOUCH = Mark("touch", "#7b1fa2", "o", 3.5, True, 3.45)
+POLE = Mark("pole", looks.BROWN, "+", 8, True, 3.5)
+TOUCH = Mark("touch", looks.VIOLET, "o", 3.5, True, 3.45)
 START = Mark("start", INK, "o", 9, False, 4.0)
 HOME = Mark("from home", INK, "o", 6, False, 4.0)
 END = Mark("end", INK, "s", 4, True, 4.1)
-GOUGED = Mark("gouge", "#b3261e", "*", 8, False, 4.15)  # where a compensated tool cuts into its contour
-ALARM = Mark("alarm", "#b3261e", "x", 9, True, 4.2)
+GOUGED = Mark("gouge", looks.WRONG, "*", 8, False, 4.15)  # where a compensated tool cuts into its contour
+ALARM = Mark("alarm", looks.WRONG, "x", 9, True, 4.2)
 
 #: Curves of a feed-rate profile: what was programmed, what is reached, and limits.
-WANTED = Line("programmed feed", "#8c8c8c", (0, (4, 1.5)), 1.3, 2.2)
-REACHED = Line("reached feed", "#1259a8", "-", 1.5, 2.8)
-LIMIT = Line("limit", "#b3261e", (0, (1, 1.5)), 1.2, 2.0)
+WANTED = Line("programmed feed", looks.GREY, (0, (4, 1.5)), 1.3, 2.2)
+REACHED = Line("reached feed", looks.BLUE, "-", 1.5, 2.8)
+LIMIT = Line("limit", looks.WRONG, (0, (1, 1.5)), 1.2, 2.0)
 AXES = (
-    Line("X", "#1259a8", "-", 1.3, 2.8),
-    Line("Y", "#b3261e", (0, (5, 1.5)), 1.3, 2.7),
-    Line("Z", "#00695c", (0, (1.5, 1.2)), 1.5, 2.6),
+    Line("X", looks.BLUE, "-", 1.3, 2.8),
+    Line("Y", looks.WRONG, (0, (5, 1.5)), 1.3, 2.7),
+    Line("Z", looks.GREEN, (0, (1.5, 1.2)), 1.5, 2.6),
 )
 STANDS = Mark("stop", INK, "|", 7, True, 3.6)
-SLOW_CORNER = Mark("corner", "#8a5a00", "v", 4, False, 3.5)
+SLOW_CORNER = Mark("corner", looks.BROWN, "v", 4, False, 3.5)
 
 #: What holds the speed, from dark to light: colour, and the hatching that tells them apart in grey print.
 HOLDS = {
-    "acceleration": ("#1259a8", ""),
-    "jerk": ("#7b1fa2", "////"),
-    "corner": ("#8a5a00", "...."),
+    "acceleration": (looks.BLUE, ""),
+    "jerk": (looks.VIOLET, "////"),
+    "corner": (looks.BROWN, "...."),
     "turning": ("#00897b", "xxxx"),
     "axis speed": ("#e07b39", "\\\\\\\\"),
     "feed": ("#cfd8dc", ""),
     "standing": ("#ffffff", ""),
 }
-USEFUL, LOST = ("#1259a8", ""), ("#f2c14e", "////")
+USEFUL, LOST = (looks.BLUE, ""), ("#f2c14e", "////")
 
 #: Radius compensation: the contour, the tool-centre path by the rule that made it, and corners by what was done there.
 CONTOUR = Line("programmed", INK, "-", 1.5, 2.3)
-LEAD = Line("_programmed lead", "#8c8c8c", (0, (2, 2)), 0.9, 2.2)
+LEAD = Line("_programmed lead", looks.GREY, (0, (2, 2)), 0.9, 2.2)
 UNCOMPENSATED = Line("not compensated", "#6b6b6b", (0, (6, 2)), 1.0, 2.5)
-ALONG = Line("along the side", "#1259a8", "-", 1.6, 2.8)
+ALONG = Line("along the side", looks.BLUE, "-", 1.6, 2.8)
 ROUND_CORNER = Line("outside corner, arc", "#00796b", (0, (3, 1)), 2.0, 2.9)
-STRAIGHT_CORNER = Line("outside corner, straight", "#8a5a00", "-", 1.6, 2.9)
-INSIDE_CORNER = Line("inside corner", "#7b1fa2", "-", 1.6, 2.9)
+STRAIGHT_CORNER = Line("outside corner, straight", looks.BROWN, "-", 1.6, 2.9)
+INSIDE_CORNER = Line("inside corner", looks.VIOLET, "-", 1.6, 2.9)
 ENTRY = Line("entry", "#2e7d32", (0, (6, 1.5, 1.5, 1.5)), 1.6, 2.9)
 EXIT = Line("exit", "#b24700", (0, (6, 1.5, 1.5, 1.5, 1.5, 1.5)), 1.6, 2.9)
 CHANGE = Line("change of side", "#ad1457", (0, (4, 1.5)), 1.6, 2.9)
-DISC, GOUGE = "#5f7d9c", "#b3261e"
+DISC, GOUGE = "#5f7d9c", looks.WRONG
 
 #: What the words of a program mean: centres with their legs, poles with angles, the contour before it was turned.
-CENTRE = Mark("arc centre", "#8a5a00", "+", 8, True, 3.5)
-TURN_POLE = Mark("pole of a turn", "#8a5a00", "x", 6, True, 3.5)
-SPOKE = Line("_spoke", "#8a5a00", (0, (4, 2)), 0.8, 2.4)
-LEG = Line("_leg", "#8a5a00", "-", 1.1, 2.45)
+CENTRE = Mark("arc centre", looks.BROWN, "+", 8, True, 3.5)
+TURN_POLE = Mark("pole of a turn", looks.BROWN, "x", 6, True, 3.5)
+SPOKE = Line("_spoke", looks.BROWN, (0, (4, 2)), 0.8, 2.4)
+LEG = Line("_leg", looks.BROWN, "-", 1.1, 2.45)
 ORIGINAL = Line("as written", "#6b6b6b", (0, (2, 1.4)), 1.1, 2.15)
 MIRROR = Line("mirror line", "#6a1b9a", (0, (10, 2.5, 1.5, 2.5)), 1.0, 2.1)
 #: A hole at its diameter: its circle from above, its walls from the side.
 HOLE = Line("hole", "#37474f", (0, (3, 1.6)), 0.9, 2.3)
 #: Machine zero and the vectors from it.
-MACHINE_ZERO = Mark("machine zero", "#00695c", QUARTERS, 14, True, 4.0)
+MACHINE_ZERO = Mark("machine zero", looks.GREEN, QUARTERS, 14, True, 4.0)

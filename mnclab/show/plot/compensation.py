@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from itertools import product
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -20,10 +20,10 @@ from matplotlib.patches import Patch
 from mnclab.path.compensation.construction import construct
 from mnclab.path.compensation.fit import NO_TOOL
 from mnclab.path.toolpath import RULE_NAMES, Rule, Toolpath
-from mnclab.show.plot import colours, ghost
+from mnclab.show.plot import colours
 from mnclab.show.plot.clickable import told_by
 from mnclab.show.plot.equidistant import CORNERS, Panel, draw, write
-from mnclab.show.plot.layers import draw_stock
+from mnclab.show.plot.layers import Box, draw_ghost, draw_stock, gone, held_box
 from mnclab.show.plot.picture import (
     BELOW,
     ROW,
@@ -35,6 +35,7 @@ from mnclab.show.plot.picture import (
     beside_ticks,
     digits_of,
     dress,
+    figure_of,
     legend_height,
     legend_rows,
     roomy,
@@ -77,7 +78,7 @@ def compensation(
     view: str = "auto",
     size: tuple[float, float] | None = None,
     under: Toolpath | None = None,
-    limits: ghost.Box | None = None,
+    limits: Box | None = None,
 ) -> Figure:
     """The contour of a run and the path of the tool centre; returns the figure, which Jupyter shows.
 
@@ -108,7 +109,7 @@ def compensation(
         _limit(ax, panels[0].view, low, high)
         ax.apply_aspect()
         write(ax, panels[0], outlines, names)
-        return cast(Figure, ax.get_figure(root=True))
+        return figure_of(ax)
     return _picture(panels, discs, vectors, names, size or (WIDE if len(panels) > 1 else SIZE), under, limits, stock)
 
 
@@ -182,9 +183,9 @@ def _box(panels: Sequence[Panel], discs: Any) -> tuple[Array, Array]:
 
 def _picture(
     panels: Sequence[Panel], discs: Any, vectors: bool, names: bool, size: tuple[float, float], under: Toolpath | None,
-    limits: ghost.Box | None, stock: bool,
+    limits: Box | None, stock: bool,
 ) -> Picture:  # fmt: skip
-    box = ghost.held(*_box(panels, discs), limits)
+    box = held_box(*_box(panels, discs), limits)
     low, high = roomy(*box, [panels[0].view])
     seen = panels[0].view
     wide, tall = float((high - low)[seen.right]), float((high - low)[seen.up])
@@ -218,7 +219,7 @@ def _picture(
         _limit(ax, panel.view, low, high, (across, height))
         ax.apply_aspect()
         if under is not None:
-            ghost.draw_ghost(ax, panel.view, ghost.gone(under, panel.run.toolpath))
+            draw_ghost(ax, panel.view, gone(under, panel.run.toolpath))
         outlines = draw(ax, panel, discs, vectors)
         _blank(ax, panel, low, high, stock)
         write(ax, panel, outlines, names)

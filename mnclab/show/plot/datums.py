@@ -8,11 +8,10 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from itertools import groupby, product
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.text import Annotation, Text
 
@@ -20,7 +19,7 @@ from mnclab.geometry import frames
 from mnclab.geometry.frames import FrameChain, Matrix
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Mark
-from mnclab.show.plot.picture import SMALL, View
+from mnclab.show.plot.picture import SMALL, View, figure_of
 from mnclab.show.plot.strokes import Array
 
 SHIFTS = ("local", "set", "shift")
@@ -137,7 +136,7 @@ def write_names(
     left: list[Place] = []
     if not spots:
         return left
-    unit = cast(Figure, ax.get_figure(root=True)).dpi / 72
+    unit = figure_of(ax).dpi / 72
     begin, end = segments(ax, view, drawn)
     crowd = ax.transData.transform(np.concatenate([occupied, [at for _, at in spots]]))
     taken = [*np.hstack([crowd - 6 * unit, crowd + 6 * unit]), *map(_extent, ax.texts)]

@@ -7,7 +7,7 @@ against Z, from the tailstock.
 from __future__ import annotations
 
 import math
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,7 +17,7 @@ from matplotlib.lines import Line2D
 from mnclab.path.toolpath import Array, Kind, Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import ramp
-from mnclab.show.plot.picture import SMALL, Picture, calm, write_legend
+from mnclab.show.plot.picture import SMALL, Picture, calm, figure_of, write_legend
 from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
 
@@ -83,6 +83,6 @@ def plot_face(run: Any, ax: Axes | None = None, *, size: tuple[float, float] = (
     ax.set_ylabel(f"Y, {unit.short}", fontsize=SMALL + 1)
     calm(ax)
     if picture is None:
-        return cast(Figure, ax.get_figure(root=True))
+        return figure_of(ax)
     write_legend(picture, handles if len(heights) <= NAMED else [])
     return picture

@@ -20,6 +20,7 @@ from matplotlib.lines import Line2D
 
 from mnclab.path.listing import Unit
 from mnclab.path.toolpath import Array, Kind, Mask, Toolpath
+from mnclab.show import looks
 from mnclab.show.plot import colours
 from mnclab.show.plot.overlay import Overlay, across, grown, line
 from mnclab.show.plot.picture import SIZE, VIEWS, Foot, Picture, View, arrange, write_legend
@@ -148,7 +149,7 @@ def beside_holes(overlays: Sequence[Overlay], view: View, places: Array) -> Arra
 
 
 LOOKS: tuple[tuple[str, str, Any, float], ...] = (
-    ("in both", "#8c8c8c", "-", 1.6), ("only in {}", colours.ALARM.colour, "-", 2.2), ("only in {}", "#1259a8", "--", 2.2),
+    ("in both", looks.GREY, "-", 1.6), ("only in {}", colours.ALARM.colour, "-", 2.2), ("only in {}", looks.BLUE, "--", 2.2),
 )  # fmt: skip
 POINT = 0.01  # of the picture: how wide a hole is whose diameter nobody knows
 

@@ -18,6 +18,7 @@ from mnclab.path.feeds import spindle_speed
 from mnclab.path.inserts import as_drawn, holder, insert, lead_of
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Kind, Toolpath
+from mnclab.show import looks
 from mnclab.show.plot import colours
 from mnclab.show.plot.picture import SMALL, Picture
 from mnclab.show.plot.sizes import sized
@@ -29,10 +30,9 @@ from mnclab.workpiece.workpiece import Workpiece
 
 CUTS = (Kind.LINE, Kind.ARC)
 CHORD = 0.01  # mm, of arcs in what is filled
-BAR: dict[str, Any] = {"facecolor": "#f4f1e8", "edgecolor": "#8c8061", "linewidth": 0.8}
-FINISHED: dict[str, Any] = {"facecolor": "#d9d5c8", "edgecolor": "#55503f", "linewidth": 1.3}
-STEEL, CARBIDE = "#c9ccd1", "#e9c46a"  # as in `player/page.css`
-CHUCK: dict[str, Any] = {"facecolor": STEEL, "edgecolor": colours.INK, "linewidth": 0.9}
+BAR: dict[str, Any] = {"facecolor": looks.RAW, "edgecolor": "#8c8061", "linewidth": 0.8}
+FINISHED: dict[str, Any] = {"facecolor": looks.METAL, "edgecolor": "#55503f", "linewidth": 1.3}
+CHUCK: dict[str, Any] = {"facecolor": looks.STEEL, "edgecolor": colours.INK, "linewidth": 0.9}
 PARTS = 24  # of a row along which the speed changes
 
 
@@ -160,7 +160,10 @@ def plot_speed(path: Toolpath, most: float = np.inf, size: tuple[float, float] =
     way, diameter = way / unit.length, diameter / unit.length
     picture = Picture(size, alt="spindle speed over the path")
     shown = np.where(np.isfinite(speed), speed, np.nan)
-    curves = [(shown, "spindle, rev/min", colours.FEED.colour, 0.56), (diameter, f"X (diameter), {unit.short}", "#7d7664", 0.12)]
+    curves = [
+        (shown, "spindle, rev/min", looks.BLUE, 0.56),
+        (diameter, f"X (diameter), {unit.short}", looks.METAL_EDGE, 0.12),
+    ]
     curves, tall = (curves, 0.4) if path.lathe else ([(shown, *curves[0][1:3], 0.12)], 0.84)
     for values, label, shade, bottom in curves:
         ax = picture.add_axes((0.11, bottom, 0.85, tall))
@@ -190,8 +193,8 @@ def plot_speed_of(run: Any, most: float = np.inf, **options: Any) -> Picture:
 # Both are like glass: what the insert has cut, and the material beside it, is seen through them.
 
 GLASS, CLEAR = 0.5, 0.35  # how much of an insert and of a holder is there
-INSERT: dict[str, Any] = {"facecolor": to_rgba(CARBIDE, GLASS), "edgecolor": colours.INK}
-HOLDER: dict[str, Any] = {"facecolor": to_rgba(STEEL, CLEAR), "edgecolor": "#7c828a"}
+INSERT: dict[str, Any] = {"facecolor": to_rgba(looks.CARBIDE, GLASS), "edgecolor": colours.INK}
+HOLDER: dict[str, Any] = {"facecolor": to_rgba(looks.STEEL, CLEAR), "edgecolor": "#7c828a"}
 FINE = 0.01  # of the size of an insert: how far a chord of its nose may be off
 
 

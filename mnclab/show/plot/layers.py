@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from matplotlib.patches import Polygon
+from matplotlib.patches import Patch, Polygon
 from numpy.typing import NDArray
 
-from mnclab.path.toolpath import Kind, Toolpath
-from mnclab.show.plot import arrows as heads
+from mnclab.path.limits import Limits
+from mnclab.path.toolpath import Kind, Mask, Toolpath
+from mnclab.show import looks
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import Classes
 from mnclab.show.plot.colours import Line, Mark
@@ -21,10 +22,10 @@ from mnclab.show.plot.holes import beside_holes
 from mnclab.show.plot.lathe import Lathe, draw_blank, draw_chucks, draw_insert
 from mnclab.show.plot.overlay import Overlay
 from mnclab.show.plot.part import relief
-from mnclab.show.plot.picture import View
-from mnclab.show.plot.placing import spread
+from mnclab.show.plot.picture import View, roomy
+from mnclab.show.plot.placing import arrival, draw_arrival, draw_heads, spread
 from mnclab.show.plot.probed import draw_felt
-from mnclab.show.plot.strokes import Array, Strokes, parted
+from mnclab.show.plot.strokes import Array, Strokes, line_of, parted
 from mnclab.show.probed import Felt
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.workpiece import Workpiece
@@ -32,6 +33,7 @@ from mnclab.workpiece.workpiece import Workpiece
 if TYPE_CHECKING:
     from mnclab.workpiece.milling.milled import Milled
     from mnclab.workpiece.turning.turned import Turned
+
 
 MARKS = {Kind.DWELL: colours.DWELL, Kind.TOOL: colours.TOOL, Kind.STOP: colours.STOP}
 MANY, SMALL, THIN = 30, 4.0, 0.7  # plunges; points of the crosses of more: those of an engraving would cover its letters
@@ -126,16 +128,16 @@ def write(ax: Axes, view: View, drawing: Drawing, low: Array, high: Array) -> No
     occupied = [xyz[:, axes] for mark, xyz in drawing.marks if mark is colours.TOUCH]
     strokes = parted(moved.xyz, np.minimum(divided.group, 0), 1)
     if drawing.home:
-        strokes.append(heads.arrival(view, drawing.strokes.xyz[0], float((high - low).max())))
+        strokes.append(arrival(view, drawing.strokes.xyz[0], float((high - low).max())))
     occupied.append(spread(ax, list(ax.lines), *segments(ax, view, strokes)))
     if drawing.home:
-        heads.draw_arrival(ax, view, drawing.strokes.xyz[0], float((high - low).max()))
+        draw_arrival(ax, view, drawing.strokes.xyz[0], float((high - low).max()))
     if drawing.felt is not None:
         draw_felt(ax, view, drawing.felt, [xyz for _, xyz in drawing.lines], [xyz for _, xyz in drawing.marks])
     if drawing.lathe is not None:
         draw_insert(ax, drawing.lathe, INSERT * float((high - low).max()))
     if drawing.arrows:
-        occupied.append(heads.draw(ax, view, moved, divided, low, high))
+        occupied.append(draw_heads(ax, view, moved, divided, low, high))
     for over in drawing.overlays:
         over.write(ax, view, [xyz for _, xyz in drawing.lines])
     if drawing.places:
@@ -145,14 +147,13 @@ def write(ax: Axes, view: View, drawing: Drawing, low: Array, high: Array) -> No
 
 # The part under a path: pale, so that the path stays what one looks at.
 
-FACE, EDGE = "#d9d5c8", "#7d7664"
 PALE = 0.62  # of white in what lies under a path
 
 
 def draw_under(ax: Axes, view: View, workpiece: Workpiece) -> None:
     """The part in one view: from above in light and shadow, from the side its outline, of a lathe its half section."""
     if view.diameter:
-        from mnclab.show.plot.turned import draw_half
+        from mnclab.show.plot.part import draw_half
 
         draw_half(ax, cast("Turned", workpiece))
         return
@@ -180,7 +181,7 @@ def _silhouette(ax: Axes, part: Milled, view: View) -> None:
     outline = np.concatenate([
         np.stack([places, np.repeat(heights, 2)], axis=1), np.stack([places, np.repeat(floor, 2)], axis=1)[::-1],
     ])  # fmt: skip
-    ax.add_patch(Polygon(outline, facecolor=FACE, edgecolor=EDGE, linewidth=0.9, zorder=0.8, label="_part"))
+    ax.add_patch(Polygon(outline, facecolor=looks.METAL, edgecolor=looks.METAL_EDGE, linewidth=0.9, zorder=0.8, label="_part"))
 
 
 # Rapids that run over one another are drawn once: two dashed lines on one line would fill each other's gaps.
@@ -310,3 +311,139 @@ def _lanes(flat: Array, rapids: NDArray[np.intp]) -> NDArray[np.int64]:
         taken = set(lanes[:k][together[k, :k]].tolist())
         lanes[k] = next((lane for lane in range(LANES) if lane not in taken), LANES - 1)
     return lanes
+
+
+# The tool's width as a light band under its path, and when a path needs it: where its passes would run into a blot.
+
+BAND_NAME, BAND_SHADE, BAND_ORDER = "width of the tool", "#d6e3f1", 1.2
+THIN_BAND = 0.45  # of the usual width of a line: where passes lie close
+CELL, DENSE, SHARE = 6, 1.7, 0.11  # points; ways through a cell that is dense; share of such cells in a dense path
+MOST_STROKES, SAMPLES, CELLS = 20_000, 400_000, 100_000  # strokes under which a band is drawn unasked; points and cells looked at
+MANY_RADII = 12  # radii of tools that have a band each
+
+
+class Band(Line2D):
+    """A line as wide as the tool, in data, whatever the scale is when it is drawn."""
+
+    def __init__(self, xy: Array, radius: float) -> None:
+        look: dict[str, Any] = {"color": BAND_SHADE, "solid_capstyle": "round", "solid_joinstyle": "round", "zorder": BAND_ORDER}
+        super().__init__(*xy.T, label=f"_{BAND_NAME}", **look)
+        self.radius = radius
+
+    def draw(self, renderer: Any) -> None:
+        """As any line, in the width that the scale gives it now."""
+        if self.axes is not None and self.figure is not None:
+            (x0, _), (x1, _) = self.axes.transData.transform([(0, 0), (2 * self.radius, 0)])
+            self.set_linewidth(abs(x1 - x0) * 72 / self.figure.dpi)
+        super().draw(renderer)
+
+
+def draw_bands(ax: Axes, view: View, path: Toolpath, drawn: Strokes, cuts: Mask) -> None:
+    """Add the bands of the strokes `cuts` (m,) of one view, largest tools first."""
+    radii = path.radius[drawn.row]
+    for radius in radii_of(path, drawn, cuts):
+        (xyz,) = parted(drawn.xyz, np.where(cuts & np.isclose(radii, radius), 0, -1), 1)
+        ax.add_line(Band(xyz[:, [view.right, view.up]], radius))
+
+
+def radii_of(path: Toolpath, drawn: Strokes, cuts: Mask) -> list[float]:
+    """The radii of the tools that cut, mm, largest first; none where no tool has a width."""
+    radii = path.radius[drawn.row[cuts]]
+    found = np.unique(np.round(radii[(radii > 0) & np.isfinite(radii)], 6))[::-1][:MANY_RADII].tolist()
+    return list(found)
+
+
+def around_bands(low: Array, high: Array, path: Toolpath, drawn: Strokes, cuts: Mask) -> tuple[Array, Array]:
+    """A box (3,), mm, with the bands in it."""
+    if not cuts.any():
+        return low, high
+    room = np.nan_to_num(path.radius[drawn.row[cuts]])[:, None] * (1, 1, 0)
+    return np.fmin(low, (drawn.xyz[cuts] - room).min(axis=0)), np.fmax(high, (drawn.xyz[cuts] + room).max(axis=0))
+
+
+def band_sample() -> Patch:
+    """What the legend shows."""
+    return Patch(facecolor=BAND_SHADE, edgecolor="none", label=BAND_NAME)
+
+
+def dense(xy: Array, cuts: Mask, scale: float) -> bool:
+    """Whether strokes to points `xy` (m, 2), mm, lie so close, at `scale` points to a mm, that they run into each other.
+
+    They are sampled a point apart; where a cell of 6 points holds the points of nearly two ways, they do.
+    """
+    end = np.flatnonzero(cuts)
+    if not len(end):
+        return False
+    begin, way = xy[end - 1], xy[end] - xy[end - 1]
+    count = np.ceil(np.hypot(*way.T) * scale).astype(np.int64)
+    if count.sum() > SAMPLES:
+        return True
+    which = np.repeat(np.arange(len(end)), count)
+    share = (np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)) / count[which]
+    low = np.nanmin(xy, axis=0)
+    wide, tall = (int(side) // CELL + 1 for side in (np.nanmax(xy, axis=0) - low) * scale)
+    if wide * tall > CELLS:
+        return True
+    x, y = (((begin[which, k] + share * way[which, k]) - low[k]) * scale for k in (0, 1))
+    ink = np.zeros((wide * CELL, tall * CELL), bool)
+    ink[x.astype(np.int64), y.astype(np.int64)] = True
+    held = ink.reshape(wide, CELL, tall, CELL).sum(axis=(1, 3))
+    return bool((held[held > 0] > DENSE * CELL).mean() > SHARE) if held.any() else False
+
+
+# What a picture that follows a number keeps of the one before: its limits, and the former path as a thin grey ghost.
+
+Box = tuple[Array, Array]  # the corners (3,) of what is shown, mm
+
+DIGITS = 6  # of a mm: moves that differ by less are the same
+MARGIN = 0.85  # of the room around what is shown may be used before the limits grow
+SHRINKS = 5  # times the size of the new picture: limits so large are those of a slip of the finger
+
+
+def held_box(low: Array, high: Array, limits: Box | None) -> Box:
+    """The box of a picture after one with these limits: the same while the new one fits into it, margin included, else so
+    large that both fit; its own where the one before was far larger."""
+    if limits is None:
+        return low, high
+    least, most = (kept + MARGIN * (wide - kept) for kept, wide in zip(limits, roomy(*limits)))
+    size, former = float((high - low).max()), float((limits[1] - limits[0]).max())
+    if former > SHRINKS * size > 0:
+        return low, high
+    if (least <= low).all() and (high <= most).all():
+        return limits
+    return np.fmin(low, limits[0]), np.fmax(high, limits[1])
+
+
+def held_axes(rows: Sequence[Axes], before: Sequence[Any] | None) -> list[Any]:
+    """Set axes to the limits that they had before where what is drawn fits, else so that both fit; returns the limits."""
+    if before is not None and len(before) == len(rows):
+        for ax, kept in zip(rows, before):
+            ax.set_xlim(_both(ax.get_xlim(), kept[0]))
+            ax.set_ylim(_both(ax.get_ylim(), kept[1]))
+    return [(ax.get_xlim(), ax.get_ylim()) for ax in rows]
+
+
+def _both(now: tuple[float, float], kept: tuple[float, float]) -> tuple[float, float]:
+    """Limits that hold both, unless those before were far larger."""
+    return now if kept[1] - kept[0] > SHRINKS * (now[1] - now[0]) else (min(now[0], kept[0]), max(now[1], kept[1]))
+
+
+def gone(former: Toolpath, path: Toolpath) -> Toolpath:
+    """The moves of a former path that are not in the present one."""
+    motion = former.motion
+    return motion[~np.isin(_moves(motion), _moves(path.motion))]
+
+
+def draw_ghost(ax: Axes, view: View, rows: Toolpath, rapids: Limits | None = None) -> None:
+    """Former moves in one view, behind everything else: cuts and rapids by their dashes, both thin and grey."""
+    for look, kinds in ((colours.GHOST, (Kind.LINE, Kind.ARC, Kind.PROBE)), (colours.GHOST_RAPID, (Kind.RAPID,))):
+        line = line_of(rows, kinds, rapids)
+        if len(line):
+            ax.add_line(Line2D(line[:, view.right], line[:, view.up], **look.style()))
+
+
+def _moves(path: Toolpath) -> np.ndarray:
+    """Each row (n,) as one value that can be compared: where it begins and ends, and how it bends."""
+    centre = np.nan_to_num(path.centre)
+    rows = np.column_stack([path.start, path.end, centre, path.sweep, path.kind]).round(DIGITS) + 0.0
+    return np.ascontiguousarray(rows).view(f"V{rows.shape[1] * rows.itemsize}").ravel()

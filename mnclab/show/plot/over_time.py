@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import MaxNLocator
 
 from mnclab.path.listing import MM, Unit, figure
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Kind
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line
-from mnclab.show.plot.picture import SMALL, Picture, calm, write_legend
+from mnclab.show.plot.picture import SMALL, Picture, calm, figure_of, stacked, write_cut_off, write_legend
 from mnclab.show.plot.profile import curve, plot_profile
 from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
@@ -53,25 +52,18 @@ def plot_profiles(
     called = [f"{name}: {each.time:.2f} s" for name, each in zip(names or _names(found), found)]
     height = min(HIGH, 0.5 * width) * len(found) + 0.75
     picture = Picture((width, height), f"feed over {over}: {'; '.join(called)}")
-    left, low, above = 0.72 / width, 0.48 / height, 0.27 / height
-    grid = picture.add_gridspec(len(found), 1, left=left, right=1 - 0.15 / width, bottom=low, top=1 - above, hspace=0.12)
-    rows: list[Axes] = []
-    for k in range(len(found)):
-        rows.append(picture.add_subplot(grid[k, 0], sharex=rows[0] if rows else None, sharey=rows[0] if rows else None))
+    rows = stacked(picture, [1.0] * len(found), 0.27, left=0.72, ticks=4, one_scale=True)
     units = {each.path.unit for each in found}
     unit = units.pop() if len(units) == 1 else MM
     drawn = [_draw(ax, each, over, LOOKS[k % 2], unit) for k, (ax, each) in enumerate(zip(rows, found))]
     top = 1.3 * max(most for _, most in drawn) or 1.0
     rows[0].set(xlim=(0, max(*(end for end, _ in drawn), 1e-9)), ylim=(0, top))
     for ax, name in zip(rows, called):
-        calm(ax)
-        ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 5, 10]))
-        ax.tick_params(labelbottom=ax is rows[-1])
         ax.text(0.005, 0.96, name, transform=ax.transAxes, va="top", fontsize=SMALL, parse_math=False,
                 bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5, "alpha": 0.85})  # fmt: skip
     rows[-1].set_xlabel("time, s" if over == "time" else f"path, {unit.short}", fontsize=SMALL + 1)
     said = f"feed, {unit.short}/min"
-    picture.text(0.16 / width, (low + 1 - above) / 2, said, rotation=90, va="center", ha="center", fontsize=SMALL + 1)
+    picture.text(0.16 / width, 0.5 + (0.5 - 0.27) / 2 / height, said, rotation=90, va="center", ha="center", fontsize=SMALL + 1)
     write_legend(picture, [Line2D([], [], color=LOOKS[0], label="feed"), Patch(facecolor=RAPID, label="rapid")])
     return picture
 
@@ -108,7 +100,6 @@ def _names(profiles: Sequence[Profile]) -> list[str]:
 SIZE = (7.0, 4.6)  # inches
 SHADE = 0.28  # of the area under the rate
 FAST = 2.5  # times the largest rate at feed, beyond which what rapids take away is cut off
-CARD = {"facecolor": colours.PAPER, "edgecolor": "none", "pad": 1.5, "alpha": 0.85}
 
 
 @sized()
@@ -124,12 +115,7 @@ def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
     largest = f"{removal.at_most} {most.rate / size_of:{form}} {name}/min" if most else ""
     said = f"removal: {removal.volume / size_of:{'.1f' if name == 'mm³' else form}} {name} in {removal.profile.time:.4g} s"
     picture = Picture(size, f"{said}, {largest} in line {removal.place(most)}" if most else said)
-    width, height = size
-    grid = picture.add_gridspec(
-        2, 1, left=0.85 / width, right=1 - 0.15 / width, bottom=0.5 / height, top=1 - 0.12 / height, hspace=0.12
-    )
-    feed = picture.add_subplot(grid[0, 0])
-    rate = picture.add_subplot(grid[1, 0], sharex=feed)
+    feed, rate = stacked(picture, (1.0, 1.0), 0.12)
     plot_profile(removal.profile, feed, limits=False)
     begin, end = removal.profile.starts[:-1][: len(rates)], removal.profile.starts[1:][: len(rates)]
     t, height_of = np.stack([begin, end], axis=1).ravel(), np.repeat(rates / size_of, 2)
@@ -140,10 +126,7 @@ def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
     rate.set_ylim(0, top)
     if most and top > FAST * high:  # a rapid in material takes away in no time
         rate.set_ylim(0, 1.25 * high)
-        rate.text(
-            0.995, 0.96, f"cut off: rapids reach {rates.max() / size_of:{form}} {name}/min", transform=rate.transAxes, ha="right",
-            va="top", fontsize=SMALL - 1, color=colours.RAPID.colour, bbox=CARD, zorder=5,
-        )  # fmt: skip
+        write_cut_off(rate, f"cut off: rapids reach {rates.max() / size_of:{form}} {name}/min")
     if most:
         middle = (begin[most.row] + end[most.row]) / 2
         rate.plot([middle], [high], **colours.SLOW_CORNER.style())
@@ -153,11 +136,7 @@ def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
             fontsize=SMALL, ha="right" if late else "left", color=colours.INK,
         )  # fmt: skip
     rate.set_ylabel(f"mean of a row, {name}/min", fontsize=SMALL)
-    for axes in (feed, rate):
-        axes.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
-        calm(axes)
     feed.set_xlabel("")
-    feed.tick_params(labelbottom=False)
     rate.set_xlabel("time, s", fontsize=SMALL + 1)
     picture.align_ylabels([feed, rate])
     return picture
@@ -216,8 +195,7 @@ def plot_depth(
     if len(cut) and high - low > FAR * np.ptp(ends) > 0:
         low, high = float(ends.min()), float(ends.max())
         low, high = low - 0.1 * (high - low), high + 0.5 * (high - low)
-        look: dict[str, Any] = {"ha": "right", "va": "top", "fontsize": SMALL - 1, "color": colours.RAPID.colour, "zorder": 5}
-        ax.text(0.995, 0.98, "rapids from far away are cut off", transform=ax.transAxes, **look)
+        write_cut_off(ax, "rapids from far away are cut off")
     room = max(high - low, 1e-6)
     ax.set(xlim=(-0.01 * total, 1.01 * total), ylim=(low - 0.16 * room, high + 0.06 * room))
     if run.stock is not None and not path.lathe:
@@ -230,7 +208,7 @@ def plot_depth(
         ax.set_position((left, 0.5 / size[1], 1 - 0.18 / size[0] - left, 1 - 0.9 / size[1]))
     _depths(ax, path, rows, profile.starts - begin)
     if picture is None:
-        return cast(Figure, ax.get_figure(root=True))
+        return figure_of(ax)
     write_legend(picture, handles)
     return picture
 
@@ -239,7 +217,7 @@ def _depths(ax: Axes, path: Any, rows: Any, starts: Any) -> None:
     """The depth at the end of each way down at feed that the tool leaves again."""
     down = rows[(path.kind[rows] == Kind.LINE) & (path.end[rows, 2] < path.start[rows, 2])]
     turning = down[~np.isin(down + 1, down)].tolist()
-    wide, high = np.array(ax.get_window_extent().size) * 72 / cast(Figure, ax.get_figure(root=True)).dpi
+    wide, high = np.array(ax.get_window_extent().size) * 72 / figure_of(ax).dpi
     (left, right), (low, top) = ax.get_xlim(), ax.get_ylim()
     taken: list[tuple[float, float, float]] = []  # points: left, right and top of what is written
     for row in turning if len(turning) <= LABELLED else ():

@@ -14,9 +14,9 @@ from matplotlib.font_manager import FontProperties, findfont, get_font
 from matplotlib.ft2font import FT2Font, LoadFlags
 from matplotlib.patches import Rectangle
 
-from mnclab.show.given_away import whole
 from mnclab.show.plot import colours
 from mnclab.show.report.document import Table
+from mnclab.text.file import printable
 from mnclab.text.tables import tail
 
 A4 = (595.2, 841.8)  # points
@@ -59,7 +59,7 @@ class Sheet(Figure):
         family: str = SANS, side: str = "left",
     ) -> None:  # fmt: skip
         """A line of text whose base line is `y` points below the upper edge."""
-        said = Printed(x, y, whole(text), size, bold, colour, family)
+        said = Printed(x, y, printable(text), size, bold, colour, family)
         self.texts_on_it.append(said if side == "left" else said._replace(x=x - said.wide))
 
     def band(self, x: float, y: float, wide: float, tall: float, colour: str) -> None:

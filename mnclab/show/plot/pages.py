@@ -14,7 +14,6 @@ from pathlib import Path
 import matplotlib as mpl
 from matplotlib.backends.backend_pdf import PdfPages
 
-from mnclab.show.given_away import whole
 from mnclab.show.plot import colours
 from mnclab.show.plot.page_sheet import (
     A4,
@@ -52,12 +51,13 @@ from mnclab.show.report.document import (
     Words,
 )
 from mnclab.text.alarm import ALARM, WARNING, first_of
+from mnclab.text.file import printable
 
 
 def write(document: Document, path: Path) -> None:
     """Write the pages; the same document gives the same bytes."""
     data = BytesIO()
-    undated = {"CreationDate": None, "Title": whole(document.title)}
+    undated = {"CreationDate": None, "Title": printable(document.title)}
     with mpl.rc_context({"pdf.fonttype": 42}), PdfPages(data, metadata=undated) as pages:
         for sheet in sheets(document):
             pages.savefig(sheet)
@@ -161,7 +161,7 @@ class _Setter:
         under = list(takewhile(lambda piece: isinstance(piece, Words), others))
         if isinstance(first, Table) and under and len(first.rows) <= SHORT:
             made = tabled(first, WIDE)
-            lines = sum(len(folded(whole(each.text), WIDE, BODY)) for each in under if isinstance(each, Words))
+            lines = sum(len(folded(printable(each.text), WIDE, BODY)) for each in under if isinstance(each, Words))
             tall = sum(row.tall for row in (*made.rows, *([made.head] if made.head else [])))
             return tall + 2 * AIR + AFTER * (1 + len(under)) + lines * BODY * LINE
         return 5 * BODY * LINE
@@ -172,7 +172,7 @@ class _Setter:
 
     @put.register
     def _(self, piece: Words) -> None:
-        lines = folded(whole(piece.text), WIDE, BODY)
+        lines = folded(printable(piece.text), WIDE, BODY)
         for line in lines:
             self.room(BODY * LINE)
             self.y += BODY * LINE
@@ -192,7 +192,7 @@ class _Setter:
     def _(self, piece: Table) -> None:
         if not piece.rows:
             return
-        made = tabled(piece._replace(rows=[[whole(cell) for cell in row] for row in piece.rows]), WIDE)
+        made = tabled(piece._replace(rows=[[printable(cell) for cell in row] for row in piece.rows]), WIDE)
         head = made.head.tall + AIR if made.head else 0.0
         self.room(head + made.rows[0].tall + (made.rows[1].tall if len(made.rows) > 1 else 0) + 2)
         self._head(made)
@@ -228,7 +228,7 @@ class _Setter:
     def _(self, piece: Image) -> None:
         wide, tall = (piece.picture.get_size_inches() * POINTS).tolist()
         self.figures += 1
-        caption = folded(f"Figure {self.figures}: {whole(piece.caption)}", WIDE, CAPTION)
+        caption = folded(f"Figure {self.figures}: {printable(piece.caption)}", WIDE, CAPTION)
         under = 6 + CAPTION * LINE * len(caption)
         if wide > WIDE + 1 or tall + under > TALL:  # of a size that somebody chose: a page as large as it needs
             self.begin((max(A4[0], wide + LEFT + RIGHT), max(A4[1], tall + under + TOP + BOTTOM)))
@@ -248,7 +248,7 @@ class _Setter:
         shown, more = first_of(piece.alarms)
         for alarm in shown:
             head, *quoted = alarm.text(QUOTED).split("\n")
-            for line in folded(whole(head), WIDE, BODY):
+            for line in folded(printable(head), WIDE, BODY):
                 self.room(BODY * LINE * (1 + len(quoted)))
                 self.y += BODY * LINE
                 self.page.write(LEFT, self.y - 3, line, BODY, colour=TONES[BAD] if alarm.severity == ALARM else colours.INK)
@@ -270,7 +270,7 @@ class _Setter:
         letters = int((WIDE - left) / width("0", CODE, family=MONO))
         room = LISTED - self.listed
         for number, text, mark in piece.lines[:room]:
-            for k, part in enumerate(_parts(whole(text.expandtabs(4)), letters)):
+            for k, part in enumerate(_parts(printable(text.expandtabs(4)), letters)):
                 self.room(CODE * LINE)
                 if mark:
                     self.page.band(LEFT + wide + 3, self.y, WIDE - wide - 3, CODE * LINE, SHADES[mark])
@@ -294,4 +294,4 @@ def _parts(text: str, letters: int) -> Iterator[str]:
 
 def _line(text: str) -> str:
     """A text as one line."""
-    return " ".join(whole(text).split())
+    return " ".join(printable(text).split())

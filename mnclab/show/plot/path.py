@@ -8,7 +8,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -18,9 +18,7 @@ from matplotlib.patches import Patch
 from mnclab.path.limits import Limits, limits_of
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Kind, Toolpath
-from mnclab.show.plot import arrows as heads
-from mnclab.show.plot import band as bands
-from mnclab.show.plot import colours, ghost
+from mnclab.show.plot import colours
 from mnclab.show.plot.classes import Classes, classes, write_scale
 from mnclab.show.plot.classes import lines as lines_of
 from mnclab.show.plot.clickable import told_by
@@ -28,7 +26,26 @@ from mnclab.show.plot.colours import Line
 from mnclab.show.plot.datums import Place, crosses, near, places_of
 from mnclab.show.plot.holes import beside_holes, holes_of
 from mnclab.show.plot.lathe import FINISHED, lathe, speed_strokes, with_blank
-from mnclab.show.plot.layers import INSERT, Drawing, draw, marks_of, plunges_of, write
+from mnclab.show.plot.layers import (
+    BAND_NAME,
+    INSERT,
+    MOST_STROKES,
+    THIN_BAND,
+    Box,
+    Drawing,
+    around_bands,
+    band_sample,
+    dense,
+    draw,
+    draw_bands,
+    draw_ghost,
+    gone,
+    held_box,
+    marks_of,
+    plunges_of,
+    radii_of,
+    write,
+)
 from mnclab.show.plot.original import original_of
 from mnclab.show.plot.overlay import Overlay, centres_of, polar_of
 from mnclab.show.plot.picture import (
@@ -42,9 +59,11 @@ from mnclab.show.plot.picture import (
     View,
     arrange,
     dress,
+    figure_of,
     roomy,
     write_legend,
 )
+from mnclab.show.plot.placing import MANY_MOVES
 from mnclab.show.plot.probed import names_of
 from mnclab.show.plot.sections import fixtures_of
 from mnclab.show.plot.sizes import sized
@@ -86,7 +105,7 @@ def plot_path(
     gouged: Array | None = None,
     rapids: Limits | str | None = None,
     under: Toolpath | None = None,
-    limits: ghost.Box | None = None,
+    limits: Box | None = None,
     overlays: Sequence[Overlay] = (),
     band: bool | None = None,
 ) -> Figure:
@@ -120,7 +139,7 @@ def plot_path(
     - `rapids`: limits of the machine, or its name, under which axes that do not wait for each other bend a rapid; else it is
       straight.
     - `under`: another path, whose moves that this one has not are drawn thin and grey behind it.
-    - `limits`: the `box` of the picture before, which is kept while this path fits into it (see `show.plot.ghost`).
+    - `limits`: the `box` of the picture before, which is kept while this path fits into it (see `show.plot.layers`).
     - `band`: from above, the width of the tool as a light band under a thin line of its centre; None: where the passes lie
       so close that they would run into a blot.
     - `overlays`: centres of arcs, mirror lines, holes and the like (see `show.plot.overlay`).
@@ -149,34 +168,34 @@ def plot_path(
         high = np.fmax(high, path.end[-1] + (room, 0.0, room))
     if felt is not None and frame != "cuts":
         low, high = felt.box(low, high)
-    own, (low, high) = (low, high), ghost.held(low, high, limits)
+    own, (low, high) = (low, high), held_box(low, high, limits)
     box = low, high
     views = views_of(view, path, low, high, single=ax is not None)
     if stock is not None and not path.lathe and frame != "cuts":
         low, high = np.fmin(low, stock.bounds[0]), np.fmax(high, stock.bounds[1])
     above = next((each for each in views if not path.lathe and (each.right, each.up) == (0, 1)), None)
     crowded = above is not None and band is not False and (band or _crowded(drawn, found, high - low, size))
-    banded = above if crowded and (band or len(drawn.row) <= bands.MOST) else None
+    banded = above if crowded and (band or len(drawn.row) <= MOST_STROKES) else None
     if banded is not None and not beyond:
-        low, high = bands.around(low, high, path, drawn, found.group >= CUTS)
+        low, high = around_bands(low, high, path, drawn, found.group >= CUTS)
     if crowded:
-        lines = [(line._replace(width=bands.THIN * line.width) if line in found.lines[2:] else line, xyz) for line, xyz in lines]
+        lines = [(line._replace(width=THIN_BAND * line.width) if line in found.lines[2:] else line, xyz) for line, xyz in lines]
     plunge = colours.PLUNGE if colour == "kind" else colours.PLUNGE._replace(colour=colours.INK)
     plunges = {each: beside_holes(overlays, each, plunges_of(path, each)) for each in views}
-    arrows = arrows and int(path.is_motion.sum()) <= heads.MANY
+    arrows = arrows and int(path.is_motion.sum()) <= MANY_MOVES
     beside = lathe(path, stock, tools, insert, part) if path.lathe and views[0].diameter else None
     found_marks, outline = marks_of(path, stop is not None, home, gouged), None if beside else stock
     if felt is not None and len(felt.places):
         found_marks.append((colours.TOUCH, felt.places))
     rest = (beside, part, home, felt, overlays)
     drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, *rest)
-    former = None if under is None else ghost.gone(under, path)
+    former = None if under is None else gone(under, path)
     if ax is not None:
         if banded is not None:
-            bands.draw_bands(ax, banded, path, drawn, found.group >= CUTS)
+            draw_bands(ax, banded, path, drawn, found.group >= CUTS)
         draw(ax, views[0], drawing)
         if former is not None:
-            ghost.draw_ghost(ax, views[0], former, bent)
+            draw_ghost(ax, views[0], former, bent)
         dress(ax, views[0])
         if beyond:
             wide = roomy(low, high, views)
@@ -186,7 +205,7 @@ def plot_path(
             ax.autoscale_view()
         ax.apply_aspect()
         write(ax, views[0], drawing, low, high)
-        return cast(Figure, ax.get_figure(root=True))
+        return figure_of(ax)
     names = [line.name for line, _ in lines if not found.scale or line in UNSCALED]
     names += [colours.BLANK.name] if drawing.stock is not None else []
     names += [mark.name for mark, _ in drawing.marks if any(len(drawing.seen(mark, each)) for each in views)]
@@ -198,18 +217,18 @@ def plot_path(
     held += names_of(felt) if felt is not None else []
     names += [str(each.get_label()) for each in held]
     names += [name for over in overlays for name in over.names(views)]
-    names += [bands.NAME] if banded is not None and bands.radii_of(path, drawn, found.group >= CUTS) else []
+    names += [BAND_NAME] if banded is not None and radii_of(path, drawn, found.group >= CUTS) else []
     said = in_words(path, *(own if limits else (low, high)), stop)
     more = AROUND * float((high - low).max())
     picture, axes = arrange(views, low - more, high + more, names, foot_of(stop, beyond), said, size, found.scale is not None)
     picture.box = box
     picture.seen = [(one, which, path, drawn) for one, which in zip(axes, views)]
-    artists: dict[str, Any] = {str(each.get_label()): each for each in (*held, bands.sample())}
+    artists: dict[str, Any] = {str(each.get_label()): each for each in (*held, band_sample())}
     for one, which in zip(axes, views):
         if which is banded:
-            bands.draw_bands(one, which, path, drawn, found.group >= CUTS)
+            draw_bands(one, which, path, drawn, found.group >= CUTS)
         if former is not None:
-            ghost.draw_ghost(one, which, former, bent)
+            draw_ghost(one, which, former, bent)
         for artist in draw(one, which, drawing):
             artists.setdefault(str(artist.get_label()), artist)
         write(one, which, drawing, low, high)
@@ -225,7 +244,7 @@ def _crowded(drawn: Strokes, found: Classes, span: Array, size: tuple[float, flo
     """Whether passes run into each other from above, in a picture of about this size."""
     sides = float(span[0]), float(span[1] + span[2])  # the views from above and from the side stand above one another
     scale = min(72 * inches / max(side, 1e-9) for inches, side in zip(size, sides))
-    return bands.dense(drawn.xyz[:, :2], found.group >= CUTS, 0.85 * scale)
+    return dense(drawn.xyz[:, :2], found.group >= CUTS, 0.85 * scale)
 
 
 # What is shown of it: the box, the views that it needs, and how it is told in words.

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import base64
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from functools import partial
 from html import escape
 from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import matplotlib as mpl
 import numpy as np
@@ -26,6 +26,7 @@ from matplotlib.textpath import text_to_path
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from mnclab.path.listing import MM, Unit
+from mnclab.show import looks
 from mnclab.show.plot import clickable, colours
 from mnclab.show.plot.strokes import Array
 from mnclab.text.alarm import Alarm
@@ -116,7 +117,7 @@ class Picture(Figure):
         self.alt = alt
         self.seen: clickable.Seen = ()  # what can be clicked on, and what is said of it
         self.told: clickable.Told | None = None
-        self.box: Any = None  # what a picture that follows it keeps of this one, see `show.plot.ghost`
+        self.box: Any = None  # what a picture that follows it keeps of this one, see `show.plot.layers`
 
     def save(self, path: str | Path) -> Path:
         """Write the picture: .svg, .pdf or .png."""
@@ -158,6 +159,33 @@ def write(figure: Figure, path: Path) -> None:
     with mpl.rc_context(steady):
         figure.savefig(data, format=path.suffix[1:].lower(), dpi=200, metadata=undated)
     path.write_bytes(data.getvalue())
+
+
+# A table of texts in a figure, such as a measuring record below its picture.
+
+LETTER, BETWEEN = 0.073, 0.16  # inches: of a letter, and between two columns
+
+
+def column_widths(rows: Sequence[Sequence[str]]) -> list[float]:
+    """Inches of each column of a table, with the room behind it."""
+    return [LETTER * max(map(len, column)) + BETWEEN for column in zip(*rows)]
+
+
+def write_table(
+    picture: Picture, rows: Sequence[Sequence[str]], left: float, bottom: float, numbers: Collection[int], out: Collection[int]
+) -> None:
+    """Heads and rows of texts from `left` and up from `bottom` inches; `numbers` are columns that stand to the right, the rows
+    `out` are bold and red."""
+    width, height = picture.get_size_inches().tolist()
+    wide = column_widths(rows)
+    for line, row in enumerate(rows):
+        look: dict[str, Any] = {"weight": "bold" if line in out or not line else "normal", "parse_math": False}
+        look["color"] = looks.WRONG if line in out else colours.INK
+        y = (bottom + LINE * (len(rows) - 1 - line)) / height
+        for k, text in enumerate(row):
+            right = k in numbers
+            x = left + sum(wide[: k + right]) - BETWEEN * right
+            picture.text(x / width, y, text, fontsize=SMALL, ha="right" if right else "left", va="bottom", **look)
 
 
 # --- layout ----------------------------------------------------------------------------------------------------------
@@ -327,6 +355,41 @@ class Round(MaxNLocator):
 
 def _plain(value: float, _: int | None = None, counts: float = 1.0) -> str:
     return f"{round(value / counts, 9) + 0.0:.10g}".replace("-", "\N{MINUS SIGN}")
+
+
+def figure_of(ax: Axes) -> Figure:
+    """The figure that axes of one's own stand in."""
+    return cast(Figure, ax.get_figure(root=True))
+
+
+def stacked(
+    picture: Picture, heights: Sequence[float], top: float, *, left: float = 0.85, ticks: int = 5, one_scale: bool = False
+) -> list[Axes]:
+    """Axes under one another over one axis to the right, of heights in these proportions; `top` and `left` inches are free.
+
+    `ticks` are the steps of an axis upwards at most, which `one_scale` makes the same for all.
+    """
+    width, height = picture.get_size_inches().tolist()
+    grid = picture.add_gridspec(
+        len(heights), 1, height_ratios=heights, left=left / width, right=1 - 0.15 / width, bottom=0.5 / height,
+        top=1 - top / height, hspace=0.1,
+    )  # fmt: skip
+    rows: list[Axes] = []
+    for k in range(len(heights)):
+        first = rows[0] if rows else None
+        ax = picture.add_subplot(grid[k, 0], sharex=first, sharey=first if one_scale else None)
+        ax.yaxis.set_major_locator(MaxNLocator(nbins=ticks, steps=[1, 2, 5, 10]))
+        ax.tick_params(labelbottom=k + 1 == len(heights))
+        calm(ax)
+        rows.append(ax)
+    return rows
+
+
+def write_cut_off(ax: Axes, said: str) -> None:
+    """What is beyond the upper border of axes, in their corner."""
+    card = {"facecolor": colours.PAPER, "edgecolor": "none", "pad": 1.5, "alpha": 0.85}
+    look: dict[str, Any] = {"fontsize": SMALL - 1, "color": looks.RED, "bbox": card, "zorder": 5}
+    ax.text(0.995, 0.98, said, transform=ax.transAxes, ha="right", va="top", **look)
 
 
 def columns(names: Sequence[str], width: float) -> int:

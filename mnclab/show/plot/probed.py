@@ -16,17 +16,17 @@ from mnclab.geometry.frames import Matrix, apply, inverse, shift, turn
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import scan
 from mnclab.path.toolpath import Array
-from mnclab.show import probed
+from mnclab.show import looks, probed
 from mnclab.show.plot import colours
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.placing import write_beside
-from mnclab.show.plot.side_by_side import outline
+from mnclab.show.plot.strokes import outline
 from mnclab.show.probed import Felt, Sections
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.part.pictures import UPRIGHT
 from mnclab.workpiece.part.prisms import Prism, Prisms
 
-BEAM = colours.Line(probed.BEAM, "#2e7d32", (0, (6, 1.5, 1.5, 1.5)), 1.6, 2.4)
+BEAM = colours.Line(probed.BEAM, looks.BEAM, (0, (6, 1.5, 1.5, 1.5)), 1.6, 2.4)
 MOST = 60  # touches that have a number in a view
 SAME = 6  # decimals of mm: touches that are one in a view
 

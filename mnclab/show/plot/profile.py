@@ -9,16 +9,17 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
+from matplotlib.gridspec import GridSpec
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from mnclab.path.listing import figure
 from mnclab.path.places import divided
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Kind
-from mnclab.show.plot import colours, ghost
+from mnclab.show.plot import colours
+from mnclab.show.plot.layers import held_axes
 from mnclab.show.plot.overlay import line, texts
 from mnclab.show.plot.path import plot_path
 from mnclab.show.plot.picture import (
@@ -26,10 +27,12 @@ from mnclab.show.plot.picture import (
     SMALL,
     Picture,
     View,
-    calm,
+    figure_of,
     legend_height,
     legend_rows,
     rows_within,
+    stacked,
+    write_cut_off,
     write_legend,
 )
 from mnclab.show.plot.sizes import sized
@@ -140,7 +143,7 @@ def plot_profile(
         ax.set_xlabel(below, fontsize=SMALL + 1)
         if not ax.get_ylabel():
             ax.set_ylabel(f"feed, {unit}/min", fontsize=SMALL + 1)
-        return cast(Figure, ax.get_figure(root=True))
+        return figure_of(ax)
     titles = [f"feed, {unit}/min", f"acceleration, {unit}/s²"]
     titles += [f"jerk, {unit}/s³"] if len(profile.plan.rows.j) else []
     titles += [f"axis speed, {unit}/min", f"axis acc., {unit}/s²"] if axes else []
@@ -149,17 +152,9 @@ def plot_profile(
     said = f"feed-rate profile: {figure(profile.time, 2)} s; {causes}"
     usual = 1.2 + 1.05 * sum(heights) if size == SIZE else 0.0
     picture = Picture((size[0], max(size[1], usual, 1.2 + 0.6 * len(titles))), said)
-    width, height = picture.get_size_inches()
-    grid = picture.add_gridspec(
-        len(titles), 1, height_ratios=heights, left=0.85 / width, right=1 - 0.15 / width, bottom=0.5 / height,
-        top=1 - 0.7 / height, hspace=0.1,
-    )  # fmt: skip
-    rows = [picture.add_subplot(grid[0, 0])]
-    rows += [picture.add_subplot(grid[k, 0], sharex=rows[0]) for k in range(1, len(titles))]
+    rows = stacked(picture, heights, 0.7)
     for each, title in zip(rows, titles):
         each.set_ylabel(title, fontsize=SMALL)
-        each.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
-        calm(each)
     handles = _feed(rows[0], profile, drawn, x, over, limits, whole)
     plan, kind = profile.plan, profile.path.kind
     unknown = kind > Kind.PROBE
@@ -176,17 +171,17 @@ def plot_profile(
         rows[2].plot(x, drawn.j, **{**colours.REACHED.style(), "label": "_j"})
     if axes:
         handles += _axes(rows[-2:], profile, drawn, x, limits)
-    for each in rows[:-1]:
-        each.tick_params(labelbottom=False)
     rows[-1].set_xlabel(below, fontsize=SMALL + 1)
     if under is not None:
         before = curve(under, over).counted(length)
         for each, values in zip(rows, (before.v * 60, before.a, before.j)[: 3 if len(profile.plan.rows.j) else 2]):
             each.plot(before.t if over == "time" else before.s, values, **colours.GHOST.style(), scaley=False)
-    picture.box = ghost.held_axes(rows, held)
+    picture.box = held_axes(rows, held)
     picture.seen = [(rows[0], FLAT, profile.path, Strokes(np.c_[x, drawn.v * 60, 0 * x], profile.move[drawn.piece]))]
+    width, height = picture.get_size_inches().tolist()
     lines = legend_rows([str(each.get_label()) for each in handles], width)
-    grid.update(top=1 - (0.12 + legend_height(min(len(lines), rows_within(SHARE * height)))) / height)
+    above = 0.12 + legend_height(min(len(lines), rows_within(SHARE * height)))
+    cast(GridSpec, rows[0].get_gridspec()).update(top=1 - above / height)
     write_legend(picture, handles, 0.01, 2.2)
     return picture
 
@@ -245,7 +240,7 @@ def plot_lost(profile: Profile, ax: Axes | None = None, *, most: int = LINES, wi
     ax.set_axisbelow(True)
     ax.set_xlabel("time, s", fontsize=SMALL + 1)
     if picture is None:
-        return cast(Figure, ax.get_figure(root=True))
+        return figure_of(ax)
     write_legend(picture, bars, 0.01, 2.2)
     return picture
 
@@ -267,11 +262,7 @@ def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits:
         top = 1.08 * fast  # a feed far beyond what is reached would flatten all else
     if not whole and fast > RAPIDS * cut > 0:
         top = 1.15 * min(max(cut, most), RAPIDS * cut)
-        ax.text(
-            0.995, 0.98, f"cut off: rapids reach {fast:.0f} {unit.short}/min", transform=ax.transAxes, ha="right", va="top",
-            fontsize=SMALL - 1, color=colours.RAPID.colour, zorder=5,
-            bbox={"facecolor": colours.PAPER, "edgecolor": "none", "pad": 1.5, "alpha": 0.85},
-        )  # fmt: skip
+        write_cut_off(ax, f"cut off: rapids reach {fast:.0f} {unit.short}/min")
     p = profile.pieces
     at = p.t if over == "time" else p.s / unit.length
     ax.set_xlim(0, max(float(at[-1]), 1e-9) if len(at) else 1.0)

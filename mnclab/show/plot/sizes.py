@@ -206,7 +206,7 @@ def _check(name: str, value: Any, what: str, annotation: str) -> None:
         raise Alarm(f"{name} must be a text, got {shown(value)}")
     if what == "Axes" and not isinstance(value, Axes):
         raise Alarm(f"ax must be axes of matplotlib, got {shown(value)}")
-    if what == "ghost.Box":
+    if what == "Box":
         _must(isinstance(value, tuple | list) and len(value) == 2, f"{name} must be two corners of a picture", value)
         for corner in value:
             check_point(corner, f"a corner of {name}")

@@ -21,6 +21,7 @@ from mnclab.machining.turning.strokes import CLEANUP, FINISH, OUT, PICK_UP, PLUN
 from mnclab.path.inserts import holder, insert
 from mnclab.path.listing import figure
 from mnclab.path.tool import Tool
+from mnclab.show import looks
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line
 from mnclab.show.plot.lathe import insert_patches
@@ -32,14 +33,13 @@ from mnclab.text.given import check_number, shown
 
 LOOKS = {
     RAPID: colours.RAPID,
-    ROUGH: Line("roughing", "#1259a8", "-", 1.6, 2.6),
-    PICK_UP: Line("pick-up", "#7b1fa2", "-", 2.2, 2.7),
+    ROUGH: Line("roughing", looks.BLUE, "-", 1.6, 2.6),
+    PICK_UP: Line("pick-up", looks.VIOLET, "-", 2.2, 2.7),
     CLEANUP: Line("clean-up", "#00796b", "-", 2.2, 2.8),
-    PLUNGE: Line("plunge", "#8a5a00", "-", 1.6, 2.65),
+    PLUNGE: Line("plunge", looks.BROWN, "-", 1.6, 2.65),
     FINISH: Line("finishing", "#00796b", (0, (6, 1.2)), 2.0, 2.75),
-    THREAD: Line("thread", "#1259a8", (0, (4, 1, 1, 1)), 1.8, 2.6),
+    THREAD: Line("thread", looks.BLUE, (0, (4, 1, 1, 1)), 1.8, 2.6),
 }
-MATERIAL = "#f4f1e8"
 GAP, TOP, BOTTOM = 0.5, 0.3, 0.46  # inches
 CHORD = 0.01
 INSERT = 0.09  # length of the insert's edges, of the width of what is drawn
@@ -82,9 +82,9 @@ def draw(ax: Axes, trial: TurningTrial) -> None:
     points = trial.profile.points_within(CHORD)
     left, right = points[-1, 0], points[0, 0]
     blank = [(left, 0), (left, trial.blank), (right, trial.blank), (right, 0)]
-    ax.add_patch(Polygon(blank, facecolor=MATERIAL, edgecolor="#b8b09a", linewidth=0.8, zorder=1.0))
+    ax.add_patch(Polygon(blank, facecolor=looks.RAW, edgecolor="#b8b09a", linewidth=0.8, zorder=1.0))
     part = np.vstack([points, [(left, 0), (right, 0)]])
-    ax.add_patch(Polygon(part, facecolor="#d9d5c8", edgecolor=colours.INK, linewidth=1.0, zorder=1.2))
+    ax.add_patch(Polygon(part, facecolor=looks.METAL, edgecolor=colours.INK, linewidth=1.0, zorder=1.2))
     hatch(ax, trial.rest, trial.unreachable)
     for stroke, way in trial.plan.ways:
         ax.add_line(Line2D(*way.points_within(CHORD).T, **{**LOOKS[stroke.role].style(), "label": f"_{stroke.role}"}))
@@ -127,13 +127,13 @@ def plot_thread(
     gone = np.zeros_like(x)
     for k, (depth, place) in enumerate(zip(depths, positions, strict=True)):
         gap = np.maximum(np.maximum(depth - np.abs(x - place) / slope, 0.0), gone)
-        shade = ("#1259a8", "#9fc3e6")[k % 2]
+        shade = (looks.BLUE, "#9fc3e6")[k % 2]
         ax.fill_between(x, -gap, -gone, where=gap > gone, color=shade, linewidth=0, interpolate=True, zorder=2)
         ax.plot([place], [-depth], ".", color=colours.INK, markersize=3, zorder=4)
         ax.annotate(str(k + 1), (place, -depth), ((-7, 7)[k % 2], -7), textcoords="offset points", ha="center", fontsize=SMALL,
                     zorder=5, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.3, "alpha": 0.8})  # fmt: skip
         gone = gap
-    ax.fill_between(x, -depths[-1] * 1.22, -gone, color="#d9d5c8", linewidth=0, zorder=1)
+    ax.fill_between(x, -depths[-1] * 1.22, -gone, color=looks.METAL, linewidth=0, zorder=1)
     ax.plot(x, -gone, color=colours.INK, linewidth=1.1, zorder=3)
     ax.set(aspect="equal", xlim=(-reach, reach), ylim=(-1.22 * depths[-1], 0.08 * depths[-1]))
     ax.set_xlabel("along the feed, mm", fontsize=SMALL + 1)
@@ -162,9 +162,8 @@ def plot_threads(infeeds: dict[str, Sequence[float]], depths: Sequence[float], p
 
 # The zones of a turned profile in one picture: what is to be cut in each, its kind, and the angles that it asks of a tool.
 
-PART = "#d9d5c8"
 #: Face and hatching of the kinds, told apart in grey print too.
-ZONES = {"open": ("#cfe3f5", ""), "semi-open": ("#f6dfae", "////"), "closed": ("#f3c6c0", "xxxx"), "combined": (PART, "")}
+ZONES = {"open": ("#cfe3f5", ""), "semi-open": ("#f6dfae", "////"), "closed": ("#f3c6c0", "xxxx"), "combined": (looks.METAL, "")}
 
 
 @sized()
@@ -194,7 +193,7 @@ def plot_zones(profile: Contour, blank: float, ax: Axes | None = None, *, size: 
         picture, (ax,) = arrange([view], low, high, ["part", *kinds], Foot(lines), f"zones of turning: {said}", size)
     left, right = float(points[-1, 0]), float(points[0, 0])
     part = np.vstack([points, [(left, 0), (right, 0)]])
-    ax.add_patch(Polygon(part, facecolor=PART, edgecolor=colours.INK, linewidth=1.2, zorder=2.0))
+    ax.add_patch(Polygon(part, facecolor=looks.METAL, edgecolor=colours.INK, linewidth=1.2, zorder=2.0))
     for zone in found:
         face, hatch = ZONES[zone.kind]
         look: dict[str, Any] = {"facecolor": face, "edgecolor": "#6b6b6b", "hatch": hatch, "linewidth": 0.6}
@@ -213,7 +212,7 @@ def plot_zones(profile: Contour, blank: float, ax: Axes | None = None, *, size: 
         )  # fmt: skip
     if picture is None:
         return cast(Picture, ax.get_figure(root=True))
-    marks = [Patch(facecolor=PART, edgecolor=colours.INK, label="part")]
+    marks = [Patch(facecolor=looks.METAL, edgecolor=colours.INK, label="part")]
     marks += [Patch(facecolor=ZONES[kind][0], hatch=ZONES[kind][1], edgecolor="#6b6b6b", label=kind) for kind in kinds]
     write_legend(picture, marks)
     return picture

@@ -1,8 +1,8 @@
 """Threads (chapter 5): tapping with 206, 207 and 209, milling with 262, 263 and 267, and in solid material with 264 and 265.
 
 The geometry of milled threads is that of `tnc_620.machining.thread_milling`. Readings where the manual is silent: feeds of
-the thread, that of the approach among them, are those of the cutting edge; a depth of 0 leaves its step out, and a cycle whose depths
-are all 0 is refused where it has several; 262 is not executed, as its manual says.
+the thread, that of the approach among them, are those of the cutting edge; a depth of 0 leaves its step out, and a cycle whose
+depths are all 0 is refused where it has several; 262 is not executed, as its manual says.
 """
 
 from __future__ import annotations
