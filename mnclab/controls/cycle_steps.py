@@ -54,7 +54,7 @@ SPINDLE = {1: "clockwise", -1: "counter-clockwise", 0: "stopped"}
 SIDES = {1: "left", -1: "right", 0: "off"}
 
 
-class Row(NamedTuple):
+class StepRow(NamedTuple):
     """A step, where the tool stands after a motion (mm, in the program), and its feed in words."""
 
     step: Step
@@ -69,7 +69,7 @@ class CycleSteps(Listing, Sequence[Step]):
     """
 
     def __init__(
-        self, cycle: type[Cycle], values: Mapping[str, Any], start: Point, rows: Sequence[Row], *,
+        self, cycle: type[Cycle], values: Mapping[str, Any], start: Point, rows: Sequence[StepRow], *,
         lathe: bool = False, per_rev: bool = False, part: Part | None = None,
     ) -> None:  # fmt: skip
         self.cycle, self.values, self.start, self.rows = cycle, values, start, tuple(rows)
@@ -227,7 +227,7 @@ def steps(code: str, control: str, /, setup: Setup | None = None, **values: Any)
     given = chosen(cycle, values)
     faults = []
     for machine in situations(found.control, cycle, setup or found.control.trial_setup or Setup()):
-        rows: list[Row] = []
+        rows: list[StepRow] = []
         try:
             definition, start = define(machine, cycle, given), machine.programmed
             if (part := instance(definition).figure(machine)) and machine.setup.part is None:
@@ -333,7 +333,7 @@ def read(m: Machine, parameter: Parameter, cycle: type[Cycle], word: Word) -> An
     return tuple(value_of(m, parameter, cycle.code, word_of(parameter, one), cycle.in_variables) for one in several)
 
 
-def noting(m: Machine, cycle: type[Cycle], rows: list[Row]) -> Callable[[Iterable[Step], Place], Iterable[Step]]:
+def noting(m: Machine, cycle: type[Cycle], rows: list[StepRow]) -> Callable[[Iterable[Step], Place], Iterable[Step]]:
     """What notes the steps on their way, with where they end; it obeys the steps that a machine alone cannot."""
 
     def note(step: Step) -> None:
@@ -345,7 +345,7 @@ def noting(m: Machine, cycle: type[Cycle], rows: list[Row]) -> Callable[[Iterabl
         words = "rapid" if feed == math.inf else "" if feed is None or math.isnan(feed) else figure(feed, DECIMALS)
         if isinstance(step, Thread):
             words = figure(step.pitch, DECIMALS) + " mm/rev" * (not m.per_rev)
-        rows.append(Row(step, m.programmed, words) if moved else Row(step))
+        rows.append(StepRow(step, m.programmed, words) if moved else StepRow(step))
         if len(rows) > MOST:
             raise Alarm(f"{cycle.code} has more than {MOST} steps with these values: nobody would read their table", hint=FEWER)
 

@@ -21,7 +21,7 @@ from mnclab.geometry.chords import near
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats, cross, gap, length_of
 from mnclab.geometry.cutting import Outlines, boxes, inset, outlines_of
-from mnclab.geometry.tracing import GRID, SAME, Drawing, inset_by_bands
+from mnclab.geometry.tracing import GRID, SAME, TaggedPolylines, inset_by_bands
 from mnclab.text.alarm import Alarm, Refused
 from mnclab.text.given import check_number, refusing_class, shown
 
@@ -66,7 +66,7 @@ class Region:
 
     @classmethod
     def _of(cls, outer: Sequence[Contour], holes: Sequence[Contour], nested: bool) -> Region:
-        drawing = Drawing([_tidy(contour) for contour in (*outer, *holes)])
+        drawing = TaggedPolylines([_tidy(contour) for contour in (*outer, *holes)])
         areas = [shapely.Polygon(ring) for ring in drawing.rings]
         for area in areas:
             if not area.is_valid:
@@ -101,7 +101,7 @@ class Region:
                 hard.append(other)
         if not hard:
             return rest
-        drawing = Drawing([*rest.loops, *(loop for other in hard for loop in other.loops)])
+        drawing = TaggedPolylines([*rest.loops, *(loop for other in hard for loop in other.loops)])
         first, gone = len(rest.loops), []
         for other in hard:
             gone.append(drawing.area(other.loops, first))
@@ -203,7 +203,7 @@ class Region:
             loops = [loop for loop in self.loops if other.contains(loop.points[:1])[0] == mine]
             others = [loop for loop in other.loops if self.contains(loop.points[:1])[0] == theirs]
             return _arranged([*loops, *((loop.reversed() for loop in others) if operation == "difference" else others)])
-        drawing = Drawing([*self.loops, *other.loops])
+        drawing = TaggedPolylines([*self.loops, *other.loops])
         one, two = drawing.area(self.loops, 0), drawing.area(other.loops, len(self.loops))
         return Region(drawing.traced(getattr(shapely, operation)(one, two, grid_size=GRID)))
 

@@ -31,7 +31,7 @@ SMOOTH = 1e-9  # rad, below which a corner is none
 
 
 @dataclass
-class Drawing:
+class TaggedPolylines:
     """Contours as polylines whose pieces know their curves."""
 
     contours: Sequence[Contour]
@@ -76,12 +76,12 @@ class Drawing:
 
 def polygons_of(loops: Sequence[Contour]) -> Any:
     """The loops of a region as a shapely area of fine polylines, `CHORD_ERROR` mm from it."""
-    return Drawing(loops).area(loops, 0)
+    return TaggedPolylines(loops).area(loops, 0)
 
 
 def covered(contours: Sequence[Contour]) -> Any:
     """What closed contours cover together, as a shapely area of such polylines."""
-    return shapely.union_all([shapely.Polygon(ring) for ring in Drawing(contours).rings if len(ring) > 2])
+    return shapely.union_all([shapely.Polygon(ring) for ring in TaggedPolylines(contours).rings if len(ring) > 2])
 
 
 def traced(
@@ -235,7 +235,7 @@ def inset_by_bands(loops: Sequence[Contour], distance: float) -> tuple[Contour, 
     """The loops of a region inset by a distance, or grown by a negative one."""
     faces = loops if distance > 0 else [loop.reversed() for loop in loops]
     bands = [band for face in faces for band in bands_beside(face, abs(distance))]
-    drawing = Drawing([*loops, *bands])
+    drawing = TaggedPolylines([*loops, *bands])
     strips = [shapely.Polygon(ring) for ring in drawing.rings[len(loops) :]]
     strip = shapely.union_all(strips, grid_size=GRID)
     change = shapely.difference if distance > 0 else shapely.union

@@ -104,7 +104,7 @@ _OPTION = re.compile(r"--(\w+)[ =]+(\S*)$")
 _CELL = re.compile(r"%%mnc\b[^\n]*")
 
 
-class Place(NamedTuple):
+class Cursor(NamedTuple):
     """A cursor in the text of a program, and the control that was named, or that its text points to."""
 
     text: str
@@ -175,15 +175,15 @@ def _kind(call: Call, names: Mapping[str, Any]) -> str:
     return "value" if function == "steps" else ""
 
 
-def _program(source: str, at: int, head: re.Match[str] | None, call: Call | None, kind: str) -> Place | None:
+def _program(source: str, at: int, head: re.Match[str] | None, call: Call | None, kind: str) -> Cursor | None:
     """The program that a cursor is in: that of a cell, or a text that is given to a function."""
     if head:
         named = re.search(r"--control[ =]+[\"']?([\w-]+)", head[0])
         text = source[head.end() + 1 :]
-        return Place(text, at - head.end() - 1, _control(named[1] if named else None, text))
+        return Cursor(text, at - head.end() - 1, _control(named[1] if named else None, text))
     if call and kind == "program" and call.text is not None:
         named = _CONTROL.search(call.after)
-        return Place(call.text, call.at, _control(named[1] if named else None, call.text))
+        return Cursor(call.text, call.at, _control(named[1] if named else None, call.text))
     return None
 
 
@@ -197,7 +197,7 @@ def _control(name: str | None, text: str) -> Control | None:
 # --- what may stand there -----------------------------------------------------------------------------------------------
 
 
-def _of_program(place: Place) -> tuple[str, Choices]:
+def _of_program(place: Cursor) -> tuple[str, Choices]:
     """The words of a program; as long as nobody knows the control, those of all of them."""
     controls = [place.control] if place.control else list(CONTROLS.values())
     near = [name for name in files("") if not name.endswith("/")]

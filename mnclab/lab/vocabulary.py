@@ -47,7 +47,7 @@ class Vocabulary(NamedTuple):
     keywords: bool
 
 
-class Found(NamedTuple):
+class WordAt(NamedTuple):
     """A word in a text: letters and digits as the tables have them, its columns from 0, and the code, if it is one."""
 
     name: str
@@ -91,7 +91,7 @@ def _cycle(cycle: type[Cycle]) -> Code:
     return Code(cycle.title, words, cycle.runs == "position")
 
 
-def found_in(line: str, known: Vocabulary) -> Iterator[Found]:
+def found_in(line: str, known: Vocabulary) -> Iterator[WordAt]:
     """The words of a line before its comment; a code of keywords stands at its beginning, after the number."""
     mark = re.search(known.comment, line)
     text = (line[: mark.start()] if mark else line).upper()
@@ -100,14 +100,14 @@ def found_in(line: str, known: Vocabulary) -> Iterator[Found]:
     at = first.end() if first else 0
     if keyword := keyword_at(text[at:], known):
         end = at + len(keyword[1])
-        yield Found(keyword[0], at, end, keyword[0])
+        yield WordAt(keyword[0], at, end, keyword[0])
         at = end
     for word in _WORDS.finditer(text, at):
         letters, number = word[1], word[2] or ""
         whole = letters + (str(int(number)) if number.isdigit() else number)
         names = (whole,) if known.keywords else (whole, letters)
         code = next((name for name in names if name in known.codes and (number or not known.keywords)), "")
-        yield Found(whole, *word.span(), code)
+        yield WordAt(whole, *word.span(), code)
 
 
 def keyword_at(text: str, known: Vocabulary) -> tuple[str, str] | None:

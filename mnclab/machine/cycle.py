@@ -275,7 +275,7 @@ def too_many(name: str, levels: Callable[[], object]) -> Iterator[tuple[str, str
         yield name, str(error)
 
 
-def few_passes(name: str, levels: int, passes: int) -> Iterator[tuple[str, str]]:
+def too_many_passes(name: str, levels: int, passes: int) -> Iterator[tuple[str, str]]:
     """A fault where nobody would wait for so many passes."""
     if levels * passes > MOST_PASSES:
         yield name, f"makes {levels} levels of {passes} passes, more than {MOST_PASSES} together"
@@ -283,7 +283,7 @@ def few_passes(name: str, levels: int, passes: int) -> Iterator[tuple[str, str]]
 
 # The parameters of a cycle as people read them: one row each, for help as text, help as HTML and the boxes of a form.
 
-class Row(NamedTuple):
+class ParameterRow(NamedTuple):
     """What is said of one parameter; `default` is what holds where its word is left out."""
 
     address: str
@@ -294,10 +294,10 @@ class Row(NamedTuple):
     note: str
 
 
-def row(p: Parameter) -> Row:
+def row(p: Parameter) -> ParameterRow:
     """The row of a parameter; its choices stand one in a line, each with its meaning."""
     allowed = "\n".join(f"{choice:g} {meaning}" for choice, meaning in p.choices.items()) if p.choices else p.allowed
-    return Row(p.address, p.meaning, p.unit, allowed, "required" if p.required else left_out(p), p.note)
+    return ParameterRow(p.address, p.meaning, p.unit, allowed, "required" if p.required else left_out(p), p.note)
 
 
 def left_out(p: Parameter) -> str:
@@ -309,8 +309,8 @@ def left_out(p: Parameter) -> str:
 def _filled(cycle: type[Cycle]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """The heads and rows of the parameters of a cycle, without notes where there is none."""
     rows = [row(p) for p in cycle.parameters()]
-    width = len(Row._fields) - (not any(each.note for each in rows))
-    return Row._fields[:width], [each[:width] for each in rows]
+    width = len(ParameterRow._fields) - (not any(each.note for each in rows))
+    return ParameterRow._fields[:width], [each[:width] for each in rows]
 
 
 def help_text(cycle: type[Cycle]) -> str:

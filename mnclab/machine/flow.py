@@ -132,7 +132,7 @@ def determine(m: Machine) -> None:
         pending.make(m)
 
 
-class Reading(NamedTuple):
+class ReadUnder(NamedTuple):
     """What a block that waits was read under."""
 
     step: int
@@ -141,13 +141,13 @@ class Reading(NamedTuple):
     label: str
 
 
-def reading(m: Machine) -> Reading:
+def reading(m: Machine) -> ReadUnder:
     """What a block is read under now."""
-    return Reading(m.step, m.source_line, m.side, m.label)
+    return ReadUnder(m.step, m.source_line, m.side, m.label)
 
 
 @contextmanager
-def as_of(m: Machine, then: Reading) -> Iterator[None]:
+def as_of(m: Machine, then: ReadUnder) -> Iterator[None]:
     """Rows made within belong to a block that was read earlier, and the history notes their ends there."""
     with m.within(**then._asdict()):
         yield
@@ -161,7 +161,7 @@ CHARACTERS = 250  # that count as a block of the limit: a loop that writes for e
 
 
 @dataclass(frozen=True)
-class Piece:
+class PrintedPiece:
     """What was put out in a step; `anew`: the file begins with it."""
 
     text: str
@@ -180,7 +180,7 @@ def put_out(m: Machine, name: str, text: str, anew: bool = False) -> None:
     log = logs.get(key)
     if log is not None and log.steps and log.steps[-1] == m.step and not anew:
         text, anew = log.values[-1].text + text, log.values[-1].anew
-    m.log(key, Piece(text, anew or log is None))
+    m.log(key, PrintedPiece(text, anew or log is None))
 
 
 class Files(Listing, dict[str, str]):

@@ -72,7 +72,7 @@ class Touches(Listing, tuple[Touched, ...]):
         return [(str(k), str(each.line), each.label, *row) for k, (each, row) in enumerate(zip(self, numbers), 1)]
 
 
-class Figure(NamedTuple):
+class TouchedFigure(NamedTuple):
     """A figure that a cycle touched: as it should be and as it was found, contours in the plane of the `frame` (4, 4) at a
     height, and the numbers of its touches."""
 
@@ -199,7 +199,7 @@ def _write_json(measured: Measurements, path: Path) -> None:
 
 def record(
     m: Machine, steps: int, place_of_line: Callable[[int, int], str], reach: str = ""
-) -> tuple[Touches, tuple[Figure, ...], Measurements]:
+) -> tuple[Touches, tuple[TouchedFigure, ...], Measurements]:
     """What was touched and measured in the first steps of a run."""
     unit = MM if m.variable_unit == 1 else INCHES
     touches = Touches(each for each in m.touches if each.step < steps)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from mnclab.geometry import frames
 from mnclab.geometry.frames import FrameChain, Matrix
-from mnclab.machine.measuring import Figure, Measurement, Touched
+from mnclab.machine.measuring import Measurement, Touched, TouchedFigure
 from mnclab.machine.setup import Setup, Tables
 from mnclab.path.feeds import FeedRule
 from mnclab.path.recorder import NAN, Recorder
@@ -288,7 +288,7 @@ PATTERN, HOLES, REPEAT = "points of a pattern", "blocks of a run of holes", "pas
 ALWAYS = (PATTERN, HOLES, REPEAT)
 
 
-class Part(NamedTuple):
+class AttributeUse(NamedTuple):
     """What is done with an attribute.
 
     `default`: its first value, or a function that makes it for a machine. `rows`: rows carry it. `history`: a change is
@@ -307,7 +307,7 @@ def part(
     default: Any, *, rows: bool = False, history: bool = False, outlives: bool = False, compared: tuple[str, ...] = ALWAYS
 ) -> Any:  # fmt: skip
     """A line of the table."""
-    return Part(default, rows, history, outlives, compared)
+    return AttributeUse(default, rows, history, outlives, compared)
 
 
 class State:
@@ -343,7 +343,7 @@ class State:
     variables: Variables = part(Variables, outlives=True)
     measured: Measured = part(Measured, outlives=True)
     touches: list[Touched] = part(lambda m: [], outlives=True)
-    figures: list[Figure] = part(lambda m: [], outlives=True)  # that cycles measured
+    figures: list[TouchedFigure] = part(lambda m: [], outlives=True)  # that cycles measured
     measurements: list[Measurement] = part(lambda m: [], outlives=True)
     felt: Felt | None = part(None)  # what a cycle that probes feels, while it runs
     variable_unit: float = part(1.0)  # mm that a length of 1 of the program or a variable stands for: 25.4 for inches
@@ -429,7 +429,7 @@ class State:
         self.put(**snapshot.taken_out())
 
 
-TABLE: dict[str, Part] = {name: one for name, one in vars(State).items() if isinstance(one, Part)}
+TABLE: dict[str, AttributeUse] = {name: one for name, one in vars(State).items() if isinstance(one, AttributeUse)}
 for _name in TABLE:  # the values belong to machines
     delattr(State, _name)
 ROWS = frozenset(name for name, one in TABLE.items() if one.rows)

@@ -55,7 +55,7 @@ class Lead(NamedTuple):
         return f"{'DEP' if self.departs else 'APPR'} {self.form}"
 
 
-class Way(NamedTuple):
+class LeadWay(NamedTuple):
     """The auxiliary point H (2,), and the arc from there to Q: its centre (2,) or None for a line, and its sweep."""
 
     by: Array
@@ -66,28 +66,28 @@ class Way(NamedTuple):
         return None if self.centre is None else np.append(self.centre, height)
 
 
-def way(lead: Lead, start: Array, to: Array, t: Array) -> Way:
+def way(lead: Lead, start: Array, to: Array, t: Array) -> LeadWay:
     """The way from `start` to the place `to` where the contour begins with the tangent `t` (all (2,)). A departure is
     asked for backwards: the side, the tangent and the sweep turn over. Raises PathFault."""
     normal = lead.side * left(t)
     match lead.form:
         case "LT":
-            return Way(to - lead.length * t)
+            return LeadWay(to - lead.length * t)
         case "LN":
-            return Way(to + lead.length * normal)
+            return LeadWay(to + lead.length * normal)
         case "CT":
             centre = to + lead.radius * normal
             sense = lead.side * math.copysign(1, lead.radius)
-            return Way(centre + turned(to - centre, -sense * lead.angle), centre, sense * lead.angle)
+            return LeadWay(centre + turned(to - centre, -sense * lead.angle), centre, sense * lead.angle)
     return _line_and_arc(lead, start, to, t)
 
 
-def _line_and_arc(lead: Lead, start: Array, to: Array, t: Array) -> Way:
+def _line_and_arc(lead: Lead, start: Array, to: Array, t: Array) -> LeadWay:
     """LCT: the arc bends towards the side of the tangent on which the start lies, and the line touches it."""
     beside, along = float(cross(t, start - to)), float(dot(start - to, t))
     if abs(beside) < NEAR:
         if along < 0:
-            return Way(to)  # straight ahead: no arc is needed
+            return LeadWay(to)  # straight ahead: no arc is needed
         beside = float(lead.side or 1)
     sense = math.copysign(1, beside)
     centre = to + lead.radius * sense * left(t)
@@ -101,7 +101,7 @@ def _line_and_arc(lead: Lead, start: Array, to: Array, t: Array) -> Way:
     heading = turned(away / distance, -sense * math.asin(min(1.0, lead.radius / distance)))
     by = start + math.sqrt(max(0.0, (distance - lead.radius) * (distance + lead.radius))) * heading
     angle = sense * math.atan2(cross(heading, t), dot(heading, t)) % math.tau
-    return Way(by, centre, sense * angle) if NEAR < angle < math.tau - NEAR else Way(to)
+    return LeadWay(by, centre, sense * angle) if NEAR < angle < math.tau - NEAR else LeadWay(to)
 
 
 def apply(path: Toolpath, contour: Toolpath, unfinished: bool = False) -> Toolpath:

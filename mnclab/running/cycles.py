@@ -18,7 +18,7 @@ from mnclab.machine.coordinates import FRAME, MILLS, in_mm, roll, tool_axis, tur
 from mnclab.machine.cycle import Cycle, Definition, Parameter
 from mnclab.machine.flow import put_out
 from mnclab.machine.machine import Machine
-from mnclab.machine.measuring import Figure, Measurement, judged
+from mnclab.machine.measuring import Measurement, TouchedFigure, judged
 from mnclab.machine.tool_setting import SETS, at_setter
 from mnclab.machine.touching import FEELS, PROBES, Contact, Felt, ball_from_axis, guarded, guarded_turn, part_to_touch
 from mnclab.machining.depths import TooMany
@@ -374,7 +374,7 @@ def measured(m: Machine, cycle: str, step: Measure | Sketch) -> None:
     """Write what was measured into the record, or a figure for its picture."""
     line, program, touches = m.source_line, m.program, tuple(step.touches)
     if isinstance(step, Sketch):
-        figure = Figure(m.step, line, program, cycle, step.nominal, step.actual, step.height, m.matrix, touches)
+        figure = TouchedFigure(m.step, line, program, cycle, step.nominal, step.actual, step.height, m.matrix, touches)
         m.figures.append(figure)
         return
     what, actual, nominal, lower, upper, unit, verdict, *_ = step

@@ -34,7 +34,7 @@ class Action(NamedTuple):
         return itemgetter(*which) if len(which) > 1 else lambda words: tuple([words[k] for k in which])
 
 
-class Plan(NamedTuple):
+class BlockPlan(NamedTuple):
     """What to do with a kind of block, in order, and remarks about it."""
 
     actions: tuple[tuple[Action, Callable[[list[Word]], tuple[Word, ...]]], ...]
@@ -55,7 +55,7 @@ class Planner:
     def alarm(self, message: str, index: int, hint: str = "") -> NoReturn:
         raise Alarm(message, self.words[index].span if index >= 0 else None, hint=hint)
 
-    def plan(self) -> Plan:
+    def plan(self) -> BlockPlan:
         control = self.control
         if control.together:
             self.strange = [*(control.together(control, self.modal, self.keyword, self.words) or ())]
@@ -104,7 +104,7 @@ class Planner:
         self.modal_call(functions)
         self.refuse_leftovers(functions)
         order = sorted(self.actions, key=lambda action: action.phase)
-        return Plan(tuple((action, action.pick) for action in order), (*self.strange, *self.remarks))
+        return BlockPlan(tuple((action, action.pick) for action in order), (*self.strange, *self.remarks))
 
     def codes(self) -> list[tuple[str, int]]:
         found = [(self.keyword, -1)] if self.keyword else []

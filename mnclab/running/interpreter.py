@@ -18,7 +18,7 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Setup
 from mnclab.running.bulk import Bulk
 from mnclab.running.cycles import assign, instance, refuse_marks, run_cycle, store, units_of, verify
-from mnclab.running.dispatch import Plan, Planner
+from mnclab.running.dispatch import BlockPlan, Planner
 from mnclab.running.flow import Course, course
 from mnclab.text.alarm import ALARM, WARNING, Alarm, Span
 from mnclab.text.file import decode, read
@@ -48,7 +48,7 @@ def called(m: Machine, name: str, what: str, span: Span | None = None) -> int:
     return index
 
 
-class Found(NamedTuple):
+class OpenedFile(NamedTuple):
     """A file: its name, its text, its folder, "" for none."""
 
     name: str
@@ -56,7 +56,7 @@ class Found(NamedTuple):
     folder: str
 
 
-def found(m: Machine, name: str, what: str, span: Span | None, kind: str = "program") -> Found:
+def found(m: Machine, name: str, what: str, span: Span | None, kind: str = "program") -> OpenedFile:
     """The file that a statement (`what`) names; an Alarm if there is none. A `kind` other than programs names its type."""
     caller = m.flow.program
     types = sorted(m.control.suffixes, key=lambda suffix: not caller.name.lower().endswith(suffix)) or [""]  # its own first
@@ -66,8 +66,8 @@ def found(m: Machine, name: str, what: str, span: Span | None, kind: str = "prog
             if key in files:
                 known, source = files[key]
                 if isinstance(source, str):
-                    return Found(known, source, caller.folder)
-                return Found(str(source), _text(source, what, span), str(source.parent))
+                    return OpenedFile(known, source, caller.folder)
+                return OpenedFile(str(source), _text(source, what, span), str(source.parent))
     file = next(filter(None, (_beside(caller, _last(_spelt(name, suffix))) for suffix in (*types, ""))), None)
     if file is not None and not Path(os.path.realpath(file)).is_relative_to(os.path.realpath(caller.folder)):
         elsewhere = "it is a symbolic link to another folder, and files are taken from the folder of the program alone"
@@ -77,7 +77,7 @@ def found(m: Machine, name: str, what: str, span: Span | None, kind: str = "prog
         names = ", ".join(sorted(m.setup.files)[:8])
         hint = f"Setup(files=…) has {names or 'no files'}; {where}{' has none' if caller.folder else ''}"
         raise Alarm(f"{what} {name}: there is no {kind} of this name", span, hint=hint)
-    return Found(str(file), _text(file, what, span), caller.folder)
+    return OpenedFile(str(file), _text(file, what, span), caller.folder)
 
 
 def _beside(caller: Program, wanted: str) -> Path | None:
@@ -160,7 +160,7 @@ class Interpreter:
         self.control, self.program = control, program
         self.flow = Course(program, self.obey, self.switch)
         self.machine = machine = Machine(control, setup, self.flow)
-        self.plans: dict[Any, Plan] = {}
+        self.plans: dict[Any, BlockPlan] = {}
         self.window = range(0)
         self.blocks: list[tuple[int, int, str, list[Word], tuple[Any, ...] | None]] = []
         """Of the blocks in the window: line, skip, keyword, words, and of each word its address, with the value where that
@@ -288,7 +288,7 @@ class Interpreter:
 
     # --- planning ----------------------------------------------------------------------------------------------------
 
-    def plan_for(self, keyword: str, kinds: tuple[Any, ...], words: list[Word]) -> Plan:
+    def plan_for(self, keyword: str, kinds: tuple[Any, ...], words: list[Word]) -> BlockPlan:
         machine = self.machine
         active = machine.position_cycle.cycle if machine.position_cycle else None
         motion, call = machine.modal.get(self.control.motion), machine.modal.get("call")

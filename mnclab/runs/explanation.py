@@ -17,7 +17,7 @@ from mnclab.machine.control import Control, Function, Modal, switches
 from mnclab.machine.coordinates import LOG
 from mnclab.machine.cycle import Cycle
 from mnclab.path.listing import MM, Unit, figure, point, words
-from mnclab.running.dispatch import Action, Plan, Planner
+from mnclab.running.dispatch import Action, BlockPlan, Planner
 from mnclab.runs.history import Matrix, described, said, unit_of
 from mnclab.text.alarm import Alarm, quoted
 from mnclab.text.expression import Expression
@@ -188,7 +188,7 @@ def _title(here: _Here, what: Function, word: Word | None) -> str:
     return what.title if says.startswith("word ") else f"{what.title}: {says}"
 
 
-def _plan(run: Run, moment: Moment) -> Plan | None:
+def _plan(run: Run, moment: Moment) -> BlockPlan | None:
     """How the words were handed out, planned again in the state before the block; None where that is an alarm."""
     program, control = run.programs[run.steps.program[moment.step]], run.control
     if run.steps.block[moment.step] in program.faulty_blocks():

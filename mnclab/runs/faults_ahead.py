@@ -16,7 +16,7 @@ from mnclab.machine.control import Function, Modal, Words
 from mnclab.machine.cycle import Cycle, Definition, Parameter
 from mnclab.machine.machine import Machine
 from mnclab.running.cycles import check_value, fault, value_of
-from mnclab.running.dispatch import Plan, Planner
+from mnclab.running.dispatch import BlockPlan, Planner
 from mnclab.running.flow import Course
 from mnclab.running.interpreter import Interpreter
 from mnclab.runs.lint.forgotten import HINT, SENTENCE
@@ -37,7 +37,7 @@ class Ahead:
 
     def __init__(self, stopped: Interpreter) -> None:
         self.control, self.program, self.skips = stopped.control, stopped.flow.programs[0], stopped.skips
-        self.faulty, self.good = stopped.loaded[0].faulty, dict[Any, Plan]()
+        self.faulty, self.good = stopped.loaded[0].faulty, dict[Any, BlockPlan]()
         self.in_inches = stopped.machine.variable_unit != 1
         self.states = list(self._states(stopped))
         self.sections, self.stop = self._sections(stopped.flow)
@@ -70,7 +70,7 @@ class Ahead:
         inside = here and any(loop.program == 0 for loop in flow.loops.running)
         return [*([flow.current + 1] if inside else []), below + 1], flow.current if here else below
 
-    def blocks(self) -> Iterator[tuple[int, str, list[Word], Plan | Alarm]]:
+    def blocks(self) -> Iterator[tuple[int, str, list[Word], BlockPlan | Alarm]]:
         """The blocks that the program comes to, with the labels that they call, each once."""
         seen, count, program = set[int](), 0, self.program
         while self.sections:
@@ -86,18 +86,18 @@ class Ahead:
                         break
                 block += 1
 
-    def leads_away(self, keyword: str, words: list[Word], plan: Plan | Alarm) -> bool:
+    def leads_away(self, keyword: str, words: list[Word], plan: BlockPlan | Alarm) -> bool:
         """Whether nobody knows what comes after a block; a label that it calls is noted."""
         name = label_of(words)
         if keyword == "CALL LBL" and name in self.program.labels and len(words) == 1:
             self.sections.append(self.program.labels[name] + 1)
-        functions = [action.what for action, _ in plan.actions] if isinstance(plan, Plan) else []
+        functions = [action.what for action, _ in plan.actions] if isinstance(plan, BlockPlan) else []
         return name == "0" or any(isinstance(what, Function) and what.leads_away for what in functions)
 
-    def plan(self, keyword: str, words: list[Word]) -> Plan | Alarm:
+    def plan(self, keyword: str, words: list[Word]) -> BlockPlan | Alarm:
         """Who takes the words of a block, or the fault that it has in every state of the machine."""
         if not keyword and self.control.computed and any(isinstance(word.value, Expression) for word in words):
-            return Plan((), ())
+            return BlockPlan((), ())
         kind = keyword, tuple((w[0], w[1]) if w[0] in self.control.codes else w[0] for w in words)
         if kind in self.good:
             return self.good[kind]
@@ -142,7 +142,7 @@ class Ahead:
 
     # --- one block ----------------------------------------------------------------------------------------------------
 
-    def of_actions(self, plan: Plan, keyword: str, words: list[Word]) -> Iterator[Alarm]:
+    def of_actions(self, plan: BlockPlan, keyword: str, words: list[Word]) -> Iterator[Alarm]:
         for (_, what, code, head, _), pick in plan.actions:
             if isinstance(what, Function):
                 yield from self.of_function(what, code, pick(words), head >= 0 or code == keyword)

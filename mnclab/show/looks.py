@@ -17,7 +17,7 @@ BLUE, RED, VIOLET, GREEN, GREY, BROWN, WRONG = "#1259a8", "#c62828", "#7b1fa2", 
 Dashes = str | tuple[float, tuple[float, ...]]
 
 
-class Line(NamedTuple):
+class LineStyle(NamedTuple):
     """A class of moves: dashes as matplotlib has them, width in points, higher `order` drawn later."""
 
     name: str
@@ -32,13 +32,13 @@ class Line(NamedTuple):
 
 
 #: Rapids are thinner than cuts and lie above them: where both run on one line (pecking), both are seen.
-RAPID = Line("rapid", RED, (0, (5, 3)), 0.9, 3.0)
-FEED = Line("feed", BLUE, "-", 1.9, 2.6)
-PROBING = Line("probing", VIOLET, (0, (1, 1.2)), 1.6, 2.8)
+RAPID = LineStyle("rapid", RED, (0, (5, 3)), 0.9, 3.0)
+FEED = LineStyle("feed", BLUE, "-", 1.9, 2.6)
+PROBING = LineStyle("probing", VIOLET, (0, (1, 1.2)), 1.6, 2.8)
 #: A thread on a lathe: the tool goes on by the lead in every revolution.
-THREAD = Line("thread", GREEN, (0, (7, 1.2, 1.5, 1.2)), 1.9, 2.7)
-PROGRAMMED = Line("programmed", GREY, "-", 0.9, 2.2)
-BLANK = Line("blank", "#9a8f6e", "-", 0.8, 1.4)
+THREAD = LineStyle("thread", GREEN, (0, (7, 1.2, 1.5, 1.2)), 1.9, 2.7)
+PROGRAMMED = LineStyle("programmed", GREY, "-", 0.9, 2.2)
+BLANK = LineStyle("blank", "#9a8f6e", "-", 0.8, 1.4)
 
 
 class Move(NamedTuple):
@@ -47,7 +47,7 @@ class Move(NamedTuple):
     `width` and `dashes` mm, of an SVG; `number` is that of the colour in AutoCAD, `dark` the colour on dark ground.
     """
 
-    line: Line
+    line: LineStyle
     kinds: tuple[Kind, ...]
     width: float
     dashes: tuple[float, ...]

@@ -31,7 +31,7 @@ NUMBERS = {"TONUMB": ("SRC",), "STRLEN": ("SRC",), "INSTR": ("SRC", "SEA", "beg"
 REFUSED = {"CFGREAD": "machine parameters"}
 
 
-class Part(NamedTuple):
+class Operand(NamedTuple):
     """A text in quotes ("literal"), a variable ("variable") or a function, with its arguments, and where it stands."""
 
     kind: str
@@ -44,7 +44,7 @@ class Part(NamedTuple):
 class TextFormula:
     """Parts that are joined; `evaluate` gives the text."""
 
-    parts: tuple[Part, ...]
+    parts: tuple[Operand, ...]
     text: str
 
     def __repr__(self) -> str:
@@ -62,7 +62,7 @@ class TextFormula:
 class NumberFromText:
     """A function of texts whose result is a number: TONUMB, STRLEN, INSTR, STRCOMP."""
 
-    part: Part
+    part: Operand
     text: str
 
     def __repr__(self) -> str:
@@ -125,13 +125,13 @@ class _Reader:
         self.at = found.end() if found else self.at
         return found
 
-    def part(self, functions: bool = True) -> Part:
+    def part(self, functions: bool = True) -> Operand:
         """A text in quotes, a QS parameter, or a function with its arguments."""
         begin = self.at + len(self.text[self.at :]) - len(self.text[self.at :].lstrip())
         if found := self.match(_LITERAL):
-            return Part("literal", found.group(1), self.place(len(found.group()), begin), {})
+            return Operand("literal", found.group(1), self.place(len(found.group()), begin), {})
         if found := self.match(_VARIABLE):
-            return Part("variable", f"QS{int(found.group(1))}", self.place(len(found.group()), begin), {})
+            return Operand("variable", f"QS{int(found.group(1))}", self.place(len(found.group()), begin), {})
         if functions and (found := self.match(_FUNCTION)):
             return self.function(found.group(1).upper(), self.place(len(found.group(1)), begin))
         shown = self.text[self.at : self.at + 1]
@@ -139,13 +139,13 @@ class _Reader:
         hint = "a function of texts is written with a bracket" if shown.isalpha() else ""
         raise Alarm(f"a text in quotes or a QS parameter was expected{what}", self.place(1), hint=hint)
 
-    def function(self, name: str, span: Span) -> Part:
+    def function(self, name: str, span: Span) -> Operand:
         """The arguments of a function, in any order, up to the closing bracket."""
         if name in REFUSED:
             self.at = self.text.find(")", self.at) + 1
             if not self.at:
                 raise Alarm(f"{name} has no closing bracket", span)
-            return Part("function", name, span, {})
+            return Operand("function", name, span, {})
         known, given = {**TEXTS, **NUMBERS}[name], {}
         while not self.done and self.text[self.at] != ")":
             begin = self.at
@@ -163,7 +163,7 @@ class _Reader:
         for each in known:
             if each.isupper() and each not in given:
                 raise Alarm(f"{name} needs {each}", span)
-        return Part("function", name, span, given)
+        return Operand("function", name, span, given)
 
     def number(self, word: str, begin: int) -> Expression:
         blank = self.done
@@ -173,7 +173,7 @@ class _Reader:
         return parse(found.group(), self.place(1, at))
 
 
-def _text(part: Part, variables: Mapping[str, Any]) -> str:
+def _text(part: Operand, variables: Mapping[str, Any]) -> str:
     if part.kind == "literal":
         return part.text
     if part.kind == "variable":
@@ -186,14 +186,14 @@ def _text(part: Part, variables: Mapping[str, Any]) -> str:
     return {"TOCHAR": _tochar, "SUBSTR": _substr, "SYSSTR": _sysstr}[part.text](part, variables)
 
 
-def _whole(part: Part, name: str, variables: Mapping[str, Any], most: float) -> int:
+def _whole(part: Operand, name: str, variables: Mapping[str, Any], most: float) -> int:
     value: float = part.arguments[name].evaluate(variables)
     if value != int(value) or not 0 <= value <= most:
         raise Alarm(f"{part.text} {name} must be a whole number from 0 to {most:g}, got {value:g}", part.span)
     return int(value)
 
 
-def _tochar(part: Part, variables: Mapping[str, Any]) -> str:
+def _tochar(part: Operand, variables: Mapping[str, Any]) -> str:
     """A number as a text: with the decimals that are asked for, or with those that it has."""
     value = part.arguments["DAT"].evaluate(variables)
     if "DECIMALS" not in part.arguments:
@@ -201,7 +201,7 @@ def _tochar(part: Part, variables: Mapping[str, Any]) -> str:
     return f"{value:.{_whole(part, 'DECIMALS', variables, MOST_DECIMALS)}f}"
 
 
-def _substr(part: Part, variables: Mapping[str, Any]) -> str:
+def _substr(part: Operand, variables: Mapping[str, Any]) -> str:
     """Characters of a text, which must be there."""
     source = _text(part.arguments["SRC"], variables)
     begin, length = (_whole(part, name, variables, LONGEST) for name in ("BEG", "LEN"))
@@ -211,7 +211,7 @@ def _substr(part: Part, variables: Mapping[str, Any]) -> str:
     return source[begin : begin + length]
 
 
-def _sysstr(part: Part, variables: Mapping[str, Any]) -> str:
+def _sysstr(part: Operand, variables: Mapping[str, Any]) -> str:
     """What the control keeps in a variable of this name: `SYSSTR ID10950 NR1`."""
     named = (f"{name}{part.arguments[name].evaluate(variables):g}" for name in ("ID", "NR", "IDX") if name in part.arguments)
     name = " ".join(("SYSSTR", *named))
@@ -221,14 +221,14 @@ def _sysstr(part: Part, variables: Mapping[str, Any]) -> str:
         raise Alarm(f"{name} is not built yet", part.span) from None
 
 
-def _tonumb(part: Part, variables: Mapping[str, Any]) -> float:
+def _tonumb(part: Operand, variables: Mapping[str, Any]) -> float:
     source = _text(part.arguments["SRC"], variables).strip()
     if not re.fullmatch(r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)", source, re.ASCII) or len(source) > 40:
         raise Alarm(f'TONUMB needs a text that is one number, got "{source[:40]}"', part.span)
     return float(source.replace(",", "."))
 
 
-def _strlen(part: Part, variables: Mapping[str, Any]) -> float:
+def _strlen(part: Operand, variables: Mapping[str, Any]) -> float:
     """How many characters; -1 for a QS parameter that has no text."""
     source = part.arguments["SRC"]
     if source.kind == "variable" and variables.get(source.text) is None:
@@ -236,7 +236,7 @@ def _strlen(part: Part, variables: Mapping[str, Any]) -> float:
     return len(_text(source, variables))
 
 
-def _instr(part: Part, variables: Mapping[str, Any]) -> float:
+def _instr(part: Operand, variables: Mapping[str, Any]) -> float:
     """Where a text begins in another, looked for from BEG on; the length of that one if nowhere."""
     source, sought = (_text(part.arguments[name], variables) for name in ("SRC", "SEA"))
     begin = _whole(part, "BEG", variables, LONGEST) if "BEG" in part.arguments else 0
@@ -244,12 +244,12 @@ def _instr(part: Part, variables: Mapping[str, Any]) -> float:
     return at if at >= 0 else len(source)
 
 
-def _strcomp(part: Part, variables: Mapping[str, Any]) -> float:
+def _strcomp(part: Operand, variables: Mapping[str, Any]) -> float:
     """0 for the same text, -1 if the first comes before the second in the order of the characters, else 1."""
     one, other = (_text(part.arguments[name], variables) for name in ("SRC", "SEA"))
     return (one > other) - (one < other)
 
 
-_NUMBER_OF: dict[str, Callable[[Part, Mapping[str, Any]], Any]] = {
+_NUMBER_OF: dict[str, Callable[[Operand, Mapping[str, Any]], Any]] = {
     "TONUMB": _tonumb, "STRLEN": _strlen, "INSTR": _instr, "STRCOMP": _strcomp, "CFGREAD": _text,
 }  # fmt: skip

@@ -31,7 +31,7 @@ DRILLS, UNJUDGED = ("drill", "reamer", "countersink"), ("probe", "tap", "thread 
 MORE = 1 + 1e-9
 
 
-class Cut(NamedTuple):
+class ToolCut(NamedTuple):
     """How one tool cuts, from the least to the greatest value that occurs; None where it is not known.
 
     `speed` n rev/min, `surface` vc m/min, `feed` vf mm/min, `per_rev` and `per_tooth` mm, `depth` ap, `width` ae and `chip`
@@ -56,12 +56,12 @@ class Cut(NamedTuple):
     seen: tuple[int, int] = (0, 0)
 
 
-class CuttingData(Rows[Cut]):
-    """The cutting data of a run, one `Cut` a tool; it prints as a table, in the unit of the program."""
+class CuttingData(Rows[ToolCut]):
+    """The cutting data of a run, one `ToolCut` a tool; it prints as a table, in the unit of the program."""
 
     NOTHING = "nothing is cut"
 
-    def __init__(self, cuts: Sequence[Cut], unit: Unit, notes: Sequence[str] = ()) -> None:
+    def __init__(self, cuts: Sequence[ToolCut], unit: Unit, notes: Sequence[str] = ()) -> None:
         super().__init__(cuts, unit)
         self.notes = tuple(notes)
 
@@ -124,7 +124,7 @@ def cutting_data(
     how far a run went that stopped before its end, `unknown` why there is no removal.
     """
     kinds = np.isin(path.kind, (Kind.LINE, Kind.ARC)) & (path.lengths > 0)
-    found: list[Cut] = []
+    found: list[ToolCut] = []
     for number in dict.fromkeys(numbers[kinds].tolist()):
         tool, rows = tools.get(number, Tool()), np.flatnonzero(kinds & (numbers == number))
         if number and tool.kind not in UNJUDGED:
@@ -134,7 +134,7 @@ def cutting_data(
 
 
 def _notes(
-    found: Sequence[Cut], path: Toolpath, removal: Removal | None, limits: Limits, unknown: str
+    found: Sequence[ToolCut], path: Toolpath, removal: Removal | None, limits: Limits, unknown: str
 ) -> Iterator[str]:  # fmt: skip
     """How the numbers are to be read."""
     if not found:
@@ -165,7 +165,7 @@ def _notes(
         yield f"All within the limits of the machine, {spindle}{fastest} {path.unit.short}/min."
 
 
-def _met(found: Sequence[Cut], chip: bool = False) -> str:
+def _met(found: Sequence[ToolCut], chip: bool = False) -> str:
     """What of the material is known of some of the tools: "ap and ae"."""
     names = {"ap": "depth", "ae": "width"} | ({"hm": "chip"} if chip else {})
     known = [short for short, name in names.items() if any(getattr(cut, name) for cut in found)]
@@ -175,7 +175,7 @@ def _met(found: Sequence[Cut], chip: bool = False) -> str:
 def _cut(
     path: Toolpath, number: int, tool: Tool, rows: Index, limits: Limits, removal: Removal | None,
     most: Mapping[str, Mapping[int, float]], kc: float | None,
-) -> Iterator[Cut]:  # fmt: skip
+) -> Iterator[ToolCut]:  # fmt: skip
     if removal is not None:
         rows = rows[removal.volumes[rows] > 0]
     drilled, met = tool.kind in DRILLS, rows
@@ -193,7 +193,7 @@ def _cut(
         radii = np.abs(np.stack([path.start[rows, 0], path.end[rows, 0]], axis=1) - path.spindle_x[rows][:, None])
     surface, per_rev = 2 * np.pi * radii * speed / 1000, feed / speed
     per_tooth = per_rev / tool.teeth if tool.teeth and not path.lathe else None
-    cut = Cut(number, tool.name, _pair(speed), _pair(surface), _pair(feed), _pair(per_rev))
+    cut = ToolCut(number, tool.name, _pair(speed), _pair(surface), _pair(feed), _pair(per_rev))
     if per_tooth is not None:
         cut = cut._replace(per_tooth=_pair(per_tooth))
         if tool.kind == "drill":
@@ -222,7 +222,7 @@ def _speeds(path: Toolpath, rows: Index, limits: Limits) -> tuple[Array, Array]:
         return speed, np.where(np.isnan(time), feed, 60 * path.lengths[rows][:, None] / time)
 
 
-def _with_rate(cut: Cut, rows: Index, removal: Removal, kc: float | None) -> Cut:
+def _with_rate(cut: ToolCut, rows: Index, removal: Removal, kc: float | None) -> ToolCut:
     """How fast all rows that meet material take it away, plunges too."""
     seconds, greatest = float(removal.seconds[rows].sum()), float(removal.greatest[rows].max())
     mean = 60 * float(removal.volumes[rows].sum()) / seconds if seconds else 0.0
@@ -230,7 +230,7 @@ def _with_rate(cut: Cut, rows: Index, removal: Removal, kc: float | None) -> Cut
     return cut._replace(rate=(mean, greatest), power=None if kc is None else greatest * kc / 60e6, open=open_)
 
 
-def _with_material(cut: Cut, path: Toolpath, tool: Tool, rows: Index, per_tooth: Array | None, removal: Removal) -> Cut:
+def _with_material(cut: ToolCut, path: Toolpath, tool: Tool, rows: Index, per_tooth: Array | None, removal: Removal) -> ToolCut:
     """What is known of the material that the rows meet."""
     looks = removal.looks.get(cut.tool)
     if looks is None or tool.kind in DRILLS or (path.lathe and tool.kind not in ("turning", "boring")):
@@ -249,7 +249,7 @@ def _with_material(cut: Cut, path: Toolpath, tool: Tool, rows: Index, per_tooth:
 
 
 def _beyond(
-    cut: Cut, axes: Sequence[tuple[float, float]], limits: Limits, most: Mapping[str, Mapping[int, float]]
+    cut: ToolCut, axes: Sequence[tuple[float, float]], limits: Limits, most: Mapping[str, Mapping[int, float]]
 ) -> Iterator[str]:  # fmt: skip
     """What is above its limit; of each axis what it goes at most and what it bears, mm/min."""
     judged = [("n", cut.speed, limits.spindle)]

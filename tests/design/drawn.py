@@ -10,11 +10,11 @@ from mnclab.design.drawing.view import (
     Cut,
     Diameter,
     Kind,
-    Line,
     Linear,
     Note,
     Radius,
     View,
+    ViewLine,
     thread_circle,
     value,
 )
@@ -40,19 +40,19 @@ def plate(seed, holes=None):
     some = random.Random(seed)
     size = some.choice([25, 60, 110, 250, 600])
     wide, high, thick = (round(size * some.uniform(*span), some.choice([0, 1])) for span in ((0.7, 1), (0.4, 0.9), (0.1, 0.4)))
-    lines, axes, dims = [Line(rectangle(0, 0, wide, high))], [], []
+    lines, axes, dims = [ViewLine(rectangle(0, 0, wide, high))], [], []
     dims += [Linear((0, 0), (wide, 0), value(wide)), Linear((0, 0), (0, high), value(high, tolerance=tolerance(some)), "y")]
     x0, y0 = (round(some.uniform(0.2, 0.4) * side, 1) for side in (wide, high))
     x1, y1 = (round(some.uniform(0.6, 0.8) * side, 1) for side in (wide, high))
     r = round(0.2 * min(x1 - x0, y1 - y0), 1)
-    lines.append(Line(rectangle(x0, y0, x1, y1, r)))
+    lines.append(ViewLine(rectangle(x0, y0, x1, y1, r)))
     dims += [Linear((x0, y0), (x1, y0), value(x1 - x0, tolerance=tolerance(some))), Linear((0, 0), (x0, y0), value(x0))]
     dims += [Linear((x1, y0), (x1, y1), value(y1 - y0), "y"), Linear((x1, 0), (x1, y0), value(y0), "y")]
     dims.append(Radius((x1 - r, y1 - r), r, 0, math.pi / 2, value(r, "4× R")))
     for _ in range(some.randint(0, 6) if holes is None else holes):
         x, y = round(some.uniform(0.08, 0.92) * wide, 1), round(some.choice([0.1, 0.9]) * high, 1)
         d = round(some.uniform(0.03, 0.1) * min(wide, high), 1)
-        lines.append(Line(Contour.circle((x, y), d / 2)))
+        lines.append(ViewLine(Contour.circle((x, y), d / 2)))
         axes.append(Cross((x, y), d / 2))
         if some.random() < 0.3:
             lines.append(thread_circle((x, y), d / 2 * 1.2))
@@ -71,13 +71,13 @@ def plate(seed, holes=None):
     step = Contour(floor, closed=False)
     front_dims = [Linear((0, 0), (0, thick), value(thick), "y"), Linear((x1, thick - depth), (x1, thick), value(depth), "y")]
     front = View(
-        "A–A", (Line(rectangle(0, 0, wide, thick)), Line(step)), (cut,) if cuts else (), tuple(front_dims),
+        "A–A", (ViewLine(rectangle(0, 0, wide, thick)), ViewLine(step)), (cut,) if cuts else (), tuple(front_dims),
         title="A–A" if cuts else "",
     )  # fmt: skip
     views = [plan, front]
     if some.random() < 0.4:
         inner = Contour([(y0, thick), (y0, thick - depth), (y1, thick - depth), (y1, thick)], closed=False)
-        views.append(View("left", (Line(rectangle(0, 0, high, thick)), Line(inner, Kind.HIDDEN)), cell=(1, 0)))
+        views.append(View("left", (ViewLine(rectangle(0, 0, high, thick)), ViewLine(inner, Kind.HIDDEN)), cell=(1, 0)))
     return views
 
 
@@ -92,7 +92,7 @@ def shaft(seed):
         z = round(z + length, 1)
     upper = [(z0, 0.5 * d) for a, b, d in steps for z0 in (a, b)]
     outline = Contour([(0, 0), *upper, (z, 0)] + [(x, -y) for x, y in reversed(upper)])
-    lines = [Line(outline)]
+    lines = [ViewLine(outline)]
     dims = [Linear((0, 0), (z, 0), value(z))]
     for k, (a, b, d) in enumerate(steps):
         if k < count - 1:
@@ -102,13 +102,13 @@ def shaft(seed):
                 dims.append(Linear((a, -d / 2), (b, -d / 2), length, side=some.choice(["", "below"])))
             else:
                 dims.append(Linear((0, -steps[0][2] / 2), (b, -d / 2), value(b)))
-        lines.append(Line(Contour([(b, -d / 2), (b, d / 2)], closed=False)))
+        lines.append(ViewLine(Contour([(b, -d / 2), (b, d / 2)], closed=False)))
         dims.append(Linear((a, -d / 2), (b, d / 2), value(d, "⌀", tolerance(some)), "y", inside=True))
         if some.random() < 0.3:
             dims.append(Note((b, d / 2), ("1×45°",)))
     cone = round(some.uniform(5, 15), 1)
     way = 10 * math.tan(math.radians(cone))
-    lines.append(Line(Contour([(z, -5), (z + 10, -5 + way), (z + 10, 5 - way), (z, 5)], closed=False)))
+    lines.append(ViewLine(Contour([(z, -5), (z + 10, -5 + way), (z + 10, 5 - way), (z, 5)], closed=False)))
     z_near = (5 - way) / math.sin(math.radians(cone))
     dims.append(Angle((z + 5 / math.tan(math.radians(cone)), 0), (z, 5), (z, -5), value(2 * cone, after="°"), z_near))
     return [View("front", tuple(lines), (), tuple(dims), (Axis((0, 0), (z + 10, 0)),))]

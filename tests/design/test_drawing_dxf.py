@@ -7,7 +7,7 @@ import pytest
 from design.drawn import plate, shaft
 
 from mnclab.design.drawing.drawing import draw
-from mnclab.design.drawing.view import Angle, Axis, Diameter, Kind, Line, Linear, Note, Radius, View, value
+from mnclab.design.drawing.view import Angle, Axis, Diameter, Kind, Linear, Note, Radius, View, ViewLine, value
 from mnclab.geometry.contours import Contour
 
 ezdxf = pytest.importorskip("ezdxf")
@@ -24,8 +24,9 @@ DIMENSIONS = (
 VIEW = View(
     "front",
     (
-        Line(SQUARE), Line(Contour.circle((20, 15), 5)), Line(Contour([(0, 10), (40, 10)], closed=False), Kind.HIDDEN),
-        Line(Contour([(34, 20), (30, 24)], [math.tan(math.pi / 8), 0], closed=False)),
+        ViewLine(SQUARE), ViewLine(Contour.circle((20, 15), 5)),
+        ViewLine(Contour([(0, 10), (40, 10)], closed=False), Kind.HIDDEN),
+        ViewLine(Contour([(34, 20), (30, 24)], [math.tan(math.pi / 8), 0], closed=False)),
     ),
     (), DIMENSIONS, (Axis((0, 15), (40, 15)),),
 )  # fmt: skip

@@ -12,14 +12,14 @@ from matplotlib.image import imread
 from mnclab.design.drawing.drawing import draw
 from mnclab.design.drawing.ink import width_of
 from mnclab.design.drawing.sheet import SIZES, Table, Title, fitted, scale_text
-from mnclab.design.drawing.view import Cross, Cut, Diameter, Line, Linear, Note, Value, View, number, value
+from mnclab.design.drawing.view import Cross, Cut, Diameter, Linear, Note, Value, View, ViewLine, number, value
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.text.alarm import Alarm
 
 
 def block(wide, high, *dimensions, name="front", **more):
-    return View(name, (Line(rectangle(0, 0, wide, high)),), (), dimensions, **more)
+    return View(name, (ViewLine(rectangle(0, 0, wide, high)),), (), dimensions, **more)
 
 
 def texts(drawing, of):
@@ -133,7 +133,7 @@ def test_files_have_the_true_size(tmp_path):
 
 
 def test_circles_in_a_file_are_curves(tmp_path):
-    view = View("round", (Line(Contour.circle((0, 0), 20)),), axes=(Cross((0, 0), 20),))
+    view = View("round", (ViewLine(Contour.circle((0, 0), 20)),), axes=(Cross((0, 0), 20),))
     svg = draw([view], "part").save(tmp_path / "part.svg").read_text("utf-8")
     outline = re.search(r'<g id="OUTLINE">\s*<path d="([^"]*)"', svg)[1]
     assert outline.count("C") == 8 and outline.count("L") <= 1  # the one that closes it
@@ -162,7 +162,7 @@ def test_rows_of_dimensions_are_ten_and_then_seven_apart():
 
 def test_hatching_keeps_away_from_texts():
     note = Note((50, 30), ("⌀12 H7",))
-    view = View("section", (Line(rectangle(0, 0, 100, 60)),), (Region.of(rectangle(0, 0, 100, 60)),), (note,))
+    view = View("section", (ViewLine(rectangle(0, 0, 100, 60)),), (Region.of(rectangle(0, 0, 100, 60)),), (note,))
     ((laid, _),) = draw([view], "part", scale=1).sheets[0].views
     x, y, u, v, *_ = laid.marks[0].labels[0].box()
     along = np.linspace(0, 1, 200)[:, None, None]
@@ -184,7 +184,7 @@ def test_a_cut_has_letters_at_both_ends_outside_the_view():
 
 
 def test_a_large_circle_has_its_dimension_line_across():
-    view = View("round", (Line(Contour.circle((0, 0), 40)),), (), (Diameter((0, 0), 40, value(80, "⌀")),))
+    view = View("round", (ViewLine(Contour.circle((0, 0), 40)),), (), (Diameter((0, 0), 40, value(80, "⌀")),))
     ((laid, _),) = draw([view], "part", scale=1).sheets[0].views
     first, last = (np.array(arrow.tip) for arrow in laid.marks[0].arrows)
     assert first == pytest.approx(-last) and np.hypot(*first) == pytest.approx(40)

@@ -10,7 +10,7 @@ from mnclab.machining.depths import TooMany
 from mnclab.machining.milling import faces
 from mnclab.machining.milling.entries import Entry, descend, helix, pendulum, vertical
 from mnclab.machining.milling.faces import Layer, face
-from mnclab.machining.milling.pocket_steps import Feeds, Room, approaching, leaving, rough, way_down
+from mnclab.machining.milling.pocket_steps import LevelFeeds, Room, approaching, leaving, rough, way_down
 from mnclab.machining.steps import Along, Go, Turn
 
 
@@ -63,7 +63,7 @@ def test_a_layer_begins_where_the_one_before_has_cut():
 
     clearing = faces.circle(40, 5, 5)
     steps = list(
-        rough(clearing, (-4, -8, -10), surface=0, clearance=2, down=down, feeds=Feeds(400, 90), departure=2, side=1)
+        rough(clearing, (-4, -8, -10), surface=0, clearance=2, down=down, feeds=LevelFeeds(400, 90), departure=2, side=1)
     )
     assert asked == [(0, -4), (-4, -8), (-8, -10)]
     assert [step.z for step in steps if step.label.endswith("lift")] == [-2, -6, -8]

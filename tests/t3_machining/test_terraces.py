@@ -4,12 +4,12 @@ import pytest
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.machining.milling.terraces import Joined, Part, at_depth, levels, parts, terraces
+from mnclab.machining.milling.terraces import DeepArea, Joined, at_depth, levels, parts, terraces
 
 
 def box(x, y, width, height, depth=0.0):
     corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
-    return Part(Region.of(Contour(corners)), depth)
+    return DeepArea(Region.of(Contour(corners)), depth)
 
 
 def found(formula, whole):

@@ -123,18 +123,18 @@ def test_a_long_program_goes_on_over_pages_with_its_line_numbers():
 def test_numbers_of_a_table_stand_under_each_other_by_their_points():
     """The point of 12.25 and the end of 8 stand at one place, and the letters of both are as wide as the font says."""
     from mnclab.show.plot.page_sheet import tabled
-    from mnclab.show.report.document import Table
+    from mnclab.show.report.document import TextTable
 
-    made = tabled(Table(("n",), [("12.25",), ("8",), ("-0.5",)], (0,)), 400)
+    made = tabled(TextTable(("n",), [("12.25",), ("8",), ("-0.5",)], (0,)), 400)
     points = [x + width(text.partition(".")[0], made.size) for row in made.rows for text, x in row.cells[0]]
     assert max(points) - min(points) < 1e-9
 
 
 def test_a_table_too_wide_for_the_page_is_folded():
     from mnclab.show.plot.page_sheet import tabled
-    from mnclab.show.report.document import Table
+    from mnclab.show.report.document import TextTable
 
-    made = tabled(Table(("a", "b"), [("word " * 60, "1"), ("w" * 200, "2")], (1,)), 300)
+    made = tabled(TextTable(("a", "b"), [("word " * 60, "1"), ("w" * 200, "2")], (1,)), 300)
     assert made.wide <= 300.01
     ends = [x + width(text, made.size) for row in made.rows for text, x in row.cells[0]]
     assert max(ends) <= 300 and "".join(text for text, _ in made.rows[1].cells[0]) == "w" * 200

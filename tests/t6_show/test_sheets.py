@@ -10,7 +10,7 @@ from mnclab import __main__ as shell
 from mnclab.show.plot.colours import QUARTERS
 from mnclab.show.plot.set_up import plot_set_up
 from mnclab.show.report import gathering
-from mnclab.show.report.document import Table
+from mnclab.show.report.document import TextTable
 
 PROGRAM = "T1 M6\nG90 G55\nS2000 M3\nG43 H11 D3 G0 X-10 Y10 Z5\nG1 Z-2 F100\nX90 F300\n"
 PROGRAM += "T2 M6\nG43 H2 G0 Z5\nG81 X5 Y5 Z-9 R2 F80\n"
@@ -28,7 +28,7 @@ def plate():
 
 
 def tables(pieces):
-    found = [each for each in pieces if isinstance(each, Table)]
+    found = [each for each in pieces if isinstance(each, TextTable)]
     return [dict(zip(each.head, row)) if each.head else tuple(row) for each in found for row in each.rows]
 
 

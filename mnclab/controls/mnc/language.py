@@ -20,7 +20,7 @@ from mnclab.text.program import Word, digits
 
 # What the MNC keeps beside the common state of a machine.
 
-class Polar(NamedTuple):
+class PolarPosition(NamedTuple):
     """The last polar position: radius, mm, and angle, degrees, about the pole; and the point that it is."""
 
     radius: float
@@ -32,7 +32,7 @@ class Polar(NamedTuple):
 class Memory(motion.Memory):
     """Of the MNC."""
 
-    polar: Polar | None = None  # while a pole is active
+    polar: PolarPosition | None = None  # while a pole is active
     run_up: int = -1  # the step that last waited for the spindle
     base_rotation: float = 0.0  # degrees, counter-clockwise
     laser: dict[str, float] = field(default_factory=dict)  # what calibrations found of the tool setter

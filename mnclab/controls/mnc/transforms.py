@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from mnclab.controls.mnc.language import Polar, absolute, memory
+from mnclab.controls.mnc.language import PolarPosition, absolute, memory
 from mnclab.controls.word_address.motion import AXES, as_a_line, coordinates, first_word, helix, uncompensated
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
@@ -50,7 +50,7 @@ def polar_on(m: Machine, words: Words) -> None:
     )
     m.pole = (u, v)
     m.log("pole", m.pole)
-    memory(m).polar = Polar(*polar_of(m, m.pole), m.programmed)
+    memory(m).polar = PolarPosition(*polar_of(m, m.pole), m.programmed)
 
 
 @FUNCTIONS("G15", "Polar coordinates off", group="polar", phase="frames", power_on="G15", source="2.8.5")
@@ -89,7 +89,7 @@ def target(m: Machine, words: Words) -> dict[str, Any]:
     turned = math.radians(angle)
     to[first.lower()] = m.pole[0] + radius * math.cos(turned)
     to[second.lower()] = m.pole[1] + radius * math.sin(turned)
-    memory(m).polar = Polar(radius, angle, m.target(**{axis: to.get(axis) for axis in "xyz"}))
+    memory(m).polar = PolarPosition(radius, angle, m.target(**{axis: to.get(axis) for axis in "xyz"}))
     return to
 
 

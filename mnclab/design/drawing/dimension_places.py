@@ -18,7 +18,7 @@ from mnclab.design.drawing.ink import (
     OVERSHOOT,
     PITCH,
     Arrow,
-    Block,
+    InkBlock,
     Label,
     Mark,
     block,
@@ -136,7 +136,7 @@ def _sign(dimension: Linear, frame: Frame) -> int:
     return SIDES[dimension.side] * (-1 if turned else 1)
 
 
-def _texts(frame: Frame, text: Block) -> Iterator[tuple[float, float, bool]]:
+def _texts(frame: Frame, text: InkBlock) -> Iterator[tuple[float, float, bool]]:
     """Costs, where the text begins (u), and whether the arrowheads stand inside."""
     left, right = frame.left[0], frame.right[0]
     length = right - left
@@ -149,7 +149,7 @@ def _texts(frame: Frame, text: Block) -> Iterator[tuple[float, float, bool]]:
 
 
 def _linear_mark(
-    dimension: Linear, frame: Frame, text: Block, sign: int, v: float, start: float, inside: bool, cost: float
+    dimension: Linear, frame: Frame, text: InkBlock, sign: int, v: float, start: float, inside: bool, cost: float
 ) -> Mark:
     left, right = frame.left[0], frame.right[0]
     begin, end = (left, right) if inside else (left - STUB, right + STUB)
@@ -253,7 +253,7 @@ class Tip(NamedTuple):
     cost: float
 
 
-def texts_of(called: Called) -> list[Block]:
+def texts_of(called: Called) -> list[InkBlock]:
     """The lines of text."""
     if isinstance(called, Note):
         return [block(line) for line in called.lines]
@@ -297,7 +297,7 @@ def _slope(angle: float) -> float:
     return 0.06 * abs(steep - 52.0)
 
 
-def _leader_mark(called: Called, texts: list[Block], tip: Tip, length: float, right: bool, cost: float) -> Mark:
+def _leader_mark(called: Called, texts: list[InkBlock], tip: Tip, length: float, right: bool, cost: float) -> Mark:
     knee = tip.at[0] + length * math.cos(tip.angle), tip.at[1] + length * math.sin(tip.angle)
     width = max(text.width for text in texts) + 1.0
     end = knee[0] + (width if right else -width), knee[1]
@@ -314,7 +314,7 @@ def _leader_mark(called: Called, texts: list[Block], tip: Tip, length: float, ri
     return mark
 
 
-def _across(called: Diameter, scale: float, texts: list[Block]) -> Iterator[Mark]:
+def _across(called: Diameter, scale: float, texts: list[InkBlock]) -> Iterator[Mark]:
     """The dimension line through the centre of a large circle, its text along it."""
     radius, text = called.radius * scale, texts[0]
     if 2 * radius < max(ACROSS, text.width + 2 * ARROW + 4) or len(texts) > 1:

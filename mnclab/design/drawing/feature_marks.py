@@ -14,11 +14,11 @@ from mnclab.design.drawing.view import (
     Cross,
     Diameter,
     Kind,
-    Line,
     Linear,
     Note,
     Point,
     Value,
+    ViewLine,
     number,
     thread_circle,
     value,
@@ -52,7 +52,7 @@ def feature_marks(draft: Draft, feature: Feature) -> None:
     elif shape is not None and not isinstance(feature, Chamfer):
         shape_marks(draft, shape, feature.width if isinstance(feature, Groove) else 0.0)
     if isinstance(feature, Groove):
-        draft.lines.append(Line(feature.contour.contour, Kind.CENTRE))
+        draft.lines.append(ViewLine(feature.contour.contour, Kind.CENTRE))
 
 
 def shape_marks(draft: Draft, shape: Shape, wider: float = 0.0) -> None:
@@ -168,7 +168,7 @@ def write_pattern(side: Side, numbers: Sequence[int], pattern: Ring | Lattice) -
 
 def _write_ring(side: Side, numbers: Sequence[int], ring: Ring) -> None:
     (cx, cy), radius = ring.centre, ring.radius
-    side.draft.lines.append(Line(Contour.circle(ring.centre, radius), Kind.CENTRE))
+    side.draft.lines.append(ViewLine(Contour.circle(ring.centre, radius), Kind.CENTRE))
     told = Diameter(ring.centre, radius, value(2 * radius, DIAMETER))
     side.ledger.say(side.draft, told, side.claims(numbers, "x", "y"))
     for axis, at in (("x", cx), ("y", cy)):
@@ -177,7 +177,7 @@ def _write_ring(side: Side, numbers: Sequence[int], ring: Ring) -> None:
     if min(min(angle, math.pi / 2 - angle) for angle in quarters) * radius < SAME:
         return  # one stands on a centre line, which says how they are turned
     level, hole = (cx + radius, cy), (cx + radius * math.cos(ring.first), cy + radius * math.sin(ring.first))
-    side.draft.lines.append(Line(Contour([ring.centre, level], closed=False), Kind.THIN))
+    side.draft.lines.append(ViewLine(Contour([ring.centre, level], closed=False), Kind.THIN))
     side.draft.dimensions.append(Angle(ring.centre, level, hole, value(math.degrees(ring.first), after="°")))
 
 

@@ -64,7 +64,7 @@ class Arrow(NamedTuple):
 class Label(NamedTuple):
     """A line of text where it begins on its baseline, and its direction (rad)."""
 
-    block: Block
+    block: InkBlock
     at: Point
     angle: float = 0.0
 
@@ -145,7 +145,7 @@ SIGN_WIDTH = 1.2  # with the room to the next letter
 _RUNS = re.compile(f"([{''.join(SIGNS)}])")
 
 
-class Piece(NamedTuple):
+class LetterRun(NamedTuple):
     """A run of letters or one drawn sign, at (x, y) from the start of its text."""
 
     text: str
@@ -159,10 +159,10 @@ class Piece(NamedTuple):
         return SIGNS.get(self.text, ())
 
 
-class Block(NamedTuple):
+class InkBlock(NamedTuple):
     """One line of text as it is set: its pieces, and the box around them (`low` is below the baseline)."""
 
-    pieces: tuple[Piece, ...]
+    pieces: tuple[LetterRun, ...]
     width: float
     low: float
     high: float
@@ -180,17 +180,17 @@ def width_of(text: str, height: float = HEIGHT) -> float:
 
 
 @cache
-def block(text: str, height: float = HEIGHT) -> Block:
+def block(text: str, height: float = HEIGHT) -> InkBlock:
     """A plain text as it is set."""
     pieces, x = [], 0.0
     for run in filter(None, _RUNS.split(text)):
-        pieces.append(Piece(run, x, 0.0, height))
+        pieces.append(LetterRun(run, x, 0.0, height))
         x += SIGN_WIDTH * height if run in SIGNS else width_of(run, height)
-    return Block(tuple(pieces), x, -DESCENT * height, ASCENT * height)
+    return InkBlock(tuple(pieces), x, -DESCENT * height, ASCENT * height)
 
 
 @cache
-def value_block(value: Value, height: float = HEIGHT) -> Block:
+def value_block(value: Value, height: float = HEIGHT) -> InkBlock:
     """A dimension's value: its text, its tolerance behind it, its deviations one above the other."""
     opening, closing = ("(", ")") if value.reference else ("", "")
     behind = f"\N{THIN SPACE}{value.tolerance}" if value.tolerance else ""
@@ -200,15 +200,15 @@ def value_block(value: Value, height: float = HEIGHT) -> Block:
     first = block(f"{opening}{value.text}{behind}", height)
     middle, x = 0.5 * height, first.width + 0.35 * height
     centre = STACKED / HEIGHT * height / 2
-    above = Piece(value.limits[0], x, middle + centre - small / 2, small)
-    below = Piece(value.limits[1], x, middle - centre - small / 2, small)
+    above = LetterRun(value.limits[0], x, middle + centre - small / 2, small)
+    below = LetterRun(value.limits[1], x, middle - centre - small / 2, small)
     x += max(width_of(each, small) for each in value.limits)
     pieces = [*first.pieces, above, below]
     if closing:
-        pieces.append(Piece(closing, x, 0.0, height))
+        pieces.append(LetterRun(closing, x, 0.0, height))
         x += width_of(closing, height)
     low = min(first.low, below.y - DESCENT * small)
-    return Block(tuple(pieces), x, low, max(first.high, above.y + small))
+    return InkBlock(tuple(pieces), x, low, max(first.high, above.y + small))
 
 
 CHORD = 0.02  # mm on paper

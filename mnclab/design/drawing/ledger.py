@@ -17,13 +17,13 @@ from mnclab.design.drawing.view import (
     Cut,
     Dimension,
     Kind,
-    Line,
     Linear,
     Origin,
     Point,
     Tolerance,
     Value,
     View,
+    ViewLine,
     value,
 )
 from mnclab.design.model.feature import Named
@@ -67,14 +67,14 @@ class Draft:
     cell: tuple[int, int]
     title: str = ""
     free: bool = False
-    lines: list[Line] = field(default_factory=list)
+    lines: list[ViewLine] = field(default_factory=list)
     hatches: tuple[Region, ...] = ()
     dimensions: list[Dimension] = field(default_factory=list)
     axes: list[Axis | Cross | Origin] = field(default_factory=list)
     cuts: list[Cut] = field(default_factory=list)
 
     def draw(self, contours: Sequence[Contour], kind: Kind = Kind.VISIBLE) -> None:
-        self.lines += [Line(contour, kind) for contour in contours]
+        self.lines += [ViewLine(contour, kind) for contour in contours]
 
     def view(self) -> View:
         return View(

@@ -36,7 +36,7 @@ from mnclab.design.drawing.ledger import (
     valued,
     written,
 )
-from mnclab.design.drawing.view import Angle, Diameter, Kind, Line, Linear, Note, Origin, Point, Radius
+from mnclab.design.drawing.view import Angle, Diameter, Kind, Linear, Note, Origin, Point, Radius, ViewLine
 from mnclab.design.model.design import Design
 from mnclab.design.model.feature import Feature
 from mnclab.design.model.features import Chamfer, Face, Groove, Pocket, Slope, Slot, Stud, along
@@ -209,7 +209,7 @@ class Side:
         (x, y), turned = centre, degrees if -90 < degrees < 180 else degrees % 180
         way = math.radians(turned)
         level, axis = (x + reach, y), (x + reach * math.cos(way), y + reach * math.sin(way))
-        self.draft.lines.append(Line(Contour([centre, level], closed=False), Kind.THIN))
+        self.draft.lines.append(ViewLine(Contour([centre, level], closed=False), Kind.THIN))
         told = Angle(centre, *((level, axis) if turned > 0 else (axis, level)), valued(measure, "", abs(turned), len(numbers)))
         self.ledger.say(self.draft, told, self.claims(numbers, "angle"))
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from mnclab.design.drawing.ledger import BLANK, DEPTH, DIAMETER, TIMES, Claim, Draft, Ledger, claims_of, valued, written
 from mnclab.design.drawing.projection import SAME, Seen, Step, look
-from mnclab.design.drawing.view import Angle, Axis, Kind, Line, Linear, Note, Origin, Point, Radius, Value
+from mnclab.design.drawing.view import Angle, Axis, Kind, Linear, Note, Origin, Point, Radius, Value, ViewLine
 from mnclab.design.model.measures import Measure
 from mnclab.design.model.turned_design import TurnedDesign
 from mnclab.design.model.turned_feature import TurnedFeature
@@ -202,7 +202,7 @@ class Turning:
             self.ledger.say(self.draft, Note(middle, (f"∠{written(each.measure, '')}",)), [claim])
             return
         level = wide[0], narrow[1]
-        self.draft.lines.append(Line(Contour([narrow, level], closed=False), Kind.THIN))
+        self.draft.lines.append(ViewLine(Contour([narrow, level], closed=False), Kind.THIN))
         legs = (level, wide) if wide[0] > narrow[0] else (wide, level)
         self.ledger.say(self.draft, Angle(narrow, *legs, valued(each.measure)), [claim])
 

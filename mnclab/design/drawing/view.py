@@ -44,7 +44,7 @@ class Kind(Enum):
         return self.value[1]
 
 
-class Line(NamedTuple):
+class ViewLine(NamedTuple):
     """A contour, open or closed, drawn as one kind of line; its arcs stay arcs."""
 
     contour: Contour
@@ -94,7 +94,7 @@ class View:
     """
 
     name: str
-    lines: tuple[Line, ...]
+    lines: tuple[ViewLine, ...]
     hatches: tuple[Region, ...] = ()
     dimensions: tuple[Dimension, ...] = ()
     axes: tuple[Axis | Cross | Origin, ...] = ()
@@ -115,14 +115,14 @@ class View:
         return np.array([corners.min(axis=0), corners.max(axis=0)])
 
 
-def thread_circle(centre: Point, radius: float) -> Line:
+def thread_circle(centre: Point, radius: float) -> ViewLine:
     """The thin three quarters of a circle by which ISO 6410-1 shows a thread from its end.
 
     `radius` is the greater one of a thread in a hole, the smaller one of a thread on a shaft.
     """
     quarter = [math.radians(angle) for angle in (100, 190, 280, 370)]
     points = [(centre[0] + radius * math.cos(a), centre[1] + radius * math.sin(a)) for a in quarter]
-    return Line(Contour(points, [math.tan(math.pi / 8)] * 4, closed=False), Kind.THIN)
+    return ViewLine(Contour(points, [math.tan(math.pi / 8)] * 4, closed=False), Kind.THIN)
 
 
 # What is written to a view: dimensions and notes with the points to which they belong, angles in rad.

@@ -74,15 +74,15 @@ class Profile:
         return line, first
 
     @cached_property
-    def pieces(self) -> tuple[Piece, ...]:
+    def pieces(self) -> tuple[ProfilePiece, ...]:
         """The lines and arcs of the section, counter-clockwise from the front end on; `corner` counts as given."""
         return self._pieces(self.roundings, self.chamfers)
 
-    def _pieces(self, roundings: Mapping[int, float], chamfers: Mapping[int, Any]) -> tuple[Piece, ...]:
+    def _pieces(self, roundings: Mapping[int, float], chamfers: Mapping[int, Any]) -> tuple[ProfilePiece, ...]:
         loop, first = self._loop
         found = pieces(loop, roundings, chamfers, WHAT, first)
         if joined(found).area < 0:
-            found = [Piece(each.end, each.start, -each.bulge, each.corner) for each in reversed(found)]
+            found = [ProfilePiece(each.end, each.start, -each.bulge, each.corner) for each in reversed(found)]
         begin = max(range(len(found)), key=lambda k: (found[k].start[0], -found[k].start[1]))
         return tuple(found[begin:] + found[:begin])
 
@@ -138,12 +138,12 @@ class Profile:
                 yield Dimension(Measure("", width, "chamfer", text=f"{width:g}×{lean:.6g}°"), each.start, each.end)
 
 
-def _level(piece: Piece) -> bool:
+def _level(piece: ProfilePiece) -> bool:
     """A cylinder."""
     return not piece.bulge and abs(piece.start[1] - piece.end[1]) <= SAME
 
 
-def _diameters(sharp: tuple[Piece, ...]) -> Iterator[Dimension]:
+def _diameters(sharp: tuple[ProfilePiece, ...]) -> Iterator[Dimension]:
     """Those of cylinders, and of corners where no cylinder begins or ends."""
     for k, each in enumerate(sharp):
         radius = each.start[1]
@@ -153,7 +153,7 @@ def _diameters(sharp: tuple[Piece, ...]) -> Iterator[Dimension]:
             yield Dimension(Measure("", 2 * radius, "diameter"), each.start, each.end)
 
 
-def _lengths(sharp: tuple[Piece, ...], low: float, high: float) -> Iterator[Dimension]:
+def _lengths(sharp: tuple[ProfilePiece, ...], low: float, high: float) -> Iterator[Dimension]:
     """From the front end to every other z of a corner."""
     places = {round(z, 9): (z, r) for each in sharp for z, r in (each.start, each.end)}
     for _, (z, r) in sorted(places.items(), reverse=True):
@@ -161,7 +161,7 @@ def _lengths(sharp: tuple[Piece, ...], low: float, high: float) -> Iterator[Dime
             yield Dimension(Measure("", high - z), (high, r), (z, r))
 
 
-def _angles(sharp: tuple[Piece, ...]) -> Iterator[Dimension]:
+def _angles(sharp: tuple[ProfilePiece, ...]) -> Iterator[Dimension]:
     """How far tapers lean from the axis, degrees."""
     for each in sharp:
         long, rise = abs(each.end[0] - each.start[0]), abs(each.end[1] - each.start[1])
@@ -177,7 +177,7 @@ def _angles(sharp: tuple[Piece, ...]) -> Iterator[Dimension]:
 Chamfer = float | tuple[float, float]
 
 
-class Piece(NamedTuple):
+class ProfilePiece(NamedTuple):
     """A line or an arc of the finished contour. `corner` is the number of the point that it breaks, None where it was given."""
 
     start: tuple[float, float]
@@ -200,7 +200,7 @@ class _Cut(NamedTuple):
 
 def pieces(
     contour: Contour, roundings: Mapping[int, float], chamfers: Mapping[int, Chamfer], what: str, first: int = 0
-) -> list[Piece]:
+) -> list[ProfilePiece]:
     """The elements of a closed contour and what breaks its corners, in order.
 
     `what` is how alarms call the contour, `first` the number by which they call its first point.
@@ -212,7 +212,7 @@ def pieces(
         if k - first in cuts:
             raise Alarm(f"corner {k} of {what} is either rounded or chamfered, got both")
         cuts[k - first] = _chamfer(contour, k - first, chamfer, f"the chamfer at corner {k} of {what}")
-    n, found = len(contour.points), list[Piece]()
+    n, found = len(contour.points), list[ProfilePiece]()
     for i, (first_point, last_point, has, sweep) in enumerate(
         zip(contour.starts, contour.ends, contour.lengths.tolist(), contour.sweeps.tolist())
     ):
@@ -225,13 +225,13 @@ def pieces(
             corners = " and ".join(str(k + first) for k in (i, (i + 1) % n) if k in cuts)
             raise Alarm(f"what breaks corner {corners} of {what} takes {taken:.6g} mm of an element that has {has:.6g}")
         if before:
-            found.append(Piece(_pair(before.first), _pair(before.last), before.bulge, i + first))
+            found.append(ProfilePiece(_pair(before.first), _pair(before.last), before.bulge, i + first))
         if left > SAME:
-            found.append(Piece(_pair(start), _pair(end), math.tan(sweep * left / has / 4)))
+            found.append(ProfilePiece(_pair(start), _pair(end), math.tan(sweep * left / has / 4)))
     return found
 
 
-def joined(found: list[Piece], closed: bool = True) -> Contour:
+def joined(found: list[ProfilePiece], closed: bool = True) -> Contour:
     """Pieces as a contour."""
     last = [] if closed else [found[-1].end]
     points, bulge = [each.start for each in found] + last, [each.bulge for each in found] + [0.0] * len(last)

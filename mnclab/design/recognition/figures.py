@@ -16,7 +16,7 @@ from mnclab.design.model.holes import Hole, core_of
 from mnclab.design.model.shapes import Circle, Outline, Rectangle
 from mnclab.design.recognition.areas import ON_EDGE, THIN, Area, Track, coarse, distinct, polygon, samples
 from mnclab.design.recognition.naming import ArcSlot, StraightSlot, designation, named, number, outline_of
-from mnclab.design.recognition.sorting import Cone, Plunge, Threaded, Work
+from mnclab.design.recognition.sorting import Cone, MillWork, Plunge, Threaded
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
@@ -38,7 +38,7 @@ class Recognised:
     floor: float
 
 
-def figures(area: Area, blank: Region, work: Work, top: float, bottom: float) -> Iterator[Recognised]:
+def figures(area: Area, blank: Region, work: MillWork, top: float, bottom: float) -> Iterator[Recognised]:
     """The features that make up an area, one or several studs."""
     above = top if area.top is None else area.top
     depth = number(above - area.floor)
@@ -82,7 +82,7 @@ def drawn(loop: Contour) -> Circle | Rectangle | Outline:
     return outline_of(loop) if isinstance(shape, ArcSlot) else shape
 
 
-def _hole(area: Area, work: Work, depth: float, bottom: float, more: dict[str, Any]) -> Hole | None:
+def _hole(area: Area, work: MillWork, depth: float, bottom: float, more: dict[str, Any]) -> Hole | None:
     """A round area that was drilled, plunged or bored by a helix, or goes through; else it is a pocket."""
     circle, tracks = area.shape, distinct(area.tracks)
     drill = next((each for each in work.plunges if _drilled(area, each)), None)
@@ -212,7 +212,7 @@ WIDER = 1.15, 2.5  # by which a counterbore is wider than its hole
 FLAT = 180.0
 
 
-def together(found: list[Recognised], work: Work, top: float, bottom: float) -> tuple[list[Recognised], list[str], list[int]]:
+def together(found: list[Recognised], work: MillWork, top: float, bottom: float) -> tuple[list[Recognised], list[str], list[int]]:
     """The features with their holes put together; notes; rows of points that no hole has."""
     found = [each for each in found if not (isinstance(each.feature, Hole) and _swallowed(each, found))]
     found = _counterbored(found)
@@ -283,7 +283,7 @@ def _seat(each: Recognised) -> float:
     return each.top - (each.feature.counterbore[1] if each.feature.counterbore else 0.0)
 
 
-def _countersunk(each: Recognised, work: Work) -> Recognised:
+def _countersunk(each: Recognised, work: MillWork) -> Recognised:
     """A hole with the cone of a pointed tool at its rim, the widest."""
     hole = each.feature
     if isinstance(hole, Hole):

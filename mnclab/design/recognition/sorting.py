@@ -70,7 +70,7 @@ class Threaded:
 
 
 @dataclass
-class Work:
+class MillWork:
     """All that a mill does: `levels` by height; `slopes` with the height of their lowest place; rows of `round` cutters."""
 
     levels: dict[float, list[Track]] = field(default_factory=dict)
@@ -83,13 +83,13 @@ class Work:
     cornered: dict[float, list[int]] = field(default_factory=dict)  # by the corner radius of the tool
 
 
-def sort(cutting: Cutting) -> Work:
+def sort(cutting: Cutting) -> MillWork:
     """The moves that reach into the blank, by what they do. What goes through the lower side ends at it."""
     moves, (low, high) = moves_of(cutting), np.asarray(cutting.stock.bounds)
     boxes = moves.boxes
     reaches = (boxes[:, :2] < high[:2] - TOUCH).all(axis=1) & (boxes[:, 2:] > low[:2] + TOUCH).all(axis=1)
     moves = moves[reaches & (moves.low < high[2] - TOUCH) & (moves.radius > 0)]
-    work, bottom, top = Work(), float(low[2]), float(high[2])
+    work, bottom, top = MillWork(), float(low[2]), float(high[2])
     threads = _threads(cutting, moves)
     work.threads = list(_threaded(cutting, moves, threads))
     moves = moves[~threads]

@@ -21,7 +21,7 @@ from mnclab.controls.choice import help as help_on
 from mnclab.controls.choice import run as run_text
 from mnclab.controls.cycle_steps import CycleSteps, steps
 from mnclab.lab.forms.fields import Field, field_of, folded, grouped, groups, parameter_box, tick_of
-from mnclab.lab.forms.live import Work, following, of_run
+from mnclab.lab.forms.live import NewPicture, following, of_run
 from mnclab.lab.sketches import sketch
 from mnclab.machine import trial
 from mnclab.machine.cycle import Cycle, Parameter, left_out
@@ -85,7 +85,7 @@ def form(code: str, control: str) -> Any:
     table, program = ipywidgets.HTML(), ipywidgets.HTML()
     table.add_class("mnclab-steps")
 
-    def work(live: Any) -> Work | None:
+    def work(live: Any) -> NewPicture | None:
         source = text()
         if source is None:
             live.shown = f"<p>no picture yet: a program around this cycle of {escape(name)} is not built</p>"

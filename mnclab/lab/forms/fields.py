@@ -102,7 +102,7 @@ ORDERS = "(value, least, greatest) or (least, greatest, step)"
 Number = float | tuple[float, float, float]
 
 
-class Place(NamedTuple):
+class NumberField(NamedTuple):
     """A number that may be changed: its first value, its limits and the step of its slider, where there are any."""
 
     value: float
@@ -110,7 +110,7 @@ class Place(NamedTuple):
     step: float | None = None
 
 
-def place_of(name: str, number: Any) -> Place:
+def place_of(name: str, number: Any) -> NumberField:
     """A number, `(value, least, greatest)`, or `(least, greatest, step)`, which begins on a step in the middle.
 
     Which of the two orders is meant is never in doubt: the first of (40, 10, 60) lies between the others, that of
@@ -122,12 +122,12 @@ def place_of(name: str, number: Any) -> Place:
     for part in parts:
         check_number(part, name)
     if len(parts) == 1:
-        return Place(parts[0])
+        return NumberField(parts[0])
     first, second, third = parts
     if second <= first <= third:
-        return Place(first, (second, third))
+        return NumberField(first, (second, third))
     if first < second and 0 < third <= second - first:
-        return Place(on_step(first + (second - first) / 2, first, second, third), (first, second), third)
+        return NumberField(on_step(first + (second - first) / 2, first, second, third), (first, second), third)
     hint = f"{name}=(5, 0, 10) is 5 between 0 and 10; {name}=(0, 10, 0.5) is 0 to 10 in steps of 0.5"
     raise Alarm(f"{name} must be {ORDERS}, and the value must lie between its limits, got {shown(number)}", hint=hint)
 
@@ -139,14 +139,14 @@ def on_step(value: float, least: float, greatest: float, step: float) -> float:
     return found if isinstance(found, int) else round(found, 9)
 
 
-def number_box(name: str, place: Place) -> Any:
+def number_box(name: str, place: NumberField) -> Any:
     """A box for a number; whole numbers stay whole."""
     whole = all(isinstance(each, int) for each in (place.value, place.step or 0))
     looks = {"description": name} | ({} if place.step is None else {"step": place.step})
     return box_of(int if whole else float, place.value, place.limits or (), looks)
 
 
-def slider_of(box: Any, place: Place) -> Any:
+def slider_of(box: Any, place: NumberField) -> Any:
     """A slider for a box with limits, which follow each other.
 
     It has no name for a screen reader: the box has, and is the one that the keyboard goes to. A slider says

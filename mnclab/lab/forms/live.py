@@ -103,7 +103,7 @@ DRAWING = ThreadPoolExecutor(1, thread_name_prefix="drawing")
 SIZE = (6.4, 4.4)  # inches, of a picture beside boxes
 
 
-class Work(NamedTuple):
+class NewPicture(NamedTuple):
     """What a change makes: what draws the picture, what is said below it, and the alarm that stopped it.
 
     `draw` takes `under` and `limits`, what the picture before was made of and its `box`; `made` is that for the next one.
@@ -119,7 +119,7 @@ class Work(NamedTuple):
 
 
 def following(
-    boxes: Mapping[str, Any], fields: Mapping[str, Field], left: Any, work: Callable[[Any], Work | None],
+    boxes: Mapping[str, Any], fields: Mapping[str, Field], left: Any, work: Callable[[Any], NewPicture | None],
     field_of: Callable[[Alarm], str] = lambda alarm: "", *also: Any, title: str = "panel", classes: str = "",
     below: Iterable[Any] = (), above: Iterable[Any] = (),
 ) -> Any:  # fmt: skip
@@ -172,7 +172,7 @@ def following(
     return live
 
 
-def _drawn(done: Work, former: Any, box: Any) -> tuple[str, Any]:
+def _drawn(done: NewPicture, former: Any, box: Any) -> tuple[str, Any]:
     """A picture as HTML, and what the next one keeps of it."""
     figure = done.draw(under=former, limits=box)
     return figure.html(), figure.box
@@ -184,10 +184,10 @@ def greyed(picture: str) -> str:
     return f'<figure class="mnclab-past"><div>{said}</div><figcaption>{PAST}</figcaption></figure>'
 
 
-def of_run(run: Run, draw: Callable[..., Any]) -> Work:
+def of_run(run: Run, draw: Callable[..., Any]) -> NewPicture:
     """The work of a run: its picture, its verdict, the alarm that stopped it, and the path that the next picture shows."""
     stop = None if run.ok else next((alarm for alarm in run.alarms if alarm.severity == ALARM), None)
-    return Work(draw, verdict(run), stop, run.toolpath)
+    return NewPicture(draw, verdict(run), stop, run.toolpath)
 
 
 def verdict(run: Run) -> str:

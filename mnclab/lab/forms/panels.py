@@ -12,8 +12,8 @@ import numpy as np
 
 from mnclab.controls.choice import choose
 from mnclab.controls.choice import run as run_text
-from mnclab.lab.forms.fields import ORDERS, Field, Number, Place, number_box, place_of, slider_of
-from mnclab.lab.forms.live import SIZE, Work, following, of_run
+from mnclab.lab.forms.fields import ORDERS, Field, Number, NumberField, number_box, place_of, slider_of
+from mnclab.lab.forms.live import SIZE, NewPicture, following, of_run
 from mnclab.machine import trial
 from mnclab.machine.setup import Setup
 from mnclab.path.profile import Profile
@@ -63,7 +63,7 @@ def panel(
         fields[name] = Field(box, *beside)
     written: list[tuple[str, str]] = []  # the text in pieces, and the place that each piece fills
 
-    def work(live: Any) -> Work:
+    def work(live: Any) -> NewPicture:
         written[:] = pieces(template, {name: box.value for name, box in boxes.items()})
         live.run = run = run_text("".join(text for text, _ in written), control, setup)
         return of_run(run, lambda **kept: run.plot(view=view, size=SIZE, **kept))
@@ -152,7 +152,7 @@ def compensation_panel(run: Run, **options: Any) -> Any:
 
     refuse_unknown(options, compensation)
     used = abs(run.programmed.radius[run.programmed.side != 0])
-    boxes = {"radius": number_box("tool radius [mm]", Place(float(used.max()) if len(used) else 5.0, (0.01, 1e4)))}
+    boxes = {"radius": number_box("tool radius [mm]", NumberField(float(used.max()) if len(used) else 5.0, (0.01, 1e4)))}
     corners = next((one for one in run.control.settings if one.name == "outside_corners"), None)
     if corners:
         choices = [(f"{name}: {meaning.split(',')[0]}", name) for name, meaning in corners.choices.items()]
@@ -160,7 +160,7 @@ def compensation_panel(run: Run, **options: Any) -> Any:
         boxes["corners"] = ipywidgets.Dropdown(options=choices, value=first, description="outside corners")
     fields = {name: Field(box) for name, box in boxes.items()}
 
-    def work(live: Any) -> Work:
+    def work(live: Any) -> NewPicture:
         setup = run.setup.with_radius(boxes["radius"].value)
         if corners:
             setup = setup.with_settings(outside_corners=boxes["corners"].value)
@@ -197,17 +197,17 @@ def profile_panel(profile: Profile | Run, **options: Any) -> Any:
     first = {name: round(float(np.min(getattr(limits, name) or 0.0)), 3) for name in LIMITS}
     first["override"] = round(100 * profile.override, 3)
     names = {name: f"{name.replace('_', ' ')} [{unit}]" for name, unit in (LIMITS | {"override": "%"}).items()}
-    boxes = {name: number_box(names[name], Place(value)) for name, value in first.items()}
+    boxes = {name: number_box(names[name], NumberField(value)) for name, value in first.items()}
     fields = {name: Field(box) for name, box in boxes.items()}
 
-    def work(live: Any) -> Work:
+    def work(live: Any) -> NewPicture:
         wanted: dict[str, Any] = {name: boxes[name].value for name in LIMITS if boxes[name].value != first[name]}
         if "jerk" in wanted:
             wanted["jerk"] = wanted["jerk"] or None
         live.profile = again = profile.again(replace(limits, **wanted), boxes["override"].value / 100)
         said = f'<div role="status">{again._repr_html_()}</div>'
         kept = {"size": SIZE_BELOW, "under": live.former, "held": live.box} | options
-        return Work(lambda **_: again.plot(**kept), said, made=again)
+        return NewPicture(lambda **_: again.plot(**kept), said, made=again)
 
     def field_of(alarm: Alarm) -> str:
         return next((name for name in boxes if name.replace("_", " ") in alarm.message.replace("_", " ")), "")

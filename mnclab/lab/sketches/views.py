@@ -14,7 +14,7 @@ from mnclab.lab.sketches.kinds import Draw, Kind
 LEFT, RIGHT, BASE, SIDE = 5, 91, 62, 30  # ends and foot of the material; where heights are dimensioned
 
 
-class Work(NamedTuple):
+class WorkOutline(NamedTuple):
     """The outline of what is worked, between the ends of the material; the tool in it, and how wide the opening is."""
 
     outline: tuple[Piece, ...]
@@ -52,19 +52,19 @@ def mirrored(points: tuple[Point, ...], about: float) -> tuple[Point, ...]:
 
 
 WORKS = {
-    "hole": Work(notch((52, 31), (52, 49), (62, 54), (72, 49), (72, 31)), 62, 10, "drill", (52, 72)),
-    "bore": Work(notch((52, 31), (52, 54), (72, 54), (72, 31)), 62, 8, "mill", (52, 72)),
-    "centring": Work(notch((46, 31), (62, 54), (78, 31)), 62, 5, "spot", (46, 78)),
-    "thread": Work(notch(*WALL, (52, 57), (72, 57), *mirrored(WALL, 62)), 62, 8, "mill", (52, 72)),
-    "outside thread": Work(notch((48, 54), *STUD, *mirrored(STUD, 58), (68, 54)), 79, 6, "mill", (48, 68)),
-    "back boring": Work(((LEFT, 31), (52, 31), (52, 41), (45, 41), (45, 49), (LEFT, 49)), 62, 5, "bar", (52, 72)),
-    "pocket": Work(notch((44, 31), (44, 54), (82, 54), (82, 31)), 62, 7, "mill", (44, 82)),
-    "stud": Work(notch((42, 54), (42, 31), (66, 31), (66, 54)), 79, 7, "mill", (42, 66)),
-    "face": Work(notch((54, 49), (54, 31)), 72, 12, "mill", (54, 91)),
-    "level face": Work(notch((54, 49), (54, 31)), 72, 12, "mill", (54, 91)),  # milled to its height at once
-    "engraving": Work(notch((56, 31), (62, 44), (68, 31)), 62, 4, "spot", (56, 68)),
-    "cylinder": Work(((52, 61, 36, 180, 104), (43, 41), (61, 41), (52, 61, 36, 76, 0)), 52, 6, "mill", (43, 61)),
-    "cylinder ridge": Work(((52, 61, 22, 180, 114), (52, 61, 36, 104, 76), (52, 61, 22, 66, 0)), 68, 5, "mill", (43, 61)),
+    "hole": WorkOutline(notch((52, 31), (52, 49), (62, 54), (72, 49), (72, 31)), 62, 10, "drill", (52, 72)),
+    "bore": WorkOutline(notch((52, 31), (52, 54), (72, 54), (72, 31)), 62, 8, "mill", (52, 72)),
+    "centring": WorkOutline(notch((46, 31), (62, 54), (78, 31)), 62, 5, "spot", (46, 78)),
+    "thread": WorkOutline(notch(*WALL, (52, 57), (72, 57), *mirrored(WALL, 62)), 62, 8, "mill", (52, 72)),
+    "outside thread": WorkOutline(notch((48, 54), *STUD, *mirrored(STUD, 58), (68, 54)), 79, 6, "mill", (48, 68)),
+    "back boring": WorkOutline(((LEFT, 31), (52, 31), (52, 41), (45, 41), (45, 49), (LEFT, 49)), 62, 5, "bar", (52, 72)),
+    "pocket": WorkOutline(notch((44, 31), (44, 54), (82, 54), (82, 31)), 62, 7, "mill", (44, 82)),
+    "stud": WorkOutline(notch((42, 54), (42, 31), (66, 31), (66, 54)), 79, 7, "mill", (42, 66)),
+    "face": WorkOutline(notch((54, 49), (54, 31)), 72, 12, "mill", (54, 91)),
+    "level face": WorkOutline(notch((54, 49), (54, 31)), 72, 12, "mill", (54, 91)),  # milled to its height at once
+    "engraving": WorkOutline(notch((56, 31), (62, 44), (68, 31)), 62, 4, "spot", (56, 68)),
+    "cylinder": WorkOutline(((52, 61, 36, 180, 104), (43, 41), (61, 41), (52, 61, 36, 76, 0)), 52, 6, "mill", (43, 61)),
+    "cylinder ridge": WorkOutline(((52, 61, 22, 180, 114), (52, 61, 36, 104, 76), (52, 61, 22, 66, 0)), 68, 5, "mill", (43, 61)),
 }
 
 
@@ -73,7 +73,7 @@ def height(family: str, name: str) -> float:
     return OTHERWISE.get(family, {}).get(name, HEIGHTS[name])
 
 
-def in_section(s: Sheet, family: str) -> Work:
+def in_section(s: Sheet, family: str) -> WorkOutline:
     """The material in section."""
     found = WORKS[family]
     if family == "back boring":

@@ -121,7 +121,7 @@ class Room(NamedTuple):
     direction: float = 0.0
 
 
-class Feeds(NamedTuple):
+class LevelFeeds(NamedTuple):
     """Feeds on a level and down to it; None is the one that is active. With `edge`, the tool radius, closed ones count there."""
 
     level: float | None
@@ -129,7 +129,7 @@ class Feeds(NamedTuple):
     edge: float = 0.0
 
 
-class Work(NamedTuple):
+class PocketWork(NamedTuple):
     """What is done to a figure: levels and feeds of each part, none where it is left out; `side` 1 is climb milling.
 
     Roughing leaves the `allowance` at the side and ends, as the walls do, at `left_over`. The tool clears what it has cut
@@ -144,7 +144,7 @@ class Work(NamedTuple):
     layers: tuple[float, ...]
     walls: tuple[float, ...]
     floor: tuple[float, ...]
-    feeds: tuple[Feeds, Feeds, Feeds]
+    feeds: tuple[LevelFeeds, LevelFeeds, LevelFeeds]
     side: int
 
     @property
@@ -168,7 +168,7 @@ def way_down(entry: Entry, room: Room, radius: float, climb: bool, top: float, b
 
 
 def rough(
-    clearing: Clearing, levels: Sequence[float], *, surface: float, clearance: float, down: Down, feeds: Feeds,
+    clearing: Clearing, levels: Sequence[float], *, surface: float, clearance: float, down: Down, feeds: LevelFeeds,
     departure: float, side: int, end: float | None = None,
 ) -> Iterator[Step]:  # fmt: skip
     """Every layer, off the wall on a radius `departure` (`side` 1: to its left), and up, at last to the height `end` if given."""
@@ -179,7 +179,7 @@ def rough(
         top = level
 
 
-def rough_slot(line: Contour, passes: Callable[[bool], Clearing], work: Work, down: Down) -> Iterator[Step]:
+def rough_slot(line: Contour, passes: Callable[[bool], Clearing], work: PocketWork, down: Down) -> Iterator[Step]:
     """Every layer of a slot about its centre line, which begins at (0, 0); after each the tool leaves the slot.
 
     `passes` clear it from the line outwards, which is followed from the end where the way down has led: backwards or not.
@@ -195,7 +195,7 @@ def rough_slot(line: Contour, passes: Callable[[bool], Clearing], work: Work, do
         top = level
 
 
-def finish_walls(wall: Contour, arcs: Sequence[Contour], work: Work, above: float) -> Iterator[Step]:
+def finish_walls(wall: Contour, arcs: Sequence[Contour], work: PocketWork, above: float) -> Iterator[Step]:
     """Round the wall on every level: up to it and off it on two arcs, if there are any; at first to the height `above`."""
     (_, feeds, _), side = work.feeds, work.side
     x, y = begin(arcs[0] if arcs else wall).tolist()
@@ -210,7 +210,7 @@ def finish_walls(wall: Contour, arcs: Sequence[Contour], work: Work, above: floa
 
 
 def finish_floor(
-    clearing: Clearing, work: Work, down: Down, departure: float, end: float | None = None
+    clearing: Clearing, work: PocketWork, down: Down, departure: float, end: float | None = None
 ) -> Iterator[Step]:
     """From what roughing has left to the floor, outwards, along the finished wall, and up, to the height `end` if given."""
     name = "floor finishing"
@@ -221,7 +221,7 @@ def finish_floor(
 
 
 def clear(
-    name: str, clearing: Clearing, down: Descent, feeds: Feeds, departure: float, side: int, *, middle: bool = True
+    name: str, clearing: Clearing, down: Descent, feeds: LevelFeeds, departure: float, side: int, *, middle: bool = True
 ) -> Iterator[Step]:
     """Down, over all passes and off the last one, at feed throughout; by way of the `middle` if so wished."""
     if len(down.heights) > 2:
@@ -292,7 +292,7 @@ def circular(diameter: float, radius: float, stepover: float, *, climb: bool = T
 
 
 def mill_pocket(
-    pocket: Pocket, work: Work, down: Down, to_floor: Down, *, over_walls: float, off_floor: float, end: float | None = None
+    pocket: Pocket, work: PocketWork, down: Down, to_floor: Down, *, over_walls: float, off_floor: float, end: float | None = None
 ) -> Iterator[Step]:  # fmt: skip
     """From the middle and back to it; `down` leads from layer to layer, `to_floor` onto the floor.
 
@@ -334,7 +334,7 @@ class Slot(NamedTuple):
         return faces.slot(line, width, self.radius, allowance=allowance, climb=self.climb)
 
 
-def mill_slot(slot: Slot, work: Work, down: Down) -> Iterator[Step]:
+def mill_slot(slot: Slot, work: PocketWork, down: Down) -> Iterator[Step]:
     """From the begin of its line and back to it."""
     if work.layers:
         yield from rough_slot(slot.line, lambda back: slot.clearing(work.allowance, back), work, down)

@@ -27,7 +27,7 @@ from mnclab.machining.depths import DRIFT, infeeds
 SLIVER = 1e-6  # mm², an area that counts as none
 
 
-class Part(NamedTuple):
+class DeepArea(NamedTuple):
     """An area of a formula and its own depth; 0 is as deep as the whole, or for an island up to the surface."""
 
     region: Region
@@ -42,7 +42,7 @@ class Joined(NamedTuple):
     right: Formula
 
 
-Formula: TypeAlias = Part | Joined
+Formula: TypeAlias = DeepArea | Joined
 #: Areas that were found before: a formula (kept, since its `id` is the key), and what it is at a depth.
 Known: TypeAlias = dict[tuple[int, float, float, bool], tuple[Formula, Region]]
 
@@ -56,7 +56,7 @@ class Terrace(NamedTuple):
     solid: bool = False
 
 
-class Level(NamedTuple):
+class ClearingLevel(NamedTuple):
     """One level of a clearing: its coordinate along the tool axis and which terrace it clears."""
 
     height: float
@@ -70,7 +70,7 @@ def at_depth(
 
     `known` keeps the areas of its parts, for formulas that are made of each other.
     """
-    if isinstance(formula, Part):
+    if isinstance(formula, DeepArea):
         reach = formula.depth or (0.0 if taken_away else whole)
         return formula.region if (depth > reach) == taken_away else Region()
     known = {} if known is None else known
@@ -119,9 +119,9 @@ def terraces(formula: Formula, whole: float) -> tuple[Terrace, ...]:
     return tuple(found)
 
 
-def parts(formula: Formula) -> Iterator[Part]:
+def parts(formula: Formula) -> Iterator[DeepArea]:
     """The parts of a formula, from left to right."""
-    if isinstance(formula, Part):
+    if isinstance(formula, DeepArea):
         yield formula
     else:
         yield from parts(formula.left)
@@ -130,18 +130,18 @@ def parts(formula: Formula) -> Iterator[Part]:
 
 def levels(
     found: Sequence[Terrace], surface: float, down: int, infeed: float, allowance: float = 0.0
-) -> tuple[Level, ...]:
+) -> tuple[ClearingLevel, ...]:
     """The levels that clear terraces, `infeed` apart from the surface on, and one on each floor above its `allowance`.
 
     `down` is -1 where the depth is negative. No floor lies above the surface: an allowance as deep as a terrace is cut off.
     """
-    made: list[Level] = []
+    made: list[ClearingLevel] = []
     reached = 0.0
     for number, terrace in enumerate(found):
         floor = max(terrace.bottom - allowance, 0.0)
         for depth in infeeds(0.0, floor, infeed) if floor > 0 or len(found) == 1 else ():
             if depth > reached + DRIFT or len(found) == 1:
-                made.append(Level(surface + down * depth, number))
+                made.append(ClearingLevel(surface + down * depth, number))
         reached = max(reached, floor)
     return tuple(made)
 

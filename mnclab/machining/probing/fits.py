@@ -24,11 +24,11 @@ from mnclab.machining.probing.found import (
     SAME,
     Circle,
     Floats,
-    Found,
     Line,
     Plane,
     Point,
     Points,
+    ProbingResult,
     Rectangle,
     Sphere,
     Vector,
@@ -222,7 +222,7 @@ def _norms(ways: Floats) -> Floats:
 # within once,
 # 95 of 100 within twice the standard uncertainty.
 
-Result = Found | Mapping[str, float] | float
+Result = ProbingResult | Mapping[str, float] | float
 MOST = 1_000_000  # repeats
 
 
@@ -264,6 +264,6 @@ def uncertainty(
 
 
 def _numbers(result: Result) -> Mapping[str, float]:
-    if isinstance(result, Found):
+    if isinstance(result, ProbingResult):
         return result.numbers
     return result if isinstance(result, Mapping) else {"value": result}

@@ -78,7 +78,7 @@ Numbers = tuple[float, ...]
 
 
 @refusing_class
-class Found:
+class ProbingResult:
     """What all results share: the names of the numbers that they show."""
 
     SHOWN: ClassVar[tuple[str, ...]]
@@ -99,7 +99,7 @@ class Found:
 
 
 @refusing_class
-class Round(Found):
+class Round(ProbingResult):
     """A circle or a ball."""
 
     radius: float
@@ -115,7 +115,7 @@ class Round(Found):
 
 
 @refusing_class
-class Flat(Found):
+class Flat(ProbingResult):
     """A line or a plane."""
 
     @property
@@ -142,7 +142,7 @@ class Flat(Found):
 
 @refusing_class
 @dataclass(frozen=True, repr=False)
-class Point(Found):
+class Point(ProbingResult):
     """A point of the plane."""
 
     x: float
@@ -211,7 +211,7 @@ class Sphere(Round):
 
 @refusing_class
 @dataclass(frozen=True, repr=False)
-class Width(Found):
+class Width(ProbingResult):
     """The width of a slot or a ridge, and the middle between its two touches."""
 
     x: float
@@ -226,7 +226,7 @@ class Width(Found):
 
 @refusing_class
 @dataclass(frozen=True, repr=False)
-class Rectangle(Found):
+class Rectangle(ProbingResult):
     """A rectangle: its middle, its length along the direction of `angle`, its width across."""
 
     x: float

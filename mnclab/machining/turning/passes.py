@@ -24,7 +24,7 @@ POINT = Tool(kind="turning")
 MOST = 10_000  # passes
 
 
-class Level(NamedTuple):
+class TurningPass(NamedTuple):
     """One pass: its radius, the z where it begins and ends, and the ways along the profile to both."""
 
     r: float
@@ -39,7 +39,7 @@ class Task(NamedTuple):
 
     profile: Contour
     blank: float
-    levels: tuple[Level, ...]
+    levels: tuple[TurningPass, ...]
     lift: float
     front: float  # z where the tool waits in front of the face
     outside: float
@@ -84,7 +84,7 @@ def task(
     for height in sorted(heights, reverse=True):
         first, last = entry_way(below, height), exit_way(below, height)
         right, left = below.point_at([first or 0.0, last])[0][:, 0].tolist()
-        found.append(Level(height, ahead if first is None else right, left, first, last))
+        found.append(TurningPass(height, ahead if first is None else right, left, first, last))
     return Task(below, blank, tuple(found), lift, ahead, blank + OUT)
 
 
@@ -121,10 +121,10 @@ class Cutter(Pen):
             self.back_to(t.levels[k - 1])
             self.plunge(t.levels[k - 1], level)
 
-    def plunge(self, before: Level, level: Level) -> None:
+    def plunge(self, before: TurningPass, level: TurningPass) -> None:
         self.along(between(self.t.profile, before.first or 0.0, level.first or 0.0), PLUNGE)
 
-    def back_to(self, level: Level) -> None:
+    def back_to(self, level: TurningPass) -> None:
         """At rapid to where a pass began: straight if the wall is not in the way, else from above."""
         profile = self.t.profile
         if abs(self.z - level.right) > SAME:

@@ -30,7 +30,7 @@ from mnclab.path.tool import Tool
 SAME = 1e-9  # mm
 
 
-class Stretch(NamedTuple):
+class ProfileStretch(NamedTuple):
     """A part of a line or of an arc on which r is a function of z, from `right` down to `left`.
 
     A line has its r at both ends; an arc its `centre` (z, r) and its `radius`, negative for the lower half circle.
@@ -131,18 +131,18 @@ def entry_way(profile: Contour, level: float) -> float | None:
 # ---- the uppermost of many ----
 
 
-def stretches(profile: Contour) -> list[Stretch]:
+def stretches(profile: Contour) -> list[ProfileStretch]:
     """The elements of a checked profile that are not shoulders."""
     found = []
     columns = profile.starts, profile.ends, profile.centres, profile.bulge, profile.radii
     for (right, r), (left, end), centre, bulge, radius in zip(*(column.tolist() for column in columns), strict=False):
         if right - left > SAME:
             arc = ((centre[0], centre[1]), math.copysign(radius, bulge)) if bulge else ()
-            found.append(Stretch(right, left, (r, end), *arc))
+            found.append(ProfileStretch(right, left, (r, end), *arc))
     return found
 
 
-def uppermost(pieces: Sequence[Stretch], first: Sequence[float], last: Sequence[float]) -> Contour:
+def uppermost(pieces: Sequence[ProfileStretch], first: Sequence[float], last: Sequence[float]) -> Contour:
     """The upper envelope of stretches from a point (z, r) to another one, with shoulders where it jumps."""
     table = np.array([(piece.right, piece.left, *piece.ends, *piece.centre, piece.radius) for piece in pieces]).T
     places = np.unique([first[0], last[0], *table[:2].flat, *_crossings(table)])[::-1]
@@ -170,7 +170,7 @@ def uppermost(pieces: Sequence[Stretch], first: Sequence[float], last: Sequence[
     return Contour(np.array(points), [*bulges, 0.0], closed=False)
 
 
-def _arc(piece: Stretch, start: Floats, end: Floats) -> float:
+def _arc(piece: ProfileStretch, start: Floats, end: Floats) -> float:
     if not piece.radius:
         return 0.0
     half = math.asin(min(1.0, float(np.hypot(*(end - start))) / 2 / abs(piece.radius)))
@@ -232,14 +232,14 @@ def reachable(profile: Contour, tool: Tool) -> Contour:
             if abs(z - edge) > SAME:
                 fallen = float(r - abs(z - edge) * math.tan(angle))
                 rows = (float(z), edge, (float(r), fallen)) if side < 0 else (edge, float(z), (fallen, float(r)))
-                found.append(Stretch(*rows))
+                found.append(ProfileStretch(*rows))
     if len(found) == len(pieces):
         return contour
     ends = [(z, max(r, *(p.at(z) for p in found if p.left <= z <= p.right))) for z, r in (first, last)]
     return checked(uppermost(found, *ends))
 
 
-def _leaning(pieces: Iterable[Stretch], angle: float) -> list[tuple[float, float]]:
+def _leaning(pieces: Iterable[ProfileStretch], angle: float) -> list[tuple[float, float]]:
     """Where convex arcs lean by an angle, + in the direction of feed: there the edge of a tool touches them."""
     sine, cosine = math.sin(angle), math.cos(angle)
     spots = ((p, p.centre[0] + p.radius * sine, p.centre[1] + p.radius * cosine) for p in pieces if p.radius > 0)
@@ -250,7 +250,7 @@ def _for_width(contour: Contour, width: float) -> Contour:
     """The greatest radius within the width to the right of every z: the way of the left corner of a blade."""
     pieces = stretches(contour)
     moved = stretches(Contour(contour.points - (width, 0), contour.bulge, closed=False))
-    level = [Stretch(float(z), float(z) - width, (float(r), float(r))) for z, r in contour.points]
+    level = [ProfileStretch(float(z), float(z) - width, (float(r), float(r))) for z, r in contour.points]
     first, last = contour.points[0], contour.points[-1]
     return checked(uppermost([*pieces, *moved, *level], first, (last[0], highest(contour, last[0], last[0] + width))))
 
@@ -303,7 +303,7 @@ def offset(profile: Contour, distance: float, front: float) -> Contour:
     return uppermost(pieces, right, stop)
 
 
-def _over(pieces: list[Stretch], z: float) -> float:
+def _over(pieces: list[ProfileStretch], z: float) -> float:
     return max(piece.at(z) for piece in pieces if piece.left - SAME <= z <= piece.right + SAME)
 
 

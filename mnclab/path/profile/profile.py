@@ -13,7 +13,7 @@ from mnclab.path.limits import Limits, limits_of
 from mnclab.path.listing import point
 from mnclab.path.places import Bends
 from mnclab.path.profile.lookahead import running_sum
-from mnclab.path.profile.timing import Plan, plan
+from mnclab.path.profile.timing import PlannedRows, plan
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import choice, fitting_class, shown
@@ -39,7 +39,7 @@ class Pieces(NamedTuple):
         return shapes(self)
 
 
-def pieces(plan: Plan) -> Pieces:
+def pieces(plan: PlannedRows) -> Pieces:
     """All pieces that take time."""
     left_out = plan.rapids.rows if plan.rapids is not None else np.empty(0, dtype=np.int64)
     tables = [_trapezoids(plan) if plan.groups is None else plan.groups.items(plan.seconds, left_out)]
@@ -64,7 +64,7 @@ def pieces(plan: Plan) -> Pieces:
 Table = tuple[NDArray[Any], ...]  # row, order within it, seconds, length, speed and acceleration at the start, jerk
 
 
-def _trapezoids(plan: Plan) -> Table:
+def _trapezoids(plan: PlannedRows) -> Table:
     """Up, along and down in every row, and the events."""
     n = len(plan.seconds)
     v0, v1, top = plan.v[:-1], plan.v[1:], plan.top
@@ -95,7 +95,7 @@ def _trapezoids(plan: Plan) -> Table:
     return row, order, dt[kept], ds[kept], v[kept], a[kept], np.zeros(len(row))
 
 
-def _rapids(plan: Plan) -> Table:
+def _rapids(plan: PlannedRows) -> Table:
     """Rapids whose axes go by themselves, seen along the straight line from start to end."""
     rapids = plan.rapids
     assert rapids is not None
@@ -167,7 +167,7 @@ class Profile:
         self.name = name  # what a picture of several calls it
         self.reach = reach  # "up to line 12, where the run stopped" of a path that ends before its program
         self._more: dict[str, Any] = {"rapid_motion": rapid_motion, "waits": waits, "source": source, "reach": reach}
-        self.plan: Plan = plan(path, self.limits, override, rapid_motion, waits)
+        self.plan: PlannedRows = plan(path, self.limits, override, rapid_motion, waits)
         self.seconds: Array = fixed(self._of_rows(self.plan.seconds))
 
     def again(self, limits: Limits | str | None = None, override: float | None = None) -> Profile:

@@ -28,7 +28,7 @@ SURFACE = 64  # parts of a row at constant cutting speed, in each of which the f
 
 
 @dataclass
-class Plan:
+class PlannedRows:
     """The planned rows (n,) of `path`; `row` (n,) of the path that was asked for, None if they are the same.
 
     `v` (n + 1,) the speeds at the nodes, `top` (n,) the greatest speed within a row (mm, s), `seconds` (n,); `groups`
@@ -50,7 +50,7 @@ class Plan:
 
 def plan(
     path: Toolpath, limits: Limits, override: float = 1.0, rapid_motion: str = "line", waits: Mask | None = None
-) -> Plan:  # fmt: skip
+) -> PlannedRows:  # fmt: skip
     """Plan a path under limits; `override` is the feed override, 1 for 100 %.
 
     `rapid_motion` holds unless the limits say otherwise; `waits` (n,) says which SPINDLE rows wait until the spindle
@@ -72,7 +72,7 @@ def plan(
             rows.corner[inner] = np.minimum(rows.cap[inner - 1], rows.cap[inner])
         w = reachable(rows.corner, 2 * rows.a * rows.length)
         v, top, seconds, groups = smooth(rows, w) if cut is None else smooth(rows, w, cut.knots, cut.bound)
-        found = Plan(path, row, rows, v, top, seconds, groups=groups)
+        found = PlannedRows(path, row, rows, v, top, seconds, groups=groups)
     else:
         found = _trapezoids(path, row, rows)
         slow = (path.kind == Kind.ARC) & (rows.length > 0)
@@ -89,7 +89,7 @@ def plan(
     return found
 
 
-def _trapezoids(path: Toolpath, row: Index | None, rows: Rows, w: Array | None = None) -> Plan:
+def _trapezoids(path: Toolpath, row: Index | None, rows: Rows, w: Array | None = None) -> PlannedRows:
     """Speeds at the nodes (v² may be given) and times of the rows, each up, along and down at constant acceleration."""
     n = len(path)
     gain = 2 * rows.a
@@ -111,10 +111,10 @@ def _trapezoids(path: Toolpath, row: Index | None, rows: Rows, w: Array | None =
         rest += 2 * root - v[i:-1][:PIECE] - v[i + 1 :][:PIECE]
         np.divide(rest, a, out=seconds[part])
     seconds[rows.length == 0] = 0.0
-    return Plan(path, row, rows, v, top, seconds)
+    return PlannedRows(path, row, rows, v, top, seconds)
 
 
-def _turned(found: Plan, slow: Mask, limits: Limits, override: float) -> tuple[Plan, Index]:
+def _turned(found: PlannedRows, slow: Mask, limits: Limits, override: float) -> tuple[PlannedRows, Index]:
     """The plan with some arcs cut finer, and the row (m,) that each of its rows was part of."""
     counts = np.where(slow, np.maximum(np.ceil(np.abs(found.path.sweep) / PART), FEWEST), 1).astype(np.int64)
     path, part = divided(found.path, counts)
@@ -134,7 +134,7 @@ def _turned(found: Plan, slow: Mask, limits: Limits, override: float) -> tuple[P
     return again, part
 
 
-def _events(found: Plan, limits: Limits, waits: Mask | None) -> None:
+def _events(found: PlannedRows, limits: Limits, waits: Mask | None) -> None:
     """Time for dwells, tool changes and for the spindle to reach its speed."""
     kind, seconds = found.path.kind, found.seconds
     if (turns := (found.rows.length == 0) & np.isfinite(found.path.time)).any():  # rotary axes alone

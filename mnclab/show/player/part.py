@@ -31,7 +31,7 @@ from mnclab.workpiece.blank import Revolved
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.moves import cutter_of
 from mnclab.workpiece.milling.raster import Raster
-from mnclab.workpiece.turning.section import Drawing, cuts, held, left_of
+from mnclab.workpiece.turning.section import SectionDrawing, cuts, held, left_of
 from mnclab.workpiece.turning.strokes import Strokes, strokes_of
 from mnclab.workpiece.turning.turned import half_section, room_of
 
@@ -227,7 +227,7 @@ def section(pack: Packer, cutting: Cutting) -> dict[str, Any]:
 def _areas(strokes: Strokes, bar: Sequence[Contour], low: float) -> tuple[list[int], list[Array], list[int]]:
     """Rows and outlines of what goes, in order: of all strokes of a row, then of the pieces that fall; and which these are."""
     rows, areas = list(strokes.rows), _outlines(strokes.contours)
-    drawing = Drawing.of(bar, strokes.contours, rows)
+    drawing = SectionDrawing.of(bar, strokes.contours, rows)
     fallen: list[int] = []
     if not areas or not held(left_of(drawing), low)[1]:
         return rows, areas, fallen

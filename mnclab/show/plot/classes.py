@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.show.plot import colours
-from mnclab.show.plot.colours import Dashes, Line
+from mnclab.show.plot.colours import Dashes, LineStyle
 from mnclab.show.plot.lathe import speed_at
 from mnclab.show.plot.picture import SMALL, Picture
 from mnclab.show.plot.strokes import Array, Strokes, parted
@@ -51,7 +51,7 @@ class Scale(NamedTuple):
 class Classes(NamedTuple):
     """Looks of the classes, in the order of drawing; `group` (m,) is the class of the stroke to each point or -1."""
 
-    lines: list[Line]
+    lines: list[LineStyle]
     group: NDArray[np.int16]
     scale: Scale | None = None
 
@@ -88,7 +88,7 @@ def classes(path: Toolpath, drawn: Strokes, colour: str) -> Classes:
     return Classes([*fixed[:2], *looks], group, scale)
 
 
-def _with_threads(path: Toolpath, drawn: Strokes, fixed: list[Line], group: NDArray[np.int16]) -> Classes:
+def _with_threads(path: Toolpath, drawn: Strokes, fixed: list[LineStyle], group: NDArray[np.int16]) -> Classes:
     """On a lathe threads are a class for each lead (one for all if there are many)."""
     leads = np.round(path.per_rev[drawn.row], 6)
     thread = (group == 2) & path.synchronous[drawn.row]
@@ -102,7 +102,7 @@ def _with_threads(path: Toolpath, drawn: Strokes, fixed: list[Line], group: NDAr
     return Classes([*fixed, *looks], group)
 
 
-def _by_step(path: Toolpath, drawn: Strokes, fixed: list[Line], group: NDArray[np.int16]) -> Classes:
+def _by_step(path: Toolpath, drawn: Strokes, fixed: list[LineStyle], group: NDArray[np.int16]) -> Classes:
     """What each stroke does in its cycle: the less is left to take off, the thinner."""
     numbers, names = steps_of(path)
     cuts = group == 2
@@ -115,7 +115,7 @@ def _by_step(path: Toolpath, drawn: Strokes, fixed: list[Line], group: NDArray[n
     return Classes([*fixed[:2], *looks], group)
 
 
-def lines(drawn: Strokes, found: Classes) -> list[tuple[Line, Array]]:
+def lines(drawn: Strokes, found: Classes) -> list[tuple[LineStyle, Array]]:
     """The classes that have a stroke, each with its points (k, 3), nan between."""
     pieces = parted(drawn.xyz, found.group, len(found.lines))
     return [(line, points) for line, points in zip(found.lines, pieces) if len(points)]
@@ -133,7 +133,7 @@ def _values(path: Toolpath, drawn: Strokes, colour: str) -> Values:
     return columns[colour][drawn.row]
 
 
-def _divide(values: Values, colour: str, unit: str) -> tuple[NDArray[np.int16], list[Line], Scale | None]:
+def _divide(values: Values, colour: str, unit: str) -> tuple[NDArray[np.int16], list[LineStyle], Scale | None]:
     """The class of each value, how the classes look, and a scale if they are bins."""
     few = _few(values, TOOLS if colour == "tool" else FEW)
     without = colours.FEED._replace(name=f"no {colour}", colour=colours.PROGRAMMED.colour)
@@ -173,7 +173,7 @@ def _few(values: Values, most: int) -> Values | None:
     return found if len(found) <= most else None
 
 
-def _looks(values: list[str], colour: str, unit: str, few: bool = True) -> list[Line]:
+def _looks(values: list[str], colour: str, unit: str, few: bool = True) -> list[LineStyle]:
     """Cuts of rising values: the greater are drawn later, but the deeper where the colour shows Z, and the slower."""
     count, base, name = len(values), colours.FEED, NAMES[colour]
     order = range(count, 0, -1) if colour in ("z", "feed") else range(count)

@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.path import Path
 
 from mnclab.show import looks
-from mnclab.show.looks import BLANK, FAINT, FEED, INK, PAPER, PROBING, PROGRAMMED, RAPID, THREAD, Dashes, Line  # noqa: F401
+from mnclab.show.looks import BLANK, FAINT, FEED, INK, PAPER, PROBING, PROGRAMMED, RAPID, THREAD, Dashes, LineStyle  # noqa: F401
 
 
 class Mark(NamedTuple):
@@ -50,11 +50,11 @@ def _quarters() -> Path:
 QUARTERS = _quarters()
 
 #: What was there before a number was changed, behind all that is there now.
-GHOST = Line("_before", looks.GREY, "-", 1.1, 1.9)
-GHOST_RAPID = Line("_before, rapid", looks.GREY, (0, (1, 2)), 0.8, 1.9)
+GHOST = LineStyle("_before", looks.GREY, "-", 1.1, 1.9)
+GHOST_RAPID = LineStyle("_before, rapid", looks.GREY, (0, (1, 2)), 0.8, 1.9)
 BLANK_FACE = "#f6f3ea"  # behind everything
-LEADER = Line("_leader", "#6b6b6b", "-", 0.7, 3.05)  # from a symbol to its place
-CENTRE_LINE = Line("", "#6b6b6b", (0, (10, 3, 1.5, 3)), 0.8, 1.5)
+LEADER = LineStyle("_leader", "#6b6b6b", "-", 0.7, 3.05)  # from a symbol to its place
+CENTRE_LINE = LineStyle("", "#6b6b6b", (0, (10, 3, 1.5, 3)), 0.8, 1.5)
 
 PLUNGE = Mark("plunge", looks.BLUE, "+", 7, True, 3.2)
 DWELL = Mark("dwell", looks.BROWN, "d", 6, False, 3.4)
@@ -70,13 +70,13 @@ GOUGED = Mark("gouge", looks.WRONG, "*", 8, False, 4.15)  # where a compensated 
 ALARM = Mark("alarm", looks.WRONG, "x", 9, True, 4.2)
 
 #: Curves of a feed-rate profile: what was programmed, what is reached, and limits.
-WANTED = Line("programmed feed", looks.GREY, (0, (4, 1.5)), 1.3, 2.2)
-REACHED = Line("reached feed", looks.BLUE, "-", 1.5, 2.8)
-LIMIT = Line("limit", looks.WRONG, (0, (1, 1.5)), 1.2, 2.0)
+WANTED = LineStyle("programmed feed", looks.GREY, (0, (4, 1.5)), 1.3, 2.2)
+REACHED = LineStyle("reached feed", looks.BLUE, "-", 1.5, 2.8)
+LIMIT = LineStyle("limit", looks.WRONG, (0, (1, 1.5)), 1.2, 2.0)
 AXES = (
-    Line("X", looks.BLUE, "-", 1.3, 2.8),
-    Line("Y", looks.WRONG, (0, (5, 1.5)), 1.3, 2.7),
-    Line("Z", looks.GREEN, (0, (1.5, 1.2)), 1.5, 2.6),
+    LineStyle("X", looks.BLUE, "-", 1.3, 2.8),
+    LineStyle("Y", looks.WRONG, (0, (5, 1.5)), 1.3, 2.7),
+    LineStyle("Z", looks.GREEN, (0, (1.5, 1.2)), 1.5, 2.6),
 )
 STANDS = Mark("stop", INK, "|", 7, True, 3.6)
 SLOW_CORNER = Mark("corner", looks.BROWN, "v", 4, False, 3.5)
@@ -94,26 +94,26 @@ HOLDS = {
 USEFUL, LOST = (looks.BLUE, ""), ("#f2c14e", "////")
 
 #: Radius compensation: the contour, the tool-centre path by the rule that made it, and corners by what was done there.
-CONTOUR = Line("programmed", INK, "-", 1.5, 2.3)
-LEAD = Line("_programmed lead", looks.GREY, (0, (2, 2)), 0.9, 2.2)
-UNCOMPENSATED = Line("not compensated", "#6b6b6b", (0, (6, 2)), 1.0, 2.5)
-ALONG = Line("along the side", looks.BLUE, "-", 1.6, 2.8)
-ROUND_CORNER = Line("outside corner, arc", "#00796b", (0, (3, 1)), 2.0, 2.9)
-STRAIGHT_CORNER = Line("outside corner, straight", looks.BROWN, "-", 1.6, 2.9)
-INSIDE_CORNER = Line("inside corner", looks.VIOLET, "-", 1.6, 2.9)
-ENTRY = Line("entry", "#2e7d32", (0, (6, 1.5, 1.5, 1.5)), 1.6, 2.9)
-EXIT = Line("exit", "#b24700", (0, (6, 1.5, 1.5, 1.5, 1.5, 1.5)), 1.6, 2.9)
-CHANGE = Line("change of side", "#ad1457", (0, (4, 1.5)), 1.6, 2.9)
+CONTOUR = LineStyle("programmed", INK, "-", 1.5, 2.3)
+LEAD = LineStyle("_programmed lead", looks.GREY, (0, (2, 2)), 0.9, 2.2)
+UNCOMPENSATED = LineStyle("not compensated", "#6b6b6b", (0, (6, 2)), 1.0, 2.5)
+ALONG = LineStyle("along the side", looks.BLUE, "-", 1.6, 2.8)
+ROUND_CORNER = LineStyle("outside corner, arc", "#00796b", (0, (3, 1)), 2.0, 2.9)
+STRAIGHT_CORNER = LineStyle("outside corner, straight", looks.BROWN, "-", 1.6, 2.9)
+INSIDE_CORNER = LineStyle("inside corner", looks.VIOLET, "-", 1.6, 2.9)
+ENTRY = LineStyle("entry", "#2e7d32", (0, (6, 1.5, 1.5, 1.5)), 1.6, 2.9)
+EXIT = LineStyle("exit", "#b24700", (0, (6, 1.5, 1.5, 1.5, 1.5, 1.5)), 1.6, 2.9)
+CHANGE = LineStyle("change of side", "#ad1457", (0, (4, 1.5)), 1.6, 2.9)
 DISC, GOUGE = "#5f7d9c", looks.WRONG
 
 #: What the words of a program mean: centres with their legs, poles with angles, the contour before it was turned.
 CENTRE = Mark("arc centre", looks.BROWN, "+", 8, True, 3.5)
 TURN_POLE = Mark("pole of a turn", looks.BROWN, "x", 6, True, 3.5)
-SPOKE = Line("_spoke", looks.BROWN, (0, (4, 2)), 0.8, 2.4)
-LEG = Line("_leg", looks.BROWN, "-", 1.1, 2.45)
-ORIGINAL = Line("as written", "#6b6b6b", (0, (2, 1.4)), 1.1, 2.15)
-MIRROR = Line("mirror line", "#6a1b9a", (0, (10, 2.5, 1.5, 2.5)), 1.0, 2.1)
+SPOKE = LineStyle("_spoke", looks.BROWN, (0, (4, 2)), 0.8, 2.4)
+LEG = LineStyle("_leg", looks.BROWN, "-", 1.1, 2.45)
+ORIGINAL = LineStyle("as written", "#6b6b6b", (0, (2, 1.4)), 1.1, 2.15)
+MIRROR = LineStyle("mirror line", "#6a1b9a", (0, (10, 2.5, 1.5, 2.5)), 1.0, 2.1)
 #: A hole at its diameter: its circle from above, its walls from the side.
-HOLE = Line("hole", "#37474f", (0, (3, 1.6)), 0.9, 2.3)
+HOLE = LineStyle("hole", "#37474f", (0, (3, 1.6)), 0.9, 2.3)
 #: Machine zero and the vectors from it.
 MACHINE_ZERO = Mark("machine zero", looks.GREEN, QUARTERS, 14, True, 4.0)

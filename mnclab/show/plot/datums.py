@@ -30,7 +30,7 @@ OFF = (8.0, 13.0)  # points from a cross to its name, tried one after the other
 SIDES = ((1, 1), (-1, 1), (1, -1), (-1, -1), (1, 0), (-1, 0), (0, 1), (0, -1))
 
 
-class Place(NamedTuple):
+class DatumCross(NamedTuple):
     """A cross with a name at a point (3,), mm relative to the path's origin; nan where the height is not known."""
 
     mark: Mark
@@ -38,7 +38,7 @@ class Place(NamedTuple):
     xyz: tuple[float, float, float]
 
 
-def places_of(run: Any) -> list[Place]:
+def places_of(run: Any) -> list[DatumCross]:
     """The zero points and poles of a run, in the order of the program; what lies at one place shares a cross.
 
     A zero point that a cycle shifts has a second one, which says from which line on it counts.
@@ -70,7 +70,7 @@ def places_of(run: Any) -> list[Place]:
             if frame != "local" or "set" not in selected:
                 add(colours.DATUM, said, (chain.before(inner) @ chain[inner])[:3, 3] - path.origin, step)
     return [
-        Place(mark, ", ".join(names), tuple(np.nan if v is None else v for v in place))  # type: ignore[arg-type]
+        DatumCross(mark, ", ".join(names), tuple(np.nan if v is None else v for v in place))  # type: ignore[arg-type]
         for (mark, place), names in found.items()
     ]
 
@@ -100,14 +100,14 @@ def _pole(path: Any, chain: FrameChain, step: int, pole: tuple[float, float], pl
     return point
 
 
-def near(places: Sequence[Place], low: Array, high: Array) -> list[Place]:
+def near(places: Sequence[DatumCross], low: Array, high: Array) -> list[DatumCross]:
     """Those places that are seen without the box `low` to `high` (3,), mm becoming much larger."""
     size = high - low
     spans = [np.fmax(high, place.xyz) - np.fmin(low, place.xyz) for place in places]
     return [p for p, span in zip(places, spans) if span.max() <= NEAR * size.max() or (span == size).all()]
 
 
-def crosses(places: Sequence[Place], view: View) -> list[Line2D]:
+def crosses(places: Sequence[DatumCross], view: View) -> list[Line2D]:
     """The crosses of one view, one line for each kind of place."""
     found = []
     for mark in (colours.DATUM, colours.POLE):
@@ -123,8 +123,8 @@ def crosses(places: Sequence[Place], view: View) -> list[Line2D]:
 
 
 def write_names(
-    ax: Axes, view: View, places: Sequence[Place], occupied: Array, drawn: Sequence[Array], covering: float = np.inf
-) -> list[Place]:
+    ax: Axes, view: View, places: Sequence[DatumCross], occupied: Array, drawn: Sequence[Array], covering: float = np.inf
+) -> list[DatumCross]:
     """The names of the places in a view, where they cover no mark (`occupied` (n, 2), mm) and least of the lines.
 
     The limits of the axes must be final. A name without a free place is left out and returned, and so is one that
@@ -133,7 +133,7 @@ def write_names(
     shown = [place for place in places if len(places) <= MANY or place.mark is colours.DATUM]
     spots = [(p, np.array(p.xyz)[[view.right, view.up]]) for p in shown]
     spots = [(p, at) for p, at in spots if np.isfinite(at).all()]
-    left: list[Place] = []
+    left: list[DatumCross] = []
     if not spots:
         return left
     unit = figure_of(ax).dpi / 72

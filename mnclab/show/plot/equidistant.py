@@ -16,15 +16,15 @@ from matplotlib.lines import Line2D
 from mnclab.path.compensation.construction import Construction, Overcut, overcuts
 from mnclab.path.toolpath import RULE_NAMES, Kind, Rule, Toolpath
 from mnclab.show.plot import colours
-from mnclab.show.plot.colours import Line, Mark
-from mnclab.show.plot.datums import Place, write_names
+from mnclab.show.plot.colours import LineStyle, Mark
+from mnclab.show.plot.datums import DatumCross, write_names
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.strokes import Array, Strokes, parted, strokes
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
 
 #: How rows look by their rule; rows along the contour are called after the corner at their end and look alike.
-ROWS: dict[Rule, Line] = {
+ROWS: dict[Rule, LineStyle] = {
     Rule.NONE: colours.UNCOMPENSATED,
     Rule.SIDE: colours.ALONG,
     Rule.OUTSIDE_ARC: colours.ROUND_CORNER,
@@ -61,7 +61,7 @@ class Panel:
         return [(path, strokes(path)) for path in (self.run.toolpath, self.made.path)]
 
     @cached_property
-    def rows(self) -> list[tuple[Line, Array]]:
+    def rows(self) -> list[tuple[LineStyle, Array]]:
         """The tool-centre path by rule, points (m, 3) broken by nan."""
         path, drawn = self.drawn[0]
         looks = [*dict.fromkeys(ROWS.values()), colours.RAPID]
@@ -73,7 +73,7 @@ class Panel:
         return [(line, xyz) for line, xyz in found if np.nansum(np.abs(np.diff(self.flat(xyz), axis=0))) > 0]
 
     @cached_property
-    def contour(self) -> list[tuple[Line, Array]]:
+    def contour(self) -> list[tuple[LineStyle, Array]]:
         """The programmed contour, and the programmed lines that lead to it and away."""
         if self.made.found is None:
             return []
@@ -214,9 +214,9 @@ def _strokes(*points: Array) -> Array:
     return np.stack([*points, np.full_like(points[0], np.nan)], axis=1).reshape(-1, 3)
 
 
-def _named(made: Construction, at: int, short: bool) -> Place:
+def _named(made: Construction, at: int, short: bool) -> DatumCross:
     """A corner with the name of its rule; in short without what most corners share."""
     rule = Rule(made.rule[at])
     name = RULE_NAMES[rule]
     x, y, z = made.place[at].tolist()
-    return Place(Mark(name, CORNERS[rule].colour, "", 0, True, 4.0), name.split(", ")[-1] if short else name, (x, y, z))
+    return DatumCross(Mark(name, CORNERS[rule].colour, "", 0, True, 4.0), name.split(", ")[-1] if short else name, (x, y, z))

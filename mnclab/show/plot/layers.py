@@ -16,8 +16,8 @@ from mnclab.path.toolpath import Kind, Mask, Toolpath
 from mnclab.show import looks
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import Classes
-from mnclab.show.plot.colours import Line, Mark
-from mnclab.show.plot.datums import Place, crosses, segments, write_names
+from mnclab.show.plot.colours import LineStyle, Mark
+from mnclab.show.plot.datums import DatumCross, crosses, segments, write_names
 from mnclab.show.plot.holes import beside_holes
 from mnclab.show.plot.lathe import Lathe, draw_blank, draw_chucks, draw_insert
 from mnclab.show.plot.overlay import Overlay
@@ -40,14 +40,14 @@ MANY, SMALL, THIN = 30, 4.0, 0.7  # plunges; points of the crosses of more: thos
 INSERT = 0.09  # edges of an insert, of the greatest side of the picture
 
 
-class Drawing(NamedTuple):
+class PathDrawing(NamedTuple):
     """What is drawn of a path in every view: lines (m, 3) broken by nan, marks (m, 3), crosses with names."""
 
     strokes: Strokes
     classes: Classes
-    lines: list[tuple[Line, Array]]
+    lines: list[tuple[LineStyle, Array]]
     marks: list[tuple[Mark, Array]]
-    places: list[Place]
+    places: list[DatumCross]
     plunges: dict[View, Array]
     plunge: Mark
     arrows: bool
@@ -94,7 +94,7 @@ def draw_stock(ax: Axes, view: View, stock: Blank) -> list[Line2D]:
     return found
 
 
-def draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
+def draw(ax: Axes, view: View, drawing: PathDrawing) -> list[Line2D]:
     """Add lines, marks and crosses to an axes; returns those that a legend names."""
     artists = [Line2D(xyz[:, view.right], xyz[:, view.up], **line.style()) for line, xyz in drawing.lines]
     artists += draw_stock(ax, view, drawing.stock) if drawing.stock else []
@@ -118,7 +118,7 @@ def draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
     return artists
 
 
-def write(ax: Axes, view: View, drawing: Drawing, low: Array, high: Array) -> None:
+def write(ax: Axes, view: View, drawing: PathDrawing, low: Array, high: Array) -> None:
     """Add what depends on the scale: rapids beside cuts, symbols beside each other, arrowheads and names."""
     axes = [view.right, view.up]
     moved, divided = beside(ax, drawing.strokes, drawing.classes, axes)

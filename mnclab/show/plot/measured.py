@@ -19,7 +19,7 @@ from mnclab.path.listing import Unit
 from mnclab.path.toolpath import Array
 from mnclab.show import looks
 from mnclab.show.plot import colours
-from mnclab.show.plot.colours import Line, Mark
+from mnclab.show.plot.colours import LineStyle, Mark
 from mnclab.show.plot.picture import (
     LINE,
     SMALL,
@@ -39,8 +39,8 @@ from mnclab.show.probed import part_of, touched_decimals
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, shown, whole
 
-NOMINAL = Line("nominal", colours.INK, (0, (6, 2)), 1.0, 2.4)
-ACTUAL = Line("measured", colours.FEED.colour, "-", 1.7, 2.8)
+NOMINAL = LineStyle("nominal", colours.INK, (0, (6, 2)), 1.0, 2.4)
+ACTUAL = LineStyle("measured", colours.FEED.colour, "-", 1.7, 2.8)
 NOMINAL_MIDDLE = Mark("_nominal middle", colours.INK, "+", 9, True, 2.5)
 MIDDLE = Mark("_middle", colours.FEED.colour, "x", 6, True, 2.9)
 BETWEEN, BALL = looks.BLUE + "38", looks.VIOLET + "22"

@@ -15,7 +15,7 @@ from mnclab.path.listing import MM, Unit, figure
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Kind
 from mnclab.show.plot import colours
-from mnclab.show.plot.colours import Line
+from mnclab.show.plot.colours import LineStyle
 from mnclab.show.plot.picture import SMALL, Picture, calm, figure_of, stacked, write_cut_off, write_legend
 from mnclab.show.plot.profile import curve, plot_profile
 from mnclab.show.plot.sizes import sized
@@ -145,7 +145,7 @@ def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
 # Depth over time: how a hole grows peck by peck, where the drill comes out, where it waits.
 
 POINTS = 24  # of a row, along which the speed changes
-WAITS = Line("dwell", colours.DWELL.colour, "-", 3.2, 3.1)
+WAITS = LineStyle("dwell", colours.DWELL.colour, "-", 3.2, 3.1)
 OF_KIND = {Kind.RAPID: colours.RAPID, Kind.LINE: colours.FEED, Kind.ARC: colours.FEED, Kind.DWELL: WAITS}
 MOST_ROWS, LABELLED = 5000, 24  # rows, and depths that are written
 LETTER, LINE_HIGH = 0.62 * SMALL, 1.3 * SMALL  # points: a figure of a depth, and its line

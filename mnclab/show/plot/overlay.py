@@ -18,7 +18,7 @@ from mnclab.geometry import frames
 from mnclab.path.listing import Unit, figure
 from mnclab.path.toolpath import Array, Kind
 from mnclab.show.plot import colours
-from mnclab.show.plot.colours import Line, Mark
+from mnclab.show.plot.colours import LineStyle, Mark
 from mnclab.show.plot.datums import Chains
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.placing import write_beside
@@ -63,7 +63,7 @@ def fits(low: Array, high: Array, points: Array) -> bool:
     return bool((wide_high - wide_low).max() <= ROOM * max((high - low).max(), 1e-9))
 
 
-def line(ax: Axes, view: View, points: Array, look: Line | Mark, **more: Any) -> Line2D:
+def line(ax: Axes, view: View, points: Array, look: LineStyle | Mark, **more: Any) -> Line2D:
     """Points (m, 3) as a line of one view."""
     found = Line2D(points[:, view.right], points[:, view.up], **{**look.style(), **more})
     ax.add_line(found)
@@ -236,7 +236,7 @@ class Ray(NamedTuple):
     zero: Array
 
 
-class Polar(NamedTuple):
+class PolarRays(NamedTuple):
     """The rays, all in planes that lie as XY, and in which unit their radii are told."""
 
     rays: list[Ray]
@@ -287,7 +287,7 @@ def _bow(ray: Ray, radius: float) -> Array:
     return ray.pole + radius * np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
 
 
-def polar_of(run: Any) -> Polar | None:
+def polar_of(run: Any) -> PolarRays | None:
     """The points that a run goes to by radius and angle; None where there are none, or too many."""
     if "pole" not in run.history:
         return None
@@ -312,4 +312,4 @@ def polar_of(run: Any) -> Polar | None:
         found.setdefault(key, Ray(ends[0], ends[1], float(np.hypot(*way)), angle + 0.0, zero))
         if len(found) > MOST_RAYS:
             return None
-    return Polar(list(found.values()), path.unit) if found else None
+    return PolarRays(list(found.values()), path.unit) if found else None

@@ -15,7 +15,7 @@ from matplotlib.ft2font import FT2Font, LoadFlags
 from matplotlib.patches import Rectangle
 
 from mnclab.show.plot import colours
-from mnclab.show.report.document import Table
+from mnclab.show.report.document import TextTable
 from mnclab.text.file import printable
 from mnclab.text.tables import tail
 
@@ -188,7 +188,7 @@ LINE, AIR = 1.32, 3.0  # lines apart, in ems; above and below the rules
 NARROW = 46.0  # a column of words is folded to this width at least
 
 
-class Line(NamedTuple):
+class PrintedRow(NamedTuple):
     """One row as it is printed: its cells as lines (text, x of its left end), and how tall it is."""
 
     cells: list[list[tuple[str, float]]]
@@ -199,13 +199,13 @@ class Line(NamedTuple):
 class Setting(NamedTuple):
     """A table that has its places: `head` None without one."""
 
-    head: Line | None
-    rows: list[Line]
+    head: PrintedRow | None
+    rows: list[PrintedRow]
     size: float
     wide: float
 
 
-def tabled(table: Table, room: float) -> Setting:
+def tabled(table: TextTable, room: float) -> Setting:
     """The places of the cells of a table within `room` points: the largest letters that need no folding, else folded words."""
     texts = [list(row) for row in (*([table.head] if any(table.head) else []), *table.rows)]
     count = max(map(len, texts))
@@ -230,7 +230,7 @@ def tabled(table: Table, room: float) -> Setting:
             shift = longest[k] - width(end, size) if k in longest and end is not None else 0.0
             right = k in longest
             cells.append([(part, left[k] + (widths[k] - shift - width(part, size, thick) if right else 0)) for part in parts])
-        lines.append(Line(cells, size * LINE * max(map(len, cells)) + AIR, thick))
+        lines.append(PrintedRow(cells, size * LINE * max(map(len, cells)) + AIR, thick))
     return Setting(lines[0] if heads else None, lines[heads:], size, sum(widths) + gap * (count - 1))
 
 

@@ -28,7 +28,7 @@ from mnclab.show.plot.page_sheet import (
     TALL,
     TOP,
     WIDE,
-    Line,
+    PrintedRow,
     Setting,
     Sheet,
     fitted,
@@ -47,7 +47,7 @@ from mnclab.show.report.document import (
     Listing,
     Piece,
     Section,
-    Table,
+    TextTable,
     Words,
 )
 from mnclab.text.alarm import ALARM, WARNING, first_of
@@ -159,7 +159,7 @@ class _Setter:
         if isinstance(first, Image):
             return float(first.picture.get_figheight()) * POINTS + 2.2 * CAPTION
         under = list(takewhile(lambda piece: isinstance(piece, Words), others))
-        if isinstance(first, Table) and under and len(first.rows) <= SHORT:
+        if isinstance(first, TextTable) and under and len(first.rows) <= SHORT:
             made = tabled(first, WIDE)
             lines = sum(len(folded(printable(each.text), WIDE, BODY)) for each in under if isinstance(each, Words))
             tall = sum(row.tall for row in (*made.rows, *([made.head] if made.head else [])))
@@ -189,7 +189,7 @@ class _Setter:
             self.page.rule(LEFT + left, self.y, WIDE * 0.62 - left)
 
     @put.register
-    def _(self, piece: Table) -> None:
+    def _(self, piece: TextTable) -> None:
         if not piece.rows:
             return
         made = tabled(piece._replace(rows=[[printable(cell) for cell in row] for row in piece.rows]), WIDE)
@@ -217,7 +217,7 @@ class _Setter:
             self.page.rule(LEFT, self.y + 2, made.wide, 0.9, colours.INK)
             self.y += 3
 
-    def _row(self, made: Setting, row: Line) -> None:
+    def _row(self, made: Setting, row: PrintedRow) -> None:
         for cell in row.cells:
             for k, (text, x) in enumerate(cell):
                 y = self.y + AIR / 2 + made.size * (LINE * k + 1)

@@ -22,8 +22,8 @@ from mnclab.show.plot import colours
 from mnclab.show.plot.classes import Classes, classes, write_scale
 from mnclab.show.plot.classes import lines as lines_of
 from mnclab.show.plot.clickable import told_by
-from mnclab.show.plot.colours import Line
-from mnclab.show.plot.datums import Place, crosses, near, places_of
+from mnclab.show.plot.colours import LineStyle
+from mnclab.show.plot.datums import DatumCross, crosses, near, places_of
 from mnclab.show.plot.holes import beside_holes, holes_of
 from mnclab.show.plot.lathe import FINISHED, lathe, speed_strokes, with_blank
 from mnclab.show.plot.layers import (
@@ -32,7 +32,7 @@ from mnclab.show.plot.layers import (
     MOST_STROKES,
     THIN_BAND,
     Box,
-    Drawing,
+    PathDrawing,
     around_bands,
     band_sample,
     dense,
@@ -95,7 +95,7 @@ def plot_path(
     size: tuple[float, float] = SIZE,
     programmed: Toolpath | None = None,
     alarms: Sequence[Alarm] = (),
-    places: Sequence[Place] = (),
+    places: Sequence[DatumCross] = (),
     stock: Blank | None = None,
     tools: Mapping[int, Tool] = MappingProxyType({}),
     insert: bool | int = True,
@@ -188,7 +188,7 @@ def plot_path(
     if felt is not None and len(felt.places):
         found_marks.append((colours.TOUCH, felt.places))
     rest = (beside, part, home, felt, overlays)
-    drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, *rest)
+    drawing = PathDrawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, *rest)
     former = None if under is None else gone(under, path)
     if ax is not None:
         if banded is not None:
@@ -253,7 +253,7 @@ MOSTLY = 0.9  # the cosine between two directions from which on they are taken f
 FAR = 5  # a box of all moves this many times that of the cuts is not shown whole
 
 
-def box_of(path: Toolpath, pieces: Sequence[tuple[Line, Array]], frame: str) -> tuple[Array, Array, bool]:
+def box_of(path: Toolpath, pieces: Sequence[tuple[LineStyle, Array]], frame: str) -> tuple[Array, Array, bool]:
     """The corners (3,) of the box that is shown, and whether rapids go beyond it; a lathe's holds the centre line."""
     frame = choice(frame, "frame", ("auto", "all", "cuts"))
     cuts = corners([points for line, points in pieces if line is not colours.RAPID], path.lathe)

@@ -26,7 +26,7 @@ from mnclab.workpiece.part import Part
 from mnclab.workpiece.part.pictures import UPRIGHT
 from mnclab.workpiece.part.prisms import Prism, Prisms
 
-BEAM = colours.Line(probed.BEAM, looks.BEAM, (0, (6, 1.5, 1.5, 1.5)), 1.6, 2.4)
+BEAM = colours.LineStyle(probed.BEAM, looks.BEAM, (0, (6, 1.5, 1.5, 1.5)), 1.6, 2.4)
 MOST = 60  # touches that have a number in a view
 SAME = 6  # decimals of mm: touches that are one in a view
 

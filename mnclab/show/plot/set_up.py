@@ -16,7 +16,7 @@ from mnclab.path.listing import Unit
 from mnclab.path.toolpath import Array
 from mnclab.show import looks
 from mnclab.show.plot import colours
-from mnclab.show.plot.datums import LENGTH, ORIGINS, Chains, Place, places_of
+from mnclab.show.plot.datums import LENGTH, ORIGINS, Chains, DatumCross, places_of
 from mnclab.show.plot.overlay import line, texts
 from mnclab.show.plot.picture import SIZE, SMALL, VIEWS, Picture, View, arrange, dress, figure_of, roomy, write_legend
 from mnclab.show.plot.probed import draw_material
@@ -195,12 +195,12 @@ def _way(spot: Array, middle: Array, view: View) -> tuple[float, float]:
     return (float(way[0] / size), float(way[1] / size)) if size > 1e-9 else (0.7, 0.7)
 
 
-def _told(place: Place, spot: Array, unit: Unit) -> str:
+def _told(place: DatumCross, spot: Array, unit: Unit) -> str:
     """`G54 X100 Y50 Z20`, in machine coordinates."""
     return f"{place.name}  " + " ".join(f"{axis}{unit.figure(value, 1)}" for axis, value in zip("XYZ", spot))
 
 
-def _parent(place: Place, places: list[Place], spots: Array, zero: Array) -> Array:
+def _parent(place: DatumCross, places: list[DatumCross], spots: Array, zero: Array) -> Array:
     """From where a zero point is shifted: the work offset before it, machine zero for a work offset itself."""
     shifts = {name for name in ORIGINS.values() if name not in ("", "preset")} | {"G52", LENGTH}
     if set(place.name.split(", ")) <= shifts:

@@ -21,7 +21,7 @@ from mnclab.geometry.regions import Region
 from mnclab.path.toolpath import Array, Kind, Toolpath
 from mnclab.show import looks
 from mnclab.show.plot import colours
-from mnclab.show.plot.colours import RAPID, Line, Mark
+from mnclab.show.plot.colours import RAPID, LineStyle, Mark
 from mnclab.show.plot.path import plot_run
 from mnclab.show.plot.picture import SIZE, SMALL, VIEWS, Foot, Picture, View, arrange, dress, write_legend
 from mnclab.show.plot.sizes import sized
@@ -252,7 +252,7 @@ def plot_runs(
     return picture
 
 
-def lead(run: Any, look: Line) -> Array:
+def lead(run: Any, look: LineStyle) -> Array:
     """The moves (m, 3) of blocks that lead to a contour, or away from it, broken by nan."""
     path = run.toolpath
     found = [np.empty((0, 3))]
@@ -267,8 +267,8 @@ def lead(run: Any, look: Line) -> Array:
 
 # Two paths in one picture, the second over the first, and where they are farthest apart.
 
-FIRST = Line("first", looks.GREY, "-", 3.2, 2.2)
-SECOND = Line("second", looks.BLUE, "-", 1.1, 2.8)
+FIRST = LineStyle("first", looks.GREY, "-", 3.2, 2.2)
+SECOND = LineStyle("second", looks.BLUE, "-", 1.1, 2.8)
 APART = Mark("largest deviation", looks.WRONG, "o", 9, False, 4.2)
 CUTTING = tuple(kind for kind in Kind if kind != Kind.RAPID)
 RAPID_WIDTH = 0.6  # of the width of cuts

@@ -23,7 +23,7 @@ from mnclab.path.listing import figure
 from mnclab.path.tool import Tool
 from mnclab.show import looks
 from mnclab.show.plot import colours
-from mnclab.show.plot.colours import Line
+from mnclab.show.plot.colours import LineStyle
 from mnclab.show.plot.lathe import insert_patches
 from mnclab.show.plot.picture import SMALL, VIEWS, Foot, Picture, arrange, write_legend
 from mnclab.show.plot.side_by_side import hatch, hatched, side_by_side
@@ -33,12 +33,12 @@ from mnclab.text.given import check_number, shown
 
 LOOKS = {
     RAPID: colours.RAPID,
-    ROUGH: Line("roughing", looks.BLUE, "-", 1.6, 2.6),
-    PICK_UP: Line("pick-up", looks.VIOLET, "-", 2.2, 2.7),
-    CLEANUP: Line("clean-up", "#00796b", "-", 2.2, 2.8),
-    PLUNGE: Line("plunge", looks.BROWN, "-", 1.6, 2.65),
-    FINISH: Line("finishing", "#00796b", (0, (6, 1.2)), 2.0, 2.75),
-    THREAD: Line("thread", looks.BLUE, (0, (4, 1, 1, 1)), 1.8, 2.6),
+    ROUGH: LineStyle("roughing", looks.BLUE, "-", 1.6, 2.6),
+    PICK_UP: LineStyle("pick-up", looks.VIOLET, "-", 2.2, 2.7),
+    CLEANUP: LineStyle("clean-up", "#00796b", "-", 2.2, 2.8),
+    PLUNGE: LineStyle("plunge", looks.BROWN, "-", 1.6, 2.65),
+    FINISH: LineStyle("finishing", "#00796b", (0, (6, 1.2)), 2.0, 2.75),
+    THREAD: LineStyle("thread", looks.BLUE, (0, (4, 1, 1, 1)), 1.8, 2.6),
 }
 GAP, TOP, BOTTOM = 0.5, 0.3, 0.46  # inches
 CHORD = 0.01

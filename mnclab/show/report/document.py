@@ -29,7 +29,7 @@ class Words(NamedTuple):
     tone: str = ""
 
 
-class Table(NamedTuple):
+class TextTable(NamedTuple):
     """Rows of texts under heads (or none); the columns `numbers` stand to the right, some rows are `bold`."""
 
     head: Row
@@ -69,7 +69,7 @@ class Compared(NamedTuple):
     difference: Any
 
 
-Piece = Words | Table | Blanks | Image | Alarms | Listing | Compared
+Piece = Words | TextTable | Blanks | Image | Alarms | Listing | Compared
 
 
 class Section(NamedTuple):
@@ -139,7 +139,7 @@ def _(piece: Words) -> str:
 
 
 @written.register
-def _(piece: Table) -> str:
+def _(piece: TextTable) -> str:
     return html_table(piece.head, piece.rows, numbers=piece.numbers, bold=piece.bold)
 
 

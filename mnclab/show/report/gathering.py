@@ -28,7 +28,7 @@ from mnclab.show.report.document import (
     Listing,
     Piece,
     Section,
-    Table,
+    TextTable,
     Words,
     html,
 )
@@ -54,7 +54,7 @@ class Report:
     title: str
     subtitle: str
     facts: Rows
-    tools: Table
+    tools: TextTable
     times: Rows
     alarms: tuple[Alarm, ...]
     listing: Lines
@@ -131,11 +131,11 @@ def document(run: Any, found: Report, picture: Any, difference: Any = None) -> D
     card.append(Image(picture, path_caption(run)) if moved else Words("The tool does not move."))
     none = Words("none")
     sections = [Section("", card), Section("Tools", [found.tools if found.tools.rows else none])]
-    sections.append(Section("Time", [Table((), found.times, (1, 2)) if found.times else none]))
+    sections.append(Section("Time", [TextTable((), found.times, (1, 2)) if found.times else none]))
     if found.cutting:
-        sections.append(Section("Cutting data", [Table(*found.cutting.table()), *map(Words, found.cutting.notes)]))
+        sections.append(Section("Cutting data", [TextTable(*found.cutting.table()), *map(Words, found.cutting.notes)]))
     if found.removal:
-        sections.append(Section("Removal", [Table(*found.removal.table())]))
+        sections.append(Section("Removal", [TextTable(*found.removal.table())]))
     sections.append(Section("Alarms", [Alarms(found.alarms) if found.alarms else none]))
     if found.removal and found.collisions is not None:
         told = [Words(f"{each.file}:{each.line}: collision: {each.message}", BAD) for each in found.collisions]
@@ -150,7 +150,7 @@ def document(run: Any, found: Report, picture: Any, difference: Any = None) -> D
     return Document(found.title, found.subtitle, sections)
 
 
-def _card(facts: Rows) -> Table:
+def _card(facts: Rows) -> TextTable:
     """Facts in two columns, long ones below them; the extents along the axes stand in one column."""
     short = [each for each in facts if len("".join(each)) <= LONGEST // 2]
     half = (len(short) + 1) // 2
@@ -158,7 +158,7 @@ def _card(facts: Rows) -> Table:
     if extents and extents[0] < half <= extents[-1]:
         half = extents[0]
     rows = [(*a, *b) for a, b in zip_longest(short[:half], short[half:], fillvalue=("", ""))]
-    return Table((), rows + [each for each in facts if each not in short])
+    return TextTable((), rows + [each for each in facts if each not in short])
 
 
 def path_caption(run: Any) -> str:
@@ -176,7 +176,7 @@ def measuring(run: Any, title: str) -> Section:
     pieces: list[Piece] = [Blanks([("program", title), *((name, "") for name in BLANKS)])]
     if rows:
         head, texts, numbers = rows.table()
-        pieces += [Table(head, texts, numbers, rows.bold), Words(rows.verdict, BAD if rows.bold else "")]
+        pieces += [TextTable(head, texts, numbers, rows.bold), Words(rows.verdict, BAD if rows.bold else "")]
     pictures, left_out = pages(run, PANELS, MOST_PANELS)
     pieces += [Image(picture, "what was measured, deviations magnified as each panel says") for picture in pictures]
     if left_out:
@@ -261,7 +261,7 @@ def used_tools(run: Any) -> list[int]:
     return [number for number in dict.fromkeys(rows.tolist()) if number]
 
 
-def tools_table(run: Any, numbers: Sequence[int], profile: Any) -> Table:
+def tools_table(run: Any, numbers: Sequence[int], profile: Any) -> TextTable:
     """A row for each tool; columns in which nothing stands are left out."""
     (tools, which), unit = run.tools_that_cut, run.toolpath.unit
     h, d = (_offsets(run, name) for name in ("length corrector", "corrector"))
@@ -278,7 +278,7 @@ def tools_table(run: Any, numbers: Sequence[int], profile: Any) -> Table:
     kept = [k for k in range(len(TOOLS)) if k < 2 or any(row[k] for row in rows)]
     units = {"diameter", "corner radius", "width", "length", "edges"}
     heads = [f"{TOOLS[k]}, {unit.short}" if TOOLS[k] in units else TOOLS[k].replace("angle", "angle, °") for k in kept]
-    return Table(heads, [[row[k] for k in kept] for row in rows], [i for i, k in enumerate(kept) if k in TOOL_NUMBERS])
+    return TextTable(heads, [[row[k] for k in kept] for row in rows], [i for i, k in enumerate(kept) if k in TOOL_NUMBERS])
 
 
 def _offsets(run: Any, name: str) -> dict[int, str]:
@@ -315,14 +315,14 @@ def set_up(run: Any, breaks: bool = True) -> Section:
     facts = [*_blank(run, places, unit), *(("fixture", _fixture(each, path.lathe, unit)) for each in run.setup.fixtures)]
     start = " ".join(f"{axis}{unit.figure(value, 1)}" for axis, value in zip("XYZ", run.setup.start))
     facts.append(("spindle at the start", f"{start}, machine coordinates{', X as radius' if path.lathe else ''}"))
-    pieces.append(Table((), facts))
+    pieces.append(TextTable((), facts))
     if run.stock is not None:
         caption = "the blank as it is clamped" + (", and its datum" if places else "")
         pieces.append(Image(plot_set_up(run), caption))
     return Section("Set-up", pieces, breaks)
 
 
-def _datums(run: Any, places: Sequence[tuple[str, Any]], unit: Unit) -> Table:
+def _datums(run: Any, places: Sequence[tuple[str, Any]], unit: Unit) -> TextTable:
     """Each zero point of the program: where it stands, and how it is turned."""
     rows = []
     turned = {tuple(np.round(datum[:3], 6)): datum for datum in (*run.tables.datums.values(), *run.tables.presets.values())}
@@ -333,7 +333,7 @@ def _datums(run: Any, places: Sequence[tuple[str, Any]], unit: Unit) -> Table:
         rows.append([name, *(f"{value / unit.length:.3f}" if np.isfinite(value) else "" for value in machine), *turns])
     kept = [k for k in range(4 + len(SHIFTS)) if k < 4 or any(row[k] for row in rows)]
     head = ["datum", "X", "Y", "Z", *(f"{name}, °" for name in SHIFTS)]
-    return Table([head[k] for k in kept], [[row[k] for k in kept] for row in rows], range(1, len(kept)))
+    return TextTable([head[k] for k in kept], [[row[k] for k in kept] for row in rows], range(1, len(kept)))
 
 
 def _blank(run: Any, places: Sequence[tuple[str, Any]], unit: Unit) -> Iterator[tuple[str, str]]:
@@ -384,5 +384,5 @@ def tool_sheet(run: Any, title: str) -> Document:
     tools, data = tools_table(run, used_tools(run), run.profile()), run.cutting_data()
     sections = [Section("Tools", [*_as_far(run), tools if tools.rows else Words("none")])]
     if data:
-        sections.append(Section("Cutting data", [Table(*data.table()), *map(Words, data.notes)]))
+        sections.append(Section("Cutting data", [TextTable(*data.table()), *map(Words, data.notes)]))
     return Document(title, f"Tool sheet, {run.control.title}", sections)

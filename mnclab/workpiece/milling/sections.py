@@ -100,7 +100,7 @@ def straightened(line: Array, within: float) -> Array:
 
 
 @dataclass(frozen=True, eq=False)
-class Level:
+class HeightSection:
     """Whether there is material at points (m,) at a height."""
 
     sweep: Sweep
@@ -116,11 +116,11 @@ class Level:
     def _among(self, heights: Array, floor: Array) -> Mask:
         return np.asarray((floor <= self.height) & (self.height < heights))
 
-    def about(self, x: Array, y: Array) -> Level:
+    def about(self, x: Array, y: Array) -> HeightSection:
         return replace(self, sweep=self.sweep.about(x, y))
 
 
-class Shadow(Level):
+class Shadow(HeightSection):
     """Whether there is material at points (m,) at any height."""
 
     def _among(self, heights: Array, floor: Array) -> Mask:
@@ -132,16 +132,16 @@ def level(sweep: Sweep, height: float, x: Array, y: Array) -> list[Contour]:
 
     Material lies to the left of a contour: outlines are counter-clockwise, holes clockwise.
     """
-    return traced(Level(replace(sweep, moves=sweep.moves[sweep.moves.low < height]), height), x, y)
+    return traced(HeightSection(replace(sweep, moves=sweep.moves[sweep.moves.low < height]), height), x, y)
 
 
-def traced(solid: Level, x: Array, y: Array) -> list[Contour]:
+def traced(solid: HeightSection, x: Array, y: Array) -> list[Contour]:
     """The contours of where there is material; `x` and `y` as for `level`."""
     grid = solid(*(each.ravel() for each in np.meshgrid(x, y))).reshape(len(y), len(x))
     return [Contour(merged(line)) for line in _rounded(solid, _chains(*_crossings(solid, grid, x, y)))]
 
 
-def _crossings(solid: Level, grid: Mask, x: Array, y: Array) -> tuple[Array, Array]:
+def _crossings(solid: HeightSection, grid: Mask, x: Array, y: Array) -> tuple[Array, Array]:
     """Where the rim crosses the edges of the squares (n, 2), and which follows which (n,)."""
     ny, nx = grid.shape
     rows, columns = np.nonzero(grid[:, :-1] != grid[:, 1:])
@@ -173,7 +173,7 @@ def _crossings(solid: Level, grid: Mask, x: Array, y: Array) -> tuple[Array, Arr
     return _halved(solid, inner, outer), after
 
 
-def _halved(solid: Level, inner: Array, outer: Array) -> Array:
+def _halved(solid: HeightSection, inner: Array, outer: Array) -> Array:
     """Where the material ends between points within it and points outside (n, 2)."""
     inner, outer = inner.copy(), outer.copy()
     for some in grouped(inner[:, 0], inner[:, 1], REACH * solid.sweep.raster.tile):
@@ -202,7 +202,7 @@ def _chains(points: Array, after: Array) -> list[Array]:
     return found
 
 
-def _rounded(solid: Level, lines: list[Array]) -> list[Array]:
+def _rounded(solid: HeightSection, lines: list[Array]) -> list[Array]:
     """Closed lines with more points wherever they cut off a bend or a corner of the material."""
     points = np.concatenate([np.concatenate([line, line[:1]]) for line in lines] or [np.zeros((0, 2))])
     of = np.repeat(np.arange(len(lines)), [len(line) + 1 for line in lines])

@@ -63,7 +63,7 @@ class Slab(NamedTuple):
     region: Region
 
 
-class Walls(NamedTuple):
+class SlabWalls(NamedTuple):
     """The lines, arcs and whole circles of all outlines, each once, u in all. Of those slabs that have an outline: the numbers
     of their elements one after the other, where each slab begins among these, and how often it has an element (u, s)."""
 
@@ -134,7 +134,7 @@ class Prisms:
         return self.solid[-1].high if self.solid else -np.inf
 
     @cached_property
-    def _walls(self) -> Walls:
+    def _walls(self) -> SlabWalls:
         every = [_kinds(np.array(edges_of(slab.region)).T) for slab in self.solid]
         sizes = [len(kind) for kind, _ in every]
         kind, columns = (np.concatenate(each) for each in zip(*every))
@@ -143,7 +143,7 @@ class Prisms:
         lines, arcs, circles = (Edges(*columns[first[once[:, 0] == each]].T) for each in range(3))
         times, begin = np.zeros((len(once), len(sizes))), np.cumsum([0, *sizes[:-1]])
         np.add.at(times, (element.ravel(), np.repeat(np.arange(len(sizes)), sizes)), 1.0)
-        return Walls(lines, arcs, circles, element.ravel(), begin, times)
+        return SlabWalls(lines, arcs, circles, element.ravel(), begin, times)
 
     @cached_property
     def _ends(self) -> tuple[Floats, Floats, NDArray[np.bool_]]:

@@ -29,7 +29,7 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.given import shown
 from mnclab.workpiece.collision import Collision, Collisions, deep, solid
 from mnclab.workpiece.cutting import Cutting
-from mnclab.workpiece.turning.section import Drawing
+from mnclab.workpiece.turning.section import SectionDrawing
 from mnclab.workpiece.turning.turned import half_section
 
 # What the back of an insert takes away, its auxiliary edge, where the programmed way has it that the tip cuts.
@@ -156,7 +156,7 @@ def area_of(body: Any) -> Any:
     section, axis, _ = half_section(body)
     if abs(axis) > 1e-9:
         raise Alarm(f"on a lathe a blank and its chuck stand about X 0, got {shown(body)}")
-    return Drawing.of(section, (), ()).bar
+    return SectionDrawing.of(section, (), ()).bar
 
 
 def outline(tool: Tool, height: float) -> Floats:

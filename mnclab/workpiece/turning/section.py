@@ -182,7 +182,7 @@ TINY = 1e-7  # mm, a piece narrower than this is none
 
 
 @dataclass(frozen=True)
-class Drawing:
+class SectionDrawing:
     """Closed contours as rings of straight pieces; the first `bars` of them are the blank's, row -1.
 
     `rings` (m,): the first piece of each contour; of the k pieces `starts`, `ends` (k, 2), `tags` (k,) the curve that it
@@ -194,7 +194,7 @@ class Drawing:
     bars: int = 1
 
     @classmethod
-    def of(cls, blank: Sequence[Contour], strokes: Sequence[Contour], rows: Sequence[int]) -> Drawing:
+    def of(cls, blank: Sequence[Contour], strokes: Sequence[Contour], rows: Sequence[int]) -> SectionDrawing:
         """Of the loops of a blank and of what is taken away, with the row of each stroke."""
         return cls([*blank, *strokes], np.array([-1] * len(blank) + list(rows), dtype=np.int64), len(blank))
 
@@ -269,7 +269,7 @@ class Drawing:
         return found
 
 
-def left_of(drawing: Drawing) -> Any:
+def left_of(drawing: SectionDrawing) -> Any:
     """The blank without all strokes, as a shapely area."""
     return shapely.difference(drawing.bar, shapely.union_all(drawing.strokes))
 
@@ -289,7 +289,7 @@ def moment(area: Any) -> float:
     return float(sum(each.area * each.centroid.y for each in shapely.get_parts(area) if each.area))
 
 
-def cuts(drawing: Drawing, low: float) -> Iterator[tuple[int, Any, list[Any]]]:
+def cuts(drawing: SectionDrawing, low: float) -> Iterator[tuple[int, Any, list[Any]]]:
     """The row of each stroke that takes something away, the area that it takes, and the pieces that fall then."""
     rest = drawing.bar
     for number, area in enumerate(drawing.strokes):

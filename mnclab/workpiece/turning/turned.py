@@ -23,7 +23,7 @@ from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.turning import revolved
 from mnclab.workpiece.turning.revolved import TurnedBlank
-from mnclab.workpiece.turning.section import CHORD_ERROR, Drawing, Edge, cuts, held, left_of, moment
+from mnclab.workpiece.turning.section import CHORD_ERROR, Edge, SectionDrawing, cuts, held, left_of, moment
 from mnclab.workpiece.turning.strokes import Strokes, strokes_of, threads_of
 from mnclab.workpiece.workpiece import Solid, Workpiece
 
@@ -59,9 +59,9 @@ class Turned(Workpiece):
         return strokes_of(self.cutting, self.low, self.high, self.radius, self.axis)
 
     @cached_property
-    def _drawing(self) -> Drawing:
+    def _drawing(self) -> SectionDrawing:
         strokes = self.strokes
-        return Drawing.of(self.blank, strokes.contours, strokes.rows)
+        return SectionDrawing.of(self.blank, strokes.contours, strokes.rows)
 
     @cached_property
     def _pieces(self) -> tuple[Any, list[Any]]:

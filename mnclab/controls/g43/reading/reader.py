@@ -17,7 +17,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.controls.g43.reading import formulas
-from mnclab.controls.g43.reading.statements import HEAD, HINTS, Fault, OWords, Statements, assignments, end_of_operand
+from mnclab.controls.g43.reading.statements import (
+    HEAD,
+    HINTS,
+    LineFault,
+    OWords,
+    Statements,
+    assignments,
+    end_of_operand,
+)
 from mnclab.controls.word_address.reader import Labels, Marks, clean_blocks, numbered, read_words, skip_blanks
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.dialect import Numbered, Numbers, Reference, code_of, one_number, unknown
@@ -174,7 +182,7 @@ class _Reader:
             line = line.rstrip(END_OF_TEXT + END)
         try:
             parts = list(without_comments(line))
-        except Fault as fault:
+        except LineFault as fault:
             self.fault(fault, begin, begin)
             return
         code = "".join(parts)[: len(line)]
@@ -186,12 +194,12 @@ class _Reader:
         self.warn_of_words(line, code, begin)
         try:
             self.read_block(line, code, begin, at)
-        except Fault as fault:
+        except LineFault as fault:
             self.fault(fault, begin)
         except Alarm as alarm:
             builder.note(alarm)
 
-    def fault(self, fault: Fault, begin: int, block: int = -1) -> None:
+    def fault(self, fault: LineFault, begin: int, block: int = -1) -> None:
         if block >= 0:
             self.builder.block(block)
         self.builder.alarm(fault.message, begin + fault.at, fault.length, fault.hint)
@@ -214,7 +222,7 @@ class _Reader:
             mark = _SKIP.match(code, at)
             if mark is None:
                 builder.block(start)
-                raise Fault("/ is followed by the number of a switch, 1 to 9", at)
+                raise LineFault("/ is followed by the number of a switch, 1 to 9", at)
             skip = int(mark.group(1) or 1)
             at = skip_blanks(code, mark.end(), len(code))
         label = label or _LABEL.match(code, at)
@@ -251,7 +259,7 @@ class _Reader:
             at = number.end()
         if call:  # what stands behind it are arguments
             if code[at : call.start()].strip(" \t"):
-                raise Fault("a call stands alone in its block", call.start(), hint="write two blocks")
+                raise LineFault("a call stands alone in its block", call.start(), hint="write two blocks")
             at = call.end()
         first = not (label or number or call)
         for a, b in pieces(code, line, at):
@@ -272,7 +280,7 @@ class _Reader:
         written = {code[a : code.find("=", a)].replace(" ", "").lower() for a, _ in lead}
         read = set(re.findall(r"#(?:\d+|<[^<>]*>|[#\[])", rest.replace(" ", "").lower()))
         if read and (written & read or any(name[1:2] in "#[" for name in written | read) and lead):
-            raise Fault("a variable is read and written in one block", lead[0][0], hint="write two blocks")
+            raise LineFault("a variable is read and written in one block", lead[0][0], hint="write two blocks")
 
         def assign(span: tuple[int, int], first: bool) -> None:
             if not first:
@@ -373,9 +381,9 @@ def without_comments(line: str) -> Iterator[str]:
             return
         close, again = line.find(")", mark), line.find("(", mark + 1)
         if close < 0:
-            raise Fault("a comment is not closed: ')' is missing", mark)
+            raise LineFault("a comment is not closed: ')' is missing", mark)
         if mark < again < close:
-            raise Fault("a comment cannot stand inside another", again, hint="write other brackets in a comment: [ ] or < >")
+            raise LineFault("a comment cannot stand inside another", again, hint="write other brackets in a comment: [ ] or < >")
         yield " " * (close + 1 - mark)
         at = close + 1
 

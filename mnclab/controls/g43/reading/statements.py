@@ -33,7 +33,7 @@ DEEPEST = 3  # loops inside each other
 MESSAGES = ("#3000", "#3006")  # what is written to them stands in the comment of the block
 
 
-class Fault(Exception):
+class LineFault(Exception):
     """What is wrong with a line, from one character of it on."""
 
     def __init__(self, message: str, at: int, length: int = 1, hint: str = "") -> None:
@@ -129,7 +129,7 @@ class _Line:
             return
         self.at = head.end()
         if keyword in ("THEN", "ELSE"):
-            raise Fault(f"{keyword} has no IF before it", head.start(), len(keyword))
+            raise LineFault(f"{keyword} has no IF before it", head.start(), len(keyword))
         if keyword == "IF":
             self.condition("IF")
             if self.skip("THEN"):
@@ -156,15 +156,15 @@ class _Line:
         self.at = found.end() if found else self.at
         return found is not None
 
-    def expected(self, what: str) -> Fault:
+    def expected(self, what: str) -> LineFault:
         rest = self.line[self.at :].lstrip(" \t")
         place = len(self.line) - len(rest)
-        return Fault(f"{what} was expected" + (f", found {rest[:1]!r}" if rest else ""), place)
+        return LineFault(f"{what} was expected" + (f", found {rest[:1]!r}" if rest else ""), place)
 
     def done(self) -> None:
         if self.at < len(self.line):
             rest = self.line[self.at :].lstrip(" \t")
-            raise Fault(f"{rest[:1]!r} is too much in this statement", len(self.line) - len(rest), hint="write two blocks")
+            raise LineFault(f"{rest[:1]!r} is too much in this statement", len(self.line) - len(rest), hint="write two blocks")
 
     def add(self, address: str, value: object, at: int) -> None:
         self.builder.word(address, value, self.begin + at, self.at - at)
@@ -180,7 +180,7 @@ class _Line:
     def condition(self, word: str) -> None:
         at = self.blanks()
         if self.line[at : at + 1] != "[":
-            raise Fault(f"{word} needs a condition in brackets", at, hint=f"for example {word} [#1 EQ 2]")
+            raise LineFault(f"{word} needs a condition in brackets", at, hint=f"for example {word} [#1 EQ 2]")
         self.at = end_of_operand(self.line, at)
         self.add("condition", self.formula(at, self.at), at)
 
@@ -193,7 +193,7 @@ class _Line:
             self.at = end
             self.add("GOTO", self.formula(at, end), at)
         else:
-            raise Fault("GOTO needs the number of a block", at, hint="for example GOTO 10 or GOTO #1")
+            raise LineFault("GOTO needs the number of a block", at, hint="for example GOTO 10 or GOTO #1")
         self.all.jumps = True
         self.done()
 
@@ -204,7 +204,7 @@ class _Line:
             at = self.blanks()
             end = end_of_operand(self.line, at)
             if self.line[at : at + 1] != "#" or end < 0:
-                raise Fault("a variable was expected", at, hint="for example #101=2.5")
+                raise LineFault("a variable was expected", at, hint="for example #101=2.5")
             self.at = end
             target = self.formula(at, end)
             self.add("target", target, at)
@@ -213,7 +213,7 @@ class _Line:
             at = self.blanks()
             stop = self.next_target(at)
             if stop <= at:
-                raise Fault("a value was expected", at, hint="a number, a variable or a function of this control: SQRT[#1]")
+                raise LineFault("a value was expected", at, hint="a number, a variable or a function of this control: SQRT[#1]")
             value = self.formula(at, stop)
             self.at = at + len(self.line[at:stop].rstrip())
             self.add("value", value, at)
@@ -221,7 +221,7 @@ class _Line:
             again = next((t for t in reads if t.text in written or "" in written or (written and not t.text)), None)
             if again:
                 place = again.span.column - self.builder.span(self.begin).column
-                raise Fault(f"{again.text or '#'} is read and written in one block", place, hint="write two blocks")
+                raise LineFault(f"{again.text or '#'} is read and written in one block", place, hint="write two blocks")
             written.add(target.tokens[0].text)
             if target.text.replace(" ", "") in MESSAGES and self.message:
                 self.add("message", self.message, at)
@@ -244,7 +244,7 @@ class _Line:
     def number(self, word: str, begin: int) -> int:
         number = _NUMBER.match(self.line, self.at)
         if number is None or not 1 <= float(number.group(1)) <= DEEPEST:
-            raise Fault(f"{word} needs a number from 1 to {DEEPEST}", begin, max(len(self.line[begin:]), 1))
+            raise LineFault(f"{word} needs a number from 1 to {DEEPEST}", begin, max(len(self.line[begin:]), 1))
         self.at = number.end()
         return int(float(number.group(1)))
 
@@ -256,7 +256,7 @@ class _Line:
         loops.append(_Loop(number, self.begin + begin, self.at - begin, label))
         if again:
             hint = "loops inside each other have numbers of their own"
-            raise Fault(f"DO {number} stands inside DO {number}", begin, self.at - begin, hint)
+            raise LineFault(f"DO {number} stands inside DO {number}", begin, self.at - begin, hint)
         self.builder.labels[label] = self.builder.blocks[-1][0]
         self.add("END", f"after {label}", begin)
 
@@ -264,7 +264,7 @@ class _Line:
         number, loops = self.number("END", begin), self.all.loops
         if not loops or loops[-1].number != number:
             inner = f": DO {loops[-1].number} is open" if loops else ""
-            raise Fault(f"END {number} has no DO {number} before it{inner}", begin, self.at - begin)
+            raise LineFault(f"END {number} has no DO {number} before it{inner}", begin, self.at - begin)
         label = loops.pop().label
         self.add("DO", label, begin)
         self.all.last = self.builder.blocks[-1][0]
@@ -329,9 +329,9 @@ class OWords:
             self.block(start, "", skip)
         if kind not in KEYWORDS:
             meant = next((f"write {word}" for word in KEYWORDS if kind.startswith(word)), "")
-            raise Fault(f"{keyword.group(1)} is no O word", place, length, hint(kind, KEYWORDS) or meant)
+            raise LineFault(f"{keyword.group(1)} is no O word", place, length, hint(kind, KEYWORDS) or meant)
         if computed and kind != "call":
-            raise Fault(
+            raise LineFault(
                 f"only a call may work out the name of {kind}", at, place + length - at, "write a number or O<name>"
             )
         own = "" if computed else spelled(name.group(1))
@@ -365,7 +365,7 @@ class OWords:
                 at += len(line[at:]) - len(line[at:].lstrip(" \t"))
         if line[at:].strip():
             rest = line[at:].lstrip(" \t")
-            raise Fault(
+            raise LineFault(
                 f"{rest[:1]!r} is too much behind {kind}", len(line) - len(rest), hint="a value stands in brackets"
             )
         self.last = self.builder.blocks[-1][0]
@@ -383,7 +383,7 @@ class OWords:
 
     def formula(self, line: str, begin: int, at: int, address: str, kind: str) -> int:
         if line[at : at + 1] != "[":
-            raise Fault(f"{kind} needs a value in brackets", at, hint=f"for example {kind} [#1 LT 5]")
+            raise LineFault(f"{kind} needs a value in brackets", at, hint=f"for example {kind} [#1 LT 5]")
         end = end_of_operand(line, at)
         self.word(address, formulas.parse(line[at:end], self.builder.span(begin + at)), begin + at, end - at)
         return end
@@ -395,7 +395,7 @@ class OWords:
         if kind == "sub":
             one.label = f"O{name} sub"
             if self.opened:
-                raise Fault(f"O{name} sub stands inside {self.opened[-1]}", at - self.line_start(at), length)
+                raise LineFault(f"O{name} sub stands inside {self.opened[-1]}", at - self.line_start(at), length)
             if one.label in self.builder.labels:
                 self.builder.alarm(f"O{name} sub stands twice", at, length, "a name is that of one subprogram")
         self.opened.append(one)
@@ -411,7 +411,7 @@ class OWords:
         """The one opened last, which must be of a kind and a name."""
         if not self.opened or (self.opened[-1].kind, self.opened[-1].name) != (kind, name):
             inner = f": {self.opened[-1]} is open" if self.opened else ""
-            raise Fault(f"O{name} {word} has no O{name} {kind} before it{inner}", at, length)
+            raise LineFault(f"O{name} {word} has no O{name} {kind} before it{inner}", at, length)
         return self.opened[-1]
 
     def close_one(self, kind: str, word: str, name: str, at: int, length: int) -> None:
@@ -433,7 +433,7 @@ class OWords:
     def branch(self, kind: str, name: str, at: int, place: int, begin: int, skip: int) -> None:
         one = self.innermost("if", kind, name, at, place + len(kind) - at)
         if not one.branches:
-            raise Fault(f"O{name} {kind} stands behind else", at, place + len(kind) - at)
+            raise LineFault(f"O{name} {kind} stands behind else", at, place + len(kind) - at)
         where = begin + place
         self.word("END", f"after {one.label}", begin + at, place + len(kind) - at)
         self.block(where, "O IF" if kind == "elseif" else "O ELSE", skip)
@@ -447,14 +447,14 @@ class OWords:
         fitting = ("while", "do") if kind == "continue" else tuple(LOOPS)
         one = next((o for o in reversed(self.opened) if o.name == name and o.kind in fitting), None)
         if one is None:
-            raise Fault(f"O{name} {kind} stands in no {' or '.join(fitting)} of this name", at, end - at)
+            raise LineFault(f"O{name} {kind} stands in no {' or '.join(fitting)} of this name", at, end - at)
         to = ("DO", f"{one.label} again") if kind == "continue" else ("END", f"after {one.label}")
         self.word(*to, self.builder.blocks[-1][0], end - at)
 
     def inside(self, name: str, at: int, end: int) -> None:
         """A return is that of the sub it stands in, whatever its own name, which is often that of an if."""
         if not self.opened or self.opened[0].kind != "sub":
-            raise Fault(f"O{name} return stands outside O{name} sub", at, end - at)
+            raise LineFault(f"O{name} return stands outside O{name} sub", at, end - at)
 
     def close(self) -> None:
         """Nothing may be open where a program ends."""

@@ -13,7 +13,7 @@ from typing import ClassVar
 from mnclab.controls.mnc.cycles import addresses
 from mnclab.controls.word_address.holes import out_of_place
 from mnclab.machine.coordinates import MILLS, remark, tool
-from mnclab.machine.cycle import Cycle, CycleTable, few_passes, param, too_many
+from mnclab.machine.cycle import Cycle, CycleTable, param, too_many, too_many_passes
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import MOST, infeeds
 from mnclab.machining.milling.clearing import Clearing, numbered
@@ -21,9 +21,9 @@ from mnclab.machining.milling.entries import Entry
 from mnclab.machining.milling.faces import Layer, face, lines, rows
 from mnclab.machining.milling.pocket_steps import (
     Down,
-    Feeds,
+    LevelFeeds,
     Pocket,
-    Work,
+    PocketWork,
     circular,
     mill_pocket,
     quarter_circles,
@@ -141,7 +141,7 @@ class FaceMilling(MillingCycle):
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         yield from super().check(m)
         yield from too_many("overlap", lambda: self.across(m.radius))
-        yield from few_passes("max_infeed", len(self.levels()), len(self.across(m.radius)))
+        yield from too_many_passes("max_infeed", len(self.levels()), len(self.across(m.radius)))
 
     def levels(self) -> tuple[float, ...]:
         """Equal infeeds down to the allowance, and then the allowance."""
@@ -255,7 +255,7 @@ def faults(pocket: AnyPocket, m: Machine) -> Iterator[tuple[str, str]]:
     shape, angle = pocket.shape(m.radius), m.tool.plunge_angle
     yield from too_many("overlap", lambda: shape.clearing(0.0))
     passes = shape.clearing(pocket.side_allowance).passes
-    yield from few_passes("infeed", len(levels(pocket, pocket.infeed)), len(passes))
+    yield from too_many_passes("infeed", len(levels(pocket, pocket.infeed)), len(passes))
     if pocket.plunge and not 0 < angle <= 90:
         needed = f"the plunge angle of tool {m.tool.number}, greater than 0 and at most 90"
         yield "plunge", f"{pocket.plunge:g} needs {needed}, in the tool table"
@@ -275,11 +275,11 @@ def way_in(pocket: AnyPocket, m: Machine) -> Down:
     return partial(way_down, entry, pocket.shape(m.radius).room(pocket.side_allowance), m.radius, climb(pocket))
 
 
-def work(pocket: AnyPocket) -> Work:
+def work(pocket: AnyPocket) -> PocketWork:
     """What M asks for, as far as there are allowances."""
     roughs, finishes, finish_feed = pocket.scope != 2, pocket.scope != 1, pocket.finish_feed or pocket.feed
-    finishing = Feeds(finish_feed, pocket.plunge_feed)
-    return Work(
+    finishing = LevelFeeds(finish_feed, pocket.plunge_feed)
+    return PocketWork(
         surface=pocket.surface,
         left_over=left_over(pocket),
         above=pocket.surface + pocket.clearance,
@@ -288,7 +288,7 @@ def work(pocket: AnyPocket) -> Work:
         layers=levels(pocket, pocket.infeed) if roughs else (),
         walls=levels(pocket, pocket.finish_infeed) if finishes and pocket.side_allowance else (),
         floor=(pocket.surface + pocket.depth,) if finishes and pocket.floor_allowance else (),
-        feeds=(Feeds(pocket.feed, pocket.plunge_feed), finishing, finishing),
+        feeds=(LevelFeeds(pocket.feed, pocket.plunge_feed), finishing, finishing),
         side=1 if climb(pocket) else -1,
     )
 

@@ -99,7 +99,7 @@ def width_measured(c: MeasuringCycle, m: Machine, a: Approach, aims: Sequence[Ai
     "G425", "Measure a slot", source="MNC 12.18",
     takes=f"x y offset_2 axis {APPROACH} width between {SIZE} protocol stop_on_error",
 )  # fmt: skip
-class Slot(MeasuringCycle):
+class SlotMeasuring(MeasuringCycle):
     """Two touches from within, first in the positive direction; the second one may be shifted along the slot.
 
     Without a width, or without room before the sides, both begin in the starting point.

@@ -143,7 +143,7 @@ class LaserCycle(Cycle):
 
 
 @CYCLES("G470", "Laser tool setter: level of the beam", source="MNC 12.27")
-class Level(LaserCycle):
+class BeamSlope(LaserCycle):
     """The beam is broken twice, at two places along it."""
 
     refused = FRAMES
@@ -183,7 +183,7 @@ class HeightOfBeam(LaserCycle):
 
 
 @CYCLES("G472", "Laser tool setter: calibrate X and Y", source="MNC 12.29")
-class Place(LaserCycle):
+class BeamPlace(LaserCycle):
     """The beam is broken from both sides by a tool that is known; along the beam the place of the call counts."""
 
     refused, needs = FRAMES, ("laser_z",)

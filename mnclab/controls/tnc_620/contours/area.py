@@ -21,7 +21,7 @@ from mnclab.machine.cycle import Cycle, CycleTable, too_many
 from mnclab.machine.flow import Recording
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
-from mnclab.machining.milling.terraces import Part, Terrace, parts, terraces
+from mnclab.machining.milling.terraces import DeepArea, Terrace, parts, terraces
 from mnclab.machining.steps import Record, Step, Write
 from mnclab.path.plane import PlaneView, chain, outline
 from mnclab.path.toolpath import Toolpath
@@ -249,7 +249,7 @@ def contour_terraces(
         pockets, islands = yield from labelled_shapes(m, source)
         if islands_alone and islands and not pockets:
             return (Terrace(0.0, abs(data.depth), joined(islands), solid=True),)
-        source = Part(area_of(m, pockets, islands))
+        source = DeepArea(area_of(m, pockets, islands))
     whole = abs(data.depth) or 1.0
     for depth in sorted({part.depth for part in parts(source) if data.depth and part.depth > whole + 1e-9}):
         said = f"DEPTH{depth:.10g} of the contour is deeper than the milling depth Q1 = {data.depth:g}, which counts"

@@ -18,7 +18,7 @@ from mnclab.controls.tnc_620.machining.roughing import Cut, Feeds, Heights
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.regions import Region
 from mnclab.machine.coordinates import MILLS, depth_scale, in_mm, plane_scale, remark, tool
-from mnclab.machine.cycle import Cycle, CycleTable, few_passes
+from mnclab.machine.cycle import Cycle, CycleTable, too_many_passes
 from mnclab.machine.machine import INF, Machine
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes import drill
@@ -123,7 +123,7 @@ class RoughOut(Cycle):
         heights = Heights(data.height, data.surface, data.above, data.down)
         feeds = Feeds(plunge, self.feed, self.feed * self.factor / 100)
         at = levels(found, data.surface, data.down, abs(self.infeed), data.floor_allowance)
-        for _, sentence in few_passes("infeed", len(at), max(len(each.clearing.passes) for each in cuts)):
+        for _, sentence in too_many_passes("infeed", len(at), max(len(each.clearing.passes) for each in cuts)):
             m.alarm(in_mm(f"{self.code} Q10={self.infeed:.10g} {sentence}", m.variable_unit, length=True))
         try:
             yield from roughing.rough_out(cuts, at, heights, feeds, self.way_down(m, data))
@@ -268,7 +268,7 @@ class SideFinishing(Cycle):
             yield Say(f"{compared}: what the rough-out tool reached is not finished")
         for terrace, heights in zip(found, heights_of(found, data, abs(self.infeed)), strict=True):
             walls = walls_of(self, m, data, terrace)
-            for _, sentence in few_passes("infeed", len(heights.levels), len(walls)):
+            for _, sentence in too_many_passes("infeed", len(heights.levels), len(walls)):
                 m.alarm(in_mm(f"{self.code} Q10={self.infeed:.10g} {sentence}", m.variable_unit, length=True))
             for x, y in (wall.contour.points[0].tolist() for wall in walls if not wall.tangential):
                 yield Say(f"has no room for an arc to the wall at X{x:.3f} Y{y:.3f}: the tool comes straight to it")

@@ -32,7 +32,7 @@ from mnclab.geometry.curves import Floats
 from mnclab.geometry.frames import IDENTITY
 from mnclab.machine.control import Setting
 from mnclab.machine.coordinates import AXES, MILLS, in_mm, remark
-from mnclab.machine.cycle import Cycle, CycleTable, few_passes, param, too_many
+from mnclab.machine.cycle import Cycle, CycleTable, param, too_many, too_many_passes
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
 from mnclab.machining.milling.clearing import numbered
@@ -303,7 +303,7 @@ class OnCylinder(Cycle):
             yield "depth", f"must be negative, got {self.depth:g}: the tool comes from outside, from inside is not built yet"
         if -self.depth >= self.cylinder_radius > 0:
             yield "depth", f"must be less deep than the radius Q16 = {self.cylinder_radius:g}, got {self.depth:g}"
-        yield from [*too_many("infeed", self.levels)] or few_passes("infeed", len(self.levels()), WAYS)
+        yield from [*too_many("infeed", self.levels)] or too_many_passes("infeed", len(self.levels()), WAYS)
         if self.sided and m.settings["spindle_error"] and not m.turning:
             yield "", "needs a turning spindle (setting spindle_error)"
         yield from surface_faults(m)

@@ -21,7 +21,7 @@ from mnclab.geometry.frames import Matrix
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.flow import Recording, determine
 from mnclab.machine.machine import Machine
-from mnclab.machining.milling.terraces import Formula, Joined, Known, Part, at_depth, parts
+from mnclab.machining.milling.terraces import DeepArea, Formula, Joined, Known, at_depth, parts
 from mnclab.text.program import Word
 
 MOST = 128  # contours of a cycle (10.1)
@@ -41,7 +41,7 @@ class Definitions:
 
 def described(
     m: Machine, code: str, word: Word, depth: Word | None, after: Recording | None = None, within: Matrix | None = None
-) -> tuple[Part, Recording]:
+) -> tuple[DeepArea, Recording]:
     """The part that a word names, a program or a label, on a copy of the Q parameters; the recording, for the next part.
 
     An Alarm where there is none, or where it encloses nothing: in the program or label that describes it.
@@ -64,7 +64,7 @@ def described(
     if sided.any() or recording.side:
         step = int(recording.path.step[np.argmax(sided)]) if sided.any() else recording.step
         doubt(m, step, f"RL and RR say nothing in the contour of {what}: the formula makes it a pocket or an island")
-    return Part(region, deep), recording
+    return DeepArea(region, deep), recording
 
 
 def joined(m: Machine, words: Sequence[Word], named: dict[str, Formula]) -> Formula:
@@ -220,8 +220,8 @@ def formula(m: Machine, words: Words) -> None:
 def simple(m: Machine, words: Words) -> None:
     """Pockets joined, and without the islands, each with its depth: the contour from now on; nothing moves."""
     outside(m, "CONTOUR DEF", words.words[0] if words.words else None)
-    pockets: list[Part] = []
-    islands: list[Part] = []
+    pockets: list[DeepArea] = []
+    islands: list[DeepArea] = []
     recording: Recording | None = None
     for head, word, depth in of_parts(m, words):
         code = f"CONTOUR DEF {head.address}{head.value:g}"
@@ -242,7 +242,7 @@ def in_order(words: Words) -> list[Word]:
     return sorted(words.words, key=lambda word: word.place)
 
 
-def united(some: list[Part]) -> Formula:
+def united(some: list[DeepArea]) -> Formula:
     found: Formula = some[0]
     for part in some[1:]:
         found = Joined("|", found, part)

@@ -19,10 +19,10 @@ from mnclab.controls.tnc_620.cycles.pockets import check_angle, feeds
 from mnclab.controls.tnc_620.machining import slots
 from mnclab.geometry.contours import Contour
 from mnclab.machine.coordinates import in_mm, remark, tool
-from mnclab.machine.cycle import CycleTable, few_passes
+from mnclab.machine.cycle import CycleTable, too_many_passes
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
-from mnclab.machining.milling.pocket_steps import Work, centre_feeds
+from mnclab.machining.milling.pocket_steps import PocketWork, centre_feeds
 from mnclab.machining.milling.trochoids import NOTHING, circle_count, trochoid, walls
 from mnclab.machining.steps import Go, Say, Step
 from mnclab.path.leads import way
@@ -134,7 +134,7 @@ def mill(c: TrochoidalSlot, m: Machine, line: Contour, opens: bool, here: Span |
     floor = trochoid(line, width, m.radius, c.advance, climb=climb) if work.floor else None
     for clearing, levels in ((rough, work.layers), (floor, work.floor)):
         if clearing is not None and len(clearing.passes) > 1:
-            for _, sentence in few_passes("", len(levels), circle_count(line, width, c.advance)):
+            for _, sentence in too_many_passes("", len(levels), circle_count(line, width, c.advance)):
                 m.alarm(f"{c.code} Q436 (infeed per revolution) {sentence}", here)
     edges = ((rough, work.feeds[0]), (floor, work.feeds[2]))
     ways = [way for clearing, feed in edges if clearing and feed.edge for way in clearing.passes]
@@ -156,7 +156,7 @@ def mill(c: TrochoidalSlot, m: Machine, line: Contour, opens: bool, here: Span |
     yield from leave(m, before, c.end)
 
 
-def work_of(c: TrochoidalSlot, m: Machine) -> Work:
+def work_of(c: TrochoidalSlot, m: Machine) -> PocketWork:
     """What is done: a slot as wide as the tool is only roughed, on its line; the walls go down to the floor."""
     work = milling.work(c, m, feeds(c, m))
     work = work._replace(

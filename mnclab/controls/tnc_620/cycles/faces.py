@@ -25,7 +25,7 @@ from mnclab.controls.tnc_620.machining.faces import (
 from mnclab.geometry.contours import Contour
 from mnclab.machine.control import Setting
 from mnclab.machine.coordinates import MILLS, remark, tool
-from mnclab.machine.cycle import Cycle, CycleTable, few_passes, too_many
+from mnclab.machine.cycle import Cycle, CycleTable, too_many, too_many_passes
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import DRIFT, infeeds
 from mnclab.machining.milling.clearing import Clearing, begin, numbered
@@ -286,7 +286,7 @@ class WalledFaceMilling(AtSurface):
         length, width = self.walled.length, self.walled.width
         across, step = (width, length)[int(self.milling_direction) - 1], self.overlap * m.radius
         yield from too_many("overlap", lambda: rows(0, min(length, width) if self.strategy == 4 else across, step))
-        yield from few_passes("max_plunging_depth", len(self.rough_levels(tool(m))), 1 + int(across / step))
+        yield from too_many_passes("max_plunging_depth", len(self.rough_levels(tool(m))), 1 + int(across / step))
 
     def check_walls(self, radius: float) -> Iterator[Fault]:
         walled, least = self.walled, 2 * (radius + self.side_allowance)
@@ -363,7 +363,7 @@ class MultipassMilling(Cycle):
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from planes.with_radius(m)
         yield from planes.not_zero(self, "plunging_feed", "milling_feed", "stepover_feed", purpose="to mill with")
-        yield from few_passes("cuts", 1, int(self.cuts))
+        yield from too_many_passes("cuts", 1, int(self.cuts))
         if self.cuts > 1:
             yield from planes.at_least(self, "second_side_length", 2 * m.radius, "the tool diameter")
 
@@ -406,7 +406,7 @@ class RuledSurface(Cycle):
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from planes.with_radius(m)
         yield from planes.not_zero(self, "milling_feed", purpose="to mill with")
-        yield from few_passes("cuts", 1, int(self.cuts))
+        yield from too_many_passes("cuts", 1, int(self.cuts))
 
     def moves(self, m: Machine) -> Iterator[Step]:
         first, second = (self.x_1, self.y_1, self.z_1), (self.x_2, self.y_2, self.z_2)

@@ -19,7 +19,7 @@ from mnclab.machine.coordinates import MILLS, tool
 from mnclab.machine.cycle import too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
-from mnclab.machining.milling.pocket_steps import Feeds, Work
+from mnclab.machining.milling.pocket_steps import LevelFeeds, PocketWork
 from mnclab.machining.steps import Go, Say, Step, moved
 from mnclab.path.tool import Tool
 
@@ -104,10 +104,10 @@ def wall_levels(c: MilledFigure) -> tuple[float, ...]:
     return infeeds(c.surface, left_over(c), c.finishing_infeed)
 
 
-def work(c: MilledFigure, m: Machine, feeds: tuple[Feeds, Feeds, Feeds]) -> Work:
+def work(c: MilledFigure, m: Machine, feeds: tuple[LevelFeeds, LevelFeeds, LevelFeeds]) -> PocketWork:
     """What is done of the cycle; Q351 = 0 is climb milling too."""
     roughs, finishes = c.machining_operation != 2, c.machining_operation != 1
-    return Work(
+    return PocketWork(
         surface=c.surface, left_over=left_over(c), above=c.above, lift=c.down * c.clearance, allowance=c.side_allowance,
         layers=levels(c, m) if roughs else (), walls=wall_levels(c) if finishes and c.side_allowance > 0 else (),
         floor=(c.surface + c.depth,) if finishes and c.floor_allowance > 0 else (), feeds=feeds,
@@ -123,7 +123,7 @@ def finishing_feed(c: MilledFigure) -> float:
 
 
 def mill(
-    c: MilledFigure, m: Machine, work: Work, figures: Iterable[Figure], last: Iterable[Step] = (),
+    c: MilledFigure, m: Machine, work: PocketWork, figures: Iterable[Figure], last: Iterable[Step] = (),
     why: str = "neither Q368 nor Q369 is given",
 ) -> Iterator[Step]:  # fmt: skip
     """Figure after figure, at rapid from the second set-up plane and back to it, and what comes `last`.

@@ -21,7 +21,7 @@ from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
 from mnclab.machining.milling.faces import NOTHING
-from mnclab.machining.milling.pocket_steps import Feeds, half_circles
+from mnclab.machining.milling.pocket_steps import LevelFeeds, half_circles
 from mnclab.machining.steps import Along, Go, Say, Step, moved
 
 # Obsolete slots with a reciprocating plunge, which still run (1.2): 210 straight, 211 circular.
@@ -112,7 +112,7 @@ class ReciprocatingSlot(AtSurface):
         if inset:
             wall = contours.slot(slot.line.reversed(), 2 * inset).started_at(slot.along)
             start = slot.back.points[-1].tolist()
-            feeds = Feeds(feed, self.plunging_feed or feed)
+            feeds = LevelFeeds(feed, self.plunging_feed or feed)
             yield from finish_rounds(wall, half_circles(wall, inset, 1), (start[0], start[1]), levels, feeds)
 
 
@@ -197,7 +197,7 @@ class Finishing(AtSurface):
     def finish(self, m: Machine, wall: Contour, start: float, aside: float) -> Iterator[Step]:
         """By way of C to S, so far on its right, round on every level, and back over C; half circles are as wide as `aside`."""
         x, y = self.centre_x, self.centre_y
-        arcs, feeds = half_circles(wall, aside, 1), Feeds(self.milling_feed, self.plunging_feed)
+        arcs, feeds = half_circles(wall, aside, 1), LevelFeeds(self.milling_feed, self.plunging_feed)
         yield Go("to the second set-up clearance", max(m.programmed[2], self.end))
         yield Go("over the centre", x=x, y=y)
         yield Go("over the start", x=x + start)

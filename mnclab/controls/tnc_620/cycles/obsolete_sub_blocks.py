@@ -22,13 +22,13 @@ from mnclab.controls.tnc_620.machining.slots import straight_infeeds
 from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
 from mnclab.machine.coordinates import MILLS, TAPS, depth_scale
-from mnclab.machine.cycle import Cycle, CycleTable, few_passes, param, too_many
+from mnclab.machine.cycle import Cycle, CycleTable, param, too_many, too_many_passes
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes import drill, tap
 from mnclab.machining.milling import faces
 from mnclab.machining.milling.clearing import Clearing
-from mnclab.machining.milling.pocket_steps import Feeds, half_circles, quarter_circles, rough, straight
+from mnclab.machining.milling.pocket_steps import LevelFeeds, half_circles, quarter_circles, rough, straight
 from mnclab.machining.milling.spirals import round_pocket
 from mnclab.machining.steps import Go, Say, Step, Write
 
@@ -246,7 +246,7 @@ class SlotMilling(MilledAtClearance):
         return Contour([(near, 0.0), (far, 0.0)] if name == "x" else [(0.0, near), (0.0, far)], closed=False)
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        above, levels, line, feeds = m.programmed[2], self.levels(m), self.line(m), Feeds(self.feed, self.plunge_feed)
+        above, levels, line, feeds = m.programmed[2], self.levels(m), self.line(m), LevelFeeds(self.feed, self.plunge_feed)
         inset = self.sides[3] / 2 - m.radius
         x, y = line.points[0].tolist()
         yield Go("to the centre of the first end", x=x, y=y)
@@ -327,12 +327,12 @@ class CircularPocket(MilledAtClearance):
 
 def passes_to_wait_for(c: PocketMilling | CircularPocket, m: Machine) -> Iterator[Fault]:
     yield from too_many("feed", lambda: c.clearing(m))
-    yield from few_passes("infeed", len(c.levels(m)), sum(len(way.starts) for way in c.clearing(m).passes))
+    yield from too_many_passes("infeed", len(c.levels(m)), sum(len(way.starts) for way in c.clearing(m).passes))
 
 
 def layers(c: PocketMilling | CircularPocket, m: Machine) -> Iterator[Step]:
     """Layer by layer from the middle, and up to where the tool stood."""
     return rough(
         c.clearing(m), c.levels(m), surface=c.surface(m), clearance=c.down * abs(c.clearance), down=straight,
-        feeds=Feeds(c.feed, c.plunge_feed), departure=0.0, side=1 if c.sense > 0 else -1, end=m.programmed[2],
+        feeds=LevelFeeds(c.feed, c.plunge_feed), departure=0.0, side=1 if c.sense > 0 else -1, end=m.programmed[2],
     )  # fmt: skip

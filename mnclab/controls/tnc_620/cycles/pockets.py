@@ -15,13 +15,13 @@ from mnclab.controls.tnc_620.cycles.planes import SAME, Fault, at_least, at_most
 from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
 from mnclab.machine.coordinates import tool
-from mnclab.machine.cycle import CycleTable, few_passes, too_many
+from mnclab.machine.cycle import CycleTable, too_many, too_many_passes
 from mnclab.machine.machine import Machine
 from mnclab.machining.milling.entries import Descent, Entry, onto_floor, swing
 from mnclab.machining.milling.faces import NOTHING
 from mnclab.machining.milling.pocket_steps import (
     Down,
-    Feeds,
+    LevelFeeds,
     Pocket,
     Room,
     Slot,
@@ -122,7 +122,7 @@ def check_pocket(c: MilledFigure, m: Machine, pocket: Pocket) -> Iterator[Fault]
     """No more passes than somebody would wait for, and the tool gets down."""
     yield from too_many("overlap", lambda: pocket.clearing(0.0))
     levels, room = milling.levels(c, m), pocket.room(c.side_allowance)
-    yield from few_passes("infeed", len(levels), len(pocket.clearing(c.side_allowance).passes))
+    yield from too_many_passes("infeed", len(levels), len(pocket.clearing(c.side_allowance).passes))
     yield from check_angle(c, m)
     if c.machining_operation == 2:
         return
@@ -155,11 +155,11 @@ def way_in(c: MilledFigure, m: Machine, room: Room) -> Down:
     return partial(way_down, entry, room, m.radius, c.milling_type >= 0)
 
 
-def feeds(c: MilledFigure, m: Machine) -> tuple[Feeds, Feeds, Feeds]:
+def feeds(c: MilledFigure, m: Machine) -> tuple[LevelFeeds, LevelFeeds, LevelFeeds]:
     """Of roughing, the side and the floor: from which Q439 on they count at the cutting edge; ways down never do."""
     first, second, third = (m.radius if c.feed_reference >= least else 0.0 for least in (3, 1, 2))
     plunge, finish = c.plunging_feed, milling.finishing_feed(c)
-    return Feeds(c.milling_feed, plunge, first), Feeds(finish, plunge, second), Feeds(finish, plunge, third)
+    return LevelFeeds(c.milling_feed, plunge, first), LevelFeeds(finish, plunge, second), LevelFeeds(finish, plunge, third)
 
 
 def mill(c: MilledFigure, m: Machine, pocket: Pocket, centre: Place, end: float | None = None) -> Iterator[Step]:
@@ -307,7 +307,7 @@ def check_slot(c: MilledFigure, m: Machine, line: Contour, length: float, count:
             yield "plunging_strategy", f"{c.plunging_strategy:g} has no room for a ramp: the slot is round"
         yield from too_many("plunging_strategy", lambda: slot_way_in(c, m, line)(0.0, levels[0] - c.surface))
     yield from too_many("slot_width", lambda: shape.clearing(0.0))
-    yield from few_passes("infeed", len(levels), count * len(shape.clearing(c.side_allowance).passes))
+    yield from too_many_passes("infeed", len(levels), count * len(shape.clearing(c.side_allowance).passes))
 
 
 def slot_way_in(c: MilledFigure, m: Machine, line: Contour) -> Down:

@@ -20,10 +20,10 @@ from mnclab.controls.tnc_620.cycles.planes import Fault, at_least, at_most, rate
 from mnclab.controls.tnc_620.cycles.pockets import CORNER, SIGNS
 from mnclab.controls.tnc_620.machining import studs
 from mnclab.controls.tnc_620.machining.studs import Stud, mill_stud
-from mnclab.machine.cycle import CycleTable, few_passes, too_many
+from mnclab.machine.cycle import CycleTable, too_many, too_many_passes
 from mnclab.machine.machine import Machine
 from mnclab.machining.milling.clearing import Clearing
-from mnclab.machining.milling.pocket_steps import Feeds
+from mnclab.machining.milling.pocket_steps import LevelFeeds
 from mnclab.machining.steps import Step
 
 ASIDE = 2.0  # mm, from the blank to the edge of the tool at the start, and off the stud after a pass
@@ -216,14 +216,14 @@ def check_passes(c: AnyStud, m: Machine) -> Iterator[Fault]:
     made: list[Clearing] = []
     yield from too_many("overlap", lambda: made.append(c.clearing(m.radius, c.side_allowance, True)))
     passes = made[0].passes
-    yield from few_passes("infeed", len(milling.levels(c, m)), sum(len(contour.starts) for contour in passes) // 4)
+    yield from too_many_passes("infeed", len(milling.levels(c, m)), sum(len(contour.starts) for contour in passes) // 4)
 
 
 def mill(c: AnyStud, m: Machine, centre: Place, last: Iterable[Step] = ()) -> Iterator[Step]:
     """To S, and from there roughing in layers, the side in infeeds, the floor; at the end the tool stays above S."""
     plunge = rate(c.plunging_feed)
-    finishing = Feeds(milling.finishing_feed(c), plunge)
-    work = milling.work(c, m, (Feeds(c.milling_feed, plunge), finishing, finishing))
+    finishing = LevelFeeds(milling.finishing_feed(c), plunge)
+    work = milling.work(c, m, (LevelFeeds(c.milling_feed, plunge), finishing, finishing))
 
     def figures() -> Iterator[Figure]:  # a stud has none where its depth is 0, and its sizes anything
         stud = c.stud(m)

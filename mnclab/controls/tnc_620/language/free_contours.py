@@ -27,7 +27,7 @@ from mnclab.controls.tnc_620.language.tools import refuse_other
 from mnclab.controls.tnc_620.language.values import above_zero, counted, first, not_negative, refuse_on_cylinder
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.flow import Reading, as_of, reading
+from mnclab.machine.flow import ReadUnder, as_of, reading
 from mnclab.machine.machine import Machine
 from mnclab.text.program import Word
 
@@ -48,12 +48,12 @@ class Earlier(NamedTuple):
     level: Form
 
 
-class Block(NamedTuple):
+class ContourBlock(NamedTuple):
     """A block that waits: its number and code, when it was read, its feed, and the joint after it."""
 
     number: str
     code: str
-    moment: Reading
+    moment: ReadUnder
     feed: float
     joints: list[Any]
 
@@ -67,7 +67,7 @@ class Chain:
             m.alarm("a free contour needs a point to begin from", hint="write L X… Y… before it")
         self.start = (x, y)
         self.contour = FreeContour(self.start, _heading(m))
-        self.blocks: list[Block] = []
+        self.blocks: list[ContourBlock] = []
         self.chosen = False
         self.closed = False
 
@@ -83,7 +83,7 @@ class Chain:
             m.alarm(f"{words.code} needs a path element in the working plane directly before it")
         number = str(m.flow.program[m.flow.current].number)
         k = self.contour.arc(tangent, words.code) if arc else self.contour.line(tangent, words.code)
-        self.blocks.append(Block(number, words.code, reading(m), f, []))
+        self.blocks.append(ContourBlock(number, words.code, reading(m), f, []))
         describe(self, m, words, k)
         self.follow(m)
 

@@ -13,7 +13,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats, left
 from mnclab.geometry.regions import Region
 from mnclab.machining.milling.clearing import Clearing, begin, end, numbered, unfit
-from mnclab.machining.milling.pocket_steps import LEAST, Feeds, quarter_circles
+from mnclab.machining.milling.pocket_steps import LEAST, LevelFeeds, quarter_circles
 from mnclab.machining.milling.rings import rings, rings_within, rounded
 from mnclab.machining.milling.terraces import SLIVER, Terrace
 from mnclab.machining.steps import RAPID, Along, Dip, Go, Step
@@ -25,7 +25,7 @@ Place = tuple[float, float]
 
 
 def finish_rounds(
-    wall: Contour, arcs: Sequence[Contour], start: Place, levels: Sequence[float], feeds: Feeds
+    wall: Contour, arcs: Sequence[Contour], start: Place, levels: Sequence[float], feeds: LevelFeeds
 ) -> Iterator[Step]:
     """Round a closed `wall` on each of the `levels`, from `start` and back to it; `arcs` lead to the wall and off it, if any."""
     x, y = first = begin(arcs[0] if arcs else wall).tolist()

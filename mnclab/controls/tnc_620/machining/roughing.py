@@ -15,7 +15,7 @@ from mnclab.geometry.regions import Region, meeting
 from mnclab.machining.milling.clearing import Clearing, Piece, begin, end, numbered
 from mnclab.machining.milling.engagement import stretches
 from mnclab.machining.milling.entries import Descent, along, descend, helix, vertical
-from mnclab.machining.milling.terraces import Level
+from mnclab.machining.milling.terraces import ClearingLevel
 from mnclab.machining.steps import Along, Go, Step
 
 # The way of a tool from one place to another that never leaves an area: straight, and round what stands in between.
@@ -172,7 +172,7 @@ class WaysBetween:
 
 
 def rough_out(
-    cuts: Sequence[Cut], levels: Sequence[Level], heights: Heights, feeds: Feeds, way_down: WayDown
+    cuts: Sequence[Cut], levels: Sequence[ClearingLevel], heights: Heights, feeds: Feeds, way_down: WayDown
 ) -> Iterator[Step]:
     """Each level with the passes of its terrace, piece by piece.
 
@@ -180,7 +180,7 @@ def rough_out(
     """
     ways = [[WaysBetween(piece) for piece in cut.clearing.pieces] for cut in cuts]
     planned = [[list(_with_feeds(each, cut, feeds)) for each in some] for cut, some in zip(cuts, ways, strict=True)]
-    before: Level | None = None
+    before: ClearingLevel | None = None
     height = heights.height
     for label, level in zip(numbered("level", len(levels)), levels, strict=True):
         top = heights.surface if before is None else before.height

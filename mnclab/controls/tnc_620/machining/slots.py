@@ -8,7 +8,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.machining.milling.clearing import Clearing, begin, numbered
 from mnclab.machining.milling.entries import Descent, descend, stroke_count, vertical
 from mnclab.machining.milling.entries import along as ramp
-from mnclab.machining.milling.pocket_steps import Down, Feeds, Work, along
+from mnclab.machining.milling.pocket_steps import Down, LevelFeeds, PocketWork, along
 from mnclab.machining.milling.trochoids import Wall
 from mnclab.machining.steps import Along, Go, Step
 
@@ -16,7 +16,7 @@ from mnclab.machining.steps import Along, Go, Step
 # straight    ↓───►        oblique   ╲ there            both end with the whole line cut on the last level
 #             ◄───↓                  ╱ and back
 
-def straight_infeeds(line: Contour, levels: Sequence[float], feeds: Feeds) -> Iterator[Step]:
+def straight_infeeds(line: Contour, levels: Sequence[float], feeds: LevelFeeds) -> Iterator[Step]:
     """Down where the tool stands, at the begin of the line, along it, down at its end, and back along it: as many as levels."""
     for k, (name, level) in enumerate(zip(numbered("infeed", len(levels)), levels, strict=True)):
         yield Go(f"{name}, down", level, feeds.plunge)
@@ -58,7 +58,7 @@ def way_down(line: Contour, radius: float, angle: float) -> Down:
     return down
 
 
-def rough(clearing: Clearing, work: Work, down: Down, up: Sequence[float]) -> Iterator[Step]:
+def rough(clearing: Clearing, work: PocketWork, down: Down, up: Sequence[float]) -> Iterator[Step]:
     """Every layer; after each `up` to one height after the other, and back over the begin."""
     top = work.surface
     for name, level in zip(numbered("layer", len(work.layers)), work.layers, strict=True):
@@ -67,7 +67,7 @@ def rough(clearing: Clearing, work: Work, down: Down, up: Sequence[float]) -> It
         top = level
 
 
-def finish_walls(walls: Sequence[Wall], work: Work, up: Sequence[float]) -> Iterator[Step]:
+def finish_walls(walls: Sequence[Wall], work: PocketWork, up: Sequence[float]) -> Iterator[Step]:
     """Round every wall on all levels, from a place on the centre line and back to it, and `up`."""
     _, feeds, _ = work.feeds
     for which, wall in zip(numbered("wall", len(walls)), walls, strict=True):
@@ -86,7 +86,7 @@ def finish_walls(walls: Sequence[Wall], work: Work, up: Sequence[float]) -> Iter
         yield from (Go(f"{which}, lift", height) for height in up)
 
 
-def finish_floor(clearing: Clearing, work: Work, down: Down, up: Sequence[float]) -> Iterator[Step]:
+def finish_floor(clearing: Clearing, work: PocketWork, down: Down, up: Sequence[float]) -> Iterator[Step]:
     """From what roughing has left to the floor, as a layer, and `up`."""
     for level in work.floor:
         x, y = begin_of(clearing)
@@ -102,7 +102,7 @@ def begin_of(clearing: Clearing) -> tuple[float, float]:
     return x, y
 
 
-def _clear(name: str, clearing: Clearing, down: Descent, above: float, feeds: Feeds, side: int) -> Iterator[Step]:
+def _clear(name: str, clearing: Clearing, down: Descent, above: float, feeds: LevelFeeds, side: int) -> Iterator[Step]:
     yield Go(f"{name}, to the clearance level", above)
     yield Go(f"{name}, down to what is cut", float(down.heights[0]), feeds.plunge)
     yield from descend(down._replace(label=f"{name}, {down.label}"), feeds.plunge, feeds.level)

@@ -24,7 +24,7 @@ from mnclab.geometry.contours import Contour, placed
 from mnclab.geometry.curves import Floats
 from mnclab.machining.milling.clearing import Clearing, begin, end, joined, numbered
 from mnclab.machining.milling.faces import DRIFT, steps
-from mnclab.machining.milling.pocket_steps import LEAST, Feeds, Work, onto, outwards
+from mnclab.machining.milling.pocket_steps import LEAST, LevelFeeds, PocketWork, onto, outwards
 from mnclab.machining.milling.spirals import half_circles
 from mnclab.machining.steps import Along, Go, Step
 
@@ -221,7 +221,7 @@ class Stud(NamedTuple):
     high: float | None = None
 
 
-def mill_stud(stud: Stud, work: Work) -> Iterator[Step]:
+def mill_stud(stud: Stud, work: PocketWork) -> Iterator[Step]:
     """Roughing in layers, the side in infeeds, the floor at once, each where it has levels."""
     roughing, finishing, last = work.feeds
     for name, levels, allowance, blank, feeds in (
@@ -243,7 +243,7 @@ def mill_stud(stud: Stud, work: Work) -> Iterator[Step]:
             yield Go(f"{label}, back to the start", x=stud.start[0], y=stud.start[1])
 
 
-def _round(name: str, stud: Stud, passes: Clearing, feeds: Feeds, side: int) -> Iterator[Step]:
+def _round(name: str, stud: Stud, passes: Clearing, feeds: LevelFeeds, side: int) -> Iterator[Step]:
     """Up to the passes, along them and off the last one; the stud is on their right for `side` 1."""
     first, last = passes.passes[0], passes.passes[-1]
     if (way := onto(stud.start, first)) is not None:

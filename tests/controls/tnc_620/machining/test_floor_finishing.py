@@ -11,14 +11,14 @@ from mnclab import Kind
 from mnclab.controls.tnc_620.machining.finishing import Descent, finish_floor, floor_passes
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.machining.milling.terraces import Joined, Part, terraces
+from mnclab.machining.milling.terraces import DeepArea, Joined, terraces
 from mnclab.machining.steps import traced
 
 R, ALLOWANCE = 4.0, 0.3
 
 
 def part(x, y, width, height, depth=0.0):
-    return Part(Region.of(Contour([(x, y), (x + width, y), (x + width, y + height), (x, y + height)])), depth)
+    return DeepArea(Region.of(Contour([(x, y), (x + width, y), (x + width, y + height), (x, y + height)])), depth)
 
 
 WHOLE, MIDDLE, BESIDE = box(0, 0, 80, 60), box(20, 20, 60, 40), box(0, 0, 79, 20)
