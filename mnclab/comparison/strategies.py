@@ -182,7 +182,10 @@ COLUMNS: Titles = {
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Trial(Tried):
-    """One strategy on one area: its passes, the whole path, and what comes of it."""
+    """One strategy on one area: its passes, the whole path, and what comes of it.
+
+    `depth` and `allowance` mm, `feed` mm/min; `limit` rad is the engagement above which the share of the way is told.
+    """
 
     titles: ClassVar = COLUMNS
     region: Region

@@ -113,9 +113,7 @@ def test_what_does_not_fit_is_refused():
 
 def test_infeeds_by_pitch_and_passes_of_unknown_origin():
     assert threads.methods_for(2) == ("radial",) and threads.methods_for(2.5) == ("flank", "alternate")
-    assert threads.passes_for(2.0) == (8, False)
-    with pytest.raises(LookupError, match="empty in the table"):
-        threads.passes_for(2.0, manual=True)
+    assert threads.passes_for(2.0) == 8
 
 
 @given(

@@ -71,7 +71,7 @@ RIGHT = {
 LEFT = {
     "Alarm", "Collision", "Help", "Kind", "Program", "Run", "Removal", "Workpiece", "Profile", "Toolpath", "check", "editor",
     "form", "panel", "profile_panel", "compensation_panel", "area.svg", "area.dxf", "part.Part", "part.mesh",
-    "schemes.threads.PassCount", "modern", "help", "renumber", "area.Joined", "design.Design", "design.TurnedDesign",
+    "modern", "help", "renumber", "area.Joined", "design.Design", "design.TurnedDesign",
 }  # fmt: skip
 #: What has public methods that are called: name -> the thing.
 THINGS = {

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.design.model.holes import COARSE
+from mnclab.design.model.holes import COARSE as COARSE_PITCH
 from mnclab.design.model.shapes import Circle, Outline, Rectangle
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import cross
@@ -46,8 +46,8 @@ def designation(diameter: float, pitch: float) -> str:
     """M8 where the pitch is the coarse one, or is not known and there is a coarse one; else M8x1; nothing if no thread is."""
     wide, pitch = number(round(diameter, 6)), round(pitch, 6)
     if not 0 < pitch < wide:
-        return f"M{wide:g}" if wide in COARSE and not pitch else ""
-    return f"M{wide:g}" if COARSE.get(wide) == pitch else f"M{wide:g}x{pitch:g}"
+        return f"M{wide:g}" if wide in COARSE_PITCH and not pitch else ""
+    return f"M{wide:g}" if COARSE_PITCH.get(wide) == pitch else f"M{wide:g}x{pitch:g}"
 
 
 # A closed contour: a circle, a straight slot with round ends, a rectangle, else an outline.

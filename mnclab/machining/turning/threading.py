@@ -14,7 +14,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 
@@ -84,13 +83,6 @@ USUAL_PASSES = {
 }  # fmt: skip
 
 
-class PassCount(NamedTuple):
-    """How many passes, and whether the manual says so."""
-
-    passes: int
-    from_manual: bool
-
-
 def factor(profile: float = 60.0) -> float:
     """The shift along Z for 1 mm of depth; the source prints it for profiles of 60 and 55 degrees.
 
@@ -142,17 +134,14 @@ def methods_for(pitch: float) -> tuple[str, ...]:
     return ("radial",) if pitch <= RADIAL_UP_TO else ("flank", "alternate")
 
 
-def passes_for(pitch: float, manual: bool = False) -> PassCount:
-    """The usual number of passes for a metric thread of a pitch, marked as not from the manual.
+def passes_for(pitch: float) -> int:
+    """The usual number of passes for a metric thread of a pitch, mm: a general figure, for the table of the manual is empty.
 
-    The cells of the table are empty in the source: asked for the `manual` value it raises LookupError; a pitch that the
-    table does not list is a ValueError.
+    A pitch that is not listed is a ValueError.
     """
     if pitch not in USUAL_PASSES:
         raise ValueError(f"the table lists pitches {', '.join(f'{p:g}' for p in USUAL_PASSES)} mm, got {pitch:g}")
-    if manual:
-        raise LookupError(f"the number of passes for a pitch of {pitch:g} mm is empty in the table of the source")
-    return PassCount(USUAL_PASSES[pitch], False)
+    return USUAL_PASSES[pitch]
 
 
 def thread(

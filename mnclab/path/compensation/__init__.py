@@ -9,15 +9,15 @@ corner. The offsets end at A1 = P + R n1 and begin at A2 = P + R n2::
            P \\  |              P \\  |            prolonged to I (G161); G162 takes the arc for acute corners only
               \\ |                 \\ |
 
-A joint that turns by less than 0.001 degrees (`rules.TANGENT`) counts as tangent: the offsets meet there as they are.
+A joint that turns by less than 0.001 degrees (`elements.TANGENT`) counts as tangent: the offsets meet there as they are.
 Every greater turn is a corner, exact however small. At 180 degrees less that angle lines run there and back, and the tool
-rolls round their end; where an arc turns back by more than 170 degrees (`rules.CUSP`), what the elements do beside the
+rolls round their end; where an arc turns back by more than 170 degrees (`elements.CUSP`), what the elements do beside the
 joint decides between inside and outside.
 
-`elements` are the rows that move in the plane, `equidistant` finds all corners at once (those of `cusps` by both of
-their ways), `fit` looks for places where the tool has no room, over any number of blocks, with `neighbours` for what
-lies close by along the contour, `open_ends` for where it begins and ends, `heights` for what is at the same height and
-`passes` for walls that do not stand; `moving_ends` makes the path. Everything is done in columns.
+`elements` are the rows that move in the plane, `equidistant` finds all corners at once, `fit` looks for places where the
+tool has no room, over any number of blocks, with `neighbours` for what lies close by along the contour and `ends` for where it
+arrives, leaves and crosses itself; `moving_ends` makes the path, `construction` shows people how it was found. Everything is
+done in columns.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Said where somebody has said what the machine can do (`Setup.limits`): the usual limits are a guess, and say nothing of a
 program. Manuals are silent about it, controls hold the speed at the limit without a word. A constant cutting speed (G96) is
-held at the limit on purpose, threads have a remark of their own (`thread_beyond_axis`). What an arc needs of an axis depends
+held at the limit on purpose, threads have a remark of their own (`motion`). What an arc needs of an axis depends
 on where it goes: of arcs only what no direction allows is named.
 """
 

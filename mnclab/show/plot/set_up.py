@@ -29,7 +29,6 @@ from mnclab.workpiece.part import Part
 
 # The blank from above and from the side: its sizes, the datum as a quartered circle, what holds it.
 
-TOOL_LENGTH = "frame length"  # of a control that compensates the length of tools
 SHEET_SIZE = (6.8, 4.6)  # inches, at most
 BLANK: dict[str, Any] = {"facecolor": looks.RAW, "edgecolor": "#8c8778", "linewidth": 1.0}
 FIXTURE: dict[str, Any] = {"facecolor": "#d0d0d0", "edgecolor": "#6b6b6b", "linewidth": 0.8, "hatch": "////"}
@@ -130,7 +129,7 @@ def _datum(ax: Axes, view: View, name: str, xyz: Array) -> None:
 # Numbers at the axes are machine coordinates. Where machine zero is so far away that the picture would be empty, the
 # vectors are broken: it stands at the border then, and that is said.
 
-FAR = 3.0  # times the size of what lies on the table: a machine zero beyond that is drawn at the border
+FAR = 3.0  # times the size of all else: a machine zero beyond that is drawn at the border
 GAP = 0.35  # of that size: how far from it the border is
 ZERO_POINT = colours.DATUM._replace(name="zero point")
 ARROW: dict[str, Any] = {"arrowstyle": "-|>", "mutation_scale": 11, "shrinkA": 6, "shrinkB": 6, "linewidth": 1.3}
@@ -231,7 +230,6 @@ def _vector(ax: Axes, view: View, begin: Array, end: Array, broken: bool) -> Non
 # far below the spindle nose as the offset says; it truly is below it by the length of the tool.
 
 SAME = 1e-3  # mm between tip and program that are no fault
-FAR_BORDER = 3.0  # a machine zero so many times as far away as all else is high is drawn at the border
 SHORT = 0.3  # of the picture's height: a dimension whose text stands above it
 TOOL = "#9fb4c9"
 GHOST = "#ad1457"
@@ -301,7 +299,7 @@ def plot_lengths(
     levels = [found.nose, found.tip, found.wanted, found.zero]
     low, high = min(levels), max(levels)
     span = max(high - low, 1e-3)
-    far = not low - FAR_BORDER * span <= 0 <= high + FAR_BORDER * span
+    far = not low - FAR * span <= 0 <= high + FAR * span
     zero = (low - 0.3 * span if low > 0 else high + 0.3 * span) if far else 0.0
     low, high = min(low, zero), max(high, zero)
     room = high - low

@@ -69,14 +69,16 @@ def ball(centre: ArrayLike, radius: float) -> Part:
 
 
 def hole(centre: ArrayLike, diameter: float, depth: float) -> Part:
-    """What a hole takes out of the face at the height of its centre; an infinite depth goes through."""
+    """What a hole takes out of the face at the height of its centre, to be taken away: `block - hole(…)`. Lengths in mm; an
+    infinite depth goes through."""
     middle = _place(centre, "the centre of a hole")
     _check_size(diameter, "the diameter of a hole")
     return _cavity("hole", _circle(middle, diameter / 2), middle[2], depth)
 
 
 def slot(start: ArrayLike, end: ArrayLike, width: float, depth: float) -> Part:
-    """What a straight slot with round ends takes out of a face, from the centre of one end to that of the other."""
+    """What a straight slot with round ends takes out of a face, from the centre of one end to that of the other, mm:
+    `block - slot(…)`."""
     a, b = _place(start, "the start of a slot"), _place(end, "the end of a slot")
     _check_size(width, "the width of a slot")
     if a[2] != b[2]:
@@ -89,7 +91,7 @@ def pocket(
     centre: ArrayLike, length: float, width: float, depth: float, corner: float = 0.0, turned: float = 0.0
 ) -> Part:
     """What a rectangular pocket takes out of a face: `length` along X, `width` along Y, before it is `turned` by degrees about
-    its centre; `corner`: the radius of its corners."""
+    its centre, mm; `corner`: the radius of its corners. To be taken away: `block - pocket(…)`."""
     middle = _place(centre, "the centre of a pocket")
     return _cavity("pocket", _rectangle("a pocket", middle, length, width, corner, turned), middle[2], depth)
 

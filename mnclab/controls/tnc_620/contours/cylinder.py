@@ -276,7 +276,7 @@ CYCLES = CycleTable()
 SHARED = "depth side_allowance clearance infeed plunge_feed feed cylinder_radius dimension_type"
 allowance = partial(increment, "Q3", "finishing allowance for side", example=0)
 width = partial(param, "Q20", unit="mm", modal=True, above=0, example=12)
-WAYS = 4  # of a level at least: in, along the contour, out, and back
+MOVES_A_LEVEL = 4  # of a level at least: in, along the contour, out, and back
 IN: dict[float, str] = {0: "in degrees", 1: "in mm, or in inches"}
 
 
@@ -303,7 +303,7 @@ class OnCylinder(Cycle):
             yield "depth", f"must be negative, got {self.depth:g}: the tool comes from outside, from inside is not built yet"
         if -self.depth >= self.cylinder_radius > 0:
             yield "depth", f"must be less deep than the radius Q16 = {self.cylinder_radius:g}, got {self.depth:g}"
-        yield from [*too_many("infeed", self.levels)] or too_many_passes("infeed", len(self.levels()), WAYS)
+        yield from [*too_many("infeed", self.levels)] or too_many_passes("infeed", len(self.levels()), MOVES_A_LEVEL)
         if self.sided and m.settings["spindle_error"] and not m.turning:
             yield "", "needs a turning spindle (setting spindle_error)"
         yield from surface_faults(m)

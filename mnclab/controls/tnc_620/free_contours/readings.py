@@ -4,7 +4,7 @@ Data are equations of the second degree between numbered unknowns (`.quadratics`
 and choices between several lists of equations. After each datum `Readings.follow` settles whatever a few neighbouring
 unknowns settle among themselves; several solutions make several readings, a contradiction takes a reading away.
 
-The search is bounded: every system that is tried costs some of the `Work` of the contour, which grows with what is settled.
+The search is bounded: every system that is tried costs some of the `Effort` of the contour, which grows with what is settled.
 What a reading has tried in vain is not tried again while nothing new is known of it. Before systems of many unknowns are
 looked into, one look at the whole tells which unknowns are free to move, and those are left alone.
 """

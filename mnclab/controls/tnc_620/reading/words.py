@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+from mnclab.text.alarm import LATIN
 from mnclab.text.alarm import hint as near
 from mnclab.text.expression import Expression, parse
 from mnclab.text.given import LARGEST
@@ -88,7 +89,6 @@ OWN = {code: re.compile(rf"(?:{words})(?![A-PR-Z])", FLAGS) for code, words in _
 
 LETTER_O = "the letter O stands where the digit 0 was meant"
 _G_NAME = re.compile(r"G[ \t]*(\d{1,4})(?!\d)", FLAGS)
-_LOOKS_LATIN = dict(zip("АВСЕНКМОРТХУІавсенкмортхуі", "ABCEHKMOPTXYIabcehkmoptxyi", strict=True))
 
 
 def from_inches(value: float | Expression) -> float | Expression:
@@ -235,8 +235,8 @@ class Cursor:
         c = self.text[self.at] if self.at < self.stop else ""
         if message or not c:
             return Fault(message or "the block ends too early", self.at)
-        if c in _LOOKS_LATIN:
-            return Fault(f"{c!r} is a Cyrillic letter", self.at, hint=f"write the Latin letter {_LOOKS_LATIN[c]}")
+        if c in LATIN:
+            return Fault(f"{c!r} is a Cyrillic letter", self.at, hint=f"write the Latin letter {LATIN[c]}")
         if found := _NAMED.match(self.text, self.at, self.stop):
             return self.without_number(found)
         if c in "+-" or c.isdigit():
