@@ -63,13 +63,13 @@ class Pictures:
     """What a run shows beside its path."""
 
     def plot_depth(self, **options: Any) -> Figure:
-        """Z over time: pecks, dwells and retractions of a hole, by `line`; see `mnclab.show.plot.depth`."""
+        """Z over time: pecks, dwells and retractions of a hole, by `line`; see `mnclab.show.plot.over_time`."""
         from mnclab.show.plot.over_time import plot_depth
 
         return plot_depth(self, **options)
 
     def plot_datums(self, **options: Any) -> Figure:
-        """Machine zero and the zero points of the program as vectors from it; see `mnclab.show.plot.datum_plan`."""
+        """Machine zero and the zero points of the program as vectors from it; see `mnclab.show.plot.set_up`."""
         from mnclab.show.plot.set_up import plot_datums
 
         return plot_datums(self, **options)
@@ -86,7 +86,6 @@ class Pictures:
         from mnclab.show.plot.set_up import plot_lengths
 
         return plot_lengths(self, line, **options)
-
 
 
 EXAMPLE = 'a machine is its limits: run(…, limits="small-mill"); a setup: ' "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
