@@ -13,6 +13,8 @@ import pytest
 import mnclab
 from mnclab import area
 from mnclab.__main__ import parser
+from mnclab.controls.g43.language import modes
+from mnclab.machine.control import FunctionTable
 
 ROOT = Path(__file__).parent.parent
 TEXT = (ROOT / "README.md").read_text("utf-8")
@@ -59,6 +61,37 @@ def test_the_map_of_the_house_names_what_is_there():
     section = (ROOT / "CONTRIBUTING.md").read_text("utf-8").partition("## One program's way")[2].partition("\n## ")[0]
     named = re.findall(r"`([a-z_0-9/]+(?:\.py|/))`", section)
     assert len(named) > 30 and not [name for name in named if not (ROOT / "mnclab" / name).exists()]
+
+
+def test_what_is_named_by_its_place_is_there():
+    """Modules and files of mnclab that code and prose name: `mnclab.room.file`, `room/file.py`."""
+    rooms = [folder.name for folder in (ROOT / "mnclab").iterdir() if (folder / "__init__.py").exists()]
+    lost = []
+    for file in sorted((ROOT / "mnclab").rglob("*.py")):
+        text = file.read_text("utf-8")
+        for room, name in re.findall(rf"`mnclab\.({'|'.join(rooms)})\.([a-z_.]+[a-z_])", text):
+            first, *more = [room, *name.split(".")]
+            here = ROOT / "mnclab" / first
+            while more and (here / more[0]).is_dir():
+                here /= more.pop(0)
+            module = here / f"{more.pop(0)}.py" if more and (here / f"{more[0]}.py").exists() else here / "__init__.py"
+            if more and not re.search(rf"\b{more[0]}\b", module.read_text("utf-8")):
+                lost.append(f"{file.relative_to(ROOT)}: {room}.{name}")
+        for path in re.findall(rf"`((?:{'|'.join(rooms)}|tnc_620)/[a-z_0-9/]+\.py)`", text):
+            if not any((ROOT / "mnclab" / above / path).exists() for above in ("", "controls")):
+                lost.append(f"{file.relative_to(ROOT)}: {path}")
+    assert lost == []
+
+
+def test_the_recipe_of_a_code_runs_as_it_is_written(monkeypatch):
+    text = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
+    (code,) = re.findall(r"```python\n(@FUNCTIONS\(\"M88.*?)```", text, re.S)
+    table = FunctionTable()
+    exec(code, {**vars(modes), "FUNCTIONS": table})
+    monkeypatch.setitem(mnclab.controls["g43"].functions, "M88", table["M88"])
+    assert mnclab.run("S800 M3\nM88\nG1 X10 F100\nM30\n", "g43").ok
+    (alarm,) = mnclab.run("M88\n", "g43").alarms
+    assert (alarm.message, alarm.hint) == ("M88 needs a spindle that turns", "write S and M3 before it")
 
 
 def test_the_recipes_run_as_they_are_written(tmp_path, monkeypatch, request):

@@ -243,6 +243,7 @@ class Machine(Placed):
         self.add_row(Kind.STOP, self.tip)
 
     def coolant(self) -> None:
+        """A row for a coolant that is switched: which, and whether on or off, is what is active of the group "coolant"."""
         self.add_row(Kind.COOLANT, self.tip)
 
     def touch(

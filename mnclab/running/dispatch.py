@@ -274,10 +274,9 @@ class Planner:
                 if self.modal.motion == "":
                     self.alarm(f"{word.rounded} has no motion: none is active", i, "write G0, G1, G2 or G3 in this block")
             actors = " ".join(dict.fromkeys(a.code for a in self.actions if a.phase == self.phases["motion"]))
-            whose = f" ({actors} does not take {word.address})" if actors else ""
             known = {*self.control.functions, *self.control.cycles}
             makers = next((a.code for a in self.actions if a.code not in known), "")
             told = f"what {makers} takes, the maker of the machine says: leave {word.rounded} out" if makers else ""
-            self.alarm(f"{word.rounded} has no meaning in this block{whose}", i, told)
+            self.alarm(word.untaken(actors), i, told)
         if left:
             self.alarm(f"{self.words[left[0]].address} is written twice in this block", left[0], "keep one of them")

@@ -88,7 +88,6 @@ class Pictures:
         return plot_lengths(self, line, **options)
 
 
-
 EXAMPLE = 'a machine is its limits: run(…, limits="small-mill"); a setup: ' "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
 
 

@@ -59,12 +59,18 @@ class Move(NamedTuple):
         return self.line.name
 
     @property
+    def on_both_grounds(self) -> tuple[str, str]:
+        """The colour on white, and on dark ground."""
+        return self.line.colour, self.dark
+
+    @property
     def css(self) -> str:
         """The rule of an SVG for paths of this class."""
         dashes = f";stroke-dasharray:{' '.join(f'{length:g}' for length in self.dashes)}" * bool(self.dashes)
         return f".{self.name}{{stroke:{self.line.colour};stroke-width:{self.width:g}{dashes}}}"
 
 
+#: The colour of a class of moves stands above, on white, and here, where a medium has colours of its own.
 MOVES = (
     Move(RAPID, (Kind.RAPID,), 0.15, (2, 1.2), 1, "#ff7d73"),
     Move(FEED, (Kind.LINE, Kind.ARC), 0.25, (), 5, "#6cb2ff"),
@@ -90,9 +96,9 @@ def rgb(colour: str) -> tuple[float, float, float]:
 
 #: Variables of the player's style sheet: on white, and on dark ground.
 PLAYER = {
-    "rapid": (RED, OF_KIND[Kind.RAPID].dark),
-    "cut": (BLUE, OF_KIND[Kind.LINE].dark),
-    "probing": (VIOLET, OF_KIND[Kind.PROBE].dark),
+    "rapid": OF_KIND[Kind.RAPID].on_both_grounds,
+    "cut": OF_KIND[Kind.LINE].on_both_grounds,
+    "probing": OF_KIND[Kind.PROBE].on_both_grounds,
     "contour": (PROGRAMMED.colour, "#7d848a"),
     "blank": (BLANK.colour, "#a59a78"),
     "insert": (f"{CARBIDE}99", f"{CARBIDE}99"),

@@ -252,16 +252,16 @@ def _add_path(plotter: Any, path: Toolpath, colour: str, rapids: Limits | None) 
         strokes, row = solids.bent(strokes, row, *courses(path, rapids, BENT * size, SHORT * size))
     kind = path.kind[row]
     cuts, drawn = np.isin(kind, (Kind.LINE, Kind.ARC)), dict[str, np.ndarray]()
-    for name, one, look, width in (("rapids", Kind.RAPID, looks.RED, 1.0), ("probing", Kind.PROBE, looks.VIOLET, 2.0)):
+    for name, one, look, width in (("rapids", Kind.RAPID, looks.RAPID, 1.0), ("probing", Kind.PROBE, looks.PROBING, 2.0)):
         if (kind == one).any():
-            plotter.add_mesh(_lines(strokes[kind == one]), color=look, line_width=width, name=name)
+            plotter.add_mesh(_lines(strokes[kind == one]), color=look.colour, line_width=width, name=name)
             drawn[name] = strokes[kind == one].reshape(-1, 3)
     if not cuts.any():
         return drawn
     drawn["cuts"] = strokes[cuts].reshape(-1, 3)
     mesh = _lines(strokes[cuts])
     if colour == "kind":
-        plotter.add_mesh(mesh, color=looks.BLUE, line_width=2.5, name="cuts")
+        plotter.add_mesh(mesh, color=looks.FEED.colour, line_width=2.5, name="cuts")
         return drawn
     values = strokes[cuts][:, :, 2].ravel() if colour == "z" else getattr(path, colour)[row[cuts]]
     if colour in LENGTHS and path.inches:

@@ -57,6 +57,9 @@ def span_at(line_starts: NDArray[np.int32], offset: int, length: int = 1) -> Spa
     return Span(line, offset - int(line_starts[line - 1]) + 1, length)
 
 
+NO_MEANING = "has no meaning in this block"
+
+
 class Word(NamedTuple):
     """An address with its value, and where it stands."""
 
@@ -88,6 +91,10 @@ class Word(NamedTuple):
     def rounded(self) -> str:
         """For alarms: without what computing leaves behind the twelfth digit."""
         return str(self._replace(value=float(f"{self.value:.12g}")) if isinstance(self.value, float) else self)
+
+    def untaken(self, code: str = "") -> str:
+        """The sentence of an alarm on a word that nothing takes; `code` is what its block has and does not take it."""
+        return f"{self.rounded} {NO_MEANING}" + (f" ({code} does not take {self.address})" if code else "")
 
     def __repr__(self) -> str:
         return f"<Word {self}, line {self.span.line}, column {self.span.column}>"

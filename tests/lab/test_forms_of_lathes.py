@@ -16,6 +16,7 @@ KINDS = {
     },
 }  # fmt: skip
 BARS = {"jnc-t01": 38, "nc-31": 19}  # just within the start points of the cycles, X40 and X4000 (a diameter)
+CORE_HOLES = {("nc-31", "G33"): 10.2 / 2}  # for the tap M12 (ISO 2306), which needs a hole
 CASES = [(name, code) for name, kinds in KINDS.items() for code in kinds]
 ON_THE_AXIS = [("jnc-t01", "G73"), ("nc-31", "G73"), ("nc-31", "G33")]
 
@@ -26,7 +27,11 @@ def shown(name, code):
     cycle = control.cycles[code]
     values = {p.name: trial.first_value(p) for p in cycle.parameters() if p.required or trial.written_first(p)}
     text = trial.program(control, cycle, values)
-    return mnclab.run(text, name, Setup(stock=mnclab.blank.cylinder(BARS[name], -120, 0)))
+    return mnclab.run(text, name, Setup(stock=bar(name, code)))
+
+
+def bar(name, code):
+    return mnclab.blank.cylinder(BARS[name], -120, 0, bore=CORE_HOLES.get((name, code), 0.0))
 
 
 def test_every_cycle_is_here():

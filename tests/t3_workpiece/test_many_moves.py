@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 
 from mnclab import Kind, Tool, Toolpath
-from mnclab.design.drawing import milled
 from mnclab.workpiece.blank import Box, cylinder
 from mnclab.workpiece.cutting import Cutting
+from mnclab.workpiece.milling import milled
 from mnclab.workpiece.milling.erosion import ERROR
-from mnclab.workpiece.milling.milled import Milled
-from mnclab.workpiece.part.mesh import EXACT
+from mnclab.workpiece.milling.milled import EXACT, Milled
 
 FLAT, BALL = Tool(radius=4.0, kind="mill"), Tool(radius=3.0, corner=3.0, kind="mill")
 BLANK = Box((0.0, 0.0, -20.0), (80.0, 60.0, 0.0))

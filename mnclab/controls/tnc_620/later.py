@@ -111,8 +111,7 @@ def strange_parameters(built: Mapping[str, type[Cycle]]) -> Callable[[Control, M
         taken = {address for p in built[code].parameters() for address in (p.address, *p.aliases)}
         for word in words:
             if word.address[0] == "Q" and word.address not in taken:
-                message = f"{word} has no meaning in this block ({code} does not take {word.address})"
-                raise Alarm(message, word.span, hint=_BELONGS)
+                raise Alarm(word.untaken(code), word.span, hint=_BELONGS)
         return []
 
     return check

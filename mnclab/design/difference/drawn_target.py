@@ -134,8 +134,8 @@ class DrawnTarget:
                     found.append((spots, *(np.full(len(spots), value) for value in (body.floor, 0.0, k, body.up, True))))
                 continue
             for share in SHARES:
-                out = body.near + share * (body.far - body.near)
                 z = body.deep + share * (body.open - body.deep)
+                out = body.at(z)
                 middle = share not in (SHARES[0], SHARES[-1])
                 for spots in self._rings(body, out, spacing):
                     found.append((spots, *(np.full(len(spots), value) for value in (z, out, k, body.up, middle))))

@@ -172,7 +172,7 @@ def residue(m: Machine, data: ContourData, cut: Cut) -> Iterator[Say]:
         yield Say(f"Q2={data.overlap:.10g} {sentence}", "Q2=1 leaves nothing")
 
 
-# Cycle 23: finishing the floors of a contour (8.7); `machining.finishing` does the geometry.
+# Cycle 23: finishing the floors of a contour (8.7); `tnc_620/machining/finishing.py` does the geometry.
 
 OVER_ALLOWANCE = 1.0  # mm on the machine, how far above the allowance the arc to the floor begins with a tool not smaller
 
@@ -218,7 +218,7 @@ class FloorFinishing(Cycle):
         yield from leave(m, before, data.height, rate(self.retract_feed, self.feed))
 
 
-# Cycle 24: finishing the walls of a contour, or of islands alone (8.8); `machining.finishing` does the geometry.
+# Cycle 24: finishing the walls of a contour, or of islands alone (8.8); `tnc_620/machining/finishing.py` does the geometry.
 
 OVER_WALL = 0.5  # mm on the machine, how much wider than the allowance the arcs to the wall are
 SHARE = 25  # of the set-up clearance: where the helices of the last infeed begin

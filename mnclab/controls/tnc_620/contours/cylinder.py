@@ -1,7 +1,8 @@
-"""Cycles 27, 28, 29 and 39: contours, slots and ridges on the surface of a cylinder (chapter 9); `machining.cylinder` says how.
+"""Cycles 27, 28, 29 and 39: contours, slots and ridges on the surface of a cylinder (chapter 9).
 
-All of them read one contour on the developed surface and machine it level by level, each level being a distance of the tip
-from the axis of the cylinder. Before them and after them the tool is at the height where it stood, at least at Q16 + Q6.
+All of them read one contour on the developed surface and machine it level by level (`tnc_620/machining/cylinder.py` says
+how), each level being a distance of the tip from the axis of the cylinder. Before them and after them the tool is at the
+height where it stood, at least at Q16 + Q6.
 
 Without the kinematics of a machine the axis of the cylinder is that rotary axis which is square to the tool: under a tilted
 plane the one that carries the other ("rotary_axes"), else the first of the two, unless the setting "cylinder_axis" names one.

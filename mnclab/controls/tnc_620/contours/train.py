@@ -227,7 +227,7 @@ def _refuse_damage(
 
 
 # Cycles 25 and 276: contour trains, along an open or closed contour in the plane or in space (8.9, 8.10).
-# `machining.trains` finds the way beside the contour, `machining.train_passes` the passes.
+# `tnc_620/machining/trains.py` finds the way beside the contour, and `train_passes.py` the passes.
 
 SENSE: dict[float, str] = {1: "climb", -1: "up-cut", 0: "to and fro, infeeds at both ends"}
 SHARED = "height infeed plunge_feed feed sense coarse_tool accepted connected extended"

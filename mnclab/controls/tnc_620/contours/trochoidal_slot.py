@@ -1,4 +1,4 @@
-"""Cycle 275: a slot about a centre line, roughed on circles (8.12); `machining.slots` does the geometry.
+"""Cycle 275: a slot about a centre line, roughed on circles (8.12); `tnc_620/machining/slots.py` does the geometry.
 
 A closed slot begins in the material, an open one outside of it, where its APPR block begins. The manual names no clearance
 height: it is the second set-up clearance. Where two readings are possible, the floor comes after the walls, with the same

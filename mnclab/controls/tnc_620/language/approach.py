@@ -91,7 +91,7 @@ def point(m: Machine, words: Words, meaning: str) -> dict[str, Any]:
         if plane != m.plane:
             m.alarm(f"{words.code}: the pole CC lies in {plane}, approaches and departures in {m.plane}")
         if inside := next((words[axis] for axis in m.plane if axis in words), None):
-            m.alarm(f"{inside} has no meaning in this block ({words.code} does not take {inside.address})", inside)
+            m.alarm(inside.untaken(words.code), inside)
         to |= motion.polar_point(m, words)
     elif not {*m.plane.lower()} <= to.keys():
         m.alarm(f"{words.code} needs {' and '.join(m.plane)} of {meaning}")
@@ -138,7 +138,7 @@ def last_point(m: Machine, words: Words, lead: Lead) -> tuple[float, float, floa
         return motion.end(m, point(m, words, "its end"))
     first, second, across = PLANES[m.plane]
     if inside := next((words[axis] for axis in m.plane if axis in words), None):
-        m.alarm(f"{inside} has no meaning in this block ({words.code} does not take {inside.address})", inside)
+        m.alarm(inside.untaken(words.code), inside)
     here, along = np.array(m.tip), np.array(m.heading())
     normal = np.array([-along[second], along[first]]) * lead.side
     place, t = here[[first, second]] + m.radius * normal, along[[first, second]]

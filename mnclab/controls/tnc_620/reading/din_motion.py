@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 from mnclab.controls.tnc_620.reading.din_words import MIXED, PATHS, Given, Modes, put, unmixed
 from mnclab.controls.tnc_620.reading.words import Cursor, Fault
+from mnclab.text.program import NO_MEANING
 
 SIDES = {40: "R0", 41: "RL", 42: "RR"}
 POLE = {"I": "X", "J": "Y", "K": "Z"}
@@ -158,7 +159,7 @@ class Motion:
         """R and H beside a path function that takes none."""
         if polar := next((word for word in rest if word.letter in ("R", "H")), None):
             hint = "straight lines to polar points are G10 and G11, arcs G12, G13, G15 and G16"
-            raise polar.fault(self.cursor.builder, "has no meaning in this block", hint)
+            raise polar.fault(self.cursor.builder, NO_MEANING, hint)
 
     def put_sense(self, code: int, path: Given | None, rest: Sequence[Given]) -> None:
         """DR of an arc: that of its function, with G05 and G15 the last one."""

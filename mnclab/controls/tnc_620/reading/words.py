@@ -11,7 +11,7 @@ from mnclab.text.alarm import LATIN
 from mnclab.text.alarm import hint as near
 from mnclab.text.expression import Expression, parse
 from mnclab.text.given import LARGEST
-from mnclab.text.program import INCREMENTAL, ProgramBuilder
+from mnclab.text.program import INCREMENTAL, NO_MEANING, ProgramBuilder
 
 # The DIN/ISO names of cycles, which the manual prints in most of their headings; it prints no DIN/ISO program.
 # They find a cycle (`mnclab.help("G83" …)`) and explain a G word that strayed into a conversational program. Several are
@@ -258,7 +258,7 @@ class Cursor:
         for pattern in (PARAMETER, SIGNED):
             if value := pattern.match(self.text, found.end(), self.stop):
                 word = f"{name}{value.group().strip()}"
-                return Fault(f"{word} has no meaning in this block", self.at, value.end() - found.start())
+                return Fault(f"{word} {NO_MEANING}", self.at, value.end() - found.start())
         hint = ""
         if after in ("O", "o"):
             hint = LETTER_O
