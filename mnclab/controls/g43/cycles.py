@@ -51,6 +51,9 @@ times_out = partial(
     note="of Haas",
 )  # fmt: skip
 
+#: Data that the cycles of LinuxCNC do not have (rs274: Q word with no G5, …; P word …; J word …).
+NOT_OF_LINUXCNC = {"pause", "tapping_peck", "times_out"}
+
 
 def along_z(m: Machine, code: str, given: Given) -> None:
     """Refuse what another maker drills elsewhere, or counts otherwise."""
@@ -88,8 +91,10 @@ def keep_initial_level(m: Machine, kept: Values) -> None:
 
 
 def at_a_place(m: Machine, code: str, values: Values, given: Given) -> None:
-    """On LinuxCNC a block of a cycle has an axis word, and drills once at least."""
+    """On LinuxCNC a block of a cycle has an axis word and no data of other makers, and drills once at least."""
     if m.settings["dialect"] == "linuxcnc":
+        for name in NOT_OF_LINUXCNC & given.keys():
+            m.alarm(f"{code} does not take {given[name].address} on LinuxCNC", given[name])
         if given.keys().isdisjoint(("x", "y", "bottom")):
             m.alarm(f"{code} needs X, Y or Z in its block", next(iter(given.values()), None), "LinuxCNC drills where one stands")
         if values.get("repeats") == 0:
