@@ -107,7 +107,7 @@ area = Shelf("mnclab.area", "contours and regions: by numbers, or out of a drawi
     "mnclab.geometry.dxf": "contours as dxf",
     "mnclab.geometry.svg": "contours as svg",
     "mnclab.path.plane": "outline, outlines",
-    "mnclab.machining.milling.terraces": "Joined, Part, terraces",
+    "mnclab.machining.milling.terraces": "DeepArea as Part, Joined, terraces",
     "mnclab.show.plot.side_by_side": "plot_regions as plot",
 })  # fmt: skip
 
