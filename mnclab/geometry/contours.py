@@ -403,7 +403,7 @@ def rectangle(
     _check_place("a rectangle", centre, angle)
     if whole(begin, "the axis at which a rectangle begins") not in (0, 1):
         raise Alarm(f"a rectangle begins at the axis 0 (X) or 1 (Y), got {shown(begin)}")
-    a, b = length / 2, width / 2
+    a, b, corner = float(length) / 2, float(width) / 2, float(corner)
     if not (a > 0 and b > 0):
         raise Alarm(f"the sides of a rectangle must be greater than 0, got {length:g} and {width:g}")
     if not 0 <= corner <= min(a, b) + 1e-9:

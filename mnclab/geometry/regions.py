@@ -47,6 +47,14 @@ class Region:
 
     loops: tuple[Contour, ...] = ()
 
+    def __post_init__(self) -> None:
+        given = self.loops
+        loops = (given,) if isinstance(given, Contour) else tuple(given) if isinstance(given, Iterable) else (given,)
+        for each in loops:
+            if not isinstance(each, Contour):
+                raise Alarm(f"the loops of a region must be contours, got {shown(each)}", hint="Region.of(contour, holes=(…,))")
+        object.__setattr__(self, "loops", loops)
+
     def __repr__(self) -> str:
         return f"<Region: {len(self.loops)} loop{'s' * (len(self.loops) != 1)}, {self.area:.3f} mm²>"
 

@@ -14,7 +14,7 @@ from mnclab.path.limits import Limits, limits_of
 from mnclab.path.listing import figure
 from mnclab.path.tool import Tool, Wear
 from mnclab.text.alarm import Alarm, several
-from mnclab.text.given import LARGEST, check_number, check_point, fitting_class, shown
+from mnclab.text.given import LARGEST, check_number, check_point, fitting_class, of_python, shown
 from mnclab.text.tables import html_table, written
 from mnclab.workpiece.blank import Box, Revolved, Sized, blank
 from mnclab.workpiece.part import Part
@@ -83,7 +83,7 @@ class Datum(_Datum):
     __slots__ = ()
 
     def __new__(cls, *values: float, **named: float) -> Datum:
-        found = super().__new__(cls, *values, **named)
+        found = super().__new__(cls, *map(of_python, values), **{name: of_python(value) for name, value in named.items()})
         for name, value in zip(cls._fields, found):
             check_number(value, f"{name} of a datum", at_least=-LARGEST, at_most=LARGEST)
         return found
@@ -137,6 +137,7 @@ def _names(check: Check) -> Check:
 
 
 def _datum(what: str, given: Any) -> None:
+    given = of_python(given)
     few = isinstance(given, tuple | list) and len(given) <= len(Datum._fields)
     _must(few, what, "a Datum or its numbers", given)
     Datum(*given)
@@ -274,7 +275,7 @@ class Setup:
                 alarm.hint = alarm.hint or means
                 raise
         for name in ROWS if self.tools is not None else ROWS[1:]:
-            rows = getattr(self, name).items()
+            rows = [(row, of_python(each)) for row, each in getattr(self, name).items()]
             object.__setattr__(self, name, {row: tuple(v) if isinstance(v, list) else v for row, v in rows})
         for name in NAMED:
             object.__setattr__(self, name, dict(getattr(self, name)))

@@ -17,7 +17,7 @@ from mnclab.path.toolpath import Array, Kind, Toolpath
 from mnclab.text.alarm import Alarm
 from mnclab.text.alarm import hint as near
 from mnclab.text.file import File, check_names, parse
-from mnclab.text.given import check_number, choice, fitting, fitting_class, plain, shown
+from mnclab.text.given import check_number, choice, fitting, fitting_class, of_python, plain, shown
 from mnclab.text.tables import Listing, written
 
 PerAxis = float | tuple[float, ...]
@@ -69,6 +69,8 @@ class Limits:
     __repr__ = written
 
     def __post_init__(self) -> None:
+        for each in fields(self):
+            object.__setattr__(self, each.name, of_python(getattr(self, each.name)))
         for name in ("rapid", "acceleration", "jerk", "spindle", "spindle_acceleration"):
             if getattr(self, name) is not None or name not in ("jerk", "spindle_acceleration"):
                 self._check(name, LEAST)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from mnclab.text.alarm import Alarm, hint
 from mnclab.text.file import File, as_table, check_names
-from mnclab.text.given import check_number, check_point, fitting, fitting_class, shown
+from mnclab.text.given import check_number, check_point, fitting, fitting_class, of_python, shown
 from mnclab.text.tables import written
 
 # What a tool table says for measuring a tool: how far it may wear, when it counts as broken, and where it is measured.
@@ -154,6 +154,8 @@ class Tool:
     __repr__ = written
 
     def __post_init__(self, diameter: float | None = None) -> None:  # `diameter` for type checkers alone
+        for each in fields(self):
+            object.__setattr__(self, each.name, of_python(getattr(self, each.name)))
         for each in fields(self):
             value, what = getattr(self, each.name), f"the {each.name.replace('_', ' ')} of a tool"
             if each.name in BODIES:

@@ -247,6 +247,10 @@ class Toolpath(Columns):
     @overload
     def __getitem__(self, index: slice | NDArray[Any] | Sequence[int]) -> Toolpath: ...
     def __getitem__(self, index: Any) -> Any:
+        if isinstance(index, tuple):  # of which numpy takes each number for one of an axis
+            index = list(index)
+        elif isinstance(index, np.ndarray) and not index.ndim:
+            index = index[()]
         if isinstance(index, int | np.integer):
             if not -self._n <= index < self._n:
                 raise Absent(f"the toolpath has {several(self._n, 'row')}, 0 is the first: there is no row {shown(index)}")

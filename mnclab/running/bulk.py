@@ -262,7 +262,8 @@ class Bulk:
         if (by := np.flatnonzero(~np.isnan(radii))).size:
             radius, chord = radii[by], np.hypot(*(e - s)[by].T)
             c[by], shortage = centre_from_radius(s[by], e[by], radius, sense[by])
-            fault[by] = (shortage > tolerance) | (chord < 1e-3) | (radius == 0) | ~np.isnan(to_centre[by]).all(axis=1)
+            reach = machine.settings.get("arc_reach", tolerance)
+            fault[by] = (shortage > reach) | (chord < 1e-3) | (radius == 0) | ~np.isnan(to_centre[by]).all(axis=1)
         run.fault[k] |= fault
         rises = run.points[k, normal] != run.points[k + 1, normal]
         if rises.any() and rule.helices(machine, 0):

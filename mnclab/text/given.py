@@ -30,12 +30,19 @@ def shown(value: Any) -> str:
     return _QUOTED.repr(value)
 
 
+def is_number(value: Any) -> bool:
+    """Whether a value is a number, of Python or of numpy, there as an array without axes too; True and False are none."""
+    if isinstance(value, np.ndarray):
+        return not value.ndim and value.dtype.kind in "iuf"
+    return isinstance(value, Real) and not isinstance(value, bool)
+
+
 def check_number(
     value: Any, what: str, *, above: float | None = None, at_least: float | None = None, at_most: float | None = None,
     endless: bool = False,
 ) -> None:  # fmt: skip
     """An Alarm unless `value` is a number within its limits; infinity is one where it is `endless`."""
-    if type(value) is not float and (isinstance(value, bool) or not isinstance(value, Real)):  # Real is asked slowly
+    if type(value) is not float and not is_number(value):  # which asks slowly
         raise Alarm(f"{what} must be a number, got {shown(value)}")
     try:
         size = float(value)
@@ -88,8 +95,14 @@ def faults_as_alarms() -> Iterator[None]:
         raise Alarm(str(error)) from None
 
 
+def of_python(value: Any) -> Any:
+    """An array or a truth value of numpy as Python has it: a number, a list, True or False; all else as it is."""
+    return value.tolist() if isinstance(value, np.ndarray | np.bool_) else value
+
+
 def plain(value: Any) -> Any:
-    """A number of another kind (a fraction, one of numpy) as Python's float; lists of numbers as tuples."""
+    """A number of another kind (a fraction, one of numpy) as Python's float; lists and arrays of numbers as tuples."""
+    value = of_python(value)
     if isinstance(value, tuple | list):
         return tuple(map(plain, value))
     return float(value) if isinstance(value, Real) and not isinstance(value, int | float) else value

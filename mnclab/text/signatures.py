@@ -10,14 +10,13 @@ import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import lru_cache
 from inspect import Parameter, isclass, signature, unwrap
-from numbers import Real
 from types import UnionType
 from typing import Any
 
 import numpy as np
 
 from mnclab.text.alarm import Refused
-from mnclab.text.given import LARGEST, SMALLEST, shown
+from mnclab.text.given import LARGEST, SMALLEST, is_number, shown
 
 #: Annotations of numbers in arrays of whatever shape.
 ARRAYS = ("ArrayLike", "Array", "Floats", "Vector", "Points", "Matrix")
@@ -81,7 +80,7 @@ def _alone(value: Any, annotation: str, door: Callable[..., Any], default: Any) 
 
 
 def _number(value: Any, whole: bool, default: Any) -> str:
-    if isinstance(value, bool) or not isinstance(value, Real):
+    if not is_number(value):
         return CALLED["int" if whole else "float"]
     try:
         size = abs(float(value))

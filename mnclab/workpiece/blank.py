@@ -218,6 +218,7 @@ def cylinder(
     for name, number in (("radius", radius), ("bore", bore), ("low", low)):
         check_number(number, f"the {name} of a cylinder (mm)")
     check_point(at, "the point on the axis of a cylinder (mm)")
+    radius, low, high, bore = map(float, (radius, low, high, bore))
     if not radius > bore >= 0 or not high > low or axis not in ("X", "Y", "Z"):
         found = f"radius {radius:g}, bore {bore:g}, {low:g} to {high:g}, axis {axis!r}"
         needed = "a cylinder needs radius > bore >= 0, high > low and axis X, Y or Z"

@@ -113,7 +113,7 @@ OF_METHODS = RIGHT | {
 NOT_CALLED = {
     "save", "scene", "player", "report", "setup_sheet", "tool_sheet", "measuring_sheet", "load", "ahead", "at_most", "reach",
     "made_by", "removals", "from_top", "raised", "replace", "through", "chain", "annotated", "kept", "proves", "place",
-    "told", "again",
+    "told", "again", "some", "to_pandas",
     "faces_over", "cutting_data", "plot_lengths", "surface", "largest_radius", "plot_face", "plot_measured", "executions",
     "place_of_line", "union_of", "of", "with_errors",
 }  # fmt: skip

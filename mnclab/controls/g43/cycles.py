@@ -17,6 +17,7 @@ import numpy as np
 from mnclab.controls.g43.language import motion
 from mnclab.controls.g43.language.offsets import settle_doubt
 from mnclab.controls.g43.language.tools import activate
+from mnclab.controls.g43.refused import at_a_place
 from mnclab.controls.g43.settings import DIALECT_NAMES
 from mnclab.controls.g43.state import ISO, memory, seconds_of_p, undescribed
 from mnclab.controls.word_address import holes
@@ -85,15 +86,6 @@ def keep_initial_level(m: Machine, kept: Values) -> None:
     if m.settings["hole_data"] == "numbers":
         kept["initial"] = m.to_machine((x, y, number * m.variable_unit))[2]
     kept.setdefault("initial", m.to_machine(m.programmed)[2])
-
-
-def at_a_place(m: Machine, code: str, values: Values, given: Given) -> None:
-    """On LinuxCNC a block of a cycle has an axis word, and drills once at least."""
-    if m.settings["dialect"] == "linuxcnc":
-        if given.keys().isdisjoint(("x", "y", "bottom")):
-            m.alarm(f"{code} needs X, Y or Z in its block", next(iter(given.values()), None), "LinuxCNC drills where one stands")
-        if values.get("repeats") == 0:
-            m.alarm(f"{code} L (number of holes) must be at least 1 on LinuxCNC", given["repeats"])
 
 
 def levels(m: Machine, values: Values, given: Given, kept: Values) -> None:

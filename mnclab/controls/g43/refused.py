@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 from mnclab.controls.word_address.motion import first_word, uncompensated
 from mnclab.machine.control import Function, Words
@@ -77,3 +79,18 @@ def unknown_to_linuxcnc(function: Function) -> Function:
         function.obey(m, words)
 
     return replace(function, obey=obey)
+
+
+#: Data that the cycles of LinuxCNC do not have (rs274: Q word with no G5, …; P word …; J word …).
+NO_DATA_OF_LINUXCNC = {"pause", "tapping_peck", "times_out"}
+
+
+def at_a_place(m: Machine, code: str, values: Mapping[str, Any], given: Mapping[str, Any]) -> None:
+    """On LinuxCNC a block of a cycle has an axis word and no data of other makers, and drills once at least."""
+    if m.settings["dialect"] == "linuxcnc":
+        for name in NO_DATA_OF_LINUXCNC & given.keys():
+            m.alarm(f"{code} does not take {given[name].address} on LinuxCNC", given[name])
+        if given.keys().isdisjoint(("x", "y", "bottom")):
+            m.alarm(f"{code} needs X, Y or Z in its block", next(iter(given.values()), None), "LinuxCNC drills where one stands")
+        if values.get("repeats") == 0:
+            m.alarm(f"{code} L (number of holes) must be at least 1 on LinuxCNC", given["repeats"])

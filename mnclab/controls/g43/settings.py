@@ -32,7 +32,7 @@ DIALECTS: dict[str, dict[str, Any]] = {
         "g10_p0": "active", "g10_l20": "position", "g10_increment": "replaces",
         "hole_axis": "normal", "hole_data": "numbers", "compensation_leads": "linuxcnc",
         "return_at_start": "G99", "axis_words": "refuse", "g61": "corners",
-        "arc_tolerance": 0.02 * 2**0.5, "arc_tolerance_share": 1e-3,
+        "arc_tolerance": 0.02 * 2**0.5, "arc_tolerance_share": 1e-3, "arc_reach": 0.00127,
     },
 }  # fmt: skip
 
@@ -50,6 +50,7 @@ MOTION = (
     Setting("arc_tolerance", 0.01, "difference of the radii at start and end of an arc", "", {}, "mm", 0),
     Setting("arc_tolerance_share", 0.0, "the part of the radius by which they may differ, up to 100 times arc_tolerance, which"
             " counts 2.54 times under G20 then (LinuxCNC: 0.001)", "", {}, "", 0, 1),
+    Setting("arc_reach", 0.01, "by how much R may be less than half the way to the end (LinuxCNC: 0.00127)", "", {}, "mm", 0),
     one_of("axis_words", "X Y Z where no motion is active: at the start and after G80", "Fanuc, Haas",
            move="G0 at the start, after G80 the motion before the cycle", refuse="an alarm (LinuxCNC)"),
     one_of("g61", "where G61 stops", "Fanuc, Haas",

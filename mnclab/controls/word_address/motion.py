@@ -105,6 +105,8 @@ def arc_to(
     middle = [(centre or {}).get(k, m.programmed[k]) for k in (first, second)]
     end = [to.get(ARGUMENTS[k][1], m.programmed[k]) for k in (first, second)]
     tolerance = arc_tolerance(m, max(math.dist(end, middle), math.dist((m.programmed[first], m.programmed[second]), middle)))
+    if by_radius:
+        tolerance = float(m.settings.get("arc_reach", tolerance))
     try:
         m.arc(**to, sense=sense, centre=centre, radius=radius, word=head, tolerance=tolerance, turns=turns)
     except Alarm as alarm:

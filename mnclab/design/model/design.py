@@ -364,7 +364,7 @@ class Taking(NamedTuple):
 
     def features(self, given: Any, name: str) -> tuple[Any, ...]:
         """What was given as features, one, several or patterns of them, as a tuple; an Alarm for all else."""
-        given = (given,) if isinstance(given, self.kind) else given
+        given = (given,) if isinstance(given, self.kind) else list(given) if isinstance(given, Iterator | np.ndarray) else given
         if not isinstance(given, tuple | list):
             hint = f"mnclab.design.{self.example}"
             raise Alarm(f"{name} of a {self.design} must be features, got {shown(given)}", hint=hint)

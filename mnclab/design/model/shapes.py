@@ -15,7 +15,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import left
 from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, check_point, faults_as_alarms, plain, shown
+from mnclab.text.given import check_number, check_point, faults_as_alarms, of_python, plain, shown
 from mnclab.text.tables import exactly
 
 LARGEST = 1e5  # mm, of a size and of a coordinate
@@ -110,7 +110,7 @@ class Outline:
 
     def __post_init__(self) -> None:
         for name in ("points", "bulge"):
-            if not isinstance(getattr(self, name), tuple | list):
+            if not isinstance(of_python(getattr(self, name)), tuple | list):
                 raise Alarm(f"the {name} of an outline must be a list, got {shown(getattr(self, name))}")
         _plain(self)
         for k, each in enumerate(self.points):

@@ -88,6 +88,10 @@ OWN: dict[str, dict[str, Callable[[float], float]]] = {
     },
 }  # fmt: skip
 ROUNDING = ("ROUND", "RND")
+#: What LinuxCNC does not know (rs274: Unknown word where unary operation could be), and what to write there instead.
+NOT_OF_LINUXCNC = {
+    "SQR": "write SQRT", "RND": "write ROUND", "BIN": "", "BCD": "", "POW": "write a ** b", "ATAN": "write ATAN[y]/[x]",
+}  # fmt: skip
 NAMES = {*FUNCTIONS, *OWN[FANUC], *ROUNDING, "POW", "EXISTS"}
 
 
@@ -292,8 +296,8 @@ class _Reader(Climber[None]):
     def function(self, token: Token) -> None:
         """ATAN and POW take two numbers: `ATAN[1]/[2]`, `ATAN[1,2]`, `POW[2,3]`."""
         self.bracketed()
-        two = token.text in ("ATAN", "POW") and self.peek() == ","
-        if two:
+        comma = two = token.text in ("ATAN", "POW") and self.peek() == ","
+        if comma:
             self.at += 1
             self.climb()
         self.close()
@@ -304,7 +308,7 @@ class _Reader(Climber[None]):
             two = True
         if token.text == "POW" and not two:
             raise Alarm("POW needs two numbers", token.span, hint="for example POW[2,3]")
-        self.steps.append(token._replace(kind="pair") if two else token)
+        self.steps.append(token._replace(kind="pair" if comma else "joint") if two else token)
 
     def join(self, mark: str, left: None, first: int) -> None:
         operator = self.tokens[self.at - 1]
@@ -318,6 +322,9 @@ class _Reader(Climber[None]):
 def _joined(left: float | None, operator: Token, right: float | None, dialect: str) -> float:
     """The value of two operands, or of a function of two numbers."""
     text = operator.text
+    if dialect == LINUXCNC and operator.kind == "pair":
+        message = f"{text} of two numbers in one bracket is not known to LinuxCNC"
+        raise Alarm(message, operator.span, hint=NOT_OF_LINUXCNC[text])
     if text in ("EQ", "NE") and (left is None or right is None):
         return float((left is right) == (text == "EQ"))
     a, b = _plain(left), _plain(right)
@@ -368,11 +375,11 @@ def _bits(value: float, operator: Token) -> int:
 
 
 def _function(name: Token, argument: float, dialect: str, unit: float) -> float:
+    if dialect == LINUXCNC and name.text in NOT_OF_LINUXCNC:
+        raise Alarm(f"{name.text} of one number is not known to LinuxCNC", name.span, hint=NOT_OF_LINUXCNC[name.text])
     if name.text in ROUNDING:
         return _away(argument / unit) * unit + 0.0  # never -0
-    function = FUNCTIONS.get(name.text) or OWN[dialect].get(name.text)
-    if function is None:
-        raise Alarm(f"{name.text} of one number is not known to LinuxCNC", name.span, hint="write ATAN[y]/[x]")
+    function = FUNCTIONS.get(name.text) or OWN[dialect][name.text]
     try:
         return function(argument)
     except (ValueError, OverflowError):
