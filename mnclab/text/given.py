@@ -18,7 +18,7 @@ from mnclab.text.alarm import Absent, Alarm, Refused, hint
 #: No coordinate, feed, speed or other number is as large, whether it is written or worked out.
 LARGEST = 1e9
 #: Nor is one that is not 0 as small: its square would be none any more.
-SMALLEST = 1e-15
+SMALLEST = 1e-150
 #: How a call fails whose values are not what the function takes.
 FAULTS = (TypeError, ValueError, ArithmeticError, AttributeError, LookupError)
 _QUOTED = Repr()

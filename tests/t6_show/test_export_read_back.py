@@ -69,8 +69,10 @@ def test_comments_hold_no_bracket_and_no_foreign_letter():
 # --- drawings --------------------------------------------------------------------------------------------------------
 
 
-def test_ezdxf_reads_the_drawing(run, tmp_path):
+def test_ezdxf_reads_the_drawing(tmp_path):
+    """One entity a move, where rapids go straight."""
     ezdxf = pytest.importorskip("ezdxf")
+    run = mnclab.run(PROGRAM, "mnc", setup=mnclab.Setup(limits=mnclab.Limits(rapid_motion="line")))
     document = ezdxf.readfile(run.save(tmp_path / "a.dxf"))
     assert not document.audit().errors
     found = list(document.modelspace())

@@ -56,7 +56,7 @@ SAME = 1e-6  # mm, within which two sizes are one
 ALIKE = 1e-6  # rad, of two directions
 SHORT = 5e-3  # mm, of an element that rounding has left where arcs touch
 FLAT = 1e-7  # mm, by which an arc rises that is a line
-DIGITS = 9  # of a size that is said, mm
+DIGITS = 8  # of a size that is said, mm
 
 
 @dataclass(frozen=True)

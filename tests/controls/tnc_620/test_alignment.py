@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.alignment import PRESET, bored, cycle, ends, plate, points, run, studs
+from controls.tnc_620.alignment import PRESET, bored, cycle, ends, plate, points, run, studs
 
 from mnclab import Kind
 
@@ -125,7 +125,7 @@ def test_401_and_402_as_printed(code, number):
 
 def test_the_program_of_the_manual_runs_and_calls_another():
     """14.13: row 0 with C_OFFS, C shows 0 where it stands; then the program 35K47 goes on."""
-    from tests.alignment import setup
+    from controls.tnc_620.alignment import setup
 
     import mnclab
 
@@ -178,7 +178,7 @@ def test_403_an_edge():
 
 def test_403_as_printed():
     """Touched along -X, material on the side of -X of the line through (0, 0) and (20, 30)."""
-    from tests.alignment import placed
+    from controls.tnc_620.alignment import placed
 
     from mnclab.workpiece.part import plane
 
@@ -270,7 +270,7 @@ def test_a_row_that_was_measured_turns_the_program_once_it_is_active():
 
 def test_din_iso_and_inch():
     """G400 is cycle 400; an inch program says its places in inches."""
-    from tests.alignment import setup
+    from controls.tnc_620.alignment import setup
 
     import mnclab
 

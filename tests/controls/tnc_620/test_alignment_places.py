@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.alignment import PRESET, bored, cycle, ends, plate, points, run, studs
+from controls.tnc_620.alignment import PRESET, bored, cycle, ends, plate, points, run, studs
 
 from mnclab import Datum
 from mnclab.controls.tnc_620.probing.aimed import read
@@ -294,7 +294,7 @@ def test_material_that_is_left_is_rework_and_what_is_missing_is_scrap(sense):
 
 def test_an_inch_program_has_its_texts_and_results_in_inches():
     """10 mm in X with a tolerance of 0.01 inch: nominal values, limits and results count in inches, angles in degrees."""
-    from tests.alignment import setup
+    from controls.tnc_620.alignment import setup
 
     import mnclab
 

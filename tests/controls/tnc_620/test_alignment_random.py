@@ -8,9 +8,9 @@ import math
 
 import numpy as np
 import pytest
-from tests.alignment import PRESET, cycle, run, studs
-from tests.alignment import bored as drilled
-from tests.probed import gaps
+from controls.tnc_620.alignment import PRESET, cycle, run, studs
+from controls.tnc_620.alignment import bored as drilled
+from tools.probed import gaps
 
 from mnclab import Datum
 from mnclab.geometry import frames

@@ -1,7 +1,7 @@
 """What the misalignment cycles refuse, each at its place: rules of parameters, the machine, and what the probe meets."""
 
 import pytest
-from tests.alignment import PRESET, bored, cycle, plate, run, studs
+from controls.tnc_620.alignment import PRESET, bored, cycle, plate, run, studs
 from tools.together import together
 
 from mnclab import Datum, Setup, Tool

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from tests.running import labels
+from tools.running import labels
 
 import mnclab
 from mnclab import Kind, Setup, Tool
