@@ -23,10 +23,8 @@ NUMBERS = (0, 1, 3, 4, 5, 6, 7, 8)
 
 
 class Unit(NamedTuple):
-    """In what lengths are told: its name in a text and behind a number, how many mm it has, and decimals of a position.
-
-    And in what feeds are: their name behind a number, and how many mm/min they have.
-    """
+    """The unit of a listing. Of lengths: its `name` in a sentence and `short` behind a number, its `length` in mm, `decimals` of
+    a position. Of feeds: the `rate` behind a number, and how many mm/min one `feed` is."""
 
     name: str
     short: str

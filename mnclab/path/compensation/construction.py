@@ -131,7 +131,7 @@ TIE = 1e-9  # mm: walls that are equally near vote together
 
 
 @dataclass(frozen=True)
-class Overcut:
+class GougedWall:
     """One contour that the tool cuts into, in the coordinates of its plane.
 
     `walls` (w): lines and arcs of the contour, `n_in`, `n_out` (w, 2) their unit normals to the tool; `tool`
@@ -184,7 +184,7 @@ class Overcut:
         return np.where((vote < 0) & (seen > 1), least, -least)
 
 
-def overcuts(made: Construction, steps: Iterable[int]) -> Iterator[Overcut]:
+def gouged_walls(made: Construction, steps: Iterable[int]) -> Iterator[GougedWall]:
     """The contours that are cut into in some of the `steps` (of the places that do not fit)."""
     found = made.found
     if found is None:
@@ -202,7 +202,7 @@ def overcuts(made: Construction, steps: Iterable[int]) -> Iterator[Overcut]:
         tool = Curves(*map(np.concatenate, zip(rows, arcs, strict=True)))
         row = int(el.rows[k[0]])
         n_in, n_out = (beside(np.zeros((1, 2)), t[k], el.s[k]) for t in (el.t_in, el.t_out))
-        yield Overcut(el.curves(k), n_in, n_out, tool, float(el.R[k[0]]), row, float(made.view.end[row, 2]))
+        yield GougedWall(el.curves(k), n_in, n_out, tool, float(el.R[k[0]]), row, float(made.view.end[row, 2]))
 
 
 def _one(curves: Curves, k: int, count: int) -> Curves:

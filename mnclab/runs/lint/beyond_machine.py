@@ -16,7 +16,7 @@ import numpy as np
 from mnclab.path.limits import Limits
 from mnclab.path.listing import figure
 from mnclab.path.toolpath import Array, Index, Kind, Mask
-from mnclab.runs.lint.once import once
+from mnclab.runs.lint.once import warn_once
 from mnclab.text.alarm import Alarm
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ def _speeds(run: Run) -> Iterator[Alarm]:
     rows = _begun((turning > most * MORE) & np.isnan(path.surface), turning, np.arange(len(path)))
     if len(rows):
         message = f"the spindle cannot turn at {figure(float(turning[rows[0]]), 1)} rev/min: it goes {most:g} at most"
-        yield once(run, path.step[rows].tolist(), message, f"S{most:g} at most, or other limits of the machine", "S")
+        yield warn_once(run, path.step[rows].tolist(), message, f"S{most:g} at most, or other limits of the machine", "S")
 
 
 def _feeds(run: Run) -> Iterator[Alarm]:
@@ -58,7 +58,7 @@ def _feeds(run: Run) -> Iterator[Alarm]:
         row, unit = int(rows[0]), path.unit
         fed, held = (f"{figure(float(each) / unit.length, 1)} {unit.short}/min" for each in (rate[row], allowed[row]))
         message = f"the machine cannot feed at {fed}: its axes go {held} at most on this way"
-        yield once(run, path.step[rows].tolist(), message, "a smaller feed, or other limits of the machine", "F")
+        yield warn_once(run, path.step[rows].tolist(), message, "a smaller feed, or other limits of the machine", "F")
 
 
 def _begun(over: Mask, value: Array, rows: Index) -> Index:

@@ -10,7 +10,7 @@ import numpy as np
 from mnclab.path.limits import extents
 from mnclab.path.listing import figure
 from mnclab.path.toolpath import Kind, Mask, Toolpath
-from mnclab.runs.lint.once import once
+from mnclab.runs.lint.once import warn_once
 from mnclab.runs.material import cutting_of
 from mnclab.text.alarm import WARNING, Alarm
 from mnclab.text.program import blocks_with
@@ -33,7 +33,7 @@ def left_on(run: Run) -> Iterator[Alarm]:
     at, sides = run.history.log("side")
     if sides[-1] and at[-1] >= 0:
         hint = "write G40 with a move away from the contour" if "G40" in run.control.functions else "write R0, or DEP"
-        yield once(run, [int(at[-1])], "radius compensation is still on where the program ends", hint, *WORDS)
+        yield warn_once(run, [int(at[-1])], "radius compensation is still on where the program ends", hint, *WORDS)
 
 
 # What a program gets ready and never uses: a cycle that nothing calls, a tool that is changed again before it cuts.
@@ -69,7 +69,7 @@ def _cycles(run: Run) -> Iterator[Alarm]:
     if len(idle):
         how = "M99" if "CYCL CALL" not in calls else "CYCL CALL or M99"
         message = "a cycle is defined here and never called: it does nothing"
-        yield once(run, idle.tolist(), message, f"a cycle of this kind works where {how} stands")
+        yield warn_once(run, idle.tolist(), message, f"a cycle of this kind works where {how} stands")
 
 
 def _compensation(run: Run) -> Iterator[Alarm]:
@@ -78,7 +78,7 @@ def _compensation(run: Run) -> Iterator[Alarm]:
     idle = path.is_motion & (path.side != 0) & (path.radius == 0)
     if idle.any() and not any(message in alarm.message or "has no row in" in alarm.message for alarm in run.alarms):
         message = f"the radius compensation {message}: the radius of T{int(path.tool[idle][0])} is 0"
-        yield once(run, path.step[idle].tolist(), message, "call a tool, or give it its radius")
+        yield warn_once(run, path.step[idle].tolist(), message, "call a tool, or give it its radius")
 
 
 def _waiting(run: Run) -> Iterator[Alarm]:
@@ -91,7 +91,7 @@ def _waiting(run: Run) -> Iterator[Alarm]:
     chosen = [number for step, number in run.history.changed("next tool") if step <= first][-1:]
     if chosen and chosen[0] and not any("not in the spindle" in alarm.message for alarm in run.alarms):
         message = f"the program works without a tool: T{chosen[0]} is chosen, but not in the spindle"
-        yield once(run, [first], message, "write M6 behind T")
+        yield warn_once(run, [first], message, "write M6 behind T")
 
 
 def _executed(run: Run, codes: set[str]) -> Mask:
@@ -115,7 +115,7 @@ def _tools(run: Run) -> Iterator[Alarm]:
         numbers = ", ".join(dict.fromkeys(f"T{number}" for _, number in idle))
         hint = "is it the tool that was meant, and is a part of the program missing?"
         message = f"a tool is changed again before it is used ({numbers})"
-        yield once(run, [step for step, _ in idle], message, hint, *(f"T{number}" for _, number in idle))
+        yield warn_once(run, [step for step, _ in idle], message, hint, *(f"T{number}" for _, number in idle))
 
 
 def _works(path: Toolpath, first: int, stop: int) -> bool:
@@ -176,7 +176,7 @@ def _of_taps(run: Run) -> Iterator[Alarm]:
         if tool.kind == "tap" and tool.pitch > 0 and mine.any():
             fed, own = (figure(float(each) / path.unit.length, 4) for each in (path.per_rev[mine][0], tool.pitch))
             message = f"the tap of tool {number} has a pitch of {own} {path.unit.short} and is fed {fed} {path.unit.short} a turn"
-            yield once(run, path.step[mine].tolist(), message, "the feed is pitch times speed (G94), or the pitch (G95)")
+            yield warn_once(run, path.step[mine].tolist(), message, "the feed is pitch times speed (G94), or the pitch (G95)")
 
 
 def _a_minute(run: Run) -> Iterator[Alarm]:
@@ -189,7 +189,7 @@ def _a_minute(run: Run) -> Iterator[Alarm]:
     if slow.any():
         feed = path.feed[slow.argmax()]
         message = f"the feed counts mm/min (G94): at {feed:g} mm/min the tool goes less than 0.001 mm in a turn of the spindle"
-        yield once(run, path.step[slow].tolist(), message, f"G95 F{feed:g} is {feed:g} mm/rev")
+        yield warn_once(run, path.step[slow].tolist(), message, f"G95 F{feed:g} is {feed:g} mm/rev")
 
 
 # A contour that never goes below the top of the blank: Z without its sign, a datum elsewhere. All is cut in the air.
@@ -219,8 +219,8 @@ def above_blank(run: Run) -> Iterator[Alarm]:
     first = int(path.step[np.argmax(cuts)])
     if path.lathe:
         message = f"no move at feed comes to the bar: the nearest stays {above:.3f} mm beside it"
-        yield once(run, [first], message, "is X a radius or a diameter here, and the datum on the axis?")
+        yield warn_once(run, [first], message, "is X a radius or a diameter here, and the datum on the axis?")
     else:
         where = f"stays {above:.3f} mm above it" if above > NOISE else "is at it"
         message = f"no move at feed goes below the top of the blank: the lowest {where}"
-        yield once(run, [first], message, "depths below the top are negative, Z-5; or the blank stands too low")
+        yield warn_once(run, [first], message, "depths below the top are negative, Z-5; or the blank stands too low")

@@ -14,7 +14,7 @@ from mnclab.path.limits import extents
 from mnclab.path.listing import figure
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
-from mnclab.runs.lint.once import has, once
+from mnclab.runs.lint.once import warn_once, word_span
 from mnclab.runs.material import cutting_of
 from mnclab.text.alarm import Alarm
 from mnclab.workpiece.blank import Box, Revolved
@@ -69,7 +69,8 @@ def remarks(run: Run) -> Iterator[Alarm]:
         message = (
             f"the thread needs {wanted} along {'XYZ'[axis]}, which goes {allowed} at most: at {turning} its lead is never {lead}"
         )
-        yield once(run, path.step[rows[fast]].tolist(), message, f"at most {int(slower)} rev/min, or other limits of the machine")
+        mend = f"at most {int(slower)} rev/min, or other limits of the machine"
+        yield warn_once(run, path.step[rows[fast]].tolist(), message, mend)
     if path.lathe:
         yield from _jumps(run)
         yield from _without_run_in(run, rows[~fast], speed[~fast], share[~fast])
@@ -90,7 +91,7 @@ def _jumps(run: Run) -> Iterator[Alarm]:
         before, after = (figure(float(each) / path.unit.length, 4) for each in lead[k : k + 2])
         message = f"the lead jumps from {before} to {after} {path.unit.short} where one thread goes on from another"
         hint = "no axis changes its speed at once: leave the material before the next thread"
-        yield once(run, path.step[rows[1:][jumps]].tolist(), message, hint)
+        yield warn_once(run, path.step[rows[1:][jumps]].tolist(), message, hint)
 
 
 def _speed(path: Toolpath, rows: Index, spindle: float) -> Array:
@@ -126,7 +127,7 @@ def _without_run_in(run: Run, rows: Index, speed: Array, share: Array) -> Iterat
             f"the thread begins with another pitch: the axis needs {figure(need / unit, 2)} {short} of run-in (v² / 2a), "
             f"and there {'are' if air else 'is'} {figure(air / unit, 2) if air else 'none'}{f' {short}' if air else ''}"
         )
-        yield once(run, [each for each, *_ in late], message, "begin farther from the material, or turn slower")
+        yield warn_once(run, [each for each, *_ in late], message, "begin farther from the material, or turn slower")
 
 
 def _tapped(run: Run, rows: Index) -> Mask:
@@ -165,7 +166,7 @@ def _passes_apart(run: Run, rows: Index) -> Iterator[Alarm]:
         sense = ("", " counter-clockwise")
         before_said, said = (f"{figure(abs(each), 1)} rev/min{sense[each < 0]}" for each in (was, speed))
         message = f"a pass of the thread is cut at {said}, the one before it at {before_said}: they do not meet in one groove"
-        yield once(run, [step for step, *_ in apart], message, "one speed (G97) for all passes of a thread")
+        yield warn_once(run, [step for step, *_ in apart], message, "one speed (G97) for all passes of a thread")
 
 
 def _air(run: Run, row: int, enough: float) -> float:
@@ -228,12 +229,12 @@ def rapids_in_blank(run: Run) -> Iterator[Alarm]:
     begun = copy(run)
     begun.toolpath = path
     found = _full(cutting_of(begun, named=len(run.toolpath) <= FIRST), rapid[near])
-    if rows := [row for row in found.tolist() if not has(run, int(path.step[row]), *ON_THE_MACHINE)]:
+    if rows := [row for row in found.tolist() if not word_span(run, int(path.step[row]), *ON_THE_MACHINE)]:
         down = np.ptp([path.start[rows[0], :2], path.end[rows[0], :2]], axis=0).max() == 0
         hint = "a rapid ends above the material, the rest goes at feed" if down else "first Z above the part, then X and Y"
         if path.lathe:
             hint = "a rapid ends outside the bar, the rest goes at feed"
-        yield once(run, np.unique(path.step[rows]).tolist(), MESSAGE, hint)
+        yield warn_once(run, np.unique(path.step[rows]).tolist(), MESSAGE, hint)
 
 
 def _turns(stock: object) -> TypeGuard[Revolved]:

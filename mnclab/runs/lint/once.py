@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from mnclab.runs.run import Run
 
 
-def has(run: Run, step: int, *words: str) -> Span | None:
+def word_span(run: Run, step: int, *words: str) -> Span | None:
     """The first of some words ("G41"), or of an address ("F"), in the block of a step; None, where it has none of them."""
     which, block = int(run.steps.program[step]), int(run.steps.block[step])
     found = (word.span for word in run.programs[which][block].words if str(word) in words or word.address in words)
@@ -21,10 +21,10 @@ def has(run: Run, step: int, *words: str) -> Span | None:
 def span_of(run: Run, step: int, *words: str) -> Span:
     """The first of some words in the block of a step, or else the block."""
     which, block = int(run.steps.program[step]), int(run.steps.block[step])
-    return has(run, step, *words) or run.programs[which].span_of_block(block)._replace(program=which)
+    return word_span(run, step, *words) or run.programs[which].span_of_block(block)._replace(program=which)
 
 
-def once(run: Run, steps: Iterable[int], message: str, hint: str, *words: str) -> Alarm:
+def warn_once(run: Run, steps: Iterable[int], message: str, hint: str, *words: str) -> Alarm:
     """The warning at the first of some steps; further blocks, however often they are executed, are counted with it."""
     first = {(int(run.steps.program[step]), int(run.steps.block[step])): step for step in reversed([*steps])}
     places = [span_of(run, step, *words) for step in sorted(first.values())[:PLACES]]

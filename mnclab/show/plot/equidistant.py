@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import EllipseCollection
 from matplotlib.lines import Line2D
 
-from mnclab.path.compensation.construction import Construction, Overcut, overcuts
+from mnclab.path.compensation.construction import Construction, GougedWall, gouged_walls
 from mnclab.path.toolpath import RULE_NAMES, Kind, Rule, Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import LineStyle, Mark
@@ -84,8 +84,8 @@ class Panel:
         return [(line, xyz) for line, xyz in zip((colours.CONTOUR, colours.LEAD), pieces) if len(xyz)]
 
     @cached_property
-    def overcuts(self) -> list[Overcut]:
-        return list(overcuts(self.made, [gouge.step for gouge in self.run.gouges]))
+    def overcuts(self) -> list[GougedWall]:
+        return list(gouged_walls(self.made, [gouge.step for gouge in self.run.gouges]))
 
 
 def draw(ax: Axes, panel: Panel, discs: Any, vectors: bool) -> list[Array]:
@@ -164,7 +164,7 @@ def disc_places(path: Toolpath, discs: bool | float | Sequence[int]) -> tuple[Ar
     return at, radius
 
 
-def _hatch(ax: Axes, panel: Panel, overcut: Overcut) -> list[Array]:
+def _hatch(ax: Axes, panel: Panel, overcut: GougedWall) -> list[Array]:
     """What is cut away behind the contour: looked for in coarse steps, drawn in fine ones; returns its outlines."""
     low, high = overcut.box
     for count in (COARSE, FINE):

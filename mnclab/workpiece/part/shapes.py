@@ -23,7 +23,8 @@ LARGEST = 1e6  # mm, of a size and of a coordinate
 
 def plane(point: ArrayLike, normal: ArrayLike) -> Part:
     """Half of space, bounded by the plane through `point`; the normal points away from the material."""
-    through, out = _place(point, "a point of a plane"), unit(_place(normal, "the normal of a plane"), "the normal of a plane")
+    through = _place(point, "a point of a plane")
+    out = unit_vector(_place(normal, "the normal of a plane"), "the normal of a plane")
     return Part(partial(_plane, through, out), "plane")
 
 
@@ -41,7 +42,7 @@ def cylinder(bottom: ArrayLike, top: ArrayLike, radius: float) -> Part:
     """A round bar between the centres of its two faces."""
     a, b = _place(bottom, "the bottom of a cylinder"), _place(top, "the top of a cylinder")
     _check_size(radius, "the radius of a cylinder")
-    along = unit(b - a, "the axis of a cylinder")
+    along = unit_vector(b - a, "the axis of a cylinder")
     if abs(along[2]) == 1.0:
         return _prism("cylinder", _circle(a, radius), float(min(a[2], b[2])), float(max(a[2], b[2])))
     return _prism("cylinder", _circle(np.zeros(3), radius), 0.0, float(np.linalg.norm(b - a)), _along(a, along))
@@ -52,7 +53,7 @@ def cone(bottom: ArrayLike, top: ArrayLike, radius: float, top_radius: float = 0
     a, b = _place(bottom, "the bottom of a cone"), _place(top, "the top of a cone")
     _check_size(radius, "the radius of a cone")
     check_number(top_radius, "the upper radius of a cone", at_least=0, at_most=LARGEST)
-    along, high = unit(b - a, "the axis of a cone"), float(np.linalg.norm(b - a))
+    along, high = unit_vector(b - a, "the axis of a cone"), float(np.linalg.norm(b - a))
     half = [(0.0, 0.0), (radius, 0.0), (top_radius, high), (0.0, high)]  # and its mirror image beyond the axis
     corners = [*half[1:3], *[(-r, z) for r, z in reversed(half[1:3])]]
     outline = Contour([each for k, each in enumerate(corners) if each != corners[k - 1]])
@@ -83,7 +84,7 @@ def slot(start: ArrayLike, end: ArrayLike, width: float, depth: float) -> Part:
     _check_size(width, "the width of a slot")
     if a[2] != b[2]:
         raise Alarm(f"both ends of a slot lie in one face, got Z {a[2]:g} and Z {b[2]:g}")
-    unit(b - a, "a slot")
+    unit_vector(b - a, "a slot")
     return _cavity("slot", Region((slot_about(Contour([a[:2], b[:2]], closed=False), width),)), a[2], depth)
 
 
@@ -160,7 +161,7 @@ def _rectangle(
 
 def _along(origin: Floats, z: Floats) -> Matrix:
     """A frame at a point, upright along a unit vector."""
-    x = unit(np.cross(np.eye(3)[int(np.abs(z).argmin())], z), "an axis")
+    x = unit_vector(np.cross(np.eye(3)[int(np.abs(z).argmin())], z), "an axis")
     frame = np.eye(4)
     frame[:3] = np.column_stack([x, np.cross(z, x), z, origin])
     return frame
@@ -177,7 +178,7 @@ def _place(point: ArrayLike, what: str) -> Floats:
     return found
 
 
-def unit(vector: ArrayLike, name: str) -> Floats:
+def unit_vector(vector: ArrayLike, name: str) -> Floats:
     """A vector brought to the length 1; an Alarm for one without length."""
     v = np.asarray(vector, dtype=float)
     size = float(np.linalg.norm(v))

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from mnclab.text.given import check_number, check_point
 from mnclab.workpiece.part.part import Floats, Part
-from mnclab.workpiece.part.shapes import unit
+from mnclab.workpiece.part.shapes import unit_vector
 
 # Where a ball touches a part, and with which place of the surface.
 
@@ -40,7 +40,7 @@ def contact(
     check_point(direction, "the direction of a probe")
     check_number(radius, "the radius of a ball", at_least=0)
     check_number(reach, "how far a ball travels (mm)", at_least=0)
-    origin, ahead = np.asarray(start, dtype=float), unit(direction, "the direction of a probe")
+    origin, ahead = np.asarray(start, dtype=float), unit_vector(direction, "the direction of a probe")
 
     def gap(travel: Floats) -> Floats:
         return np.asarray((part(origin + travel[:, None] * ahead) - radius) / part.steep)
@@ -130,7 +130,7 @@ def blocked(
     check_number(length, "the length of a stem", at_least=0)
     origin, way = np.asarray(start, dtype=float), np.asarray(end, dtype=float) - np.asarray(start, dtype=float)
     reach = float(np.linalg.norm(way))
-    ahead, axis = way / reach if reach else np.zeros(3), unit(up, "the direction of a stem") * length
+    ahead, axis = way / reach if reach else np.zeros(3), unit_vector(up, "the direction of a stem") * length
     found = _met(part, origin, ahead, reach, np.zeros(3), ball)
     by_stem = _met(part, origin, ahead, reach if found is None else found, axis, stem) if stem and length else None
     return found if by_stem is None else by_stem

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, distance, increment, length, ratio
-from mnclab.controls.tnc_620.cycles.planes import Fault
+from mnclab.controls.tnc_620.cycles.planes import ParameterFault
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import CrossesItself, Region
@@ -50,7 +50,7 @@ class ContourGeometry(Cycle):
         "LBL", "label numbers of the contour", at_most=65535, several=True, note="1/2/3, up to 12", example=(1, 2)
     )
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         if m.recorded_only:
             yield "", "cannot stand in a contour that a cycle reads, nor in a program of contour definitions"
         if len(self.labels) > MOST_LABELS:
@@ -83,7 +83,7 @@ class ContourData(Cycle):
     corner: float = length("Q8", "radius at inside corners", example=0.5)
     sense: float = choice("Q9", "direction of machining", {-1: "up-cut milling", 1: "climb milling"})
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         if m.recorded_only:
             yield "", "cannot stand in a contour that a cycle reads, nor in a program of contour definitions"
         if abs(self.depth) < self.floor_allowance:
@@ -130,7 +130,7 @@ def as_they_stand(m: Machine, kept: AnyCycle) -> AnyCycle:
     return replace(kept, **now)
 
 
-def prepared(m: Machine) -> Iterator[Fault]:
+def prepared(m: Machine) -> Iterator[ParameterFault]:
     """What the cycles 21 to 24 need before them: a contour and its data."""
     if memory(m).contour is None:
         yield "", "needs a contour: CYCL DEF 14 comes before it"
@@ -138,7 +138,7 @@ def prepared(m: Machine) -> Iterator[Fault]:
         yield "", "needs its contour data: CYCL DEF 20 comes before it"
 
 
-def some_infeeds(c: Cycle, m: Machine) -> Iterator[Fault]:
+def some_infeeds(c: Cycle, m: Machine) -> Iterator[ParameterFault]:
     """An `infeed` of 0, or one that makes more levels than anybody would wait for; the data are there."""
     infeed = abs(getattr(c, "infeed", 0.0))
     if infeed == 0:

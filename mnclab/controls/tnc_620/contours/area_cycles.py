@@ -12,7 +12,14 @@ from mnclab.controls.tnc_620.contours.line import Named, in_table, leave, named_
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, count, increment, percent
 from mnclab.controls.tnc_620.cycles.obsolete_sub_blocks import advanced_stop
-from mnclab.controls.tnc_620.cycles.planes import SAME, Fault, in_program_coordinates, not_zero, rate, with_radius
+from mnclab.controls.tnc_620.cycles.planes import (
+    SAME,
+    ParameterFault,
+    in_program_coordinates,
+    not_zero,
+    rate,
+    with_radius,
+)
 from mnclab.controls.tnc_620.machining import finishing, roughing
 from mnclab.controls.tnc_620.machining.roughing import Cut, Feeds, Heights
 from mnclab.controls.tnc_620.state import memory
@@ -45,7 +52,7 @@ class PilotDrilling(Cycle):
         ("Q13", "QS13"), "rough-out tool", type="text", note="0: the tool in the spindle", example=1
     )
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from prepared(m)
         yield from some_infeeds(self, m)
         yield from not_zero(self, "feed", purpose="to drill with")
@@ -96,7 +103,7 @@ class RoughOut(Cycle):
     factor: float = percent("Q401", "feed rate factor at full engagement", at_most=100, default=100)
     fine_strategy: float = choice("Q404", "fine roughing strategy", STRATEGIES, default=0)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from prepared(m)
         yield from with_radius(m)
         yield from some_infeeds(self, m)
@@ -189,7 +196,7 @@ class FloorFinishing(Cycle):
         at_most=None, default=INF, default_means="FMAX", note="0: as Q12", example=None
     )
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from prepared(m)
         yield from not_zero(self, "plunge_feed", "feed", purpose="to mill with")
         if isinstance(self.retract_feed, float) and FAR < self.retract_feed < INF:
@@ -240,7 +247,7 @@ class SideFinishing(Cycle):
         note="-1: that of the last cycle 22, or the tool before; 0: none",
     )  # fmt: skip
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from prepared(m)
         yield from some_infeeds(self, m)
         yield from not_zero(self, "plunge_feed", "feed", purpose="to mill with")

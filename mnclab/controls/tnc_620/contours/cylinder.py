@@ -25,7 +25,7 @@ from mnclab.controls.tnc_620.contours.line import ContourLine, contour_line, wit
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, distance, increment, length
 from mnclab.controls.tnc_620.cycles.chain import TILT, rotary
-from mnclab.controls.tnc_620.cycles.planes import Fault, in_program_coordinates, not_zero, with_radius
+from mnclab.controls.tnc_620.cycles.planes import ParameterFault, in_program_coordinates, not_zero, with_radius
 from mnclab.controls.tnc_620.machining import cylinder as rolled
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
@@ -96,7 +96,7 @@ class Surface(NamedTuple):
         return shifts[:, :1] * across + (feet + shifts)[:, 1:] * along + height * out
 
 
-def surface_faults(m: Machine) -> Iterator[Fault]:
+def surface_faults(m: Machine) -> Iterator[ParameterFault]:
     """Why no cylinder can be machined as the axes and frames stand."""
     linear = m.matrix[:3, :3]
     lengths = np.linalg.norm(linear, axis=0)
@@ -296,7 +296,7 @@ class OnCylinder(Cycle):
     dimension_type: float = choice("Q17", "type of dimension of the rotary axis", IN, example=0)
     sided = True
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from with_labels(m, single=True)
         yield from with_radius(m)
         yield from not_zero(self, "infeed", "plunge_feed", "feed", "cylinder_radius")
@@ -369,7 +369,7 @@ class CylinderSlot(OnCylinder):
     slot_width: float = width(meaning="slot width")
     tolerance: float = length("Q21", "tolerance", at_most=9.9999, default=0, note="0: no remachining", example=0.02)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         if 0 < self.tolerance < 0.0001:
             yield "tolerance", f"must be 0 or at least 0.0001, got {self.tolerance:g}"
@@ -389,7 +389,7 @@ class CylinderRidge(OnCylinder):
     side_allowance: float = allowance(note="on the wall of the ridge")
     ridge_width: float = width(meaning="ridge width")
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         yield from room_for_approach(self, m)
 
@@ -406,7 +406,7 @@ class CylinderRidge(OnCylinder):
 class CylinderContour(OnCylinder):
     """A contour whose wall is parallel to the radial direction at the contour: the linear axes make the offset."""
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         yield from room_for_approach(self, m)
 
@@ -414,7 +414,7 @@ class CylinderContour(OnCylinder):
         return beside_contour(self, on, line, m.radius, height, m.settings["cylinder_approach"] == "LineNormal")
 
 
-def room_for_approach(c: OnCylinder, m: Machine) -> Iterator[Fault]:
+def room_for_approach(c: OnCylinder, m: Machine) -> Iterator[ParameterFault]:
     """The tool starts two radii beside the wall, and the allowance leaves some of the way."""
     if c.side_allowance >= m.radius - 1e-9:
         yield "side_allowance", f"must be less than the tool radius {m.radius:g}, got {c.side_allowance:g}: no room to approach"

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.contours.area import MOST_ELEMENTS, Labels, fault
-from mnclab.controls.tnc_620.cycles.planes import Fault
+from mnclab.controls.tnc_620.cycles.planes import ParameterFault
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
@@ -40,7 +40,7 @@ def named_tool(m: Machine, tool: Named) -> Tool | None:
     return next(same, None)
 
 
-def in_table(c: Cycle, m: Machine, name: str) -> Iterator[Fault]:
+def in_table(c: Cycle, m: Machine, name: str) -> Iterator[ParameterFault]:
     """A tool that the table does not have, or one that cuts nothing."""
     given: Named = getattr(c, name)
     if isinstance(given, TextFormula):
@@ -110,7 +110,7 @@ class ContourLine(NamedTuple):
     departure: RecordedLead | None = None
 
 
-def with_labels(m: Machine, single: bool = False) -> Iterator[Fault]:
+def with_labels(m: Machine, single: bool = False) -> Iterator[ParameterFault]:
     """The labels of cycle 14, and but one of them where it must be a `single` one."""
     labels = memory(m).contour
     if not isinstance(labels, Labels):

@@ -20,7 +20,7 @@ from mnclab.controls.tnc_620.contours.line import (
 )
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, count, increment, length
-from mnclab.controls.tnc_620.cycles.planes import SAME, Fault, in_program_coordinates, not_zero, with_radius
+from mnclab.controls.tnc_620.cycles.planes import SAME, ParameterFault, in_program_coordinates, not_zero, with_radius
 from mnclab.controls.tnc_620.machining.train_passes import Feeds, leading_off, leading_to, mill
 from mnclab.controls.tnc_620.machining.train_passes import Train as Passes
 from mnclab.controls.tnc_620.machining.trains import Beside, SpaceWay, beside, cuts_into, rests
@@ -53,7 +53,7 @@ class TrainData(Cycle):
     angle: float = param("Q393", "centre angle of the arc", "deg", modal=True, at_least=0, at_most=99999.9999, example=45)
     distance: float = length("Q394", "distance of the auxiliary point", note="where Q390 is 2 or 3", example=2)
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         if self.approach == 1 and self.radius == 0:
             yield "radius", "must be greater than 0 for an approach on an arc, got 0"
         if self.approach == 1 and not 0 < self.angle <= 360:
@@ -251,7 +251,7 @@ class Train(Cycle):
     connected: float = length("Q447", "connection distance", at_most=999.9999, default=10)
     extended: float = length("Q448", "path extension", at_most=99.999, default=2)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from with_labels(m)
         yield from with_radius(m)
         yield from not_zero(self, "plunge_feed", "feed")
@@ -284,7 +284,7 @@ class ContourTrain(Train):
 
     surface: float = coordinate("Q5", "coordinate of the workpiece surface", example=0)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         if self.height < max(self.surface, self.surface + self.depth):
             yield "height", f"must not lie below the surface or the floor, got {self.height:g}"
@@ -306,7 +306,7 @@ class ContourTrain(Train):
 class SpaceTrain(Train):
     """Along a contour with heights: at them, or in infeeds down from them; under a mirror image climb stays climb."""
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         yield from with_labels(m, single=True)
         if m.programmed[2] < self.height - SAME:

@@ -14,7 +14,7 @@ import numpy as np
 
 from mnclab.controls.tnc_620.contours.line import ContourLine, contour_line, leave, with_labels
 from mnclab.controls.tnc_620.cycles import addresses, milling
-from mnclab.controls.tnc_620.cycles.planes import Fault, at_least, at_most, not_zero
+from mnclab.controls.tnc_620.cycles.planes import ParameterFault, at_least, at_most, not_zero
 from mnclab.controls.tnc_620.cycles.pockets import check_angle, feeds
 from mnclab.controls.tnc_620.machining import slots
 from mnclab.geometry.contours import Contour
@@ -53,11 +53,11 @@ class TrochoidalSlot(milling.MilledFigure):
     second_clearance: float = addresses.second_clearance(example=50)
     plunging_strategy: float = addresses.plunging(PLUNGE, example=0)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from with_labels(m, single=True)
         yield from super().check(m)
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         """The tool and its step fit the slot; how the tool gets down."""
         yield from at_least(self, "slot_width", 2 * m.radius, "the tool diameter")
         rough, circles = self.machining_operation != 2, self.machining_operation != 1 and self.floor_allowance > 0

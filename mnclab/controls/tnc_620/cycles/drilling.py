@@ -18,7 +18,7 @@ from mnclab.controls.tnc_620.cycles.addresses import (
     seconds,
 )
 from mnclab.controls.tnc_620.cycles.chain import MIRROR
-from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, ParameterFault
 from mnclab.machine.coordinates import MILLS, SHIFTS, is_round, tool, with_the_spindle
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
@@ -38,7 +38,7 @@ class Hole(AtSurface):
     def moves(self, m: Machine) -> Iterable[Step]:
         return [Go("to the set-up clearance", self.above), *self.steps(m)] if self.down else [self.left_out]
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from self.signs(m)
         if self.reference == 1:
             yield from planes.with_angle(m, "reference")
@@ -72,7 +72,7 @@ class Centering(Hole):
             return self.depth
         return math.copysign(planes.point_length(abs(self.diameter) / 2, tool(m).angle), self.diameter)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from self.signs(m)
         if self.mode:
             yield from planes.with_angle(m, "mode")
@@ -163,7 +163,7 @@ def as_if_not_mirrored(m: Machine, steps: Iterable[Step]) -> Iterator[Step]:
 class Boring(Hole):
     """Bores, stops the spindle at an angle, moves 0.2 mm off the wall and withdraws; ends on the axis of the hole."""
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from planes.oriented(m)
         yield from super().check(m)
 
@@ -203,7 +203,7 @@ class BackBoring(Hole):
         """The counterbore goes up from below, but the bar comes from above as in every hole."""
         return {"counterbore_depth": -self.counterbore_depth}
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from planes.oriented(m)
         if self.counterbore_depth < 0:
             yield "counterbore_depth", f"must not be negative, got {self.counterbore_depth:g}"
@@ -245,7 +245,7 @@ class BoreMilling(Hole):
     )
     climb: float = addresses.milling_type(example=1)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         size = 2 * m.radius
         if self.radius(m) < 0:
@@ -306,7 +306,7 @@ class UniversalPecking(Hole):
     #: The cycle of the iTNC 530 had no Q208 at first and retracted at rapid: its programs still do.
     retract_feed: float | str | None = addresses.retract_feed(at_most=addresses.FAR, default=None, default_means="FMAX")
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         if self.break_every and self.break_retract:
             yield from planes.not_zero(self, "positioning_feed", purpose="to return after a chip break")
@@ -347,7 +347,7 @@ class SingleLipDrilling(Hole):
     decrement: float = addresses.decrement(default=0)
     min_infeed: float = addresses.min_infeed(default=0)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         known = [code for code, function in m.control.functions.items() if function.group == "coolant"]
         for name, number in (("coolant_on", self.coolant_on), ("coolant_off", self.coolant_off)):

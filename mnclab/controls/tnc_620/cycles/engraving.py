@@ -13,7 +13,7 @@ from datetime import datetime
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, ratio
-from mnclab.controls.tnc_620.cycles.planes import SAME, AtSurface, Fault, not_zero
+from mnclab.controls.tnc_620.cycles.planes import SAME, AtSurface, ParameterFault, not_zero
 from mnclab.controls.tnc_620.machining import engraving as letters
 from mnclab.controls.tnc_620.state import time_of_day
 from mnclab.machine.control import Setting
@@ -130,13 +130,13 @@ class Engraving(AtSurface):
     text_position: float = choice("Q367", "text position", REFERENCES, default=0, example=1)
     maximum_text_length: float = addresses.length("Q574", "greatest text length", default=0, note="0: no limit")
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         if self.text_layout and not self.arc_radius:
             yield "arc_radius", "must be greater than 0 for a text on an arc, got 0"
         if not self.character_height and not self.maximum_text_length:
             yield "character_height", "and Q574 are both 0: one of them says how large the text is"
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         if not isinstance(self.text, str | TextFormula):
             yield "text", "must be a text in quotes or a QS parameter"
             return

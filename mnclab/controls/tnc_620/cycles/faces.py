@@ -11,7 +11,7 @@ import numpy as np
 from mnclab.controls.tnc_620.cycles import addresses, planes
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, distance, increment, length, number
 from mnclab.controls.tnc_620.cycles.milling import edges
-from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, ParameterFault
 from mnclab.controls.tnc_620.cycles.pockets import CORNERS, SIGNS
 from mnclab.controls.tnc_620.machining.faces import (
     FacingLevel,
@@ -67,11 +67,11 @@ class FaceMilling(Cycle):
     side_clearance: float = addresses.side_clearance()
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         if self.end_3rd_axis > self.start_3rd_axis:
             yield "end_3rd_axis", f"must not lie above Q227 = {self.start_3rd_axis:g}, got {self.end_3rd_axis:g}"
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         if self.height == 0:
             return
         if self.roughing > DRIFT:
@@ -259,7 +259,7 @@ class WalledFaceMilling(AtSurface):
         outside = (longer, radius) if self.milling_direction == 1 else (radius, longer)
         return self.walled.along(radius, outside=outside, allowance=allowance)
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         for name in ("limit_1", "limit_2", "limit_3"):
             if (limit := getattr(self, name)) and self.strategy == 4:
                 yield name, f"must be 0 in spiral machining (Q389 = 4), got {limit:g}"
@@ -267,7 +267,7 @@ class WalledFaceMilling(AtSurface):
             yield from planes.not_zero(self, "max_plunging_depth")
             yield from planes.less_than_depth(self, "floor_allowance", depth)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         if self.down == 0:
             return
         if self.down < 0 and m.settings["depth_error"]:
@@ -288,7 +288,7 @@ class WalledFaceMilling(AtSurface):
         yield from too_many("overlap", lambda: rows(0, min(length, width) if self.strategy == 4 else across, step))
         yield from too_many_passes("max_plunging_depth", len(self.rough_levels(tool(m))), 1 + int(across / step))
 
-    def check_walls(self, radius: float) -> Iterator[Fault]:
+    def check_walls(self, radius: float) -> Iterator[ParameterFault]:
         walled, least = self.walled, 2 * (radius + self.side_allowance)
         sizes = (("first_side_length", walled.length), ("second_side_length", walled.width))
         for axis, (name, size) in enumerate(sizes, 1):
@@ -360,7 +360,7 @@ class MultipassMilling(Cycle):
     stepover_feed: float = addresses.feed("Q209", "feed rate for the stepover", also=addresses.PLANE, example=200)
     clearance: float = addresses.clearance()
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from planes.with_radius(m)
         yield from planes.not_zero(self, "plunging_feed", "milling_feed", "stepover_feed", purpose="to mill with")
         yield from too_many_passes("cuts", 1, int(self.cuts))
@@ -403,7 +403,7 @@ class RuledSurface(Cycle):
     cuts: float = number("Q240", "number of cuts", note="from 1-2 to 4-3", example=20)
     milling_feed: float = addresses.milling_feed()
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from planes.with_radius(m)
         yield from planes.not_zero(self, "milling_feed", purpose="to mill with")
         yield from too_many_passes("cuts", 1, int(self.cuts))

@@ -14,7 +14,7 @@ from functools import partial
 from typing import Any, ClassVar, NamedTuple
 
 from mnclab.controls.tnc_620.cycles import addresses, planes
-from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, ParameterFault
 from mnclab.machine.coordinates import MILLS, tool
 from mnclab.machine.cycle import too_many
 from mnclab.machine.machine import Machine
@@ -65,7 +65,7 @@ class MilledFigure(AtSurface):
     infeed: float
     finishing_feed: float | None = 0.0
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         """An infeed; not all of the depth is allowance. A depth of 0 is not executed, so nothing of it can be wrong."""
         if self.depth == 0:
             return
@@ -73,7 +73,7 @@ class MilledFigure(AtSurface):
         yield from planes.less_than_depth(self, "floor_allowance", self.depth)
         yield from too_many("finishing_infeed", lambda: wall_levels(self))
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         """The sign of the depth, a tool with a radius, feeds for all that is done, a number of levels to wait for; its shape."""
         if self.depth == 0:
             return

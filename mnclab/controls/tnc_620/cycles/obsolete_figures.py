@@ -11,7 +11,7 @@ import numpy as np
 
 from mnclab.controls.tnc_620.cycles import addresses, planes
 from mnclab.controls.tnc_620.cycles.addresses import coordinate, distance, length
-from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, ParameterFault
 from mnclab.controls.tnc_620.machining.finishing import finish_rounds
 from mnclab.controls.tnc_620.machining.slots import oblique_infeeds
 from mnclab.geometry import contours
@@ -62,13 +62,13 @@ class ReciprocatingSlot(AtSurface):
     infeed: float = addresses.infeed(note="of one way there and back")
     plunging_feed: float = addresses.plunge_feed(default=0, note="of finishing; 0: as Q207")
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         """An infeed; a depth of 0 is not executed, so nothing of it can be wrong."""
         if self.depth:
             yield from planes.not_zero(self, "infeed")
             yield from too_many("finishing_infeed", self.finishing_levels)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         """The tool fits into the slot, and is not less than a third as wide."""
         if not self.depth:
             return
@@ -127,7 +127,7 @@ class StraightSlot(ReciprocatingSlot):
     slot_length: float = length("Q218", "slot length", note="over all", example=80)
     rotation_angle: float = addresses.angle("Q224", "angle of rotation", note="about the centre of the slot", example=15)
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         if self.slot_length <= max(4 * m.radius, self.slot_width) + NOTHING:
             least = max(4 * m.radius, self.slot_width)
             yield "slot_length", f"must be greater than twice the tool diameter and Q219, {least:g}, got {self.slot_length:g}"
@@ -151,7 +151,7 @@ class CircularSlot(ReciprocatingSlot):
     starting_angle: float = addresses.angle("Q245", "starting angle", example=45)
     angular_length: float = addresses.angle("Q248", "angular length of the slot", incremental=True, at_least=0, example=90)
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         if self.pitch_circle_diameter <= self.slot_width + NOTHING:
             found = f"{self.slot_width:g}, got {self.pitch_circle_diameter:g}"
             yield "pitch_circle_diameter", f"must be greater than the slot width Q219, {found}"
@@ -184,7 +184,7 @@ class Finishing(AtSurface):
     infeed: float
     plunging_feed = milling_feed = centre_x = centre_y = first_side_length = second_side_length = corner_radius = allowance = 0.0
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         """The sign of the depth, feeds and infeeds; a depth of 0 is not executed, so nothing of it can be wrong."""
         if not self.depth:
             return
@@ -207,7 +207,7 @@ class Finishing(AtSurface):
         yield Go("over the centre", x=x, y=y)
 
 
-def fitting_corner(c: Finishing) -> Iterator[Fault]:
+def fitting_corner(c: Finishing) -> Iterator[ParameterFault]:
     yield from planes.at_most(c, "corner_radius", min(c.first_side_length, c.second_side_length) / 2, "half the shorter side")
 
 
@@ -220,7 +220,7 @@ class PocketFinishing(Finishing):
 
     corner_radius: float = length("Q220", "corner radius", note="0: the tool radius", example=8)
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         for name in ("first_side_length", "second_side_length"):
             yield from planes.at_least(self, name, 3 * m.radius, "three times the tool radius")
         if 0 < self.corner_radius < m.radius - planes.SAME:
@@ -244,7 +244,7 @@ class StudFinishing(Finishing):
 
     corner_radius: float = length("Q220", "corner radius", example=5)
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         yield from planes.not_zero(self, "first_side_length", "second_side_length")
         yield from fitting_corner(self)
 
@@ -262,7 +262,7 @@ class CircularPocketFinishing(Finishing):
     blank_diameter: float = length("Q222", "diameter of the rough pocket", note="less than Q223; 0: down at C", example=76)
     finished_diameter: float = length("Q223", "diameter of the finished pocket", example=80)
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         yield from planes.at_least(self, "finished_diameter", 3 * m.radius, "three times the tool radius")
         if self.blank_diameter >= self.finished_diameter:
             found = f"{self.finished_diameter:g}, got {self.blank_diameter:g}"
@@ -280,7 +280,7 @@ class CircularStudFinishing(Finishing):
     blank_diameter: float = length("Q222", "diameter of the blank", note="greater than Q223", example=84)
     finished_diameter: float = length("Q223", "diameter of the finished stud", example=80)
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         yield from planes.not_zero(self, "finished_diameter")
         if self.blank_diameter <= self.finished_diameter:
             found = f"{self.finished_diameter:g}, got {self.blank_diameter:g}"

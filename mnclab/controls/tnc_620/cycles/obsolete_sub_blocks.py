@@ -14,7 +14,7 @@ from types import SimpleNamespace
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, increment, length
-from mnclab.controls.tnc_620.cycles.planes import SAME, Fault, at_least, not_zero, oriented, with_radius
+from mnclab.controls.tnc_620.cycles.planes import SAME, ParameterFault, at_least, not_zero, oriented, with_radius
 from mnclab.controls.tnc_620.cycles.pockets import CORNERS
 from mnclab.controls.tnc_620.cycles.threads import pitch_of
 from mnclab.controls.tnc_620.machining.finishing import finish_rounds
@@ -72,7 +72,7 @@ class AtClearance(Cycle):
         surface = self.surface(m)
         return infeeds(surface, surface + self.depth, None if self.infeed is None else abs(self.infeed))
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         """Lengths have the sign of the depth, or none; an infeed is one."""
         if not self.depth:
             return
@@ -82,7 +82,7 @@ class AtClearance(Cycle):
                 yield name, f"must have the sign of the depth or be positive, got {value:g}"
         yield from not_zero(self, "infeed")
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         """The direction, and a number of infeeds that somebody would wait for; nothing where nothing is done."""
         if not self.depth:
             return
@@ -91,7 +91,7 @@ class AtClearance(Cycle):
         yield from too_many("infeed", lambda: self.levels(m))
         yield from self.fits(m)
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         """Faults of the feed, the tool and the shape."""
         yield from ()
 
@@ -126,7 +126,7 @@ class Pecking(AtClearance):
 
     feed: float = addresses.feed("F", "feed rate for drilling", also=("FAUTO",), example=150)
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         return not_zero(self, "feed", purpose="to drill with")
 
     def steps(self, m: Machine) -> Iterator[Step]:
@@ -148,7 +148,7 @@ class FloatingTapping(AtClearance):
     dwell: float = addresses.seconds("DWELL", "dwell at the bottom", note="0 to 0.5 s", example=0.25)
     feed: float = addresses.feed("F", "feed rate for tapping", also=("FAUTO",), note="S times pitch", example=150)
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         yield from not_zero(self, "feed")
         if not m.spindle_speed:
             yield "", "needs a turning spindle: write S in TOOL CALL, and M3 or M4 before"
@@ -173,7 +173,7 @@ class RigidTapping(AtClearance):
         "PITCH", "thread pitch", at_least=-99.9999, at_most=99.9999, modal=True, note="+ right-hand, - left-hand", example=1.5
     )
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         if self.pitch == 0:
             yield "pitch", "must not be 0"
         if not m.speed:
@@ -203,7 +203,7 @@ class MilledAtClearance(AtClearance):
     does = MILLS
     depth: float = SHARED.depth(example=-12)
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         yield from with_radius(m)
         yield from not_zero(self, "feed", "plunge_feed", purpose="to mill with")
 
@@ -225,13 +225,13 @@ class SlotMilling(MilledAtClearance):
         """Length, with its direction, and width, each after its name."""
         return ("x", self.x, "y", self.y) if abs(self.x) > abs(self.y) else ("y", self.y, "x", self.x)
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         yield from super().contradictions()
         _, long, name, width = self.sides
         if abs(long) <= width + SAME:
             yield name, f"must be less than the other side, {abs(long):g}, got {width:g}"
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().fits(m)
         _, _, name, width = self.sides
         yield from at_least(self, name, 2 * m.radius, "the tool diameter")
@@ -283,7 +283,7 @@ class PocketMilling(MilledAtClearance):
     sense: float = choice("DR", "sense of the path", SENSE, example=1)
     corner_radius: float = length("RADIUS", "corner radius", default=0, note="0: the tool radius", example=8)
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().fits(m)
         for name in ("x", "y"):
             yield from at_least(self, name, 2 * max(m.radius, self.corner_radius), "twice the radius of tool and corner")
@@ -313,7 +313,7 @@ class CircularPocket(MilledAtClearance):
     radius: float = length("RADIUS", "radius of the pocket", example=30)
     sense: float = choice("DR", "sense of the path", SENSE, example=1)
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().fits(m)
         yield from at_least(self, "radius", m.radius, "the tool radius")
         yield from passes_to_wait_for(self, m)
@@ -325,7 +325,7 @@ class CircularPocket(MilledAtClearance):
         return layers(self, m)
 
 
-def passes_to_wait_for(c: PocketMilling | CircularPocket, m: Machine) -> Iterator[Fault]:
+def passes_to_wait_for(c: PocketMilling | CircularPocket, m: Machine) -> Iterator[ParameterFault]:
     yield from too_many("feed", lambda: c.clearing(m))
     yield from too_many_passes("infeed", len(c.levels(m)), sum(len(way.starts) for way in c.clearing(m).passes))
 

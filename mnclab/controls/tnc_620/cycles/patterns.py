@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, increment, length, number
-from mnclab.controls.tnc_620.cycles.planes import Fault, in_program_coordinates
+from mnclab.controls.tnc_620.cycles.planes import ParameterFault, in_program_coordinates
 from mnclab.machine.coordinates import faults, is_round
 from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.machine import Machine
@@ -105,7 +105,7 @@ class PointPattern(Cycle, ABC):
     second_clearance: float
     move_to_clearance: float
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         if m.cycle is None:
             yield "", "has no machining cycle to run: define one before it, for example CYCL DEF 200"
             return
@@ -183,7 +183,7 @@ class PolarPattern(PointPattern):
     move_to_clearance: float = choice("Q301", "level between the points", TRAVERSE)
     type_of_traverse: float = choice("Q365", "way between the points", WAY, default=0)  # older programs lack it: lines
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         if self.type_of_traverse == 1 and not is_round(m):
             yield "type_of_traverse", "must be 0 under unequal scales of the plane, got 1: the way would be an ellipse"
@@ -239,7 +239,7 @@ class CartesianPattern(PointPattern):
     second_clearance: float = addresses.second_clearance()
     move_to_clearance: float = choice("Q301", "level between the points", TRAVERSE)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         if m.cycle is not None and m.cycle.cycle.code == "CYCL DEF 254" and m.variables.get("Q367") == 0:
             yield "", "cannot be combined with CYCL DEF 254 and Q367 = 0"

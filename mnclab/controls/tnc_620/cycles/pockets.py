@@ -11,7 +11,7 @@ import numpy as np
 from mnclab.controls.tnc_620.cycles import addresses, milling
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
 from mnclab.controls.tnc_620.cycles.milling import Figure, MilledFigure, Place
-from mnclab.controls.tnc_620.cycles.planes import SAME, Fault, at_least, at_most
+from mnclab.controls.tnc_620.cycles.planes import SAME, ParameterFault, at_least, at_most
 from mnclab.geometry import contours
 from mnclab.geometry.contours import Contour
 from mnclab.machine.coordinates import tool
@@ -58,13 +58,13 @@ class RectangularPocket(MilledFigure):
     pocket_position: float = choice("Q367", "pocket position", CORNER, example=0)
     plunging_strategy: float = addresses.plunging(addresses.PLUNGE)
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         yield from super().contradictions()
         if self.depth:
             half = min(self.first_side_length, self.second_side_length) / 2
             yield from at_most(self, "corner_radius", half, "half the shorter side")
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         least = 2 * (m.radius + self.side_allowance)
         for name in ("first_side_length", "second_side_length"):
             yield from at_least(self, name, least, "the tool diameter and twice Q368")
@@ -98,7 +98,7 @@ class CircularPocket(MilledFigure):
     overlap: float = addresses.overlap(at_least=0.1)
     plunging_strategy: float = addresses.plunging({0: "vertical", 1: "helical"})
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         least = 2 * (m.radius + self.side_allowance)
         yield from at_least(self, "circle_diameter", least, "the tool diameter and twice Q368")
         yield from check_pocket(self, m, self.pocket(m))
@@ -118,7 +118,7 @@ class CircularPocket(MilledFigure):
 # --- what both share ------------------------------------------------------------------------------------------------
 
 
-def check_pocket(c: MilledFigure, m: Machine, pocket: Pocket) -> Iterator[Fault]:
+def check_pocket(c: MilledFigure, m: Machine, pocket: Pocket) -> Iterator[ParameterFault]:
     """No more passes than somebody would wait for, and the tool gets down."""
     yield from too_many("overlap", lambda: pocket.clearing(0.0))
     levels, room = milling.levels(c, m), pocket.room(c.side_allowance)
@@ -136,7 +136,7 @@ def check_pocket(c: MilledFigure, m: Machine, pocket: Pocket) -> Iterator[Fault]
     yield from too_many("plunging_strategy", lambda: way_in(c, m, room)(0.0, levels[0] - c.surface))
 
 
-def check_angle(c: MilledFigure, m: Machine) -> Iterator[Fault]:
+def check_angle(c: MilledFigure, m: Machine) -> Iterator[ParameterFault]:
     """All strategies but the vertical one need a plunge angle."""
     if c.plunging_strategy and not 0 < m.tool.plunge_angle <= 90:
         angle = f"the plunge angle (ANGLE) of tool {m.tool.number}, greater than 0 and at most 90"
@@ -211,7 +211,7 @@ class StraightSlot(MilledFigure):
     slot_position: float = choice("Q367", "slot position", LENGTHWISE, example=0)
     plunging_strategy: float = addresses.plunging(PLUNGE)
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         yield from at_least(self, "slot_length", self.slot_width, "the width Q219")
         yield from check_slot(self, m, self.line(), self.line_length)
 
@@ -256,7 +256,7 @@ class CircularSlot(MilledFigure):
     second_clearance: float = addresses.second_clearance(example=50)
     plunging_strategy: float = addresses.plunging(PLUNGE)
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         if self.pitch_circle_diameter <= self.slot_width + NOTHING:
             found = f"{self.slot_width:g}, got {self.pitch_circle_diameter:g}"
             yield "pitch_circle_diameter", f"must be greater than the slot width Q219, {found}"
@@ -294,7 +294,7 @@ def slot(c: MilledFigure, m: Machine, line: Contour) -> Slot:
     return Slot(line, c.slot_width, m.radius, c.milling_type >= 0)
 
 
-def check_slot(c: MilledFigure, m: Machine, line: Contour, length: float, count: int = 1) -> Iterator[Fault]:
+def check_slot(c: MilledFigure, m: Machine, line: Contour, length: float, count: int = 1) -> Iterator[ParameterFault]:
     """The tool fits, and gets down; no more passes than somebody would wait for."""
     shape = slot(c, m, line)
     if not shape.is_full:

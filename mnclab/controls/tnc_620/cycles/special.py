@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, increment, length, seconds
-from mnclab.controls.tnc_620.cycles.planes import Fault
+from mnclab.controls.tnc_620.cycles.planes import ParameterFault
 from mnclab.controls.tnc_620.language.flow import call_program
 from mnclab.machine.coordinates import TAPS
 from mnclab.machine.cycle import Cycle, CycleTable, param
@@ -95,12 +95,12 @@ class ThreadCutting(Cycle):
     )
     thread_pitch: float = param("PITCH", "pitch of the thread", modal=True, note="positive: a right-hand thread", example=1.5)
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         if self.thread_pitch == 0 or abs(self.thread_pitch) > addresses.FAR:
             most = f"{addresses.FAR:.10g} either way and not 0"
             yield "thread_pitch", f"must be at most {most}, got {self.thread_pitch:g}"
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         if m.turning:
             yield "", "needs a spindle that stands still: it would stop it and cut with no rotation; write M5 before"
         if not m.speed:

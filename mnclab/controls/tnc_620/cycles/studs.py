@@ -16,7 +16,7 @@ import numpy as np
 from mnclab.controls.tnc_620.cycles import addresses, milling
 from mnclab.controls.tnc_620.cycles.addresses import choice, length, number
 from mnclab.controls.tnc_620.cycles.milling import Figure, MilledFigure, Place
-from mnclab.controls.tnc_620.cycles.planes import Fault, at_least, at_most, rate
+from mnclab.controls.tnc_620.cycles.planes import ParameterFault, at_least, at_most, rate
 from mnclab.controls.tnc_620.cycles.pockets import CORNER, SIGNS
 from mnclab.controls.tnc_620.machining import studs
 from mnclab.controls.tnc_620.machining.studs import Stud, mill_stud
@@ -58,7 +58,7 @@ class RectangularStud(MilledFigure):
     overlap: float = addresses.overlap(at_least=0.1)
     approach_position: float = choice("Q437", "approach position", APPROACH, default=0, example=0)
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         yield from at_least(self, "blank_side_1", self.first_side_length, "the side of the stud Q218", 0.0)
         yield from at_least(self, "blank_side_2", self.second_side_length, "the side of the stud Q219", 0.0)
         half = min(self.first_side_length, self.second_side_length) / 2
@@ -114,12 +114,12 @@ class CircularStud(MilledFigure):
         example=0,
     )  # fmt: skip
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         yield from super().contradictions()
         if -1 < self.starting_angle < 0:
             yield "starting_angle", f"must be -1 or at least 0, got {self.starting_angle:g}"
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         yield from at_least(self, "blank_diameter", self.finished_diameter, "the diameter of the stud Q223", 0.0)
         yield from check_passes(self, m)
 
@@ -167,7 +167,7 @@ class PolygonStud(MilledFigure):
     finishing_infeed: float = addresses.finishing_infeed()
     finishing_feed: float = addresses.finishing_feed(example=800)
 
-    def fits(self, m: Machine) -> Iterator[Fault]:
+    def fits(self, m: Machine) -> Iterator[ParameterFault]:
         if self.blank_diameter <= self.reference_diameter:
             found = f"{self.reference_diameter:g}, got {self.blank_diameter:g}"
             yield "blank_diameter", f"must be greater than the reference circle Q571, {found}"
@@ -211,7 +211,7 @@ AnyStud: TypeAlias = RectangularStud | CircularStud | PolygonStud
 # --- what they share ------------------------------------------------------------------------------------------------
 
 
-def check_passes(c: AnyStud, m: Machine) -> Iterator[Fault]:
+def check_passes(c: AnyStud, m: Machine) -> Iterator[ParameterFault]:
     """A number of passes that somebody would wait for."""
     made: list[Clearing] = []
     yield from too_many("overlap", lambda: made.append(c.clearing(m.radius, c.side_allowance, True)))

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAST, choice, increment, ratio
-from mnclab.controls.tnc_620.cycles.planes import AtSurface, Fault, not_zero, oriented, rate, with_radius
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, ParameterFault, not_zero, oriented, rate, with_radius
 from mnclab.controls.tnc_620.machining import thread_milling
 from mnclab.machine.coordinates import MILLS_THREADS, TAPS
 from mnclab.machine.cycle import CycleTable, too_many
@@ -35,7 +35,7 @@ RIGID = "clearance thread_depth pitch surface second_clearance"
 ROUNDED = 0.001  # mm; pitches that differ by no more are the same, for F and S are entered rounded
 
 
-def pitch_of(m: Machine, name: str, pitch: float) -> Iterator[Fault]:
+def pitch_of(m: Machine, name: str, pitch: float) -> Iterator[ParameterFault]:
     """A fault where the tool table has another pitch for the tap."""
     if m.tool.pitch and abs(m.tool.pitch - pitch) > ROUNDED:
         yield name, f"means a pitch of {pitch:g} mm, the tap of tool {m.tool.number} has {m.tool.pitch:g} mm (PITCH)"
@@ -54,7 +54,7 @@ class Tapping(AtSurface):
         return [Go("to the set-up clearance", self.above), *self.steps(m), *self.leave(), again]
 
 
-def rigid(c: Tapping, m: Machine) -> Iterator[Fault]:
+def rigid(c: Tapping, m: Machine) -> Iterator[ParameterFault]:
     """`check` of 207 and 209; nothing where the depth is 0, for then nothing is done."""
     if not c.thread_depth:
         return
@@ -84,7 +84,7 @@ class FloatingTapping(Tapping):
     surface: float = addresses.surface(example=0)
     second_clearance: float = addresses.second_clearance(example=50)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         """Nothing where the depth is 0, for then nothing is done."""
         if not self.thread_depth:
             return
@@ -127,7 +127,7 @@ class ChipBreakingTapping(Tapping):
     spindle_angle: float = addresses.spindle_angle(meaning="angle of the spindle before tapping", example=50)
     retract_rpm_factor: float = ratio("Q403", "factor of the speed for retracting", at_most=10, example=1.5)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from rigid(self, m)
         if self.thread_depth:
             yield from too_many("chip_breaking_depth", self.passes)
@@ -191,7 +191,7 @@ class InnerThreadMilling(ThreadMilling):
 
     works = ("thread_depth",)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         if self.thread_depth:
             yield from check(self, m, milling_feed=True)
 
@@ -214,7 +214,7 @@ class ThreadMillingCountersinking(ThreadMilling):
         meaning="set-up clearance at the side", note="from the tooth to the wall", example=0.2
     )
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         sinks = bool(self.countersinking_depth or self.depth_at_front)
         return check(self, m, milling_feed=bool(self.thread_depth), countersinking_feed=sinks)
 
@@ -245,7 +245,7 @@ class OutsideThreadMilling(ThreadMilling):
     works = ("thread_depth", "depth_at_front")
     offset_at_front: float = addresses.offset_at_front(meaning="offset at front from the stud centre")
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         sinks = bool(self.depth_at_front)
         yield from check(self, m, milling_feed=bool(self.thread_depth), countersinking_feed=sinks)
         if sinks and self.offset_at_front == 0:
@@ -275,7 +275,7 @@ class ThreadDrillingMilling(ThreadMilling):
     chip_breaking_retract: float = addresses.break_retract(meaning="retraction for chip breaking")
     plunging_feed: float = addresses.plunge_feed(example=150)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         drills, mills = bool(self.total_hole_depth), bool(self.thread_depth or self.depth_at_front)
         yield from check(self, m, plunging_feed=drills, milling_feed=mills)
         if drills:
@@ -311,7 +311,7 @@ class HelicalThreadMilling(ThreadMilling):
     thread_depth: float = addresses.thread_depth(example=-16)
     countersink_order: float = choice("Q360", "when the countersink is made", ORDER, example=0)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         return check(self, m, milling_feed=bool(self.thread_depth), countersinking_feed=bool(self.depth_at_front))
 
     def steps(self, m: Machine) -> Iterator[Step]:
@@ -359,7 +359,7 @@ def passes(c: ThreadMilling) -> list[tuple[float, float]]:
     return [(bottom - begin, bottom - end) for begin, end in found]
 
 
-def check(c: ThreadMilling, m: Machine, **feeds: bool) -> Iterator[Fault]:
+def check(c: ThreadMilling, m: Machine, **feeds: bool) -> Iterator[ParameterFault]:
     """Spindle, tool, pitch, signs, room for the tool, and the `feeds` that the cycle runs at where something is not 0."""
     if not any(c.depths().values()):
         every = " and ".join(p.address for p in c.parameters() if p.name in c.works)

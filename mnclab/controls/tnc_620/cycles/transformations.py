@@ -14,7 +14,7 @@ from typing import Any
 from mnclab.controls.tnc_620.cycles import addresses, chain
 from mnclab.controls.tnc_620.cycles.addresses import angle, coordinate, count, distance, feed, ratio
 from mnclab.controls.tnc_620.cycles.chain import Given, Values
-from mnclab.controls.tnc_620.cycles.planes import Fault, in_program_coordinates, not_zero
+from mnclab.controls.tnc_620.cycles.planes import ParameterFault, in_program_coordinates, not_zero
 from mnclab.controls.tnc_620.state import memory
 from mnclab.controls.tnc_620.tables import row_of
 from mnclab.geometry import frames
@@ -44,7 +44,7 @@ class Mirroring(Cycle):
         modal=True, note="letters: X, Y, X Y; not the tool axis", example=("X",),
     )  # fmt: skip
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         named = self.mirrored_axes or ()
         if len(named) > 3:
             yield "mirrored_axes", f"must be at most three, got {' '.join(named)}"
@@ -148,7 +148,7 @@ class DatumShift(Cycle):
         """The axes that are named, with their values."""
         return {axis: value for axis in AXES if (value := getattr(self, axis)) is not None}
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         if not self.written and self.datum_number is None:
             yield "", "needs an axis, for example CYCL DEF 7.1 X+60"
         if self.written and self.datum_number is not None:
@@ -176,7 +176,7 @@ class Presetting(Cycle):
 
     preset_number: float = count("Q339", "number of the preset", at_most=65535, note="0: the one set by hand", example=0)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         row = int(self.preset_number)
         if row and m.setup.presets and row not in m.tables.presets:
             known = ", ".join(map(str, sorted(m.tables.presets))) or "none but 0"
@@ -239,7 +239,7 @@ class WorkingPlane(Cycle):
     def angles(self) -> dict[str, float]:
         return {"A": self.angle_a or 0.0, "B": self.angle_b or 0.0, "C": self.angle_c or 0.0}
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         if m.side:
             yield "", "cannot tilt the plane under radius compensation: write R0 before"
         if (self.rotary_feed is None) != (self.set_up_clearance is None):

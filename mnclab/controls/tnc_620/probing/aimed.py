@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.cycles.addresses import FAR
-from mnclab.controls.tnc_620.cycles.planes import Fault
+from mnclab.controls.tnc_620.cycles.planes import ParameterFault
 from mnclab.controls.tnc_620.cycles.transformations import axis_positions, position
 from mnclab.controls.tnc_620.probing.cycle import store
 from mnclab.controls.tnc_620.probing.rotation import C, align, cannot_turn
@@ -146,7 +146,7 @@ def nominals(c: Any, m: Machine) -> list[list[Nominal]]:
     return [[nominal(c, m, name) for name in axes] for axes in names(c)]
 
 
-def faults(c: Any, m: Machine, *others: str) -> Iterator[Fault]:
+def faults(c: Any, m: Machine, *others: str) -> Iterator[ParameterFault]:
     """Texts that say nothing, points that are half known, questions that nobody answers; `others` are further texts."""
     for name in (*others, *(name for axes in names(c) for name in axes)):
         try:
@@ -293,13 +293,13 @@ BASIC, TABLE = 1, 2  # Q1121
 LEVEL = 1e-12  # of a turn that has no part about X and Y
 
 
-def contradictions(c: Any) -> Iterator[Fault]:
+def contradictions(c: Any) -> Iterator[ParameterFault]:
     """Of the cycles with one angle: rotary axes are aligned where the rotary table takes the rotation over."""
     if c.align_rotary_axis and c.confirm_rotation != TABLE:
         yield "align_rotary_axis", "aligns the rotary axis: then Q1121 must be 2, and no basic rotation takes the angle over"
 
 
-def turn_faults(c: Any, m: Machine) -> Iterator[Fault]:
+def turn_faults(c: Any, m: Machine) -> Iterator[ParameterFault]:
     if c.confirm_rotation == TABLE:
         yield from cannot_turn(m, C, "confirm_rotation")
 

@@ -14,7 +14,7 @@ from functools import partial
 from typing import Any
 
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
-from mnclab.controls.tnc_620.cycles.planes import Fault
+from mnclab.controls.tnc_620.cycles.planes import ParameterFault
 from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, needed
 from mnclab.controls.tnc_620.state import time_of_day
@@ -55,7 +55,7 @@ class OnSphere(ProbingCycle):
     preset_for_length: float = coordinate("Q434", "height of the center of the sphere", example=-2.5)
     number_of_points_3d: float = count("Q455", "touch points from pole to equator", at_most=30, default=0, example=0)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         if self.number_of_points_3d and not m.settings["tool_comp_3d"]:
             yield "number_of_points_3d", "needs the software option 3D-ToolComp, which is switched off (setting tool_comp_3d)"
@@ -135,7 +135,7 @@ class InRing(ProbingCycle):
     points: float = touches(example=8)
     reference_angle: float = first(meaning="angle of the first touch point")
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         if self.radius <= m.radius:
             yield "radius", f"must be greater than the radius of the ball, {m.radius:g}, got {self.radius:g}"

@@ -12,7 +12,7 @@ import numpy as np
 from mnclab.controls.tnc_620.contours.line import Named, in_table
 from mnclab.controls.tnc_620.cycles.addresses import FAR, POSITIONING, choice, feed
 from mnclab.controls.tnc_620.cycles.chain import TILT
-from mnclab.controls.tnc_620.cycles.planes import Fault, in_program_coordinates
+from mnclab.controls.tnc_620.cycles.planes import ParameterFault, in_program_coordinates
 from mnclab.controls.tnc_620.state import active_preset, memory
 from mnclab.machine.coordinates import FRAME, in_mm
 from mnclab.machine.cycle import Cycle, CycleTable
@@ -68,11 +68,11 @@ class ProbingCycle(Cycle):
     points, stepping_angle = 4.0, 90.0
     monitored_tool: Named = 0.0
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         if abs(self.stepping_angle) < LEAST_STEP:
             yield "stepping_angle", f"must be at least {LEAST_STEP:g} or at most -{LEAST_STEP:g}, got {self.stepping_angle:g}"
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from unfit(m)
         yield from self.transformed(m)
         if self.transfer == -1 and self.row:  # of programs from older controls (15.1)
@@ -83,7 +83,7 @@ class ProbingCycle(Cycle):
             if getattr(self, name) <= 2 * m.radius:
                 yield name, f"must be greater than the ball, {2 * m.radius:g}, got {getattr(self, name):g}"
 
-    def transformed(self, m: Machine) -> Iterator[Fault]:
+    def transformed(self, m: Machine) -> Iterator[ParameterFault]:
         """A transformation that it must not find active (13.2)."""
         allowed = (*ALLOWED, TILT) if self.tilted else ALLOWED
         if active := [name for name, _ in m.frames if name not in allowed and name in m.frames]:

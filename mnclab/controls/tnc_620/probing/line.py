@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from mnclab.controls.tnc_620.cycles.addresses import angle, choice, count
-from mnclab.controls.tnc_620.cycles.planes import Fault
+from mnclab.controls.tnc_620.cycles.planes import ParameterFault
 from mnclab.controls.tnc_620.probing import addresses, aimed
 from mnclab.controls.tnc_620.probing.addresses import FIRST, SECOND, TAKEN
 from mnclab.controls.tnc_620.probing.aimed import Finding, Floats, FoundPlace, Given, Judged
@@ -37,7 +37,7 @@ HOLES = {0: (True, True), 1: (False, False), 2: (True, False), 3: (False, True)}
 DIAMETERS = ("diameter_1", "diameter_2")
 
 
-def no_line(c: Any, m: Machine) -> Iterator[Fault]:
+def no_line(c: Any, m: Machine) -> Iterator[ParameterFault]:
     """Two nominal places that coincide in the plane."""
     (x, y, _), (x_2, y_2, _) = (tuple(each.mean for each in axes) for axes in aimed.nominals(c, m))
     if None not in (x, y, x_2, y_2) and (x, y) == (x_2, y_2):
@@ -64,7 +64,7 @@ class ProbingOnEdge(ProbingCycle):
     tilted, contradictions = True, aimed.contradictions
     probing_direction: float = addresses.probing_direction()
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         yield from aimed.faults(self, m)
         yield from no_line(self, m)
@@ -97,12 +97,12 @@ class ProbingTwoCircles(ProbingCycle):
     number_of_probe_points: float = count("Q423", "number of touches", at_least=3, at_most=8, example=4)
     angular_length: float = angle("Q1119", "angle over which the touches are spread", at_least=-359.999, example=360)
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         if not self.angular_length:
             yield "angular_length", "must not be 0: the touches would be one"
         yield from aimed.contradictions(self)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         yield from aimed.faults(self, m, *DIAMETERS)
         yield from no_line(self, m)
@@ -173,11 +173,11 @@ class ProbingInPlane(ProbingCycle):
     transfer_position: float = addresses.transfer_position(choices=OF_THREE)
     confirm_rotation: float = addresses.confirm_rotation(choices=SPACE)
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         if self.align_rotary_axis and not self.confirm_rotation:
             yield "align_rotary_axis", "aligns the rotary axes: then Q1121 must be 1, which takes the rotation over"
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         yield from aimed.faults(self, m)
         known = aimed.nominals(self, m)

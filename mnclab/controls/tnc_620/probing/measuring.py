@@ -11,7 +11,7 @@ import numpy as np
 
 from mnclab.controls.tnc_620.contours.line import Named, named_tool
 from mnclab.controls.tnc_620.cycles.addresses import coordinate, increment
-from mnclab.controls.tnc_620.cycles.planes import SAME, Fault
+from mnclab.controls.tnc_620.cycles.planes import SAME, ParameterFault
 from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.addresses import HEIGHTS, INSPECTED, LINE, ROUND
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, bolt_circle, box, needed, ring, shows_results
@@ -204,7 +204,7 @@ class AngleMeasuring(ProbingCycle):
     tilted = True
     axis: float = addresses.axis(choices=addresses.AXES, example=2)
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         same_x, same_y = abs(self.x - self.second_x) < SAME, abs(self.y - self.second_y) < SAME
         if same_x and same_y:
             yield "second_x", "and Q266 give the first touch point again: two points make an angle"
@@ -266,7 +266,7 @@ class PlaneMeasuring(ProbingCycle):
     second_z: float = coordinate("Q295", "second touch point, touch probe axis", example=0)
     third_z: float = coordinate("Q298", "third touch point, touch probe axis", example=0)
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         ahead, aside = (self.second_x - self.x, self.second_y - self.y), (self.third_x - self.x, self.third_y - self.y)
         if abs(ahead[0] * aside[1] - ahead[1] * aside[0]) < FLAT:
             yield "third_x", "and the other points lie on one line: three points must span a plane"
@@ -346,7 +346,7 @@ class BoltHoleCircleMeasuring(ProbingCycle):
     diameter: float = addresses.diameter(meaning="nominal diameter of the bolt hole circle", example=80)
     monitored_tool: float = addresses.monitored_tool(note="only whether it is broken; 0: none")
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         angles = self.first_angle, self.second_angle, self.third_angle
         for k, name in ((1, "second_angle"), (2, "third_angle")):
             if any(abs(math.remainder(angles[k] - other, 360)) < SAME for other in angles[:k]):
@@ -449,7 +449,7 @@ class RidgeMeasuring(ProbingCycle):
         """The nominal points, the one at the larger coordinate of the measuring axis first."""
         return sorted([(self.x, self.y), (self.second_x, self.second_y)], key=lambda point: -point[self.along])
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         far, near = self.points_by_place
         if far[self.along] - near[self.along] < SAME:
             yield ("second_x", "second_y")[self.along], "is that of the first touch point: a ridge lies between two"

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, distance
-from mnclab.controls.tnc_620.cycles.planes import Fault, not_zero
+from mnclab.controls.tnc_620.cycles.planes import ParameterFault, not_zero
 from mnclab.controls.tnc_620.probing import addresses, cycle
 from mnclab.controls.tnc_620.probing.addresses import CENTRE, CENTRES, HEIGHTS, ROUND, TOP
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured, needed
@@ -185,7 +185,7 @@ class PresetOnCorner(ProbingCycle):
     third_x: float = addresses.third_x(example=20)
     third_y: float = addresses.third_y(example=25)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         yield from two_lines(self, m)
         for name, other in (("third_x", self.x), ("third_y", self.y)):
@@ -210,7 +210,7 @@ class PresetInCorner(ProbingCycle):
 
     corner: float = choice("Q308", "corner", CORNERS, example=1)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         yield from two_lines(self, m)
 
@@ -249,7 +249,7 @@ class PresetInOneAxis(ProbingCycle):
         yield from cycle.save(m, {k: (found, self.datum_z)}, self.row, self.transfer)
 
 
-def two_lines(c: ProbingCycle, m: Machine) -> Iterator[Fault]:
+def two_lines(c: ProbingCycle, m: Machine) -> Iterator[ParameterFault]:
     """What either line and its angle need."""
     yield from not_zero(c, "spacing_axis_1", "spacing_axis_2", purpose="for a line through both points")
     if c.basic_rotation and c.row and c.transfer == 0:

@@ -15,7 +15,7 @@ from typing import Any
 
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
 from mnclab.controls.tnc_620.cycles.chain import offset, to_angle
-from mnclab.controls.tnc_620.cycles.planes import Fault
+from mnclab.controls.tnc_620.cycles.planes import ParameterFault
 from mnclab.controls.tnc_620.language.m_functions import GROUPS, TITLES
 from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.addresses import CENTRES, HEIGHTS, LINE, ROUND
@@ -35,7 +35,7 @@ STANDS = "a part of the setup does not turn with the table: the blocks that foll
 C = AXES.index("C")
 
 
-def tilted(m: Machine) -> Iterator[Fault]:
+def tilted(m: Machine) -> Iterator[ParameterFault]:
     """A workpiece that does not lie level (SPA, SPB of the active preset): a basic rotation alone cannot say how it is turned."""
     preset = m.tables.presets.get(active_preset(m), Datum())
     if preset.tilt_x or preset.tilt_y:
@@ -62,7 +62,7 @@ def zeroed(m: Machine, axis: int) -> dict[str, float]:
     return {"abc"[axis]: offset(m, axis) + to_angle(m, axis, angle)}
 
 
-def cannot_turn(m: Machine, axis: int, name: str) -> Iterator[Fault]:
+def cannot_turn(m: Machine, axis: int, name: str) -> Iterator[ParameterFault]:
     """Why a rotary axis cannot turn; `name` of the parameter that asks for it."""
     there = m.settings["rotary_axes"]
     if AXES[axis] not in there:
@@ -94,10 +94,10 @@ class BasicRotation(ProbingCycle):
     axis: float = addresses.axis(example=2)
     row: float = row(note="0: the active row")
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         yield from apart(self.axis, (self.x, self.y), (self.second_x, self.second_y))
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         yield from tilted(m)
 
@@ -115,7 +115,7 @@ def centres(c: ProbingCycle) -> Pairs:
     return (c.first_center_axis_1, c.first_center_axis_2), (c.second_center_axis_1, c.second_center_axis_2)
 
 
-def faults(c: ProbingCycle, m: Machine) -> Iterator[Fault]:
+def faults(c: ProbingCycle, m: Machine) -> Iterator[ParameterFault]:
     """Of the cycles over two holes or studs."""
     yield from ProbingCycle.check(c, m)
     yield from tilted(m)
@@ -189,14 +189,14 @@ class SetBasicRotation(ProbingCycle):
     preset_rotation_angle: float = addresses.preset_rotation_angle(meaning="basic rotation")
     row: float = row(at_least=-1, note="-1: the active row; 0: row 0, active then", example=-1)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from self.transformed(m)
 
     def moves(self, m: Machine) -> Iterator[Step]:
         yield from store(m, active_preset(m) if self.row == -1 else self.row, rotation=self.preset_rotation_angle)
 
 
-def apart(axis: float, first: Pair, second: Pair) -> Iterator[Fault]:
+def apart(axis: float, first: Pair, second: Pair) -> Iterator[ParameterFault]:
     """Two touches along an axis of the plane (1, 2) that would meet one place."""
     if first[across := 2 - int(axis)] == second[across]:
         yield ("second_y" if across else "second_x"), "is that of the first touch point: two places make a line"
@@ -236,7 +236,7 @@ class RotaryAxis(ProbingCycle):
             return int(self.compensation_axis) - 4
         return C if self.axis < 3 else int(self.y == self.second_y)
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         if (self.axis == 3) == (self.turns == C):
             yield "compensation_axis", f"{AXES[self.turns]} is not shown by touches along the {addresses.AXES[self.axis]}"
         elif self.axis < 3:
@@ -246,7 +246,7 @@ class RotaryAxis(ProbingCycle):
         else:
             yield from apart(1 + self.turns, (self.x, self.y), (self.second_x, self.second_y))
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         yield from cannot_turn(m, self.turns, "compensation_axis")
 
@@ -289,7 +289,7 @@ class HoleBesideTheAxis(ProbingCycle):
     stepping_angle: float = addresses.stepping_angle(note="at least 5 degrees")
     set_to_zero: float = count("Q337", "row of the datum table", note="0: the preset, and C shows 0", example=0)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         yield from cannot_turn(m, C, "")
 

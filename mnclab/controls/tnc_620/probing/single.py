@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, increment
-from mnclab.controls.tnc_620.cycles.planes import Fault, not_zero
+from mnclab.controls.tnc_620.cycles.planes import ParameterFault, not_zero
 from mnclab.controls.tnc_620.language.values import KEPT
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, measured
 from mnclab.machine.cycle import CycleTable, param
@@ -55,7 +55,7 @@ def in_plane_of(letter: str, degrees: float) -> Vector:
     return found
 
 
-def one_of(name: str, given: str, allowed: tuple[str, ...]) -> Iterator[Fault]:
+def one_of(name: str, given: str, allowed: tuple[str, ...]) -> Iterator[ParameterFault]:
     """A fault of a text that names nothing; a program that says it is refused where it is read."""
     if given not in allowed:
         yield name, f"must be one of {', '.join(allowed)}, got {shown(given)}"
@@ -66,7 +66,7 @@ def south_pole(m: Machine) -> Vector:
     return np.array(m.programmed) + (*ball_from_axis(m), 0.0)
 
 
-def unscaled(c: ProbingCycle, m: Machine) -> Iterator[Fault]:
+def unscaled(c: ProbingCycle, m: Machine) -> Iterator[ParameterFault]:
     """What refuses a single touch."""
     yield from unfit(m)
     sizes = np.linalg.norm(m.matrix[:3, :3], axis=0)
@@ -74,7 +74,7 @@ def unscaled(c: ProbingCycle, m: Machine) -> Iterator[Fault]:
         yield "", "cannot run under a scale other than 1: the ball keeps its size"
 
 
-def placed(c: Any, m: Machine) -> Iterator[Fault]:
+def placed(c: Any, m: Machine) -> Iterator[ParameterFault]:
     """The same; a program that is half typed names no pre-position."""
     if c.x is None and c.y is None and c.z is None:
         last = 1 if c.code.endswith(" 0") else 2
@@ -82,7 +82,7 @@ def placed(c: Any, m: Machine) -> Iterator[Fault]:
     yield from unscaled(c, m)
 
 
-def kept(c: Any, count: int = 1) -> Iterator[Fault]:
+def kept(c: Any, count: int = 1) -> Iterator[ParameterFault]:
     """Results that would overwrite what the control keeps itself."""
     names = [f"Q{int(c.result_parameter) + k}" for k in range(count)]
     yield from (("result_parameter", f"cannot be {name}: {KEPT[name][0]}, kept by the control") for name in names if name in KEPT)
@@ -115,7 +115,7 @@ class ReferencePlane(ProbingCycle):
 
     check = placed
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         yield from kept(self)
         yield from one_of("probing", self.probing, tuple(letter + sign for letter in "XYZ" for sign in "+-"))
 
@@ -133,7 +133,7 @@ class PolarPreset(ProbingCycle):
 
     check = placed
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         yield from one_of("axis", self.axis, tuple("XYZ"))
 
     def moves(self, m: Machine) -> Moves:
@@ -141,7 +141,7 @@ class PolarPreset(ProbingCycle):
         yield from measured([contact], **{name: (place, math.nan) for name, place in zip("XYZ", contact.point)})
 
 
-def impossible(c: Any) -> Iterator[Fault]:
+def impossible(c: Any) -> Iterator[ParameterFault]:
     """What 3 and 4 refuse whatever the machine."""
     yield from kept(c, 4)
     yield from not_zero(c, "feed", purpose="to touch with")
@@ -181,7 +181,7 @@ class MeasuringInPlane(ProbingCycle):
 
     check = unscaled
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         yield from impossible(self)
         yield from one_of("axis", self.axis, tuple("XYZ"))
 
@@ -202,7 +202,7 @@ class MeasuringInSpace(ProbingCycle):
     direction_z: float = increment("IZ", "direction, Z", modal=False, example=-1)
     system: float = system(meaning="system of the result")
 
-    def contradictions(self) -> Iterator[Fault]:
+    def contradictions(self) -> Iterator[ParameterFault]:
         yield from impossible(self)
         if not (self.direction_x or self.direction_y or self.direction_z):
             yield "direction_x", "must not be 0 with IY and IZ: they are the direction"

@@ -16,7 +16,7 @@ from typing import Any, ClassVar, NamedTuple
 
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate
 from mnclab.controls.tnc_620.cycles.chain import FACTORS, MIRROR, SCALE, TILT
-from mnclab.controls.tnc_620.cycles.planes import SAME, Fault, in_program_coordinates
+from mnclab.controls.tnc_620.cycles.planes import SAME, ParameterFault, in_program_coordinates
 from mnclab.controls.tnc_620.probing.cycle import Moves
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import Setting
@@ -75,7 +75,7 @@ def known(m: Machine) -> Calibrated | None:
     return memory(m).tool_setter
 
 
-def unfit_for_tt(c: Cycle, m: Machine) -> Iterator[Fault]:
+def unfit_for_tt(c: Cycle, m: Machine) -> Iterator[ParameterFault]:
     """What refuses all cycles of chapter 19."""
     yield from unfit(m, PLATE)
     if m.settings["hide_measure_tt"] and int(c.code.split()[-1]) >= 480:
@@ -103,7 +103,7 @@ class Calibrating(Cycle):
     about = in_program_coordinates
     height = 0.0
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from unfit_for_tt(self, m)
         if m.tool.effective_radius > (most := float(m.settings["safety_dist_tool_ax"]) + BESIDE):
             yield "", f"needs a calibrating tool of a radius up to {most:g}, that of T{m.tool.number} is greater"
@@ -238,7 +238,7 @@ class ToolMeasuring(Cycle):
     teeth = 0.0
     target: Any = STATUS_PARAMETER
 
-    def check(self, m: Machine) -> Iterator[Fault]:
+    def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from unfit_for_tt(self, m)
         if known(m) is None:
             yield "", "needs a TT that is calibrated: TCH PROBE 480 before it, or the setting tt_calibrated"
