@@ -41,6 +41,7 @@ CATALOGUE = TESTS / "authorities" / "catalogue"
 CONTROL_OF = {"jnc-t01": "jnc-t01", "nc-31": "nc-31", "turning": "jnc-t01", "tnc620": "tnc-620", "programs-tnc-620": "tnc-620"}
 CONTROLS = ["mnc", "jnc-t01", "nc-31", "g43", "tnc-620"]
 LONGEST_TIME, MOST_MEMORY = 2.0, 1 << 30  # s of processor, bytes
+LONGEST_TEXT = 20_000  # characters: a fault in a long program is one in a short one, and of those more run in an hour
 
 NUMBERS = [
     "0", "-0", "1", "-1", "0.001", "-0.001", "0.0000001", "999999", "-99999.999", "99999999", "1e9", "1e308", "nan", "inf",
@@ -78,7 +79,7 @@ def programs(control):
             data = (TESTS / "authorities" / name).read_bytes()
             records = json.loads(gzip.decompress(data) if name.endswith("gz") else data)["records"]
             found += [record["text"] for record in records]
-    return found
+    return [text for text in found if len(text) < LONGEST_TEXT]
 
 
 def text_of(file):
