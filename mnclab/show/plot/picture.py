@@ -387,7 +387,7 @@ def stacked(
 
 def write_cut_off(ax: Axes, said: str) -> None:
     """What is beyond the upper border of axes, in their corner."""
-    card = {"facecolor": colours.PAPER, "edgecolor": "none", "pad": 1.5, "alpha": 0.85}
+    card = {"facecolor": colours.PAPER, "edgecolor": "none", "pad": 1.5}  # the spikes of rapids run behind it
     look: dict[str, Any] = {"fontsize": SMALL - 1, "color": looks.RED, "bbox": card, "zorder": 5}
     ax.text(0.995, 0.98, said, transform=ax.transAxes, ha="right", va="top", **look)
 
