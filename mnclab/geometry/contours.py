@@ -21,6 +21,7 @@ from mnclab.geometry.curves import Curves, Floats, at_angle, counted, cross, lef
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, refusing_class, shown, whole
 
+NOISE = 1e-9  # mm, by which two ways that are equally far may differ
 FULL_TURN = 2 * np.pi
 CUSP = 1e-8  # rad, by which opposite directions may be off
 SHORTEST = 1e-9  # mm, of a piece
@@ -217,7 +218,7 @@ class Contour:
     def nearest(self, point: ArrayLike) -> float:
         """The way along the contour to its point nearest to `point` (the first of several)."""
         off, fraction = self._feet(np.asarray(point, dtype=float).reshape(1, 2))
-        i = int(off[0].argmin())
+        i = int((off[0] <= off[0].min() + NOISE).argmax())
         return float(self.lengths[:i].sum() + fraction[0, i] * self.lengths[i])
 
     def nearest_points(self, points: ArrayLike) -> Floats:

@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from importlib import import_module
-from inspect import getdoc, isfunction
+from inspect import getdoc, isclass, isfunction
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -84,7 +84,11 @@ class Shelf(ModuleType):
 
 def _shelf_of(module: ModuleType, name: str) -> Shelf:
     """A module of functions and classes as a shelf of its own."""
-    own = [each for each, thing in vars(module).items() if getattr(thing, "__module__", module.__name__) == module.__name__]
+    made = {
+        each: getattr(thing, "__module__", "") if isfunction(thing) or isclass(thing) else ""
+        for each, thing in vars(module).items()
+    }
+    own = [each for each, of in made.items() if of == module.__name__ or (not of and each.isupper())]  # a constant is of a class
     public = [each for each in own if not each.startswith("_") and not isinstance(vars(module)[each], ModuleType)]
     return Shelf(name, (getdoc(module) or "").partition("\n")[0], {module.__name__: ", ".join(public)})
 

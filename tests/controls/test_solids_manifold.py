@@ -8,7 +8,7 @@ import pytest
 
 import mnclab
 from mnclab import Setup, Tool
-from mnclab.design.drawing import milled
+from mnclab.workpiece.milling import milled
 
 FILE = Path(__file__).parents[1] / "authorities" / "solids.json"
 RECORDS = json.loads(FILE.read_text())["programs"]

@@ -202,8 +202,7 @@ def test_what_very_many_moves_left_is_a_blank_too():
     """A plate 3 mm thick gone in 20,005 moves; turned over it is the lower side, and a slot 5 deep weighs its box."""
     from t3_workpiece.test_many_moves import FLAT, cutting, passes
 
-    from mnclab.workpiece.milling.milled import Milled
-    from mnclab.workpiece.part.mesh import EXACT
+    from mnclab.workpiece.milling.milled import EXACT, Milled
 
     first = Milled(cutting(passes(-3.0, EXACT + 5)))
     second = part("G0 X-10 Y30\nG1 Z-5\nX90\nG0 Z50\n", MILL, first.turned_over("x"))

@@ -239,6 +239,7 @@ class Design(AsDrawn):
 
     def makers_over(self, x: Array, y: Array) -> tuple[Array, Array, NDArray[np.int16], NDArray[np.int16]]:
         """The faces over a lattice, and which of `taken` made the upper and the lower one, -1 for none: four arrays (ny, nx)."""
+        x, y = np.atleast_1d(x, y)
         shape = len(y), len(x)
         sides = {False: np.full(shape, np.nan), True: np.full(shape, np.nan)}
         makers = {up: np.full(shape, -1, dtype=np.int16) for up in sides}

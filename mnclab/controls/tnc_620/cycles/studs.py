@@ -175,6 +175,8 @@ class PolygonStud(MilledFigure):
         yield from at_most(self, "corner_radius_or_chamfer", self.inscribed, "the radius of the inscribed circle")
         if -corner > bevel:
             yield "corner_radius_or_chamfer", f"must be a bevel of at most half a side, {bevel:g}, got {-corner:g}"
+        if not self.inscribed and self.machining_operation != 1:
+            yield "reference_diameter", "must be greater than 0, got 0: finishing would leave no stud"
         if self.inscribed + self.side_allowance <= 0:
             found = f"{self.inscribed:g} of the inscribed circle, got {self.side_allowance:g}"
             yield "side_allowance", f"must leave something of the radius {found}"
