@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -73,7 +73,7 @@ One = TypeVar("One", bound=Tried)
 MORE = ("covered", "removed", "removal")  # columns of which more is better
 
 
-class Table(Listing, ABC, Generic[One]):
+class Table(Listing, Generic[One]):
     """Trials by number or by name."""
 
     titles: ClassVar[Titles]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import re
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import MISSING, fields, is_dataclass
@@ -100,7 +101,7 @@ def text_table(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Coll
 
 # Records that know their columns: one declaration gives the text, the table of a notebook, the file and the data frame.
 
-class Listing:
+class Listing(ABC):
     """What prints as a table and is saved as one: a class says its heads and the texts of its rows.
 
     `NUMBERS` are the columns that stand to the right, `CODE` those of program text, `LENGTHS` those whose heads name the unit of
@@ -123,9 +124,9 @@ class Listing:
         """The heads of the columns, of lengths with their unit."""
         return tuple(f"{name}, {self.unit.short}" if k in self.LENGTHS else name for k, name in enumerate(self.HEAD))
 
+    @abstractmethod
     def texts(self) -> list[tuple[str, ...]]:
         """What the table says, row by row, lengths in the unit of the program."""
-        raise NotImplementedError
 
     def table(self) -> tuple[tuple[str, ...], list[tuple[str, ...]], Collection[int]]:
         """Heads, rows of texts, and which columns are numbers."""
