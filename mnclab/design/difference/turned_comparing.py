@@ -180,7 +180,8 @@ def first_made(found: Compared, at: Array, among: Index) -> tuple[int, int]:
 
     It is -1, where nothing was cut, if that holds for most of them; a row that made but one of many, a corner, does not count.
     """
-    some = among[:: len(among) // MOST + 1]
+    apart = np.unique(at[among].round(6), axis=0, return_index=True)[1]  # two stretches meet in one corner
+    some = among[np.sort(apart)][:: len(apart) // MOST + 1]
     rows = np.array([found.row_at(at[k]) for k in some])
     known, count = np.unique(rows, return_counts=True)
     if known[count.argmax()] < 0:
