@@ -14,7 +14,7 @@ import numpy as np
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, left_over, polygons
-from mnclab.machining.milling.clearing import NOWHERE, Clearing, begin, end
+from mnclab.machining.milling.clearing import HOPPED, NOWHERE, Clearing, begin, end
 from mnclab.machining.milling.engagement import Engagement, engagement
 from mnclab.machining.milling.entries import VERTICAL, Entry, descent, toolpath
 from mnclab.machining.milling.rest import reached, rest, rest_passes
@@ -369,7 +369,8 @@ def level_moves(clearing: Clearing, entry: Entry, depth: float, climb: bool) -> 
             if not piece.passes:
                 continue
             before, contour = end(moves[-1]), piece.passes[k]
-            linked = np.hypot(*(begin(contour) - before)) > 1e-9
+            hopped = k and piece.linked[k - 1] == HOPPED
+            linked = not hopped and np.hypot(*(begin(contour) - before)) > 1e-9
             moves += [*([Contour([before, begin(contour)], closed=False)] if linked else []), contour]
             counted += [True] * (len(moves) - len(counted))
     return moves, counted

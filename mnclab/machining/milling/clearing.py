@@ -20,20 +20,22 @@ from mnclab.text.alarm import several
 SLACK = 1e-6  # mm
 EXACT = 1e-5  # mm, by which a tool is as wide as what it shall clear
 NOWHERE = Region()
+LIFTED, LINKED, HOPPED = range(3)  # the way on: up and down again, straight at the level, straight a little above it
 
 
 @dataclass(frozen=True, eq=False)
 class Piece:
     """A connected piece of the tool-centre area: one entry, then its passes in order.
 
-    `linked[i]` tells whether the tool may go straight from the end of pass i to the start of pass i + 1;
-    if not, it must lift. `labels[i]` names pass i: "ring 3 of 7". `from_side`: the first pass begins beside the material, where
+    `linked[i]` tells whether the tool may go straight from the end of pass i to the start of pass i + 1; if not, it must lift.
+    Where it cuts nothing on that way it is HOPPED: rapid, a small height above the level. `labels[i]` names pass i:
+    "ring 3 of 7". `from_side`: the first pass begins beside the material, where
     the tool comes down free and cuts in from the side.
     """
 
     centres: Region
     passes: tuple[Contour, ...]
-    linked: tuple[bool, ...]
+    linked: tuple[int, ...]
     labels: tuple[str, ...]
     place: Floats | None = None
     from_side: bool = False

@@ -22,12 +22,13 @@ from numpy.typing import ArrayLike
 from mnclab.geometry.contours import Contour, joined
 from mnclab.geometry.curves import Floats
 from mnclab.machining.depths import MOST, TooMany
-from mnclab.machining.milling.clearing import Clearing, Piece, begin
+from mnclab.machining.milling.clearing import HOPPED, Clearing, Piece, begin
 from mnclab.machining.steps import RAPID, Along, Go, Step, Turn, traced
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.given import check_number, refusing_class
 
 DRIFT = 1e-9
+HOP = 0.3  # mm above the level, of a way through what is cleared
 CHORDS = 16  # of a quarter circle in a vertical plane: a hundredth of a millimetre off at a radius of 8 mm
 
 
@@ -255,6 +256,10 @@ def toolpath(
                     yield Go("to the entry", None, RAPID, *begin(down.contour).tolist())
                     yield Go(down.label, top, plunge_feed)
                     yield Along(down.label, down.contour, plunge_feed, down.heights.tolist())
+                elif piece.linked[k - 1] == HOPPED:
+                    yield Go("small lift", level + HOP, RAPID)
+                    yield Go("link", None, RAPID, *begin(piece.passes[k]).tolist())
+                    yield Go("link", level, RAPID)
                 if piece.passes:
                     yield Go("link", level, feed, *begin(piece.passes[k]).tolist())
                     yield Along(piece.labels[k], piece.passes[k], feed)

@@ -13,6 +13,7 @@ from typing import Any
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, left_over, long_axes, polygons
+from mnclab.machining.milling.adaptive import adaptive
 from mnclab.machining.milling.clearing import Clearing, Piece, links
 from mnclab.machining.milling.lines import one_way, zigzag
 from mnclab.machining.milling.rings import rings
@@ -23,6 +24,7 @@ from mnclab.text.given import shown
 
 STRATEGIES: dict[str, Callable[..., Clearing]] = {
     "rings": rings, "spiral": spiral, "zigzag": zigzag, "one way": one_way, "trochoidal": trochoidal,
+    "adaptive": adaptive,
 }  # fmt: skip
 LEAST = 1e-3  # of the tool radius: what is narrower and still stands counts as nothing
 ROUNDS = 4
@@ -62,7 +64,8 @@ def _completed(piece: Piece, radius: float, stepover: float) -> Piece:
         return piece
     passes = (*piece.passes, *extra)
     labels = (*piece.labels, *(f"rest {k} of {len(extra)}" for k in range(1, len(extra) + 1)))
-    return replace(piece, passes=passes, linked=links(piece.centres, passes, stepover), labels=labels)
+    more = links(piece.centres, passes, stepover)[len(piece.passes) - 1 :]
+    return replace(piece, passes=passes, linked=(*piece.linked, *more), labels=labels)
 
 
 def _through(rest: Region, centres: Region) -> list[Contour]:

@@ -166,7 +166,7 @@ class WaysBetween:
         """The passes of the piece and the ways between them."""
         yield self.piece.passes[0]
         for (one, other), straight in zip(pairwise(self.piece.passes), self.piece.linked, strict=True):
-            if (way := self.between(end(one), begin(other), straight)) is not None:
+            if (way := self.between(end(one), begin(other), bool(straight))) is not None:
                 yield way
             yield other
 
