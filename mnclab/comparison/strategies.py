@@ -159,7 +159,7 @@ Strategies = Iterable[str] | Mapping[str, str | Clearing | Callable[[Region, flo
 
 FINE = "fine"  # fine roughing, after a coarse tool
 MOST = 100_000  # tool radii, about as long as a way may be
-DISCS = 10  # to a tool radius; the angles are within half a degree from 10° on
+PLACES = 10  # to a tool radius, at which the engagement is looked at
 
 #: Every column of a comparison: what it is, how it is written, and its value.
 COLUMNS: Titles = {
@@ -306,7 +306,7 @@ def compare(
                 clearing = how if isinstance(how, Clearing) else how(region, radius, stepover)
             path = toolpath(clearing, (-depth,), entry=entry, feed=feed, plunge_feed=plunge_feed, climb=climb)
             moves, counted = level_moves(clearing, entry, depth, climb)
-            found = engagement(moves, radius, spacing=radius / DISCS, stock=stock)
+            found = engagement(moves, radius, spacing=radius / PLACES, stock=stock)
             found = found.chosen(np.array(counted, dtype=bool)[found.move])
             way = name, path, limits, rapid
             trials.append(Trial(*way, region, clearing, found, depth, feed, np.radians(limit), allowance, before))
