@@ -173,6 +173,7 @@ COLUMNS: Titles = {
     "rest": ("rest, mm²", "{:.2f}", lambda trial: trial.rest.area),
     "corners": ("corners, mm²", "{:.2f}", lambda trial: trial.corners.area),
     "mean": ("engagement: mean, °", "{:.0f}", lambda trial: float(np.degrees(trial.engagement.mean()))),
+    "p95": ("95 % of the way below, °", "{:.0f}", lambda trial: float(np.degrees(trial.engagement.percentile(0.95)))),
     "most": ("greatest, °", "{:.0f}", lambda trial: float(np.degrees(trial.engagement.most()))),
     "above": ("above the limit, %", "{:.1f}", lambda trial: 100 * trial.engagement.share_above(trial.limit)),
     "removal": ("removal: mean, cm³/min", "{:.2f}", lambda trial: trial.engagement.along_the_way(trial.removal)),

@@ -81,6 +81,16 @@ def test_what_is_removed_is_what_is_covered(step):
     assert (found.width * found.step).sum() + np.pi * R**2 == pytest.approx(swept, rel=0.01)
 
 
+def test_percentiles_are_shares_of_the_way():
+    """A slot of 80 (180°) and beside it a cut of 5 (90°) over 40: two thirds are slot; corners and ends have no way."""
+    found = engagement([line(0, -20, 60), line(5)], R)
+    shares = [np.degrees(found.percentile(share)) for share in (0.2, 0.32, 0.36, 1)]
+    assert shares == pytest.approx([90, 90, 180, 180], abs=1e-3)
+    assert found.chosen(found.move > 1).percentile(0.95) == 0
+    lone = found._replace(step=np.where(found.angle > 2, 0.0, found.step))
+    assert np.degrees(lone.percentile(0.999)) == pytest.approx(90, abs=1e-3)
+
+
 def test_measures():
     found = engagement([line(0, -20, 60), line(5)], R)
     second = found.chosen(found.move == 1)
@@ -154,6 +164,8 @@ def test_rings_of_a_square_by_closed_forms(spacing):
     outer = found.chosen(found.move == len(passes) - 1)
     above = 4 * (2.4 + 3 * np.sin(np.radians(straight)))
     assert outer.share_above(np.radians(straight + 0.001)) * contour.length == pytest.approx(above, abs=4 * (spacing or 0.2))
+    assert np.degrees(outer.percentile(0.9 - 0.02)) == pytest.approx(straight, abs=0.001)
+    assert straight + 1 < np.degrees(outer.percentile(0.95)) < np.degrees(outer.percentile(1)) <= straight + 90
 
 
 @pytest.mark.parametrize("width", [0.1, 1, 2.5, 5, 7.5, 9.9])

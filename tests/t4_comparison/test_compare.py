@@ -50,6 +50,16 @@ def test_harder_and_gentler(found):
     assert found["rings"].row["removal_most"] == pytest.approx(rate, abs=0.05)
 
 
+def test_the_shares_of_rings_in_a_square():
+    """R 3, stepover 2.4: the greatest is that of the first slot, half of the way is cut at arccos(0.2), the corners lie above."""
+    trial = compare(Region.of(rectangle(60, 60)), 3.0, "rings", stepover=2.4)["rings"]
+    assert np.degrees(trial.engagement.percentile(0.5)) == pytest.approx(78.463, abs=0.001)
+    assert 78.463 < trial.row["p95"] == np.degrees(trial.engagement.percentile(0.95)) < 168.463
+    later = trial.engagement.chosen(trial.engagement.points.max(axis=1) > 12.6)  # rings from the fifth on
+    assert np.degrees(later.most()) == pytest.approx(168.463, abs=0.001)
+    assert "95 % of the way below, °" in repr(trial)
+
+
 def test_what_is_left_is_found():
     """One round along the wall of 60 × 40 with R 5 leaves a core of 40 × 20."""
     once = faces.rectangle(60, 40, 5, 100).passes[-1]

@@ -64,6 +64,14 @@ class Engagement(NamedTuple):
     def most(self) -> float:
         return float(self.angle.max(initial=0.0))
 
+    def percentile(self, share: float) -> float:
+        """The angle that so great a share of the way (0 to 1) does not exceed."""
+        order = np.argsort(self.angle)
+        upto = np.cumsum(self.step[order])
+        if not len(upto) or not upto[-1] > 0:
+            return self.most()
+        return float(self.angle[order][min(np.searchsorted(upto, share * upto[-1] * (1 - SLACK)), len(order) - 1)])
+
     def share_above(self, limit: float) -> float:
         """The share of the way on which the angle is above a limit."""
         whole = float(self.step.sum())
