@@ -41,7 +41,11 @@ SHORT = 0.25  # of the tool radius: a shorter gap between two full stretches is 
 
 class Engagement(NamedTuple):
     """Samples along a way: `points` (n, 2), `heading` (n,) rad, `angle` (n,) engaged, `width` (n,) of cut across the
-    heading, `step` (n,) the length each stands for (0: a corner, or an end), `move` (n,) the index of its contour."""
+    heading, `step` (n,) the length each stands for (0: a corner, or an end), `move` (n,) the index of its contour.
+
+    `thickness` (n,) is that of the thickest chip as a share of the feed per tooth: the greatest cosine between the heading and
+    what is engaged of the rim. For one stretch from a side of the tool on it is sin(angle), and 1 from 90° on. `way` (n,) is
+    the length of all contours up to there."""
 
     points: Floats
     heading: Floats
@@ -49,6 +53,8 @@ class Engagement(NamedTuple):
     width: Floats
     step: Floats
     move: NDArray[np.intp]
+    thickness: Floats
+    way: Floats
 
     def __repr__(self) -> str:
         return shapes(self)
@@ -95,7 +101,7 @@ def engagement(
     step = radius / FINE if spacing is None else spacing
     places = _sampled(moves, step, TINY * radius, corners)
     points, heading, size, move = places.points, places.heading, places.size, places.move
-    angle, width = np.zeros(len(points)), np.zeros(len(points))
+    angle, width, thickness = np.zeros((3, len(points)))
     swept = _Swept(moves, radius)
     for first in range(0, len(points), BLOCK):
         here = np.arange(first, min(first + BLOCK, len(points)))
@@ -103,8 +109,8 @@ def engagement(
         if stock is not None:
             more = _outside(points[here], heading[here], radius, stock)
             sample, low, high = (np.concatenate(pair) for pair in zip((sample, low, high), more, strict=True))
-        angle[here], width[here] = _open(sample, low, high, len(here), radius)
-    return Engagement(points, heading, angle, width, size, move)
+        angle[here], width[here], thickness[here] = _open(sample, low, high, len(here), radius)
+    return Engagement(points, heading, angle, width, size, move, thickness, places.way)
 
 
 class Stretch(NamedTuple):
@@ -339,8 +345,8 @@ def _outside(points: Floats, heading: Floats, radius: float, stock: Region) -> t
     return edge[sample], np.maximum(RIM[first] - half, -QUARTER), np.minimum(RIM[last - 1] + half, QUARTER)
 
 
-def _open(sample: NDArray[np.intp], low: Floats, high: Floats, count: int, radius: float) -> tuple[Floats, Floats]:
-    """What the stretches leave of the front half of each rim: its angle, and its width across the heading."""
+def _open(sample: NDArray[np.intp], low: Floats, high: Floats, count: int, radius: float) -> tuple[Floats, ...]:
+    """What the stretches leave of the front half of each rim: its angle, its width across the heading, its greatest cosine."""
     sample = np.concatenate([sample, np.arange(count)])  # a last stretch of no length ends every rim
     low, high = np.append(low, np.full(count, QUARTER)), np.append(high, np.full(count, QUARTER))
     order = np.argsort(low + 4.0 * sample)
@@ -351,4 +357,6 @@ def _open(sample: NDArray[np.intp], low: Floats, high: Floats, count: int, radiu
     gap = low - before > TINY
     angle = np.bincount(sample[gap], (low - before)[gap], count)
     width = np.bincount(sample[gap], radius * (np.sin(low) - np.sin(before))[gap], count)
-    return np.asarray(angle, dtype=float), np.asarray(width, dtype=float)
+    thickness = np.zeros(count)
+    np.maximum.at(thickness, sample[gap], np.cos(np.clip(0.0, before[gap], low[gap])))
+    return np.asarray(angle, dtype=float), np.asarray(width, dtype=float), thickness
