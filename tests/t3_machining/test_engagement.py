@@ -182,6 +182,16 @@ def test_arcs_and_lines_are_exact(width):
     assert found == pytest.approx(180 - np.degrees(np.arccos(cosine)), abs=1e-4)
 
 
+@pytest.mark.parametrize("bulge", [10.0**-k for k in range(3, 16)])
+@pytest.mark.parametrize("place", [(0, 0), (1e4, -2e4)])
+def test_flat_arcs_are_nearly_lines(bulge, place):
+    """Two arcs over 60 mm, 1.5 mm apart, whose radii are 15 m and more: arccos(1 - 1.5/5)."""
+    rows = [Contour(np.array([(-30, y), (30, y)]) + place, [bulge, 0], closed=False) for y in (0, 1.5)]
+    assert degrees(rows) == pytest.approx(np.degrees(np.arccos(0.7)), abs=0.02)
+    assert degrees(rows[:1]) == pytest.approx(180, abs=0.02)
+    assert degrees([rows[0], rows[0]]) == pytest.approx(0, abs=0.05)
+
+
 def rim_outside(contours, way, place, heading):
     """How many degrees of the front half of a rim lie outside of what is cleared up to a way of the last contour."""
     theta = heading + np.radians(np.arange(-89.95, 90, 0.1))

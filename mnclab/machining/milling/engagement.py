@@ -34,6 +34,7 @@ SLACK = 1e-12
 TINY = 1e-6  # of the tool radius: so far behind the tool, or before the end of an element, is as good as there
 RIM = np.radians(np.arange(-90, 90.01, 0.25))
 QUARTER = np.pi / 2
+FLAT = 1e8  # tool radii: arcs of a greater radius are lines
 FULL = np.radians(178)  # from here on the tool cuts with its whole circumference
 SHARP = np.radians(1)  # a turn between two elements from which on it is a corner
 SHORT = 0.25  # of the tool radius: a shorter gap between two full stretches is full as well
@@ -222,7 +223,7 @@ class _Swept:
         # A chord that stands for some lines clears when the tool is past it: it lies beside the way on which the tool is.
         chord = [np.full(len(ways), len(ways) < len(contour.starts)) for contour, (_, ways) in zip(moves, thin, strict=True)]
         self.least = np.where(np.concatenate([none.r, *chord]), self.lengths - SLACK, 0.0)
-        self.line = ~curves.arc
+        self.line = ~(curves.r < FLAT * radius)
         self.along = unit_of(np.where(self.lengths[:, None] > 0, curves.end - curves.start, (1.0, 0.0)))
         self.ahead, self.aside = dot(curves.start, self.along), cross(self.along, curves.start)
         # Half an arc lies within ρ·(1 - cos(sweep/4)) of its chord: so the box of start, middle and end is widened.
@@ -232,13 +233,20 @@ class _Swept:
         self.tree = shapely.STRtree(shapely.box(*(corners.min(axis=0) - wide).T, *(corners.max(axis=0) + wide).T))
 
     def taken(self, points: Floats, heading: Floats, way: Floats) -> tuple[NDArray[np.intp], Floats, Floats]:
-        """The stretches of the rims, as angles from the heading, that has cleared what was cut up to some way (n,)."""
-        reach = 2 * self.radius
-        sample, other = self.tree.query(shapely.box(*(points - reach).T, *(points + reach).T))
-        cut = np.minimum(way[sample] - self.begun[other], self.lengths[other])  # the length of the element that is cut by then
-        line, cleared = self.line[other], cut >= self.least[other]
+        """The stretches of the rims, as angles from the heading, that has cleared what was cut up to some way (n,).
+
+        The place lies exactly on the element that is being cut, and `off` all others by what is worked out.
+        """
+        # Discs more than R behind the tool take nothing of the front half. What is left of the 2·R about the tool reaches 2·R in
+        # directions up to 120° from the heading, and 2·R·cos(δ - 120°) at a greater angle δ.
+        ahead = np.stack([np.cos(heading), np.sin(heading)], axis=1)
+        low, high = (2 * self.radius * np.cos(np.maximum(np.arccos(side * ahead) - np.radians(120), 0.0)) for side in (-1, 1))
+        sample, other = self.tree.query(shapely.box(*(points - low).T, *(points + high).T))
+        since = way[sample] - self.begun[other]
+        cut = np.minimum(since, self.lengths[other])  # the length of the element that is cut by then
+        line, cleared, off = self.line[other], cut >= self.least[other], since > self.lengths[other]
         seen = ((self._lines, cleared & line), (self._arcs, cleared & ~line))
-        parts = _together([look(sample[which], points, other[which], cut[which]) for look, which in seen])
+        parts = _together([look(sample[which], points, other[which], cut[which], off[which]) for look, which in seen])
         low, high = _bounds(parts, self.radius)
         # The front half reaches from -90° to 90°: a stretch that begins in it or later may come round into it again.
         first = np.where(parts.side > 0, low, -high) + parts.base - heading[parts.sample]
@@ -249,14 +257,16 @@ class _Swept:
         some = begin < end
         return sample[some], begin[some], end[some]
 
-    def _lines(self, sample: NDArray[np.intp], points: Floats, other: NDArray[np.intp], cut: Floats) -> _Parts:
+    def _lines(
+        self, sample: NDArray[np.intp], points: Floats, other: NDArray[np.intp], cut: Floats, off: NDArray[np.bool_]
+    ) -> _Parts:
         """Lines: the base is the direction to the foot of the place, h away.
 
         The edge of what a line clears lies R beside it, on the rim at the angle arccos(h/R - 1); the disc that touches it there
         stands R·sin of that from the foot.
         """
         along, here, radius = self.along[other], points[sample], self.radius
-        left, first = self.aside[other] - cross(along, here), self.ahead[other] - dot(along, here)
+        left, first = off * (self.aside[other] - cross(along, here)), self.ahead[other] - dot(along, here)
         height = np.abs(left)
         reach = np.sqrt(np.maximum(4 * radius**2 - height**2, 0.0))
         begin, end = np.maximum(first, -reach), np.minimum(first + cut, reach)
@@ -266,10 +276,12 @@ class _Swept:
         edge = np.arccos(height / radius - 1)
         side = np.where(left > 0, -1.0, 1.0)
         base = np.arctan2(along[:, 1], along[:, 0]) - side * QUARTER
-        touches = _touching(begin, end, radius * np.sin(edge))
+        touches = _touching(begin, end, radius * np.sin(edge), SLACK)
         return _Parts(sample, base, side, np.array([[height, begin], [height, end]]), edge, *touches)
 
-    def _arcs(self, sample: NDArray[np.intp], points: Floats, other: NDArray[np.intp], cut: Floats) -> _Parts:
+    def _arcs(
+        self, sample: NDArray[np.intp], points: Floats, other: NDArray[np.intp], cut: Floats, off: NDArray[np.bool_]
+    ) -> _Parts:
         """Arcs: the base is the direction to the nearest place of the whole circle.
 
         With the radius ρ of the arc and e = |p - centre|, a place of the arc at the angle β about the centre, from the one of p:
@@ -281,7 +293,7 @@ class _Swept:
         arc, radius = self.curves.take(other), self.radius
         arm, size, sweep = points[sample] - arc.centre, arc.r, arc.sweep * cut / self.lengths[other]
         away, way = length_of(arm), np.arctan2(arm[:, 1], arm[:, 0])
-        gap = size - away
+        gap = off * (size - away)
         with np.errstate(divide="ignore", invalid="ignore"):
             far = 2 * np.arcsin(np.sqrt(np.clip((4 * radius**2 - gap**2) / (4 * away * size), 0.0, 1.0)))
             cosine = (np.abs(gap) * (size + away) - 2 * size * radius) / (2 * away * radius)
@@ -296,7 +308,7 @@ class _Swept:
             at = np.array([np.maximum(first - turn, -far), np.minimum(first + np.abs(sweep) - turn, far)])
             ends = np.stack([side * (gap - 2 * size * np.sin(at / 2) ** 2), size * np.sin(at)], axis=1)
             seen = (np.abs(gap) < 2 * radius) & (at[0] <= at[1])
-            parts.append(_Parts(sample, base, side, ends, edge, *_touching(at[0], at[1], touch)).only(seen))
+            parts.append(_Parts(sample, base, side, ends, edge, *_touching(at[0], at[1], touch, SLACK / 1000)).only(seen))
         return _together(parts)
 
 
@@ -318,9 +330,9 @@ def _together(parts: Sequence[_Parts]) -> _Parts:
     return _Parts(*columns)
 
 
-def _touching(begin: Floats, end: Floats, touch: Floats) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+def _touching(begin: Floats, end: Floats, touch: Floats, slack: float) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Whether parts from `begin` to `end` (n,) hold the places minus and plus `touch` (n,)."""
-    begin, end = begin - SLACK, end + SLACK
+    begin, end = begin - slack, end + slack
     return (begin <= -touch) & (-touch <= end), (begin <= touch) & (touch <= end)
 
 
