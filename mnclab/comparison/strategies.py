@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 import numpy as np
 
+from mnclab.comparison.chips import fed, tooth_rate
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, left_over, polygons
@@ -48,11 +49,14 @@ class Tried:
 
     @property
     def row(self) -> dict[str, Any]:
-        return {name: value(self) for name, (_, _, value) in self.titles.items()}
+        """Every column by its name, but those of which nothing is known."""
+        known = ((name, value(self)) for name, (_, _, value) in self.titles.items())
+        return {name: value for name, value in known if value is not None}
 
     def __repr__(self) -> str:
         row, wide = self.row, max(len(title) for title, _, _ in self.titles.values())
-        return "\n".join(f"{title:{wide}}  {form.format(row[name])}" for name, (title, form, _) in self.titles.items())
+        said = ((*self.titles[name][:2], value) for name, value in row.items())
+        return "\n".join(f"{title:{wide}}  {form.format(value)}" for title, form, value in said)
 
     @cached_property
     def time(self) -> float:
@@ -98,19 +102,24 @@ class Table(Listing, Generic[One]):
     def rows(self) -> tuple[dict[str, Any], ...]:
         return tuple(trial.row for trial in self.trials)
 
+    @property
+    def told(self) -> Titles:
+        """The columns of which something is known."""
+        return {name: told for name, told in self.titles.items() if all(name in row for row in self.rows)}
+
     def columns(self) -> dict[str, np.ndarray]:
         """The table as arrays, for pandas, polars or matplotlib."""
-        return {name: np.array([row[name] for row in self.rows]) for name in self.titles}
+        return {name: np.array([row[name] for row in self.rows]) for name in self.told}
 
     def to_pandas(self) -> Any:
         """The table as a data frame of pandas, its titles as columns."""
-        return super().to_pandas().rename(columns={name: title for name, (title, _, _) in self.titles.items()})
+        return super().to_pandas().rename(columns={name: title for name, (title, _, _) in self.told.items()})
 
     def best(self, by: str = "time") -> One:
         """The trial with the least value in a column: its name (`columns()` lists them) or its title; the greatest where more
         is better, as of what is covered and removed."""
-        names = list(self.titles)[1:]
-        titled = {title: name for name, (title, _, _) in self.titles.items()}
+        names = list(self.told)[1:]
+        titled = {title: name for name, (title, _, _) in self.told.items()}
         if titled.get(by, by) not in names:
             near = hint(str(by)[:40], names, 1)
             raise Alarm(f"trials are compared by {', '.join(names)}; got {shown(by)}", hint=near)
@@ -124,15 +133,15 @@ class Table(Listing, Generic[One]):
 
     @property
     def head(self) -> tuple[str, ...]:
-        return tuple(title for title, _, _ in self.titles.values())
+        return tuple(title for title, _, _ in self.told.values())
 
     def texts(self) -> list[tuple[str, ...]]:
         """What the table says, row by row, the numbers as they are shown."""
-        return [tuple(form.format(row[name]) for name, (_, form, _) in self.titles.items()) for row in self.rows]
+        return [tuple(form.format(row[name]) for name, (_, form, _) in self.told.items()) for row in self.rows]
 
     def table(self) -> tuple[tuple[str, ...], list[tuple[str, ...]], Collection[int]]:
         """Titles, rows of texts, and which columns are numbers."""
-        return self.head, self.texts(), range(1, len(self.titles))
+        return self.head, self.texts(), range(1, len(self.told))
 
 
 def _write_picture(table: Table[Any], path: Path, **options: Any) -> None:
@@ -151,15 +160,17 @@ WRITERS: dict[str, Callable[..., None]] = {".csv": write_csv, **dict.fromkeys(("
 #     reachable = where the tool centre may go, grown by the tool radius
 #     rest      = reachable less what the passes cover         corners = the area less its allowance less reachable
 #
-# Engagement and removal are those of one level of the given depth, for everything that runs at it: passes and links. The
+# Engagement, chips and removal are those of one level of the given depth, for everything that runs at it: passes and links. The
 # entries clear what is below them and are not counted. "fine" cuts only what a coarse tool has left; what that tool cleared
 # counts as cleared, and as air.
+#
+#     chip = f_z·sin φ for an engagement φ below 90°, f_z from there on         f_z = feed / (speed · teeth)
 
 Strategies = Iterable[str] | Mapping[str, str | Clearing | Callable[[Region, float, float], Clearing]]
 
 FINE = "fine"  # fine roughing, after a coarse tool
 MOST = 100_000  # tool radii, about as long as a way may be
-DISCS = 10  # to a tool radius; the angles are within half a degree from 10° on
+PLACES = 10  # to a tool radius, at which the engagement is looked at
 
 #: Every column of a comparison: what it is, how it is written, and its value.
 COLUMNS: Titles = {
@@ -173,8 +184,10 @@ COLUMNS: Titles = {
     "rest": ("rest, mm²", "{:.2f}", lambda trial: trial.rest.area),
     "corners": ("corners, mm²", "{:.2f}", lambda trial: trial.corners.area),
     "mean": ("engagement: mean, °", "{:.0f}", lambda trial: float(np.degrees(trial.engagement.mean()))),
+    "p95": ("95 % of the way below, °", "{:.0f}", lambda trial: float(np.degrees(trial.engagement.percentile(0.95)))),
     "most": ("greatest, °", "{:.0f}", lambda trial: float(np.degrees(trial.engagement.most()))),
     "above": ("above the limit, %", "{:.1f}", lambda trial: 100 * trial.engagement.share_above(trial.limit)),
+    "chip": ("greatest chip, mm", "{:.3f}", lambda trial: float(trial.chip.max(initial=0.0)) if trial.tooth_rate else None),
     "removal": ("removal: mean, cm³/min", "{:.2f}", lambda trial: trial.engagement.along_the_way(trial.removal)),
     "removal_most": ("greatest, cm³/min", "{:.2f}", lambda trial: float(trial.removal.max(initial=0.0))),
 }
@@ -184,7 +197,8 @@ COLUMNS: Titles = {
 class Trial(Tried):
     """One strategy on one area: its passes, the whole path, and what comes of it.
 
-    `depth` and `allowance` mm, `feed` mm/min; `limit` rad is the engagement above which the share of the way is told.
+    `depth` and `allowance` mm; `feed` (n,) mm/min is that at each of the samples of the `engagement`, `tooth_rate` how many
+    teeth cut in a minute, 0 where that is not known; `limit` rad is the engagement above which the share of the way is told.
     """
 
     titles: ClassVar = COLUMNS
@@ -192,10 +206,11 @@ class Trial(Tried):
     clearing: Clearing
     engagement: Engagement
     depth: float
-    feed: float
+    feed: np.ndarray
     limit: float
     allowance: float
     before: Region = NOWHERE  # what a coarse tool has cleared
+    tooth_rate: float = 0.0
 
     @property
     def entries(self) -> np.ndarray:
@@ -233,6 +248,11 @@ class Trial(Tried):
         """What is cut at each sample of the engagement, cm³/min."""
         return self.engagement.width * self.depth * self.feed / 1000
 
+    @property
+    def chip(self) -> np.ndarray:
+        """The greatest thickness of a chip at each sample of the engagement, mm `(n,)`; nan where teeth or speed is unknown."""
+        return self.engagement.thickness * self.feed / (self.tooth_rate or np.nan)
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Comparison(Table[Trial]):
@@ -255,7 +275,7 @@ def compare(
     stepover: float | None = None, allowance: float = 0.0, depth: float = 1.0, feed: float = 500.0,
     plunge_feed: float = 150.0, rapid: float = 10000.0, entry: Entry = VERTICAL, climb: bool = True,
     limit: float = 90.0, limits: Limits | str | None = None, machine: Limits | str | None = None,
-    coarse: Tool | float | None = None,
+    coarse: Tool | float | None = None, chip: float | None = None, spindle: float | None = None,
 ) -> Comparison:  # fmt: skip
     """Try strategies on an area with one tool (a `Tool`, or its radius) and put what comes of it side by side:
     `compare(region, mnclab.Tool(diameter=8), "rings", "spiral", machine="small-mill")`.
@@ -269,6 +289,14 @@ def compare(
     the engagement in degrees above which the share is counted. With axis `limits` (or those of a `machine` by its name,
     `mnclab.machines()`) the time comes from the feed-rate profile, else it is length over feed. `depth` of the level and
     `allowance` in mm, `feed`, `plunge_feed` and `rapid` in mm/min, `entry` an `Entry`, `climb` or conventional milling.
+
+    With a `chip` in mm none of any cutting row is thicker: `compare(region, mnclab.Tool(radius=4, teeth=3), chip=0.05,
+    spindle=8000, feed=2400)`, `spindle` in rev/min. With f_z = feed / (spindle · teeth), mm, the greatest chip thickness at the
+    engagement φ is f_z · sin φ, and f_z from 90° on, as in any handbook of milling. So `feed` is that in air and the upper
+    bound, a cutting row has chip · spindle · teeth / sin φ. Rows are parted where that changes by more than a tenth ("moves"
+    counts the parts), entries keep the `plunge_feed`, the limits of the machine hold. `spindle` without a `chip`: how thick chips
+    are at the one `feed`. Each trial has `chip` (mm) and `feed` (mm/min), `(n,)` at the n samples of its `engagement`.
+
     The table has `best("time")`, `save("t.csv")` or "t.svg", `to_pandas()`, `plot()`. An Alarm where the tool does not fit.
     """
     limits = limits_of(limits, machine)
@@ -284,6 +312,7 @@ def compare(
         raise Alarm(f"climb must be True or False, got {shown(climb)}")
     depth, feed, plunge_feed, rapid, allowance, limit = plain([depth, feed, plunge_feed, rapid, allowance, limit])
     radius = _radius(tool, "the tool")
+    rate = 0.0 if chip is None and spindle is None else tooth_rate(tool, radius, chip, spindle, limits)
     if stepover is None:
         check_number(overlap, "the overlap (of two passes, a share of the tool diameter)", at_least=0)
         if not overlap < 1:
@@ -306,10 +335,17 @@ def compare(
                 clearing = how if isinstance(how, Clearing) else how(region, radius, stepover)
             path = toolpath(clearing, (-depth,), entry=entry, feed=feed, plunge_feed=plunge_feed, climb=climb)
             moves, counted = level_moves(clearing, entry, depth, climb)
-            found = engagement(moves, radius, spacing=radius / DISCS, stock=stock)
-            found = found.chosen(np.array(counted, dtype=bool)[found.move])
+            found = engagement(moves, radius, spacing=radius / PLACES, stock=stock)
+            kept = np.array(counted, dtype=bool)
+            found = found.chosen(kept[found.move])
+            feeds = np.full(len(found.way), feed)
+            if chip is not None and len(feeds):
+                apart = np.cumsum([contour.length for contour in moves] * ~kept)  # the way of entries before each move
+                path, feeds = fed(path, -depth, found.way - apart[found.move], found.thickness, feed, plain(chip) * rate)
+            if spindle is not None:
+                path = path.replace(spindle=np.full(len(path), float(spindle)))
             way = name, path, limits, rapid
-            trials.append(Trial(*way, region, clearing, found, depth, feed, np.radians(limit), allowance, before))
+            trials.append(Trial(*way, region, clearing, found, depth, feeds, np.radians(limit), allowance, before, rate))
             done(len(trials))
     return Comparison(tuple(trials))
 
@@ -372,5 +408,5 @@ def level_moves(clearing: Clearing, entry: Entry, depth: float, climb: bool) -> 
             hopped = k and piece.linked[k - 1] == HOPPED
             linked = not hopped and np.hypot(*(begin(contour) - before)) > 1e-9
             moves += [*([Contour([before, begin(contour)], closed=False)] if linked else []), contour]
-            counted += [True] * (len(moves) - len(counted))
+            counted += [*([True] if linked else []), not piece.labels[k].startswith("entry")]
     return moves, counted

@@ -38,6 +38,7 @@ class Ahead:
     def __init__(self, stopped: Interpreter) -> None:
         self.control, self.program, self.skips = stopped.control, stopped.flow.programs[0], stopped.skips
         self.faulty, self.good = stopped.loaded[0].faulty, dict[Any, BlockPlan]()
+        self.bad: dict[Any, tuple[Alarm, list[Word]]] = {}
         self.in_inches = stopped.machine.variable_unit != 1
         self.states = list(self._states(stopped))
         self.sections, self.stop = self._sections(stopped.flow)
@@ -101,6 +102,18 @@ class Ahead:
         kind = keyword, tuple((w[0], w[1]) if w[0] in self.control.codes else w[0] for w in words)
         if kind in self.good:
             return self.good[kind]
+        same_words = keyword, tuple(word[:2] for word in words)
+        if same_words in self.bad:  # a faulty block that stands there again and again
+            alarm, before = self.bad[same_words]
+            spans = {word.span: again.span for word, again in zip(before, words)}
+            return alarm.changed(span=spans.get(alarm.span) if alarm.span else None)
+        found = self._planned(kind, keyword, words)
+        if isinstance(found, Alarm):
+            self.bad[same_words] = found, words
+        return found
+
+    def _planned(self, kind: Any, keyword: str, words: list[Word]) -> BlockPlan | Alarm:
+        """As `plan`, of a block that was not looked at before: in one state of the machine after the other."""
         told: list[Alarm] = []
         for state in self.states:
             try:

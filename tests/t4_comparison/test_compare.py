@@ -6,11 +6,15 @@ import numpy as np
 import pytest
 
 from mnclab import Alarm, Limits, Tool
-from mnclab.comparison.strategies import COLUMNS, compare
+from mnclab.comparison.chips import _at_level
+from mnclab.comparison.strategies import COLUMNS, compare, level_moves
 from mnclab.comparison.turning_schemes import compare as compare_turning
 from mnclab.geometry.contours import Contour, rectangle
 from mnclab.geometry.regions import Region
 from mnclab.machining.milling import faces
+from mnclab.machining.milling.clearing import joined
+from mnclab.machining.milling.engagement import engagement
+from mnclab.machining.milling.entries import Entry
 from mnclab.machining.milling.strategies import STRATEGIES
 
 BOX = Region.of(rectangle(60, 40))
@@ -24,7 +28,7 @@ def found():
 
 def test_every_strategy_is_a_row(found):
     table = found.columns()
-    assert list(table) == list(COLUMNS)
+    assert list(table) == [name for name in COLUMNS if name != "chip"]  # no teeth, no speed
     assert table["strategy"].tolist() == list(STRATEGIES)
     assert (table["covered"] > 99.9).all()
     assert table["corners"] == pytest.approx((4 - np.pi) * 25, abs=0.05)
@@ -48,6 +52,16 @@ def test_harder_and_gentler(found):
     assert found["rings"].row["most"] == pytest.approx(180, abs=0.5)
     rate = 10 * 2 * 600 / 1000  # width 10, depth 2, feed 600
     assert found["rings"].row["removal_most"] == pytest.approx(rate, abs=0.05)
+
+
+def test_the_shares_of_rings_in_a_square():
+    """R 3, stepover 2.4: the greatest is that of the first slot, half of the way is cut at arccos(0.2), the corners lie above."""
+    trial = compare(Region.of(rectangle(60, 60)), 3.0, "rings", stepover=2.4)["rings"]
+    assert np.degrees(trial.engagement.percentile(0.5)) == pytest.approx(78.463, abs=0.001)
+    assert 78.463 < trial.row["p95"] == np.degrees(trial.engagement.percentile(0.95)) < 168.463
+    later = trial.engagement.chosen(trial.engagement.points.max(axis=1) > 12.6)  # rings from the fifth on
+    assert np.degrees(later.most()) == pytest.approx(168.463, abs=0.001)
+    assert "95 % of the way below, °" in repr(trial)
 
 
 def test_what_is_left_is_found():
@@ -156,3 +170,89 @@ def test_a_slot_exactly_as_wide_as_the_tool(name, slot):
         compare(Region.of(slot), Tool(radius=4.01), name)
     with pytest.raises(Alarm, match="the area is empty"):
         compare(Region.of(), Tool(radius=4), name)
+
+
+# --- chips -------------------------------------------------------------------------------------------------------------
+
+MILL = Tool(radius=5, teeth=3)
+AT_CHIP = {"chip": 0.05, "spindle": 8000, "feed": 3000, "plunge_feed": 100}
+
+
+def to_and_fro(region, radius, stepover):
+    """A slot, the way back beside it, and once more along the slot."""
+    there = Contour([(-20, 0), (20, 0)], closed=False)
+    back = Contour([(20, stepover), (-14, stepover)], closed=False)
+    return joined((there, back, there), ("slot", "beside", "again"), radius, region.inset(radius))
+
+
+@pytest.mark.parametrize("stepover", [0.2, 1.5, 2.5])
+def test_feeds_of_a_chip_by_hand(stepover):
+    """f_z = 0.05 in the slot: 0.05·3·8000 = 1200 mm/min; beside it 1200 / sin φ, cos φ = 1 - a/R; once more: air, 3000."""
+    trial = compare(BOX, MILL, {"own": to_and_fro}, stepover=stepover, **AT_CHIP)["own"]
+    path, labels = trial.path, np.array(trial.path.labels)[trial.path.label]
+    beside = min(1200 / np.sin(np.arccos(1 - stepover / 5)), 3000)
+    for label, length, feed in (("slot", 40, 1200), ("beside", 34, beside), ("again", 40, 3000)):
+        rows = labels == label
+        assert path.lengths[rows].sum() == pytest.approx(length)
+        at = np.average(np.isclose(path.feed[rows], feed, rtol=1e-4), weights=path.lengths[rows])
+        assert at > 0.8, (label, path.feed[rows])
+    assert (path.feed[labels == "entry"] == 100).all() and (path.spindle == 8000).all()
+    assert trial.row["chip"] == pytest.approx(0.05)
+    assert trial.time == pytest.approx(60 * (path.lengths / np.minimum(path.feed, 10000)).sum())
+
+
+@pytest.mark.parametrize("entry", [Entry(), Entry("helix", 3), Entry("ramp", 5)])
+def test_no_chip_is_thicker(entry):
+    """At half of the spacing of the places, too; the rows at the level are the ways that are looked at."""
+    found = compare(BOX, MILL, entry=entry, stepover=3, depth=2, **AT_CHIP)
+    for trial in found.trials:
+        assert 0 < trial.row["chip"] <= 0.05 + 1e-12 and len(trial.chip) == len(trial.feed) == len(trial.engagement.way)
+        path = trial.path
+        rows = np.flatnonzero(_at_level(path, -2))
+        assert path.lengths[rows].sum() == pytest.approx(trial.engagement.step.sum(), abs=1e-6)
+        moves, counted = level_moves(trial.clearing, entry, 2, True)
+        fine = engagement(moves, 5, spacing=0.25)
+        fine = fine.chosen(np.array(counted)[fine.move])
+        apart = np.cumsum([move.length for move in moves] * ~np.array(counted))
+        upto = np.cumsum(path.lengths[rows])
+        feed = path.feed[rows][np.minimum(np.searchsorted(upto, fine.way - apart[fine.move] - 1e-9), len(rows) - 1)]
+        chip = fine.thickness * feed / (3 * 8000)
+        short = 0.01 if trial.name == "adaptive" else 0.002  # its passes begin within a tenth of the radius
+        assert (fine.step[chip > 0.0505]).sum() < short * fine.step.sum() and chip.max() < 0.07, trial.name
+        assert np.abs(path.end[:-1] - path.start[1:]).max() < 1e-12
+
+
+def test_gentle_strategies_gain_from_chips():
+    """At one feed the trochoids take their length; at one chip thickness they go faster where they cut thin."""
+    even, thin = (compare(BOX, MILL, "rings", "trochoidal", stepover=3, spindle=8000, **more)
+                  for more in ({"feed": 1200}, {"feed": 3000, "chip": 0.05}))  # fmt: skip
+    ratio = [found["trochoidal"].time / found["rings"].time for found in (even, thin)]
+    assert ratio[1] < 0.9 * ratio[0]
+    assert even["rings"].row["chip"] == thin["rings"].row["chip"] == pytest.approx(0.05)
+    assert even["rings"].removal.max() == pytest.approx(thin["rings"].removal.max())
+
+
+def test_a_thickness_of_chips_by_hand(found):
+    """A slot at 600 mm/min, 3 teeth, 2000 rev/min: 0.1 mm. Nobody knows it without teeth and speed: the table says nothing."""
+    trial = compare(BOX, MILL, "rings", feed=600, spindle=2000)["rings"]
+    assert trial.row["chip"] == pytest.approx(0.1) and "greatest chip, mm" in repr(trial)
+    assert "chip" not in found.columns() and "chip" not in found["rings"].row and np.isnan(found["rings"].chip).all()
+
+
+@pytest.mark.parametrize(
+    ("tool", "more", "says"),
+    [
+        (5.0, {"spindle": 8000}, "needs a tool with teeth, got 5.0"),
+        (Tool(radius=5), {"spindle": 8000}, "needs a tool with teeth"),
+        (MILL, {}, "needs the speed of the spindle"),
+        (MILL, {"spindle": 0}, "speed of the spindle"),
+        (MILL, {"spindle": 9e6, "machine": "small-mill"}, "speed of the spindle"),
+        (MILL, {"spindle": 8000, "chip": 0}, "greatest chip"),
+        (MILL, {"spindle": 8000, "chip": "thin"}, "chip"),
+    ],
+)
+def test_a_chip_that_is_not_known_is_an_alarm(tool, more, says):
+    with pytest.raises(Alarm, match=says) as raised:
+        compare(BOX, tool, "rings", **{"chip": 0.05} | more)
+    if "needs" in says:
+        assert "spindle=8000" in raised.value.hint or "mnclab.Tool(radius=5, teeth=3)" in raised.value.hint
