@@ -29,7 +29,7 @@ def test_every_strategy_is_a_row(found):
     assert (table["covered"] > 99.9).all()
     assert table["corners"] == pytest.approx((4 - np.pi) * 25, abs=0.05)
     assert table["rest"] == pytest.approx(0, abs=0.05)
-    assert "trochoidal" in repr(found) and found._repr_html_().count("<tr>") == 6
+    assert "trochoidal" in repr(found) and found._repr_html_().count("<tr>") == 1 + len(STRATEGIES)
 
 
 def test_rings_by_hand(found):

@@ -1,7 +1,7 @@
 """All strategies that clear an area, by name, and what they leave cleared as well.
 
 Every one takes a region, the tool radius and the greatest stepover, and `allowance` (what stays at the walls) and
-`climb`; it returns a `Clearing`. Lengths in mm.
+`climb`; it returns a `Clearing`. Rounded rings take `smallest`, the least radius of their path, too. Lengths in mm.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from mnclab.geometry.sweeps import covered, left_over, long_axes, polygons
 from mnclab.machining.milling.clearing import Clearing, Piece, links
 from mnclab.machining.milling.lines import one_way, zigzag
 from mnclab.machining.milling.rings import rings
+from mnclab.machining.milling.rounded import rounded_rings
 from mnclab.machining.milling.spirals import spiral
 from mnclab.machining.milling.trochoids import trochoidal
 from mnclab.text.alarm import Alarm
@@ -23,7 +24,9 @@ from mnclab.text.given import shown
 
 STRATEGIES: dict[str, Callable[..., Clearing]] = {
     "rings": rings, "spiral": spiral, "zigzag": zigzag, "one way": one_way, "trochoidal": trochoidal,
+    "rounded rings": rounded_rings,
 }  # fmt: skip
+TANGENT = ("rounded rings",)  # to what it leaves standing the tool lifts: a straight link would make corners
 LEAST = 1e-3  # of the tool radius: what is narrower and still stands counts as nothing
 ROUNDS = 4
 
@@ -40,13 +43,15 @@ def clear(
     found = STRATEGIES[strategy](region, radius, stepover, allowance=allowance, climb=climb, **more)
     if not complete:
         return found
-    return replace(found, pieces=tuple(_completed(piece, radius, stepover) for piece in found.pieces))
+    straight = strategy not in TANGENT
+    return replace(found, pieces=tuple(_completed(piece, radius, stepover, straight) for piece in found.pieces))
 
 
-def _completed(piece: Piece, radius: float, stepover: float) -> Piece:
+def _completed(piece: Piece, radius: float, stepover: float, straight: bool) -> Piece:
     """A piece with a pass through everything that the tool can reach and has left standing.
 
     Cores and slivers between passes more than a tool radius apart: narrower than the tool, so one pass along them does.
+    `straight`: the tool may go there on a straight link.
     """
     if not piece.centres.loops:
         return piece
@@ -62,7 +67,8 @@ def _completed(piece: Piece, radius: float, stepover: float) -> Piece:
         return piece
     passes = (*piece.passes, *extra)
     labels = (*piece.labels, *(f"rest {k} of {len(extra)}" for k in range(1, len(extra) + 1)))
-    return replace(piece, passes=passes, linked=links(piece.centres, passes, stepover), labels=labels)
+    ways = links(piece.centres, passes, stepover)[len(piece.linked) :] if straight else (False,) * len(extra)
+    return replace(piece, passes=passes, linked=(*piece.linked, *ways), labels=labels)
 
 
 def _through(rest: Region, centres: Region) -> list[Contour]:
