@@ -1,4 +1,4 @@
-"""Rounded rings: lengths by hand, tangents, radii, walls; coverage and walls judged by shapely."""
+"""Rounded rings and rounded zigzag: lengths by hand, tangents, radii, walls; coverage and walls judged by shapely."""
 
 import numpy as np
 import pytest
@@ -9,11 +9,11 @@ from tools.random_regions import random_task
 from mnclab.geometry.contours import Contour, rectangle
 from mnclab.geometry.regions import Region
 from mnclab.machining.milling.clearing import begin, end
-from mnclab.machining.milling.rounded import rounded_rings
+from mnclab.machining.milling.rounded import rounded_rings, rounded_zigzag
 from mnclab.machining.milling.strategies import clear
 from mnclab.machining.milling.tangent import SENSES, shortest, way_of
 
-NAMES = ["rounded rings"]
+NAMES = ["rounded rings", "rounded zigzag"]
 SQUARE = Region.of(rectangle(60, 60))
 AREAS = {
     "square": SQUARE,
@@ -96,6 +96,18 @@ def test_a_tenth_of_the_tool_radius_is_the_smallest():
     for wrong in (0, -1, float("nan")):
         with pytest.raises(ValueError, match="the smallest radius of the path must be greater than 0"):
             rounded_rings(SQUARE, 5, 4, smallest=wrong)
+
+
+def test_lines_of_a_square():
+    """C of 54 inset by min(2.4, 3 - 1.2) = 1.8 is 50.4: 21 lines of 50.4, 2.4 apart, and half circles of 1.2 between them."""
+    clearing = rounded_zigzag(SQUARE, 3, 2.4)
+    named = list(zip(clearing.passes, clearing.labels, strict=True))
+    lines, turns = ([c for c, name in named if name.startswith(kind)] for kind in ("line", "turn"))
+    assert len(lines) == 21 and len(turns) == 20
+    assert [line.length for line in lines[:-1]] == pytest.approx([50.4] * 20)
+    assert [turn.length for turn in turns] == pytest.approx([np.pi * 1.2] * 20)
+    assert all(turn.radii == pytest.approx(1.2) for turn in turns)
+    assert clearing.passes[-1].length == pytest.approx(216) and all(clearing.pieces[0].linked)
 
 
 @pytest.mark.parametrize("seed", range(20))

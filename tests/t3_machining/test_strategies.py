@@ -111,7 +111,7 @@ def test_climb_and_conventional(name):
 
 
 def test_arcs_stay_arcs():
-    for name in ("rings", "zigzag", "one way", "trochoidal", "rounded rings"):
+    for name in ("rings", "zigzag", "one way", "trochoidal", "rounded rings", "rounded zigzag"):
         walls = [c for c in clear(name, AREAS["rectangle"], 4, 4).passes if c.closed]
         assert len(walls[-1].points) <= 6  # begun and met at places of its own
         found = clear(name, AREAS["circle"], 4, 4).passes[-1]

@@ -1,7 +1,7 @@
 """All strategies that clear an area, by name, and what they leave cleared as well.
 
 Every one takes a region, the tool radius and the greatest stepover, and `allowance` (what stays at the walls) and
-`climb`; it returns a `Clearing`. Rounded rings take `smallest`, the least radius of their path, too. Lengths in mm.
+`climb`; it returns a `Clearing`. The rounded ones take `smallest`, the least radius of their path, too. Lengths in mm.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from mnclab.geometry.sweeps import covered, left_over, long_axes, polygons
 from mnclab.machining.milling.clearing import Clearing, Piece, links
 from mnclab.machining.milling.lines import one_way, zigzag
 from mnclab.machining.milling.rings import rings
-from mnclab.machining.milling.rounded import rounded_rings
+from mnclab.machining.milling.rounded import rounded_rings, rounded_zigzag
 from mnclab.machining.milling.spirals import spiral
 from mnclab.machining.milling.trochoids import trochoidal
 from mnclab.text.alarm import Alarm
@@ -24,9 +24,9 @@ from mnclab.text.given import shown
 
 STRATEGIES: dict[str, Callable[..., Clearing]] = {
     "rings": rings, "spiral": spiral, "zigzag": zigzag, "one way": one_way, "trochoidal": trochoidal,
-    "rounded rings": rounded_rings,
+    "rounded rings": rounded_rings, "rounded zigzag": rounded_zigzag,
 }  # fmt: skip
-TANGENT = ("rounded rings",)  # to what it leaves standing the tool lifts: a straight link would make corners
+TANGENT = ("rounded rings", "rounded zigzag")  # to what these leave standing the tool lifts: a straight link would make corners
 LEAST = 1e-3  # of the tool radius: what is narrower and still stands counts as nothing
 ROUNDS = 4
 
