@@ -13,10 +13,11 @@ from typing import Any
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, left_over, long_axes, polygons
-from mnclab.machining.milling.clearing import Clearing, Piece, links
+from mnclab.machining.milling.clearing import EXACT, NOWHERE, Clearing, NoRoom, Piece, begin, links, numbered
 from mnclab.machining.milling.lines import one_way, zigzag
 from mnclab.machining.milling.rings import rings
 from mnclab.machining.milling.rounded import rounded_rings, rounded_zigzag
+from mnclab.machining.milling.slots import strokes
 from mnclab.machining.milling.spirals import spiral
 from mnclab.machining.milling.trochoids import trochoidal
 from mnclab.text.alarm import Alarm
@@ -35,16 +36,27 @@ def clear(
     strategy: str, region: Region, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True,
     complete: bool = True, **more: Any,
 ) -> Clearing:  # fmt: skip
-    """`region` cleared by the strategy of this name, and if `complete` what it leaves cleared as well."""
+    """`region` cleared by the strategy of this name, and if `complete` what it leaves cleared as well.
+
+    What is exactly as wide as the tool is one stroke along its middle, whatever the strategy: "slot".
+    """
     if not isinstance(region, Region):
         raise Alarm(f"a strategy clears a Region, got {shown(region)}", hint="mnclab.area.Region.of(a contour)")
     if strategy not in STRATEGIES:
         raise ValueError(f"unknown strategy {strategy!r}; known are {', '.join(STRATEGIES)}")
-    found = STRATEGIES[strategy](region, radius, stepover, allowance=allowance, climb=climb, **more)
-    if not complete:
-        return found
+    try:
+        found = STRATEGIES[strategy](region, radius, stepover, allowance=allowance, climb=climb, **more)
+        lines = strokes(region, radius + allowance)
+    except NoRoom:
+        lines = strokes(region, radius + allowance)
+        if not lines:
+            raise
+        found = Clearing(region.inset(radius + allowance - EXACT), (), radius)
     straight = strategy not in TANGENT
-    return replace(found, pieces=tuple(_completed(piece, radius, stepover, straight) for piece in found.pieces))
+    pieces = [_completed(piece, radius, stepover, straight) if complete else piece for piece in found.pieces]
+    for line, name in zip(lines, numbered("slot", len(lines)), strict=True):
+        pieces.append(Piece(NOWHERE, (line,), (), (name,), begin(line)))
+    return replace(found, pieces=tuple(pieces))
 
 
 def _completed(piece: Piece, radius: float, stepover: float, straight: bool) -> Piece:
