@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from mnclab.geometry.chords import near
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Curves, at, distance, length_of, nearest, share
-from mnclab.geometry.cutting import outlines_of
+from mnclab.geometry.cutting import boxes, outlines_of
 from mnclab.geometry.regions import Region
 from mnclab.machining.milling.clearing import EXACT, begin, end
 
@@ -33,13 +34,15 @@ def strokes(region: Region, reach: float) -> list[Contour]:
 def _pieces(edges: Curves) -> list[Contour]:
     """What lies half way between two edges that are as close as the sides of a sliver, edge by edge."""
     found = []
-    grown = np.nan_to_num(edges.r, nan=0.0)[:, None] + WIDTH  # about arcs more than enough
-    low, high = np.minimum(edges.start, edges.end) - grown, np.maximum(edges.start, edges.end) + grown
-    for i in range(len(edges.r)):
-        one = edges.take(np.array([i]))
-        near = np.flatnonzero(((low <= high[i]) & (high >= low[i])).all(axis=1))
-        for k in near[near > i].tolist():
-            other = edges.take(np.array([k]))
+    for pair in near(*boxes(edges), WIDTH):
+        here, there = (edges.take(each) for each in pair)
+        spots = np.stack([here.start, here.end, there.start, there.end])
+        off = np.stack([distance(spot, other) for spot, other in zip(spots, (there, there, here, here), strict=True)])
+        spots[off > WIDTH] = np.nan  # ends that lie on the other edge, some way apart: neighbours share one
+        with np.errstate(invalid="ignore"):
+            apart = np.nanmax(length_of(spots[:, None] - spots), axis=(0, 1), initial=0.0)
+        for j in np.flatnonzero(apart > LEAST):
+            one, other = here.take(np.array([j])), there.take(np.array([j]))
             cuts = np.concatenate([[0.0, 1.0], share(other.start, one), share(other.end, one)])
             cuts = np.unique(cuts[(cuts >= 0) & (cuts <= 1)])
             for first, last in zip(cuts, cuts[1:], strict=False):

@@ -117,6 +117,7 @@ def tangent_way(
     bends = np.where(SENSES, spans, 0.0).sum(axis=2)
     price = (extra + more)[rank] + lengths[rank, kind] + reach * bends[rank, kind] - 2 * size[rank]
     order = np.argsort(price, kind="stable")[:MOST]
+    around, most_off = [contour.bounds for contour in cleared or ()], reach + NEAR
     for first in range(0, len(order), AT_ONCE):
         some = order[first : first + AT_ONCE]
         ways = [
@@ -124,11 +125,15 @@ def tangent_way(
             for n, j in zip(rank[some].tolist(), kind[some].tolist(), strict=True)
         ]
         spots = np.concatenate([way.point_at(np.linspace(0, way.length, SPOTS))[0] for way in ways])
-        good = region.contains(spots) | (region.distance(spots) < NEAR)
-        if cleared is not None and good.any():
+        good = region.contains(spots)
+        outside = np.flatnonzero(~good)
+        good[outside] = region.distance(spots[outside]) < NEAR
+        good = np.repeat(good.reshape(-1, SPOTS).all(axis=1), SPOTS)
+        if cleared is not None:
             far = np.flatnonzero(good)
-            for contour in cleared[::-1]:
-                far = far[contour.distance(spots[far]) > reach + NEAR] if len(far) else far
+            for contour, (low, high) in zip(cleared[::-1], around[::-1], strict=True):
+                near = np.flatnonzero(((spots[far] >= low - most_off) & (spots[far] <= high + most_off)).all(axis=1))
+                far = np.delete(far, near[contour.distance(spots[far[near]]) <= most_off]) if len(near) else far
             good[far] = False
         for k in np.flatnonzero(good.reshape(-1, SPOTS).all(axis=1)).tolist():
             n, way = int(rank[some[k]]), ways[k]
