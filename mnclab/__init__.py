@@ -115,6 +115,7 @@ strategies = Shelf("mnclab.strategies", "ways to clear an area with a mill; mncl
     "mnclab.machining.milling.strategies": "STRATEGIES, clear",
     "mnclab.machining.milling.lines": "one_way, zigzag",
     "mnclab.machining.milling.rings": "rings",
+    "mnclab.machining.milling.rounded": "rounded_rings, rounded_zigzag",
     "mnclab.machining.milling.spirals": "spiral",
     "mnclab.machining.milling.trochoids": "trochoid, trochoidal",
     "mnclab.machining.milling.entries": "Entry",

@@ -280,10 +280,10 @@ def compare(
     """Try strategies on an area with one tool (a `Tool`, or its radius) and put what comes of it side by side:
     `compare(region, mnclab.Tool(diameter=8), "rings", "spiral", machine="small-mill")`.
 
-    `strategies` are names, one after the other or a list: "rings", "spiral", "zigzag", "one way", "trochoidal" (None: all of
-    `mnclab.strategies.STRATEGIES`), or a mapping from names to a strategy, a `Clearing`, or a
-    function of region, tool radius and stepover. With a `coarse` tool, which has been there before, there is also "fine", what
-    this one has to do after it; the others do everything with the one tool.
+    `strategies` are names, one after the other or a list: "rings", "spiral", "zigzag", "one way", "trochoidal",
+    "adaptive", "rounded rings", "rounded zigzag" (None: all of `mnclab.strategies.STRATEGIES`), or a mapping from names to a
+    strategy, a `Clearing`, or a function of region, tool radius and stepover. With a `coarse` tool, which has been there before,
+    there is also "fine", what this one has to do after it; the others do everything with the one tool.
 
     `overlap` is the share of the tool diameter that two passes have in common; `stepover` says it in mm instead. `limit` is
     the engagement in degrees above which the share is counted. With axis `limits` (or those of a `machine` by its name,

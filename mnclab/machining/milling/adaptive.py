@@ -44,6 +44,7 @@ from mnclab.machining.milling.fronts import (
 from mnclab.machining.milling.spirals import through
 
 UNROUND = math.radians(1.7)  # that a spiral of half circles, whose turns are not concentric, keeps from the limit
+WIDEST = 1.5  # of the radius: a greater stepover bounds next to nothing
 LEFT = 0.4  # of the stepover: what stands along a wall
 TAPER = 2.0  # times the stepover, on which LEFT begins
 SPARED = 0.01  # of the radius: what stands elsewhere
@@ -57,15 +58,15 @@ def adaptive(
 
     The limit holds outside the entries (labels "entry …") and, in the pass along a wall, beside a corner of that pass. Arcs of
     the tool-centre path in the material are not smaller than `smallest`, by default a tenth of the radius. Where a `stock` is
-    given there is material in it alone: sides beyond it are open, and the tool comes in from there.
+    given there is material in it alone: sides beyond it are open, and the tool comes in from there. Where a pass begins, at the
+    edge of what is cleared, its radius may be smaller.
     """
-    if stepover >= radius * (2 - 1e-6):
-        raise ValueError(f"an engagement is bounded below twice the radius, {2 * radius:g}, got a stepover of {stepover:g}")
     least = radius / 10 if smallest is None else smallest
     if not 0 < least <= radius:
         raise ValueError(f"the smallest radius must lie above 0 and not above that of the tool, {radius:g}, got {least:g}")
     turn = np.array([[1.0 if climb else -1.0, 0, 0], [0, 1, 0]])  # conventional milling is climb milling in a mirror
     centres = _turned(tool_centres(region, radius, stepover, allowance), turn)
+    stepover = min(stepover, WIDEST * radius)
     solid = None if stock is None else polygons(_turned(stock, turn))
     pieces = [_piece(part, radius, stepover, least, solid) for part in centres.parts]
     return Clearing(_turned(centres, turn), tuple(_mirrored(piece, turn) for piece in pieces if piece.passes), radius)

@@ -23,6 +23,10 @@ NOWHERE = Region()
 LIFTED, LINKED, HOPPED = range(3)  # the way on: up and down again, straight at the level, straight a little above it
 
 
+class NoRoom(ValueError):
+    """A tool finds no room for its centre in an area."""
+
+
 @dataclass(frozen=True, eq=False)
 class Piece:
     """A connected piece of the tool-centre area: one entry, then its passes in order.
@@ -167,7 +171,7 @@ def tool_centres(region: Region, radius: float, stepover: float, allowance: floa
         raise ValueError(f"the stepover must lie above 0 and not above twice the radius, got {stepover:g}")
     centres = region.inset(radius + allowance)
     if not centres.loops:
-        raise ValueError(unfit(region, radius, allowance))
+        raise NoRoom(unfit(region, radius, allowance))
     return centres
 
 
@@ -178,5 +182,5 @@ def unfit(region: Region, radius: float, allowance: float) -> str:
         return "the area is empty: there is nothing to clear"
     if region.inset(radius + allowance - EXACT).loops:
         return (f"a tool of radius {radius:g}{rest} is exactly as wide as the contour, which leaves no way round: "
-                "it is one stroke along the middle, as a slot is cut, or a smaller tool")  # fmt: skip
+                "it is one stroke along the middle, as `mnclab.strategies.clear` cuts a slot, or a smaller tool")  # fmt: skip
     return f"a tool of radius {radius:g}{rest} does not fit into the contour"

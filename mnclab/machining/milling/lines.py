@@ -57,14 +57,13 @@ def _piece(centres: Region, radius: float, stepover: float, climb: bool, angle: 
     passes: list[Contour] = []
     labels: list[str] = []
     if inner.loops:
-        level = _turned(inner, -angle)
-        segments = [(placed(s[0], (0, 0), angle), placed(s[1], (0, 0), angle)) for s in _segments(level, stepover)]
+        segments = segments_at(inner, stepover, angle)
         if single:
             rows = [Contour([b, a] if climb else [a, b], closed=False) for a, b in segments]
             passes = [loop if climb else loop.reversed() for loop in inner.loops]
             labels = list(numbered("frame", len(passes)))
         else:
-            rows = _to_and_fro(segments)
+            rows = to_and_fro(segments)
         for line, name in zip(rows, numbered("line", len(rows)), strict=True):
             way = None if single or not passes else _along_wall(inner, end(passes[-1]), begin(line), stepover)
             if way is not None:
@@ -78,6 +77,12 @@ def _piece(centres: Region, radius: float, stepover: float, climb: bool, angle: 
         for k, name in enumerate(labels[1:]):
             linked[k] = linked[k] and not name.startswith("line")
     return Piece(centres, tuple(passes), tuple(linked), tuple(labels))
+
+
+def segments_at(region: Region, stepover: float, angle: float) -> list[Segment]:
+    """Lines across a region in a direction, at equal distances of at most `stepover`."""
+    level = _turned(region, -angle)
+    return [(placed(a, (0, 0), angle), placed(b, (0, 0), angle)) for a, b in _segments(level, stepover)]
 
 
 def _turned(region: Region, angle: float) -> Region:
@@ -98,7 +103,7 @@ def _segments(region: Region, stepover: float) -> list[Segment]:
     ]
 
 
-def _to_and_fro(segments: list[Segment]) -> list[Contour]:
+def to_and_fro(segments: list[Segment]) -> list[Contour]:
     """The lines in an order that goes on to the nearest end not yet cut, first those a step away."""
     ends = np.array(segments).reshape(-1, 2)  # two rows a segment
     todo = np.ones(len(segments), dtype=bool)

@@ -10,7 +10,7 @@ stands then, in sharp corners and along narrow arms between two rings, is the pr
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import count
 
@@ -126,7 +126,14 @@ def rings_in_order(
     A ring round an island waits for the deeper rings about it; a ring along a wall for all islands and for
     the deeper rings within it. Of those that need not wait the nearest comes next: one branch at a time.
     """
-    todo = list(_rings(centres, radius, stepover, corner_radius))
+    return in_order(rings_of(centres, radius, stepover, corner_radius), begin)
+
+
+def in_order(rings: Iterable[Ring], begin: Floats | None = None) -> Iterator[Ring]:
+    """Rings of a connected piece in the order of `rings_in_order`, each begun nearest to the end of the last."""
+    todo = list(rings)
+    if not todo:
+        return
     starts = np.array([ring.contour.points[0] for ring in todo])
     level = np.array([ring.level for ring in todo])
     island = np.array([ring.island for ring in todo])
@@ -165,8 +172,8 @@ def _nearest(todo: Sequence[Ring], boxes: Floats, free: NDArray[np.intp], here: 
     return best
 
 
-def _rings(centres: Region, radius: float, stepover: float, corner_radius: float) -> Iterator[Ring]:
-    """The rings of a piece, with a core ring wherever one more step would leave a core standing."""
+def rings_of(centres: Region, radius: float, stepover: float, corner_radius: float = 0.0) -> Iterator[Ring]:
+    """The rings of a piece, level by level, with a core ring wherever one more step would leave a core standing."""
     if np.ptp(centres.loops[0].bounds, axis=0).min() / 2 > MOST_RINGS * stepover:
         raise ValueError(f"a stepover of {stepover:g} makes more than {MOST_RINGS} rings")
     found = centres.insets(stepover)

@@ -1,7 +1,7 @@
 """All strategies that clear an area, by name, and what they leave cleared as well.
 
 Every one takes a region, the tool radius and the greatest stepover, and `allowance` (what stays at the walls) and
-`climb`; it returns a `Clearing`. Lengths in mm.
+`climb`; it returns a `Clearing`. The rounded ones take `smallest`, the least radius of their path, too. Lengths in mm.
 """
 
 from __future__ import annotations
@@ -14,9 +14,11 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, left_over, long_axes, polygons
 from mnclab.machining.milling.adaptive import adaptive
-from mnclab.machining.milling.clearing import Clearing, Piece, links
+from mnclab.machining.milling.clearing import EXACT, NOWHERE, Clearing, NoRoom, Piece, begin, links, numbered
 from mnclab.machining.milling.lines import one_way, zigzag
 from mnclab.machining.milling.rings import rings
+from mnclab.machining.milling.rounded import rounded_rings, rounded_zigzag
+from mnclab.machining.milling.slots import strokes
 from mnclab.machining.milling.spirals import spiral
 from mnclab.machining.milling.trochoids import trochoidal
 from mnclab.text.alarm import Alarm
@@ -24,8 +26,9 @@ from mnclab.text.given import shown
 
 STRATEGIES: dict[str, Callable[..., Clearing]] = {
     "rings": rings, "spiral": spiral, "zigzag": zigzag, "one way": one_way, "trochoidal": trochoidal,
-    "adaptive": adaptive,
+    "adaptive": adaptive, "rounded rings": rounded_rings, "rounded zigzag": rounded_zigzag,
 }  # fmt: skip
+TANGENT = ("rounded rings", "rounded zigzag", "adaptive")  # a straight link to what they leave would make corners: lifts
 LEAST = 1e-3  # of the tool radius: what is narrower and still stands counts as nothing
 ROUNDS = 4
 
@@ -34,21 +37,34 @@ def clear(
     strategy: str, region: Region, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True,
     complete: bool = True, **more: Any,
 ) -> Clearing:  # fmt: skip
-    """`region` cleared by the strategy of this name, and if `complete` what it leaves cleared as well."""
+    """`region` cleared by the strategy of this name, and if `complete` what it leaves cleared as well.
+
+    What is exactly as wide as the tool is one stroke along its middle, whatever the strategy: "slot".
+    """
     if not isinstance(region, Region):
         raise Alarm(f"a strategy clears a Region, got {shown(region)}", hint="mnclab.area.Region.of(a contour)")
     if strategy not in STRATEGIES:
         raise ValueError(f"unknown strategy {strategy!r}; known are {', '.join(STRATEGIES)}")
-    found = STRATEGIES[strategy](region, radius, stepover, allowance=allowance, climb=climb, **more)
-    if not complete:
-        return found
-    return replace(found, pieces=tuple(_completed(piece, radius, stepover) for piece in found.pieces))
+    try:
+        found = STRATEGIES[strategy](region, radius, stepover, allowance=allowance, climb=climb, **more)
+        lines = strokes(region, radius + allowance)
+    except NoRoom:
+        lines = strokes(region, radius + allowance)
+        if not lines:
+            raise
+        found = Clearing(region.inset(radius + allowance - EXACT), (), radius)
+    straight = strategy not in TANGENT
+    pieces = [_completed(piece, radius, stepover, straight) if complete else piece for piece in found.pieces]
+    for line, name in zip(lines, numbered("slot", len(lines)), strict=True):
+        pieces.append(Piece(NOWHERE, (line,), (), (name,), begin(line)))
+    return replace(found, pieces=tuple(pieces))
 
 
-def _completed(piece: Piece, radius: float, stepover: float) -> Piece:
+def _completed(piece: Piece, radius: float, stepover: float, straight: bool) -> Piece:
     """A piece with a pass through everything that the tool can reach and has left standing.
 
     Cores and slivers between passes more than a tool radius apart: narrower than the tool, so one pass along them does.
+    `straight`: the tool may go there on a straight link.
     """
     if not piece.centres.loops:
         return piece
@@ -64,8 +80,8 @@ def _completed(piece: Piece, radius: float, stepover: float) -> Piece:
         return piece
     passes = (*piece.passes, *extra)
     labels = (*piece.labels, *(f"rest {k} of {len(extra)}" for k in range(1, len(extra) + 1)))
-    more = links(piece.centres, passes, stepover)[len(piece.passes) - 1 :]
-    return replace(piece, passes=passes, linked=(*piece.linked, *more), labels=labels)
+    ways = links(piece.centres, passes, stepover)[len(piece.linked) :] if straight else (False,) * len(extra)
+    return replace(piece, passes=passes, linked=(*piece.linked, *ways), labels=labels)
 
 
 def _through(rest: Region, centres: Region) -> list[Contour]:
