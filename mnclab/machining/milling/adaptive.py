@@ -112,7 +112,7 @@ def _piece(centres: Region, radius: float, stepover: float, least: float, stock:
             links.append(_across(room, end(passes[-1]), begin(way), radius) if passes else LIFTED)
             passes.append(way)
             labels.append("island" if loop.area < 0 else "wall")
-    return Piece(centres, tuple(passes), tuple(links[1:]), tuple(labels), None, from_side)
+    return Piece(centres, tuple(passes), tuple(links[1:]), tuple(labels), None, from_side, from_cleared=True)
 
 
 def _opening(part: Any, radius: float, phi: float) -> tuple[Contour, Contour | None, Any]:

@@ -34,7 +34,8 @@ class Piece:
     `linked[i]` tells whether the tool may go straight from the end of pass i to the start of pass i + 1; if not, it must lift.
     Where it cuts nothing on that way it is HOPPED: rapid, a small height above the level. `labels[i]` names pass i:
     "ring 3 of 7". `from_side`: the first pass begins beside the material, where
-    the tool comes down free and cuts in from the side.
+    the tool comes down free and cuts in from the side. `from_cleared`: so do
+    all passes but entries.
     """
 
     centres: Region
@@ -43,6 +44,7 @@ class Piece:
     labels: tuple[str, ...]
     place: Floats | None = None
     from_side: bool = False
+    from_cleared: bool = False
 
     def __repr__(self) -> str:
         return f"<Piece: {', '.join(self.labels)}>"
@@ -56,6 +58,8 @@ class Piece:
         """Whether pass k begins on one before it or beside the material, where the tool can come straight down."""
         if k == 0:
             return self.from_side
+        if self.from_cleared:
+            return not self.labels[k].startswith("entry")
         spot = begin(self.passes[k])[None]
         return any(contour.distance(spot)[0] < 1e-3 for contour in self.passes[:k])
 
