@@ -102,7 +102,7 @@ class Ahead:
         kind = keyword, tuple((w[0], w[1]) if w[0] in self.control.codes else w[0] for w in words)
         if kind in self.good:
             return self.good[kind]
-        same_words = keyword, tuple(word[:2] for word in words)
+        same_words = keyword, tuple((word.address, repr(word.value)) for word in words)
         if same_words in self.bad:  # a faulty block that stands there again and again
             alarm, before = self.bad[same_words]
             spans = {word.span: again.span for word, again in zip(before, words)}

@@ -92,6 +92,8 @@ def _piece(centres: Region, radius: float, stepover: float, least: float, stock:
     free = None if stock is None else difference(room, shapely.buffer(stock, radius, quad_segs=32))
     passes, links, labels, from_side = list[Contour](), list[int](), list[str](), False  # links[k] leads to passes[k]
     for part in shapely.get_parts(room):
+        if not part.area > 0:
+            continue
         fronts = Fronts(part, soft, radius, stepover, stock)
         cleared = None if free is None else intersection(part, free)
         if cleared is None or cleared.area < radius**2 / 100:
@@ -155,8 +157,11 @@ def _along_wall(loop: Contour, room: Any, radius: float, stock: Any) -> Iterator
     at, ahead = turned.point_at([0.0])
     inward = np.stack([-ahead[:, 1], ahead[:, 0]], axis=1)
     size = radius
-    while size > 0.1 * radius and not shapely.contains_xy(room, *(at + size * (inward - ahead))[0]):
+    while not shapely.contains_xy(room, *(at + size * (inward - ahead))[0]):
         size *= 0.8
+        if size < 0.1 * radius:  # a narrow place, where nothing is cleared but along the wall
+            yield turned
+            return
     lead = Contour([(at + size * (inward - ahead))[0], at[0]], [math.tan(math.pi / 8), 0.0], closed=False)
     yield joined([lead, turned.between(0.0, turned.length)])
 
