@@ -91,6 +91,7 @@ def _piece(centres: Region, radius: float, stepover: float, least: float, stock:
     room, soft = _room_for_passes(centres, radius, stepover, least)
     free = None if stock is None else difference(room, shapely.buffer(stock, radius, quad_segs=32))
     passes, links, labels, from_side = list[Contour](), list[int](), list[str](), False  # links[k] leads to passes[k]
+    reached: list[Any] = []  # what is cleared of the room, without what passes have left at their ends
     for part in shapely.get_parts(room):
         if not part.area > 0:
             continue
@@ -109,9 +110,11 @@ def _piece(centres: Region, radius: float, stepover: float, least: float, stock:
             links.append(LIFTED if not passes else _across(fronts.area, end(passes[-1]), begin(way), radius, fronts))
             passes.append(way)
         labels += numbered("pass", len(passes) - count)
+        reached.append(difference(fronts.area, shapely.union_all(fronts.rest)))
+    cleared = shapely.union_all(reached)
     for loop in sorted(centres.loops, key=lambda loop: loop.area):
         for way in _along_wall(loop, room, radius, stock):
-            links.append(_across(room, end(passes[-1]), begin(way), radius) if passes else LIFTED)
+            links.append(_across(cleared, end(passes[-1]), begin(way), radius) if passes else LIFTED)
             passes.append(way)
             labels.append("island" if loop.area < 0 else "wall")
     return Piece(centres, tuple(passes), tuple(links[1:]), tuple(labels), None, from_side, from_cleared=True)

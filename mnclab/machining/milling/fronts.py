@@ -118,7 +118,7 @@ class Fronts:
             self.area = difference(self.area, spared)
             self.edge = shapely.boundary(self.area)
             shapely.prepare(self.edge)
-            beside = [(difference(each, spared)) for each in beside]
+            beside = [difference(each, spared) for each in beside]
         if found:
             frame = shapely.buffer(shapely.boundary(box), R)
             gone = difference(shapely.simplify(_closed(grown, inside, 0.99 * R), 4e-4 * R), frame)
