@@ -8,7 +8,7 @@ stepover along walls and TRIM of it at the ends of passes, less towards corners 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -45,8 +45,9 @@ from mnclab.machining.milling.spirals import through
 
 UNROUND = math.radians(1.7)  # that a spiral of half circles, whose turns are not concentric, keeps from the limit
 WIDEST = 1.5  # of the radius: a greater stepover bounds next to nothing
-LEFT = 0.4  # of the stepover: what stands along a wall
+LEFT = 0.6  # of the stepover: what stands along a wall
 TAPER = 2.0  # times the stepover, on which LEFT begins
+ENOUGH = 0.6  # of the radius of the greatest circle: that of any circle at the end where a peeling begins
 SPARED = 0.01  # of the radius: what stands elsewhere
 
 
@@ -61,6 +62,25 @@ def adaptive(
     given there is material in it alone: sides beyond it are open, and the tool comes in from there. Where a pass begins, at the
     edge of what is cleared, its radius may be smaller.
     """
+    return _cleared(region, radius, stepover, allowance, climb, stock, smallest, _widest)
+
+
+def peeling(
+    region: Region, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True,
+    stock: Region | None = None, smallest: float | None = None,
+) -> Clearing:  # fmt: skip
+    """A slot peeled from one end to the other in bows from wall to wall, with the engagement and options of `adaptive`.
+
+    The tool goes down where the end of the slot is wide enough for a spiral. Any other area is peeled away from there, too.
+    """
+    return _cleared(region, radius, stepover, allowance, climb, stock, smallest, _farthest)
+
+
+def _cleared(
+    region: Region, radius: float, stepover: float, allowance: float, climb: bool, stock: Region | None,
+    smallest: float | None, first: Callable[[Any, float], Floats],
+) -> Clearing:  # fmt: skip
+    """An area cleared front after front, from the place in each part where the tool goes down `first`."""
     least = radius / 10 if smallest is None else smallest
     if not 0 < least <= radius:
         raise ValueError(f"the smallest radius must lie above 0 and not above that of the tool, {radius:g}, got {least:g}")
@@ -68,7 +88,7 @@ def adaptive(
     centres = _turned(tool_centres(region, radius, stepover, allowance), turn)
     stepover = min(stepover, WIDEST * radius)
     solid = None if stock is None else polygons(_turned(stock, turn))
-    pieces = [_piece(part, radius, stepover, least, solid) for part in centres.parts]
+    pieces = [_piece(part, radius, stepover, least, solid, first) for part in centres.parts]
     return Clearing(_turned(centres, turn), tuple(_mirrored(piece, turn) for piece in pieces if piece.passes), radius)
 
 
@@ -86,7 +106,9 @@ def _mirrored(piece: Piece, turn: Floats) -> Piece:
     return replace(piece, centres=_turned(piece.centres, turn), passes=passes)
 
 
-def _piece(centres: Region, radius: float, stepover: float, least: float, stock: Any) -> Piece:
+def _piece(
+    centres: Region, radius: float, stepover: float, least: float, stock: Any, first: Callable[[Any, float], Floats]
+) -> Piece:
     """The passes of one piece of where the tool centre may go, climb."""
     room, soft = _room_for_passes(centres, radius, stepover, least)
     free = None if stock is None else difference(room, shapely.buffer(stock, radius, quad_segs=32))
@@ -98,7 +120,7 @@ def _piece(centres: Region, radius: float, stepover: float, least: float, stock:
         fronts = Fronts(part, soft, radius, stepover, stock)
         cleared = None if free is None else intersection(part, free)
         if cleared is None or cleared.area < radius**2 / 100:
-            entry, spiral, cleared = _opening(part, radius, fronts.phi - UNROUND)
+            entry, spiral, cleared = _opening(part, first(part, radius), radius, fronts.phi - UNROUND)
             passes += [entry, spiral] if spiral is not None else [entry]
             links += [LIFTED, LINKED][: len(passes) - len(links)]
             labels += ["entry spiral", "spiral"][: len(passes) - len(labels)]
@@ -120,11 +142,24 @@ def _piece(centres: Region, radius: float, stepover: float, least: float, stock:
     return Piece(centres, tuple(passes), tuple(links[1:]), tuple(labels), None, from_side, from_cleared=True)
 
 
-def _opening(part: Any, radius: float, phi: float) -> tuple[Contour, Contour | None, Any]:
-    """A spiral from the middle of the greatest circle in an area to where this touches its wall: the part of it within a
-    radius of the middle, the rest, and what it clears."""
+def _widest(part: Any, radius: float) -> Floats:
+    """The middle of the greatest circle in an area."""
+    return np.asarray(shapely.get_coordinates(shapely.maximum_inscribed_circle(part, tolerance=radius / 1000))[0])
+
+
+def _farthest(part: Any, radius: float) -> Floats:
+    """The middle of the greatest circle at the end of an area that is farthest from the middle of the greatest of all."""
     line = shapely.maximum_inscribed_circle(part, tolerance=radius / 1000)
-    centre, touched = shapely.get_coordinates(line)
+    middles = shapely.get_coordinates(shapely.buffer(part, -ENOUGH * line.length))
+    farthest = middles[length_of(middles - shapely.get_coordinates(line)[0]).argmax()]
+    return _widest(intersection(part, shapely.buffer(shapely.Point(farthest), 1.5 * line.length)), radius)
+
+
+def _opening(part: Any, centre: Floats, radius: float, phi: float) -> tuple[Contour, Contour | None, Any]:
+    """A spiral from a centre in an area until it touches the wall: the part of it within a radius of the centre, the rest, and
+    what it clears."""
+    line = shapely.shortest_line(shapely.Point(centre), shapely.boundary(part))
+    touched = shapely.get_coordinates(line)[1]
     reach, away = float(line.length), [0.0]
     away.append(min(reach, greatest_step(np.array(1e-9), radius, phi).item()))
     while away[-1] < reach:

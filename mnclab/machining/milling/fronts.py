@@ -24,8 +24,9 @@ from mnclab.geometry.curves import Floats, length_of
 
 FINE = 10  # places on a front to a tool radius
 MARGIN = math.radians(1.0)  # that a pass keeps from the limit
+GENTLE = math.radians(6)  # more, where it begins, until it is a radius on
 ROUNDS = 4  # of putting a pass right
-TRIM = 0.3  # of the stepover: what a pass may leave along a wall at its end
+TRIM = 0.25  # of the stepover: what a pass may leave along a wall at its end
 SLIVER = 0.015  # of the radius: what is narrower is none
 FLATTEST = 1e6  # times the radius
 WINDOW, HALVINGS = math.radians(24), 7  # about the limit, in which the engagement of a pass is measured
@@ -154,14 +155,15 @@ class Fronts:
         if self.stock is not None:
             old = _union(old, difference(shapely.envelope(old), self.stock))
         shapely.prepare(old)
+        phi = self.phi - GENTLE * np.clip((1.6 if begun else 1.0) - np.arange(len(b)) * step / self.radius, 0.0, 1.0)
         for k in range(ROUNDS + 1):
-            d = _swept(step, begun, r, self.radius, self.phi - off, np.minimum(1.15 * far, room))
+            d = _swept(step, begun, r, self.radius, phi - off, np.minimum(1.15 * far, room))
             p = evened(b + n * d[:, None], 1.0)
-            over = np.where(d > 1e-9, _engaged(p, self.radius, old, self.phi) - self.phi, 0.0)
+            over = np.where(d > 1e-9, _engaged(p, self.radius, old, phi) - phi, 0.0)
             if k == ROUNDS or over.max() < math.radians(0.2):
                 break
             free = (d < room - 1e-6) | (over > 0)
-            off = np.clip(off + evened(np.where(free, np.clip(over, -0.1, 0.4), 0.0), 1.5), -0.2, 0.9 * self.phi)
+            off = np.clip(off + evened(np.where(free, np.clip(over, -0.1, 0.4), 0.0), 1.5), -0.2, 0.9 * phi)
         return d, p
 
     def _room(self, b: Floats, n: Floats, far: Floats) -> Floats:
@@ -263,11 +265,11 @@ def _swept(step: float, begun: float, r: Floats, R: float, phi: Floats, most: Fl
     return np.array(d)
 
 
-def _engaged(p: Floats, R: float, old: Any, phi: float) -> Floats:
-    """Where the cut ends on the rim, counted from abeam to ahead, along places (n, 2), within WINDOW of φ."""
+def _engaged(p: Floats, R: float, old: Any, phi: Floats) -> Floats:
+    """Where the cut ends on the rim, counted from abeam to ahead, along places (n, 2), within WINDOW of φ (n,)."""
     h = np.gradient(p, axis=0)
     abeam = np.arctan2(h[:, 1], h[:, 0]) - math.pi / 2
-    low, high = np.full(len(p), phi - WINDOW), np.full(len(p), phi + WINDOW)
+    low, high = phi - WINDOW, phi + WINDOW
     for _ in range(HALVINGS):
         middle = (low + high) / 2
         out = ~shapely.contains_xy(old, p[:, 0] + R * np.cos(abeam + middle), p[:, 1] + R * np.sin(abeam + middle))
