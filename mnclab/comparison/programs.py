@@ -41,13 +41,14 @@ Point = tuple[float, ...]
 
 
 class Block(NamedTuple):
-    """One way as it is written: points in mm and rounded, `sweep` in rad, 0 of a line; `feed` mm/min, inf at rapid."""
+    """One way as it is written: points in mm and rounded, `sweep` in rad, 0 of a line; `feed` is the word, where it changes."""
 
     start: Point
     end: Point
     centre: Point
     sweep: float
-    feed: float
+    rapid: bool
+    feed: str = ""
 
     @property
     def targets(self) -> list[tuple[str, float]]:
@@ -78,11 +79,12 @@ def program(path: Toolpath, control: str, tool: int = 1, spindle: float = 8000.0
 
 def _blocks(path: Toolpath, decimals: int, unit: float, helices: bool) -> Iterator[Block]:
     """The ways of a path, rounded, those without a length left out; helices as chords where there are none."""
+    modal = ""
     at: Point = (math.nan, math.nan, HEIGHT)
     if len(path):
         x, y, z = _rounded(path.start[0].tolist(), decimals)
-        yield Block(at, (x, y, HEIGHT), (), 0.0, math.inf)
-        yield Block((x, y, HEIGHT), at := (x, y, z), (), 0.0, math.inf)
+        yield Block(at, (x, y, HEIGHT), (), 0.0, True)
+        yield Block((x, y, HEIGHT), at := (x, y, z), (), 0.0, True)
     columns = (path.kind, path.start, path.end, path.centre, path.sweep, path.feed)
     for row, (kind, start, end, centre, sweep, feed) in enumerate(zip(*(column.tolist() for column in columns), strict=True)):
         ends = [end]
@@ -94,7 +96,9 @@ def _blocks(path: Toolpath, decimals: int, unit: float, helices: bool) -> Iterat
             to = _rounded(end, decimals)
             if to != at or sweep:
                 middle = _rounded(centre[:2], decimals) if sweep else ()
-                yield Block(at, to, middle, sweep, math.inf if kind == Kind.RAPID else feed)
+                word = "" if kind == Kind.RAPID else "F" + _number(feed, FEEDS)
+                yield Block(at, to, middle, sweep, kind == Kind.RAPID, word if word != modal else "")
+                modal = word or modal
             at = to
 
 
@@ -111,10 +115,10 @@ def _as_a_line(start: Point, end: Point, centre: Point, angle: float, unit: floa
 def _words(ways: Iterator[Block], decimals: int) -> Iterator[str]:
     """G0 to G3, with I and J from the start."""
     for way in ways:
-        code = "G0" if math.isinf(way.feed) else "G1" if not way.sweep else "G3" if way.sweep > 0 else "G2"
+        code = "G0" if way.rapid else "G1" if not way.sweep else "G3" if way.sweep > 0 else "G2"
         words = [code, *(axis + _number(value, decimals) for axis, value in way.targets)]
         words += [axis + _number(c - s, decimals) for axis, c, s in zip("IJ", way.centre, way.start, strict=False)]
-        yield " ".join([*words, *([] if math.isinf(way.feed) else ["F" + _number(way.feed, FEEDS)])])
+        yield " ".join([*words, way.feed]).rstrip()
 
 
 def _klartext(ways: Iterator[Block], decimals: int) -> Iterator[str]:
@@ -127,7 +131,7 @@ def _klartext(ways: Iterator[Block], decimals: int) -> Iterator[str]:
             words = ["C", *targets, "DR+" if way.sweep > 0 else "DR-"]
             if way.start[2] != way.end[2]:
                 words[:3] = ["CP", "IPA" + _signed(math.degrees(way.sweep), decimals + 3)]
-        yield " ".join([*words, "FMAX" if math.isinf(way.feed) else "F" + _number(way.feed, FEEDS)])
+        yield " ".join([*words, "FMAX" if way.rapid else way.feed]).rstrip()
 
 
 def _number(value: float, decimals: int) -> str:

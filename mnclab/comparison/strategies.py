@@ -256,12 +256,12 @@ class Trial(Tried):
 
     @fitting
     def program(self, control: str, **options: Any) -> str:
-        """The path as a program of plain blocks for the control "g43", "mnc" or "tnc-620", `run` by which it is this path again:
-        `mnclab.run(trial.program("mnc"), "mnc")`. The datum is that of the region, on the surface.
+        """The path as a program of plain blocks for the control "g43", "mnc" or "tnc-620", whose run is this path again:
+        `mnclab.run(trial.program("mnc"), "mnc")`. The datum is that of the region, Z0 the surface.
 
-        `tool` is the number of the tool, 1 if none is given; `spindle`, in rev/min, is for a trial without one (8000); `decimals`,
-        three to nine (6): positions are half a unit of the last of them off at most. On the MNC, whose manual has no helix, an
-        entry helix is chords within 0.001 mm.
+        Options: `tool`, its number (1); `spindle` in rev/min, for a trial that has none (8000); `decimals`, three to nine (6):
+        positions are half a unit of the last one off at most along each axis. An entry helix is chords within 0.001 mm on the
+        MNC, whose manual has no helix.
         """
         return program(self.path, control, **options)
 
