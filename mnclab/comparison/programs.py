@@ -57,7 +57,7 @@ class Block(NamedTuple):
         return [(axis, end) for axis, start, end in pairs if start != end or (self.sweep and axis != "Z")]
 
 
-def program(path: Toolpath, control: str, tool: int = 1, spindle: float = 8000.0, decimals: int = 6) -> str:
+def program(path: Toolpath, control: str, tool: int, spindle: float, decimals: int) -> str:
     """The text of a program for the control "g43", "mnc" or "tnc-620" that runs along a path in the plane XY.
 
     The tool comes from and goes back to `HEIGHT` mm above the datum. `spindle` in rev/min is for a path that has none of its own.
@@ -66,9 +66,9 @@ def program(path: Toolpath, control: str, tool: int = 1, spindle: float = 8000.0
     tool, decimals = whole(tool, "the number of the tool"), whole(decimals, "the number of decimals")
     check_number(tool, "the number of the tool", at_least=1, at_most=9999)
     check_number(decimals, "the number of decimals", at_least=3, at_most=9)
-    check_number(spindle, "the spindle speed (rev/min)", above=0)
+    check_number(spindle, "the spindle speed (rev/min)", at_least=0.001, at_most=1e6)
     turning = abs(float(path.spindle[0])) if len(path) else 0.0
-    values = {"tool": tool, "spindle": _number(turning or spindle, FEEDS), "height": HEIGHT}
+    values = {"tool": tool, "spindle": _number(turning or float(spindle), FEEDS), "height": HEIGHT}
     head, foot = (lines.format(**values).split("\n") for lines in FRAMES[control])
     ways = _blocks(path, decimals, 10.0**-decimals, control != MNC)
     written = [*head, *(_klartext if control == TNC else _words)(ways, decimals), *foot]

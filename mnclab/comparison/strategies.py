@@ -255,15 +255,15 @@ class Trial(Tried):
         return self.engagement.thickness * self.feed / (self.tooth_rate or np.nan)
 
     @fitting
-    def program(self, control: str, **options: Any) -> str:
+    def program(self, control: str, tool: int = 1, spindle: float = 8000.0, decimals: int = 6) -> str:
         """The path as a program of plain blocks for the control "g43", "mnc" or "tnc-620", whose run is this path again:
         `mnclab.run(trial.program("mnc"), "mnc")`. The datum is that of the region, Z0 the surface.
 
-        Options: `tool`, its number (1); `spindle` in rev/min, for a trial that has none (8000); `decimals`, three to nine (6):
+        `tool` is its number; `spindle`, in rev/min, is for a trial that has none; `decimals` are three to nine:
         positions are half a unit of the last one off at most along each axis. An entry helix is chords within 0.001 mm on the
         MNC, whose manual has no helix.
         """
-        return program(self.path, control, **options)
+        return program(self.path, control, tool, spindle, decimals)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
