@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 import numpy as np
 
 from mnclab.comparison.chips import fed, tooth_rate
+from mnclab.comparison.programs import program
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, left_over, polygons
@@ -252,6 +253,17 @@ class Trial(Tried):
     def chip(self) -> np.ndarray:
         """The greatest thickness of a chip at each sample of the engagement, mm `(n,)`; nan where teeth or speed is unknown."""
         return self.engagement.thickness * self.feed / (self.tooth_rate or np.nan)
+
+    @fitting
+    def program(self, control: str, tool: int = 1, spindle: float = 8000.0, decimals: int = 6) -> str:
+        """The path as a program of plain blocks for the control "g43", "mnc" or "tnc-620", whose run is this path again:
+        `mnclab.run(trial.program("mnc"), "mnc")`. The datum is that of the region, Z0 the surface.
+
+        `tool` is its number; `spindle`, in rev/min, is for a trial that has none; `decimals` are three to nine:
+        positions are half a unit of the last one off at most along each axis. An entry helix is chords within 0.001 mm on the
+        MNC, whose manual has no helix.
+        """
+        return program(self.path, control, tool, spindle, decimals)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
