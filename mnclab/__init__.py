@@ -121,6 +121,7 @@ strategies = Shelf("mnclab.strategies", "ways to clear an area with a mill; mncl
     "mnclab.machining.milling.entries": "Entry",
     "mnclab.machining.milling.rest": "rest, rest_passes",
     "mnclab.machining.milling.engagement": "engagement, stretches",
+    "mnclab.show.plot.pocketing": "plot_times",
 })  # fmt: skip
 
 schemes = Shelf("mnclab.schemes", "ways to turn, groove and thread; mnclab.compare_turning puts them side by side", {

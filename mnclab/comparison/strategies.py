@@ -253,6 +253,10 @@ class Trial(Tried):
         """The greatest thickness of a chip at each sample of the engagement, mm `(n,)`; nan where teeth or speed is unknown."""
         return self.engagement.thickness * self.feed / (self.tooth_rate or np.nan)
 
+    def plot(self, kind: str = "paths", **options: Any) -> Picture:
+        """The picture of a comparison, of this trial alone."""
+        return Comparison((self,)).plot(kind, **options)
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Comparison(Table[Trial]):
@@ -261,11 +265,11 @@ class Comparison(Table[Trial]):
     titles: ClassVar = COLUMNS
     trials: tuple[Trial, ...]
 
-    def plot(self, **options: Any) -> Picture:
-        """The paths side by side, coloured by engagement (needs matplotlib)."""
-        from mnclab.show.plot.side_by_side import plot_strategies
+    def plot(self, kind: str = "paths", **options: Any) -> Picture:
+        """Side by side "paths", coloured by engagement, "engagement" along the way, or what "passes" leave (needs matplotlib)."""
+        from mnclab.show.plot.pocketing import plot_strategies
 
-        return plot_strategies(self, **options)
+        return plot_strategies(self, kind, **options)
 
 
 @fitting

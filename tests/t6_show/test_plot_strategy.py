@@ -7,7 +7,7 @@ from matplotlib.collections import LineCollection
 from mnclab.comparison.strategies import compare
 from mnclab.geometry.contours import Contour, rectangle
 from mnclab.geometry.regions import Region
-from mnclab.show.plot.side_by_side import plot_strategies
+from mnclab.show.plot.pocketing import plot_strategies
 
 AREA = Region.of(rectangle(60, 40), holes=[Contour.circle((0, 0), 8)])
 
