@@ -32,10 +32,11 @@ from mnclab.show.plot.picture import (
     Picture,
     calm,
     dress,
+    figure_of,
     legend_height,
     legend_rows,
     write_legend,
-)
+)  # fmt: skip
 from mnclab.show.plot.side_by_side import area, evenly, hatch, hatched
 from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
@@ -88,7 +89,7 @@ def panels(
         row, column = divmod(k, count)
         x, y = LEFT + column * (wide + BETWEEN), height - top - (row + 1) * (TITLE + tall) - row * loose
         ax = picture.add_axes((x / width, y / height, wide / width, tall / height))
-        room = int((wide - 0.42) / LETTER)  # beside the number on the right
+        room = int((wide - 0.35) / LETTER)  # beside the number on the right
         said = name if len(name) <= room else name[: max(room - 1, 1)] + "…"
         ax.set_title(said, fontsize=SMALL + 1, loc="left", pad=4, parse_math=False)
         ax.tick_params(labelsize=SMALL, labelleft=not column, labelbottom=k + count >= len(names))
@@ -138,7 +139,7 @@ def _paths(trials: Sequence[Trial], width: float, columns: int | None) -> Pictur
 def draw(ax: Axes, trial: Trial) -> None:
     """One trial in its axes, its greatest engagement above them."""
     most = math.degrees(trial.engagement.most())
-    _beside(ax, f"greatest {most:.0f}°", f"{most:.0f}°")
+    _beside(ax, f"greatest {most:.0f}°", f"≤ {most:.0f}°")
     area(ax, trial.region, facecolor=looks.RAW, edgecolor="none", zorder=1.0)
     area(ax, trial.before, facecolor=BEFORE, edgecolor="none", zorder=1.1)
     area(ax, trial.region, facecolor="none", edgecolor=colours.INK, linewidth=1.0, zorder=1.2)
@@ -146,7 +147,7 @@ def draw(ax: Axes, trial: Trial) -> None:
     found = trial.engagement
     half = found.step[:, None] / 2 * np.stack([np.cos(found.heading), np.sin(found.heading)], axis=1)
     strokes = np.stack([found.points - 1.05 * half, found.points + 1.05 * half], axis=1)
-    wide = ax.get_position().width * ax.figure.get_figwidth()
+    wide = ax.get_position().width * figure_of(ax).get_figwidth()
     lines = LineCollection(list(strokes), cmap=MAP, norm=NORM, linewidth=min(1.5, 0.65 * wide), capstyle="butt", zorder=2.4)
     lines.set_array(np.degrees(found.angle))
     ax.add_collection(lines)
@@ -156,7 +157,7 @@ def draw(ax: Axes, trial: Trial) -> None:
 
 def _beside(ax: Axes, said: str, short: str) -> None:
     """Words to the right of a name, or where they have no room their number."""
-    wide = ax.get_position().width * ax.figure.get_figwidth()
+    wide = ax.get_position().width * figure_of(ax).get_figwidth()
     ax.set_title(said if wide > ROOMY else short, fontsize=SMALL, loc="right", pad=4, color=colours.INK)
 
 
@@ -176,8 +177,8 @@ LONG = 1000  # samples, from which on a curve is drawn by its least and greatest
 
 def _engagement(trials: Sequence[Trial], width: float, columns: int | None) -> Picture:
     limits = {round(math.degrees(trial.limit), 3): None for trial in trials}
-    curve = {"color": colours.FEED.colour, "linewidth": 0.7}
-    edge = {"color": looks.WRONG, "linewidth": 1.0, "linestyle": (0, (5, 3))}
+    curve: dict[str, Any] = {"color": colours.FEED.colour, "linewidth": 0.7}
+    edge: dict[str, Any] = {"color": looks.WRONG, "linewidth": 1.0, "linestyle": (0, (5, 3))}
     said = f"limit {next(iter(limits)):g}°" if len(limits) == 1 else "limit"
     legend = [Line2D([], [], label="engagement", **curve), Line2D([], [], label=said, **edge)]
     count = columns or evenly(len(trials), 1 + (width > THREE))
@@ -186,7 +187,7 @@ def _engagement(trials: Sequence[Trial], width: float, columns: int | None) -> P
     end = max(float(trial.engagement.way.max(initial=0.0)) for trial in trials) or 1.0
     for ax, trial in zip(axes, trials, strict=True):
         most = math.degrees(trial.engagement.most())
-        _beside(ax, f"greatest {most:.0f}°", f"{most:.0f}°")
+        _beside(ax, f"greatest {most:.0f}°", f"≤ {most:.0f}°")
         calm(ax)
         ax.plot(*envelope(trial.engagement.way, np.degrees(trial.engagement.angle)), **curve)
         ax.axhline(math.degrees(trial.limit), **edge)
@@ -211,14 +212,15 @@ AT_MOST = 12
 
 def _passes(trials: Sequence[Trial], width: float, columns: int | None) -> Picture:
     count = columns or 1 + (width > TWO) + (width > THREE)
+    if len(trials) > 1:  # a row each
+        count = min(count, *(len(trial.clearing.passes) for trial in trials))
     chosen = [_steps(len(trial.clearing.passes), AT_MOST if len(trials) == 1 else count) for trial in trials]
-    alone = len(trials) == 1
-    names = [f"{'' if alone else trial.name + ', '}pass {k}" for trial, each in zip(trials, chosen, strict=True) for k in each]
-    if not alone and any(len(each) < count for each in chosen):
-        count = max(map(len, chosen))
+    names = [f"pass {k}" for each in chosen for k in each]
     legend = [Patch(facecolor=looks.RAW, edgecolor=colours.INK, label="left, mm²"),
               Line2D([], [], color=colours.FEED.colour, linewidth=1.0, label="passes since the picture before")]  # fmt: skip
     picture, axes = _views(trials, names, "what passes leave", width, count, legend)
+    for ax, trial in zip(axes[::count], trials if len(trials) > 1 else ()):
+        ax.set_ylabel(trial.name, fontsize=SMALL, parse_math=False)
     places = iter(axes)
     for trial, each in zip(trials, chosen, strict=True):
         whole = shapely.difference(polygons(trial.region.inset(trial.allowance)), polygons(trial.before))
@@ -263,8 +265,10 @@ def plot_times(found: Mapping[Any, Comparison], width: float = 9.0, columns: int
     tools = list(dict.fromkeys(tool for tool, _ in found))
     strategies = list(dict.fromkeys(trial.name for one in found.values() for trial in one.trials))
     shades = colormaps["tab10"](np.arange(len(strategies)) % 10)
-    looked = {name: {"color": tuple(shade), "marker": SIGNS[k % len(SIGNS)], "markersize": 4.0, "linewidth": 1.1}
-              for k, (name, shade) in enumerate(zip(strategies, shades, strict=True))}  # fmt: skip
+    looked: dict[str, dict[str, Any]] = {
+        name: {"color": tuple(shade), "marker": SIGNS[k % len(SIGNS)], "markersize": 4.0, "linewidth": 1.1}
+        for k, (name, shade) in enumerate(zip(strategies, shades, strict=True))
+    }
     names = [tool if isinstance(tool, str) else f"⌀ {tool:g} mm" for tool in tools]
     legend = [Line2D([], [], label=name, **look) for name, look in looked.items()]
     picture, axes = panels(names, "times", width, columns, 0.8, legend)
