@@ -249,7 +249,7 @@ def pocket_panel(
     names = ("diameter", "share", "limit")
     numbers = {name: number_box(said, place_of(name, value)) for name, (said, value) in zip(names, first.items(), strict=True)}
     kind = ipywidgets.Dropdown(
-        options=list(STRATEGIES), value=choice(strategy, "a strategy", STRATEGIES), description="strategy"
+        options=[(name, name) for name in STRATEGIES], value=choice(strategy, "a strategy", STRATEGIES), description="strategy"
     )
     boxes = {"strategy": kind, **numbers}
     fields = {name: Field(box) for name, box in boxes.items()}
