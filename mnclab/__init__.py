@@ -64,6 +64,7 @@ if TYPE_CHECKING:  # what OPENED says, for editors and for mypy
     from mnclab.lab.forms import compensation_panel as compensation_panel
     from mnclab.lab.forms import form as form
     from mnclab.lab.forms import panel as panel
+    from mnclab.lab.forms import pocket_panel as pocket_panel
     from mnclab.lab.forms import profile_panel as profile_panel
     from mnclab.lab.magic import load_ipython_extension as load_ipython_extension
     from mnclab.show.plot.over_time import plot_profiles as plot_profiles
@@ -78,7 +79,7 @@ OPENED = Shelf("mnclab", "the names that need more than numpy", {
     "mnclab.comparison.strategies": "compare",
     "mnclab.comparison.turning_schemes": "compare as compare_turning",
     "mnclab.lab.editor": "editor",
-    "mnclab.lab.forms": "compensation_panel, form, panel, profile_panel",
+    "mnclab.lab.forms": "compensation_panel, form, panel, pocket_panel, profile_panel",
     "mnclab.lab.magic": "load_ipython_extension",
     "mnclab.show.plot.over_time": "plot_profiles",
     "mnclab.show.plot.side_by_side": "plot_runs",
@@ -121,6 +122,7 @@ strategies = Shelf("mnclab.strategies", "ways to clear an area with a mill; mncl
     "mnclab.machining.milling.entries": "Entry",
     "mnclab.machining.milling.rest": "rest, rest_passes",
     "mnclab.machining.milling.engagement": "engagement, stretches",
+    "mnclab.show.plot.pocketing": "plot_times",
 })  # fmt: skip
 
 schemes = Shelf("mnclab.schemes", "ways to turn, groove and thread; mnclab.compare_turning puts them side by side", {
@@ -179,6 +181,7 @@ __all__ = [
     "part",
     "plot_profiles",
     "plot_runs",
+    "pocket_panel",
     "probing",
     "profile_panel",
     "read",

@@ -265,6 +265,10 @@ class Trial(Tried):
         """
         return program(self.path, control, tool, spindle, decimals)
 
+    def plot(self, kind: str = "paths", **options: Any) -> Picture:
+        """The picture of a comparison, of this trial alone."""
+        return Comparison((self,)).plot(kind, **options)
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Comparison(Table[Trial]):
@@ -273,11 +277,11 @@ class Comparison(Table[Trial]):
     titles: ClassVar = COLUMNS
     trials: tuple[Trial, ...]
 
-    def plot(self, **options: Any) -> Picture:
-        """The paths side by side, coloured by engagement (needs matplotlib)."""
-        from mnclab.show.plot.side_by_side import plot_strategies
+    def plot(self, kind: str = "paths", **options: Any) -> Picture:
+        """Side by side "paths", coloured by engagement, "engagement" along the way, or what "passes" leave (needs matplotlib)."""
+        from mnclab.show.plot.pocketing import plot_strategies
 
-        return plot_strategies(self, **options)
+        return plot_strategies(self, kind, **options)
 
 
 @fitting
@@ -293,7 +297,7 @@ def compare(
     `compare(region, mnclab.Tool(diameter=8), "rings", "spiral", machine="small-mill")`.
 
     `strategies` are names, one after the other or a list: "rings", "spiral", "zigzag", "one way", "trochoidal",
-    "adaptive", "rounded rings", "rounded zigzag" (None: all of `mnclab.strategies.STRATEGIES`), or a mapping from names to a
+    "adaptive", "peeling", "rounded rings", "rounded zigzag" (None: all of `mnclab.strategies.STRATEGIES`), or a mapping from names to a
     strategy, a `Clearing`, or a function of region, tool radius and stepover. With a `coarse` tool, which has been there before,
     there is also "fine", what this one has to do after it; the others do everything with the one tool.
 

@@ -196,12 +196,31 @@ def test_a_profile_begins_as_it_was_planned_though_its_axes_differ():
     assert live.profile.time > profile.time and live.profile.limits.acceleration == 200
 
 
+def test_a_pocket_follows_its_strategy_and_its_tool():
+    live = mnclab.pocket_panel(diameter=8, share=0.4)
+    live.boxes["strategy"].value = "zigzag"
+    assert "zigzag" in live.alarms.value and live.trial.name == "zigzag"
+    live.boxes["diameter"].value = 10.0
+    assert live.trial.clearing.radius == 5 and np.degrees(live.trial.limit) == pytest.approx(90)
+    wrong = (("share", -1.0, "greater than 0"), ("diameter", 90.0, "does not fit"), ("limit", 999.0, "at most 360"))
+    for name, value, says in wrong:
+        before = live.boxes[name].value
+        live.boxes[name].value = value
+        assert says in live.fields[name].fault.value and "last good picture" in live.picture.value
+        live.boxes[name].value = before
+        assert not live.fields[name].fault.value and "last good picture" not in live.picture.value
+
+
 @pytest.mark.parametrize(
     ("made", "says"),
     [
         (lambda: mnclab.profile_panel(square(40).profile(), foo=1), "no option foo"),
         (lambda: mnclab.compensation_panel(square(40), radius=5), "no option radius"),
         (lambda: mnclab.panel("G0 X{x}\n", "foo", x=5), "no control 'foo'"),
+        (lambda: mnclab.pocket_panel(3), "on a Region"),
+        (lambda: mnclab.pocket_panel(strategy="ring"), "strategy must be"),
+        (lambda: mnclab.pocket_panel(foo=1), "no option 'foo'"),
+        (lambda: mnclab.pocket_panel(stepover=2), "boxes in place of stepover"),
     ],
 )
 def test_what_no_box_can_mend_is_refused_at_once(made, says):
@@ -219,6 +238,7 @@ def test_what_no_box_can_mend_is_refused_at_once(made, says):
         lambda: mnclab.panel(TEMPLATE, "mnc", side=40.0, feed=100),
         lambda: mnclab.compensation_panel(square(40)),
         lambda: mnclab.profile_panel(square(40).profile()),
+        lambda: mnclab.pocket_panel(),
         lambda: mnclab.editor("data/programs/mnc/square.mnc"),
     ],
 )

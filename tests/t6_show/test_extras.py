@@ -56,14 +56,15 @@ def test_pictures_name_matplotlib(run, tmp_path, without, door):
     assert not [path for path in tmp_path.iterdir() if path.suffix != ".mnc"]
 
 
-@pytest.mark.parametrize("door", [*BOXES, "compensation_panel", "profile_panel"])
+@pytest.mark.parametrize("door", [*BOXES, "compensation_panel", "profile_panel", "pocket_panel"])
 def test_boxes_name_ipywidgets(run, tmp_path, without, door):
     without("ipywidgets", "matplotlib")
     with pytest.raises(Alarm) as caught:
         if door in BOXES:
             PICTURES[door](run, tmp_path)
         else:
-            getattr(mnclab, door)(run if door == "compensation_panel" else run.profile())
+            given = {"compensation_panel": run, "profile_panel": run.profile()}
+            getattr(mnclab, door)(given.get(door))
     assert "ipywidgets" in caught.value.message and LAB in caught.value.hint
 
 

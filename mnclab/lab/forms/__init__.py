@@ -7,4 +7,5 @@ when it appears. ipywidgets is imported inside the functions that use it.
 from mnclab.lab.forms.cycle_form import form as form
 from mnclab.lab.forms.panels import compensation_panel as compensation_panel
 from mnclab.lab.forms.panels import panel as panel
+from mnclab.lab.forms.panels import pocket_panel as pocket_panel
 from mnclab.lab.forms.panels import profile_panel as profile_panel

@@ -12,14 +12,17 @@ import numpy as np
 
 from mnclab.controls.choice import choose
 from mnclab.controls.choice import run as run_text
+from mnclab.geometry.contours import Contour, rectangle
+from mnclab.geometry.regions import Region
 from mnclab.lab.forms.fields import ORDERS, Field, Number, NumberField, number_box, place_of, slider_of
-from mnclab.lab.forms.live import SIZE, NewPicture, following, of_run
+from mnclab.lab.forms.live import SIZE, NewPicture, cell, following, of_run
 from mnclab.machine import trial
 from mnclab.machine.setup import Setup
+from mnclab.machining.milling.strategies import STRATEGIES
 from mnclab.path.profile import Profile
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm, hint
-from mnclab.text.given import fitting, shown
+from mnclab.text.given import check_number, choice, fitting, shown
 from mnclab.text.opening import require
 
 PLACE = re.compile(r"\{(\w+)\}")
@@ -214,6 +217,61 @@ def profile_panel(profile: Profile | Run, **options: Any) -> Any:
 
     rows = ipywidgets.VBox([field.row for field in fields.values()])
     return following(boxes, fields, rows, work, field_of, title="feed-rate profile", classes="mnclab-panel")
+
+
+# One way to clear a pocket, which follows the tool and the stepover.
+
+POCKET_WIDTH = 5.2  # inches, the width of the picture
+
+
+@fitting
+def pocket_panel(
+    region: Region | None = None, strategy: str = "rings", *, diameter: float = 8.0, share: float = 0.4, limit: float = 90.0,
+    **options: Any,
+) -> Any:  # fmt: skip
+    """A choice of the strategy and boxes for the tool, with its way on an area and what comes of it following.
+
+    `diameter` of the tool in mm, `share` that the stepover is of it, `limit` of the engagement in degrees; without a `region`
+    the area is a pocket of 60 by 40 mm with a round island. `options` are those of `compare`, such as feed and machine.
+    The result has `boxes` ("strategy", "diameter", "share", "limit") and `trial`, the last one.
+    """
+    require("ipywidgets", "forms")
+    require("matplotlib", "pictures")
+    import ipywidgets
+
+    from mnclab.comparison.strategies import compare
+
+    for name in ("strategies", "tool", "stepover", "overlap"):
+        if name in options:
+            raise Alarm(f"a pocket panel has boxes in place of {name}", hint="pocket_panel(diameter=8, share=0.4)")
+    pocket = Region.of(rectangle(60, 40, 6), holes=[Contour.circle((12, 2), 7)]) if region is None else region
+    first = {"tool diameter [mm]": diameter, "stepover [share of it]": share, "limit [°]": limit}
+    names = ("diameter", "share", "limit")
+    numbers = {name: number_box(said, place_of(name, value)) for name, (said, value) in zip(names, first.items(), strict=True)}
+    kind = ipywidgets.Dropdown(
+        options=[(name, name) for name in STRATEGIES], value=choice(strategy, "a strategy", STRATEGIES), description="strategy"
+    )
+    boxes = {"strategy": kind, **numbers}
+    fields = {name: Field(box) for name, box in boxes.items()}
+    compare(pocket, 1e-3 + diameter / 2, (), **options)  # what no box can mend is refused at once
+
+    def work(live: Any) -> NewPicture:
+        live.alarms.value = '<div role="status">working…</div>'
+        for name in names:
+            check_number(numbers[name].value, name, above=0 if name != "limit" else None)
+        wide = numbers["diameter"].value
+        step = {"stepover": wide * numbers["share"].value, "limit": numbers["limit"].value}
+        found = compare(pocket, wide / 2, kind.value, **step, **options)
+        live.trial = found[0]
+        lines = "".join(f"<tr>{cell(said)}{cell(text)}</tr>" for said, text in zip(found.head, found.texts()[0], strict=True))
+        return NewPicture(lambda **_: found.plot(width=POCKET_WIDTH), f'<table role="status">{lines}</table>')
+
+    def field_of(alarm: Alarm) -> str:
+        words = {"stepover": "share", "radius": "diameter", "too large": "diameter"} | {name: name for name in boxes}
+        return next((name for said, name in words.items() if said in alarm.message), "")
+
+    rows = ipywidgets.VBox([field.row for field in fields.values()])
+    return following(boxes, fields, rows, work, field_of, title="pocket", classes="mnclab-panel")
 
 
 def refuse_unknown(options: dict[str, Any], plot: Any) -> None:

@@ -13,7 +13,7 @@ from typing import Any
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, left_over, long_axes, polygons
-from mnclab.machining.milling.adaptive import adaptive
+from mnclab.machining.milling.adaptive import adaptive, peeling
 from mnclab.machining.milling.clearing import EXACT, NOWHERE, Clearing, NoRoom, Piece, begin, links, numbered
 from mnclab.machining.milling.lines import one_way, zigzag
 from mnclab.machining.milling.rings import rings
@@ -26,9 +26,9 @@ from mnclab.text.given import shown
 
 STRATEGIES: dict[str, Callable[..., Clearing]] = {
     "rings": rings, "spiral": spiral, "zigzag": zigzag, "one way": one_way, "trochoidal": trochoidal,
-    "adaptive": adaptive, "rounded rings": rounded_rings, "rounded zigzag": rounded_zigzag,
+    "adaptive": adaptive, "peeling": peeling, "rounded rings": rounded_rings, "rounded zigzag": rounded_zigzag,
 }  # fmt: skip
-TANGENT = ("rounded rings", "rounded zigzag", "adaptive")  # a straight link to what they leave would make corners: lifts
+TANGENT = ("rounded rings", "rounded zigzag", "adaptive", "peeling")  # a straight link to what they leave would make corners: lifts
 LEAST = 1e-3  # of the tool radius: what is narrower and still stands counts as nothing
 ROUNDS = 4
 

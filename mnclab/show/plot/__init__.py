@@ -6,12 +6,12 @@ the tool and the ghost of a former path too), `strokes` are its points, `classes
 where texts, symbols and arrowheads have room, `datums` the crosses at zero points and poles; `compensation` is the contour
 and the tool centre beside it, `equidistant` one view of that; `part` is what is left of a blank, of a lathe the half section,
 `sections` cut faces; `profile` is the feed over time, `over_time` what else goes with time, `measured` what a probe found,
-`probed` the part behind it; `side_by_side` compared ways of clearing an area, runs, and one path over another. `overlay` says
-how an idea is drawn over a path: centres of arcs, polar rays; the `original` of what is turned, `holes`. Pictures of one idea
-each are `set_up` (the blank, the zero points, the lengths of tools), `turning_schemes` and the `face` of a lathe's part. The
-only folder that imports matplotlib, and of that never `pyplot`: figures are plain objects, so that they can be drawn in any
-thread. A new picture is a file here, takes `ax=None` and draws with `colours`; it may import every floor but `machine` and
-`controls`.
+`probed` the part behind it; `side_by_side` areas, runs, and one path over another, `pocketing` compared ways of clearing an
+area. `overlay` says how an idea is drawn over a path: centres of arcs, polar rays; the `original` of what is turned, `holes`.
+Pictures of one idea each are `set_up` (the blank, the zero points, the lengths of tools), `turning_schemes` and the `face` of
+a lathe's part. The only folder that imports matplotlib, and of that never `pyplot`: figures are plain objects, so that they
+can be drawn in any thread. A new picture is a file here, takes `ax=None` and draws with `colours`; it may import every floor
+but `machine` and `controls`.
 """
 
 from mnclab.text.opening import require

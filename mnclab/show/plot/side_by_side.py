@@ -1,4 +1,4 @@
-"""Side by side at one scale: strategies with the engagement of the tool and what it leaves, areas and what comes of them."""
+"""Side by side at one scale: trials, areas and what comes of them, runs, and one path over another."""
 
 from __future__ import annotations
 
@@ -7,16 +7,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib import colormaps
 from matplotlib.axes import Axes
-from matplotlib.cm import ScalarMappable
-from matplotlib.collections import LineCollection
-from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, PathPatch
 from numpy.typing import NDArray
 
-from mnclab.comparison.strategies import Comparison, Trial
 from mnclab.geometry.regions import Region
 from mnclab.path.toolpath import Array, Kind, Toolpath
 from mnclab.show import looks
@@ -70,58 +65,9 @@ def side_by_side(
     return picture, axes
 
 
-# Strategies side by side: the way of the tool coloured by its engagement, what it leaves hatched, entries marked.
+# What is hatched in pictures of trials, and areas with their holes.
 
-ENTRY = Mark("entry", colours.INK, "v", 5, False, 4.0)
-REST, CORNER, BEFORE = looks.WRONG, looks.GREY, "#dbe4ea"
-STEPS = tuple(range(0, 181, 20))  # degrees, limits of the colours
-NORM = BoundaryNorm(STEPS, len(STEPS) - 1)
-#: From pale to dark and red: the harder the tool works, the darker, in grey print too.
-MAP = ListedColormap(colormaps["inferno_r"](np.linspace(0.22, 0.92, len(STEPS) - 1)))
-GAP, SCALE_ROOM, TOP = 0.55, 0.62, 0.36  # inches
-
-
-@sized()
-def plot_strategies(found: Comparison | Trial, width: float = 9.0, columns: int | None = None) -> Picture:
-    """One view of each trial, all at one scale, with one scale of colours below; `width` of the picture in inches."""
-    trials = found.trials if isinstance(found, Comparison) else (found,)
-    if not trials:
-        raise ValueError("there is nothing to draw: no strategy was compared")
-    bounds = np.array([loop.bounds for loop in trials[0].region.loops])
-    low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
-    margin = 0.04 * float((high - low).max())
-    low, high = low - margin, high + margin
-    wide, tall = high - low
-    count = columns or min(len(trials), max(1, min(3, round(2.4 / math.sqrt(wide / tall)) + (len(trials) > 4))))
-    picture, axes = side_by_side(
-        [trial.name for trial in trials], "XY", low, high, what="strategies", columns=count, width=width, top=TOP, gap=GAP,
-        bottom=GAP + SCALE_ROOM,
-    )  # fmt: skip
-    for ax, trial in zip(axes, trials):
-        draw(ax, trial)
-    _scale(picture, *picture.get_size_inches().tolist())
-    before = [Patch(facecolor=BEFORE, edgecolor="none", label="cleared by the coarse tool")]
-    narrow = "too narrow for the tool" if any(trial.corners.loops for trial in trials) else ""
-    cleared = before if any(trial.before.loops for trial in trials) else []
-    write_legend(picture, [Line2D([], [], **ENTRY.style()), *cleared, *hatched(trials, narrow)])
-    return picture
-
-
-def draw(ax: Axes, trial: Trial) -> None:
-    """One trial in its axes, its greatest engagement above them."""
-    most = math.degrees(trial.engagement.most())
-    ax.set_title(f"greatest {most:.0f}°", fontsize=SMALL, loc="right", pad=4, color=colours.INK)
-    area(ax, trial.region, facecolor=looks.RAW, edgecolor="none", zorder=1.0)
-    area(ax, trial.before, facecolor=BEFORE, edgecolor="none", zorder=1.1)
-    area(ax, trial.region, facecolor="none", edgecolor=colours.INK, linewidth=1.0, zorder=1.2)
-    hatch(ax, trial.rest, trial.corners)
-    found = trial.engagement
-    half = found.step[:, None] / 2 * np.stack([np.cos(found.heading), np.sin(found.heading)], axis=1)
-    strokes = np.stack([found.points - 1.05 * half, found.points + 1.05 * half], axis=1)
-    lines = LineCollection(list(strokes), cmap=MAP, norm=NORM, linewidth=1.5, capstyle="butt", zorder=2.4)
-    lines.set_array(np.degrees(found.angle))
-    ax.add_collection(lines)
-    ax.add_line(Line2D(*trial.entries.T, **ENTRY.style()))
+REST, CORNER = looks.WRONG, looks.GREY
 
 
 def area(ax: Axes, region: Region, **look: Any) -> None:
@@ -141,15 +87,6 @@ def hatched(trials: Sequence[Any], beyond: str) -> list[Any]:
     kinds = [(REST, "xxxx", "left standing")] if any(trial.rest.loops for trial in trials) else []
     kinds += [(CORNER, "////", beyond)] if beyond else []
     return [Patch(facecolor="none", edgecolor=edge, hatch=hatch, label=label) for edge, hatch, label in kinds]
-
-
-def _scale(picture: Picture, width: float, total: float) -> None:
-    long = min(4.2, width - 1.2)
-    ax = picture.add_axes(((width - long) / 2 / width, 0.36 / total, long / width, 0.11 / total))
-    bar = picture.colorbar(ScalarMappable(NORM, MAP), cax=ax, orientation="horizontal", ticks=STEPS)
-    bar.ax.tick_params(labelsize=SMALL, length=2)
-    bar.set_label("engagement, degrees", fontsize=SMALL, labelpad=1)
-    bar.outline.set_visible(False)
 
 
 # Areas side by side at one scale, such as the two sides of a set operation and what comes of it.
@@ -175,8 +112,8 @@ def plot_regions(
     margin = 0.06 * float((high - low).max())
     names = [f"{name}: {one.area:.1f} mm²" for name, one in regions.items()]
     picture, axes = side_by_side(
-        names, "XY", low - margin, high + margin, what="regions", columns=columns or _columns(len(regions)), width=width,
-        top=AREA_TOP, gap=AREA_GAP, bottom=BELOW,
+        names, "XY", low - margin, high + margin, what="regions", width=width,
+        columns=columns or evenly(len(regions), MOST_COLUMNS), top=AREA_TOP, gap=AREA_GAP, bottom=BELOW,
     )  # fmt: skip
     for ax, one in zip(axes, regions.values(), strict=True):
         area(ax, one, facecolor="#cfe0f1", edgecolor="none", zorder=1.0)
@@ -188,10 +125,9 @@ def plot_regions(
     return picture
 
 
-def _columns(count: int) -> int:
-    """As few rows as four columns allow, filled as evenly as they can be."""
-    rows = math.ceil(count / MOST_COLUMNS)
-    return math.ceil(count / rows)
+def evenly(count: int, most: int) -> int:
+    """How many columns, at most so many: as few rows as they allow, filled as evenly as they can be."""
+    return math.ceil(count / math.ceil(count / most))
 
 
 # Several runs in one figure: side by side at one scale, or one path over the other.

@@ -143,6 +143,7 @@ def _fitted(figure: AnyFigure, asked: Room, draw: Callable[[Room], AnyFigure]) -
     if more > 1:
         figure = draw(asked._replace(width=asked.width * more, height=height))
         width, height = figure.get_size_inches().tolist()
+        more = max(more, height / asked.height if asked.height else 1.0)  # what is wider may be higher, too
     wide, tall = asked.width * more, asked.height * more if asked.height else height
     reframe(figure, (width - wide) / 2, (height - tall) / 2, wide, tall)
     return figure, 1 / more
