@@ -69,7 +69,7 @@ def limits_hold(cycle: type[Cycle], p: Parameter, unit: str) -> None:
         assert refusals(klartext(cycle, p, beyond, unit), p) == [written(beyond)]
 
 
-@each_limit(TNC, ["INCH"])
+@each_limit(TNC, ["INCH"], deep_but_one_in=4)
 def test_every_limit_of_the_tnc_620(cycle: type[Cycle], p: Parameter, unit: str) -> None:
     limits_hold(cycle, p, unit)
 
