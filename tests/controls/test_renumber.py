@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tools.together import deep_but_one_in
 from hypothesis import given
 from hypothesis import strategies as st
+from tools.together import deep_but_one_in
 
 import mnclab
 from mnclab import Alarm

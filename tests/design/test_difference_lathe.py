@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from tools.together import deep_but_one_in
 from design.turned_designs import shaft
 from t3_workpiece.lathe import BAR, NOSED, SHARP, cutting, turned
+from tools.together import deep_but_one_in
 
 from mnclab.design.model import Bore, Design, Face, RingGroove, Thread, TurnedDesign
 from mnclab.path.tool import Tool

@@ -5,9 +5,9 @@ from time import process_time
 
 import numpy as np
 import pytest
-from tools.together import deep_but_one_in
 from design.drawn import plate, shaft
 from shapely import LineString, Polygon, STRtree
+from tools.together import deep_but_one_in
 
 from mnclab.design.drawing.drawing import draw
 from mnclab.design.drawing.ink import value_block

@@ -25,7 +25,7 @@ def together(
 
     `group` and `name` say of the values of a case to which group it belongs and what it is called; without `name` it is
     called by its values. Of n = `deep_but_one_in` cases of a group one is in the fast part, in each group another one of them;
-    the others are a test case of their own, which is deep. What else the test takes are fixtures: all cases of a group share them.
+    the others are a test case of their own, which is deep. What else the test takes are fixtures, shared by a group.
     """
     keys = names.split()
     groups: dict[str, list[tuple[Any, ...]]] = {}
