@@ -39,7 +39,8 @@ def each_limit(control: mnc.machine.control.Control, units: list[str], **share: 
         for unit in units for cycle in dict.fromkeys(control.cycles.values()) for p in cycle.parameters()
         if p.in_units and limits(p) and not p.mark
     ]  # fmt: skip
-    return together("unit cycle p", cases, lambda unit, cycle, p: f"{unit} {cycle.code}", lambda unit, cycle, p: p.address, **share)
+    group = lambda unit, cycle, p: f"{unit} {cycle.code}"  # noqa: E731
+    return together("unit cycle p", cases, group, lambda unit, cycle, p: p.address, **share)
 
 
 def refusals(run: mnc.Run, p: Parameter) -> list[str]:
