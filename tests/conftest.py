@@ -35,8 +35,13 @@ def pytest_addoption(parser):
 
 
 def pytest_ignore_collect(collection_path, config):
-    """Of `-m deep` and its like only those files are imported that say so: most do not, and importing all takes a while."""
+    """Of `-m deep` and its like only those files are imported that say so: most do not, and importing all takes a while.
+
+    For the same reason the folders of the browser and of time are passed over where neither is wanted.
+    """
     mark = config.option.markexpr
+    if collection_path.name in ("browser", "benchmarks") and "not browser" in mark and "not benchmark" in mark:
+        return True
     if mark not in ("deep", "browser", "benchmark") or not collection_path.match("test_*.py"):
         return None
     return mark not in collection_path.parts and mark not in collection_path.read_text(encoding="utf-8") or None

@@ -10,7 +10,6 @@ import time
 import urllib.request
 from pathlib import Path
 
-import nbformat
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -30,7 +29,7 @@ SHUT_DOWN = "() => window.jupyterapp.serviceManager.sessions.shutdownAll()"
 def pytest_collection_modifyitems(items):
     """Mark every test of this folder, so that only `-m browser` runs it."""
     for item in items:
-        if Path(__file__).parent in item.path.parents:
+        if item.nodeid.startswith("tests/browser/"):
             item.add_marker(pytest.mark.browser)
 
 
@@ -125,6 +124,8 @@ def run_notebook(lab, browser):
 @pytest.fixture
 def run_cells(lab, run_notebook):
     """run_cells(source, ...) does the same with a new notebook of these cells."""
+    import nbformat  # here, as it takes seconds, and every run of the tests reads this file
+
     _, folder = lab
 
     def run(*sources):

@@ -32,14 +32,15 @@ def limits(p: Parameter) -> list[tuple[float, float]]:
     return found + [(limit - sign * STEP, limit) for limit, sign in ((p.above, -1), (p.below, 1)) if limit is not None]
 
 
-def each_limit(control: mnc.machine.control.Control, units: list[str]) -> Any:
+def each_limit(control: mnc.machine.control.Control, units: list[str], **share: int) -> Any:
     """A test of a parameter in a unit: a case a cycle and unit, which lists every address that fails."""
     cases = [
         (unit, cycle, p)
         for unit in units for cycle in dict.fromkeys(control.cycles.values()) for p in cycle.parameters()
         if p.in_units and limits(p) and not p.mark
     ]  # fmt: skip
-    return together("unit cycle p", cases, lambda unit, cycle, p: f"{unit} {cycle.code}", lambda unit, cycle, p: p.address)
+    group = lambda unit, cycle, p: f"{unit} {cycle.code}"  # noqa: E731
+    return together("unit cycle p", cases, group, lambda unit, cycle, p: p.address, **share)
 
 
 def refusals(run: mnc.Run, p: Parameter) -> list[str]:
@@ -69,7 +70,7 @@ def limits_hold(cycle: type[Cycle], p: Parameter, unit: str) -> None:
         assert refusals(klartext(cycle, p, beyond, unit), p) == [written(beyond)]
 
 
-@each_limit(TNC, ["INCH"])
+@each_limit(TNC, ["INCH"], deep_but_one_in=4)
 def test_every_limit_of_the_tnc_620(cycle: type[Cycle], p: Parameter, unit: str) -> None:
     limits_hold(cycle, p, unit)
 

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from tools.together import deep_but_one_in
 
 import mnclab
 from mnclab.runs.explanation import _meaning
@@ -84,9 +85,10 @@ def test_a_refused_block_shows_its_alarm():
 
 
 ROOT = Path(__file__).parent.parent.parent
+SAMPLES = sorted((ROOT / "data" / "programs").rglob("*.*"))
 
 
-@pytest.mark.parametrize("file", sorted((ROOT / "data" / "programs").rglob("*.*")), ids=lambda file: file.name)
+@pytest.mark.parametrize("file", deep_but_one_in(3, SAMPLES), ids=lambda file: file.name)
 def test_every_block_of_the_samples_can_be_explained(file):
     run = mnclab.run(file)
     for step in range(min(len(run.steps.block), 60)):
@@ -219,7 +221,7 @@ def test_x_of_a_lathe_is_a_diameter_or_a_radius(diameter, word):
 ENDS = ("G0", "G1", "G2", "G3", "L", "C", "CR", "CT")  # functions whose X Y Z are the end of the block
 
 
-@pytest.mark.parametrize("file", sorted((ROOT / "data" / "programs").rglob("*.*")), ids=lambda file: file.name)
+@pytest.mark.parametrize("file", deep_but_one_in(3, SAMPLES), ids=lambda file: file.name)
 def test_explanations_of_the_samples_fit_what_the_block_did(file):
     """An axis word that is called a coordinate is where the block ended; an increment is how far it went."""
     run = mnclab.run(file)

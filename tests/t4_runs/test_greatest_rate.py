@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from tools.together import deep_but_one_in
 
 import mnclab
 from mnclab import Limits, Setup, Tool
@@ -101,16 +102,17 @@ def test_half_the_width():
     assert milled("G0 Y20 Z-4", "G1 X110 F200").rate[1] == pytest.approx(4000, rel=0.01)
 
 
-@pytest.mark.parametrize("step", [5, 1, 0.2, 0.1, 0.05])
+@pytest.mark.parametrize("step", [5, 1, 0.2, *deep_but_one_in(2, [0.1, 0.05])])
 def test_short_rows_in_a_slot(step):
     """10 · 4 · 200 however short its rows are: pieces of way shorter than a few cells are counted too roughly to be a rate."""
     rows = [f"X{x / 1000:.3f}" for x in range(20000, 40001, round(step * 1000))]
     assert milled("G0 Z-4", "G1 F200 X19", *rows).rate[1] == pytest.approx(8000, rel=0.03)
 
 
-def test_a_row_with_air_after_many_rows():
-    """3,200 rows 1 mm deep beside it leave the slot 10 · 4 · 200, in the 100 mm of a row of 120."""
-    rows = [f"X{5 + x / 50:.2f}" for x in range(3200)]
+@pytest.mark.parametrize("count", deep_but_one_in(2, [600, 3200]))
+def test_a_row_with_air_after_many_rows(count):
+    """So many rows 1 mm deep beside it leave the slot 10 · 4 · 200, in the 100 mm of a row of 120."""
+    rows = [f"X{5 + x / 50:.2f}" for x in range(count)]
     before = ["G0 Y-14 Z-1", "G1 X4 F200", *rows, "G0 Z5", "G0 X-10 Y5", "G0 Z-4"]
     assert milled(*before, "G1 X110").rate[1] == pytest.approx(8000, rel=0.03)
 

@@ -81,14 +81,14 @@ def layers(rng):
 
 
 @pytest.mark.parametrize("kind", MILLS)
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", range(1))
 def test_random_layers(kind, seed):
     checked(milled(layers(random.Random(f"{kind} {seed}")), MILLS[kind]), 2)
 
 
 @pytest.mark.deep
 @pytest.mark.parametrize("kind", MILLS)
-@pytest.mark.parametrize("seed", range(2, 20))
+@pytest.mark.parametrize("seed", range(1, 20))
 def test_more_random_layers(kind, seed):
     rng = random.Random(f"{kind} {seed}")
     checked(milled(layers(rng), MILLS[kind], FAST if seed % 2 else Limits()), 2)

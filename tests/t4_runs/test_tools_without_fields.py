@@ -10,6 +10,7 @@ from math import cos, pi, radians, sqrt, tan
 import numpy as np
 import pytest
 import shapely
+from tools.together import deep_but_one_in
 
 import mnclab
 from mnclab import Setup, Tool
@@ -56,7 +57,7 @@ def test_a_lathe_tool_turns_its_radius_or_says_that_it_has_no_edge(kind):
 
 
 @pytest.mark.parametrize("control", ["mnc", "jnc-t01"])
-@pytest.mark.parametrize("kind", ROUND)
+@pytest.mark.parametrize("kind", deep_but_one_in(3, ROUND))
 def test_what_turns_about_its_own_axis_cuts_its_hole_or_says_that_it_has_no_radius(kind, control):
     """Down to 15 mm: a cylinder, less what the point, 118 or 90 degrees where none is given, or the corner leaves."""
     lathe = control == "jnc-t01"

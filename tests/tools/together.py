@@ -11,11 +11,21 @@ import pytest
 FAILED = (Exception, pytest.fail.Exception)
 
 
-def together(names: str, cases: Iterable[Any], group: Callable[..., str], name: Callable[..., str] | None = None) -> Any:
+def deep_but_one_in(n: int, cases: Iterable[Any]) -> list[Any]:
+    """Cases for `parametrize`: the first of every n stays in the fast part, the others are deep."""
+    values = [case if isinstance(case, tuple) else (case,) for case in cases]
+    return [pytest.param(*each, marks=pytest.mark.deep if k % n else ()) for k, each in enumerate(values)]
+
+
+def together(
+    names: str, cases: Iterable[Any], group: Callable[..., str], name: Callable[..., str] | None = None,
+    deep_but_one_in: int = 1,
+) -> Any:  # fmt: skip
     """Like `parametrize(names, cases)`, but all cases of a group are one test case.
 
     `group` and `name` say of the values of a case to which group it belongs and what it is called; without `name` it is
-    called by its values. What else the test takes are fixtures: all cases of a group share them.
+    called by its values. Of n = `deep_but_one_in` cases of a group one is in the fast part, in each group another one of them;
+    the others are a test case of their own, which is deep. What else the test takes are fixtures, shared by a group.
     """
     keys = names.split()
     groups: dict[str, list[tuple[Any, ...]]] = {}
@@ -23,6 +33,14 @@ def together(names: str, cases: Iterable[Any], group: Callable[..., str], name: 
         values = tuple(case) if len(keys) > 1 else (case,)
         groups.setdefault(group(*values), []).append(values)
     assert groups, "no cases"
+    chosen, n = [], deep_but_one_in
+    for k, (called, each) in enumerate(list(groups.items())):
+        first = k % min(n, len(each))
+        groups[called] = each[first::n]
+        chosen.append(called)
+        if rest := [case for i, case in enumerate(each) if i % n != first]:
+            groups[f"rest of {called}"] = rest
+            chosen.append(pytest.param(f"rest of {called}", marks=pytest.mark.deep))
 
     def decorate(test: Callable[..., None]) -> Any:
         @functools.wraps(test)
@@ -40,7 +58,7 @@ def together(names: str, cases: Iterable[Any], group: Callable[..., str], name: 
         takes = [one for one in inspect.signature(test).parameters if one not in keys]
         shown = [inspect.Parameter(one, inspect.Parameter.POSITIONAL_OR_KEYWORD) for one in ("group", *takes)]
         all_of.__signature__ = inspect.Signature(shown)  # what pytest looks fixtures up by
-        return pytest.mark.parametrize("group", groups)(all_of)
+        return pytest.mark.parametrize("group", chosen)(all_of)
 
     return decorate
 

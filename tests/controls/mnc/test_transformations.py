@@ -351,6 +351,7 @@ FRAMES = {  # head, matrix, factor of the tool radius for which the compensated 
 @together(
     "frame record", product(FRAMES, CONTOURS),
     lambda frame, record: f"{frame}, {record['name'].rpartition('_')[0]}", lambda frame, record: record["name"],
+    deep_but_one_in=8,
 )  # fmt: skip
 def test_a_compensated_contour_is_the_image_of_the_recorded_one(frame, record):
     """G41 of a mirrored contour is the mirror image of G41. The tool is not scaled: for the image take a scaled one."""
