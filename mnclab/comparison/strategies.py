@@ -171,7 +171,7 @@ Strategies = Iterable[str] | Mapping[str, str | Clearing | Callable[[Region, flo
 
 FINE = "fine"  # fine roughing, after a coarse tool
 MOST = 100_000  # tool radii, about as long as a way may be
-PLACES = 10  # to a tool radius, at which the engagement is looked at
+PLACES = 10  # to a tool radius, at which the engagement is looked at; twice as many for chips
 
 #: Every column of a comparison: what it is, how it is written, and its value.
 COLUMNS: Titles = {
@@ -296,8 +296,8 @@ def compare(
     """Try strategies on an area with one tool (a `Tool`, or its radius) and put what comes of it side by side:
     `compare(region, mnclab.Tool(diameter=8), "rings", "spiral", machine="small-mill")`.
 
-    `strategies` are names, one after the other or a list: "rings", "spiral", "zigzag", "one way", "trochoidal",
-    "adaptive", "peeling", "rounded rings", "rounded zigzag" (None: all of `mnclab.strategies.STRATEGIES`), or a mapping from names to a
+    `strategies` are names, one after the other or a list: "rings", "spiral", "zigzag", "one way", "trochoidal", "adaptive",
+    "peeling", "rounded rings", "rounded zigzag" (None: all of `mnclab.strategies.STRATEGIES`), or a mapping from names to a
     strategy, a `Clearing`, or a function of region, tool radius and stepover. With a `coarse` tool, which has been there before,
     there is also "fine", what this one has to do after it; the others do everything with the one tool.
 
@@ -351,7 +351,7 @@ def compare(
                 clearing = how if isinstance(how, Clearing) else how(region, radius, stepover)
             path = toolpath(clearing, (-depth,), entry=entry, feed=feed, plunge_feed=plunge_feed, climb=climb)
             moves, counted = level_moves(clearing, entry, depth, climb)
-            found = engagement(moves, radius, spacing=radius / PLACES, stock=stock)
+            found = engagement(moves, radius, spacing=radius / PLACES / (1 if chip is None else 2), stock=stock)
             kept = np.array(counted, dtype=bool)
             found = found.chosen(kept[found.move])
             feeds = np.full(len(found.way), feed)

@@ -14,9 +14,9 @@ from tools.random_regions import random_task
 
 import mnclab
 from mnclab.comparison.strategies import level_moves
-from mnclab.geometry.contours import Contour, rectangle
+from mnclab.geometry.contours import Contour, rectangle, slot
 from mnclab.geometry.regions import Region
-from mnclab.machining.milling.adaptive import adaptive
+from mnclab.machining.milling.adaptive import adaptive, peeling
 from mnclab.machining.milling.clearing import HOPPED, LIFTED, begin, end
 from mnclab.machining.milling.engagement import engagement
 from mnclab.machining.milling.entries import VERTICAL
@@ -228,3 +228,23 @@ def test_random_regions(seed):
     cover = shapely.union_all(shapely.buffer(lines, radius, quad_segs=64))
     reach = room.buffer(radius, quad_segs=64)
     assert reach.difference(cover).area < 3e-4 * reach.area
+
+
+@pytest.mark.parametrize("climb", [True, False])
+def test_a_slot_is_peeled_from_one_end_to_the_other(climb):
+    """Bow after bow goes on along the slot, within the limit, and nothing is left."""
+    region, stepover = Region.of(slot(Contour([(0, 0), (60, 0)], closed=False), 14)), 1.2
+    clearing = peeling(region, R, stepover, climb=climb)
+    found, label = engaged(clearing, climb=climb)
+    limit = math.degrees(math.acos(1 - stepover / R))
+    assert share(found, np.isin(label, ["spiral", "pass"]), limit + 1) < 0.001
+    assert np.degrees(found.angle[np.isin(label, ["wall", "pass"])]).max() < limit + 5
+    bows = [way.point_at([way.length / 2])[0][0] for way, name in zip(clearing.passes, clearing.labels) if name.startswith("pass")]
+    ahead = np.diff([x for x, y in bows if 10 < x < 50 and abs(y) < 3])
+    assert len(ahead) > 20 and (np.all(ahead > 0) or np.all(ahead < 0))
+    cleared = shapely.union_all([line_of(way).buffer(R, quad_segs=64) for way in clearing.passes])
+    assert slot_area(60, 14) - cleared.area == pytest.approx(0, abs=1e-4 * slot_area(60, 14))
+
+
+def slot_area(length, width):
+    return length * width + math.pi * width**2 / 4

@@ -215,7 +215,7 @@ def test_no_chip_is_thicker(entry):
         rows = np.flatnonzero(_at_level(path, -2))
         assert path.lengths[rows].sum() == pytest.approx(trial.engagement.step.sum(), abs=1e-6)
         moves, counted = level_moves(trial.clearing, entry, 2, True)
-        fine = engagement(moves, 5, spacing=0.25)
+        fine = engagement(moves, 5, spacing=0.125)
         fine = fine.chosen(np.array(counted)[fine.move])
         apart = np.cumsum([move.length for move in moves] * ~np.array(counted))
         upto = np.cumsum(path.lengths[rows])

@@ -5,6 +5,7 @@ import pytest
 import mnclab
 from mnclab import Setup, Tool
 from mnclab.runs import card
+from mnclab.runs.card import MOST as CARD
 from mnclab.workpiece.removal import volume
 
 BLANK = ((0, 0, -20), (60, 40, 0))
@@ -34,12 +35,11 @@ def test_without_a_blank_the_card_says_nothing_of_it():
     assert "removed" not in card and "collision" not in card
 
 
-def test_a_long_program_is_not_worked_out(monkeypatch):
-    monkeypatch.setattr(card, "MOST", 100)
-    text = SLOT.replace("G1 X70 F300", "F300\n" + "G1 X20\nG1 X30\n" * 50)
+def test_a_long_program_is_not_worked_out():
+    text = SLOT.replace("G1 X70 F300", "F300\n" + "G1 X20\nG1 X30\n" * (CARD // 2))
     long = run(text, stock=BLANK)
     told = long._repr_html_()
-    assert "removed: not worked out for 103 moves: see run.workpiece(), run.collisions()" in told
+    assert "removed: not worked out for 1003 moves: see run.workpiece(), run.collisions()" in told
     assert long.made == {}
     assert long.outcome().collisions == ()
 

@@ -28,7 +28,7 @@ STRATEGIES: dict[str, Callable[..., Clearing]] = {
     "rings": rings, "spiral": spiral, "zigzag": zigzag, "one way": one_way, "trochoidal": trochoidal,
     "adaptive": adaptive, "peeling": peeling, "rounded rings": rounded_rings, "rounded zigzag": rounded_zigzag,
 }  # fmt: skip
-TANGENT = ("rounded rings", "rounded zigzag", "adaptive", "peeling")  # a straight link to what they leave would make corners: lifts
+TANGENT = ("rounded rings", "rounded zigzag", "adaptive", "peeling")  # a straight link to a rest makes corners: they lift
 LEAST = 1e-3  # of the tool radius: what is narrower and still stands counts as nothing
 ROUNDS = 4
 
