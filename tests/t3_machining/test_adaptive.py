@@ -239,7 +239,7 @@ def test_a_slot_is_peeled_from_one_end_to_the_other(climb):
     limit = math.degrees(math.acos(1 - stepover / R))
     assert share(found, np.isin(label, ["spiral", "pass"]), limit + 1) < 0.001
     assert np.degrees(found.angle[np.isin(label, ["wall", "pass"])]).max() < limit + 5
-    bows = [way.point_at([way.length / 2])[0][0] for way, name in zip(clearing.passes, clearing.labels) if name.startswith("pass")]
+    bows = [way.point_at([way.length / 2])[0][0] for way, k in zip(clearing.passes, clearing.labels) if k.startswith("pass")]
     ahead = np.diff([x for x, y in bows if 10 < x < 50 and abs(y) < 3])
     assert len(ahead) > 20 and (np.all(ahead > 0) or np.all(ahead < 0))
     cleared = shapely.union_all([line_of(way).buffer(R, quad_segs=64) for way in clearing.passes])
