@@ -113,14 +113,15 @@ area = Shelf("mnclab.area", "contours and regions: by numbers, or out of a drawi
 })  # fmt: skip
 
 strategies = Shelf("mnclab.strategies", "ways to clear an area with a mill; mnclab.compare puts them side by side", {
-    "mnclab.machining.milling.strategies": "STRATEGIES, clear",
+    "mnclab.machining.milling.strategies": "STRATEGIES, clear, rest",
+    "mnclab.machining.milling.adaptive": "adaptive, peeling",
     "mnclab.machining.milling.lines": "one_way, zigzag",
     "mnclab.machining.milling.rings": "rings",
     "mnclab.machining.milling.rounded": "rounded_rings, rounded_zigzag",
     "mnclab.machining.milling.spirals": "spiral",
     "mnclab.machining.milling.trochoids": "trochoid, trochoidal",
     "mnclab.machining.milling.entries": "Entry",
-    "mnclab.machining.milling.rest": "rest, rest_passes",
+    "mnclab.machining.milling.rest": "rest_passes",
     "mnclab.machining.milling.engagement": "engagement, stretches",
     "mnclab.show.plot.pocketing": "plot_times",
 })  # fmt: skip

@@ -19,8 +19,8 @@ from mnclab.geometry.sweeps import covered, left_over, polygons
 from mnclab.machining.milling.clearing import HOPPED, NOWHERE, Clearing, begin, end
 from mnclab.machining.milling.engagement import Engagement, engagement
 from mnclab.machining.milling.entries import VERTICAL, Entry, descent, toolpath
-from mnclab.machining.milling.rest import reached, rest, rest_passes
-from mnclab.machining.milling.strategies import STRATEGIES, clear
+from mnclab.machining.milling.rest import left_between, reached, rest_passes
+from mnclab.machining.milling.strategies import STRATEGIES, TANGENT, clear
 from mnclab.path.limits import Limits, limits_of
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
@@ -292,6 +292,7 @@ def compare(
     plunge_feed: float = 150.0, rapid: float = 10000.0, entry: Entry = VERTICAL, climb: bool = True,
     limit: float = 90.0, limits: Limits | str | None = None, machine: Limits | str | None = None,
     coarse: Tool | float | None = None, chip: float | None = None, spindle: float | None = None,
+    stock: Region | None = None, smallest: float | None = None,
 ) -> Comparison:  # fmt: skip
     """Try strategies on an area with one tool (a `Tool`, or its radius) and put what comes of it side by side:
     `compare(region, mnclab.Tool(diameter=8), "rings", "spiral", machine="small-mill")`.
@@ -312,6 +313,10 @@ def compare(
     bound, a cutting row has chip · spindle · teeth / sin φ. Rows are parted where that changes by more than a tenth ("moves"
     counts the parts), entries keep the `plunge_feed`, the limits of the machine hold. `spindle` without a `chip`: how thick chips
     are at the one `feed`. Each trial has `chip` (mm) and `feed` (mm/min), `(n,)` at the n samples of its `engagement`.
+
+    Where a `stock` is given there is material in it alone, the rest of the area is air: sides are open there, and the tool comes
+    in from outside. `mnclab.strategies.rest(region, tool)` is what a tool has left to this one. `smallest` mm is the least radius
+    of the path of the strategies that round their corners (None: a tenth of the tool radius).
 
     The table has `best("time")`, `save("t.csv")` or "t.svg", `to_pandas()`, `plot()`. An Alarm where the tool does not fit.
     """
@@ -338,20 +343,23 @@ def compare(
     stepover = plain(stepover)
     if region.area / stepover / radius > MOST:
         raise Alarm(f"a stepover of {stepover:g} mm is too small for this area: there is no end to such a way")
+    _check_stock(region, stock, strategies, smallest, radius)
+    air = NOWHERE if stock is None else region.difference(stock)
     named = strategies if isinstance(strategies, Mapping) else {name: name for name in strategies}
     trials = []
     with progress("comparing", len(named), "strategies") as done:
         for name, how in named.items():
-            before, stock = NOWHERE, None
+            before, stands = air, stock
             if how == FINE:
-                clearing, before, stock = _fine(region, radius, stepover, _radius(coarse, "the coarse tool"), allowance, climb)
+                clearing, before, stands = _fine(region, radius, stepover, _radius(coarse, "the coarse tool"), allowance, climb)
             elif isinstance(how, str):
-                clearing = clear(how, region, radius, stepover, allowance=allowance, climb=climb)
+                least = {"smallest": plain(smallest)} if smallest is not None and how in TANGENT else {}
+                clearing = clear(how, region, radius, stepover, allowance=allowance, climb=climb, stock=stock, **least)
             else:
                 clearing = how if isinstance(how, Clearing) else how(region, radius, stepover)
             path = toolpath(clearing, (-depth,), entry=entry, feed=feed, plunge_feed=plunge_feed, climb=climb)
             moves, counted = level_moves(clearing, entry, depth, climb)
-            found = engagement(moves, radius, spacing=radius / PLACES / (1 if chip is None else 2), stock=stock)
+            found = engagement(moves, radius, spacing=radius / PLACES / (1 if chip is None else 2), stock=stands)
             kept = np.array(counted, dtype=bool)
             found = found.chosen(kept[found.move])
             feeds = np.full(len(found.way), feed)
@@ -379,7 +387,7 @@ def _fine(
     clearing = rest_passes(region, radius, stepover, coarse, allowance=allowance, climb=climb)
     if not clearing.pieces:
         raise Alarm(f"a coarse tool of radius {coarse:g} leaves nothing to one of {radius:g}", hint="take a larger coarse tool")
-    return clearing, reached(region, coarse, allowance), rest(region, radius, coarse, allowance)
+    return clearing, reached(region, coarse, allowance), left_between(region, radius, coarse, allowance)
 
 
 def _check(region: Region, strategies: Strategies, known: Sequence[str]) -> None:
@@ -395,6 +403,23 @@ def _check(region: Region, strategies: Strategies, known: Sequence[str]) -> None
             if how == FINE and FINE not in known:
                 raise Alarm("the strategy fine needs to know which coarse tool was there before", hint="coarse=10.0, its radius")
             choice(how, "a strategy", known)
+
+
+def _check_stock(region: Region, stock: Any, strategies: Strategies, smallest: Any, radius: float) -> None:
+    ways = list(strategies.values() if isinstance(strategies, Mapping) else strategies)
+    names = {how for how in ways if isinstance(how, str)}
+    if stock is not None:
+        if not isinstance(stock, Region):
+            example = "mnclab.strategies.rest(region, tool): what another tool has left"
+            raise Alarm(f"the stock must be a Region, got {shown(stock)}", hint=example)
+        if not region.intersection(stock).loops:
+            raise Alarm("nothing of the stock lies in the area: there is nothing to clear")
+        if FINE in names:
+            raise Alarm("what stands before fine is what its coarse tool left", hint="a stock or a coarse tool, not both")
+    if smallest is not None:
+        check_number(smallest, "the smallest radius of the path (mm)", above=0, at_most=radius)
+        if not names & set(TANGENT):
+            raise Alarm(f"a smallest radius is one of {', '.join(TANGENT)}: none of them is compared")
 
 
 def _check_numbers(

@@ -9,7 +9,7 @@ from mnclab.geometry.contours import Contour, polygon, rectangle
 from mnclab.geometry.regions import Region
 from mnclab.machining.milling.clearing import begin, end
 from mnclab.machining.milling.entries import Entry, descent
-from mnclab.machining.milling.rest import rest, rest_passes, touching
+from mnclab.machining.milling.rest import left_between, rest_passes, touching
 
 BOX = Region.of(rectangle(100, 60))
 CORNER = 1 - np.pi / 4  # of a square about a disc's quarter, in radii squared
@@ -46,7 +46,7 @@ def links(piece):
 def test_the_neck_of_the_manual():
     """Tool of 15, then of 7.5: one piece in the neck, which is then clear, cut from the side without a plunge."""
     region = dumbbell()
-    left = rest(region, 7.5, 15)
+    left = left_between(region, 7.5, 15)
     assert len(left.parts) == 1 and left.area == pytest.approx(DUMBBELL_REST, abs=1e-3)
     found = rest_passes(region, 7.5, 7.5, 15)
     (piece,) = found.pieces
@@ -57,7 +57,7 @@ def test_the_neck_of_the_manual():
 @pytest.mark.parametrize(("coarse", "allowance"), [(10, 0), (12, 0.5), (15, 1)])
 def test_four_corners(coarse, allowance):
     """In every corner (1 - π/4)·(R_c² - R²) is left; at the walls the allowance."""
-    assert rest(BOX, 5, coarse, allowance).area == pytest.approx(4 * CORNER * (coarse**2 - 25))
+    assert left_between(BOX, 5, coarse, allowance).area == pytest.approx(4 * CORNER * (coarse**2 - 25))
     apart = rest_passes(BOX, 5, 4, coarse, allowance=allowance, connect=False)
     assert len(apart.pieces) == 4 and all(piece.from_side for piece in apart.pieces)
     assert all(piece.linked == (True,) * (len(piece.passes) - 1) for piece in apart.pieces)
@@ -69,7 +69,7 @@ def test_from_corner_to_corner_at_depth():
     joined, apart = (rest_passes(BOX, 5, 4, 12, connect=connect) for connect in (True, False))
     assert len(joined.pieces) == 1 and len(apart.pieces) == 4
     ways = [*links(joined.pieces[0]), *(c for c, name in zip(joined.passes, joined.labels, strict=True) if "way" in name)]
-    (left,) = [area_of(rest(BOX, 5, 12))]
+    (left,) = [area_of(left_between(BOX, 5, 12))]
     for contour in apart.passes:
         assert any(np.array_equal(contour.points, other.points) for other in joined.passes)
     assert swept(ways, 4.9).intersection(left.difference(swept(apart.passes, 5))).area < 1e-3
@@ -78,7 +78,7 @@ def test_from_corner_to_corner_at_depth():
 
 def test_where_the_coarse_tool_does_not_fit_everything_is_left():
     """All is left, all rings are whole, and the first one must be plunged into."""
-    left = rest(BOX, 5, 31)
+    left = left_between(BOX, 5, 31)
     assert left.area == pytest.approx(6000 - 4 * CORNER * 25)
     found = rest_passes(BOX, 5, 5, 31)
     (piece,) = found.pieces
@@ -92,7 +92,7 @@ def test_a_blind_arm_is_entered_from_the_side():
     region = Region.of(Contour.circle((0, 0), 30), Contour([(20, -8), (70, -8), (70, 8), (20, 8)]))
     found = rest_passes(region, 3, 2.5, 10)
     assert all(piece.from_side for piece in found.pieces)
-    left = area_of(rest(region, 3, 10))
+    left = area_of(left_between(region, 3, 10))
     assert left.difference(swept(found.passes, 3 + 1e-3)).area < 1e-3
     piece = found.pieces[0]
     assert not left.buffer(-1e-6).intersects(shapely.Point(*piece.entry).buffer(2.95))
@@ -107,13 +107,13 @@ def test_a_widening_behind_a_neck():
     found = rest_passes(region, 3, 3, 21)
     whole = [contour for contour in found.passes if contour.closed]
     assert whole and all(piece.from_side for piece in found.pieces)
-    assert area_of(rest(region, 3, 21)).difference(swept(found.passes, 3 + 1e-3)).area < 1e-3
+    assert area_of(left_between(region, 3, 21)).difference(swept(found.passes, 3 + 1e-3)).area < 1e-3
 
 
 def test_nothing_is_left():
     round_one = Region.of(Contour.circle((5, 5), 30))
     for region, coarse in ((round_one, 12), (BOX, 5), (BOX, 4)):
-        assert rest(region, 5, coarse).area == pytest.approx(0, abs=1e-6)
+        assert left_between(region, 5, coarse).area == pytest.approx(0, abs=1e-6)
         found = rest_passes(region, 5, 5, coarse)
         assert found.pieces == () and found.passes == () and found.length == 0
 
@@ -148,7 +148,7 @@ def test_inside_corners_are_rounded():
     for piece in found.pieces:
         radii = piece.passes[-1].radii
         assert radii[np.isfinite(radii)] == pytest.approx(2)
-    more = rest(BOX, 5, 12, corner_radius=2).area - rest(BOX, 5, 12).area
+    more = left_between(BOX, 5, 12, corner_radius=2).area - left_between(BOX, 5, 12).area
     assert more == pytest.approx(4 * CORNER * (14**2 - 12**2 - 7**2 + 5**2))
 
 
@@ -178,7 +178,7 @@ def test_random_areas(first):
         region, wall = task.region, task.polygon(1e-3)
         if not region.inset(radius + allowance).loops:
             continue
-        left = rest(region, radius, coarse, allowance)
+        left = left_between(region, radius, coarse, allowance)
         found = rest_passes(region, radius, task.stepover, coarse, allowance=allowance, connect=bool(seed % 3))
 
         def reach(size, more, wall=wall, allowance=allowance):

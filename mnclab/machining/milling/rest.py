@@ -36,7 +36,7 @@ SAMPLES = 32  # to a tool radius, along a pass
 SLACK = 0.01  # of the tool radius that a way through what is cleared may scrape off
 
 
-def rest(
+def left_between(
     region: Region, radius: float, coarse_radius: float, allowance: float = 0.0, *, corner_radius: float = 0.0
 ) -> Region:
     """What a tool of `radius` reaches of an area and one of `coarse_radius` left, as rings clear it; empty if there is nothing.
@@ -67,7 +67,7 @@ def rest_passes(
     Rest that is nowhere thicker than `least` is left. A ValueError where the tool does not fit.
     """
     centres = tool_centres(region, radius, stepover, allowance)
-    left = rest(region, radius, coarse_radius, allowance, corner_radius=corner_radius)
+    left = left_between(region, radius, coarse_radius, allowance, corner_radius=corner_radius)
     plan = _Plan(centres, radius, stepover, connect, _thick(left, least))
     for number, part in enumerate(centres.parts if plan.stands else ()):
         for ring in rings_in_order(part, radius, stepover, corner_radius):

@@ -12,39 +12,45 @@ from typing import Any
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.geometry.sweeps import covered, left_over, long_axes, polygons
+from mnclab.geometry.sweeps import covered, left_over, long_axes, polygons, strip
 from mnclab.machining.milling.adaptive import adaptive, peeling
 from mnclab.machining.milling.clearing import EXACT, NOWHERE, Clearing, NoRoom, Piece, begin, links, numbered
 from mnclab.machining.milling.lines import one_way, zigzag
+from mnclab.machining.milling.rest import reached, touching
 from mnclab.machining.milling.rings import rings
 from mnclab.machining.milling.rounded import rounded_rings, rounded_zigzag
 from mnclab.machining.milling.slots import strokes
 from mnclab.machining.milling.spirals import spiral
 from mnclab.machining.milling.trochoids import trochoidal
+from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import shown
+from mnclab.text.given import check_number, plain, shown
 
 STRATEGIES: dict[str, Callable[..., Clearing]] = {
     "rings": rings, "spiral": spiral, "zigzag": zigzag, "one way": one_way, "trochoidal": trochoidal,
     "adaptive": adaptive, "peeling": peeling, "rounded rings": rounded_rings, "rounded zigzag": rounded_zigzag,
 }  # fmt: skip
 TANGENT = ("rounded rings", "rounded zigzag", "adaptive", "peeling")  # a straight link to a rest makes corners: they lift
+OPEN = ("adaptive", "peeling")  # they know of a stock themselves
 LEAST = 1e-3  # of the tool radius: what is narrower and still stands counts as nothing
 ROUNDS = 4
 
 
 def clear(
     strategy: str, region: Region, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True,
-    complete: bool = True, **more: Any,
+    complete: bool = True, stock: Region | None = None, **more: Any,
 ) -> Clearing:  # fmt: skip
     """`region` cleared by the strategy of this name, and if `complete` what it leaves cleared as well.
 
-    What is exactly as wide as the tool is one stroke along its middle, whatever the strategy: "slot".
+    Where a `stock` is given there is material in it alone: no pass runs farther than a tool diameter from it. What is exactly
+    as wide as the tool is one stroke along its middle, whatever the strategy: "slot".
     """
     if not isinstance(region, Region):
         raise Alarm(f"a strategy clears a Region, got {shown(region)}", hint="mnclab.area.Region.of(a contour)")
     if strategy not in STRATEGIES:
         raise ValueError(f"unknown strategy {strategy!r}; known are {', '.join(STRATEGIES)}")
+    if stock is not None and strategy in OPEN:
+        more["stock"] = stock
     try:
         found = STRATEGIES[strategy](region, radius, stepover, allowance=allowance, climb=climb, **more)
         lines = strokes(region, radius + allowance)
@@ -54,13 +60,51 @@ def clear(
             raise
         found = Clearing(region.inset(radius + allowance - EXACT), (), radius)
     straight = strategy not in TANGENT
-    pieces = [_completed(piece, radius, stepover, straight) if complete else piece for piece in found.pieces]
+    solid = None if stock is None else polygons(stock)
+    pieces = [_completed(piece, radius, stepover, straight, solid) if complete else piece for piece in found.pieces]
     for line, name in zip(lines, numbered("slot", len(lines)), strict=True):
         pieces.append(Piece(NOWHERE, (line,), (), (name,), begin(line)))
+    if stock is not None:
+        pieces = [part for piece in pieces for part in ([piece] if piece.from_cleared else _parted(piece, radius, stock))]
     return replace(found, pieces=tuple(pieces))
 
 
-def _completed(piece: Piece, radius: float, stepover: float, straight: bool) -> Piece:
+def rest(region: Region, tool: Tool | float, before: Region | None = None) -> Region:
+    """What a `tool` (or one of a radius, mm) leaves of an area, or of what stands `before` it: corners and necks.
+
+    It is the `stock` of the tool after it: `mnclab.compare(region, 3.0, stock=mnclab.strategies.rest(region, 8.0))`. Everything
+    where the tool does not fit; empty where it leaves nothing.
+    """
+    for each in (region, *(() if before is None else (before,))):
+        if not isinstance(each, Region):
+            raise Alarm(f"a tool leaves something of a Region, got {shown(each)}", hint="mnclab.area.Region.of(a contour)")
+    radius = plain(tool.effective_radius if isinstance(tool, Tool) else tool)
+    check_number(radius, "the tool (its radius, mm, or a Tool)", above=0)
+    lines = strokes(region, radius)
+    slots = [strip(line, radius) if line.length else Region.of(Contour.circle(line.points[0], radius)) for line in lines]
+    return (region if before is None else region.intersection(before)).without([reached(region, radius), *slots])
+
+
+def _parted(piece: Piece, radius: float, stock: Region) -> list[Piece]:
+    """The passes of a piece where they touch the stock, and a little before and behind, at most a tool diameter from it: a piece
+    for each stretch, but for whole passes that follow one another."""
+    parts: list[Piece] = []
+    whole = -1  # the last pass that is one, and was kept
+    for k, contour in enumerate(piece.passes):
+        for stretch in touching(contour, stock, radius, overlap=0.65 * radius, gap=radius / 2):
+            if stretch is contour and whole == k - 1 and parts:
+                last = parts[-1]
+                last = replace(last, passes=(*last.passes, contour), labels=(*last.labels, piece.labels[k]))
+                parts[-1] = replace(last, linked=(*last.linked, piece.linked[k - 1]))
+            else:
+                free = not stock.contains([begin(stretch)])[0] and float(stock.distance([begin(stretch)])[0]) >= radius
+                place = piece.place if k == 0 and stretch is contour else None
+                parts.append(Piece(piece.centres, (stretch,), (), (piece.labels[k],), place, from_side=bool(free)))
+            whole = k if stretch is contour else -1
+    return parts
+
+
+def _completed(piece: Piece, radius: float, stepover: float, straight: bool, stock: Any = None) -> Piece:
     """A piece with a pass through everything that the tool can reach and has left standing.
 
     Cores and slivers between passes more than a tool radius apart: narrower than the tool, so one pass along them does.
@@ -69,6 +113,7 @@ def _completed(piece: Piece, radius: float, stepover: float, straight: bool) -> 
     if not piece.centres.loops:
         return piece
     reach = polygons(piece.centres).buffer(radius * (1 - LEAST), quad_segs=64)
+    reach = reach if stock is None else reach.intersection(stock)
     cover, extra = covered(piece.passes, radius), []
     for _ in range(ROUNDS):
         new = _through(left_over(reach, cover, LEAST * radius), piece.centres)

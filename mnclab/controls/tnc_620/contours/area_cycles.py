@@ -30,7 +30,7 @@ from mnclab.machine.machine import INF, Machine
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes import drill
 from mnclab.machining.milling.clearing import numbered
-from mnclab.machining.milling.rest import left_by, rest, rest_passes
+from mnclab.machining.milling.rest import left_between, left_by, rest_passes
 from mnclab.machining.milling.rings import rings
 from mnclab.machining.milling.terraces import Terrace, levels, pilot_holes
 from mnclab.machining.steps import Go, Say, Step, Write
@@ -164,7 +164,7 @@ def cut(c: RoughOut, m: Machine, data: ContourData, region: Region) -> Cut:
         if not coarse:
             return Cut(rings(region, radius, stepover, **walls, roomiest_first=True))
         along = c.fine_strategy == 0 and radius >= coarse / 2 - SAME
-        left = rest(region, radius, coarse, data.side_allowance, corner_radius=data.corner)
+        left = left_between(region, radius, coarse, data.side_allowance, corner_radius=data.corner)
         return Cut(rest_passes(region, radius, stepover, coarse, **walls, connect=along), left)
     except ValueError as error:
         hint = "take a smaller tool" if "fit" in str(error) else ""
