@@ -56,6 +56,7 @@ from mnclab.workpiece.workpiece import Workpiece
 if TYPE_CHECKING:  # what OPENED says, for editors and for mypy
     from mnclab.comparison.diff import diff as diff
     from mnclab.comparison.strategies import compare as compare
+    from mnclab.comparison.tool_sets import tool_sets as tool_sets
     from mnclab.comparison.turning_schemes import compare as compare_turning
     from mnclab.controls.cycle_steps import steps as steps
     from mnclab.design.model import Design as Design
@@ -77,6 +78,7 @@ OPENED = Shelf("mnclab", "the names that need more than numpy", {
     "mnclab.controls.cycle_steps": "steps",
     "mnclab.comparison.diff": "diff",
     "mnclab.comparison.strategies": "compare",
+    "mnclab.comparison.tool_sets": "tool_sets",
     "mnclab.comparison.turning_schemes": "compare as compare_turning",
     "mnclab.lab.editor": "editor",
     "mnclab.lab.forms": "compensation_panel, form, panel, pocket_panel, profile_panel",
@@ -191,6 +193,7 @@ __all__ = [
     "schemes",
     "steps",
     "strategies",
+    "tool_sets",
 ]  # without help, which would shadow the one of Python
 
 

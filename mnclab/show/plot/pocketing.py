@@ -19,6 +19,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from mnclab.comparison.strategies import Comparison, Trial
+from mnclab.comparison.tool_sets import ToolSets
 from mnclab.geometry import shapely
 from mnclab.geometry.sweeps import covered, left_over, polygons
 from mnclab.path.toolpath import Array
@@ -284,4 +285,21 @@ def plot_times(found: Mapping[Any, Comparison], width: float = 9.0, columns: int
     for ax in axes:
         ax.set(xlim=(0, 1.08 * far), ylim=(0, 1.08 * reach or 1.0))
     _label(axes, "stepover, mm", "time, s")
+    return picture
+
+
+@sized()
+@fitting
+def plot_tool_sets(found: ToolSets, width: float = 5.0) -> Picture:
+    """The time of every set over how many tools it has; the quickest of each number are joined and named. `width` in inches."""
+    picture, (ax,) = panels(["sets of tools"], "times", width, 1, 0.7, [])
+    calm(ax)
+    counts, times = (np.array(column) for column in zip(*((len(each.tools), each.time) for each in found.trials), strict=True))
+    least = {count: found.trials[int(np.flatnonzero(counts == count)[0])] for count in sorted(set(counts.tolist()))}
+    ax.plot(counts, times, "o", color=colours.INK, markersize=3.5, alpha=0.5)
+    ax.plot(list(least), [each.time for each in least.values()], "o-", color=colours.FEED.colour, markersize=5.0, linewidth=1.1)
+    for count, each in least.items():
+        ax.annotate(each.name, (count, each.time), (0, -10), textcoords="offset points", fontsize=SMALL, ha="center", va="top")
+    ax.set(xlim=(0.5, max(counts) + 0.5), ylim=(0, 1.08 * times.max()), xticks=sorted(least))
+    _label([ax], "how many tools (⌀, mm)", "time, s")
     return picture
