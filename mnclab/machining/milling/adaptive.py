@@ -161,10 +161,11 @@ def _opening(part: Any, centre: Floats, radius: float, phi: float) -> tuple[Cont
     line = shapely.shortest_line(shapely.Point(centre), shapely.boundary(part))
     touched = shapely.get_coordinates(line)[1]
     reach, away = float(line.length), [0.0]
+    least = radius * min(0.05, (1 - math.cos(phi)) / 4)  # wider from half circle to half circle
     away.append(min(reach, greatest_step(np.array(1e-9), radius, phi).item()))
     while away[-1] < reach:
         wider = away[-2] + greatest_step(np.array(max(away[-2], 1e-9)), radius, phi).item()
-        away.append(min(reach, max(wider, away[-1] + 0.05 * radius)))
+        away.append(min(reach, max(wider, away[-1] + least)))
     count = len(away) - 1
     way = through(centre, away, math.atan2(*(touched - centre)[::-1]) - math.pi * count)
     inner = sum(far <= radius for far in away) - 1

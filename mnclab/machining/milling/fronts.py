@@ -155,7 +155,8 @@ class Fronts:
         if self.stock is not None:
             old = _union(old, difference(shapely.envelope(old), self.stock))
         shapely.prepare(old)
-        phi = self.phi - GENTLE * np.clip((1.6 if begun else 1.0) - np.arange(len(b)) * step / self.radius, 0.0, 1.0)
+        gentle = min(GENTLE, self.phi / 5)
+        phi = self.phi - gentle * np.clip((1.6 if begun else 1.0) - np.arange(len(b)) * step / self.radius, 0.0, 1.0)
         for k in range(ROUNDS + 1):
             d = _swept(step, begun, r, self.radius, phi - off, np.minimum(1.15 * far, room))
             p = evened(b + n * d[:, None], 1.0)

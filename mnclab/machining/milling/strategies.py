@@ -11,10 +11,23 @@ from dataclasses import replace
 from typing import Any
 
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.curves import length_of
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, left_over, long_axes, polygons, strip
 from mnclab.machining.milling.adaptive import adaptive, peeling
-from mnclab.machining.milling.clearing import EXACT, NOWHERE, Clearing, NoRoom, Piece, begin, links, numbered
+from mnclab.machining.milling.clearing import (
+    EXACT,
+    LINKED,
+    NOWHERE,
+    SLACK,
+    Clearing,
+    NoRoom,
+    Piece,
+    begin,
+    end,
+    links,
+    numbered,
+)
 from mnclab.machining.milling.lines import one_way, zigzag
 from mnclab.machining.milling.rest import reached, touching
 from mnclab.machining.milling.rings import rings
@@ -87,15 +100,16 @@ def rest(region: Region, tool: Tool | float, before: Region | None = None) -> Re
 
 def _parted(piece: Piece, radius: float, stock: Region) -> list[Piece]:
     """The passes of a piece where they touch the stock, and a little before and behind, at most a tool diameter from it: a piece
-    for each stretch, but for whole passes that follow one another."""
+    for each stretch, but for whole passes that follow one another and those that begin where one ends."""
     parts: list[Piece] = []
     whole = -1  # the last pass that is one, and was kept
     for k, contour in enumerate(piece.passes):
         for stretch in touching(contour, stock, radius, overlap=0.65 * radius, gap=radius / 2):
-            if stretch is contour and whole == k - 1 and parts:
+            follows = stretch is contour and whole == k - 1
+            if parts and (follows or length_of(begin(stretch) - end(parts[-1].passes[-1])) < SLACK):
                 last = parts[-1]
-                last = replace(last, passes=(*last.passes, contour), labels=(*last.labels, piece.labels[k]))
-                parts[-1] = replace(last, linked=(*last.linked, piece.linked[k - 1]))
+                last = replace(last, passes=(*last.passes, stretch), labels=(*last.labels, piece.labels[k]))
+                parts[-1] = replace(last, linked=(*last.linked, piece.linked[k - 1] if follows else LINKED))
             else:
                 free = not stock.contains([begin(stretch)])[0] and float(stock.distance([begin(stretch)])[0]) >= radius
                 place = piece.place if k == 0 and stretch is contour else None
