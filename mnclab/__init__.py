@@ -22,6 +22,7 @@ and its wings, which may be left out and which no other room imports::
 
     controls/…  each control with what it alone needs: mnc, jnc_t01, nc_31, g43, tnc_620
     design      parts as drawn: designs, drawings, differences, recognition
+    learning    exercises that grade the part: tasks, hints, classes
     lab         where one types and tries: forms, panels, editor, magics, sketches
 
 This module is the front door, and nothing else: it imports numpy only. What needs more is opened when it is first asked
@@ -68,6 +69,10 @@ if TYPE_CHECKING:  # what OPENED says, for editors and for mypy
     from mnclab.lab.forms import pocket_panel as pocket_panel
     from mnclab.lab.forms import profile_panel as profile_panel
     from mnclab.lab.magic import load_ipython_extension as load_ipython_extension
+    from mnclab.learning.exercise import exercise as exercise
+    from mnclab.learning.exercise import exercises as exercises
+    from mnclab.learning.marking import mark as mark
+    from mnclab.learning.progress import progress as progress
     from mnclab.show.plot.over_time import plot_profiles as plot_profiles
     from mnclab.show.plot.side_by_side import plot_runs as plot_runs
 
@@ -82,6 +87,9 @@ OPENED = Shelf("mnclab", "the names that need more than numpy", {
     "mnclab.comparison.turning_schemes": "compare as compare_turning",
     "mnclab.lab.editor": "editor",
     "mnclab.lab.forms": "compensation_panel, form, panel, pocket_panel, profile_panel",
+    "mnclab.learning.exercise": "exercise, exercises",
+    "mnclab.learning.marking": "mark",
+    "mnclab.learning.progress": "progress",
     "mnclab.lab.magic": "load_ipython_extension",
     "mnclab.show.plot.over_time": "plot_profiles",
     "mnclab.show.plot.side_by_side": "plot_runs",
@@ -117,6 +125,7 @@ area = Shelf("mnclab.area", "contours and regions: by numbers, or out of a drawi
 strategies = Shelf("mnclab.strategies", "ways to clear an area with a mill; mnclab.compare puts them side by side", {
     "mnclab.machining.milling.strategies": "STRATEGIES, clear, rest",
     "mnclab.machining.milling.adaptive": "adaptive, peeling",
+    "mnclab.machining.milling.morphed": "morphed_spiral",
     "mnclab.machining.milling.lines": "one_way, zigzag",
     "mnclab.machining.milling.rings": "rings",
     "mnclab.machining.milling.rounded": "rounded_rings, rounded_zigzag",
@@ -177,8 +186,11 @@ __all__ = [
     "design",
     "diff",
     "editor",
+    "exercise",
+    "exercises",
     "form",
     "machines",
+    "mark",
     "modern",
     "panel",
     "part",
@@ -187,6 +199,7 @@ __all__ = [
     "pocket_panel",
     "probing",
     "profile_panel",
+    "progress",
     "read",
     "renumber",
     "run",

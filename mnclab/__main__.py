@@ -1,4 +1,5 @@
-"""mnclab from a shell: check, run, renumber, plot, part, compare, drawing, report, time, help, handout, lab.
+"""mnclab from a shell: check, run, renumber, plot, part, compare, drawing, report, time, help, exercise, grade,
+handout, lab.
 
 `python -m mnclab` is the same.
 
@@ -23,11 +24,12 @@ from mnclab.controls import ALSO
 from mnclab.controls.choice import renumber_file
 from mnclab.machine.setup_file import FORMAT, load
 from mnclab.shell.checking import check
+from mnclab.shell.grading import exercise, grade
 from mnclab.shell.handout import handout
 from mnclab.shell.lessons import lab
 from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, USAGE, describe, program, say, sensible, with_blank
 from mnclab.shell.timing import time
-from mnclab.show.export import BODIES, save
+from mnclab.show.export import BODIES
 from mnclab.text.alarm import Alarm
 from mnclab.text.opening import opened
 
@@ -186,9 +188,24 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--csv", nargs="?", const="", metavar="OUT.csv", help=says)
     sub.add_argument("--override", type=float, default=100.0, metavar="PERCENT", help="feed override (default: 100)")
     sub = command("help", explain, "show the parameters of a cycle or the meaning of a function", "")
-    codes = "such as G83 or CYCL DEF 200; the name of a control: all its codes; design: the file of a design"
+    codes = "such as G83 or CYCL DEF 200; the name of a control: all its codes; design, exercise: such a file"
     sub.add_argument("code", nargs="+", metavar="CODE", help=codes)
     sub.add_argument("--control", choices=[*mnclab.controls, *ALSO], help="default: the only one that has the code")
+    sub = command("exercise", exercise, "list exercises, show them, check a teacher's file, or write the folder for pupils", "")
+    sub.add_argument("what", choices=("list", "show", "check", "give"))
+    says = "ids such as mnc-03, or mnc-03..mnc-09; of give, lessons too (05, 12-19); of check, files of exercises"
+    sub.add_argument("names", nargs="*", metavar="EXERCISE", help=says)
+    sub.add_argument("--control", choices=list(mnclab.controls), help="of list: those of one control")
+    sub.add_argument("-o", "--output", metavar="DIR", help="of give: the folder (default: exercises)")
+    sub.add_argument("--answers", action="store_true", help="of show: the model too, and why")
+    sub.add_argument("--pupil", metavar="NAME", help="of give: with the dimensions that this name draws")
+    sub = command("grade", grade, "grade a program that answers an exercise, or a folder a pupil; status 1 if one has not passed")
+    sub.add_argument("--exercise", metavar="ID", help="default: the name of the file, mnc-03 of mnc-03.mnc")
+    sub.add_argument("--json", action="store_true", help="score, passed, points and hints on stdout, of a folder a list")
+    sub.add_argument("--csv", nargs="?", const="", metavar="OUT.csv", help="of a folder: the table, to a file or to stdout")
+    says = "of a folder: the drawing of each pupil has the dimensions that the name of the folder draws"
+    sub.add_argument("--neighbours", action="store_true", help=says)
+    sub.add_argument("--html", metavar="OUT.html", help="of a folder: the page of the class")
     sub = command("handout", handout, "run lessons and write them as pages to print, with ruled room below the exercises", "")
     sub.add_argument("lesson", nargs="+", metavar="LESSON", help="numbers such as 05 or 5, or names of files")
     says = "an .html or a .pdf file (default: handout_05.html where the lesson is 05)"
@@ -232,10 +249,11 @@ def plot(chosen: argparse.Namespace) -> int:
     """Save a picture of what a program does, or its table of moves."""
     result = obey(chosen)
     if chosen.compensation or chosen.rules or chosen.radii:
-        options = {"rules": chosen.rules, "radii": chosen.radii}
-        sensible(save, result, chosen.output, lambda run: run.plot_compensation(**options))
+        drawn: Any = sensible(partial(result.plot_compensation, rules=chosen.rules, radii=chosen.radii))
+        sensible(drawn.save, chosen.output)
     elif chosen.measured:
-        sensible(save, result, chosen.output, lambda run: run.plot_measured())
+        drawn = sensible(result.plot_measured)
+        sensible(drawn.save, chosen.output)
     else:
         of_path = {"of": "path"} if Path(chosen.output).suffix.lower() in BODIES else {}
         sensible(partial(result.save, **of_path), chosen.output)
@@ -316,6 +334,9 @@ def verdict(result: mnclab.Run, quiet: bool = False) -> int:
 
 def explain(chosen: argparse.Namespace) -> int:
     """Print what a code means, or what the file of a design looks like."""
+    if chosen.code == ["exercise"]:
+        print(opened("mnclab.learning.exercise_file", "FORMAT"), end="")
+        return CLEAN
     if chosen.code == ["design"]:
         milled, turned = (opened(f"mnclab.design.model.{file}", "FORMAT") for file in ("design_file", "turned_file"))
         print(f"a milled part:\n\n{milled}\na turned part:\n\n{turned}", end="")

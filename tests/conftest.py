@@ -37,14 +37,18 @@ def pytest_addoption(parser):
 def pytest_ignore_collect(collection_path, config):
     """Of `-m deep` and its like only those files are imported that say so: most do not, and importing all takes a while.
 
-    For the same reason the folders of the browser and of time are passed over where neither is wanted.
+    For the same reason the folders of the browser and of time are passed over where neither is wanted, and files that are deep
+    as a whole where nothing deep is.
     """
     mark = config.option.markexpr
     if collection_path.name in ("browser", "benchmarks") and "not browser" in mark and "not benchmark" in mark:
         return True
-    if mark not in ("deep", "browser", "benchmark") or not collection_path.match("test_*.py"):
+    if not collection_path.match("test_*.py") or not ("not deep" in mark or mark in ("deep", "browser", "benchmark")):
         return None
-    return mark not in collection_path.parts and mark not in collection_path.read_text(encoding="utf-8") or None
+    text = collection_path.read_text(encoding="utf-8")
+    if "not deep" in mark:
+        return "\npytestmark = pytest.mark.deep\n" in text or None
+    return mark not in collection_path.parts and mark not in text or None
 
 
 @pytest.hookimpl(wrapper=True)

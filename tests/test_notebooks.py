@@ -50,7 +50,8 @@ def test_a_heading_begins_a_slide_and_nothing_follows_the_exercises(path):
             assert (kind == "slide") is headed, cell.source[:60]
             assert not re.search(r"\n##? ", cell.source), f"a heading inside a cell:\n{cell.source}"
     last = next(k for k, cell in enumerate(cells) if cell.source.startswith("## Exercises"))
-    assert set(kinds[last + 1 :]) <= {"skip"}, "the empty cells for the reader's programs"
+    assert set(kinds[last + 1 :]) == {"skip"}, "the empty cells for the reader's programs"
+    assert all(cell.cell_type == "code" and cell.source.startswith("# your ") for cell in cells[last + 1 :])
 
 
 @pytest.mark.deep

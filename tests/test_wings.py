@@ -1,7 +1,7 @@
 """The core stands by itself, with one control: a copy of the house without its wings runs, plots, cuts and saves.
 
-The tests of a wing are a folder of their own: `controls/NAME`, `design`, `lab`. What lies directly in `controls` asks all
-controls that there are. The tests of the core import no wing, and those of them that name none pass in the copy too.
+The tests of a wing are a folder of their own: `controls/NAME`, `design`, `learning`, `lab`. What lies directly in `controls`
+asks all controls that there are. The tests of the core import no wing, and those of them that name none pass in the copy too.
 """
 
 import os
@@ -16,7 +16,7 @@ import pytest
 from mnclab.controls import MODULES
 
 ROOT = Path(__file__).resolve().parent.parent
-WINGS = ["design", "lab", *(f"controls/{module.rpartition('.')[2]}" for module in MODULES.values())]
+WINGS = ["design", "learning", "lab", *(f"controls/{module.rpartition('.')[2]}" for module in MODULES.values())]
 MILLED = "mnclab.Setup(tools={1: mnclab.Tool(radius=4)}, stock=mnclab.box((0, 0, -10), (60, 40, 0)))"
 TURNED = "mnclab.Setup(start=(30, 0, 10), stock=mnclab.cylinder(radius=15, low=-40, high=0))"
 ISO = "G17 G90 G54 T1 M6\nG0 X-10 Y20 Z5 S900 M3\nZ-3\nG1 X70 F200\nG0 Z5\nM30\n"
@@ -40,7 +40,9 @@ FLOORS = sorted(folder.name for folder in (ROOT / "tests").glob("t[0-9]_*"))
 RUN_ALONE = ("t0_text", "t4_comparison", "t4_machine", "t4_running")
 WING = re.compile(rf"^(?:from|import) (?:mnclab\.)?(?:{'|'.join(WINGS).replace('/', '[.]')})\b", re.M)
 #: What a file of tests says that asks for another control than the one that is there, or for a wing.
-NAMES_ANOTHER = re.compile(r"tnc-620|BEGIN PGM|g43|jnc-t01|nc-31|[Dd]esign|\.(?:lab|form|editor|compare)\b")
+NAMES_ANOTHER = re.compile(
+    r"tnc-620|BEGIN PGM|g43|jnc-t01|nc-31|[Dd]esign|\.(?:lab|form|editor|compare|exercises?)\b|mnc(?:lab)?\.mark\b"
+)
 SCRIPT = """
 import mnclab
 assert mnclab.__file__.startswith({home!r}), mnclab.__file__
@@ -52,7 +54,9 @@ run.save({home!r} + "/path.svg"), run.save({home!r} + "/player.html"), run.repor
 assert abs(run.workpiece().volume - {left!r}) < 0.02 * {left!r}, run.workpiece().volume
 assert str(run.explain(2)) and run._repr_html_()
 assert all(str(mnclab.help(code, {name!r})) for code in mnclab.controls[{name!r}].cycles)
-for door in (lambda: mnclab.Design, lambda: mnclab.design.Hole, lambda: mnclab.form, lambda: run.design()):
+for door in (
+    lambda: mnclab.Design, lambda: mnclab.design.Hole, lambda: mnclab.form, lambda: mnclab.exercise, lambda: run.design()
+):
     try:
         door()
     except mnclab.Alarm as alarm:

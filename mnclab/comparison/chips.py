@@ -28,7 +28,7 @@ def tooth_rate(tool: Any, radius: float, chip: Any, spindle: Any, limits: Limits
     """How many teeth of a tool cut in a minute; an Alarm where that is not known, or where the `chip` makes no sense."""
     if not isinstance(tool, Tool) or not tool.teeth:
         hint = f"mnclab.Tool(radius={radius:g}, teeth=3) in place of it"
-        raise Alarm(f"the thickness of a chip needs a tool with teeth, got {shown(tool)}", hint=hint)
+        raise Alarm(f"the thickness of a chip (chip=, spindle=) needs a tool with teeth, got {shown(tool)}", hint=hint)
     if spindle is None:
         raise Alarm("the thickness of a chip needs the speed of the spindle", hint="spindle=8000, in rev/min")
     check_number(spindle, "the speed of the spindle (rev/min)", above=0, at_most=limits.spindle if limits else None)

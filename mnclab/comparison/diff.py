@@ -23,7 +23,7 @@ from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, choice, fitting, shown
-from mnclab.text.tables import Listing, html_table, shapes
+from mnclab.text.tables import Listing, Pictured, html_table, shapes
 
 if TYPE_CHECKING:
     from mnclab.show.plot.picture import Picture
@@ -54,7 +54,7 @@ class Traces:
 
 
 @dataclass(frozen=True)
-class Deviation:
+class Deviation(Pictured):
     """Where two paths differ: `one` and `other` are the traces, `names` and `paths` what was compared, `times` s of both.
 
     `reaches` are "up to line 12, where the run stopped" for a path that ends before its program, else empty: `complete` is
@@ -250,7 +250,7 @@ TOLERANCE = 0.001  # mm
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class HolesCompared(Listing):
+class HolesCompared(Pictured, Listing):
     """Holes that both have and that only one has, rows (x, y, diameter) in mm; a table of these when shown."""
 
     HEAD, NUMBERS, MOST = ("", "x, mm", "y, mm", "diameter, mm"), range(1, 4), 20

@@ -17,7 +17,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from mnclab.comparison.strategies import Table, Titles, Trial, Tried, compare
+from mnclab.comparison.strategies import Trial, compare
+from mnclab.comparison.tables import Table, Titles, Tried
 from mnclab.geometry.regions import Region
 from mnclab.machining.milling.entries import VERTICAL, Entry
 from mnclab.machining.milling.strategies import STRATEGIES, rest
@@ -85,8 +86,8 @@ class ToolSets(Table[ToolSet]):
 def tool_sets(
     region: Region, tools: Iterable[Tool | float], strategies: Iterable[str] | str | None = None, *, change: float = 12.0,
     machine: Limits | str | None = None, limits: Limits | str | None = None, most: int = 3, overlap: float = 0.5,
-    allowance: float = 0.0, depth: float = 1.0, feed: float = 500.0, plunge_feed: float = 150.0, rapid: float = 10000.0,
-    entry: Entry = VERTICAL, climb: bool = True, chip: float | None = None, spindle: float | None = None,
+    allowance: float = 0.0, depth: float | Sequence[float] = 1.0, feed: float = 500.0, plunge_feed: float = 150.0,
+    rapid: float = 10000.0, entry: Entry = VERTICAL, climb: bool = True, chip: float | None = None, spindle: float | None = None,
 ) -> ToolSets:  # fmt: skip
     """Which of some tools, one after the other, clear an area in the least time:
     `tool_sets(region, [mnclab.Tool(diameter=d) for d in (4, 8, 16)], machine="small-mill").best("time")`.

@@ -11,16 +11,16 @@ import math
 
 import numpy as np
 
-from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.curves import Floats, length_of
+from mnclab.geometry.curves import Floats, distance, length_of
 
 
 def smoothed(points: Floats, spacing: float, error: float) -> Contour:
     """Arcs along places (n, 2), whose noise is evened out over `spacing`, that keep within `error` of what is left."""
-    line = shapely.LineString(points)
-    count = max(2, math.ceil(line.length / spacing))
-    at = evened(shapely.get_coordinates(shapely.line_interpolate_point(line, np.linspace(0, line.length, count + 1))), 1.0)
+    upto = np.append(0.0, np.cumsum(length_of(np.diff(points, axis=0))))
+    count = max(2, math.ceil(upto[-1] / spacing))
+    way = np.linspace(0, upto[-1], count + 1)
+    at = evened(np.stack([np.interp(way, upto, points[:, k]) for k in (0, 1)], axis=1), 1.0)
     t = np.gradient(at, axis=0, edge_order=2 if count > 2 else 1)
     t /= np.maximum(length_of(t), 1e-12)[:, None]
     knots = np.unique(np.append(np.arange(0, count, 8), count))
@@ -30,8 +30,9 @@ def smoothed(points: Floats, spacing: float, error: float) -> Contour:
         places = np.vstack([np.stack([at[a], middle], axis=1).reshape(-1, 2), at[b[-1:]]])
         ways = Contour(places, np.append(bulges, 0.0), closed=False)
         inner = np.setdiff1d(np.arange(count + 1), knots)
-        off = ways.distance(at[inner]) if len(inner) else np.zeros(0)
-        bad = np.unique(np.searchsorted(knots, inner[off > error]) - 1)
+        biarc = np.searchsorted(knots, inner) - 1
+        off = np.minimum(*(distance(at[inner], ways.curves.take(2 * biarc + k)) for k in (0, 1)))
+        bad = np.unique(biarc[off > error])
         if not len(bad):
             return ways
         knots = np.union1d(knots, (knots[bad] + knots[bad + 1]) // 2)

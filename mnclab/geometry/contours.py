@@ -9,9 +9,9 @@ counter-clockwise, -1 for half a circle clockwise. Lengths in mm, angles in rad,
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, wraps
 from typing import Any
 
 import numpy as np
@@ -26,6 +26,17 @@ FULL_TURN = 2 * np.pi
 CUSP = 1e-8  # rad, by which opposite directions may be off
 SHORTEST = 1e-9  # mm, of a piece
 FLAT = 1e-9  # a smaller bulge is a line: over a chord of 1 m it would rise by half a nanometre
+
+
+def column(worked_out: Callable[[Any], Floats]) -> cached_property[Floats]:
+    """An array that a thing has for good: worked out when first asked for, and nobody writes into it."""
+
+    @wraps(worked_out)
+    def once(of: Any) -> Floats:
+        (found := worked_out(of)).flags.writeable = False
+        return found
+
+    return cached_property(once)
 
 
 @refusing_class
@@ -76,40 +87,45 @@ class Contour:
         """Where the m elements begin, `(m, 2)`."""
         return self.points if self.closed else self.points[:-1]
 
-    @property
+    @column
     def ends(self) -> Floats:
         """Where the m elements end, `(m, 2)`."""
-        return np.roll(self.points, -1, axis=0) if self.closed else self.points[1:]
+        return np.concatenate([self.points[1:], self.points[:1]]) if self.closed else self.points[1:]
 
-    @property
+    @column
+    def chords(self) -> Floats:
+        """From where the m elements begin to where they end, `(m, 2)`."""
+        return self.ends - self.starts
+
+    @column
     def sweeps(self) -> Floats:
         """Signed angles of the m elements, + counter-clockwise, 0 for lines, `(m,)`."""
         return 4 * np.arctan(self.bulge if self.closed else self.bulge[:-1])
 
-    @property
+    @column
     def radii(self) -> Floats:
         """Radii of the m elements, inf for lines, `(m,)`."""
         b = np.abs(self.bulge[: len(self.starts)])
         with np.errstate(divide="ignore", invalid="ignore"):
-            radius: Floats = length_of(self.ends - self.starts) * (1 + b * b) / (4 * b)
+            radius: Floats = length_of(self.chords) * (1 + b * b) / (4 * b)
             return np.where(b == 0, np.inf, radius)
 
-    @property
+    @column
     def centres(self) -> Floats:
         """Centres of the m elements, nan for lines, `(m, 2)`."""
         b = self.bulge[: len(self.starts), None]
         with np.errstate(divide="ignore", invalid="ignore"):
-            offset: Floats = left(self.ends - self.starts) * (1 - b * b) / (4 * b)
+            offset: Floats = left(self.chords) * (1 - b * b) / (4 * b)
             return np.where(b == 0, np.nan, (self.starts + self.ends) / 2 + offset)
 
-    @property
+    @column
     def lengths(self) -> Floats:
         """Lengths of the m elements, `(m,)`: chord · (1 + b²) · atan(b) / b."""
         b = self.bulge[: len(self.starts)]
         ratio = np.divide(np.arctan(b), b, out=np.ones_like(b), where=b != 0)
-        return length_of(self.ends - self.starts) * (1 + b * b) * ratio
+        return length_of(self.chords) * (1 + b * b) * ratio
 
-    @property
+    @column
     def upto(self) -> Floats:
         """The ways along the contour to where its m elements begin, and to its end, `(m + 1,)`."""
         return np.append(0.0, np.cumsum(self.lengths))
@@ -128,7 +144,8 @@ class Contour:
 
     def tangents(self) -> tuple[Floats, Floats]:
         """Unit tangents at the start and at the end of every element, each `(m, 2)`."""
-        return self.at(0.0)[1], self.at(1.0)[1]
+        half, size = self.sweeps / 2, np.maximum(length_of(self.chords), 1e-300)[:, None]
+        return turned(self.chords, -half) / size, turned(self.chords, half) / size
 
     def turns(self) -> Floats:
         """Angle by which the contour turns at the start of every element, + to the left, 0 at an open start, `(m,)`."""
@@ -141,7 +158,7 @@ class Contour:
 
     # ---- the whole ----
 
-    @property
+    @cached_property
     def length(self) -> float:
         return float(self.lengths.sum())
 
@@ -160,7 +177,7 @@ class Contour:
         pieces = np.where(flat, chord2 * b * (1 + b * b / 5) / 3, round_piece)
         return float(cross(p, q).sum() / 2 + pieces.sum())
 
-    @property
+    @column
     def bounds(self) -> Floats:
         """Lower left and upper right corner, `(2, 2)`; arcs bulge out to their quadrant points."""
         bent = self.sweeps != 0
@@ -292,7 +309,7 @@ class Contour:
     @cached_property
     def _elements(self) -> tuple[Floats, ...]:
         """Ends, chords, sweeps, centres, radii and first angles of the m elements, worked out once."""
-        return self.ends, self.ends - self.starts, self.sweeps, self.centres, self.radii, self._first_angles()
+        return self.ends, self.chords, self.sweeps, self.centres, self.radii, self._first_angles()
 
     def _first_angles(self) -> Floats:
         """Direction from the centre to the start of every element; nan for lines."""
@@ -314,7 +331,7 @@ class Contour:
         turned by (u - 1)·s/2 against the whole chord: true of lines too, and of flat arcs with a far centre.
         """
         pick: Any = slice(None) if element is None else element
-        chord, s = (self.ends - self.starts)[pick], self.sweeps[pick]
+        chord, s = self.chords[pick], self.sweeps[pick]
         u = np.broadcast_to(np.asarray(fraction, dtype=float), s.shape)
         bent = np.abs(s) > 1e-8
         ratio = np.divide(np.sin(u * s / 2), np.sin(s / 2), out=u.copy(), where=bent)

@@ -2,7 +2,8 @@
 
 Lines, arcs, circles and polylines with bulges come exactly; splines and ellipses as chords within a tolerance. Blocks are
 placed as their INSERT says: within each other, scaled, mirrored, turned, in rows and columns; what is scaled unequally
-becomes ellipses. Where the file says in which unit it is drawn it is brought to mm.
+becomes ellipses. Where the file says in which unit it is drawn ($INSUNITS) it is brought to mm, else its numbers are mm. Many
+programs write a unit that nobody chose: a warning names it where that makes more than `LONG` of the drawing.
 
 What bounds no area (`WRITTEN`: text, dimensions, …) is left out, and a warning names it; another entity is an Alarm.
 """
@@ -27,7 +28,8 @@ from mnclab.text.file import read
 from mnclab.text.given import check_number, shown
 from mnclab.text.opening import require
 
-TO_MM = {1: 25.4, 2: 304.8, 4: 1.0, 5: 10.0, 6: 1000.0, 8: 2.54e-5, 9: 0.0254, 10: 914.4, 13: 1e-3, 14: 100.0}
+TO_MM = {0: 1.0, 1: 25.4, 2: 304.8, 4: 1.0, 5: 10.0, 6: 1000.0, 8: 2.54e-5, 9: 0.0254, 10: 914.4, 13: 1e-3, 14: 100.0}
+LONG = 10_000  # mm, longer than parts are
 FLAT = ("CIRCLE", "ARC", "LWPOLYLINE", "POLYLINE")  # drawn in a plane of their own
 READ = (*FLAT, "LINE", "SPLINE", "ELLIPSE")
 WRITTEN = {
@@ -58,12 +60,15 @@ def contours(source: str | Path, tolerance: float = 0.01, layer: str | None = No
     values = read(source, source).count(b"\n") // 2  # which also refuses what is no file, and would be waited for
     if values > VALUES:
         raise Alarm(f"{source} has {values} values, as {values // PER_LINE} lines have; at most {VALUES} are read", hint=FEWER)
-    said = _Said(logging.WARNING)
+    said, named = _Said(logging.WARNING), ""
     logger = logging.getLogger("ezdxf")
     logger.addHandler(said)  # which also keeps it off stderr
     try:
         drawing = ezdxf.readfile(str(source))
-        scale = TO_MM.get(int(drawing.header.get("$INSUNITS", 0)), 1.0)
+        unit = int(drawing.header.get("$INSUNITS", 0))
+        if unit not in TO_MM:
+            raise Alarm(f"its unit, $INSUNITS {unit}, is not read", hint="save it in mm")
+        scale, named = TO_MM[unit], f", drawn in {ezdxf.units.unit_name(unit)} ($INSUNITS {unit})" if TO_MM[unit] != 1 else ""
         _entities(drawing.modelspace(), {}, 0)
         reading = _Reading(layer, tolerance / scale, FARTHEST / scale)
         if layer is None:
@@ -71,7 +76,7 @@ def contours(source: str | Path, tolerance: float = 0.01, layer: str | None = No
             reading.off = {each.dxf.name.lower() for each in drawing.layers if each.is_off()}
         found = [contour for entity in drawing.modelspace() for contour in reading.contours(entity, None, 0)]
     except Alarm as alarm:
-        raise Alarm(f"{source}: {alarm.message}", hint=alarm.hint) from None
+        raise Alarm(f"{source}{named}: {alarm.message}", hint=alarm.hint) from None
     except Exception as error:  # whatever a reader of files trips over
         raise Alarm(f"{source} is no DXF: {error or type(error).__name__}") from None
     finally:
@@ -85,7 +90,10 @@ def contours(source: str | Path, tolerance: float = 0.01, layer: str | None = No
         names = ", ".join(f"{count} on {name!r}" for name, count in sorted(reading.unseen.items()))
         told = f"{names} left out, which the drawing does not show (off, frozen or invisible; layer= reads a layer all the same)"
         warnings.warn(f"{source}: {told}", stacklevel=2)
-    return [Contour(contour.points * scale, contour.bulge, contour.closed) for contour in found]
+    found = [Contour(contour.points * scale, contour.bulge, contour.closed) for contour in found]
+    if named and found and (size := np.ptp([contour.bounds for contour in found], axis=(0, 1)).max()) > LONG:
+        warnings.warn(f"{source}{named}: {size / 1000:g} m long", stacklevel=2)
+    return found
 
 
 def _entities(space: Any, known: dict[str, int], depth: int) -> int:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, reduce
 from itertools import pairwise
 from typing import Any
 
@@ -59,13 +59,18 @@ class Region:
         return f"<Region: {len(self.loops)} loop{'s' * (len(self.loops) != 1)}, {self.area:.3f} mm²>"
 
     @classmethod
-    def of(cls, *outer: Contour, holes: Iterable[Contour] = ()) -> Region:
+    def of(cls, *outer: Any, holes: Iterable[Contour] = ()) -> Region:
         """The union of what the outer contours enclose, less what the holes enclose; their sense is free.
 
         A single contour is kept as it is. Raises ValueError where a contour is open or crosses itself; an Alarm for an outer
-        contour that lies within another one, where it changes nothing.
+        contour that lies within another one, where it changes nothing. What is drawn stands for its area: a pocket of a design
+        with its islands, a shape, or a design with one pocket.
         """
-        return cls._of(outer, tuple(holes), nested=False)
+        drawn, holes = [getattr(each, "region", each) for each in outer], tuple(holes)
+        if any(isinstance(each, Region) for each in drawn):
+            whole = reduce(Region.union, (each if isinstance(each, Region) else cls.of(each) for each in drawn))
+            return whole.difference(cls.union_of(*holes)) if holes else whole
+        return cls._of(drawn, holes, nested=False)
 
     @classmethod
     def union_of(cls, *contours: Contour, holes: Iterable[Contour] = ()) -> Region:
@@ -83,7 +88,7 @@ class Region:
         if not nested and len(outer) > 1:
             inner, around = shapely.STRtree(areas[: len(outer)]).query(areas[: len(outer)], "covered_by")
             for k in inner[inner != around][:1].tolist():
-                (x, y), number = outer[k].points[0].tolist(), len(outer)
+                (x, y), number = drawing.contours[k].points[0].tolist(), len(outer)
                 raise Alarm(f"outer contour {k + 1} of {number}, from X{x:.3f} Y{y:.3f}, lies within another one",
                             hint="holes=[…] cuts it out; area_of(contours) finds what lies in what")  # fmt: skip
         if len(areas) == len(outer) == 1:
@@ -252,14 +257,15 @@ def meeting(loop: Contour, start: Floats, way: Floats) -> Floats:
     return cuts[np.isfinite(cuts)]
 
 
-def _tidy(contour: Contour) -> Contour:
-    """A closed contour without elements of no length."""
+def _tidy(given: Any) -> Contour:
+    """A closed contour, or that of a shape, without elements of no length."""
+    contour = getattr(given, "contour", given)
     if not isinstance(contour, Contour):
-        raise Alarm(f"an area is what contours enclose, got {shown(contour)}", hint="area.rectangle(60, 40), area.dxf(path) …")
+        raise Alarm(f"an area is what contours enclose, got {shown(given)}", hint="area.rectangle(60, 40), area.dxf(path) …")
     if not contour.closed:
         raise ValueError("only a closed contour encloses an area")
     some = contour.lengths > SAME
-    if some.sum() < 2:
+    if some.sum() < 2 or some.sum() == 2 and not contour.bulge[some].any():  # a line to and fro
         raise ValueError("the contour encloses nothing")
     return contour if some.all() else Contour(contour.points[some], contour.bulge[some])
 

@@ -50,14 +50,15 @@ def options() -> argparse.ArgumentParser:
     parser.add_argument("--control", metavar="NAME", help=f"one of {', '.join(CONTROLS)}; default: the text says")
     parser.add_argument("--tools", metavar="NAME", help="a dict of the notebook: number -> Tool")
     parser.add_argument("--setup", metavar="NAME", help="a Setup of the notebook, or a setup file")
+    parser.add_argument("--exercise", metavar="ID", help="grade the cell as the answer to this exercise")
     parser.add_argument("--name", default="run", help="what the run is called in the notebook")
     parser.add_argument("--colour", default="kind", help="what the colour of the cuts shows")
     parser.add_argument("--quiet", action="store_true", help="show the alarms alone")
     return parser
 
 
-def run_cell(line: str, cell: str, names: Mapping[str, Any]) -> tuple[str, Run, argparse.Namespace]:
-    """Run a cell; the name for it, the run, and the options. An Alarm for options that make no sense."""
+def chosen_of(line: str) -> argparse.Namespace:
+    """The options beside %%mnc; an Alarm for those that make no sense."""
     try:
         words = shlex.split(line)
     except ValueError as fault:
@@ -65,6 +66,12 @@ def run_cell(line: str, cell: str, names: Mapping[str, Any]) -> tuple[str, Run, 
     chosen = options().parse_args(words)
     if not chosen.name.isidentifier():
         raise Alarm(f"%%mnc: --name must be a name of Python, got {chosen.name!r}")
+    return chosen
+
+
+def run_cell(line: str, cell: str, names: Mapping[str, Any]) -> tuple[str, Run, argparse.Namespace]:
+    """Run a cell; the name for it, the run, and the options. An Alarm for options that make no sense."""
+    chosen = chosen_of(line)
     text = cell if cell.endswith("\n") else cell + "\n"
     return chosen.name, run_text(text, chosen.control, _setup(chosen, names)), chosen
 

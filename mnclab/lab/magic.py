@@ -7,6 +7,7 @@ pressed.
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from mnclab.text.alarm import first_of
@@ -14,6 +15,16 @@ from mnclab.text.opening import require
 
 MATCHER = "mnclab words"
 LONGEST = 60  # letters of a meaning beside a word
+#: Signs of what is offered: JupyterLab shows the first letter of a "type" as an icon, and a letter would look like an address.
+KINDS = {"code": "◆", "word": "◇", "name": "▤"}
+NAMES = ("file", "folder", "program", "label", "setup", "tools")
+
+
+def kind_of(word: str, meaning: str) -> str:
+    """What an offered word is: a code, a word of one (whose meaning names it), or the name of something."""
+    if meaning in NAMES:
+        return "name"
+    return "word" if word.endswith("=") or re.search(r" \([A-Z][A-Z0-9. ]*\)$", meaning) else "code"
 
 
 def load_ipython_extension(shell: Any) -> None:
@@ -23,8 +34,15 @@ def load_ipython_extension(shell: Any) -> None:
 
     def mnc(line: str, cell: str) -> None:
         """Obey the cell as a part program; see `mnclab.lab.cell`."""
-        from mnclab.lab.cell import run_cell
+        from mnclab.lab.cell import chosen_of, run_cell
 
+        if (asked := chosen_of(line)).exercise:
+            from mnclab.lab.exercise_editor import grade_cell
+
+            grade = grade_cell(asked.exercise, cell)
+            shell.push({asked.name: grade.run, "grade": grade})
+            display(grade)
+            return
         name, run, chosen = run_cell(line, cell, shell.user_ns)
         shell.push({name: run})
         if chosen.quiet:
@@ -38,6 +56,8 @@ def load_ipython_extension(shell: Any) -> None:
 
     shell.register_magic_function(mnc, "cell", "mnc")
     complete_words(shell)
+    # Once pyplot is imported IPython draws every Figure itself: None keeps the PNG that a Picture has given already.
+    shell.display_formatter.formatters["image/png"].for_type_by_name("mnclab.show.plot.picture", "Picture", lambda _: None)
     if hasattr(shell, "kernel"):
         explain_words(shell.kernel, shell)
 
@@ -59,7 +79,7 @@ def complete_words(shell: Any) -> None:
         lines = context.full_text.split("\n")[: context.cursor_line]
         at = sum(len(line) + 1 for line in lines) + context.cursor_position
         fragment, choices = suggestions(context.full_text, at, shell.user_ns) or (context.token, [])
-        found = [SimpleCompletion(word, type=meaning[:LONGEST]) for word, meaning in choices]
+        found = [SimpleCompletion(word, type=f"{KINDS[kind_of(word, meaning)]} {meaning[:LONGEST]}") for word, meaning in choices]
         return {"completions": found, "matched_fragment": fragment, "ordered": True, "suppress": bool(found)}
 
     matchers.append(match)

@@ -61,10 +61,14 @@ class Placed(State):
             self.read_position()
         self.log("frame " + name, tuple(map(tuple, (self.frames[name]).tolist())))
 
-    def select_datum(self, datum: Datum, frame: str = "datum") -> None:
-        """Count from a work offset in its turned axes; the first one selected is the origin of the path."""
-        if self.origin is None:
+    def select_datum(self, datum: Datum, frame: str = "datum", chosen: bool = False) -> None:
+        """Count from a work offset in its turned axes; the first one is the origin of the path.
+
+        One that is active at the start gives way to the first that a block has `chosen`, if nothing has moved before.
+        """
+        if self.origin is None or (chosen and not self.origin_chosen and not self.recorder.moved):
             self.origin = (datum.x, datum.y, datum.z)
+        self.origin_chosen |= chosen
         place = frames.shift(datum.x, datum.y, datum.z)
         for angle, axis in ((datum.rotation, "z"), (datum.tilt_y, "y"), (datum.tilt_x, "x")):
             place = place @ frames.turn(math.radians(angle), axis) if angle else place

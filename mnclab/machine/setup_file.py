@@ -70,10 +70,11 @@ KNOWN = ("start", "stock", "part", "fixtures", *ROWS, *RECORDS, "settings", "fil
 
 def load(path: str | Path) -> Setup:
     """The setup of a file; an Alarm names what is wrong in it."""
-    return parse(path, _setup, "setup")
+    return parse(path, setup_of, "setup")
 
 
-def _setup(table: Mapping[str, Any], file: File) -> Setup:
+def setup_of(table: Mapping[str, Any], file: File) -> Setup:
+    """The setup that a table writes."""
     check_names(table, (*KNOWN, *NOT_BUILT), "a setup", file)
     found: dict[str, Any] = {}
     for name, value in table.items():

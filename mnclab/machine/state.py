@@ -331,6 +331,7 @@ class State:
     programmed: Place = part(lambda m: m.tip, compared=())  # in coordinates of the program, before any compensation
     frames: FrameChain = part(lambda m: FrameChain(m.control.frames), rows=True)  # noted one by one, by `set_frame`
     origin: Place | None = part(None)  # the first datum, from which the path counts
+    origin_chosen: bool = part(False)  # by a block
     pole: tuple[float, float] | None = part(None)
     rotary: Place = part((0.0, 0.0, 0.0), rows=True, history=True)  # A, B, C, radians
     cylinder: int = part(-1, rows=True)  # of those of the recorder, on which the rows lie that are made now

@@ -227,7 +227,7 @@ class Write(NamedTuple):
 
     A "variable", a "measured" value, a row of "tools", "datums" or "presets", the "probe" table, the "tool" in the spindle as it
     is from now on, a whole "file" by its name or what is "appended" to it, a "frame", the new name of a frame ("renamed"),
-    the "datum" as a frame, a "modal" group, "memory" of the control, what is "kept" for the next
+    the "datum" as a frame, or as a "chosen datum", a "modal" group, "memory" of the control, what is "kept" for the next
     call of the cycle, a value that only the "history" keeps.
     """
 

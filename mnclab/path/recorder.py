@@ -170,6 +170,12 @@ class Recorder:
         self._count += len(ends)
         self._look_out()
 
+    @property
+    def moved(self) -> bool:
+        """Whether a row has moved, as far as rows have not been handed over."""
+        self._flush()
+        return self.taken > 0 or any((chunk["kind"] <= Kind.PROBE).any() for chunk in self._done)
+
     def _last_motion(self) -> tuple[dict[str, NDArray[Any]], int, Array] | None:
         """The columns, the row in them and the joints of the last line, arc or rapid not yet taken."""
         self._flush()

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mnclab.text.alarm import Absent, Alarm, several
 from mnclab.text.given import fitting_class, shown
-from mnclab.text.tables import fixed
+from mnclab.text.tables import Pictured, fixed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -188,7 +188,7 @@ class Move(fields("Move", COLUMNS)):  # type: ignore[misc]
 # Columns are read-only: what is to be changed is copied first (`Toolpath.replace` takes other columns).
 
 @fitting_class
-class Toolpath(Columns):
+class Toolpath(Pictured, Columns):
     """Moves and events in columns of n rows; the names and meanings are in `COLUMNS`.
 
     `labels`, `joints` and `cylinders` are what columns index; `origin` (3,) is the machine position, mm,

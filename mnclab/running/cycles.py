@@ -404,8 +404,8 @@ def write(m: Machine, step: Write) -> None:
             m.set_frame(step.key, step.value)
         case "renamed":
             m.frames.rename(step.key, step.value)
-        case "datum":
-            m.select_datum(step.value, step.key)
+        case "datum" | "chosen datum":
+            m.select_datum(step.value, step.key, chosen=step.what == "chosen datum")
         case "modal":
             m.set_modal(step.key, step.value)
         case "memory":

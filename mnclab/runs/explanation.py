@@ -19,13 +19,14 @@ from mnclab.machine.cycle import Cycle
 from mnclab.path.listing import MM, Unit, figure, point, words
 from mnclab.running.dispatch import Action, BlockPlan, Planner
 from mnclab.runs.history import Matrix, described, said, unit_of
-from mnclab.text.alarm import Alarm, quoted
+from mnclab.text.alarm import Alarm, quoted, several
 from mnclab.text.expression import Expression
 from mnclab.text.program import Program, Word, digits
 from mnclab.text.strings import NumberFromText, TextFormula
 from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
+    from mnclab.path.toolpath import Toolpath
     from mnclab.runs.history import Moment
     from mnclab.runs.run import Run
 
@@ -269,13 +270,14 @@ def _value(run: Run, moment: Moment, word: Word | None) -> str:
 
 
 
-SHOWN = 12  # rows of the path
+SHOWN = 12  # moves, or steps of a cycle
+STEP = "  ; "  # before the name of a step
 
 
 class Explanation:
     """A block explained; `meanings`, `changed` (name, before, after), `stages` and `moves` hold what is shown."""
 
-    def __init__(self, run: Run, moment: Moment) -> None:
+    def __init__(self, run: Run, moment: Moment, line: int | None = None) -> None:
         self.run, self.moment = run, moment
         span = moment.block.span
         self.program = run.programs[run.steps.program[moment.step]]
@@ -290,19 +292,34 @@ class Explanation:
             if (new := said(name, value, unit)) != old:
                 self.changed.append((name, old, new))
         self.skipped = moment.block.skip in switches(run.settings)
-        self.meanings = tuple(meanings(run, moment, {name: (old, new) for name, old, new in self.changed}))
+        self.line, self.lines = moment.line, range(span.line, last + 1)
+        found = meanings(run, moment, {name: (old, new) for name, old, new in self.changed})
+        if line is not None and line in self.lines[1:] and self.program.number_of(line):  # to who reads, a block of its own
+            self.line, text = line, "".join(self.program.line_text(line).split())
+            found = [each for each in found if "".join(each.word.split()) in text]
+        self.meanings = tuple(found)
         self.stages = tuple(stages(run, moment))
-        path = run.toolpath[moment.rows]
-        shown = len(path) if len(path) <= SHOWN + 1 else SHOWN  # a line that says "1 more" is no shorter
-        self.moves = tuple(f"{move.kind.name.lower()} {words(move, self.unit)}".strip() for move in path[:shown])
-        self.more_moves = len(path) - shown
+        self.moves, self.more_moves = self._moves(run.toolpath[moment.rows])
 
     @property
     def title(self) -> str:
-        text = quoted(self.program.line_text(self.moment.line).strip())[0]
+        text, number = quoted(self.program.line_text(self.line).strip())[0], self.program.number_of(self.line)
         times = _executions(self.run, self.moment.step)
         again = f" (execution {times})" if times > 1 else ""
-        return f"line {self.moment.line}{again}: {text}"
+        within = f", one of lines {self.lines[0]} to {self.lines[-1]}" * (self.line != self.moment.line)
+        return f"line {self.line}{f', block {number}' * bool(number)}{within}{again}: {text}"
+
+    def _moves(self, path: Toolpath) -> tuple[tuple[str, ...], int]:
+        """The moves, those of one step of a cycle in one line with its name; and how many are not told."""
+        first = np.flatnonzero(np.diff(path.label, prepend=-1) != 0) if path.label.any() else np.arange(len(path))
+        shown = len(first) if len(first) <= SHOWN + 1 else SHOWN  # a line that says "1 more" is no shorter
+        ends, told = np.append(first, len(path)), []
+        for a, b in zip(ends[:shown].tolist(), ends[1:].tolist()):
+            move, name = path[b - 1], path.labels[path.label[a]]
+            said = f"{move.kind.name.lower()} {words(move, self.unit)}".strip()
+            said = said if b - a == 1 else f"{b - a} moves, the last {said}"
+            told.append(f"{said}{STEP}{name}" if name else said)
+        return tuple(told), len(path) - int(ends[shown])
 
     def _moves_told(self) -> list[str]:
         return [*self.moves, *([f"… {self.more_moves} more"] if self.more_moves else [])]
@@ -334,7 +351,11 @@ class Explanation:
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
-        moves = "\n".join(self._moves_told())
+        told = "\n".join(self._moves_told())
+        moves = f"<pre>{escape(told)}</pre>" if told else ""
+        if STEP in told:
+            count = len(self.run.toolpath[self.moment.rows])
+            moves = f"<details><summary>{several(count, 'move')} of the cycle</summary>{moves}</details>"
         words = [(m.word, m.says, m.changed, m.source) for m in self.meanings]
         stages = [(s.name, *map(self.unit.figure, s.point), s.note) for s in self.stages]
         parts = [
@@ -342,7 +363,7 @@ class Explanation:
             "<p>passed over: block skip is on</p>" if self.skipped else "",
             *(alarm._repr_html_() for alarm in self.alarms),
             html_table(("word", "means", "changed", "section"), words) if words else "",
-            f"<pre>{escape(moves)}</pre>" if moves else "",
+            moves,
             html_table(("value", "before", "after"), self.changed) if self.changed else "",
             html_table((f"from the program to the tool{self.radii}", "X", "Y", "Z", ""), stages, numbers=(1, 2, 3)),
         ]

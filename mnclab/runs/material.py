@@ -44,7 +44,7 @@ INSIDE, PLAIN = "inside ", ""
 
 def cycle_tools(run: Run, tools: list[Tool], which: Index) -> tuple[list[Tool], Index]:
     """The tools and which of them each row has (n,), with those of cycles where a row has none."""
-    by_code, table = run.control.cycle_tools, run.setup.tools or {}
+    by_code, table = run.control.cycle_tools, {**(run.setup.tools or {}), **run.setup.true_tools}
     if not by_code:
         return tools, which
     path, bare = run.toolpath, ~np.array([tool_exists(tool) for tool in tools])[which]
@@ -332,11 +332,16 @@ def _of_tools(given: Any, name: str, tools: Mapping[int, Any]) -> dict[int, floa
 
 
 @fitting
-def setup_sheet(run: Run, path: str | Path, title: str | None = None) -> Path:
-    """Write the set-up sheet, .html or .pdf: zero points, blank with a drawing, fixtures, tools."""
+def setup_sheet(
+    run: Run, path: str | Path, title: str | None = None, *, material: str = "", date: str = "", author: str = ""
+) -> Path:  # fmt: skip
+    """Write the set-up sheet, .html or .pdf: zero points, blank with a drawing, fixtures, tools, correctors.
+
+    `material`, `date` and `author` stand above; of what is not given there is a line to fill in.
+    """
     from mnclab.show.report.gathering import save_sheet
 
-    return save_sheet(run, "setup", path, title)
+    return save_sheet(run, "setup", path, title, material=material, date=date, author=author)
 
 
 @fitting

@@ -145,13 +145,18 @@ class Run(Pictures):
         """How far what is judged of a run goes that stopped: "up to line 12, where the run stopped"; empty of a whole one."""
         return card.reach(self.halt, self.place_of_line)
 
-    def at(self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0) -> Moment:
+    def at(
+        self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0,
+        *, block: int | str | None = None,
+    ) -> Moment:  # fmt: skip
         """The machine after the `pass_`-th execution of a line (of one of `programs`), or after a step; else an Alarm.
 
-        A line within a block of several lines means the block.
+        A line within a block of several lines means the block; `block` is a number as the program has it, 40 or "N40".
         """
+        if step is None and block is not None:
+            line = self._line_of(block, program)
         if step is None and line is None:
-            raise Alarm("at() needs a line or a step", hint="run.at(line=5)")
+            raise Alarm("at() needs a line, the number of a block or a step", hint="run.at(line=5)")
         if step is None:
             line, pass_ = whole(line, "the line"), whole(pass_, "pass_")
             found = self.executions(line, whole(program, "the number of the program"))
@@ -164,15 +169,21 @@ class Run(Pictures):
         if not 0 <= step < len(self.steps.block):
             raise Alarm(f"step must be 0 … {len(self.steps.block) - 1}, got {step}")
         which = int(self.steps.program[step])
-        block = self.programs[which][int(self.steps.block[step])]
-        block = replace(block, span=block.span._replace(program=which))
+        found_block = self.programs[which][int(self.steps.block[step])]
+        found_block = replace(found_block, span=found_block.span._replace(program=which))
         position, path = self.history.value("position", step), self.toolpath
         a, b = np.searchsorted(path.step, [step, step + 1]).tolist() if len(path) else (0, 0)
         tip = path.end[b - 1] if b else path.start[0] if len(path) else np.array(self.setup.start)
         state, changed, row = self.history.at(step), self.history.changes(step), b - 1 if b > a else -1
-        line, point = block.span.line, tuple(tip.tolist())
+        line, point = found_block.span.line, tuple(tip.tolist())
         text = quoted(self.programs[which].line_text(line).strip())[0]
-        return Moment(step, line, block, position, state, changed, slice(a, b), row, 1.0, point, text, path.lathe)
+        return Moment(step, line, found_block, position, state, changed, slice(a, b), row, 1.0, point, text, path.lathe)
+
+    def _line_of(self, block: int | str, program: int) -> int:
+        """The line of the block that has a number."""
+        if not 0 <= (program := whole(program, "the number of the program")) < len(self.programs):
+            raise Alarm(f"there is no program number {program}, there are {len(self.programs)}")
+        return self.programs[program].line_of_number(block)
 
     @property
     def stock(self) -> Blank | None:
@@ -207,9 +218,17 @@ class Run(Pictures):
             raise Alarm(f"a condition is a text, got {shown(condition)}", hint='run.when("z < -5")')
         return when(self, condition)
 
-    def explain(self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0) -> Explanation:
-        """A block (named as for `at`) in plain words: what each word means and changed, and the way to the tool."""
-        return Explanation(self, self.at(line, pass_, step, program))
+    def explain(
+        self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0,
+        *, block: int | str | None = None,
+    ) -> Explanation:  # fmt: skip
+        """A block (named as for `at`) in plain words: what each word means and changed, and the way to the tool.
+
+        Of blocks that are obeyed as one, as those of CYCL DEF 1.0 to 1.5, it has the words of the one that was asked for.
+        """
+        if step is None and block is not None:
+            line = self._line_of(block, program)
+        return Explanation(self, self.at(line, pass_, step, program), line if step is None else None)
 
     def profile(
         self, limits: Limits | str | None = None, *, machine: Limits | str | None = None, override: float = 1.0

@@ -12,7 +12,7 @@ import json
 from collections.abc import Callable, Iterable
 from inspect import signature
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,24 +24,17 @@ from mnclab.show.export_gcode import write_gcode
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import named, replaced
 from mnclab.text.given import choice
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from mnclab.text.tables import write_picture
 
 
-def save(run: Any, path: str | Path, picture: Callable[..., Figure] | None = None, **options: Any) -> Path:
+def save(run: Any, path: str | Path, **options: Any) -> Path:
     """Write a run to one file and return its path; an Alarm when nothing of this suffix can be written.
 
     Figures take the options of `Run.plot`; an svg also `true_size=True`, a drawing in true millimetres. Bodies (stl, gltf,
     glb, vtk) are those of the part, with `of="path"` those of the path.
-    `picture` draws another figure of the run than the views of its path.
     """
     path, suffix = named(path, WRITERS, "cannot write {} files")
     writer = WRITERS[suffix]
-    if picture is not None:
-        if suffix not in FIGURES:
-            raise Alarm(f"a picture cannot be written as {suffix}", hint=f"known: {', '.join(FIGURES)}")
-        writer, options = write_figure, {"picture": picture, **options}
     if suffix in BODIES:
         writer, options = _body(run, suffix, **options)
     elif options and len(signature(writer).parameters) == 2:
@@ -63,17 +56,9 @@ def _body(run: Any, suffix: str, of: str = "part", **more: Any) -> tuple[Callabl
     return (lambda run, path: of_part(run.workpiece(), path)), {}
 
 
-def write_figure(run: Any, path: Path, picture: Callable[..., Figure] | None = None, **options: Any) -> None:
-    """The views of the path, or another picture."""
-    from mnclab.show.plot.path import plot_run
-    from mnclab.show.plot.picture import write
-
-    write((picture or plot_run)(run, **options), path)
-
-
 def write_svg(run: Any, path: Path, true_size: bool = False, **options: Any) -> None:
     """The views of the path, or the path alone in true size."""
-    (write_true_size if true_size else write_figure)(run, path, **options)
+    (write_true_size if true_size else write_picture)(run, path, **options)
 
 
 def write_csv(run: Any, path: Path) -> None:
@@ -134,7 +119,6 @@ def _plain(column: NDArray[Any]) -> list[Any]:
     return values.tolist()
 
 
-FIGURES = (".svg", ".pdf", ".png")
 OF = ("part", "path")
 BODIES: dict[str, tuple[Callable[..., None], Callable[..., None]]] = {
     ".stl": (export_mesh.write_part_stl, export_mesh.write_stl),
@@ -144,8 +128,8 @@ BODIES: dict[str, tuple[Callable[..., None], Callable[..., None]]] = {
 }
 WRITERS: dict[str, Callable[..., None]] = {
     ".svg": write_svg,
-    ".pdf": write_figure,
-    ".png": write_figure,
+    ".pdf": write_picture,
+    ".png": write_picture,
     ".csv": write_csv,
     ".json": write_json,
     ".html": lambda run, path: run.player().write(path),

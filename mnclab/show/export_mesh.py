@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 from mnclab.show import looks
 from mnclab.show.solids import Body, size_of, stock_of, strokes, tool_of, tubes
 from mnclab.text.file import save_as
+from mnclab.text.tables import write_picture
 from mnclab.workpiece.workpiece import Workpiece
 
 if TYPE_CHECKING:
@@ -201,14 +202,6 @@ def write_part_vtk(workpiece: Workpiece, path: Path) -> None:
             file.write(f"SCALARS {name} int 1\nLOOKUP_TABLE default\n".encode() + values.astype(">i4").tobytes() + b"\n")
 
 
-def write_figure(workpiece: Workpiece, path: Path, **options: Any) -> None:
-    """The picture of `Workpiece.plot`."""
-    from mnclab.show.plot.part import plot_part
-    from mnclab.show.plot.picture import write
-
-    write(plot_part(workpiece, **options), path)
-
-
 def write_csv(workpiece: Workpiece, path: Path) -> None:
     """Heights of a milled part as a table, corners of the half section of a turned one."""
     with path.open("w", encoding="utf-8", newline="") as file:
@@ -229,8 +222,6 @@ WRITERS: dict[str, Callable[..., None]] = {
     ".gltf": write_part_gltf,
     ".glb": write_part_gltf,
     ".vtk": write_part_vtk,
-    ".svg": write_figure,
-    ".pdf": write_figure,
-    ".png": write_figure,
+    **dict.fromkeys((".svg", ".pdf", ".png"), write_picture),
     ".csv": write_csv,
 }

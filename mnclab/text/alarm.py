@@ -153,9 +153,10 @@ class Alarm(Exception):
         said = self.message + self.others
         body = escape(f"{self.place}: {said}" if self.place else said)
         hint = f"<br><em>{escape(self.hint)}</em>" if self.hint else ""
-        style = "margin:.2em 0 .6em 1.5em;font-family:monospace"
+        whole = "word-break:normal;overflow-wrap:normal;overflow-x:auto"  # no word is broken, and the caret stays below its own
+        style = f"margin:.2em 0 .6em 1.5em;font-family:monospace;white-space:pre;{whole}"
         shown = f'<pre style="{style}">{escape(text)}\n{escape(caret)}</pre>' if caret else ""
-        return f'<div role="alert">{head}{body}{hint}{shown}</div>'
+        return f'<div role="alert" style="{whole}">{head}{body}{hint}{shown}</div>'
 
     _repr_html_ = html
 

@@ -181,8 +181,12 @@ LARGEST_TOML = 1_000_000  # bytes of a file
 class File:
     """The text of a file, so that an alarm can show a line of it."""
 
-    def __init__(self, name: str, text: str) -> None:
-        self.name, self._lines = name, text.splitlines()
+    def __init__(self, name: str, text: str, inside: tuple[str, ...] = ()) -> None:
+        self.name, self._lines, self._inside = name, text.splitlines(), inside
+
+    def within(self, *keys: str) -> File:
+        """The same file, whose keys are those in a table of it."""
+        return File(self.name, "\n".join(self._lines), (*self._inside, *keys))
 
     @property
     def end(self) -> Span:
@@ -193,7 +197,7 @@ class File:
 
     def place_of(self, *keys: str) -> Span | None:
         """Where a value is written that keys lead to, or something in it, else the table that it is in; None if nowhere."""
-        written = list(self._written())
+        written, keys = list(self._written()), (*self._inside, *keys)
         found = [(len(path), span) for path, span in written if path == list(keys[: len(path)])]
         found += [(len(keys), span) for path, span in written if path[: len(keys)] == list(keys)]
         return max(found, key=lambda each: each[0])[1] if found else None

@@ -26,6 +26,7 @@ from mnclab.text.given import checked
 WINGS = {
     "mnclab.design": "parts as drawn, their drawings and differences",
     "mnclab.lab": "forms, panels, the editor and the magics",
+    "mnclab.learning": "exercises and their grades",
     "mnclab.controls": "the controls",
 }
 

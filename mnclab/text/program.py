@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from mnclab.text.alarm import ALARM, Alarm, Alarms, Span, card_html, several
 from mnclab.text.expression import Expression
+from mnclab.text.given import shown
 from mnclab.text.tables import fixed, html_table
 from mnclab.text.words import characters, line_starts
 
@@ -175,10 +176,9 @@ class Program:
 
     def __getitem__(self, index: int) -> Block:
         index = range(len(self))[index]
-        number = _NUMBER_OF_BLOCK.match(self.text, int(self.start[index]))
         comments = (self._parted(line)[1].strip() for line in self._lines_of(index))
         return Block(
-            number=re.sub(r"[\s+]", "", number.group(1)).upper() if number else "",
+            number=self.number_at(int(self.start[index])),
             keyword=self.keywords[self.keyword[index]],
             words=tuple(self.word(i) for i in range(self.first[index], self.first[index + 1])),
             comment=" ".join(comment for comment in comments if comment),
@@ -188,6 +188,23 @@ class Program:
 
     def __iter__(self) -> Iterator[Block]:
         return (self[i] for i in range(len(self)))
+
+    def number_at(self, offset: int) -> str:
+        """The number of a block that begins at a place of the text, such as "N40" or "12"; empty without one."""
+        number = _NUMBER_OF_BLOCK.match(self.text, offset)
+        return re.sub(r"[\s+]", "", number.group(1)).upper() if number else ""
+
+    def number_of(self, line: int) -> str:
+        """The number of the block that a line begins with; empty where it is the line of a block begun before."""
+        return self.number_at(int(self.line_starts[line - 1])) if 1 <= line <= len(self.line_starts) else ""
+
+    def line_of_number(self, number: int | str) -> int:
+        """The first line whose block has a number, 40 or "N40" of N40; an Alarm where none has."""
+        bare, wanted = re.compile(r"^N?0*(?=\d)"), str(number).strip().upper()
+        for line in range(1, len(self.line_starts) + 1):
+            if (written := self.number_of(line)) and bare.sub("", written) == bare.sub("", wanted):
+                return line
+        raise Alarm(f"no block has the number {shown(number)}")
 
     def word(self, index: int) -> Word:
         form, value = self.form[index], self.value[index]
@@ -241,6 +258,10 @@ class Program:
         """A line before its comment, and the comment."""
         mark = re.search(self.comment_mark, line)
         return (line[: mark.start()], line[mark.end() :]) if mark else (line, "")
+
+    def code_of(self, index: int) -> list[str]:
+        """The lines of a block without its comments."""
+        return [self._parted(line)[0] for line in self._lines_of(index)]
 
     def _lines_of(self, index: int) -> list[str]:
         first = int(self.line_of(index))

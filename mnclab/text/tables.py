@@ -185,6 +185,27 @@ def write_csv(listing: Listing, path: Path) -> None:
     path.write_text(listing.csv(), "utf-8", newline="")
 
 
+def write_picture(what: Any, path: Path, **options: Any) -> None:
+    """The picture that `plot` draws of something as a file."""
+    from mnclab.show.plot.picture import write
+
+    write(what.plot(**options), path)
+
+
+class Pictured(ABC):
+    """What has a picture, and is saved as one: a class says how to `plot` it."""
+
+    @abstractmethod
+    def plot(self, **options: Any) -> Any:
+        """The picture (needs matplotlib)."""
+
+    def save(self, path: str | Path, **options: Any) -> Path:
+        """Write the picture (.svg, .pdf, .png), `options` such as `size="column"` are those of `plot`; or a table (.csv)."""
+        writers: dict[str, Callable[..., None]] = dict.fromkeys((".svg", ".pdf", ".png"), write_picture)
+        writers |= {".csv": write_csv} if isinstance(self, Listing) else {}
+        return save_as(self, path, writers, "cannot write a picture as {}", **options)
+
+
 def paragraphs(*sentences: str) -> str:
     """Sentences as HTML, each in a paragraph of its own; empty ones are left out."""
     return "".join(f"<p>{escape(each)}</p>" for each in sentences if each)

@@ -12,7 +12,7 @@ from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Array, Index, Kind
 from mnclab.text.given import choice, fitting_class
-from mnclab.text.tables import Listing, Rounded, written
+from mnclab.text.tables import Listing, Pictured, Rounded, written
 from mnclab.workpiece.ahead import FEW, RATE, Looks
 from mnclab.workpiece.workpiece import Workpiece
 
@@ -38,7 +38,7 @@ class Fastest(NamedTuple):
 
 
 @fitting_class
-class Removal(Listing):
+class Removal(Pictured, Listing):
     """What a workpiece lost while a profile went on; both belong to the same path of n rows.
 
     `volumes` (n,) mm³ and `seconds` (n,) are those of each row, `rate` (n,) mm³/min its mean rate, 0 where it cuts

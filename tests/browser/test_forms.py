@@ -111,16 +111,68 @@ def test_first_field_last_head_and_picture_stand_on_one_screen(run_cells, code, 
     assert places["clipped"] == []
 
 
-def test_a_sketch_is_dark_on_white_in_the_dark_theme_too(run_cells):
+def test_the_field_with_the_cursor_lights_its_dimension_up(run_cells):
+    """Over the picture, as large as it, and for another value when that is typed."""
     page = run_cells("import mnclab as mnc\nmnc.form('CYCL DEF 251', 'tnc-620')")
-    theme = "name => window.jupyterapp.commands.execute('apputils:change-theme', {theme: name})"
-    page.evaluate(theme, "JupyterLab Dark")
-    try:
-        page.wait_for_function("() => document.body.dataset.jpThemeLight === 'false'", timeout=5000)
-        look = "e => [getComputedStyle(e).color, getComputedStyle(e).backgroundColor]"
-        assert page.locator(".mnclab-about svg").first.evaluate(look) == ["rgb(26, 26, 26)", "rgb(255, 255, 255)"]
-    finally:
-        page.evaluate(theme, "JupyterLab Light")
+    assert page.locator(".mnclab-dimension").count() == 0
+    side = page.get_by_role("spinbutton", name="Q219 second side length [mm]")
+    side.focus()
+    page.get_by_role("img", name="Q219 60 mm").wait_for(timeout=10_000)
+    side.fill("50")
+    side.press("Tab")
+    page.get_by_role("img", name="Q220 8 mm").wait_for(timeout=10_000)
+    side.focus()
+    page.get_by_role("img", name="Q219 50 mm").wait_for(timeout=10_000)
+    drawn, picture = (page.locator(each).bounding_box() for each in (".mnclab-dimension", ".mnclab-drawn img"))
+    assert all(abs(drawn[each] - picture[each]) < 1.5 for each in ("x", "y", "width", "height"))
+
+
+#: Cells of the steps that stand, or whose text stands, out of what shows them.
+CUT = """() => {
+    const form = document.querySelector('.mnclab-form'), cut = [];
+    for (const cell of form.querySelectorAll('.mnclab-steps :is(td, th)')) {
+        const range = document.createRange();
+        range.selectNodeContents(cell);
+        const text = range.getBoundingClientRect();
+        for (let shell = cell.parentElement; shell && shell !== form.parentElement; shell = shell.parentElement) {
+            const box = shell.getBoundingClientRect();
+            const off = text.width && (text.left < box.left - 1 || text.right > box.right + 1 || text.top < box.top - 1
+                                       || text.bottom > box.bottom + 1);
+            if (off && shell.tagName !== 'TR') { cut.push(cell.textContent); break; }
+        }
+    }
+    return [cut, form.querySelectorAll('.mnclab-steps tr').length];
+}"""
+
+
+@pytest.mark.parametrize(("code", "control"), [*FORMS, ("G75", "nc-31")])
+def test_no_step_is_cut_in_a_row_or_a_column(run_cells, code, control):
+    page = run_cells(f"import mnclab as mnc\nmnc.form('{code}', '{control}')")
+    page.set_viewport_size({"width": LAPTOP["width"] - BESIDE, "height": LAPTOP["height"]})
+    page.wait_for_timeout(300)
+    cut, rows = page.evaluate(CUT)
+    assert cut == [] and rows > 3
+
+
+def test_an_alarm_breaks_no_word(run_cells):
+    """On a narrow page: every word of it stands in one line, the line of the program and its caret in one piece."""
+    program = "G90 G54 S500 M3\\n" + "N20 G1 X40.125 Y30.125 Z-12.125 F100 (a long line for a narrow page) " * 2 + "W5,5\\n"
+    page = run_cells(f"import mnclab as mnc\nmnc.run('{program}', 'mnc').alarms[0]")
+    page.set_viewport_size({"width": 480, "height": 700})
+    page.wait_for_timeout(300)
+    broken = page.evaluate("""() => {
+        const alarm = document.querySelector('.jp-OutputArea [role=alert]'), found = [];
+        const walk = document.createTreeWalker(alarm, NodeFilter.SHOW_TEXT);
+        for (let node; node = walk.nextNode();)
+            for (const word of node.data.matchAll(/\\S+/g)) {
+                const range = document.createRange();
+                range.setStart(node, word.index);
+                range.setEnd(node, word.index + word[0].length);
+                if (range.getClientRects().length > 1 && !/[-/]/.test(word[0])) found.push(word[0]);
+            }
+        return found;
+    }""")
+    assert broken == []
 
 
 def test_what_a_changed_form_leaves_behind_is_its_last_picture(run_cells, browser, tmp_path):

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tools.pages import BEGUN
 
 import mnclab
 from mnclab.show.player.part import plain
@@ -31,13 +32,16 @@ STATE = """step => {
 }"""
 PLACE = "() => { const p = window.player; return {step: p.step, ...p.now()}; }"
 FITTED = """
-    const {camera, box} = window.player.picture, [w, h] = camera.size;
-    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(k => camera.project([0, 1, 2].map(axis => box[k >> axis & 1][axis])));
-    const [wide, high] = [0, 1].map(k => Math.max(...corners.map(c => c[k])) - Math.min(...corners.map(c => c[k])));
-    if (!corners.every(([x, y]) => x > 0 && x < w && y > 0 && y < h)) throw Error("the path is not in the picture");
-    if (wide < w / 3 && high < h / 3) throw Error("the path is a speck");
+    const {camera, strokes, run} = window.player.picture, [w, h] = camera.size, shown = run.stock.flat();
+    for (let i = 1; i < strokes.n; i++)
+        if (strokes.kind[i] === 2) shown.push(...[i - 1, i].map(k => [strokes.x[k], strokes.y[k], strokes.z[k]]));
+    const places = shown.map(point => camera.project(point));
+    const [wide, high] = [0, 1].map(k => Math.max(...places.map(c => c[k])) - Math.min(...places.map(c => c[k])));
+    if (!places.every(([x, y]) => x > 0 && x < w && y > 0 && y < h)) throw Error("the cut is not in the picture");
+    if (wide < w - 110 && high < h - 62) throw Error("the cut does not fill the picture");
+    return [wide / w, high / h];
 """
-READBACK = "Multiple readback operations"  # the browser's word on FRAME, which reads a pixel to wait
+READBACK = re.compile("Multiple readback|ReadPixels")  # the browser's word on who reads a pixel to wait
 FRAME = """() => {
     const p = window.player, times = [];
     for (let k = 0; k < 15; k++) {
@@ -80,10 +84,10 @@ def open_file(browser, tmp_path):
         context.set_offline(True)
         context.route(re.compile("^(?!file:)"), lambda route: faults.append(route.request.url) or route.abort())
         page = context.new_page()
-        page.on("console", lambda message: READBACK in message.text or faults.append(message.text))
+        page.on("console", lambda message: READBACK.search(message.text) or faults.append(message.text))
         page.on("pageerror", lambda error: faults.append(str(error)))
         page.goto(path.as_uri())
-        page.wait_for_function("window.player")
+        page.evaluate(BEGUN)
         return page
 
     yield opened
@@ -294,6 +298,44 @@ def test_everything_has_a_name(open_file):
         assert page.get_by_role("button", name=name, exact=True).count() == 1
 
 
+FAR = "G90 G54 T1 S900 M3\nG0 X-400 Y300 Z500\nX0 Y0 Z5\nG1 Z-4 F200\nX60\nY40\nG0 Z500\n"
+
+
+@pytest.mark.parametrize(("stock", "text"), [(None, FAR), (((-10, -10, -20), (70, 50, 0)), FAR), (None, PROGRAM)])
+def test_what_is_cut_fills_the_picture_and_rapids_run_out_of_it(open_file, stock, text):
+    page = open_file(mnclab.run(text, "mnc", mnclab.Setup(stock=stock)), viewport={"width": 1181, "height": 558})
+    for key in "1234":
+        page.keyboard.press(key)
+        assert max(page.evaluate(f"() => {{ {FITTED} }}")) > 0.77
+    pane = page.locator("#picture").bounding_box()
+    page.set_viewport_size({"width": 1735, "height": 870})
+    page.wait_for_function(f"() => {{ {FITTED} }}")
+    assert page.locator("#picture").bounding_box()["height"] == pane["height"] + 870 - 558
+
+
+def test_rapids_are_hidden_by_a_key_and_a_button(open_file):
+    """Red is what only rapids are drawn in here; a click where one ran goes nowhere."""
+    page = open_file(mnclab.run(PROGRAM, "mnc"))
+    red = """() => {
+        const {canvas} = window.player.picture, pen = canvas.getContext("2d");
+        const {data} = pen.getImageData(0, 0, canvas.width, canvas.height);
+        let n = 0;
+        for (let k = 0; k < data.length; k += 4) n += data[k + 3] > 40 && data[k] > 150 && data[k + 1] < 90 && data[k + 2] < 90;
+        return n;
+    }"""
+    page.keyboard.press("1")
+    page.keyboard.press("End")
+    page.wait_for_function(f"() => ({red})() > 50")
+    button = page.get_by_role("button", name="Rapids")
+    button.click()
+    page.wait_for_function(f"() => ({red})() === 0")
+    assert button.get_attribute("aria-pressed") == "false"
+    assert page.evaluate("""() => { const {picture} = window.player, [x, y] = picture.camera.project([25, 20, 20]);
+        return picture.strokes.pick(x, y, picture.camera, 3, picture.rapids); }""") == -1
+    page.keyboard.press("r")
+    page.wait_for_function(f"() => ({red})() > 50")
+
+
 @pytest.mark.parametrize(("width", "height"), [(1100, 700), (700, 640), (390, 844), (320, 640)])
 def test_nothing_is_cut_off_sideways(open_file, width, height):
     page = open_file(mnclab.run(PROGRAM, "mnc"), viewport={"width": width, "height": height})
@@ -322,7 +364,7 @@ def test_a_lathe_opens_on_z_and_x_and_shows_diameters(open_file):
 def test_the_spindle_follows_x_at_constant_cutting_speed(open_file):
     """G96 S100: 1000 * 100 / (2 pi r) = 318.3 rev/min at radius 50, 636.6 at 25; the limit 3000 on the axis."""
     page = open_file(mnclab.run("G96 S100 M3 ' m/min\nG0 X50\nG94 F100 G1 X0\n", "jnc-t01"))
-    turning = "([row, x]) => Math.round(window.player.board.turning(row, [x, 0, 0]) * 10) / 10"
+    turning = "([row, x]) => Math.round(window.player.run.turning(row, [x, 0, 0]) * 10) / 10"
     found = [page.evaluate(turning, [2, x]) for x in (50, 25, -25, 0)]
     assert found == [318.3, 636.6, 636.6, 3000]
     page.get_by_role("option", name="line 2: G0 X50").click()
@@ -374,7 +416,7 @@ def test_a_curve_has_a_scale_where_something_moves(open_file, text, scales):
 def test_programs_without_moves_open(open_file):
     for text in ("// nothing\n", "G90\n", "\n"):
         page = open_file(mnclab.run(text, "mnc"))
-        for key in ("ArrowRight", "ArrowLeft", "Period", "Comma", "End", "Home", " ", "2", "f"):
+        for key in ("ArrowRight", "ArrowLeft", "Period", "Comma", "End", "Home", " ", "2", "f", "r", "c", "b", "n"):
             page.keyboard.press(key)
 
 
@@ -479,7 +521,7 @@ def test_the_page_runs_no_other_script_and_asks_for_nothing(browser, tmp_path):
     path = mnclab.run(PROGRAM, "mnc").save(tmp_path / "part.html")
     page = browser.new_page()
     page.goto(path.as_uri())
-    page.wait_for_function("window.player")
+    page.evaluate(BEGUN)
     assert page.evaluate(REFUSED) == "script-src-elem" and page.evaluate("window.foreign") is None
     assert page.evaluate("fetch('data:,x').then(() => 'fetched', () => 'refused')") == "refused"
     page.close()

@@ -4,6 +4,7 @@ import math
 import re
 
 import pytest
+from tools.pages import BEGUN
 
 import mnclab
 from mnclab import Setup, Tool
@@ -86,7 +87,7 @@ def opened(browser, tmp_path):
         page.on("console", lambda message: "ReadPixels" in message.text or faults.append(message.text))
         page.on("pageerror", lambda error: faults.append(str(error)))
         page.goto(run.save(tmp_path / "part.html").as_uri())
-        page.wait_for_function("window.player")
+        page.evaluate(BEGUN)
         page.keyboard.press("End")
         page.keyboard.press("m")
         page.wait_for_timeout(100)
@@ -132,7 +133,8 @@ def closer(page, at, times=6):
 
 def values(page):
     """The cells of the table, row by row, as text."""
-    return [row.split("\t") for row in page.locator("#values").inner_text().replace("\N{MINUS SIGN}", "-").splitlines()]
+    rows = page.evaluate("[...document.querySelectorAll('#values tr')].map(row => [...row.cells].map(cell => cell.textContent))")
+    return [[text.replace("\N{MINUS SIGN}", "-") for text in row] for row in rows]
 
 
 @pytest.mark.parametrize(("view", "before"), [("Top", ""), ("Top", NO_WEBGL), ("3D", "")], ids=["top", "without webgl", "3D"])
@@ -222,12 +224,30 @@ def test_points_of_the_path_are_ends_middles_and_centres(opened):
     assert "⌀ 20.000 of the path" in values(page)[1][4]
 
 
+def test_moves_are_edges_too(opened):
+    """Parallel to the first one runs another 20 beside it; the last one rises by 3 in 4: atan(3 / 4). A hidden rapid is none."""
+    text = "T1 S800 M3\nG0 X10\nY10\nG1 X70 F300\nY30\nX10\nX50 Y60\nG0 Y10\n"
+    page = opened(mnclab.run(text, "mnc"))
+    page.get_by_role("button", name="Top", exact=True).click()
+    low, high = clicked(page, (25, 10.4, 0), (58, 29.7, 0))
+    assert low["what"] == high["what"] == "on a move" and low["at"] == pytest.approx([25, 10, 0], abs=0.2)
+    assert low["at"][1] == pytest.approx(10, abs=1e-9) and high["at"][1] == pytest.approx(30, abs=1e-9)
+    assert "20.000 mm between the edges" in values(page)[3][4]
+    clicked(page, (25, 10.4, 0), (20, 37.5, 0))
+    assert f"{math.degrees(math.atan(3 / 4)):.3f}".rstrip("0") + "\N{DEGREE SIGN} between the edges" in values(page)[3][4]
+    page.keyboard.press("Escape")
+    assert len(clicked(page, (50, 45, 0))) == 1
+    page.keyboard.press("Escape")
+    page.keyboard.press("r")
+    assert clicked(page, (50, 45, 0)) == []
+
+
 @pytest.mark.parametrize("view", ["ZX", "3D"])
 def test_the_groove_of_a_lathe(opened, view):
     """The blade is 3 wide, its left corner at Z-20; the bar has been turned to 40, the groove to 32: 4 deep."""
     page = opened(lathe())
     page.get_by_role("button", name=view, exact=True).click()
-    closer(page, (0, 0, -20), 3)
+    closer(page, (18, 0, -20), 3)
     (bar, floor) = clicked(page, (20.1, 0, -13.5), (16.1, 0, -18.5))
     assert bar["what"] == floor["what"] == "cylinder"
     assert values(page)[3][1:3] == ["-8.000", "-4.000"] and values(page)[1][1] == "40.000"
@@ -236,6 +256,7 @@ def test_the_groove_of_a_lathe(opened, view):
     (corner,) = clicked(page, (16.1, 0, -17.1))
     assert corner["what"] == "corner" and corner["at"] == pytest.approx([16, 0, -17], abs=1e-4)
     page.keyboard.press("Escape")
+    page.keyboard.press("f")
     over, under = clicked(page, *[(side * 20, 0, -30) for side in (1, -1)])
     assert (over["at"][0], under["at"][0]) == pytest.approx((20, -20))
 
@@ -342,6 +363,9 @@ def test_the_values_stand_beside_the_picture_and_cover_nothing(opened, width, he
     boxes = [page.locator(name).bounding_box() for name in ("#measured", "#picture", ".transport", ".curve")]
     board = boxes[0]
     for other in boxes[1:]:
-        assert board["y"] >= other["y"] + other["height"] - 0.5 or other["y"] >= board["y"] + board["height"] - 0.5
+        assert any(
+            one[at] >= two[at] + two[size] - 0.5
+            for one, two in ((board, other), (other, board)) for at, size in (("x", "width"), ("y", "height"))
+        )  # fmt: skip
     wide, room = page.evaluate("() => ['scrollWidth', 'clientWidth'].map(name => player.find('measured')[name])")
     assert wide <= room

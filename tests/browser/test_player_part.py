@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from tools.pages import BEGUN
 
 import mnclab
 from mnclab import Setup, Tool
@@ -116,7 +117,7 @@ def opened(browser, tmp_path):
         page.on("console", lambda message: "ReadPixels" in message.text or faults.append(message.text))
         page.on("pageerror", lambda error: faults.append(str(error)))
         page.goto(run.save(tmp_path / "part.html").as_uri())
-        page.wait_for_function("window.player")
+        page.evaluate(BEGUN)
         return page
 
     yield open_page

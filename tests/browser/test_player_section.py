@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from tools.pages import BEGUN
 
 import mnclab
 from mnclab import Setup, Tool
@@ -61,7 +62,7 @@ def test_the_section_is_that_of_the_kernel_forwards_and_backwards(browser, tmp_p
     faults = []
     page.on("pageerror", lambda error: faults.append(str(error)))
     page.goto(run.save(tmp_path / "part.html").as_uri())
-    page.wait_for_function("window.player")
+    page.evaluate(BEGUN)
     dice = np.random.default_rng(4)
     points = dice.uniform((-60, 1), (2, 32), (400, 2))
     rows = [row for row in range(len(run.toolpath)) if run.toolpath.is_motion[row]]
@@ -78,7 +79,7 @@ def test_within_a_row_the_tool_has_cut_up_to_where_it_stands(browser, tmp_path, 
     """The first pass at radius 29 turns from Z3 to Z-59.9 away what lies outside."""
     page = browser.new_page(viewport={"width": 1366, "height": 768})
     page.goto(run.save(tmp_path / "part.html").as_uri())
-    page.wait_for_function("window.player")
+    page.evaluate(BEGUN)
     path = run.toolpath
     (row, *_) = np.flatnonzero((path.end[:, 2] < -59) & (path.kind == 1))
     item = page.evaluate("row => window.player.run.itemOfRow[row]", int(row))
@@ -94,7 +95,7 @@ def test_the_insert_stands_at_the_tip_and_what_it_cut_is_seen_through_it(browser
     """The colours of the page have an alpha below 1, and the shapes are those of the figures: their tips are at (0, 0)."""
     page = browser.new_page(viewport={"width": 1366, "height": 768})
     page.goto(run.save(tmp_path / "part.html").as_uri())
-    page.wait_for_function("window.player")
+    page.evaluate(BEGUN)
     drawn = page.evaluate("""() => {
         const found = [];
         window.drawInsert = (pen, tool, tip, project, colours) => found.push([tool, tip, colours.insert, colours.holder]);
@@ -116,7 +117,7 @@ def test_without_a_blank_a_thread_is_cut_by_a_pointed_insert(browser, tmp_path):
     bare = mnclab.run("M3\nT9\nG97 S300\nG00 X12 Z4\nG32 Z-20 F2\n", "jnc-t01", setup)
     page = browser.new_page()
     page.goto(bare.save(tmp_path / "bare.html").as_uri())
-    page.wait_for_function("window.player")
+    page.evaluate(BEGUN)
     tools = page.evaluate("player.run.inserts.tools")
     corners = np.unique(tools[-1]["insert"], axis=0)
     (tip,) = corners[corners[:, 1] < 1e-6]

@@ -1,6 +1,7 @@
 """The player shows the part that a probe meets, and its touches as they come."""
 
 import pytest
+from tools.pages import BEGUN
 from tools.toy_probing import toy_run
 
 from mnclab.workpiece.part import box, hole
@@ -27,7 +28,7 @@ def page(browser, tmp_path):
     page.on("console", lambda message: "ReadPixels" in message.text or faults.append(message.text))
     page.on("pageerror", lambda error: faults.append(str(error)))
     page.goto(run.save(tmp_path / "part.html").as_uri())
-    page.wait_for_function("window.player")
+    page.evaluate(BEGUN)
     yield page, run
     page.close()
     assert faults == []
@@ -52,7 +53,7 @@ def test_letters_of_the_axes_cover_no_number(browser, tmp_path):
     zero."""
     page = browser.new_page(viewport={"width": 1000, "height": 700})
     page.goto(toy_run("M4 X0 Y30 Z-5", PART).save(tmp_path / "part.html").as_uri())
-    page.wait_for_function("window.player")
+    page.evaluate(BEGUN)
     texts = page.evaluate("""() => {
         const found = [], write = CanvasRenderingContext2D.prototype.fillText, {player} = window;
         player.go(player.afterItem(player.run.items - 1));

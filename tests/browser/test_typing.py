@@ -50,6 +50,22 @@ def test_tab_offers_the_codes(run_cells, source):
     page.keyboard.press("Escape")
 
 
+def test_what_is_offered_is_written_as_the_manual_has_it_and_no_word_of_the_notebook_is_among_it(run_cells):
+    """G88 is no code of the MNC; JupyterLab would offer it, as it stands in the cell, and would write "level r, mm (g83)"."""
+    page = run_cells("%load_ext mnclab")
+    edit(page, "%%mnc --control mnc\nN10 G88\nN40 G8")
+    found = offered(page)
+    assert "G88" not in found and found["G83"] == "Deep-hole drilling"
+    assert set(page.locator(".jp-Completer-item .jp-Completer-type").all_inner_texts()) == {"◆"}
+    page.keyboard.press("Escape")
+    edit(page, "%%mnc --control mnc\nN40 G83 X20 ")
+    found = offered(page)
+    assert found["R"] == "level R, mm (G83)" and found["K"] == "depth of one peck, mm (G83)"
+    icons = page.locator(".jp-Completer-item .jp-Completer-type")
+    assert set(icons.all_inner_texts()) == {"◇"} and icons.first.get_attribute("aria-label") == "word"
+    page.keyboard.press("Escape")
+
+
 def test_shift_tab_says_what_a_word_means(run_cells):
     page = run_cells("import mnclab as mnc")
     edit(page, "%%mnc --control mnc\nN40 G83 X20 K5")

@@ -1,11 +1,16 @@
 """The path of a clearing, written as a program, run on its control: the same path again, and the pocket in the part."""
 
+import functools
+
 import numpy as np
 import pytest
-from shapely import Point
+import shapely
+from mnclab.strategies import STRATEGIES, rest
+from tools.together import deep_but_one_in
 
 import mnclab
 from mnclab.comparison.strategies import compare
+from mnclab.design import Pocket
 from mnclab.geometry.arcs import FULL
 from mnclab.geometry.contours import Contour, rectangle
 from mnclab.geometry.regions import Region
@@ -23,8 +28,9 @@ REGIONS = {
 HELIX = Entry("helix", 3)
 
 
-def trials(name, entry=VERTICAL):
-    return compare(REGIONS[name], 4.0, overlap=0.6, entry=entry)
+@functools.cache
+def trials(name, entry=VERTICAL, *strategies):
+    return compare(REGIONS[name], 4.0, *strategies, overlap=0.6, entry=entry)
 
 
 def obeyed(trial, control, **options):
@@ -56,7 +62,7 @@ def check_same(path, rows, unit):
     assert at == len(rows) - 1
 
 
-@pytest.mark.parametrize("name", REGIONS)
+@pytest.mark.parametrize("name", deep_but_one_in(3, REGIONS))
 def test_the_run_is_the_path(name):
     """With nine decimals, 1e-9 mm."""
     for trial in trials(name):
@@ -73,7 +79,7 @@ def test_with_fewer_decimals_it_is_that_near(decimals):
 
 def test_a_helix_of_the_mnc_is_chords_within_it():
     """Their ends lie on the circle about its centre, their middles less than 0.001 mm inside."""
-    trial = trials("square", HELIX)["rings"]
+    trial = trials("square", HELIX, "rings")["rings"]
     rows = obeyed(trial, "mnc", decimals=9)[1]
     helix = (trial.path.kind == Kind.ARC) & (trial.path.end[:, 2] < trial.path.start[:, 2])
     centre, radius = trial.path.centre[helix][0, :2], np.hypot(*(trial.path.end - trial.path.centre)[helix][0, :2])
@@ -89,16 +95,46 @@ def test_a_helix_of_the_mnc_is_chords_within_it():
 @pytest.mark.parametrize("control", CONTROLS)
 def test_the_part_has_the_pocket(name, control):
     """1 deep wherever a disc of radius 4 within the region reaches, as it was elsewhere; nothing is hit."""
-    trial = trials(name, HELIX)["rounded rings"]
+    trial = trials(name, HELIX, "rounded rings")["rounded rings"]
     run, _ = obeyed(trial, control)
     assert not len(run.collisions())
     reach = polygons(REGIONS[name]).buffer(-4, quad_segs=400).buffer(4, quad_segs=400)
     spots = np.random.default_rng(5).uniform(-45, 65, (3000, 2))
-    sure = np.array([reach.boundary.distance(Point(spot)) > 0.01 for spot in spots])
-    inside = np.array([reach.contains(Point(spot)) for spot in spots])
+    sure = shapely.distance(reach.boundary, shapely.points(spots)) > 0.01
+    inside = shapely.contains_xy(reach, *spots.T)
     heights = run.workpiece().at(*spots.T)
     assert heights[sure] == pytest.approx(-1.0 * inside[sure], abs=1e-6)
     assert -0.01 < run.workpiece().removed / reach.area - 1 < 0.001
+
+
+BOX = Region.of(rectangle(60, 40))
+#: What stands of the box, what is air 2 deep, and how large the area is that a tool of radius 3 takes away.
+STOCKS = {
+    "a third": (Region.of(rectangle(20, 60, centre=(20, 0))), Pocket.rectangle(-10, 0, 40, 40, 2), 800 - (4 - np.pi) * 9 / 2),
+    "corners": (rest(BOX, 8.0), Pocket.rectangle(0, 0, 60, 40, 2, corner=8), (4 - np.pi) * (64 - 9)),
+}
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize(
+    ("name", "stock"), deep_but_one_in(5, [(name, stock) for name in STRATEGIES for stock in STOCKS]), ids=str
+)
+def test_a_stock_is_met_from_its_open_side(name, stock, control):
+    """On a blank with that air in it nothing is hit, on either of two levels, and all that can be reached is gone."""
+    stands, air, cut = STOCKS[stock]
+    trial = compare(BOX, 3.0, name, stepover=1.8, stock=stands, depth=(1, 2), entry=HELIX)[name]
+    blank = mnclab.Design(((-50, -50, -9), (50, 50, 0)), air)
+    setup = mnclab.Setup(tools={1: mnclab.Tool(radius=3, length=60, teeth=3)}, stock=blank)
+    run = mnclab.run(trial.program(control), control, setup=setup)
+    assert run.ok and not run.alarms and not run.collisions()
+    assert run.workpiece().removed == pytest.approx(2 * cut, rel=3e-3)
+
+
+def test_where_there_is_no_air_it_is_hit():
+    """That blank without its air: the small lifts of adaptive clearing go through material."""
+    trial = compare(BOX, 3.0, "adaptive", stepover=1.8, stock=STOCKS["a third"][0])["adaptive"]
+    run = mnclab.run(trial.program("g43"), "g43", setup=SETUP)
+    assert any(hit.kind == "rapid" for hit in run.collisions())
 
 
 def test_what_it_takes():

@@ -18,8 +18,9 @@ REFUSALS = [refusal for file in FILES for refusal in refusals(file)]
 LINES = [r for r in REFUSALS if r.control in ("g43", "jnc-t01", "mnc") and r.file.stem != "loops"]
 
 
-def each(cases):
-    return together("refusal", cases, lambda refusal: f"{refusal.control}-{refusal.file.stem}", lambda refusal: refusal.name)
+def each(cases, **more):
+    group = lambda refusal: f"{refusal.control}-{refusal.file.stem}"  # noqa: E731
+    return together("refusal", cases, group, lambda refusal: refusal.name, **more)
 
 
 @each(REFUSALS)
@@ -36,6 +37,12 @@ def test_it_is_refused_there_and_so(refusal, rewrite):
     assert first.headline == f"{refusal.path}:{line}:{column}: alarm: {text}"
     source, caret = first.lines()
     assert source and caret.endswith("^")
+
+
+@each(REFUSALS, deep_but_one_in=6)
+def test_it_is_raised_where_that_is_asked_for(refusal):
+    program = refusal.program
+    first = next(alarm for alarm in mnclab.run(program, setup=refusal.setup).alarms if alarm.severity == "alarm")
     with pytest.raises(Alarm) as raised:
         mnclab.run(program, setup=refusal.setup, strict=True)
     assert str(raised.value) == str(first)

@@ -399,7 +399,8 @@ def test_a_mirror_image_keeps_the_sense_of_sl_cycles(axes, sense, monkeypatch):
     """8.3: climb milling with M3 goes round the wall of a pocket counter-clockwise on the machine, and its islands clockwise."""
     monkeypatch.setitem(SL, "sense", sense)
     frame = mirror("CYCL DEF 22", axes)
-    path = rows(run_once("CYCL DEF 22", program("CYCL DEF 22", values_of("CYCL DEF 22", {"swing_feed": 0}), frame), setup()))
+    values = values_of("CYCL DEF 22", {"swing_feed": 0, "infeed": 5})
+    path = rows(run_once("CYCL DEF 22", program("CYCL DEF 22", values, frame), setup()))
     cut = path[(path.kind == Kind.LINE) & (path.start[:, 2] == path.end[:, 2]) & (path.end[:, 2] == -5)]
     x, y = cut.start[:, 0], cut.start[:, 1]
     outermost = (np.abs(np.abs(x) - 34.5) < 1e-9) | (np.abs(np.abs(y) - 24.5) < 1e-9)  # 40 and 30 less R and Q3

@@ -3,6 +3,8 @@
 import math
 import random
 
+from shapely import Polygon, STRtree
+
 from mnclab.design.drawing.view import (
     Angle,
     Axis,
@@ -20,6 +22,17 @@ from mnclab.design.drawing.view import (
 )
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
+
+TOUCH = 0.02  # mm²: what rounding makes of boxes that touch
+
+
+def covering(boxes):
+    """Pairs of boxes of a drawing that cover a part of each other."""
+    areas = [Polygon(box.corners) for box in boxes]
+    for i, k in zip(*STRtree(areas).query(areas, predicate="intersects"), strict=True):
+        if i < k and areas[i].intersection(areas[k]).area >= TOUCH:
+            yield boxes[i], boxes[k]
+
 
 ROUND = math.tan(math.pi / 8)
 

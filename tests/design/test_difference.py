@@ -8,8 +8,10 @@ import pytest
 from design.cut_from_drawings import Writer, cut
 from tools.milled import MILL, part
 
+import mnclab
 from mnclab import Alarm, Tool
-from mnclab.design.model import Chamfer, Design, Face, Groove, Hole, Pocket, Rectangle, Slot, Stud
+from mnclab.design.difference.measuring import circle
+from mnclab.design.model import Chamfer, Circle, Design, Face, Groove, Hole, Pocket, Rectangle, Slot, Stud
 from mnclab.geometry.contours import Contour
 from mnclab.workpiece.blank import cylinder
 
@@ -316,3 +318,47 @@ def test_a_groove_cut_too_wide_keeps_its_middle():
     found = part(around, Tool(radius=3.1, number=1, kind="mill")).compare(Design(BLOCK, (groove,)), 0.05)
     for measure, actual in (("width", 6.2), ("outline length", 30.0), ("outline width", 20.0)):
         assert row(found, "groove", measure).actual == pytest.approx(actual, abs=1e-6)
+
+
+def test_a_wall_that_goes_straight_on_has_no_radius():
+    """A crown of 500 mm over 20 mm is one still, to the micrometre; a line is none, however it lies."""
+    turns = np.linspace(-0.02, 0.02, 9)
+    crown = np.array([3.0, 4.0]) + 500 * np.stack([np.cos(turns), np.sin(turns)], axis=1)
+    assert circle(crown, np.array([400.0, 0.0])) == pytest.approx((3, 4, 500), abs=1e-3)
+    for degrees in (0, 30, 90):
+        way = np.array([math.cos(math.radians(degrees)), math.sin(math.radians(degrees))])
+        straight = np.array([6.0, 1.0]) + np.linspace(-5, 5, 9)[:, None] * way
+        assert all(math.isnan(each) for each in circle(straight, np.array([3.0, 3.0])))
+
+
+@pytest.mark.parametrize("off", [0.0, 0.02])
+def test_an_island_is_no_part_of_the_circle_of_its_pocket(off):
+    """A mill of 10 mm once round at a radius of 7 leaves a ring, 24 outside and 4 inside."""
+    ring = Pocket(Circle(30, 20, 24), 8, name="ring", islands=[Circle(30, 20, 4)])
+    around = f"G0 X{37 + off} Y20 Z2\nG1 Z-8\nG3 X{37 + off} Y20 I-7 J0\n"
+    found = part(around).compare(Design(BLOCK, (ring,)))
+    assert found.ok
+    for measure, actual in (("diameter", 24.0), ("x", 30 + off), ("y", 20.0)):
+        assert row(found, "ring", measure).actual == pytest.approx(actual, abs=1e-9)
+
+
+TAPPED = (
+    "T1 M6\nS1000 M3\nG43 H1 G0 X20 Y20 Z5\nG1 Z-22.04 F100\nG0 Z5\n"
+    "T2 M6\nS500 M3\nG43 H2 G0 X20 Y20 Z5\nG84 Z{deep} R2 F{feed}\nG80\nG0 Z50\n"
+)
+
+
+@pytest.mark.parametrize(
+    ("deep", "feed", "pitch", "ok"),
+    [(-15, 625, 1.25, True), (-16, 625, 1.25, True), (-12, 625, 1.25, False), (-15, 500, 1.0, False)],
+)
+def test_a_tapped_hole_is_measured_as_hole_and_as_thread(deep, feed, pitch, ok):
+    """M8 in a hole of 6.8, its point of 118 degrees: 6.8 / 2 / tan 59° = 2.04 deep. The pitch is the feed over the speed."""
+    stock = (0, 0, -30), (40, 40, 0)
+    tools = {1: Tool(radius=3.4, kind="drill", angle=118), 2: Tool(radius=4, kind="tap")}
+    done = mnclab.run(TAPPED.format(deep=deep, feed=feed), "g43", mnclab.Setup(stock=stock, tools=tools))
+    found = done.workpiece().compare(Design(stock, (Hole(20, 20, 6.8, 20, thread="M8", thread_depth=15),)))
+    actual = {name: row(found, "hole", name).actual for name in ("diameter", "thread", "thread depth", "pitch")}
+    assert actual == pytest.approx({"diameter": 6.8, "thread": 8.0, "thread depth": -deep, "pitch": pitch}, abs=1e-3)
+    assert row(found, "hole", "depth").ok and found.ok == ok
+    assert found.worst_gouge.value < 0.01 and not any("not measured" in note for note in found.notes)

@@ -218,3 +218,13 @@ def test_wrong_arguments_are_alarms(tmp_path):
     with pytest.raises(Alarm):
         part.compare(DESIGN, tolerance=0)
     assert BAR.bounds[1, 2] == 0
+
+
+def test_a_thread_and_the_groove_beside_it_are_measured():
+    found = threaded(0.9).compare(THREADED)
+    for name, value in (("length", 20), ("z", 0), ("pitch", 1.5)):
+        assert row_of(found, name, "thread").actual == pytest.approx(value)
+    for name, value in (("width", 4), ("diameter", 20.5), ("z", -20)):
+        assert row_of(found, name, "ring groove").actual == pytest.approx(value, abs=WITHIN)
+    other = TurnedDesign(STUD, [RingGroove(-20, 4, diameter=20.5), Thread("M24x2", 0, -20)])
+    assert row_of(threaded(0.9).compare(other), "pitch", "thread").verdict == "out"

@@ -9,7 +9,7 @@ from tools.chance import seeds
 from mnclab import Tool
 from mnclab.design.model import Design
 
-SEEDS = seeds(3, deep=33)
+SEEDS = seeds(1, deep=33)
 STEP, EXACT = 0.4, 2e-5  # mm; the centre of a circle is the mean of a few hundred places
 ROUND = 2e-4  # of a bevel beside its place: its rings are not those of the design
 CONE = math.tan(math.radians(59))  # of a drill of 118 degrees

@@ -1,13 +1,13 @@
 """Drawings of designs: every measure of every feature once, nothing on something else, the lines where the part has edges."""
 
 from collections import Counter
-from itertools import combinations
 from pathlib import Path
 
 import ezdxf
 import numpy as np
 import pytest
 import shapely
+from design.drawn import covering
 from design.random_designs import milled, turned
 from shapely import Polygon
 
@@ -16,7 +16,6 @@ from mnclab.design.drawing import drawing, plot, save
 from mnclab.text.alarm import Alarm
 
 SAMPLES = sorted((Path(__file__).parents[2] / "data" / "designs").rglob("*.toml"))
-TOUCH = 0.02  # mm²: what rounding makes of boxes that touch
 BLANK = -1
 BOX = ("length", "width", "height")
 
@@ -35,13 +34,11 @@ def expected(design):
 def check(drawn, design):
     assert Counter((each.feature, each.back, each.measure) for each in drawn.dimensions) == expected(design)
     boxes = [box for box in drawn.boxes() if box.kind in ("text", "arrow")]
-    areas = [Polygon(box.corners) for box in boxes]
-    for (a, one), (b, other) in combinations(zip(boxes, areas), 2):
-        if a.sheet == b.sheet and (a.of is not b.of or a.kind == b.kind == "text"):
-            assert one.intersection(other).area < TOUCH, (a, b)
-    for box, area in zip(boxes, areas):
+    for a, b in covering(boxes):
+        assert a.sheet != b.sheet or (a.of is b.of and not a.kind == b.kind == "text"), (a, b)
+    for box in boxes:
         size = drawn.sheets[box.sheet - 1].size
-        assert shapely.box(20, 10, size.width - 10, size.height - 10).covers(area)
+        assert shapely.box(20, 10, size.width - 10, size.height - 10).covers(Polygon(box.corners))
     known = {(k, back): each for back, features in sides(design) for k, each in enumerate(features)}
     for each in drawn.dimensions:
         if each.feature == BLANK or each.text.startswith("ISO 6411"):  # which says a depth by the standard
@@ -49,7 +46,9 @@ def check(drawn, design):
         for measure in known[each.feature, each.back].measures():
             upright = measure.kind == "angle" and measure.nominal % 90 == 0  # as the picture shows
             if measure.name == each.measure and measure.kind != "place" and not upright:
-                assert any(f"{size:.3f}".rstrip("0").rstrip(".") in each.text for size in sizes(design, each, measure)), each
+                digits = 2 if measure.limits is None else 3
+                numbers = (f"{size:.{digits}f}".rstrip("0").rstrip(".") for size in sizes(design, each, measure))
+                assert any(number in each.text for number in numbers), each
 
 
 def sides(design):

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tools.together import deep_but_one_in
 
 import mnclab
 from mnclab.design.model import Face, Groove, Hole, Pocket, Slot
@@ -81,7 +82,10 @@ def test_features(name):
 SLOW = ("tnc-620/lid", "tnc-620/studs", "tnc-620/lever", "tnc-620/cam_plate", "tnc-620/pockets")
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.deep) if name in SLOW else name for name in MILLED])
+QUICK = deep_but_one_in(2, [name for name in MILLED if name not in SLOW])
+
+
+@pytest.mark.parametrize("name", [*QUICK, *(pytest.param(name, marks=pytest.mark.deep) for name in SLOW)])
 def test_the_design_is_the_part(name):
     run = run_of(name)
     assert (run.stock is None) == (name in WITHOUT_STOCK)

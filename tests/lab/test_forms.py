@@ -8,11 +8,13 @@ from concurrent.futures import ThreadPoolExecutor
 import ipywidgets
 import numpy as np
 import pytest
+from tools.together import deep_but_one_in
 
 import mnclab
 from mnclab import Alarm
 from mnclab.lab import forms
 from mnclab.lab.forms.fields import groups
+from mnclab.lab.forms.live import DRAWING
 from mnclab.show.plot import path as plot_of_path
 
 TEMPLATE = "G90 G54 S500 M3\nG0 X0 Y0 Z5\nG1 X{side} F{feed}\nY{side}\nX0\nY0\n"
@@ -182,6 +184,43 @@ def test_the_fields_of_a_long_form_stand_in_groups():
     assert all(int(re.search(r"\((\d+)\)", head)[1]) == list(group.values()).count(head) for head in heads)
 
 
+def test_a_field_lights_its_dimension_up_in_the_picture_as_it_is_now():
+    live = mnclab.form("CYCL DEF 200", "tnc-620")
+    live.light("depth")
+    assert "Q201 \N{MINUS SIGN}20 mm" in live.lit.value and live.lit.value.count("<polygon") == 2
+    live.boxes["depth"].value = -14
+    DRAWING.submit(int).result()  # it follows after the picture
+    assert "Q201 \N{MINUS SIGN}14 mm" in live.lit.value
+    live.light("feed") if "feed" in live.boxes else live.light("plunging_feed")
+    assert "150 mm/min" in live.lit.value and "<polygon" not in live.lit.value
+    live.boxes["depth"].value = 1e12
+    DRAWING.submit(int).result()
+    assert live.lit.value == "", "the picture is that of another value"
+
+
+def test_a_value_is_written_as_a_help_picture_has_it():
+    """In mm where a word counts in parts of them, with the meaning of a choice, nothing where the word is left out."""
+    live = mnclab.form("G77", "nc-31")
+    for name, text in (("x", "X 30 mm ⌀"), ("feed", "F 0.2 mm/rev")):
+        live.light(name)
+        assert f"<title>{text}</title>" in live.lit.value
+    live = mnclab.form("CYCL DEF 251", "tnc-620")
+    live.light(next(name for name, box in live.boxes.items() if box.description.startswith("Q224")))
+    assert "<title>Q224 15°</title>" in live.lit.value
+    live = mnclab.form("G83", "mnc")
+    live.ticks["peck_depth"].value = False
+    live.light("peck_depth")
+    assert live.lit.value == ""
+    with pytest.raises(Alarm, match="a parameter must be"):
+        live.light("peck")
+
+
+def test_the_picture_of_a_form_has_no_legend_and_shows_the_blank():
+    live = mnclab.form("G83", "mnc")
+    assert live.figure.legends == [] and len(live.figure.axes) == 2
+    assert all(any(each.get_label() == "_blank" for each in ax.patches) for ax in live.figure.axes)
+
+
 def test_a_short_form_has_no_groups():
     assert not any(field.head for field in mnclab.form("G77", "jnc-t01").fields.values())
 
@@ -207,7 +246,7 @@ def test_the_steps_of_a_form_follow_it():
 
 
 EVERY = [(name, code) for name in mnclab.controls for code in mnclab.controls[name].cycles]
-FEW = 5  # of so many one is drawn each time, all of them with the deep tests
+FEW = 10  # of so many one is drawn each time, all of them with the deep tests
 
 
 @pytest.mark.parametrize(
@@ -280,7 +319,7 @@ def test_a_cycle_in_sub_blocks_has_a_picture(code):
     assert "no alarms; cutting" in live.alarms.value and picture(live)[1]
 
 
-@pytest.mark.parametrize("number", [20, 21, 22, 23, 24, 25, 27, 28, 29, 39, 270, 275, 276])
+@pytest.mark.parametrize("number", deep_but_one_in(3, [20, 21, 22, 23, 24, 25, 27, 28, 29, 39, 270, 275, 276]))
 def test_a_contour_cycle_machines_a_contour_in_its_form(number):
     live = mnclab.form(f"CYCL DEF {number}", "tnc-620")
     assert live.run.ok and not live.run.alarms and "CYCL DEF 14.1 CONTOUR LABEL 1" in live.run.program.text
@@ -329,3 +368,15 @@ def test_a_probe_does_not_turn_in_the_program_of_a_form():
     live = mnclab.form("TCH PROBE 421", "tnc-620")
     assert live.run.ok and "M3" not in live.program.value
     assert "M3" in mnclab.form("CYCL DEF 200", "tnc-620").program.value
+
+
+@pytest.mark.parametrize(("code", "place", "away"), [
+    ("TCH PROBE 412", (50, 30, -8), 10),  # the middle of a bore of 20 mm
+    ("TCH PROBE 412", (54, 33, -8), 5),
+    ("TCH PROBE 413", (62, 46, -8), 10),  # 20 mm from the middle of a stud of 20 mm
+    ("TCH PROBE 410", (50, 30, -8), 10),  # the middle of a pocket of 40 by 20 mm
+    ("TCH PROBE 411", (75, 30, -8), 5),  # beside a block of 40 by 20 mm
+])  # fmt: skip
+def test_a_form_that_probes_has_the_part_that_its_cycle_is_for(code, place, away):
+    live = mnclab.form(code, "tnc-620")
+    assert live.run.ok and live.run.setup.part([place]) == pytest.approx(away)

@@ -26,7 +26,7 @@ def test_it_is_installed_where_jupyterlab_looks():
 
 
 def test_every_control_has_its_suffix_coloured():
-    script = (FOLDER / "static" / "remoteEntry.js").read_text("utf-8")
+    script = "".join((FOLDER / "static" / name).read_text("utf-8") for name in ("languages.js", "remoteEntry.js"))
     for control in mnclab.controls.values():
         for suffix in control.suffixes:
             assert f"'{suffix[1:]}'" in script or f"\\{suffix}$" in script, suffix
@@ -52,11 +52,13 @@ def test_no_word_is_offered_that_nobody_writes():
 
 
 def test_every_control_has_words_to_point_at():
-    script = (FOLDER / "static" / "remoteEntry.js").read_text("utf-8")
+    script = (FOLDER / "static" / "languages.js").read_text("utf-8")
     assert {f"control: '{name}'" in script for name in mnclab.controls} == {True}
 
 
-@pytest.mark.parametrize("name", ["remoteEntry.js", "words.js", "hover.js", "editor.js"])
+@pytest.mark.parametrize(
+    "name", ["remoteEntry.js", "languages.js", "words.js", "hover.js", "editor.js", "forms.js", "completer.js"]
+)
 def test_the_script_is_javascript(name, tmp_path):
     node = shutil.which("node")
     if node is None:
@@ -73,7 +75,7 @@ PROBES = ("// said", "/ / said", "; said", "(said)", "' said")
 @pytest.mark.parametrize("name", mnclab.controls)
 def test_what_is_coloured_as_a_comment_is_one_to_the_control(name):
     """The authority is the reader of the control: behind its own mark stands a comment, and nothing else is one."""
-    script = (FOLDER / "static" / "remoteEntry.js").read_text("utf-8")
+    script = (FOLDER / "static" / "languages.js").read_text("utf-8")
     mark = re.compile(mnclab.controls[name].read("", "").comment_mark)
     rule = r".*?(?:ISO\(|\[)/((?:[^/\\\n]|\\.)+)/y(?:\)|, 'comment'\])"
     languages = re.findall(rf"\{{\s*name: '[^']*', control: '{name}',{rule}", script, re.S)

@@ -95,12 +95,22 @@ def completed(shell, source):
 
 def test_tab_offers_codes_of_a_control_and_nothing_else(shell):
     words, places = completed(shell, "%%mnc --control mnc\nN40 G8")
-    assert words["G83"] == "Deep-hole drilling" and {word[:2] for word in words} == {"G8"} and places == {(24, 26)}
+    assert words["G83"] == "◆ Deep-hole drilling" and {word[:2] for word in words} == {"G8"} and places == {(24, 26)}
     shell.user_ns["mnc"] = mnclab
     assert "G83" in completed(shell, 'mnc.help("G8')[0]
     words, places = completed(shell, 'mnc.help("CYCL DEF 20')
     assert "200" in words and places == {(19, 21)}
     assert "append" in completed(shell, "x = []\nx.app")[0]  # Python is as it was
+
+
+def test_what_is_offered_has_a_sign_of_its_kind_that_is_no_address(shell):
+    """A code, a word of a code with its meaning as the manual has it, a name; JupyterLab shows the first letter as an icon."""
+    words, _ = completed(shell, "%%mnc --control mnc\nN40 G83 X20 ")
+    assert words["R"] == "◇ level R, mm (G83)"
+    words, _ = completed(shell, "%%mnc --control tnc-620\nCYCL DEF 200 DRILLING ~\n  Q2")
+    assert words["Q200="].startswith("◇ set-up clearance")
+    words, _ = completed(shell, "%%mnc --control tnc-620\nLBL 5\nCALL LBL ")
+    assert words == {"5": "▤ label"}
 
 
 def test_loading_twice_offers_once(shell):
@@ -125,6 +135,18 @@ def test_importing_mnclab_is_enough(monkeypatch):
     assert result.stdout.split() == ["light", "True", "1"], result.stderr
 
 
+def test_a_picture_is_drawn_once_where_ipython_draws_figures_too(shell, monkeypatch):
+    from IPython.core.pylabtools import select_figure_formats
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    select_figure_formats(shell, {"png"})  # what importing pyplot does in a notebook
+    monkeypatch.setattr(shell.display_formatter, "active_types", shell.display_formatter.format_types)
+    drawn, draw = [], FigureCanvasAgg.print_figure
+    monkeypatch.setattr(FigureCanvasAgg, "print_figure", lambda *given, **more: drawn.append(draw(*given, **more)))
+    data, _ = shell.display_formatter.format(mnclab.run(PROGRAM, "mnc").plot())
+    assert len(drawn) == 1 and data["image/png"] in data["text/html"]
+
+
 def test_the_kernel_is_asked_for_words_of_programs_and_answers_all_others_as_before(shell):
     from mnclab.lab.magic import explain_words
 
@@ -139,3 +161,32 @@ def test_the_kernel_is_asked_for_words_of_programs_and_answers_all_others_as_bef
     found = kernel.do_inspect(cell, cell.index("K5"), detail_level=0)
     assert found["found"] and "depth of one peck" in found["data"]["text/plain"]
     assert kernel.do_inspect("len", 2, 0) == {"found": False}
+
+
+def test_a_cell_is_graded_as_the_answer_to_an_exercise_and_kept(shell, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    model = mnclab.exercise("mnc-07").solution()
+    (bundle,) = shown(shell, "--exercise mnc-07", model.replace("Z-5", "Z-4", 1))
+    assert "not yet" in bundle["text/html"] and "line 3: pocket: its depth is not as drawn" in bundle["text/plain"]
+    assert not shell.user_ns["grade"].passed and shell.user_ns["run"].ok
+    shown(shell, "--exercise mnc-07 --name mine", model)
+    assert shell.user_ns["grade"].passed and shell.user_ns["mine"].ok
+    assert mnclab.progress().done["mnc-07"] == {"score": 1.0, "passed": True, "tries": 2, "faults": {"pocket depth": 1}}
+    with pytest.raises(mnclab.Alarm, match="there is no exercise 'mnc-77'"):
+        shown(shell, "--exercise mnc-77", model)
+
+
+def test_the_editor_of_an_exercise_begins_as_its_template_and_grades(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    exercise = mnclab.exercise("mnc-02")  # to mend
+    live = exercise.editor(tmp_path)
+    assert live.text.value == exercise.template != "" and live.sheets.selected_index in (None, 0)
+    live.check.click()
+    assert live.grade is not None and not live.grade.passed and "not yet" in live.told.value
+    live.text.value = exercise.solution()
+    live.check.click()
+    assert live.grade.passed and live.sheets.selected_index == 2 and "<img" in live.part.value
+    predicted = mnclab.exercise("mnc-13").editor(tmp_path)
+    assert len(predicted.children) == 1 and len(predicted.sheets.children) == 2
+    live.button.click()
+    assert (tmp_path / "mnc-02.mnc").read_text() == exercise.solution()

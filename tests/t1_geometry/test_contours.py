@@ -203,3 +203,12 @@ def test_area_is_that_of_a_fine_polyline(contour):
     error = 1e-3
     fine = Contour(contour.points_within(error)[:-1])
     assert fine.area == pytest.approx(contour.area, abs=error * contour.length + 1e-9)
+
+
+def test_columns_are_worked_out_once_and_nobody_writes_into_them():
+    contour = Contour([(0, 0), (60, 0), (60, 40), (0, 40)], [0, 0.3, 0, -0.2])
+    for name in ("starts", "ends", "chords", "sweeps", "radii", "centres", "lengths", "upto", "bounds"):
+        column = getattr(contour, name)
+        assert getattr(contour, name) is column
+        with pytest.raises(ValueError, match="read-only"):
+            column[0] = 0

@@ -197,6 +197,43 @@ def test_a_dxf_file(tmp_path):
             dxf.contours(wrong)
 
 
+@pytest.mark.parametrize(
+    ("unit", "mm"),
+    [(None, 1), (0, 1), (1, 25.4), (2, 304.8), (4, 1), (5, 10), (6, 1000), (9, 0.0254), (13, 0.001), (14, 100)],
+)
+def test_units_of_a_dxf(unit, mm, tmp_path, recwarn):
+    """DXF reference, $INSUNITS: 1 inches, 2 feet, 4 mm, 5 cm, 6 m, 9 mils, 13 microns, 14 dm; 0 and none: mm."""
+    ezdxf = pytest.importorskip("ezdxf")
+    for wide in (60 / mm, 60):
+        drawing = ezdxf.new()
+        drawing.header["$INSUNITS"] = unit or 0
+        if unit is None:
+            del drawing.header["$INSUNITS"]
+        drawing.modelspace().add_lwpolyline([(0, 0), (wide, 0), (wide, wide / 2), (0, wide / 2)], close=True)
+        drawing.saveas(tmp_path / "part.dxf")
+        recwarn.clear()
+        region = area_of(dxf.contours(tmp_path / "part.dxf"))
+        assert region.bounds == pytest.approx(np.array([(0, 0), (wide * mm, wide * mm / 2)]), abs=1e-9)
+        named = [str(each.message) for each in recwarn if f"$INSUNITS {unit}" in str(each.message)]
+        assert [f"{wide * mm / 1000:g} m long" in each for each in named] == [True] * (wide * mm > 10_000)
+
+
+def test_a_unit_that_no_part_has(tmp_path):
+    ezdxf = pytest.importorskip("ezdxf")
+    drawing = ezdxf.new()
+    drawing.modelspace().add_circle((0, 0), 2)
+    for unit in (3, 7, 18, 99):
+        drawing.header["$INSUNITS"] = unit
+        drawing.saveas(tmp_path / "part.dxf")
+        with pytest.raises(Alarm, match=rf"part.dxf: its unit, \$INSUNITS {unit}, is not read"):
+            dxf.contours(tmp_path / "part.dxf")
+    drawing.header["$INSUNITS"] = 6
+    drawing.modelspace().add_circle((0, 0), 2000)
+    drawing.saveas(tmp_path / "part.dxf")
+    with pytest.raises(Alarm, match=r"drawn in Meters \(\$INSUNITS 6\): CIRCLE on layer '0' reaches farther than 1000 m"):
+        dxf.contours(tmp_path / "part.dxf")
+
+
 def test_a_contour_that_touches_the_one_about_it():
     """An island in the corner of a pocket, 60 × 40 less 20 × 20: whichever point is where they touch."""
     corner = rectangle(20, 20, centre=(20, 10))

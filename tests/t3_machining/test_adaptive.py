@@ -4,16 +4,16 @@ The rim is laid over what a disc has swept, by shapely: the front half of it out
 cuts whose engagement is known in closed form.
 """
 
+import functools
 import math
 
 import numpy as np
 import pytest
 import shapely
-import shapely.ops
 from tools.random_regions import random_task
 
 import mnclab
-from mnclab.comparison.strategies import level_moves
+from mnclab.comparison.levels import level_moves
 from mnclab.geometry.contours import Contour, rectangle, slot
 from mnclab.geometry.regions import Region
 from mnclab.machining.milling.adaptive import adaptive, peeling
@@ -35,8 +35,14 @@ POCKETS = {
 }
 
 
-def line_of(contour):
-    return shapely.LineString(contour.points_within(1e-4))
+@functools.cache
+def cleared(name):
+    """How the adaptive strategy clears a pocket."""
+    return adaptive(POCKETS[name], R, STEPOVER)
+
+
+def line_of(contour, chord_error=1e-3):
+    return shapely.LineString(contour.points_within(chord_error))
 
 
 def rims(ways, radius, step):
@@ -45,10 +51,13 @@ def rims(ways, radius, step):
     half = np.radians(np.linspace(-90, 90, 721))
     for k, way in enumerate(ways):
         line = line_of(way)
-        places = np.arange(step, line.length, step)
-        for upto in places:
+        corners = shapely.get_coordinates(line)
+        come = np.append(0.0, np.hypot(*np.diff(corners, axis=0).T).cumsum())
+        for upto in np.arange(step, line.length, step):
             a, b = shapely.get_coordinates(shapely.line_interpolate_point(line, [upto - 1e-4, upto]))
-            swept = shapely.ops.substring(line, 0, upto - 1e-4).buffer(radius, quad_segs=90)
+            behind = shapely.LineString([*corners[come < upto - 1e-4], a])
+            beside = shapely.clip_by_rect(behind, *(b - 2.1 * radius), *(b + 2.1 * radius))  # what is farther away is not met
+            swept = beside.buffer(radius, quad_segs=90)
             ahead = math.atan2(*(b - a)[::-1])
             rim = b + radius * np.stack([np.cos(ahead + half), np.sin(ahead + half)], axis=1)
             free = ~shapely.contains_xy(gone, *rim.T) & ~shapely.contains_xy(swept, *rim.T)
@@ -88,7 +97,7 @@ def share(found, mask, above):
 @pytest.mark.parametrize("name", POCKETS)
 def test_engagement_stays_within_the_limit(name):
     """Outside the entries, and beside corners of the pass along the wall: a degree above on a hundredth of the way at most."""
-    clearing = adaptive(POCKETS[name], R, STEPOVER)
+    clearing = cleared(name)
     found, label = engaged(clearing)
     cutting = np.isin(label, ["spiral", "pass"])
     assert share(found, cutting, LIMIT + 1) < 0.003
@@ -103,7 +112,7 @@ def test_engagement_stays_within_the_limit(name):
 
 @pytest.mark.parametrize("name", ["square", "neck"])
 def test_another_algorithm_says_the_same(name):
-    clearing = adaptive(POCKETS[name], R, STEPOVER)
+    clearing = cleared(name)
     chosen = [k for k, label in enumerate(clearing.labels) if label.startswith(("spiral", "pass"))][:12]
     gone = [way for k, way in enumerate(clearing.passes) if k <= chosen[-1]]
     angles, which = rims(gone, R, 0.7)
@@ -112,14 +121,13 @@ def test_another_algorithm_says_the_same(name):
 
 @pytest.mark.parametrize("name", POCKETS)
 def test_all_is_cleared_and_no_more(name):
-    region = POCKETS[name]
-    clearing = adaptive(region, R, STEPOVER)
+    clearing = cleared(name)
     room = shapely.union_all([shapely.Polygon(part.loops[0].points_within(1e-5), [h.points_within(1e-5) for h in part.loops[1:]])
                               for part in clearing.centres.parts])  # fmt: skip
-    lines = [shapely.LineString(way.points_within(1e-6)) for way in clearing.passes]
-    assert all(room.buffer(2e-5).covers(line) for line in lines)
-    reach, cover = room.buffer(R, quad_segs=90), shapely.union_all(shapely.buffer(lines, R, quad_segs=90))
-    assert reach.difference(cover.buffer(1e-4)).area < 1e-4 * reach.area
+    assert shapely.covers(room.buffer(2e-5), [line_of(way, 1e-6) for way in clearing.passes]).all()
+    cover = shapely.union_all(shapely.buffer([line_of(way, 5e-5) for way in clearing.passes], R + 1e-4, quad_segs=90))
+    reach = room.buffer(R, quad_segs=90)
+    assert reach.difference(cover).area < 1e-4 * reach.area
     walls = [way for way, label in zip(clearing.passes, clearing.labels) if label in ("wall", "island")]
     for loop in clearing.centres.loops:  # walls to 1e-6: a pass runs along all of every loop
         spots = loop.point_at(np.linspace(0, loop.length, 200))[0]
@@ -129,7 +137,7 @@ def test_all_is_cleared_and_no_more(name):
 
 @pytest.mark.parametrize("name", POCKETS)
 def test_passes_are_arcs_that_go_on_without_a_corner(name):
-    clearing = adaptive(POCKETS[name], R, STEPOVER)
+    clearing = cleared(name)
     for way, label in zip(clearing.passes, clearing.labels):
         if label.startswith(("spiral", "pass")):
             assert np.abs(way.turns()).max(initial=0.0) < 1e-6
@@ -139,19 +147,20 @@ def test_passes_are_arcs_that_go_on_without_a_corner(name):
 @pytest.mark.parametrize("name", POCKETS)
 def test_hops_meet_no_material(name):
     """Where the tool goes on rapid, a little above the level, its rim stays within what is cleared."""
-    clearing = adaptive(POCKETS[name], R, STEPOVER)
+    clearing = cleared(name)
     (piece,) = clearing.pieces
     lines = [line_of(way) for way in piece.passes]
     hopped = [k for k, how in enumerate(piece.linked) if how == HOPPED]
     assert len(hopped) >= len(piece.linked) // 3
+    gone, done = shapely.Polygon(), 0
     for k in hopped:
-        gone = shapely.union_all(shapely.buffer(lines[: k + 1], R + 0.02, quad_segs=32))
+        gone, done = shapely.union_all([gone, *shapely.buffer(lines[done : k + 1], R + 0.02, quad_segs=32)]), k + 1
         way = shapely.LineString([end(piece.passes[k]), begin(piece.passes[k + 1])])
         assert way.buffer(R, quad_segs=32).difference(gone).area < 0.02
 
 
 def test_entries_are_said():
-    clearing = adaptive(SQUARE, R, STEPOVER)
+    clearing = cleared("square")
     assert clearing.labels[0] == "entry spiral"
     assert np.hypot(*(clearing.passes[0].points - clearing.passes[0].points[0]).T).max() <= R + 1e-9
 
@@ -248,3 +257,18 @@ def test_a_slot_is_peeled_from_one_end_to_the_other(climb):
 
 def slot_area(length, width):
     return length * width + math.pi * width**2 / 4
+
+
+@pytest.mark.parametrize("name", ["adaptive", "peeling"])
+def test_a_stepover_too_small_to_keep_the_limit_is_refused(name):
+    """A twentieth of the radius is the least; whoever asks for all strategies learns which of them it is."""
+    least = f"{name} keeps its engagement from a stepover of 0.15 mm on, a twentieth of the tool radius, got 0.149"
+    small = Region.of(rectangle(8, 8))
+    with pytest.raises(mnclab.Alarm, match=least) as raised:
+        getattr(mnclab.strategies, name)(small, R, 0.149)
+    with pytest.raises(mnclab.Alarm, match=least):
+        mnclab.compare(small, R, name, stepover=0.149, stock=small, draft=1)
+    assert "another strategy" in raised.value.hint
+    with pytest.raises(mnclab.Alarm, match="adaptive keeps"):
+        mnclab.compare(small, R, stepover=0.149)
+    assert getattr(mnclab.strategies, name)(small, R, 0.15).passes

@@ -1,17 +1,20 @@
 """Rounded rings and rounded zigzag: lengths by hand, tangents, radii, walls; coverage and walls judged by shapely."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 import shapely
 from tools.chance import seeds
 from tools.random_regions import random_task
+from tools.together import deep_but_one_in
 
 from mnclab.geometry.contours import Contour, rectangle
 from mnclab.geometry.regions import Region
 from mnclab.machining.milling.clearing import begin, end
 from mnclab.machining.milling.rounded import rounded_rings, rounded_zigzag
 from mnclab.machining.milling.strategies import clear
-from mnclab.machining.milling.tangent import SENSES, shortest, way_of
+from mnclab.machining.milling.tangent import SENSES, SPOTS, _spots, shortest, way_of
 
 NAMES = ["rounded rings", "rounded zigzag"]
 SQUARE = Region.of(rectangle(60, 60))
@@ -134,27 +137,44 @@ def test_shortest_ways(seed):
         assert np.abs(way.turns()).max() < 1e-5 and way.length == pytest.approx(lengths[n, j], abs=1e-5)
 
 
+def test_places_on_ways_are_those_of_their_contours():
+    """Worked out for all ways at once, and by the contour of each."""
+    rng = np.random.default_rng(1)
+    start, end_ = rng.uniform(-5, 5, (2, 60, 2))
+    a, b = rng.uniform(-np.pi, np.pi, (2, 60))
+    size = rng.uniform(0.3, 3, 60)
+    spans = shortest(start, a, end_, b, size)
+    n, j = np.nonzero(np.isfinite(spans).all(axis=2))
+    places = _spots(start[n], a[n], SENSES[j], spans[n, j], size[n]).reshape(-1, SPOTS, 2)
+    for k, found in enumerate(places):
+        way = way_of(start[n[k]], a[n[k]], end_[n[k]], SENSES[j[k]], spans[n[k], j[k]], size[n[k]])
+        assert found == pytest.approx(way.point_at(np.linspace(0, way.length, SPOTS))[0], abs=1e-6)
+
+
 def test_a_shortest_way_by_hand():
     """From (0, 0) to (10, 0) and back in the opposite direction, 4 beside: straight on and half a circle of 2."""
     spans = shortest(np.zeros((1, 2)), np.zeros(1), np.array([[10.0, 4.0]]), np.array([np.pi]), np.array([2.0]))
     assert np.nanmin(spans.sum(axis=2)) * 2 == pytest.approx(10 + 2 * np.pi)
 
 
-@pytest.mark.parametrize("stepover", [0.8, 2.4])
-@pytest.mark.parametrize("climb", [True, False])
-@pytest.mark.parametrize("area", AREAS)
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name, area, climb, stepover", deep_but_one_in(3, product(NAMES, AREAS, [True, False], [0.8, 2.4])))
 def test_known_areas(name, area, climb, stepover):
     region = AREAS[area]
     clearing = clear(name, region, 3.0, stepover, climb=climb)
     judge(clearing, region.inset(3.0), 0.3)
     assert uncovered(clearing, polygon_of(region), 3.0, 0) < 1e-4
-    assert clear(name, region, 3.0, stepover, climb=climb).labels == clearing.labels
 
 
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("stepover", [3.2, 4.5, 5.7])
-@pytest.mark.parametrize("area", ["square", "triangle", "island"])
+@pytest.mark.parametrize("name, area, climb, stepover", deep_but_one_in(17, product(NAMES, AREAS, [True, False], [0.8, 2.4])))
+def test_twice_the_same(name, area, climb, stepover):
+    one, other = (clear(name, AREAS[area], 3.0, stepover, climb=climb) for _ in "ab")
+    assert one.labels == other.labels and all((a.points == b.points).all() for a, b in zip(one.passes, other.passes, strict=True))
+
+
+WIDE = deep_but_one_in(5, product(["square", "triangle", "island"], [3.2, 4.5, 5.7], NAMES))
+
+
+@pytest.mark.parametrize("area, stepover, name", WIDE)
 def test_what_stands_after_wide_steps_is_cleared_as_well(name, area, stepover):
     """A stepover above the tool radius leaves cores and corners; a pass goes through each, and the tool lifts before it."""
     clearing = clear(name, AREAS[area], 3.0, stepover)
@@ -166,7 +186,7 @@ def test_what_stands_after_wide_steps_is_cleared_as_well(name, area, stepover):
 
 
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("seed", seeds(20, deep=120))
+@pytest.mark.parametrize("seed", seeds(5, deep=120))
 def test_random_areas(name, seed):
     task = random_task(seed)
     region = task.region

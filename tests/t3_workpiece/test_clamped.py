@@ -1,6 +1,7 @@
 """The second clamping: a part that was cut before is the next blank; expected heights and volumes are worked out by hand."""
 
 import copy
+import functools
 import math
 import pickle
 
@@ -120,6 +121,11 @@ def test_sections_through_both_sides():
     assert sorted(p for each in pieces for p in each.bounds[:, 0].tolist()) == pytest.approx([0, 17, 23, 60], abs=1e-6)
 
 
+@functools.cache
+def with_a_pocket_below():
+    return part("G0 X50 Y35\nG1 Z-2\nG0 Z50\n", MILL, part(POCKET).turned_over("x")).part
+
+
 @pytest.mark.parametrize(("start", "way", "expected"), [
     ((30, 22, -30), (0, 0, 1), 17),  # the floor of the old pocket, now from below: z -12, less the ball
     ((30, 22, -16), (1, 0, 0), 14), ((30, 22, -16), (-1, 0, 0), 14),  # its walls at X45 and X15
@@ -127,8 +133,7 @@ def test_sections_through_both_sides():
     ((30, 22, 10), (0, 0, -1), 9), ((-5, 22, -16), (1, 0, 0), 4),
 ])  # fmt: skip
 def test_a_probe_touches_the_walls_of_a_former_clamping(start, way, expected):
-    body = part("G0 X50 Y35\nG1 Z-2\nG0 Z50\n", MILL, part(POCKET).turned_over("x")).part
-    assert mnclab.part.contact(body, start, way, 1.0, 60) == pytest.approx(expected, abs=1e-9)
+    assert mnclab.part.contact(with_a_pocket_below(), start, way, 1.0, 60) == pytest.approx(expected, abs=1e-9)
 
 
 def test_a_rapid_over_a_former_pocket_is_none_into_what_is_left_is_one():

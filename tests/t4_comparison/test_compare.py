@@ -4,10 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tools.together import deep_but_one_in
 
 from mnclab import Alarm, Limits, Tool
 from mnclab.comparison.chips import _at_level
-from mnclab.comparison.strategies import COLUMNS, compare, level_moves
+from mnclab.comparison.levels import level_moves
+from mnclab.comparison.strategies import COLUMNS, compare
 from mnclab.comparison.turning_schemes import compare as compare_turning
 from mnclab.geometry.contours import Contour, rectangle
 from mnclab.geometry.regions import Region
@@ -129,7 +131,7 @@ def test_time_under_limits_of_the_axes():
 
 
 NUMBERS = ["depth", "feed", "plunge_feed", "rapid", "overlap", "stepover", "allowance", "limit", "entry", "climb"]
-NO_NUMBERS = [np.nan, np.inf, "5", [1], -5.0, 10**400, {}]
+NO_NUMBERS = [np.nan, np.inf, "5", ["1"], -5.0, 10**400, {}]
 
 
 @pytest.mark.parametrize("name", NUMBERS)
@@ -205,7 +207,7 @@ def test_feeds_of_a_chip_by_hand(stepover):
     assert trial.time == pytest.approx(60 * (path.lengths / np.minimum(path.feed, 10000)).sum())
 
 
-@pytest.mark.parametrize("entry", [Entry(), Entry("helix", 3), Entry("ramp", 5)])
+@pytest.mark.parametrize("entry", deep_but_one_in(3, [Entry(), Entry("helix", 3), Entry("ramp", 5)]))
 def test_no_chip_is_thicker(entry):
     """At half of the spacing of the places, too; the rows at the level are the ways that are looked at."""
     found = compare(BOX, MILL, entry=entry, stepover=3, depth=2, **AT_CHIP)
@@ -259,3 +261,14 @@ def test_a_chip_that_is_not_known_is_an_alarm(tool, more, says):
         compare(BOX, tool, "rings", **{"chip": 0.05} | more)
     if "needs" in says:
         assert "spindle=8000" in raised.value.hint or "mnclab.Tool(radius=5, teeth=3)" in raised.value.hint
+
+
+def test_names_of_strategies_are_read_in_any_case_of_letters():
+    region = Region.of(rectangle(30, 20))
+    found = compare(region, 3.0, "Morphed Spiral", "RINGS")
+    assert [trial.name for trial in found.trials] == ["morphed spiral", "rings"]
+
+
+def test_a_contour_of_two_lines_encloses_nothing():
+    with pytest.raises(ValueError, match="encloses nothing"):
+        Region.of(Contour([(0, 0), (10, 0)]))

@@ -54,7 +54,7 @@ def test_the_path_of_a_set_has_the_names_and_numbers_of_its_tools(found):
 def test_a_change_that_takes_long_makes_one_tool_the_best():
     assert len(tool_sets(BOX, TOOLS, change=1e4, **SIMPLE).best("time").tools) == 1
     assert len(tool_sets(BOX, TOOLS, change=0, most=1, **SIMPLE)) == 1
-    large = area.Region.of(area.rectangle(200, 150, 2.0))
+    large = area.Region.of(area.rectangle(120, 80, 2.0))
     assert len(tool_sets(large, TOOLS, change=0, **SIMPLE).best("time").tools) > 1
 
 

@@ -19,7 +19,7 @@ from mnclab.text.alarm import Alarm
 GIVEN, WORKED_OUT = {"control", "setup", "settings", "flow"}, {"matrix", "shift", "row_state"}
 OTHER = {
     "step": 7, "source_line": 7, "program": 1, "ended": False, "recorded_only": True, "unheard": "M",
-    "origin": (1.0, 2.0, 3.0),
+    "origin": (1.0, 2.0, 3.0), "origin_chosen": True,
     "tip": (1.0, 2.0, 3.0), "programmed": (1.0, 2.0, 3.0), "pole": (1.0, 2.0), "rotary": (0.1, 0.2, 0.3), "pending": "free",
     "variable_unit": 25.4, "cycle": "another", "position_cycle": "another", "plane": "YZ", "feed": 99.0, "per_rev": True,
     "per_time": True, "speed": 99.0, "turning": -1, "spindle_angle": 30.0, "surface": 200.0, "speed_limit": 3000.0,

@@ -69,6 +69,52 @@ def test_loops_expressions_and_changes_of_variables():
     assert "= 3" in {m.word: m.says for m in second.meanings}["+Q5 + +1"]
 
 
+OLD_CYCLE = """0 BEGIN PGM A MM
+1 TOOL CALL 1 Z S900
+2 CYCL DEF 1.0 PECKING
+3 CYCL DEF 1.1 SET UP -2
+4 CYCL DEF 1.2 DEPTH -15
+5 CYCL DEF 1.3 PECKG -5
+6 CYCL DEF 1.4 DWELL 0
+7 CYCL DEF 1.5 F150
+8 CYCL DEF 200 DRILLING ~
+  Q200=2 ~
+  Q201=-15 ~
+  Q206=150 ~
+  Q202=5 ~
+  Q210=0 ~
+  Q203=0 ~
+  Q204=20 ~
+  Q211=0
+9 L X+5 FMAX
+10 END PGM A MM
+"""
+
+
+def test_the_block_that_is_asked_for_is_the_one_that_is_told():
+    """Block N of a Klartext program from 0 stands in line N + 1; six blocks of an old cycle are obeyed as one."""
+    run = mnclab.run(OLD_CYCLE, "tnc-620")
+    for number in range(2, 8):
+        asked, by_line = run.explain(block=number), run.explain(line=number + 1)
+        assert str(asked) == str(by_line) and asked._repr_html_() == by_line._repr_html_()
+        assert asked.title.startswith(f"line {number + 1}, block {number}") and OLD_CYCLE.splitlines()[number] in asked.title
+    assert [m.word for m in run.explain(block=4).meanings] == ["CYCL DEF 1", "DEPTH -15"]
+    assert len(run.explain(block=2).meanings) == 6
+    assert run.explain(line=11).title == "line 9, block 8: 8 CYCL DEF 200 DRILLING ~"  # a line without a number means its block
+    assert run.at(block=9).line == 18 and run.explain(step=0).title.startswith("line 1, block 0")
+
+
+def test_a_block_is_named_by_its_number_in_any_writing():
+    run = mnclab.run("N10 G90\nN020 G1 X5 F100\nG0 Z3\n", "mnc")
+    assert {run.at(block=number).line for number in (20, "20", "N20", " n020 ")} == {2}
+    assert run.explain(line=3).title == "line 3: G0 Z3"
+    for number in (2, "", "N", None, "X20", [20], 20.5):
+        with pytest.raises(mnclab.Alarm, match="no block has the number|needs a line"):
+            run.at(block=number)
+    with pytest.raises(mnclab.Alarm, match="no program number 3"):
+        run.explain(block=20, program=3)
+
+
 def test_a_warning_that_is_told_once_is_told_at_each_of_its_places():
     run = mnclab.run("G17 G90 G54 T4 F200 S800 M3\nG3 Z-1 I10\nG3 Z-2 I10\nG0 Z5\n", "mnc")
     first, second = (run.explain(line=line).alarms[0] for line in (2, 3))

@@ -105,7 +105,7 @@ def test_a_rapid_in_material_does_not_set_the_scale():
     assert removal.rate.max() > 10 * removal.largest.rate and removal.largest.line == 6
     assert removal.mean == pytest.approx(removal.largest.rate * 60 / 80, rel=EXACT)  # of 80 mm 20 are in air
     _, rate = removal.plot().axes
-    assert rate.get_ylim()[1] == pytest.approx(1.25 * removal.largest.rate)
+    assert 1.1 < rate.get_ylim()[1] / removal.largest.rate < 1.5  # with room for what is told of the rapids
     assert f"rapids reach {removal.rate.max():.0f} mm³/min" in rate.texts[0].get_text()
 
 

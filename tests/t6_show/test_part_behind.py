@@ -1,12 +1,10 @@
 """The part that a probe meets, behind the path, in scenes, and its touches with their numbers."""
 
-import base64
 import itertools
-import json
-import zlib
 
 import numpy as np
 import pytest
+from tools.pages import hidden_scripts, unpack
 from tools.toy_probing import toy_run
 
 import mnclab
@@ -171,29 +169,10 @@ def test_the_player_has_the_map_and_the_touches(probed):
     assert touches[0]["at"] == [62, 30, -5] and touches[0]["text"] == "1   X 62.000"
     rows = [touch["row"] for touch in touches]
     assert rows == np.flatnonzero(probed.toolpath.kind == mnclab.Kind.PROBE).tolist()  # every touch of these hit
-    assert "class Touches" in probed.player().page and "class Carving" in probed.player().page
+    (scripts,) = hidden_scripts(probed.player().page)
+    assert b"class Touches" in scripts and b"class Carving" in scripts
     bare = mnclab.run("G0 X1\n", "mnc")
     assert unpack(payload(bare, bare.profile()))[0]["felt"] == {"corners": [], "touches": [], "beam": []}
-
-
-def unpack(text):
-    """Header and columns of a payload, as `data.js` reads them."""
-    data = zlib.decompress(base64.b64decode(text))
-    size = int.from_bytes(data[:4], "little")
-    header, rest, columns = json.loads(data[4 : 4 + size]), iter(data[4 + size :]), []
-    for count in header["columns"]:
-        column, before = [], 0
-        for _ in range(count):
-            value = place = 0
-            for byte in rest:
-                value |= (byte & 127) << place
-                place += 7
-                if byte < 128:
-                    break
-            before += -(value + 1) // 2 if value % 2 else value // 2
-            column.append(before)
-        columns.append(column)
-    return header, columns
 
 
 @pytest.mark.parametrize(("axis", "named"), [("", "tool setter"), ("X", "beam of the tool setter")])

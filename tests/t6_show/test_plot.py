@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 from tools import running
+from tools.together import deep_but_one_in
 
 import mnclab
 from mnclab import Alarm, Kind, Setup, Tool, Toolpath
@@ -163,8 +164,10 @@ PICTURES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("colour", ["kind", "feed", "tool", "line", "z"])
-@pytest.mark.parametrize("name", [*PICTURES, "lathe"])
+COLOURED = deep_but_one_in(3, itertools.product([*PICTURES, "lathe"], ["kind", "feed", "tool", "line", "z"]))
+
+
+@pytest.mark.parametrize("name, colour", COLOURED)
 def test_no_text_covers_another(name, colour):
     path = turned() if name == "lathe" else run(PICTURES[name], **OFFSETS if name == "offsets" else {})
     picture = path.plot(colour=colour)

@@ -66,6 +66,13 @@ def test_a_class_holds_the_moves_of_its_value(colour):
         assert drawn_length(line) == pytest.approx(level.length, rel=1e-3)
 
 
+def test_a_pass_is_what_lies_between_two_rapids():
+    run_of = "S500 M3\nG0 X0 Y0 Z-1\nG1 X10 F100\nX15\nG0 X0\nG0 Z-2\nG1 X20\nG0 X0\nG0 Z-3\nG1 X30\nG4 P1\nX40\n"
+    shown = divided(run(run_of).plot(colour="pass", view="XZ").axes[0])
+    lengths = {name: drawn_length(line) for name, line in shown.items() if name != "dwell"}
+    assert lengths == pytest.approx({"pass 1": 15, "pass 2": 20, "pass 3": 40})
+
+
 @pytest.mark.parametrize("colour", ["feed", "line", "z"])
 def test_many_values_are_bins_between_the_limits_of_a_scale(colour):
     feed, line = 500 + np.arange(3000) % 97 * 10.0, np.arange(3000, dtype=np.int32)
@@ -132,7 +139,7 @@ def test_a_move_without_a_feed_is_drawn_and_says_so():
 
 
 def test_an_unknown_colour_is_refused_with_those_known():
-    with pytest.raises(Alarm, match="colour must be kind, feed, speed, tool, step, line or z"):
+    with pytest.raises(Alarm, match="colour must be kind, feed, speed, tool, step, pass, line or z"):
         run(SQUARE).plot(colour="weight")
 
 

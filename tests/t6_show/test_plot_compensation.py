@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from matplotlib.collections import EllipseCollection
 from matplotlib.quiver import Quiver
+from tools.together import deep_but_one_in
 
 import mnclab
 from mnclab import Alarm, Setup, Tool
@@ -261,8 +262,11 @@ def test_a_program_without_compensation_and_an_empty_one():
     assert "no radius compensation" in with_radius("G90\n").plot_compensation().texts[-1].get_text()
 
 
-@pytest.mark.parametrize("options", [{}, {"rules": ["G160", "G161", "G162"]}, {"radii": [1, 6, 11]}, {"discs": True}])
-@pytest.mark.parametrize("program", [PLATE, KEYHOLE, SAMPLES / "window.mnc"], ids=lambda path: path.stem)
+OPTIONS = [{}, {"rules": ["G160", "G161", "G162"]}, {"radii": [1, 6, 11]}, {"discs": True}]
+SHOWN = deep_but_one_in(3, itertools.product([PLATE, KEYHOLE, SAMPLES / "window.mnc"], OPTIONS))
+
+
+@pytest.mark.parametrize("program, options", SHOWN)
 def test_no_text_covers_another(program, options):
     picture = with_radius(program).plot_compensation(**options)
     picture.draw_without_rendering()
@@ -302,3 +306,27 @@ def test_from_the_shell(tmp_path, capsys):
             shell.main(["plot", str(PLATE), "-o", str(out), *wrong])
     with pytest.raises(SystemExit, match="2"):
         shell.main(["plot", str(PLATE), "-o", str(tmp_path / "out.csv"), "--compensation"])
+
+
+FAR = "G90 G54 T1 F200\nG0 X-20 Y20\nG1 G41 X0 Y20\nY40\nX30\nG0 X{0} Y{0}\nG0 X30 Y0\nG1 X0\nY20\nG40 X-20\n"
+
+
+@pytest.mark.parametrize("far", [400, 5000])
+def test_compensated_rapids_decide_no_scale(far):
+    """The cuts are 55 mm wide, from X-20 to about X35: however far a rapid goes, the view is little wider."""
+    (near,), (ax,) = (with_radius(FAR.format(each)).plot_compensation().axes for each in (200, far))
+    assert np.ptp(ax.get_xlim()) < 2 * 55 and ax.get_xlim()[0] < -20
+    assert ax.get_xlim() == pytest.approx(near.get_xlim(), rel=0.02)
+
+
+@pytest.mark.parametrize("size", ["column", "slide"])
+def test_names_stand_off_lines_and_are_led_to_their_corners_from_afar(size):
+    picture = with_radius(PLATE).plot_compensation(rules=["G160", "G161"], size=size)
+    picture.draw_without_rendering()
+    for ax in picture.axes:
+        leaders = [line.get_xydata()[0] for line in ax.lines if line.get_label() == "_leader"]
+        for text in ax.texts:
+            box, corner = text.get_window_extent(), ax.transData.transform(text.xy)
+            away = np.hypot(*(np.clip(corner, box.min, box.max) - corner)) / (text.get_fontsize() * picture.dpi / 72)
+            led = any(np.allclose(place, text.xy) for place in leaders)
+            assert led or away < 2.0, text.get_text()  # in heights of its letters

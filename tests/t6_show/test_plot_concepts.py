@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tools.together import deep_but_one_in
 
 import mnclab as mnc
 from mnclab.geometry.contours import Contour
@@ -234,7 +235,7 @@ def test_spindle_tool_offset_and_program_add_up():
     wrong = heights_of(mixed, 3)  # tool 5 with the corrector of tool 2: 120 - 85 too high
     assert (wrong.wanted, wrong.tip, wrong.nose) == pytest.approx((0, 35, 120))
     picture = mixed.plot_lengths(3)
-    assert "the tip is 35 mm too high" in picture.alt and {"offset 120", "tool T5 85"} <= said(picture).keys()
+    assert "the tip is 35 mm too high" in picture.alt and {"offset 120 mm", "tool T5 85 mm"} <= said(picture).keys()
 
 
 def test_zones_are_numbered_and_coloured():
@@ -253,7 +254,7 @@ def test_runs_stand_side_by_side_at_one_scale():
     picture = mnc.plot_runs({name: run(text.format(way), "tnc-620") for name, way in ways.items()}, marks=False)
     assert [ax.get_title(loc="left") for ax in picture.axes] == list(ways)
     assert len({(*ax.get_xlim(), *ax.get_ylim()) for ax in picture.axes}) == 1
-    assert legend(picture) == ["approach", "departure"]
+    assert legend(picture) == ["feed", "rapid", "approach", "departure"]
     leads = [next(line for line in ax.lines if line.get_label() == "approach").get_xydata() for ax in picture.axes]
     assert all(np.allclose(lead[-1], (-5, 10)) for lead in leads)  # radius 5 to the left of X0 Y10
     for wrong in ({}, {"a": 1}, [1]):
@@ -270,7 +271,7 @@ def test_a_spiral_in_a_face_comes_in_by_the_feed_in_every_turn():
     assert radius[[0, -1]] == pytest.approx((52.5, 2)) and angle[-1] == pytest.approx(2 * math.pi * 25.25)
     assert np.allclose(radius, 52.5 - 2 * angle / (2 * math.pi))
     picture = sample("nc-31/spiral_groove.nc31").plot_face()
-    assert legend(picture)[:4] == ["Z −0.3", "Z −0.6", "Z −0.8", "Z −1"]
+    assert legend(picture)[:4] == ["Z −0.3 mm", "Z −0.6 mm", "Z −0.8 mm", "Z −1 mm"]
 
 
 # --- all of them -------------------------------------------------------------------------------------------------------
@@ -278,8 +279,7 @@ def test_a_spiral_in_a_face_comes_in_by_the_feed_in_every_turn():
 DRAWN = ["arc_by_centre", "arcs_by_radius", "four_arcs", "full_circle", "hexagon", "hexagon_arc", "scaled", "mirrored", "turned"]
 
 
-@pytest.mark.parametrize("name", DRAWN)
-@pytest.mark.parametrize("width", [3.3, 7.0])
+@pytest.mark.parametrize("name, width", deep_but_one_in(3, itertools.product(DRAWN, [3.3, 7.0])))
 def test_no_text_of_a_concept_covers_another(name, width):
     picture = sample(f"mnc/{name}.mnc").plot(size=(width, 6.0))
     picture.png()
@@ -297,3 +297,14 @@ def test_tiny_and_huge_arcs_have_their_centre(scale):
     (mark,) = [line for line in picture.axes[0].lines if line.get_label() == "arc centre"]
     assert mark.get_xydata()[0] == pytest.approx((scale, 0))
     assert f"I{scale:g}" in said(picture)
+
+
+def test_diameters_of_holes_are_told_apart_by_colour_and_size():
+    text = "T1 S1000 M3\nG0 X0 Y0 Z5\nG99 G83 X10 Y10 Z-20 R2 K20 F100\nG80\n"
+    text += "T2 S800\nG99 G83 X40 Y10 Z-20 R2 K20 F100\nG80\nG0 Z5\n"
+    tools = {1: mnc.Tool(diameter=6, kind="drill"), 2: mnc.Tool(diameter=16, kind="drill")}
+    picture = mnc.run(text, "mnc", mnc.Setup(tools=tools, stock=((0, 0, -30), (50, 20, 0)))).plot(view="XY")
+    (legend,) = picture.legends
+    samples = {t.get_text(): h for t, h in zip(legend.get_texts(), legend.legend_handles) if t.get_text().startswith("hole")}
+    small, large = samples["hole ⌀6"], samples["hole ⌀16"]
+    assert small.get_markersize() < large.get_markersize() and small.get_color() != large.get_color()

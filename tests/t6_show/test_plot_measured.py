@@ -5,6 +5,7 @@ import itertools
 import numpy as np
 import pytest
 from matplotlib.patches import Circle
+from tools.together import deep_but_one_in
 from tools.toy_probing import toy_run
 
 import mnclab
@@ -130,8 +131,7 @@ def boxes_of(picture):
     return [(text.get_text(), text.get_window_extent()) for text in texts if text.get_text().strip() and text.get_visible()]
 
 
-@pytest.mark.parametrize("line", [None, 3, 5, 7])
-@pytest.mark.parametrize("width", [3.5, 7.5, 12])
+@pytest.mark.parametrize("width, line", deep_but_one_in(3, itertools.product([3.5, 7.5, 12], [None, 3, 5, 7])))
 def test_no_text_covers_another(measured, line, width):
     picture = measured.plot_measured(line=line, width=width)
     boxes = boxes_of(picture)

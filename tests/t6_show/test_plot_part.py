@@ -1,10 +1,13 @@
 """Pictures of a part: heights as colours, sections, edges, the way from home; half sections of a lathe."""
 
+import itertools
+
 import numpy as np
 import pytest
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
+from tools.together import deep_but_one_in
 
 import mnclab
 from mnclab import Alarm, Setup, Tool
@@ -163,8 +166,11 @@ def test_a_chuck_of_the_setup_is_drawn_where_it_stands(turned):
     assert len(chucks) == 2 and chucks[0].max(axis=0).tolist() == [-35, 45]
 
 
-@pytest.mark.parametrize("size", [(7, 6), (4.6, 6), (9, 3)])
-@pytest.mark.parametrize("stock", [STOCK, ((0, 0, -20), (20, 300, 0)), ((0, 0, -200), (60, 40, 0))])
+SIZES = [(7, 6), (4.6, 6), (9, 3)]
+STOCKS = [STOCK, ((0, 0, -20), (20, 300, 0)), ((0, 0, -200), (60, 40, 0))]
+
+
+@pytest.mark.parametrize("size, stock", deep_but_one_in(4, itertools.product(SIZES, STOCKS)))
 def test_the_titles_of_many_sections_have_room(run, size, stock):
     part = run.workpiece(stock=stock)
     figure = part.plot(section=["XZ", "YZ", "XY"], size=size)

@@ -83,6 +83,16 @@ def test_lost_time_stands_beside_the_lines(run):
     assert len(profile.plot_lost(most=3).axes[0].get_yticklabels()) == 3
 
 
+def test_a_long_line_stands_whole_beside_its_bar():
+    words = "G1 X10 F100 // this comment says in many more words than a row of the picture has room for what the line does"
+    profile = mnclab.run(f"G90 S500 M3\n{words}\nX20\n{words}\n", "mnc").profile()
+    ax = profile.plot_lost().axes[0]
+    labels = [label.get_text() for label in ax.get_yticklabels()]
+    assert f"2 {words}" in [" ".join(text.split()) for text in labels]
+    rows = np.array([max(1.0, 0.65 * len(text.split("\n"))) for text in labels])
+    assert (np.diff(ax.get_yticks()) > 0.99 * (rows[1:] + rows[:-1]) / 2).all()
+
+
 def test_wrong_options_and_empty_programs(run):
     with pytest.raises(Alarm, match="time or path"):
         run.profile().plot(over="lines")
@@ -152,5 +162,5 @@ def test_the_feed_over_the_removal_counts_in_the_unit_of_the_program():
     text = "BEGIN PGM A INCH\nTOOL CALL 1 Z S1000\nL Z+2 R0 FMAX M3\nL X+0 Y+0 FMAX\nL Z-0.1 F100\nL X+1\nEND PGM A INCH\n"
     tools, stock = {1: mnclab.Tool(diameter=6.35)}, ((-10, -10, -10), (40, 40, 0))
     feed, rate = mnclab.run(text, "tnc-620", mnclab.Setup(tools=tools, stock=stock)).removal().plot().axes
-    assert feed.get_ylabel() == "feed, in/min" and 10 < feed.get_ylim()[1] < 20 and rate.get_ylabel().endswith("in³/min")
+    assert feed.get_ylabel() == "feed,\nin/min" and 10 < feed.get_ylim()[1] < 20 and rate.get_ylabel().endswith("in³/min")
     assert rate.texts[0].get_text() == "line 5: at most 0.491 in³/min"  # the plunge, π 0.125² · 10

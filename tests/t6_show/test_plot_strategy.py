@@ -1,8 +1,11 @@
 """The picture of compared strategies: what is drawn, at one scale, and nothing over anything else."""
 
+import itertools
+
 import numpy as np
 import pytest
 from matplotlib.collections import LineCollection
+from tools.together import deep_but_one_in
 
 import mnclab
 from mnclab.comparison.strategies import compare
@@ -68,8 +71,10 @@ def test_all_strategies_stay_as_large_in_a_column_as_two_of_them():
         assert len(places) <= most
 
 
-@pytest.mark.parametrize("kind", ["paths", "engagement", "passes"])
-@pytest.mark.parametrize("size", [None, "column", "a4", "slide"])
+SIZED = deep_but_one_in(4, itertools.product([None, "column", "a4", "slide"], ["paths", "engagement", "passes"]))
+
+
+@pytest.mark.parametrize("size, kind", SIZED)
 def test_every_kind_and_size_keeps_its_words_apart(found, kind, size):
     picture = found.plot(kind, size=size)
     picture.canvas.draw()

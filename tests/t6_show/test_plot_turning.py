@@ -31,7 +31,7 @@ def found():
 
 def test_schemes_at_one_scale_and_nothing_overlaps(found):
     picture = found.plot(width=9)
-    assert [ax.get_title(loc="left") for ax in picture.axes] == [trial.name for trial in found.trials]
+    assert [ax.get_title(loc="left").replace("\n", " ") for ax in picture.axes] == [trial.name for trial in found.trials]
     picture.canvas.draw()
     boxes = [ax.get_tightbbox() for ax in picture.axes] + [legend.get_window_extent() for legend in picture.legends]
     for i, a in enumerate(boxes):
@@ -160,7 +160,7 @@ def test_spindle_speed_over_the_path():
     assert way[-1] == pytest.approx(path.length) and (np.diff(way) >= 0).all()
     assert speed == pytest.approx(np.minimum(2000, 1000 * 180 / (math.pi * diameter)))
     picture = plot_speed(path, 1200)
-    assert [ax.get_ylabel() for ax in picture.axes] == ["spindle, rev/min", "X (diameter), mm"]
+    assert [ax.get_ylabel() for ax in picture.axes] == ["spindle,\nrev/min", "X (diameter),\nmm"]
 
 
 def test_a_tool_that_cannot_be_is_named():
@@ -173,3 +173,10 @@ def test_a_tool_that_cannot_be_is_named():
 def test_a_program_that_moves_nothing_has_a_picture(control, text, stock):
     found = run(text, control, Setup(stock=stock))
     assert found.ok and found.rows_from_home == 0 and "no moves" in found.plot().alt
+
+
+def test_each_pass_of_a_thread_has_its_own_colour():
+    depths = threads.even_chips(1.84, 5)
+    for ax in plot_threads({m: threads.shifts(depths, m) for m in threads.METHODS}, depths).axes:
+        shades = {tuple(each.get_facecolor()[0]) for each in ax.collections if each.get_zorder() == 2}
+        assert len(shades) == len(depths)

@@ -1,5 +1,6 @@
 """Reports: what stands in them, that the page is well formed, and that pages are the same every time."""
 
+import functools
 from html.parser import HTMLParser
 
 import pytest
@@ -99,15 +100,21 @@ def test_no_two_lines_of_a_page_overlap(run):
                 assert a is b or beside or abs(a.y - b.y) >= 0.9 * min(a.size, b.size), (a, b)
 
 
-def test_words_stand_on_the_page_of_the_short_table_that_they_explain():
+@functools.cache
+def pockets():
+    """The report of a part with pockets, and its pages."""
     run = mnclab.run("data/programs/tnc-620/pockets.h")
-    page = next(page for page in printed(run) if any(each.text == "Cutting data" for each in page.texts_on_it))
+    made = document(run, report(run), run.plot(size=PICTURE))
+    return made, sheets(made)
+
+
+def test_words_stand_on_the_page_of_the_short_table_that_they_explain():
+    page = next(page for page in pockets()[1] if any(each.text == "Cutting data" for each in page.texts_on_it))
     assert any(each.text.startswith("hm is") for each in page.texts_on_it)
 
 
 def test_the_extents_along_the_axes_stand_in_one_column():
-    run = mnclab.run("data/programs/tnc-620/pockets.h")
-    first, *_ = document(run, report(run), run.plot(size=PICTURE)).sections
+    first, *_ = pockets()[0].sections
     assert [row[2] for row in first.pieces[1].rows if row[2:]][:3] == ["X from, to", "Y from, to", "Z from, to"]
 
 

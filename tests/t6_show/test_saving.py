@@ -2,8 +2,10 @@
 
 import os
 import stat
+from itertools import product
 
 import pytest
+from tools.together import deep_but_one_in
 
 import mnclab
 from mnclab import Alarm
@@ -44,7 +46,7 @@ def save(request, tmp_path):
     return Save()
 
 
-def test_a_link_a_mode_and_a_file_beside_stay(run, save, tmp_path):
+def test_a_link_a_mode_and_a_file_beside_stay_and_no_file_names_a_folder(run, save, tmp_path):
     (tmp_path / "far").mkdir()
     target = tmp_path / "far" / save.path.name
     target.write_bytes(b"old")
@@ -55,10 +57,13 @@ def test_a_link_a_mode_and_a_file_beside_stay(run, save, tmp_path):
     assert save.path.is_symlink() and len(target.read_bytes()) > 100 and stat.S_IMODE(target.stat().st_mode) == 0o604
     assert (tmp_path / f"{save.path.name}.part").read_text() == "mine"
     assert sorted(os.listdir(tmp_path)) == sorted(["far", save.path.name, f"{save.path.name}.part"])
-    assert os.listdir(target.parent) == [target.name]
+    assert os.listdir(target.parent) == [target.name] and b"folder-of-mine" not in target.read_bytes()
 
 
-@pytest.mark.parametrize("fault", [KeyboardInterrupt, OSError(28, "No space left on device")])
+FAULTS = deep_but_one_in(5, product(SAVES, [KeyboardInterrupt, OSError(28, "No space left on device")]))
+
+
+@pytest.mark.parametrize("save, fault", FAULTS, indirect=["save"])
 def test_a_fault_on_the_way_leaves_the_old_file(run, save, tmp_path, monkeypatch, fault):
     """Everything is written, and then the disk is full, or Ctrl-C is pressed."""
 
@@ -83,11 +88,6 @@ def test_a_disk_that_is_full_on_the_way_is_an_alarm(run, save, tmp_path):
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
     assert save.path.read_bytes() == b"old" and os.listdir(tmp_path) == [save.path.name]
-
-
-def test_no_file_names_a_folder(run, save):
-    save(run)
-    assert b"folder-of-mine" not in save.path.read_bytes()
 
 
 def test_no_page_names_a_folder(run):

@@ -43,14 +43,14 @@ def test_the_set_up_says_where_the_datum_stands(plate):
 
 
 def test_the_drawing_has_the_blank_its_sizes_and_the_datum(plate):
-    """G54, active at power-on, is the machine's zero here: the path counts from there. Sizes 80, 40, 20."""
+    """G55 is chosen before anything moves: the path counts from there, the blank is 3 and 2 mm before it. Sizes 80, 40, 20."""
     above, side = plot_set_up(plate).axes
     boxes = [patch.get_xy() for patch in above.patches if patch.get_zorder() == 1.0]
-    assert boxes[0].min(axis=0) == pytest.approx((100, 50)) and boxes[0].max(axis=0) == pytest.approx((180, 90))
+    assert boxes[0].min(axis=0) == pytest.approx((-3, -2)) and boxes[0].max(axis=0) == pytest.approx((77, 38))
     texts = [each.get_text() for ax in (above, side) for each in ax.texts]
     assert [text for text in texts if text in ("80", "40", "20")] == ["80", "40", "20"] and "G55" in texts
     spots = [line.get_xydata().tolist() for line in above.lines if line.get_marker() is QUARTERS]
-    assert spots == [[[103, 52]]]
+    assert spots == [[[0, 0]]]
 
 
 @pytest.mark.parametrize("size, unit", [(0.01, "mm"), (5000, "mm")])

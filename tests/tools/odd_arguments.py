@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import inspect
 import itertools
+import tempfile
+from pathlib import Path
 from types import ModuleType
 
 import numpy as np
@@ -23,13 +25,15 @@ GROOVE = mnc.schemes.grooves.Groove(-10, 8, 15, 20)
 MILLED = "G54\nT1 S1000 M3\nG0 X-10 Y0 Z5\nG1 Z-2 F200\nG1 X10\nG0 Z5\n"
 RUN = mnc.run(MILLED, "mnc", stock=BLANK)
 PLAN = mnc.schemes.zigzag(TURNED, 20.0, 2.0)
+ANSWERS = Path(tempfile.mkdtemp())
+(ANSWERS / "mnc-07.mnc").write_text("G0 X0\n")
 FEEDS = {kind: 0.2 for kind in ("rough", "pick-up", "clean-up", "plunge", "finish", "thread")}
 
 #: The right values of a parameter: of one function ("area.polygon corners"), or of all with this name.
 RIGHT = {
     "area.arc radius": 10, "area.polygon corners": 6, "begin": 0, "sweep": 90, "radius": 5.0, "length": 60.0, "width": 40.0,
     "area.slot width": 10.0, "line": LINE, "points": CIRCLE, "area.Part region": REGION, "contours": [SQUARE],
-    "path": RUN.toolpath,
+    "path": RUN.toolpath, "exercise id": "mnc-07", "mark folder": ANSWERS,
     "area.terraces formula": mnc.area.Part(REGION, 5.0), "whole": 10.0, "regions": {"a": REGION}, "operator": "+",
     "left": mnc.area.Part(REGION, 5.0), "right": mnc.area.Part(REGION, 5.0), "depth": 2.0, "stepover": 2.0, "region": REGION,
     "strategy": "zigzag", "coarse_radius": 10.0, "moves": (SQUARE,), "strategies.trochoid width": 20.0,

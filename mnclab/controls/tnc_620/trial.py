@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from mnclab.controls.tnc_620.contours.area import ContourData, ContourGeometry
-from mnclab.controls.tnc_620.contours.area_cycles import RoughOut
+from mnclab.controls.tnc_620.contours.area_cycles import RoughOut, SideFinishing
 from mnclab.controls.tnc_620.contours.train import ContourTrain, TrainData
 from mnclab.controls.tnc_620.reading import sub_blocks
 from mnclab.machine.cycle import Cycle
@@ -82,15 +82,12 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str | None:
 
 
 def around(cycle: type[Cycle], mine: list[str]) -> Iterator[str]:
-    """The cycles of a contour with one of them as it is written; a side is finished after it was roughed."""
+    """The cycles of a contour with one of them as it is written; those that only say something have roughing to show it."""
     for each in (ContourGeometry, ContourData):
         yield from mine if cycle is each else begun(each)
-    if cycle.runs == "definition" or cycle.code == "CYCL DEF 24":
-        yield from begun(RoughOut)
-    if cycle.code == "CYCL DEF 24":
-        yield CALL
-    if cycle.runs == "call":
-        yield from mine
+    if cycle is SideFinishing:  # which asks what roughed, here the same tool before
+        yield "TOOL CALL 1 Z S1000 F500"
+    yield from mine if cycle.runs == "call" else begun(RoughOut)
 
 
 def program(blocks: Sequence[str], below: Sequence[str] = ()) -> str:
@@ -165,7 +162,7 @@ def line(*blocks: str) -> list[str]:
 TRAIN = ("L X+10 Y+0 RL", "L Y+25", "RND R8", "L X+40", "L X+55 Y+10", "CR X+85 Y+10 R20 DR-", "L Y+40")
 WITHOUT_SIDE = ("L X+10 Y+0 R0", *TRAIN[1:])
 IN_SPACE = ("L X+10 Y+0 Z+0 RL", "L Y+25 Z-2", "L X+40 Z-6", "L X+55 Y+10 Z-6", "CR X+85 Y+10 R20 DR-", "L Y+40 Z+0")
-CENTRE_LINE = ("L X+0 Y+0", "L X+40", "RND R20", "L Y+45", "CR X+85 Y+45 R22.5 DR-", "L Y+20")
+CENTRE_LINE = ("L X+0 Y+0", "L X+40", "RND R20", "L Y+45")
 ON_CYLINDER = ("L X+0 Y+0 RL", "L X+50", "RND R20", "L Y+45", "L X+90 Y+65")
 #: By cycle, the one contour that it machines.
 LINES = {

@@ -18,6 +18,7 @@ from mnclab.design.difference.drawn_target import DrawnTarget
 from mnclab.design.difference.half_target import HalfTarget
 from mnclab.design.difference.rays import PAIRS, about, sides, ways
 from mnclab.design.difference.target import NONE, MeshTarget, PartTarget, Reading, Target
+from mnclab.design.difference.threads import before_threads
 from mnclab.design.difference.turned_comparing import compare_turned
 from mnclab.design.model.design import Design, Drawn
 from mnclab.design.model.turned_design import DrawnTurned, TurnedDesign
@@ -45,7 +46,10 @@ def compare(workpiece: Workpiece, target: Any, tolerance: float = 0.05) -> Diffe
     """
     check_number(tolerance, "the tolerance of a comparison (mm)", above=0)
     if isinstance(workpiece, Milled):
-        return difference_of(workpiece, target_of(target, workpiece, float(tolerance)), float(tolerance))
+        wanted = target_of(target, workpiece, float(tolerance))
+        if isinstance(wanted, DrawnTarget):
+            workpiece = before_threads(workpiece, wanted.design.features)
+        return difference_of(workpiece, wanted, float(tolerance))
     if isinstance(workpiece, Turned):
         return compare_turned(workpiece, half_target_of(target, workpiece), float(tolerance))
     raise Alarm(f"what is compared is a workpiece, got {shown(workpiece)}", hint="run.workpiece()")
@@ -145,7 +149,8 @@ def _notes(workpiece: Milled, target: Target, rows: Features, tolerance: float) 
     box, drawn = (np.asarray(each, dtype=np.float64) for each in (workpiece.cutting.stock.bounds, target.bounds))
     if isinstance(target, DrawnTarget) and np.abs(box - drawn).max() > tolerance:
         yield f"the part was cut from a blank of {_box(box)}, the design has one of {_box(drawn)}"
-    if threads := list(dict.fromkeys(row.feature for row in rows if row.measure.startswith("thread"))):
+    unread = (row.feature for row in rows if row.measure.startswith("thread") and np.isnan(row.actual))
+    if threads := list(dict.fromkeys(unread)):
         yield f"threads were not measured ({', '.join(threads)})"
     if workpiece.many:
         yield f"of so many moves the map stands within {workpiece.error:.3g} mm"
@@ -161,7 +166,7 @@ def target_of(given: Any, workpiece: Milled, tolerance: float) -> Target:
     """What a milled part is compared with."""
     found = _found(given)
     if isinstance(found, Design):
-        return DrawnTarget(found, tolerance)
+        return DrawnTarget(found, tolerance, workpiece.cutting)
     if isinstance(found, Milled):
         return PartTarget(found, _shift(found, workpiece), workpiece.step, tolerance)
     if isinstance(found, Mesh):

@@ -24,6 +24,7 @@ from mnclab.workpiece.workpiece import Workpiece
 if TYPE_CHECKING:
     from mnclab.design.difference.deviations import Seen
     from mnclab.design.difference.target import Reading
+    from mnclab.workpiece.cutting import Cutting
 
 FEWEST = 5  # places of an element
 TURN = np.radians(5)  # of an arc, between two places
@@ -35,10 +36,11 @@ SHARES = (0.02, 0.15, 0.35, 0.5, 0.65, 0.85, 0.98)  # of a slant, from its foot 
 
 
 class DrawnTarget:
-    """The owner of a face is the number of the body that made it, an index into `design.taken`."""
+    """The owner of a face is the number of the body that made it, an index into `design.taken`; `cutting` has the rows that cut
+    the part that is compared, those of its threads among them."""
 
-    def __init__(self, design: Design, tolerance: float) -> None:
-        self.design, self.tolerance = design, tolerance
+    def __init__(self, design: Design, tolerance: float, cutting: Cutting) -> None:
+        self.design, self.tolerance, self.cutting = design, tolerance, cutting
         self.name, self.error = design.title or "design", 0.0
 
     @property

@@ -11,20 +11,12 @@ from typing import Any
 from mnclab.design.difference.difference import HEAD, Difference
 from mnclab.show.report.document import page
 from mnclab.text.file import save_as
-from mnclab.text.tables import csv_text
+from mnclab.text.tables import csv_text, write_picture
 
 
 def save(difference: Difference, path: str | Path, **options: Any) -> Path:
     """Write a difference to one file and return its path; pictures and records take the options of `Difference.plot`."""
     return save_as(difference, path, WRITERS, "cannot write a difference as {}", **options)
-
-
-def write_figure(difference: Difference, path: Path, **options: Any) -> None:
-    """The picture of `Difference.plot`."""
-    from mnclab.design.difference.plot import plot_difference
-    from mnclab.show.plot.picture import write
-
-    write(plot_difference(difference, **options), path)
 
 
 def write_csv(difference: Difference, path: Path) -> None:
@@ -55,9 +47,7 @@ def record(difference: Difference, **options: Any) -> str:
 
 
 WRITERS: dict[str, Callable[..., None]] = {
-    ".svg": write_figure,
-    ".pdf": write_figure,
-    ".png": write_figure,
+    **dict.fromkeys((".svg", ".pdf", ".png"), write_picture),
     ".csv": write_csv,
     ".json": write_json,
     ".html": write_html,

@@ -13,9 +13,10 @@ import numpy as np
 from mnclab.design.difference.deviations import Seen
 from mnclab.design.difference.drawn_target import DrawnTarget
 from mnclab.design.difference.target import BLANK, NONE, Reading
+from mnclab.design.difference.threads import EXACT, LONGER, thread_of
 from mnclab.design.model.feature import Feature
 from mnclab.design.model.features import Chamfer, Groove, Slope, Slot, along
-from mnclab.design.model.holes import Hole
+from mnclab.design.model.holes import Hole, metric
 from mnclab.design.model.measures import Measure
 from mnclab.design.model.removals import Flat, Ramp, Sloped
 from mnclab.design.model.shapes import Circle, Rectangle, Shape
@@ -63,6 +64,9 @@ class _Room:
         self.own = bool(self.mine)
         low, high = target.bounds[:, 2].tolist()
         self.top, self.bottom = high if feature.top is None else feature.top, low
+        cutting, self.thread = target.cutting, None
+        if isinstance(feature, Hole) and feature.thread and not back and len(cutting):
+            self.thread = thread_of(cutting, feature, self.top)
         if not self.mine:  # an island: its pocket has its faces
             floor = self.top - feature.depth  # type: ignore[attr-defined]
             floor = self.turned - floor if back else floor
@@ -76,15 +80,21 @@ class _Room:
         for measure in self.feature.measures():
             if measure.name == "top":  # only says from where depths count
                 continue
+            if measure.name == "thread depth" and measure.limits is None and isinstance(self.feature, Hole):
+                measure = measure._replace(limits=(-self.target.tolerance, LONGER * metric(self.feature.thread)[1]))
             k = next((k for k, (name, _) in enumerate(found) if name == measure.name), None)
             value = found.pop(k)[1] if k is not None else Measured(math.nan, NONE, self._unread(measure.kind))
             yield Reading(side, self.name, measure, value.actual, self._allowed(measure), value.among, value.said)
+        if isinstance(self.feature, Hole) and self.thread:
+            nominal, (*_, pitch) = metric(self.feature.thread)[1], self.thread
+            said = "" if pitch > 0 else UNMEASURED
+            yield Reading(side, self.name, Measure("pitch", nominal, limits=(-EXACT, EXACT)), pitch, EXACT, NONE, said)
         if self.own:
             yield _form(self.target, self.seen, side, self.name, self.mine)
 
     def _unread(self, kind: str) -> str:
         """What is said of a measure that is not read off the part: a thread without a move that could have cut it is not cut."""
-        cutting, hole = self.seen.workpiece.cutting, self.feature
+        cutting, hole = self.target.cutting, self.feature
         if kind != "thread" or not isinstance(hole, Hole) or self.back or not len(cutting):  # a drawing has no teeth
             return UNMEASURED
         path, of_threads = cutting.path, np.array([tool.kind in THREADING for tool in cutting.tools] or [False], dtype=bool)
@@ -194,6 +204,8 @@ class _Room:
     def _hole(self, hole: Hole) -> Iterator[tuple[str, Measured]]:
         found = dict(of_circle(float(hole.x), float(hole.y), self._walls("")))
         yield from found.items()
+        if self.thread:
+            yield from (("thread", Measured(self.thread[0], NONE)), ("thread depth", Measured(self.thread[1], NONE)))
         if hole.tip:
             yield from self._point(hole, found)
         elif hole.depth is not None:
@@ -323,7 +335,9 @@ class Measured(NamedTuple):
 def sizes(shape: Shape, faces: Faces, size: float) -> Iterator[tuple[str, Measured]]:
     """The measures of a shape by their names; `size` mm is about how large it is."""
     if isinstance(shape, Circle):
-        yield from of_circle(shape.x, shape.y, faces)
+        away = np.hypot(*(faces.place - np.array([shape.x, shape.y])).T)
+        own = np.abs(away - shape.diameter / 2) < NEAR * shape.diameter  # without islands
+        yield from of_circle(shape.x, shape.y, faces.some(own))
         return
     if isinstance(shape, Rectangle):
         centre, degrees = (shape.x, shape.y), shape.turned
@@ -348,9 +362,8 @@ def of_circle(x: float, y: float, faces: Faces) -> Iterator[tuple[str, Measured]
         yield from ((name, Measured(math.nan, faces.number, said)) for name in ("diameter", "x", "y"))
         return
     px, py, radius = circle((faces.place + faces.moved)[there], np.array([x, y]))
-    yield "diameter", Measured(2 * radius, faces.number)
-    yield "x", Measured(px, faces.number)
-    yield "y", Measured(py, faces.number)
+    for name, value in (("diameter", 2 * radius), ("x", px), ("y", py)):
+        yield name, Measured(value, faces.number, GONE if math.isnan(value) else "")
 
 
 def between(
@@ -397,7 +410,7 @@ def _corner(shape: Rectangle, seen: Faces) -> Measured:
         here = at & (seen.place * [sx, sy] > 0).all(axis=1)
         if here.sum() >= 3:
             _, _, radius = circle((seen.place + seen.moved)[here], inner * [sx, sy])
-            if best.said or abs(radius - shape.corner) > abs(best.actual - shape.corner):
+            if not math.isnan(radius) and (best.said or abs(radius - shape.corner) > abs(best.actual - shape.corner)):
                 best = Measured(radius, seen.number[here])
     return best
 
@@ -419,10 +432,13 @@ def turn(seen: Faces, half: tuple[float, float], degrees: float) -> Measured:
 # Circles and lines through measured points.
 
 ROUNDS = 20
+FLAT = 1000.0  # times the size of what was measured: a circle of more is a wall that goes straight on
 
 
 def circle(points: Array, centre: Array) -> tuple[float, float, float]:
-    """x, y and radius of the circle with the least squares of distances from points (m, 2); `centre` (2,) is a first guess."""
+    """x, y and radius of the circle with the least squares of distances from points (m, 2), nan where they are on no circle
+    that they would tell from a line; `centre` (2,) is a first guess.
+    """
     x, y = (float(each) for each in centre)
     radius = float(np.hypot(*(points - centre).T).mean())
     for _ in range(ROUNDS):
@@ -433,7 +449,8 @@ def circle(points: Array, centre: Array) -> tuple[float, float, float]:
         x, y, radius = x + by_x, y + by_y, radius + change[2]
         if np.abs(change).max() < 1e-12:
             break
-    return x, y, radius
+    flat = not 0 < radius <= FLAT * float(np.ptp(points, axis=0).max())
+    return (math.nan, math.nan, math.nan) if flat else (x, y, radius)
 
 
 def line(s: Array, z: Array) -> tuple[float, float]:

@@ -50,7 +50,7 @@ from mnclab.show.plot.picture import (
     write_table,
 )  # fmt: skip
 from mnclab.show.plot.sections import HALO, mark_section
-from mnclab.show.plot.sizes import sized
+from mnclab.show.plot.sizes import reframe, sized
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
 
@@ -61,6 +61,7 @@ HATCHES = {-1: "xxxx", 1: "...."}
 OUTLINE: dict[str, Any] = {"colors": colours.INK, "linewidths": 0.8, "zorder": 2.0}
 DOTS = 9.0  # points², of a place of a wall
 NAMES = ("gouge", "rest")
+WIDE, SAID = 1.5, 0.4  # times its height: a picture whose words stand beside it; their share of its width
 
 
 @sized()
@@ -96,19 +97,23 @@ def plot_difference(
     marks = marks_of(difference)
     rows = [(), *lines_of(difference, marks)] if table and len(difference.features) else []
     told = [*_told(difference), *(f"{each.number}  {each.text}" for each in marks)]
-    said = Foot("\n".join(told)).within(max(size[0], wide_of(rows))).lines
-    size = size[0], size[1] + LINE * (len(rows) + len(said))
+    foot = Foot("\n".join([*told, *([""] * len(rows))]))
+    beside = 0.0 if rows or size[0] < WIDE * size[1] else SAID * size[0]  # inches for the words
+    foot = foot.within(beside or size[0])
+    room = (size[0] - beside, size[1]) if beside else (size[0], size[1] + LINE * len(foot.lines))
     handles = _handles(difference, cuts)
-    foot = Foot("\n" * (len(rows) + len(said) - 1))
-    picture, axes = arrange(views, low, high, [str(each.get_label()) for each in handles], foot, _words(difference), size, True)
-    _widen(picture, axes, wide_of(rows))
+    names = [str(each.get_label()) for each in handles]
+    picture, axes = arrange(views, low, high, names, None if beside else foot, _words(difference), room, True)
+    (left, height), top = picture.get_size_inches().tolist(), axes[0].get_position(original=True).y1
+    reframe(picture, 0.0, 0.0, left + beside if beside else max(left, wide_of(rows)), height)  # the views keep their size
+    if beside:
+        foot.write(picture, left, top * height - LINE * len(foot.lines))
     _draw(axes[0], difference, most)
     for one, each in zip(axes[1:], cuts):
         draw_magnified(one, each, (GONE, LEFT))
         mark_section(axes[0], each.section, low, high)
     _scale(picture, most, difference.tolerance, max(difference.worst_gouge.value, difference.worst_rest.value) > most)
     write_legend(picture, handles, SCALE)
-    Foot("\n".join([*said, *([""] * len(rows))])).write(picture)
     draw_table(picture, rows)
     return picture
 
@@ -120,17 +125,6 @@ def limit_of(difference: Difference, given: float | None) -> float:
         return float(given)
     worst, tolerance = max(difference.worst_gouge.value, difference.worst_rest.value), difference.tolerance
     return nice(min(max(worst, 2 * tolerance), FULL * tolerance))
-
-
-def _widen(picture: Picture, axes: Sequence[Axes], wide: float) -> None:
-    """Make room for a table of some inches; the views keep their size."""
-    width, height = picture.get_size_inches().tolist()
-    if wide <= width:
-        return
-    picture.set_size_inches(wide, height)
-    for ax in axes:
-        x, y, w, h = ax.get_position().bounds
-        ax.set_position((x * width / wide, y, w * width / wide, h))
 
 
 def _bounds(difference: Difference) -> tuple[Array, Array]:

@@ -15,6 +15,7 @@ import numpy as np
 from mnclab.design.difference.difference import Row, judged, made_by
 from mnclab.design.difference.half_target import SAME, HalfTarget
 from mnclab.design.difference.measuring import circle
+from mnclab.design.difference.threads import EXACT, passes_of
 from mnclab.design.difference.turned_comparing import ALIKE, Compared, Looked, first_made
 from mnclab.design.model.measures import Measure
 from mnclab.design.model.turned_profile import Dimension
@@ -58,6 +59,9 @@ def rows_of(
             read = room.thread(feature, each) if isinstance(feature, Thread) else room.read(each)
             unmade = NOT_CUT if read.said == NOT_CUT and isinstance(feature, Thread) else unmade
             yield _row(found, target.names[owner], each.measure, read, _allowed(each, tolerance), error)
+        if isinstance(feature, Thread) and (passes := passes_of(found.part.cutting.path, feature)):
+            pitch = Measure("pitch", feature.pitch, limits=(-EXACT, EXACT))
+            yield _row(found, target.names[owner], pitch, Measured(passes.worst_pitch(feature)), EXACT, 0.0)
         yield _form(found, target, off, owner, tolerance, error, unmade)
 
 
@@ -118,7 +122,7 @@ class _Face(NamedTuple):
     @property
     def line(self) -> tuple[Array, Array]:
         spots = self.middle
-        if np.isnan(spots).any():
+        if not len(spots) or np.isnan(spots).any():
             return np.full(2, np.nan), self.ahead
         centre = spots.mean(axis=0)
         way = np.linalg.svd(spots - centre)[2][0]
@@ -132,12 +136,15 @@ class _Room:
         self.found, self.target, self.looked = found, target, looked
         places, moved = looked.places, looked.moved
         self.there = places.place + moved[:, None] * places.normal
+        toothed = target.toothed(places.place)
         self.faces: list[_Face] = []
         for number, line in enumerate(target.surface.lines):
             for k, (start, end, sweep) in enumerate(zip(line.starts, line.ends, line.sweeps)):
                 mine = np.flatnonzero((places.line == number) & (places.element == k))
                 share = places.share[mine]
-                middle = mine[np.abs(share - 0.5) <= 0.25 + SAME]
+                free = ~toothed[mine]  # beside the teeth of a thread the rest of a wall tells where it is
+                inner = free & (np.abs(share - 0.5) <= 0.25 + SAME)
+                middle = mine[inner if inner.sum() > 1 or not free.sum() > 1 else free]
                 self.faces.append(_Face(
                     start, end, bool(sweep), places.place[mine], moved[mine], places.normal[mine], self.there[middle]
                 ))  # fmt: skip
@@ -161,9 +168,15 @@ class _Room:
         return Measured(abs(one.actual - other.actual), *both, said=one.said or other.said)
 
     def thread(self, thread: Thread, dimension: Dimension) -> Measured:
-        """Of a thread outside the diameter over its crests; that it is there at all."""
-        if dimension.measure.kind != "thread" or not len(self.found.part.cutting):  # a drawing has no teeth
+        """Of a thread outside the diameter over its crests; that it is there at all; its length and start by its passes."""
+        cutting = self.found.part.cutting
+        if not len(cutting):  # a drawing has no teeth
             return NOTHING
+        if dimension.measure.kind != "thread":
+            if (passes := passes_of(cutting.path, thread)) is None:
+                return NOTHING
+            start = min(passes.start, thread.start)
+            return Measured(start if dimension.measure.kind == "place" else passes.length(thread))
         middle = np.linspace(thread.end, thread.start, 2002)[1:-1]
         radii = revolved.radii_at(self.found.surface.region.loops, middle)
         ours = np.array([(each[0] if thread.inside else each[-1]) if len(each) else np.nan for each in radii])
@@ -245,6 +258,8 @@ class _Room:
                 if np.isnan(face.middle).any():
                     return self._lost(face)
                 *_, radius = circle(face.middle, centre)
+                if math.isnan(radius):
+                    return NOTHING
                 return Measured(float(radius), face.middle, np.hypot(*(face.middle - centre).T) - reach)
         return NOTHING
 

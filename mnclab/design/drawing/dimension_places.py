@@ -98,6 +98,17 @@ def room_for(dimensions: Iterable[Dimension], along: str) -> float:
     return min(rows, 2) * FIRST + max(rows - 2, 0) * ROW
 
 
+def outside(mark: Mark, other: Mark, outline: Floats) -> bool:
+    """Whether a dimension stands farther out than a longer one along the same axis that reaches over it; `outline` as below."""
+    short, long = mark.of, other.of
+    if not isinstance(short, Linear) or not isinstance(long, Linear) or short.along != long.along or short.along == "ab":
+        return False
+    k = "xy".index(short.along)
+    (a, b), (c, d) = (sorted((each.a[k], each.b[k])) for each in (short, long))
+    mine, its = (each.places[2][1 - k] - float(outline[:, 1 - k].mean()) for each in (mark, other))
+    return c <= a and b <= d and b - a < d - c and mine * its > 0 and abs(mine) > abs(its)
+
+
 def linear_places(dimension: Linear, scale: float, outline: Floats, room: int) -> Iterator[Mark]:
     """Marks in the order of their costs; `outline` (2, 2) are the bounds of the view on paper, `room` more rows than usual."""
     frame, text = frame_of(dimension, scale), value_block(dimension.value)

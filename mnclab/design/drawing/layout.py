@@ -177,6 +177,22 @@ def _placed(things: Sequence[Written], scale: float, outline: Floats, ground: Gr
         price = float(ground.prices(Batch.of([marks[k]]))[0][0])
         marks[k] = ground.best(offers[k], least=price)[0] or marks[k]
         ground.put(marks[k], k)
+    for k, other in product(order, order):  # shorter dimensions stand nearer to the part
+        if dimension_places.outside(marks[k], marks[other], outline):
+            before, tried = {each: marks[each] for each in (k, other)}, dict[int, Mark]()
+            for each in before:
+                ground.take(each)
+            for each in before:
+                if found := ground.best(offers[each])[0]:
+                    tried[each] = found
+                    ground.put(found, each)
+            if len(tried) < 2 or dimension_places.outside(tried[k], tried[other], outline):
+                for each in before:
+                    ground.take(each)
+                tried = before
+                for each, mark in before.items():
+                    ground.put(mark, each)
+            marks |= tried
     return [marks[k] for k in range(len(things))]
 
 

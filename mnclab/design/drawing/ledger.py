@@ -161,6 +161,7 @@ def _title(printed: Printed) -> str:
 
 # How the measures of features are written on a drawing: signs, tolerances, the lines of a hole.
 
+GENERAL = 2  # decimals of what the general tolerances hold, which are coarser
 DIAMETER, DEPTH, BORED, SUNK, TIMES = "⌀", "↧", "⌴", "⌵", "×"
 SIGNS = {"diameter": DIAMETER, "radius": "R", "depth": DEPTH}
 
@@ -178,8 +179,8 @@ def tolerance_of(measure: Measure) -> Tolerance:
 def valued(measure: Measure, before: str = "", nominal: float | None = None, count: int = 1) -> Value:
     """A measure as the value of a dimension; `count` of them are equal, `nominal` where it counts from elsewhere."""
     size = measure.nominal if nominal is None else nominal
-    after = "°" if measure.kind == "angle" else ""
-    return value(size, times(count) + before, tolerance_of(measure), after=after)
+    after, tolerance = "°" if measure.kind == "angle" else "", tolerance_of(measure)
+    return value(size if tolerance else round(size, GENERAL), times(count) + before, tolerance, after=after)
 
 
 def times(count: int) -> str:

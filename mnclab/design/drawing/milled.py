@@ -106,7 +106,7 @@ def _placed(design: Design, feature: Feature, back: bool, turn: Floats) -> Conto
     if isinstance(feature, Hole):
         line = Contour.circle((feature.x, feature.y), feature.mouth / 2)
     else:
-        line = feature.area.loops[0] if isinstance(feature, Groove) else feature.outline
+        line = feature.region.loops[0] if isinstance(feature, Groove) else feature.outline
     assert line is not None  # of a recess
     return line.transformed(turn @ design.flip[0] if back else turn)
 

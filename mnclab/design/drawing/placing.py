@@ -27,7 +27,7 @@ PRICES = np.array([
     [0.5, 0.0, NEVER, NEVER, NEVER, 6.0, NEVER],  # an arrowhead
     [2.0, 0.3, NEVER, NEVER, 15.0, 3.0, 10.0],  # a dimension line
     [0.6, 0.0, NEVER, 6.0, 3.0, 0.2, 4.0],  # an extension line
-    [1.8, 0.8, NEVER, NEVER, 10.0, 4.0, 20.0],  # a leader
+    [1.8, 0.8, NEVER, NEVER, 10.0, 4.0, 200.0],  # a leader
 ])  # fmt: skip
 BODIES = {DIMENSION: (0.45, 0.5), EXTENSION: (NEAR, 0.0), LEADER: (0.45, 0.5)}  # mm: shorter by less than AIR, half the width
 BATCH = 32  # places tried at once

@@ -327,7 +327,7 @@ class Levels:
 # From above, or from below: the edges of each level that nothing nearer covers.
 
 NEAR = 1e-6  # mm, within which a line lies on another
-SPOTS = np.array([0.02, 0.25, 0.5, 0.75, 0.98])  # of an element, by which is told whether all of it does
+SPOTS = np.array([0.02, *np.arange(1, 40) / 40, 0.98])  # of an element, by which is told whether all of it does
 SHARP = 1e-3  # rad, of a corner
 LONGEST = 4.0  # a mitre line against the width of its chamfer
 EMPTY = Region(())
@@ -418,11 +418,11 @@ def _off(loop: Contour, covered: Region) -> Iterator[Contour]:
 
 
 def _spots(line: Contour) -> Floats:
-    """Places on every element, `(m * 5, 2)`."""
+    """Places on every element, `(m * len(SPOTS), 2)`."""
     ways = (np.cumsum(line.lengths) - line.lengths)[:, None] + line.lengths[:, None] * SPOTS
     return line.point_at(ways.ravel())[0]
 
 
 def _stretches(line: Contour, spots: NDArray[np.bool_]) -> Iterator[Contour]:
-    """The elements of which some spots (m, 5) are shown, those that follow each other as one."""
+    """The elements of which some spots (m, len(SPOTS)) are shown, those that follow each other as one."""
     return stretches(line, np.asarray(spots.any(axis=1)))

@@ -8,11 +8,24 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from mnclab.design.drawing.ledger import BLANK, DEPTH, DIAMETER, TIMES, Claim, Draft, Ledger, claims_of, valued, written
+from mnclab.design.drawing.ledger import (
+    BLANK,
+    DEPTH,
+    DIAMETER,
+    TIMES,
+    Claim,
+    Draft,
+    Ledger,
+    claims_of,
+    times,
+    valued,
+    written,
+)
 from mnclab.design.drawing.projection import SAME, Seen, Step, look
 from mnclab.design.drawing.view import Angle, Axis, Kind, Linear, Note, Origin, Point, Radius, Value, ViewLine
 from mnclab.design.model.measures import Measure
@@ -148,6 +161,7 @@ class Turning:
     draft: Draft
     ledger: Ledger
     lengths: list[tuple[float, float, Measure, Claim]] = field(default_factory=list)
+    notes: dict[tuple[Any, tuple[str, ...]], tuple[Point, list[int]]] = field(default_factory=dict)  # equal grooves have one
 
     def write(self) -> None:
         """All of it."""
@@ -158,6 +172,9 @@ class Turning:
             self._of_profile(each, Claim(False, BLANK, place, each.measure.name), threaded)
         for k, feature in enumerate(self.design.features):
             self._of_feature(feature, k)
+        for (_, lines), (at, numbers) in self.notes.items():
+            said = (times(len(numbers)) + lines[0], *lines[1:])
+            self.ledger.say(self.draft, Note(at, said), claims_of(self.design.features, numbers, ()))
         self._lengths()
 
     # ---- the profile ----
@@ -175,9 +192,9 @@ class Turning:
             if mine and measure.limits is None:
                 mine[0].append(claim)
             elif self._inside(z, r):
-                self.ledger.say(self.draft, Note((z, r), (written(measure),)), [claim])
+                self.ledger.say(self.draft, Note((z, r), (self._bracketed(measure, written(measure)),)), [claim])
             else:
-                self._across(z, r, valued(measure, DIAMETER), [claim])
+                self._across(z, r, valued(measure, DIAMETER)._replace(reference=measure.name in self.spare), [claim])
         elif measure.kind == "radius":
             assert each.centre is not None
             (cz, cr), radius = each.centre, measure.nominal
@@ -199,12 +216,32 @@ class Turning:
         narrow, wide = sorted((each.start, each.end), key=lambda point: point[1])
         if self._inside((narrow[0] + wide[0]) / 2, (narrow[1] + wide[1]) / 2):
             middle = (narrow[0] + wide[0]) / 2, (narrow[1] + wide[1]) / 2
-            self.ledger.say(self.draft, Note(middle, (f"∠{written(each.measure, '')}",)), [claim])
+            note = Note(middle, (self._bracketed(each.measure, f"∠{written(each.measure, '')}"),))
+            self.ledger.say(self.draft, note, [claim])
             return
         level = wide[0], narrow[1]
         self.draft.lines.append(ViewLine(Contour([narrow, level], closed=False), Kind.THIN))
         legs = (level, wide) if wide[0] > narrow[0] else (wide, level)
-        self.ledger.say(self.draft, Angle(narrow, *legs, valued(each.measure)), [claim])
+        said = valued(each.measure)._replace(reference=each.measure.name in self.spare)
+        self.ledger.say(self.draft, Angle(narrow, *legs, said), [claim])
+
+    def _bracketed(self, measure: Measure, text: str) -> str:
+        return f"({text})" if measure.name in self.spare else text
+
+    @cached_property
+    def spare(self) -> set[str]:
+        """Measures of the profile that follow from others and stand in brackets (ISO 129-1).
+
+        A taper has a length and two diameters, or one and its angle: what is the rounder number.
+        """
+        every, found = self.design.dimensions(), set[str]()
+        corners = [each for each in every if each.measure.kind == "diameter" and each.start == each.end]
+        for taper in (each for each in every if each.measure.kind == "angle"):
+            free = [taper, *(each for each in corners if each.start in (taper.start, taper.end))]
+            measures = [each.measure for each in free if each.measure.limits is None and each.measure.name not in found]
+            if measures:
+                found.add(max(reversed(measures), key=lambda one: len(valued(one).text.strip("°"))).name)
+        return found
 
     def _is_thread(self, thread: Thread, each: Dimension) -> bool:
         same = abs(2 * each.start[1] - thread.major) < SAME and not thread.inside
@@ -252,7 +289,8 @@ class Turning:
             across = f"{written(known['inner diameter'])} / {written(known['outer diameter'])}"
             lines = [f"{across} {written(known['depth'])}"]
             lines += [written(known["corner radius"])] if "corner radius" in known else []
-        self.ledger.say(self.draft, Note(at, tuple(lines)), self._claims(k))
+        alike = (type(feature), self._inside(*at)) if isinstance(feature, RingGroove) else k
+        self.notes.setdefault((alike, tuple(lines)), (at, []))[1].append(k)
 
     def _bore(self, bore: Bore, front: bool) -> Point:
         """A point on its wall."""
@@ -299,7 +337,7 @@ class Turning:
                 told = Linear((z, max(inner)), (self.high, front), said, "x", "above")
             else:
                 told = Linear((z, -self._outer(z)), (self.high, -front), said, "x", "below")
-            self.ledger.say(self.draft, told, claims)
+            self.ledger.say_once(self.draft, told, claims)
 
     def _claims(self, k: int, *names: str) -> list[Claim]:
         return claims_of(self.design.features, [k], names)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mnclab.design.model.feature import Feature, Site
-from mnclab.design.model.features import FEATURES, Chamfer, Pocket, Stud
+from mnclab.design.model.features import FEATURES, Chamfer, Groove, Pocket, Slot, Stud
 from mnclab.design.model.measures import HEAD, rows
 from mnclab.design.model.removals import Flat, Removal, filled
 from mnclab.design.model.slabs import Stack
@@ -259,6 +259,21 @@ class Design(AsDrawn):
             gone = ~(top > floor)
         floor[gone] = top[gone] = np.nan
         return floor, top, makers[True], makers[False]
+
+    @property
+    def regions(self) -> dict[str, Region]:
+        """What a mill has to clear of each pocket, slot and groove, by its name, islands and studs in it left out."""
+        names = self.drawn_names()
+        areas = {k: body.region for k, back, body in self.taken if isinstance(body, Flat) and not back}
+        return {names[k]: areas[k] for k, each in enumerate(self.features) if isinstance(each, Pocket | Slot | Groove)}
+
+    @property
+    def region(self) -> Region:
+        """That of the only one; an Alarm where there are several or none."""
+        if len(found := self.regions) != 1:
+            said = f"{len(found)} areas to clear: {', '.join(found)}" if found else "no pocket, slot or groove"
+            raise Alarm(f"the design has {said}", hint=f"design.regions[{next(iter(found))!r}]" if found else "")
+        return next(iter(found.values()))
 
     def section(self, z: float) -> Region:
         """What a level plane cuts, exact; at the height of a step what is below it."""

@@ -95,10 +95,10 @@ KNOWN = (*TEXTS, "turn", "blank", *SIDES)
 
 def load(path: str | Path) -> Any:
     """The design of a file; an Alarm names what is wrong in it and shows the line."""
-    return parse(path, _either, "design")
+    return parse(path, either_of, "design")
 
 
-def _either(table: Mapping[str, Any], file: File) -> Any:
+def either_of(table: Mapping[str, Any], file: File) -> Any:
     """A turned design has a profile."""
     return turned_file.design_of(table, file) if "profile" in table else design_of(table, file)
 

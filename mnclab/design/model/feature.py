@@ -107,6 +107,11 @@ class Feature(Named):
         return with_tolerances(found, self.tolerances, self.name or f"a {self.kind}")
 
     @property
+    def region(self) -> Region:
+        """What a mill has to clear, from above, islands left out; an Alarm for all but pockets, slots and grooves."""
+        raise Alarm(f"a {self.kind} is no area to clear", hint="a pocket, a slot and a groove have one: Region.of(pocket)")
+
+    @property
     def shape(self) -> Shape | None:
         """The shape that is dimensioned in its view; None if it has none."""
         return getattr(self, "contour", None)

@@ -100,11 +100,16 @@ class Pocket(_Outlined):
         found = tuple(shape_of(each, "an island of a pocket") for each in self.islands)
         object.__setattr__(self, "islands", found)
 
-    def removals(self, site: Site) -> Iterator[Removal]:
+    @cached_property
+    def region(self) -> Region:
+        """All within the contour but the islands."""
         region = self.area
         for each in self.islands:
             region = region.difference(area_of(each, "an island of a pocket"))
-        yield Flat(region, self.from_top(site) - self.depth)
+        return region
+
+    def removals(self, site: Site) -> Iterator[Removal]:
+        yield Flat(self.region, self.from_top(site) - self.depth)
 
 
 @dataclass(frozen=True, repr=False)
@@ -150,8 +155,12 @@ class Slot(Feature):
         yield Measure("y", (y0 + y1) / 2, "place")
         yield Measure("depth", self.depth, "depth")
 
+    @property
+    def region(self) -> Region:
+        return Region.of(self.outline)
+
     def removals(self, site: Site) -> Iterator[Removal]:
-        yield Flat(Region.of(self.outline), self.from_top(site) - self.depth)
+        yield Flat(self.region, self.from_top(site) - self.depth)
 
 
 @dataclass(frozen=True, repr=False)
@@ -167,10 +176,10 @@ class Groove(Feature):
     def _check(self) -> None:
         take_shape(self, closed=None)
         check_positive(self, "width", "depth")
-        self.area  # noqa: B018  it must exist
+        self.region  # noqa: B018  it must exist
 
     @cached_property
-    def area(self) -> Region:
+    def region(self) -> Region:
         """All within half the width of the contour."""
         line, half = self.contour.contour, self.width / 2
         if not line.closed:
@@ -188,7 +197,7 @@ class Groove(Feature):
         yield Measure("depth", self.depth, "depth")
 
     def removals(self, site: Site) -> Iterator[Removal]:
-        yield Flat(self.area, self.from_top(site) - self.depth)
+        yield Flat(self.region, self.from_top(site) - self.depth)
 
 
 def along(name: str) -> str:

@@ -183,8 +183,9 @@ def box_of(kind: type, value: Any, limits: Sequence[float], looks: Mapping[str, 
 
 
 def name_of(p: Parameter) -> str:
-    """What is written beside a box: `K depth of one peck [mm]`."""
-    return f"{p.address} {p.meaning}" + (f" [{p.unit}]" if p.unit and p.unit not in NO_UNITS and not p.mark else "")
+    """What is written beside a box: `K depth of one peck [mm]`; a meaning that begins with its word says it once."""
+    said = p.meaning if p.meaning.split(" ")[0] == p.address else f"{p.address} {p.meaning}"
+    return said + (f" [{p.unit}]" if p.unit and p.unit not in NO_UNITS and not p.mark else "")
 
 
 def parameter_box(p: Parameter) -> Any:

@@ -121,25 +121,28 @@ class NewPicture(NamedTuple):
 def following(
     boxes: Mapping[str, Any], fields: Mapping[str, Field], left: Any, work: Callable[[Any], NewPicture | None],
     field_of: Callable[[Alarm], str] = lambda alarm: "", *also: Any, title: str = "panel", classes: str = "",
-    below: Iterable[Any] = (), above: Iterable[Any] = (),
+    below: Iterable[Any] = (), above: Iterable[Any] = (), over: Iterable[Any] = (),
 ) -> Any:  # fmt: skip
     """What is `left` with the picture and the alarms beside it; `work` is done when a box, or one `also`, changes.
 
-    A fault stands at the field that `field_of` names, one of no field above them all.
+    What is `over` the picture lies in front of it. A fault stands at the field that `field_of` names, one of no field above
+    them all.
     """
     require("matplotlib", "pictures")
     import ipywidgets
 
     picture, alarms, first = ipywidgets.HTML(), ipywidgets.HTML(), ipywidgets.HTML()
-    right = ipywidgets.VBox([picture, alarms, *below])
+    view = ipywidgets.VBox([picture, *over])
+    right = ipywidgets.VBox([view, alarms, *below])
     column = ipywidgets.VBox([first, left])
-    for part, name in ((right, "right"), (column, "left"), (first, "first"), (picture, "drawn"), (alarms, "said")):
+    parts = {"right": right, "left": column, "first": first, "view": view, "drawn": picture, "said": alarms}
+    for name, part in parts.items():
         part.add_class(f"mnclab-{name}")
     body = ipywidgets.HBox([column, right])
     body.add_class("mnclab-body")
     live = live_class()([*above, body], f"mnclab-following {classes}")
     live.title, live.boxes, live.fields, live.picture, live.alarms = title, dict(boxes), dict(fields), picture, alarms
-    live.good, live.former, live.box = False, None, None
+    live.good, live.former, live.box, live.figure = False, None, None, None
 
     def tell(stop: Alarm | None) -> None:
         name = field_of(stop) if stop else ""
@@ -153,7 +156,8 @@ def following(
             done = work(live)
             stop = done.stop if done else None
             if done and (stop is None or not live.good or done.shows):
-                live.shown, live.box = DRAWING.submit(_drawn, done, live.former, live.box).result()
+                live.shown, live.figure = DRAWING.submit(_drawn, done, live.former, live.box).result()
+                live.box = live.figure.box
                 if stop is None:
                     live.good, live.former = True, done.made
         except Alarm as alarm:
@@ -173,9 +177,9 @@ def following(
 
 
 def _drawn(done: NewPicture, former: Any, box: Any) -> tuple[str, Any]:
-    """A picture as HTML, and what the next one keeps of it."""
+    """A picture as HTML, and the figure."""
     figure = done.draw(under=former, limits=box)
-    return figure.html(), figure.box
+    return figure.html(), figure
 
 
 def greyed(picture: str) -> str:

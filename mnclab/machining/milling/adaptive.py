@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -42,9 +43,11 @@ from mnclab.machining.milling.fronts import (
     opened,
 )
 from mnclab.machining.milling.spirals import through
+from mnclab.text.alarm import Alarm
 
 UNROUND = math.radians(1.7)  # that a spiral of half circles, whose turns are not concentric, keeps from the limit
 WIDEST = 1.5  # of the radius: a greater stepover bounds next to nothing
+NARROWEST = 0.05  # of the radius: the smaller, the more of the passes is above the limit, at 0.04 up to 3 %
 LEFT = 0.6  # of the stepover: what stands along a wall
 TAPER = 2.0  # times the stepover, on which LEFT begins
 ENOUGH = 0.6  # of the radius of the greatest circle: that of any circle at the end where a peeling begins
@@ -60,9 +63,11 @@ def adaptive(
     The limit holds outside the entries (labels "entry …") and, in the pass along a wall, beside a corner of that pass. Arcs of
     the tool-centre path in the material are not smaller than `smallest`, by default a tenth of the radius. Where a `stock` is
     given there is material in it alone: sides beyond it are open, and the tool comes in from there. Where a pass begins, at the
-    edge of what is cleared, its radius may be smaller.
+    edge of what is cleared, its radius may be smaller. An Alarm for a stepover below a twentieth of the radius, where passes are
+    too fine to keep the limit.
     """
-    return _cleared(region, radius, stepover, allowance, climb, stock, smallest, _widest)
+    plan = partial(adaptive_piece, radius=radius, stepover=stepover)
+    return in_climb(region, radius, stepover, allowance, climb, smallest, plan, stock)
 
 
 def peeling(
@@ -73,22 +78,25 @@ def peeling(
 
     The tool goes down where the end of the slot is wide enough for a spiral. Any other area is peeled away from there, too.
     """
-    return _cleared(region, radius, stepover, allowance, climb, stock, smallest, _farthest)
+    plan = partial(adaptive_piece, radius=radius, stepover=stepover, name="peeling", first=_farthest)
+    return in_climb(region, radius, stepover, allowance, climb, smallest, plan, stock)
 
 
-def _cleared(
-    region: Region, radius: float, stepover: float, allowance: float, climb: bool, stock: Region | None,
-    smallest: float | None, first: Callable[[Any, float], Floats],
+def in_climb(
+    region: Region, radius: float, stepover: float, allowance: float, climb: bool, smallest: float | None,
+    plan: Callable[[Region, float, Any], Piece], stock: Region | None = None,
 ) -> Clearing:  # fmt: skip
-    """An area cleared front after front, from the place in each part where the tool goes down `first`."""
+    """An area cleared by the `plan` of each part of where the tool centre may go, the smallest radius, and the stock there.
+
+    It plans climb milling; conventional milling is that in a mirror.
+    """
     least = radius / 10 if smallest is None else smallest
     if not 0 < least <= radius:
         raise ValueError(f"the smallest radius must lie above 0 and not above that of the tool, {radius:g}, got {least:g}")
-    turn = np.array([[1.0 if climb else -1.0, 0, 0], [0, 1, 0]])  # conventional milling is climb milling in a mirror
+    turn = np.array([[1.0 if climb else -1.0, 0, 0], [0, 1, 0]])
     centres = _turned(tool_centres(region, radius, stepover, allowance), turn)
-    stepover = min(stepover, WIDEST * radius)
     solid = None if stock is None else polygons(_turned(stock, turn))
-    pieces = [_piece(part, radius, stepover, least, solid, first) for part in centres.parts]
+    pieces = [plan(part, least, solid) for part in centres.parts]
     return Clearing(_turned(centres, turn), tuple(_mirrored(piece, turn) for piece in pieces if piece.passes), radius)
 
 
@@ -106,10 +114,20 @@ def _mirrored(piece: Piece, turn: Floats) -> Piece:
     return replace(piece, centres=_turned(piece.centres, turn), passes=passes)
 
 
-def _piece(
-    centres: Region, radius: float, stepover: float, least: float, stock: Any, first: Callable[[Any, float], Floats]
-) -> Piece:
-    """The passes of one piece of where the tool centre may go, climb."""
+def _widest(part: Any, radius: float) -> Floats:
+    """The middle of the greatest circle in an area."""
+    return np.asarray(shapely.get_coordinates(shapely.maximum_inscribed_circle(part, tolerance=radius / 1000))[0])
+
+
+def adaptive_piece(
+    centres: Region, least: float, stock: Any = None, *, radius: float, stepover: float,
+    name: str = "adaptive", first: Callable[[Any, float], Floats] = _widest,
+) -> Piece:  # fmt: skip
+    """The passes of one piece of where the tool centre may go, climb, from the place in each part where it goes down `first`."""
+    if stepover < (1 - 1e-9) * NARROWEST * radius:
+        said = f"{name} keeps its engagement from a stepover of {NARROWEST * radius:g} mm on, a twentieth of the tool radius"
+        raise Alarm(f"{said}, got {stepover:g}", hint="another strategy, or a smaller tool")
+    stepover = min(stepover, WIDEST * radius)
     room, soft = _room_for_passes(centres, radius, stepover, least)
     free = None if stock is None else difference(room, shapely.buffer(stock, radius, quad_segs=32))
     passes, links, labels, from_side = list[Contour](), list[int](), list[str](), False  # links[k] leads to passes[k]
@@ -140,11 +158,6 @@ def _piece(
             passes.append(way)
             labels.append("island" if loop.area < 0 else "wall")
     return Piece(centres, tuple(passes), tuple(links[1:]), tuple(labels), None, from_side, from_cleared=True)
-
-
-def _widest(part: Any, radius: float) -> Floats:
-    """The middle of the greatest circle in an area."""
-    return np.asarray(shapely.get_coordinates(shapely.maximum_inscribed_circle(part, tolerance=radius / 1000))[0])
 
 
 def _farthest(part: Any, radius: float) -> Floats:

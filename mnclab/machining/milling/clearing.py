@@ -71,11 +71,12 @@ class Piece:
 
 @dataclass(frozen=True, eq=False)
 class Clearing:
-    """All passes of a strategy; `centres` is where the centre of a tool of `radius` may go."""
+    """All passes of a strategy; `centres` is where the centre of a tool of `radius` may go, a `note` what one should know."""
 
     centres: Region
     pieces: tuple[Piece, ...]
     radius: float
+    note: str = ""
 
     def __repr__(self) -> str:
         return f"<Clearing: {several(len(self.pieces), 'piece')}, {several(len(self.passes), 'contour')}, {self.length:.3f} mm>"

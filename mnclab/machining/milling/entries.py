@@ -13,7 +13,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -238,20 +237,25 @@ def _sloping(way: Contour, top: float, bottom: float, label: str) -> Descent:
 # row: "entry helix", "ring 3 of 7", "link", "lift".
 
 def toolpath(
-    clearing: Clearing, levels: Sequence[float] = (-1.0,), *, surface: float = 0.0, clearance: float = 2.0,
+    clearing: Clearing | Sequence[Clearing], levels: Sequence[float] = (-1.0,), *, surface: float = 0.0, clearance: float = 2.0,
     entry: Entry = VERTICAL, feed: float = 500.0, plunge_feed: float = 150.0, climb: bool = True,
 ) -> Toolpath:  # fmt: skip
-    """Every pass on every level, from `surface` down by `entry`; lifts go to `clearance` above the surface, rapid."""
-    pieces = [piece for piece in clearing.pieces if piece.passes or piece.place is not None]
-    if not pieces or not levels:
+    """Every pass of a clearing on every level, or of one for each, from `surface` down by `entry`; lifts go to `clearance` above
+    the surface, rapid."""
+    each = [clearing] * len(levels) if isinstance(clearing, Clearing) else clearing
+    todo = [
+        (top, level, piece) for top, level, one in zip((surface, *levels), levels, each)
+        for piece in one.pieces if piece.passes or piece.place is not None
+    ]  # fmt: skip
+    if not todo:
         raise ValueError("there is nothing to clear")
-    above = surface + clearance
+    above, radius = surface + clearance, each[0].radius
 
     def steps() -> Iterator[Step]:
-        for (top, level), piece in product(zip((surface, *levels), levels), pieces):
+        for top, level, piece in todo:
             for k in range(max(1, len(piece.passes))):
                 if not k or not piece.linked[k - 1]:
-                    down = descent(piece, entry, clearing.radius, top, level, climb, k)
+                    down = descent(piece, entry, radius, top, level, climb, k)
                     yield Go("lift", above)
                     yield Go("to the entry", None, RAPID, *begin(down.contour).tolist())
                     yield Go(down.label, top, plunge_feed)
@@ -265,4 +269,4 @@ def toolpath(
                     yield Along(piece.labels[k], piece.passes[k], feed)
             yield Go("lift", above)
 
-    return traced(steps(), (*pieces[0].entry.tolist(), above), clearing.radius)
+    return traced(steps(), (*todo[0][2].entry.tolist(), above), radius)

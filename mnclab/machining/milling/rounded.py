@@ -14,7 +14,7 @@ from itertools import groupby
 import numpy as np
 
 from mnclab.geometry.contours import Contour, joined
-from mnclab.geometry.curves import cross, length_of
+from mnclab.geometry.curves import Floats, cross, length_of
 from mnclab.geometry.regions import Region
 from mnclab.machining.milling.clearing import Clearing, Piece, end, numbered, piecewise, round_walls
 from mnclab.machining.milling.lines import segments_at, to_and_fro
@@ -57,7 +57,7 @@ def _least(smallest: float | None, radius: float) -> float:
 
 def _rings(centres: Region, radius: float, stepover: float, climb: bool, least: float) -> Piece:
     rings = [ring.contour for ring in in_order(_without_corners(rings_of(centres, radius, stepover), least))]
-    chain = _Chain(centres, stepover, least)
+    chain = Chain(centres, stepover, least)
     for ring, name in zip(rings, numbered("ring", len(rings)), strict=True):
         chain.ring(ring if climb else ring.reversed(), name)
     return chain.piece()
@@ -78,7 +78,7 @@ def _without_corners(rings: Iterator[Ring], least: float) -> Iterator[Ring]:
 def _zigzag(centres: Region, radius: float, stepover: float, climb: bool, angle: float, least: float) -> Piece:
     inner = centres.inset(min(stepover, radius - stepover / 2))
     rows = to_and_fro(segments_at(inner, stepover, angle)) if inner.loops else []
-    chain = _Chain(centres, stepover, least)
+    chain = Chain(centres, stepover, least)
     for line, name in zip(rows, numbered("line", len(rows)), strict=True):
         chain.line(line, name)
     walls: list[Contour] = chain.passes[-1:]
@@ -89,7 +89,7 @@ def _zigzag(centres: Region, radius: float, stepover: float, climb: bool, angle:
     return chain.piece()
 
 
-class _Chain:
+class Chain:
     """Passes one after the other, with tangent ways between them where such fit."""
 
     def __init__(self, centres: Region, stepover: float, least: float) -> None:
@@ -102,6 +102,10 @@ class _Chain:
     def piece(self) -> Piece:
         return Piece(self.centres, tuple(self.passes), tuple(self.linked[1:]), tuple(self.labels))
 
+    @property
+    def end(self) -> Floats:
+        return end(self.passes[-1])
+
     def add(self, contour: Contour, label: str, linked: bool) -> None:
         self.passes.append(contour)
         self.labels.append(label)
@@ -112,7 +116,7 @@ class _Chain:
         if self.passes:
             last = self.passes[-1]
             leave = self.beyond(last) if last.closed else self.trimmed(last, True)
-            near = ring.nearest(end(last))
+            near = ring.nearest(self.end)
             ways = [near + f * self.stepover for f in AHEAD]
             arrive = [Place(*ring.point_at(way), 0.0) for way in ways]
             found = tangent_way(self.centres, leave, arrive, self.radii, self.stepover, self.passes)

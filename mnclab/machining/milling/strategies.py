@@ -29,6 +29,7 @@ from mnclab.machining.milling.clearing import (
     numbered,
 )
 from mnclab.machining.milling.lines import one_way, zigzag
+from mnclab.machining.milling.morphed import morphed_spiral
 from mnclab.machining.milling.rest import reached, touching
 from mnclab.machining.milling.rings import rings
 from mnclab.machining.milling.rounded import rounded_rings, rounded_zigzag
@@ -41,10 +42,11 @@ from mnclab.text.given import check_number, plain, shown
 
 STRATEGIES: dict[str, Callable[..., Clearing]] = {
     "rings": rings, "spiral": spiral, "zigzag": zigzag, "one way": one_way, "trochoidal": trochoidal,
-    "adaptive": adaptive, "peeling": peeling, "rounded rings": rounded_rings, "rounded zigzag": rounded_zigzag,
+    "adaptive": adaptive, "peeling": peeling, "morphed spiral": morphed_spiral, "rounded rings": rounded_rings,
+    "rounded zigzag": rounded_zigzag,
 }  # fmt: skip
-TANGENT = ("rounded rings", "rounded zigzag", "adaptive", "peeling")  # a straight link to a rest makes corners: they lift
-OPEN = ("adaptive", "peeling")  # they know of a stock themselves
+TANGENT = ("rounded rings", "rounded zigzag", "adaptive", "peeling", "morphed spiral")  # a straight link to a rest has corners
+OPEN = ("adaptive", "peeling", "morphed spiral")  # they know of a stock themselves
 LEAST = 1e-3  # of the tool radius: what is narrower and still stands counts as nothing
 ROUNDS = 4
 

@@ -74,6 +74,22 @@ def way_of(start: Floats, ahead: float, end: Floats, senses: Floats, spans: Floa
     return Contour([*points[:-1], end], [*bulge, 0.0], closed=False)
 
 
+def _spots(start: Floats, ahead: Floats, senses: Floats, spans: Floats, radius: Floats) -> Floats:
+    """Places at equal distances on m such ways, `(m · SPOTS, 2)`."""
+
+    def chord(span: Floats, ahead: Floats, sense: Floats) -> Floats:
+        half = sense * span / 2
+        return (span * np.sinc(half / np.pi))[..., None] * at_angle(ahead + half)
+
+    none = np.zeros((len(start), 1))
+    upto, headings = np.hstack([none, spans.cumsum(axis=1)]), ahead[:, None] + np.hstack([none, (senses * spans).cumsum(axis=1)])
+    begins = np.concatenate([np.zeros((len(start), 1, 2)), chord(spans, headings[:, :3], senses).cumsum(axis=1)], axis=1)
+    way = np.linspace(0, 1, SPOTS) * upto[:, 3:]
+    k, element = np.arange(len(start))[:, None], (way[..., None] > upto[:, None, 1:3]).sum(axis=2)
+    places = begins[k, element] + chord(way - upto[k, element], headings[k, element], senses[k, element])
+    return (start[:, None] + radius[:, None, None] * places).reshape(-1, 2)
+
+
 def stays_within(region: Region, way: Contour) -> bool:
     """Whether a way stays in a region, at whose boundary it may begin and end but which it does not meet elsewhere."""
     mine, edges = way.curves, outlines_of(region.loops).curves
@@ -120,11 +136,8 @@ def tangent_way(
     around, most_off = [contour.bounds for contour in cleared or ()], reach + NEAR
     for first in range(0, len(order), AT_ONCE):
         some = order[first : first + AT_ONCE]
-        ways = [
-            way_of(start[n], float(headings[0][n]), end[n], SENSES[j], spans[n, j], float(size[n]))
-            for n, j in zip(rank[some].tolist(), kind[some].tolist(), strict=True)
-        ]
-        spots = np.concatenate([way.point_at(np.linspace(0, way.length, SPOTS))[0] for way in ways])
+        n, j = rank[some], kind[some]
+        spots = _spots(start[n], headings[0][n], SENSES[j], spans[n, j], size[n])
         good = region.contains(spots)
         outside = np.flatnonzero(~good)
         good[outside] = region.distance(spots[outside]) < NEAR
@@ -136,11 +149,12 @@ def tangent_way(
                 far = np.delete(far, near[contour.distance(spots[far[near]]) <= most_off]) if len(near) else far
             good[far] = False
         for k in np.flatnonzero(good.reshape(-1, SPOTS).all(axis=1)).tolist():
-            n, way = int(rank[some[k]]), ways[k]
+            m = int(n[k])
+            way = way_of(start[m], float(headings[0][m]), end[m], SENSES[j[k]], spans[m, j[k]], float(size[m]))
             begins, ends = way.tangents()
-            off = max(abs(cross(ahead[n], begins[0])), abs(cross(ends[-1], onward[n])))
-            if off <= TURN and is_smooth(way, float(size[n])) and stays_within(region, way):
-                return int(grid[0, n]), int(grid[1, n]), way
+            off = max(abs(cross(ahead[m], begins[0])), abs(cross(ends[-1], onward[m])))
+            if off <= TURN and is_smooth(way, float(size[m])) and stays_within(region, way):
+                return int(grid[0, m]), int(grid[1, m]), way
     return None
 
 

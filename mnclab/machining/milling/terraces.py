@@ -198,7 +198,9 @@ def _climbed(piece: Region, here: Floats, step: float) -> Floats:
     room, turn = float(piece.distance([here])[0]), 0.0
     while step > TOP:
         round_about = here + step * np.stack([np.cos(AROUND + turn), np.sin(AROUND + turn)], axis=1)
-        rooms = np.where(piece.contains(round_about), piece.distance(round_about), 0.0)
+        rooms = piece.distance(round_about)
+        if step >= room:  # else all of them lie in the disc around the place
+            rooms = np.where(piece.contains(round_about), rooms, 0.0)
         if rooms.max() > room + 1e-3 * step:
             here, room, step = round_about[rooms.argmax()], float(rooms.max()), 2 * step
         else:

@@ -52,13 +52,14 @@ class Camera {
     this.zoom = Math.min(1e5, Math.max(1e-4, this.zoom * factor));
     this.pan(dx, dy);
   }
-  // The whole of a box (two corners) in the picture, with room at the borders for the rulers.
-  fit([low, high]) {
-    this.target = low.map((value, k) => (value + high[k]) / 2);
-    const half = low.map((value, k) => (high[k] - value) / 2);
-    const reach = d => Math.abs(d[0]) * half[0] + Math.abs(d[1]) * half[1] + Math.abs(d[2]) * half[2];
-    const [w, h] = this.size;
-    this.zoom = Math.min((w - 110) / (2 * reach(this.right) || 1e-3), (h - 84) / (2 * reach(this.up) || 1e-3), 400);
+  // The whole of something in the picture, with room at the borders for the rulers: `reach` says from where to where it lies
+  // along a direction.
+  fit(reach) {
+    const spans = [this.right, this.up, this.near].map(reach), [across, upwards] = spans.map(([low, high]) => high - low > 1e-4 ? high - low : 0);
+    const middle = spans.map(([low, high]) => (low + high) / 2);
+    this.target = [0, 1, 2].map(k => middle[0] * this.right[k] + middle[1] * this.up[k] + middle[2] * this.near[k]);
+    const [w, h] = this.size, [beside, above] = this.along(this.right) && this.along(this.up) ? [108, 60] : [40, 44];
+    this.zoom = across || upwards ? Math.min((w - beside) / across, (h - above) / upwards) : 400;
     if (!(this.zoom > 0)) this.zoom = 1;
   }
   // The axis (0, 1, 2) that a direction of the screen lies along, and its sense; null if it is none.

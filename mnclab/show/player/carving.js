@@ -3,8 +3,9 @@
 
 const NO_CUT = 0, CUT = 1, ARRIVAL = 2;  // what a row does to the part (see part.py)
 const WORK = 400_000;  // cells looked at between two key frames: some milliseconds of work
+const MOST_PLACES = 24;  // of a row, at which its engagement is looked for
 const CHORD = 0.002;  // mm that the chord of an arc may lie off it
-const HELD = 6_000;  // tiles that all key frames may hold together, each 8 KiB
+const HELD = 3_000;  // tiles that all key frames may hold together, each 16 KiB
 
 class Carving {
   constructor(run) {
@@ -14,12 +15,20 @@ class Carving {
     this.cutters = part.cutters;
     [this.which, this.does, this.lift] = ["which", "does", "lift"].map(name => new Log(columns, part[name]));
     const blank = Heights.of(this.grid, columns[part.top].map(v => v / part.parts));
+    if (part.round) {  // the walls of a standing cylinder
+      const [x, y, radius, bore] = part.round, {low, high} = part, left = (a, b) => {
+        const out = Math.hypot(a - x, b - y);
+        return out > radius || out < bore ? -Infinity : Infinity;
+      };
+      blank.wall({box: [...low, ...high], low: -Infinity, left, span: () => [low[0], high[0]]});
+    }
     this.depths = [floor.reduce((a, b) => Math.min(a, b), Infinity), blank.tiles.reduce((a, {h}) => h.reduce((b, v) => Math.max(b, v), a), -Infinity)];
     this.apart = WORK;
     this.held = 0;
     this.frames = [{rows: 0, map: blank}];
     this.live = this.from(this.frames[0]);
     this.scout = this.from(this.frames[0]);
+    this.engaged = new Float32Array(run.path.n);  // degrees, the greatest of each row that the scout has cut
     this.target = {rows: 0, share: 0};
   }
   from({rows, map}) {
@@ -97,12 +106,32 @@ class Carving {
     const {rows: row, map} = state, {path} = this.run, does = this.does.value(row);
     if (does !== NO_CUT && (does === CUT || share === 1)) {
       const cutter = this.cutters[this.which.value(row)], rapid = path.kind[row] === RAPID;
+      if (state === this.scout && does === CUT && !rapid) this.engaged[row] = this.engagement(cutter, row, map);
       const thin = [Math.max(cutter[0] - THIN, 0), Math.min(cutter[1], Math.max(cutter[0] - THIN, 0)), cutter[2], cutter[3]];
       for (const make of this.pieces(row, does === ARRIVAL ? 1 : state.share, share))
         state.spent += map.take(make(cutter), row, rapid ? make(thin) : null, state.begin || map);
     }
     state.spent += 20;
     state.share = share;
+  }
+  // The part of the front half of the rim, degrees, that has material before it, at the place of a row where that is most. What
+  // counts is the material beside the foot of the tool, above its lower side there; straight down there is no front.
+  engagement(cutter, row, map) {
+    const {path} = this.run, lift = this.lift.value(row), rim = cutter[0], foot = edgeHeight(cutter, rim * rim) + lift + 2 * THIN;
+    const places = Math.min(Math.max(2, Math.ceil(2 * path.length(row) / rim)), MOST_PLACES);
+    let most = 0;
+    for (let k = 0; k < places; k++) {
+      const share = (k + 0.5) / places, [x, y, z] = path.point(row, share), [fx, fy] = path.point(row, share + 1e-4);
+      if (Math.hypot(fx - x, fy - y) < 1e-9) return 0;
+      const ahead = Math.atan2(fy - y, fx - x);
+      let met = 0;
+      for (let n = 0; n < 60; n++) {
+        const angle = ahead + (n - 29.5) * Math.PI / 60;
+        met += map.over(x + rim * Math.cos(angle), y + rim * Math.sin(angle)) > z + foot;
+      }
+      most = Math.max(most, 3 * met);
+    }
+    return most;
   }
   // What a row is between two shares of it: functions that make a piece for a cutter. Arcs about Z at one height stay arcs.
   pieces(row, from, to) {

@@ -1,5 +1,7 @@
 // Speed over time, with the slider of the time lying upon it. The scale ends at the fastest cut: rapids are cut off.
 
+const SCALE = 14;  // pixels above the curve for the words of its scale
+
 class Curve {
   constructor(canvas, run) {
     this.canvas = canvas;
@@ -21,7 +23,7 @@ class Curve {
     if (!w) return;
     canvas.width = w * ratio;
     canvas.height = h * ratio;
-    const pen = canvas.getContext("2d"), foot = h - 0.5, lift = h - 4;
+    const pen = canvas.getContext("2d"), foot = h - 0.5, lift = h - (this.moves ? SCALE : 4);
     pen.scale(ratio, ratio);
     for (const [colour, rapid] of [[colours.rapid, true], [colours.cut, false]]) {
       const top = new Float32Array(w + 1).fill(-1);  // the greatest speed in every column of pixels
@@ -60,15 +62,17 @@ class Curve {
       pen.fill();
       pen.fillRect(x - 0.5, 0, 1, h);
     }
+    pen.fillStyle = colours.now;  // where the playing stops: at the lower edge
+    for (const {t} of this.stops ? this.stops.all : []) pen.fillRect(t / total * w - 1, h - 9, 2, 9);
     if (!this.moves) return;  // no scale of nothing
     pen.font = "10px system-ui, sans-serif";
     pen.textBaseline = "top";
     const text = `${number(this.most / 1.08 * 60 / this.run.unit.length, this.run.unit.length > 1 ? 1 : 0)} ${this.run.unit.short}/min${this.clipped ? ", rapids go beyond" : ""}`;
     pen.fillStyle = colours.paper;
     pen.globalAlpha = 0.8;
-    pen.fillRect(3, 6, pen.measureText(text).width + 6, 14);
+    pen.fillRect(3, 0, pen.measureText(text).width + 6, 12);
     pen.globalAlpha = 1;
     pen.fillStyle = colours.quiet;
-    pen.fillText(text, 6, 8);
+    pen.fillText(text, 6, 1);
   }
 }

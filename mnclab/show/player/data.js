@@ -3,22 +3,20 @@
 const RAPID = 0, LINE = 1, ARC = 2, PROBE = 3, DWELL = 4, TOOL = 5, SPINDLE = 6, COOLANT = 7, STOP = 8;
 const KINDS = ["rapid", "line", "arc", "probing", "dwell", "tool", "spindle", "coolant", "stop"];
 
-async function unpack(text) {
-  const packed = Uint8Array.from(atob(text), letter => letter.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
-  const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+const TOLD = 2 ** 49;  // parts, that a number of the text may tell at most
+
+function unpack(bytes) {
   const size = new DataView(bytes.buffer).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(bytes.subarray(4, 4 + size)));
   let at = 4 + size;
   header.columns = header.columns.map(n => {
     const column = new Float64Array(n);  // whole numbers: exact to 2^53
     for (let i = 0, before = 0; i < n; i++) {
-      let value = 0, place = 1, byte;
-      do {
+      let byte = bytes[at++], value = byte & 127;
+      for (let place = 128; byte > 127; place *= 128) {
         byte = bytes[at++];
         value += (byte & 127) * place;
-        place *= 128;
-      } while (byte > 127);
+      }
       column[i] = before += value % 2 ? -(value + 1) / 2 : value / 2;
     }
     return column;
@@ -108,23 +106,24 @@ class Path {  // kinds, vertices and arcs; positions in mm
 }
 
 class Course {  // nodes of the feed-rate profile: when, how fast, and where in a row
-  constructor(columns, packed, scale, turning) {
+  constructor(columns, packed, scale, turning, path) {
     this.row = columns[packed.row];
-    this.t = columns[packed.t].map(v => v / packed.seconds);
     this.v = columns[packed.v].map(v => v / packed.speeds);  // mm/s
     this.n = this.row.length;
+    this.t = (packed.guessed ? this.timed(columns[packed.t], packed.seconds, path) : columns[packed.t]).map(v => v / packed.seconds);
     this.way = new Float64Array(this.n);
     const s = packed.s === undefined ? null : columns[packed.s];
     for (let i = 0; i < this.n; i++)
       this.way[i] = s ? (s[i + 1] - s[i]) / scale : (this.v[i] + this.v[i + 1]) / 2 * (this.t[i + 1] - this.t[i]);
     this.done = new Float64Array(this.n);  // length of the row before a piece
-    this.length = new Map();  // of rows, and their duration
-    this.seconds = new Map();
+    const rows = this.n ? this.row[this.n - 1] + 1 : 0;
+    this.length = new Float64Array(rows);  // of rows, and their duration
+    this.seconds = new Float64Array(rows);
     for (let i = 0; i < this.n; i++) {
       const same = i > 0 && this.row[i - 1] === this.row[i];
       this.done[i] = same ? this.done[i - 1] + this.way[i - 1] : 0;
-      this.length.set(this.row[i], this.done[i] + this.way[i]);
-      this.seconds.set(this.row[i], (same ? this.seconds.get(this.row[i]) : 0) + this.t[i + 1] - this.t[i]);
+      this.length[this.row[i]] = this.done[i] + this.way[i];
+      this.seconds[this.row[i]] += this.t[i + 1] - this.t[i];
     }
     this.loose = new Map();  // pieces of rapids that leave their straight line
     if (packed.loose && !turning) {
@@ -133,6 +132,23 @@ class Course {  // nodes of the feed-rate profile: when, how fast, and where in 
       columns[piece].forEach((i, k) =>
         this.loose.set(i, [at(p0, k, scale), at(v0, k, packed.speeds), at(p1, k, scale), at(v1, k, packed.speeds)]));
     }
+  }
+  // Times of which only what was not guessed is sent (see payload.py).
+  timed(sent, seconds, path) {
+    const {row, v, n} = this, t = sent.slice(), whole = value => Math.abs(value) < TOLD ? Math.floor(value + 0.5) : 0;
+    let before = 0;
+    for (let i = 0, end; i < n; i = end) {
+      for (end = i + 1; end < n && row[end] === row[i];) end++;
+      const d = [0, 1, 2].map(k => sent[i + k + 1] - sent[i + k]), speed = k => (v[i + k] + v[i + k + 1]) / 2;
+      const guessed = end - i === 3 && path.arc[row[i]] < 0;
+      if (guessed) {
+        before = d[0] += before;
+        d[2] += whole(d[0] * (Math.abs(v[i + 3] - v[i + 2]) / Math.abs(v[i + 1] - v[i])));
+        d[1] += whole((path.length(row[i]) - (speed(0) * (d[0] / seconds) + speed(2) * (d[2] / seconds))) / speed(1) * seconds);
+      }
+      for (let k = i; k < end; k++) t[k + 1] = t[k] + (guessed ? d[k - i] : sent[k + 1] - sent[k]);
+    }
+    return t;
   }
   get time() {
     return this.n ? this.t[this.n] : 0;
@@ -151,16 +167,17 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
     this.lathe = header.lathe;
     this.unit = header.unit;  // in what the program counts: its name, how many mm it has, decimals of a position
     this.origin = header.origin;
-    this.path = new Path(columns, header.path, scale, header.angles, header.bent);
-    this.programmed = header.programmed && new Path(columns, header.programmed, scale, header.angles);
-    this.course = new Course(columns, header.profile, scale, header.turning);
     this.texts = header.programs.map(program => program.text.replace(/\r\n?/g, "\n").split("\n"));
     this.lines = header.lines.map(k => columns[k]);
-    this.lasts = header.lasts.map((k, p) => columns[k].map((more, b) => this.lines[p][b] + more));
     this.block = columns[header.steps.block];
     this.program = columns[header.steps.program];
-    this.steps = this.block.length;
     this.rowStep = columns[header.row.step];
+    this.tell(header.path);
+    this.path = new Path(columns, header.path, scale, header.angles, header.bent);
+    this.programmed = header.programmed && new Path(columns, header.programmed, scale, header.angles);
+    this.course = new Course(columns, header.profile, scale, header.turning, this.path);
+    this.lasts = header.lasts.map((k, p) => columns[k].map((more, b) => this.lines[p][b] + more));
+    this.steps = this.block.length;
     this.row = {};
     for (const [name, log] of Object.entries(header.row)) if (name !== "step") this.row[name] = new Log(columns, log);
     this.history = new Map(Object.entries(header.history).map(([name, log]) => [name, new Log(columns, log)]));
@@ -170,7 +187,21 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
     this.turned = this.rotary ? this.rotary.map(column => column.some(angle => angle !== 0)) : [];
     this.stock = header.stock;
     this.inserts = header.inserts && {which: new Log(columns, header.inserts.which), tools: header.inserts.tools};
+    this.loose = new Set([...this.course.loose.keys()].map(piece => this.course.row[piece]));  // rapids that leave their straight line
     this.arrange();
+  }
+
+  // The ends of rows, sent as what differs from what their blocks say, or else from the end before (see payload.py).
+  tell({vertex, told}) {
+    const {header: {columns, scale}, unit, rowStep} = this;
+    vertex.filter((_, axis) => told[axis]).forEach(id => {
+      const column = columns[id], number = new RegExp("XYZ"[vertex.indexOf(id)] + "([-+]?[0-9]*[.]?[0-9]+)");
+      for (let k = 1; k < column.length; k++) {
+        const step = rowStep[k - 1], said = number.exec(this.texts[this.program[step]][this.lineOf(step) - 1] || "");
+        const value = said ? said[1] * unit.length * scale + 0.5 : Infinity;
+        column[k] += Math.abs(value) < TOLD ? Math.floor(value) : column[k - 1];
+      }
+    });
   }
 
   arrange() {
@@ -231,7 +262,7 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
     const way = Course.cubic(since, T, 0, course.v[i], course.way[i], course.v[i + 1]);
     const u = since / T, w = 1 - u;
     const speed = this.over(row, 6 * u * w * course.way[i] / T + w * (1 - 3 * u) * course.v[i] + u * (3 * u - 2) * course.v[i + 1]);
-    const loose = course.loose.get(i), length = course.length.get(row), share = length > 0 ? (course.done[i] + way) / length : passed;
+    const loose = course.loose.get(i), length = course.length[row], share = length > 0 ? (course.done[i] + way) / length : passed;
     if (loose) {
       const [p0, v0, p1, v1] = loose;
       return {point: p0.map((p, k) => Course.cubic(since, T, p, v0[k], p1[k], v1[k])), speed: Math.max(speed, 0), share};
@@ -242,7 +273,7 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
   over(row, speed) {
     const {path, course} = this, kind = path.kind[row];
     if (!this.header.turning || (kind !== LINE && kind !== ARC)) return speed;
-    const own = course.length.get(row), seconds = course.seconds.get(row);
+    const own = course.length[row], seconds = course.seconds[row];
     return own > 1e-6 ? speed * path.length(row) / own : seconds > 0 ? path.length(row) / seconds : speed;
   }
   // Rotary axes A, B and C at a share of a row, degrees; null in a run that turns none.
@@ -251,6 +282,18 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
       const before = row > 0 ? angle[row - 1] : 0;
       return row < 0 ? 0 : before + share * (angle[row] - before);
     });
+  }
+  // The spindle speed; at constant cutting speed it follows X, but not beyond its limit.
+  turning(row, point) {
+    const {row: columns} = this, told = columns.spindle.value(row) || 0, surface = columns.surface.value(row), limit = columns.speed_limit.value(row);
+    if (typeof surface !== "number" || !told) return told;
+    const speed = 1000 * surface / (2 * Math.PI * Math.abs(point[0] - columns.spindle_x.value(row)));
+    return Math.sign(told) * Math.min(speed, typeof limit === "number" ? limit : Infinity);
+  }
+  // The feed, which at constant cutting speed follows the spindle where it is one per revolution.
+  feed(row, point) {
+    const {surface, per_rev, feed} = this.row, per = per_rev.value(row);
+    return typeof surface.value(row) === "number" && typeof per === "number" ? per * Math.abs(this.turning(row, point)) : feed.value(row);
   }
   speedAfter(row) {
     const i = last(this.course.row, row);

@@ -42,7 +42,8 @@ class Measure {
   place(x, y, finger) {
     const within = finger ? FINGER : SNAP, {camera, picture} = this, near = camera.near;
     const {hit, found, sees} = picture.part ? picture.part.measured(x, y, within) : {found: []};
-    for (const each of this.path.near(x, y, hit ? within / 2 : within)) found.push({...each, cost: each.cost + (hit ? 2 : 0)});  // the part first
+    if (!hit) found.push(...this.path.on(x, y, within, picture.rapids));
+    for (const each of this.path.near(x, y, hit ? within / 2 : within, picture.rapids)) found.push({...each, cost: each.cost + (hit ? 2 : 0)});  // the part first
     const ranked = found.map(each => {
       const [px, py] = camera.project(each.at), away = Math.hypot(px - x, py - y);
       const behind = each.at.reduce((sum, v, k) => sum + (hit ? Math.abs(v - hit[k]) : -v * near[k]), 0);
@@ -106,8 +107,13 @@ class Measure {
     const flat = ([x, y, z]) => this.run.lathe ? [x, z] : [x, y];
     const text = `distance ${apart(a.at, b.at)}${this.doubt(off)} ${unit}`;
     if (a.round && b.round) return `${text}, centres ${apart(flat(a.round.centre), flat(b.round.centre))} ${unit} apart`;
-    const gap = this.gap();
+    const gap = this.gap(), angle = this.angle();
+    if (angle) return `${text}, ${angle}° between the edges`;
     return gap && gap !== apart(a.at, b.at) ? `${text}, ${gap} ${unit} between the edges` : text;
+  }
+  angle() {  // between two straight edges that are not parallel
+    const [{along: a}, {along: b}] = this.points, turn = a && b ? Math.abs(a[0] * b[1] - a[1] * b[0]) : 0;
+    return turn > 1e-6 ? short(Math.atan2(turn, Math.abs(a[0] * b[0] + a[1] * b[1])) * 180 / Math.PI) : "";
   }
   gap() {  // between two straight edges that are parallel in the plane
     const [a, b] = this.points, [dx, dy] = [0, this.run.lathe ? 2 : 1].map(k => b.at[k] - a.at[k]);

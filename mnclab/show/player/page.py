@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import re
+import zlib
 from collections.abc import Sequence
 from functools import cached_property
 from html import escape
@@ -19,6 +20,7 @@ from mnclab.show.probed import felt
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.file import printable, replaced
 from mnclab.text.given import check_number, choice, fitting_class
+from mnclab.text.opening import opened
 from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.cutting import Cutting
 
@@ -27,43 +29,38 @@ if TYPE_CHECKING:
 
 SCRIPTS = (
     "data", "shapes", "camera", "strokes", "curves", "touches", "picture", "curve", "listing", "state", "points", "measure",
-    "player",
+    "conditions", "stops", "shades", "player",
 )  # fmt: skip
 #: What is only in the pages that cut, by whether the machine is a lathe.
 CUTTING = {
-    False: ("swept", "heights", "carving", "relief", "shaded", "surface", "shown_part"),
-    True: ("section", "rims"),
+    False: ("swept", "heights", "walls", "carving", "space", "bodies", "patch", "relief", "shaded", "surface", "shown_part"),
+    True: ("space", "bodies", "columns", "turned", "section", "rims"),
 }
-ROOM = "clamp(480px, 100vh - 210px, 640px)"  # below a cell of three lines in JupyterLab, down to its buttons
+ROOM = "max(480px, 100vh - 210px)"  # below a cell of three lines in JupyterLab, down to its buttons
 THEMES = ("auto", "light", "dark")
-#: Tells the frames of a notebook whether its theme is dark (JupyterLab, VS Code), when they ask and when it changes.
-#: Where the scripts of outputs do not run, a page follows the system's choice.
-FOLLOW = """
-if (!window.mnclabPlayers) {
-  window.mnclabPlayers = true;
-  const dark = () => document.body.dataset.jpThemeLight === "false" || document.body.classList.contains("vscode-dark");
-  const known = () => "jpThemeLight" in document.body.dataset || document.body.className.includes("vscode-");
-  const tell = frame => known() && frame.postMessage({mnclab: dark() ? "dark" : "light"}, "*");
-  addEventListener("message", event => event.data && event.data.mnclab === "theme?" && tell(event.source));
-  new MutationObserver(() => document.querySelectorAll("iframe.mnclab-player").forEach(each => tell(each.contentWindow)))
-    .observe(document.body, {attributes: true, attributeFilter: ["class", "data-jp-theme-light"]});
-}
-"""
 HIDE = 'document.querySelectorAll(".mnclab-player-still").forEach(each => { each.hidden = true; });'
-#: What a browser lets the page do: run its own script in its own style, and ask nobody for anything.
-POLICY = (
-    "default-src 'none'; script-src 'sha256-{script}'; style-src 'sha256-{style}'; img-src data:; "
-    "base-uri 'none'; form-action 'none'"
-)
 
 
 def _digest(text: str) -> str:
     return base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
 
 
+def _read(name: str) -> str:
+    return files("mnclab.show.player").joinpath(name).read_text("utf-8")
+
+
+def _colours() -> str:
+    """The colours of programs, as the editor has them; none where its wing was left out."""
+    try:
+        module = opened("mnclab.lab", "languages")().replace("export {", "return {")
+        return f"const {{LANGUAGES, tokenOf}} = (() => {{{module}}})();"
+    except Alarm:
+        return "const LANGUAGES = [];"
+
+
 def _short(script: str) -> str:
-    """A script without its indents and its lines of comment, which would be in every page."""
-    return re.sub(r"(?m)^ *//.*\n|^ +", "", script)
+    """A script without its indents and its comments, which would be in every page."""
+    return re.sub(r"(?m)^ *//.*\n|^ +|  // .*$", "", script)
 
 
 @fitting_class
@@ -91,24 +88,26 @@ class Player:
     @cached_property
     def page(self) -> str:
         """The page: markup, style, data and scripts in one text."""
-        here = files("mnclab.show.player")
-        text = {name: here.joinpath(name).read_text("utf-8") for name in ("page.html", "page.css")}
         probed = felt(self.run)
         shown = self.cutting or (probed is not None and probed.part is not None and not self.run.toolpath.lathe)
         names = [*(CUTTING[self.run.toolpath.lathe] if shown else ()), *SCRIPTS]
-        scripts = "\n".join(_short(here.joinpath(f"{name}.js").read_text("utf-8")) for name in names)
-        script, style = f'\n"use strict";\n{scripts}\n', f"\n{player_css()}\n{text['page.css']}\n"
+        scripts = "\n".join(map(_short, (_colours(), *(_read(f"{name}.js") for name in names))))
+        script, begin = f'"use strict";\n{scripts}\n', f"\n{_short(_read('begin.js'))}\n"
+        style = f"\n{player_css()}\n{_read('page.css')}\n"
         parts = {
             "title": escape(f"{self.name} on {self.run.control.title}"),
             "theme": self.theme,
             "speed": f"{self.speed:g}",
-            "policy": POLICY.format(script=_digest(script), style=_digest(style)),
+            "scripthash": _digest(script),
+            "beginhash": _digest(begin),
+            "stylehash": _digest(style),
             "style": style,
             "data": payload(self.run, self.profile, self.cutting, self.collisions, probed),
-            "script": script,
+            "script": base64.b64encode(zlib.compress(script.encode(), 9)).decode(),
+            "begin": begin,
             "still": self.still,
         }
-        return printable(re.sub("@([a-z]+)@", lambda place: parts[place[1]], text["page.html"]))
+        return printable(re.sub("@([a-z]+)@", lambda place: parts[place[1]], _read("page.html")))
 
     @cached_property
     def picture(self) -> Picture | None:
@@ -148,7 +147,7 @@ class Player:
     def _repr_html_(self) -> str:
         name = escape(f"player of {self.name}", quote=True)
         return (
-            f"<script>{FOLLOW}</script>"
+            f"<script>{_short(_read('notebook.js'))}</script>"
             f'<iframe class="mnclab-player" title="{name}" sandbox="allow-scripts" loading="eager" '
             f'style="width: 100%; height: {self.height}; border: 0; border-radius: 6px" '
             f'srcdoc="{escape(self.page, quote=True)}"></iframe>'

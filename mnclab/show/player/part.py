@@ -14,7 +14,7 @@ import zlib
 from bisect import bisect
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, is_dataclass
-from typing import Any
+from typing import Any, TypeGuard
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -117,6 +117,11 @@ def varints(values: NDArray[np.int64]) -> bytes:
     return found.tobytes()
 
 
+def size(values: NDArray[np.int64]) -> int:
+    """Bytes of a column (n,) once it is packed."""
+    return len(zlib.compress(varints(np.diff(values, prepend=0))))
+
+
 class Packer:
     """Columns that are added one by one, and then a text of them and of a header."""
 
@@ -154,11 +159,10 @@ NOTHING, CUTS, ARRIVES = range(3)
 
 def part(pack: Packer, cutting: Cutting, path: Toolpath) -> dict[str, Any]:
     """The part of a mill; `path` is the one that the page plays, which may stand lower than what is cut."""
-    bounds = cutting.stock.bounds
+    stock, bounds = cutting.stock, cutting.stock.bounds
     raster = Raster.over(bounds, float((bounds[1] - bounds[0])[:2].max()) / CELLS)
     y, x = (each.ravel() for each in np.meshgrid(raster.y, raster.x, indexing="ij"))
-    low = float(bounds[0, 2])  # beside the blank nothing is left
-    floor, top = (np.nan_to_num(side, nan=low) for side in cutting.stock.faces(x, y))
+    floor, top = (np.nan_to_num(side, nan=float(bounds[0, 2])) for side in stock.faces(x, y))  # beside the blank nothing is left
     tilted = np.zeros(len(path), dtype=bool) if cutting.tilted is None else cutting.tilted
     does = np.where(cutting.cuts & ~tilted, np.where(cutting.from_home, ARRIVES, CUTS), NOTHING)
     return {
@@ -166,6 +170,7 @@ def part(pack: Packer, cutting: Cutting, path: Toolpath) -> dict[str, Any]:
         "high": bounds[1, :2].tolist(),
         "step": raster.step,
         "shape": list(raster.shape),
+        "round": [*stock.at[:2], stock.bounds[1, 0] - stock.at[0], stock.bore] if _turns(stock) else None,
         "parts": PARTS,
         "top": pack.add(parted(top, PARTS)),
         "floor": pack.add(parted(floor, PARTS)),
@@ -204,7 +209,6 @@ def section(pack: Packer, cutting: Cutting) -> dict[str, Any]:
     if kept < len(areas):
         told.append(f"the section is shown up to row {rows[kept]} only")
     corners = np.concatenate(areas[:kept]) if kept else np.empty((0, 2))
-    reach = high - low + radius
     leads = [lead_of(cutting.path, cutting.which == k) for k in range(len(cutting.tools))]
     shaped = [as_drawn(tool, lead) for tool, lead in zip(cutting.tools, leads, strict=True)]
     return {
@@ -217,7 +221,7 @@ def section(pack: Packer, cutting: Cutting) -> dict[str, Any]:
         "corners": columns(pack, parted(corners, PARTS)),
         "which": log(pack, cutting.which),
         "cuts": log(pack, cutting.cuts & ~cutting.from_home),
-        "blades": [_corners(cutting_part(tool, reach).points_within(OFF)) for tool in shaped],
+        "blades": [_corners(cutting_part(tool, high - low + radius).points_within(OFF)) for tool in shaped],
         "chuck": [_corners(loop.points) for each in cutting.fixtures if _turns(each) for loop in half_section(each)[0]]
         or [[[low - BEHIND * radius, 0.0], [low, 0.0], [low, JAWS * radius], [low - BEHIND * radius, JAWS * radius]]],
         "note": "; ".join(told),
@@ -251,7 +255,7 @@ def _outlines(contours: Sequence[Contour]) -> list[Array]:
     return np.split(line.points_within(OFF), np.add.reduceat(steps, np.cumsum(size) - size).cumsum()[:-1])
 
 
-def _turns(body: Any) -> bool:
+def _turns(body: Any) -> TypeGuard[Revolved]:
     return isinstance(body, Revolved) and body.axis == "Z"
 
 

@@ -2,13 +2,16 @@
 
 Lengths are whole numbers of 1 / `scale` mm: the coarsest of 1e-3, 1e-4 and 1e-6 mm that loses nothing, so that the
 page says the digits that the run says. Times are whole microseconds, speeds whole micrometres per second; where numbers
-are too large for that, the parts are coarser by powers of ten. Arcs stay arcs. What lies on a cylinder is told as it lies on
+are too large for that, the parts are coarser by powers of ten. Arcs stay arcs. An axis whose ends are mostly those that the text
+says is sent as what differs from them. What lies on a cylinder is told as it lies on
 the workpiece. A *log* is a list of places where a value
 changes and the values from there on.
 """
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -19,6 +22,7 @@ from mnclab.path.cylinder import parted_rapids
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.show.player.part import (
+    ROOM,
     Packer,
     changes,
     columns,
@@ -29,7 +33,9 @@ from mnclab.show.player.part import (
     part,
     parted,
     parts_of,
+    plain,
     section,
+    size,
 )
 from mnclab.show.probed import Felt
 from mnclab.show.solids import cylinder_body
@@ -39,11 +45,12 @@ from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.part import Part
 
+NUMBERS = [re.compile(axis + "([-+]?[0-9]*[.]?[0-9]+)") for axis in "XYZ"]  # as data.js looks for them
 SCALES = (1e3, 1e4, 1e6)  # parts of a millimetre
 ANGLES = 1e9  # parts of a radian
 DEGREES = 1e6  # parts of a degree, of rotary axes
 #: The columns that the page has as logs.
-SHOWN = ("feed", "per_rev", "surface", "speed_limit", "spindle_x", "spindle", "side")
+SHOWN = ("feed", "per_rev", "surface", "speed_limit", "spindle_x", "spindle", "side", "tool", "radius")
 SECONDS, SPEEDS = 1e6, 1e3  # parts of a second, of a millimetre in a second
 TURN = 0.05  # rad between two places of a rapid that turns
 OFF = 0.02  # mm that a rapid leaves its straight line before its true course is sent
@@ -69,6 +76,7 @@ def payload(
     header = {
         "title": run.program.title,
         "control": run.control.title,
+        "name": run.control.name,
         "lathe": path.lathe,
         "unit": {"short": path.unit.short, "length": path.unit.length, "decimals": 3 if path.unit.length == 1 else 4},
         "alarms": [
@@ -85,7 +93,7 @@ def payload(
         "scale": scale,
         "angles": angles,
         "origin": path.origin.tolist(),
-        "path": _geometry(pack, path, scale, angles),
+        "path": _geometry(pack, path, scale, angles, _told(run, path, scale)),
         "programmed": None if programmed is path else _geometry(pack, programmed, scale, angles),
         "row": {"step": pack.add(path.step)}
         | {name: log(pack, getattr(path, name)) for name in SHOWN}
@@ -100,6 +108,7 @@ def payload(
         "turning": bool(run.toolpath.cylinders),
         "bent": _bent(pack, run.toolpath, scale) if run.toolpath.cylinders else None,
         "fixtures": _edges(cutting.fixtures) if cutting and not path.lathe else [],
+        "held": [plain(each) for each in cutting.fixtures if isinstance(each, tuple)] if cutting and not path.lathe else [],
         "history": {name: changes(pack, *_parted(run, name)) for name in run.history if name != "position"},
         "profile": _profile(pack, profile, scale),
         "part": part(pack, cutting, path) if cutting and not path.lathe else felt_part(pack, shown, path) if shown else None,
@@ -107,7 +116,7 @@ def payload(
         "inserts": inserts(pack, run) if path.lathe else None,
         "felt": felt_touches(probed, path),
         "collisions": [
-            {"line": each.line, "program": each.program, "row": each.row, "kind": each.kind, "message": each.message}
+            {name: plain(getattr(each, name)) for name in ("line", "program", "row", "kind", "message", "place")}
             for each in collisions
         ],
     }
@@ -157,12 +166,34 @@ def _scale(paths: list[Toolpath], positions: Array, ways: Array) -> float:
     return most
 
 
-def _geometry(pack: Packer, path: Toolpath, scale: float, angles: float) -> dict[str, Any]:
+def _told(run: Any, path: Toolpath, scale: float) -> NDArray[np.int64]:
+    """Where the rows end (n + 1, 3) as far as their blocks say it, else where the row before ends."""
+    texts = [re.sub("\r\n?", "\n", program.text).split("\n") for program in run.programs]
+    lines = [program.lines()[0].tolist() for program in run.programs]
+    ends = parted(_vertices(path), scale)
+    found = np.concatenate([np.zeros((1, 3), dtype=np.int64), ends[:-1]])
+    steps = path.step
+    for row, (which, block) in enumerate(zip(run.steps.program[steps].tolist(), run.steps.block[steps].tolist()), 1):
+        text, line = texts[which], lines[which][block] - 1
+        for axis, number in enumerate(NUMBERS):
+            said = number.search(text[line]) if line < len(text) else None
+            value = float(said[1]) * path.unit.length * scale + 0.5 if said else ROOM
+            if abs(value) < ROOM:
+                found[row, axis] = math.floor(value)
+    return found
+
+
+def _geometry(
+    pack: Packer, path: Toolpath, scale: float, angles: float, told: NDArray[np.int64] | None = None
+) -> dict[str, Any]:
     """Kinds and vertices of a path (n + 1), and centre and sweep of its arcs."""
     arc = path.kind == Kind.ARC
+    vertices = parted(_vertices(path), scale)
+    shorter = [told is not None and size(vertices[:, k] - told[:, k]) < size(vertices[:, k]) for k in range(3)]
     return {
         "kind": pack.add(path.kind),
-        "vertex": columns(pack, parted(_vertices(path), scale)),
+        "vertex": columns(pack, vertices if told is None else np.where(shorter, vertices - told, vertices)),
+        "told": shorter,
         "centre": columns(pack, parted(path.centre[arc], scale)),
         "sweep": pack.add(parted(path.sweep[arc], angles)),
         "axis": log(pack, path.axis[arc]),
@@ -197,13 +228,38 @@ def _profile(pack: Packer, profile: Profile, scale: float) -> dict[str, Any]:
     p = profile.pieces
     seconds, speeds = parts_of(SECONDS, p.t), parts_of(SPEEDS, p.v)
     found: dict[str, Any] = {"row": pack.add(p.row), "seconds": seconds, "speeds": speeds}
-    found |= {"t": pack.add(parted(p.t, seconds)), "v": pack.add(parted(p.v, speeds))}
+    time, speed = parted(p.t, seconds), parted(p.v, speeds)
+    off = time.copy()
+    off[1:] -= np.cumsum(_guessed(profile, time, seconds, speed / speeds, scale))
+    found["guessed"] = not p.j.any() and size(off) < size(time)
+    found |= {"t": pack.add(off if found["guessed"] else time), "v": pack.add(speed)}
     if p.j.any():  # without jerk the way is the mean of the speeds times the time
         found["s"] = pack.add(parted(p.s, scale))
     loose = _loose_pieces(profile)
     if len(loose):
         found["loose"] = {"piece": pack.add(loose)} | _ends(pack, profile, loose, scale, speeds)
     return found
+
+
+def _guessed(profile: Profile, time: NDArray[np.int64], seconds: float, v: Array, scale: float) -> NDArray[np.int64]:
+    """Durations of the pieces (n,) as straight rows of three let guess them: the first one as in the row before, the last one
+    by the same acceleration, between them what is left of the length."""
+    row, lasts, path = profile.pieces.row, np.diff(time), profile.path.on_workpiece()
+    straight = np.linalg.norm(np.diff(parted(_vertices(path), scale) / scale, axis=0), axis=1)
+    whole = (np.bincount(row, minlength=1)[row] == 3) & (path.kind[row] != Kind.ARC)
+    first = np.flatnonzero(whole & (np.diff(row, prepend=-1) > 0))
+    steps = np.abs(np.diff(v))
+    found, speed = np.zeros(len(row), dtype=np.int64), (v[1:] + v[:-1]) / 2
+    found[first[1:]] = lasts[first[:-1]]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        found[first + 2] = _whole(lasts[first] * (steps[first + 2] / steps[first]))
+        ways = speed[first] * (lasts[first] / seconds) + speed[first + 2] * (lasts[first + 2] / seconds)
+        found[first + 1] = _whole((straight[row[first]] - ways) / speed[first + 1] * seconds)
+    return found
+
+
+def _whole(values: Array) -> NDArray[np.int64]:
+    return np.where(np.abs(values) < ROOM, np.floor(values + 0.5), 0).astype(np.int64)
 
 
 def _loose_pieces(profile: Profile) -> NDArray[np.int64]:

@@ -2,9 +2,7 @@
 // What does not change from frame to frame is kept in layers: the ground, over which the part is shown (see relief.js), the
 // path ahead, and the strokes done so far.
 
-const FAR = 5;  // rapids that make the box this many times larger than that of the cuts are not fitted in
-
-const BESIDES = 0.12;  // of the size of the picture: how far a chuck may widen it
+const BESIDES = 0.04;  // of the size of the picture: how far a chuck may widen it
 
 const LONG = 8000;  // points of a path from which on it is drawn in hairlines
 
@@ -14,13 +12,12 @@ class Picture {
     this.ground = ground;
     this.run = run;
     const rough = new Strokes(run.path, 0.5), size = box => box ? Math.hypot(...box[1].map((v, k) => v - box[0][k])) : 0;
-    const all = rough.box(RAPIDS, CUTS, PROBINGS), cuts = rough.box(CUTS);
-    this.extent = size(all) || 100;
-    this.strokes = new Strokes(run.path, Math.max(1e-3, this.extent / 2e4), run.course);
-    this.contour = run.programmed && new Strokes(run.programmed, Math.max(1e-3, this.extent / 2e4));
-    const fine = [this.strokes.box(RAPIDS, CUTS, PROBINGS), this.strokes.box(CUTS)];
-    this.box = cuts && size(all) > FAR * size(cuts) && size(cuts) > 0 ? fine[1] : fine[0];
-    this.box = this.box || [run.path.vertex(0).map(v => v - 10), run.path.vertex(0).map(v => v + 10)];
+    this.extent = size(rough.box(RAPIDS, CUTS, PROBINGS)) || 100;
+    this.strokes = new Strokes(run.path, Math.max(1e-6, this.extent / 2e4), run.course);
+    this.contour = run.programmed && new Strokes(run.programmed, Math.max(1e-6, this.extent / 2e4));
+    this.fills = [CUTS, PROBINGS];  // what fills the picture: rapids run out of it, where there is anything else
+    if (!size(this.strokes.box(...this.fills))) this.fills.push(RAPIDS);
+    this.box = this.strokes.box(...this.fills) || [run.path.vertex(0).map(v => v - 10), run.path.vertex(0).map(v => v + 10)];
     const {axis, chuck} = run.header.section || {axis: 0, chuck: []};
     const held = chuck.flat().flatMap(([z, r]) => [[axis + r, 0, z], [axis - r, 0, z]]), widen = (points, most) => {
       const [low, high] = this.box.map(corner => corner.slice());
@@ -30,25 +27,36 @@ class Picture {
           this.box[1][k] = Math.max(this.box[1][k], Math.min(value, high[k] + most));
         });
     };
-    widen([...run.stock.flat(), ...run.header.felt.corners], Infinity);
+    this.solid = [...run.stock.flat(), ...run.header.felt.corners];
+    widen(this.solid, Infinity);
     widen(held, BESIDES * size(this.box));
     this.extent = Math.max(size(this.box), 1);
     this.long = this.strokes.n > LONG;
     this.fewRapids = this.strokes.kind.reduce((n, kind) => n + (kind === RAPIDS), 0) < 3000;
-    this.room = this.box.map(corner => corner.slice());  // that is fitted in: with part of the tool
-    if (!run.lathe) this.room[1][2] += this.extent / 6;
     this.touches = new Touches(run);
     this.camera = new Camera(run.lathe);
     this.ahead = document.createElement("canvas");
     this.done = document.createElement("canvas");
     this.drawn = -1;  // the last point of the strokes in the layer of what is done
-    this.stale = this.fitted = true;
+    this.stale = this.fitted = this.rapids = true;
+    this.version = 0;  // counts the pictures that are not but the one before, gone on
     this.recolour();
+  }
+  // From where to where what fills the picture lies along a direction.
+  reach(d) {
+    const {strokes} = this, along = ([x, y, z]) => x * d[0] + y * d[1] + z * d[2], solid = this.solid.map(along);
+    const [low, high] = strokes.reach(d, this.fills);
+    if (this.run.lathe || low > high) {  // the chuck, and what is turned, lie on both sides of the axis
+      const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(k => along(this.box[k & 1].map((_, axis) => this.box[k >> axis & 1][axis])));
+      return [Math.min(...corners), Math.max(...corners)];
+    }
+    return [solid.reduce((a, b) => Math.min(a, b), low), solid.reduce((a, b) => Math.max(a, b), high)];
   }
   recolour() {
     const style = getComputedStyle(document.documentElement);
     this.colours = Object.fromEntries(["paper", "ink", "faint", "rapid", "cut", "probing", "contour", "blank", "now", "cutter", "shank",
-      "edge", "quiet", "raw", "metal", "deep", "crash", "alarm", "chuck", "insert", "holder", "beam"].map(name => [name, style.getPropertyValue("--" + name).trim()]));
+      "edge", "quiet", "raw", "metal", "deep", "crash", "alarm", "chuck", "insert", "holder", "beam",
+      "c0", "c1", "c2", "c3", "c4", "c5"].map(name => [name, style.getPropertyValue("--" + name).trim()]));
     this.stale = true;
   }
   resize() {
@@ -59,11 +67,11 @@ class Picture {
     this.ratio = ratio;
     this.camera.size = [w, h];
     for (const each of [this.canvas, this.ground, this.ahead, this.done]) [each.width, each.height] = [w * ratio, h * ratio];
-    if (this.fitted) this.camera.fit(this.room); else this.camera.zoom *= scale;
+    if (this.fitted) this.camera.fit(d => this.reach(d)); else this.camera.zoom *= scale;
     this.stale = true;
   }
   fit() {
-    this.camera.fit(this.room);
+    this.camera.fit(d => this.reach(d));
     this.fitted = true;  // until a person zooms or shifts: a frame may get its size late
     this.stale = true;
   }
@@ -79,14 +87,20 @@ class Picture {
   }
   lines(pen, from, to, pale) {
     const {rapid, cut, probing} = this.colours;
-    pen.globalAlpha = pale ? 0.28 : this.part ? 0.55 : 1;  // the part shows through what was done
+    const {shades} = this, shaded = shades && shades.of;
+    pen.globalAlpha = pale ? 0.28 : this.part && !shaded ? 0.55 : 1;  // the part shows through what was done
     pen.lineJoin = this.long ? "bevel" : "round";
     for (const [kind, colour, width, dashes] of [[CUTS, cut, 1.8, []], [RAPIDS, rapid, 1, this.fewRapids ? [5, 3] : []],
       [PROBINGS, probing, 1.4, [1.5, 2]]]) {
+      if (kind === RAPIDS && !this.rapids) continue;
       pen.strokeStyle = colour;
-      pen.lineWidth = this.long ? 1 / this.ratio : pale || this.part ? Math.min(width, 1.2) : width;  // hairlines cost a tenth
+      pen.lineWidth = this.long ? 1 / this.ratio : pale || (this.part && !shaded) ? Math.min(width, 1.2) : width;  // hairlines cost a tenth
       pen.setLineDash(dashes);
-      this.strokes.stroke(pen, kind, from, to);
+      if (kind !== CUTS || !shaded) this.strokes.stroke(pen, kind, from, to);
+      else for (const shade of shades.seen) {
+        pen.strokeStyle = this.colours[shades.classes[shade][0]];
+        this.strokes.stroke(pen, CUTS, from, to, shaded, shade);
+      }
     }
     pen.setLineDash([]);
     pen.globalAlpha = 1;
@@ -94,38 +108,40 @@ class Picture {
 
   // One frame: `at` is {row, tip, tool, along, at}, the row going on (or -1) and what stands at its tip.
   draw(at, rowsDone) {
-    const {camera, strokes} = this, [w, h] = camera.size;
+    const {camera, strokes} = this, [w, h] = camera.size, inSpace = this.part && this.part.inSpace;
+    this.shown = {at, rowsDone};
     if (this.stale) {
       strokes.project(camera);
+      if (this.contour) this.contour.project(camera);
       const ground = this.pen(this.ground), pen = this.pen(this.ahead);
       ground.fillStyle = this.colours.paper;
       ground.fillRect(0, 0, w, h);
       pen.clearRect(0, 0, w, h);
       const words = this.rulers(ground);
-      this.blank(pen);
-      if (this.contour) {
-        this.contour.project(camera);
+      if (!inSpace) this.blank(pen);
+      if (this.contour && !inSpace) {
         pen.strokeStyle = this.colours.contour;
         pen.lineWidth = this.long ? 1 / this.ratio : 1;
         this.contour.stroke(pen, CUTS, 0, this.contour.n - 1);
       }
-      this.lines(pen, 0, strokes.n - 1, true);
+      if (!inSpace) this.lines(pen, 0, strokes.n - 1, true);
       words(pen);
       this.drawn = -1;
       this.stale = false;
+      this.version++;
     }
     const until = strokes.after[rowsDone], pen = this.pen(this.done);
     if (this.drawn < 0 || until < this.drawn) {
       pen.clearRect(0, 0, w, h);
       this.drawn = 0;
     }
-    if (until > this.drawn) this.lines(pen, this.drawn, until, false);
+    if (until > this.drawn && !inSpace) this.lines(pen, this.drawn, until, false);
     this.drawn = until;
     const top = this.canvas.getContext("2d");
     top.setTransform(1, 0, 0, 1, 0, 0);
     top.clearRect(0, 0, this.canvas.width, this.canvas.height);
     top.drawImage(this.ahead, 0, 0);
-    top.drawImage(this.done, 0, 0);
+    if (!inSpace) top.drawImage(this.done, 0, 0);
     const taken = this.moment(this.pen(this.canvas), at);
     this.touches.draw(this.pen(this.canvas), camera, this.colours, rowsDone, taken);
   }
@@ -143,14 +159,15 @@ class Picture {
   // Returns the boxes of what is written.
   moment(pen, {row, tip, tool, along, at}) {
     const {camera, colours, strokes, run} = this, project = point => camera.project(point);
-    if (row >= 0 && run.path.isMotion(row)) {
+    const inSpace = this.part && this.part.inSpace;
+    if (row >= 0 && run.path.isMotion(row) && !inSpace) {
       pen.strokeStyle = colours.now;
       pen.lineWidth = 2.6;
       for (const kind of [RAPIDS, CUTS, PROBINGS]) strokes.stroke(pen, kind, strokes.after[row], strokes.after[row + 1]);
     }
     const held = run.lathe && run.inserts.tools[run.inserts.which.value(row < 0 ? at : row) || 0];
-    if (held) drawInsert(pen, held, tip, project, colours);
-    else if (!run.lathe && tool && (tool.number || tool.radius)) drawTool(pen, tool, tip, along, project, colours, this.extent);
+    if (held && !inSpace) drawInsert(pen, held, tip, project, colours);
+    else if (!run.lathe && !inSpace && tool && (tool.number || tool.radius)) drawTool(pen, tool, tip, along, project, colours, this.extent);
     const [x, y] = project(tip);
     pen.beginPath();
     pen.arc(x, y, 3.2, 0, 7);

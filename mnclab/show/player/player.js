@@ -5,10 +5,12 @@ const KEYS = [
   ["space", "play and stop"], ["J  K  L", "backwards, stop, forwards"], ["← →", "block by block"], [",  .", "move by move"],
   ["shift ← →", "one second at a time"], ["Home  End", "to the start, to the end"], ["W A S D", "turn the picture"],
   ["+  −  F", "zoom, fit"], ["1 2 3 4", "views"], ["drag", "turns; with shift or two fingers it shifts"],
-  ["click", "on a line or on the path goes there"], ["wheel", "zooms, once the picture has been clicked"],
-  ["M", "measures between two clicks (or arrows and enter); Esc clears"],
+  ["click", "on a line or on the path goes there; on the number of a line it sets a stop; with shift the run plays up to a line"],
+  ["B  N", "a stop at this block; to the next stop, with shift to the one before"], ["wheel", "zooms, once the picture has been clicked"],
+  ["R", "rapids, shown or not"], ["C", "what the colour of the cuts says"], ["M", "measures between two clicks (or arrows and enter); Esc clears"],
 ];
 const PART_KEYS = [["P", "the part, shown or not"]];
+const STANDS = 150;  // ms after which a picture that was turned is drawn sharp
 const LATHE_KEYS = new Map([["drag", "shifts; with shift it turns"], ["1 2 3 4", "views (three)"]]);
 
 class PlayerPage {
@@ -17,6 +19,8 @@ class PlayerPage {
     this.run = run;
     this.place = {item: 0, t: 0, done: false};
     this.playing = 0;  // 1 forwards, -1 backwards
+    this.turning = false;
+    this.stands = 0;
     this.root = document.documentElement;
     this.dark = matchMedia("(prefers-color-scheme: dark)");
     this.theme(this.root.dataset.theme);
@@ -24,18 +28,25 @@ class PlayerPage {
     const {part, section} = run.header;
     this.part = part ? new ShownPart(find("part"), run, this.picture) : section && new ShownSection(find("part"), run, this.picture);
     this.curve = new Curve(find("curve"), run);
-    this.listing = new Listing(find("listing"), run, (program, line) => this.goLine(program, line), find("program"));
+    this.listing = new Listing(find("listing"), run, find("program"), {
+      go: (program, line) => this.goLine(program, line), to: (program, line) => this.stops.runTo(program, line),
+      stop: (program, line) => this.stops.turn(program, line),
+    });
     this.board = new Board(run, find);
+    this.shades = this.picture.shades = new Shades(run, part && this.part.carving);
+    if (part) this.part.scouted = () => this.shades.name === "engagement" && this.colour("engagement");
     this.measure = new Measure(this);
+    this.stops = this.listing.stops = this.curve.stops = new Stops(this);
     this.buttons();
+    this.legend();
     this.alarms();
     this.showPart(true);
     this.pointers();
     document.addEventListener("keydown", event => this.key(event));
     this.dark.addEventListener("change", () => this.theme(this.root.dataset.theme));
     this.followNotebook();
+    this.resize(false);
     new ResizeObserver(() => this.resize()).observe(document.body);
-    this.resize();
     if (!run.lathe && this.picture.box[1][2] - this.picture.box[0][2] < 1e-6) this.view("top");
     else this.view(run.lathe ? "front" : "isometric");
     this.go(this.place);
@@ -97,17 +108,26 @@ class PlayerPage {
     if (step >= 0) return this.go(this.afterStep(step));
     this.listing.turnTo(program);
     this.listing.reveal(line);
-    this.find("said").textContent = this.find("doing").textContent = `line ${line} is not executed`;
+    this.tell(`line ${line} is not executed`);
+  }
+  tell(text) {
+    this.find("said").textContent = this.find("doing").textContent = text;
+  }
+  nearest(row, away) {  // where on a row the tool is nearest to something
+    const {run} = this, item = run.itemOfRow[row], begin = run.begin[item], span = run.end[item] - begin;
+    let best = begin, least = Infinity;
+    for (let k = 0; k <= 200; k++) {
+      const t = begin + span * k / 200, here = away(run.tool(item, t).point);
+      if (here < least) [best, least] = [t, here];
+    }
+    return best >= run.end[item] ? this.afterItem(item) : {item, t: best, done: false};
   }
   goRow(row, x, y) {  // to the point of a row nearest to a place on the screen
     this.stop();
-    const {run, picture} = this, item = run.itemOfRow[row], begin = run.begin[item], span = run.end[item] - begin;
-    let best = begin, least = Infinity;
-    for (let k = 0; k <= 200; k++) {
-      const t = begin + span * k / 200, [px, py] = picture.camera.project(run.tool(item, t).point), away = Math.hypot(px - x, py - y);
-      if (away < least) [best, least] = [t, away];
-    }
-    this.go(best >= run.end[item] ? this.afterItem(item) : {item, t: best, done: false});
+    this.go(this.nearest(row, point => {
+      const [px, py] = this.picture.camera.project(point);
+      return Math.hypot(px - x, py - y);
+    }));
   }
   play(direction) {
     if (this.playing === direction) return this.stop();
@@ -123,14 +143,22 @@ class PlayerPage {
     this.last ??= now;
     const passed = Math.min(now - this.last, 250) / 1000 * Number(this.find("speed").value);
     this.last = now;
-    const t = this.place.t + this.playing * passed;
-    this.go(this.atTime(t));
+    const t = this.place.t + this.playing * passed, place = this.atTime(t), stop = this.stops.next(this.place, this.playing);
+    if (stop && order(stop, place) * this.playing <= 0) {
+      this.stop();
+      this.go(stop);
+      this.find("doing").textContent = `stopped: ${stop.why}`;
+      this.find("said").textContent = `stopped: ${stop.why}; ${this.find("said").textContent}`;
+      return;
+    }
+    this.go(place);
     if (this.playing > 0 ? t >= this.run.time : t <= 0) this.stop();
     else requestAnimationFrame(next => this.tick(next));
   }
   stop() {
     if (!this.playing) return;
     this.playing = 0;
+    this.stops.once = null;
     this.pressed();
     this.say();
   }
@@ -155,7 +183,7 @@ class PlayerPage {
     if (this.waiting) return;
     this.waiting = requestAnimationFrame(() => {
       this.waiting = 0;
-      this.draw();
+      this.draw(this.turning);
     });
   }
   write() {
@@ -164,28 +192,54 @@ class PlayerPage {
     slider.setAttribute("aria-valuetext", `${seconds(now.t)} of ${seconds(run.time)}`);
     find("clock").textContent = `${seconds(now.t)} / ${seconds(run.time)}`;
     this.board.show(now);
+    this.stops.show();
     if (now.step >= 0) {
       const program = run.program[now.step], block = run.block[now.step];
       this.listing.mark(program, run.lines[program][block], run.lasts[program][block]);
     } else this.listing.mark(0, 0, 0);
   }
-  draw() {
+  draw(turning = false) {
     const {run, picture} = this, now = this.now(), going = now.item >= 0 && run.itemRow[now.item] === now.row ? now.row : -1;
     const tool = run.history.has("tool") && !run.header.turning ? run.history.get("tool").value(now.step) : null;
     const lies = run.history.has("tool axis") ? run.history.get("tool axis").value(now.step) : null, along = lies ? "XYZ".indexOf(lies) : 2;
     this.measure.draw();
     picture.draw({row: going, tip: now.point, tool, along, at: Math.max(now.row, 0)}, now.rowsDone);
-    if (this.part && !this.part.draw(now.rowsDone, now.share, going)) this.show();  // not there yet: go on with the next frame
+    if (this.part && !this.part.draw(now.rowsDone, now.share, going, turning)) this.show();  // not there yet: go on with the next frame
   }
   showPart(on) {
     if (!this.part) return;
     this.part.show(on);
-    this.find("parts").hidden = false;
+    this.find("show-part").hidden = false;
     this.find("show-part").setAttribute("aria-pressed", on);
     this.find("note").textContent = this.part.note;
     this.find("note").hidden = !on || !this.part.note;
     this.picture.stale = true;
     this.show();
+  }
+  showRapids(on) {
+    this.picture.rapids = on;
+    this.find("show-rapids").setAttribute("aria-pressed", on);
+    this.legend();
+  }
+  colour(name) {  // what the colour of the cuts says
+    this.find("colour").value = name;
+    this.shades.by(name);
+    this.legend();
+  }
+  legend() {
+    const {shades, picture: {strokes, rapids}} = this, kinds = new Set(strokes.kind);
+    const words = shades.of ? shades.classes.filter((_, k) => shades.seen.has(k)) : kinds.has(CUTS) ? [["cut", "cut"]] : [];
+    if (rapids && kinds.has(RAPIDS)) words.push(["rapid", "rapid", "dashed"]);
+    if (kinds.has(PROBINGS)) words.push(["probing", "probing", "dotted"]);
+    this.find("legend").replaceChildren(...shades.title ? [shades.title] : [], ...words.map(word => this.sample(...word)));
+    this.picture.stale = true;
+    this.show();
+  }
+  sample(name, text, dashes = "solid") {  // a word of a legend
+    const word = document.createElement("span");
+    word.textContent = text;
+    word.style.cssText = `--colour: var(--${name}); --dashes: ${dashes}`;
+    return word;
   }
   say() {
     const {run, step} = this, {point, angles} = this.now();
@@ -197,11 +251,14 @@ class PlayerPage {
     const count = run.path.kind.reduce((n, kind) => n + (kind <= PROBE), 0);
     this.find("picture").setAttribute("aria-label", `tool path, ${count} moves; tool at ${at.join(", ")}`);
   }
-  resize() {
+  resize(draw = true) {
+    const {width, height} = document.body.getBoundingClientRect(), size = [width, height, window.devicePixelRatio].join();
+    if (size === this.size) return;  // an observer begins with what is there already
+    this.size = size;
     this.picture.resize();
     this.curve.draw(this.picture.colours);
     this.listing.draw();
-    this.draw();
+    if (draw) this.draw();
   }
   view(name) {
     this.picture.view(name);
@@ -211,11 +268,19 @@ class PlayerPage {
     for (const button of this.find("views").children) button.setAttribute("aria-pressed", button.dataset.view === this.picture.camera.name);
     this.show();
   }
-  change(act) {  // of the camera
+  change(act, goesOn = this.stands > 0) {  // of the camera; it goes on where another change was just before
     this.picture.fitted = false;
     act(this.picture.camera);
     this.picture.stale = true;
     this.views();
+    this.turning = goesOn;
+    clearTimeout(this.stands);
+    this.stands = setTimeout(() => {  // sharp again
+      this.stands = 0;
+      if (!this.turning) return;
+      this.turning = false;
+      this.show();
+    }, STANDS);
   }
   theme(name) {
     this.root.dataset.theme = name;
@@ -226,7 +291,7 @@ class PlayerPage {
     this.show();
   }
 
-  followNotebook() {  // which tells whether it is dark (see FOLLOW in page.py)
+  followNotebook() {  // which tells whether it is dark (see notebook.js)
     if (window.parent === window) return;
     addEventListener("message", event => {
       if (event.source !== window.parent || !event.data || !["light", "dark"].includes(event.data.mnclab)) return;
@@ -265,6 +330,9 @@ class PlayerPage {
     find("zoom-out").addEventListener("click", () => this.change(camera => camera.zoomAt(1 / 1.3)));
     find("fit").addEventListener("click", () => this.change(() => this.picture.fit()));
     find("show-part").addEventListener("click", () => this.showPart(!this.picture.part));
+    for (const name of this.shades.names) find("colour").add(new Option(name));
+    find("colour").addEventListener("change", event => this.colour(event.target.value));
+    find("show-rapids").addEventListener("click", () => this.showRapids(!this.picture.rapids));
     find("theme").addEventListener("click", () => this.theme(this.root.dataset.shown === "dark" ? "light" : "dark"));
     find("help").addEventListener("click", () => this.help());
     find("slider").addEventListener("input", event => this.jump(() => this.atTime(event.target.value * run.time)));
@@ -276,14 +344,9 @@ class PlayerPage {
       list.append(head, text);
     }
     const legend = document.createElement("p");
-    for (const [name, text, dashes] of [["cut", "cut", "solid"], ["rapid", "rapid", "dashed"], ["probing", "probing", "dotted"],
-      ["contour", "programmed contour", "solid"], ["blank", "blank", "solid"], ["now", "this move", "solid"],
-      ...run.header.fixtures.length ? [["edge", "fixture", "solid"]] : [], ...this.part ? [["crash", "rapid in material", "solid"]] : []]) {
-      const word = document.createElement("span");
-      word.textContent = text;
-      word.style.cssText = `--colour: var(--${name}); --dashes: ${dashes}`;
-      legend.append(word);
-    }
+    legend.append(...[["cut", "cut"], ["rapid", "rapid", "dashed"], ["probing", "probing", "dotted"], ["contour", "programmed contour"],
+      ["blank", "blank"], ["now", "this move"], ...run.header.fixtures.length ? [["edge", "fixture"]] : [],
+      ...this.part ? [["crash", "rapid in material"]] : []].map(word => this.sample(...word)));
     find("keys").append(list, legend);
   }
   jump(act) {
@@ -318,7 +381,8 @@ class PlayerPage {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const {target, key} = event, tag = target.tagName, jump = act => () => this.jump(act);
     if (tag === "SELECT" || (tag === "BUTTON" && (key === " " || key === "Enter"))) return;
-    if (tag === "INPUT" && /^(Arrow|Page|Home|End)/.test(key)) return;
+    if (tag === "INPUT" && target.type === "text") return key === "Escape" && this.find("picture").focus();
+    if (tag === "INPUT" && (/^(Arrow|Page|Home|End)/.test(key) || (target.type === "checkbox" && key === " "))) return;
     if (this.measure.on && target.id === "picture" && this.measure.key(key, event.shiftKey)) return event.preventDefault();
     const turn = (yaw, pitch) => () => this.change(camera => camera.turn(yaw, pitch));
     const acts = {
@@ -328,9 +392,13 @@ class PlayerPage {
       ",": jump(() => this.moveBack()), "Home": jump(() => this.afterItem(-1)), "End": jump(() => this.afterItem(this.run.items - 1)),
       "PageDown": jump(() => this.atTime(this.place.t + 1)), "PageUp": jump(() => this.atTime(this.place.t - 1)),
       "+": () => this.find("zoom-in").click(), "=": () => this.find("zoom-in").click(), "-": () => this.find("zoom-out").click(),
-      "f": () => this.find("fit").click(), "p": () => this.showPart(!this.picture.part), "a": turn(8, 0), "d": turn(-8, 0), "w": turn(0, 8), "s": turn(0, -8),
-      "m": () => this.measure.turn(), "?": () => this.help(),
-      "Escape": () => this.find("keys").hidden ? this.measure.on && this.measure.escape() : this.help(),
+      "f": () => this.find("fit").click(), "p": () => this.showPart(!this.picture.part),
+      "r": () => this.showRapids(!this.picture.rapids), "a": turn(8, 0), "d": turn(-8, 0), "w": turn(0, 8), "s": turn(0, -8),
+      "m": () => this.measure.turn(),
+      "c": () => this.colour(this.shades.names[(this.shades.names.indexOf(this.shades.name) + 1) % this.shades.names.length]),
+      "b": () => this.stops.turnHere(), "n": () => this.stops.jump(event.shiftKey ? -1 : 1), "?": () => this.help(),
+      "Escape": () => !this.find("keys").hidden ? this.help() : !this.find("stopping").hidden ? this.stops.open(false)
+        : this.measure.on && this.measure.escape(),
     };
     for (const [k, name] of this.viewNames.entries()) acts[k + 1] = () => this.view(name);
     const second = event.shiftKey && {"ArrowRight": "PageDown", "ArrowLeft": "PageUp"}[key];
@@ -357,7 +425,7 @@ class PlayerPage {
       travelled += Math.hypot(dx, dy);
       if (held.size === 1 && travelled > 4) {
         const shifts = this.run.lathe !== (event.shiftKey || event.buttons > 1);
-        this.change(camera => shifts ? camera.pan(dx, dy) : camera.turn(-dx * 0.5, dy * 0.5));
+        this.change(camera => shifts ? camera.pan(dx, dy) : camera.turn(-dx * 0.5, dy * 0.5), true);
       } else if (held.size === 2) {
         const other = [...held].find(([id]) => id !== event.pointerId)[1];
         const apart = Math.hypot(before[0] - other[0], before[1] - other[1]) || 1;
@@ -373,7 +441,7 @@ class PlayerPage {
       held.delete(event.pointerId);
       if (!alone || travelled > 4) return;
       if (this.measure.on) return this.measure.click(x, y, event.pointerType === "touch");
-      const row = this.picture.strokes.pick(x, y, this.picture.camera, event.pointerType === "touch" ? 18 : 9);
+      const row = this.picture.strokes.pick(x, y, this.picture.camera, event.pointerType === "touch" ? 18 : 9, this.picture.rapids);
       if (row >= 0) this.goRow(row, x, y);
     });
     canvas.addEventListener("pointercancel", event => held.delete(event.pointerId));
@@ -381,7 +449,7 @@ class PlayerPage {
     canvas.addEventListener("wheel", event => {  // in a notebook the wheel belongs to the notebook until the picture is clicked
       if (window.top === window || document.activeElement === canvas || event.ctrlKey) {
         event.preventDefault();
-        this.change(camera => camera.zoomAt(Math.exp(-event.deltaY * 0.0015), ...place(event)));
+        this.change(camera => camera.zoomAt(Math.exp(-event.deltaY * 0.0015), ...place(event)), true);
       }
     }, {passive: false});
   }
@@ -392,6 +460,6 @@ function seconds(t) {
   return minutes >= 60 ? `${Math.floor(minutes / 60)}:${String(minutes % 60).padStart(2, "0")}:${rest}` : `${minutes}:${rest}`;
 }
 
-unpack(document.getElementById("data").textContent).then(header => {
-  window.player = new PlayerPage(new Recorded(header));
+inflated("data").then(bytes => {
+  window.player = new PlayerPage(new Recorded(unpack(bytes)));
 });

@@ -27,12 +27,16 @@ class ShownSection {
     section.bar.forEach(loop => this.bar.addPath(outline(loop)));
     this.rings.push(...section.bar.map(loop => ({z: loop.map(([z]) => z), r: loop.map(([, r]) => r)})));
     this.rims = new Rims(this);
+    this.body = new TurnedBody(this);
     this.layer = document.createElement("canvas");
     this.kept = [];  // [areas taken, canvas]
     this.done = -1;  // areas that the layer has lost
     this.key = "";
     this.crashed = new Set(run.header.collisions.filter(each => each.kind === "rapid").map(each => each.row));
     this.radius = Math.max(...section.bar.flat().map(([, radius]) => radius));
+  }
+  get inSpace() {  // but for the view of the drawing, in which the section is one
+    return Boolean(this.body.gl) && this.picture.camera.near[1] < 0.99999;
   }
   show(on) {
     this.picture.part = on ? this : null;
@@ -118,33 +122,39 @@ class ShownSection {
     if (!picture.part) return true;
     const [w, h] = camera.size.map(size => size * ratio);
     if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
-    this.bring(last(this.rows, rows - 1) + 1);
+    const count = last(this.rows, rows - 1) + 1;
+    if (this.inSpace) this.body.draw(...this.upTo(count, row, share)); else this.bring(count);
     const pen = canvas.getContext("2d");
     pen.setTransform(1, 0, 0, 1, 0, 0);
     pen.clearRect(0, 0, w, h);
-    pen.drawImage(this.layer, 0, 0);
+    pen.drawImage(this.inSpace ? this.body.canvas : this.layer, 0, 0);
+    if (this.inSpace) return true;
     if (share > 0 && row >= 0) this.begun(pen, row, share);
     this.chuck(pen);
     return true;
   }
-  // What the row going on has taken so far: of a thread some rings, else the cutting part on its way.
-  begun(pen, row, share) {
-    const from = last(this.rows, row - 1) + 1, to = last(this.rows, row) + 1;
-    const own = to - from - this.section.fallen.filter(k => k >= from && k < to).length;
-    if (!own || !this.cuts.value(row)) return;
-    if (own > 2) return this.take(pen, from, from + Math.floor(own * share));
+  // How many areas are gone, and the outlines of what the row going on has taken so far: of a thread some rings, else the
+  // cutting part on its way.
+  upTo(count, row, share) {
+    const to = last(this.rows, row) + 1, own = to - count - this.section.fallen.filter(k => k >= count && k < to).length;
+    if (!(share > 0 && row >= 0 && own > 0) || !this.cuts.value(row)) return [count, []];
+    if (own > 2) return [count + Math.floor(own * share), []];
     const {path} = this.run, {axis, blades} = this.section, blade = blades[this.which.value(row)];
-    const steps = path.arc[row] < 0 ? 1 : Math.max(1, Math.ceil(Math.abs(path.sweep[path.arc[row]]) * share * 12)), areas = [];
-    for (let k = 0; k < steps; k++) {
-      const corners = [k, k + 1].flatMap(i => {
+    const steps = path.arc[row] < 0 ? 1 : Math.max(1, Math.ceil(Math.abs(path.sweep[path.arc[row]]) * share * 12));
+    return [count, Array.from({length: steps}, (_, k) => {
+      const corners = hull([k, k + 1].flatMap(i => {
         const [x, , z] = path.point(row, share * i / steps);
         return blade.map(([dz, dr]) => [z + dz, x - axis + dr]);
-      });
-      areas.push(outline(hull(corners)));
-    }
+      }));
+      return {z: corners.map(([z]) => z), r: corners.map(([, r]) => r)};
+    })];
+  }
+  begun(pen, row, share) {
+    const from = last(this.rows, row - 1) + 1, [to, rings] = this.upTo(from, row, share);
+    this.take(pen, from, to);
     this.halves(pen, () => {
       pen.globalCompositeOperation = "destination-out";
-      for (const area of areas) pen.fill(area);
+      for (const {z, r} of rings) pen.fill(outline(z.map((each, k) => [each, r[k]])));
     });
   }
   chuck(pen) {

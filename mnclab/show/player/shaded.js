@@ -31,7 +31,7 @@ class Shaded {
   paint(map, row, colours) {
     const {grid, data} = this, {nx} = grid, all = colours !== this.colours || row !== this.row, tones = this.tones(colours);
     if (all) this.sent = [];
-    for (const k of map.changed(this.sent)) {
+    for (const k of map.changed(this.sent).keys()) {
       const i0 = k % grid.across * TILE, j0 = (k / grid.across | 0) * TILE;
       for (let j = j0; j < Math.min(j0 + TILE, grid.ny); j++)
         for (let i = i0; i < Math.min(i0 + TILE, nx); i++) this.pixel(map, i, j, row, tones, data.data, (j * nx + i) * 4);

@@ -1,18 +1,19 @@
 // The part in the picture: cut to where the playing stands, then drawn as a relief, or from above where there is no WebGL.
 
 const SLICE = 9;  // ms of a frame that cutting may take
-const REST = 250;  // ms after which a picture stands
+const COARSE = 0.5;  // of the pixels along a side, while the picture turns and the processor draws
 
 class ShownPart {
   constructor(canvas, run, picture) {
     this.canvas = canvas;
     this.picture = picture;
-    this.drawn = -Infinity;
     this.carving = new Carving(run);
     this.surface = new Surface(this.carving);
-    const relief = new Relief(canvas, this.carving);
+    const relief = new Relief(canvas, this.carving, picture);
     this.drawing = relief.gl ? relief : new Shaded(canvas, this.carving);
+    this.inSpace = Boolean(relief.gl);  // path and tool are drawn with the part
     this.note = [run.header.part.note, relief.gl ? "" : "without WebGL: the part is shown from above only"].filter(Boolean).join("; ");
+    this.scouted = () => {};  // what is to be done when all is cut ahead
     this.scout();
   }
   show(on) {
@@ -20,18 +21,14 @@ class ShownPart {
     this.canvas.hidden = !on;
   }
   // True once the part is cut to there.
-  draw(rows, share, row) {
+  draw(rows, share, row, turning = false) {
     const {canvas, picture, carving} = this, {camera, ratio, colours} = picture;
     if (!picture.part) return true;
-    const [w, h] = camera.size.map(size => size * ratio);
+    const [w, h] = camera.size.map(size => Math.round(size * ratio * (turning && this.drawing.slow ? COARSE : 1)));
     if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
     carving.aim(rows, share);
     const there = carving.work(performance.now() + SLICE);
-    const now = performance.now(), draw = moving => this.drawing.draw(camera, colours, carving.map, row, ratio, moving);
-    draw(now - this.drawn < REST);
-    this.drawn = now;
-    clearTimeout(this.rest);
-    if (this.drawing.slow) this.rest = setTimeout(() => draw(false), REST);
+    this.drawing.draw(camera, colours, carving.map, row, ratio, turning);
     return there;
   }
   // What of it can be measured at a place of the screen, at most so many pixels beside, and whether a place is in sight. An
@@ -52,6 +49,6 @@ class ShownPart {
   // Cut ahead while the page has nothing else to do.
   scout() {
     const idle = window.requestIdleCallback || (act => setTimeout(() => act({timeRemaining: () => 5}), 20));
-    idle(time => this.carving.ahead(performance.now() + Math.min(time.timeRemaining(), SLICE)) || this.scout());
+    idle(time => this.carving.ahead(performance.now() + Math.min(time.timeRemaining(), SLICE)) ? this.scouted() : this.scout());
   }
 }

@@ -95,18 +95,11 @@ class Board {
   positions(column, point) {
     for (const axis of this.axes) this.find(`${column}-${"XYZ"[axis]}`).textContent = point ? this.shown(point, axis) : "–";
   }
-  // The spindle speed; at constant cutting speed it follows X, but not beyond its limit.
-  turning(row, point) {
-    const {row: columns} = this.run, told = columns.spindle.value(row) || 0, surface = columns.surface.value(row), limit = columns.speed_limit.value(row);
-    if (typeof surface !== "number" || !told) return told;
-    const speed = 1000 * surface / (2 * Math.PI * Math.abs(point[0] - columns.spindle_x.value(row)));
-    return Math.sign(told) * Math.min(speed, typeof limit === "number" ? limit : Infinity);
-  }
   show({step, row, point, speed, item, angles}) {
     const {run, find} = this, {unit} = run, at = Math.max(row, 0);
     this.positions("tool", point);
     this.positions("machine", run.header.turning ? null : point.map((value, k) => value + run.origin[k]));
-    const feed = run.row.feed.value(at), perRev = run.row.per_rev.value(at), spindle = this.turning(at, point);
+    const feed = run.row.feed.value(at), perRev = run.row.per_rev.value(at), spindle = run.turning(at, point);
     const kind = row >= 0 ? run.path.kind[row] : -1, own = item >= 0 && run.itemRow[item] === row;
     const programmed = perRev ? `${lengthText(perRev, unit.length)} ${unit.short}/rev` : kind === RAPID ? "rapid" : typeof feed === "number" ? `F ${lengthText(feed, unit.length)}` : "";
     find("feed").textContent = number(speed * 60 / unit.length, unit.length > 1 ? 1 : 0);

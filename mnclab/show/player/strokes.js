@@ -66,13 +66,14 @@ class Strokes {
       sy[i] = oy - x[i] * u0 - y[i] * u1 - z[i] * u2;
     }
   }
-  // Lines of one class between two points; steps below half a pixel are passed over.
-  stroke(pen, kind, from, to) {
-    const {sx, sy, kind: kinds} = this;
+  // Lines of one class between two points, and of one shade where `of` says which a row has; steps below half a pixel are
+  // passed over.
+  stroke(pen, kind, from, to, of = null, shade = 0) {
+    const {sx, sy, kind: kinds, row: rows} = this;
     let open = false, count = 0, lx = 0, ly = 0;
     pen.beginPath();
     for (let i = from + 1; i <= to; i++) {
-      if (kinds[i] !== kind) {
+      if (kinds[i] !== kind || (of && of[rows[i]] !== shade)) {
         open = false;
         continue;
       }
@@ -81,7 +82,7 @@ class Strokes {
         open = true;
       }
       const dx = sx[i] - lx, dy = sy[i] - ly;
-      if (dx * dx + dy * dy < 0.3 && i < to && kinds[i + 1] === kind) continue;
+      if (dx * dx + dy * dy < 0.3 && i < to && kinds[i + 1] === kind && (!of || of[rows[i + 1]] === shade)) continue;
       pen.lineTo(lx = sx[i], ly = sy[i]);
       if (++count % 200 === 0) {  // long paths cost more than many short ones
         pen.stroke();
@@ -91,25 +92,29 @@ class Strokes {
     }
     pen.stroke();
   }
+  // From where to where the lines of some classes lie along a direction; from infinity where there are none.
+  reach([dx, dy, dz], kinds) {
+    const {x, y, z, kind} = this, chosen = [NOTHING, RAPIDS, CUTS, PROBINGS].map(each => kinds.includes(each));
+    let low = Infinity, high = -Infinity;
+    for (let i = 1; i < this.n; i++) {
+      if (!chosen[kind[i]]) continue;
+      const a = dx * x[i - 1] + dy * y[i - 1] + dz * z[i - 1], b = dx * x[i] + dy * y[i] + dz * z[i];
+      low = Math.min(low, a, b);
+      high = Math.max(high, a, b);
+    }
+    return [low, high];
+  }
   // The smallest and greatest coordinates of some classes; null if they are empty.
   box(...kinds) {
-    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-    for (let i = 1; i < this.n; i++) {
-      if (!kinds.includes(this.kind[i])) continue;
-      for (const k of [i - 1, i])
-        [this.x[k], this.y[k], this.z[k]].forEach((value, axis) => {
-          if (value < low[axis]) low[axis] = value;
-          if (value > high[axis]) high[axis] = value;
-        });
-    }
-    return low[0] <= high[0] ? [low, high] : null;
+    const spans = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(d => this.reach(d, kinds));
+    return spans[0][0] <= spans[0][1] ? [0, 1].map(k => spans.map(span => span[k])) : null;
   }
   // The row of the line nearest to a place on the screen, within some pixels; of equal ones the one nearest to the eye.
-  pick(x, y, camera, within) {
+  pick(x, y, camera, within, rapids) {
     const {sx, sy, kind} = this, near = camera.near;
     let best = -1, least = within, depth = -Infinity;
     for (let i = 1; i < this.n; i++) {
-      if (kind[i] === NOTHING) continue;
+      if (kind[i] === NOTHING || (kind[i] === RAPIDS && !rapids)) continue;
       const ax = sx[i - 1], ay = sy[i - 1], dx = sx[i] - ax, dy = sy[i] - ay, length = dx * dx + dy * dy;
       const u = length > 0 ? Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / length)) : 1;
       const away = Math.hypot(ax + u * dx - x, ay + u * dy - y);

@@ -1,4 +1,4 @@
-"""Which moves share a colour: by kind, feed, spindle speed, tool, step, source line or height, and the scale that says it.
+"""Which moves share a colour: by kind, feed, speed, tool, step, pass, source line or height, and the scale that says it.
 
 Rapids and probing always keep their own look; `colour` divides the cuts. Few different values are a class each, named
 in the legend; many are put into at most `BINS` bins between round numbers, explained by a scale. The colours grow
@@ -25,15 +25,19 @@ from mnclab.show.plot.picture import SMALL, Picture
 from mnclab.show.plot.strokes import Array, Strokes, parted
 from mnclab.text.given import choice
 
-COLOURS = ("kind", "feed", "speed", "tool", "step", "line", "z")
+COLOURS = ("kind", "feed", "speed", "tool", "step", "pass", "line", "z")
 FEW, TOOLS, BINS = 6, 10, 14  # classes that the legend names one by one, tools likewise; bins of a scale at most
 LIGHTEST = 0.58  # of the map: beyond it the contrast on white falls below 3 to 1
-TITLES = {"feed": "feed, {unit}/min", "speed": "spindle, rev/min", "tool": "tool", "line": "line", "z": "Z, {unit}"}
-NAMES = {"feed": "{} {unit}/min", "speed": "{} rev/min", "tool": "tool {}", "step": "{}", "line": "line {}", "z": "Z {} {unit}"}
+TITLES = {"feed": "feed, {unit}/min", "speed": "spindle, rev/min", "z": "Z, {unit}"}  # of the others the name itself
+NAMES = {
+    "feed": "{} {unit}/min", "speed": "{} rev/min", "tool": "tool {}", "step": "{}", "pass": "pass {}", "line": "line {}",
+    "z": "Z {} {unit}",
+}  # fmt: skip
 #: Few classes: hues far apart, dark to light.
 HUES = ("#2d0a5e", "#7d1128", "#1259a8", "#2f7d32", "#bf5ab0", "#c47a00")
 DASHES: tuple[Dashes, ...] = ("-", (0, (7, 1)), (0, (3, 0.8)), (0, (6, 1, 1.2, 1)), (0, (1.6, 0.7)), (0, (4, 1, 1.2, 1, 1.2, 1)))
 SLOW, FAST = 4.5, 1.5  # points: how wide the slowest and the fastest feed are drawn
+SINGLE = ("tool", "pass", "line")  # whole numbers
 LENGTHS = ("feed", "z")  # what counts in the unit of the program
 
 Values = NDArray[Any]
@@ -129,6 +133,10 @@ def _values(path: Toolpath, drawn: Strokes, colour: str) -> Values:
     if colour == "speed":
         x = np.ascontiguousarray(drawn.xyz[:, 0])
         return np.round(speed_at(path, drawn.row, (x + np.append(x[:1], x[:-1])) / 2), 6)
+    if colour == "pass":  # what lies between two rapids
+        after = np.cumsum(path.kind == Kind.RAPID)
+        cuts = (path.kind == Kind.LINE) | (path.kind == Kind.ARC)
+        return np.searchsorted(np.unique(after[cuts]), after[drawn.row]) + 1
     columns: dict[str, Values] = {"feed": path.feed, "tool": path.tool, "line": path.line}
     return columns[colour][drawn.row]
 
@@ -149,12 +157,12 @@ def _divide(values: Values, colour: str, unit: str) -> tuple[NDArray[np.int16], 
         return group, looks, None
     missing = ~np.isfinite(values)
     known = values[~missing] if missing.any() else values
-    nice = MaxNLocator(BINS - 1, steps=[1, 2, 2.5, 5, 10], integer=colour in ("tool", "line"))
+    nice = MaxNLocator(BINS - 1, steps=[1, 2, 2.5, 5, 10], integer=colour in SINGLE)
     limits = np.asarray(nice.tick_values(float(known.min()), float(known.max())))
     if known.max() >= limits[-1]:  # a bin holds its lower limit, not its upper one
         limits = np.append(limits, 2 * limits[-1] - limits[-2])
     limits = np.round(limits, 9)
-    single = colour in ("tool", "line") and limits[1] - limits[0] == 1
+    single = colour in SINGLE and limits[1] - limits[0] == 1
     bins = [number(a) if single else f"{number(a)} to {number(b)}" for a, b in zip(limits[:-1], limits[1:])]
     looks = _looks(bins, colour, unit, few=False)
     shades = tuple(look.colour for look in looks)
@@ -162,7 +170,7 @@ def _divide(values: Values, colour: str, unit: str) -> tuple[NDArray[np.int16], 
     share = (np.where(missing, limits[0], values) - limits[0]) / (limits[1] - limits[0])
     group = np.clip(share, 0, len(shades) - 1).astype(np.int16)
     group[missing] = len(shades)
-    return group, looks, Scale(TITLES[colour].format(unit=unit), tuple(limits.tolist()), shades, single)
+    return group, looks, Scale(TITLES.get(colour, colour).format(unit=unit), tuple(limits.tolist()), shades, single)
 
 
 def _few(values: Values, most: int) -> Values | None:

@@ -24,8 +24,10 @@ from mnclab.show.plot import colours
 from mnclab.show.plot.clickable import told_by
 from mnclab.show.plot.equidistant import CORNERS, Panel, draw, write
 from mnclab.show.plot.layers import Box, draw_ghost, draw_stock, gone, held_box
+from mnclab.show.plot.path import ROOM, with_rapids
 from mnclab.show.plot.picture import (
     BELOW,
+    LINE,
     ROW,
     SIZE,
     VIEWS,
@@ -39,9 +41,9 @@ from mnclab.show.plot.picture import (
     legend_height,
     legend_rows,
     roomy,
-    write_legend,
 )  # fmt: skip
-from mnclab.show.plot.side_by_side import TITLE, grid
+from mnclab.show.plot.side_by_side import BETWEEN, LOW, RIGHT, TITLE, label_outer
+from mnclab.show.plot.side_by_side import panels as in_rows
 from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import Array, corners
 from mnclab.text.alarm import Alarm, several
@@ -60,7 +62,6 @@ GOUGES = {
     "exit": "exit cuts into line {other}",
 }
 WIDE = (12.0, 7.0)  # several pictures side by side
-GAP, RIGHT = 0.5, 0.16  # inches
 LARGER = 3.0  # a blank of so many times the size of the picture is left out
 
 
@@ -166,16 +167,20 @@ def _list(name: str, given: Any, example: str) -> list[Any]:
 
 
 def _box(panels: Sequence[Panel], discs: Any) -> tuple[Array, Array]:
-    """The corners (3,) of the box that all panels show: contours, the tool centre beside them, the discs."""
+    """The corners (3,) of the box that all panels show: contours, the tool centre beside them, the discs; of rapids that are
+    compensated as much as has room."""
     clouds: list[Array] = []
+    rapids: list[Array] = []
     for panel in panels:
-        beside = [xyz for line, xyz in panel.rows if line not in (colours.RAPID, colours.UNCOMPENSATED)]
-        clouds += beside + [xyz for _, xyz in panel.contour]
+        (beside, rapid), contour = panel.compensated
+        clouds += [beside, contour[0]]
+        rapids += [rapid, contour[1]]
         if discs is not False or panel.overcuts:
-            reach = np.abs(panel.run.programmed.radius).max() if beside else 0.0
-            clouds += [xyz + sign * reach for xyz in beside for sign in (-1, 1)]
-    found = corners(clouds, False) or corners([xyz for panel in panels for _, xyz in panel.rows], False)
-    return found or (np.zeros(3), np.zeros(3))
+            reach = np.abs(panel.run.programmed.radius).max(initial=0.0)
+            clouds += [beside + sign * reach for sign in (-1, 1)]
+    every = corners([*clouds, *rapids], False) or corners([xyz for panel in panels for _, xyz in panel.rows], False)
+    low, high = corners(clouds, False) or every or (np.zeros(3), np.zeros(3))
+    return with_rapids(low, high, every, np.stack([low, high]), ROOM)[:2]
 
 
 # --- the figure -------------------------------------------------------------------------------------------------------
@@ -193,38 +198,38 @@ def _picture(
     if stock and any(_shown(panel, low, high) for panel in panels):
         handles.append(Line2D([], [], **colours.BLANK.style()))
     words = [str(handle.get_label()) for handle in handles]
-    foot = _foot(panels)
-    left, bottom = max(0.72, beside_ticks(digits_of(low, high, [seen]))), BELOW + (ROW if foot else 0)
+    if foot := _foot(panels):
+        foot = foot.within(size[0])
+    left = max(0.72, beside_ticks(digits_of(low, high, [seen])))
+    bottom = BELOW + (ROW + LINE * (len(foot.lines) - 1) if foot else 0)
 
-    def room(count: int) -> tuple[float, float]:
-        """Inches a millimetre, and the height of the legend, for so many panels in a row."""
-        lines, above = math.ceil(len(panels) / count), 0.06 + legend_height(len(legend_rows(words, size[0])))
-        free = size[0] - count * (left + RIGHT), size[1] - above - bottom - lines * TITLE - (lines - 1) * GAP
-        return min(free[0] / count / wide, free[1] / lines / tall), above
+    def best(count: int) -> float:
+        """Inches a millimetre for so many panels in a row."""
+        lines, above = math.ceil(len(panels) / count), 0.08 + legend_height(len(legend_rows(words, size[0])))
+        free = size[0] - count * BETWEEN - left, size[1] - above - bottom - lines * TITLE - (lines - 1) * LOW
+        return min(free[0] / count / wide, free[1] / lines / tall)
 
     full = [n for n in range(1, len(panels) + 1) if len(panels) % n == 0 or len(panels) > 4]
-    count = max(full, key=lambda n: (room(n)[0] * (1.5 if n == len(panels) < 4 else 1.0), n))
-    scale = room(count)[0]
+    count = max(full, key=lambda n: (best(n) * (1.5 if n == len(panels) < 4 else 1.0), n))
+    scale = best(count)
     across, height = max(scale * wide, 1.6), max(scale * tall, 1.6)
-    lines, width = math.ceil(len(panels) / count), min(size[0], max(4.6, count * (left + RIGHT + across)))
-    across = width / count - left - RIGHT
-    above = 0.06 + legend_height(len(legend_rows(words, width)))
-    total = above + bottom + lines * (TITLE + height) + (lines - 1) * GAP
-    picture = Picture((width, total), _in_words(panels))
-    titles, views = [panel.title for panel in panels], [panel.view for panel in panels]
-    axes = grid(picture, titles, views, count, left, above, GAP, (across, height))
+    width = min(size[0], max(4.6, left + RIGHT + count * across + (count - 1) * BETWEEN))
+    across = (width - left - RIGHT - BETWEEN * (count - 1)) / count
+    titles, ratio = [panel.title for panel in panels], height / across
+    picture, axes = in_rows(titles, _in_words(panels), width, count, ratio, handles, below=bottom, left=left, tallest=height)
     picture.seen = [(ax, panel.view, path, drawn) for ax, panel in zip(axes, panels) for path, drawn in panel.drawn]
     picture.told = told_by(panels[0].run)
     for panel, ax in zip(panels, axes):
+        dress(ax, panel.view, (across, height))
         _limit(ax, panel.view, low, high, (across, height))
         ax.apply_aspect()
         if under is not None:
             draw_ghost(ax, panel.view, gone(under, panel.run.toolpath))
         outlines = draw(ax, panel, discs, vectors)
         _blank(ax, panel, low, high, stock)
-        write(ax, panel, outlines, names)
+        write(ax, panel, outlines, names, len(panels) > 1)
+    label_outer(axes, *seen.labels)
     picture.box = box
-    write_legend(picture, handles)
     if foot:
         foot.write(picture)
     return picture

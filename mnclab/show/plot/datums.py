@@ -5,6 +5,7 @@ The places come out of the history of a run: its frames are put together again s
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from itertools import groupby, product
@@ -26,7 +27,10 @@ SHIFTS = ("local", "set", "shift")
 NEAR = 1.5  # places that would make the box longer than this many times are not shown
 MANY = 8  # places beyond which only zero points have names
 LOOKED_AT = 20_000  # strokes that a name avoids
-OFF = (8.0, 13.0)  # points from a cross to its name, tried one after the other
+OFF, FARTHER = (8.0, 13.0), 20.0  # points from a cross to its name, tried one after the other
+FROM_AFAR = 1.9  # heights of letters between a name and its corner, from where on a line leads to it
+BESIDE = 1.0  # points from a name to the middle of a line: half of its width
+AWAY = 0.5  # of a stroke under a name: what a side costs that is not wished
 SIDES = ((1, 1), (-1, 1), (1, -1), (-1, -1), (1, 0), (-1, 0), (0, 1), (0, -1))
 
 
@@ -123,45 +127,55 @@ def crosses(places: Sequence[DatumCross], view: View) -> list[Line2D]:
 
 
 def write_names(
-    ax: Axes, view: View, places: Sequence[DatumCross], occupied: Array, drawn: Sequence[Array], covering: float = np.inf
+    ax: Axes, view: View, places: Sequence[DatumCross], occupied: Array, drawn: Sequence[Array], covering: float = np.inf,
+    wishes: Array | None = None,
 ) -> list[DatumCross]:
     """The names of the places in a view, where they cover no mark (`occupied` (n, 2), mm) and least of the lines.
 
     The limits of the axes must be final. A name without a free place is left out and returned, and so is one that
-    would cover more strokes than `covering`. Texts that stand there are not covered.
+    would cover more strokes than `covering`. Texts that stand there are not covered. `wishes` (n, 2) are directions in which
+    they stand best.
     """
-    shown = [place for place in places if len(places) <= MANY or place.mark is colours.DATUM]
-    spots = [(p, np.array(p.xyz)[[view.right, view.up]]) for p in shown]
-    spots = [(p, at) for p, at in spots if np.isfinite(at).all()]
+    wished = np.zeros((len(places), 2)) if wishes is None else wishes
+    shown = [(place, wish) for place, wish in zip(places, wished) if len(places) <= MANY or place.mark is colours.DATUM]
+    spots = [(p, np.array(p.xyz)[[view.right, view.up]], wish) for p, wish in shown]
+    spots = [(p, at, wish) for p, at, wish in spots if np.isfinite(at).all()]
     left: list[DatumCross] = []
     if not spots:
         return left
     unit = figure_of(ax).dpi / 72
     begin, end = segments(ax, view, drawn)
-    crowd = ax.transData.transform(np.concatenate([occupied, [at for _, at in spots]]))
+    crowd = ax.transData.transform(np.concatenate([occupied, [at for _, at, _ in spots]]))
     taken = [*np.hstack([crowd - 6 * unit, crowd + 6 * unit]), *map(_extent, ax.texts)]
     inner = np.array(ax.bbox.extents) + np.array([2, 2, -2, -2]) * unit
-    for place, at in spots:
+    for place, at, wish in spots:
         text = ax.annotate(
             place.name, (float(at[0]), float(at[1])), (0, 0), textcoords="offset points", fontsize=SMALL,
             color=place.mark.colour, zorder=4.5,
             parse_math=False, bbox={"boxstyle": "square,pad=0.1", "fc": colours.PAPER, "ec": "none", "alpha": 0.75},
         )  # fmt: skip
         best = None
-        for off, side in product(OFF, SIDES):
+        towards = sorted(SIDES, key=lambda side: -float(np.dot(side, wish)) / math.hypot(*side))
+        for off, side in product(OFF if wishes is None else (*OFF, FARTHER), towards):
             _put(text, side, off)
             box = _extent(text)
             if (box[:2] < inner[:2]).any() or (box[2:] > inner[2:]).any() or any(_overlap(box, t) for t in taken):
                 continue
-            covered = crossing(box, begin, end)
+            wider = box + BESIDE * unit * np.array([-1, -1, 1, 1])
+            covered = crossing(wider, begin, end) + AWAY * (float(np.dot(side, wish)) < 0)
             if best is None or covered < best[0]:
                 best = covered, side, off
-        if best is None or best[0] > covering:
+        if best is None or int(best[0]) > covering:
             text.remove()
             left.append(place)
             continue
         _put(text, best[1], best[2])
         taken.append(_extent(text))
+        spot = ax.transData.transform(at)
+        edge = np.clip(spot, taken[-1][:2], taken[-1][2:])
+        if wishes is not None and np.hypot(*(edge - spot)) > FROM_AFAR * SMALL * unit:
+            leader = ax.transData.inverted().transform([spot, edge])
+            ax.add_line(Line2D(*leader.T, color=place.mark.colour, linewidth=0.6, zorder=4.4, label="_leader"))
     return left
 
 
@@ -194,6 +208,9 @@ def segments(ax: Axes, view: View, drawn: Sequence[Array]) -> tuple[Array, Array
 
 def crossing(box: Array, begin: Array, end: Array) -> int:
     """How many strokes run through a box (left, bottom, right, top)."""
+    beside = (np.minimum(begin, end) > box[2:]) | (np.maximum(begin, end) < box[:2])
+    near = ~(beside[:, 0] | beside[:, 1])
+    begin, end = begin[near], end[near]
     way = end - begin
     with np.errstate(divide="ignore", invalid="ignore"):
         one, other = (box[:2] - begin) / way, (box[2:] - begin) / way

@@ -84,6 +84,15 @@ class Panel:
         return [(line, xyz) for line, xyz in zip((colours.CONTOUR, colours.LEAD), pieces) if len(xyz)]
 
     @cached_property
+    def compensated(self) -> list[list[Array]]:
+        """Cuts and rapids of the compensated rows, points (m, 3) broken by nan: of the tool-centre path, of the contour."""
+        found = []
+        for (path, drawn), on in zip(self.drawn, (self.run.toolpath.rule != Rule.NONE, self.made.compensated)):
+            group = np.where((drawn.row >= 0) & on[drawn.row], np.isinf(path.feed[drawn.row]), -1)
+            found.append(parted(drawn.xyz, group, 2))
+        return found
+
+    @cached_property
     def overcuts(self) -> list[GougedWall]:
         return list(gouged_walls(self.made, [gouge.step for gouge in self.run.gouges]))
 
@@ -191,8 +200,8 @@ def _hatch(ax: Axes, panel: Panel, overcut: GougedWall) -> list[Array]:
     return outlines
 
 
-def write(ax: Axes, panel: Panel, outlines: Sequence[Array], names: bool) -> None:
-    """What was done at the corners, beside them."""
+def write(ax: Axes, panel: Panel, outlines: Sequence[Array], names: bool, short: bool = False) -> None:
+    """What was done at the corners, beside them on the side of the tool; `short` without what most corners share."""
     made = panel.made
     if not names or not len(made.rule):
         return
@@ -203,9 +212,10 @@ def write(ax: Axes, panel: Panel, outlines: Sequence[Array], names: bool) -> Non
     lines = [xyz for _, xyz in [*panel.contour, *panel.rows]]
     lines += [_strokes(made.foot, made.tip), _squares(made, Rule.ENTRY, Rule.EXIT, Rule.CHANGE), *outlines]
     left = np.sort(k).tolist()
-    for short in (False, True):
-        places = [_named(made, at, short) for at in left]
-        missing = write_names(ax, panel.view, places, occupied, lines, 0)
+    for brief in (True,) if short else (False, True):
+        places = [_named(made, at, brief) for at in left]
+        wishes = np.array([panel.flat((made.tip - made.foot)[made.of == at]).sum(axis=0) for at in left])
+        missing = write_names(ax, panel.view, places, occupied, lines, 0, wishes.reshape(-1, 2))
         left = [at for at, place in zip(left, places) if place in missing]
 
 

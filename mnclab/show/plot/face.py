@@ -17,7 +17,7 @@ from matplotlib.lines import Line2D
 from mnclab.path.toolpath import Array, Kind, Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import ramp
-from mnclab.show.plot.picture import SMALL, Picture, calm, figure_of, write_legend
+from mnclab.show.plot.picture import SMALL, Picture, calm, figure_of, stacked, write_legend
 from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
 
@@ -65,12 +65,12 @@ def plot_face(run: Any, ax: Axes | None = None, *, size: tuple[float, float] = (
         widest = f"{unit.figure(2 * most, 1)} {unit.short}"
         said = f"face from the tailstock: spirals of {turns:.4g} turns in diameter {widest}, {len(rows)} cuts"
         picture = Picture(size, said)
-        ax = picture.add_axes((0.14, 0.1, 0.82, 0.78))
+        (ax,) = stacked(picture, [1.0], 0.5, ticks=9)
     handles = []
     for height, shade, width in zip(heights, ramp(len(heights)), np.linspace(2.0, 0.7, len(heights))):
         mine = [spiral(path, row) for row in rows if path.end[row, 2] == height]
         points = np.concatenate([np.vstack([each, np.full((1, 3), np.nan)]) for each in mine])
-        name = f"Z {unit.figure(height, 1)}".replace("-", "\N{MINUS SIGN}")
+        name = f"Z {unit.figure(height, 1)} {unit.short}".replace("-", "\N{MINUS SIGN}")
         look: dict[str, Any] = {"color": shade, "linewidth": width, "label": name if len(heights) <= NAMED else "_layer"}
         handles.append(ax.add_line(Line2D(points[:, 0] / unit.length, points[:, 1] / unit.length, **look)))
     reach = 1.08 * most / unit.length

@@ -27,7 +27,7 @@ from mnclab.show.plot.picture import SIZE, VIEWS, Foot, Picture, View, arrange, 
 from mnclab.show.plot.sizes import sized
 
 POINTED = ("", "drill", "countersink")
-MOST, LOOKED, NAMED = 2000, 20_000, 3  # holes of a picture; places looked at; diameters that the legend names one by one
+MOST, LOOKED = 2000, 20_000  # holes of a picture; places looked at
 CROSS = 1.3  # of the radius: how far the centre lines of a hole go
 SAME = 1e-4  # mm: holes at one place
 
@@ -43,6 +43,19 @@ class Hole(NamedTuple):
     radius: float
 
 
+class Diameter(NamedTuple):
+    """The holes of one diameter: their name in the legend, their colour, and points of its sample there."""
+
+    name: str
+    holes: list[Hole]
+    shade: str
+    sample: float
+
+
+#: How up to three diameters are told apart, in grey print by the size of their samples.
+LOOK = ((colours.HOLE.colour, 5.0), ("#ad1457", 7.0), ("#00838f", 9.0))
+
+
 class Holes(NamedTuple):
     """The holes of a run, and the unit that it counts in."""
 
@@ -54,12 +67,16 @@ class Holes(NamedTuple):
         return grown(low, high, np.array([np.min(around, axis=0), np.max(around, axis=0)]))
 
     def names(self, views: Sequence[View]) -> list[str]:
-        return self._called if any(2 in (view.up, across(view)) for view in views) else []
+        return [kind.name for kind in self._kinds] if any(2 in (view.up, across(view)) for view in views) else []
 
     @property
-    def _called(self) -> list[str]:
-        sizes = dict.fromkeys(self.unit.figure(2 * hole.radius, 1) for hole in self.holes)
-        return [f"hole \N{DIAMETER SIGN}{size}" for size in sizes] if len(sizes) <= NAMED else ["hole"]
+    def _kinds(self) -> list[Diameter]:
+        """The holes by diameter, small ones first; all of them together where those are many."""
+        kinds: dict[str, list[Hole]] = {}
+        for hole in sorted(self.holes, key=lambda each: each.radius):
+            kinds.setdefault(f"hole \N{DIAMETER SIGN}{self.unit.figure(2 * hole.radius, 1)}", []).append(hole)
+        kinds = kinds if len(kinds) <= len(LOOK) else {"hole": self.holes}
+        return [Diameter(name, holes, *look) for (name, holes), look in zip(kinds.items(), LOOK)]
 
     def hides(self, view: View, places: Array) -> Mask:
         """Which places (n, 2) of a view from above are the middle of a hole, and need no mark of their own."""
@@ -71,38 +88,41 @@ class Holes(NamedTuple):
         return np.array([tuple(each) in known for each in np.round(places / SAME).astype(np.int64).tolist()], bool)
 
     def draw(self, ax: Axes, view: View) -> list[Any]:
-        if across(view) == 2:
-            self._from_above(ax)
-        elif view.up == 2:
-            self._from_the_side(ax, view)
-        else:
-            return []
-        style = {"marker": "o", "markerfacecolor": "none", "markersize": 7, "color": colours.HOLE.colour}
-        return [Line2D([], [], **{**style, "linestyle": "none", "label": name}) for name in self._called]  # type: ignore[arg-type]
+        drawn: list[Any] = []
+        for kind in self._kinds if 2 in (across(view), view.up) else []:
+            (_from_above if across(view) == 2 else _from_the_side)(ax, view, kind)
+            style: dict[str, Any] = {"marker": "o", "markerfacecolor": "none", "markersize": kind.sample, "color": kind.shade}
+            drawn.append(Line2D([], [], **style, linestyle="none", label=kind.name))
+        return drawn
 
     def write(self, ax: Axes, view: View, lines: Sequence[Array]) -> None:
         return None
 
-    def _from_above(self, ax: Axes) -> None:
-        middles, radii = np.array([hole[:2] for hole in self.holes]), np.array([hole.radius for hole in self.holes])
-        ax.add_collection(EllipseCollection(
-            2 * radii, 2 * radii, np.zeros(len(radii)), units="xy", offsets=middles, offset_transform=ax.transData,
-            facecolors="none", edgecolors=colours.HOLE.colour, linewidths=1.2, zorder=colours.HOLE.order, label="_holes",
-        ), autolim=False)  # fmt: skip
-        ends = np.array([[(-1, 0), (1, 0), (np.nan, np.nan), (0, -1), (0, 1), (np.nan, np.nan)]])
-        crosses = middles[:, None] + CROSS * radii[:, None, None] * ends
-        look = {**colours.CENTRE_LINE.style(), "zorder": colours.HOLE.order, "label": "_hole centres", "linewidth": 0.6}
-        ax.add_line(Line2D(*crosses.reshape(-1, 2).T, **look))
 
-    def _from_the_side(self, ax: Axes, view: View) -> None:
-        seen = np.unique([(hole[view.right], *hole[2:]) for hole in self.holes], axis=0)
-        place, top, wall, tip, radius = seen.T
-        left, right, none = place - radius, place + radius, np.full(len(seen), np.nan)
-        across_ = np.stack([left, left, place, right, right, none, left, right, none], axis=1)
-        heights = np.stack([top, wall, tip, wall, top, none, wall, wall, none], axis=1)
-        points = np.full((across_.size, 3), np.nan)
-        points[:, view.right], points[:, 2] = across_.ravel(), heights.ravel()
-        line(ax, view, points, colours.HOLE, label="_holes")
+def _from_above(ax: Axes, view: View, kind: Diameter) -> None:
+    middles, radii = np.array([hole[:2] for hole in kind.holes]), np.array([hole.radius for hole in kind.holes])
+    _circles(ax, middles, 2 * radii, edgecolors=kind.shade, linewidths=1.2, zorder=colours.HOLE.order, label="_holes")
+    ends = np.array([[(-1, 0), (1, 0), (np.nan, np.nan), (0, -1), (0, 1), (np.nan, np.nan)]])
+    crosses = middles[:, None] + CROSS * radii[:, None, None] * ends
+    look = {**colours.CENTRE_LINE.style(), "zorder": colours.HOLE.order, "label": "_hole centres", "linewidth": 0.6}
+    ax.add_line(Line2D(*crosses.reshape(-1, 2).T, **look))
+
+
+def _circles(ax: Axes, middles: Array, diameters: Array, **look: Any) -> None:
+    none = np.zeros(len(middles))
+    look |= {"units": "xy", "offsets": middles, "offset_transform": ax.transData, "facecolors": "none"}
+    ax.add_collection(EllipseCollection(diameters, diameters, none, **look), autolim=False)
+
+
+def _from_the_side(ax: Axes, view: View, kind: Diameter) -> None:
+    seen = np.unique([(hole[view.right], *hole[2:]) for hole in kind.holes], axis=0)
+    place, top, wall, tip, radius = seen.T
+    left, right, none = place - radius, place + radius, np.full(len(seen), np.nan)
+    across_ = np.stack([left, left, place, right, right, none, left, right, none], axis=1)
+    heights = np.stack([top, wall, tip, wall, top, none, wall, wall, none], axis=1)
+    points = np.full((across_.size, 3), np.nan)
+    points[:, view.right], points[:, 2] = across_.ravel(), heights.ravel()
+    line(ax, view, points, colours.HOLE._replace(colour=kind.shade), label="_holes")
 
 
 def holes_of(run: Any) -> Holes | None:
@@ -172,11 +192,7 @@ def plot_holes(found: Any, size: tuple[float, float] = SIZE) -> Picture:
         if not len(holes):
             continue
         across = np.where(holes[:, 2] > 0, holes[:, 2], least)
-        rings = EllipseCollection(
-            across, across, np.zeros(len(across)), units="xy", offsets=holes[:, :2], offset_transform=ax.transData,
-            facecolors="none", edgecolors=shade, linewidths=wide, linestyles=dash,
-        )  # fmt: skip
-        ax.add_collection(rings)
+        _circles(ax, holes[:, :2], across, edgecolors=shade, linewidths=wide, linestyles=dash)
         ax.plot(holes[:, 0], holes[:, 1], "+", color=shade, markersize=5)
         handles.append(Line2D([], [], color=shade, linestyle=dash, linewidth=wide, label=label))
     write_legend(picture, handles)

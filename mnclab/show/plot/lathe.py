@@ -20,7 +20,7 @@ from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.show import looks
 from mnclab.show.plot import colours
-from mnclab.show.plot.picture import SMALL, Picture
+from mnclab.show.plot.picture import SMALL, Picture, stacked
 from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import Array, Strokes
 from mnclab.workpiece.blank import Blank
@@ -160,19 +160,13 @@ def plot_speed(path: Toolpath, most: float = np.inf, size: tuple[float, float] =
     way, diameter = way / unit.length, diameter / unit.length
     picture = Picture(size, alt="spindle speed over the path")
     shown = np.where(np.isfinite(speed), speed, np.nan)
-    curves = [
-        (shown, "spindle, rev/min", looks.BLUE, 0.56),
-        (diameter, f"X (diameter), {unit.short}", looks.METAL_EDGE, 0.12),
-    ]
-    curves, tall = (curves, 0.4) if path.lathe else ([(shown, *curves[0][1:3], 0.12)], 0.84)
-    for values, label, shade, bottom in curves:
-        ax = picture.add_axes((0.11, bottom, 0.85, tall))
+    across = diameter, f"X (diameter),\n{unit.short}", looks.METAL_EDGE
+    curves = [(shown, "spindle,\nrev/min", looks.BLUE), *([across] if path.lathe else [])]
+    rows = stacked(picture, [1.0] * len(curves), 0.12)
+    for ax, (values, label, shade) in zip(rows, curves):
         ax.plot(way, values, color=shade, linewidth=1.5)
         ax.set_ylabel(label, fontsize=SMALL + 1)
-        ax.set_xlim(0, max(float(way[-1]), 1e-9) if len(way) else 1)
-        ax.set_ylim(bottom=0)
-        ax.tick_params(labelsize=SMALL, labelbottom=bottom < 0.5)
-        ax.grid(True, color=colours.FAINT, linewidth=0.6)
+        ax.set(xlim=(0, max(float(way[-1]), 1e-9) if len(way) else 1), ylim=(0, None))
     if np.isfinite(most) and (speed >= most).any():
         above = picture.axes[0]
         above.axhline(most, **{**colours.LIMIT.style(), "label": "_limit"})

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_hex
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon
 from numpy.typing import NDArray
@@ -21,7 +22,7 @@ from mnclab.show.plot.datums import DatumCross, crosses, segments, write_names
 from mnclab.show.plot.holes import beside_holes
 from mnclab.show.plot.lathe import Lathe, draw_blank, draw_chucks, draw_insert
 from mnclab.show.plot.overlay import Overlay
-from mnclab.show.plot.part import relief
+from mnclab.show.plot.part import DEPTHS, draw_relief, relief
 from mnclab.show.plot.picture import View, roomy
 from mnclab.show.plot.placing import arrival, draw_arrival, draw_heads, spread
 from mnclab.show.plot.probed import draw_felt
@@ -56,11 +57,14 @@ class PathDrawing(NamedTuple):
     part: Workpiece | None
     home: bool
     felt: Felt | None
-    overlays: Sequence[Overlay] = ()
+    overlays: Sequence[Overlay]
+    box: Box  # what is seen
 
     def seen(self, mark: Mark, view: View) -> Array:
-        """Where a mark stands in a view (m, 2); a hole that is seen from above needs none for its dwell."""
-        found = np.concatenate([xyz[:, [view.right, view.up]] for one, xyz in self.marks if one is mark])
+        """Where a mark is seen in a view (m, 2); a hole that is seen from above needs none for its dwell."""
+        axes = [view.right, view.up]
+        found = np.concatenate([xyz[:, axes] for one, xyz in self.marks if one is mark])
+        found = found[((found >= self.box[0][axes] - 1e-9) & (found <= self.box[1][axes] + 1e-9)).all(axis=1)]
         return beside_holes(self.overlays, view, found) if mark is colours.DWELL else found
 
 
@@ -161,13 +165,24 @@ def draw_under(ax: Axes, view: View, workpiece: Workpiece) -> None:
     if 2 in (view.right, view.up):
         _silhouette(ax, part, view)
         return
-    from mnclab.show.plot.part import DEPTHS, draw_relief
-
     seen = relief(part)
     depth = float(part.cutting.stock.bounds[1, 2]) - seen.z
-    shades = DEPTHS(0.75 * depth / max(float(depth[seen.solid].max(initial=0.0)), 1e-9))[..., :3] * seen.light[..., None]
-    image = np.clip(PALE + (1 - PALE) * shades, 0.0, 1.0)
+    image = _pale(depth / max(float(depth[seen.solid].max(initial=0.0)), 1e-9), seen.light[..., None])
     draw_relief(ax, seen, np.concatenate([image, seen.solid[..., None]], axis=2), order=0.6)
+
+
+def _pale(depth: Array | float, light: Array | float = 1.0) -> Array:
+    """The shades of what lies so deep, of the deepest, in some light."""
+    return np.clip(PALE + (1 - PALE) * np.asarray(DEPTHS(0.75 * depth))[..., :3] * light, 0.0, 1.0)
+
+
+def samples_of(workpiece: Workpiece, views: Sequence[View]) -> list[Patch]:
+    """What a legend shows of a milled part under a path: where it is left, and what is cut, the deeper the darker."""
+    if all(2 in (view.right, view.up) for view in views):
+        return [Patch(facecolor=looks.METAL, edgecolor=looks.METAL_EDGE, label="part")]
+    shades = {"part": 0.0, "cut": 1.0} if workpiece.removed > 0 else {"part": 0.0}
+    faces = {name: to_hex(_pale(depth).tolist()) for name, depth in shades.items()}
+    return [Patch(facecolor=face, edgecolor=looks.METAL_EDGE, label=name) for name, face in faces.items()]
 
 
 def _silhouette(ax: Axes, part: Milled, view: View) -> None:

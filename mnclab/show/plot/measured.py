@@ -57,8 +57,9 @@ COLUMNS = (2, 3, 4, 5, 8)  # of the record
 
 @sized()
 def plot_measured(
-    run: Any, *, line: int | None = None, factor: float | None = None, part: bool = True, width: float = WIDTH
-) -> Picture:
+    run: Any, *, line: int | None = None, factor: float | None = None, part: bool = True, width: float = WIDTH,
+    height: float | None = None,
+) -> Picture:  # fmt: skip
     """A panel for each cycle that measured: nominal and actual contour, the ball at each touch with its approach, its number
     and what it found, and the lines of the measuring record.
 
@@ -66,7 +67,7 @@ def plot_measured(
     - `factor`: by how much deviations are magnified; default a round number for each panel, so that the worst is seen. It
       stands in the title of the panel.
     - `part`: the part itself behind them, in true size, as a section at the height of the touches.
-    - `width` of the picture in inches.
+    - `width` of the picture in inches; in a low `height` the record of a single panel stands beside it.
 
     Number 1 is `run.touches[0]`. An Alarm where no part was measured.
     """
@@ -84,7 +85,9 @@ def plot_measured(
     if not found:
         lines = ", ".join(map(str, sorted({each.line for each in (*run.touches, *run.figures)})[:MOST]))
         raise Alarm(f"nothing was measured in line {line}", hint=f"lines that measured: {lines}")
-    return _picture(found, part_of(run) if part else None, width, more)
+    if height is not None:
+        check_number(height, "the height of a picture (inches)", at_least=1, at_most=40)
+    return _picture(found, part_of(run) if part else None, width, more, height)
 
 
 def pages(run: Any, count: int, most: int) -> tuple[list[Picture], int]:
@@ -95,16 +98,21 @@ def pages(run: Any, count: int, most: int) -> tuple[list[Picture], int]:
     return [_picture(found[k : k + count], part, WIDTH, 0) for k in range(0, len(found), count)], more
 
 
-def _picture(found: Sequence[Panel], part: Any, width: float, more: int) -> Picture:
-    """The panels row by row, each over its lines of the record."""
+def _picture(found: Sequence[Panel], part: Any, width: float, more: int, height: float | None = None) -> Picture:
+    """The panels row by row, each over its lines of the record; a single one beside them where the height is too low."""
     texts = [_texts(panel, found[0].view.unit) for panel in found]
     count = max(1, min(len(found), int(width / max(3.3, *(0.2 + sum(column_widths(each)) for each in texts)))))
-    box = min(width / count - LEFT - RIGHT, WIDEST)
-    width = count * (box + LEFT + RIGHT)
+    box, aside = min(width / count - LEFT - RIGHT, WIDEST), 0.0
+    around = TOP + TITLE + BELOW + GAP + 0.06
+    if len(found) == 1 and height is not None and height < around + box * TALL + LINE * len(texts[0]):
+        aside = sum(column_widths(texts[0]))
+        box = min(width - LEFT - RIGHT - aside, (height - around) / TALL)
+    width = count * (box + LEFT + RIGHT) + aside
     tall = box * TALL
     rows = [range(k, min(k + count, len(found))) for k in range(0, len(found), count)]
-    under = [LINE * max(len(texts[k]) for k in row) for row in rows]
-    foot = LINE if more > 0 else 0.0
+    under = [0.0 if aside else LINE * max(len(texts[k]) for k in row) for row in rows]
+    said = [f"{several(more, 'more cycle')}: line= chooses"] if more > 0 else []
+    foot = 2 * LINE if more > 0 else 0.06
     total = TOP + sum(TITLE + tall + BELOW + each + GAP for each in under) + foot
     balls = sum(len(panel.balls) for panel in found)
     picture = Picture((width, total), f"measured: {several(len(found), 'panel')}, {several(balls, 'touched point')}")
@@ -116,14 +124,13 @@ def _picture(found: Sequence[Panel], part: Any, width: float, more: int) -> Pict
             ax = picture.add_axes((x / width, place / total, box / width, tall / total))
             left_out += draw(ax, found[k], part, (box, tall))
             out = [line for line, text in enumerate(texts[k]) if line and text[-1] not in ("", "ok")]
-            below = place - BELOW - LINE * len(texts[k])
-            write_table(picture, texts[k], x - LEFT + 0.1, below, range(1, len(HEAD) - 1), out)
+            at = (x + box + RIGHT, place + tall) if aside else (x - LEFT + 0.1, place - BELOW)
+            write_table(picture, texts[k], at[0], at[1] - LINE * len(texts[k]), range(1, len(HEAD) - 1), out)
         place -= BELOW + room + GAP
     _legend(picture, found, part)
-    said = [f"{several(more, 'more cycle')}: line= chooses"] if more > 0 else []
     said += [f"no room for the numbers of {several(left_out, 'touched point')}"] if left_out else []
     if said:
-        Foot("; ".join(said)).write(picture)
+        Foot("\n".join(said)).within(width).write(picture)
     return picture
 
 

@@ -16,7 +16,7 @@ from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Kind
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import LineStyle
-from mnclab.show.plot.picture import SMALL, Picture, calm, figure_of, stacked, write_cut_off, write_legend
+from mnclab.show.plot.picture import SMALL, Picture, calm, clear, figure_of, stacked, write_cut_off, write_legend
 from mnclab.show.plot.profile import curve, plot_profile
 from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
@@ -115,7 +115,7 @@ def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
     largest = f"{removal.at_most} {most.rate / size_of:{form}} {name}/min" if most else ""
     said = f"removal: {removal.volume / size_of:{'.1f' if name == 'mm³' else form}} {name} in {removal.profile.time:.4g} s"
     picture = Picture(size, f"{said}, {largest} in line {removal.place(most)}" if most else said)
-    feed, rate = stacked(picture, (1.0, 1.0), 0.12)
+    feed, rate = stacked(picture, (1.0, 1.0), 0.12, left=1.0)
     plot_profile(removal.profile, feed, limits=False)
     begin, end = removal.profile.starts[:-1][: len(rates)], removal.profile.starts[1:][: len(rates)]
     t, height_of = np.stack([begin, end], axis=1).ravel(), np.repeat(rates / size_of, 2)
@@ -125,8 +125,8 @@ def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
     top = 1.25 * max(float(rates.max(initial=0.0)) / size_of, high) or 1.0
     rate.set_ylim(0, top)
     if most and top > FAST * high:  # a rapid in material takes away in no time
-        rate.set_ylim(0, 1.25 * high)
-        write_cut_off(rate, f"cut off: rapids reach {rates.max() / size_of:{form}} {name}/min")
+        rate.set_ylim(0, clear(rate, 1.1 * high))
+        write_cut_off(rate, f"rapids reach {rates.max() / size_of:{form}} {name}/min")
     if most:
         middle = (begin[most.row] + end[most.row]) / 2
         rate.plot([middle], [high], **colours.SLOW_CORNER.style())
@@ -135,8 +135,8 @@ def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
             f"line {removal.place(most)}: {largest}", (middle, high), (-6 if late else 6, 5), textcoords="offset points",
             fontsize=SMALL, ha="right" if late else "left", color=colours.INK,
         )  # fmt: skip
-    rate.set_ylabel(f"mean of a row, {name}/min", fontsize=SMALL)
-    feed.set_xlabel("")
+    feed.set(xlabel="", ylabel=feed.get_ylabel().replace(", ", ",\n"))
+    rate.set_ylabel(f"mean of a row,\n{name}/min", fontsize=feed.yaxis.label.get_fontsize())
     rate.set_xlabel("time, s", fontsize=SMALL + 1)
     picture.align_ylabels([feed, rate])
     return picture
@@ -174,7 +174,7 @@ def plot_depth(
         deepest = unit.figure(path.end[rows, 2].min(), 1)
         said = f"depth over time: {figure(profile.starts[rows[-1] + 1] - begin, 2)} s, down to Z {deepest} {unit.short}"
         picture = Picture(size, said)
-        ax = picture.add_axes((0.72 / size[0], 0.5 / size[1], 1 - 0.9 / size[0], 1 - 0.9 / size[1]))
+        (ax,) = stacked(picture, [1.0], 0.4)
     drawn: dict[str, list[Any]] = {}
     for row in rows.tolist():
         times = np.linspace(profile.starts[row], profile.starts[row + 1], POINTS)
@@ -193,9 +193,10 @@ def plot_depth(
     cut = rows[path.kind[rows] != Kind.RAPID]
     ends = np.concatenate([path.start[cut, 2], path.end[cut, 2]]) / unit.length
     if len(cut) and high - low > FAR * np.ptp(ends) > 0:
+        top = high
         low, high = float(ends.min()), float(ends.max())
         low, high = low - 0.1 * (high - low), high + 0.5 * (high - low)
-        write_cut_off(ax, "rapids from far away are cut off")
+        write_cut_off(ax, f"rapids go up to Z{figure(top)}")
     room = max(high - low, 1e-6)
     ax.set(xlim=(-0.01 * total, 1.01 * total), ylim=(low - 0.16 * room, high + 0.06 * room))
     if run.stock is not None and not path.lathe:
@@ -203,9 +204,6 @@ def plot_depth(
     ax.set_xlabel("time, s", fontsize=SMALL + 1)
     ax.set_ylabel(f"Z, {unit.short}", fontsize=SMALL + 1)
     calm(ax)
-    if picture is not None and (box := ax.get_tightbbox()) is not None:  # long numbers stand beside the axis
-        left = (0.72 - min(0.0, box.x0 / picture.dpi - 0.04)) / size[0]
-        ax.set_position((left, 0.5 / size[1], 1 - 0.18 / size[0] - left, 1 - 0.9 / size[1]))
     _depths(ax, path, rows, profile.starts - begin)
     if picture is None:
         return figure_of(ax)

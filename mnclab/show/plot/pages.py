@@ -10,6 +10,7 @@ from functools import singledispatchmethod
 from io import BytesIO
 from itertools import takewhile
 from pathlib import Path
+from typing import Any
 
 import matplotlib as mpl
 from matplotlib.backends.backend_pdf import PdfPages
@@ -72,19 +73,26 @@ TONES = {"": colours.INK, BAD: "#a3221a", "good": "#1b5e20"}
 SHADES = {ALARM: "#f9d9d6", WARNING: "#fbebc4"}
 SIGNS = {ALARM: "!", WARNING: "?"}
 LISTED = 2000  # lines of the programs
+SHARES = 0.85, 0.7  # of their size, to which pictures are drawn smaller
+LESS = 0.42  # of a page: in so much room a picture is drawn smaller, in less it stands on the next page
 SHORT = 12  # rows of a table that stays with the words below it
 
 
 def sheets(document: Document) -> list[Sheet]:
-    """The pages of a document."""
-    return _Setter(document).pages
+    """The pages of a document; where the last would be less than half full, all pictures but the first are drawn smaller if that
+    helps."""
+    set_ = _Setter(document)
+    for share in SHARES if len(set_.pages) > 1 and not set_.half_full else ():
+        if (smaller := _Setter(document, share)).half_full or len(smaller.pages) == 1:
+            return smaller.pages
+    return set_.pages
 
 
 class _Setter:
     """Puts one piece after the other below what is there, on a new page where there is no room."""
 
-    def __init__(self, document: Document) -> None:
-        self.document = document
+    def __init__(self, document: Document, share: float = 1.0) -> None:
+        self.document, self.share = document, share  # of the size of pictures
         self.pages: list[Sheet] = []
         self.figures, self.listed = 0, 0
         self.begin()
@@ -104,6 +112,10 @@ class _Setter:
         return self.y <= TOP
 
     @property
+    def half_full(self) -> bool:
+        return self.y - TOP >= TALL / 2
+
+    @property
     def bottom(self) -> float:
         return self.page.size[1] - BOTTOM
 
@@ -115,6 +127,11 @@ class _Setter:
         """A new page unless there is room for so much."""
         if self.y + tall > self.bottom and not self.fresh:
             self.begin()
+
+    def line(self, text: str, size: float, **look: Any) -> None:
+        """A line of text below what is there."""
+        self.y += size * LINE
+        self.page.write(LEFT, self.y - 3, text, size, **look)
 
     def frame(self, page: Sheet, number: int) -> None:
         """Head and foot of a page: the program and the control above, the number of the page below."""
@@ -141,8 +158,6 @@ class _Setter:
         self.y += 10
 
     def section(self, section: Section) -> None:
-        if section.breaks and not self.fresh:
-            self.begin()
         if section.title:
             self.room(GAP + HEADING + min(self.least(section.pieces), TALL - 40))
             self.y += 0 if self.fresh else GAP
@@ -156,8 +171,8 @@ class _Setter:
     def least(self, pieces: Sequence[Piece]) -> float:
         """How much of the pieces is to stand below their heading: of a short table all, with the words that explain it."""
         first, *others = pieces or [Words("")]
-        if isinstance(first, Image):
-            return float(first.picture.get_figheight()) * POINTS + 2.2 * CAPTION
+        if isinstance(first, Image):  # on a page that is less than half full it is drawn smaller
+            return min(float(first.picture.get_figheight()) * POINTS + 2.2 * CAPTION, LESS * TALL)
         under = list(takewhile(lambda piece: isinstance(piece, Words), others))
         if isinstance(first, TextTable) and under and len(first.rows) <= SHORT:
             made = tabled(first, WIDE)
@@ -172,11 +187,9 @@ class _Setter:
 
     @put.register
     def _(self, piece: Words) -> None:
-        lines = folded(printable(piece.text), WIDE, BODY)
-        for line in lines:
+        for text in folded(printable(piece.text), WIDE, BODY):
             self.room(BODY * LINE)
-            self.y += BODY * LINE
-            self.page.write(LEFT, self.y - 3, line, BODY, colour=TONES[piece.tone], bold=bool(piece.tone))
+            self.line(text, BODY, colour=TONES[piece.tone], bold=bool(piece.tone))
 
     @put.register
     def _(self, piece: Blanks) -> None:
@@ -196,8 +209,9 @@ class _Setter:
         head = made.head.tall + AIR if made.head else 0.0
         self.room(head + made.rows[0].tall + (made.rows[1].tall if len(made.rows) > 1 else 0) + 2)
         self._head(made)
-        for row in made.rows:
-            if self.y + row.tall > self.bottom and not self.fresh:
+        for k, row in enumerate(made.rows):
+            following = made.rows[k:] if len(made.rows) - k == 2 else [row]  # the last stands alone on no page
+            if self.y + sum(each.tall for each in following) > self.bottom and not self.fresh:
                 self._close(made)
                 self.begin()
                 self._head(made)
@@ -226,18 +240,24 @@ class _Setter:
 
     @put.register
     def _(self, piece: Image) -> None:
-        wide, tall = (piece.picture.get_size_inches() * POINTS).tolist()
+        picture = piece.picture
+        if self.share < 1 and self.figures and picture.again:
+            picture = picture.again(size=tuple((self.share * picture.get_size_inches()).tolist()))
+        wide, tall = (picture.get_size_inches() * POINTS).tolist()
         self.figures += 1
         caption = folded(f"Figure {self.figures}: {printable(piece.caption)}", WIDE, CAPTION)
         under = 6 + CAPTION * LINE * len(caption)
         if wide > WIDE + 1 or tall + under > TALL:  # of a size that somebody chose: a page as large as it needs
             self.begin((max(A4[0], wide + LEFT + RIGHT), max(A4[1], tall + under + TOP + BOTTOM)))
+        if LESS * TALL < (room := self.bottom - self.y - 1) < tall + under and picture.again:
+            smaller = picture.again(size=(WIDE / POINTS, (room - under) / POINTS))
+            if smaller.get_figheight() * POINTS + under <= room:
+                picture, (wide, tall) = smaller, (smaller.get_size_inches() * POINTS).tolist()
         self.room(tall + under)
-        self.page.put(piece.picture, LEFT + max(0.0, (WIDE - wide) / 2), self.y)
+        self.page.put(picture, LEFT + max(0.0, (WIDE - wide) / 2), self.y)
         self.y += tall + 6
-        for line in caption:
-            self.y += CAPTION * LINE
-            self.page.write(LEFT, self.y - 3, line, CAPTION, colour=QUIET)
+        for text in caption:
+            self.line(text, CAPTION, colour=QUIET)
 
     @put.register
     def _(self, piece: Compared) -> None:
@@ -248,13 +268,11 @@ class _Setter:
         shown, more = first_of(piece.alarms)
         for alarm in shown:
             head, *quoted = alarm.text(QUOTED).split("\n")
-            for line in folded(printable(head), WIDE, BODY):
+            for text in folded(printable(head), WIDE, BODY):
                 self.room(BODY * LINE * (1 + len(quoted)))
-                self.y += BODY * LINE
-                self.page.write(LEFT, self.y - 3, line, BODY, colour=TONES[BAD] if alarm.severity == ALARM else colours.INK)
-            for line in quoted:
-                self.y += CODE * LINE
-                self.page.write(LEFT, self.y - 3, line, CODE, family=MONO)
+                self.line(text, BODY, colour=TONES[BAD] if alarm.severity == ALARM else colours.INK)
+            for text in quoted:
+                self.line(text, CODE, family=MONO)
             self.y += 4
         if more:
             self.put(Words(more))
@@ -287,9 +305,12 @@ class _Setter:
 
 
 def _parts(text: str, letters: int) -> Iterator[str]:
-    """A line of a program, folded where it is too long."""
-    yield text[:letters]
-    yield from (text[k : k + letters] for k in range(letters, len(text), letters))
+    """A line of a program, folded where it is too long: after a blank, if its second half has one."""
+    while len(text) > letters:
+        end = text.rfind(" ", letters // 2, letters + 1) + 1 or letters
+        yield text[:end].rstrip()
+        text = text[end:]
+    yield text
 
 
 def _line(text: str) -> str:

@@ -42,7 +42,7 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.given import choice, shown
 from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.cutting import CUTS
-from mnclab.workpiece.milling.lattice import THIN, Lattice, heights_at, lattice_of, rows_at
+from mnclab.workpiece.milling.lattice import THIN, Lattice, lattice_of, rows_at
 from mnclab.workpiece.turning.turned import Turned
 from mnclab.workpiece.workpiece import Workpiece
 
@@ -50,6 +50,8 @@ if TYPE_CHECKING:
     from mnclab.workpiece.milling.milled import Milled
     from mnclab.workpiece.turning.turned import Turned
 
+
+Single = NDArray[np.float32]
 
 COLOURS = ("depth", "tool", "line")
 #: Pale above and dark below, in grey print too; what nothing cut is paler still.
@@ -89,7 +91,7 @@ def plot_part(
             raise Alarm("the picture of a turned part is its section through the axis; it has no other")
         return plot_turned(cast("Turned", workpiece), ax, marks, MARK, colour, size)
     part = cast("Milled", workpiece)
-    seen, cuts = relief(part), sections_of(part, section, at)
+    seen, cuts = relief(part, CELLS if ax is None else _cells(ax)), sections_of(part, section, at)
     above = VIEWS["XY"]._replace(unit=part.cutting.path.unit)
     image, names, scale = _coloured(part, seen, colour)
     low, high = part.cutting.stock.bounds
@@ -198,9 +200,9 @@ def _scale(picture: Picture, title: str, low: float, high: float, shades: Any) -
 # A pixel takes the smaller of the slopes to its neighbours, so that an edge stays crisp; where they differ much the edge is
 # drawn dark. A wall throws a short shadow.
 
-CELLS, PARTS = 360, 3  # of the longer side, and pixels of the side of a cell
+CELLS, LEAST, PARTS = 360, 120, 3  # of the longer side, of small axes at least, and pixels of the side of a cell
 LIGHT = np.array([-0.55, 0.6, 1.0])  # towards the light
-LONG = 30  # pixels, of the longest shadow
+LONG = 1 / 36  # of the longer side, the longest shadow
 DARK, DIM, BRIGHT = 0.62, 0.72, 1.1  # the darkest slope, a shadow, the brightest slope; a level floor is 1
 CREASE, LINE = 0.45, 0.6  # difference of two slopes at an edge, and how light that is
 CURVED = 0.08  # of a cell: how far its corners may lie off one plane before its pixels are exact
@@ -223,20 +225,27 @@ class Relief(NamedTuple):
         return rows_at(workpiece, x, y, self.z.ravel()).reshape(self.z.shape)
 
 
-def relief(workpiece: Milled) -> Relief:
-    """The part from above."""
+def _cells(ax: Axes) -> int:
+    """As many as small axes show, at twice 100 pixels an inch."""
+    figure: Any = ax.get_figure(root=True)
+    inches = np.asarray(ax.get_window_extent().size) / figure.dpi
+    return int(np.clip(200 * inches.max() / PARTS, LEAST, CELLS))
+
+
+def relief(workpiece: Milled, cells: int = CELLS) -> Relief:
+    """The part from above, with so many cells of the longer side."""
     low, high = workpiece.cutting.stock.bounds[:, :2]
-    found = lattice_of(workpiece, float((high - low).max()) / CELLS)
-    z = _pixels(workpiece, found)
+    found = lattice_of(workpiece, float((high - low).max()) / cells)
+    z, solid = _pixels(workpiece, found)
     size = np.array([found.x[1] - found.x[0], found.y[1] - found.y[0]]) / PARTS
     x, y = (ends[0] + side * (np.arange(count) + 0.5) for ends, side, count in zip((found.x, found.y), size, z.shape[::-1]))
-    floor = workpiece.blank_at(*(each.ravel() for each in np.meshgrid(x, y)))[1].reshape(z.shape)
     box = (float(low[0]), float(high[0]), float(low[1]), float(high[1]))
-    return Relief(z, _lit(z, *size.tolist()), z - floor > THIN, box, found, x, y)
+    return Relief(z, _lit(z, *size.tolist()), solid, box, found, x, y)
 
 
-def _pixels(workpiece: Milled, found: Lattice) -> Array:
-    """Heights of pixels: between the nodes of a cell, and exact in a cell that a wall or an edge crosses."""
+def _pixels(workpiece: Milled, found: Lattice) -> tuple[Array, Mask]:
+    """Heights of pixels, and where there is material: between the nodes of a cell, and exact in a cell that a wall or an edge
+    crosses."""
     ny, nx = len(found.y) - 1, len(found.x) - 1
     z, share = found.z.reshape(ny + 1, nx + 1), (np.arange(PARTS) + 0.5) / PARTS
     across = (z[:, :-1, None] * (1 - share) + z[:, 1:, None] * share).reshape(ny + 1, nx * PARTS)
@@ -246,21 +255,22 @@ def _pixels(workpiece: Milled, found: Lattice) -> Array:
     bent[1:-1] |= np.abs(np.diff(z, 2, axis=0)) > most
     bent[:, 1:-1] |= np.abs(np.diff(z, 2, axis=1)) > most
     broken = ((found.wall[edges] >= 0).any(axis=1) | bent.ravel()[corners].any(axis=1)).reshape(ny, nx)
-    broken = np.repeat(np.repeat(broken, PARTS, axis=0), PARTS, axis=1)
+    solid = found.solid.reshape(z.shape)[:-1, :-1]
+    broken, solid = (np.repeat(np.repeat(each, PARTS, axis=0), PARTS, axis=1) for each in (broken, solid))
     j, i = np.nonzero(broken)
     low, side = (found.x[0], found.y[0]), (found.x[1] - found.x[0], found.y[1] - found.y[0])
     fine = fine.reshape(ny * PARTS, nx * PARTS)
     px, py = (start + (k + 0.5) / PARTS * each for start, k, each in zip(low, (i, j), side))
-    fine[j, i] = heights_at(workpiece, px, py)
-    return fine
+    top, floor = workpiece.surface.sides_at(px, py)
+    fine[j, i], solid[j, i] = top, top - floor > THIN
+    return fine, solid
 
 
 def _lit(z: Array, dx: float, dy: float) -> Array:
     """How light pixels are: a level floor in the light is 1."""
-    (across, up), (right, higher) = zip(*(_slopes(z, step, axis) for step, axis in ((dx, 1), (dy, 0))))
-    normal = np.stack([-across, -up, np.ones_like(z)])
-    towards = LIGHT / LIGHT[2]
-    light = np.tensordot(towards, normal, 1) / np.sqrt((normal * normal).sum(axis=0))
+    (across, right), (up, higher) = (_slopes(z, step, axis) for step, axis in ((dx, 1), (dy, 0)))
+    east, north, _ = LIGHT / LIGHT[2]
+    light = (1 - east * across - north * up) / np.sqrt(1 + across * across + up * up)
     light = np.clip(0.4 + 0.6 * light, DARK, BRIGHT)
     light[np.maximum(right, higher) > CREASE] *= LINE
     return np.asarray(light * (1 - (1 - DIM) * _shadow(z)))
@@ -277,19 +287,23 @@ def _slopes(z: Array, step: float, axis: int) -> tuple[Array, Array]:
     return np.where(np.abs(before) < np.abs(behind), before, behind), np.abs(before - behind)
 
 
-def _shadow(z: Array) -> Array:
+def _shadow(z: Array) -> Single:
     """0 in the light to 1 in the shadow of something higher towards the light, softer farther away from it."""
-    found = np.zeros_like(z)
+    found = np.zeros(z.shape, np.float32)  # single numbers: a pixel has 256 shades
     low, high = float(z.min()), float(z.max())
     if high - low <= THIN:
         return found
-    reach = min(LONG, *(side - 1 for side in z.shape))
+    reach = min(round(LONG * max(z.shape)), *(side - 1 for side in z.shape))
     rise = (high - low) / max(reach, 1)  # a ray rises by the whole depth over the longest shadow
+    stands, room = ((z - low) / rise).astype(np.float32), np.empty_like(found)
     for k in range(1, reach + 1):
-        there = z[: z.shape[0] - k, k:], z[k:, : z.shape[1] - k]  # a pixel, and the one above it to the left
-        above = np.clip((there[1] - there[0] - k * rise) / (2 * rise), 0.0, 1.0) * (1 - 0.4 * k / reach)
-        part = found[: z.shape[0] - k, k:]
-        np.maximum(part, above, out=part)
+        here = np.s_[: z.shape[0] - k, k:]
+        above, most = room[here], 1 - 0.4 * k / reach
+        np.subtract(stands[k:, : z.shape[1] - k], stands[here], out=above)  # of the pixel above it to the left
+        above -= k
+        above *= most / 2
+        np.minimum(above, most, out=above)
+        np.maximum(found[here], above, out=found[here])
     return found
 
 
@@ -465,6 +479,8 @@ def in_words(part: Workpiece) -> str:
 
 
 def _volume(part: Workpiece, volume: float) -> str:
-    """A volume in mm³ with three decimals; of a program in inches in in³, with as many figures."""
+    """A volume in mm³ with three decimals, or figures of a tiny one; of a program in inches in in³, with as many figures."""
     unit = part.cutting.path.unit
-    return f"{volume:.3f} mm³" if unit.length == 1 else f"{volume / unit.length**3:.6g} {unit.short}³"
+    if unit.length == 1:
+        return f"{volume:.3g} mm³" if 0 < volume < 0.1 else f"{volume:.3f} mm³"
+    return f"{volume / unit.length**3:.6g} {unit.short}³"

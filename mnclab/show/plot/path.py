@@ -5,7 +5,6 @@ Each class of moves is *one* line, broken by nan (see `strokes`), so that a mill
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
@@ -17,7 +16,7 @@ from matplotlib.patches import Patch
 
 from mnclab.path.limits import Limits, limits_of
 from mnclab.path.tool import Tool
-from mnclab.path.toolpath import Kind, Toolpath
+from mnclab.path.toolpath import Kind, Mask, Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import Classes, classes, write_scale
 from mnclab.show.plot.classes import lines as lines_of
@@ -44,6 +43,7 @@ from mnclab.show.plot.layers import (
     marks_of,
     plunges_of,
     radii_of,
+    samples_of,
     write,
 )
 from mnclab.show.plot.original import original_of
@@ -71,7 +71,7 @@ from mnclab.show.plot.strokes import Array, Strokes, corners, line_of, strokes
 from mnclab.show.probed import Felt
 from mnclab.show.probed import felt as felt_of
 from mnclab.text.alarm import ALARM, Alarm, several
-from mnclab.text.given import choice, shown
+from mnclab.text.given import choice
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.workpiece import Workpiece
 
@@ -118,8 +118,9 @@ def plot_path(
       that it works in, how deep it goes, and each plane that has arcs.
     - `colour`: what the colour of the cuts shows: "kind" (all blue), "feed" (a minute; the slower the wider), "speed" (of
       the spindle, rev/min; it follows X at constant cutting speed), "tool" (its number), "step" (of a cycle: roughing,
-      finishing, entry, …), "line" (of the source) or "z" (lower end of each stroke). Few values are named in the legend,
-      many are put into at most 14 steps of a scale, dark to light. Rapids and probing look the same in all of them.
+      finishing, entry, …), "pass" (what lies between two rapids, counted from 1), "line" (of the source) or "z" (lower end
+      of each stroke). Few values are named in the legend, many are put into at most 14 steps of a scale, dark to light.
+      Rapids and probing look the same in all of them.
     - `arrows`: arrowheads on a few long moves; none on a path of more than 300 moves.
     - `marks`: crosses at zero points that the program selects and at poles, with their names, unless far from the
       path; only `plot_run` knows them.
@@ -155,28 +156,37 @@ def plot_path(
     lines = lines_of(drawn, found)
     if programmed is not None and len(contour := line_of(programmed, (Kind.LINE, Kind.ARC))):
         lines.insert(0, (colours.PROGRAMMED, contour))
-    low, high, beyond = box_of(path, lines, frame)
+    low, high, every = box_of(path, lines, frame)
     shown = near(places, low, high) if marks else []
     for place in shown:
         low, high = np.fmin(low, place.xyz), np.fmax(high, place.xyz)
     low, high = with_blank(path, stock, low, high, part)
     for over in overlays:
-        wide = over.box(low, high)
-        low, high = (low, high) if beyond else wide
-    if path.lathe and len(path) and insert is not False and not beyond:
-        room = 2.8 * INSERT * float((high - low).max())
-        high = np.fmax(high, path.end[-1] + (room, 0.0, room))
+        low, high = over.box(low, high) if frame != "cuts" else (low, high)
     if felt is not None and frame != "cuts":
         low, high = felt.box(low, high)
+    if stop is not None and len(path):
+        low, high = np.fmin(low, path.end[-1]), np.fmax(high, path.end[-1])
+    blank = stock.bounds if stock is not None and not path.lathe and frame != "cuts" else None
+    bounds = np.stack([low, high]) if blank is None else blank
+    low, high, beyond = with_rapids(low, high, every, bounds, ROOM if frame == "auto" else 0.0)
+    seen = ((path.end >= low) & (path.end <= high)).all(axis=1)
+    if path.lathe and insert is True and seen.any():
+        insert = int(np.flatnonzero(seen)[-1])  # not beyond the border
+    if path.lathe and len(path) and insert is not False:
+        room = 2.8 * INSERT * float((high - low).max())
+        high = np.fmax(high, path.end[-1 if insert is True else insert] + (room, 0.0, room))
     own, (low, high) = (low, high), held_box(low, high, limits)
     box = low, high
     views = views_of(view, path, low, high, single=ax is not None)
-    if stock is not None and not path.lathe and frame != "cuts":
-        low, high = np.fmin(low, stock.bounds[0]), np.fmax(high, stock.bounds[1])
+    cut_off = bool(beyond[[axis for each in views for axis in each[:2]]].any())
+    if blank is not None:
+        low, high = np.fmin(low, blank[0]), np.fmax(high, blank[1])
+    unseen = cut_off and goes_out(path, low, high, views)
     above = next((each for each in views if not path.lathe and (each.right, each.up) == (0, 1)), None)
     crowded = above is not None and band is not False and (band or _crowded(drawn, found, high - low, size))
     banded = above if crowded and (band or len(drawn.row) <= MOST_STROKES) else None
-    if banded is not None and not beyond:
+    if banded is not None and not cut_off:
         low, high = around_bands(low, high, path, drawn, found.group >= CUTS)
     if crowded:
         lines = [(line._replace(width=THIN_BAND * line.width) if line in found.lines[2:] else line, xyz) for line, xyz in lines]
@@ -187,7 +197,8 @@ def plot_path(
     found_marks, outline = marks_of(path, stop is not None, home, gouged), None if beside else stock
     if felt is not None and len(felt.places):
         found_marks.append((colours.TOUCH, felt.places))
-    rest = (beside, part, home, felt, overlays)
+    arrives = home and bool(((path.start[0] >= low) & (path.start[0] <= high)).all())
+    rest = (beside, part, arrives, felt, overlays, (low, high))
     drawing = PathDrawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, *rest)
     former = None if under is None else gone(under, path)
     if ax is not None:
@@ -197,7 +208,7 @@ def plot_path(
         if former is not None:
             draw_ghost(ax, views[0], former, bent)
         dress(ax, views[0])
-        if beyond:
+        if cut_off:
             wide = roomy(low, high, views)
             right, up = views[0][:2]
             ax.set(xlim=(wide[0][right], wide[1][right]), ylim=(wide[0][up], wide[1][up]))
@@ -214,13 +225,14 @@ def plot_path(
     if any(line.get_label() == colours.POLE.name for each in views for line in crosses(shown, each)):
         names.append(colours.POLE.name)
     held = beside.names + ([Patch(**FINISHED, label=PART)] if part is not None else []) if beside else []
+    held += samples_of(part, views) if part is not None and not path.lathe else []
     held += names_of(felt) if felt is not None else []
     names += [str(each.get_label()) for each in held]
     names += [name for over in overlays for name in over.names(views)]
     names += [BAND_NAME] if banded is not None and radii_of(path, drawn, found.group >= CUTS) else []
-    said = in_words(path, *(own if limits else (low, high)), stop)
+    said = in_words(path, *(every or (own if limits else (low, high))), stop)
     more = AROUND * float((high - low).max())
-    picture, axes = arrange(views, low - more, high + more, names, foot_of(stop, beyond), said, size, found.scale is not None)
+    picture, axes = arrange(views, low - more, high + more, names, foot_of(stop, unseen), said, size, found.scale is not None)
     picture.box = box
     picture.seen = [(one, which, path, drawn) for one, which in zip(axes, views)]
     artists: dict[str, Any] = {str(each.get_label()): each for each in (*held, band_sample())}
@@ -250,30 +262,52 @@ def _crowded(drawn: Strokes, found: Classes, span: Array, size: tuple[float, flo
 # What is shown of it: the box, the views that it needs, and how it is told in words.
 
 MOSTLY = 0.9  # the cosine between two directions from which on they are taken for the same
-FAR = 5  # a box of all moves this many times that of the cuts is not shown whole
+ROOM = 0.25  # of the greatest side of all else: so much further rapids are shown
 
 
-def box_of(path: Toolpath, pieces: Sequence[tuple[LineStyle, Array]], frame: str) -> tuple[Array, Array, bool]:
-    """The corners (3,) of the box that is shown, and whether rapids go beyond it; a lathe's holds the centre line."""
+def box_of(
+    path: Toolpath, pieces: Sequence[tuple[LineStyle, Array]], frame: str
+) -> tuple[Array, Array, tuple[Array, Array] | None]:
+    """The corners (3,) of the box of the cuts, and those of all moves where they are not shown whole in any case; a lathe's
+    hold the centre line."""
     frame = choice(frame, "frame", ("auto", "all", "cuts"))
     cuts = corners([points for line, points in pieces if line is not colours.RAPID], path.lathe)
     rest = [points for line, points in pieces if line is colours.RAPID] + [path.start[:1], path.end[-1:]]
     everything = corners([*rest, np.array(cuts).reshape(-1, 3)] if cuts else rest, path.lathe)
     if everything is None:
-        return np.zeros(3), np.zeros(3), False
+        return np.zeros(3), np.zeros(3), None
     if cuts is None or frame == "all":
-        return *everything, False
-    spans = [float((high - low).max()) for low, high in (everything, cuts)]
-    if frame == "cuts" or spans[0] > FAR * spans[1] > 0:
-        return *cuts, spans[0] > spans[1]
-    return *everything, False
+        return *everything, None
+    return *cuts, everything
 
 
-def foot_of(stop: Alarm | None, beyond: bool) -> Foot | None:
-    """What is written below: the alarm that stopped the program, or that rapids are cut off."""
+def with_rapids(
+    low: Array, high: Array, every: tuple[Array, Array] | None, bounds: Array, room: float
+) -> tuple[Array, Array, Mask]:
+    """The box (3,) and (3,) with `every` move in it, as far as rapids decide no scale: a share `room` of the greatest side
+    beyond the box and the `bounds` (2, 3) of what is shown beside it; and along which axes (3,) they go farther."""
+    if every is None:
+        return low, high, np.zeros(3, bool)
+    least, most = np.fmin(low, bounds[0]), np.fmax(high, bounds[1])
+    more = room * float((most - least).max())
+    beyond = (every[0] < least - more - 1e-9) | (every[1] > most + more + 1e-9)
+    return np.fmin(low, np.fmax(every[0], least - more)), np.fmax(high, np.fmin(every[1], most + more)), beyond
+
+
+def goes_out(path: Toolpath, low: Array, high: Array, views: Sequence[View]) -> bool:
+    """Whether a path leaves the box of a picture sideways between two cuts; that it comes from far away, goes there at its end,
+    and that mills go up, nobody needs to be told."""
+    cuts = np.flatnonzero((path.kind == Kind.LINE) | (path.kind == Kind.ARC))
+    axes = sorted({axis for each in views for axis in each[:2] if path.lathe or axis != 2})
+    ends = path.end[cuts[0] : cuts[-1], axes] if len(cuts) else path.end[:0, axes]
+    return bool(((ends < low[axes] - 1e-9) | (ends > high[axes] + 1e-9)).any())
+
+
+def foot_of(stop: Alarm | None, unseen: bool) -> Foot | None:
+    """What is written below: the alarm that stopped the program, or that rapids between two cuts are cut off."""
     if stop:
         return Foot.of(stop)
-    return Foot('rapids from far away are cut off; frame="all" shows them') if beyond else None
+    return Foot('rapids between cuts go farther; frame="all" shows them') if unseen else None
 
 
 def views_of(view: str, path: Toolpath, low: Array, high: Array, single: bool) -> list[View]:
@@ -309,19 +343,17 @@ def in_words(path: Toolpath, low: Array, high: Array, stop: Alarm | None) -> str
     return f"tool path: {said}{f'; stopped in line {stop.span.line}' if stop and stop.span else ''}"
 
 
-WIDE, LETTERS = 4.6, 70  # inches, and how many letters they hold
+WIDE = 4.6  # inches
 
 
 def no_moves(stop: Alarm | None) -> Picture:
     """A strip with words: axes around nothing would show a scale that means nothing."""
-    said = textwrap.wrap(Foot.of(stop).text, LETTERS)[:6] if stop else []
+    foot = Foot.of(stop).within(WIDE) if stop else None
     place = f"; stopped in line {stop.span.line}" if stop and stop.span else ""
-    picture = Picture((WIDE, 0.4 + LINE * len(said)), f"tool path: no moves{place}")
-    high = picture.get_figheight()
-    picture.text(0.1 / WIDE, 1 - 0.1 / high, "no moves", fontsize=SMALL + 2, color=colours.INK, va="top")
-    for k, line in enumerate(said):
-        down = 0.34 + LINE * k
-        picture.text(0.1 / WIDE, 1 - down / high, line, fontsize=SMALL, color=colours.ALARM.colour, va="top", parse_math=False)
+    picture = Picture((WIDE, 0.4 + LINE * len(foot.lines if foot else ())), f"tool path: no moves{place}")
+    picture.text(0.1 / WIDE, 1 - 0.1 / picture.get_figheight(), "no moves", fontsize=SMALL + 2, color=colours.INK, va="top")
+    if foot:
+        foot.write(picture)
     return picture
 
 
@@ -383,9 +415,6 @@ def _telling(run: Any, figure: Figure) -> Figure:
 
 def overlays_of(run: Any, centres: bool | None, original: bool, holes: bool, fixtures: bool) -> list[Overlay]:
     """Centres of arcs, the contour as written, holes and fixtures of a run."""
-    for name, given in {"centres": centres, "original": original, "holes": holes, "fixtures": fixtures}.items():
-        if not isinstance(given, bool | None):
-            raise Alarm(f"{name} must be True or False, got {shown(given)}")
     found: list[Overlay | None] = [fixtures_of(run) if fixtures else None, original_of(run) if original else None]
     found += [holes_of(run) if holes else None, polar_of(run), centres_of(run, centres)]
     return [each for each in found if each is not None]

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import base64
 import math
-from collections.abc import Collection, Sequence
+import re
+from collections.abc import Callable, Collection, Sequence
 from functools import partial
 from html import escape
 from io import BytesIO
@@ -79,30 +80,37 @@ class Foot(NamedTuple):
         return self.text.split("\n")
 
     def within(self, width: float) -> Foot:
-        """The same with its lines broken between words, so that they fit into so many inches; a word is not broken."""
-        lines: list[str] = []
-        for sentence in self.lines:
-            lines.append("")
-            for word in sentence.split(" "):
-                fits = not lines[-1] or _inches(longer := f"{lines[-1]} {word}") <= width - 0.25
-                lines[-1 if fits else len(lines) :] = [longer if fits and lines[-1] else word]
-        return self._replace(text="\n".join(lines))
+        """The same with its lines broken where a picture of so many inches ends."""
+        return self._replace(text="\n".join(line for sentence in self.lines for line in broken(sentence, width - 0.25)))
 
-    def write(self, picture: Picture) -> None:
-        """Write the lines, each cut where the picture ends."""
+    def write(self, picture: Picture, left: float = 0.1, bottom: float = 0.07) -> None:
+        """Write the lines, which are `within` the picture, from `left` and up from `bottom` inches."""
         width, height = picture.get_size_inches().tolist()
-        room = (width - 0.2) * picture.dpi
         for above, sentence in enumerate(reversed(self.lines)):
-            place = 0.1 / width, (0.07 + LINE * above) / height
-            line = picture.text(*place, sentence, fontsize=SMALL, color=self.colour, va="bottom", parse_math=False)
-            while len(sentence) > 1 and (taken := line.get_window_extent().width) > room:
-                sentence = sentence[: min(len(sentence) - 1, int(len(sentence) * room / taken))]
-                line.set_text(sentence.rstrip() + "…")
+            place = left / width, (bottom + LINE * above) / height
+            picture.text(*place, sentence, fontsize=SMALL, color=self.colour, va="bottom", parse_math=False)
 
 
-def _inches(text: str) -> float:
-    """How wide a text of small letters is at most: in pixels letters are a little wider than on paper."""
-    return 1.05 / 72 * float(text_to_path.get_text_width_height_descent(text, FontProperties(size=SMALL), ismath=False)[0])
+APART = re.compile(r"(?<!\d) | (?!(?:mm|in|µm|s|rev)(?:[²³/;,.]|\s|$))")  # no number goes without its unit
+
+
+def broken(text: str, room: float, size: float = SMALL) -> list[str]:
+    """The lines of a text, broken between words so that they fit into so many inches; a word that does not is broken too."""
+
+    def fits(line: str) -> bool:  # in pixels letters are a little wider than on paper
+        wide, _, _ = text_to_path.get_text_width_height_descent(line, FontProperties(size=size), ismath=False)
+        return 1.05 / 72 * float(wide) <= room
+
+    lines = [""]
+    for word in APART.split(text):
+        if not lines[-1] or fits(f"{lines[-1]} {word}"):
+            lines[-1] = f"{lines[-1]} {word}" if lines[-1] else word
+        else:
+            lines.append(word)
+        while not fits(lines[-1]) and len(lines[-1]) > 1:
+            last = next((k for k in range(len(lines[-1]) - 1, 1, -1) if fits(lines[-1][:k])), 1)
+            lines[-1:] = [lines[-1][:last], lines[-1][last:]]
+    return lines
 
 
 VIEWS = {"XY": View(0, 1), "XZ": View(0, 2), "YZ": View(1, 2), "ZX": View(2, 0, diameter=True)}
@@ -117,14 +125,17 @@ class Picture(Figure):
         self.alt = alt
         self.seen: clickable.Seen = ()  # what can be clicked on, and what is said of it
         self.told: clickable.Told | None = None
+        self.again: Callable[..., Figure] | None = None  # what draws it with other options
         self.box: Any = None  # what a picture that follows it keeps of this one, see `show.plot.layers`
 
-    def save(self, path: str | Path) -> Path:
-        """Write the picture: .svg, .pdf or .png."""
+    def save(self, path: str | Path, **options: Any) -> Path:
+        """Write the picture: .svg, .pdf or .png; with options, such as `size="column"`, it is drawn anew."""
         if not isinstance(path, str | Path) or Path(path).suffix.lower() not in SUFFIXES:
             raise Alarm(f"a picture is saved as {', '.join(SUFFIXES)}, got {shown(path)}", hint='.save("figure.pdf")')
+        if options and self.again is None:
+            raise Alarm(f"this figure has no option {next(iter(options))}", hint='.plot(size="column") draws in another size')
         with replaced(Path(path)) as beside:
-            write(self, beside)
+            write(self.again(**options) if options and self.again else self, beside)
         return Path(path)
 
     def png(self, scale: float = 1.0) -> bytes:
@@ -164,6 +175,7 @@ def write(figure: Figure, path: Path) -> None:
 # A table of texts in a figure, such as a measuring record below its picture.
 
 LETTER, BETWEEN = 0.073, 0.16  # inches: of a letter, and between two columns
+LETTER_EM = 0.64  # of the size of letters: the width of a figure
 
 
 def column_widths(rows: Sequence[Sequence[str]]) -> list[float]:
@@ -317,7 +329,7 @@ def roomy(low: Array, high: Array, views: Sequence[View] = ()) -> tuple[Array, A
     return low - margin, high + margin
 
 
-def dress(ax: Axes, view: View, box: tuple[float, float] | None = None, digits: int = 4) -> None:
+def dress(ax: Axes, view: View, box: Sequence[float] | None = None, digits: int = 4) -> None:
     """Labels, ticks, grid and equal scales of one view; `box` is its size in inches, if it is known."""
     ax.set_aspect("equal", adjustable="datalim")
     for axis, label, doubled, length, room in (
@@ -353,6 +365,22 @@ class Round(MaxNLocator):
         return self.length * np.asarray(super().tick_values(vmin / self.length, vmax / self.length))
 
 
+class Sparse(MaxNLocator):
+    """As many steps to the right as numbers have room, however long they are; none is cut at the border."""
+
+    def __init__(self) -> None:
+        super().__init__(nbins=9, steps=[1, 2, 2.5, 5, 10])
+
+    def tick_values(self, vmin: float, vmax: float) -> Any:
+        axis: Any = self.axis
+        letter = LETTER_EM * float(axis.get_tick_params()["labelsize"]) / 72
+        number, room = letter * len(f"{vmax:.0f}"), axis.axes.bbox.width / figure_of(axis.axes).dpi
+        self.set_params(nbins=int(np.clip(room / max(5 * letter, number + 2 * letter), 1, 9)))
+        ticks = np.asarray(super().tick_values(vmin, vmax))
+        cut = max(number / 2 - 2 * letter, 0) / room  # beside the axes there is room for about two letters
+        return ticks[(ticks <= vmax - cut * (vmax - vmin)) | (ticks > vmax)]
+
+
 def _plain(value: float, _: int | None = None, counts: float = 1.0) -> str:
     return f"{round(value / counts, 9) + 0.0:.10g}".replace("-", "\N{MINUS SIGN}")
 
@@ -379,10 +407,19 @@ def stacked(
         first = rows[0] if rows else None
         ax = picture.add_subplot(grid[k, 0], sharex=first, sharey=first if one_scale else None)
         ax.yaxis.set_major_locator(MaxNLocator(nbins=ticks, steps=[1, 2, 5, 10]))
+        ax.xaxis.set_major_locator(Sparse())
         ax.tick_params(labelbottom=k + 1 == len(heights))
         calm(ax)
         rows.append(ax)
     return rows
+
+
+def clear(ax: Axes, high: float, below: float = 0.0) -> float:
+    """The upper limit of axes in whose upper corner words stand clear of what reaches up to `high`; the lower limit lies
+    `below` 0 by that share of the upper one.
+    """
+    words = (SMALL + 6) / 72 / (ax.get_position().height * figure_of(ax).get_figheight())
+    return high / max(1 - words * (1 + below), 0.4)
 
 
 def write_cut_off(ax: Axes, said: str) -> None:

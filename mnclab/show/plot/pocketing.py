@@ -26,19 +26,8 @@ from mnclab.path.toolpath import Array
 from mnclab.show import looks
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Mark
-from mnclab.show.plot.picture import (
-    LETTER,
-    SMALL,
-    VIEWS,
-    Picture,
-    calm,
-    dress,
-    figure_of,
-    legend_height,
-    legend_rows,
-    write_legend,
-)  # fmt: skip
-from mnclab.show.plot.side_by_side import area, evenly, hatch, hatched
+from mnclab.show.plot.picture import SMALL, VIEWS, Picture, calm, figure_of
+from mnclab.show.plot.side_by_side import LOW, ROOMY, area, evenly, hatch, hatched, label_outer, panels, views
 from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, choice, fitting, shown
@@ -51,9 +40,7 @@ NORM = BoundaryNorm(STEPS, len(STEPS) - 1)
 MAP = ListedColormap(colormaps["inferno_r"](np.linspace(0.22, 0.92, len(STEPS) - 1)))
 KINDS = ("paths", "engagement", "passes")
 TWO, THREE = 3.2, 8.0  # inches from which on two and three stand in a row
-LEFT, BETWEEN, RIGHT, TITLE, LOW, SCALE = 0.62, 0.22, 0.16, 0.26, 0.48, 0.62
-TALLEST, LEVEL = 5.0, 1.1  # of one view, and of one engagement
-ROOMY = 2.3  # of a view: above it there is room for words beside its name
+SCALE, LEVEL = 0.62, 1.1  # of the colours and their numbers; of one engagement
 
 
 @sized()
@@ -72,56 +59,19 @@ def plot_strategies(
     return draw(trials, width, columns)
 
 
-def panels(
-    names: Sequence[str], what: str, width: float, columns: int | None, ratio: float, legend: Sequence[Any],
-    below: float = LOW, tallest: float = TALLEST,
-) -> tuple[Picture, list[Axes]]:  # fmt: skip
-    """Axes under their names, all of one size, `ratio` high for their width, with numbers at the outer ones only."""
-    count = columns or evenly(len(names), 1 + (width > TWO) + (width > THREE))
-    rows = math.ceil(len(names) / count)
-    wide = max((width - LEFT - RIGHT - BETWEEN * (count - 1)) / count, 0.1)
-    tall = min(wide * ratio, tallest)
-    wide = tall / ratio if ratio * wide > tallest and tallest == TALLEST else wide
-    top = 0.08 + legend_height(len(legend_rows([each.get_label() for each in legend], width)))
-    loose = LOW if len(names) % count else BETWEEN  # between rows: numbers and their name below the last of a column
-    height = top + rows * (TITLE + tall) + (rows - 1) * loose + below
-    picture = Picture((width, height), alt=f"{what}: {', '.join(names)}")
-    for k, name in enumerate(names):
-        row, column = divmod(k, count)
-        x, y = LEFT + column * (wide + BETWEEN), height - top - (row + 1) * (TITLE + tall) - row * loose
-        ax = picture.add_axes((x / width, y / height, wide / width, tall / height))
-        room = int((wide - 0.35) / LETTER)  # beside the number on the right
-        said = name if len(name) <= room else name[: max(room - 1, 1)] + "…"
-        ax.set_title(said, fontsize=SMALL + 1, loc="left", pad=4, parse_math=False)
-        ax.tick_params(labelsize=SMALL, labelleft=not column, labelbottom=k + count >= len(names))
-    write_legend(picture, legend)
-    return picture, picture.axes
-
-
-def _label(axes: Sequence[Axes], right: str, up: str) -> None:
-    """Names at the axes that have numbers."""
-    for ax in axes:
-        ax.set_xlabel(right if ax.xaxis.get_tick_params()["labelbottom"] else "", fontsize=SMALL + 1)
-        ax.set_ylabel(up if ax.yaxis.get_tick_params()["labelleft"] else "", fontsize=SMALL + 1)
-
-
 def _views(
-    trials: Sequence[Trial], names: Sequence[str], what: str, width: float, columns: int | None, legend: Sequence[Any],
-    below: float = LOW,
+    trials: Sequence[Trial], names: Sequence[str], what: str, width: float, columns: int, legend: Sequence[Any],
+    **room: Any,
 ) -> tuple[Picture, list[Axes]]:  # fmt: skip
     """Axes around the region that the trials clear."""
-    bounds = np.array([loop.bounds for loop in trials[0].region.loops])
-    low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
+    low, high = trials[0].region.bounds
     margin = 0.04 * float((high - low).max())
-    low, high = low - margin, high + margin
-    picture, axes = panels(names, what, width, columns, float((high - low)[1] / (high - low)[0]), legend, below)
-    size = picture.get_size_inches()
-    for ax in axes:
-        place = ax.get_position()
-        dress(ax, VIEWS["XY"], (place.width * size[0], place.height * size[1]))
-        ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
-    _label(axes, *VIEWS["XY"].labels)
-    return picture, axes
+    return views(names, what, width, columns, VIEWS["XY"], low - margin, high + margin, legend, notes=True, **room)
+
+
+def _columns(width: float) -> int:
+    """How many views of an area stand in a row."""
+    return 1 + (width > TWO) + (width > THREE)
 
 
 def _paths(trials: Sequence[Trial], width: float, columns: int | None) -> Picture:
@@ -130,10 +80,10 @@ def _paths(trials: Sequence[Trial], width: float, columns: int | None) -> Pictur
     cleared = before if any(trial.before.loops for trial in trials) else []
     legend = [Line2D([], [], **ENTRY.style()), *cleared, *hatched(trials, narrow)]
     names = [trial.name for trial in trials]
-    picture, axes = _views(trials, names, "strategies", width, columns, legend, LOW + SCALE)
+    columns = columns or evenly(len(names), _columns(width))
+    picture, axes = _views(trials, names, "strategies", width, columns, legend, below=LOW + SCALE, also=_scale)
     for ax, trial in zip(axes, trials, strict=True):
         draw(ax, trial)
-    _scale(picture, *picture.get_size_inches().tolist())
     return picture
 
 
@@ -162,8 +112,9 @@ def _beside(ax: Axes, said: str, short: str) -> None:
     ax.set_title(said if wide > ROOMY else short, fontsize=SMALL, loc="right", pad=4, color=colours.INK)
 
 
-def _scale(picture: Picture, width: float, total: float) -> None:
-    long = min(4.2, width - 1.2)
+def _scale(picture: Picture) -> None:
+    width, total = picture.get_size_inches().tolist()
+    long = min(4.2, max(width - 1.2, 0.3 * width))
     ax = picture.add_axes(((width - long) / 2 / width, 0.36 / total, long / width, 0.11 / total))
     bar = picture.colorbar(ScalarMappable(NORM, MAP), cax=ax, orientation="horizontal", ticks=STEPS)
     bar.ax.tick_params(labelsize=SMALL, length=2)
@@ -184,7 +135,8 @@ def _engagement(trials: Sequence[Trial], width: float, columns: int | None) -> P
     legend = [Line2D([], [], label="engagement", **curve), Line2D([], [], label=said, **edge)]
     count = columns or evenly(len(trials), 1 + (width > THREE))
     names = [trial.name for trial in trials]
-    picture, axes = panels(names, "engagement along the way", width, count, 0.5, legend, tallest=LEVEL)
+    alt = f"engagement along the way: {', '.join(names)}"
+    picture, axes = panels(names, alt, width, count, 0.5, legend, tallest=LEVEL, notes=True)
     end = max(float(trial.engagement.way.max(initial=0.0)) for trial in trials) or 1.0
     for ax, trial in zip(axes, trials, strict=True):
         most = math.degrees(trial.engagement.most())
@@ -193,7 +145,7 @@ def _engagement(trials: Sequence[Trial], width: float, columns: int | None) -> P
         ax.plot(*envelope(trial.engagement.way, np.degrees(trial.engagement.angle)), **curve)
         ax.axhline(math.degrees(trial.limit), **edge)
         ax.set(xlim=(0, end), ylim=(0, 185), yticks=(0, 60, 120, 180))
-    _label(axes, "way, mm", "degrees")
+    label_outer(axes, "way, mm", "degrees")
     return picture
 
 
@@ -212,7 +164,7 @@ AT_MOST = 12
 
 
 def _passes(trials: Sequence[Trial], width: float, columns: int | None) -> Picture:
-    count = columns or 1 + (width > TWO) + (width > THREE)
+    count = columns or _columns(width)
     if len(trials) > 1:  # a row each
         count = min(count, *(len(trial.clearing.passes) for trial in trials))
     chosen = [_steps(len(trial.clearing.passes), AT_MOST if len(trials) == 1 else count) for trial in trials]
@@ -272,7 +224,8 @@ def plot_times(found: Mapping[Any, Comparison], width: float = 9.0, columns: int
     }
     names = [tool if isinstance(tool, str) else f"⌀ {tool:g} mm" for tool in tools]
     legend = [Line2D([], [], label=name, **look) for name, look in looked.items()]
-    picture, axes = panels(names, "times", width, columns, 0.8, legend)
+    columns = columns or evenly(len(names), _columns(width))
+    picture, axes = panels(names, f"times: {', '.join(names)}", width, columns, 0.8, legend)
     times = {(tool, step): {trial.name: trial.time for trial in one.trials} for (tool, step), one in found.items()}
     for ax, tool in zip(axes, tools, strict=True):
         calm(ax)
@@ -284,7 +237,7 @@ def plot_times(found: Mapping[Any, Comparison], width: float = 9.0, columns: int
     far = max(step for _, step in found)
     for ax in axes:
         ax.set(xlim=(0, 1.08 * far), ylim=(0, 1.08 * reach or 1.0))
-    _label(axes, "stepover, mm", "time, s")
+    label_outer(axes, "stepover, mm", "time, s")
     return picture
 
 
@@ -292,7 +245,7 @@ def plot_times(found: Mapping[Any, Comparison], width: float = 9.0, columns: int
 @fitting
 def plot_tool_sets(found: ToolSets, width: float = 5.0) -> Picture:
     """The time of every set over how many tools it has; the quickest of each number are joined and named. `width` in inches."""
-    picture, (ax,) = panels(["sets of tools"], "times", width, 1, 0.7, [])
+    picture, (ax,) = panels(["sets of tools"], "times of sets of tools", width, 1, 0.7, [])
     calm(ax)
     counts, times = (np.array(column) for column in zip(*((len(each.tools), each.time) for each in found.trials), strict=True))
     least = {count: found.trials[int(np.flatnonzero(counts == count)[0])] for count in sorted(set(counts.tolist()))}
@@ -301,5 +254,5 @@ def plot_tool_sets(found: ToolSets, width: float = 5.0) -> Picture:
     for count, each in least.items():
         ax.annotate(each.name, (count, each.time), (0, -10), textcoords="offset points", fontsize=SMALL, ha="center", va="top")
     ax.set(xlim=(0.5, max(counts) + 0.5), ylim=(0, 1.08 * times.max()), xticks=sorted(least))
-    _label([ax], "how many tools (⌀, mm)", "time, s")
+    label_outer([ax], "how many tools (⌀, mm)", "time, s")
     return picture

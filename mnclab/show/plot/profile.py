@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from textwrap import wrap
 from typing import Any, NamedTuple, cast
 
 import numpy as np
@@ -27,6 +28,8 @@ from mnclab.show.plot.picture import (
     SMALL,
     Picture,
     View,
+    calm,
+    clear,
     figure_of,
     legend_height,
     legend_rows,
@@ -42,7 +45,7 @@ from mnclab.text.given import choice
 SIZE = (7.0, 6.0)  # inches
 FINE, MANY = 9, 20_000  # points of a piece, as long as all of them are not more than so many
 BAND, FEW = 500, 60  # steps of the band that says what holds the speed; boxes of it that are hatched
-LINES, LETTERS = 30, 36  # of a program beside their bars, and what is shown of one
+LINES, LETTERS, FURTHER = 30, 36, 0.65  # of a program beside their bars, how wide each is, and rows of a further line of it
 FLAT = View(0, 1)  # of points (time or path, feed), whose rows can be clicked on
 RAPIDS = 3  # times the fastest cut, beyond which rapids are cut off
 PARTS = 3000  # of a path that is coloured by the speed reached
@@ -64,6 +67,9 @@ class Curve(NamedTuple):
         return Curve(self.t, self.s / length, self.v / length, self.a / length, self.j / length, self.piece)
 
 
+BRIEF = 1e-4  # s, less than a control counts in: a step of the feed under G96, or what rounding leaves
+
+
 def curve(profile: Profile, over: str = "path") -> Curve:
     """Enough points of a profile for a picture: both ends of every piece, and some between."""
     p = profile.pieces
@@ -72,7 +78,8 @@ def curve(profile: Profile, over: str = "path") -> Curve:
     points = 2 if straight else max(2, min(FINE, MANY // max(m, 1)))
     share = np.linspace(0, 1, points)
     dt = np.diff(p.t)[:, None] * share
-    a, j, v = p.a[:, None], p.j[:, None], p.v[:-1, None]
+    lasting = np.maximum.accumulate(np.where(np.diff(p.t) > BRIEF, np.arange(m), 0))  # else as the piece before
+    a, j, v = p.a[lasting, None], p.j[lasting, None], p.v[:-1, None]
     place = p.s[:-1, None] + dt * (v + dt * (a / 2 + dt * j / 6))
     speed = np.maximum(v + dt * (a + dt * j / 2), 0.0)
     t, s, v, a, j = (one.ravel() for one in (p.t[:-1, None] + dt, place, speed, a + dt * j, j + 0 * dt))
@@ -151,10 +158,10 @@ def plot_profile(
     causes = ", ".join(f"{cause} {figure(seconds, 2)} s" for cause, seconds in profile.time_by("cause").items())
     said = f"feed-rate profile: {figure(profile.time, 2)} s; {causes}"
     usual = 1.2 + 1.05 * sum(heights) if size == SIZE else 0.0
-    picture = Picture((size[0], max(size[1], usual, 1.2 + 0.6 * len(titles))), said)
-    rows = stacked(picture, heights, 0.7)
+    picture = Picture((size[0], max(size[1], usual, 1.2 + 0.48 * sum(heights))), said)
+    rows = stacked(picture, heights, 0.7, left=0.95)
     for each, title in zip(rows, titles):
-        each.set_ylabel(title, fontsize=SMALL)
+        each.set_ylabel(title.replace(", ", ",\n"), fontsize=SMALL)
     handles = _feed(rows[0], profile, drawn, x, over, limits, whole)
     plan, kind = profile.plan, profile.path.kind
     unknown = kind > Kind.PROBE
@@ -218,26 +225,26 @@ def plot_lost(profile: Profile, ax: Axes | None = None, *, most: int = LINES, wi
     keep = np.sort(np.argsort(-extra - 1e-9 * whole, kind="stable")[:most])
     lines, extra, whole = lines[keep], extra[keep], whole[keep]
     texts = [_text(profile, int(line)) for line in lines]
+    tall = np.array([max(1.0, FURTHER * (text.count("\n") + 1)) for text in texts])  # rows of the picture
     picture = None
     if ax is None:
-        room = 0.3 + 0.068 * max(map(len, texts), default=4)
-        height = 0.75 + 0.2 * max(len(lines), 2)
+        room = 0.3 + 0.068 * max((len(part) for text in texts for part in text.split("\n")), default=4)
+        height = 0.75 + 0.2 * max(float(tall.sum()), 2.0)
         said = f"time lost in {len(lines)} lines, {extra.sum():.3f} of {whole.sum():.3f} s"
         picture = Picture((width, height), said)
         ax = picture.add_axes((room / width, 0.45 / height, 1 - (room + 0.2) / width, 1 - 0.75 / height))
-    place = np.arange(len(lines))
+    place = np.cumsum(tall) - tall / 2
     parts = (("as programmed", whole - extra, 0.0, colours.USEFUL), ("lost", extra, whole - extra, colours.LOST))
     bars = []
     for name, values, left, (shade, hatch) in parts:
         look: dict[str, Any] = {"hatch": hatch, "edgecolor": colours.PAPER, "label": name}
         ax.barh(place, values, left=left, height=0.72, color=shade, **look)
         bars.append(Patch(facecolor=shade, **look))
-    ax.set_yticks(place, texts, fontfamily="monospace", parse_math=False)
-    ax.set_ylim(len(lines) - 0.4, -0.6)
+    ax.set_yticks(place, texts, fontfamily="monospace", parse_math=False, multialignment="left")
+    ax.set_ylim(float(tall.sum()) + 0.1, -0.1)
     ax.set_xlim(0, max(1.05 * float(whole.max(initial=0.0)), 1e-3))
-    ax.tick_params(labelsize=SMALL)
-    ax.grid(True, axis="x", color=colours.FAINT, linewidth=0.6)
-    ax.set_axisbelow(True)
+    calm(ax)
+    ax.grid(False, axis="y")
     ax.set_xlabel("time, s", fontsize=SMALL + 1)
     if picture is None:
         return figure_of(ax)
@@ -261,8 +268,8 @@ def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits:
     if not np.isfinite(top) or top > 40 * max(fast, 1e-3):
         top = 1.08 * fast  # a feed far beyond what is reached would flatten all else
     if not whole and fast > RAPIDS * cut > 0:
-        top = 1.15 * min(max(cut, most), RAPIDS * cut)
-        write_cut_off(ax, f"cut off: rapids reach {fast:.0f} {unit.short}/min")
+        top = clear(ax, min(max(cut, most), RAPIDS * cut), 0.14)
+        write_cut_off(ax, f"rapids reach {fast:.0f} {unit.short}/min")
     p = profile.pieces
     at = p.t if over == "time" else p.s / unit.length
     ax.set_xlim(0, max(float(at[-1]), 1e-9) if len(at) else 1.0)
@@ -313,7 +320,7 @@ def _axes(rows: list[Axes], profile: Profile, drawn: Curve, x: Array, limits: bo
 
 def _text(profile: Profile, line: int) -> str:
     text = " ".join(profile.source.line_text(line).split()) if profile.source is not None else ""
-    return f"{line:>4}  {text if len(text) <= LETTERS else text[: LETTERS - 1] + '…'}"
+    return f"{line:>4}  " + f"\n{6 * ' '}".join(wrap(text, LETTERS) or [""])
 
 
 # Corners at which the tool is slower than before and behind, over the path: a triangle and the feed that is left.

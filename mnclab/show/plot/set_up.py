@@ -31,7 +31,7 @@ from mnclab.workpiece.part import Part
 
 SHEET_SIZE = (6.8, 4.6)  # inches, at most
 BLANK: dict[str, Any] = {"facecolor": looks.RAW, "edgecolor": "#8c8778", "linewidth": 1.0}
-FIXTURE: dict[str, Any] = {"facecolor": "#d0d0d0", "edgecolor": "#6b6b6b", "linewidth": 0.8, "hatch": "////"}
+FIXTURE: dict[str, Any] = {"facecolor": "#c4c7cc", "edgecolor": "#4a4a4a", "linewidth": 1.6}  # no hatching: names stand on it
 ROOM = 0.2  # of the greatest side, around the blank for its dimensions
 DIMENSION: dict[str, Any] = {"arrowstyle": "<|-|>", "color": colours.INK, "linewidth": 0.7, "mutation_scale": 7}
 DIMENSION |= {"shrinkA": 0, "shrinkB": 0}
@@ -230,6 +230,7 @@ def _vector(ax: Axes, view: View, begin: Array, end: Array, broken: bool) -> Non
 # far below the spindle nose as the offset says; it truly is below it by the length of the tool.
 
 SAME = 1e-3  # mm between tip and program that are no fault
+UPRIGHT = 1.1  # inches of a dimension and its number
 SHORT = 0.3  # of the picture's height: a dimension whose text stands above it
 TOOL = "#9fb4c9"
 GHOST = "#ad1457"
@@ -293,7 +294,7 @@ def plot_lengths(
     picture = None
     if ax is None:
         tip = _f(unit, found.tip - found.zero)
-        said = f"line {line}: spindle at {_f(unit, found.nose)}, tip at {tip} of {found.name}, {unit.short}; {told}"
+        said = f"line {line}: spindle at {_f(unit, found.nose)}, tip at {tip} of {found.name}; {told}"
         picture = Picture(size, said)
         ax = picture.add_axes((0.02, 0.1, 0.96, 0.8))
     levels = [found.nose, found.tip, found.wanted, found.zero]
@@ -303,14 +304,15 @@ def plot_lengths(
     zero = (low - 0.3 * span if low > 0 else high + 0.3 * span) if far else 0.0
     low, high = min(low, zero), max(high, zero)
     room = high - low
-    ax.set(xlim=(0, 11.2), ylim=(low - 0.1 * room, high + 0.36 * room))
+    share = min(UPRIGHT / ax.get_window_extent().height * figure_of(ax).dpi, 0.5)  # of what stands above a short dimension
+    ax.set(xlim=(0, 11.2), ylim=(low - 0.1 * room, high + max(0.36, 1.15 * share / (1 - share)) * room))
     _tool_body(ax, found, room)
     for level, name, colour, at, edge in (
         (zero, "machine zero" + (", not to scale" if far else ""), colours.MACHINE_ZERO.colour, 0.1, "left"),
         (found.zero, f"{found.name} Z0", colours.INK, 11.1, "right"),
     ):
         ax.plot([0.1, 11.1], [level, level], color=colour, linewidth=0.9, linestyle=(0, (10, 3, 1.5, 3)), zorder=1.5)
-        below = level < found.nose  # on the side where no arrow stands
+        below = level <= found.nose  # on the side where no arrow stands
         look: dict[str, Any] = {"fontsize": SMALL, "color": colour, "ha": edge, "va": "top" if below else "bottom", "zorder": 5}
         ax.annotate(name, (at, level), (0, -3 if below else 3), textcoords="offset points", parse_math=False, **look)
     _dimension(ax, 1.3, zero, found.nose, f"machine Z {_f(unit, found.nose)}", colours.MACHINE_ZERO.colour, far)
@@ -332,11 +334,11 @@ def plot_lengths(
 
 
 def _f(unit: Unit, value: float) -> str:
-    return unit.figure(value, 1).replace("-", "\N{MINUS SIGN}")
+    return f"{unit.figure(value, 1)} {unit.short}".replace("-", "\N{MINUS SIGN}")
 
 
 def _off(off: float, unit: Unit) -> str:
-    return f"the tip is {_f(unit, abs(off))} {unit.short} too {'high' if off > 0 else 'low'}"
+    return f"the tip is {_f(unit, abs(off))} too {'high' if off > 0 else 'low'}"
 
 
 def _tool_body(ax: Axes, found: Heights, room: float) -> None:

@@ -3,66 +3,111 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, PathPatch
-from numpy.typing import NDArray
 
 from mnclab.geometry.regions import Region
 from mnclab.path.toolpath import Array, Kind, Toolpath
 from mnclab.show import looks
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import RAPID, LineStyle, Mark
-from mnclab.show.plot.path import plot_run
-from mnclab.show.plot.picture import SIZE, SMALL, VIEWS, Foot, Picture, View, arrange, dress, write_legend
-from mnclab.show.plot.sizes import sized
+from mnclab.show.plot.path import ROOM, goes_out, plot_run, with_rapids
+from mnclab.show.plot.picture import (
+    LINE,
+    SIZE,
+    SMALL,
+    VIEWS,
+    Foot,
+    Picture,
+    View,
+    arrange,
+    broken,
+    calm,
+    dress,
+    legend_height,
+    legend_rows,
+    write_legend,
+)  # fmt: skip
+from mnclab.show.plot.sizes import placed, sized
 from mnclab.show.plot.strokes import corners, line_of, outline
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, choice, shown, whole
+from mnclab.text.given import choice, shown
 
-# Pictures of several trials: one view of each, all at one scale, each under its name.
+# Pictures of several trials: one view of each, all of one size, each under its name.
 
-TITLE, LEFT, RIGHT, TALLEST = 0.26, 0.62, 0.12, 9.0  # inches
-
-
-def grid(
-    picture: Picture, titles: Sequence[str], views: Sequence[View], columns: int, left: float, top: float, gap: float,
-    box: tuple[float, float],
-) -> list[Axes]:  # fmt: skip
-    """Axes of one size (`box`, inches) under their titles, row by row; labels stand only at the outer ones."""
-    (width, total), (wide, tall) = picture.get_size_inches(), box
-    for k, (title, view) in enumerate(zip(titles, views)):
-        row, column = divmod(k, columns)
-        x, y = column * width / columns + left, total - top - (row + 1) * (TITLE + tall) - row * gap
-        ax = picture.add_axes((x / width, y / total, wide / width, tall / total))
-        dress(ax, view, box)
-        ax.set_title(title, fontsize=SMALL + 1, loc="left", pad=4)
-        if column:
-            ax.set_ylabel("")
-        if k + columns < len(titles):
-            ax.set_xlabel("")
-    return picture.axes
+LEFT, BETWEEN, RIGHT, TITLE, LOW = 0.62, 0.22, 0.16, 0.26, 0.48  # inches
+TALLEST = 5.0  # of one view
+SLIM = 0.4  # of its height: what a view is wide at least
+ROOMY = 2.3  # of a view: above it there is room for words beside its name
 
 
-def side_by_side(
-    names: Sequence[str], view: str, low: NDArray, high: NDArray, *, what: str, columns: int, width: float, top: float,
-    gap: float, bottom: float,
+def panels(
+    names: Sequence[str], alt: str, width: float, columns: int, ratio: float, legend: Sequence[Any], *, below: float = LOW,
+    tallest: float = TALLEST, left: float = LEFT, notes: bool = False, also: Callable[[Picture], None] | None = None,
 ) -> tuple[Picture, list[Axes]]:  # fmt: skip
-    """A picture and the axes of each name, from `low` (2,) to `high` (2,) mm of a view; room around them in inches."""
-    wide, tall = (float(side) for side in high - low)
-    lines = math.ceil(len(names) / columns)
-    box = min((width - columns * (LEFT + RIGHT)) / columns, TALLEST / lines * wide / tall)
-    height = box * tall / wide
-    total = top + lines * (TITLE + height) + (lines - 1) * gap + bottom
-    picture = Picture((width, total), alt=f"{what}: " + ", ".join(names))
-    axes = grid(picture, names, [VIEWS[view]] * len(names), columns, LEFT, top, gap, (box, height))
-    for ax in axes:
-        ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+    """Axes under their names, `ratio` high for their width, with numbers at the outer ones only.
+
+    `width` of the picture, `below` and `left` of the views, and the height of one at most in inches; with `notes` there is room
+    beside the names; `also` sets up what else has axes.
+    """
+    rows = math.ceil(len(names) / columns)
+    wide = max((width - left - RIGHT - BETWEEN * (columns - 1)) / columns, 0.1)
+    tall = min(wide * ratio, tallest)
+    wide = tall / ratio if ratio * wide > tallest and tallest == TALLEST else wide
+    titles = [broken(name, wide - (0.4 if notes else 0.0), SMALL + 1) for name in names]
+    over = [TITLE + LINE * (max(map(len, titles[k : k + columns])) - 1) for k in range(0, len(names), columns)]
+    top = 0.08 + legend_height(len(legend_rows([each.get_label() for each in legend], width)))
+    loose = LOW if len(names) % columns else BETWEEN  # between rows: numbers and their name below the last of a column
+    height = top + sum(over) + rows * tall + (rows - 1) * loose + below
+    picture = Picture((width, height), alt)
+    for k, lines in enumerate(titles):
+        row, column = divmod(k, columns)
+        x, y = left + column * (wide + BETWEEN), height - top - sum(over[: row + 1]) - (row + 1) * tall - row * loose
+        ax = picture.add_axes((x / width, y / height, wide / width, tall / height))
+        ax.set_title("\n".join(lines), fontsize=SMALL + 1, loc="left", pad=4, parse_math=False)
+        calm(ax)
+        ax.tick_params(labelleft=not column, labelbottom=k + columns >= len(names))
+    write_legend(picture, legend)
+    axes = list(picture.axes)
+    if also is not None:
+        also(picture)
+    placed(picture)
     return picture, axes
+
+
+def views(
+    names: Sequence[str], what: str, width: float, columns: int, view: View, low: Array, high: Array, legend: Sequence[Any],
+    **room: Any,
+) -> tuple[Picture, list[Axes]]:  # fmt: skip
+    """The same of one view at one scale, from `low` to `high` (2,) mm."""
+    alt, (wide, tall) = f"{what}: {', '.join(names)}", high - low
+    if wide < SLIM * tall:  # numbers have room below it
+        more = np.array([(SLIM * tall - wide) / 2, 0.0])
+        low, high, wide = low - more, high + more, SLIM * tall
+    picture, axes = panels(names, alt, width, columns, float(tall / wide), legend, **room)
+    size = picture.get_size_inches()
+    for ax in axes:
+        dress(ax, view, tuple(ax.get_position().size * size))
+        ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+    label_outer(axes, view.labels[0], view.fits(ax.get_position().height * size[1]))
+    return picture, axes
+
+
+def label_outer(axes: Sequence[Axes], right: str, up: str) -> None:
+    """Names at the axes that have numbers."""
+    for ax in axes:
+        ax.set_xlabel(right if ax.xaxis.get_tick_params()["labelbottom"] else "", fontsize=SMALL + 1)
+        ax.set_ylabel(up if ax.yaxis.get_tick_params()["labelleft"] else "", fontsize=SMALL + 1)
+
+
+def evenly(count: int, most: float) -> int:
+    """How many columns, at most so many: as few rows as they allow, filled as evenly as they can be."""
+    return math.ceil(count / math.ceil(count / max(1, int(most))))
 
 
 # What is hatched in pictures of trials, and areas with their holes.
@@ -91,8 +136,7 @@ def hatched(trials: Sequence[Any], beyond: str) -> list[Any]:
 
 # Areas side by side at one scale, such as the two sides of a set operation and what comes of it.
 
-MOST_COLUMNS = 4
-AREA_TOP, AREA_GAP, BELOW = 0.06, 0.55, 0.45  # inches
+WIDE = 2.1  # inches of a view and what stands beside it, at least
 
 
 @sized()
@@ -110,24 +154,15 @@ def plot_regions(
         raise Alarm("there is nothing to draw: no region encloses anything")
     low, high = np.min([box[0] for box in corners], axis=0), np.max([box[1] for box in corners], axis=0)
     margin = 0.06 * float((high - low).max())
-    names = [f"{name}: {one.area:.1f} mm²" for name, one in regions.items()]
-    picture, axes = side_by_side(
-        names, "XY", low - margin, high + margin, what="regions", width=width,
-        columns=columns or evenly(len(regions), MOST_COLUMNS), top=AREA_TOP, gap=AREA_GAP, bottom=BELOW,
-    )  # fmt: skip
+    names, count = [f"{name}: {one.area:.1f} mm²" for name, one in regions.items()], columns or evenly(len(regions), width / WIDE)
+    picture, axes = views(names, "regions", width, count, VIEWS["XY"], low - margin, high + margin, [])
     for ax, one in zip(axes, regions.values(), strict=True):
         area(ax, one, facecolor="#cfe0f1", edgecolor="none", zorder=1.0)
         for other in over:
             look = {"edgecolor": colours.PROGRAMMED.colour, "linestyle": (0, (4, 3)), "linewidth": 0.9}
             area(ax, other, facecolor="none", zorder=1.5, **look)
         area(ax, one, facecolor="none", edgecolor=colours.FEED.colour, linewidth=1.6, zorder=2.0)
-        ax.tick_params(labelsize=SMALL)
     return picture
-
-
-def evenly(count: int, most: int) -> int:
-    """How many columns, at most so many: as few rows as they allow, filled as evenly as they can be."""
-    return math.ceil(count / math.ceil(count / most))
 
 
 # Several runs in one figure: side by side at one scale, or one path over the other.
@@ -135,7 +170,6 @@ def evenly(count: int, most: int) -> int:
 LEADS = {"APPR": colours.ENTRY._replace(name="approach", dashes="-", width=2.8)}
 LEADS["DEP"] = colours.EXIT._replace(name="departure", dashes="-", width=2.8)
 MARGIN = 0.12  # of the greatest side
-RUNS_GAP, RUNS_TOP, RUNS_BOTTOM = 0.5, 0.1, 0.46  # inches
 
 
 @sized(also=plot_run)
@@ -153,9 +187,7 @@ def plot_runs(
         if not isinstance(getattr(run, "toolpath", None), Toolpath):
             raise Alarm(f"{shown(name)} must be a run, got {shown(run)}")
     view = choice(view, "view", VIEWS)
-    check_number(width, "the width of a picture (inches)", above=1, at_most=100)
-    count = min(len(runs), 4) if columns is None else whole(columns, "columns")
-    check_number(count, "columns", at_least=1, at_most=20)
+    count = evenly(len(runs), width / WIDE) if columns is None else min(columns, len(runs))
     axes = list(VIEWS[view][:2])
     corners = []
     for run in runs.values():
@@ -169,11 +201,11 @@ def plot_runs(
     grow = np.maximum(MARGIN * size, (0.5 * size - (high - low)) / 2)
     low, high = low - grow, high + grow
     leads = [look for look in LEADS.values() if any(len(lead(run, look)) for run in runs.values())]
-    picture, panels = side_by_side(
-        list(runs), view, low, high, what="runs side by side", columns=min(count, len(runs)), width=width,
-        top=RUNS_TOP + 0.22 * bool(leads), gap=RUNS_GAP, bottom=RUNS_BOTTOM,
-    )  # fmt: skip
-    for ax, run in zip(panels, runs.values()):
+    moves = [colours.FEED] if options.get("colour", "kind") == "kind" else []
+    moves += [RAPID] if any((run.toolpath.kind == Kind.RAPID).any() for run in runs.values()) else []
+    legend = [Line2D([], [], **look.style()) for look in (*moves, *leads)]
+    picture, drawn = views(list(runs), "runs side by side", width, count, VIEWS[view], low, high, legend)
+    for ax, run in zip(drawn, runs.values()):
         right, up = ax.get_xlabel(), ax.get_ylabel()
         plot_run(run, ax, view, **options)
         ax.set(xlabel=right, ylabel=up)
@@ -182,8 +214,7 @@ def plot_runs(
                 ax.add_line(Line2D(points[:, axes[0]], points[:, axes[1]], **look.style()))
         ax.set_aspect("equal", adjustable="box")
         ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
-    write_legend(picture, [Line2D([], [], **look.style()) for look in leads])
-    rows = math.ceil(len(runs) / min(count, len(runs)))
+    rows = math.ceil(len(runs) / count)
     picture.alt += f", {rows} in a column" if rows > 1 else ""
     return picture
 
@@ -207,29 +238,31 @@ FIRST = LineStyle("first", looks.GREY, "-", 3.2, 2.2)
 SECOND = LineStyle("second", looks.BLUE, "-", 1.1, 2.8)
 APART = Mark("largest deviation", looks.WRONG, "o", 9, False, 4.2)
 CUTTING = tuple(kind for kind in Kind if kind != Kind.RAPID)
-RAPID_WIDTH = 0.6  # of the width of cuts
+FIRST_RAPID = RAPID._replace(name="_rapid of the first", colour="#e7a39d", width=2.2, order=FIRST.order)
 SHOWN = 1e-6  # mm: less is called the same
 
 
 @sized()
 def plot_deviation(found: Any, view: str = "auto", size: tuple[float, float] = SIZE) -> Picture:
-    """The first path wide and grey, the second thin and blue over it, rapids dashed; a ring and a line where they are farthest
-    apart."""
+    """The first path wide and grey, the second thin and blue over it, rapids as everywhere; a ring and a line where they are
+    farthest apart."""
     one, other = found.paths
     lathe = one.lathe or other.lathe
     called = [look._replace(name=name) for look, name in zip((FIRST, SECOND), found.names)]
     lines = [(look, line_of(path, CUTTING)) for look, path in zip(called, found.paths)]
-    for look, path, rapids in zip(called, found.paths, found.rapids):
-        dashed = look._replace(name="_" + look.name, dashes=RAPID.dashes, width=RAPID_WIDTH * look.width)
-        lines += [(dashed, line)] if len(line := line_of(path, (Kind.RAPID,), rapids)) else []
-    lines[2:3] = [(look._replace(name=RAPID.name), line) for look, line in lines[2:3]]
-    low, high = corners([xyz for _, xyz in lines], lathe) or (np.zeros(3), np.zeros(3))
+    for look, path, rapids in zip((FIRST_RAPID, RAPID), found.paths, found.rapids):
+        lines += [(look, line)] if len(line := line_of(path, (Kind.RAPID,), rapids)) else []
+    where = found.where if found.largest > SHOWN else None
+    every = corners([xyz for _, xyz in lines], lathe) or (np.zeros(3), np.zeros(3))
+    low, high = corners([*(xyz for _, xyz in lines[:2] if len(xyz)), *([np.stack(where[:2])] if where else [])], lathe) or every
+    low, high, beyond = with_rapids(low, high, every, np.stack([low, high]), ROOM)
     view = choice(view, "view", ("auto", *VIEWS))
     views = [VIEWS["ZX"]] if lathe else [VIEWS["XY"]] if high[2] <= low[2] else [VIEWS["XY"], VIEWS["XZ"]]
     views = [each._replace(unit=found.unit) for each in (views if view == "auto" else [VIEWS[view]])]
-    where = found.where if found.largest > SHOWN else None
+    unseen = beyond.any() and any(goes_out(path, low, high, views) for path in found.paths)
+    said = f"{found.sentence}\nrapids between cuts go farther" if unseen else found.sentence
     names = [line.name for line, _ in lines if not line.name.startswith("_")] + ([APART.name] if where else [])
-    picture, axes = arrange(views, low, high, names, Foot(found.sentence), f"two paths: {found.sentence}", size)
+    picture, axes = arrange(views, low, high, names, Foot(said), f"two paths: {found.sentence}", size)
     artists: list[Line2D] = []
     for ax, each in zip(axes, views):
         drawn = [Line2D(xyz[:, each.right], xyz[:, each.up], **line.style()) for line, xyz in lines]

@@ -7,6 +7,7 @@ keep their proportions whatever the paper. The options of every figure are check
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from contextvars import ContextVar
 from functools import wraps
 from inspect import Parameter, signature
 from typing import Any, NamedTuple, TypeVar
@@ -20,9 +21,10 @@ from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch, Patch, Rectangle
+from matplotlib.quiver import Quiver
 from matplotlib.text import Annotation, Text
 
-from mnclab.show.plot.picture import SIZE, SMALL
+from mnclab.show.plot.picture import SIZE, SMALL, Picture
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, choice, near_option, shown, whole
 
@@ -35,7 +37,9 @@ SIZES: dict[str, tuple[float, float | None, float]] = {
 }
 NARROW, LETTERS = 100.0, 7.0  # mm: figures below have letters of so many points
 TALL = 1.4  # height to width at most, where the height is free
-LEAST, MOST, TRIES = 40.0, 2000.0, 6  # mm of a side; times a figure is drawn to fit its height
+LEAST, MOST = 40.0, 2000.0  # mm of a side
+TRIES, WIDER, NARROWER = 6, 2, 0.6  # times a figure is drawn narrower to fit its height, and in more room; the least share
+COLUMNS = range(2, 7)  # of views of a figure that is too high
 HINT = 'size="a4", size="column", size="slide", size=(7, 5), size_mm=(85, None)'
 
 
@@ -77,6 +81,19 @@ def _pair(given: Any, name: str, unit: str, counts: float) -> tuple[float, float
     return float(given[0]), None if given[1] is None else float(given[1])
 
 
+LOOKING: ContextVar[bool] = ContextVar("LOOKING", default=False)  # for a size, and not for a picture
+
+
+class Placed(Exception):
+    """A figure whose axes stand, while its size is looked for."""
+
+
+def placed(figure: Figure) -> None:
+    """Said where all axes stand and nothing is drawn in them: who looks for a size needs no more."""
+    if LOOKING.get():
+        raise Placed(figure)
+
+
 AnyFigure = TypeVar("AnyFigure", bound=Figure)
 
 
@@ -99,16 +116,46 @@ def sized(*, also: Any = None, tall: float | None = None) -> Callable[[Callable[
             if options.get("ax") is not None or any(isinstance(each, Axes) for each in given[1:]):
                 return draw(*given, **options)
 
-            def drawn(inches: Room | None) -> AnyFigure:
-                return _without_legend(draw(*given, **_inches(known, inches, tall), **options), legend)
+            def drawn(inches: Room | None, **more: int) -> AnyFigure:
+                return _without_legend(draw(*given, **_inches(known, inches, tall), **{**options, **more}), legend)
 
-            figure = drawn(asked)
+            bare: list[Any] = []  # tries in whose axes nothing is drawn yet
+
+            def tried(inches: Room, **more: int) -> AnyFigure:
+                looking = LOOKING.set(legend)
+                try:
+                    return drawn(inches, **more)
+                except Placed as found:
+                    bare.append(found.args[0])
+                    return bare[-1]
+                finally:
+                    LOOKING.reset(looking)
+
             if asked is not None and asked.exact:
-                figure, factor = _fitted(figure, asked, drawn)
-                enlarge(figure, asked.factor * factor)
+                free = "columns" in known and options.get("columns") is None
+                figure, rows = tried(asked), dict[str, int]()
+                if free:
+                    figure, rows = _in_columns(figure, asked, tried)
+                figure, inches, over = _fitted(figure, asked, lambda inches: tried(inches, **rows))
+                figure = drawn(inches, **rows) if bare else figure
+                _frame(figure, asked, over)
+                enlarge(figure, asked.factor / over)
+            else:
+                figure = drawn(asked)
+
+            def again(**more: Any) -> AnyFigure:
+                sizes = {} if {"size", "size_mm"} & more.keys() else {"size": size, "size_mm": size_mm}
+                return door(*given, **{**sizes, "legend": legend, **options, **more})
+
+            if isinstance(figure, Picture):
+                figure.again = again
             return figure
 
         door.options = known  # type: ignore[attr-defined]
+        added = [Parameter(name, Parameter.KEYWORD_ONLY, default=usual, annotation=kind) for name, (usual, kind) in ADDED.items()]
+        rest = [each for name, each in parameters if each.kind == Parameter.VAR_KEYWORD]
+        own = [each for name, each in signature(draw).parameters.items() if name != "size" and each not in rest]
+        door.__signature__ = signature(draw).replace(parameters=[*own, *added, *rest])  # type: ignore[attr-defined]
         return door
 
     return made
@@ -118,35 +165,64 @@ def _inches(known: Mapping[str, Parameter], asked: Room | None, tall: float | No
     """The size as the function that draws takes it."""
     if asked is None:
         return {}
+    if "width" in known:
+        return {"width": asked.width} | ({"height": asked.height} if "height" in known else {})
     if "size" in known:
         usual = known["size"].default if isinstance(known["size"].default, tuple) else SIZE
         ratio = tall or (TALL if usual == SIZE else usual[1] / usual[0])
         return {"size": (asked.width, asked.height or asked.width * ratio)}
-    return {"width": asked.width} if "width" in known else {}
+    return {}
 
 
-def _fitted(figure: AnyFigure, asked: Room, draw: Callable[[Room], AnyFigure]) -> tuple[AnyFigure, float]:
-    """The figure in exactly its width, and its height if that is given, and how much it is reduced for that.
-
-    It is drawn narrower while that makes it low enough, else in a larger room; what is left over becomes its margin.
-    """
-    inches, before = asked, np.inf
-    for _ in range(TRIES):
-        width, height = figure.get_size_inches().tolist()
-        over = max(width / inches.width, height / asked.height if asked.height else 0.0)
-        if over <= 1 + 1e-9 or over >= before:
-            break
-        inches, before = inches._replace(width=inches.width / over), over
-        figure = draw(inches)
+def _over(figure: Figure, asked: Room) -> float:
+    """How many times larger than its room a figure is, at least 1."""
     width, height = figure.get_size_inches().tolist()
-    more = max(1.0, height / asked.height if asked.height else 1.0)
-    if more > 1:
-        figure = draw(asked._replace(width=asked.width * more, height=height))
-        width, height = figure.get_size_inches().tolist()
-        more = max(more, height / asked.height if asked.height else 1.0)  # what is wider may be higher, too
+    return max(1.0, width / asked.width, height / asked.height if asked.height else 0.0)
+
+
+def _in_columns(figure: AnyFigure, asked: Room, draw: Callable[..., AnyFigure]) -> tuple[AnyFigure, dict[str, int]]:
+    """A figure of several views that is too high, with as many in a row as make them largest in its room; and how many."""
+
+    def area(one: Figure) -> float:
+        """That of the axes as they are when what is too high has been taken from the heights of their rows."""
+        boxes, size = [ax.get_position() for ax in one.axes], one.get_size_inches()
+        rows = {round(box.y0, 3): box.height for box in boxes}
+        left = 1 - (1 - (asked.height or size[1]) / size[1]) / sum(rows.values())
+        return sum(box.width * box.height for box in boxes) * float(size.prod()) * max(left, 0.0) ** 3  # letters count, too
+
+    found: list[tuple[float, AnyFigure, dict[str, int]]] = [(area(figure), figure, {})]
+    for count in COLUMNS:
+        if _over(found[-1][1], asked) <= 1:
+            break
+        tried = draw(asked, columns=count)
+        found.append((area(tried), tried, {"columns": count}))
+    return max(found, key=lambda each: each[0])[1:]
+
+
+def _fitted(figure: AnyFigure, asked: Room, draw: Callable[[Room], AnyFigure]) -> tuple[AnyFigure, Room, float]:
+    """A figure that fits, the room in which it was drawn, and how many times larger than what is asked it is.
+
+    It is drawn narrower while that makes it low enough, else in a larger room.
+    """
+    more, inches, room = _over(figure, asked), asked, asked
+    for _ in range(TRIES):
+        inches = inches._replace(width=max(inches.width / more, NARROWER * asked.width))
+        if more <= 1 + 1e-9 or _over(tried := draw(inches), asked) >= more:
+            break
+        figure, more, room = tried, _over(tried, asked), inches
+    for _ in range(WIDER):
+        inches = asked._replace(width=asked.width * more, height=asked.height and asked.height * more)
+        if more <= 1 + 1e-9 or _over(tried := draw(inches), asked) > more + 1e-9:
+            break
+        figure, more, room = tried, _over(tried, asked), inches
+    return figure, room, more
+
+
+def _frame(figure: Figure, asked: Room, more: float) -> None:
+    """Give a figure exactly its width, and its height if that is given, so many times; what is left over becomes its margin."""
+    width, height = figure.get_size_inches().tolist()
     wide, tall = asked.width * more, asked.height * more if asked.height else height
     reframe(figure, (width - wide) / 2, (height - tall) / 2, wide, tall)
-    return figure, 1 / more
 
 
 def _without_legend(figure: AnyFigure, wanted: bool) -> AnyFigure:
@@ -166,7 +242,7 @@ def _without_legend(figure: AnyFigure, wanted: bool) -> AnyFigure:
 
 # The options of a figure: one that it does not have, or of another kind than it says, is an Alarm that names what it takes.
 
-ADDED = ("size", "size_mm", "legend")  # of every figure
+ADDED = {"size": (None, "Any"), "size_mm": (None, "Any"), "legend": (True, "bool")}  # of every figure: default and kind
 BOUNDS = {"width": (1.0, 100.0), "columns": (1, 100), "most": (0, None)}  # of numbers, wherever they are options
 #: What shows that an object is of its kind, and how an alarm calls that kind, by the annotation of the option.
 KINDS = {
@@ -200,7 +276,7 @@ def _check(name: str, value: Any, what: str, annotation: str) -> None:
     if what in ("float", "int"):
         least, most = BOUNDS.get(name, (None, None))
         check_number(value, "the width of a picture (inches)" if name == "width" else name,
-                     at_least=least, at_most=most, endless=what == "float")  # fmt: skip
+                     at_least=least, at_most=most, endless=what == "float" and most is None)  # fmt: skip
         if what == "int":
             whole(value, name)
     if what == "str" and isinstance(value, np.ndarray):
@@ -241,7 +317,8 @@ def enlarge(figure: Figure, factor: float) -> None:
         if id(artist) not in inside:
             _enlarge(artist, factor)
     for ax in figure.axes:
-        _enlarge_axes(ax, factor)
+        for each in (ax, *ax.child_axes):  # a second scale
+            _enlarge_axes(each, factor)
     for legend in legends:
         _again(figure, legend, factor)
     figure.set_size_inches(*(figure.get_size_inches() * factor))
@@ -283,6 +360,10 @@ def _enlarge(artist: Any, factor: float) -> None:
         if isinstance(artist, Annotation) and "points" in str(artist.anncoords):
             x, y = artist.xyann
             artist.xyann = (x * factor, y * factor)
+        if isinstance(artist, Annotation) and artist.arrow_patch:
+            _enlarge(artist.arrow_patch, factor)
+            if "mutation_scale" in (look := artist.arrowprops or {}):  # each drawing takes the size of the head from it
+                artist.arrowprops = {**look, "mutation_scale": look["mutation_scale"] * factor}
     elif isinstance(artist, Line2D):
         artist.set_linewidth(artist.get_linewidth() * factor)
         artist.set_markersize(artist.get_markersize() * factor)
@@ -291,6 +372,8 @@ def _enlarge(artist: Any, factor: float) -> None:
         artist.set_linewidth([each * factor for each in np.atleast_1d(artist.get_linewidth()).tolist()])
         if isinstance(artist, PathCollection):
             artist.set_sizes(artist.get_sizes() * factor**2)
+        if isinstance(artist, Quiver) and artist.width:
+            artist.width *= factor
     elif isinstance(artist, Patch):
         artist.set_linewidth(artist.get_linewidth() * factor)
         if isinstance(artist, FancyArrowPatch):

@@ -6,7 +6,7 @@ Z goes to the right, X up as a diameter.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
 import numpy as np
@@ -23,10 +23,11 @@ from mnclab.path.listing import figure
 from mnclab.path.tool import Tool
 from mnclab.show import looks
 from mnclab.show.plot import colours
+from mnclab.show.plot.classes import ramp
 from mnclab.show.plot.colours import LineStyle
 from mnclab.show.plot.lathe import insert_patches
 from mnclab.show.plot.picture import SMALL, VIEWS, Foot, Picture, arrange, write_legend
-from mnclab.show.plot.side_by_side import hatch, hatched, side_by_side
+from mnclab.show.plot.side_by_side import evenly, hatch, hatched, label_outer, panels, views
 from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
@@ -40,7 +41,7 @@ LOOKS = {
     FINISH: LineStyle("finishing", "#00796b", (0, (6, 1.2)), 2.0, 2.75),
     THREAD: LineStyle("thread", looks.BLUE, (0, (4, 1, 1, 1)), 1.8, 2.6),
 }
-GAP, TOP, BOTTOM = 0.5, 0.3, 0.46  # inches
+WIDE, MANY = (2.8, 1.9), 4  # inches of a view and what stands beside it, at least: of so many ones at most, of more
 CHORD = 0.01
 INSERT = 0.09  # length of the insert's edges, of the width of what is drawn
 
@@ -52,16 +53,14 @@ def plot_schemes(found: TurningComparison | TurningTrial, width: float = 9.0, co
     if not trials:
         raise ValueError("there is nothing to draw: no scheme was compared")
     low, high = _box(trials)
-    count = columns or min(len(trials), 3 if len(trials) > 4 or len(trials) == 3 else 2)
-    names = [trial.name for trial in trials]
-    room = {"width": width, "top": TOP, "gap": GAP, "bottom": BOTTOM}
-    picture, axes = side_by_side(names, "ZX", low, high, what="roughing schemes", columns=count, **room)
-    for ax, trial in zip(axes, trials):
-        draw(ax, trial)
     roles = [role for role in LOOKS if any(s.role == role for trial in trials for s in trial.plan.strokes)]
     marks = [Line2D([], [], **LOOKS[role].style()) for role in roles]
     unreached = any(trial.unreachable.loops for trial in trials)
-    write_legend(picture, marks + hatched(trials, "out of the tool's reach" if unreached else ""))
+    legend = marks + hatched(trials, "out of the tool's reach" if unreached else "")
+    names, count = [trial.name for trial in trials], columns or evenly(len(trials), width / WIDE[len(trials) > MANY])
+    picture, axes = views(names, "roughing schemes", width, count, VIEWS["ZX"], low, high, legend)
+    for ax, trial in zip(axes, trials):
+        draw(ax, trial)
     return picture
 
 
@@ -106,58 +105,39 @@ def _stand(trial: TurningTrial) -> list[tuple[Tool, tuple[float, float], float]]
     return [(trial.tools[s.tool - 1], (s.z, s.r), trial.blank + OUT - s.r) for s in cuts[-1:]]
 
 
-def plot_thread(
-    depths: Sequence[float], positions: Sequence[float], profile: float = 60.0, ax: Axes | None = None, title: str = "",
-    reach: float = 0.0,
+@sized()
+def plot_threads(
+    infeeds: Mapping[str, Sequence[float]], depths: Sequence[float], profile: float = 60.0, *, width: float = 9.0,
+    columns: int | None = None,
 ) -> Picture:  # fmt: skip
-    """The gap of a thread as passes open it: each pass in its own shade, numbered at its tip; depths and shifts in mm.
+    """Infeeds of one thread side by side: a mapping from names to the shifts of the passes, mm; `width` in inches.
 
-    `reach` is how far the picture goes to both sides at least. The feed runs to the right.
-    """
+    Each pass has its own colour and is numbered at its tip; the feed runs to the right."""
     slope = math.tan(math.radians(profile) / 2)
-    reach = max(reach, 1.1 * (depths[-1] * slope + max(map(abs, positions))))
-    if ax is None:
-        wide, tall = 2 * reach, depths[-1] * 1.3
-        size = (4.2, 4.2 * tall / wide + 0.9)
-        picture = Picture(size, alt=f"thread in {len(depths)} passes")
-        ax = picture.add_axes((0.16, 0.52 / size[1], 0.8, 1 - 0.86 / size[1]))
-    else:
-        picture = cast(Picture, ax.get_figure(root=True))
+    reach = 1.1 * (depths[-1] * slope + max(abs(s) for shifts in infeeds.values() for s in shifts))
+    names, count = list(infeeds), columns or evenly(len(infeeds), width / WIDE[0])
+    picture, axes = panels(names, f"infeeds of a thread: {', '.join(names)}", width, count, 0.65 * depths[-1] / reach, [])
+    for ax, positions in zip(axes, infeeds.values()):
+        _thread(ax, depths, positions, slope, reach)
+    label_outer(axes, "along the feed, mm", "depth, mm")
+    return picture
+
+
+def _thread(ax: Axes, depths: Sequence[float], positions: Sequence[float], slope: float, reach: float) -> None:
+    """The gap of a thread as passes of these depths and shifts open it, `reach` to both sides; all in mm."""
     x = np.linspace(-reach, reach, 1201)
     gone = np.zeros_like(x)
-    for k, (depth, place) in enumerate(zip(depths, positions, strict=True)):
+    first = math.copysign(7, positions[0]) if min(positions) < 0 < max(positions) else -7  # points: the side of the first number
+    for k, (depth, place, shade) in enumerate(zip(depths, positions, ramp(len(depths)), strict=True)):
         gap = np.maximum(np.maximum(depth - np.abs(x - place) / slope, 0.0), gone)
-        shade = (looks.BLUE, "#9fc3e6")[k % 2]
         ax.fill_between(x, -gap, -gone, where=gap > gone, color=shade, linewidth=0, interpolate=True, zorder=2)
         ax.plot([place], [-depth], ".", color=colours.INK, markersize=3, zorder=4)
-        ax.annotate(str(k + 1), (place, -depth), ((-7, 7)[k % 2], -7), textcoords="offset points", ha="center", fontsize=SMALL,
+        ax.annotate(str(k + 1), (place, -depth), (first * (-1) ** k, -7), textcoords="offset points", ha="center", fontsize=SMALL,
                     zorder=5, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.3, "alpha": 0.8})  # fmt: skip
         gone = gap
     ax.fill_between(x, -depths[-1] * 1.22, -gone, color=looks.METAL, linewidth=0, zorder=1)
     ax.plot(x, -gone, color=colours.INK, linewidth=1.1, zorder=3)
     ax.set(aspect="equal", xlim=(-reach, reach), ylim=(-1.22 * depths[-1], 0.08 * depths[-1]))
-    ax.set_xlabel("along the feed, mm", fontsize=SMALL + 1)
-    ax.set_ylabel("depth, mm", fontsize=SMALL + 1)
-    ax.tick_params(labelsize=SMALL)
-    ax.set_title(title, fontsize=SMALL + 1, loc="left", pad=4)
-    return picture
-
-
-def plot_threads(infeeds: dict[str, Sequence[float]], depths: Sequence[float], profile: float = 60.0) -> Picture:
-    """Infeeds of one thread side by side: a mapping from names to the shifts of the passes, mm."""
-    slope = math.tan(math.radians(profile) / 2)
-    reach = 1.1 * (depths[-1] * slope + max(abs(s) for shifts in infeeds.values() for s in shifts))
-    width, count = 9.0, len(infeeds)
-    box = width / count - 0.74
-    height = box * 1.3 * depths[-1] / (2 * reach)
-    picture = Picture((width, height + 0.9), alt="infeeds of a thread: " + ", ".join(infeeds))
-    for k, (name, positions) in enumerate(infeeds.items()):
-        left = k * width / count + 0.6
-        ax = picture.add_axes((left / width, 0.52 / (height + 0.9), box / width, height / (height + 0.9)))
-        plot_thread(depths, positions, profile, ax, name, reach)
-        if k:
-            ax.set_ylabel("")
-    return picture
 
 
 # The zones of a turned profile in one picture: what is to be cut in each, its kind, and the angles that it asks of a tool.
@@ -167,7 +147,7 @@ ZONES = {"open": ("#cfe3f5", ""), "semi-open": ("#f6dfae", "////"), "closed": ("
 
 
 @sized()
-def plot_zones(profile: Contour, blank: float, ax: Axes | None = None, *, size: tuple[float, float] = (7.0, 4.5)) -> Picture:
+def plot_zones(profile: Contour, blank: float, *, ax: Axes | None = None, size: tuple[float, float] = (7.0, 4.5)) -> Picture:
     """The zones of a profile (z, r) under a blank of a radius, mm: numbered, with the steepest rise (main angle) and fall
     (auxiliary angle) in degrees. Z to the right, X up as a diameter.
 

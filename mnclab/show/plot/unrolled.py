@@ -81,11 +81,10 @@ def _swath(flat: Toolpath) -> Any:
     if not cuts.any():
         return None
     ways = np.stack([flat.start[cuts, :2], flat.end[cuts, :2]], axis=1)
-    long = np.hypot(*(ways[:, 1] - ways[:, 0]).T) > 0
-    if not long.any():
+    ways = np.unique(ways[np.hypot(*(ways[:, 1] - ways[:, 0]).T) > 0].round(6), axis=0)  # levels repeat them
+    if not len(ways):
         return None
-    radius = float(flat.radius[cuts].max())
-    return shapely.union_all(shapely.buffer(shapely.linestrings(ways[long]), radius))
+    return shapely.buffer(shapely.line_merge(shapely.multilinestrings(shapely.linestrings(ways))), float(flat.radius[cuts].max()))
 
 
 def _box(area: Any) -> Array:
@@ -103,7 +102,8 @@ def _shade(ax: Axes, area: Any) -> Patch:
             codes.append([Outline.MOVETO, *[Outline.LINETO] * (len(corners) - 2), Outline.CLOSEPOLY])
     look: dict[str, Any] = {"facecolor": colours.DISC, "alpha": 0.28, "edgecolor": "none", "label": SWATH}
     patch = PathPatch(Outline(np.concatenate(points), np.concatenate(codes)), zorder=1.2, **look)
-    ax.add_patch(patch)
+    ax.add_artist(patch)  # whose limits, of all corners as of curves, would take long
+    ax.update_datalim(np.reshape(area.bounds, (2, 2)))
     return Patch(**look)
 
 

@@ -73,11 +73,10 @@ Piece = Words | TextTable | Blanks | Image | Alarms | Listing | Compared
 
 
 class Section(NamedTuple):
-    """Pieces under a title; with `breaks` it begins a page of its own."""
+    """Pieces under a title."""
 
     title: str
     pieces: Sequence[Piece]
-    breaks: bool = False
 
 
 @dataclass(frozen=True)
@@ -112,8 +111,7 @@ def html(document: Document) -> str:
                 pieces.append(f"<figure>{piece.picture.html(2.0)}{caption}</figure>")
             else:
                 pieces.append(written(piece))
-        opened = '<section class="breaks">' if section.breaks else "<section>"
-        parts.append(f"{opened}{head}{''.join(pieces)}</section>")
+        parts.append(f"<section>{head}{''.join(pieces)}</section>")
     return page(document.title, "\n".join(parts))
 
 

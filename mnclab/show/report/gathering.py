@@ -5,7 +5,7 @@ Reports and sheets are written to files, .html or .pdf.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import zip_longest
 from pathlib import Path
@@ -124,14 +124,18 @@ def _numbered(run: Any, index: int) -> Lines:
     return [(number, text, marks.get(number, "")) for number, text in lines]
 
 
-def document(run: Any, found: Report, picture: Any, difference: Any = None) -> Document:
+def document(run: Any, found: Report, picture: Any, difference: Any = None, profile: Any = None) -> Document:
     """The report as it is printed, the path as its first picture."""
     moved = bool(run.toolpath.is_motion.any())
     card: list[Piece] = [found.verdict(), _card(found.facts)]
     card.append(Image(picture, path_caption(run)) if moved else Words("The tool does not move."))
     none = Words("none")
     sections = [Section("", card), Section("Tools", [found.tools if found.tools.rows else none])]
-    sections.append(Section("Time", [TextTable((), found.times, (1, 2)) if found.times else none]))
+    if found.removal:
+        left = f"what is left of the blank{f', {run.reach}' if run.reach else ''}"
+        sections.append(Section("Part", [Image(found.removal.workpiece.plot(size=PICTURE), left)]))
+    feed = [Image(profile.plot(size=FEED), "the feed over time")] if moved and profile is not None else []
+    sections.append(Section("Time", [TextTable((), found.times, (1, 2)) if found.times else none, *feed]))
     if found.cutting:
         sections.append(Section("Cutting data", [TextTable(*found.cutting.table()), *map(Words, found.cutting.notes)]))
     if found.removal:
@@ -141,12 +145,12 @@ def document(run: Any, found: Report, picture: Any, difference: Any = None) -> D
         told = [Words(f"{each.file}:{each.line}: collision: {each.message}", BAD) for each in found.collisions]
         told += [Words(found.collisions.sentence)] if found.collisions.reach else []
         sections.append(Section("Collisions", told or [none]))
-    sections.append(set_up(run, breaks=run.stock is not None))
+    sections.append(set_up(run))
     if found.measured or run.touches:
         sections.append(measuring(run, found.title))
     if difference is not None:
         sections.append(Section("Measuring record", [Compared(difference)]))
-    sections += [Section(name, [Listing(lines)], not k) for k, (name, lines) in enumerate(found.programs)]
+    sections += [Section(name, [Listing(lines)]) for name, lines in found.programs]
     return Document(found.title, found.subtitle, sections)
 
 
@@ -184,7 +188,7 @@ def measuring(run: Any, title: str) -> Section:
     return Section("Measured by the probe", pieces)
 
 
-PICTURE = (6.8, 5.6)  # inches: the path on the first page
+PICTURE, FEED = (6.8, 5.6), (6.8, 4.4)  # inches: the path on the first page and the part; the feed
 SHEETS = ("setup", "tools", "measuring")
 
 
@@ -201,25 +205,25 @@ def save_report(
     with replaced(path) as beside:
         picture = run.plot(**{"size": PICTURE} | options)
         difference = None if design is None else run.workpiece().compare(design, tolerance)
-        write(document(run, report(run, title, machine), picture, difference), beside)
+        write(document(run, report(run, title, machine), picture, difference, run.profile(machine=machine)), beside)
     return path
 
 
-def save_sheet(run: Any, which: str, path: str | Path, title: str | None = None) -> Path:
-    """Write one sheet of a run, "setup", "tools" or "measuring", to an .html or a .pdf file."""
+def save_sheet(run: Any, which: str, path: str | Path, title: str | None = None, **known: str) -> Path:
+    """Write one sheet of a run, "setup", "tools" or "measuring", to an .html or a .pdf file; `known` of what stands above it."""
     which, path = choice(which, "a sheet", SHEETS), checked(path, title)
     if which == "measuring" and not run.touches and not run.measurements:
         so_far = f", {run.reach}" if run.halt else ""
         raise Alarm(f"nothing was measured{so_far}", hint="touch probe cycles measure, with Setup(part=…)")
     with replaced(path) as beside:
-        write(_sheet(run, which, title or run.program.title), beside)
+        write(_sheet(run, which, title or run.program.title, known), beside)
     return path
 
 
-def _sheet(run: Any, which: str, title: str) -> Document:
+def _sheet(run: Any, which: str, title: str, known: Mapping[str, str]) -> Document:
     if which == "measuring":
         return Document(title, f"Measuring record, {run.control.title}", [measuring(run, title)])
-    return (set_up_sheet if which == "setup" else tool_sheet)(run, title)
+    return set_up_sheet(run, title, known) if which == "setup" else tool_sheet(run, title)
 
 
 def checked(path: str | Path, title: str | None) -> Path:
@@ -293,6 +297,18 @@ def _offsets(run: Any, name: str) -> dict[int, str]:
     return {number: ", ".join(said) for number, said in found.items()}
 
 
+def correctors(run: Any) -> TextTable:
+    """What stands in the correctors that the program chooses, a row for each; what nobody knows is left free."""
+    unit, rows = run.toolpath.unit, Rows()
+    for letter, name, what in (("H", "length corrector", "length"), ("D", "corrector", "radius")):
+        for tool, chosen in sorted(_offsets(run, name).items()):
+            for number in chosen.split(", "):
+                entry = run.tables.tools.get(float(number))
+                sizes = (getattr(entry, f"effective_{what}"), getattr(entry, f"d{what[0]}")) if entry else (0.0, 0.0)
+                rows.append((f"{letter}{number}", f"T{tool}", what, *(unit.figure(size, 1) if size else "" for size in sizes)))
+    return TextTable(("corrector", "with", "is a", f"value, {unit.short}", f"wear in it, {unit.short}"), rows, (3, 4))
+
+
 def size_of(stock: Any, lathe: bool, unit: Unit) -> str:
     """A blank by its sizes: X x Y x Z, a bar by its diameter and length."""
     low, high = stock.bounds
@@ -302,7 +318,7 @@ def size_of(stock: Any, lathe: bool, unit: Unit) -> str:
     return f"{unit.figure(x, 1)} x {unit.figure(y, 1)} x {unit.figure(z, 1)} {unit.short}"
 
 
-def set_up(run: Any, breaks: bool = True) -> Section:
+def set_up(run: Any) -> Section:
     """Where the datum stands, what is clamped and how: tables and a drawing."""
     from mnclab.show.plot.set_up import plot_set_up, zero_points
 
@@ -319,7 +335,7 @@ def set_up(run: Any, breaks: bool = True) -> Section:
     if run.stock is not None:
         caption = "the blank as it is clamped" + (", and its datum" if places else "")
         pieces.append(Image(plot_set_up(run), caption))
-    return Section("Set-up", pieces, breaks)
+    return Section("Set-up", pieces)
 
 
 def _datums(run: Any, places: Sequence[tuple[str, Any]], unit: Unit) -> TextTable:
@@ -366,10 +382,13 @@ def _fixture(fixture: Any, lathe: bool, unit: Unit) -> str:
     return f"{', '.join(axes)} {unit.short}"
 
 
-def set_up_sheet(run: Any, title: str) -> Document:
-    """The set-up and the tools that it needs."""
-    tools = tools_table(run, used_tools(run), run.profile())
-    sections = [set_up(run, breaks=False), Section("Tools", [*_as_far(run), tools if tools.rows else Words("none")])]
+def set_up_sheet(run: Any, title: str, known: Mapping[str, str]) -> Document:
+    """Whose it is, the set-up, the tools that it needs and their correctors; what is not `known` a person fills in."""
+    tools, filled = tools_table(run, used_tools(run), run.profile()), correctors(run)
+    sections = [Section("", [Blanks([("program", run.program.title), *known.items()])]), set_up(run)]
+    sections.append(Section("Tools", [*_as_far(run), tools if tools.rows else Words("none")]))
+    if filled.rows:
+        sections.append(Section("Correctors", [filled]))
     return Document(title, f"Set-up sheet, {run.control.title}", sections)
 
 

@@ -186,11 +186,6 @@ def from_below(workpiece: Milled, found: Lattice) -> Lattice:
     return _walled(sides, found.x, found.y, -found.floor, -found.z, found.edges)
 
 
-def heights_at(workpiece: Milled, x: Array, y: Array) -> Array:
-    """The heights (m,) at points: exact, or of very many moves between the middles of the cells."""
-    return workpiece.surface.at(x, y)
-
-
 def _walled(at: Sides, x: Array, y: Array, z: Array, floor: Array, edges: Index) -> Lattice:
     """A lattice of nodes with the walls between them."""
     solid = z - floor > THIN

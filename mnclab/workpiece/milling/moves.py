@@ -75,18 +75,21 @@ class Moves:
         return len(self.row)
 
     def __getitem__(self, which: Index | Mask | slice) -> Moves:
-        taken = isinstance(which, np.ndarray) and which.dtype != bool  # of rows of three numbers much faster
+        if isinstance(which, np.ndarray) and which.dtype == bool:
+            which = np.flatnonzero(which)  # once, and not again for every column
+        taken = isinstance(which, np.ndarray)  # of rows of three numbers much faster
         columns = vars(self).items()
         return Moves(**{name: column.take(which, 0) if taken and column.ndim > 1 else column[which] for name, column in columns})
 
     def with_cutter(self, cutters: Array, lift: Array | float = 0.0) -> Moves:
         """The same moves of other cutters (k, 4), as `Cutter` has its fields, `lift` mm (k,) above the tip."""
         radius, flat, corner, slope = np.broadcast_to(cutters, (len(self), 4)).T
-        up = np.zeros((len(self), 3))
-        up[:, 2] = lift
-        return replace(
-            self, start=self.start + up, end=self.end + up, radius=radius, flat=flat, corner=corner, slope=slope
-        )
+        start, end = self.start, self.end
+        if np.any(lift):
+            up = np.zeros((len(self), 3))
+            up[:, 2] = lift
+            start, end = start + up, end + up
+        return replace(self, start=start, end=end, radius=radius, flat=flat, corner=corner, slope=slope)
 
     @property
     def chords(self) -> bool:

@@ -77,11 +77,21 @@ class Raster:
 
 def near(moves: Moves, boxes: Array, x: Array, y: Array, below: float) -> Index:
     """The moves that may reach one of some points lower than `below`; `boxes` are those of the moves."""
-    x0, y0, x1, y1 = x.min(), y.min(), x.max(), y.max()
-    found = np.flatnonzero(
-        (boxes[:, 0] <= x1) & (boxes[:, 1] <= y1) & (boxes[:, 2] >= x0) & (boxes[:, 3] >= y0) & (moves.low < below)
-    )
-    return found[_least(moves, found, x, y) < below]
+    return _reaching(moves, boxes, x, y, below)[0]
+
+
+def _reaching(moves: Moves, boxes: Array, x: Array, y: Array, below: float) -> tuple[Index, Array]:
+    """Those moves, and what they leave at least (k,)."""
+    found = _over(moves, boxes, x, y, below)
+    least = _least(moves, found, x, y)
+    reach = least < below
+    return found[reach], least[reach]
+
+
+def _over(moves: Moves, boxes: Array, x: Array, y: Array, below: float) -> Index:
+    """The moves that are somewhere lower than `below` and whose boxes meet that of the points."""
+    low, high = boxes[:, :2] <= (x.max(), y.max()), boxes[:, 2:] >= (x.min(), y.min())
+    return np.flatnonzero(low.all(axis=1) & high.all(axis=1) & (moves.low < below))
 
 
 def _least(moves: Moves, which: Index, x: Array, y: Array) -> Array:
@@ -105,15 +115,16 @@ def chunks(found: Index, points: int) -> Iterator[Index]:
 
 def lowered(moves: Moves, boxes: Array, x: Array, y: Array, top: Array) -> Array:
     """The heights (m,) that all moves leave together at points whose material reaches up to `top` (m,)."""
-    heights = top.copy()
-    _lower(moves, near(moves, boxes, x, y, float(top.max())), x, y, heights, np.arange(len(x)))
+    found, heights = _over(moves, boxes, x, y, float(top.max())), top.copy()
+    if len(found) * len(x) <= PAIRS:  # what all leave is found sooner than which of them count
+        return np.minimum(heights, left_by(moves[found], x, y).min(axis=0, initial=np.inf))
+    _lower(moves, found, _least(moves, found, x, y), x, y, heights, np.arange(len(x)))
     return heights
 
 
-def _lower(moves: Moves, found: Index, x: Array, y: Array, heights: Array, points: Index) -> None:
-    """Lowers the heights of some points to what the found moves leave: quarter by quarter where both are many."""
+def _lower(moves: Moves, found: Index, least: Array, x: Array, y: Array, heights: Array, points: Index) -> None:
+    """Lowers heights at points to what the found moves leave, at `least` each; quarter by quarter where both are many."""
     px, py = x[points], y[points]
-    least = _least(moves, found, px, py)
     order = np.argsort(least, kind="stable")
     order = order[: np.searchsorted(least[order], heights[points].max())]
     found, least = found[order], least[order]
@@ -122,7 +133,7 @@ def _lower(moves: Moves, found: Index, x: Array, y: Array, heights: Array, point
         right, upper = px > (px.min() + px.max()) / 2, py > (py.min() + py.max()) / 2
         for quarter in (right & upper, right & ~upper, ~right & upper, ~right & ~upper):
             if quarter.any():
-                _lower(moves, found, x, y, heights, points[quarter])
+                _lower(moves, found, _least(moves, found, px[quarter], py[quarter]), x, y, heights, points[quarter])
         return
     here = heights[points]
     for first in range(0, len(found), many := max(PAIRS // len(points), 1)):
@@ -138,8 +149,7 @@ def in_order(moves: Moves, boxes: Array, x: Array, y: Array, top: Array) -> Iter
     A move may leave more than was there: it took nothing.
     """
     heights = top.copy()
-    found = near(moves, boxes, x, y, float(top.max()))
-    least = _least(moves, found, x, y)
+    found, least = _reaching(moves, boxes, x, y, float(top.max()))
     many = max(PAIRS // len(x), FEW)
     for first in range(0, len(found), many):
         chunk = found[first : first + many][least[first : first + many] < heights.max()]

@@ -15,6 +15,7 @@ from mnclab.workpiece.milling.raster import AT_ONCE, SMALL, TILE, Raster, in_ord
 from mnclab.workpiece.milling.swept import left_by
 
 MANY = 5_000  # moves, beyond which tiles are small
+ACROSS = 8  # tiles along the longer side of a coarse map, at least
 
 Faces = Callable[[Array, Array], tuple[Array, Array]]  # upper and lower side of the blank at points (m,)
 
@@ -71,7 +72,7 @@ class Sweep:
     def sides_at(self, x: Array, y: Array) -> tuple[Array, Array]:
         """The heights and the lower side (m,) at points anywhere."""
         (top, floor), found = self.faces(x, y), np.empty(len(x))
-        for some in grouped(x, y, self.raster.tile):
+        for some in grouped(x, y, self.raster.step * min(TILE, max(self.raster.shape) / ACROSS)):
             found[some] = self.within(x[some], y[some], top[some], floor[some])
         return found, floor
 

@@ -190,7 +190,7 @@ ORDERS = [
 ]
 
 
-@together("plane order", product(PLANES, ORDERS), lambda plane, order: f"{plane}, {order[0]} first")
+@together("plane order", product(PLANES, ORDERS), lambda plane, order: f"{plane}, {order[0]} first", deep_but_one_in=3)
 def test_every_order_of_programming(plane, order):
     """Points, lines, arcs by R and by I J K, whole circles and helices after every pair and triple, in each order."""
     rng = np.random.default_rng([ORDERS.index(order), *plane.encode()])

@@ -1,5 +1,7 @@
 """Spindle, auxiliary functions, conditional moves, repetition, settings (catalogue nc-31)."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -149,3 +151,12 @@ def test_a_block_is_explained_word_by_word():
     for code, function in run.control.functions.items():
         for address in function.takes:
             assert run.control.meanings.get(f"{code} {address}") or run.control.meanings.get(address.rstrip("*"))
+
+
+def test_a_groove_is_as_wide_as_the_blade_truly_is_where_the_program_has_no_tool_words():
+    """A plunge from radius 20 to 18: a ring of the blade's width, 4 mm though the table says 3."""
+    text = "N1 S600\nN2 F15\nN3 X4400~\nN4 Z-2000~\nN5 X3600\nN6 X4400~\n"
+    table = {"tools": {1: mnclab.Tool(kind="grooving", width=3)}, "stock": mnclab.cylinder(radius=20, low=-60, high=0)}
+    for width, more in ((3, {}), (4, {"true_tools": {1: mnclab.Tool(kind="grooving", width=4)}})):
+        removed = mnclab.run(text, "nc-31", **table, **more).workpiece().removed
+        assert removed == pytest.approx(math.pi * (20**2 - 18**2) * width, rel=1e-12)

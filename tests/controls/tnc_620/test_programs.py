@@ -43,7 +43,7 @@ def test_a_moment_and_its_explanation_are_of_the_program_that_ran(calling) -> No
     assert run.at(line=2).block.keyword == "TOOL CALL"
     assert moment.block.span.program == 1
     explained = str(run.explain(step=moment.step))
-    assert explained.startswith("line 2: 1 L Y+Q1") and "= 5" in explained
+    assert explained.startswith("line 2, block 1: 1 L Y+Q1") and "= 5" in explained
     assert [m.block.keyword for m in run.when("y > 2")] == ["L"]
     assert [move.split()[0] for move in str(run.toolpath).splitlines()] == ["2", "1:2"]
 

@@ -190,23 +190,24 @@ def start(m: Machine) -> None:
         memory(m).row = 0
 
 
-def select(m: Machine, row: int) -> None:
+def select(m: Machine, row: int, chosen: bool = False) -> None:
     """Count from a row of the table of datums; a row that is not there is the machine's zero."""
     memory(m).row = row
     m.log("datum row", row)
-    m.select_datum(m.tables.datums.get(row, Datum()))
+    m.select_datum(m.tables.datums.get(row, Datum()), chosen=chosen)
 
 
 def change(m: Machine, words: Words, row: int) -> None:
     if m.side:
         m.alarm("a work offset cannot change under radius compensation", first_word(words), hint="write G40 first")
     if m.settings["dialect"] == "linuxcnc" and row == memory(m).row:  # it is not read anew
+        m.origin_chosen = True
         return
     if on := transformed(m):
         m.warn(f"the work offset changes while {on} is active, which now counts from the new one", first_word(words))
     if m.settings["g92_lasts"] == "ends":
         set_shift(m, registers(m)[0], NONE)
-    select(m, row)
+    select(m, row, chosen=True)
 
 
 @FUNCTIONS("G54 G55 G56 G57 G58 G59", "Work offset", group="datum", phase="frames", power_on="G54", source="7.1, example")

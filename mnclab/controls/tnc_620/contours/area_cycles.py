@@ -46,7 +46,7 @@ class PilotDrilling(Cycle):
 
     does = MILLS
     about = in_program_coordinates
-    infeed: float = increment("Q10", "infeed per cut", example=5)
+    infeed: float = increment("Q10", "infeed per cut", example=10)
     feed: float = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=150)
     rough_out_tool: Named = count(
         ("Q13", "QS13"), "rough-out tool", type="text", note="0: the tool in the spindle", example=1
@@ -94,7 +94,7 @@ class RoughOut(Cycle):
 
     does = MILLS
     about = in_program_coordinates
-    infeed: float = increment("Q10", "infeed per cut", example=5)
+    infeed: float = increment("Q10", "infeed per cut", example=10)
     plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=150)
     feed: float = addresses.feed("Q12", "feed rate for roughing", also=addresses.PLANE, at_most=FAR, example=500)
     coarse_tool: Named = count(("Q18", "QS18"), "coarse roughing tool", type="text", default=0, note="0: none")
@@ -238,7 +238,7 @@ class SideFinishing(Cycle):
     does = MILLS
     about = in_program_coordinates
     sense: float = choice("Q9", "direction of machining", {-1: "up-cut milling", 1: "climb milling"}, example=1)
-    infeed: float = increment("Q10", "infeed per cut", example=5)
+    infeed: float = increment("Q10", "infeed per cut", example=10)
     plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=150)
     feed: float = addresses.feed("Q12", "feed rate for finishing", also=addresses.PLANE, at_most=FAR, example=350)
     side_allowance: float = increment("Q14", "allowance that stays at the side", note="less than Q3 of cycle 20", example=0)

@@ -289,7 +289,7 @@ class OnCylinder(Cycle):
     depth: float = increment("Q1", "milling depth from the surface to the floor", example=-8)
     side_allowance: float = allowance(note="on the side of the radius compensation")
     clearance: float = distance("Q6", "set-up clearance", note="of the tool tip over the cylinder", example=8)
-    infeed: float = increment("Q10", "infeed per cut", example=3)
+    infeed: float = increment("Q10", "infeed per cut", example=4)
     plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=100)
     feed: float = addresses.feed("Q12", "feed rate for roughing", also=addresses.PLANE, at_most=FAR, example=350)
     cylinder_radius: float = length("Q16", "radius of the cylinder", example=25)

@@ -242,7 +242,7 @@ class Train(Cycle):
     depth: float = increment("Q1", "milling depth from the surface to the floor", example=-20)
     side_allowance: float = increment("Q3", "finishing allowance for side", example=0)
     height: float = coordinate("Q7", "clearance height", example=50)
-    infeed: float = increment("Q10", "infeed per cut", example=5)
+    infeed: float = increment("Q10", "infeed per cut", example=10)
     plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=100)
     feed: float = addresses.feed("Q12", "feed rate for roughing", also=addresses.PLANE, at_most=FAR, example=350)
     sense: float = choice("Q15", "climb or up-cut milling", SENSE, example=1)

@@ -43,12 +43,12 @@ CORNER = 0.01  # rad, of a turn that is more than rounded coordinates
 class TrochoidalSlot(milling.MilledFigure):
     """Mills a slot along a contour: circles level by level, then its walls, then its floor; a mirror image keeps its climb."""
 
-    advance: float = addresses.length("Q436", "infeed per revolution", unit="mm/rev", note="the greatest engagement", example=2)
+    advance: float = addresses.length("Q436", "infeed per revolution", unit="mm/rev", note="the greatest engagement", example=4)
     roughing_feed: float | None = addresses.feed(
         "Q12", "feed rate for roughing", also=addresses.PLANE, at_most=addresses.FAR, default=None, default_means="not used",
         note="Q207 counts",
     )  # fmt: skip
-    infeed: float = addresses.infeed(note="greater than 0")
+    infeed: float = addresses.infeed(note="greater than 0", example=10)
     finishing_feed: float = addresses.finishing_feed(example=500)
     second_clearance: float = addresses.second_clearance(example=50)
     plunging_strategy: float = addresses.plunging(PLUNGE, example=0)

@@ -186,7 +186,7 @@ class Presetting(Cycle):
         row = int(self.preset_number)
         yield from chain.reset(m)
         yield Write("memory", row, "preset")
-        yield Write("datum", m.tables.presets.get(row, Datum()), "preset")
+        yield Write("chosen datum", m.tables.presets.get(row, Datum()), "preset")
 
 
 # Cycle 19, the tilted working plane (11.9): rotation, shift and cycles act in a system that is tilted about the active datum.

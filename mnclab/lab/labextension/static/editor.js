@@ -150,8 +150,6 @@ export const watchEditors = ({ services, CodeEditor, view, state }) => {
       known.add(area);
       upgrade(area);
     });
-    document.querySelectorAll('.mnclab-row .noUi-handle:not([aria-label])').forEach(
-      handle => handle.setAttribute('aria-label', handle.closest('.mnclab-row').querySelector('label').textContent));
   };
   document.head.append(Object.assign(document.createElement('style'), { textContent: STYLE }));
   new MutationObserver(look).observe(document.body, { childList: true, subtree: true });

@@ -3,7 +3,6 @@ import { inWords, meaningAt, vocabulary } from './words.js';
 
 const STYLE = `
 .mnclab-word { padding: 4px 8px; max-width: 40em; color: var(--jp-ui-font-color1); background: var(--jp-layout-color1); }
-.jp-Completer-typeExtended { white-space: nowrap; } /* a meaning of several words beside a code */
 `;
 document.head.append(Object.assign(document.createElement('style'), { textContent: STYLE }));
 

@@ -1,0 +1,236 @@
+"""The program that a form runs: a cycle alone with some values, the moves of the cycle itself, a blank behind them.
+
+A cycle that probes and was given no part touches a block with its walls at the nominal points.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import replace
+from functools import reduce
+from math import inf
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+
+from mnclab.controls.choice import run as run_text
+from mnclab.controls.cycle_steps import CycleSteps, steps
+from mnclab.lab.forms.measuring import Measured, measured
+from mnclab.machine import trial
+from mnclab.machine.control import Control
+from mnclab.machine.cycle import Cycle, Parameter
+from mnclab.machine.setup import Setup
+from mnclab.machine.touching import FEELS, PROBES
+from mnclab.machining.steps import Touch, Turn
+from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Array, Kind, Mask, Toolpath
+from mnclab.runs.run import Run
+from mnclab.text.alarm import Alarm
+from mnclab.workpiece.blank import Blank, Box, Revolved
+from mnclab.workpiece.part import Part, box, cylinder, plane
+
+if TYPE_CHECKING:
+    from mnclab.show.plot.picture import Picture
+
+Values = Mapping[str, Any]  # by the name of a parameter; what is left out is not in it
+STEP = 1e-4  # by which a value is changed to see what it measures, in its own unit; whole numbers by 1
+ROOM = 0.15  # of a blank around what is cut, of its greatest side
+HEAD = 0.12  # inches over the axes
+BAR = 0.35  # radius of a bar that is worked on its axis, of its length
+NEAR = 2.0  # times its own size: from so far away the datum is a corner of the blank
+CUTS = (Kind.LINE, Kind.ARC)
+
+
+class Example:
+    """A cycle of a control on its own."""
+
+    def __init__(self, control: Control, cycle: type[Cycle]) -> None:
+        self.control, self.cycle = control, cycle
+        self.setup = replace(control.trial_setup or Setup(), files=control.trial_files)
+        if control.lathe:
+            self.setup = replace(self.setup, start=(30, 0, 20))  # clear of the chuck's axis
+
+    def program(self, values: Values) -> str | None:
+        """Its text, without what is left at its default; None where no program around the cycle is known."""
+        defaults = {p.name: p.default for p in self.cycle.parameters() if not p.required}
+        return trial.program(self.control, self.cycle, {n: v for n, v in values.items() if v != defaults.get(n)})
+
+    def steps(self, values: Values) -> CycleSteps:
+        """The steps of the cycle without a program."""
+        several = {p.name: p for p in self.cycle.parameters() if p.several}
+        written = {n: trial.parted(v, several[n]) if n in several else v for n, v in values.items()}
+        return steps(self.cycle.code, self.control.name, self.setup, **written)
+
+    def run(self, values: Values) -> Run | None:
+        """What its program does; a probe finds something to touch."""
+        source, machine = self.program(values), self.setup
+        if source is None:
+            return None
+        if self.cycle.does in (PROBES, FEELS):
+            with suppress(Alarm):
+                for part in touched_parts(self.steps(values), machine.probe.clearance):
+                    machine = replace(machine, part=part)
+                    if (run := run_text(source, self.control.name, machine)).ok:
+                        return run
+        return run_text(source, self.control.name, machine)
+
+    def rows(self, path: Toolpath) -> Mask:
+        """The moves of the cycle itself, not those of the program around it; all where it has none of its own."""
+        for code in (f"{self.cycle.code} ", ""):  # or those of the cycle that it serves
+            own = np.array([label.startswith(code) and label != "" for label in path.labels])[path.label]
+            if (own & np.isin(path.kind, (*CUTS, Kind.PROBE))).any():
+                return np.asarray(own)
+        return np.ones(len(path), dtype=bool)
+
+    def own(self, path: Toolpath) -> Toolpath:
+        """These moves alone; on a cylinder as they lie on its developed surface."""
+        on = path.cylinder == 0
+        return path[on].unrolled() if on.any() else path[self.rows(path)]
+
+    def blank(self, path: Toolpath, values: Values) -> Blank | None:
+        """A blank for what is cut: a bar, or a block with the datum at its corner where it is near."""
+        cuts = path[np.isin(path.kind, CUTS)]
+        if not len(cuts) or self.cycle.does in (PROBES, FEELS):
+            return None
+        low, high = cuts.bounds
+        size = float((high - low).max())
+        if path.lathe:
+            radius, end = max(float(high[0]), BAR * size), float(low[2])
+            return Revolved(((radius, end - ROOM * size), (radius, max(0.0, end))))
+        room = max(ROOM * size, 2 * float(np.nan_to_num(cuts.radius).max()), 1.0) * np.array([1.0, 1.0, 0.7])
+        top = float(values.get("surface") or 0.0)
+        corner = np.where((low > 0) & (low < NEAR * size + 2 * room), 0.0, low - room)
+        corner[2], end = low[2] - room[2], high + room
+        end[2] = top if top > corner[2] else float(high[2])
+        return Box(tuple(corner.tolist()), tuple(end.tolist()))
+
+    def plot(self, run: Run, values: Values, **options: Any) -> Picture:
+        """The moves of the cycle with a blank behind them; `options` are those of `plot_path`."""
+        from mnclab.show.plot.datums import places_of
+        from mnclab.show.plot.path import overlays_of, plot_path
+        from mnclab.show.probed import felt as felt_of
+
+        if (run.toolpath.cylinder >= 0).any():
+            return plain(run.plot(size=options["size"]))
+        rows = self.rows(run.toolpath)
+        path = near(run.toolpath[rows])
+        shown: dict[str, Any] = {"stock": run.stock or self.blank(path, values), "places": places_of(run), "felt": felt_of(run)}
+        if path.lathe and len(path):
+            tools, numbers = run.tools_that_cut
+            shown["tools"] = tools | {0: tools.get(int(numbers[rows][-1]), Tool())}
+            if shown["stock"] is not None:
+                with suppress(Alarm):
+                    shown["part"] = run.workpiece(stock=shown["stock"].moved(path.origin))
+        shown["overlays"] = overlays_of(run, centres=False, original=True, holes=True, fixtures=True)
+        return plain(plot_path(path, alarms=run.alarms, rapids=run.rapids, **shown, **options))
+
+    def measured(self, run: Run, p: Parameter, values: Values) -> Measured | None:
+        """What a parameter measures in the run with these values."""
+        value = values.get(p.name)
+        if not isinstance(value, int | float) or p.choices or p.mark or p.unit == "count" or value == inf:
+            return None
+        step = 1.0 if p.type == "integer" or p.unit.startswith("0.") else STEP
+        for sign in (1, -1):
+            with suppress(Alarm):
+                other = self.run({**values, p.name: value + sign * step})
+                if other is not None and other.ok:
+                    found = measured(self.own(run.toolpath), self.own(other.toolpath), sign * step, value, p.unit)
+                    if found is not None:
+                        return found
+        return None
+
+
+def plain(picture: Any) -> Picture:
+    """A picture without the legend and its room, whose moves, all of one line, cannot be clicked on; its `views` are kept."""
+    from mnclab.show.plot.sizes import reframe
+
+    for legend in list(picture.legends):
+        legend.remove()
+    width, height = picture.get_size_inches().tolist()
+    reframe(picture, 0.0, 0.0, width, height * max((ax.get_position().y1 for ax in picture.axes), default=1.0) + HEAD)
+    picture.views, picture.seen = picture.seen, ()
+    return cast("Picture", picture)
+
+
+# Rapids from and to the heights where nothing happens would make what is cut small: they are cut off.
+
+ABOVE = 0.25  # of the greatest side of what is cut, if it is not as deep
+
+
+def near(path: Toolpath) -> Toolpath:
+    """A path without what its rapids do far above the cuts, on a lathe far off the bar, too."""
+    cuts = path[np.isin(path.kind, (*CUTS, Kind.PROBE))]
+    if not len(cuts):
+        return path
+    low, high = cuts.bounds
+    roof = high + np.maximum(high - low, ABOVE * (high - low).max())
+    roof[[1] if path.lathe else [0, 1]] = np.inf
+    way = path.end - path.start
+    over = [(each > roof) & (path.kind == Kind.RAPID)[:, None] for each in (path.start, path.end)]
+    share = np.divide(roof - path.start, way, out=np.zeros_like(way), where=over[0] != over[1])
+    begin = np.where(over[0], share, 0.0).max(axis=1)
+    until = np.where(over[1], share, 1.0).min(axis=1)
+    kept = ((path.end <= roof) | (path.start <= roof)).all(axis=1) & (begin < until)
+    start, end = (np.where(at[:, None] == whole, each, path.start + at[:, None] * way) for at, whole, each in (
+        (begin, 0.0, path.start), (until, 1.0, path.end),
+    ))  # fmt: skip
+    return path.replace(start=start, end=end)[kept]
+
+
+# A part for a cycle that probes, where nobody gave one: a block with a wall before each touch. Where every touch lies on the
+# block that all walls enclose, the walls are its sides; else what stands around the touches is the material. A probe that goes
+# round on arcs meets a stud or a bore. Where it could not get past that, as among several holes, a pad stands before each touch.
+
+BALL = 2.0  # mm, the radius where a touch does not say it
+BESIDE = 0.3  # of the greatest way between touches: how far the block goes beyond them
+SAME = 1e-6  # mm
+
+
+def touched_parts(found: CycleSteps, clearance: float) -> Iterator[Part]:
+    """What the touches of a cycle may meet, the best first; `clearance` (mm) of the probe table, to which an own one of the cycle
+    is added."""
+    if found.part is not None:
+        yield found.part
+        return
+    touches = list(_touches(found, clearance + (found.values.get("clearance") or 0.0)))
+    if touches:
+        place, way, ball = (np.array(each) for each in zip(*touches, strict=True))
+        yield _block(place, way, ball, any(isinstance(row.step, Turn) for row in found.rows))
+        yield reduce(operator.or_, map(_pad, place, way, ball))
+
+
+def _touches(found: CycleSteps, gap: float) -> Iterator[tuple[Array, Array, float]]:
+    """Of each touch where its wall is (3,), the way there (3,) of length 1, and the radius of its ball."""
+    place = np.array(found.start)
+    for row in found.rows:
+        end = place if row.end is None else np.array(row.end)
+        if isinstance(row.step, Touch) and (way := float(np.linalg.norm(end - place))) > 0:
+            ball = row.step.ball or BALL
+            ahead = (end - place) / way
+            yield place + (0.0, 0.0, ball) + ahead * (ball + gap), ahead, ball
+        place = end
+
+
+def _block(place: Array, way: Array, ball: Array, round_: bool) -> Part:
+    """Walls (n, 3) across the ways (n, 3) of their touches, or one round wall, with a top above the touches of walls."""
+    wide = BESIDE * float(np.ptp(place, axis=0).max()) + 3 * float(ball.max())
+    low, high = place.min(axis=0) - wide, place.max(axis=0) + wide
+    high[2] = float((place[:, 2] + ball).max())
+    if round_:
+        lines = np.column_stack([np.repeat(np.eye(2), len(way), axis=0), way.T[:2].ravel()])  # centre + radius * way
+        x, y, radius = np.linalg.lstsq(lines, place.T[:2].ravel(), rcond=None)[0].tolist()
+        bar = cylinder((x, y, low[2] - wide), (x, y, high[2] + wide), abs(radius))
+        return box(low, high) - bar if radius > 0 else box(low, high) & bar
+    walls = [plane(*each) for each in zip(place, -way)]
+    on_it = bool((np.einsum("jk,ijk->ij", way, place[:, None] - place) > -SAME).all())
+    return reduce(operator.and_ if on_it else operator.or_, walls) & box(low, high)
+
+
+def _pad(place: Array, ahead: Array, ball: float) -> Part:
+    side = np.cross((0.0, 0.0, 1.0), ahead) if abs(ahead[2]) < 0.9 else np.cross(ahead, (1.0, 0.0, 0.0))
+    side /= np.linalg.norm(side)
+    frame = np.eye(4)
+    frame[:3, :3], frame[:3, 3] = np.column_stack([ahead, side, np.cross(ahead, side)]), place
+    return box((0.0, -ball, -ball), (ball, ball, ball)).placed(frame)

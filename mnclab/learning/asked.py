@@ -1,0 +1,114 @@
+"""What was asked for beside the part: codes, blocks, values, cutting data, time and length."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+
+import numpy as np
+
+from mnclab.learning.exercise import Exercise
+from mnclab.learning.findings import ASKED, SLOW, Finding
+from mnclab.runs.run import Run
+
+
+def wishes(exercise: Exercise) -> int:
+    """How many things are asked for."""
+    asked = exercise.asked
+    blocks = asked.blocks is not None
+    return len(asked.must) + len(asked.must_not) + len(asked.values) + len(asked.cutting) + blocks
+
+
+def of_asked(exercise: Exercise, run: Run) -> Iterator[Finding]:
+    """What an answer has not that it was asked for, and what it has that it must not."""
+    asked, lines = exercise.asked, list(executed(run))
+    for code in asked.must:
+        if first_line(code, lines) is None:
+            yield Finding(ASKED, f"without {code}", 0, (f"the task asks for {code}, and no block that was run has it",))
+    for code in asked.must_not:
+        if (line := first_line(code, lines)) is not None:
+            yield Finding(ASKED, f"with {code}", line, (f"the task does not allow {code}",))
+    if asked.blocks is not None and len(run.program) > asked.blocks:
+        told = f"the program has {len(run.program)} blocks, {asked.blocks} are allowed"
+        yield Finding(ASKED, "blocks", 0, (told, f"{told}: what is written more than once?"))
+    for name, (least, most) in asked.values.items():
+        value = run.variables.get(name, run.measured.get(name))
+        if not isinstance(value, int | float) or not least <= value <= most:
+            found = "has no value" if value is None else f"is {value:g}" if isinstance(value, int | float) else "is no number"
+            yield Finding(ASKED, f"value {name}", 0, (f"{name} is not right at the end", f"{name} {found} at the end"))
+    if asked.cutting:
+        yield from _of_cutting(exercise, run)
+
+
+NAMES = {
+    "vc": ("surface", "the cutting speed"),
+    "fz": ("per_tooth", "the feed a tooth"),
+    "f": ("per_rev", "the feed a revolution"),
+    "ap": ("depth", "the depth of cut"),
+    "ae": ("width", "the width of cut"),
+}
+
+
+def _of_cutting(exercise: Exercise, run: Run) -> Iterator[Finding]:
+    found = {cut.tool: cut for cut in run.cutting_data()}
+    for wanted in exercise.asked.cutting:
+        cut = found.get(wanted.tool)
+        if cut is None:
+            yield Finding(ASKED, f"tool {wanted.tool} cuts", 0, (f"tool {wanted.tool} cuts nothing",))
+            continue
+        for name, (column, said) in NAMES.items():
+            limits, have = getattr(wanted, name), getattr(cut, column)
+            if limits is None:
+                continue
+            low, high = have if have is not None else (0.0, math.inf)  # what is not known is not right
+            slack = 1e-9 * abs(limits[1])
+            if not (limits[0] - slack <= low and high <= limits[1] + slack):
+                way = "low" if low < limits[0] else "high"
+                told = f"{said} of tool {wanted.tool} is not as asked for"
+                line = _line_of_tool(run, wanted.tool)
+                yield Finding(ASKED, f"{name} of tool {wanted.tool}", line, (told, f"{said} of tool {wanted.tool} is too {way}"))
+
+
+def _line_of_tool(run: Run, number: int) -> int:
+    """The line of the first cut of a tool."""
+    rows = np.flatnonzero((run.tools_that_cut[1] == number) & run.toolpath.is_motion)
+    return int(run.toolpath.line[rows[0]]) if len(rows) else 0
+
+
+def executed(run: Run) -> Iterator[tuple[int, str]]:
+    """The lines of the program that were run, each with its text before a comment, in capitals."""
+    program = run.program
+    blocks = np.unique(run.steps.block[run.steps.program == 0])
+    for block in blocks[blocks < len(program)].tolist():
+        line = int(program.line_of(block))
+        yield line, " ".join(program.code_of(block)).upper()
+
+
+def first_line(code: str, lines: list[tuple[int, str]]) -> int | None:
+    """The first line that has a code: "G1" is found in N10G01X5, not in G10."""
+    found = ((part.rstrip("0123456789"), part) for part in code.upper().split())
+    parts = ((letters, part[len(letters) :].lstrip("0") or "0") if part != letters else (letters, "") for letters, part in found)
+    written = r"\s+".join(re.escape(letters) + (rf"\s*0*{number}" if number else "") for letters, number in parts)
+    wanted = re.compile(rf"(?<![A-Z_]){written}(?![{'0-9.' if code[-1:].isdigit() else 'A-Z'}])")
+    return next((line for line, text in lines if wanted.search(text)), None)
+
+
+def economy(exercise: Exercise, run: Run) -> tuple[float, list[Finding]]:
+    """The mark for time and length, from 1 within what was stated down to 0 at twice as much, and what to say of it."""
+    asked, marks, found = exercise.asked, [1.0], []
+    for name, most, have in (("time", asked.time, lambda: run.profile().time), ("length", asked.length, lambda: length(run))):
+        if most is None:
+            continue
+        share = have() / most
+        marks.append(min(1.0, max(0.0, 2.0 - share)))
+        if share > 1:
+            told = {"time": "it can be quicker", "length": "the way can be shorter"}[name]
+            much = f"{told}: {share - 1:.0%} over what the task states"
+            found.append(Finding(SLOW, f"economy of {name}", 0, (told, much, f"{much}; look for cuts in air and long rapids")))
+    return min(marks), found
+
+
+def length(run: Run) -> float:
+    """The whole way of the tool, mm."""
+    return float(run.toolpath.lengths[run.toolpath.is_motion].sum())

@@ -1,0 +1,107 @@
+"""What a notebook or a page shows of an exercise and of a grade: HTML, with the drawing, and where part and drawing differ."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import TYPE_CHECKING, Any
+
+from mnclab.learning.exercise import Exercise
+from mnclab.text.alarm import Alarm
+from mnclab.text.tables import html_table
+
+if TYPE_CHECKING:
+    from mnclab.learning.grade import Grade
+
+DRAWING = 0.58  # of the size of its sheet, so that task and drawing stand on one screen
+
+
+def card(exercise: Exercise, drawing: bool = True) -> str:
+    """Task, drawing, blank, tools and what is asked for; without `drawing` only the words."""
+    head = f"<strong>{escape(exercise.id)}: {escape(exercise.title)}</strong>"
+    under = f"level {exercise.level}, lesson {escape(exercise.lesson)}: {escape(exercise.does)}"
+    task = "".join(f"<p>{escape(each)}</p>" for each in exercise.task.split("\n\n"))
+    given = f"<pre>{escape(exercise.program)}</pre>" if exercise.program else ""
+    asked = "".join(f"<li>{escape(each)}</li>" for each in wanted(exercise))
+    why = f"<p><em>{escape(exercise.why)}</em></p>" if exercise.why else ""
+    return (
+        f'<div class="mnclab-exercise" style="line-height:1.35">{head}<br>{under}{task}'
+        f"{picture(exercise) if drawing else ''}{given}"
+        f"{tools(exercise)}{questions(exercise)}{f'<ul>{asked}</ul>' if asked else ''}{why}</div>"
+    )
+
+
+def picture(exercise: Exercise) -> str:
+    """The drawing as an image; nothing where there is none."""
+    if exercise.design is None:
+        return ""
+    try:
+        drawn: Any = exercise.drawing()
+        return str(drawn.html(DRAWING))
+    except Alarm as alarm:
+        return str(alarm._repr_html_())
+
+
+def tools(exercise: Exercise) -> str:
+    """The tools of the machine as a table."""
+    names = ("radius", "length", "corner", "angle", "width", "teeth", "cutting_length", "pitch")
+    table = exercise.setup.tools or {}
+    used = [name for name in names if any(getattr(tool, name, None) for tool in table.values())]
+    rows = [(f"T{number}", tool.name or tool.kind, *(_said(getattr(tool, name, None)) for name in used))
+            for number, tool in table.items()]  # fmt: skip
+    return html_table(("tool", "", *(name.replace("_", " ") for name in used)), rows) if rows else ""
+
+
+def _said(value: Any) -> str:
+    return f"{value:g}" if isinstance(value, int | float) and value else ""
+
+
+def questions(exercise: Exercise) -> str:
+    """What is to be predicted, numbered."""
+    rows = "".join(f"<li>{escape(each.text)}</li>" for each in exercise.questions)
+    return f"<ol>{rows}</ol>" if rows else ""
+
+
+#: What a card says of a strategy, and in which unit; the feed is worked out.
+UNITS = {"engagement": "°", "time": " s", "lifts": ""}
+
+
+def wanted(exercise: Exercise) -> list[str]:
+    """What is asked for, in sentences."""
+    asked, found = exercise.asked, []
+    found += [f"use {', '.join(asked.must)}"] if asked.must else []
+    found += [f"do not use {', '.join(asked.must_not)}"] if asked.must_not else []
+    found += [f"at most {asked.blocks} blocks"] if asked.blocks else []
+    found += [f"no more than {asked.time:g} s"] if asked.time else []
+    found += [f"a way of no more than {asked.length:g} mm"] if asked.length else []
+    shown = {name: most for name, most in asked.strategy.items() if name in UNITS}
+    found += [f"{name} at most {most:g}{UNITS[name]}" for name, most in shown.items()]
+    return found
+
+
+def grade_card(grade: Grade, differs: bool = True) -> str:
+    """The mark and the hints, and where part and drawing differ, as a picture."""
+    colour = "#1a7f37" if grade.passed else "#9a3412"
+    head = f'<strong style="color:{colour}">{escape(grade.exercise)}: {grade.verdict}, {grade.score:.0%}</strong>'
+    hints = "".join(f"<li>{escape(str(hint))}</li>" for hint in grade.hints)
+    points = escape(", ".join(f"{name} {mark}" for name, mark in grade.rows()))
+    where = ""
+    if differs and grade.difference is not None and not grade.passed:
+        drawn: Any = grade.difference.plot()
+        where = drawn.html()
+    hints = f"<ol>{hints}</ol>" if hints else ""
+    return f'<div class="mnclab-grade" style="line-height:1.35">{head} ({points}){hints}{where}</div>'
+
+
+PAGE = """<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>
+body{{font:15px/1.45 sans-serif;max-width:60em;margin:1.5em auto;padding:0 1em}} table{{border-collapse:collapse}}
+td,th{{padding:.2em .6em;border-bottom:1px solid #ddd;text-align:left}}
+img{{max-width:100%}} pre{{background:#f6f6f4;padding:.6em}}
+</style></head><body>{body}</body></html>
+"""
+
+
+def page(title: str, body: str) -> str:
+    """A page by itself."""
+    return PAGE.format(title=escape(title), body=body)
+

@@ -1,0 +1,303 @@
+"""What is wrong with an answer, most important first, each with the steps of help that it gets, try by try."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mnclab.design.difference.threads import EXACT, passes_of
+from mnclab.learning.grade import HINTS, Hint
+from mnclab.path.toolpath import Kind
+from mnclab.runs.run import Run
+from mnclab.workpiece.collision import KINDS, Collisions
+
+Place = tuple[float, float, float]
+
+#: What comes first: a program that stops, danger, the part, then what else was asked for.
+STOPPED, DANGER, PART, ASKED, SLOW = range(5)
+ZERO = "zero point"  # a kind
+LESS_HELP = 3  # the try of the same fault from which on the next step is told
+
+
+class Finding(NamedTuple):
+    """One thing that is wrong: its `kind` (the same fault has the same), the line, where, and `steps` of help."""
+
+    rank: int
+    kind: str
+    line: int
+    steps: tuple[str, ...]
+    place: Place | None = None
+
+    def hint(self, tries: int) -> Hint:
+        """The step of this try, from 1; the last one is given again."""
+        return Hint(self.line, self.steps[min(max(0, tries - LESS_HELP + 1), len(self.steps) - 1)], self.place)
+
+
+def hints_of(findings: Iterable[Finding], tried: Mapping[str, int]) -> tuple[tuple[Hint, ...], tuple[str, ...]]:
+    """At most three hints of different kinds, and the kinds of all findings in their order."""
+    ordered = sorted(findings, key=lambda each: each.rank)
+    first = {each.kind: each for each in reversed(ordered)}
+    kinds = tuple(dict.fromkeys(each.kind for each in ordered))
+    return tuple(first[kind].hint(tried.get(kind, 0) + 1) for kind in kinds[:HINTS]), kinds
+
+
+def of_alarms(run: Run) -> Iterator[Finding]:
+    """The alarms of a run."""
+    for alarm in run.alarms:
+        if alarm.severity == "alarm":
+            said = f"the control stops: {alarm.message}"
+            more = (f"{said} ({alarm.hint})",) if alarm.hint else ()
+            yield Finding(STOPPED, f"alarm {alarm.message}", alarm.span.line if alarm.span else 0, (said, *more))
+
+
+#: What to look at, by the kind of a collision.
+LOOK = {
+    "rapid": "Which move brings the tool here, and should it be at feed, or higher?",
+    "plunge": "How can this tool get into the material: a ramp, a helix, a drilled hole?",
+    "solid": "Which tool must have been here before?",
+    "sideways": "Which tool may be fed sideways?",
+    "shank": "How deep may this tool cut at once, and how far is its edge from the wall above?",
+    "holder": "How far does the tool stand out of its holder here?",
+    "fixture": "Where is the clamp, and how high must the tool pass over it?",
+    "spindle": "Which block should start the spindle, and in which direction?",
+    "travel": "How far does this axis go?",
+    "insert": "Which flank of the insert meets the part, and which insert would not?",
+    "chuck": "How far are the jaws from Z0?",
+    "axis": "What turns about its own axis cuts at X0 alone.",
+}
+
+
+def of_collisions(collisions: Collisions, run: Run) -> Iterator[Finding]:
+    """The collisions, the deepest of a kind in a line; of a still spindle at the block that last spoke of it.
+
+    What was not judged is no better: a tool that cannot cut, rows without one.
+    """
+    for each, _ in collisions.by_line:
+        line = _spindle_line(run, each.line) if each.kind == "spindle" else each.line
+        steps = (f"{KINDS[each.kind]}", LOOK.get(each.kind, ""), each.message)
+        yield Finding(DANGER, f"collision {each.kind}", line, tuple(step for step in steps if step), each.place)
+    for note in collisions.notes:
+        at = re.search(r":(\d+)", note.rpartition("(")[2])  # places stand last, FILE:LINE
+        yield Finding(DANGER, f"not judged {note}", int(at[1]) if at else 0, (note,))
+
+
+def _spindle_line(run: Run, line: int) -> int:
+    """The line of the last block up to this one that changed tool, speed or direction of the spindle; else this line."""
+    steps = run.executions(line, 0)
+    told = (step for name in ("turning", "speed", "tool") for step, _ in run.history.changed(name))
+    changed = [step for step in told if len(steps) and step <= steps[0]]
+    return int(run.lines()[max(changed)]) if changed else line
+
+
+MOST_A_TURN = 2.0  # mm of an insert; a mill and a drill bear no more than their radius
+
+
+def of_feeds(run: Run) -> Iterator[Finding]:
+    """The first cut of each tool at a feed a turn at which any edge breaks."""
+    path, (tools, numbers) = run.toolpath, run.tools_that_cut
+    if run.stock is None:
+        return
+    ends, (low, high) = np.stack([path.start, path.end]), run.stock.bounds
+    inside = ((ends.min(axis=0) < high) & (ends.max(axis=0) > low)).all(axis=1)
+    inside &= (path.end[:, 2] <= path.start[:, 2]) | path.lathe  # a way up and out may be fast
+    rows = np.flatnonzero(inside & np.isin(path.kind, (Kind.LINE, Kind.ARC)) & ~path.synchronous & (path.spindle > 0))
+    a_turn = path.feed[rows] / path.spindle[rows]
+    for number in np.unique(numbers[rows]).tolist():
+        tool = tools.get(number)
+        most = MOST_A_TURN if path.lathe or tool is None else tool.effective_radius
+        found = np.flatnonzero((numbers[rows] == number) & (a_turn > most) & (most > 0))
+        if len(found):
+            told = f"tool {number} breaks at this feed"
+            more = f"{told}: {a_turn[found[0]]:.3g} mm a turn; compare F and S with the table"
+            yield Finding(DANGER, f"feed of tool {number}", int(path.line[rows[found[0]]]), (told, more))
+
+
+def at_the_end(run: Run) -> Iterator[Finding]:
+    """Radius compensation that is left on."""
+    steps = len(run.steps.block)
+    if steps and run.history.value("side", steps - 1):
+        line = int(run.lines()[-1])
+        told = "the program ends with radius compensation on"
+        yield Finding(DANGER, "compensation left on", line, (told, f"{told}: which word takes it back, and where?"))
+
+
+def of_part(difference: Any, run: Run, had: Mapping[Any, bool]) -> Iterator[Finding]:
+    """What a comparison found out of its limits, feature by feature in the order of the program; what was not cut, last.
+
+    `had`: the measures (side, feature, name) that the blank has, and whether as drawn: one beside them begins a feature. A zero
+    point that is not where the drawing has it is told alone: all else follows from it.
+    """
+    if off := list(_of_zero(difference)):
+        yield from off
+        return
+    named: dict[tuple[str, str], list[Any]] = {}
+    begun = set()
+    for row in difference.features:
+        if row.ok and row.measure != "form" and not had.get((row.side, row.feature, row.measure)):
+            begun.add((row.side, row.feature))
+        if not row.ok:
+            named.setdefault((row.side, row.feature), []).append(row)
+    before = len(difference.workpiece.cutting.path) - len(run.toolpath)  # rows of a program that this one goes on with
+    made = [_of_feature(key[1], rows, run, before, key in begun) for key, rows in named.items()]
+    yield from sorted(made, key=lambda each: (each.line == 0, each.line))
+
+
+def _of_zero(difference: Any) -> Iterator[Finding]:
+    """Where the blank stands, from the zero of the program, against where the drawing has it."""
+    drawn, stands = difference.compared.design.blank, difference.workpiece.cutting.stock.bounds
+    if drawn is None:
+        return
+    off = np.subtract(drawn.bounds, stands)
+    moved = np.abs(off[0]) > difference.tolerance
+    if not moved.any() or np.abs(off[0] - off[1]).max() > difference.tolerance:  # a blank of another size
+        return
+    axes, told = np.flatnonzero(moved), "the zero point is not where the drawing has it"
+    along = ", ".join("XYZ"[k] for k in axes)
+    far = ", ".join(f"{off[0, k]:.3f} mm along {'XYZ'[k]}" for k in axes)
+    yield Finding(PART, ZERO, 0, (told, f"{told}: it is off along {along}", f"{told}: it is off by {far}"))
+
+
+def _of_feature(feature: str, rows: list[Any], run: Run, before: int, begun: bool) -> Finding:
+    row = _most_telling(rows)
+    there, line = row.place, row.line if row.program == 0 else 0
+    flat = any("depth" in each.measure and each.actual <= 0 for each in rows)
+    begun = (begun and not flat) or feature == "profile" or not all(_untouched(each) for each in rows)
+    spoilt = feature == "profile" or any(each.measure == "form" and each.deviation < 0 for each in rows)
+    lacks = (each.measure for each in rows if each.verdict == "not cut" and "depth" not in each.measure and not spoilt)
+    without = next(lacks, "")
+    if (not begun and any(each.measure != "form" for each in rows)) or without:
+        told = f"{feature}{f', {without}' if begun else ''}: nothing is cut there"
+        line = nearest_line(run, there, over=True)
+        return Finding(PART, f"{feature} not cut", line, (told, f"{told}: which block should, and how deep?"), there)
+    line = _said_by(row, line, run, before) or nearest_line(run, there)
+    if row.feature == "blank" or row.measure == "form":
+        gone = row.deviation < 0
+        what = "too much is cut" if gone else "something is left"
+        told = f"{feature}: {what}"
+        more = f"{told}: {abs(row.deviation):.3f} mm{_at(there)}"
+        return Finding(PART, f"{feature} {what}", line, (told, more, f"{more}; {_why(row, run, before)}"), there)
+    its, unit = f"{feature}: its {row.measure} is", _unit(row.measure)
+    which = f" ({row.nominal:g} {unit} on the drawing)" if row.measure[-1:].isdigit() else ""  # its number is not on it
+    told, sized = f"{its} not as drawn{which}", f"{its} {abs(row.deviation):.3f} {unit} too {_way(row)}{which}"
+    if abs(row.deviation) > FAR:
+        sized = told
+    return Finding(PART, f"{feature} {row.measure}", line, (told, sized, f"{sized}; {_why(row, run, before)}"), there)
+
+
+def _untouched(row: Any) -> bool:
+    """Whether a measure is that of a feature which nobody has begun."""
+    left = row.measure == "form" and row.deviation > 0
+    return row.verdict == "not cut" or left or ("depth" in row.measure and not row.actual > 0)
+
+
+TURNED, MILLED = {"diameter": 0, "length": 2, "z": 2}, {"depth": 2, "x": 0, "y": 1}  # measures along one axis
+
+
+def _said_by(row: Any, line: int, run: Run, before: int) -> int:
+    """The line that said what a measure is: where the cut that made it moves across it, the block before it that did not.
+
+    A rapid makes nothing, it leaves what the cut before it made. 0 for what was made before the first row of the answer.
+    """
+    path, k = run.toolpath, row.row - before
+    if not line or k < 0:
+        return line if row.row < 0 else 0
+    axis = (MILLED if np.ptp(path.end[:, 1]) else TURNED).get(row.measure.split(" ")[0])
+    ahead = np.flatnonzero(path.is_motion[: k + 1] & (path.program[: k + 1] == 0))
+    cuts = ahead[path.kind[ahead] != Kind.RAPID]
+    if not len(cuts):
+        return line
+    along = ahead[ahead <= cuts[-1]]
+    if axis is not None:
+        along = along[np.abs(path.end - path.start)[along, axis] > 1e-9]
+    return int(path.line[along[-1]]) if len(along) else line
+
+
+ORDER = ("depth", "x", "y", "length", "width", "diameter")  # measures that say more than "form" does
+
+
+FAR = 1e3  # mm: a radius that is further off is read off a straight line
+
+
+def _most_telling(rows: list[Any]) -> Any:
+    """The row to begin with: one whose line is known, a measure rather than the form."""
+    return min(rows, key=lambda row: (row.line == 0, math.isnan(row.deviation), row.measure == "form",
+                                      ORDER.index(row.measure) if row.measure in ORDER else len(ORDER)))  # fmt: skip
+
+
+def _way(row: Any) -> str:
+    more = row.deviation > 0
+    if row.measure in ("x", "y", "z"):
+        return f"far to {'+' if more else '-'}{row.measure.upper()}"
+    if "depth" in row.measure:
+        return "deep" if more else "shallow"
+    return "large" if more else "small"
+
+
+def _unit(measure: str) -> str:
+    return "degrees" if "angle" in measure else "mm"
+
+
+NEAR = 1.0  # mm, beyond the largest tool: a row that is farther away has nothing to do with a place
+
+
+def nearest_line(run: Run, place: Place | None, over: bool = False) -> int:
+    """The line of the row at feed that passes nearest to a place, `over` it at any height; 0 without one; an arc counts as its
+    chord."""
+    path = run.toolpath
+    rows = np.flatnonzero(path.is_motion & (path.kind != Kind.RAPID) & (path.program == 0))
+    if place is None or not len(rows):
+        return 0
+    seen = np.array([1.0, 1.0, 0.0 if over and not path.lathe else 1.0])
+    there, start, along = place * seen, path.start[rows] * seen, (path.end[rows] - path.start[rows]) * seen
+    squared = np.maximum((along**2).sum(axis=1), 1e-12)
+    share = np.clip(((there - start) * along).sum(axis=1) / squared, 0.0, 1.0)  # of the foot of the perpendicular
+    away = np.linalg.norm(start + share[:, None] * along - there, axis=1)
+    reach = NEAR + max((tool.radius for tool in run.tools_that_cut[0].values()), default=0.0)
+    return int(path.line[rows[away.argmin()]]) if away.min() <= reach else 0
+
+
+def _at(place: Place | None) -> str:
+    return f" near X{place[0]:.1f} Y{place[1]:.1f}" if place else ""
+
+
+def _why(row: Any, run: Run, before: int) -> str:
+    """What a deviation of a certain size usually comes from, else what to compare."""
+    (tools, numbers), k = run.tools_that_cut, row.row - before
+    tool = tools.get(int(numbers[k])) if 0 <= k < len(numbers) else None
+    off = abs(row.deviation)
+    if tool is not None and tool.radius > 0 and tool.kind != "drill" and row.measure not in ("x", "y", "depth"):
+        for times, said in ((1, "the radius"), (2, "the diameter"), (4, "twice the diameter")):
+            if math.isclose(off, times * tool.radius, abs_tol=0.01):
+                return f"that is {said} of the tool: on which side of the contour does it run?"
+    return "compare the words of this block with the drawing"
+
+
+def of_threads(design: Any, run: Run, tolerance: float) -> Iterator[Finding]:
+    """The passes of a turned part's threads that have another pitch than drawn, or miss the groove of the deepest one; its
+    depth."""
+    path = run.toolpath
+    for name, thread in zip(design.drawn_names(), design.features) if hasattr(design, "profile") else ():
+        if thread.kind != "thread" or (found := passes_of(path, thread)) is None:
+            continue  # said by its measures
+        for row, pitch in zip(found.rows, found.pitch):
+            if abs(pitch - thread.pitch) > EXACT:
+                told = f"{name}: its pitch is not as drawn"
+                yield Finding(PART, f"{name} pitch", int(path.line[row]), (told, f"{told}: {pitch:g} mm"), _start(path, row))
+        for row in found.rows[found.beside > 0]:
+            told = f"{name}: a pass does not run in the groove of the others"
+            moved = np.flatnonzero(path.start[:row, 2] != path.end[:row, 2])  # what brought it where it begins
+            line = int(path.line[moved[-1] if len(moved) else row])
+            yield Finding(PART, f"{name} begins", line, (told, f"{told}: where along Z does it begin?"), _start(path, row))
+        if (shallow := found.shallow(thread)) > tolerance:
+            told, row = f"{name}: its depth is not as drawn", found.deepest
+            sized = f"{name}: its depth is {shallow:.3f} mm too shallow"
+            yield Finding(PART, f"{name} depth", int(path.line[row]), (told, sized), _start(path, row))
+
+
+def _start(path: Any, row: int) -> Place:
+    x, y, z = path.start[row].tolist()
+    return x, y, z

@@ -1,0 +1,192 @@
+"""Grading: an answer is run on the machine of its exercise, its part is measured, and what was asked for is looked for.
+
+A whole run is the least: one that stops, a blank that nobody touched and a tool that cannot cut earn nothing, and what
+collides earns nothing either. The part is marked as a measuring room marks it: each feature by the share of its measures that are
+within their limits. A measure that the blank had already earns nothing by itself, and what is cut away elsewhere costs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mnclab.learning.answered import run_of
+from mnclab.learning.asked import economy, of_asked, wishes
+from mnclab.learning.exercise import Exercise
+from mnclab.learning.findings import (
+    STOPPED,
+    ZERO,
+    Finding,
+    at_the_end,
+    hints_of,
+    of_alarms,
+    of_collisions,
+    of_feeds,
+    of_part,
+    of_threads,
+)
+from mnclab.learning.grade import Grade
+from mnclab.learning.restarting import collisions_of, part_of
+from mnclab.runs.run import Run
+from mnclab.text.alarm import Alarm
+from mnclab.text.file import decode, read
+from mnclab.text.given import shown
+
+MOST_BYTES = 1_000_000
+TIMED = ("quicker", "restart")  # time is what is asked for, or shows that what was done is done again
+ECONOMY_FROM = 3  # the level
+
+
+def text_of(answer: Any) -> str:
+    """The text of an answer: a text, a file, its bytes, or a run; an Alarm for anything else."""
+    if isinstance(answer, Run):
+        return answer.program.text
+    if isinstance(answer, Path):
+        answer = read(answer, answer, MOST_BYTES)
+    if isinstance(answer, bytes):
+        answer = decode(answer)[0]
+    if not isinstance(answer, str):
+        raise Alarm(f"an answer is a text, a path or a run, got {shown(answer)}")
+    return answer.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def graded(exercise: Exercise, answer: Any, tried: Mapping[str, int]) -> Grade:
+    """The grade of an answer."""
+    text = text_of(answer)
+    try:
+        if len(text) > MOST_BYTES:
+            raise Alarm(f"the answer has more than {MOST_BYTES // 1_000_000} MB")
+        if not text.strip():
+            raise Alarm("the answer is empty")
+        if exercise.answer == "numbers":
+            from mnclab.learning.predicting import predicted
+
+            return predicted(exercise, text, tried)
+        if exercise.answer == "strategy":
+            from mnclab.learning.pocketing import cleared
+
+            return cleared(exercise, text, tried)
+        return of_run(exercise, run_of(exercise, text), tried, text)
+    except Alarm as alarm:
+        line = alarm.span.line if alarm.span else 0
+        said = alarm.message + (f" ({alarm.hint})" if alarm.hint else "")
+        return nothing(exercise, [Finding(STOPPED, f"alarm {alarm.message}", line, (said,))], tried)
+
+
+def nothing(exercise: Exercise, findings: list[Finding], tried: Mapping[str, int], run: Run | None = None) -> Grade:
+    """The grade of what earns nothing."""
+    hints, faults = hints_of(findings, tried)
+    return Grade(exercise.id, 0.0, False, dict.fromkeys(headings(exercise), 0.0), hints, faults, run=run)
+
+
+def beside(exercise: Exercise, findings: list[Finding], run: Run, text: str) -> list[Finding]:
+    """Findings of a run: where tables are the answer, at the table they come from; their own line is that of the program."""
+    if exercise.answer != "setup":
+        return findings
+    return [each._replace(line=_table(text, each, run), steps=tuple(_beside(step, each.line) for step in each.steps))
+            for each in findings]  # fmt: skip
+
+
+def _beside(step: str, line: int) -> str:
+    return f"{step} (line {line} of the program)" if line else step
+
+
+def _table(text: str, finding: Finding, run: Run) -> int:
+    """The line at which a table of an answer begins: that of the zero points, or of the tool that was at work; else 0."""
+    rows = np.flatnonzero((run.toolpath.line == finding.line) & (run.toolpath.program == 0))
+    tool = run.tools_that_cut[1][rows[0]] if len(rows) else ""
+    heads = ("[datums]", "[presets]") if finding.kind == ZERO else (f"[tools.{tool}]", f"[correctors.{tool}]")
+    return next((k for k, row in enumerate(text.split("\n"), 1) if row.strip().startswith(heads)), 0)
+
+
+def headings(exercise: Exercise) -> list[str]:
+    """The headings that count, in their order."""
+    asked, economic = exercise.asked, exercise.level >= ECONOMY_FROM
+    wanted = asked.must or asked.must_not or asked.values or asked.cutting or (asked.blocks and not economic)
+    counted = {
+        "part": exercise.design is not None,
+        "safety": exercise.answer in ("program", "setup"),
+        "asked": bool(wanted) or exercise.answer == "numbers" or bool(asked.strategy),
+        "economy": economic and bool(asked.time or asked.length),
+    }
+    return [name for name, counts in counted.items() if counts]
+
+
+def of_run(exercise: Exercise, run: Run, tried: Mapping[str, int], text: str = "") -> Grade:
+    """The grade of a run, which a `text` asked for."""
+    findings = list(of_alarms(run))
+    if findings or run.reach or run.halt is not None:
+        stopped = findings or [Finding(STOPPED, "stopped", 0, ("the program stops before its end",))]
+        return nothing(exercise, beside(exercise, stopped, run, text), tried, run)
+    if not run.toolpath.is_motion.any():
+        told = "the program moves nothing"
+        return nothing(exercise, [Finding(STOPPED, told, 0, (told,))], tried, run)
+    difference, untouched, threads = None, {}, []
+    if exercise.design is not None:
+        difference = part_of(exercise, run).compare(exercise.design, exercise.tolerance)
+        untouched = blank_as_drawn(exercise)
+        threads = list(of_threads(exercise.design, run, exercise.tolerance))
+        findings += [*threads, *of_part(difference, run, untouched)]
+    danger = [*of_collisions(collisions_of(exercise, run), run), *of_feeds(run), *at_the_end(run)]
+    asked = list(of_asked(exercise, run))
+    findings += danger + asked
+    marks = {"safety": 0.0 if danger else 1.0}
+    if difference is not None:
+        lost = len({each.kind for each in threads}) / (1 + len(exercise.design.features))
+        marks["part"] = max(0.0, part_mark(difference, untouched) - lost)
+    wanted = wishes(exercise)
+    marks["asked"] = 1 - len({each.kind for each in asked}) / wanted if wanted else 1.0
+    marks["economy"], slow = economy(exercise, run)
+    whole = difference is None or (not threads and all(row.ok for row in difference.features))
+    if whole and not danger:
+        findings += slow
+    points = {name: marks.get(name, 0.0) for name in headings(exercise)}
+    earned = not danger and points.get("part", 1.0) > 0
+    hints, faults = hints_of(beside(exercise, findings, run, text), tried)
+    measures = difference.features if difference is not None else None
+    passed = earned and whole and not asked and not (slow and exercise.kind in TIMED)
+    return Grade(exercise.id, earned * score(exercise, points), passed, points, hints, faults, measures, difference, run)
+
+
+def score(exercise: Exercise, points: Mapping[str, float]) -> float:
+    """The marks by the weights of their headings; safety has none: what is not safe earns nothing."""
+    weights = {name: exercise.weights[name] for name in points if name in exercise.weights}
+    total = sum(weights.values())
+    return sum(weights[name] * points[name] for name in weights) / total if total else float(all(points.values()))
+
+
+@cache
+def blank_as_drawn(exercise: Exercise) -> dict[tuple[str, str, str], bool]:
+    """The measures (side, feature, name) of the drawing that the blank has before anything is cut, and whether it has them."""
+    from mnclab.workpiece.cutting import Cutting
+    from mnclab.workpiece.milling.milled import Milled
+    from mnclab.workpiece.turning.turned import Turned
+
+    stock = exercise.design.blank if exercise.design.blank is not None else exercise.setup.stock
+    lathe = hasattr(exercise.design, "profile")
+    part = (Turned if lathe else Milled)(Cutting.of_nothing(stock, lathe))
+    return {key_of(row): row.ok for row in part.compare(exercise.design, exercise.tolerance).features}
+
+
+def key_of(row: Any) -> tuple[str, str, str]:
+    """What names a measure of a drawing."""
+    return row.side, row.feature, row.measure
+
+
+def part_mark(difference: Any, untouched: Mapping[tuple[str, str, str], bool]) -> float:
+    """The mean of the features' marks: the share of the measures to be made that are within their limits, less what the blank
+    had and the program spoilt."""
+    made: dict[tuple[str, str], list[bool]] = {}
+    spoilt = 0
+    for row in difference.features:
+        if not untouched.get(key_of(row), False):
+            made.setdefault((row.side, row.feature), []).append(row.ok)
+        elif not row.ok:
+            spoilt += 1
+    if not made:
+        return float(not spoilt)
+    return max(0.0, (sum(map(np.mean, made.values())) - spoilt) / len(made))

@@ -1,0 +1,271 @@
+"""A class: a folder a pupil, graded in processes of their own, which a hostile answer cannot keep; a table and a page."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from html import escape
+from importlib import import_module
+from pathlib import Path
+from queue import Empty, SimpleQueue
+from threading import Thread
+from typing import Any, NamedTuple
+
+from mnclab.learning.card import page
+from mnclab.learning.exercise import exercise, files, files_of_house
+from mnclab.text.alarm import Alarm
+from mnclab.text.file import replaced
+from mnclab.text.given import check_number, fitting, shown, whole
+from mnclab.text.tables import Rows, html_table
+
+SECONDS = 5.0  # of the processor, for one answer
+PATIENCE = 60.0  # s on the clock, where the machine is busy, or cannot count the other
+MEMORY = 1 << 30  # bytes
+START = 60.0  # s for a process to begin
+SLOW_TO_OPEN = (
+    "mnclab.learning.grading", "mnclab.design.difference.comparing", "mnclab.design.difference.turned_comparing",
+    "mnclab.workpiece.milling.milled", "mnclab.workpiece.turning.turned", "mnclab.geometry.shapely",
+)  # fmt: skip
+UNKNOWN = "its name is not that of an exercise, such as mnc-03.mnc"
+BESIDE = (".toml", ".html", ".json")  # files that are no answers
+COMMON = 8  # faults that the page of a class names
+
+
+class Mark(NamedTuple):
+    """The grade of one answer of one pupil; `refused` says why an answer was not graded."""
+
+    pupil: str
+    exercise: str
+    score: float
+    passed: bool
+    hints: tuple[str, ...] = ()
+    faults: tuple[str, ...] = ()
+    refused: str = ""
+
+
+class Marks(Rows[Mark]):
+    """The marks of a class, pupil by pupil; it prints as a table."""
+
+    HEAD = ("pupil", "exercise", "score", "passed", "first hint")
+    NUMBERS = range(2, 3)
+
+    def texts(self) -> list[tuple[str, ...]]:
+        """What the table says, row by row."""
+        return [(each.pupil, each.exercise, f"{each.score:.0%}", "yes" if each.passed else "no",
+                 each.refused or next(iter(each.hints), "")) for each in self]  # fmt: skip
+
+    def as_dicts(self) -> list[dict[str, Any]]:
+        """For JSON."""
+        return [each._asdict() for each in self]
+
+
+@fitting
+def mark(folder: str | Path, *, neighbours: bool = False, jobs: int | None = None) -> Marks:
+    """Grade a folder of folders, one a pupil, whose files are called as the exercises they answer: `ivanov/mnc-03.mnc`.
+
+    They are graded by the files of the house, not by copies that lie about. With `neighbours` each pupil's drawing has the
+    dimensions of the name of the folder. `jobs` processes, default one a core.
+    An Alarm where there is no answer.
+    """
+    if jobs is not None:
+        check_number(whole(jobs, "jobs"), "jobs", at_least=1)
+    answers, known = list(_answers(Path(folder))), files() | files_of_house()
+    if not any(name in known for _, name, _ in answers):
+        raise Alarm(f"there is no answer in {folder}", hint="a folder a pupil, files such as ivanov/mnc-03.mnc")
+    idle: SimpleQueue[_Grader] = SimpleQueue()
+    graders = [_Grader() for _ in range(min(len(answers), jobs or os.cpu_count() or 1))]
+    for each in graders:
+        idle.put(each)
+
+    def one(answer: tuple[str, str, Path]) -> Mark:
+        pupil, name, path = answer
+        if name not in known:
+            return Mark(pupil, path.name, 0.0, False, refused=UNKNOWN)
+        grader = idle.get()
+        try:
+            return _mark_of(pupil, name, grader.ask((str(path), str(known[name]), pupil if neighbours else "")))
+        finally:
+            idle.put(grader)
+
+    try:
+        with ThreadPoolExecutor(len(graders)) as threads:
+            return Marks(threads.map(one, answers))
+    finally:
+        for each in graders:
+            each.end()
+
+
+def _answers(folder: Path) -> Iterator[tuple[str, str, Path]]:
+    """(pupil, exercise, file) of every answer in a folder of folders, or in that of one pupil."""
+    if not folder.is_dir():
+        raise Alarm(f"{shown(str(folder))} is no folder")
+    pupils = [each for each in sorted(folder.iterdir()) if each.is_dir() and not each.name.startswith(".")]
+    for pupil in pupils or [folder]:
+        for path in sorted(pupil.iterdir()):
+            if path.is_file() and path.suffix not in BESIDE and not path.name.startswith("."):
+                yield pupil.name, path.stem.lower(), path
+
+
+def _mark_of(pupil: str, name: str, found: dict[str, Any]) -> Mark:
+    if "refused" in found:
+        return Mark(pupil, name, 0.0, False, refused=found["refused"])
+    return Mark(pupil, name, found["score"], found["passed"], tuple(found["hints"]), tuple(found["faults"]))
+
+
+class _Grader:
+    """A process that grades one answer after the other; one that takes too long is ended, and another takes its place.
+
+    It is begun as a command, so that a script which grades is not run again in it.
+    """
+
+    def __init__(self) -> None:
+        self._begin()
+
+    def _begin(self) -> None:
+        here = os.pathsep.join(filter(None, [str(Path(__file__).parents[2]), os.environ.get("PYTHONPATH")]))
+        self._process = subprocess.Popen(
+            [sys.executable, "-c", f"import {__name__} as marking; marking.grade_all()"], env={**os.environ, "PYTHONPATH": here},
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, encoding="utf-8",
+        )  # fmt: skip
+        self._told: SimpleQueue[str] = SimpleQueue()
+        Thread(target=_listen, args=(self._process.stdout, self._told), daemon=True).start()
+        self._ready = False
+
+    def ask(self, answer: tuple[str, str, str]) -> dict[str, Any]:
+        """The grade of an answer as a record, or why it was refused."""
+        why = "the grading of it came to an end by itself"
+        try:
+            self._ready = self._ready or bool(self._told.get(timeout=START))
+            if self._ready and self._process.stdin is not None:
+                self._process.stdin.write(json.dumps(answer) + "\n")
+                self._process.stdin.flush()
+                if line := self._told.get(timeout=PATIENCE):
+                    found: dict[str, Any] = json.loads(line)
+                    return found
+        except Empty:
+            why = f"not graded within {PATIENCE:g} s"
+        except OSError:  # it has ended
+            self._ready = False
+        self.end()
+        self._begin()
+        return {"refused": why}
+
+    def end(self) -> None:
+        """Stop the process."""
+        self._process.kill()
+        self._process.wait()
+        for pipe in (self._process.stdin, self._process.stdout):
+            if pipe is not None:
+                with suppress(OSError):
+                    pipe.close()
+
+
+def _listen(pipe: Any, told: SimpleQueue[str]) -> None:
+    """Hand on the lines of a process, and an empty one at its end."""
+    with suppress(OSError, ValueError):
+        for line in pipe:
+            told.put(line)
+    told.put("")
+
+
+class _TooLongError(BaseException):
+    """Raised wherever a grading is when its time is over; nothing on the way holds it back."""
+
+
+def _stop(*_: Any) -> None:
+    raise _TooLongError
+
+
+def grade_all() -> None:
+    """What a process does: read answers, write grades, a line each, until nobody asks."""
+    for module in SLOW_TO_OPEN:  # no pupil's time
+        import_module(module)
+    with suppress(ImportError, ValueError, OSError):  # where the system has such limits
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
+    if hasattr(signal, "SIGPROF"):
+        signal.signal(signal.SIGPROF, _stop)
+    out, sys.stdout = sys.stdout, sys.stderr  # nothing else is written between the grades
+    print("ready", file=out, flush=True)
+    for line in sys.stdin:
+        print(json.dumps(_graded(*json.loads(line))), file=out, flush=True)
+
+
+def _graded(path: str, name: str, pupil: str) -> dict[str, Any]:
+    counted = hasattr(signal, "ITIMER_PROF")
+    try:
+        if counted:
+            signal.setitimer(signal.ITIMER_PROF, SECONDS)
+        grade = exercise(Path(name), pupil).check(Path(path))
+    except Alarm as alarm:
+        return {"refused": alarm.message.replace(path, Path(path).name)}
+    except MemoryError:
+        return {"refused": f"it needs more than {MEMORY >> 20} MB"}
+    except _TooLongError:
+        return {"refused": f"not graded within {SECONDS:g} s"}
+    finally:
+        if counted:
+            signal.setitimer(signal.ITIMER_PROF, 0)
+    return {"score": grade.score, "passed": grade.passed, "hints": [*map(str, grade.hints)], "faults": list(grade.faults)}
+
+
+# What a class looks like: pupils across exercises, what is often wrong, what to explain again.
+
+
+def class_page(marks: Marks, title: str) -> str:
+    """The page of a class."""
+    names = sorted({each.exercise for each in marks if each.refused != UNKNOWN})
+    by = {(each.pupil, each.exercise): each for each in marks}
+    pupils = list(dict.fromkeys(each.pupil for each in marks))
+    rows = [(pupil, *(_cell(by.get((pupil, name))) for name in names)) for pupil in pupils]
+    body = f"<h1>{escape(title)}</h1>{html_table(('pupil', *names), rows)}"
+    common = Counter((each.exercise, fault) for each in marks for fault in set(each.faults)).most_common(COMMON)
+    if common:
+        often = [(*what, str(n)) for what, n in common]
+        body += f"<h2>Often wrong</h2>{html_table(('exercise', 'fault', 'answers'), often, numbers=(2,))}"
+    again = list(_again(marks, names))
+    if again:
+        body += f"<h2>To explain again</h2>{html_table(('lesson', 'exercise', 'passed'), again)}"
+    refused = [(each.pupil, each.exercise, each.refused) for each in marks if each.refused]
+    if refused:
+        body += f"<h2>Not graded</h2>{html_table(('pupil', 'exercise', 'why'), refused)}"
+    return page(title, body)
+
+
+def _cell(found: Mark | None) -> str:
+    return "–" if found is None else f"{'✓ ' if found.passed else ''}{found.score:.0%}"
+
+
+def _again(marks: Sequence[Mark], names: Sequence[str]) -> Iterator[tuple[str, str, str]]:
+    """The exercises that less than half of those who tried have passed."""
+    for name in names:
+        tried = [each for each in marks if each.exercise == name]
+        passed = sum(each.passed for each in tried)
+        if 2 * passed < len(tried):
+            found = exercise(name)
+            yield found.lesson, f"{name}: {found.title}", f"{passed} of {len(tried)}"
+
+
+def mark_from_shell(folder: Path, chosen: Any) -> int:
+    """Grade a class as the command line says; status 1 where an answer has not passed."""
+    marks = mark(folder, neighbours=chosen.neighbours)
+    if chosen.html:
+        with replaced(chosen.html) as beside:
+            beside.write_text(class_page(marks, folder.resolve().name), encoding="utf-8")
+    if chosen.json:
+        print(json.dumps(marks.as_dicts(), ensure_ascii=False))
+    elif chosen.csv:
+        marks.save(chosen.csv)
+    elif chosen.csv is not None:
+        print(marks.csv(), end="")
+    elif not chosen.html:
+        print(marks)
+    return 0 if all(each.passed for each in marks if each.refused != UNKNOWN) else 1

@@ -1,0 +1,70 @@
+"""Predictions: numbers that are said before a program runs, and then looked up in its run."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from mnclab.learning.answered import given_run
+from mnclab.learning.asked import length
+from mnclab.learning.exercise import Exercise, Question
+from mnclab.learning.findings import ASKED, Finding, hints_of
+from mnclab.learning.grade import Grade
+from mnclab.runs.run import Run
+from mnclab.text.alarm import Alarm, Span
+from mnclab.text.given import shown
+
+ANSWER = re.compile(r"^[ \t]*(\d{1,3})[ \t]*[=:][ \t]*([+-]?\d{1,12}(?:[.,]\d{0,12})?)[ \t]*([^\s#;]{0,9})[ \t]*(?:[#;].*)?$")
+EMPTY = re.compile(r"^[ \t]*\d{1,3}[ \t]*[=:][ \t]*$")
+UNITS = "mm мм mm/min мм/мин mm/rev rev/min об/мин s с ° deg".split()
+
+
+def minus(line: str) -> str:
+    """A line with the sign that keyboards have, in place of the one that print has."""
+    return line.replace("−", "-")
+
+
+def numbers_of(text: str) -> dict[int, float]:
+    """Numbers by questions, a line each: `1 = 12.5`; a line that is none of these is an Alarm, comments (#, ;) are not."""
+    found = {}
+    for number, line in enumerate(text.split("\n"), 1):
+        if not line.strip() or line.strip()[0] in "#;":
+            continue
+        if EMPTY.match(line):
+            continue
+        said = ANSWER.match(minus(line))
+        if said is None or (said[3] and said[3].lower() not in UNITS):
+            raise Alarm(f"an answer is written as 1 = 12.5, got {shown(line.strip()[:40])}", Span(number, 1))
+        found[int(said[1])] = float(said[2].replace(",", "."))
+    return found
+
+
+def value_of(question: Question, run: Run) -> float:
+    """What is right: mm in the coordinates of the program, as the control counts or ("tip z") where the tip truly is;
+    the feed as it is programmed, mm/min or mm a revolution; rev/min, s."""
+    if question.what == "length":
+        return length(run)
+    if question.what == "time":
+        return float(run.profile().time)
+    moment = run.at(question.line) if question.line is not None else run.at(step=len(run.steps.block) - 1)
+    if question.what[-1] in "xyz":
+        place = moment.point if question.what.startswith("tip") else moment.position
+        return float(place["xyz".index(question.what[-1])])
+    value = moment.state.get(question.what, 0.0)
+    return float(getattr(value, "number", value))
+
+
+def predicted(exercise: Exercise, text: str, tried: Mapping[str, int]) -> Grade:
+    """The grade of predictions: the share that is right."""
+    said, run = numbers_of(text), given_run(exercise)
+    findings, lines = [], {int(m[1]): k for k, line in enumerate(text.split("\n"), 1) if (m := ANSWER.match(minus(line)))}
+    for number, question in enumerate(exercise.questions, 1):
+        if number in said and abs(said[number] - value_of(question, run)) <= question.tolerance:
+            continue
+        told = f"question {number} is not answered" if number not in said else f"question {number}: another number"
+        steps = (told, *(f"question {number}: {each}" for each in question.hints))
+        steps = steps if number not in said else steps[1:] or steps
+        findings.append(Finding(ASKED, f"question {number}", lines.get(number, 0), steps))
+    share = 1 - len(findings) / len(exercise.questions)
+    hints, faults = hints_of(findings, tried)
+    return Grade(exercise.id, share, not findings, {"asked": share}, hints, faults, run=run)

@@ -1,0 +1,70 @@
+"""Drawings as ISO 129-1 wants them: no dimension twice, leaders that do not cross, no number finer than its tolerance."""
+
+from itertools import combinations
+from pathlib import Path
+
+import numpy as np
+import pytest
+from design.random_designs import milled, turned
+from shapely import LineString
+from tools.together import deep_but_one_in
+
+from mnclab.design import model as d
+from mnclab.design.drawing import drawing
+from mnclab.design.drawing.placing import LEADER
+from mnclab.design.drawing.view import Linear
+
+SAMPLES = sorted((Path(__file__).parents[2] / "data" / "designs").rglob("*.toml"))
+
+
+def laid(drawn):
+    return [each for sheet in drawn.sheets for each, _ in sheet.views]
+
+
+def twice(drawn):
+    """Lengths of one view between the same two places, of one value."""
+    for view in laid(drawn):
+        linear = [each for each in view.view.dimensions if isinstance(each, Linear)]
+        for one, other in combinations(linear, 2):
+            ends = [sorted(end[0] for end in (each.a, each.b)) for each in (one, other)]
+            if one.along == other.along == "x" and np.allclose(*ends, atol=1e-6) and one.value == other.value:
+                yield one.value.text
+
+
+def crossing(drawn):
+    """Leaders of one view that cross."""
+    for view in laid(drawn):
+        leaders = [[LineString(line[1:]) for line in mark.lines if line[0] == LEADER] for mark in view.marks]
+        for one, other in combinations([each for each in leaders if each], 2):
+            if any(a.crosses(b) for a in one for b in other):
+                yield view.view.name
+
+
+@pytest.mark.parametrize("path", deep_but_one_in(5, SAMPLES))
+def test_samples_say_nothing_twice_and_no_leaders_cross(path):
+    drawn = drawing(d.Design.load(path))
+    assert not [*twice(drawn)] and not [*crossing(drawn)]
+
+
+@pytest.mark.parametrize(("make", "seed"), deep_but_one_in(12, [(make, seed) for make in (milled, turned) for seed in range(30)]))
+def test_nor_do_those_of_random_parts(make, seed):
+    drawn = drawing(make(seed))
+    assert not [*crossing(drawn)]
+    assert make is milled or not [*twice(drawn)]  # two pockets in a row may be of one length
+
+
+def test_a_taper_has_no_more_than_it_needs():
+    """From radius 10 to 15 over 8 mm: arctan(5/8) = 32.005° is the least round, and stands in brackets."""
+    cone = d.TurnedDesign([(0, 10), (-8, 15), (-8, 20), (-30, 20)])
+    texts = {each.measure: each.text for each in drawing(cone).dimensions}
+    assert texts["angle 1"] == "(32.01°)" and texts["diameter 1"] == "⌀20" and texts["diameter 2"] == "⌀30"
+    steep = d.TurnedDesign([(0, 10), (-8, 10 + 8 * np.tan(np.radians(30))), (-8, 20), (-30, 20)])
+    texts = {each.measure: each.text for each in drawing(steep).dimensions}
+    assert texts["angle 1"] == "30°" and texts["diameter 2"] == "(⌀29.24)"
+
+
+def test_equal_grooves_have_one_note():
+    grooves = [d.RingGroove(z=z, width=3, diameter=30) for z in (-10, -20, -30)]
+    drawn = drawing(d.TurnedDesign([(0, 20), (-50, 20)], grooves))
+    assert {each.text for each in drawn.dimensions if each.measure == "width"} == {"3× 3×⌀30"}
+    assert sum("3×⌀30" in box.text for box in drawn.boxes() if box.kind == "text") == 1

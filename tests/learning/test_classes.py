@@ -1,0 +1,354 @@
+"""Classes, pupils' folders, neighbours, progress; predictions, tables, going on, strategies; and the shell."""
+
+import json
+import math
+import subprocess
+import sys
+import unicodedata
+
+import pytest
+
+import mnclab
+import mnclab.learning
+from mnclab import Alarm
+from mnclab import __main__ as shell
+from mnclab.learning.answers import answers_of, pupils_copy
+from mnclab.learning.exercise_file import load
+from mnclab.learning.giving import chosen, give
+from mnclab.learning.marking import class_page, mark
+from mnclab.learning.progress import Progress
+
+NAME = "mnc-07"
+MODEL = answers_of(mnclab.exercise(NAME).file).model
+
+
+def test_a_class_is_graded_and_hostile_answers_are_refused_one_by_one(tmp_path, capsys):
+    answers = {
+        "ivanov/mnc-07.mnc": MODEL.replace("\n", "\r\n").encode("cp1251"),
+        "petrov/MNC-07.txt": MODEL.replace("Z-5", "Z-4").encode(),
+        "endless/mnc-07.mnc": b"G17 G90 T1 S500 M3\n" + b"G1 X40 Y30 Z-1 F1000\nX70\nX10\nY50\n" * 4900,
+        "huge/mnc-07.mnc": b"N1 G0 X1\n" * 200_000,
+        "bytes/mnc-07.mnc": bytes(range(256)) * 20,
+        "ivanov/notes.txt": b"not an answer",
+    }
+    for name, content in answers.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_bytes(content)
+    found = mark(tmp_path)
+    odd = [(each.pupil, each.exercise) for each in found if "not that of an exercise" in each.refused]
+    assert odd == [("ivanov", "notes.txt")]
+    marks = {each.pupil: each for each in found if each.exercise == NAME}
+    assert list(marks) == ["bytes", "endless", "huge", "ivanov", "petrov"]
+    assert [name for name, each in marks.items() if each.passed] == ["ivanov"]
+    assert 0 < marks["petrov"].score < 1 and "depth" in marks["petrov"].hints[0]
+    assert "not graded within" in marks["endless"].refused and "more than 1 MB" in marks["huge"].refused
+    assert marks["bytes"].score == 0
+    page = class_page(mnclab.mark(tmp_path / "petrov"), "9 b")
+    assert "To explain again" in page and "pocket depth" in page and "<h1>9 b</h1>" in page
+    assert shell.main(["grade", str(tmp_path / "ivanov"), "--csv"]) == 0
+    assert capsys.readouterr().out.splitlines()[1].startswith("ivanov,mnc-07,100%,yes")
+
+
+def test_a_script_that_grades_is_not_run_again_by_its_processes(tmp_path):
+    (tmp_path / "anna").mkdir()
+    (tmp_path / "anna" / "mnc-07.mnc").write_text(MODEL)
+    script = f"import mnclab; print('begun', mnclab.mark({str(tmp_path)!r})[0].passed)"
+    for said in (["-c", script], ["-"]):
+        found = subprocess.run([sys.executable, *said], input=script, capture_output=True, text=True)
+        assert found.stdout == "begun True\n" and found.stderr == "", found.stderr
+
+
+def test_a_class_is_marked_by_the_house_not_by_copies_that_lie_about(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "class" / "anna").mkdir(parents=True)
+    (tmp_path / "class" / "anna" / "mnc-07.mnc").write_text(MODEL)
+    (copy,) = [path for path in give([NAME]) if path.suffix == ".toml"]
+    copy.write_text(copy.read_text("utf-8").replace("depth = 5", "depth = 4"), "utf-8")
+    assert not mnclab.exercise(NAME).check(MODEL).passed and mark("class")[0].passed
+
+
+def test_a_copy_of_tables_hides_the_tools_as_they_are_and_grades_alike(tmp_path):
+    for each in mnclab.exercises("tnc-620"):
+        if each.kind == "set up":
+            copy = tmp_path / each.file.name
+            copy.write_text(text := pupils_copy(each.file), "utf-8")
+            assert "true_tools" not in text and "stock = {" not in text
+            assert load(copy).check(each.solution()).passed
+    copy.write_text(text.replace('sealed = "', 'sealed = "AAAA'), "utf-8")
+    with pytest.raises(Alarm, match="what is sealed was changed"):
+        load(copy)
+
+
+def test_a_call_of_another_pupils_file_is_refused(tmp_path):
+    (tmp_path / "other.h").write_text("BEGIN PGM OTHER MM\nEND PGM OTHER MM\n")
+    path = tmp_path / "tnc-620-99.toml"
+    path.write_text(PREDICT.replace("mnc", "tnc-620").replace("predict", "write") + DESIGN)
+    said = str(load(path).check(f"BEGIN PGM A MM\nCALL PGM {tmp_path / 'other.h'}\nEND PGM A MM\n").hints[0])
+    assert "stops" in said
+
+
+def test_a_folder_for_pupils_has_no_answers_and_keeps_what_they_began(tmp_path):
+    (tmp_path / "mnc-07.mnc").write_text("begun")
+    paths = give(["mnc-07..mnc-07"], tmp_path, "Anna-Maria Ș.")
+    assert {path.name for path in paths} == {"mnc-07.toml", "mnc-07.html"}
+    assert (tmp_path / "mnc-07.mnc").read_text() == "begun"
+    text = (tmp_path / "mnc-07.toml").read_text("utf-8")
+    assert "[model]" not in text and "G41 G1 X65" not in text and load(tmp_path / "mnc-07.toml").check(MODEL).passed
+    with pytest.raises(Alarm, match="there is no exercise 'mnc-77'"):
+        give(["mnc-77"], tmp_path)
+
+
+def test_lessons_and_controls_name_exercises():
+    assert set(chosen(["05"])) == {each.id for each in mnclab.exercises(lesson="05")} >= {NAME}
+    assert {mnclab.exercise(each).lesson for each in chosen(["12-14"])} == {"12", "13", "14"}
+    assert len(set(chosen(["g43"]))) == len(mnclab.exercises("g43"))
+    with pytest.raises(Alarm, match="there is no exercise '98'"):
+        list(chosen(["98"]))
+
+
+def test_the_cell_for_nbgrader_gives_part_of_the_marks():
+    """nbgrader takes the number that the last line of a cell of tests shows as its marks."""
+    *told, last = [line.strip() for line in mnclab.learning.__doc__.split(":\n")[-1].strip().split("\n")]
+    for text, marks in ((MODEL, 10), (MODEL.replace("Z-5", "Z-4"), 7), ("", 0)):
+        names = {"mnclab": mnclab, "answer": text}
+        exec("\n".join(told), names)
+        assert eval(last, names) == marks
+
+
+PREDICT = """
+title = "Where to"
+control = "mnc"
+level = 1
+lesson = "02"
+kind = "predict"
+task = "Say where."
+[given]
+program = '''
+G90 T1 S500 M3
+G0 X10 Y5 Z2
+G91 G1 X7 Z-3 F120
+G90 Y20
+M30
+'''
+[[questions]]
+text = "X after line 3"
+what = "x"
+line = 3
+hints = ["Is line 3 absolute?", "It counts from X10."]
+[[questions]]
+text = "The feed at the end"
+what = "feed"
+[[questions]]
+text = "The whole way"
+what = "length"
+line = 1
+tolerance = 0.01
+"""
+DESIGN = "[design.blank]\nlow = [0, 0, -5]\nhigh = [9, 9, 0]\n[[design.features]]\nkind = 'face'\ndepth = 1\n"
+
+
+def test_predictions_are_looked_up_in_the_run(tmp_path):
+    path = tmp_path / "mnc-98.toml"
+    path.write_text(PREDICT)
+    exercise = load(path)
+    way = math.hypot(10, 5, 2) + math.hypot(7, 3) + 15  # from where the machine stands, X0 Y0 Z0
+    right = f"1 = 17\n2: 120 mm/min\n3 = {way:.2f} # mm\n"
+    assert exercise.check(right).passed and exercise.check(right.replace("17", "17,000")).score == 1
+    wrong = exercise.check(right.replace("17", "7"), tried={"question 1": 0})
+    assert wrong.score == pytest.approx(2 / 3) and wrong.hints[0].text == "question 1: Is line 3 absolute?"
+    assert wrong.hints[0].line == 1
+    assert exercise.check(right.replace("17", "7"), tried={"question 1": 2}).hints[0].text.endswith("It counts from X10.")
+    assert "not answered" in exercise.check("1 = 17\n").hints[0].text
+    for begun in ("1 = 17\n2 =\n3 = \n", "1 = 17 мм\n", "1 = 17\n2 = -120\n".replace("-120", "−120")):
+        assert exercise.check(begun).score == pytest.approx(1 / 3)
+    for odd in ("X17\n", "1 = 17 kg\n", "1 = 17 cm\n"):
+        assert "written as 1 = 12.5" in exercise.check(odd).hints[0].text
+
+
+RESTART = """
+title = "Going on"
+control = "mnc"
+level = 3
+lesson = "10"
+kind = "restart"
+task = "The tool broke at line 6."
+[asked]
+time = 1000
+[given]
+until = 6
+program = '''
+G17 G90 G54 T1 S1000 M3
+G0 X15 Y10 Z5
+G1 Z-4 F100
+X45 F300
+G0 Z5
+G0 X15 Y30
+G1 Z-4 F100
+X45 F300
+G0 Z50
+M30
+'''
+[setup.tools.1]
+radius = 4
+kind = "mill"
+cutting_length = 20
+[design.blank]
+low = [0, 0, -20]
+high = [60, 40, 0]
+[[design.features]]
+kind = "slot"
+name = "first"
+start = [15, 10]
+end = [45, 10]
+width = 8
+depth = 4
+[[design.features]]
+kind = "slot"
+name = "second"
+start = [15, 30]
+end = [45, 30]
+width = 8
+depth = 4
+"""
+
+
+def test_going_on_is_graded_with_what_was_cut_before(tmp_path):
+    path = tmp_path / "mnc-97.toml"
+    path.write_text(RESTART)
+    exercise = load(path)
+    rest = "G17 G90 G54 T1 S1000 M3\nG0 X15 Y30 Z5\nG1 Z-4 F100\nX45 F300\nG0 Z50\nM30\n"
+    assert exercise.check(rest).passed
+    slow = tmp_path / "mnc-93.toml"
+    slow.write_text(RESTART.replace("time = 1000", "time = 20"))
+    again = rest.replace("G0 X15 Y30 Z5", "G0 X15 Y10 Z5\nG1 Z-4\nX45\nZ5\nG0 X15 Y30")
+    assert load(slow).check(rest).passed and not load(slow).check(again).passed  # what is there already is cut again
+    assert not exercise.check(rest.replace("S1000 M3", "")).passed  # what the first program had started does not go on by itself
+    through = exercise.check(rest.replace("G0 X15 Y30 Z5", "G0 X15 Y10 Z-4\nG0 X45\nZ5\nX15 Y30"))
+    assert through.passed  # a rapid through the slot that is there already meets nothing
+    assert not exercise.check(rest.replace("G0 X15 Y30 Z5", "G0 X15 Y20 Z-4\nG0 X15 Y30 Z5")).passed
+    assert exercise.check("G17 G90 G54 T1 S1000 M3\nG0 X0 Y0 Z5\nM30\n").score == pytest.approx(0.5 * 0.7 / 0.8 + 0.1 / 0.8)
+
+
+SETUP = RESTART.replace('"restart"', '"set up"').replace("until = 6\n", "").replace("radius = 4", "radius = 3")
+
+
+def test_tables_are_answers(tmp_path):
+    path = tmp_path / "mnc-96.toml"
+    path.write_text(SETUP)
+    exercise = load(path)
+    assert exercise.check("[tools.1]\nradius = 4\nkind = 'mill'\ncutting_length = 20\n").passed
+    assert not exercise.check("[tools.1]\nradius = 3\nkind = 'mill'\n").passed
+    assert "no table 'stock'" in exercise.check("[stock]\nradius = 4\n").hints[0].text
+    assert exercise.check("[tools.1\n").hints[0].line == 1
+    assert exercise.check("radius = ").score == 0
+
+
+STRATEGY = RESTART.replace('"restart"', '"strategy"').replace("until = 6\n", "").split("[design.blank]")[0] + """
+[asked.strategy]
+engagement = 95
+[design.blank]
+low = [0, 0, -20]
+high = [60, 40, 0]
+[[design.features]]
+kind = "pocket"
+name = "pocket"
+x = 30
+y = 20
+length = 40
+width = 26
+corner = 5
+depth = 4
+"""
+
+
+def test_a_strategy_is_tried_on_the_pocket(tmp_path):
+    path = tmp_path / "mnc-95.toml"
+    path.write_text(STRATEGY.replace("[asked]\ntime = 1000\n", ""))
+    exercise = load(path)
+    assert exercise.check('strategy = "adaptive"\nstepover = 2.5\n').passed
+    zigzag = exercise.check('strategy = "zigzag"\nstepover = 4\n')
+    assert not zigzag.passed and "engaged by more than 95 degrees" in zigzag.hints[0].text and zigzag.points["part"] == 1
+    rings = 'strategy = "rings"\n'
+    for wrong in ('strategy = "zag"', "strategy = 5", "stepover = 2", f"{rings}stepover = -1", f"{rings}tool = 9"):
+        assert exercise.check(wrong).score == 0
+
+
+VARY = '[vary]\n"first.depth" = [3, 6, 1]\n"second.width" = [8, 12, 2]\n'
+
+
+def test_neighbours_have_other_dimensions_and_the_name_alone_tells_them(tmp_path):
+    path = tmp_path / "mnc-94.toml"
+    path.write_text(RESTART.split("[design.blank]")[0] + VARY + "[design.blank]" + RESTART.split("[design.blank]")[1])
+
+    def sizes(pupil):
+        first, second = load(path, pupil).design.features
+        return first.depth, second.width
+
+    drawn = {name: sizes(name) for name in "anna boris clara dmitri elena florin galina horia".split()}
+    assert len(set(drawn.values())) > 3 and all(3 <= a <= 6 and b in (8, 10, 12) for a, b in drawn.values())
+    assert sizes("Андрей") == sizes(unicodedata.normalize("NFD", "Андрей"))
+    assert sizes("anna") == sizes(" ANNA ") == drawn["anna"] and sizes("") == (4, 8)
+    path.write_text(path.read_text().replace("first.depth", "third.depth"))
+    with pytest.raises(Alarm, match="the design has no 'third.depth'"):
+        load(path)
+
+
+def test_progress_keeps_the_best_and_counts_faults(tmp_path):
+    path = tmp_path / "progress.json"
+    done, exercise = Progress(path), mnclab.exercise(NAME)
+    for text in (MODEL.replace("Z-5", "Z-4"), MODEL, MODEL.replace("Z-5", "Z-4")):
+        done.record(exercise.check(text))
+    again = Progress(path)
+    assert again.done[NAME]["passed"] and again.done[NAME]["score"] == 1 and again.done[NAME]["tries"] == 3
+    assert again.tried(NAME) == {"pocket depth": 2}
+    assert f"{NAME} ✓" in again._repr_html_()
+    record = '{"mnc-07": {"score": %s, "passed": false, "tries": %s, "faults": {"stopped": %s}}}'
+    damaged = [record % each for each in ((0.5, 1, '"x"'), ("NaN", 1, 1), (0.5, -5, 1), (2, 1, 1), (0.5, 1, "Infinity"))]
+    for spoilt in (*damaged, "", "[]", '{"mnc-07": 5}', "\x00", "[" * 100_000):
+        path.write_text(spoilt)
+        assert Progress(path).done == {}
+
+
+def test_the_shell_lists_shows_checks_and_grades(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert shell.main(["exercise", "list", "--control", "mnc"]) == 0 and NAME in capsys.readouterr().out
+    assert shell.main(["exercise", "show", NAME]) == 0 and "Mill the pocket" in capsys.readouterr().out
+    assert shell.main(["exercise", "show", NAME, "--answers"]) == 0
+    assert MODEL in (told := capsys.readouterr().out) and "touches two walls" in told
+    assert shell.main(["help", "exercise"]) == 0 and "[[faults]]" in capsys.readouterr().out
+    (tmp_path / "mnc-07.mnc").write_text(MODEL.replace("G40 ", ""))
+    assert shell.main(["grade", "mnc-07.mnc"]) == 1 and "compensation on" in capsys.readouterr().out
+    (tmp_path / "a.mnc").write_text(MODEL)
+    assert shell.main(["grade", "a.mnc", "--exercise", NAME, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found == {"exercise": NAME, "score": 1.0, "passed": True, "points": dict.fromkeys(("part", "safety", "asked"), 1.0),
+                     "hints": [], "faults": []}  # fmt: skip
+    (tmp_path / "bad.toml").write_text(RESTART.replace('lesson = "10"\n', ""))
+    assert shell.main(["exercise", "check", "bad.toml"]) == 1 and "needs lesson" in capsys.readouterr().err
+    (tmp_path / "half.toml").write_text(RESTART + "\n[model]\nanswer = 'G0 X1'\n")
+    assert shell.main(["exercise", "check", "half.toml"]) == 1
+    told = capsys.readouterr().out
+    assert "the model gets" in told and "0 faults, 3 are needed" in told and "no right answer of another make" in told
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (("level = 3", "level = 6"), "level must be 1 to 5"),
+        (('kind = "restart"', 'kind = "sing"'), "kind must be write"),
+        (("until = 6", "until = 'x'"), "until must be a number"),
+        (("until = 6", ""), "until, the line at which the tool broke"),
+        (("time = 1000", "time = 0"), "time must be greater than 0"),
+        (("time = 1000", "thyme = 1"), "asked has no 'thyme'"),
+        (("time = 1000", "must = 'G41'"), "must must be a list of codes"),
+        (("time = 1000", "values = { Q5 = 3 }"), r"Q5 must be \[least, greatest\]"),
+        (("radius = 4", "radius = -4"), "radius"),
+        (('kind = "slot"', 'kind = "slit"'), "slit"),
+    ],
+)
+def test_a_teachers_slip_is_named_at_its_line(tmp_path, change, says):
+    path = tmp_path / "mnc-93.toml"
+    path.write_text(RESTART.replace(*change, 1))
+    with pytest.raises(Alarm, match=says) as found:
+        load(path)
+    assert found.value.span is not None and found.value.source.name == str(path)

@@ -1,0 +1,226 @@
+"""Grades: what passes, what earns a part, what earns nothing; what costs nothing; hints by tries."""
+
+import re
+
+import numpy as np
+import pytest
+
+import mnclab
+from mnclab import Alarm
+from mnclab.learning.exercise_file import load
+
+SQUARE = """
+title = "A step"
+control = "{control}"
+level = {level}
+lesson = "05"
+kind = "write"
+task = "Mill the step."
+tolerance = 0.02
+{more}
+[setup.tools.1]
+radius = 5
+kind = "mill"
+cutting_length = 20
+[setup.tools.2]
+radius = 4
+kind = "drill"
+angle = 118
+[design.blank]
+low = [0, 0, -20]
+high = [60, 40, 0]
+[[design.features]]
+kind = "slot"
+name = "slot"
+start = [15, 20]
+end = [45, 20]
+width = 10
+depth = 4
+[[design.features]]
+kind = "hole"
+name = "hole"
+x = 30
+y = 33
+diameter = 8
+depth = 6
+"""
+RIGHT = "G17 G90 G54 T1 S1000 M3\nG0 X15 Y20 Z5\nG1 Z-4 F100\nX45 F300\nG0 Z5\nT2 S800 M3\nG0 X30 Y33\nG1 Z-6 F80\nG0 Z50\nM30\n"
+HOLE_DEPTH = 4 / np.tan(np.radians(59))  # of the point of 118 degrees below its shoulder
+RIGHT = RIGHT.replace("Z-6", f"Z-{6 + HOLE_DEPTH:.4f}")
+
+
+@pytest.fixture
+def made(tmp_path):
+    def make(more="", level=2, control="mnc", name="t-01"):
+        path = tmp_path / f"{name}.toml"
+        path.write_text(SQUARE.format(more=more, level=level, control=control), "utf-8")
+        return load(path)
+
+    return make
+
+
+def test_a_right_answer_passes_with_all_marks(made):
+    grade = made().check(RIGHT)
+    assert (grade.passed, grade.score, dict(grade.points)) == (True, 1.0, {"part": 1.0, "safety": 1.0})
+    assert grade.hints == () and grade.faults == () and grade.run.ok
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda text: text.lower(),
+        lambda text: text.replace(" ", "   "),
+        lambda text: text.replace(" ", ""),
+        lambda text: text.replace("\n", "\r\n"),
+        lambda text: text.replace("X45 F300", "X45 F300 // along"),
+        lambda text: "\n".join(f"N{10 * k} {line}" if line else line for k, line in enumerate(text.split("\n"), 1)),
+        lambda text: text.replace("X45", "X45.000"),
+        lambda text: text.replace("X45 F300", "X30 F300\nX45"),
+        lambda text: text.replace("G0 X15 Y20 Z5", "G0 Z40\nG0 X15 Y20\nG0 Z3"),
+        lambda text: text.replace("X45 F300", "G91 X30 F300\nG90"),
+        lambda text: "G17 G90 G54 T2 S800 M3\nG0 X30 Y33 Z5\n" + text.split("Y33\n")[1].replace("M30", text.split("T2")[0]),
+    ],
+    ids=["lower", "spaces", "none", "ends", "comment", "numbers", "zeros", "split", "approach", "incremental", "order"],
+)
+def test_what_makes_the_same_part_costs_nothing(made, change):
+    grade = made().check(change(RIGHT))
+    assert (grade.passed, grade.score) == (True, 1.0), grade
+
+
+def test_a_feature_that_is_right_earns_its_part(made):
+    only_slot = RIGHT.split("T2")[0] + "M30\n"
+    grade = made().check(only_slot)
+    assert not grade.passed and grade.points["part"] == 0.5 and grade.points["safety"] == 1.0
+    assert grade.hints[0].text == "hole: nothing is cut there" and grade.hints[0].place is not None
+
+
+@pytest.mark.parametrize(
+    ("answer", "says"),
+    [
+        ("", "empty"),
+        ("G17 G90 T1 S1000 M3\nM30\n", "moves nothing"),
+        ("G17 G90 T1 S1000 M3\nG0 X15 Y20 Z5\nM30\n", "nothing is cut"),
+        (RIGHT.replace("G1 Z-4", "G1 Z-4 J3"), "stops"),
+        (RIGHT.replace(" M3", ""), "spindle"),
+        (RIGHT.replace("X45 F300", "G0 X45"), "rapid"),
+        (RIGHT.replace("T1", "T2"), "fed across it"),
+        (RIGHT.replace("G1 Z-4 F100", "G41 G1 X16 Z-4 F100"), "compensation"),
+    ],
+)
+def test_what_stops_moves_nothing_or_is_not_safe_earns_nothing(made, answer, says):
+    grade = made().check(answer)
+    assert (grade.passed, grade.score) == (False, 0.0)
+    assert says in " ".join(map(str, grade.hints)).lower()
+
+
+def test_what_is_cut_elsewhere_costs(made):
+    grade = made().check(RIGHT.replace("M30\n", "G0 X5 Y5\nG0 Z2\nG1 Z-3 F50\nG0 Z50\nM30\n"))
+    assert not grade.passed and grade.points["part"] == 0.5  # two features, one fault
+    assert "too much is cut" in grade.hints[0].text and grade.hints[0].line in (12, 13)
+
+
+def test_the_third_try_of_a_fault_says_more_and_other_faults_do_not(made):
+    wrong = RIGHT.replace("Z-4", "Z-3")
+    said = [made().check(wrong, tried={"slot depth": k}).hints[0].text for k in range(4)]
+    assert said[0] == said[1] == "slot: its depth is not as drawn"
+    assert said[2] == "slot: its depth is 1.000 mm too shallow" and said[3].startswith(said[2] + ";")
+    assert made().check(wrong, tried={"hole depth": 9}).hints[0].text == said[0]
+    assert made().check(wrong).hints[0].line == 3
+
+
+def test_at_most_three_hints_danger_before_the_part(made):
+    wrong = RIGHT.replace("X45 F300", "G0 X45").replace("Z-4", "Z-3").replace("X30 Y33", "X31 Y33")
+    hints = made("[asked]\nmust = ['G91', 'G83']").check(wrong).hints
+    assert len(hints) == 3 and hints[0].text.startswith("rapid motion in material") and "hole" in " ".join(h.text for h in hints)
+
+
+@pytest.mark.parametrize(
+    ("code", "found"),
+    [("G1", True), ("G01", True), ("g1", True), ("G10", False), ("M3", True), ("G91", False), ("T1", True), ("G4", False)],
+)
+def test_what_must_be_used_is_found_as_a_word(made, code, found):
+    grade = made(f"[asked]\nmust = ['{code}']").check(RIGHT.replace("\n", " // G91 G4 G10\n"))
+    assert grade.passed is found and grade.points["asked"] == float(found)
+    assert made(f"[asked]\nmust_not = ['{code}']").check(RIGHT).passed is not found
+
+
+def test_blocks_values_and_weights(made):
+    assert made("[asked]\nblocks = 10").check(RIGHT).passed
+    few = made("[asked]\nblocks = 9").check(RIGHT)
+    assert not few.passed and few.score == pytest.approx(0.7 / 0.9) and "10 blocks, 9 are allowed" in few.hints[0].text
+    assert made("[asked]\nblocks = 9\n[weights]\npart = 1").check(RIGHT).score == 1.0
+
+
+def test_economy_never_below_a_pass_and_only_from_level_three(made):
+    time = made().check(RIGHT).run.profile().time
+    slow = made(f"[asked]\ntime = {time / 1.5}", level=3).check(RIGHT)
+    assert slow.passed and slow.points["economy"] == pytest.approx(0.5) and slow.score == pytest.approx((0.7 + 0.05) / 0.8)
+    assert "quicker" in slow.hints[0].text
+    assert made(f"[asked]\ntime = {time / 1.5}", level=2).check(RIGHT).score == 1.0
+    assert made(f"[asked]\ntime = {time * 1.01}", level=3).check(RIGHT).score == 1.0
+
+
+def test_a_tool_that_cannot_cut_is_not_safe(made):
+    """Tool 3 has neither radius nor edge: nothing can be judged of its rows."""
+    grade = made("[setup.tools.3]\nlength = 40\n").check(RIGHT.replace("T2 S800", "T3 S800"))
+    assert (grade.passed, grade.score) == (False, 0.0)
+    assert (grade.hints[0].line, grade.hints[0].text.split(":")[0]) == (8, "T3 has no radius")
+
+
+@pytest.mark.parametrize("change", [("S1000", "S1"), ("F300", "F6000"), ("F80", "F4000")])
+def test_a_feed_at_which_any_tool_breaks_earns_nothing(made, change):
+    """More than its radius a turn: a mill of 10 at 300, at 6 mm; a drill of 8 at 5."""
+    grade = made().check(RIGHT.replace(*change, 1))
+    assert (grade.passed, grade.score) == (False, 0.0) and "breaks at this feed" in grade.hints[0].text
+    assert made().check(RIGHT.replace("F300", "F4900")).passed
+
+
+@pytest.mark.parametrize(("of", "at"), [("1", (7, 0, 0)), ("2", (0, 0, 0))])
+def test_a_zero_point_that_is_elsewhere_is_told_first_and_alone(made, of, at):
+    """The blank stands on the machine; a path that counts from 7 mm beside it has it 7 mm further back."""
+    exercise = made(f"[setup]\nstock = {{low = [0, 0, -20], high = [60, 40, 0]}}\n[setup.datums]\n{of} = [{at[0]}, 0, 0]")
+    grade = exercise.check(RIGHT, {"zero point": 2})
+    if any(at):
+        assert grade.faults[0] == "zero point" and "7.000 mm along X" in exercise.check(RIGHT, {"zero point": 9}).hints[0].text
+        assert grade.hints[0].text == "the zero point is not where the drawing has it: it is off along X"
+    else:
+        assert grade.passed
+
+
+@pytest.mark.parametrize(("limits", "right"), [("ap = [3.9, 4.1]", True), ("ap = [0, 3]", False), ("ae = [9.9, 10.1]", True)])
+def test_depth_and_width_of_cut_can_be_asked_for(made, limits, right):
+    """The slot is as wide as the tool, 10 mm, and 4 deep."""
+    grade = made(f"[asked]\ncutting = [{{tool = 1, {limits}}}]").check(RIGHT)
+    assert grade.passed is right and (grade.points["asked"] == 1) is right, grade
+
+
+def test_loops_and_masses_of_blocks_are_refused(made):
+    assert "blocks" in made().check("G1 X1 F1\n" * 30_000).hints[0].text
+    assert "1 MB" in made().check("G0 X1\n" * 300_000).hints[0].text
+
+
+@pytest.mark.parametrize("answer", [None, 5, [], object()])
+def test_what_is_no_text_is_an_alarm(made, answer):
+    with pytest.raises(Alarm, match="an answer is a text, a path or a run"):
+        made().check(answer)
+
+
+def test_a_run_and_a_file_are_graded_on_the_machine_of_the_exercise(made, tmp_path):
+    file = tmp_path / "t-01.mnc"
+    file.write_bytes("// Плита\n".encode("koi8-r") + RIGHT.replace("\n", "\r\n").encode())
+    assert made().check(file).passed
+    other = mnclab.run(RIGHT, "mnc", tools={1: mnclab.Tool(radius=1), 2: mnclab.Tool(radius=1)})
+    assert made().check(other).passed
+
+
+def test_nothing_of_the_model_is_in_the_exercise_or_its_grade(made, tmp_path):
+    path = tmp_path / "t-02.toml"
+    path.write_text(SQUARE.format(more="", level=2, control="mnc") + f'\n[model]\nanswer = """\n{RIGHT}"""\n')
+    exercise = load(path)
+    assert exercise.solution() == RIGHT
+    grade = exercise.check("")
+    shown = repr(exercise) + exercise._repr_html_() + repr(grade) + grade._repr_html_() + repr(vars(exercise))
+    blocks = [line for line in RIGHT.split("\n") if len(line) > 5]
+    assert not [line for line in blocks if line in re.sub(r"base64,[^\"]*", "", shown)]
+    with pytest.raises(Alarm, match="has no solution"):
+        made().solution()

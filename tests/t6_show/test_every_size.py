@@ -1,0 +1,215 @@
+"""Every kind of figure in every size of a report: no text is cut, none stands on another."""
+
+import functools
+import itertools
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_hex
+from matplotlib.text import Text
+from tools.together import deep_but_one_in
+
+import mnclab as mnc
+from mnclab import area, schemes, strategies
+
+DATA = Path(__file__).parents[2] / "data"
+STEPPED = [(0, 12), (-15, 12), (-20, 20), (-30, 20), (-33, 16), (-40, 16), (-42, 24), (-50, 24)]
+SIZES = ("a4", "column", "slide")
+PLATE = "G90 G54 T1 S1000 M3\nG0 X0 Y0 Z5\nG1 Z-2 F100\nX60\nG41 Y30\nX0\nY0\nG0 Z5\n"
+
+
+@functools.cache
+def run(name):
+    """A program of the samples with its setup, or that of this file."""
+    if name == "plate":
+        return mnc.run(PLATE, "mnc", mnc.Setup(stock=((-10, -10, -10), (70, 40, 0))))
+    return mnc.run(DATA / "programs" / name)
+
+
+@functools.cache
+def bar():
+    """A shaft out of a bar."""
+    return mnc.run(DATA / "programs" / "nc-31" / "shaft.nc31", setup=mnc.Setup(stock=mnc.blank.cylinder(25, -70, 2)))
+
+
+@functools.cache
+def touched():
+    """A bore, a wall and a top that a probe has felt."""
+    part = mnc.part.box((0, 0, -20), (100, 60, 0)) - mnc.part.hole((50.1, 29.9, 0), 24.2, 10)
+    setup = mnc.Setup(part=part, tools={7: mnc.Tool(radius=2, kind="probe")})
+    return mnc.run("N10 T7\nN20 G0 X50 Y30 Z20\nN40 G421 X50 Y30 D24 Z-5 H20\nN50 G499 X1\n", "mnc", setup)
+
+
+@functools.cache
+def pocket():
+    return area.Region.of(area.rectangle(60, 40), holes=[area.rectangle(14, 10, centre=(8, 2))])
+
+
+@functools.cache
+def cleared(*names):
+    return mnc.compare(pocket(), 4.0, *names, limit=70)
+
+
+@functools.cache
+def turned():
+    shoulder = area.Contour([(0, 20), (-40, 20), (-50, 30)], closed=False)
+    return mnc.compare_turning(shoulder, 30, mnc.Tool(number=1, kind="turning", main_angle=95, auxiliary_angle=30), depth=4)
+
+
+@functools.cache
+def grooved():
+    grooves = schemes.grooves
+    wide = grooves.Groove(right=-5, width=30, bottom=24, rim=30)
+    tools = (grooves.CONTOUR_TOOL, mnc.Tool(number=2, kind="grooving", width=4))
+    return mnc.compare_turning(wide.profile, 30, tools, {"contour tool, then grooving tool": grooves.scheme_6(wide, 4, depth=2)})
+
+
+@functools.cache
+def threads():
+    depths = schemes.threads.even_chips(1.84, 6)
+    return {name: schemes.threads.shifts(depths, name) for name in schemes.threads.METHODS}, depths
+
+
+@functools.cache
+def difference():
+    """A plate cut by a tool that is 0.2 mm thinner than its table says."""
+    wanted = mnc.Design(mnc.design.Box((0, 0, -10), (80, 50, 0)), [mnc.design.Pocket.rectangle(60, 30, 40, 25, 4, 6)])
+    text = "T1 S2000 M3\nG0 X40 Y25 Z5\nG1 Z-4 F100\nG1 X20\nY20\nX60\nY30\nX20\nY25\nG0 Z5\n"
+    done = mnc.run(text, "mnc", mnc.Setup(stock=((0, 0, -10), (80, 50, 0)), tools={1: mnc.Tool(radius=5.9)}))
+    return done.workpiece().compare(wanted)
+
+
+def diff(what="path"):
+    one = run("tnc-620/holes.h")
+    return mnc.diff(one, mnc.run(one.program.text.replace("Y+15", "Y+15.2"), "tnc-620", one.setup), what=what)
+
+
+FIGURES = {
+    "path": lambda **size: run("plate").plot(**size),
+    "path by feed": lambda **size: run("tnc-620/pockets.h").plot(colour="feed", **size),
+    "path with part": lambda **size: run("tnc-620/plate.h").plot(part=True, **size),
+    "path of pockets": lambda **size: run("tnc-620/pockets.h").plot(**size),
+    "path of holes": lambda **size: run("tnc-620/holes.h").plot(**size),
+    "three planes": lambda **size: run("mnc/three_planes.mnc").plot(**size),
+    "turned path": lambda **size: bar().plot(**size),
+    "probed path": lambda **size: touched().plot(**size),
+    "unrolled": lambda **size: run("tnc-620/drum_cam.h").plot(view="unrolled", **size),
+    "depth": lambda **size: run("tnc-620/holes.h").plot_depth(**size),
+    "datums": lambda **size: run("tnc-620/holes.h").plot_datums(**size),
+    "face": lambda **size: run("nc-31/spiral_groove.nc31").plot_face(**size),
+    "lengths": lambda **size: run("g43/two_lengths.g43").plot_lengths(4, **size),
+    "speed": lambda **size: run("nc-31/shaft.nc31").plot_speed(**size),
+    "measured": lambda **size: touched().plot_measured(**size),
+    "compensation": lambda **size: run("plate").plot_compensation(**size),
+    "rules": lambda **size: run("mnc/compensated.mnc").plot_compensation(rules=("G160", "G161", "G162"), **size),
+    "radii": lambda **size: run("plate").plot_compensation(radii=(2, 5), **size),
+    "profile": lambda **size: run("plate").profile("small-mill").plot(**size),
+    "long profile": lambda **size: run("tnc-620/pockets.h").profile("small-mill").plot(**size),
+    "reached": lambda **size: run("plate").profile("small-mill").plot_reached(**size),
+    "lost": lambda **size: run("tnc-620/pockets.h").profile("small-mill").plot_lost(**size),
+    "profiles": lambda **size: mnc.plot_profiles(run("plate").profile("small-mill"), run("plate"), **size),
+    "removal": lambda **size: run("plate").removal().plot(**size),
+    "part": lambda **size: run("tnc-620/pockets.h").workpiece().plot(**size),
+    "turned part": lambda **size: bar().workpiece().plot(**size),
+    "difference": lambda **size: difference().plot(**size),
+    "difference in section": lambda **size: difference().plot(section="XZ", at=25, **size),
+    "runs": lambda **size: mnc.plot_runs({name: run(f"mnc/plate_{name}.mnc") for name in ("absolute", "incremental")}, **size),
+    "deviation": lambda **size: diff().plot(**size),
+    "holes": lambda **size: diff("holes").plot(**size),
+    "regions": lambda **size: area.plot({"pocket": pocket(), "what an 8 mm mill leaves": strategies.rest(pocket(), 4)}, **size),
+    "strategies": lambda **size: cleared("rings", "spiral", "zigzag", "adaptive").plot(**size),
+    "two strategies": lambda **size: cleared("rings", "trochoidal").plot(**size),
+    "engagement": lambda **size: cleared("rings", "spiral", "zigzag").plot("engagement", **size),
+    "passes": lambda **size: cleared("rings")["rings"].plot("passes", **size),
+    "times": lambda **size: strategies.plot_times({(8, 3.2): cleared("rings", "zigzag")}, **size),
+    "tool sets": lambda **size: mnc.tool_sets(pocket(), (2, 4), "rings").plot(**size),
+    "turning schemes": lambda **size: turned().plot(**size),
+    "one turning scheme": lambda **size: grooved().plot(**size),
+    "threads": lambda **size: schemes.plot_threads(*threads(), **size),
+    "zones": lambda **size: schemes.plot_zones(area.Contour(STEPPED, closed=False), 30, **size),
+}
+
+
+def texts(figure):
+    """All texts that are seen, with their boxes in pixels; of the numbers at axes those between their ends."""
+    figure.draw_without_rendering()
+    hidden = set()
+    for ax in figure.findobj(lambda each: hasattr(each, "xaxis")):
+        for axis, ends in ((ax.xaxis, ax.get_xlim()), (ax.yaxis, ax.get_ylim())):
+            low, high = np.sort(ends) + np.array([-1e-6, 1e-6]) * abs(ends[1] - ends[0])
+            ticks = [*axis.get_major_ticks(), *axis.get_minor_ticks()]
+            shown = [tick for tick in ticks if ax.axison and low <= tick.get_loc() <= high]
+            hidden |= {id(label) for tick in ticks if tick not in shown for label in (tick.label1, tick.label2)}
+            hidden |= set() if ax.axison else {id(axis.label)}
+    found = (each for each in figure.findobj(Text) if each.get_visible() and each.get_text().strip() and id(each) not in hidden)
+    return [(each.get_text(), each.get_window_extent()) for each in found]
+
+
+def faults(figure):
+    found = texts(figure)
+    edge = figure.bbox
+    out = [(box.min < edge.min - 1).any() or (box.max > edge.max + 1).any() for _, box in found]
+    wrong = [f"{said!r} is cut" for (said, _), beyond in zip(found, out) if beyond]
+    wrong += [f"{said!r} ends in …" for said, _ in found if said.endswith("…")]
+    for (one, a), (other, b) in itertools.combinations(found, 2):
+        if a.shrunk(0.98, 0.9).overlaps(b.shrunk(0.98, 0.9)):
+            wrong.append(f"{one!r} on {other!r}")
+    return wrong
+
+
+@pytest.mark.parametrize(("name", "size"), deep_but_one_in(10, itertools.product(FIGURES, SIZES)))
+def test_all_texts_stand_inside_and_apart(name, size):
+    wrong = faults(FIGURES[name](size=size))
+    assert not wrong, "\n".join(wrong)
+
+
+@pytest.mark.parametrize("name", ["strategies", "passes", "threads", "engagement", "turning schemes"])
+def test_views_side_by_side_use_the_width_of_a_slide(name):
+    boxes = [ax.get_position() for ax in FIGURES[name](size="slide").axes]
+    assert max(box.x1 for box in boxes) - min(box.x0 for box in boxes) > 0.8
+
+
+@pytest.mark.parametrize("name", ["profile", "removal", "long profile"])
+@pytest.mark.parametrize("size", SIZES)
+def test_what_is_cut_off_is_told_above_the_fastest_cut(name, size):
+    figure = FIGURES[name](size=size)
+    (ax,) = [ax for ax in figure.axes if any(text.get_text().startswith("rapids reach") for text in ax.texts)]
+    (told,) = [box for said, box in texts(figure) if said.startswith("rapids reach")]
+    fastest = {"long profile": 800}.get(name, 100)  # mm/min, as the programs say
+    assert told.y0 > ax.transData.transform((0, fastest))[1]
+
+
+@pytest.mark.parametrize("name", ["difference", "difference in section", "measured"])
+def test_words_beside_a_picture_fill_a_slide(name):
+    figure = FIGURES[name](size="slide")
+    boxes = [box for _, box in texts(figure)]
+    assert max(box.x1 for box in boxes) - min(box.x0 for box in boxes) > 0.8 * figure.bbox.width
+
+
+@pytest.mark.parametrize("name", ["threads", "lost", "engagement", "path", "speed"])
+def test_all_frames_are_grey(name):
+    shown = [spine for ax in FIGURES[name]().axes if ax.axison for spine in ax.spines.values() if spine.get_visible()]
+    assert shown and {to_hex(spine.get_edgecolor()) for spine in shown} == {"#9a9a9a"}
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_the_numbers_of_a_long_way_stand_apart(size):
+    long = mnc.run("G90 G54 S800 M3 T1 F200\nG0 X0 Y0 Z2\n" + "G1 X1000\nX0\n" * 50, "mnc")
+    assert not faults(long.plot_speed(size=size)) and not faults(long.profile().plot(over="path", size=size))
+
+
+def named(figure):
+    return {text.get_text() for legend in figure.legends for text in legend.get_texts()}
+
+
+def test_legends_name_the_part_what_is_cut_and_rapids():
+    assert {"part", "cut"} <= named(FIGURES["path with part"]()) and {"feed", "rapid"} <= named(FIGURES["runs"]())
+    uncut = mnc.run("T1 S1000 M3\nG0 X0 Y0 Z5\nX60\n", "mnc", mnc.Setup(stock=((-10, -10, -10), (70, 40, 0))))
+    assert "cut" not in named(uncut.plot(part=True)) and "part" in named(uncut.plot(part=True))
+
+
+def test_heights_have_their_unit():
+    said = [text.get_text() for ax in FIGURES["lengths"]().axes for text in ax.texts]
+    assert "machine Z 30 mm" in said and "program Z 30 mm" in said
+    assert all(name.endswith(" mm") for name in named(FIGURES["face"]()))
