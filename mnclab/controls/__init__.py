@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import copyreg
 from collections.abc import Iterator, Mapping
+from functools import cached_property
 from importlib import import_module
 from importlib.metadata import entry_points
 from pathlib import Path
@@ -39,11 +40,11 @@ class Controls(Mapping[str, Control]):
             if name in MODULES:
                 self._built[name] = import_module(MODULES[name]).CONTROL
             else:
-                self._built[name] = self._foreign()[name]
+                self._built[name] = self._foreign[name]
         return self._built[name]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(dict.fromkeys([*MODULES, *self._built, *self._foreign()]))
+        return iter(dict.fromkeys([*MODULES, *self._built, *self._foreign]))
 
     def __len__(self) -> int:
         return len(list(iter(self)))
@@ -56,7 +57,9 @@ class Controls(Mapping[str, Control]):
         """Forget a control that was added."""
         self._built.pop(name, None)
 
+    @cached_property
     def _foreign(self) -> dict[str, Control]:
+        """Controls of other packages: what is installed is read once, as that takes longer than a short program."""
         return {
             point.name: point.load() for point in entry_points(group="mnclab.controls") if point.name not in MODULES
         }

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from mnclab.controls.tnc_620.probing.cycle import FastProbing
     from mnclab.controls.tnc_620.probing.tool_setter import Calibrated
     from mnclab.controls.tnc_620.tables import DatumTable
+    from mnclab.geometry.regions import Region
     from mnclab.machining.milling.terraces import Formula
     from mnclab.path.tool import Tool
     from mnclab.workpiece.blank import Blank as Body
@@ -69,6 +70,7 @@ class Memory:
     defaults: dict[str, float | str] = field(default_factory=dict)  # of GLOBAL DEF, by Q parameter
     pattern: Pattern | None = None
     contour: Labels | Formula | None = None  # which one the next cycle machines
+    contour_area: tuple[object, Region] | None = None  # that labels described last, and their outlines
     contour_data: ContourData | None = None
     train_data: TrainData | None = None
     rough_out_tool: Tool | None = None  # with which cycle 22 was called last, its deltas included

@@ -141,7 +141,7 @@ class Picture(Figure):
     def png(self, scale: float = 1.0) -> bytes:
         """The picture as PNG; at `scale` 1 an inch has 100 pixels."""
         data = BytesIO()
-        self.savefig(data, format="png", dpi=100 * scale)
+        self.savefig(data, format="png", dpi=100 * scale, pil_kwargs={"compress_level": 4})  # by 6 it takes a quarter longer
         return data.getvalue()
 
     def html(self, scale: float = 1.0) -> str:

@@ -285,12 +285,24 @@ def labelled_shapes(m: Machine, labels: Labels) -> Generator[Step, Any, tuple[li
 
 
 def area_of(m: Machine, pockets: Sequence[Shape], islands: Sequence[Shape]) -> Region:
-    """The area of pockets without islands; an Alarm without a pocket."""
+    """The area of pockets without islands; an Alarm without a pocket.
+
+    Each cycle reads the labels, and mostly finds the outlines of the cycle before: then the area is that one's, too.
+    """
     if not pockets:
         m.alarm("the contour has no pocket", hint="a pocket is clockwise with RR or counter-clockwise with RL")
-    area = united(m, pockets)
-    doubts(m, area, pockets, islands)
-    return area.without([island.region for island in islands]) if islands else area
+    outlines = [[(shape.begin, *map(_numbers, shape.region.loops)) for shape in shapes] for shapes in (pockets, islands)]
+    kept = memory(m).contour_area
+    if kept is None or kept[0] != outlines:
+        area = united(m, pockets)
+        doubts(m, area, pockets, islands)
+        kept = outlines, area.without([island.region for island in islands]) if islands else area
+        memory(m).contour_area = kept
+    return kept[1]
+
+
+def _numbers(contour: Contour) -> bytes:
+    return contour.points.tobytes() + contour.bulge.tobytes()
 
 
 def joined(shapes: Sequence[Shape]) -> Region:
