@@ -10,6 +10,7 @@ const KEYS = [
   ["R", "rapids, shown or not"], ["C", "what the colour of the cuts says"], ["M", "measures between two clicks (or arrows and enter); Esc clears"],
 ];
 const PART_KEYS = [["P", "the part, shown or not"]];
+const LATE = 40;  // ms from frame to frame, beyond which playing makes do with a coarser picture
 const STANDS = 150;  // ms after which a picture that was turned is drawn sharp
 const LATHE_KEYS = new Map([["drag", "shifts; with shift it turns"], ["1 2 3 4", "views (three)"]]);
 
@@ -141,6 +142,7 @@ class PlayerPage {
   tick(now) {
     if (!this.playing) return;
     this.last ??= now;
+    this.late ||= now - this.last > LATE;
     const passed = Math.min(now - this.last, 250) / 1000 * Number(this.find("speed").value);
     this.last = now;
     const t = this.place.t + this.playing * passed, place = this.atTime(t), stop = this.stops.next(this.place, this.playing);
@@ -158,9 +160,11 @@ class PlayerPage {
   stop() {
     if (!this.playing) return;
     this.playing = 0;
+    this.late = false;
     this.stops.once = null;
     this.pressed();
     this.say();
+    this.show();
   }
   pressed() {
     for (const [id, direction, sign] of [["play", 1, "M4 3v10l8-5z"], ["play-back", -1, "M12 3v10L4 8z"]]) {
@@ -204,7 +208,7 @@ class PlayerPage {
     const lies = run.history.has("tool axis") ? run.history.get("tool axis").value(now.step) : null, along = lies ? "XYZ".indexOf(lies) : 2;
     this.measure.draw();
     picture.draw({row: going, tip: now.point, tool, along, at: Math.max(now.row, 0)}, now.rowsDone);
-    if (this.part && !this.part.draw(now.rowsDone, now.share, going, turning)) this.show();  // not there yet: go on with the next frame
+    if (this.part && !this.part.draw(now.rowsDone, now.share, going, turning, this.late)) this.show();  // not there yet: go on with the next frame
   }
   showPart(on) {
     if (!this.part) return;
