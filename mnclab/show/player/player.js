@@ -385,7 +385,7 @@ class PlayerPage {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const {target, key} = event, tag = target.tagName, jump = act => () => this.jump(act);
     if (tag === "SELECT" || (tag === "BUTTON" && (key === " " || key === "Enter"))) return;
-    if (tag === "INPUT" && target.type === "text") return key === "Escape" && this.find("picture").focus();
+    if (tag === "INPUT" && target.type === "text") return key === "Escape" && (this.find("picture").focus(), this.stops.open(false));
     if (tag === "INPUT" && (/^(Arrow|Page|Home|End)/.test(key) || (target.type === "checkbox" && key === " "))) return;
     if (this.measure.on && target.id === "picture" && this.measure.key(key, event.shiftKey)) return event.preventDefault();
     const turn = (yaw, pitch) => () => this.change(camera => camera.turn(yaw, pitch));
