@@ -42,6 +42,7 @@ class PlayerPage {
     this.legend();
     this.alarms();
     this.showPart(true);
+    if (run.header.turning && !part) Object.assign(find("note"), {textContent: "the blank, not cut", hidden: false});
     this.pointers();
     document.addEventListener("keydown", event => this.key(event));
     this.dark.addEventListener("change", () => this.theme(this.root.dataset.theme));
