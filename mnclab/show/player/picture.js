@@ -4,7 +4,7 @@
 
 const BESIDES = 0.04;  // of the size of the picture: how far a chuck may widen it
 
-const CHUNK = 200;  // points of what is done that are drawn together, so that it looks the same played and jumped to
+const CHUNK = 40;  // points of what is done that are drawn together, so that it looks the same played and jumped to
 const LONG = 8000;  // points of a path from which on it is drawn in hairlines
 
 class Picture {
