@@ -202,8 +202,9 @@ class Picture {
     pen.font = "600 11px system-ui, sans-serif";
     pen.textAlign = "center";
     pen.textBaseline = "middle";
+    const ends = [0, 1, 2].map(k => camera.project([0, 1, 2].map(axis => axis === k ? size : 0)));
     names.forEach((name, k) => {
-      const end = camera.project([0, 1, 2].map(axis => axis === k ? size : 0));
+      const end = ends[k];
       const dx = end[0] - zero[0], dy = end[1] - zero[1], length = Math.hypot(dx, dy);
       if (!name || length < 8) return;
       pen.strokeStyle = pen.fillStyle = colours.ink;
@@ -212,7 +213,9 @@ class Picture {
       pen.moveTo(...zero);
       pen.lineTo(...end);
       pen.stroke();
-      const [lx, ly] = [end[0] + 9 * dx / length, end[1] + 9 * dy / length];
+      const away = ([x, y]) => Math.min(...ends.map((each, n) => n === k ? Infinity : gap([x, y], zero, each)), ...boxes.map(([a, b]) => Math.hypot(x - a - 6, y - b - 7)));
+      const spots = [[9, 0], [0, 11], [0, -11]].map(([on, aside]) => [end[0] + (on * dx - aside * dy) / length, end[1] + (on * dy + aside * dx) / length]);
+      const [lx, ly] = spots.find(spot => away(spot) > 10) || spots[0];  // beside an axis that another one covers
       pen.strokeStyle = colours.paper;
       pen.lineWidth = 3;
       pen.strokeText(name, lx, ly);
@@ -281,6 +284,12 @@ class Picture {
     pen.textBaseline = "bottom";
     pen.fillText(number(length, Math.max(0, -Math.floor(Math.log10(length) + 1e-9))) + ` ${unit.short}`, 14, h - 15);
   }
+}
+
+// How far a place is from a line between two others.
+function gap([x, y], [ax, ay], [bx, by]) {
+  const [dx, dy] = [bx - ax, by - ay], u = Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1)));
+  return Math.hypot(ax + u * dx - x, ay + u * dy - y);
 }
 
 // The next of 1, 2, 5, 10 … that is not below a length.
