@@ -241,7 +241,8 @@ def test_a_drum_is_a_plain_body_in_its_circles(opened):
     pixels = page.evaluate("""places => {
         const {picture} = window.player, pen = picture.canvas.getContext("2d");
         window.player.draw();
-        return places.map(place => [...pen.getImageData(...picture.camera.project(place).map(v => Math.round(v * picture.ratio)), 1, 1).data]);
+        const pixel = place => picture.camera.project(place).map(v => Math.round(v * picture.ratio));
+        return places.map(place => [...pen.getImageData(...pixel(place), 1, 1).data]);
     }""", [[x + 2, y, 0] for y in (-28.5, 4.3, 28.5, 31.5, -31.5)])  # fmt: skip
     assert [alpha > 0 for *_, alpha in pixels] == [True, True, True, False, False]
     assert page.locator("#note").inner_text() == "the blank, not cut"

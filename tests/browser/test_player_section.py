@@ -136,13 +136,14 @@ def test_without_a_blank_the_insert_is_a_body_as_well(browser, tmp_path):
     page.get_by_role("button", name="End", exact=True).click()
     page.keyboard.press("End")
     shown = page.evaluate("""shares => {
-        const {picture, run, place} = window.player, pen = picture.canvas.getContext("2d"), {insert} = run.inserts.tools[run.inserts.which.value(run.path.n - 1)];
+        const {picture, run} = window.player, pen = picture.canvas.getContext("2d");
+        const {insert} = run.inserts.tools[run.inserts.which.value(run.path.n - 1)];
         const spans = [0, 1].map(k => insert.map(each => each[k])).map(all => [Math.min(...all), Math.max(...all)]);
         const size = Math.max(...spans.map(([low, high]) => high - low)), [x, y, z] = run.path.vertex(run.path.n);
         window.player.draw();
         return shares.map(share => {
-            const at = picture.camera.project([x + spans[1][0] + 0.2 * size, y + share * size, z]).map(v => Math.round(v * picture.ratio));
-            return pen.getImageData(...at, 1, 1).data[3] > 0;
+            const at = picture.camera.project([x + spans[1][0] + 0.2 * size, y + share * size, z]);
+            return pen.getImageData(...at.map(v => Math.round(v * picture.ratio)), 1, 1).data[3] > 0;
         });
     }""", [-0.35, -0.14, -0.05, 0.05, 0.14, 0.35])  # fmt: skip
     assert shown == [False, True, True, True, True, False]
