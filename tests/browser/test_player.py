@@ -361,6 +361,16 @@ def test_a_lathe_opens_on_z_and_x_and_shows_diameters(open_file):
     assert page.get_by_role("rowheader", name="X").inner_text() == "\N{DIAMETER SIGN} X"
 
 
+@pytest.mark.parametrize(("control", "settings", "x", "said"), [
+    ("jnc-t01", {}, "X60", ["R 60.000", "120.000"]), ("jnc-t01", {"diameter": True}, "X60", ["60.000", "60.000"]),
+    ("nc-31", {}, "X6000~", ["60.000", "60.000"]),
+])  # fmt: skip
+def test_the_column_program_has_x_as_the_block_says_it(open_file, control, settings, x, said):
+    page = open_file(mnclab.run(f"M3\n{x}\n" if control == "nc-31" else f"M3\nG0 {x} Z5\n", control, settings=settings))
+    page.keyboard.press("End")
+    assert [page.locator(f"#{column}-X").inner_text() for column in ("program", "tool")] == said
+
+
 def test_the_spindle_follows_x_at_constant_cutting_speed(open_file):
     """G96 S100: 1000 * 100 / (2 pi r) = 318.3 rev/min at radius 50, 636.6 at 25; the limit 3000 on the axis."""
     page = open_file(mnclab.run("G96 S100 M3 ' m/min\nG0 X50\nG94 F100 G1 X0\n", "jnc-t01"))

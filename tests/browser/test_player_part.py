@@ -260,6 +260,24 @@ def test_from_above_the_blank_the_cut_the_wound_and_the_hole_are_told_apart(open
     assert blank[0] > blank[2] + 20 and cut[2] > cut[0]  # warm and cold
 
 
+PLAYED_LATE = """async () => {  // pixels of the canvas of the part to one of the picture: while it plays slowly, and stopped
+    const {player} = window, {part, picture} = player, frame = () => new Promise(requestAnimationFrame);
+    const fine = () => part.canvas.width / picture.canvas.width, found = [];
+    part.drawing.slow = player.late = true;
+    player.play(1);
+    await frame(), await frame(), found.push(fine());
+    player.stop();
+    await frame(), await frame(), found.push(fine());
+    return found;
+}"""
+
+
+def test_what_plays_slowly_is_coarse_until_it_stops(opened):
+    page = opened(run_block())
+    late, stopped = page.evaluate(PLAYED_LATE)
+    assert (late, stopped) == (pytest.approx(0.5, abs=0.01), 1)
+
+
 LONG = 20_000
 
 

@@ -233,6 +233,45 @@ def test_the_rulers_of_an_inch_program_count_in_inches(opened):
 WINDOW = Path(__file__).parents[2] / "data" / "programs" / "tnc-620" / "drum_window.h"
 
 
+def test_a_drum_is_a_plain_body_in_its_circles(opened):
+    """Radius 30 about X: seen from above its colour reaches to Y 30, and beyond it is paper."""
+    page = opened(mnclab.run(WINDOW))
+    page.get_by_role("button", name="Top").click()
+    x = page.evaluate("() => window.player.run.stock.flat()[0][0]")
+    pixels = page.evaluate("""places => {
+        const {picture} = window.player, pen = picture.canvas.getContext("2d");
+        window.player.draw();
+        const pixel = place => picture.camera.project(place).map(v => Math.round(v * picture.ratio));
+        return places.map(place => [...pen.getImageData(...pixel(place), 1, 1).data]);
+    }""", [[x + 2, y, 0] for y in (-28.5, 4.3, 28.5, 31.5, -31.5)])  # fmt: skip
+    assert [alpha > 0 for *_, alpha in pixels] == [True, True, True, False, False]
+    assert page.locator("#note").inner_text() == "the blank, not cut"
+
+
+#: Whether the picture is the same after many small steps up to a place and drawn anew there.
+STEPWISE = """share => {
+    const {player} = window, {picture} = player, look = () => {
+        const {data} = picture.canvas.getContext("2d").getImageData(0, 0, picture.canvas.width, picture.canvas.height);
+        return data.slice();
+    };
+    for (let k = 0; k <= 300; k++) {
+        player.place = player.atTime(player.run.time * share * k / 300);
+        player.draw();
+    }
+    const stepwise = look();
+    picture.stale = true;
+    player.draw();
+    return look().reduce((count, value, k) => count + (value !== stepwise[k]), 0);
+}"""
+
+
+@pytest.mark.parametrize("share", [0.35, 1])
+def test_what_was_played_looks_as_what_is_opened_there(opened, share):
+    wave = "".join(f"X{k / 10:g} Y{10 * math.sin(k / 20):.3f}\n" + ("G0 Z1\nG1 Z0\n" if k % 50 == 0 else "") for k in range(900))
+    page = opened(mnclab.run(f"G90 G54 T1 S1000 M3\nG1 F1000\n{wave}", "mnc"))
+    assert page.evaluate(STEPWISE, share) == 0
+
+
 def test_on_a_drum_the_feed_is_that_along_the_workpiece_and_rapids_that_turn_are_arcs(opened):
     """F250 where the drum stands; where X stands and the drum of radius 30 turns, the tip at 30 - 3 has 27 / 30 of it, at 24 / 30
     on the second level. While a rapid turns the drum its distance from the axis changes evenly, as Z does."""

@@ -125,3 +125,26 @@ def test_without_a_blank_a_thread_is_cut_by_a_pointed_insert(browser, tmp_path):
     assert tip == pytest.approx((0, 0)) and left[0] == pytest.approx(-right[0])
     assert np.degrees(np.arctan2(right[0], right[1])) == pytest.approx(30, abs=0.1)
     page.close()
+
+
+def test_without_a_blank_the_insert_is_a_body_as_well(browser, tmp_path):
+    """Seen along the axis an insert is as thick to both sides as 0.16 of its size, as where there is a blank."""
+    bare = mnclab.run("M3\nT1\nG00 X12 Z4\nX30\n", "jnc-t01")
+    page = browser.new_page()
+    page.goto(bare.save(tmp_path / "bare.html").as_uri())
+    page.evaluate(BEGUN)
+    page.get_by_role("button", name="End", exact=True).click()
+    page.keyboard.press("End")
+    shown = page.evaluate("""shares => {
+        const {picture, run} = window.player, pen = picture.canvas.getContext("2d");
+        const {insert} = run.inserts.tools[run.inserts.which.value(run.path.n - 1)];
+        const spans = [0, 1].map(k => insert.map(each => each[k])).map(all => [Math.min(...all), Math.max(...all)]);
+        const size = Math.max(...spans.map(([low, high]) => high - low)), [x, y, z] = run.path.vertex(run.path.n);
+        window.player.draw();
+        return shares.map(share => {
+            const at = picture.camera.project([x + spans[1][0] + 0.2 * size, y + share * size, z]);
+            return pen.getImageData(...at.map(v => Math.round(v * picture.ratio)), 1, 1).data[3] > 0;
+        });
+    }""", [-0.35, -0.14, -0.05, 0.05, 0.14, 0.35])  # fmt: skip
+    assert shown == [False, True, True, True, True, False]
+    page.close()

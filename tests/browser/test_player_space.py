@@ -131,6 +131,25 @@ def test_a_flat_wall_has_one_shade(opened):
     assert (np.abs(shades - usual).max(axis=1) <= 2).mean() > 0.97
 
 
+#: A corner milled off, 7 wide and 6 deep; a slot cut by a rapid from X50 to X30, 8 wide and 5 deep.
+RAPID_SLOT = HEAD + "N3 G0 X-10 Y3\nN4 G1 Z-6\nN5 X40\nN6 G0 Z5\nN7 X50 Y25\nN8 G1 Z-5\nN9 G0 X30\nN10 G0 Z60\nN11 X80\n"
+
+
+def test_a_wall_has_the_colour_of_what_cut_it_and_the_sides_of_the_blank_that_of_the_blank(opened):
+    page = opened(milled(RAPID_SLOT))
+    page.evaluate("() => window.player.showRapids(false)")
+    page.evaluate(CAMERA, [60, 40])  # so that the round end of the slot is not hidden
+    round_end = [[30 - 4 * np.sin(a), 25 + 4 * np.cos(a), -0.8] for a in np.linspace(0.4, np.pi / 2, 60)]
+    red, green, blue, _ = np.array(page.evaluate(PIXELS, round_end)).T
+    page.evaluate(CAMERA, [30, 28])
+    side, wall = page.evaluate(PIXELS, [[20, 0, -12], [20, 7, -3]])
+    page.evaluate(CAMERA, [30, -50])
+    under = page.evaluate(PIXELS, [[20, 3, -20], [40, 25, -20], [70, 25, -20]])
+    assert (red > 90).all() and max(green.max(), blue.max()) < 60
+    assert side[0] > side[2] + 20 and wall[2] > wall[0]  # warm and cold
+    assert np.ptp(under, axis=0).max() <= 2  # blind pockets do not show from below
+
+
 def test_a_rapid_behind_metal_is_not_drawn(opened):
     """From the front the groove along X hides what runs in it, but not what runs above the block."""
     page = opened(milled(HEAD + "N3 G0 X-10 Y22 Z5\nN4 G1 Z-8\nN5 X100\nN6 G0 X-10\nN7 G0 Z10\nN8 X100\nN9 Y80\n"))

@@ -212,6 +212,30 @@ def test_values_are_watched(opened):
         assert watched()["coolant"] == moment.state["coolant"] and watched()["tool == 2"] == "false"
 
 
+def test_a_rapid_has_no_number_of_a_feed(opened):
+    page = opened(mnclab.run("N1 G17 G90 G54 T1 S3000 M3\nN2 G0 X10\nN3 G1 X20 F300\n", "mnc"))
+    fill(page, "Watch", "feed, feed / 2")
+    said = []
+    for line in (2, 3):
+        page.locator(f"#line-{line} code").click()
+        said.append(page.locator("#watched dd").all_inner_texts())
+    assert said == [["rapid", "rapid"], ["300", "150"]]
+
+
+def test_the_open_panel_hides_no_word_and_escape_closes_it(opened):
+    page = opened(mnclab.run(MILLED, "mnc"))
+    page.get_by_role("button", name="Breakpoints").click()
+    page.keyboard.press("Shift+Tab")  # out of the field
+    page.keyboard.press("n")
+    assert page.locator("#doing").inner_text() == "no stop from here on"
+    panel, said = (page.locator(name).bounding_box() for name in ("#stopping", "#doing"))
+    assert said["x"] + said["width"] < panel["x"]
+    page.get_by_label("Stop when").fill("z < -1")
+    page.keyboard.press("Escape")
+    assert page.locator("#stopping").is_hidden() and page.evaluate("document.activeElement.id") == "picture"
+    assert page.evaluate("window.player.stops.moments.length") > 0  # what was typed counts
+
+
 def test_stops_are_listed_and_taken_away(opened):
     page = opened(mnclab.run(MILLED, "mnc"), width=700, height=640)
     page.get_by_role("option", name="line 4:").click()

@@ -1,5 +1,7 @@
 """The player shows the part that a probe meets, and its touches as they come."""
 
+import math
+
 import pytest
 from tools.pages import BEGUN
 from tools.toy_probing import toy_run
@@ -72,3 +74,17 @@ def test_letters_of_the_axes_cover_no_number(browser, tmp_path):
     apart = letter[3] <= number[1] or number[3] <= letter[1] or letter[4] <= number[2] or number[4] <= letter[2]
     assert apart, (letter, number)
     page.close()
+
+
+@pytest.mark.parametrize("turned", [[0, 28], [0, 60], [90, 28], [30, 28], [45, 0], [12, 20]])
+def test_letters_of_the_axes_stand_apart(page, turned):
+    """Also where one axis covers another: from the front and from above, Y and Z go the same way up."""
+    page, _ = page
+    letters = page.evaluate("""([yaw, pitch]) => {
+        const {player} = window, {picture} = player, pen = picture.canvas.getContext("2d");
+        player.change(camera => { Object.assign(camera, {yaw, pitch}); camera.update(); });
+        return picture.triad(pen).map(([left, top, right, bottom]) => [(left + right) / 2, (top + bottom) / 2]);
+    }""", turned)  # fmt: skip
+    assert len(letters) >= 2
+    apart = [math.dist(a, b) for k, a in enumerate(letters) for b in letters[k + 1 :]]
+    assert min(apart) > 10

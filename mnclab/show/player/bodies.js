@@ -136,9 +136,8 @@ class Beside {
     }
   }
   insert(tools, which, tip) {
-    const {space, picture: {colours}} = this, {insert, holder} = tools[which];
-    const size = Math.max(...[0, 1].map(k => Math.max(...insert.map(each => each[k])) - Math.min(...insert.map(each => each[k]))));
-    for (const [name, corners, thick] of [["holder", holder, 0.3], ["insert", insert, 0.16]])
-      space.fill(space.body(`${name} ${which}`, () => prism(corners, thick * size)), rgb(colours[name]), {at: tip});
+    const {space, picture: {colours}} = this;
+    for (const [name, corners, thick] of blades(tools[which]))
+      space.fill(space.body(`${name} ${which}`, () => prism(corners, thick)), rgb(colours[name]), {at: tip});
   }
 }

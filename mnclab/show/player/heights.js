@@ -121,7 +121,7 @@ class Heights {
     const {grid} = this, {box, left, span} = piece, {nx} = grid, mark = row + 1;
     const j0 = grid.first(1, box[1]), j1 = grid.last(1, box[3]), turn = ++grid.turn;
     if (grid.first(0, box[0]) > grid.last(0, box[2])) return 0;
-    let seen = 0;
+    let seen = 0, wounded = false;
     for (let j = j0; j <= j1; j++) {
       const y = grid.y(j), [from, to] = span(y), i0 = grid.first(0, from), i1 = grid.last(0, to);
       seen += Math.max(i1 - i0 + 1, 0) + 4;
@@ -135,12 +135,24 @@ class Heights {
           if (!(height < now - SAME)) continue;
           const red = rapid && rapid.left(x, y) < before.tiles[k].h[at] - THIN;
           if (!open) [tile, open] = [this.writable(k), true];
+          wounded ||= red;
           [grid.taken[j * nx + i], grid.was[j * nx + i]] = [turn, now];
           tile.h[at] = height;
           tile.by[at] = red || (rapid && tile.by[at] === -mark) ? -mark : mark;
         }
       }
     }
+    if (wounded) this.wound(piece, mark);
     return seen + this.wall(piece);
+  }
+  // What the rim of a rapid alone has taken belongs to a wound that it is beside.
+  wound({box, span}, mark) {
+    const {grid: {across}, grid} = this, found = [], near = [-1, 0, 1];
+    for (let j = Math.max(grid.first(1, box[1]), 1); j <= Math.min(grid.last(1, box[3]), grid.ny - 2); j++) {
+      const [from, to] = span(grid.y(j));
+      for (let i = Math.max(grid.first(0, from), 1); i <= Math.min(grid.last(0, to), grid.nx - 2); i++)
+        if (this.row(i, j) === mark && near.some(di => near.some(dj => this.row(i + di, j + dj) === -mark))) found.push([i, j]);
+    }
+    for (const [i, j] of found) this.writable((j >> 5) * across + (i >> 5)).by[(j & 31) * TILE + (i & 31)] = -mark;
   }
 }

@@ -78,6 +78,7 @@ def payload(
         "control": run.control.title,
         "name": run.control.name,
         "lathe": path.lathe,
+        "radii": path.lathe and run.settings.get("diameter") is False,  # what X is in the program
         "unit": {"short": path.unit.short, "length": path.unit.length, "decimals": 3 if path.unit.length == 1 else 4},
         "alarms": [
             alarm.as_dict()

@@ -4,6 +4,7 @@
 
 const BESIDES = 0.04;  // of the size of the picture: how far a chuck may widen it
 
+const CHUNK = 40;  // points of what is done that are drawn together, so that it looks the same played and jumped to
 const LONG = 8000;  // points of a path from which on it is drawn in hairlines
 
 class Picture {
@@ -130,23 +131,26 @@ class Picture {
       this.stale = false;
       this.version++;
     }
-    const until = strokes.after[rowsDone], pen = this.pen(this.done);
-    if (this.drawn < 0 || until < this.drawn) {
+    const until = strokes.after[rowsDone], pen = this.pen(this.done), whole = until - until % CHUNK;
+    if (this.drawn < 0 || whole < this.drawn) {
       pen.clearRect(0, 0, w, h);
       this.drawn = 0;
     }
-    if (until > this.drawn && !inSpace) this.lines(pen, this.drawn, until, false);
-    this.drawn = until;
+    for (; this.drawn < whole; this.drawn += CHUNK) if (!inSpace) this.lines(pen, this.drawn, this.drawn + CHUNK, false);
     const top = this.canvas.getContext("2d");
     top.setTransform(1, 0, 0, 1, 0, 0);
     top.clearRect(0, 0, this.canvas.width, this.canvas.height);
     top.drawImage(this.ahead, 0, 0);
-    if (!inSpace) top.drawImage(this.done, 0, 0);
+    if (!inSpace) {
+      top.drawImage(this.done, 0, 0);
+      this.lines(this.pen(this.canvas), whole, until, false);
+    }
     const taken = this.moment(this.pen(this.canvas), at);
     this.touches.draw(this.pen(this.canvas), camera, this.colours, rowsDone, taken);
   }
 
   blank(pen) {  // and what holds it
+    if (this.run.header.turning) this.drum(pen);
     pen.lineWidth = 1;
     for (const [lines, colour] of [[this.run.header.fixtures, "edge"], [this.run.stock, "blank"], [[this.run.header.felt.beam], "beam"]]) {
       pen.strokeStyle = this.colours[colour];
@@ -154,6 +158,18 @@ class Picture {
       for (const edge of lines) edge.forEach((point, k) => pen[k ? "lineTo" : "moveTo"](...this.camera.project(point)));
       pen.stroke();
     }
+  }
+
+  drum(pen) {  // what is turned under the tool: a plain body, which is not cut
+    const {camera: {near}, camera, colours, run: {stock}} = this, depth = ([x, y, z]) => x * near[0] + y * near[1] + z * near[2];
+    const ends = stock.filter(edge => edge.length > 2).sort(([a], [b]) => depth(a) - depth(b)), project = point => camera.project(point);
+    pen.fillStyle = colours.raw;
+    pen.globalAlpha = 0.3;
+    for (const outline of [hull(stock.flat().map(project)), ...ends.slice(-1).map(edge => edge.map(project))]) {
+      trace(pen, outline);
+      pen.fill();
+    }
+    pen.globalAlpha = 1;
   }
 
   // Returns the boxes of what is written.
@@ -186,8 +202,9 @@ class Picture {
     pen.font = "600 11px system-ui, sans-serif";
     pen.textAlign = "center";
     pen.textBaseline = "middle";
+    const ends = [0, 1, 2].map(k => camera.project([0, 1, 2].map(axis => axis === k ? size : 0)));
     names.forEach((name, k) => {
-      const end = camera.project([0, 1, 2].map(axis => axis === k ? size : 0));
+      const end = ends[k];
       const dx = end[0] - zero[0], dy = end[1] - zero[1], length = Math.hypot(dx, dy);
       if (!name || length < 8) return;
       pen.strokeStyle = pen.fillStyle = colours.ink;
@@ -196,7 +213,9 @@ class Picture {
       pen.moveTo(...zero);
       pen.lineTo(...end);
       pen.stroke();
-      const [lx, ly] = [end[0] + 9 * dx / length, end[1] + 9 * dy / length];
+      const away = ([x, y]) => Math.min(...ends.map((each, n) => n === k ? Infinity : gap([x, y], zero, each)), ...boxes.map(([a, b]) => Math.hypot(x - a - 6, y - b - 7)));
+      const spots = [[9, 0], [0, 11], [0, -11]].map(([on, aside]) => [end[0] + (on * dx - aside * dy) / length, end[1] + (on * dy + aside * dx) / length]);
+      const [lx, ly] = spots.find(spot => away(spot) > 10) || spots[0];  // beside an axis that another one covers
       pen.strokeStyle = colours.paper;
       pen.lineWidth = 3;
       pen.strokeText(name, lx, ly);
@@ -265,6 +284,12 @@ class Picture {
     pen.textBaseline = "bottom";
     pen.fillText(number(length, Math.max(0, -Math.floor(Math.log10(length) + 1e-9))) + ` ${unit.short}`, 14, h - 15);
   }
+}
+
+// How far a place is from a line between two others.
+function gap([x, y], [ax, ay], [bx, by]) {
+  const [dx, dy] = [bx - ax, by - ay], u = Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1)));
+  return Math.hypot(ax + u * dx - x, ay + u * dy - y);
 }
 
 // The next of 1, 2, 5, 10 … that is not below a length.

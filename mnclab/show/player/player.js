@@ -10,6 +10,7 @@ const KEYS = [
   ["R", "rapids, shown or not"], ["C", "what the colour of the cuts says"], ["M", "measures between two clicks (or arrows and enter); Esc clears"],
 ];
 const PART_KEYS = [["P", "the part, shown or not"]];
+const LATE = 40;  // ms from frame to frame, beyond which playing makes do with a coarser picture
 const STANDS = 150;  // ms after which a picture that was turned is drawn sharp
 const LATHE_KEYS = new Map([["drag", "shifts; with shift it turns"], ["1 2 3 4", "views (three)"]]);
 
@@ -41,6 +42,7 @@ class PlayerPage {
     this.legend();
     this.alarms();
     this.showPart(true);
+    if (run.header.turning && !part) Object.assign(find("note"), {textContent: "the blank, not cut", hidden: false});
     this.pointers();
     document.addEventListener("keydown", event => this.key(event));
     this.dark.addEventListener("change", () => this.theme(this.root.dataset.theme));
@@ -141,6 +143,7 @@ class PlayerPage {
   tick(now) {
     if (!this.playing) return;
     this.last ??= now;
+    this.late ||= now - this.last > LATE;
     const passed = Math.min(now - this.last, 250) / 1000 * Number(this.find("speed").value);
     this.last = now;
     const t = this.place.t + this.playing * passed, place = this.atTime(t), stop = this.stops.next(this.place, this.playing);
@@ -158,9 +161,11 @@ class PlayerPage {
   stop() {
     if (!this.playing) return;
     this.playing = 0;
+    this.late = false;
     this.stops.once = null;
     this.pressed();
     this.say();
+    this.show();
   }
   pressed() {
     for (const [id, direction, sign] of [["play", 1, "M4 3v10l8-5z"], ["play-back", -1, "M12 3v10L4 8z"]]) {
@@ -204,7 +209,7 @@ class PlayerPage {
     const lies = run.history.has("tool axis") ? run.history.get("tool axis").value(now.step) : null, along = lies ? "XYZ".indexOf(lies) : 2;
     this.measure.draw();
     picture.draw({row: going, tip: now.point, tool, along, at: Math.max(now.row, 0)}, now.rowsDone);
-    if (this.part && !this.part.draw(now.rowsDone, now.share, going, turning)) this.show();  // not there yet: go on with the next frame
+    if (this.part && !this.part.draw(now.rowsDone, now.share, going, turning, this.late)) this.show();  // not there yet: go on with the next frame
   }
   showPart(on) {
     if (!this.part) return;
@@ -381,7 +386,7 @@ class PlayerPage {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const {target, key} = event, tag = target.tagName, jump = act => () => this.jump(act);
     if (tag === "SELECT" || (tag === "BUTTON" && (key === " " || key === "Enter"))) return;
-    if (tag === "INPUT" && target.type === "text") return key === "Escape" && this.find("picture").focus();
+    if (tag === "INPUT" && target.type === "text") return key === "Escape" && (this.find("picture").focus(), this.stops.open(false));
     if (tag === "INPUT" && (/^(Arrow|Page|Home|End)/.test(key) || (target.type === "checkbox" && key === " "))) return;
     if (this.measure.on && target.id === "picture" && this.measure.key(key, event.shiftKey)) return event.preventDefault();
     const turn = (yaw, pitch) => () => this.change(camera => camera.turn(yaw, pitch));

@@ -3,7 +3,7 @@
 
 const RAW = 0, DONE = 1, NOW = 2, WOUND = -1;  // what has cut a cell: a move done, the one going on, a rapid in material
 const GONE = 8;  // more, where nothing is left
-const BLOCK = 8;  // cells of a square that is drawn as one, where it is level
+const BLOCK = 4;  // cells of a square that is drawn as one, where it is level
 const ROUGH = 0, SMOOTH = 1, LEVEL = 2;
 const SIDES = 4;  // vertices that a row or a column of cells has more: below and above at both ends
 
@@ -20,8 +20,8 @@ uniform vec3 right, up, near, target;
 uniform vec3 size;  // half of the picture in mm, and of its depth
 uniform bool below;
 out vec3 seen;
-out vec4 state;  // whether something is left, height, what has cut, at the side of the blank
-out vec2 rise;
+out vec4 state;  // whether something is left, height, what has cut, 1 at the rim of the blank and 2 at the foot of its side
+out vec3 rise;  // slopes, and whether a rapid has cut
 void main() {
   int wide = cells.x + ${SIDES};
   ivec2 v = ivec2(gl_VertexID % wide, gl_VertexID / wide), at = clamp(v - 2, ivec2(0), cells - 1);
@@ -33,8 +33,9 @@ void main() {
   vec3 place = vec3(xy, skirt || below ? texelFetch(floors, at, 0).r : h.x) - target;
   seen = vec3(dot(place, right), dot(place, up), dot(place, near));
   bool gone = h.y > float(${GONE - 2});
-  state = vec4(gone ? 0.0 : 1.0, h.x, gone ? h.y - float(${GONE}) : h.y, any(lessThan(v, ivec2(2))) || any(greaterThanEqual(v, cells + 2)) ? 1.0 : 0.0);
-  rise = h.zw;
+  float by = gone ? h.y - float(${GONE}) : h.y;
+  state = vec4(gone ? 0.0 : 1.0, h.x, abs(by), skirt ? 2.0 : any(lessThan(v, ivec2(2))) || any(greaterThanEqual(v, cells + 2)) ? 1.0 : 0.0);
+  rise = vec3(h.zw, by < 0.0 ? 1.0 : 0.0);
   gl_Position = vec4(seen.xy / size.xy, -seen.z / size.z, 1.0);
 }`;
 
@@ -44,23 +45,26 @@ uniform vec3 blank, metal, deep, red, fresh;
 uniform vec2 depths;  // lowest and highest place of the blank
 in vec3 seen;
 in vec4 state;
-in vec2 rise;
+in vec3 rise;
 uniform vec3 right, up, near;
 uniform bool below;
 out vec4 colour;
+bool below_is(float share) {  // a wall is what the cell at its foot is
+  vec2 slope = vec2(dFdx(share), dFdy(share)), climb = vec2(dFdx(state.y), dFdy(state.y));
+  return share > 0.98 || (share > 0.02 && dot(slope, climb) < 0.0);
+}
 void main() {
   if (state.x < 0.01) discard;
   vec3 across = normalize(cross(dFdx(seen), dFdy(seen)));
   if (across.z < 0.0) across = -across;
-  vec3 round = normalize(vec3(-rise, 1.0));
+  vec3 round = normalize(vec3(-rise.xy, 1.0));
   float upright = 1.0 - smoothstep(0.08, 0.25, abs(dot(across, vec3(right.z, up.z, near.z))));
-  if (!below) across = normalize(mix(vec3(dot(round, right), dot(round, up), dot(round, near)), across, max(upright, state.w)));
+  if (!below) across = normalize(mix(vec3(dot(round, right), dot(round, up), dot(round, near)), across, min(max(upright, state.w), 1.0)));
   float light = 0.5 + 0.5 * dot(across, normalize(vec3(-0.45, 0.6, 0.9)));
   float shine = pow(max(dot(across, normalize(vec3(-0.25, 0.33, 1.6))), 0.0), 40.0);
   float depth = clamp((depths.y - state.y) / max(depths.y - depths.x, 1e-6), 0.0, 1.0);
-  vec3 tone = abs(state.z) < 0.02 ? blank : mix(metal, deep, sqrt(depth));  // a wall is what the cell at its foot is
-  tone = mix(tone, fresh, 0.55 * clamp(state.z - 1.0, 0.0, 1.0));
-  if (state.z < -0.02) tone = red;
+  vec3 tone = below_is(rise.z) ? red : mix(mix(metal, deep, sqrt(depth)), fresh, 0.55 * clamp(state.z - 1.0, 0.0, 1.0));
+  if (below || state.w > 1.001 || !below_is(min(state.z, 1.0))) tone = blank;
   colour = vec4(tone * (0.42 + 0.62 * light * light) + 0.06 * shine, 1.0);
 }`;
 
@@ -94,22 +98,15 @@ class Relief {
     this.sent = [];
     this.state = "";  // of which picture it is, in which size
   }
-  // Room for the triangles of each tile, two between four cells: `starts` says where those of a tile begin.
+  // A buffer for the triangles of each tile: to change some of a common one, all of it would be copied while it is drawn.
   mesh() {
-    const {gl, grid} = this, wide = (n, k, count) => Math.min((k + 1) * TILE, n + 1) - k * TILE + (k ? 0 : 2) + (k === count - 1 ? 2 : 0);
-    let room = 0;
-    this.starts = Array.from({length: grid.across * grid.up}, (_, k) => {
-      const start = room;
-      room += 6 * wide(grid.nx, k % grid.across, grid.across) * wide(grid.ny, k / grid.across | 0, grid.up);
-      return start;
-    });
-    this.counts = this.starts.map(() => 0);
+    const {gl, grid} = this;
+    this.faces = Array.from({length: grid.across * grid.up}, () => gl.createBuffer());
+    this.counts = this.faces.map(() => 0);
     this.rims = [];  // of each tile, the upper edges of its walls
     this.blocks = Math.ceil(grid.nx / BLOCK);
     this.even = new Uint8Array(this.blocks * Math.ceil(grid.ny / BLOCK));
     this.index = new Uint32Array(6 * (TILE + 4) ** 2);
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
-    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, 4 * room, gl.DYNAMIC_DRAW);
   }
   // Whether the cells of a block and those that follow it have no wall and are alike, and level as well.
   evenness(map, i0, j0, row) {
@@ -174,7 +171,8 @@ class Relief {
     if (rims.length || this.rims[k]) this.rims[k] = this.beside.space.wire(Float32Array.from(rims), Uint8Array.from({length: rims.length / 3}, (_, n) => n % 2), this.rims[k]);
     gl.bindVertexArray(null);
     this.counts[k] = count;
-    gl.bufferSubData(gl.ELEMENT_ARRAY_BUFFER, 4 * this.starts[k], index.subarray(0, count));
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.faces[k]);
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, index.subarray(0, count), gl.DYNAMIC_DRAW);
   }
   texture(unit, name, format) {
     const {gl, grid} = this;
@@ -206,8 +204,9 @@ class Relief {
       gl.texSubImage2D(gl.TEXTURE_2D, 0, i0, j0, i1 - i0 + 1, j1 - j0 + 1, gl.RGBA, gl.FLOAT, cells.subarray(0, at));
       gl.activeTexture(gl.TEXTURE2);
       gl.texSubImage2D(gl.TEXTURE_2D, 0, i0, j0, i1 - i0 + 1, j1 - j0 + 1, gl.RG, gl.FLOAT, moved.subarray(0, to));
-      for (let j = Math.max(j0 - BLOCK - 1, 0) >> 3; j <= Math.min(j1 + 1, ny - 1) >> 3; j++)
-        for (let i = Math.max(i0 - BLOCK - 1, 0) >> 3; i <= Math.min(i1 + 1, nx - 1) >> 3; i++) blocks.add(j * this.blocks + i);
+      const [first, last, low, high] = [Math.max(i0 - BLOCK - 1, 0), Math.min(i1 + 1, nx - 1), Math.max(j0 - BLOCK - 1, 0), Math.min(j1 + 1, ny - 1)].map(n => n / BLOCK | 0);
+      for (let j = low; j <= high; j++)
+        for (let i = first; i <= last; i++) blocks.add(j * this.blocks + i);
       patch.addBox([grid.x(i0 - BLOCK), grid.y(j0 - BLOCK), this.depths[0]], [grid.x(i1 + BLOCK), grid.y(j1 + BLOCK), this.depths[1]]);
     }
     for (const n of blocks) {
@@ -254,7 +253,10 @@ class Relief {
       gl.uniform3f(place[name], ...rgb(colours[colour]));
     for (const below of camera.near[2] < 0 ? [0, 1] : [0]) {
       gl.uniform1i(place.below, below);
-      for (const k of seen) gl.drawElements(gl.TRIANGLES, this.counts[k], gl.UNSIGNED_INT, 4 * this.starts[k]);
+      for (const k of seen) {
+        gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.faces[k]);
+        gl.drawElements(gl.TRIANGLES, this.counts[k], gl.UNSIGNED_INT, 0);
+      }
     }
     beside.space.look(camera, far, ratio);
     for (const rim of seen.map(k => this.rims[k])) if (rim) beside.space.stroke(rim, 0, rim.count, [null, [colours.edge]], 1.1, 0.85);

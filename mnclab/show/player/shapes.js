@@ -1,6 +1,7 @@
 // Tools as bodies: rings about the tool axis, whose outlines on the screen are convex.
 
 const FACETS = 28;
+const SHARP = Math.cos(0.6);  // of the angle at a corner, from which on it is an edge of a body
 
 // The parts of a tool from above: rings [radius, height above the tip], and which colour they have.
 function parts(tool, extent) {
@@ -84,15 +85,39 @@ function drawTool(pen, tool, tip, along, project, colours, extent) {
   }
 }
 
-// The insert of a lathe tool and its holder, corners (z, r) about the tip, in the plane of X and Z. Both are like glass.
-function drawInsert(pen, {insert, holder}, tip, project, colours) {
-  for (const [corners, fill] of [[holder, colours.holder], [insert, colours.insert]]) {
-    trace(pen, corners.map(([z, r]) => project([tip[0] + r, tip[1], tip[2] + z])));
-    pen.fillStyle = fill;
+// The insert of a lathe tool and its holder: name, corners (z, r) about the tip, and how thick they are to both sides of the plane
+// of X and Z.
+function blades({insert, holder}) {
+  const size = Math.max(...[0, 1].map(k => Math.max(...insert.map(each => each[k])) - Math.min(...insert.map(each => each[k]))));
+  return [["holder", holder, 0.3 * size], ["insert", insert, 0.16 * size]];
+}
+
+// Both are like glass.
+function drawInsert(pen, held, tip, project, colours) {
+  for (const [name, corners, thick] of blades(held)) {
+    const faces = [-thick, thick].map(y => corners.map(([z, r]) => project([tip[0] + r, tip[1] + y, tip[2] + z]))), [back, front] = faces;
+    const sides = front.map((corner, k) => [corner, back[k], ...[back, front].map(face => face[(k + 1) % face.length])]);
+    pen.fillStyle = colours[name];
     pen.strokeStyle = colours.edge;
-    pen.lineWidth = fill === colours.insert ? 1.2 : 0.7;
+    pen.lineWidth = name === "insert" ? 1.2 : 0.7;
     pen.lineJoin = "round";
-    pen.fill();
-    pen.stroke();
+    const whole = new Path2D(), edges = new Path2D();
+    corners.forEach(([z, r], k) => {
+      const [[az, ar], [bz, br]] = [corners.at(k - 1), corners[(k + 1) % corners.length]], [u, v] = [[z - az, r - ar], [bz - z, br - r]];
+      if (u[0] * v[0] + u[1] * v[1] > SHARP * Math.hypot(...u) * Math.hypot(...v)) return;
+      edges.moveTo(...back[k]);
+      edges.lineTo(...front[k]);
+    });
+    for (const face of [...faces, ...sides]) {  // all one way round: so what lies over one another is filled once
+      const area = face.reduce((sum, [x, y], k) => sum + x * face[(k + 1) % face.length][1] - y * face[(k + 1) % face.length][0], 0);
+      (area < 0 ? face.reverse() : face).forEach(([x, y], k) => whole[k ? "lineTo" : "moveTo"](x, y));
+      whole.closePath();
+    }
+    pen.fill(whole);
+    pen.stroke(edges);
+    for (const face of faces) {
+      trace(pen, face);
+      pen.stroke();
+    }
   }
 }

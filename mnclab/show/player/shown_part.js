@@ -1,7 +1,7 @@
 // The part in the picture: cut to where the playing stands, then drawn as a relief, or from above where there is no WebGL.
 
 const SLICE = 9;  // ms of a frame that cutting may take
-const COARSE = 0.5;  // of the pixels along a side, while the picture turns and the processor draws
+const COARSE = 0.5;  // of the pixels along a side, while the picture turns, or plays slowly, and the processor draws
 
 class ShownPart {
   constructor(canvas, run, picture) {
@@ -21,10 +21,10 @@ class ShownPart {
     this.canvas.hidden = !on;
   }
   // True once the part is cut to there.
-  draw(rows, share, row, turning = false) {
+  draw(rows, share, row, turning = false, late = false) {
     const {canvas, picture, carving} = this, {camera, ratio, colours} = picture;
     if (!picture.part) return true;
-    const [w, h] = camera.size.map(size => Math.round(size * ratio * (turning && this.drawing.slow ? COARSE : 1)));
+    const [w, h] = camera.size.map(size => Math.round(size * ratio * ((turning || late) && this.drawing.slow ? COARSE : 1)));
     if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
     carving.aim(rows, share);
     const there = carving.work(performance.now() + SLICE);

@@ -87,13 +87,13 @@ class Board {
       return line;
     }));
   }
-  // A coordinate as the operator reads it: a lathe's X is a diameter.
-  shown(point, axis) {
-    const {unit, lathe} = this.run;
-    return number(point[axis] / unit.length * (lathe && axis === 0 ? 2 : 1), unit.decimals);
+  // A coordinate as the operator reads it: a lathe's X is a diameter; or as the program says it, where that may be a radius.
+  shown(point, axis, told = false) {
+    const {unit, lathe, header: {radii}} = this.run, across = lathe && axis === 0, radius = across && told && radii;
+    return (radius ? "R " : "") + number(point[axis] / unit.length * (across && !radius ? 2 : 1), unit.decimals);
   }
   positions(column, point) {
-    for (const axis of this.axes) this.find(`${column}-${"XYZ"[axis]}`).textContent = point ? this.shown(point, axis) : "–";
+    for (const axis of this.axes) this.find(`${column}-${"XYZ"[axis]}`).textContent = point ? this.shown(point, axis, column === "program") : "–";
   }
   show({step, row, point, speed, item, angles}) {
     const {run, find} = this, {unit} = run, at = Math.max(row, 0);

@@ -145,7 +145,8 @@ class Stops {
       const told = question && (question.tree.value || question.tree.truth)(asked.values(item, share));
       head.textContent = text;
       value.textContent = fault || (name ? valueText(name, run.history.get(name).value(page.step), run.unit.length)
-        : typeof told === "boolean" ? (told ? "true" : "false") : told === null || Number.isNaN(told) ? "not known" : short(told, 4));
+        : typeof told === "boolean" ? (told ? "true" : "false") : told === null || Number.isNaN(told) ? "not known"
+        : Number.isFinite(told) ? short(told, 4) : question.names.has("feed") ? "rapid" : "no limit");
       cell.append(head, value);
       return cell;
     }));
