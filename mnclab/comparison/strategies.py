@@ -107,7 +107,7 @@ class Trial(Pictured, Tried, Level):
         """
         return program(self.path, control, tool, spindle, decimals)
 
-    def plot(self, kind: str = "paths", **options: Any) -> Picture:  # type: ignore[override]
+    def plot(self, kind: str = "paths", **options: Any) -> Picture:
         """The picture of a comparison, of this trial alone."""
         return Comparison((self,)).plot(kind, **options)
 

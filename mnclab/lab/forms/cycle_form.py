@@ -17,6 +17,7 @@ from mnclab.lab.forms.dimension_lines import over, windows
 from mnclab.lab.forms.example import Example
 from mnclab.lab.forms.fields import Field, field_of, folded, grouped, groups, parameter_box, tick_of
 from mnclab.lab.forms.live import DRAWING, NewPicture, following, of_run, value_of
+from mnclab.lab.forms.measuring import Length
 from mnclab.machine.cycle import Cycle, Parameter, left_out
 from mnclab.machine.trial import number
 from mnclab.text.alarm import Alarm
@@ -100,7 +101,10 @@ def form(code: str, control: str) -> Any:
             return
         p, path = parameters[place], example.own(run.toolpath)
         size = tuple(100 * side for side in live.figure.get_size_inches().tolist())
-        lit.value = over(example.measured(run, p, now), worth(p, boxes[name]), path, windows(live.figure), size)
+        found, text = example.measured(run, p, now), worth(p, boxes[name])
+        if path.lathe and isinstance(found, Length) and abs(found.way[0]) == 1 and "diameter" not in p.unit:
+            text += " (radius)"  # the axis beside it counts diameters
+        lit.value = over(found, text, path, windows(live.figure), size)
 
     def turned_to(place: str) -> None:
         if place == asked.value and place.isdigit() and int(place) < len(parameters):
