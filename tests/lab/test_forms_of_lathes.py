@@ -68,7 +68,7 @@ def test_the_tap_of_a_form_has_the_pitch_of_its_thread():
 @pytest.mark.parametrize(
     ("name", "code", "field", "said"),
     [
-        ("jnc-t01", "G75", "bottom", "X 25 mm (radius)"),
+        ("jnc-t01", "G75", "bottom", "X 25 mm radius"),
         ("jnc-t01", "G75", "last_z", "Z \N{MINUS SIGN}15 mm"),
         ("nc-31", "G75", "x", "X 30 mm ⌀"),
     ],
