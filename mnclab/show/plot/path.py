@@ -307,7 +307,7 @@ def foot_of(stop: Alarm | None, unseen: bool) -> Foot | None:
     """What is written below: the alarm that stopped the program, or that rapids between two cuts are cut off."""
     if stop:
         return Foot.of(stop)
-    return Foot('rapids between cuts go farther; frame="all" shows them') if unseen else None
+    return Foot("rapids between cuts go farther") if unseen else None
 
 
 def views_of(view: str, path: Toolpath, low: Array, high: Array, single: bool) -> list[View]:
