@@ -31,6 +31,7 @@ from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, choice, faults_as_alarms, fitting, plain, shown
 from mnclab.text.opening import progress
+from mnclab.text.tables import Pictured
 
 if TYPE_CHECKING:
     from mnclab.show.plot.picture import Picture
@@ -64,7 +65,7 @@ COLUMNS: Titles = {
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Trial(Tried, Level):
+class Trial(Pictured, Tried, Level):
     """One strategy on one area: the whole path, its first level, and those `below` it, each a `Level`.
 
     `limit` rad is the engagement above which the share of the way is told.

@@ -45,6 +45,7 @@ from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, choice, faults_as_alarms, fitting, plain, shown
+from mnclab.text.tables import Pictured
 
 if TYPE_CHECKING:
     from mnclab.show.plot.picture import Picture
@@ -75,7 +76,7 @@ TURNER = Tool(number=1, kind="turning", main_angle=95.0, auxiliary_angle=30.0)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class TurningTrial(Tried):
+class TurningTrial(Pictured, Tried):
     """One scheme on one profile: its plan, the whole path, and what comes of it."""
 
     titles: ClassVar = COLUMNS
@@ -153,6 +154,10 @@ class TurningTrial(Tried):
             else:
                 left = left.difference(cover)
         return struck
+
+    def plot(self, **options: Any) -> Picture:
+        """The picture of a comparison, of this trial alone."""
+        return TurningComparison((self,)).plot(**options)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -296,8 +296,13 @@ class ParameterRow(NamedTuple):
 
 def row(p: Parameter) -> ParameterRow:
     """The row of a parameter; its choices stand one in a line, each with its meaning."""
-    allowed = "\n".join(f"{choice:g} {meaning}" for choice, meaning in p.choices.items()) if p.choices else p.allowed
+    allowed = "\n".join(f"{choice:g} {meaning}" for choice, meaning in p.choices.items()) if p.choices else limits(p)
     return ParameterRow(p.address, p.meaning, p.unit, allowed, "required" if p.required else left_out(p), p.note)
+
+
+def limits(p: Parameter) -> str:
+    """What is allowed, in words; a note that says "greater than 0" stands in place of the 0 that a range begins with."""
+    return p.allowed.removeprefix("at least 0 and ") if p.note.startswith("greater than 0") else p.allowed
 
 
 def left_out(p: Parameter) -> str:

@@ -188,9 +188,9 @@ class Measurements(Rows[Measurement]):
         names = ("line", "cycle", "what", "unit", *self.HEAD[3:])
         return csv_text(names, *([row[name] for name in names] for row in map(self._in_unit, self.as_dicts())))
 
-    def save(self, path: str | Path) -> Path:
+    def save(self, path: str | Path, **options: Any) -> Path:
         """Write the table as .csv, in the unit of the program, or as .json, in mm, numbers with all their digits; the file."""
-        return save_as(self, path, {".csv": write_csv, ".json": _write_json}, REFUSED)
+        return save_as(self, path, {".csv": write_csv, ".json": _write_json}, REFUSED, **options)
 
 
 def _write_json(measured: Measurements, path: Path) -> None:

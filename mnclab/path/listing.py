@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from mnclab.path.toolpath import Move, Toolpath
 
 HEAD, TAIL = 12, 6
-NUMBERS = (0, 1, 3, 4, 5, 6, 7, 8)
 
 
 class Unit(NamedTuple):
@@ -109,16 +108,18 @@ def line(move: Move) -> str:
 def table(path: Toolpath) -> str:
     """Head and tail of a path as an HTML table."""
     n = len(path)
-    rows = [_cells(i, path[i], path.unit) for i in range(n) if n <= HEAD + TAIL or not HEAD <= i < n - TAIL]
+    axes = [0, 2] if path.lathe and not path.end[:, 1].any() else [0, 1, 2]
+    rows = [_cells(i, path[i], path.unit, axes) for i in range(n) if n <= HEAD + TAIL or not HEAD <= i < n - TAIL]
     if n > HEAD + TAIL:
         rows.insert(HEAD, (f"… {n - HEAD - TAIL} rows …",))
     x, radii = ("x (radius)", ", x as radius") if path.lathe else ("x", "")
-    head = ("row", "line", "kind", x, "y", "z", "feed", "spindle", "tool", "label")
+    head = ("row", "line", "kind", *((x, "y", "z")[k] for k in axes), "feed", "spindle", "tool", "label")
     rate = f", feeds in {path.unit.rate}" if path.tenths else ""
-    return f"{html_table(head, rows, numbers=NUMBERS)}<p>{several(n, 'row')}, positions in {path.unit.name}{radii}{rate}</p>"
+    shown = html_table(head, rows, numbers=(0, 1, *range(3, len(head) - 1)))
+    return f"{shown}<p>{several(n, 'row')}, positions in {path.unit.name}{radii}{rate}</p>"
 
 
-def _cells(i: int, move: Move, unit: Unit) -> tuple[str, ...]:
+def _cells(i: int, move: Move, unit: Unit, axes: list[int]) -> tuple[str, ...]:
     told = move.label if move.kind <= Kind.PROBE else f"{words(move, unit)} {move.label}".strip()
-    kind, place = Kind(move.kind).name.lower(), (unit.figure(value, 1) for value in move.end)
+    kind, place = Kind(move.kind).name.lower(), (unit.figure(move.end[k], 1) for k in axes)
     return str(i), line(move), kind, *place, _rate(move, unit, 1), figure(move.spindle, 3), str(move.tool), told

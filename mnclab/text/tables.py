@@ -175,9 +175,9 @@ class Listing(ABC):
 
         return pandas.DataFrame(self.columns())
 
-    def save(self, path: str | Path) -> Path:
-        """Write the table (.csv)."""
-        return save_as(self, path, {".csv": write_csv}, "tables are saved as .csv, not as {}")
+    def save(self, path: str | Path, **options: Any) -> Path:
+        """Write the table (.csv), which takes no options."""
+        return save_as(self, path, {".csv": write_csv}, "tables are saved as .csv, not as {}", **options)
 
 
 def write_csv(listing: Listing, path: Path) -> None:

@@ -178,22 +178,23 @@ class Removal(Pictured, Listing):
         groups = [(self._tool(number), cut_by == number) for number in numbers]
         groups += [("all", np.ones(len(cut_by), dtype=bool))] if len(numbers) != 1 else []
         told: list[tuple[str, ...]] = []
+        rate = self.largest.rate if self.largest else 0.0  # a column has one unit
         for name, rows in groups:
             taken = float(self.volumes[rows].sum())
             seconds = float(self.seconds[rows & (self.volumes > 0)].sum())
-            most = self._fastest(rows & self._at_feed)
+            mean, most = self._mean(rows & self._at_feed), self._fastest(rows & self._at_feed)
             told.append((
-                name, self.told(taken), f"{seconds:.2f} s", f"{self.told(self._mean(rows & self._at_feed))}/min",
-                f"{AT_LEAST * (not self.proves(np.flatnonzero(rows)))}{self.told(most.rate)}/min" if most else "",
+                name, self.told(taken, self.volume), f"{seconds:.2f} s", f"{self.told(mean, rate)}/min",
+                f"{AT_LEAST * (not self.proves(np.flatnonzero(rows)))}{self.told(most.rate, rate)}/min" if most else "",
                 self.place(most) if most else "",
             ))  # fmt: skip
         return told
 
     texts = rows
 
-    def told(self, value: float) -> str:
+    def told(self, value: float, like: float = 0.0) -> str:
         """A volume, mm³, as `volume` says it, in the unit of the program."""
-        return volume(value, self.workpiece.cutting.path.unit)
+        return volume(value, self.workpiece.cutting.path.unit, like)
 
     def place(self, fastest: Fastest) -> str:
         """Where the largest rate is: the line, with its program where that was called."""
@@ -225,9 +226,9 @@ class Removal(Pictured, Listing):
         return f" {self.workpiece.cutting.reach}".rstrip()
 
 
-def volume(value: float, unit: Unit = MM) -> str:
-    """mm³ as people say it: three figures, in cm³ from one on; of a program in inches in³."""
-    number, name = (value / 1000, "cm³") if value >= 1000 else (value, "mm³")
+def volume(value: float, unit: Unit = MM, like: float = 0.0) -> str:
+    """mm³ as people say it: three figures, in cm³ from one on, or where one that is `like` it is; of a program in inches in³."""
+    number, name = (value / 1000, "cm³") if max(value, like) >= 1000 else (value, "mm³")
     if unit.length != 1:
         number, name = value / unit.length**3, "in³"
     return f"{number:.0f} {name}" if number >= 1000 else f"{number:.3g} {name}"

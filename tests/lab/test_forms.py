@@ -245,6 +245,32 @@ def test_the_steps_of_a_form_follow_it():
     assert "drill" in cells() and "peck" not in cells() and "-11" not in cells()
 
 
+def test_the_moves_in_the_program_stand_for_steps_that_need_one():
+    live = mnclab.form("CYCL DEF 275", "tnc-620")
+    assert live.run.ok and "layer 1 of 2, trochoid" in live.steps_view.value
+    live.boxes["infeed"].value = 0.0
+    assert "<table" not in live.steps_view.value and "other values" in live.steps_view.value
+
+
+def test_the_field_with_the_cursor_stays_lit_when_one_before_it_changes_late():
+    """The next field has the cursor already when the value that was typed before it arrives."""
+    live = mnclab.form("CYCL DEF 200", "tnc-620")
+    live.boxes["depth"].value = -14.0
+    DRAWING.submit(int).result()
+    assert "<title>Q201 \N{MINUS SIGN}14 mm</title>" in live.lit.value, "nobody says where the cursor is"
+    live.asked.value = str([*live.boxes].index("feed"))
+    live.boxes["depth"].value = -15.0
+    DRAWING.submit(int).result()
+    assert "<title>Q206 150 mm/min</title>" in live.lit.value
+
+
+def test_what_is_said_of_a_parameter_is_what_an_alarm_says():
+    live = mnclab.form("CYCL DEF 251", "tnc-620")
+    live.boxes["infeed"].value = 0.0
+    assert "must be greater than 0" in told(live)["infeed"]
+    assert "greater than 0" in live.boxes["infeed"].tooltip and "at least 0" not in live.boxes["infeed"].tooltip
+
+
 EVERY = [(name, code) for name in mnclab.controls for code in mnclab.controls[name].cycles]
 FEW = 10  # of so many one is drawn each time, all of them with the deep tests
 

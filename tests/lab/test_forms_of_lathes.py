@@ -63,3 +63,18 @@ def test_the_tap_of_a_form_has_the_pitch_of_its_thread():
     locked = run.toolpath.synchronous
     tap = next(tool for tool in cutting_of(run).tools if tool.kind == "tap")
     assert tap.name == "tap M12" and set(run.toolpath.per_rev[locked].tolist()) == {1.75} == {tap.pitch}
+
+
+@pytest.mark.parametrize(
+    ("name", "code", "field", "said"),
+    [
+        ("jnc-t01", "G75", "bottom", "X 25 mm radius"),
+        ("jnc-t01", "G75", "last_z", "Z \N{MINUS SIGN}15 mm"),
+        ("nc-31", "G75", "x", "X 30 mm ⌀"),
+    ],
+)
+def test_a_dimension_across_says_where_it_is_a_radius(name, code, field, said):
+    """The axis of the picture counts diameters."""
+    live = mnclab.form(code, name)
+    live.light(field)
+    assert f"<title>{said}</title>" in live.lit.value

@@ -73,6 +73,10 @@ def test_volumes_have_three_figures(value, text):
     assert volume(value) == text
 
 
+def test_a_volume_is_said_in_the_unit_of_one_like_it():
+    assert volume(644, like=49_600) == "0.644 cm³"
+
+
 @pytest.mark.parametrize("step", [0, -1, [1], "1"])
 def test_a_step_that_is_none(step):
     for ask in (run(SLOT, stock=BLANK).workpiece, run(SLOT, stock=BLANK).collisions):

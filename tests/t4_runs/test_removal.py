@@ -76,6 +76,7 @@ def test_the_table_has_a_row_for_each_tool_and_one_for_all(slots):
     assert [row[0] for row in rows] == ["T1 end mill 16", "T2 end mill 10", "all"]
     assert [row[2] for row in rows] == ["16.00 s", "8.00 s", "24.00 s"]
     assert [row[-1] for row in rows] == ["5", "10", "5"]
+    assert [len({row[k].split()[1] for row in rows}) for k in (1, 3, 4)] == [1, 1, 1], "a column has one unit"
 
 
 def test_a_program_that_cuts_nothing():

@@ -2,12 +2,14 @@
 
 import functools
 import itertools
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 from matplotlib.colors import to_hex
 from matplotlib.text import Text
+from matplotlib.transforms import Bbox
 from tools.together import deep_but_one_in
 
 import mnclab as mnc
@@ -143,7 +145,13 @@ def texts(figure):
             hidden |= {id(label) for tick in ticks if tick not in shown for label in (tick.label1, tick.label2)}
             hidden |= set() if ax.axison else {id(axis.label)}
     found = (each for each in figure.findobj(Text) if each.get_visible() and each.get_text().strip() and id(each) not in hidden)
-    return [(each.get_text(), each.get_window_extent()) for each in found]
+    return [(each.get_text(), box_of(each)) for each in found]
+
+
+def box_of(text):
+    """The box of a text in pixels, without a last line that is left free."""
+    box, lines = text.get_window_extent(), text.get_text().split("\n")
+    return box if lines[-1] else Bbox([(box.x0, box.y0 + box.height / len(lines)), box.max])
 
 
 def faults(figure):
@@ -168,6 +176,22 @@ def test_all_texts_stand_inside_and_apart(name, size):
 def test_views_side_by_side_use_the_width_of_a_slide(name):
     boxes = [ax.get_position() for ax in FIGURES[name](size="slide").axes]
     assert max(box.x1 for box in boxes) - min(box.x0 for box in boxes) > 0.8
+
+
+@pytest.fixture(scope="module")
+def every_strategy():
+    return mnc.compare(pocket(), 4.0)
+
+
+@pytest.mark.parametrize("kind", ["paths", "engagement", "passes"])
+def test_every_strategy_fills_a_slide_and_stays_on_a_page(every_strategy, kind):
+    names = {word for name in strategies.STRATEGIES for word in name.split()}
+    for size in SIZES:
+        figure = every_strategy.plot(kind, size=size)
+        boxes = [ax.get_position() for ax in figure.axes]
+        assert size != "slide" or max(box.x1 for box in boxes) - min(box.x0 for box in boxes) > 0.8
+        assert figure.get_figheight() * 25.4 <= 257.1 and not faults(figure)
+        assert names <= set(re.split(r"[\s:]+", " ".join(ax.get_title(loc="left") for ax in figure.axes)))
 
 
 @pytest.mark.parametrize("name", ["profile", "removal", "long profile"])

@@ -64,6 +64,7 @@ def test_a_scale_says_how_deep_colours_are(run):
     figure = run.workpiece().plot()
     assert isinstance(figure, Figure) and {"depth, mm", "blank", "X, mm", "Y, mm"} <= texts(figure)
     assert any("mm³ removed" in each for each in texts(figure))
+    assert next(ax for ax in figure.axes if ax.get_ylabel() == "depth, mm").get_xlim() == (0, 6), "it ends at the deepest floor"
     names = texts(run.workpiece().plot(colour="tool"))
     assert {"tool 1"} <= names and "depth, mm" not in names
     assert "line 5" in texts(run.workpiece().plot(colour="line"))

@@ -101,6 +101,8 @@ def test_what_an_insert_has_cut_is_seen_through_it():
 
 def test_tables_of_a_lathe_say_that_x_is_a_radius():
     turned, milled = run("G00 X20 Z5\nX10\n", "jnc-t01"), run("G0 X20\nX10\n", "mnc")
+    assert "X (diameter) 0 to" in turned.plot().alt and "diameter" not in milled.plot().alt
+    assert ">y<" in milled.toolpath._repr_html_() and ">y<" not in turned.toolpath._repr_html_(), "a lathe has no Y"
     assert "x (radius)" in turned.toolpath._repr_html_() and "radius" not in milled.toolpath._repr_html_()
     assert "moves, X as radius" in str(turned.explain(line=1)) and "as radius" not in str(milled.explain(line=1))
 

@@ -47,3 +47,14 @@ def test_two_paths_are_framed_alike():
     assert frame(side)[1, 1] < 100
     rapids = [line for line in side.lines if "rapid" in line.get_label()]
     assert len(rapids) == 2 and all(line.get_linestyle() == "--" for line in rapids)
+    for size in (None, "column"):
+        side = mnc.diff(one, other).plot(size=size).axes[1]
+        dashes = [np.array(line._dash_pattern[1]) for line in side.lines if "rapid" in line.get_label()]
+        assert dashes[0] == pytest.approx(dashes[1]), "those of the second leave the gaps of the first open"
+
+
+def test_a_retraction_at_feed_does_not_set_the_scale_of_the_feed():
+    """It cuts at 100 and goes up at 5000: the curve ends a little above 100."""
+    text = "G90 G54 T1 S1000 M3\nG0 X0 Y0 Z5\nG1 Z-2 F100\nX60\nZ30 F5000\nG0 X0\n"
+    ax = mnc.run(text, "mnc").profile().plot().axes[0]
+    assert 100 < ax.get_ylim()[1] < 150 and "reach" in ax.texts[0].get_text()

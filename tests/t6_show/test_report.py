@@ -207,6 +207,8 @@ def test_called_programs_rotary_axes_and_the_blank_are_told(tmp_path):
     assert [line[0] for line in found.called[0][1] if line[2]] == [3] and not any(line[2] for line in found.listing)
     page = Page()
     page.feed(run.report(tmp_path / "a.html").read_text("utf-8"))
+    said = " ".join(page.text)
+    assert "\N{MINUS SIGN}90, 30 degrees" in said and "A-90" in said, "a true minus, but not in programs"
     assert page.open == [] and "Program SUB.H" in page.text
     assert run.report(tmp_path / "a.pdf").read_bytes().startswith(b"%PDF")
 

@@ -72,6 +72,8 @@ def test_a_lathe_tells_diameters():
     run = mnclab.run("M3 T1\nS500 G97\nG00 X26 Z2\nG01 Z-30 F100\n", "jnc-t01", Setup(stock=mnclab.blank.cylinder(30, -60, 1)))
     said = dict(each for each in tables(gathering.set_up(run).pieces) if isinstance(each, tuple))
     assert said["blank"] == "⌀60 x 61 mm" and said["zero stands"] == "on the axis of the spindle, 1 mm behind its face"
+    assert tables(gathering.set_up(run).pieces)[0].keys() == {"datum", "X", "Z"}, "a lathe has no Y"
+    assert said["spindle at the start"].startswith("X0 Z0, ")
     assert "⌀60" in [each.get_text() for each in plot_set_up(run).axes[0].texts]
 
 

@@ -60,6 +60,20 @@ def test_a_comparison_is_saved(compared, tmp_path):
     assert "files have no options" in alarm_of(lambda: compared.save(tmp_path / "t.csv", size=(5, 5))).message
 
 
+def test_one_trial_is_saved_as_a_comparison_is(compared, tmp_path):
+    schemes = mnc.compare_turning(mnc.area.Contour([(0, 20), (-40, 20), (-50, 30)], closed=False), 30, schemes=["loop"])
+    for trial in (compared[0], schemes[0]):
+        png = trial.save(tmp_path / "t.png", size="slide").read_bytes()
+        assert int.from_bytes(png[16:20], "big") == pytest.approx(13.33 * 200, abs=1)
+        assert "no option of" in alarm_of(lambda trial=trial: trial.save(tmp_path / "t.png", of="part")).message
+
+
+def test_a_table_without_a_picture_refuses_a_size(tmp_path):
+    holes = mnc.run("T1 S500 M3\nG0 X0 Y0 Z5\n", "mnc").holes()
+    assert "have no options, got size" in alarm_of(lambda: holes.save(tmp_path / "t.csv", size="slide")).message
+    assert ".csv" in alarm_of(lambda: holes.save(tmp_path / "t.png", size="slide")).message
+
+
 def test_schemes_on_a_machine_by_its_name():
     profile = mnc.area.Contour([(0, 20), (-40, 20), (-50, 30)], closed=False)
     found = mnc.compare_turning(profile, 30, schemes=["loop"], machine="old-lathe")

@@ -17,8 +17,10 @@ from mnclab.lab.forms.dimension_lines import over, windows
 from mnclab.lab.forms.example import Example
 from mnclab.lab.forms.fields import Field, field_of, folded, grouped, groups, parameter_box, tick_of
 from mnclab.lab.forms.live import DRAWING, NewPicture, following, of_run, value_of
-from mnclab.machine.cycle import Cycle, Parameter, left_out
+from mnclab.lab.forms.measuring import Length
+from mnclab.machine.cycle import Cycle, Parameter, left_out, limits
 from mnclab.machine.trial import number
+from mnclab.path.listing import table as moves_html
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import choice, fitting, shown
 from mnclab.text.opening import require
@@ -76,7 +78,8 @@ def form(code: str, control: str) -> Any:
             try:
                 table.value = steps_html(example.steps(now))
             except Alarm:
-                table.value = "<p>its steps need a program, or other values</p>"
+                moves = f"<p>what it does in the program below:</p>{moves_html(example.own(run.toolpath))}"
+                table.value = moves if run.ok else "<p>its steps need other values</p>"
 
         drawn = of_run(run, lambda **kept: example.plot(run, now, size=SIZE, **kept))
         return drawn._replace(after=after, made=example.own(run.toolpath))
@@ -100,23 +103,30 @@ def form(code: str, control: str) -> Any:
             return
         p, path = parameters[place], example.own(run.toolpath)
         size = tuple(100 * side for side in live.figure.get_size_inches().tolist())
-        lit.value = over(example.measured(run, p, now), worth(p, boxes[name]), path, windows(live.figure), size)
+        found, text = example.measured(run, p, now), worth(p, boxes[name])
+        if path.lathe and isinstance(found, Length) and abs(found.way[0]) == 1 and "diameter" not in p.unit:
+            text += " radius"  # the axis beside it counts diameters
+        lit.value = over(found, text, path, windows(live.figure), size)
 
     def turned_to(place: str) -> None:
         if place == asked.value and place.isdigit() and int(place) < len(parameters):
             light(parameters[int(place)].name)
 
+    meant = ""  # the field that was changed last, where nobody says which one has the cursor
+
     def changed(place: int) -> None:
-        if asked.value == str(place):
+        nonlocal meant
+        if asked.value == meant != str(place):
+            meant = asked.value = str(place)
+        else:
             DRAWING.submit(turned_to, asked.value)
-        asked.value = str(place)
 
     asked.observe(lambda change: DRAWING.submit(turned_to, change["new"]), "value")  # after the picture
     for place, name in enumerate(boxes):
         for each in filter(None, (boxes[name], ticks.get(name))):
             each.observe(lambda _, place=place: changed(place), "value")
     live.ticks, live.steps, live.program, live.steps_view = ticks, lambda: example.steps(values()), program, table
-    live.light, live.lit = light, lit
+    live.light, live.lit, live.asked = light, lit, asked
     return live
 
 
@@ -160,6 +170,6 @@ def about(parameters: Sequence[Parameter]) -> str:
 def card(p: Parameter) -> str:
     """The meaning of a parameter, and what is said of it."""
     otherwise = left_out(p)
-    facts = [p.allowed if not p.choices else "", p.note, f"left out: {otherwise}" if otherwise else ""]
+    facts = [limits(p) if not p.choices else "", p.note, f"left out: {otherwise}" if otherwise else ""]
     said = "<br>".join(escape(fact) for fact in facts if fact)
     return f"<p><strong>{escape(p.address)}</strong> {escape(p.meaning.removeprefix(f'{p.address} '))}<br>{said}</p>"

@@ -13,7 +13,7 @@ from html import escape
 from typing import Any, NamedTuple
 
 from mnclab.machine import trial
-from mnclab.machine.cycle import Parameter, left_out
+from mnclab.machine.cycle import Parameter, left_out, limits
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
 
@@ -197,7 +197,7 @@ def parameter_box(p: Parameter) -> Any:
 
     value = trial.first_value(p)
     otherwise = left_out(p)
-    facts = [p.meaning, p.allowed, p.note, f"left out: {otherwise}" if otherwise else ""]
+    facts = [p.meaning, limits(p), p.note, f"left out: {otherwise}" if otherwise else ""]
     looks = {"description": name_of(p), "tooltip": "; ".join(fact for fact in facts if fact)}
     if trial.is_text(p) or p.several:
         return ipywidgets.Text(value=value, **looks)

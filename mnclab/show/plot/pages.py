@@ -50,6 +50,7 @@ from mnclab.show.report.document import (
     Section,
     TextTable,
     Words,
+    signed,
 )
 from mnclab.text.alarm import ALARM, WARNING, first_of
 from mnclab.text.file import printable
@@ -205,7 +206,7 @@ class _Setter:
     def _(self, piece: TextTable) -> None:
         if not piece.rows:
             return
-        made = tabled(piece._replace(rows=[[printable(cell) for cell in row] for row in piece.rows]), WIDE)
+        made = tabled(piece._replace(rows=[[signed(printable(cell)) for cell in row] for row in piece.rows]), WIDE)
         head = made.head.tall + AIR if made.head else 0.0
         self.room(head + made.rows[0].tall + (made.rows[1].tall if len(made.rows) > 1 else 0) + 2)
         self._head(made)

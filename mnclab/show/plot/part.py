@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
-from matplotlib.colors import LinearSegmentedColormap, to_rgb
+from matplotlib.colors import LinearSegmentedColormap, ListedColormap, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, PathPatch, Polygon
@@ -56,7 +56,7 @@ Single = NDArray[np.float32]
 COLOURS = ("depth", "tool", "line")
 #: Pale above and dark below, in grey print too; what nothing cut is paler still.
 DEPTHS = LinearSegmentedColormap.from_list("depths", ["#f3efe2", "#cfe0cf", "#86bcc4", "#4a86b4", "#2c4f8c", "#1d2a5c"])
-ROOM = 1.5  # how far the scale of depths goes beyond the deepest place, within the blank: a single depth is no dark blot
+ROOM = 1.5  # how far the colours of depths go beyond the deepest place, within the blank: a single depth is no dark blot
 BESIDE = 0.2  # of the blank's greatest side: how much of the fixtures around it is shown
 FEW = 8  # tools or lines that a legend names one by one
 EDGES = ((0.0, "#55524a", 0.35), (0.02, colours.INK, 0.75))  # from which part of the depth on, colour, width in points
@@ -160,10 +160,11 @@ def _coloured(part: Milled, seen: Relief, colour: str) -> tuple[Array, list[tupl
         top = float(part.cutting.stock.bounds[1, 2])
         depth = np.where(seen.solid, top - seen.z, 0.0)
         thick = float(np.ptp(part.cutting.stock.bounds[:, 2]))
-        deepest = max(min(ROOM * float(depth.max()), thick), 1e-9)
-        shades = DEPTHS(depth / deepest)[..., :3]
-        unit = part.cutting.path.unit
-        scale = (f"depth, {unit.short}", 0.0, deepest / unit.length, DEPTHS)
+        deepest = float(depth.max())
+        beyond = max(min(ROOM * deepest, thick), 1e-9)
+        shades = DEPTHS(depth / beyond)[..., :3]
+        unit, shown = part.cutting.path.unit, ListedColormap(DEPTHS(np.linspace(0, deepest / beyond, 256)))
+        scale = (f"depth, {unit.short}", 0.0, deepest / unit.length, shown)
         scale = scale if depth.any() else None  # nothing is deep where all holes go through
     else:
         row = seen.rows(part)

@@ -307,7 +307,7 @@ def foot_of(stop: Alarm | None, unseen: bool) -> Foot | None:
     """What is written below: the alarm that stopped the program, or that rapids between two cuts are cut off."""
     if stop:
         return Foot.of(stop)
-    return Foot('rapids between cuts go farther; frame="all" shows them') if unseen else None
+    return Foot("rapids between cuts go farther") if unseen else None
 
 
 def views_of(view: str, path: Toolpath, low: Array, high: Array, single: bool) -> list[View]:
@@ -338,7 +338,7 @@ def in_words(path: Toolpath, low: Array, high: Array, stop: Alarm | None) -> str
     moves, factors = int(path.is_motion.sum()), (2 if path.lathe else 1, 1, 1)
     said = several(moves, "move") if moves else "no moves"
     ends = zip("XYZ", factors, low / path.unit.length, high / path.unit.length)
-    ranges = [f"{axis} {f * a:.4g} to {f * b:.4g}" for axis, f, a, b in ends if b > a]
+    ranges = [f"{axis}{' (diameter)' * (f == 2)} {f * a:.4g} to {f * b:.4g}" for axis, f, a, b in ends if b > a]
     said += f", {', '.join(ranges)} {path.unit.short}" if ranges and moves else ""
     return f"tool path: {said}{f'; stopped in line {stop.span.line}' if stop and stop.span else ''}"
 

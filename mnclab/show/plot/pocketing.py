@@ -161,19 +161,22 @@ def envelope(x: Array, y: Array, most: int = LONG) -> tuple[Array, Array]:
 # What is left after each of some passes.
 
 AT_MOST = 12
+MANY, PAIR = 4, 3.0  # of more trials there are two views each, which have so many inches
 
 
 def _passes(trials: Sequence[Trial], width: float, columns: int | None) -> Picture:
-    count = columns or _columns(width)
-    if len(trials) > 1:  # a row each
-        count = min(count, *(len(trial.clearing.passes) for trial in trials))
-    chosen = [_steps(len(trial.clearing.passes), AT_MOST if len(trials) == 1 else count) for trial in trials]
+    many, most = len(trials) > MANY, AT_MOST
+    count = columns or (2 * max(1, int(width / PAIR)) if many else _columns(width))
+    if len(trials) > 1:  # each within a row
+        most = min(2 if many else count, count, *(len(trial.clearing.passes) for trial in trials))
+        count -= count % most
+    chosen = [_steps(len(trial.clearing.passes), most) for trial in trials]
     names = [f"pass {k}" for each in chosen for k in each]
+    for k, trial in enumerate(trials if len(trials) > 1 else ()):
+        names[k * most] = f"{trial.name}: {names[k * most].replace(' ', chr(160))}"  # in one line with its number
     legend = [Patch(facecolor=looks.RAW, edgecolor=colours.INK, label="left, mm²"),
               Line2D([], [], color=colours.FEED.colour, linewidth=1.0, label="passes since the picture before")]  # fmt: skip
     picture, axes = _views(trials, names, "what passes leave", width, count, legend)
-    for ax, trial in zip(axes[::count], trials if len(trials) > 1 else ()):
-        ax.set_ylabel(trial.name, fontsize=SMALL, parse_math=False)
     places = iter(axes)
     for trial, each in zip(trials, chosen, strict=True):
         whole = shapely.difference(polygons(trial.region.inset(trial.allowance)), polygons(trial.before))

@@ -47,7 +47,7 @@ FINE, MANY = 9, 20_000  # points of a piece, as long as all of them are not more
 BAND, FEW = 500, 60  # steps of the band that says what holds the speed; boxes of it that are hatched
 LINES, LETTERS, FURTHER = 30, 36, 0.65  # of a program beside their bars, how wide each is, and rows of a further line of it
 FLAT = View(0, 1)  # of points (time or path, feed), whose rows can be clicked on
-RAPIDS = 3  # times the fastest cut, beyond which rapids are cut off
+RAPIDS = 3  # times the fastest cut, beyond which rapids and retractions are cut off
 PARTS = 3000  # of a path that is coloured by the speed reached
 HIDDEN_LIMIT = colours.LIMIT.style() | {"label": "_limit"}  # not in the legend
 
@@ -263,13 +263,18 @@ def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits:
     wanted, reached = np.where(known, feed * 60, np.nan)[drawn.piece], drawn.v * 60
     lines: list[Any] = ax.plot(x, wanted, **colours.WANTED.style()) + ax.plot(x, reached, **colours.REACHED.style())
     fast, most = float(reached.max(initial=0.0)), float(np.nanmax(wanted, initial=0.0))
-    cut = float(reached[profile.path.kind[profile.move[drawn.piece]] != Kind.RAPID].max(initial=0.0))
+    path, row = profile.path, profile.move[drawn.piece]
+    up = path.end - path.start
+    rises = (path.kind == Kind.LINE) & (up[:, 2] > 0) & ~up[:, :2].any(axis=1) & (not path.lathe)  # out of the material
+    rapid, cuts = path.kind[row] == Kind.RAPID, ~((path.kind == Kind.RAPID) | rises)[row]
+    cut = float(reached[cuts].max(initial=0.0))
     top = 1.08 * max(fast, most, 1e-3)
     if not np.isfinite(top) or top > 40 * max(fast, 1e-3):
         top = 1.08 * fast  # a feed far beyond what is reached would flatten all else
     if not whole and fast > RAPIDS * cut > 0:
-        top = clear(ax, min(max(cut, most), RAPIDS * cut), 0.14)
-        write_cut_off(ax, f"rapids reach {fast:.0f} {unit.short}/min")
+        top = clear(ax, min(max(cut, float(np.nanmax(wanted[cuts], initial=0.0))), RAPIDS * cut), 0.14)
+        fastest = "rapids" if rapid[np.argmax(reached)] else "retractions"
+        write_cut_off(ax, f"{fastest} reach {fast:.0f} {unit.short}/min")
     p = profile.pieces
     at = p.t if over == "time" else p.s / unit.length
     ax.set_xlim(0, max(float(at[-1]), 1e-9) if len(at) else 1.0)

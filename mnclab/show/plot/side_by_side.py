@@ -41,6 +41,7 @@ from mnclab.text.given import choice, shown
 # Pictures of several trials: one view of each, all of one size, each under its name.
 
 LEFT, BETWEEN, RIGHT, TITLE, LOW = 0.62, 0.22, 0.16, 0.26, 0.48  # inches
+TITLES = (SMALL + 1, SMALL, SMALL - 1, SMALL - 2)  # points: the largest at which no word is broken
 TALLEST = 5.0  # of one view
 SLIM = 0.4  # of its height: what a view is wide at least
 ROOMY = 2.3  # of a view: above it there is room for words beside its name
@@ -59,7 +60,11 @@ def panels(
     wide = max((width - left - RIGHT - BETWEEN * (columns - 1)) / columns, 0.1)
     tall = min(wide * ratio, tallest)
     wide = tall / ratio if ratio * wide > tallest and tallest == TALLEST else wide
-    titles = [broken(name, wide - (0.4 if notes else 0.0), SMALL + 1) for name in names]
+    longest = max((word for name in names for word in name.split(" ")), key=len)
+    letters = next((each for each in TITLES if len(broken(longest, wide, each)) == 1), SMALL + 1)
+    titles = [broken(name, wide, letters) for name in names]
+    if notes:  # beside the last line, which is left to them where it has no room
+        titles = [[*lines, *[""] * (len(broken(lines[-1], wide - 0.4, letters)) > 1)] for lines in titles]
     over = [TITLE + LINE * (max(map(len, titles[k : k + columns])) - 1) for k in range(0, len(names), columns)]
     top = 0.08 + legend_height(len(legend_rows([each.get_label() for each in legend], width)))
     loose = LOW if len(names) % columns else BETWEEN  # between rows: numbers and their name below the last of a column
@@ -69,7 +74,7 @@ def panels(
         row, column = divmod(k, columns)
         x, y = left + column * (wide + BETWEEN), height - top - sum(over[: row + 1]) - (row + 1) * tall - row * loose
         ax = picture.add_axes((x / width, y / height, wide / width, tall / height))
-        ax.set_title("\n".join(lines), fontsize=SMALL + 1, loc="left", pad=4, parse_math=False)
+        ax.set_title("\n".join(lines), fontsize=letters, loc="left", pad=4, parse_math=False)
         calm(ax)
         ax.tick_params(labelleft=not column, labelbottom=k + columns >= len(names))
     write_legend(picture, legend)
@@ -238,7 +243,10 @@ FIRST = LineStyle("first", looks.GREY, "-", 3.2, 2.2)
 SECOND = LineStyle("second", looks.BLUE, "-", 1.1, 2.8)
 APART = Mark("largest deviation", looks.WRONG, "o", 9, False, 4.2)
 CUTTING = tuple(kind for kind in Kind if kind != Kind.RAPID)
-FIRST_RAPID = RAPID._replace(name="_rapid of the first", colour="#e7a39d", width=2.2, order=FIRST.order)
+#: Its dashes, which count in widths, are as long as those that lie over it: the gaps stay open.
+FIRST_RAPID = RAPID._replace(
+    name="_rapid of the first", colour="#e7a39d", width=2 * RAPID.width, order=FIRST.order, dashes=(0, (2.5, 1.5))
+)
 SHOWN = 1e-6  # mm: less is called the same
 
 

@@ -37,9 +37,10 @@ SIZES: dict[str, tuple[float, float | None, float]] = {
 }
 NARROW, LETTERS = 100.0, 7.0  # mm: figures below have letters of so many points
 TALL = 1.4  # height to width at most, where the height is free
+PAGE = 257.0  # mm: the height of the text of an A4 page, which no figure of free height exceeds
 LEAST, MOST = 40.0, 2000.0  # mm of a side
 TRIES, WIDER, NARROWER = 6, 2, 0.6  # times a figure is drawn narrower to fit its height, and in more room; the least share
-COLUMNS = range(2, 7)  # of views of a figure that is too high
+COLUMNS, NAMED = range(2, 7), 0.75  # of views of a figure that is too high; inches of a view that has room for its name
 HINT = 'size="a4", size="column", size="slide", size=(7, 5), size_mm=(85, None)'
 
 
@@ -134,9 +135,11 @@ def sized(*, also: Any = None, tall: float | None = None) -> Callable[[Callable[
             if asked is not None and asked.exact:
                 free = "columns" in known and options.get("columns") is None
                 figure, rows = tried(asked), dict[str, int]()
+                page = PAGE * MM / asked.factor
+                within = asked._replace(height=page) if asked.height is None and figure.get_figheight() > page else asked
                 if free:
-                    figure, rows = _in_columns(figure, asked, tried)
-                figure, inches, over = _fitted(figure, asked, lambda inches: tried(inches, **rows))
+                    figure, rows = _in_columns(figure, within, tried)
+                figure, inches, over = _fitted(figure, within, lambda inches: tried(inches, **rows))
                 figure = drawn(inches, **rows) if bare else figure
                 _frame(figure, asked, over)
                 enlarge(figure, asked.factor / over)
@@ -195,6 +198,8 @@ def _in_columns(figure: AnyFigure, asked: Room, draw: Callable[..., AnyFigure]) 
         if _over(found[-1][1], asked) <= 1:
             break
         tried = draw(asked, columns=count)
+        if tried.axes[0].get_position().width * tried.get_figwidth() < NAMED:
+            break
         found.append((area(tried), tried, {"columns": count}))
     return max(found, key=lambda each: each[0])[1:]
 

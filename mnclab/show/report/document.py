@@ -6,6 +6,7 @@ A4. `show.plot.pages` sets it on A4.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from functools import singledispatch
@@ -124,6 +125,11 @@ def page(title: str, body: str) -> str:
     return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head><body>\n{body}\n</body></html>\n'
 
 
+def signed(cell: str) -> str:
+    """A text with the true minus sign before its numbers."""
+    return re.sub(r"(^|\s)([A-Z]?)-(?=\d)", "\\1\\2\N{MINUS SIGN}", cell)
+
+
 @singledispatch
 def written(piece: Piece) -> str:
     """A piece as HTML."""
@@ -138,7 +144,8 @@ def _(piece: Words) -> str:
 
 @written.register
 def _(piece: TextTable) -> str:
-    return html_table(piece.head, piece.rows, numbers=piece.numbers, bold=piece.bold)
+    rows = [[signed(cell) for cell in row] for row in piece.rows]
+    return html_table(piece.head, rows, numbers=piece.numbers, bold=piece.bold)
 
 
 @written.register

@@ -329,7 +329,8 @@ def set_up(run: Any) -> Section:
         pieces += [Words(f"Zero points in machine coordinates, {unit.short}{', X as radius' if path.lathe else ''}:")]
         pieces += [_datums(run, places[:DATUMS], unit)]
     facts = [*_blank(run, places, unit), *(("fixture", _fixture(each, path.lathe, unit)) for each in run.setup.fixtures)]
-    start = " ".join(f"{axis}{unit.figure(value, 1)}" for axis, value in zip("XYZ", run.setup.start))
+    ends = zip("XYZ", run.setup.start)
+    start = " ".join(f"{axis}{unit.figure(value, 1)}" for axis, value in ends if not (path.lathe and axis == "Y"))
     facts.append(("spindle at the start", f"{start}, machine coordinates{', X as radius' if path.lathe else ''}"))
     pieces.append(TextTable((), facts))
     if run.stock is not None:
@@ -347,8 +348,8 @@ def _datums(run: Any, places: Sequence[tuple[str, Any]], unit: Unit) -> TextTabl
         datum = turned.get(tuple(np.round(machine, 6)))
         turns = [figure(value, 3) if value else "" for value in datum[3:7]] if datum else [""] * len(SHIFTS)
         rows.append([name, *(f"{value / unit.length:.3f}" if np.isfinite(value) else "" for value in machine), *turns])
-    kept = [k for k in range(4 + len(SHIFTS)) if k < 4 or any(row[k] for row in rows)]
     head = ["datum", "X", "Y", "Z", *(f"{name}, °" for name in SHIFTS)]
+    kept = [k for k in range(len(head)) if any(row[k] for row in rows) and not (run.toolpath.lathe and head[k] == "Y")]
     return TextTable([head[k] for k in kept], [[row[k] for k in kept] for row in rows], range(1, len(kept)))
 
 
