@@ -39,7 +39,8 @@ must_not = ["G326"]
 blocks = 40                    # so many at most
 time = 95                      # s for full marks of economy, from level 3 on; also length, mm
 values = { Q5 = [39.9, 40.1] } # limits of variables at the end
-cutting = [{ tool = 1, vc = [90, 110], fz = [0.04, 0.06] }]  # m/min, mm a tooth; f mm a revolution, ap, ae mm; n rev/min, vf
+cutting = [{ tool = 1, vc = [90, 110], fz = [0.04, 0.06] }]  # m/min, mm a tooth; f mm a revolution; n rev/min, vf mm/min;
+                               # ap, ae mm: ap of a lathe is the mean of a pass, of a drill a peck
 cabinet = [{ kind = "drill", radius = [4, 5], angle = 118 }]  # of kind "set up": what its tools may be, a value or several
 strategy = { engagement = 80, time = 60 }                    # of a pocket: at most: degrees (of 95 % of the way), s, lifts, feed
 

@@ -193,6 +193,14 @@ def test_many_holes_stand_in_a_table():
     assert texts(drawn, 1, "x") == ["20"] and texts(drawn, 1, "diameter") == ["⌀5.5"]
 
 
+def test_a_slot_from_edge_to_edge_has_the_length_of_the_blank():
+    slot = d.Pocket.rectangle(35, 25, 70, 10, 6, name="slot")
+    design = d.Design(((0, 0, -20), (70, 55, 0)), (slot,))
+    drawn = drawing(design)
+    check(drawn, design)
+    assert [box.text for box in drawn.boxes() if box.kind == "text"].count("70") == 1 and texts(drawn, 0, "length") == ["70"]
+
+
 def test_islands_stand_in_the_table_of_features_with_their_sizes():
     islands = [d.Circle(32, 35, 18), d.Rectangle(66, 35, 16, 16, corner=2)]
     pocket = d.Pocket.rectangle(50, 35, 76, 50, 5, corner=5, name="pocket", islands=islands)
