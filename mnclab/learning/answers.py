@@ -7,6 +7,7 @@ import re
 import tomllib
 import zlib
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -95,10 +96,9 @@ def pupils_copy(path: Path) -> str:
 
 
 def _table(text: str) -> dict[str, Any] | None:
-    try:
+    with suppress(tomllib.TOMLDecodeError):
         return table_of(text)
-    except tomllib.TOMLDecodeError:
-        return None
+    return None
 
 
 def _left(table: dict[str, Any] | None) -> bool:
@@ -111,13 +111,12 @@ def _sealed(text: str) -> str:
     open_: list[str] = []
     values: list[str] = []
     tables: list[str] = []
-    hidden, inside = False, False
+    hidden = inside = False
     for line in text.splitlines(keepends=True):
         table = _table(line) or {}
         if line.lstrip().startswith("[") and table:
             hidden, inside = _left(table), table == {"setup": {}}
-        value = inside and any(name in table for name in SEALED)
-        (tables if hidden else values if value else open_).append(line)
+        (tables if hidden else values if inside and not table.keys().isdisjoint(SEALED) else open_).append(line)
     if not (values or tables):
         return text
     packed = zlib.compress("".join(["[setup]\n", *values, *tables]).encode(), 9)

@@ -62,11 +62,9 @@ def _of_cutting(exercise: Exercise, run: Run) -> Iterator[Finding]:
             yield Finding(ASKED, f"tool {wanted.tool} cuts", 0, (f"tool {wanted.tool} cuts nothing",))
             continue
         for name, (column, said) in NAMES.items():
-            limits, have = getattr(wanted, name), getattr(cut, column)
-            if name == "ap":
-                have = pass_of(run, wanted.tool) or have
-            if limits is None:
+            if (limits := getattr(wanted, name)) is None:
                 continue
+            have = (name == "ap" and pass_of(run, wanted.tool)) or getattr(cut, column)
             low, high = have if have is not None else (0.0, math.inf)  # what is not known is not right
             slack = 1e-9 * abs(limits[1])
             if not (limits[0] - slack <= low and high <= limits[1] + slack):
@@ -84,9 +82,8 @@ def _of_cabinet(exercise: Exercise, run: Run) -> Iterator[Finding]:
         offered = (all(getattr(tool, name) in (value if isinstance(value, list) else [value]) for name, value in row.items())
                    for row in exercise.asked.cabinet)  # fmt: skip
         if tool != theirs and not any(offered):
-            told = f"tool {number} is none of those in the cabinet"
-            more = f"{told}: compare its kind, angles and sizes with what is offered"
-            yield Finding(ASKED, "cabinet", _line_of_tool(run, number), (told, more))
+            told = f"tool {number} is none of those in the cabinet: compare its kind, angles and sizes"
+            yield Finding(ASKED, "cabinet", _line_of_tool(run, number), (told,))
 
 
 def pass_of(run: Run, number: int) -> tuple[float, float] | None:

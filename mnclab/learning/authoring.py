@@ -35,8 +35,7 @@ def _of(exercise: Exercise, answers: Answers, path: Path) -> Iterator[str]:
             exercise.drawing()
         except Alarm as alarm:
             yield f"the drawing cannot be made: {alarm.message}"
-    lessons = {each.name[:2] for each in LESSONS.glob("*.ipynb")}
-    if lessons and exercise.lesson not in lessons:
+    if LESSONS.is_dir() and not any(LESSONS.glob(f"{exercise.lesson}*.ipynb")):
         yield f"there is no lesson {exercise.lesson}"
     yield from parse(path, lambda table, _: dict.fromkeys(told(table)), "exercise")
     for pupil in PUPILS:

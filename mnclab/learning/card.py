@@ -52,8 +52,7 @@ def machine(exercise: Exercise) -> str:
     setup = exercise.setup
     if exercise.kind == "set up" or setup.stock is None:
         return ""
-    drawn = exercise.design.blank if exercise.design is not None else None
-    told = [f"Blank {_body(drawn if drawn is not None else blank(setup.stock))}"]
+    told = [f"Blank {_body(getattr(exercise.design, 'blank', None) or blank(setup.stock))}"]
     told += [f"held by {_body(blank(each))}" for each in setup.fixtures if blank(each) is not None]
     stands = place(setup.start).replace(" Y0", "" if hasattr(exercise.design, "profile") else " Y0")  # a lathe has no Y
     told += [f"the machine stands at {stands}"] if any(setup.start) else []

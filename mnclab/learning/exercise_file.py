@@ -125,8 +125,7 @@ def exercise_of(table: Mapping[str, Any], file: File, path: Path, pupil: str = "
     if "design" in found and found["setup"].stock is None:  # a blank is said once
         found["setup"] = replace(found["setup"], stock=found["design"].blank)
     limits = found["setup"].limits
-    if limits.travel is None:
-        found["setup"] = replace(found["setup"], limits=replace(limits, travel=TRAVEL))
+    found["setup"] = replace(found["setup"], limits=replace(limits, travel=limits.travel or TRAVEL))
     if "asked" in table:
         found["asked"] = _asked(as_table(table["asked"], "asked"), file)
     if "weights" in table:

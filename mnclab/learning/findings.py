@@ -222,8 +222,7 @@ def _said_by(row: Any, line: int, run: Run, before: int) -> int:
 
 def _drilled(row: Any, run: Run, before: int) -> bool:
     """Whether a drill made it on a lathe, where every measure but its depth is that of the tool."""
-    tool = _tool_of(row, run, before)
-    return run.toolpath.lathe and tool is not None and tool.kind == "drill"
+    return run.toolpath.lathe and getattr(_tool_of(row, run, before), "kind", "") == "drill"
 
 
 def _tool_of(row: Any, run: Run, before: int) -> Any:

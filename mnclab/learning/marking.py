@@ -67,9 +67,7 @@ class Marks(Rows[Mark]):
 
 
 @fitting
-def mark(
-    folder: str | Path, *, neighbours: bool = False, jobs: int | None = None, exercises: str | Path | None = None
-) -> Marks:  # fmt: skip
+def mark(folder: str | Path, *, neighbours: bool = False, jobs: int | None = None, exercises: str | Path | None = None) -> Marks:
     """Grade a folder of folders, one a pupil, whose files are called as the exercises they answer: `ivanov/mnc-03.mnc`.
 
     They are graded by the files of the house, not by copies that lie about; and by those of `exercises`, a file or a folder of
