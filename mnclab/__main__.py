@@ -193,7 +193,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--control", choices=[*mnclab.controls, *ALSO], help="default: the only one that has the code")
     sub = command("exercise", exercise, "list exercises, show them, check a teacher's file, or write the folder for pupils", "")
     sub.add_argument("what", choices=("list", "show", "check", "give"))
-    says = "ids such as mnc-03, or mnc-03..mnc-09; of give, lessons too (05, 12-19); of check, files of exercises"
+    says = "ids such as mnc-03, or mnc-03..mnc-09; of give, lessons too (05, 12-19); of check and give, files of exercises"
     sub.add_argument("names", nargs="*", metavar="EXERCISE", help=says)
     sub.add_argument("--control", choices=list(mnclab.controls), help="of list: those of one control")
     sub.add_argument("-o", "--output", metavar="DIR", help="of give: the folder (default: exercises)")
@@ -203,6 +203,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--exercise", metavar="ID", help="default: the name of the file, mnc-03 of mnc-03.mnc")
     sub.add_argument("--json", action="store_true", help="score, passed, points and hints on stdout, of a folder a list")
     sub.add_argument("--csv", nargs="?", const="", metavar="OUT.csv", help="of a folder: the table, to a file or to stdout")
+    sub.add_argument("--exercises", metavar="PATH", help="of a folder: a file of an exercise of your own, or a folder of such")
     says = "of a folder: the drawing of each pupil has the dimensions that the name of the folder draws"
     sub.add_argument("--neighbours", action="store_true", help=says)
     sub.add_argument("--html", metavar="OUT.html", help="of a folder: the page of the class")

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import base64
 import re
+import tomllib
 import zlib
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from mnclab.learning.exercise_file import APART
 from mnclab.text.alarm import Alarm
-from mnclab.text.file import File, as_table, as_tables, check_names, parse, read
+from mnclab.text.file import File, as_table, as_tables, check_names, parse, read, table_of
 from mnclab.text.given import shown
 
 #: The first line of what is kept from pupils.
@@ -74,26 +76,48 @@ def _fault(table: Mapping[str, Any], model: str, file: File, place: str) -> Faul
     return Fault({int(key): text for key, text in edits.items()}, hint)
 
 
+SEALED = ("stock", "true_tools")
+
+
 def pupils_copy(path: Path) -> str:
-    """The text of an exercise without its answers; an Alarm where they are not its end."""
+    """The text of an exercise without its answers; an Alarm where they are not its end, or where some of them would be left."""
     text = read(path, "the exercise").decode("utf-8-sig")
     found = MODEL.search(text)
     kept = text[: found.start()].rstrip() + "\n" if found else text
-    if any(line.strip("[] \t") in APART for line in kept.split("\n") if line.startswith("[")):
+    table = _table(kept)
+    if table is None or set(table) & set(APART):
         raise Alarm(f"{path}: the answers must stand last, [model] before the others")
-    return _sealed(kept) if re.search(r'^kind = "set up"', kept, re.MULTILINE) else kept
+    if table.get("kind") != "set up":
+        return kept
+    kept = _sealed(kept)
+    if _left(_table(kept)):
+        raise Alarm(f"{path}: stock and true_tools are kept from pupils: write each in one line below [setup], or as a table")
+    return kept
+
+
+def _table(text: str) -> dict[str, Any] | None:
+    with suppress(tomllib.TOMLDecodeError):
+        return table_of(text)
+    return None
+
+
+def _left(table: dict[str, Any] | None) -> bool:
+    """Whether a text that is no table of its own, or one of a setup, has what is sealed."""
+    return table is None or any(name in table.get("setup", {}) for name in SEALED)
 
 
 def _sealed(text: str) -> str:
     """A copy that does not show how the tools truly are nor where the blank stands: that is the answer, and grading needs it."""
     open_: list[str] = []
-    stock: list[str] = []
-    true: list[str] = []
-    hidden = False
+    values: list[str] = []
+    tables: list[str] = []
+    hidden = inside = False
     for line in text.splitlines(keepends=True):
-        hidden = line.startswith("[setup.true_tools") if line.startswith("[") else hidden
-        (true if hidden else stock if line.startswith("stock = {") else open_).append(line)
-    if not (stock or true):
+        table = _table(line) or {}
+        if line.lstrip().startswith("[") and table:
+            hidden, inside = _left(table), table == {"setup": {}}
+        (tables if hidden else values if inside and not table.keys().isdisjoint(SEALED) else open_).append(line)
+    if not (values or tables):
         return text
-    packed = zlib.compress("".join(["[setup]\n", *stock, *true]).encode(), 9)
+    packed = zlib.compress("".join(["[setup]\n", *values, *tables]).encode(), 9)
     return f'sealed = "{base64.b64encode(packed).decode()}"\n' + "".join(open_)

@@ -17,7 +17,7 @@ def wishes(exercise: Exercise) -> int:
     """How many things are asked for."""
     asked = exercise.asked
     blocks = asked.blocks is not None
-    return len(asked.must) + len(asked.must_not) + len(asked.values) + len(asked.cutting) + blocks
+    return len(asked.must) + len(asked.must_not) + len(asked.values) + len(asked.cutting) + blocks + bool(asked.cabinet)
 
 
 def of_asked(exercise: Exercise, run: Run) -> Iterator[Finding]:
@@ -39,9 +39,13 @@ def of_asked(exercise: Exercise, run: Run) -> Iterator[Finding]:
             yield Finding(ASKED, f"value {name}", 0, (f"{name} is not right at the end", f"{name} {found} at the end"))
     if asked.cutting:
         yield from _of_cutting(exercise, run)
+    if asked.cabinet:
+        yield from _of_cabinet(exercise, run)
 
 
 NAMES = {
+    "n": ("speed", "the spindle speed"),
+    "vf": ("feed", "the feed"),
     "vc": ("surface", "the cutting speed"),
     "fz": ("per_tooth", "the feed a tooth"),
     "f": ("per_rev", "the feed a revolution"),
@@ -58,9 +62,9 @@ def _of_cutting(exercise: Exercise, run: Run) -> Iterator[Finding]:
             yield Finding(ASKED, f"tool {wanted.tool} cuts", 0, (f"tool {wanted.tool} cuts nothing",))
             continue
         for name, (column, said) in NAMES.items():
-            limits, have = getattr(wanted, name), getattr(cut, column)
-            if limits is None:
+            if (limits := getattr(wanted, name)) is None:
                 continue
+            have = (name == "ap" and pass_of(run, wanted.tool)) or getattr(cut, column)
             low, high = have if have is not None else (0.0, math.inf)  # what is not known is not right
             slack = 1e-9 * abs(limits[1])
             if not (limits[0] - slack <= low and high <= limits[1] + slack):
@@ -68,6 +72,36 @@ def _of_cutting(exercise: Exercise, run: Run) -> Iterator[Finding]:
                 told = f"{said} of tool {wanted.tool} is not as asked for"
                 line = _line_of_tool(run, wanted.tool)
                 yield Finding(ASKED, f"{name} of tool {wanted.tool}", line, (told, f"{said} of tool {wanted.tool} is too {way}"))
+
+
+def _of_cabinet(exercise: Exercise, run: Run) -> Iterator[Finding]:
+    """The tools at work that neither the machine has nor the cabinet offers."""
+    tools, numbers = run.tools_that_cut
+    for number in np.unique(numbers[run.toolpath.is_motion & (numbers > 0)]).tolist():
+        tool, theirs = tools[number], (exercise.setup.tools or {}).get(number)
+        offered = (all(getattr(tool, name) in (value if isinstance(value, list) else [value]) for name, value in row.items())
+                   for row in exercise.asked.cabinet)  # fmt: skip
+        if tool != theirs and not any(offered):
+            told = f"tool {number} is none of those in the cabinet: compare its kind, angles and sizes"
+            yield Finding(ASKED, "cabinet", _line_of_tool(run, number), (told,))
+
+
+def pass_of(run: Run, number: int) -> tuple[float, float] | None:
+    """The depth of the passes on a lathe and of the pecks of a drill, by the volume that each takes away on its whole way.
+
+    The shoulder that a pass meets at its end is so no depth of it. None of a mill.
+    """
+    path, (tools, numbers), volumes = run.toolpath, run.tools_that_cut, run.removal().volumes
+    rows = np.flatnonzero((numbers == number) & (volumes > 0))
+    tool, area = tools[number], volumes[rows] / np.pi
+    if tool.kind == "drill":
+        deep = area / tool.effective_radius**2
+    elif path.lathe:  # V = π L ((r + a)² − r²) outside, π L (r² − (r − a)²) inside
+        r, out = np.abs(path.start + path.end)[rows, 0] / 2, -1 if tool.kind == "boring" else 1
+        deep = out * (np.sqrt(np.maximum(r**2 + out * area / path.lengths[rows], 0)) - r)
+    else:
+        return None
+    return float(deep.min()), float(deep.max())
 
 
 def _line_of_tool(run: Run, number: int) -> int:

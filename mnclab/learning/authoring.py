@@ -8,11 +8,14 @@ from pathlib import Path
 
 from mnclab.learning.answers import Answers, answers_of, pupils_copy
 from mnclab.learning.asked import length
-from mnclab.learning.exercise import Exercise
+from mnclab.learning.exercise import FOLDER, Exercise
 from mnclab.learning.exercise_file import load
 from mnclab.learning.grading import ECONOMY_FROM
+from mnclab.learning.neighbours import told
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import parse
 
+LESSONS = FOLDER.parents[1] / "notebooks"
 FAULTS = 3
 LAST = 9  # tries: the whole help is told
 SLACK = 1.02  # what is stated for economy, at least, against the model's own
@@ -32,6 +35,9 @@ def _of(exercise: Exercise, answers: Answers, path: Path) -> Iterator[str]:
             exercise.drawing()
         except Alarm as alarm:
             yield f"the drawing cannot be made: {alarm.message}"
+    if LESSONS.is_dir() and not any(LESSONS.glob(f"{exercise.lesson}*.ipynb")):
+        yield f"there is no lesson {exercise.lesson}"
+    yield from parse(path, lambda table, _: dict.fromkeys(told(table)), "exercise")
     for pupil in PUPILS:
         try:
             load(path, pupil)

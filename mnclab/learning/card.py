@@ -6,12 +6,17 @@ from html import escape
 from typing import TYPE_CHECKING, Any
 
 from mnclab.learning.exercise import Exercise
+from mnclab.machine.setup import place
+from mnclab.path.listing import figure
 from mnclab.text.alarm import Alarm
 from mnclab.text.tables import html_table
+from mnclab.workpiece.blank import Revolved, blank
 
 if TYPE_CHECKING:
     from mnclab.learning.grade import Grade
 
+#: Before a line of a listing; it is not copied with it.
+NUMBER = '<span style="user-select:none;color:#888">{:>3}  </span>'
 DRAWING = 0.58  # of the size of its sheet, so that task and drawing stand on one screen
 
 
@@ -20,13 +25,14 @@ def card(exercise: Exercise, drawing: bool = True) -> str:
     head = f"<strong>{escape(exercise.id)}: {escape(exercise.title)}</strong>"
     under = f"level {exercise.level}, lesson {escape(exercise.lesson)}: {escape(exercise.does)}"
     task = "".join(f"<p>{escape(each)}</p>" for each in exercise.task.split("\n\n"))
-    given = f"<pre>{escape(exercise.program)}</pre>" if exercise.program else ""
+    rows = "\n".join(f"{NUMBER.format(k)}{escape(row)}" for k, row in enumerate(exercise.program.split("\n"), 1))
+    given = f"<pre>{rows}</pre>" if exercise.program else ""
     asked = "".join(f"<li>{escape(each)}</li>" for each in wanted(exercise))
     why = f"<p><em>{escape(exercise.why)}</em></p>" if exercise.why else ""
     return (
         f'<div class="mnclab-exercise" style="line-height:1.35">{head}<br>{under}{task}'
         f"{picture(exercise) if drawing else ''}{given}"
-        f"{tools(exercise)}{questions(exercise)}{f'<ul>{asked}</ul>' if asked else ''}{why}</div>"
+        f"{machine(exercise)}{tools(exercise)}{questions(exercise)}{f'<ul>{asked}</ul>' if asked else ''}{why}</div>"
     )
 
 
@@ -39,6 +45,29 @@ def picture(exercise: Exercise) -> str:
         return str(drawn.html(DRAWING))
     except Alarm as alarm:
         return str(alarm._repr_html_())
+
+
+def machine(exercise: Exercise) -> str:
+    """The blank, as the drawing counts, what holds it, and where the machine stands; nothing where that is to be found."""
+    setup = exercise.setup
+    if exercise.kind == "set up" or setup.stock is None:
+        return ""
+    told = [f"Blank {_body(getattr(exercise.design, 'blank', None) or blank(setup.stock))}"]
+    told += [f"held by {_body(blank(each))}" for each in setup.fixtures if blank(each) is not None]
+    stands = place(setup.start).replace(" Y0", "" if hasattr(exercise.design, "profile") else " Y0")  # a lathe has no Y
+    told += [f"the machine stands at {stands}"] if any(setup.start) else []
+    where = " (in coordinates of the machine)" if setup.fixtures and any(map(any, setup.datums.values())) else ""
+    return f"<p>{escape('; '.join(told) + where)}</p>"
+
+
+def _body(body: Any) -> str:
+    """A box or a bar in a few words: how thick it is, and from where to where it goes."""
+    low, high = body.bounds
+    along = [f"{axis}{figure(a)} to {figure(b)}" for axis, a, b in zip("XYZ", low.tolist(), high.tolist())]
+    if not isinstance(body, Revolved):
+        return ", ".join(along)
+    bore = f", bore {figure(2 * body.bore)}" if body.bore else ""
+    return f"⌀{figure(2 * max(radius for radius, _ in body.profile))}{bore}, {along[body.along]}"
 
 
 def tools(exercise: Exercise) -> str:

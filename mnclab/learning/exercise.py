@@ -38,10 +38,12 @@ LEVELS = range(1, 6)
 
 
 class Cut(NamedTuple):
-    """What the cutting data of a tool must be: each from a least to a greatest value, m/min and mm; `ap` and `ae` are depth and
-    width of cut."""
+    """What the cutting data of a tool must be: each from a least to a greatest value; `n` rev/min, `vf` mm/min, `vc` m/min, the
+    others mm; `ap` and `ae` are depth and width of cut, `ap` of a drill is a peck."""
 
     tool: int
+    n: tuple[float, float] | None = None
+    vf: tuple[float, float] | None = None
     vc: tuple[float, float] | None = None
     fz: tuple[float, float] | None = None
     f: tuple[float, float] | None = None
@@ -65,8 +67,8 @@ class Asked:
     """What an answer is asked for beside the part.
 
     `must` and `must_not` are codes and keywords of blocks that are run; `blocks` how many there may be; `time` s and `length`
-    mm earn full marks for economy; `values` are limits of variables at the end; `cutting` those of cutting data; `strategy`
-    those of a pocket: engagement (degrees), time (s), lifts, feed (mm/min).
+    mm earn full marks for economy; `values` are limits of variables at the end; `cutting` those of cutting data; `cabinet`
+    what a tool of an answer may be; `strategy` those of a pocket: engagement (degrees), time (s), lifts, feed (mm/min).
     """
 
     must: tuple[str, ...] = ()
@@ -76,6 +78,7 @@ class Asked:
     length: float | None = None
     values: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     cutting: tuple[Cut, ...] = ()
+    cabinet: tuple[Mapping[str, Any], ...] = ()
     strategy: Mapping[str, float] = field(default_factory=dict)
 
 

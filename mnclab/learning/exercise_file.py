@@ -16,6 +16,7 @@ from mnclab.learning.exercise import KINDS, LEVELS, WEIGHTS, Asked, Cut, Exercis
 from mnclab.learning.neighbours import varied
 from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import setup_of
+from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import File, as_table, as_tables, check_names, parse, table_of
 from mnclab.text.given import check_number, choice, shown, whole
@@ -38,7 +39,9 @@ must_not = ["G326"]
 blocks = 40                    # so many at most
 time = 95                      # s for full marks of economy, from level 3 on; also length, mm
 values = { Q5 = [39.9, 40.1] } # limits of variables at the end
-cutting = [{ tool = 1, vc = [90, 110], fz = [0.04, 0.06] }]  # m/min, mm a tooth; f mm a revolution, ap, ae mm
+cutting = [{ tool = 1, vc = [90, 110], fz = [0.04, 0.06] }]  # m/min, mm a tooth; f mm a revolution; n rev/min, vf mm/min;
+                               # ap, ae mm: ap of a lathe is the mean of a pass, of a drill a peck
+cabinet = [{ kind = "drill", radius = [4, 5], angle = 118 }]  # of kind "set up": what its tools may be, a value or several
 strategy = { engagement = 80, time = 60 }                    # of a pocket: at most: degrees (of 95 % of the way), s, lifts, feed
 
 [weights]                      # of the headings; these are the usual ones
@@ -83,6 +86,7 @@ MOST_SEALED = 100_000  # bytes
 NEEDED = TOP[2:8]
 QUANTITIES = ("x", "y", "z", "tip x", "tip y", "tip z", "feed", "speed", "tool", "length", "time")
 STRATEGY = ("engagement", "time", "lifts", "feed")
+TRAVEL = ((-1000.0, 1000.0),) * 3  # mm from the machine's zero, of the machine of an exercise that says nothing of it
 
 
 def load(path: str | Path, pupil: str = "") -> Exercise:
@@ -120,6 +124,8 @@ def exercise_of(table: Mapping[str, Any], file: File, path: Path, pupil: str = "
             found["design"] = _design(table["design"], file)
     if "design" in found and found["setup"].stock is None:  # a blank is said once
         found["setup"] = replace(found["setup"], stock=found["design"].blank)
+    limits = found["setup"].limits
+    found["setup"] = replace(found["setup"], limits=replace(limits, travel=limits.travel or TRAVEL))
     if "asked" in table:
         found["asked"] = _asked(as_table(table["asked"], "asked"), file)
     if "weights" in table:
@@ -199,6 +205,10 @@ def _asked(table: Mapping[str, Any], file: File) -> Asked:
                 for key, each in value.items():
                     check_number(each, key, at_least=0)
                 found[name] = dict(value)
+            elif name == "cabinet":
+                found[name] = tuple(as_table(each, name) for each in as_tables(value, name))
+                for each in found[name]:
+                    check_names(each, Tool.__dataclass_fields__, name, file, "asked", name)
             elif name == "cutting":
                 found[name] = tuple(_cut(as_table(each, name)) for each in as_tables(value, name))
             else:

@@ -12,6 +12,7 @@ import numpy as np
 from mnclab.design.difference.threads import EXACT, passes_of
 from mnclab.learning.grade import HINTS, Hint
 from mnclab.path.toolpath import Kind
+from mnclab.runs.material import cutting_of
 from mnclab.runs.run import Run
 from mnclab.workpiece.collision import KINDS, Collisions
 
@@ -101,10 +102,8 @@ def of_feeds(run: Run) -> Iterator[Finding]:
     path, (tools, numbers) = run.toolpath, run.tools_that_cut
     if run.stock is None:
         return
-    ends, (low, high) = np.stack([path.start, path.end]), run.stock.bounds
-    inside = ((ends.min(axis=0) < high) & (ends.max(axis=0) > low)).all(axis=1)
-    inside &= (path.end[:, 2] <= path.start[:, 2]) | path.lathe  # a way up and out may be fast
-    rows = np.flatnonzero(inside & np.isin(path.kind, (Kind.LINE, Kind.ARC)) & ~path.synchronous & (path.spindle > 0))
+    inside = cutting_of(run).inside & ((path.end[:, 2] <= path.start[:, 2]) | path.lathe)  # a way up and out may be fast
+    rows = np.flatnonzero(inside & ~path.synchronous & (path.spindle > 0))
     a_turn = path.feed[rows] / path.spindle[rows]
     for number in np.unique(numbers[rows]).tolist():
         tool = tools.get(number)
@@ -180,6 +179,9 @@ def _of_feature(feature: str, rows: list[Any], run: Run, before: int, begun: boo
         told = f"{feature}: {what}"
         more = f"{told}: {abs(row.deviation):.3f} mm{_at(there)}"
         return Finding(PART, f"{feature} {what}", line, (told, more, f"{more}; {_why(row, run, before)}"), there)
+    if _drilled(row, run, before) and any(each.measure == "depth" and each.verdict == "not cut" for each in rows):
+        told = f"{feature}: it is not as deep as drawn"
+        return Finding(PART, f"{feature} depth", line, (told, f"{told}: how far below its full diameter is the point?"), there)
     its, unit = f"{feature}: its {row.measure} is", _unit(row.measure)
     which = f" ({row.nominal:g} {unit} on the drawing)" if row.measure[-1:].isdigit() else ""  # its number is not on it
     told, sized = f"{its} not as drawn{which}", f"{its} {abs(row.deviation):.3f} {unit} too {_way(row)}{which}"
@@ -205,6 +207,8 @@ def _said_by(row: Any, line: int, run: Run, before: int) -> int:
     path, k = run.toolpath, row.row - before
     if not line or k < 0:
         return line if row.row < 0 else 0
+    if _drilled(row, run, before):
+        return line
     axis = (MILLED if np.ptp(path.end[:, 1]) else TURNED).get(row.measure.split(" ")[0])
     ahead = np.flatnonzero(path.is_motion[: k + 1] & (path.program[: k + 1] == 0))
     cuts = ahead[path.kind[ahead] != Kind.RAPID]
@@ -214,6 +218,16 @@ def _said_by(row: Any, line: int, run: Run, before: int) -> int:
     if axis is not None:
         along = along[np.abs(path.end - path.start)[along, axis] > 1e-9]
     return int(path.line[along[-1]]) if len(along) else line
+
+
+def _drilled(row: Any, run: Run, before: int) -> bool:
+    """Whether a drill made it on a lathe, where every measure but its depth is that of the tool."""
+    return run.toolpath.lathe and getattr(_tool_of(row, run, before), "kind", "") == "drill"
+
+
+def _tool_of(row: Any, run: Run, before: int) -> Any:
+    (tools, numbers), k = run.tools_that_cut, row.row - before
+    return tools.get(int(numbers[k])) if 0 <= k < len(numbers) else None
 
 
 ORDER = ("depth", "x", "y", "length", "width", "diameter")  # measures that say more than "form" does
@@ -266,9 +280,7 @@ def _at(place: Place | None) -> str:
 
 def _why(row: Any, run: Run, before: int) -> str:
     """What a deviation of a certain size usually comes from, else what to compare."""
-    (tools, numbers), k = run.tools_that_cut, row.row - before
-    tool = tools.get(int(numbers[k])) if 0 <= k < len(numbers) else None
-    off = abs(row.deviation)
+    tool, off = _tool_of(row, run, before), abs(row.deviation)
     if tool is not None and tool.radius > 0 and tool.kind != "drill" and row.measure not in ("x", "y", "depth"):
         for times, said in ((1, "the radius"), (2, "the diameter"), (4, "twice the diameter")):
             if math.isclose(off, times * tool.radius, abs_tol=0.01):

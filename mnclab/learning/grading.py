@@ -106,7 +106,7 @@ def _table(text: str, finding: Finding, run: Run) -> int:
 def headings(exercise: Exercise) -> list[str]:
     """The headings that count, in their order."""
     asked, economic = exercise.asked, exercise.level >= ECONOMY_FROM
-    wanted = asked.must or asked.must_not or asked.values or asked.cutting or (asked.blocks and not economic)
+    wanted = asked.must or asked.must_not or asked.values or asked.cutting or asked.cabinet or (asked.blocks and not economic)
     counted = {
         "part": exercise.design is not None,
         "safety": exercise.answer in ("program", "setup"),

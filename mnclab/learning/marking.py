@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from html import escape
@@ -67,16 +67,17 @@ class Marks(Rows[Mark]):
 
 
 @fitting
-def mark(folder: str | Path, *, neighbours: bool = False, jobs: int | None = None) -> Marks:
+def mark(folder: str | Path, *, neighbours: bool = False, jobs: int | None = None, exercises: str | Path | None = None) -> Marks:
     """Grade a folder of folders, one a pupil, whose files are called as the exercises they answer: `ivanov/mnc-03.mnc`.
 
-    They are graded by the files of the house, not by copies that lie about. With `neighbours` each pupil's drawing has the
-    dimensions of the name of the folder. `jobs` processes, default one a core.
+    They are graded by the files of the house, not by copies that lie about; and by those of `exercises`, a file or a folder of
+    your own. With `neighbours` each pupil's drawing has the dimensions of the name of the folder. `jobs` processes, default one
+    a core.
     An Alarm where there is no answer.
     """
     if jobs is not None:
         check_number(whole(jobs, "jobs"), "jobs", at_least=1)
-    answers, known = list(_answers(Path(folder))), files() | files_of_house()
+    answers, known = list(_answers(Path(folder))), files() | files_of_house() | _own(exercises)
     if not any(name in known for _, name, _ in answers):
         raise Alarm(f"there is no answer in {folder}", hint="a folder a pupil, files such as ivanov/mnc-03.mnc")
     idle: SimpleQueue[_Grader] = SimpleQueue()
@@ -100,6 +101,17 @@ def mark(folder: str | Path, *, neighbours: bool = False, jobs: int | None = Non
     finally:
         for each in graders:
             each.end()
+
+
+def _own(exercises: str | Path | None) -> dict[str, Path]:
+    """The files of exercises of a teacher, by id."""
+    if exercises is None:
+        return {}
+    path = Path(exercises)
+    found = sorted(path.glob("*.toml")) if path.is_dir() else [path]
+    if not found or not all(each.is_file() for each in found):
+        raise Alarm(f"there is no exercise in {shown(str(exercises))}", hint="a file, mine.toml, or a folder of such")
+    return {each.stem.lower(): each.resolve() for each in found}
 
 
 def _answers(folder: Path) -> Iterator[tuple[str, str, Path]]:
@@ -220,8 +232,8 @@ def _graded(path: str, name: str, pupil: str) -> dict[str, Any]:
 # What a class looks like: pupils across exercises, what is often wrong, what to explain again.
 
 
-def class_page(marks: Marks, title: str) -> str:
-    """The page of a class."""
+def class_page(marks: Marks, title: str, exercises: str | Path | None = None) -> str:
+    """The page of a class; `exercises` as of `mark`."""
     names = sorted({each.exercise for each in marks if each.refused != UNKNOWN})
     by = {(each.pupil, each.exercise): each for each in marks}
     pupils = list(dict.fromkeys(each.pupil for each in marks))
@@ -231,7 +243,7 @@ def class_page(marks: Marks, title: str) -> str:
     if common:
         often = [(*what, str(n)) for what, n in common]
         body += f"<h2>Often wrong</h2>{html_table(('exercise', 'fault', 'answers'), often, numbers=(2,))}"
-    again = list(_again(marks, names))
+    again = list(_again(marks, names, _own(exercises)))
     if again:
         body += f"<h2>To explain again</h2>{html_table(('lesson', 'exercise', 'passed'), again)}"
     refused = [(each.pupil, each.exercise, each.refused) for each in marks if each.refused]
@@ -244,22 +256,22 @@ def _cell(found: Mark | None) -> str:
     return "–" if found is None else f"{'✓ ' if found.passed else ''}{found.score:.0%}"
 
 
-def _again(marks: Sequence[Mark], names: Sequence[str]) -> Iterator[tuple[str, str, str]]:
+def _again(marks: Sequence[Mark], names: Sequence[str], own: Mapping[str, Path]) -> Iterator[tuple[str, str, str]]:
     """The exercises that less than half of those who tried have passed."""
     for name in names:
         tried = [each for each in marks if each.exercise == name]
         passed = sum(each.passed for each in tried)
         if 2 * passed < len(tried):
-            found = exercise(name)
+            found = exercise(own.get(name, name))
             yield found.lesson, f"{name}: {found.title}", f"{passed} of {len(tried)}"
 
 
 def mark_from_shell(folder: Path, chosen: Any) -> int:
     """Grade a class as the command line says; status 1 where an answer has not passed."""
-    marks = mark(folder, neighbours=chosen.neighbours)
+    marks = mark(folder, neighbours=chosen.neighbours, exercises=chosen.exercises)
     if chosen.html:
         with replaced(chosen.html) as beside:
-            beside.write_text(class_page(marks, folder.resolve().name), encoding="utf-8")
+            beside.write_text(class_page(marks, folder.resolve().name, chosen.exercises), encoding="utf-8")
     if chosen.json:
         print(json.dumps(marks.as_dicts(), ensure_ascii=False))
     elif chosen.csv:

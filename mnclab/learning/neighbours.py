@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 import unicodedata
 from collections.abc import Iterator, Mapping
 from copy import deepcopy
@@ -34,6 +35,15 @@ def varied(table: Mapping[str, Any], name: str, pupil: str, file: File) -> dict[
             for owner, field in places:
                 owner[field] = choices[int.from_bytes(drawn[:4], "big") % len(choices)]
     return found
+
+
+def told(table: Mapping[str, Any]) -> Iterator[str]:
+    """The dimensions that vary and whose number stands in the task all the same, where it is nobody's but one pupil's."""
+    for key in table.get("vary", {}):
+        for owner, field in _places(table.get("design", {}), key):
+            number = f"{abs(owner[field]):g}"
+            if re.search(rf"(?<![\w.]){re.escape(number)}(?![\w.]*\w)", table["task"]):
+                yield f"[vary]: {key} is a pupil's own, and the task names {number}"
 
 
 def _values(given: Any) -> list[float]:

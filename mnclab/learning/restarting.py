@@ -67,4 +67,4 @@ def collisions_of(exercise: Exercise, run: Run) -> Collisions:
         return run.collisions()
     cutting, before = cutting_after(exercise, run), len(before_of(exercise))
     found = collisions_of_lathe(cutting, None) if cutting.lathe else collisions_of_mill(cutting, None)
-    return Collisions((each for each in found if each.row >= before), found.notes)
+    return Collisions((each for each in found if each.row >= before), (*found.notes, *cutting_of(run).bare_told()))

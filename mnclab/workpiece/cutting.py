@@ -127,10 +127,10 @@ class Cutting:
     def bare(self) -> Mask:
         """Rows (n,) that go through the box of the blank at feed and cut nothing: they have no tool, or one without a body."""
         bodies = np.array([tool.kind == "probe" or tool_exists(tool) for tool in self.tools], dtype=bool)
-        return np.asarray(self._inside & (~bodies[self.which] if len(bodies) else True))
+        return np.asarray(self.inside & (~bodies[self.which] if len(bodies) else True))
 
     @cached_property
-    def _inside(self) -> Mask:
+    def inside(self) -> Mask:
         """Rows (n,) at feed that go through the box of the blank."""
         path, (low, high) = self.path, self.stock.bounds
         ends = np.stack([path.start, path.end])
@@ -170,7 +170,7 @@ class Cutting:
 
     def edgeless(self) -> Iterator[str]:
         """What is said of tools that have no edge and go through the box of the blank at feed: they cut nothing there."""
-        inside = self._inside & self.cuts
+        inside = self.inside & self.cuts
         for k, tool in enumerate(self.tools):
             if (lacks := edgeless(tool, self.lathe)) and (rows := inside & (self.which == k)).any():
                 as_line = " but as a line along its way" if lacks == "no width" else ""
@@ -182,7 +182,7 @@ class Cutting:
         said = "a mill, which on a lathe stands still" if self.lathe else "a tool of a lathe: it cuts as a mill of its radius"
         for k, tool in enumerate(self.tools):
             foreign = tool.kind in kinds and tool.effective_radius > 0
-            if foreign and (rows := self._inside & self.cuts & (self.which == k)).any():
+            if foreign and (rows := self.inside & self.cuts & (self.which == k)).any():
                 yield f"{_named(tool)} is {said} ({self.lines(rows)})"
 
     @property

@@ -193,6 +193,24 @@ def test_many_holes_stand_in_a_table():
     assert texts(drawn, 1, "x") == ["20"] and texts(drawn, 1, "diameter") == ["⌀5.5"]
 
 
+def test_a_slot_from_edge_to_edge_has_the_length_of_the_blank():
+    slot = d.Pocket.rectangle(35, 25, 70, 10, 6, name="slot")
+    design = d.Design(((0, 0, -20), (70, 55, 0)), (slot,))
+    drawn = drawing(design)
+    check(drawn, design)
+    assert [box.text for box in drawn.boxes() if box.kind == "text"].count("70") == 1 and texts(drawn, 0, "length") == ["70"]
+
+
+def test_islands_stand_in_the_table_of_features_with_their_sizes():
+    islands = [d.Circle(32, 35, 18), d.Rectangle(66, 35, 16, 16, corner=2)]
+    pocket = d.Pocket.rectangle(50, 35, 76, 50, 5, corner=5, name="pocket", islands=islands)
+    drawn = drawing(d.Design(((0, 0, -20), (100, 70, 0)), (pocket,)))
+    (table,) = [printed for sheet in drawn.sheets for printed, _ in sheet.tables]
+    said = [label.text for label in table.labels]
+    assert said[8:12] == ["A2", "32", "35", "island of A1: ⌀18"]
+    assert said[12:16] == ["A3", "66", "35", "island of A1: length 16, width 16, corner radius R2"]
+
+
 def test_an_outline_has_a_table_of_its_corners():
     corner = np.tan(np.pi / 8)
     outline = d.Outline(((10, 10), (50, 10), (60, 20), (60, 40), (10, 40)), (0, corner, 0, 0, 0))

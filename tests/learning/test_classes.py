@@ -4,6 +4,7 @@ import json
 import math
 import subprocess
 import sys
+import tomllib
 import unicodedata
 
 import pytest
@@ -96,6 +97,64 @@ def test_a_folder_for_pupils_has_no_answers_and_keeps_what_they_began(tmp_path):
     assert "[model]" not in text and "G41 G1 X65" not in text and load(tmp_path / "mnc-07.toml").check(MODEL).passed
     with pytest.raises(Alarm, match="there is no exercise 'mnc-77'"):
         give(["mnc-77"], tmp_path)
+
+
+def test_a_teachers_own_file_is_given_and_graded(tmp_path, monkeypatch):
+    """His answers stay with him, and his folder is no place for the copies."""
+    monkeypatch.chdir(tmp_path)
+    text = mnclab.exercise(NAME).file.read_text("utf-8").replace("A ", "My ", 1)
+    (tmp_path / "mine.toml").write_text(text, "utf-8")
+    assert shell.main(["exercise", "give", "mine.toml", "-o", "pupils"]) == 0
+    copy = (tmp_path / "pupils" / "mine.toml").read_text("utf-8")
+    assert "[model]" not in copy and "[[faults]]" not in copy and (tmp_path / "pupils" / "mine.mnc").exists()
+    with pytest.raises(Alarm, match="has the answers"):
+        give(["mine.toml"], ".")
+    assert (tmp_path / "mine.toml").read_text("utf-8") == text
+    (tmp_path / "class" / "anna").mkdir(parents=True)
+    (tmp_path / "class" / "anna" / "mine.mnc").write_text(MODEL.replace("Z-5", "Z-4"))
+    (tmp_path / "class" / "anna" / "mnc-07.mnc").write_text(MODEL)
+    for own in ("mine.toml", "."):
+        assert [each.passed for each in mark("class", exercises=own)] == [False, True]
+    assert "mine: " in class_page(mark("class", exercises="mine.toml"), "9 b", "mine.toml")
+    with pytest.raises(Alarm, match="there is no exercise in"):
+        mark("class", exercises="yours.toml")
+
+
+HIDDEN = """
+title = "Rows"
+control = "mnc"
+level = 2
+lesson = "10"
+KIND = 'set up'
+task = "Write the row."
+[given]
+program = "G0 X1"
+"""
+
+
+@pytest.mark.parametrize(
+    "hidden",
+    ["[setup]\nstock = {low = [0, 0, -9], high = [9, 9, 0]}\n", "[setup]\nstock={low = [0, 0, -9], high = [9, 9, 0]} # here\n",
+     "[ setup . stock ]\nlow = [0, 0, -9]\nhigh = [9, 9, 0]\n", "[setup]\n[setup.'true_tools'.1]\nradius = 4.96\n"],
+)  # fmt: skip
+@pytest.mark.parametrize("kind", ["kind = 'set up'", 'kind="set up"', '"kind"  =  "set up"  # tables'])
+def test_what_is_sealed_is_found_however_it_is_written(tmp_path, hidden, kind):
+    path = tmp_path / "rows.toml"
+    path.write_text(HIDDEN.replace("KIND = 'set up'", kind) + hidden + "[design]\ntitle = 'a'\n[model]\nanswer = '[tools.1]'\n")
+    copy = tomllib.loads(pupils_copy(path))
+    assert set(copy) == {"sealed", "title", "control", "level", "lesson", "kind", "task", "given", "design", *(
+        ["setup"] if hidden.startswith("[setup]") else [])}  # fmt: skip
+    assert copy.get("setup", {}) == {}
+
+
+@pytest.mark.parametrize("hidden", ["setup.stock = {low = [0, 0, -9], high = [9, 9, 0]}\n", "[ model ]\nanswer = '[tools.1]'\n",
+                                    "[setup]\nstock = { high = [9, 9, 0], low = [\n0, 0, -9] }\n"])  # fmt: skip
+def test_a_copy_that_would_show_an_answer_is_refused(tmp_path, hidden):
+    path = tmp_path / "rows.toml"
+    first, last = ("", hidden) if hidden[0] == "[" else (hidden, "")
+    path.write_text(first + HIDDEN.replace("KIND", "kind") + last)
+    with pytest.raises(Alarm, match=r"kept from pupils|must stand last"):
+        pupils_copy(path)
 
 
 def test_lessons_and_controls_name_exercises():
@@ -226,6 +285,9 @@ def test_going_on_is_graded_with_what_was_cut_before(tmp_path):
     through = exercise.check(rest.replace("G0 X15 Y30 Z5", "G0 X15 Y10 Z-4\nG0 X45\nZ5\nX15 Y30"))
     assert through.passed  # a rapid through the slot that is there already meets nothing
     assert not exercise.check(rest.replace("G0 X15 Y30 Z5", "G0 X15 Y20 Z-4\nG0 X15 Y30 Z5")).passed
+    path.write_text(RESTART.replace("[design.blank]", "[setup.tools.2]\nlength = 40\n[design.blank]"))
+    nothing = rest.replace("T1 S1000 M3\n", "T2 S1000 M3\nG0 X15 Y10 Z5\nG1 Z-4 F100\nX45\nG0 Z5\nT1\n")
+    assert "T2 has no radius: it cuts nothing" in " ".join(map(str, load(path).check(nothing).hints))
     assert exercise.check("G17 G90 G54 T1 S1000 M3\nG0 X0 Y0 Z5\nM30\n").score == pytest.approx(0.5 * 0.7 / 0.8 + 0.1 / 0.8)
 
 

@@ -1,5 +1,6 @@
 """Every exercise of the house: ready, its mutants rejected, its answers apart."""
 
+import re
 from collections import Counter
 from pathlib import Path
 
@@ -69,3 +70,20 @@ def test_dimensions_that_make_no_part_for_some_pupils_are_missed(tmp_path):
     ranges = '[vary]\n"shoulder.length" = [94, 102, 2]\n"shoulder.width" = [64, 72, 2]\n'
     file.write_text(text.replace("\n[setup", f"\n{ranges}\n[setup", 1), "utf-8")
     assert [each for each in missing(file) if each.startswith("[vary]: ") and "chamfer" in each]
+
+
+def test_a_lesson_that_is_none_and_a_dimension_of_one_pupil_in_the_task_are_missed(tmp_path):
+    text, file = FILES["nc-31-03"].read_text("utf-8"), tmp_path / "nc-31-03.toml"
+    text = re.sub('lesson = "[0-9]+"', 'lesson = "77"', text).replace('task = """', 'task = """The step is 22 mm long.')
+    file.write_text(text, "utf-8")
+    said = missing(file)
+    assert said == ["there is no lesson 77", "[vary]: z -22 is a pupil's own, and the task names 22"]
+
+
+def test_tools_that_the_cabinet_does_not_have_are_refused():
+    """An insert with more room behind comes down the slope as well, and there is none."""
+    exercise = mnclab.exercise("nc-31-21")
+    text = exercise.solution()
+    grade = exercise.check(text.replace("auxiliary_angle = 52", "auxiliary_angle = 60"))
+    assert not grade.passed and grade.points["part"] == 1.0 and grade.hints[0].line == text.split("\n").index("[tools.1]") + 1
+    assert "tool 1 is none of those in the cabinet" in grade.hints[0].text

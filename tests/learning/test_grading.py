@@ -7,6 +7,7 @@ import pytest
 
 import mnclab
 from mnclab import Alarm
+from mnclab.learning.asked import pass_of
 from mnclab.learning.exercise_file import load
 
 SQUARE = """
@@ -192,6 +193,48 @@ def test_depth_and_width_of_cut_can_be_asked_for(made, limits, right):
     """The slot is as wide as the tool, 10 mm, and 4 deep."""
     grade = made(f"[asked]\ncutting = [{{tool = 1, {limits}}}]").check(RIGHT)
     assert grade.passed is right and (grade.points["asked"] == 1) is right, grade
+
+
+@pytest.mark.parametrize(
+    ("wanted", "right"),
+    [("1, n = [1000, 1000]", True), ("1, n = [0, 999]", False), ("1, vf = [299, 301]", True), ("1, vf = [0, 290]", False),
+     (f"2, ap = [0, {6 + HOLE_DEPTH / 3 + 0.01}]", True), (f"2, ap = [0, {6 + HOLE_DEPTH / 3 - 0.01}]", False)],
+)  # fmt: skip
+def test_speed_feed_and_pecks_can_be_asked_for(made, wanted, right):
+    """The slot is milled with S1000 F300; a peck of 6 mm and a cone below it takes as much as a cylinder 6 + cone / 3 deep."""
+    assert made(f"[asked]\ncutting = [{{tool = {wanted}}}]").check(RIGHT).passed is right
+
+
+def test_a_pass_on_a_lathe_is_as_deep_as_its_way_not_as_the_shoulder_at_its_end():
+    """From 20 to 17 mm along 24.8 mm; then from 17.2 mm, 0.2 along 25 mm of 27, and 3 mm of the shoulder along 0.2."""
+    text = "T1\nG97 S500 G95 F0.2 M3\nG00 X17.2 Z2\nG01 Z-24.8\nX22\nG00 Z2\nX17\nG01 Z-25\nX22\n"
+    tool = mnclab.Tool(kind="turning", main_angle=90, auxiliary_angle=30)
+    run = mnclab.run(text, "jnc-t01", tools={1: tool}, stock=mnclab.cylinder(diameter=40, length=60))
+    last = 17**2 + (24.8 * (17.2**2 - 17**2) + 0.2 * (20**2 - 17**2)) / 27
+    first = 17.2**2 + 24.8 * (20**2 - 17.2**2) / 26.8
+    assert pass_of(run, 1) == pytest.approx((last**0.5 - 17, first**0.5 - 17.2), abs=1e-3)
+    assert run.cutting_data()[0].depth[1] == pytest.approx(3.0)  # that of the shoulder
+
+
+def test_a_hole_that_a_lathe_drills_too_shallow_is_told_at_its_block():
+    """Its wall ends in the point of the drill, which is no smaller diameter."""
+    exercise = mnclab.exercise("jnc-t01-05")
+    text = exercise.solution()
+    hint = exercise.check(text.replace("G73 Z-27.004", "G73 Z-24")).hints[0]
+    assert text.split("\n")[hint.line - 1].startswith("G73") and hint.text == "core hole: it is not as deep as drawn"
+
+
+def test_a_card_has_blank_jaws_start_and_numbered_lines():
+    shown = mnclab.exercise("jnc-t01-08")._repr_html_()
+    assert "Blank ⌀60, Z-80 to 0; held by ⌀100, bore 60, Z-95 to -65; the machine stands at X60 Z40" in shown
+    lines = re.sub("<[^>]*>", "", shown[shown.index("<pre>") : shown.index("</pre>")]).split("\n")
+    assert [line[:3].strip() for line in lines] == [str(k) for k in range(1, len(lines) + 1)]
+    assert "Blank" not in mnclab.exercise("tnc-620-05")._repr_html_()  # where it stands is to be found
+
+
+def test_no_axis_goes_to_where_no_machine_reaches(made):
+    grade = made().check(RIGHT.replace("M30", "G0 X99999\nM30"))
+    assert not grade.passed and "leaves the travel of the machine" in grade.hints[0].text and grade.hints[0].line == 10
 
 
 def test_loops_and_masses_of_blocks_are_refused(made):

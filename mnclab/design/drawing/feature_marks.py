@@ -208,27 +208,35 @@ def hole_table(side: Side, holes: list[int]) -> None:
 def feature_table(side: Side, numbers: list[int]) -> None:
     """Every feature by its measures: where a view has no room for them."""
     title = "features from below" if side.back else "features"
-    rows = []
-    x, y = side.datum
-    for row, k in enumerate(numbers):
-        feature = side.features[k]
-        label = f"{'B' if side.back else 'A'}{row + 1}"
-        line = feature.outline
-        assert line is not None  # a table holds what has a place
-        at = line.point_at(0.35 * line.length)[0]
-        shape = feature.shape
-        to = Note((shape.x, shape.y), (label,), shape.diameter / 2) if isinstance(shape, Circle) else Note(point_of(at), (label,))
-        side.draft.dimensions.append(to)
-        known = {each.name: each for each in feature.measures() if each.kind == "place"}
-        said = [each for each in feature.measures() if each.kind != "place" or each.name == "top"]
-        told = [written(each) if each.name in SIGNS else f"{each.name} {written(each)}" for each in said]
-        rows.append((label, _said(known["x"], x), _said(known["y"], y), f"{side.names()[k]}: {', '.join(told)}"))
+    rows: list[tuple[str, ...]] = []
+    for k in numbers:
+        feature, name, row = side.features[k], side.names()[k], len(rows)
+        rows.append(_table_row(side, row, feature.outline, feature.shape, feature.measures(), name))
         for column, names in ((1, ("x",)), (2, ("y",))):
             side.ledger.cell(title, row, column, side.claims([k], *names))
         side.ledger.cell(title, row, 3, [*side.claims([k]), *side.claims([k], "top")])
-        if isinstance(shape, Outline):
-            corner_table(side, shape, (), k)
+        if isinstance(feature.shape, Outline):
+            corner_table(side, feature.shape, (), k)
+        for n, island in enumerate(feature.islands if isinstance(feature, Pocket) else (), 1):
+            if isinstance(island, Outline):
+                corner_table(side, island, (), k, f"island {n} of {name}")
+            else:
+                told = tuple(island.measures()), f"island of {rows[row][0]}"
+                rows.append(_table_row(side, len(rows), island.contour, island, *told))
     side.ledger.tables.append(Table(title, ("No.", "X", "Y", "feature"), tuple(rows)))
+
+
+def _table_row(side: Side, row: int, line: Any, shape: Any, measures: Sequence[Measure], name: str) -> tuple[str, ...]:
+    """A row of the table of features, and its number in the view."""
+    (x, y), label = side.datum, f"{'B' if side.back else 'A'}{row + 1}"
+    assert line is not None  # a table holds what has a place
+    at = line.point_at(0.35 * line.length)[0]
+    to = Note((shape.x, shape.y), (label,), shape.diameter / 2) if isinstance(shape, Circle) else Note(point_of(at), (label,))
+    side.draft.dimensions.append(to)
+    known = {each.name: each for each in measures if each.kind == "place"}
+    said = [each for each in measures if each.kind != "place" or each.name == "top"]
+    told = [written(each) if each.name in SIGNS else f"{each.name} {written(each)}" for each in said]
+    return label, _said(known["x"], x), _said(known["y"], y), f"{name}: {', '.join(told)}"
 
 
 def corner_table(side: Side, shape: Outline, measures: Sequence[Measure], k: int, title: str = "") -> None:

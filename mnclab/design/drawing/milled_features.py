@@ -195,7 +195,8 @@ class Side:
         ):  # fmt: skip
             name = size if size in known else along(size)
             said = Linear(at(*start), at(*end), valued(known[name], count=count), *((way, side) if straight else ("ab", "")))
-            self.ledger.say(self.draft, said, self.claims(numbers, name))
+            say = self.ledger.say_once if straight else self.ledger.say  # the blank's own where it goes from edge to edge
+            say(self.draft, said, self.claims(numbers, name))
         if "corner radius" in known:
             r = shape.corner
             text = valued(known["corner radius"], "R", count=4 * count)
