@@ -72,8 +72,8 @@ LOOK = {
 }
 
 
-def of_collisions(collisions: Collisions, run: Run) -> Iterator[Finding]:
-    """The collisions, the deepest of a kind in a line; of a still spindle at the block that last spoke of it.
+def of_danger(collisions: Collisions, run: Run) -> Iterator[Finding]:
+    """The collisions, the deepest of a kind in a line; of a still spindle at the block that last spoke of it; then feeds and end.
 
     What was not judged is no better: a tool that cannot cut, rows without one.
     """
@@ -84,6 +84,8 @@ def of_collisions(collisions: Collisions, run: Run) -> Iterator[Finding]:
     for note in collisions.notes:
         at = re.search(r":(\d+)", note.rpartition("(")[2])  # places stand last, FILE:LINE
         yield Finding(DANGER, f"not judged {note}", int(at[1]) if at else 0, (note,))
+    yield from of_feeds(run)
+    yield from at_the_end(run)
 
 
 def _spindle_line(run: Run, line: int) -> int:

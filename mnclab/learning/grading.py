@@ -17,18 +17,7 @@ import numpy as np
 from mnclab.learning.answered import run_of
 from mnclab.learning.asked import economy, of_asked, wishes
 from mnclab.learning.exercise import Exercise
-from mnclab.learning.findings import (
-    STOPPED,
-    ZERO,
-    Finding,
-    at_the_end,
-    hints_of,
-    of_alarms,
-    of_collisions,
-    of_feeds,
-    of_part,
-    of_threads,
-)
+from mnclab.learning.findings import STOPPED, ZERO, Finding, hints_of, of_alarms, of_danger, of_part, of_threads
 from mnclab.learning.grade import Grade
 from mnclab.learning.restarting import collisions_of, part_of
 from mnclab.runs.run import Run
@@ -131,7 +120,7 @@ def of_run(exercise: Exercise, run: Run, tried: Mapping[str, int], text: str = "
         untouched = blank_as_drawn(exercise)
         threads = list(of_threads(exercise.design, run, exercise.tolerance))
         findings += [*threads, *of_part(difference, run, untouched)]
-    danger = [*of_collisions(collisions_of(exercise, run), run), *of_feeds(run), *at_the_end(run)]
+    danger = list(of_danger(collisions_of(exercise, run), run))
     asked = list(of_asked(exercise, run))
     findings += danger + asked
     marks = {"safety": 0.0 if danger else 1.0}
