@@ -166,21 +166,23 @@ def _of_feature(feature: str, rows: list[Any], run: Run, before: int, begun: boo
     row = _most_telling(rows)
     there, line = row.place, row.line if row.program == 0 else 0
     flat = any("depth" in each.measure and each.actual <= 0 for each in rows)
+    partly = begun and flat and not run.toolpath.lathe  # its outline is there, and a place beside it was forgotten
     begun = (begun and not flat) or feature == "profile" or not all(_untouched(each) for each in rows)
     spoilt = feature == "profile" or any(each.measure == "form" and each.deviation < 0 for each in rows)
     lacks = (each.measure for each in rows if each.verdict == "not cut" and "depth" not in each.measure and not spoilt)
     without = next(lacks, "")
     if (not begun and any(each.measure != "form" for each in rows)) or without:
-        told = f"{feature}{f', {without}' if begun else ''}: nothing is cut there"
+        what = f"something is left{_at(there)}" if partly else "nothing is cut there"
+        told = f"{feature}{f', {without}' if begun else ''}: {what}"
         line = nearest_line(run, there, over=True)
-        return Finding(PART, f"{feature} not cut", line, (told, f"{told}: which block should, and how deep?"), there)
+        return Finding(PART, f"{feature} not cut", line, (told, f"{told}: which block should cut it, and how deep?"), there)
     line = _said_by(row, line, run, before) or nearest_line(run, there)
     if row.feature == "blank" or row.measure == "form":
         gone = row.deviation < 0
         what = "too much is cut" if gone else "something is left"
         told = f"{feature}: {what}"
         more = f"{told}: {abs(row.deviation):.3f} mm{_at(there)}"
-        return Finding(PART, f"{feature} {what}", line, (told, more, f"{more}; {_why(row, run, before)}"), there)
+        return Finding(PART, f"{feature} {what}", line, (told, more, f"{more}; {_why(row, run, before, line)}"), there)
     if _drilled(row, run, before) and any(each.measure == "depth" and each.verdict == "not cut" for each in rows):
         told = f"{feature}: it is not as deep as drawn"
         return Finding(PART, f"{feature} depth", line, (told, f"{told}: how far below its full diameter is the point?"), there)
@@ -189,7 +191,7 @@ def _of_feature(feature: str, rows: list[Any], run: Run, before: int, begun: boo
     told, sized = f"{its} not as drawn{which}", f"{its} {abs(row.deviation):.3f} {unit} too {_way(row)}{which}"
     if abs(row.deviation) > FAR:
         sized = told
-    return Finding(PART, f"{feature} {row.measure}", line, (told, sized, f"{sized}; {_why(row, run, before)}"), there)
+    return Finding(PART, f"{feature} {row.measure}", line, (told, sized, f"{sized}; {_why(row, run, before, line)}"), there)
 
 
 def _untouched(row: Any) -> bool:
@@ -280,14 +282,19 @@ def _at(place: Place | None) -> str:
     return f" near X{place[0]:.1f} Y{place[1]:.1f}" if place else ""
 
 
-def _why(row: Any, run: Run, before: int) -> str:
+CALLS = re.compile(r"CYCL CALL|M[89]9\b", re.IGNORECASE)
+BLOCKS = "the words of this block, and where the one before it ends,"
+
+
+def _why(row: Any, run: Run, before: int, line: int) -> str:
     """What a deviation of a certain size usually comes from, else what to compare."""
     tool, off = _tool_of(row, run, before), abs(row.deviation)
     if tool is not None and tool.radius > 0 and tool.kind != "drill" and row.measure not in ("x", "y", "depth"):
         for times, said in ((1, "the radius"), (2, "the diameter"), (4, "twice the diameter")):
             if math.isclose(off, times * tool.radius, abs_tol=0.01):
                 return f"that is {said} of the tool: on which side of the contour does it run?"
-    return "compare the words of this block with the drawing"
+    block = run.program.text.splitlines()[line - 1] if line else ""
+    return f"compare {'the cycle and the contour that it mills' if CALLS.search(block) else BLOCKS} with the drawing"
 
 
 def of_threads(design: Any, run: Run, tolerance: float) -> Iterator[Finding]:
