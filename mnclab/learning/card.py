@@ -17,15 +17,16 @@ if TYPE_CHECKING:
 
 #: Before a line of a listing; it is not copied with it.
 NUMBER = '<span style="user-select:none;color:#888">{:>3}  </span>'
-DRAWING = 0.58  # of the size of its sheet, so that task and drawing stand on one screen
+DRAWING = 0.75  # of the size of its sheet, so that task and drawing stand on one screen
+SHORT = 80  # letters of a line, up to which lines of a task are a list or a program, which stays as it is written
 
 
 def card(exercise: Exercise, drawing: bool = True) -> str:
     """Task, drawing, blank, tools and what is asked for; without `drawing` only the words."""
     head = f"<strong>{escape(exercise.id)}: {escape(exercise.title)}</strong>"
     under = f"level {exercise.level}, lesson {escape(exercise.lesson)}: {escape(exercise.does)}"
-    task = "".join(f"<p>{escape(each)}</p>" for each in exercise.task.split("\n\n"))
-    rows = "\n".join(f"{NUMBER.format(k)}{escape(row)}" for k, row in enumerate(exercise.program.split("\n"), 1))
+    task = "".join(map(_paragraph, exercise.task.strip("\n").split("\n\n")))
+    rows = "\n".join(f"{NUMBER.format(k)}{escape(row)}" for k, row in enumerate(exercise.program.rstrip().split("\n"), 1))
     given = f"<pre>{rows}</pre>" if exercise.program else ""
     asked = "".join(f"<li>{escape(each)}</li>" for each in wanted(exercise))
     why = f"<p><em>{escape(exercise.why)}</em></p>" if exercise.why else ""
@@ -36,13 +37,19 @@ def card(exercise: Exercise, drawing: bool = True) -> str:
     )
 
 
+def _paragraph(text: str) -> str:
+    lines = text.strip("\n").split("\n")
+    as_written = len(lines) > 1 and (max(map(len, lines)) <= SHORT or any("  " in line.strip() for line in lines))
+    return f'<pre style="white-space:pre-wrap">{escape(text)}</pre>' if as_written else f"<p>{escape(text)}</p>"
+
+
 def picture(exercise: Exercise) -> str:
     """The drawing as an image; nothing where there is none."""
     if exercise.design is None:
         return ""
     try:
         drawn: Any = exercise.drawing()
-        return str(drawn.html(DRAWING))
+        return f'<div style="width:{round(100 * DRAWING * drawn.get_figwidth())}px">{drawn.html(2 * DRAWING)}</div>'
     except Alarm as alarm:
         return str(alarm._repr_html_())
 
