@@ -41,6 +41,14 @@ def test_what_lies_beyond_the_border_is_not_in_the_legend():
     assert "alarm" in [text.get_text() for text in mnc.run(FAR.format(100) + "G2 X1 R1\n", "mnc").plot().legends[0].get_texts()]
 
 
+def test_what_lies_in_the_margin_is_marked():
+    """The frame goes by the cuts, X60 Y30 at most; the tool is changed beyond them, where there is still room."""
+    change = "T1 S1000 M3\nG0 Z5\nG1 Z-2 F100\nX60\nY30\nG0 Z5\nX63 Y33\nT2\nX-200\n"
+    (ax,) = mnc.run(change, "mnc").plot(view="XY").axes
+    (marked,) = [line for line in ax.lines if line.get_label() == "tool change"]
+    assert [63, 33] in marked.get_xydata().tolist() and frame(ax)[0, 1] > 63
+
+
 def test_two_paths_are_framed_alike():
     one, other = (mnc.run(FAR.format(z).replace("X60", x), "mnc") for z, x in ((900, "X60"), (900, "X60.5")))
     side = mnc.diff(one, other).plot().axes[1]

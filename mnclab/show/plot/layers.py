@@ -58,7 +58,7 @@ class PathDrawing(NamedTuple):
     home: bool
     felt: Felt | None
     overlays: Sequence[Overlay]
-    box: Box  # what is seen
+    box: Box  # what is seen, margin included
 
     def seen(self, mark: Mark, view: View) -> Array:
         """Where a mark is seen in a view (m, 2); a hole that is seen from above needs none for its dwell."""

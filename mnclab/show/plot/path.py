@@ -198,7 +198,7 @@ def plot_path(
     if felt is not None and len(felt.places):
         found_marks.append((colours.TOUCH, felt.places))
     arrives = home and bool(((path.start[0] >= low) & (path.start[0] <= high)).all())
-    rest = (beside, part, arrives, felt, overlays, (low, high))
+    rest = (beside, part, arrives, felt, overlays, roomy(low, high, views))
     drawing = PathDrawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, *rest)
     former = None if under is None else gone(under, path)
     if ax is not None:

@@ -358,7 +358,7 @@ class Round(MaxNLocator):
     """At most `most` steps between round numbers of a unit of `length` mm."""
 
     def __init__(self, most: int, length: float) -> None:
-        super().__init__(nbins=most, steps=[1, 2, 5, 10])
+        super().__init__(nbins=most, steps=[1, 2, 5, 10] if most > 1 else [1, 2, 4, 5, 10])  # 40 rather than 20
         self.length = length
 
     def tick_values(self, vmin: float, vmax: float) -> Any:
