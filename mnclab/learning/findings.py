@@ -52,7 +52,12 @@ def of_alarms(run: Run) -> Iterator[Finding]:
         if alarm.severity == "alarm":
             said = f"the control stops: {alarm.message}"
             more = (f"{said} ({alarm.hint})",) if alarm.hint else ()
-            yield Finding(STOPPED, f"alarm {alarm.message}", alarm.span.line if alarm.span else 0, (said, *more))
+            line = alarm.span.line if alarm.span else 0
+            yield Finding(STOPPED, f"alarm {alarm.message}", line, (said, *more))
+            ends = run.toolpath[run.toolpath.is_motion & (run.toolpath.program == 0)]
+            if re.search("start|circle", alarm.message) and len(ends) and line:
+                told = f"the arc of line {line} begins where this block ends"
+                yield Finding(STOPPED, "start of an arc", int(ends.line[-1]), (told,))
 
 
 #: What to look at, by the kind of a collision.
@@ -164,7 +169,7 @@ def _of_zero(difference: Any) -> Iterator[Finding]:
 
 def _of_feature(feature: str, rows: list[Any], run: Run, before: int, begun: bool) -> Finding:
     row = _most_telling(rows)
-    there, line = row.place, row.line if row.program == 0 else 0
+    there, line = row.place or next((each.place for each in rows if each.place), None), row.line if row.program == 0 else 0
     flat = any("depth" in each.measure and each.actual <= 0 for each in rows)
     partly = begun and flat and not run.toolpath.lathe  # its outline is there, and a place beside it was forgotten
     begun = (begun and not flat) or feature == "profile" or not all(_untouched(each) for each in rows)
@@ -263,10 +268,14 @@ NEAR = 1.0  # mm, beyond the largest tool: a row that is farther away has nothin
 
 
 def nearest_line(run: Run, place: Place | None, over: bool = False) -> int:
-    """The line of the row at feed that passes nearest to a place, `over` it at any height; 0 without one; an arc counts as its
-    chord."""
+    """The line of the row at feed that passes nearest to a place, `over` it at any height, and rapid if none at feed does; 0
+    without one; an arc counts as its chord."""
+    return _nearest(run, place, over, rapid=False) or (_nearest(run, place, over, rapid=True) if over else 0)
+
+
+def _nearest(run: Run, place: Place | None, over: bool, rapid: bool) -> int:
     path = run.toolpath
-    rows = np.flatnonzero(path.is_motion & (path.kind != Kind.RAPID) & (path.program == 0))
+    rows = np.flatnonzero(path.is_motion & ((path.kind == Kind.RAPID) == rapid) & (path.program == 0))
     if place is None or not len(rows):
         return 0
     seen = np.array([1.0, 1.0, 0.0 if over and not path.lathe else 1.0])

@@ -224,6 +224,13 @@ def test_a_hole_that_a_lathe_drills_too_shallow_is_told_at_its_block():
     assert text.split("\n")[hint.line - 1].startswith("G73") and hint.text == "core hole: it is not as deep as drawn"
 
 
+def test_where_an_arc_begins_and_what_only_a_rapid_passes_over_are_named(made):
+    """An arc of R3 over 10 mm, in line 5, begins where line 4 ends; the drill that is never fed comes to its hole in line 7."""
+    assert [hint.line for hint in made().check(RIGHT.replace("F300\n", "F300\nG3 Y30 R3\n")).hints] == [5, 4]
+    (hint,) = made().check(re.sub(r"G1 Z-\S+ F80\n", "", RIGHT)).hints
+    assert hint.line == 7 and "hole: nothing is cut there" in hint.text
+
+
 def test_a_card_has_blank_jaws_start_and_numbered_lines():
     shown = mnclab.exercise("jnc-t01-08")._repr_html_()
     assert "Blank ⌀60, Z-80 to 0; held by ⌀100, bore 60, Z-95 to -65; the machine stands at X60 Z40" in shown
