@@ -42,7 +42,7 @@ def told(table: Mapping[str, Any]) -> Iterator[str]:
     for key in table.get("vary", {}):
         for owner, field in _places(table.get("design", {}), key):
             number = f"{abs(owner[field]):g}"
-            if re.search(rf"(?<![\w.]){re.escape(number)}(?![\w.]*\w)", table["task"]):
+            if re.search(rf"(?<![\w.]){re.escape(number)}(?!\.?\w)", table["task"]):
                 yield f"[vary]: {key} is a pupil's own, and the task names {number}"
 
 

@@ -33,6 +33,7 @@ PUT_TOGETHER = {
     "formulas.py": (r"[ \t]*LEN(?![A-Z])", "match"),
     "feature_file.py": (r"\bdepth", "search"),
     "programs.py": (r"O?0*1000(\.\w{1,8})?", "fullmatch"),
+    "neighbours.py": (r"(?<![\w.])17(?!\.?\w)", "search"),
     "reader.py": (r"/[ \t]?/|;", "search"),
     "program.py": (r"/[ \t]?/", "search"),
     "vocabulary.py": (r";|\(|\*[ \t]*-", "search"),

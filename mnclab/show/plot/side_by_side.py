@@ -63,8 +63,10 @@ def panels(
     longest = max((word for name in names for word in name.split(" ")), key=len)
     letters = next((each for each in TITLES if len(broken(longest, wide, each)) == 1), SMALL + 1)
     titles = [broken(name, wide, letters) for name in names]
-    if notes:  # beside the last line, which is left to them where it has no room
-        titles = [[*lines, *[""] * (len(broken(lines[-1], wide - 0.4, letters)) > 1)] for lines in titles]
+    for k, lines in enumerate(titles if notes else ()):  # beside the last line, which is left to them where it has no room
+        if len(broken(lines[-1], wide - 0.4, letters)) > 1:
+            shorter = broken(names[k], wide - 0.4, letters)
+            titles[k] = shorter if " ".join(shorter) == names[k] else [*lines, ""]
     over = [TITLE + LINE * (max(map(len, titles[k : k + columns])) - 1) for k in range(0, len(names), columns)]
     top = 0.08 + legend_height(len(legend_rows([each.get_label() for each in legend], width)))
     loose = LOW if len(names) % columns else BETWEEN  # between rows: numbers and their name below the last of a column
