@@ -37,9 +37,9 @@ ON_WALLS = """([x0, y0, x1, y1]) => {
 #: Red, green, blue and how opaque the picture of the part is at places in space.
 PIXELS = """places => {
     const {part, picture: {camera, ratio}} = window.player, copy = document.createElement("canvas");
+    window.player.draw();  // a picture that turned just now was smaller
     [copy.width, copy.height] = [part.canvas.width, part.canvas.height];
     const pen = copy.getContext("2d", {willReadFrequently: true});
-    window.player.draw();
     pen.drawImage(part.canvas, 0, 0);
     return places.map(place => {
         const [x, y] = camera.project(place).map(v => Math.floor(v * ratio));
