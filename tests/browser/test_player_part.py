@@ -234,9 +234,9 @@ NO_WEBGL = """HTMLCanvasElement.prototype.getContext = (own => function (kind, .
 #: What the canvas of the part shows at places: red, green, blue and whether anything.
 PIXELS = """places => {
     const {part, picture: {camera, ratio}} = window.player, copy = document.createElement("canvas");
+    window.player.draw();  // a picture that turned just now was smaller
     [copy.width, copy.height] = [part.canvas.width, part.canvas.height];
     const pen = copy.getContext("2d", {willReadFrequently: true});
-    window.player.draw();
     pen.drawImage(part.canvas, 0, 0);
     return places.map(place => {
         const [x, y] = camera.project(place).map(v => Math.round(v * ratio));
