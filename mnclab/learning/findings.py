@@ -55,7 +55,7 @@ def of_alarms(run: Run) -> Iterator[Finding]:
             line = alarm.span.line if alarm.span else 0
             yield Finding(STOPPED, f"alarm {alarm.message}", line, (said, *more))
             ends = run.toolpath[run.toolpath.is_motion & (run.toolpath.program == 0)]
-            if re.search("start|circle", alarm.message) and len(ends) and line:
+            if re.search("between start and end|not on the circle", alarm.message) and len(ends) and line:
                 told = f"the arc of line {line} begins where this block ends"
                 yield Finding(STOPPED, "start of an arc", int(ends.line[-1]), (told,))
 
