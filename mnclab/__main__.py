@@ -212,6 +212,7 @@ def parser() -> argparse.ArgumentParser:
     says = "an .html or a .pdf file (default: handout_05.html where the lesson is 05)"
     sub.add_argument("-o", "--output", metavar="OUT", help=says)
     sub.add_argument("--pdf", action="store_true", help="a PDF too, printed by Chromium")
+    sub.add_argument("--answers", action="store_true", help="for the teacher: answers of the graded exercises too")
     command("lab", lab, "open the lessons in JupyterLab, which gets all options that follow", "")
     return top
 

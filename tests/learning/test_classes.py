@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tomllib
 import unicodedata
+from html import unescape
 
 import pytest
 
@@ -414,3 +415,21 @@ def test_a_teachers_slip_is_named_at_its_line(tmp_path, change, says):
     with pytest.raises(Alarm, match=says) as found:
         load(path)
     assert found.value.span is not None and found.value.source.name == str(path)
+
+
+# --- the teacher's pages ---------------------------------------------------------------------------------------------
+
+
+def test_the_teachers_pages_have_answers_and_usual_faults_of_a_lessons_exercises(tmp_path):
+    from mnclab.learning.card import answers
+    from mnclab.shell.handout import teachers
+
+    page = unescape(teachers("05"))
+    for each in mnclab.exercises(lesson="05"):
+        found = answers_of(each.file)
+        assert found.model.strip() in page and found.why in page
+        assert all(f"the hint says: {fault.hint}" in page for fault in found.faults)
+    copy = tmp_path / "mnc-07.toml"
+    copy.write_text(pupils_copy(mnclab.exercise("mnc-07").file), "utf-8")
+    with pytest.raises(Alarm, match="no solution"):
+        answers(load(copy))
