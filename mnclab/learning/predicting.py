@@ -45,7 +45,8 @@ def value_of(question: Question, run: Run) -> float:
     if question.what == "length":
         return length(run)
     if question.what == "time":
-        return float(run.profile().time)
+        profile = run.profile()
+        return float(profile.time if question.line is None else profile.time_by("line").get(question.line, 0.0))
     moment = run.at(question.line) if question.line is not None else run.at(step=len(run.steps.block) - 1)
     if question.what[-1] in "xyz":
         place = moment.point if question.what.startswith("tip") else moment.position
