@@ -205,10 +205,10 @@ class PlayerPage {
   }
   draw(turning = false) {
     const {run, picture} = this, now = this.now(), going = now.item >= 0 && run.itemRow[now.item] === now.row ? now.row : -1;
-    const tool = run.history.has("tool") && !run.header.turning ? run.history.get("tool").value(now.step) : null;
+    const tool = run.history.has("tool") && !(run.header.turning?.length > 1) ? run.history.get("tool").value(now.step) : null;
     const lies = run.history.has("tool axis") ? run.history.get("tool axis").value(now.step) : null, along = lies ? "XYZ".indexOf(lies) : 2;
     this.measure.draw();
-    picture.draw({row: going, tip: now.point, tool, along, at: Math.max(now.row, 0)}, now.rowsDone);
+    picture.draw({row: going, tip: now.point, tool, along, at: Math.max(now.row, 0), angles: now.angles}, now.rowsDone);
     if (this.part && !this.part.draw(now.rowsDone, now.share, going, turning, this.late)) this.show();  // not there yet: go on with the next frame
   }
   showPart(on) {

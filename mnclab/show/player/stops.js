@@ -12,6 +12,9 @@ class Stops {
   constructor(page) {
     const {run, find} = page;
     Object.assign(this, {page, run, find, asked: new Asked(run), blocks: new Map(), all: [], moments: [], once: null, watched: []});
+    const own = [...run.history.keys()].find(name => /^(Q[LR]?|#)\d+$/.test(name)), axis = run.lathe ? "d" : "z";  // as examples
+    find("when").placeholder = run.lathe ? "d < 20 and z < -5" : "z < -5 and tool == 2";
+    find("watch").placeholder = [...own ? [own] : [], axis, "feed", ...own ? [`x - ${own}`] : []].join(", ");
     find("stops").addEventListener("click", () => this.open());
     find("when").addEventListener("change", () => this.ask());
     find("watch").addEventListener("change", () => this.watch());
@@ -39,6 +42,9 @@ class Stops {
     const {run, page: {step}} = this;
     if (step >= 0) this.turn(run.program[step], run.lineOf(step));
   }
+  told(text) {  // a question as it is meant: of a lathe the programs mostly say diameters
+    return this.run.lathe ? text.replace(/\bx\b/gi, "$& (radius)") : text;
+  }
   ask() {
     const text = this.find("when").value.trim();
     let said = "", wrong = false;
@@ -46,8 +52,9 @@ class Stops {
     if (text) try {
       const question = this.asked.question(text);
       question.logical(question.tree);
-      this.moments = this.asked.moments(question).map(each => ({...this.asked.place(each), why: text}));
+      this.moments = this.asked.moments(question).map(each => ({...this.asked.place(each), why: this.told(text)}));
       said = this.moments.length ? `becomes true ${this.moments.length === 1 ? "once" : `${this.moments.length} times`}` : "never true";
+      if (this.told(text) !== text) said = `${this.told(text)} ${said}`;
     } catch (fault) {
       [said, wrong] = [fault.message, true];
     }
@@ -143,7 +150,7 @@ class Stops {
     find("watched").replaceChildren(...(run.items ? this.watched : []).map(({text, name, question, fault}) => {
       const cell = document.createElement("div"), head = document.createElement("dt"), value = document.createElement("dd");
       const told = question && (question.tree.value || question.tree.truth)(asked.values(item, share));
-      head.textContent = text;
+      head.textContent = this.told(text);
       value.textContent = fault || (name ? valueText(name, run.history.get(name).value(page.step), run.unit.length)
         : typeof told === "boolean" ? (told ? "true" : "false") : told === null || Number.isNaN(told) ? "not known"
         : Number.isFinite(told) ? short(told, 4) : question.names.has("feed") ? "rapid" : "no limit");

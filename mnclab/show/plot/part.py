@@ -190,9 +190,10 @@ def _scale(picture: Picture, title: str, low: float, high: float, shades: Any) -
     long, thick = min(3.4, width - 1.9), 0.1
     ax = picture.add_axes((1.0 / width, 1 - (0.07 + thick) / height, long / width, thick / height))
     ax.imshow(np.linspace(0, 1, 256)[None], cmap=shades, extent=(low, high, 0, 1), aspect="auto")
-    ax.set_yticks([])
+    inner = [each for each in ax.get_xticks().tolist() if 0.08 < (each - low) / (high - low) < 0.92]
+    ax.set(xticks=[low, *inner, high], yticks=[])  # its ends are told, and nothing stands in their way
     ax.tick_params(labelsize=SMALL, length=2, pad=1)
-    ax.xaxis.set_major_formatter(lambda value, _: number(value))
+    ax.xaxis.set_major_formatter(lambda value, _: number(round(value, 3)))
     ax.set_ylabel(title, fontsize=SMALL, rotation=0, ha="right", va="center", labelpad=5)
     ax.spines[:].set_linewidth(0.5)
 
