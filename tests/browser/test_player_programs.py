@@ -146,7 +146,8 @@ def test_a_tool_stands_square_on_a_drum(opened):
     assert page.evaluate("() => [...window.player.picture.strokes.kind.slice(0, 3)]")[:2] == [0, 0]
     page.evaluate("() => window.player.go(window.player.atTime(0.4 * window.player.run.time))")
     ends = page.evaluate("""() => {
-        const {player} = window, {picture} = player, {point: tip, angles} = player.now(), up = tip.map((v, k) => v + (k === 2 ? 9 : 0));
+        const {player} = window, {picture} = player, {point: tip, angles} = player.now();
+        const up = tip.map((v, k) => v + (k === 2 ? 9 : 0));
         const away = [0, ...tip.slice(1)].map((v, k, all) => tip[k] + 9 * v / Math.hypot(...all));
         return [picture.beside(tip, angles)(up), picture.camera.project(away), picture.shown.at.tool.number, angles[0]];
     }""")  # fmt: skip

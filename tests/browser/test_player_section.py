@@ -151,7 +151,7 @@ def test_without_a_blank_the_insert_is_a_body_as_well(browser, tmp_path):
 
 
 @pytest.mark.parametrize(("program", "control", "said"), [
-    ("N1 S800\nN2 F20\nN3 Z200~\nN4 X4000~\nN5 G77*~\nN6 X2440*\nN7 Z-2990*\nN8 F3000*\nN9 P400\n", "nc-31", "roughing insert 80° (no T)"),
+    ("N1 S800\nN2 F20\nN3 X4000~\nN4 G77*~\nN5 X2440*\nN6 Z-2990*\nN7 F3000*\nN8 P400\n", "nc-31", "roughing insert 80° (no T)"),
     ("G95 F0.2\nM3 S500\nG0 X20 Z2\nG1 Z-9\n", "jnc-t01", "default insert (no T)"),
     ("G95 F0.2\nM3 S500 T2\nG0 X20 Z2\nG1 Z-9\n", "jnc-t01", "T2 finishing insert 35°"),
 ])  # fmt: skip

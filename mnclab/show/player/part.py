@@ -297,7 +297,7 @@ def felt_part(pack: Packer, found: Felt, path: Toolpath) -> dict[str, Any]:
     y, x = (each.ravel() for each in np.meshgrid(raster.y, raster.x, indexing="ij"))
     low, high = ends[:, 2].tolist()
     top = np.nan_to_num(found.heights(x, y, low, high, raster.step), nan=low)
-    walls, shares = _walls(found, raster, top)
+    walls, shares = _walls(found, raster, np.column_stack([x, y, top]))
     nothing = np.zeros(len(path))
     return {
         "low": list(raster.low),
@@ -317,22 +317,19 @@ def felt_part(pack: Packer, found: Felt, path: Toolpath) -> dict[str, Any]:
     }
 
 
-def _walls(found: Felt, raster: Raster, top: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Where walls stand between the cells of a map `top` (n,): twice the number of a cell, and one more along Y, and the parts
+def _walls(found: Felt, raster: Raster, tops: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Where walls stand between the cells of a map `tops` (n, 3): twice the number of a cell, and one more along Y, and the parts
     of the way to its neighbour."""
     assert found.part is not None
-    heights, n = top.reshape(raster.shape), np.arange(len(top)).reshape(raster.shape)
+    heights, n = tops[:, 2].reshape(raster.shape), np.arange(len(tops)).reshape(raster.shape)
     along = np.concatenate([2 * n[:, :-1].ravel(), 2 * n[:-1].ravel() + 1])
     rise = np.concatenate([np.diff(heights, axis=0 if up else 1).ravel() for up in (False, True)])
-    walls = along[np.abs(rise) > WALL * raster.step]
-    rise = rise[np.abs(rise) > WALL * raster.step]
-    y, x = (each.ravel() for each in np.meshgrid(raster.y, raster.x, indexing="ij"))
-    places = np.stack([x, y, top], axis=1)[walls // 2] + found.origin + rise[:, None] * [0.0, 0.0, 0.5]
+    walls, rise = (each[np.abs(rise) > WALL * raster.step] for each in (along, rise))
+    places = tops[walls // 2] + found.origin + rise[:, None] * [0.0, 0.0, 0.5]
     low, high = np.zeros(len(walls)), np.ones(len(walls))
     for _ in range(SHARES.bit_length() - 1):
         middle = (low + high) / 2
-        places_on = places + (raster.step * middle)[:, None] * np.eye(3)[walls % 2]
-        before = (found.part(places_on) <= 0) == (rise < 0)
+        before = (found.part(places + (raster.step * middle)[:, None] * np.eye(3)[walls % 2]) <= 0) == (rise < 0)
         low, high = np.where(before, middle, low), np.where(before, high, middle)
     return walls, np.round((low + high) / 2 * SHARES).astype(np.int64)
 
