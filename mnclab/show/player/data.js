@@ -50,6 +50,13 @@ class Log {  // places where a value changes, and the values from there on
   }
 }
 
+// An element of the page with its properties and what is within.
+function made(tag, properties, ...within) {
+  const found = Object.assign(document.createElement(tag), properties);
+  found.append(...within);
+  return found;
+}
+
 // A vector about a unit vector n by an angle, right-handed.
 function turned(v, n, angle) {
   const [c, s] = [Math.cos(angle), Math.sin(angle)], along = (1 - c) * v.reduce((sum, value, i) => sum + value * n[i], 0);

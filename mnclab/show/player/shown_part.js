@@ -16,10 +16,6 @@ class ShownPart {
     this.scouted = () => {};  // what is to be done when all is cut ahead
     this.scout();
   }
-  show(on) {
-    this.picture.part = on ? this : null;
-    this.canvas.hidden = !on;
-  }
   // True once the part is cut to there.
   draw(rows, share, row, turning = false, late = false) {
     const {canvas, picture, carving} = this, {camera, ratio, colours} = picture;

@@ -75,17 +75,8 @@ class Board {
     find("position-unit").textContent = find("feed-unit").textContent = run.unit.short;
     const axes = run.lathe ? ["⌀ X", "Z"] : ["X", "Y", "Z"];
     this.axes = run.lathe ? [0, 2] : [0, 1, 2];
-    find("axes").replaceChildren(...axes.map((name, row) => {
-      const line = document.createElement("tr"), head = document.createElement("th");
-      head.scope = "row";
-      head.textContent = name;
-      line.append(head, ...["program", "tool", "machine"].map(column => {
-        const cell = document.createElement("td");
-        cell.id = `${column}-${"XYZ"[this.axes[row]]}`;
-        return cell;
-      }));
-      return line;
-    }));
+    find("axes").replaceChildren(...axes.map((name, row) => made("tr", {}, made("th", {scope: "row"}, name),
+      ...["program", "tool", "machine"].map(column => made("td", {id: `${column}-${"XYZ"[this.axes[row]]}`})))));
   }
   // A coordinate as the operator reads it: a lathe's X is a diameter; or as the program says it, where that may be a radius.
   shown(point, axis, told = false) {
@@ -127,12 +118,8 @@ class Board {
       // the first step also sets what is active at power-on: there only what stands in the block is its doing
       const mark = step > 0 ? changed.has(name) && now !== (old || "none") : text.includes(now) && changed.has(name);
       if (!mark && (now === "none" || APART.includes(name))) return null;
-      const cell = document.createElement("div"), head = document.createElement("dt"), value = document.createElement("dd");
-      if (mark) cell.className = "changed";
-      head.textContent = name.replace(/_/g, " ");
-      value.textContent = mark && old ? `${old} → ${now}` : now;
-      cell.append(head, value);
-      return cell;
+      const told = mark && old ? `${old} → ${now}` : now;
+      return made("div", mark && {className: "changed"}, made("dt", {}, name.replace(/_/g, " ")), made("dd", {}, told));
     }).filter(Boolean);
     cells.sort((a, b) => (b.className > a.className) - (b.className < a.className));
     this.find("modal").replaceChildren(...cells);

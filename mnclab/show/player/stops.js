@@ -89,16 +89,15 @@ class Stops {
   }
   list() {
     const {run, page, blocks} = this, button = (textContent, title, act) => {
-      const made = Object.assign(document.createElement("button"), {type: "button", textContent, title});
-      made.addEventListener("click", act);
-      return made;
+      const found = made("button", {type: "button", textContent, title});
+      found.addEventListener("click", act);
+      return found;
     };
     const items = [...blocks.values()].map(({program, block}) => {
-      const line = run.lines[program][block], place = page.listing.place(program, line), item = document.createElement("li");
+      const line = run.lines[program][block], place = page.listing.place(program, line);
       const away = button("×", `no stop at ${place}`, () => this.turn(program, line));
       away.setAttribute("aria-label", away.title);
-      item.append(button(`${place}: ${run.texts[program][line - 1].trim()}`, "goes there", () => page.goLine(program, line)), away);
-      return item;
+      return made("li", {}, button(`${place}: ${run.texts[program][line - 1].trim()}`, "goes there", () => page.goLine(program, line)), away);
     });
     this.find("breaks").replaceChildren(...items);
     this.find("stops").textContent = this.all.length ? `Breakpoints (${this.all.length})` : "Breakpoints";
@@ -148,14 +147,11 @@ class Stops {
     const {run, page, find, asked} = this, {item, t, done} = page.place, row = run.items ? run.itemRow[item] : -1;
     const share = done || row < 0 ? 1 : asked.loose(item) ? (t - run.begin[item]) / (run.end[item] - run.begin[item]) : run.tool(item, t).share;
     find("watched").replaceChildren(...(run.items ? this.watched : []).map(({text, name, question, fault}) => {
-      const cell = document.createElement("div"), head = document.createElement("dt"), value = document.createElement("dd");
       const told = question && (question.tree.value || question.tree.truth)(asked.values(item, share));
-      head.textContent = this.told(text);
-      value.textContent = fault || (name ? valueText(name, run.history.get(name).value(page.step), run.unit.length)
+      const value = fault || (name ? valueText(name, run.history.get(name).value(page.step), run.unit.length)
         : typeof told === "boolean" ? (told ? "true" : "false") : told === null || Number.isNaN(told) ? "not known"
         : Number.isFinite(told) ? short(told, 4) : question.names.has("feed") ? "rapid" : "no limit");
-      cell.append(head, value);
-      return cell;
+      return made("div", {}, made("dt", {}, this.told(text)), made("dd", {}, value));
     }));
   }
 }
