@@ -389,12 +389,11 @@ def add_collisions(plotter: Any, collisions: Iterable[Collision], points: Array,
 
 # The part that a probe meets, and its touches: a ball at each touched place with its number.
 
-PROBED_ANGLE = 25.0  # degrees
 TOUCH_BALL = 0.011  # radius of a mark, of the greatest side of the part_body
 MOST, FEW = 60, 8  # touches with numbers, with values too
 PROBED_LOOK: dict[str, Any] = {
     "color": looks.METAL, "opacity": 0.6, "ambient": 0.3, "smooth_shading": True, "split_sharp_edges": True,
-    "feature_angle": PROBED_ANGLE,
+    "feature_angle": ANGLE,
 }  # fmt: skip
 
 
@@ -411,7 +410,7 @@ def add_probed(plotter: Any, run: Any) -> Array | None:
         if len(triangles):
             mesh = pyvista.PolyData.from_regular_faces(points - found.origin, triangles).clean()
             plotter.add_mesh(mesh, name="part to touch", **PROBED_LOOK)
-            edges = mesh.extract_feature_edges(feature_angle=PROBED_ANGLE, boundary_edges=False, non_manifold_edges=False)
+            edges = mesh.extract_feature_edges(feature_angle=ANGLE, boundary_edges=False, non_manifold_edges=False)
             if edges.n_cells:
                 plotter.add_mesh(edges, color=looks.METAL_EDGE, line_width=1.2, name="edges of the part to touch")
     if found.beam is not None:
