@@ -352,7 +352,7 @@ class SlowCorners(NamedTuple):
         """The feed at the slowest of them, in the unit of the path a minute."""
         places = self.places[: len(self.said)]
         out = (places - places.mean(axis=0))[:, [view.right, view.up]] if len(places) else np.empty((0, 2))
-        texts(ax, view, self.said, places, out, lines, colours.SLOW_CORNER.colour, mark=3.0)
+        texts(ax, view, zip(self.said, places, out), lines, colours.SLOW_CORNER.colour, mark=3.0)
 
 
 def slow_at(profile: Profile) -> np.ndarray:
