@@ -1,5 +1,5 @@
 """mnclab from a shell: check, run, renumber, plot, part, compare, drawing, report, time, help, exercise, grade,
-handout, lab.
+handout, send, lab.
 
 `python -m mnclab` is the same.
 
@@ -28,6 +28,7 @@ from mnclab.shell.grading import exercise, grade
 from mnclab.shell.handout import handout
 from mnclab.shell.lessons import lab
 from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, USAGE, describe, program, say, sensible, with_blank
+from mnclab.shell.sending import send
 from mnclab.shell.timing import time
 from mnclab.show.export import BODIES
 from mnclab.text.alarm import Alarm
@@ -213,6 +214,10 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("-o", "--output", metavar="OUT", help=says)
     sub.add_argument("--pdf", action="store_true", help="a PDF too, printed by Chromium")
     sub.add_argument("--answers", action="store_true", help="for the teacher: answers of the graded exercises too")
+    sub = command("send", send, "write a program as its control takes it, with the sheets that the first run needs")
+    sub.add_argument("-o", "--output", metavar="DIR", help="the folder (default: this one)")
+    sub.add_argument("--name", help="of the program on the control (default: that of the file)")
+    options(sub)
     command("lab", lab, "open the lessons in JupyterLab, which gets all options that follow", "")
     return top
 
