@@ -24,7 +24,7 @@ from matplotlib.patches import FancyArrowPatch, Patch, Rectangle
 from matplotlib.quiver import Quiver
 from matplotlib.text import Annotation, Text
 
-from mnclab.show.plot.picture import SIZE, SMALL, Picture
+from mnclab.show.plot.picture import LEGEND, SIZE, SMALL, Picture
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, choice, near_option, shown, whole
 
@@ -118,7 +118,11 @@ def sized(*, also: Any = None, tall: float | None = None) -> Callable[[Callable[
                 return draw(*given, **options)
 
             def drawn(inches: Room | None, **more: int) -> AnyFigure:
-                return _without_legend(draw(*given, **_inches(known, inches, tall), **{**options, **more}), legend)
+                wanted = LEGEND.set(legend)
+                try:
+                    return _without_legend(draw(*given, **_inches(known, inches, tall), **{**options, **more}), legend)
+                finally:
+                    LEGEND.reset(wanted)
 
             bare: list[Any] = []  # tries in whose axes nothing is drawn yet
 
