@@ -75,6 +75,7 @@ def test_a_depth_that_begins_on_a_step_stands_in_the_section():
     """Beside the diameter a depth of 6 would be taken from the upper side; in the section it goes from -5 to -11."""
     round_ = d.Pocket.circle
     drawn = drawing(d.Design(Box((0, 0, -20), (110, 70, 0)), [round_(40, 35, 44, 5), round_(40, 35, 28, 6, top=-5)]))
-    heights = [sorted((each.a[1], each.b[1])) for view in laid(drawn) for each in view.view.dimensions if isinstance(each, Linear)]
+    linear = [each for view in laid(drawn) for each in view.view.dimensions if isinstance(each, Linear)]
+    heights = [sorted((each.a[1], each.b[1])) for each in linear]
     assert [-11, -5] in heights and [-5, 0] in heights
     assert [each.text for each in drawn.dimensions if each.measure == "depth"] == ["⌀44\n↧5", "6"]

@@ -80,8 +80,8 @@ SHORT = 12  # rows of a table that stays with the words below it
 
 
 def sheets(document: Document) -> list[Sheet]:
-    """The pages of a document; where one would be less than half full, all pictures but the first are drawn smaller, or the page before
-    the last ends earlier, if that helps."""
+    """The pages of a document; where one would be less than half full, all pictures but the first are drawn smaller, or the page
+    before the last ends earlier, if that helps."""
     tried: list[_Setter] = []
     for share in SHARES:
         tried.append(_Setter(document, share))

@@ -40,7 +40,7 @@ TALL = 1.4  # height to width at most, where the height is free
 PAGE = 257.0  # mm: the height of the text of an A4 page, which no figure of free height exceeds
 LEAST, MOST = 40.0, 2000.0  # mm of a side
 TRIES, WIDER, NARROWER = 6, 2, 0.6  # times a figure is drawn narrower to fit its height, and in more room; the least share
-COLUMNS, NAMED = range(2, 7), 0.75  # of views of a figure that is too high; inches of a view that has room for its name
+COLUMNS, NAMED = range(2, 7), 0.55  # of views of a figure that is too high; inches of a view that has room for its name
 HINT = 'size="a4", size="column", size="slide", size=(7, 5), size_mm=(85, None)'
 
 
