@@ -32,10 +32,10 @@ from mnclab.show.report.document import (
     Words,
     html,
 )
-from mnclab.show.times import clock
 from mnclab.text.alarm import ALARM, WARNING, Alarm, amounts, several
 from mnclab.text.file import named, replaced
 from mnclab.text.given import choice, shown
+from mnclab.text.tables import clock
 from mnclab.workpiece.blank import Revolved
 from mnclab.workpiece.collision import Collisions
 from mnclab.workpiece.removal import Removal
