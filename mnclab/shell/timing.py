@@ -136,7 +136,7 @@ def report(profile: Profile, machine: Any = None) -> str:
     slowest = sorted(profile.time_by("line").items(), key=lambda item: -item[1])[:MOST]
     if slowest:
         lines += ["", "lines that take longest"]
-        lines += [f"{_share(_line(line), seconds, profile.time)}{_text(profile, line)}" for line, seconds in slowest]
+        lines += [f"{_share(_line(line), seconds, profile.time)}{_source(profile, line)}" for line, seconds in slowest]
     return "\n".join(lines)
 
 
@@ -159,6 +159,6 @@ def _line(line: int | tuple[int, int]) -> str:
     return f"line {line[0]}:{line[1]}" if isinstance(line, tuple) else f"line {line}"
 
 
-def _text(profile: Profile, line: int | tuple[int, int]) -> str:
+def _source(profile: Profile, line: int | tuple[int, int]) -> str:
     source = profile.source
     return f"   {source.line_text(line)}" if source is not None and not isinstance(line, tuple) else ""
