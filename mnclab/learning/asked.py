@@ -60,9 +60,7 @@ def _of_cutting(exercise: Exercise, run: Run) -> Iterator[Finding]:
     for wanted in exercise.asked.cutting:
         cut = found.get(wanted.tool)
         if cut is None:
-            calls = [step for step, tool in run.history.changed("tool") if tool.number == wanted.tool]
-            line = int(run.lines()[calls[0]]) if calls else 0
-            yield Finding(ASKED, f"tool {wanted.tool} cuts", line, (f"tool {wanted.tool} cuts nothing",))
+            yield Finding(ASKED, f"tool {wanted.tool} cuts", 0, (f"tool {wanted.tool} cuts nothing",))
             continue
         for name, (column, said) in NAMES.items():
             if (limits := getattr(wanted, name)) is None:

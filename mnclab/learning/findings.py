@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -52,15 +52,11 @@ def hints_of(
     found = [first[kind] for kind in kinds[:HINTS]]
     told = [each.hint(tried.get(each.kind, 0) + 1) for each in found]
     causes = [*remarks, *(cause for each in found for cause in each.causes if cause.line)] if found else []
-    ranks = [int(k > 0 and (hint.line == 0 or _shown(hint, told[:k], 0))) for k, hint in enumerate(told)]
     hints = [*told, *(Hint(cause.line, cause.text) for cause in causes)]
-    ranks += [3 if _shown(hints[k], hints[:k], 1) else 0 if cause.sure else 2 for k, cause in enumerate(causes, len(told))]
-    return tuple(hints[k] for k in sorted(range(len(hints)), key=ranks.__getitem__) if ranks[k] < 3)[:HINTS], kinds
-
-
-def _shown(hint: Hint, before: Sequence[Hint], near: int) -> bool:
-    """Whether hints before it show its line, or one so near."""
-    return any(abs(hint.line - each.line) <= near for each in before)
+    off = [min((abs(hint.line - each.line) for each in hints[:k]), default=9) for k, hint in enumerate(hints)]
+    ranks = [int(k > 0 and (off[k] == 0 or hint.line == 0)) for k, hint in enumerate(told)]  # a neighbour is seen anyway
+    ranks += [4 - off[k] if off[k] < 2 else 2 * (not cause.sure) for k, cause in enumerate(causes, len(told))]
+    return tuple(hints[k] for k in sorted(range(len(hints)), key=ranks.__getitem__) if ranks[k] < 4)[:HINTS], kinds
 
 
 def of_alarms(run: Run) -> Iterator[Finding]:
@@ -299,12 +295,11 @@ def nearest(run: Run, place: Place | None, over: bool = False) -> tuple[int, int
         return 0, -1
     seen = np.array([1.0, 1.0, 0.0 if over and not path.lathe else 1.0])
     there, start, along = place * seen, path.start[rows] * seen, (path.end[rows] - path.start[rows]) * seen
-    squared = np.maximum((along**2).sum(axis=1), 1e-12)
-    share = np.clip(((there - start) * along).sum(axis=1) / squared, 0.0, 1.0)  # of the foot of the perpendicular
-    away = np.linalg.norm(start + share[:, None] * along - there, axis=1) + NEAR * (path.kind[rows] == Kind.RAPID)
-    k = int(np.flatnonzero(away <= away.min() + 1e-6)[-1])
+    share = np.clip(((there - start) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-12), 0.0, 1.0)
+    far = np.linalg.norm(start + share[:, None] * along - there, axis=1) + NEAR * (path.kind[rows] == Kind.RAPID)
+    k = int(np.flatnonzero(far <= far.min() + 1e-6)[-1])
     reach = NEAR + max((tool.radius for tool in run.tools_that_cut[0].values()), default=0.0)
-    return (int(path.line[rows[k]]) if away[k] <= reach else 0), int(rows[k])
+    return (int(path.line[rows[k]]) if far[k] <= reach else 0), int(rows[k])
 
 
 def _at(place: Place | None) -> str:
