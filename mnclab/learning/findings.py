@@ -290,7 +290,8 @@ def nearest(run: Run, place: Place | None, over: bool = False) -> tuple[int, int
     """The line of the row at feed that passes nearest to a place, `over` it at any height, and rapid if none at feed is nearly
     as near, 0 where it has nothing to do with it, and this row, -1 without one; the last of some as near; an arc is its chord."""
     path = run.toolpath
-    rows = np.flatnonzero(path.is_motion & (over | (path.kind != Kind.RAPID)) & (path.program == 0))
+    across = path.lathe | (path.start != path.end)[:, :2].any(axis=1)  # a retract is no way to a place
+    rows = np.flatnonzero(path.is_motion & (path.program == 0) & ((path.kind != Kind.RAPID) | (across & over)))
     if place is None or not len(rows):
         return 0, -1
     seen = np.array([1.0, 1.0, 0.0 if over and not path.lathe else 1.0])
