@@ -146,7 +146,9 @@ def of_part(difference: Any, run: Run, had: Mapping[Any, bool], before: int) -> 
     point that is not where the drawing has it is told alone: all else follows from it.
     """
     if off := list(_of_zero(difference)):
-        yield from off
+        steps = [step for step, _ in run.history.changed("frame datum")][:0:-1]
+        causes = (Cause(int(run.lines()[step]), "the zero point is set in this block", True) for step in steps)
+        yield off[0]._replace(causes=tuple(causes))
         return
     named: dict[tuple[str, str], list[Any]] = {}
     begun = set()
@@ -329,6 +331,8 @@ def of_threads(design: Any, run: Run, tolerance: float) -> Iterator[Finding]:
     for name, thread in zip(design.drawn_names(), design.features) if hasattr(design, "profile") else ():
         if thread.kind != "thread" or (found := passes_of(path, thread)) is None:
             continue  # said by its measures
+        own = tuple(Cause(int(path.line[row]), f"{name}: this pass is the {said}", True)
+                    for row, said in ((found.deepest, "deepest"), (found.rows[-1], "last")))  # fmt: skip
         for row, pitch in zip(found.rows, found.pitch):
             if abs(pitch - thread.pitch) > EXACT:
                 told = f"{name}: its pitch is not as drawn"
@@ -337,11 +341,11 @@ def of_threads(design: Any, run: Run, tolerance: float) -> Iterator[Finding]:
             told = f"{name}: a pass does not run in the groove of the others"
             moved = np.flatnonzero(path.start[:row, 2] != path.end[:row, 2])  # what brought it where it begins
             line = int(path.line[moved[-1] if len(moved) else row])
-            yield Finding(PART, f"{name} begins", line, (told, f"{told}: where along Z does it begin?"), _start(path, row))
+            yield Finding(PART, f"{name} begins", line, (told, f"{told}: where along Z does it begin?"), _start(path, row), own)
         if (shallow := found.shallow(thread)) > tolerance:
             told, row = f"{name}: its depth is not as drawn", found.deepest
             sized = f"{name}: its depth is {shallow:.3f} mm too shallow"
-            yield Finding(PART, f"{name} depth", int(path.line[row]), (told, sized), _start(path, row))
+            yield Finding(PART, f"{name} depth", int(path.line[row]), (told, sized), _start(path, row), own)
 
 
 def _start(path: Any, row: int) -> Place:

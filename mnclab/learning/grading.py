@@ -77,7 +77,9 @@ def beside(exercise: Exercise, findings: list[Finding], run: Run, text: str) -> 
     """Findings of a run: where tables are the answer, at the table they come from; their own line is that of the program."""
     if exercise.answer != "setup":
         return findings
-    return [each._replace(line=_table(text, each, run), causes=(), steps=tuple(_beside(step, each.line) for step in each.steps))
+    causes = (Cause(_table(text, Finding(STOPPED, ZERO, 0, ()), run), "or is it a zero point of this table?", True),)
+    return [each._replace(line=_table(text, each, run), steps=tuple(_beside(step, each.line) for step in each.steps),
+                          causes=causes)
             for each in findings]  # fmt: skip
 
 
