@@ -73,7 +73,7 @@ def of_alarm(run: Run, said: str, line: int) -> Iterator[Cause]:
     if "spindle" in said:
         lacks = "speed S" if run.history.value("turning", len(run.steps.block) - 1) else "direction, as M3"
         yield Cause(spindle_line(run), f"no block up to this one gives the spindle a {lacks}", True)
-    if not run.toolpath.tool.any():
+    if "tool" in said and not run.toolpath.tool.any():  # not every control has a word for it
         yield Cause(first_move(run) or code[0][0], "no tool is called before this block", True)
 
 

@@ -146,7 +146,8 @@ def of_part(difference: Any, run: Run, had: Mapping[Any, bool], before: int) -> 
     point that is not where the drawing has it is told alone: all else follows from it.
     """
     if off := list(_of_zero(difference)):
-        steps = [step for step, _ in run.history.changed("frame datum")][:0:-1]
+        names = [name for name in run.history if name.startswith(("datums ", "presets ", "frame datum"))]
+        steps = sorted({step for name in names for step, _ in run.history.changed(name) if step > 0})
         causes = (Cause(int(run.lines()[step]), "the zero point is set in this block", True) for step in steps)
         yield off[0]._replace(causes=tuple(causes))
         return
