@@ -50,7 +50,7 @@ def cleared(exercise: Exercise, text: str, tried: Mapping[str, int]) -> Grade:
     for name, most in exercise.asked.strategy.items():
         if have[name] > most * (1 + 1e-9):
             told = f"{SAID[name]} more than {most:g} {UNITS[name]}"
-            line = span.line if (span := file.place_of("strategy")) else 0
+            line = span.line if (span := file.place_of(name) or file.place_of("strategy")) else 0
             findings.append(Finding(ASKED, name, line, (told, f"{told}: {have[name]:.4g}")))
     marks = {"part": float(not any(each.rank == PART for each in findings)),
              "asked": 1 - sum(each.rank == ASKED for each in findings) / max(1, len(exercise.asked.strategy))}  # fmt: skip
