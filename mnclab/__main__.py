@@ -203,7 +203,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--exercise", metavar="ID", help="default: the name of the file, mnc-03 of mnc-03.mnc")
     sub.add_argument("--json", action="store_true", help="score, passed, points and hints on stdout, of a folder a list")
     sub.add_argument("--csv", nargs="?", const="", metavar="OUT.csv", help="of a folder: the table, to a file or to stdout")
-    sub.add_argument("--exercises", metavar="PATH", help="of a folder: a file of an exercise of your own, or a folder of such")
+    sub.add_argument("--exercises", metavar="PATH", help="a file of an exercise of your own, or a folder of such")
     says = "of a folder: the drawing of each pupil has the dimensions that the name of the folder draws"
     sub.add_argument("--neighbours", action="store_true", help=says)
     sub.add_argument("--html", metavar="OUT.html", help="of a folder: the page of the class")

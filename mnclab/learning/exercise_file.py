@@ -145,7 +145,7 @@ def _unsealed(text: Any) -> dict[str, Any]:
     try:
         packed = base64.b64decode(text, validate=True)
         return dict(table_of(zlib.decompressobj().decompress(packed, MOST_SEALED).decode())["setup"])
-    except (TypeError, ValueError, KeyError, zlib.error):
+    except (Alarm, TypeError, ValueError, KeyError, zlib.error):
         raise Alarm("what is sealed was changed", hint="ask for the file anew") from None
 
 

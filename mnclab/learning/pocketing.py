@@ -6,14 +6,13 @@ from collections.abc import Mapping
 
 from mnclab.comparison.strategies import compare
 from mnclab.geometry.regions import Region
-from mnclab.learning.answered import table_of_text
 from mnclab.learning.exercise import Exercise
 from mnclab.learning.findings import ASKED, PART, Finding, hints_of
 from mnclab.learning.grade import Grade
 from mnclab.learning.grading import headings, score
 from mnclab.machining.milling.strategies import STRATEGIES
 from mnclab.text.alarm import Alarm
-from mnclab.text.file import File
+from mnclab.text.file import File, table_of
 from mnclab.text.given import check_number, choice, shown, whole
 
 KNOWN = ("strategy", "stepover", "tool", "feed")
@@ -26,7 +25,7 @@ UNITS = {"engagement": "degrees", "time": "s", "lifts": "times", "feed": "mm/min
 def cleared(exercise: Exercise, text: str, tried: Mapping[str, int]) -> Grade:
     """The grade of a strategy, written `strategy = "rings"`, `stepover = 2.5`, `tool = 1`, `feed = 500`."""
     file = File(f"{exercise.id}.toml", text)
-    table = table_of_text(text, file)
+    table = table_of(text)
     for name in table:
         if name not in KNOWN:
             raise Alarm(f"an answer has no {shown(name)}", file.place_of(name), hint=f"it has {', '.join(KNOWN)}")
