@@ -31,7 +31,6 @@ from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, USAGE, describe, pro
 from mnclab.shell.timing import time
 from mnclab.show.export import BODIES
 from mnclab.text.alarm import Alarm
-from mnclab.text.opening import opened
 
 SUFFIXES = (
     "svg, pdf, png (pictures); html (the player); csv, json (the moves); dxf; ngc (plain blocks); stl, gltf, glb, vtk"
@@ -334,14 +333,7 @@ def verdict(result: mnclab.Run, quiet: bool = False) -> int:
 
 
 def explain(chosen: argparse.Namespace) -> int:
-    """Print what a code means, or what the file of a design looks like."""
-    if chosen.code == ["exercise"]:
-        print(opened("mnclab.learning.exercise_file", "FORMAT"), end="")
-        return CLEAN
-    if chosen.code == ["design"]:
-        milled, turned = (opened(f"mnclab.design.model.{file}", "FORMAT") for file in ("design_file", "turned_file"))
-        print(f"a milled part:\n\n{milled}\na turned part:\n\n{turned}", end="")
-        return CLEAN
+    """Print what a code means, or what the file of an exercise or of a design looks like."""
     print(sensible(mnclab.help, " ".join(chosen.code), chosen.control))
     return CLEAN
 

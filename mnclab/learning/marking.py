@@ -43,7 +43,7 @@ COMMON = 8  # faults that the page of a class names
 
 
 class Mark(NamedTuple):
-    """The grade of one answer of one pupil; `refused` says why an answer was not graded: it may not be one, but as it was given."""
+    """The grade of one answer of one pupil; `refused` says why it was not graded, or that it is none."""
 
     pupil: str
     exercise: str
@@ -91,8 +91,8 @@ def mark(
         check_number(whole(jobs, "jobs"), "jobs", at_least=1)
     answers, known = list(_answers(Path(folder))), files() | files_of_house() | own(exercises)
     if not any(name in known for _, name, _ in answers):
-        told = "a folder a pupil, files such as ivanov/mnc-03.mnc; exercises of your own are named: --exercises mine.toml"
-        raise Alarm(f"there is no answer in {folder}", hint=told)
+        way = "a folder a pupil, files such as ivanov/mnc-03.mnc; exercises of your own are named: --exercises mine.toml"
+        raise Alarm(f"there is no answer in {folder}", hint=way)
     idle: SimpleQueue[_Grader] = SimpleQueue()
     graders = [_Grader() for _ in range(min(len(answers), jobs or os.cpu_count() or 1))]
     for each in graders:
@@ -109,10 +109,10 @@ def mark(
             idle.put(grader)
 
     try:
-        marks = []
+        marks: list[Mark] = []
         with ThreadPoolExecutor(len(graders)) as threads:
-            for each in threads.map(one, answers):
-                marks.append(each)
+            for found in threads.map(one, answers):
+                marks.append(found)
                 if told is not None:
                     told(len(marks), len(answers))
         return Marks(marks)
@@ -265,7 +265,8 @@ def class_page(marks: Marks, title: str, exercises: str | Path | None = None) ->
     by = {(each.pupil, each.exercise): each for each in answers}
     pupils = dict.fromkeys(each.pupil for each in marks)
     rows = [(pupil, *(_cell(by.get((pupil, name))) for name in names)) for pupil in pupils]
-    body = f"{ACROSS}<h1>{escape(title)}</h1><p>Marks of 100; ✓ passed, with all of them where no number stands; – not handed in.</p>"
+    signs = "Marks of 100; ✓ passed, with all of them where no number stands; – not handed in."
+    body = f"{ACROSS}<h1>{escape(title)}</h1><p>{signs}</p>"
     body += f'<div class="across">{html_table(("", *names), rows)}</div>'
     common = Counter((each.exercise, fault) for each in answers for fault in set(each.faults)).most_common(COMMON)
     again = [(found.lesson, f"{name}: {found.title}", f"{passed} of {tried}") for name, passed, tried in _again(answers)
