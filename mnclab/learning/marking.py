@@ -254,8 +254,9 @@ def _graded(path: str, name: str, pupil: str) -> dict[str, Any]:
 
 
 #: Names of exercises stand upright, so that a whole course fits on a screen; a long name of a pupil takes a second line.
-ACROSS = """<style>body{max-width:none}.across{overflow-x:auto}.across th,.across td{padding:.15em .3em}
-.across th+th{writing-mode:vertical-rl;white-space:nowrap!important}.across td:first-child{min-width:11em}</style>"""
+ACROSS = """<style>body{max-width:none}.across{overflow-x:auto;font-size:13px}.across th,.across td{padding:.15em .25em}
+.across th+th,.across td+td{white-space:nowrap!important}.across th+th{writing-mode:vertical-rl}
+.across td:first-child{min-width:13em}</style>"""
 
 
 def class_page(marks: Marks, title: str, exercises: str | Path | None = None) -> str:
@@ -285,7 +286,7 @@ def class_page(marks: Marks, title: str, exercises: str | Path | None = None) ->
 def _cell(found: Mark | None) -> str:
     if found is None:
         return "–"
-    return "✓" if found.passed and found.score == 1 else f"{'✓ ' if found.passed else ''}{100 * found.score:.0f}"
+    return "✓" if found.passed and found.score == 1 else f"{'✓' if found.passed else ''}{100 * found.score:.0f}"
 
 
 def _again(answers: Sequence[Mark]) -> list[tuple[str, int, int]]:
