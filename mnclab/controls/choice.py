@@ -182,14 +182,16 @@ PAGES = {
 
 
 class Help:
-    """What a code or a setting means on a control, or all its codes: shown as text or as a table."""
+    """What a code or a setting means on a control, all its codes, or a page for every control: shown as text or as a table."""
 
-    def __init__(self, entry: Function | type[Cycle] | tuple[Setting, ...] | Control, control: Control) -> None:
+    def __init__(self, entry: Function | type[Cycle] | tuple[Setting, ...] | Control | str, control: Control) -> None:
         self.entry, self.control = entry, control
         self._iso = [name for name, known in control.names.items() if known == getattr(entry, "code", None)]
 
     def __str__(self) -> str:
         entry = self.entry
+        if isinstance(entry, str):
+            return entry
         if isinstance(entry, Control):
             rows = [(code, one.title) for code, one in entry.listed.items()]
             rows += [(code, cycle.title) for code, cycle in entry.cycles.items()]
@@ -211,25 +213,10 @@ class Help:
             return self.entry._repr_html_()
         if isinstance(self.entry, tuple):
             return settings_html(self.entry)
-        if isinstance(self.entry, Function):
+        if isinstance(self.entry, Function | str):
             return f"<pre>{escape(str(self))}</pre>"
         iso = ", ".join(f"<code>{name}</code>" for name in self._iso)
         return help_html(self.entry) + (f"<p>DIN/ISO {iso}</p>" if iso else "")
-
-
-class Page(Help):
-    """What a file that a user writes looks like."""
-
-    def __init__(self, text: str) -> None:
-        self.text = text
-
-    def __str__(self) -> str:
-        return self.text
-
-    __repr__ = __str__
-
-    def _repr_html_(self) -> str:
-        return f"<pre>{escape(self.text)}</pre>"
 
 
 @fitting
@@ -243,7 +230,8 @@ def help(code: str | Control = "", control: str | None = None) -> Help:
     if not isinstance(code, str):
         raise Alarm(f"help is about a code or a setting, got {shown(code)}", hint='mnclab.help("G83", "mnc")')
     if control is None and code in PAGES:
-        return Page("".join(head + opened(file, "FORMAT") for head, file in PAGES[code]).rstrip())
+        text = "".join(head + opened(file, "FORMAT") for head, file in PAGES[code])
+        return Help(text.rstrip(), next(iter(CONTROLS.values())))
     if control is None and code in CONTROLS:
         return Help(CONTROLS[code], CONTROLS[code])
     chosen = choose(control, "", "") if control is not None else _only_one_with(code)
