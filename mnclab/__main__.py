@@ -32,7 +32,6 @@ from mnclab.shell.sending import send
 from mnclab.shell.timing import time
 from mnclab.show.export import BODIES
 from mnclab.text.alarm import Alarm
-from mnclab.text.opening import opened
 
 SUFFIXES = (
     "svg, pdf, png (pictures); html (the player); csv, json (the moves); dxf; ngc (plain blocks); stl, gltf, glb, vtk"
@@ -204,7 +203,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--exercise", metavar="ID", help="default: the name of the file, mnc-03 of mnc-03.mnc")
     sub.add_argument("--json", action="store_true", help="score, passed, points and hints on stdout, of a folder a list")
     sub.add_argument("--csv", nargs="?", const="", metavar="OUT.csv", help="of a folder: the table, to a file or to stdout")
-    sub.add_argument("--exercises", metavar="PATH", help="of a folder: a file of an exercise of your own, or a folder of such")
+    sub.add_argument("--exercises", metavar="PATH", help="a file of an exercise of your own, or a folder of such")
     says = "of a folder: the drawing of each pupil has the dimensions that the name of the folder draws"
     sub.add_argument("--neighbours", action="store_true", help=says)
     sub.add_argument("--html", metavar="OUT.html", help="of a folder: the page of the class")
@@ -340,14 +339,7 @@ def verdict(result: mnclab.Run, quiet: bool = False) -> int:
 
 
 def explain(chosen: argparse.Namespace) -> int:
-    """Print what a code means, or what the file of a design looks like."""
-    if chosen.code == ["exercise"]:
-        print(opened("mnclab.learning.exercise_file", "FORMAT"), end="")
-        return CLEAN
-    if chosen.code == ["design"]:
-        milled, turned = (opened(f"mnclab.design.model.{file}", "FORMAT") for file in ("design_file", "turned_file"))
-        print(f"a milled part:\n\n{milled}\na turned part:\n\n{turned}", end="")
-        return CLEAN
+    """Print what a code means, or what the file of an exercise or of a design looks like."""
     print(sensible(mnclab.help, " ".join(chosen.code), chosen.control))
     return CLEAN
 

@@ -4,6 +4,7 @@ import json
 
 import mnclab
 from mnclab.learning.answers import answers_of
+from mnclab.learning.marking import Mark, Marks, class_page
 
 NAME = "mnc-07"
 MODEL = answers_of(mnclab.exercise(NAME).file).model
@@ -41,3 +42,15 @@ def test_an_exercise_is_failed_mended_passed_and_begun_anew(run_cells, lab):
     kept.unlink()
     page = run_cells("import mnclab as mnc", "mnc.progress()")
     page.locator(".mnclab-map", has_text=f"{NAME} ○").wait_for(timeout=60_000)
+
+
+def test_a_class_of_thirty_is_seen_at_once(browser, tmp_path):
+    names = [each.id for each in mnclab.exercises("tnc-620")][:31]
+    marks = (Mark(f"Pupil {k} Longname-Surname", name, 0.93, k % 2 == 0) for k in range(30) for name in names)
+    (tmp_path / "class.html").write_text(class_page(Marks(marks), "9 b"), "utf-8")
+    page = browser.new_page(viewport={"width": 1366, "height": 768})
+    page.goto((tmp_path / "class.html").as_uri())
+    wide = page.evaluate("document.querySelector('.across').scrollWidth")
+    heights = page.evaluate("[...document.querySelectorAll('.across tr')].map(row => row.offsetHeight)")
+    assert wide <= 1366 and max(heights[1:]) < 32 and sum(heights[:20]) < 768  # a line each
+    page.close()
