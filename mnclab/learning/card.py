@@ -5,7 +5,6 @@ from __future__ import annotations
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from mnclab.learning.answers import answers_of
 from mnclab.learning.exercise import Exercise
 from mnclab.machine.setup import place
 from mnclab.path.listing import figure
@@ -131,21 +130,6 @@ def grade_card(grade: Grade, differs: bool = True) -> str:
         where = drawn.html()
     hints = f"<ol>{hints}</ol>" if hints else ""
     return f'<div class="mnclab-grade" style="line-height:1.35">{head} ({points}){hints}{where}</div>'
-
-
-def answers(exercise: Exercise) -> str:
-    """What only a teacher reads: a right answer or two, why, and what usually goes wrong. An Alarm for a pupils' copy."""
-    found = answers_of(exercise.file)
-    lines = found.model.split("\n")
-    right = (("A right answer", found.model), ("Another one", found.other))
-    model = "".join(f"<h4>{head}</h4><pre>{escape(each.strip())}</pre>" for head, each in right if each)
-    why = f"<h4>{escape(exercise.why)}</h4><p>{escape(found.why)}</p>" if exercise.why else ""
-    wrong = "".join(
-        f"<li><code>{escape(lines[k - 1])}</code> becomes <code>{escape(new) or '(left out)'}</code>; "
-        f"the hint says: {escape(fault.hint)}</li>"
-        for fault in found.faults for k, new in fault.edits.items()
-    )  # fmt: skip
-    return f"{model}{why}<h4>What usually goes wrong</h4><ul>{wrong}</ul>"
 
 
 PAGE = """<!DOCTYPE html>

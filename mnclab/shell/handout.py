@@ -96,9 +96,24 @@ def page(found: Mapping[str, Path], answers: bool = False) -> str:
 
 def teachers(lesson: str) -> str:
     """The graded exercises of a lesson, each with its card, its answers and what usually goes wrong."""
-    card, answers = (opened("mnclab.learning.card", name) for name in ("card", "answers"))
+    card = opened("mnclab.learning.card", "card")
     each = opened("mnclab.learning.exercise", "exercises")(lesson=lesson)
     return "<h2>For the teacher</h2>" + "".join(f"<section>{card(one)}{answers(one)}</section>" for one in each)
+
+
+def answers(exercise: Any) -> str:
+    """What only a teacher reads: a right answer or two, why, and what usually goes wrong. An Alarm for a pupils' copy."""
+    found = opened("mnclab.learning.answers", "answers_of")(exercise.file)
+    lines = found.model.split("\n")
+    right = (("A right answer", found.model), ("Another one", found.other))
+    model = "".join(f"<h4>{head}</h4><pre>{escape(each.strip())}</pre>" for head, each in right if each)
+    why = f"<h4>{escape(exercise.why)}</h4><p>{escape(found.why)}</p>" if exercise.why else ""
+    wrong = "".join(
+        f"<li><code>{escape(lines[k - 1])}</code> becomes <code>{escape(new) or '(left out)'}</code>; "
+        f"the hint says: {escape(fault.hint)}</li>"
+        for fault in found.faults for k, new in fault.edits.items()
+    )  # fmt: skip
+    return f"{model}{why}<h4>What usually goes wrong</h4><ul>{wrong}</ul>"
 
 
 WHO = '<p class="who"><span>name</span><span>group</span><span>date</span></p>'

@@ -483,8 +483,7 @@ def test_a_teachers_slip_is_named_at_its_line(tmp_path, change, says):
 
 
 def test_the_teachers_pages_have_answers_and_usual_faults_of_a_lessons_exercises(tmp_path):
-    from mnclab.learning.card import answers
-    from mnclab.shell.handout import teachers
+    from mnclab.shell.handout import answers, teachers
 
     page = unescape(teachers("05"))
     for each in mnclab.exercises(lesson="05"):
