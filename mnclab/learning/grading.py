@@ -134,6 +134,7 @@ def of_run(exercise: Exercise, run: Run, tried: Mapping[str, int], text: str = "
     wanted = wishes(exercise)
     marks["asked"] = 1 - len({each.kind for each in asked}) / wanted if wanted else 1.0
     marks["economy"], slow = economy(exercise, run)
+    marks["economy"] *= marks.get("part", 1.0)  # half a part is made quickly
     whole = difference is None or (not threads and all(row.ok for row in difference.features))
     if whole and not danger:
         findings += slow
@@ -155,14 +156,15 @@ def score(exercise: Exercise, points: Mapping[str, float]) -> float:
 
 @cache
 def blank_as_drawn(exercise: Exercise) -> dict[tuple[str, str, str], bool]:
-    """The measures (side, feature, name) of the drawing that the blank has before anything is cut, and whether it has them."""
+    """The measures (side, feature, name) of the drawing that are there before the answer cuts, and whether they are as drawn."""
     from mnclab.workpiece.cutting import Cutting
     from mnclab.workpiece.milling.milled import Milled
     from mnclab.workpiece.turning.turned import Turned
 
     stock = exercise.design.blank if exercise.design.blank is not None else exercise.setup.stock
     lathe = hasattr(exercise.design, "profile")
-    part = (Turned if lathe else Milled)(Cutting.of_nothing(stock, lathe))
+    before = Cutting.of_nothing(stock, lathe) if exercise.until is None else before_of(exercise)
+    part = (Turned if lathe else Milled)(before)
     return {key_of(row): row.ok for row in part.compare(exercise.design, exercise.tolerance).features}
 
 

@@ -7,7 +7,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -23,7 +22,6 @@ from mnclab.learning.card import page
 from mnclab.learning.exercise import exercise, files, files_of_house
 from mnclab.learning.grading import text_of
 from mnclab.text.alarm import Alarm
-from mnclab.text.file import replaced
 from mnclab.text.given import check_number, fitting, shown, whole
 from mnclab.text.tables import Rows, html_table
 
@@ -38,7 +36,6 @@ SLOW_TO_OPEN = (
 UNKNOWN = "its name is not that of an exercise, such as mnc-03.mnc"
 UNTOUCHED = "not handed in: it is as it was given"
 BESIDE = (".toml", ".html", ".json")  # files that are no answers
-SAYING = 5.0  # s between two lines that say how far it is
 COMMON = 8  # faults that the page of a class names
 
 
@@ -295,30 +292,3 @@ def _again(answers: Sequence[Mark]) -> list[tuple[str, int, int]]:
     passed = Counter(each.exercise for each in answers if each.passed)
     few = [(name, passed[name], tries) for name, tries in tried.items() if 2 * passed[name] < tries]
     return sorted(few, key=lambda each: (each[1] / each[2], -each[2], each[0]))
-
-
-def mark_from_shell(folder: Path, chosen: Any) -> int:
-    """Grade a class as the command line says; status 1 where an answer has not passed."""
-    if chosen.json and chosen.csv == "":
-        raise Alarm("only one of --csv and --json goes to stdout", hint="write the table to a file: --csv OUT.csv")
-    said = time.monotonic()
-
-    def told(done: int, of: int) -> None:
-        nonlocal said
-        if time.monotonic() > said + SAYING:
-            said = time.monotonic()
-            print(f"mnclab: graded {done} of {of}", file=sys.stderr)
-
-    marks = mark(folder, neighbours=chosen.neighbours, exercises=chosen.exercises, told=told)
-    if chosen.html:
-        with replaced(chosen.html) as beside:
-            beside.write_text(class_page(marks, folder.resolve().name, chosen.exercises), encoding="utf-8")
-    if chosen.csv:
-        marks.save(chosen.csv)
-    if chosen.json:
-        print(json.dumps(marks.as_dicts(), ensure_ascii=False))
-    elif chosen.csv == "":
-        print(marks.csv(), end="")
-    elif chosen.csv is None and not chosen.html:
-        print(marks)
-    return 0 if all(each.passed for each in marks if each.handed_in) else 1

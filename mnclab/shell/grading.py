@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
+import time
 from pathlib import Path
 from typing import Any
 
 from mnclab.shell.saying import ALARMS, CLEAN, program, sensible
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import replaced
 from mnclab.text.opening import opened
+
+SAYING = 5.0  # s between two lines that say how far it is
 
 
 def exercise(chosen: argparse.Namespace) -> int:
@@ -65,9 +70,37 @@ def grade(chosen: argparse.Namespace) -> int:
     """Grade a program, or the folders of a class; status 1 where one has not passed."""
     path = program(chosen.file)
     if path.is_dir():
-        return int(opened("mnclab.learning.marking", "mark_from_shell")(path, chosen))
+        return _class(path, chosen)
     name = chosen.exercise or path.stem
     own = sensible(opened("mnclab.learning.marking", "own"), chosen.exercises)
     found = sensible(opened("mnclab.learning.exercise", "exercise"), own.get(name.lower(), name)).check(path)
     print(json.dumps(found.as_dict(), allow_nan=False) if chosen.json else found)
     return CLEAN if found.passed else ALARMS
+
+
+def _class(folder: Path, chosen: argparse.Namespace) -> int:
+    """Grade a class as the command line says; status 1 where an answer has not passed."""
+    if chosen.json and chosen.csv == "":
+        raise Alarm("only one of --csv and --json goes to stdout", hint="write the table to a file: --csv OUT.csv")
+    mark, class_page = (opened("mnclab.learning.marking", name) for name in ("mark", "class_page"))
+    said = time.monotonic()
+
+    def told(done: int, of: int) -> None:
+        nonlocal said
+        if time.monotonic() > said + SAYING:
+            said = time.monotonic()
+            print(f"mnclab: graded {done} of {of}", file=sys.stderr)
+
+    marks = mark(folder, neighbours=chosen.neighbours, exercises=chosen.exercises, told=told)
+    if chosen.html:
+        with replaced(chosen.html) as beside:
+            beside.write_text(class_page(marks, folder.resolve().name, chosen.exercises), encoding="utf-8")
+    if chosen.csv:
+        marks.save(chosen.csv)
+    if chosen.json:
+        print(json.dumps(marks.as_dicts(), ensure_ascii=False))
+    elif chosen.csv == "":
+        print(marks.csv(), end="")
+    elif chosen.csv is None and not chosen.html:
+        print(marks)
+    return CLEAN if all(each.passed for each in marks if each.handed_in) else ALARMS
