@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mnclab.design.difference.threads import EXACT, passes_of
-from mnclab.learning.causes import Cause, first_move, of_alarm, of_row, spindle_line
 from mnclab.learning.grade import HINTS, Hint
 from mnclab.path.toolpath import Kind
+from mnclab.runs.causes import Cause, first_move, of_alarm, of_row, spindle_line
 from mnclab.runs.material import cutting_of
 from mnclab.runs.run import Run
 from mnclab.workpiece.collision import KINDS, Collisions
@@ -197,6 +197,8 @@ def _of_feature(feature: str, rows: list[Any], run: Run, before: int, begun: boo
     if not line:
         line, near = nearest(run, there)
     causes = tuple(of_row(run, near, [there, *(each.place for each in rows)], _axis(row, run))) if near >= 0 else ()
+    if row.deviation > 0:  # something is left: another block may have been to take it
+        causes = (*causes[:1], Cause(nearest(run, there, but=line)[0], "this block passes there too"), *causes[1:])
     why = _why(row, run, before, line)
     if row.feature == "blank" or row.measure == "form":
         gone = row.deviation < 0
@@ -289,12 +291,14 @@ def _unit(measure: str) -> str:
 NEAR = 1.0  # mm, beyond the largest tool: a row that is farther away has nothing to do with a place
 
 
-def nearest(run: Run, place: Place | None, over: bool = False) -> tuple[int, int]:
+def nearest(run: Run, place: Place | None, over: bool = False, but: int = 0) -> tuple[int, int]:
     """The line of the row at feed that passes nearest to a place, `over` it at any height, and rapid if none at feed is nearly
-    as near, 0 where it has nothing to do with it, and this row, -1 without one; the last of some as near; an arc is its chord."""
+    as near, 0 where it has nothing to do with it, and this row, -1 without one; the last of some as near; an arc is its chord.
+    Rows of the line `but` are left out."""
     path = run.toolpath
     across = path.lathe | (path.start != path.end)[:, :2].any(axis=1)  # a retract is no way to a place
-    rows = np.flatnonzero(path.is_motion & (path.program == 0) & ((path.kind != Kind.RAPID) | (across & over)))
+    cuts = (path.kind != Kind.RAPID) | (across & over)
+    rows = np.flatnonzero(path.is_motion & (path.program == 0) & (path.line != but) & cuts)
     if place is None or not len(rows):
         return 0, -1
     seen = np.array([1.0, 1.0, 0.0 if over and not path.lathe else 1.0])

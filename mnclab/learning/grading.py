@@ -16,11 +16,11 @@ import numpy as np
 
 from mnclab.learning.answered import run_of
 from mnclab.learning.asked import economy, of_asked, wishes
-from mnclab.learning.causes import Cause
 from mnclab.learning.exercise import Exercise
 from mnclab.learning.findings import STOPPED, ZERO, Finding, hints_of, of_alarms, of_danger, of_part, of_threads
 from mnclab.learning.grade import Grade
 from mnclab.learning.restarting import before_of, collisions_of, part_of
+from mnclab.runs.causes import Cause
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import decode, read
@@ -73,11 +73,15 @@ def nothing(exercise: Exercise, findings: list[Finding], tried: Mapping[str, int
     return Grade(exercise.id, 0.0, False, dict.fromkeys(headings(exercise), 0.0), hints, faults, run=run)
 
 
+TABLES = ("[datums", "[presets", "[correctors", "[tools")  # in the order in which they are looked at
+
+
 def beside(exercise: Exercise, findings: list[Finding], run: Run, text: str) -> list[Finding]:
     """Findings of a run: where tables are the answer, at the table they come from; their own line is that of the program."""
     if exercise.answer != "setup":
         return findings
-    causes = (Cause(_table(text, Finding(STOPPED, ZERO, 0, ()), run), "or is it a zero point of this table?", True),)
+    tables = [(k, row.strip()) for head in TABLES for k, row in enumerate(text.split("\n"), 1) if row.strip().startswith(head)]
+    causes = tuple(Cause(k, f"or is it a number below {row}?", True) for k, row in tables)
     return [each._replace(line=_table(text, each, run), steps=tuple(_beside(step, each.line) for step in each.steps),
                           causes=causes)
             for each in findings]  # fmt: skip

@@ -16,7 +16,11 @@ Place: TypeAlias = tuple[float, float, float]
 WORDS = re.compile(r"(?<![A-Z])(I?)([XY])\s*([-+]?\d*\.?\d+)")
 CENTRE, LABEL = re.compile(r"\bCC\b"), re.compile(r"^(?:N?\d+ +)?(?:LBL |G98 L)((?!0\b)\w+)")
 ARC = re.compile("between start and end|not on the circle|angle of the arc")
+VARIABLE = re.compile(r"(?:Q[LRS]?|#)\d+")
+FRAME = ("rotation angle", "mirror", "scaling", "tools ", "frame tilt")  # of the state: what turns or moves a path
 NEAR = re.compile(r"near \(([-\d.]+), ([-\d.]+)\)")
+OTHER = re.compile(r"\bline (\d+)")
+MISSING = re.compile(r"no feed|needs a feed|no value was given")
 END, START = re.compile(r"M0?2\b|M30\b|LBL 0|G98 L0"), re.compile(r"LBL|G98 L|END PGM")
 
 
@@ -46,6 +50,11 @@ def of_row(run: Run, row: int, places: Sequence[Place | None], first: int | str 
     yield Cause(of, "the tool passes there in this block")
     if path.label[row]:
         yield from of_contour(run, places)
+    for line, name in [*_values(run, of, step)][::-1]:  # the numbers that were typed before what was worked out of them
+        yield Cause(line, f"line {of} works with the {name} of this block", True)
+    for name in run.history:
+        if name.startswith(FRAME) and (line := line_of(run, name, step)) > 1:
+            yield Cause(line, f"line {of} works with what this block sets", True)
     names = ("cycle", "tool") if path.label[row] else ("tool",)
     told = [Cause(line_of(run, name, step), f"line {of} works with the {name} of this block", name == first) for name in names]
     if path.label[row] and first not in (0, 1) or first == "tool":
@@ -56,6 +65,17 @@ def of_row(run: Run, row: int, places: Sequence[Place | None], first: int | str 
         if len(before) and path.program[before[-1]] == 0:
             yield Cause(int(path.line[before[-1]]), f"line {of} begins at the {'XYZ'[axis]} of this block")
     yield from told
+
+
+def _values(run: Run, line: int, step: int) -> Iterator[tuple[int, str]]:
+    """Where the variables of a block got their values, those first that stand in it: line and name."""
+    code, lines, known = dict(code_of(run)), [line], set[str]()
+    for at in lines:
+        for name in VARIABLE.findall(code.get(at, "")):
+            if name not in known and (said := line_of(run, name, step)):
+                known.add(name)
+                lines.append(said)
+                yield said, name
 
 
 def of_alarm(run: Run, said: str, line: int) -> Iterator[Cause]:
@@ -69,6 +89,9 @@ def of_alarm(run: Run, said: str, line: int) -> Iterator[Cause]:
                     for axis in sorted(last, key=last.__getitem__, reverse=True))  # fmt: skip
     if near := NEAR.search(said):
         yield from of_contour(run, [(float(near[1]), float(near[2]), 0.0)])
+    yield from (Cause(int(other), f"line {line} does not go with this one", True) for other in OTHER.findall(said))
+    if MISSING.search(said):
+        yield Cause(code[0][0], f"no block from this one up to line {line} says it", True)
     yield from _of_labels(code)
     if "spindle" in said:
         lacks = "speed S" if run.history.value("turning", len(run.steps.block) - 1) else "direction, as M3"
@@ -84,16 +107,16 @@ def code_of(run: Run) -> list[tuple[int, str]]:
 
 
 def _of_labels(code: list[tuple[int, str]]) -> Iterator[Cause]:
-    """Where a label, or the end of what stands before one, is missing."""
-    within = ended = False
+    """Where a label, or the end of what stands before one, is missing behind the end of the program."""
+    behind = within = ended = False
     for k, text in code:
         label = LABEL.search(text) is not None
-        if label and (within or not ended):
+        if label and within:
             yield Cause(k, "what stands before this label has no end", True)
-        elif ended and not within and not START.search(text):
+        elif ended and not label and not START.search(text):
             yield Cause(k, "no label stands before this block, so that no program comes to it", True)
-            within = True
-        within, ended = (False, True) if END.search(text) else (within or label, ended)
+        ended = END.search(text) is not None
+        behind, within = behind or ended, not ended and (within or label and behind)
 
 
 def first_move(run: Run, rows: Any = True) -> int:
