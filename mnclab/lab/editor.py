@@ -65,7 +65,7 @@ class Document:
         found = read(self.path, self.path) if self.path.exists() else b""
         if found != self.content and not (over and found == self.told):
             self.told = found
-            raise Alarm(f"not saved: {self.path.name} was changed elsewhere since it was opened. Save again to write over it, "
+            raise Alarm(f"not saved: {self.path.name} was changed elsewhere. Save again to write over it, "
                         "or run the cell again to read it")  # fmt: skip
         content = self._encoded(text.replace("\n", self.ends))
         with replaced(self.path) as beside:
@@ -186,7 +186,7 @@ def opened(
 
 def sentence(text: str, fault: bool = False) -> str:
     """What is said beside the buttons."""
-    return f'<span role="{"alert" if fault else "status"}">{escape(text)}</span>'
+    return f'<span style="display:block;line-height:1.35" role="{"alert" if fault else "status"}">{escape(text)}</span>'
 
 
 def marked(run: Run) -> str:

@@ -58,7 +58,7 @@ def exercise_editor(found: Exercise, folder: str | Path = ".") -> Any:
     live = opened(path, found.control, found.setup, begins=found.begins, program=program)
     live.text.layout.height, live.text.layout.width = "22em", "auto"
     button = ipywidgets.Button(description="Grade", button_style="primary", tooltip="save, run, measure the part, give hints")
-    button.layout.width = live.button.layout.width = "7em"
+    button.layout = live.button.layout = {"width": "7em", "flex": "none"}
     told, part = ipywidgets.HTML(), ipywidgets.HTML()
     task, drawing = ipywidgets.HTML(card(found, drawing=False)), ipywidgets.HTML(DRAWING.submit(picture, found).result())
     pages = {"task": task, "drawing": drawing, **({"path": live.picture} if program else {}), "part": part}

@@ -28,12 +28,13 @@ def card(exercise: Exercise, drawing: bool = True) -> str:
     task = "".join(map(_paragraph, exercise.task.strip("\n").split("\n\n")))
     rows = "\n".join(f"{NUMBER.format(k)}{escape(row)}" for k, row in enumerate(exercise.program.rstrip().split("\n"), 1))
     given = f"<pre>{rows}</pre>" if exercise.program else ""
-    beside = f'<div style="display:flex;flex-wrap:wrap;gap:0 1.5em">{given}{questions(exercise)}</div>'
+    if given:  # what is asked of it stands beside it, where there is room
+        given = f'<div style="display:flex;flex-wrap:wrap;gap:0 1.5em">{given}{questions(exercise)}</div>'
     asked = "".join(f"<li>{escape(each)}</li>" for each in wanted(exercise))
     why = f"<p><em>{escape(exercise.why)}</em></p>" if exercise.why else ""
     return (
         f'<div class="mnclab-exercise" style="line-height:1.35">{head}<br>{under}{task}'
-        f"{picture(exercise) if drawing else ''}{beside}"
+        f"{picture(exercise) if drawing else ''}{given}"
         f"{machine(exercise)}{tools(exercise)}{f'<ul>{asked}</ul>' if asked else ''}{why}</div>"
     )
 
