@@ -20,25 +20,18 @@ from weakref import WeakValueDictionary
 
 from mnclab.controls.choice import choose, read_text
 from mnclab.controls.choice import run as run_text
-from mnclab.lab.forms.live import DRAWING, SIZE, live_class, verdict
+from mnclab.lab.forms.live import DRAWING, SIZE, live_class, verdict, widgets
 from mnclab.machine.setup import Setup
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import decode, read, reason, replaced
 from mnclab.text.given import fitting, shown
-from mnclab.text.opening import require
 
 FIRST = 10.0  # s for the first picture, which has none before it
 PATIENCE = 0.5  # s; work that takes longer goes on elsewhere, and what was good last stays in sight
 PAST = "mnclab-past"  # alarms of a text that was typed over
 OPENED: WeakValueDictionary[Path, Any] = WeakValueDictionary()  # a cell that is run again finds what was typed and not saved
 MARKED = 100  # faults that are underlined at most
-STYLE = (
-    "<style>.mnclab-editor textarea{font-family:monospace;font-size:13px;line-height:1.35;white-space:pre}"
-    ".mnclab-editor label{position:absolute;width:1px!important;height:1px;overflow:hidden;clip-path:inset(50%)}"
-    ".mnclab-picture .widget-html-content{min-width:0}"  # a wide picture shrinks
-    f".{PAST}{{opacity:.4}}</style>"
-)
 
 
 class Document:
@@ -98,21 +91,18 @@ def opened(
     path: Path, control: str | None, setup: Setup | None, view: str = "auto", begins: str = "", program: bool = True
 ) -> Any:
     """The same; a new file `begins` as a text, and what is no `program` is not run."""
-    require("ipywidgets", "editors")
-    require("matplotlib", "pictures")
-    import ipywidgets
-
+    ipywidgets = widgets("editors")
     document, whole = Document(path), path.absolute()
     document.text = document.text or begins
-    former, size = OPENED.get(whole), {"width": "34em", "height": "26em"}
-    known = former is not None and former.document.content == document.content
-    text = ipywidgets.Textarea(OPENED[whole].text.value if known else document.text, layout=size, continuous_update=True,
-                               description="part program" if program else "answer")  # fmt: skip
+    former = OPENED.get(whole)
+    known = former.text.value if former is not None and former.document.content == document.content else document.text
+    size, said = {"width": "34em", "height": "26em"}, "part program" if program else "answer"
+    text = ipywidgets.Textarea(known, description=said, layout=size, continuous_update=True)
     button = ipywidgets.Button(description="Save", tooltip=f"write {path}")
     picture = ipywidgets.HTML(layout={"flex": "1 1 380px", "min_width": "380px"})  # so wide at least, or below
     status, alarms = ipywidgets.HTML(), ipywidgets.HTML()
     kept = ipywidgets.Textarea(layout={"display": "none"})  # what an editor saves: a click would overtake what was typed last
-    left = ipywidgets.VBox([ipywidgets.HTML(STYLE), text, ipywidgets.HBox([button, status, kept])])
+    left = ipywidgets.VBox([text, ipywidgets.HBox([button, status, kept])])
     live: Any = live_class()([ipywidgets.HBox([left, picture], layout={"flex_flow": "row wrap"}), alarms])
     name, at_work = path.name, sentence(f"{path.name}: at work")
     live.title, live.boxes = name, {"text": text}
@@ -140,8 +130,8 @@ def opened(
             state()
 
     def state() -> None:
-        changed = text.value != document.text
-        status.value = sentence(f"{name}: {'changed' if changed else 'new' if not document.content else 'saved'}")
+        stands = "changed" if text.value != document.text else "saved" if document.content else "new"
+        status.value = sentence(f"{name}: {stands}")
 
     def work(source: str) -> None:
         if live.source != source or not program:  # typed over in the meantime

@@ -7,22 +7,13 @@ from pathlib import Path
 from typing import Any
 
 from mnclab.lab.editor import opened
-from mnclab.lab.forms.live import DRAWING
+from mnclab.lab.forms.live import DRAWING, widgets
 from mnclab.learning.answered import SUFFIXES
 from mnclab.learning.card import card, grade_card, picture
 from mnclab.learning.exercise import Exercise, exercise
 from mnclab.learning.grade import Grade
 from mnclab.learning.progress import Progress
 from mnclab.text.alarm import Alarm
-from mnclab.text.opening import require
-
-SIDE, BESIDE = {"flex": "1 1 340px", "min_width": "300px"}, {"flex": "2 1 480px", "min_width": "400px"}
-OLD = "mnclab-old"  # a grade of the text before
-STYLE = (
-    f"<style>.{OLD} .mnclab-grade>strong,.{OLD} img{{opacity:.4}} .{OLD} .mnclab-grade::before{{content:'of the text before: '}}"
-    ".mnclab-sheets .widget-html-content{min-width:0;max-height:68vh;overflow:auto}"
-    ".mnclab-drawing-box img{max-height:67vh;width:auto!important}</style>"  # the whole sheet in sight
-)
 
 
 def graded(found: Exercise, text: str) -> Grade:
@@ -50,9 +41,7 @@ def exercise_editor(found: Exercise, folder: str | Path = ".") -> Any:
     The answer is a file in the folder, `mnc-03.mnc`, with the template in it at first. The result has `text`, `grade`, the
     last one, and `check`, the button.
     """
-    require("ipywidgets", "editors")
-    import ipywidgets
-
+    ipywidgets = widgets("editors")
     program = found.answer == "program"
     path = Path(folder) / f"{found.id}{SUFFIXES[found.control] if program else '.txt'}"
     live = opened(path, found.control, found.setup, begins=found.begins, program=program)
@@ -62,11 +51,12 @@ def exercise_editor(found: Exercise, folder: str | Path = ".") -> Any:
     told, part = ipywidgets.HTML(), ipywidgets.HTML()
     task, drawing = ipywidgets.HTML(card(found, drawing=False)), ipywidgets.HTML(DRAWING.submit(picture, found).result())
     pages = {"task": task, "drawing": drawing, **({"path": live.picture} if program else {}), "part": part}
-    sheets = ipywidgets.Tab(layout=BESIDE)
-    boxes = {"task": told, "grade": button, "part": part, "drawing": drawing}
-    for name, box in boxes.items():
+    _, buttons = live.children[0].children[0].children
+    buttons.children = (live.button, button, live.status, *buttons.children[2:])
+    left, sheets = ipywidgets.VBox([live.text, buttons, told]), ipywidgets.Tab()
+    named = {"task": told, "grade": button, "part": part, "drawing": drawing, "left": left, "sheets": sheets}
+    for name, box in named.items():
         box.add_class(f"mnclab-{name}-box")
-    sheets.add_class("mnclab-sheets")
 
     def lay() -> None:
         """What is empty has no page."""
@@ -85,16 +75,13 @@ def exercise_editor(found: Exercise, folder: str | Path = ".") -> Any:
             sheets.selected_index = len(sheets.children) - 1
         age()
 
-    def age(_: Any = None) -> None:
+    def age(_: Any = None) -> None:  # a grade of the text before is dimmed
         for box in (told, part):
-            (box.remove_class if live.text.value == live.graded else box.add_class)(OLD)
+            (box.remove_class if live.text.value == live.graded else box.add_class)("mnclab-old")
 
     lay()
     button.on_click(lambda _: check(live.text.value))
     live.text.observe(age, "value")
-    style, _, buttons = live.children[0].children[0].children
-    buttons.children = (live.button, button, live.status, *buttons.children[2:])
-    left = ipywidgets.VBox([style, ipywidgets.HTML(STYLE), live.text, buttons, told], layout=SIDE)
     live.children = (ipywidgets.HBox([left, sheets], layout={"flex_flow": "row wrap"}), *live.children[1:])
     live.grade, live.graded, live.check, live.told, live.part, live.sheets = None, "", button, told, part, sheets
     live.sent["!"] = check

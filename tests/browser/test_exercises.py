@@ -103,7 +103,7 @@ def test_editor_grade_and_part_are_in_one_view_beside_the_list_of_files(run_cell
         box = page.locator(part).first.bounding_box()
         assert box["y"] > 30 and box["y"] + box["height"] < 768 - 24, part
     page.get_by_role("tab", name="drawing").click()
-    image, sheets = page.locator(".mnclab-drawing-box img").bounding_box(), page.locator(".mnclab-sheets").bounding_box()
+    image, sheets = page.locator(".mnclab-drawing-box img").bounding_box(), page.locator(".mnclab-sheets-box").bounding_box()
     assert image["x"] + image["width"] < sheets["x"] + sheets["width"] and image["height"] < 0.7 * 768
     write(page, MODEL)
     page.locator(".mnclab-task-box.mnclab-old").wait_for(timeout=10_000)  # a grade of the text before
@@ -111,7 +111,7 @@ def test_editor_grade_and_part_are_in_one_view_beside_the_list_of_files(run_cell
 
 def test_questions_stand_beside_their_program_and_nothing_is_said_of_a_control(run_cells, lab):
     page = opened(run_cells, "mnc-13", lab[1])
-    assert page.locator(".mnclab-sheets .lm-TabBar-tab").all_inner_texts() == ["task"]
+    assert page.locator(".mnclab-sheets-box .lm-TabBar-tab").all_inner_texts() == ["task"]
     page.set_viewport_size({"width": 1366 - 252, "height": 768})
     page.locator(".mnclab-live").first.evaluate("each => each.scrollIntoView({block: 'end'})")
     last = page.locator(".mnclab-exercise ol li").last.bounding_box()

@@ -174,7 +174,7 @@ def test_half_a_program_is_never_a_fault_of_python(file):
 
 def test_what_an_editor_keeps_is_saved_whatever_the_box_holds(file):
     box = mnclab.editor(str(file))
-    (kept,) = (each for each in box.children[0].children[0].children[2].children if "mnclab-kept" in each._dom_classes)
+    (kept,) = (each for each in box.children[0].children[0].children[1].children if "mnclab-kept" in each._dom_classes)
     kept.value = "=G0 X1\n"
     assert file.read_bytes() == b"G0 X1\r\n" and kept.value == ""
     kept.value = "="
@@ -183,4 +183,4 @@ def test_what_an_editor_keeps_is_saved_whatever_the_box_holds(file):
 
 def test_the_box_has_a_name_that_is_heard_and_not_seen(file):
     box = mnclab.editor(str(file))
-    assert box.text.description == "part program" and "clip-path" in box.children[0].children[0].children[0].value
+    assert box.text.description == "part program" and "clip-path" in box.children[-1].value
