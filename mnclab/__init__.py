@@ -73,6 +73,7 @@ if TYPE_CHECKING:  # what OPENED says, for editors and for mypy
     from mnclab.learning.exercise import exercises as exercises
     from mnclab.learning.marking import mark as mark
     from mnclab.learning.progress import progress as progress
+    from mnclab.path.profile.stopwatch import fit_limits as fit_limits
     from mnclab.show.plot.over_time import plot_profiles as plot_profiles
     from mnclab.show.plot.side_by_side import plot_runs as plot_runs
 
@@ -91,6 +92,7 @@ OPENED = Shelf("mnclab", "the names that need more than numpy", {
     "mnclab.learning.marking": "mark",
     "mnclab.learning.progress": "progress",
     "mnclab.lab.magic": "load_ipython_extension",
+    "mnclab.path.profile.stopwatch": "fit_limits",
     "mnclab.show.plot.over_time": "plot_profiles",
     "mnclab.show.plot.side_by_side": "plot_runs",
     "mnclab.design.model": "Design, TurnedDesign",
@@ -188,6 +190,7 @@ __all__ = [
     "editor",
     "exercise",
     "exercises",
+    "fit_limits",
     "form",
     "machines",
     "mark",

@@ -1,5 +1,5 @@
 """mnclab from a shell: check, run, renumber, plot, part, compare, drawing, report, time, help, exercise, grade,
-handout, lab.
+handout, send, lab.
 
 `python -m mnclab` is the same.
 
@@ -28,10 +28,10 @@ from mnclab.shell.grading import exercise, grade
 from mnclab.shell.handout import handout
 from mnclab.shell.lessons import lab
 from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, USAGE, describe, program, say, sensible, with_blank
+from mnclab.shell.sending import send
 from mnclab.shell.timing import time
 from mnclab.show.export import BODIES
 from mnclab.text.alarm import Alarm
-from mnclab.text.opening import opened
 
 SUFFIXES = (
     "svg, pdf, png (pictures); html (the player); csv, json (the moves); dxf; ngc (plain blocks); stl, gltf, glb, vtk"
@@ -203,7 +203,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--exercise", metavar="ID", help="default: the name of the file, mnc-03 of mnc-03.mnc")
     sub.add_argument("--json", action="store_true", help="score, passed, points and hints on stdout, of a folder a list")
     sub.add_argument("--csv", nargs="?", const="", metavar="OUT.csv", help="of a folder: the table, to a file or to stdout")
-    sub.add_argument("--exercises", metavar="PATH", help="of a folder: a file of an exercise of your own, or a folder of such")
+    sub.add_argument("--exercises", metavar="PATH", help="a file of an exercise of your own, or a folder of such")
     says = "of a folder: the drawing of each pupil has the dimensions that the name of the folder draws"
     sub.add_argument("--neighbours", action="store_true", help=says)
     sub.add_argument("--html", metavar="OUT.html", help="of a folder: the page of the class")
@@ -212,6 +212,11 @@ def parser() -> argparse.ArgumentParser:
     says = "an .html or a .pdf file (default: handout_05.html where the lesson is 05)"
     sub.add_argument("-o", "--output", metavar="OUT", help=says)
     sub.add_argument("--pdf", action="store_true", help="a PDF too, printed by Chromium")
+    sub.add_argument("--answers", action="store_true", help="for the teacher: answers of the graded exercises too")
+    sub = command("send", send, "write a program as its control takes it, with the sheets that the first run needs")
+    sub.add_argument("-o", "--output", metavar="DIR", help="the folder (default: this one)")
+    sub.add_argument("--name", help="of the program on the control (default: that of the file)")
+    options(sub)
     command("lab", lab, "open the lessons in JupyterLab, which gets all options that follow", "")
     return top
 
@@ -334,14 +339,7 @@ def verdict(result: mnclab.Run, quiet: bool = False) -> int:
 
 
 def explain(chosen: argparse.Namespace) -> int:
-    """Print what a code means, or what the file of a design looks like."""
-    if chosen.code == ["exercise"]:
-        print(opened("mnclab.learning.exercise_file", "FORMAT"), end="")
-        return CLEAN
-    if chosen.code == ["design"]:
-        milled, turned = (opened(f"mnclab.design.model.{file}", "FORMAT") for file in ("design_file", "turned_file"))
-        print(f"a milled part:\n\n{milled}\na turned part:\n\n{turned}", end="")
-        return CLEAN
+    """Print what a code means, or what the file of an exercise or of a design looks like."""
     print(sensible(mnclab.help, " ".join(chosen.code), chosen.control))
     return CLEAN
 

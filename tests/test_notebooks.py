@@ -8,6 +8,8 @@ from types import SimpleNamespace
 
 import pytest
 
+import mnclab
+
 ROOT = Path(__file__).resolve().parent.parent
 NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
 LONGEST_CELL = 8
@@ -72,3 +74,19 @@ def test_notebook_runs(path):
 def test_the_map_of_the_course_has_every_lesson():
     text = (ROOT / "notebooks" / "README.md").read_text("utf-8")
     assert sorted(re.findall(r"\]\((\w+\.ipynb)\)", text)) == [path.name for path in NOTEBOOKS]
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "notebooks" / "plans").glob("*.md")), ids=lambda path: path.stem)
+def test_a_plan_gives_no_exercise_before_its_lesson_and_own_dimensions_where_there_are_some(path):
+    rows = [line.split("|") for line in path.read_text("utf-8").splitlines() if re.match(r"\| (\d+ )?\| ", line)]
+    assert len(rows) == 36 and [row[1].strip() for row in rows[::2]] == [str(week) for week in range(1, 19)]
+    known = {each.id: each for each in mnclab.exercises()}
+    taken = set()
+    for _, _, lesson, what, given, *_ in rows:
+        assert all((path.parent / link).is_file() for link in re.findall(r"\]\(([^)]+)\)", lesson))
+        taken.update(re.findall(r"\[(\d\d)\]", lesson))
+        named = re.findall(r"`([\w-]+-\d\d)`", given)
+        early = [name for name in named if known[name].lesson not in taken]
+        assert not early, (early, [known[name].lesson for name in early])
+        own = re.findall(r"`([\w-]+-\d\d)`", what.partition("with the dimensions of each name")[0]) if "each name" in what else []
+        assert all("[vary]" in known[name].file.read_text("utf-8") for name in own), own

@@ -25,6 +25,7 @@ from mnclab.text.dialect import Notation, renumbered
 from mnclab.text.file import decode, encode_like, replaced
 from mnclab.text.file import read as read_file
 from mnclab.text.given import LARGEST, fitting, near_option, shown, whole
+from mnclab.text.opening import opened
 from mnclab.text.program import Program
 
 MOST_FILES = 1000  # of a folder, looked through for a name
@@ -172,15 +173,25 @@ def choose(control: str | None, name: str, text: str) -> Control:
     return recognise(name, text, CONTROLS)
 
 
-class Help:
-    """What a code or a setting means on a control, or all its codes: shown as text or as a table."""
+#: What help says of the files that a user writes: a heading, and the file that reads them.
+PAGES = {
+    "exercise": (("", "mnclab.learning.exercise_file"),),
+    "design": (("a milled part:\n\n", "mnclab.design.model.design_file"),
+               ("\na turned part:\n\n", "mnclab.design.model.turned_file")),
+}  # fmt: skip
 
-    def __init__(self, entry: Function | type[Cycle] | tuple[Setting, ...] | Control, control: Control) -> None:
+
+class Help:
+    """What a code or a setting means on a control, all its codes, or a page for every control: shown as text or as a table."""
+
+    def __init__(self, entry: Function | type[Cycle] | tuple[Setting, ...] | Control | str, control: Control) -> None:
         self.entry, self.control = entry, control
         self._iso = [name for name, known in control.names.items() if known == getattr(entry, "code", None)]
 
     def __str__(self) -> str:
         entry = self.entry
+        if isinstance(entry, str):
+            return entry
         if isinstance(entry, Control):
             rows = [(code, one.title) for code, one in entry.listed.items()]
             rows += [(code, cycle.title) for code, cycle in entry.cycles.items()]
@@ -202,7 +213,7 @@ class Help:
             return self.entry._repr_html_()
         if isinstance(self.entry, tuple):
             return settings_html(self.entry)
-        if isinstance(self.entry, Function):
+        if isinstance(self.entry, Function | str):
             return f"<pre>{escape(str(self))}</pre>"
         iso = ", ".join(f"<code>{name}</code>" for name in self._iso)
         return help_html(self.entry) + (f"<p>DIN/ISO {iso}</p>" if iso else "")
@@ -211,13 +222,16 @@ class Help:
 @fitting
 def help(code: str | Control = "", control: str | None = None) -> Help:
     """The parameter table of a cycle, the meaning of a function or setting; "settings" is the table of all settings, and
-    the name of a control alone the table of its codes.
+    the name of a control alone the table of its codes. Of "exercise" and "design" it shows such a file.
 
     Without `control` that of the only control which has the code. An Alarm with the nearest codes if there is none.
     """
     code = code.name if isinstance(code, Control) else code
     if not isinstance(code, str):
         raise Alarm(f"help is about a code or a setting, got {shown(code)}", hint='mnclab.help("G83", "mnc")')
+    if control is None and code in PAGES:
+        text = "".join(head + opened(file, "FORMAT") for head, file in PAGES[code])
+        return Help(text.rstrip(), next(iter(CONTROLS.values())))
     if control is None and code in CONTROLS:
         return Help(CONTROLS[code], CONTROLS[code])
     chosen = choose(control, "", "") if control is not None else _only_one_with(code)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-import tomllib
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -47,18 +45,10 @@ ANSWERED = ("tools", "datums", "presets", "correctors")
 def merged(setup: Setup, text: str, name: str) -> Setup:
     """The machine of an exercise with the tables that an answer writes, row by row."""
     file = File(f"{name}.toml", text)
-    table = table_of_text(text, file)
+    table = table_of(text)
     for key in table:
         if key not in ANSWERED:
             raise Alarm(f"an answer has no table {shown(key)}", file.place_of(key), hint=f"it has {', '.join(ANSWERED)}")
     given = setup_of(table, file)
     tables: dict[str, Any] = {name: {**(getattr(setup, name) or {}), **getattr(given, name)} for name in table}
     return replace(setup, **tables, source=None)
-
-
-def table_of_text(text: str, file: File) -> dict[str, Any]:
-    """The table that an answer writes; an Alarm at its line for what is no TOML."""
-    try:
-        return table_of(text)
-    except tomllib.TOMLDecodeError as error:
-        raise Alarm(re.sub(r" \(at .*\)", "", str(error)), file.end) from None

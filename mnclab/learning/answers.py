@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import re
-import tomllib
 import zlib
 from collections.abc import Mapping
 from contextlib import suppress
@@ -96,7 +95,7 @@ def pupils_copy(path: Path) -> str:
 
 
 def _table(text: str) -> dict[str, Any] | None:
-    with suppress(tomllib.TOMLDecodeError):
+    with suppress(Alarm):
         return table_of(text)
     return None
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from mnclab.learning.exercise import Exercise
 from mnclab.learning.findings import ASKED, SLOW, Finding
+from mnclab.path.toolpath import Kind
 from mnclab.runs.run import Run
 
 
@@ -139,8 +140,17 @@ def economy(exercise: Exercise, run: Run) -> tuple[float, list[Finding]]:
         if share > 1:
             told = {"time": "it can be quicker", "length": "the way can be shorter"}[name]
             much = f"{told}: {share - 1:.0%} over what the task states"
-            found.append(Finding(SLOW, f"economy of {name}", 0, (told, much, f"{much}; look for cuts in air and long rapids")))
+            line = _idle(run, name == "time")
+            found.append(Finding(SLOW, f"economy of {name}", line, (told, much, f"{much}; look for cuts in air and long rapids")))
     return min(marks), found
+
+
+def _idle(run: Run, at_feed: bool) -> int:
+    """The line of the longest row that takes nothing away, by the time of those at feed or the way of the rapids; 0 for none."""
+    path, cut = run.toolpath, run.removal().volumes > 0 if run.stock is not None else False
+    idle = path.is_motion & ~cut & ((path.kind == Kind.RAPID) != at_feed) & (path.program == 0)
+    wide = np.where(idle, path.lengths / (path.feed if at_feed else 1.0), 0.0)
+    return int(path.line[wide.argmax()]) if idle.any() else 0
 
 
 def length(run: Run) -> float:

@@ -8,14 +8,13 @@ from pathlib import Path
 
 from mnclab.learning.answers import Answers, answers_of, pupils_copy
 from mnclab.learning.asked import length
-from mnclab.learning.exercise import FOLDER, Exercise
+from mnclab.learning.exercise import LESSONS, Exercise
 from mnclab.learning.exercise_file import load
 from mnclab.learning.grading import ECONOMY_FROM
 from mnclab.learning.neighbours import told
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import parse
 
-LESSONS = FOLDER.parents[1] / "notebooks"
 FAULTS = 3
 LAST = 9  # tries: the whole help is told
 SLACK = 1.02  # what is stated for economy, at least, against the model's own

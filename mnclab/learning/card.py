@@ -107,6 +107,10 @@ UNITS = {"engagement": "°", "time": " s", "lifts": ""}
 def wanted(exercise: Exercise) -> list[str]:
     """What is asked for, in sentences."""
     asked, found = exercise.asked, []
+    if exercise.answer == "strategy":
+        from mnclab.machining.milling.strategies import STRATEGIES
+
+        found.append(f"strategies: {', '.join(STRATEGIES)}")
     found += [f"use {', '.join(asked.must)}"] if asked.must else []
     found += [f"do not use {', '.join(asked.must_not)}"] if asked.must_not else []
     found += [f"at most {asked.blocks} blocks"] if asked.blocks else []

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 #: Where the exercises of the house lie: a folder a control.
 FOLDER = Path(__file__).resolve().parents[2] / "data" / "exercises"
+LESSONS = FOLDER.parents[1] / "notebooks"
 
 #: Kind -> what the learner does, and what the answer is written as.
 KINDS = {

@@ -21,61 +21,8 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.file import File, as_table, as_tables, check_names, parse, table_of
 from mnclab.text.given import check_number, choice, shown, whole
 
-#: The format, as the help of the command line shows it.
-FORMAT = """\
-title = "A pocket with round corners"
-control = "mnc"
-level = 2                      # 1 to 5
-lesson = "05"                  # the lesson it belongs to
-kind = "write"                 # what the learner does: write, mend, gap, set up, cutting data, measure, restart, quicker,
-task = '''                     # strategy, predict
-Mill the pocket of the drawing with tool 1 ...'''
-tolerance = 0.05               # mm, where the drawing gives none
-why = "Why is the tool ...?"   # may be left out: a question for the lesson
-
-[asked]                        # every key may be left out
-must = ["G41"]                 # codes and keywords of blocks that are run
-must_not = ["G326"]
-blocks = 40                    # so many at most
-time = 95                      # s for full marks of economy, from level 3 on; also length, mm
-values = { Q5 = [39.9, 40.1] } # limits of variables at the end
-cutting = [{ tool = 1, vc = [90, 110], fz = [0.04, 0.06] }]  # m/min, mm a tooth; f mm a revolution; n rev/min, vf mm/min;
-                               # ap, ae mm: ap of a lathe is the mean of a pass, of a drill a peck
-cabinet = [{ kind = "drill", radius = [4, 5], angle = 118 }]  # of kind "set up": what its tools may be, a value or several
-strategy = { engagement = 80, time = 60 }                    # of a pocket: at most: degrees (of 95 % of the way), s, lifts, feed
-
-[weights]                      # of the headings; these are the usual ones
-part = 0.7
-asked = 0.2
-economy = 0.1
-
-[given]                        # template: what the answer begins as; program: what is given beside it;
-template = '''...'''           # until = 22: up to which line of the program the part was cut (restart)
-
-[vary]                         # what is another pupil's own: dimensions of features, radii and places of a turned profile;
-"pocket.length" = [46, 54, 2]  # the task must not name them; also "r 12" = [11, 13, 1], "z -30" = [-34, -28, 1]
-
-[setup]                        # as in a file of a setup (mnclab --help)
-[design]                       # as in a file of a design (mnclab help design); or design = "part.toml" at the top
-
-[[questions]]                  # of kind "predict": text, what after which line: x, y, z, tip x, tip y, tip z, feed, speed,
-                               # "tip z" is where the tip truly is, if the control is mistaken in the length
-text = "Where is the tool after line 4: X"
-what = "x"
-line = 4
-hints = ["Is line 4 absolute or incremental?"]
-
-[model]                        # the answers stand last: pupils' copies end here
-answer = '''...'''
-why = "Because ..."            # the answer to the question above
-
-[other]                        # a right answer of another make
-answer = '''...'''
-
-[[faults]]                     # three: lines of the model written anew ("" takes one away), and what the first hint must say
-edits = { 5 = "N50 G2 X..." }
-hint = "words of the hint"
-"""
+#: The format, as help shows it: an exercise that is ready.
+FORMAT = Path(__file__).with_name("example.toml").read_text("utf-8")
 
 #: What stands only in the teacher's file.
 APART = ("model", "other", "faults")
@@ -86,6 +33,7 @@ MOST_SEALED = 100_000  # bytes
 NEEDED = TOP[2:8]
 QUANTITIES = ("x", "y", "z", "tip x", "tip y", "tip z", "feed", "speed", "tool", "length", "time")
 STRATEGY = ("engagement", "time", "lifts", "feed")
+OF_STRATEGY = {"part": 0.2, "asked": 0.8, "economy": 0.0}  # any strategy clears the pocket
 TRAVEL = ((-1000.0, 1000.0),) * 3  # mm from the machine's zero, of the machine of an exercise that says nothing of it
 
 
@@ -130,6 +78,8 @@ def exercise_of(table: Mapping[str, Any], file: File, path: Path, pupil: str = "
         found["asked"] = _asked(as_table(table["asked"], "asked"), file)
     if "weights" in table:
         found["weights"] = _weights(as_table(table["weights"], "weights"), file)
+    elif found["kind"] == "strategy":
+        found["weights"] = OF_STRATEGY
     if "given" in table:
         found |= _given(as_table(table["given"], "given"), file)
     if "questions" in table:
@@ -145,7 +95,7 @@ def _unsealed(text: Any) -> dict[str, Any]:
     try:
         packed = base64.b64decode(text, validate=True)
         return dict(table_of(zlib.decompressobj().decompress(packed, MOST_SEALED).decode())["setup"])
-    except (TypeError, ValueError, KeyError, zlib.error):
+    except (Alarm, TypeError, ValueError, KeyError, zlib.error):
         raise Alarm("what is sealed was changed", hint="ask for the file anew") from None
 
 

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mnclab.design.difference.threads import EXACT, passes_of
+from mnclab.learning.causes import Cause, first_move, of_alarm, of_row, spindle_line
 from mnclab.learning.grade import HINTS, Hint
 from mnclab.path.toolpath import Kind
 from mnclab.runs.material import cutting_of
@@ -25,25 +26,37 @@ LESS_HELP = 3  # the try of the same fault from which on the next step is told
 
 
 class Finding(NamedTuple):
-    """One thing that is wrong: its `kind` (the same fault has the same), the line, where, and `steps` of help."""
+    """One thing that is wrong: its `kind` (the same fault has the same), the line, `steps` of help, where, and other lines that
+    it may come from, the likeliest first."""
 
     rank: int
     kind: str
     line: int
     steps: tuple[str, ...]
     place: Place | None = None
+    causes: tuple[Cause, ...] = ()
 
     def hint(self, tries: int) -> Hint:
         """The step of this try, from 1; the last one is given again."""
         return Hint(self.line, self.steps[min(max(0, tries - LESS_HELP + 1), len(self.steps) - 1)], self.place)
 
 
-def hints_of(findings: Iterable[Finding], tried: Mapping[str, int]) -> tuple[tuple[Hint, ...], tuple[str, ...]]:
-    """At most three hints of different kinds, and the kinds of all findings in their order."""
+def hints_of(
+    findings: Iterable[Finding], tried: Mapping[str, int], remarks: Iterable[Cause] = ()
+) -> tuple[tuple[Hint, ...], tuple[str, ...]]:
+    """At most three hints of different kinds, and the kinds of all findings in their order; where they leave room, and before
+    another hint to the same line, what else their faults may come from."""
     ordered = sorted(findings, key=lambda each: each.rank)
     first = {each.kind: each for each in reversed(ordered)}
     kinds = tuple(dict.fromkeys(each.kind for each in ordered))
-    return tuple(first[kind].hint(tried.get(kind, 0) + 1) for kind in kinds[:HINTS]), kinds
+    found = [first[kind] for kind in kinds[:HINTS]]
+    told = [each.hint(tried.get(each.kind, 0) + 1) for each in found]
+    causes = [*remarks, *(cause for each in found for cause in each.causes if cause.line)] if found else []
+    hints = [*told, *(Hint(cause.line, cause.text) for cause in causes)]
+    off = [min((abs(hint.line - each.line) for each in hints[:k]), default=9) for k, hint in enumerate(hints)]
+    ranks = [int(k > 0 and (off[k] == 0 or hint.line == 0)) for k, hint in enumerate(told)]  # a neighbour is seen anyway
+    ranks += [4 - off[k] if off[k] < 2 else 2 * (not cause.sure) for k, cause in enumerate(causes, len(told))]
+    return tuple(hints[k] for k in sorted(range(len(hints)), key=ranks.__getitem__) if ranks[k] < 4)[:HINTS], kinds
 
 
 def of_alarms(run: Run) -> Iterator[Finding]:
@@ -53,11 +66,8 @@ def of_alarms(run: Run) -> Iterator[Finding]:
             said = f"the control stops: {alarm.message}"
             more = (f"{said} ({alarm.hint})",) if alarm.hint else ()
             line = alarm.span.line if alarm.span else 0
-            yield Finding(STOPPED, f"alarm {alarm.message}", line, (said, *more))
-            ends = run.toolpath[run.toolpath.is_motion & (run.toolpath.program == 0)]
-            if re.search("between start and end|not on the circle", alarm.message) and len(ends) and line:
-                told = f"the arc of line {line} begins where this block ends"
-                yield Finding(STOPPED, "start of an arc", int(ends.line[-1]), (told,))
+            causes = tuple(of_alarm(run, alarm.message, line))
+            yield Finding(STOPPED, f"alarm {alarm.message}", line, (said, *more), causes=causes)
 
 
 #: What to look at, by the kind of a collision.
@@ -77,28 +87,26 @@ LOOK = {
 }
 
 
-def of_danger(collisions: Collisions, run: Run) -> Iterator[Finding]:
+OF_TOOL = ("sideways", "shank", "holder", "insert", "axis")  # kinds that another tool would not meet
+
+
+def of_danger(collisions: Collisions, run: Run, before: int = 0) -> Iterator[Finding]:
     """The collisions, the deepest of a kind in a line; of a still spindle at the block that last spoke of it; then feeds and end.
 
     What was not judged is no better: a tool that cannot cut, rows without one.
     """
     for each, _ in collisions.by_line:
-        line = _spindle_line(run, each.line) if each.kind == "spindle" else each.line
+        line = spindle_line(run, int(run.toolpath.step[each.row - before])) if each.kind == "spindle" else each.line
         steps = (f"{KINDS[each.kind]}", LOOK.get(each.kind, ""), each.message)
-        yield Finding(DANGER, f"collision {each.kind}", line, tuple(step for step in steps if step), each.place)
+        first = "tool" if each.kind in OF_TOOL else None
+        causes = tuple(of_row(run, each.row - before, [each.place], first)) if each.row >= before else ()
+        yield Finding(DANGER, f"collision {each.kind}", line, tuple(step for step in steps if step), each.place, causes)
     for note in collisions.notes:
         at = re.search(r":(\d+)", note.rpartition("(")[2])  # places stand last, FILE:LINE
-        yield Finding(DANGER, f"not judged {note}", int(at[1]) if at else 0, (note,))
+        line = first_move(run, run.toolpath.tool == 0) if "without a tool" in note else int(at[1]) if at else 0
+        yield Finding(DANGER, f"not judged {note}", line, (note,))
     yield from of_feeds(run)
     yield from at_the_end(run)
-
-
-def _spindle_line(run: Run, line: int) -> int:
-    """The line of the last block up to this one that changed tool, speed or direction of the spindle; else this line."""
-    steps = run.executions(line, 0)
-    told = (step for name in ("turning", "speed", "tool") for step, _ in run.history.changed(name))
-    changed = [step for step in told if len(steps) and step <= steps[0]]
-    return int(run.lines()[max(changed)]) if changed else line
 
 
 MOST_A_TURN = 2.0  # mm of an insert; a mill and a drill bear no more than their radius
@@ -131,14 +139,17 @@ def at_the_end(run: Run) -> Iterator[Finding]:
         yield Finding(DANGER, "compensation left on", line, (told, f"{told}: which word takes it back, and where?"))
 
 
-def of_part(difference: Any, run: Run, had: Mapping[Any, bool]) -> Iterator[Finding]:
+def of_part(difference: Any, run: Run, had: Mapping[Any, bool], before: int) -> Iterator[Finding]:
     """What a comparison found out of its limits, feature by feature in the order of the program; what was not cut, last.
 
     `had`: the measures (side, feature, name) that the blank has, and whether as drawn: one beside them begins a feature. A zero
     point that is not where the drawing has it is told alone: all else follows from it.
     """
     if off := list(_of_zero(difference)):
-        yield from off
+        names = [name for name in run.history if name.startswith(("datums ", "presets ", "frame datum"))]
+        steps = sorted({step for name in names for step, _ in run.history.changed(name) if step > 0})
+        causes = (Cause(int(run.lines()[step]), "the zero point is set in this block", True) for step in steps)
+        yield off[0]._replace(causes=tuple(causes))
         return
     named: dict[tuple[str, str], list[Any]] = {}
     begun = set()
@@ -147,7 +158,6 @@ def of_part(difference: Any, run: Run, had: Mapping[Any, bool]) -> Iterator[Find
             begun.add((row.side, row.feature))
         if not row.ok:
             named.setdefault((row.side, row.feature), []).append(row)
-    before = len(difference.workpiece.cutting.path) - len(run.toolpath)  # rows of a program that this one goes on with
     made = [_of_feature(key[1], rows, run, before, key in begun) for key, rows in named.items()]
     yield from sorted(made, key=lambda each: (each.line == 0, each.line))
 
@@ -179,24 +189,31 @@ def _of_feature(feature: str, rows: list[Any], run: Run, before: int, begun: boo
     if (not begun and any(each.measure != "form" for each in rows)) or without:
         what = f"something is left{_at(there)}" if partly else "nothing is cut there"
         told = f"{feature}{f', {without}' if begun else ''}: {what}"
-        line = nearest_line(run, there, over=True)
-        return Finding(PART, f"{feature} not cut", line, (told, f"{told}: which block should cut it, and how deep?"), there)
-    line = _said_by(row, line, run, before) or nearest_line(run, there)
+        line, near = nearest(run, there, over=True)
+        causes = tuple(of_row(run, near, [there])) if near >= 0 else ()
+        steps = (told, f"{told}: which block should cut it, and how deep?")
+        return Finding(PART, f"{feature} not cut", line, steps, there, causes)
+    line, near = _said_by(row, line, run, before), row.row - before
+    if not line:
+        line, near = nearest(run, there)
+    causes = tuple(of_row(run, near, [there, *(each.place for each in rows)], _axis(row, run))) if near >= 0 else ()
+    why = _why(row, run, before, line)
     if row.feature == "blank" or row.measure == "form":
         gone = row.deviation < 0
         what = "too much is cut" if gone else "something is left"
         told = f"{feature}: {what}"
         more = f"{told}: {abs(row.deviation):.3f} mm{_at(there)}"
-        return Finding(PART, f"{feature} {what}", line, (told, more, f"{more}; {_why(row, run, before, line)}"), there)
+        return Finding(PART, f"{feature} {what}", line, (told, more, f"{more}; {why}"), there, causes)
     if _drilled(row, run, before) and any(each.measure == "depth" and each.verdict == "not cut" for each in rows):
         told = f"{feature}: it is not as deep as drawn"
-        return Finding(PART, f"{feature} depth", line, (told, f"{told}: how far below its full diameter is the point?"), there)
+        steps = (told, f"{told}: how far below its full diameter is the point?")
+        return Finding(PART, f"{feature} depth", line, steps, there, causes)
     its, unit = f"{feature}: its {row.measure} is", _unit(row.measure)
     which = f" ({row.nominal:g} {unit} on the drawing)" if row.measure[-1:].isdigit() else ""  # its number is not on it
     told, sized = f"{its} not as drawn{which}", f"{its} {abs(row.deviation):.3f} {unit} too {_way(row)}{which}"
     if abs(row.deviation) > FAR:
         sized = told
-    return Finding(PART, f"{feature} {row.measure}", line, (told, sized, f"{sized}; {_why(row, run, before, line)}"), there)
+    return Finding(PART, f"{feature} {row.measure}", line, (told, sized, f"{sized}; {why}"), there, causes)
 
 
 def _untouched(row: Any) -> bool:
@@ -218,7 +235,7 @@ def _said_by(row: Any, line: int, run: Run, before: int) -> int:
         return line if row.row < 0 else 0
     if _drilled(row, run, before):
         return line
-    axis = (MILLED if np.ptp(path.end[:, 1]) else TURNED).get(row.measure.split(" ")[0])
+    axis = _axis(row, run)
     ahead = np.flatnonzero(path.is_motion[: k + 1] & (path.program[: k + 1] == 0))
     cuts = ahead[path.kind[ahead] != Kind.RAPID]
     if not len(cuts):
@@ -227,6 +244,11 @@ def _said_by(row: Any, line: int, run: Run, before: int) -> int:
     if axis is not None:
         along = along[np.abs(path.end - path.start)[along, axis] > 1e-9]
     return int(path.line[along[-1]]) if len(along) else line
+
+
+def _axis(row: Any, run: Run) -> int | None:
+    """The axis along which a measure lies, None for one of no axis."""
+    return (MILLED if np.ptp(run.toolpath.end[:, 1]) else TURNED).get(row.measure.split(" ")[0])
 
 
 def _drilled(row: Any, run: Run, before: int) -> bool:
@@ -267,24 +289,21 @@ def _unit(measure: str) -> str:
 NEAR = 1.0  # mm, beyond the largest tool: a row that is farther away has nothing to do with a place
 
 
-def nearest_line(run: Run, place: Place | None, over: bool = False) -> int:
-    """The line of the row at feed that passes nearest to a place, `over` it at any height, and rapid if none at feed does; 0
-    without one; an arc counts as its chord."""
-    return _nearest(run, place, over, rapid=False) or (_nearest(run, place, over, rapid=True) if over else 0)
-
-
-def _nearest(run: Run, place: Place | None, over: bool, rapid: bool) -> int:
+def nearest(run: Run, place: Place | None, over: bool = False) -> tuple[int, int]:
+    """The line of the row at feed that passes nearest to a place, `over` it at any height, and rapid if none at feed is nearly
+    as near, 0 where it has nothing to do with it, and this row, -1 without one; the last of some as near; an arc is its chord."""
     path = run.toolpath
-    rows = np.flatnonzero(path.is_motion & ((path.kind == Kind.RAPID) == rapid) & (path.program == 0))
+    across = path.lathe | (path.start != path.end)[:, :2].any(axis=1)  # a retract is no way to a place
+    rows = np.flatnonzero(path.is_motion & (path.program == 0) & ((path.kind != Kind.RAPID) | (across & over)))
     if place is None or not len(rows):
-        return 0
+        return 0, -1
     seen = np.array([1.0, 1.0, 0.0 if over and not path.lathe else 1.0])
     there, start, along = place * seen, path.start[rows] * seen, (path.end[rows] - path.start[rows]) * seen
-    squared = np.maximum((along**2).sum(axis=1), 1e-12)
-    share = np.clip(((there - start) * along).sum(axis=1) / squared, 0.0, 1.0)  # of the foot of the perpendicular
-    away = np.linalg.norm(start + share[:, None] * along - there, axis=1)
+    share = np.clip(((there - start) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-12), 0.0, 1.0)
+    far = np.linalg.norm(start + share[:, None] * along - there, axis=1) + NEAR * (path.kind[rows] == Kind.RAPID)
+    k = int(np.flatnonzero(far <= far.min() + 1e-6)[-1])
     reach = NEAR + max((tool.radius for tool in run.tools_that_cut[0].values()), default=0.0)
-    return int(path.line[rows[away.argmin()]]) if away.min() <= reach else 0
+    return (int(path.line[rows[k]]) if far[k] <= reach else 0), int(rows[k])
 
 
 def _at(place: Place | None) -> str:
@@ -313,6 +332,8 @@ def of_threads(design: Any, run: Run, tolerance: float) -> Iterator[Finding]:
     for name, thread in zip(design.drawn_names(), design.features) if hasattr(design, "profile") else ():
         if thread.kind != "thread" or (found := passes_of(path, thread)) is None:
             continue  # said by its measures
+        own = tuple(Cause(int(path.line[row]), f"{name}: this pass is the {said}", True)
+                    for row, said in ((found.deepest, "deepest"), (found.rows[-1], "last")))  # fmt: skip
         for row, pitch in zip(found.rows, found.pitch):
             if abs(pitch - thread.pitch) > EXACT:
                 told = f"{name}: its pitch is not as drawn"
@@ -321,11 +342,11 @@ def of_threads(design: Any, run: Run, tolerance: float) -> Iterator[Finding]:
             told = f"{name}: a pass does not run in the groove of the others"
             moved = np.flatnonzero(path.start[:row, 2] != path.end[:row, 2])  # what brought it where it begins
             line = int(path.line[moved[-1] if len(moved) else row])
-            yield Finding(PART, f"{name} begins", line, (told, f"{told}: where along Z does it begin?"), _start(path, row))
+            yield Finding(PART, f"{name} begins", line, (told, f"{told}: where along Z does it begin?"), _start(path, row), own)
         if (shallow := found.shallow(thread)) > tolerance:
             told, row = f"{name}: its depth is not as drawn", found.deepest
             sized = f"{name}: its depth is {shallow:.3f} mm too shallow"
-            yield Finding(PART, f"{name} depth", int(path.line[row]), (told, sized), _start(path, row))
+            yield Finding(PART, f"{name} depth", int(path.line[row]), (told, sized), _start(path, row), own)
 
 
 def _start(path: Any, row: int) -> Place:

@@ -16,10 +16,11 @@ import numpy as np
 
 from mnclab.learning.answered import run_of
 from mnclab.learning.asked import economy, of_asked, wishes
+from mnclab.learning.causes import Cause
 from mnclab.learning.exercise import Exercise
 from mnclab.learning.findings import STOPPED, ZERO, Finding, hints_of, of_alarms, of_danger, of_part, of_threads
 from mnclab.learning.grade import Grade
-from mnclab.learning.restarting import collisions_of, part_of
+from mnclab.learning.restarting import before_of, collisions_of, part_of
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import decode, read
@@ -76,7 +77,9 @@ def beside(exercise: Exercise, findings: list[Finding], run: Run, text: str) -> 
     """Findings of a run: where tables are the answer, at the table they come from; their own line is that of the program."""
     if exercise.answer != "setup":
         return findings
-    return [each._replace(line=_table(text, each, run), steps=tuple(_beside(step, each.line) for step in each.steps))
+    causes = (Cause(_table(text, Finding(STOPPED, ZERO, 0, ()), run), "or is it a zero point of this table?", True),)
+    return [each._replace(line=_table(text, each, run), steps=tuple(_beside(step, each.line) for step in each.steps),
+                          causes=causes)
             for each in findings]  # fmt: skip
 
 
@@ -115,12 +118,13 @@ def of_run(exercise: Exercise, run: Run, tried: Mapping[str, int], text: str = "
         told = "the program moves nothing"
         return nothing(exercise, [Finding(STOPPED, told, 0, (told,))], tried, run)
     difference, untouched, threads = None, {}, []
+    before = len(before_of(exercise)) if exercise.until is not None else 0
     if exercise.design is not None:
         difference = part_of(exercise, run).compare(exercise.design, exercise.tolerance)
         untouched = blank_as_drawn(exercise)
         threads = list(of_threads(exercise.design, run, exercise.tolerance))
-        findings += [*threads, *of_part(difference, run, untouched)]
-    danger = list(of_danger(collisions_of(exercise, run), run))
+        findings += [*threads, *of_part(difference, run, untouched, before)]
+    danger = list(of_danger(collisions_of(exercise, run), run, before))
     asked = list(of_asked(exercise, run))
     findings += danger + asked
     marks = {"safety": 0.0 if danger else 1.0}
@@ -135,7 +139,8 @@ def of_run(exercise: Exercise, run: Run, tried: Mapping[str, int], text: str = "
         findings += slow
     points = {name: marks.get(name, 0.0) for name in headings(exercise)}
     earned = not danger and points.get("part", 1.0) > 0
-    hints, faults = hints_of(beside(exercise, findings, run, text), tried)
+    remarks = (Cause(each.span.line, each.message, True) for each in run.alarms if each.span and not each.span.program)
+    hints, faults = hints_of(beside(exercise, findings, run, text), tried, remarks if exercise.answer == "program" else ())
     measures = difference.features if difference is not None else None
     passed = earned and whole and not asked and not (slow and exercise.kind in TIMED)
     return Grade(exercise.id, earned * score(exercise, points), passed, points, hints, faults, measures, difference, run)

@@ -7,8 +7,9 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from html import escape
@@ -20,6 +21,7 @@ from typing import Any, NamedTuple
 
 from mnclab.learning.card import page
 from mnclab.learning.exercise import exercise, files, files_of_house
+from mnclab.learning.grading import text_of
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import replaced
 from mnclab.text.given import check_number, fitting, shown, whole
@@ -34,12 +36,14 @@ SLOW_TO_OPEN = (
     "mnclab.workpiece.milling.milled", "mnclab.workpiece.turning.turned", "mnclab.geometry.shapely",
 )  # fmt: skip
 UNKNOWN = "its name is not that of an exercise, such as mnc-03.mnc"
+UNTOUCHED = "not handed in: it is as it was given"
 BESIDE = (".toml", ".html", ".json")  # files that are no answers
+SAYING = 5.0  # s between two lines that say how far it is
 COMMON = 8  # faults that the page of a class names
 
 
 class Mark(NamedTuple):
-    """The grade of one answer of one pupil; `refused` says why an answer was not graded."""
+    """The grade of one answer of one pupil; `refused` says why it was not graded, or that it is none."""
 
     pupil: str
     exercise: str
@@ -48,6 +52,11 @@ class Mark(NamedTuple):
     hints: tuple[str, ...] = ()
     faults: tuple[str, ...] = ()
     refused: str = ""
+
+    @property
+    def handed_in(self) -> bool:
+        """Whether it is an answer to an exercise that somebody has worked at."""
+        return self.refused not in (UNKNOWN, UNTOUCHED)
 
 
 class Marks(Rows[Mark]):
@@ -58,7 +67,7 @@ class Marks(Rows[Mark]):
 
     def texts(self) -> list[tuple[str, ...]]:
         """What the table says, row by row."""
-        return [(each.pupil, each.exercise, f"{each.score:.0%}", "yes" if each.passed else "no",
+        return [(each.pupil, each.exercise, *((f"{each.score:.0%}", "yes" if each.passed else "no") if each.handed_in else "––"),
                  each.refused or next(iter(each.hints), "")) for each in self]  # fmt: skip
 
     def as_dicts(self) -> list[dict[str, Any]]:
@@ -67,19 +76,23 @@ class Marks(Rows[Mark]):
 
 
 @fitting
-def mark(folder: str | Path, *, neighbours: bool = False, jobs: int | None = None, exercises: str | Path | None = None) -> Marks:
+def mark(
+    folder: str | Path, *, neighbours: bool = False, jobs: int | None = None, exercises: str | Path | None = None,
+    told: Callable[[int, int], None] | None = None,
+) -> Marks:  # fmt: skip
     """Grade a folder of folders, one a pupil, whose files are called as the exercises they answer: `ivanov/mnc-03.mnc`.
 
     They are graded by the files of the house, not by copies that lie about; and by those of `exercises`, a file or a folder of
     your own. With `neighbours` each pupil's drawing has the dimensions of the name of the folder. `jobs` processes, default one
-    a core.
-    An Alarm where there is no answer.
+    a core; `told` is called with how many are graded, and of how many. A file that is empty, or as `exercise give` writes it,
+    was not handed in. An Alarm where there is no answer.
     """
     if jobs is not None:
         check_number(whole(jobs, "jobs"), "jobs", at_least=1)
-    answers, known = list(_answers(Path(folder))), files() | files_of_house() | _own(exercises)
+    answers, known = list(_answers(Path(folder))), files() | files_of_house() | own(exercises)
     if not any(name in known for _, name, _ in answers):
-        raise Alarm(f"there is no answer in {folder}", hint="a folder a pupil, files such as ivanov/mnc-03.mnc")
+        way = "a folder a pupil, files such as ivanov/mnc-03.mnc; exercises of your own are named: --exercises mine.toml"
+        raise Alarm(f"there is no answer in {folder}", hint=way)
     idle: SimpleQueue[_Grader] = SimpleQueue()
     graders = [_Grader() for _ in range(min(len(answers), jobs or os.cpu_count() or 1))]
     for each in graders:
@@ -96,14 +109,19 @@ def mark(folder: str | Path, *, neighbours: bool = False, jobs: int | None = Non
             idle.put(grader)
 
     try:
+        marks: list[Mark] = []
         with ThreadPoolExecutor(len(graders)) as threads:
-            return Marks(threads.map(one, answers))
+            for found in threads.map(one, answers):
+                marks.append(found)
+                if told is not None:
+                    told(len(marks), len(answers))
+        return Marks(marks)
     finally:
         for each in graders:
             each.end()
 
 
-def _own(exercises: str | Path | None) -> dict[str, Path]:
+def own(exercises: str | Path | None) -> dict[str, Path]:
     """The files of exercises of a teacher, by id."""
     if exercises is None:
         return {}
@@ -216,7 +234,10 @@ def _graded(path: str, name: str, pupil: str) -> dict[str, Any]:
     try:
         if counted:
             signal.setitimer(signal.ITIMER_PROF, SECONDS)
-        grade = exercise(Path(name), pupil).check(Path(path))
+        found, text = exercise(Path(name), pupil), text_of(Path(path))
+        if text.split() in ([], found.template.split()):
+            return {"refused": UNTOUCHED}
+        grade = found.check(text)
     except Alarm as alarm:
         return {"refused": alarm.message.replace(path, Path(path).name)}
     except MemoryError:
@@ -232,52 +253,72 @@ def _graded(path: str, name: str, pupil: str) -> dict[str, Any]:
 # What a class looks like: pupils across exercises, what is often wrong, what to explain again.
 
 
+#: Names of exercises stand upright, so that a whole course fits on a screen; a long name of a pupil takes a second line.
+ACROSS = """<style>body{max-width:none}.across{overflow-x:auto;font-size:13px}.across th,.across td{padding:.15em .25em}
+.across th+th,.across td+td{white-space:nowrap!important}.across th+th{writing-mode:vertical-rl}
+.across td:first-child{min-width:13em}</style>"""
+
+
 def class_page(marks: Marks, title: str, exercises: str | Path | None = None) -> str:
     """The page of a class; `exercises` as of `mark`."""
-    names = sorted({each.exercise for each in marks if each.refused != UNKNOWN})
-    by = {(each.pupil, each.exercise): each for each in marks}
-    pupils = list(dict.fromkeys(each.pupil for each in marks))
+    answers = [each for each in marks if each.handed_in]
+    names = sorted({each.exercise for each in answers})
+    by = {(each.pupil, each.exercise): each for each in answers}
+    pupils = dict.fromkeys(each.pupil for each in marks)
     rows = [(pupil, *(_cell(by.get((pupil, name))) for name in names)) for pupil in pupils]
-    body = f"<h1>{escape(title)}</h1>{html_table(('pupil', *names), rows)}"
-    common = Counter((each.exercise, fault) for each in marks for fault in set(each.faults)).most_common(COMMON)
-    if common:
-        often = [(*what, str(n)) for what, n in common]
-        body += f"<h2>Often wrong</h2>{html_table(('exercise', 'fault', 'answers'), often, numbers=(2,))}"
-    again = list(_again(marks, names, _own(exercises)))
-    if again:
-        body += f"<h2>To explain again</h2>{html_table(('lesson', 'exercise', 'passed'), again)}"
-    refused = [(each.pupil, each.exercise, each.refused) for each in marks if each.refused]
-    if refused:
-        body += f"<h2>Not graded</h2>{html_table(('pupil', 'exercise', 'why'), refused)}"
+    signs = "Marks of 100; ✓ passed, with all of them where no number stands; – not handed in."
+    body = f"{ACROSS}<h1>{escape(title)}</h1><p>{signs}</p>"
+    body += f'<div class="across">{html_table(("", *names), rows)}</div>'
+    common = Counter((each.exercise, fault) for each in answers for fault in set(each.faults)).most_common(COMMON)
+    again = [(found.lesson, f"{name}: {found.title}", f"{passed} of {tried}") for name, passed, tried in _again(answers)
+             for found in [exercise(own(exercises).get(name, name))]]  # fmt: skip
+    refused = [(each.pupil, each.exercise, each.refused) for each in marks if each.refused not in ("", UNTOUCHED)]
+    for head, columns, table in (
+        ("Often wrong", ("exercise", "fault", "answers"), [(*what, str(n)) for what, n in common]),
+        ("To explain again", ("lesson", "exercise", "passed"), again),
+        ("Not graded", ("pupil", "exercise", "why"), refused),
+    ):
+        if table:
+            body += f"<h2>{head}</h2>{html_table(columns, table, numbers=(2,) if table[0][2].isdigit() else ())}"
     return page(title, body)
 
 
 def _cell(found: Mark | None) -> str:
-    return "–" if found is None else f"{'✓ ' if found.passed else ''}{found.score:.0%}"
+    if found is None:
+        return "–"
+    return "✓" if found.passed and found.score == 1 else f"{'✓' if found.passed else ''}{100 * found.score:.0f}"
 
 
-def _again(marks: Sequence[Mark], names: Sequence[str], own: Mapping[str, Path]) -> Iterator[tuple[str, str, str]]:
-    """The exercises that less than half of those who tried have passed."""
-    for name in names:
-        tried = [each for each in marks if each.exercise == name]
-        passed = sum(each.passed for each in tried)
-        if 2 * passed < len(tried):
-            found = exercise(own.get(name, name))
-            yield found.lesson, f"{name}: {found.title}", f"{passed} of {len(tried)}"
+def _again(answers: Sequence[Mark]) -> list[tuple[str, int, int]]:
+    """The exercises that less than half of those who tried have passed, the worst first: name, passed, tried."""
+    tried = Counter(each.exercise for each in answers)
+    passed = Counter(each.exercise for each in answers if each.passed)
+    few = [(name, passed[name], tries) for name, tries in tried.items() if 2 * passed[name] < tries]
+    return sorted(few, key=lambda each: (each[1] / each[2], -each[2], each[0]))
 
 
 def mark_from_shell(folder: Path, chosen: Any) -> int:
     """Grade a class as the command line says; status 1 where an answer has not passed."""
-    marks = mark(folder, neighbours=chosen.neighbours, exercises=chosen.exercises)
+    if chosen.json and chosen.csv == "":
+        raise Alarm("only one of --csv and --json goes to stdout", hint="write the table to a file: --csv OUT.csv")
+    said = time.monotonic()
+
+    def told(done: int, of: int) -> None:
+        nonlocal said
+        if time.monotonic() > said + SAYING:
+            said = time.monotonic()
+            print(f"mnclab: graded {done} of {of}", file=sys.stderr)
+
+    marks = mark(folder, neighbours=chosen.neighbours, exercises=chosen.exercises, told=told)
     if chosen.html:
         with replaced(chosen.html) as beside:
             beside.write_text(class_page(marks, folder.resolve().name, chosen.exercises), encoding="utf-8")
+    if chosen.csv:
+        marks.save(chosen.csv)
     if chosen.json:
         print(json.dumps(marks.as_dicts(), ensure_ascii=False))
-    elif chosen.csv:
-        marks.save(chosen.csv)
-    elif chosen.csv is not None:
+    elif chosen.csv == "":
         print(marks.csv(), end="")
-    elif not chosen.html:
+    elif chosen.csv is None and not chosen.html:
         print(marks)
-    return 0 if all(each.passed for each in marks if each.refused != UNKNOWN) else 1
+    return 0 if all(each.passed for each in marks if each.handed_in) else 1

@@ -6,19 +6,18 @@ from collections.abc import Mapping
 
 from mnclab.comparison.strategies import compare
 from mnclab.geometry.regions import Region
-from mnclab.learning.answered import table_of_text
 from mnclab.learning.exercise import Exercise
 from mnclab.learning.findings import ASKED, PART, Finding, hints_of
 from mnclab.learning.grade import Grade
 from mnclab.learning.grading import headings, score
 from mnclab.machining.milling.strategies import STRATEGIES
 from mnclab.text.alarm import Alarm
-from mnclab.text.file import File
+from mnclab.text.file import File, table_of
 from mnclab.text.given import check_number, choice, shown, whole
 
 KNOWN = ("strategy", "stepover", "tool", "feed")
 CLEARED = 1e-3  # of the area that the tool can reach: more is left over
-SAID = {"engagement": "on a twentieth of the way the tool is engaged by", "time": "it takes", "lifts": "it lifts",
+SAID = {"engagement": "on 95 % of the way the tool is engaged by up to", "time": "it takes", "lifts": "it lifts",
         "feed": "it is fed at"}  # fmt: skip
 UNITS = {"engagement": "degrees", "time": "s", "lifts": "times", "feed": "mm/min"}
 
@@ -26,7 +25,7 @@ UNITS = {"engagement": "degrees", "time": "s", "lifts": "times", "feed": "mm/min
 def cleared(exercise: Exercise, text: str, tried: Mapping[str, int]) -> Grade:
     """The grade of a strategy, written `strategy = "rings"`, `stepover = 2.5`, `tool = 1`, `feed = 500`."""
     file = File(f"{exercise.id}.toml", text)
-    table = table_of_text(text, file)
+    table = table_of(text)
     for name in table:
         if name not in KNOWN:
             raise Alarm(f"an answer has no {shown(name)}", file.place_of(name), hint=f"it has {', '.join(KNOWN)}")
@@ -49,9 +48,9 @@ def cleared(exercise: Exercise, text: str, tried: Mapping[str, int]) -> Grade:
     have = {"engagement": row["p95"], "time": row["time"], "lifts": row["lifts"], "feed": given["feed"]}
     for name, most in exercise.asked.strategy.items():
         if have[name] > most * (1 + 1e-9):
-            told = f"{SAID[name]} more than {most:g} {UNITS[name]}"
-            line = span.line if (span := file.place_of("strategy")) else 0
-            findings.append(Finding(ASKED, name, line, (told, f"{told}: {have[name]:.4g}")))
+            told = f"{SAID[name]} {have[name]:.5g} {UNITS[name]}, {most:g} at most are allowed"
+            line = span.line if (span := file.place_of(name) or file.place_of("strategy")) else 0
+            findings.append(Finding(ASKED, name, line, (told,)))
     marks = {"part": float(not any(each.rank == PART for each in findings)),
              "asked": 1 - sum(each.rank == ASKED for each in findings) / max(1, len(exercise.asked.strategy))}  # fmt: skip
     points = {name: marks[name] for name in headings(exercise)}

@@ -45,7 +45,8 @@ def value_of(question: Question, run: Run) -> float:
     if question.what == "length":
         return length(run)
     if question.what == "time":
-        return float(run.profile().time)
+        profile = run.profile()
+        return float(profile.time if question.line is None else profile.time_by("line").get(question.line, 0.0))
     moment = run.at(question.line) if question.line is not None else run.at(step=len(run.steps.block) - 1)
     if question.what[-1] in "xyz":
         place = moment.point if question.what.startswith("tip") else moment.position
@@ -64,7 +65,8 @@ def predicted(exercise: Exercise, text: str, tried: Mapping[str, int]) -> Grade:
         told = f"question {number} is not answered" if number not in said else f"question {number}: another number"
         steps = (told, *(f"question {number}: {each}" for each in question.hints))
         steps = steps if number not in said else steps[1:] or steps
-        findings.append(Finding(ASKED, f"question {number}", lines.get(number, 0), steps))
+        line = lines.get(number) or max((lines[k] for k in lines if k < number), default=0)  # after which it is to stand
+        findings.append(Finding(ASKED, f"question {number}", line, steps))
     share = 1 - len(findings) / len(exercise.questions)
     hints, faults = hints_of(findings, tried)
     return Grade(exercise.id, share, not findings, {"asked": share}, hints, faults, run=run)

@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Mapping
+from contextlib import suppress
+from functools import cache
 from html import escape
 from pathlib import Path
 from typing import Any
 
-from mnclab.learning.exercise import exercises, files
+from mnclab.learning.exercise import LESSONS, exercises, files
 from mnclab.learning.grade import Grade
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import read, replaced
@@ -66,8 +68,21 @@ class Progress:
             box = f"display:inline-block;margin:2px;padding:1px 6px;border-radius:4px;background:{colour};color:#222"
             what = f'<span style="{box}" title="{escape(each.title)}">{escape(each.id)} {mark}</span>'
             lessons.setdefault(each.lesson, []).append(what)
-        rows = "".join(f"<tr><td>{escape(name)}</td><td>{''.join(some)}</td></tr>" for name, some in sorted(lessons.items()))
-        return f'<div class="mnclab-map"><p>{escape(repr(self)[1:-1])}</p><table>{rows}</table></div>'
+        left, rows = '<td style="text-align:left">', ""
+        for lesson, some in sorted(lessons.items()):
+            rows += f"<tr>{left}{escape(lesson)}</td>{left}{escape(_title(lesson))}</td>{left}{''.join(some)}</td></tr>"
+        signs = "✓ passed, % the best try so far, ○ not tried; mnc.exercise(&quot;mnc-07&quot;).editor() opens one"
+        return f'<div class="mnclab-map"><p>{escape(repr(self)[1:-1])} ({signs})</p><table>{rows}</table></div>'
+
+
+@cache
+def _title(lesson: str) -> str:
+    """The first heading of a lesson, where the notebooks are there."""
+    for path in LESSONS.glob(f"{lesson}_*.ipynb"):
+        with suppress(OSError, ValueError, LookupError, TypeError):
+            first = "".join(json.loads(path.read_text("utf-8"))["cells"][0]["source"])
+            return first.partition("\n")[0].lstrip("# ")
+    return ""
 
 
 def _is_record(found: Any) -> bool:

@@ -1,4 +1,7 @@
-"""Going on after a broken tool: the rows of an answer cut what the program before them had left."""
+"""Going on after a broken tool: the rows of an answer cut what the program before them had left.
+
+Lines of that program are told apart: it is the first of the `programs` beyond those of the answer.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +16,7 @@ from mnclab.learning.exercise import Exercise
 from mnclab.path.toolpath import COLUMNS
 from mnclab.runs.material import cutting_of
 from mnclab.runs.run import Run
+from mnclab.text.alarm import Alarm
 from mnclab.workpiece.collision import Collisions
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.collisions import collisions_of as collisions_of_mill
@@ -20,6 +24,8 @@ from mnclab.workpiece.milling.milled import Milled
 from mnclab.workpiece.turning.collisions import collisions_of as collisions_of_lathe
 from mnclab.workpiece.turning.turned import Turned
 from mnclab.workpiece.workpiece import Workpiece
+
+NOTHING = 1e-6  # mm³
 
 
 @cache
@@ -32,11 +38,14 @@ def before_of(exercise: Exercise) -> Cutting:
 def cutting_after(exercise: Exercise, run: Run) -> Cutting:
     """The rows before and those of the answer, each with its tools; the answer's tool comes from where the machine stands."""
     first, then = before_of(exercise), cutting_of(run)
-    early, late = first.path, then.path
+    early, late, programs = first.path, then.path, len(run.programs)
+
+    def place(line: int, program: int) -> str:
+        return f"the given program:{line}" if program >= programs else run.place_of_line(line, program)
 
     def both(name: str, column: Any) -> Any:
-        ahead = np.zeros_like(getattr(early, name)) if name == "label" else getattr(early, name)  # labels are those of the answer
-        return np.concatenate([ahead, column])
+        ahead = getattr(early, name) + programs * (name == "program")
+        return np.concatenate([ahead * (name != "label"), column])  # labels are those of the answer
 
     path = late.replace(**{name: both(name, getattr(late, name)) for name in COLUMNS})
     rows = len(early)
@@ -44,7 +53,8 @@ def cutting_after(exercise: Exercise, run: Run) -> Cutting:
     tilted = np.concatenate([_mask(first), _mask(then)])
     arrived, known = rows + then.arrived, rows + then.known
     tools = [*first.tools, *then.tools]
-    return replace(then, path=path, tools=tools, which=which, tilted=tilted, arrived=arrived, known=known)
+    return replace(then, path=path, tools=tools, which=which, tilted=tilted, arrived=arrived, known=known,
+                   name=place)  # fmt: skip
 
 
 def _mask(cutting: Cutting) -> Any:
@@ -52,11 +62,16 @@ def _mask(cutting: Cutting) -> Any:
 
 
 def part_of(exercise: Exercise, run: Run) -> Workpiece:
-    """What is left of the blank; of an answer that goes on, of what the program before it had left."""
+    """What is left of the blank; of an answer that goes on, of what the program before it had left, an Alarm where it is all
+    still there."""
     if exercise.until is None:
         return run.workpiece()
-    cutting = cutting_after(exercise, run)
-    return Turned(cutting, None, None) if cutting.lathe else Milled(cutting, None, None)
+    cutting, before = cutting_after(exercise, run), before_of(exercise)
+    kind: Any = Turned if cutting.lathe else Milled
+    part: Workpiece = kind(cutting, None, None)
+    if part.volume > kind(before, None, None).volume - NOTHING:
+        raise Alarm("nothing is cut that was not cut before")
+    return part
 
 
 def collisions_of(exercise: Exercise, run: Run) -> Collisions:

@@ -17,7 +17,7 @@ from mnclab.path.toolpath import Array, Kind, Toolpath
 from mnclab.text.alarm import Alarm
 from mnclab.text.alarm import hint as near
 from mnclab.text.file import File, check_names, parse
-from mnclab.text.given import check_number, choice, fitting, fitting_class, of_python, plain, shown
+from mnclab.text.given import check_number, choice, fitting, fitting_class, of_python, plain, shown, whole
 from mnclab.text.tables import Listing, written
 
 PerAxis = float | tuple[float, ...]
@@ -47,8 +47,10 @@ class Limits:
     taken, `corner_tolerance` mm how far it may be cut (0 stops wherever an axis would jump), `corner_jump` mm/min by
     how much the speed of an axis may jump under "jump". `rapid_motion` (`RAPIDS`) is how a rapid goes, None: as
     the control has it. `spindle` is the greatest speed, rev/min; `spindle_acceleration` rev/min in a second, None: at
-    once; `tool_change` seconds. `travel` holds how far each axis goes, `((x0, x1), (y0, y1), (z0, z1))` mm, in machine
-    coordinates of the spindle reference (a lathe's X as radius; inf: without an end): a run stops where it is left.
+    once; `tool_change` seconds. `look_ahead` is how many blocks beyond the one that it runs the control knows, each a row
+    of the path: 0 stops after every block, None knows the whole program. `travel` holds how far each axis goes,
+    `((x0, x1), (y0, y1), (z0, z1))` mm, in machine coordinates of the spindle reference (a lathe's X as radius; inf:
+    without an end): a run stops where it is left.
     The defaults are those of a small machining centre whose spindle and tool changer take no time.
 
     An Alarm names a limit that makes no sense: each is from 0.001 to 1e9 in its unit, or 0 where that has a meaning.
@@ -65,6 +67,7 @@ class Limits:
     spindle: float = math.inf
     spindle_acceleration: float | None = None
     tool_change: float = 0.0
+    look_ahead: int | None = None
 
     __repr__ = written
 
@@ -76,6 +79,9 @@ class Limits:
                 self._check(name, LEAST)
         for name in ("corner_tolerance", "corner_jump", "tool_change"):
             self._check(name, 0)
+        if self.look_ahead is not None:
+            self._check("look_ahead", 0)
+            whole(self.look_ahead, "limit look_ahead")
         for name, known in (("corner_speed", (*CORNERS,)), ("rapid_motion", (*RAPIDS, None))):
             value = getattr(self, name)
             if not isinstance(value, str | None) or value not in known:

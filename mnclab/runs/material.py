@@ -170,11 +170,11 @@ def _placed(run: Run, fixture: Any) -> Any:
 
 
 def rows_from_home(run: Run) -> int:
-    """How many rows of a path bring the tool from home to a blank; none where there is no blank, or nothing else."""
+    """How many rows of a path bring the tool from home to a blank; none where there is no blank or drum, or nothing else."""
     path = run.toolpath
     known = start_known(path, run.setup.start)[1]
     first = known - 1 if 0 < known <= len(path) and path.kind[known - 1] != Kind.RAPID else known
-    return first if run.stock is not None and path.is_motion[first:].any() else 0
+    return first if (run.stock is not None or path.cylinders) and path.is_motion[first:].any() else 0
 
 
 def workpiece(

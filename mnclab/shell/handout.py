@@ -1,4 +1,5 @@
-"""The command `handout`: lessons as pages to print, with what their cells showed and ruled room below the exercises.
+"""The command `handout`: lessons as pages to print, with what their cells showed and ruled room below the exercises;
+for the teacher with the answers of the graded ones.
 
 A lesson is run first, in the folder where it lies, by the Python that runs this. The page stands alone: style sheet and
 pictures are in it, and it has no scripts. Chromium makes the PDF: it sets running heads and page numbers by the same sheet.
@@ -25,7 +26,7 @@ from mnclab.show.report.document import POLICY
 from mnclab.text.alarm import Alarm, hint
 from mnclab.text.file import replaced
 from mnclab.text.given import shown
-from mnclab.text.opening import require
+from mnclab.text.opening import opened, require
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "msedge")
 LINES = 8  # ruled ones below an exercise
@@ -44,7 +45,7 @@ def handout(chosen: argparse.Namespace) -> int:
     printer = sensible(browser) if chosen.pdf or suffix == ".pdf" else ""
     for package in PACKAGES:
         sensible(require, package, "handouts")
-    text = page(found)
+    text = page(found, chosen.answers)
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder, "handout.html")
         source.write_text(text, "utf-8")
@@ -73,8 +74,8 @@ def lessons(names: list[str]) -> dict[str, Path]:
     return found
 
 
-def page(found: Mapping[str, Path]) -> str:
-    """All lessons, run, as one HTML document."""
+def page(found: Mapping[str, Path], answers: bool = False) -> str:
+    """All lessons, run, as one HTML document; with `answers` the teacher's pages follow each."""
     from pygments.formatters import HtmlFormatter
 
     sheet = Path(__file__).with_suffix(".css").read_text("utf-8") + HtmlFormatter(style="bw").get_style_defs(".highlight")
@@ -86,9 +87,33 @@ def page(found: Mapping[str, Path]) -> str:
         titles.append(head)
         sheet += f"\n@page lesson{number} {{ @top-left {{ content: {json.dumps(head, ensure_ascii=False)}; }} }}"
         parts.append(f'<main style="page: lesson{number}">{WHO}\n{body(notebook)}\n</main>')
+        if answers:
+            parts.append(f'<main style="page: lesson{number}">{teachers(number)}</main>')
     head = f'<meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="{POLICY}">'
     head += f"<title>{escape('; '.join(titles))}</title><style>{sheet}</style>"
     return f'<!doctype html><html lang="en"><head>{head}</head><body>\n{"".join(parts)}\n</body></html>\n'
+
+
+def teachers(lesson: str) -> str:
+    """The graded exercises of a lesson, each with its card, its answers and what usually goes wrong."""
+    card = opened("mnclab.learning.card", "card")
+    each = opened("mnclab.learning.exercise", "exercises")(lesson=lesson)
+    return "<h2>For the teacher</h2>" + "".join(f"<section>{card(one)}{answers(one)}</section>" for one in each)
+
+
+def answers(exercise: Any) -> str:
+    """What only a teacher reads: a right answer or two, why, and what usually goes wrong. An Alarm for a pupils' copy."""
+    found = opened("mnclab.learning.answers", "answers_of")(exercise.file)
+    lines = found.model.split("\n")
+    right = (("A right answer", found.model), ("Another one", found.other))
+    model = "".join(f"<h4>{head}</h4><pre>{escape(each.strip())}</pre>" for head, each in right if each)
+    why = f"<h4>{escape(exercise.why)}</h4><p>{escape(found.why)}</p>" if exercise.why else ""
+    wrong = "".join(
+        f"<li><code>{escape(lines[k - 1])}</code> becomes <code>{escape(new) or '(left out)'}</code>; "
+        f"the hint says: {escape(fault.hint)}</li>"
+        for fault in found.faults for k, new in fault.edits.items()
+    )  # fmt: skip
+    return f"{model}{why}<h4>What usually goes wrong</h4><ul>{wrong}</ul>"
 
 
 WHO = '<p class="who"><span>name</span><span>group</span><span>date</span></p>'

@@ -16,14 +16,15 @@ from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import load
 from mnclab.path.limits import Limits
 from mnclab.path.limits import load as load_machine
+from mnclab.path.profile import Profile
 from mnclab.runs.run import Run
 from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, nothing_in, program, say, sensible
-from mnclab.show import times
 from mnclab.text.alarm import ALARM, Alarm, several
 from mnclab.text.file import replaced
 from mnclab.text.opening import progress
-from mnclab.text.tables import csv_text, text_table
+from mnclab.text.tables import clock, csv_text, text_table
 
+MOST = 10  # lines of the program that are named
 HEAD = ("file", "control", "complete", "time, s", "at feed, s", "rapid, s", "cutting, mm", "rapid, mm", "stopped in line", "why")
 
 
@@ -40,11 +41,11 @@ def time(chosen: argparse.Namespace) -> int:
     profile = sensible(lambda: result.profile(limits, override=chosen.override / 100))
     stop = _stop(result)
     if chosen.json:
-        print(json.dumps({"complete": stop is None} | times.document(profile, machine), indent=1))
+        print(json.dumps({"complete": stop is None} | document(profile, machine), indent=1))
     else:
         said = f" in line {stop.span.line}" if stop and stop.span else ""
         print(f"not complete: the program stopped{said}; the times are those until then\n" if stop else "", end="")
-        print(times.report(profile, machine))
+        print(report(profile, machine))
         for alarm in result.alarms:
             say(alarm)
     return ALARMS if stop else CLEAN
@@ -73,7 +74,7 @@ def _many(chosen: argparse.Namespace, setup: Setup | None, limits: Limits | None
     else:
         print(text_table(HEAD, cells))
         whole = sum(row["time, s"] or 0.0 for row in rows)
-        print(f"\n{done}, {times.clock(whole)} in all")
+        print(f"\n{done}, {clock(whole)} in all")
     return status
 
 
@@ -120,3 +121,44 @@ def _write(path: Path, text: str) -> None:
 
 def _refuse(said: str) -> None:
     raise Alarm(said)
+
+
+def report(profile: Profile, machine: Any = None) -> str:
+    """Total, causes, tools and the lines that take longest; `machine` (a MachineFile) is named with its assumptions."""
+    lines = [f"time  {clock(profile.time)}   ({profile.time:.3f} s)"]
+    if machine is not None:
+        lines += [f"on    {machine.title} ({machine.name})", *(f"      {sentence}" for sentence in machine.assumes)]
+    lines += ["", "cause"]
+    lines += [_share(cause, seconds, profile.time) for cause, seconds in profile.time_by("cause").items()]
+    tools = profile.time_by("tool")
+    if len(tools) > 1:
+        lines += ["", "tool", *(_share(f"T{tool}", seconds, profile.time) for tool, seconds in tools.items())]
+    slowest = sorted(profile.time_by("line").items(), key=lambda item: -item[1])[:MOST]
+    if slowest:
+        lines += ["", "lines that take longest"]
+        lines += [f"{_share(_line(line), seconds, profile.time)}{_source(profile, line)}" for line, seconds in slowest]
+    return "\n".join(lines)
+
+
+def document(profile: Profile, machine: Any = None) -> dict[str, Any]:
+    """Seconds in all and by cause, tool, kind and line (`line`, or `program:line` of a program that was called)."""
+    found: dict[str, Any] = {"time": profile.time}
+    if machine is not None:
+        found["machine"] = {"name": machine.name, "title": machine.title, "assumes": list(machine.assumes)}
+    for key in ("cause", "tool", "kind"):
+        found[key] = {str(name): seconds for name, seconds in profile.time_by(key).items()}
+    found["line"] = {_line(line).removeprefix("line "): seconds for line, seconds in profile.time_by("line").items()}
+    return found
+
+
+def _share(name: str, seconds: float, total: float) -> str:
+    return f"  {name:14s}{seconds:12.3f} s{100 * seconds / total if total else 0.0:7.1f} %"
+
+
+def _line(line: int | tuple[int, int]) -> str:
+    return f"line {line[0]}:{line[1]}" if isinstance(line, tuple) else f"line {line}"
+
+
+def _source(profile: Profile, line: int | tuple[int, int]) -> str:
+    source = profile.source
+    return f"   {source.line_text(line)}" if source is not None and not isinstance(line, tuple) else ""

@@ -10,7 +10,6 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Callable, Iterable
-from inspect import signature
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +21,7 @@ from mnclab.show import export_mesh
 from mnclab.show.export_drawing import write_dxf, write_true_size
 from mnclab.show.export_gcode import write_gcode
 from mnclab.text.alarm import Alarm
-from mnclab.text.file import named, replaced
+from mnclab.text.file import named, save_as
 from mnclab.text.given import choice
 from mnclab.text.tables import write_picture
 
@@ -33,27 +32,22 @@ def save(run: Any, path: str | Path, **options: Any) -> Path:
     Figures take the options of `Run.plot`; an svg also `true_size=True`, a drawing in true millimetres. Bodies (stl, gltf,
     glb, vtk) are those of the part, with `of="path"` those of the path.
     """
-    path, suffix = named(path, WRITERS, "cannot write {} files")
-    writer = WRITERS[suffix]
+    path, suffix = named(path, WRITERS, refused := "cannot write {} files")
     if suffix in BODIES:
-        writer, options = _body(run, suffix, **options)
-    elif options and len(signature(writer).parameters) == 2:
-        raise Alarm(f"{suffix} files have no options, got {', '.join(options)}")
-    with replaced(path) as beside:
-        writer(run, beside, **options)
-    return path
+        return save_as(run, path, {suffix: _body(run, suffix, **options)}, refused)
+    return save_as(run, path, WRITERS, refused, **options)
 
 
-def _body(run: Any, suffix: str, of: str = "part", **more: Any) -> tuple[Callable[..., None], dict[str, Any]]:
+def _body(run: Any, suffix: str, of: str = "part", **more: Any) -> Callable[..., None]:
     """What writes a body of the part or of the path; an Alarm where there is no part."""
     if more:
         raise Alarm(f"{suffix} files know the option of, got {', '.join(more)}")
     of_part, of_path = BODIES[suffix]
     if choice(of, "of", OF) == "path":
-        return of_path, {}
+        return of_path
     if run.stock is None:
         raise Alarm("there is no blank, and so no part to write", hint='of="path" writes the path')
-    return (lambda run, path: of_part(run.workpiece(), path)), {}
+    return lambda run, path: of_part(run.workpiece(), path)
 
 
 def write_svg(run: Any, path: Path, true_size: bool = False, **options: Any) -> None:

@@ -7,9 +7,14 @@ for grey print and colour-blind eyes. All colours of lines have a contrast of at
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
-from mnclab.path.toolpath import Kind
+import numpy as np
+
+from mnclab.path.toolpath import Array, Kind
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import shown
 
 PAPER, INK, FAINT = "#ffffff", "#1a1a1a", "#e3e3e3"
 BLUE, RED, VIOLET, GREEN, GREY, BROWN, WRONG = "#1259a8", "#c62828", "#7b1fa2", "#00695c", "#8c8c8c", "#8a5a00", "#b3261e"
@@ -112,3 +117,11 @@ def player_css() -> str:
     """The colours of the player as variables of its style sheet, on white and on dark ground."""
     light, dark = (" ".join(f"--{name}: {pair[k]};" for name, pair in PLAYER.items()) for k in (0, 1))
     return f':root {{ {light} }}\n:root[data-shown="dark"] {{ {dark} }}'
+
+
+def places_of(collisions: Iterable[Any]) -> Array:
+    """Where something collides (n, 3)."""
+    try:
+        return np.array([each.place for each in collisions], dtype=np.float64).reshape(-1, 3)
+    except (TypeError, AttributeError):
+        raise Alarm(f"collisions must be those of a run, got {shown(collisions)}", hint="run.collisions()") from None

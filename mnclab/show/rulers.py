@@ -137,7 +137,7 @@ def ticks_of(axis: int, box: Array, look: Look, lathe: bool, unit: Unit) -> tupl
     if (lathe and axis == 1) or across * max(high - low, 0.0) < THIN:
         return None  # a body that turns has no Y of its own
     counts = unit.length / (2 if lathe and axis == 0 else 1)  # mm to 1 of the ruler
-    step = rounded(APART / across / counts)
+    step = rounded(min(APART / across, 0.4 * (high - low)) / counts)  # a short axis has two numbers at least
     digits = max(0, -int(np.floor(np.log10(step) + 1e-9)))
     first, last = np.ceil(low / counts / step - 1e-6), np.floor(high / counts / step + 1e-6)
     values = step * np.arange(first, last + 1)

@@ -92,7 +92,7 @@ def scene(
     plotter = new_plotter(f"scene of {path!r}", size)
     turning = bool(path.cylinders)
     if turning:
-        add_cylinders(plotter, path)
+        drums = add_cylinders(plotter, path)
         path, towards = _on_cylinders(path)
         drawn = _add_path(plotter, path, colour, None)
     else:
@@ -103,20 +103,19 @@ def scene(
     blank = solids.body_of(given) if given else None
     bodies = [blank.points] if blank else []
     if turning and blank is None:
-        bodies = [solids.cylinder_body(run.toolpath, k).points for k in range(len(run.toolpath.cylinders))]
+        bodies = drums
     if part:
         left = run.workpiece(row=row) if len(path) else run.workpiece()
         solid = left.solid()
         bodies = [solid.points]
         add_part(plotter, left, solid, "none")
     elif blank:
-        plotter.add_mesh(_surface(blank), color=looks.BLANK_BODY, opacity=0.25, name="blank")
-        edges = _surface(blank).extract_feature_edges()
-        plotter.add_mesh(edges, color=looks.METAL_EDGE, line_width=1, name="edges of the blank")
+        _add_glass(plotter, blank, "blank", looks.BLANK_BODY, 0.25)
     if probed and (run.setup.part is not None or run.setup.setter is not None):
         bodies += [ends for ends in [add_probed(plotter, run)] if ends is not None]
     if given:
-        bodies += [_add_fixture(plotter, body, k) for k, body in enumerate(solids.fixtures_of(run))]
+        held = enumerate(solids.fixtures_of(run))
+        bodies += [_add_glass(plotter, body, f"fixture {k}", looks.FIXTURE, 0.45, looks.FIXTURE_EDGE) for k, body in held]
     ruled = np.concatenate([*_fitted(drawn), *bodies, np.empty((0, 3))])
     seen = ruled
     if tool and not turning and len(path) and len(ruled):
@@ -150,20 +149,18 @@ def _add_tool(plotter: Any, run: Any, row: int, size: float) -> np.ndarray:
     return np.concatenate(held)
 
 
-def _add_fixture(plotter: Any, body: solids.Body, number: int) -> np.ndarray:
-    plotter.add_mesh(_surface(body), color=looks.FIXTURE, opacity=0.45, name=f"fixture {number}")
-    edges = _surface(body).extract_feature_edges()
-    plotter.add_mesh(edges, color=looks.FIXTURE_EDGE, line_width=1, name=f"edges of fixture {number}")
+def _add_glass(plotter: Any, body: solids.Body, name: str, shade: str, strength: float, edge: str = looks.METAL_EDGE) -> Array:
+    """Add a body that is seen through, with its edges; its points (n, 3)."""
+    mesh = _surface(body)
+    plotter.add_mesh(mesh, color=shade, opacity=strength, name=name)
+    plotter.add_mesh(mesh.extract_feature_edges(ANGLE), color=edge, line_width=1, name=f"edges of {name}")
     return body.points
 
 
-def add_cylinders(plotter: Any, path: Toolpath) -> None:
-    """The cylinders that a path lies on, with their edges."""
-    for number in range(len(path.cylinders)):
-        body = _surface(solids.cylinder_body(path, number))
-        plotter.add_mesh(body, color=looks.BLANK_BODY, opacity=0.35, name=f"cylinder {number}")
-        edges = body.extract_feature_edges(feature_angle=45)
-        plotter.add_mesh(edges, color=looks.METAL_EDGE, line_width=1, name=f"edges of cylinder {number}")
+def add_cylinders(plotter: Any, path: Toolpath) -> list[Array]:
+    """Add the cylinders that a path lies on; the points (n, 3) of each."""
+    found = enumerate(solids.cylinder_body(path, number) for number in range(len(path.cylinders)))
+    return [_add_glass(plotter, body, f"cylinder {number}", looks.BLANK_BODY, 0.35) for number, body in found]
 
 
 def _on_cylinders(path: Toolpath) -> tuple[Toolpath, tuple[float, float, float]]:
@@ -379,11 +376,7 @@ def add_collisions(plotter: Any, collisions: Iterable[Collision], points: Array,
     """Red balls where something collides, and pins from them up, on a lathe along X: most are deep in the part."""
     import pyvista
 
-    try:
-        places = np.array([each.place for each in collisions], dtype=np.float64).reshape(-1, 3)
-    except (TypeError, AttributeError):
-        raise Alarm(f"collisions must be those of a run, got {shown(collisions)}", hint="run.collisions()") from None
-    if len(places):
+    if len(places := looks.places_of(collisions)):
         side, out = float(np.ptp(points, axis=0).max()), 0 if lathe else 2
         ball = pyvista.Sphere(radius=BALL * side)
         balls = pyvista.PolyData(places).glyph(geom=ball, scale=False, orient=False)
@@ -396,12 +389,11 @@ def add_collisions(plotter: Any, collisions: Iterable[Collision], points: Array,
 
 # The part that a probe meets, and its touches: a ball at each touched place with its number.
 
-PROBED_ANGLE = 25.0  # degrees
 TOUCH_BALL = 0.011  # radius of a mark, of the greatest side of the part_body
 MOST, FEW = 60, 8  # touches with numbers, with values too
 PROBED_LOOK: dict[str, Any] = {
     "color": looks.METAL, "opacity": 0.6, "ambient": 0.3, "smooth_shading": True, "split_sharp_edges": True,
-    "feature_angle": PROBED_ANGLE,
+    "feature_angle": ANGLE,
 }  # fmt: skip
 
 
@@ -418,7 +410,7 @@ def add_probed(plotter: Any, run: Any) -> Array | None:
         if len(triangles):
             mesh = pyvista.PolyData.from_regular_faces(points - found.origin, triangles).clean()
             plotter.add_mesh(mesh, name="part to touch", **PROBED_LOOK)
-            edges = mesh.extract_feature_edges(feature_angle=PROBED_ANGLE, boundary_edges=False, non_manifold_edges=False)
+            edges = mesh.extract_feature_edges(feature_angle=ANGLE, boundary_edges=False, non_manifold_edges=False)
             if edges.n_cells:
                 plotter.add_mesh(edges, color=looks.METAL_EDGE, line_width=1.2, name="edges of the part to touch")
     if found.beam is not None:

@@ -261,17 +261,13 @@ def parse(path: str | Path, build: Callable[[dict[str, Any], File], Result], wha
         return build(table_of(text), file)
     except UnicodeDecodeError:
         raise Alarm(f"the {what} cannot be read: it is not UTF-8", source=file) from None
-    except tomllib.TOMLDecodeError as error:
-        place = re.search(r"line (\d+), column (\d+)", str(error))
-        span = Span(int(place[1]), int(place[2])) if place else file.end
-        raise Alarm(re.sub(r" \(at .*\)", "", str(error)), span, source=file) from None
     except Alarm as alarm:
         alarm.source = file
         raise
 
 
 def table_of(text: str) -> dict[str, Any]:
-    """The table that a text writes; an Alarm for one that Python would take hours for."""
+    """The table that a text writes; an Alarm at its line for what is none, and for one that Python would take hours for."""
     for number, line in enumerate(text.splitlines() if text.count(".") > DEEPEST else (), 1):
         deep = 0
         for part in line.split("."):
@@ -282,10 +278,37 @@ def table_of(text: str) -> dict[str, Any]:
         return tomllib.loads(text)
     except RecursionError:
         raise Alarm("tables or lists are nested too deeply") from None
-    except tomllib.TOMLDecodeError:
-        raise
+    except tomllib.TOMLDecodeError as error:
+        raise _misread(text, str(error)) from None
     except ValueError as error:  # of a number of some thousand digits
         raise Alarm(f"a value cannot be read: {error}") from None
+
+
+LONG_STRING = re.compile(r"(\"{3}|'{3}).*?\1", re.DOTALL)
+COMMA = re.compile(rf"[ \t]*{PATH}[ \t]*=[ \t]*(([+-]?\d+),(\d+))[ \t]*(?:#.*)?")
+BRACKET = re.compile(r"""\"(?:\\.|[^"\\])*\"|'[^']*'|\#.*|[][{}]""")
+BEGINS = re.compile(rf"[ \t]*(?:\[\[?[ \t]*[A-Za-z_]|{PATH}[ \t]*=)")  # a table, or a value of one: nothing in a list does
+
+
+def _misread(text: str, error: str) -> Alarm:
+    """What is wrong in a text that is no table, where it is written: a list without its end is noticed in a later line."""
+    lines = LONG_STRING.sub(lambda found: "\n" * found[0].count("\n"), text).split("\n")
+    place = re.search(r"line (\d+), column (\d+)", error)
+    at = (int(place[1]), int(place[2])) if place else (len(text.splitlines()), len((text.splitlines() or [""])[-1]) + 1)
+    if found := COMMA.fullmatch(lines[at[0] - 1].rstrip("\r")):
+        return Alarm(f"a number has a point: write {found[2]}.{found[3]}", Span(at[0], found.start(1) + 1, len(found[1])))
+    opened: list[Span] = []
+    for number, line in enumerate(lines[: at[0]] if "value" in error or "array" in error else (), 1):
+        if opened and BEGINS.match(line):
+            break
+        for sign in BRACKET.finditer(line):
+            if sign[0] in "[{":
+                opened.append(Span(number, sign.start() + 1))
+            elif sign[0] in "]}" and opened:
+                opened.pop()
+    else:
+        opened = [] if place else opened
+    return Alarm("the bracket is not closed", opened[-1]) if opened else Alarm(re.sub(r" \(at .*\)", "", error), Span(*at))
 
 
 def check_names(table: Mapping[str, Any], known: Any, where: str, file: File, *keys: str) -> None:

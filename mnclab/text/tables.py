@@ -74,6 +74,17 @@ def html_table(
     return f"<table>{top}{''.join(reversed(lines))}</table>"
 
 
+def clock(seconds: float) -> str:
+    """A time as people say it: `1:02:03`, `2:03` or `3.21 s`."""
+    if seconds < 60:
+        return f"{seconds:.2f} s"
+    if not seconds < 1e12:  # without an end, such as a feed of almost nothing
+        return f"{seconds:g} s"
+    whole = round(seconds)
+    hours, minutes = divmod(whole // 60, 60)
+    return f"{hours}:{minutes:02d}:{whole % 60:02d}" if hours else f"{minutes}:{whole % 60:02d}"
+
+
 def csv_text(head: Sequence[Any], *rows: Sequence[Any]) -> str:
     """A table as comma-separated values, a line each."""
     out = io.StringIO()

@@ -160,8 +160,8 @@ def _notes(
         speeds = dict(zip("XYZ", (figure(float(v) * 60 / path.unit.length, 1) for v in limits.axes("rapid"))))
         speeds = {axis: speed for axis, speed in speeds.items() if axis != "Y" or not path.lathe}
         alike = len(set(speeds.values())) == 1
-        fastest = speeds["X"] if alike else ", ".join(f"{axis} {speed}" for axis, speed in speeds.items())
-        spindle = f"{figure(limits.spindle, 0)} rev/min and " if math.isfinite(limits.spindle) else ""
+        fastest = f"each axis {speeds['X']}" if alike else ", ".join(f"{axis} {speed}" for axis, speed in speeds.items())
+        spindle = f"{figure(limits.spindle, 0)} rev/min, " if math.isfinite(limits.spindle) else ""
         yield f"All within the limits of the machine, {spindle}{fastest} {path.unit.short}/min."
 
 

@@ -4,6 +4,7 @@ import json
 
 import mnclab
 from mnclab.learning.answers import answers_of
+from mnclab.learning.marking import Mark, Marks, class_page
 
 NAME = "mnc-07"
 MODEL = answers_of(mnclab.exercise(NAME).file).model
@@ -120,3 +121,15 @@ def test_questions_stand_beside_their_program_and_nothing_is_said_of_a_control(r
     page.locator(".mnclab-task-box", has_text="not answered").wait_for(timeout=60_000)
     assert not page.get_by_text("which control").is_visible()
     assert not page.locator(".mnclab-still").first.is_visible()
+
+
+def test_a_class_of_thirty_is_seen_at_once(browser, tmp_path):
+    names = [each.id for each in mnclab.exercises("tnc-620")][:31]
+    marks = (Mark(f"Pupil {k} Longname-Surname", name, 0.93, k % 2 == 0) for k in range(30) for name in names)
+    (tmp_path / "class.html").write_text(class_page(Marks(marks), "9 b"), "utf-8")
+    page = browser.new_page(viewport={"width": 1366, "height": 768})
+    page.goto((tmp_path / "class.html").as_uri())
+    wide = page.evaluate("document.querySelector('.across').scrollWidth")
+    heights = page.evaluate("[...document.querySelectorAll('.across tr')].map(row => row.offsetHeight)")
+    assert wide <= 1366 and max(heights[1:]) < 32 and sum(heights[:20]) < 768  # a line each
+    page.close()

@@ -139,6 +139,24 @@ def test_rotary_axes_arrive_with_the_tip(opened):
     assert page.evaluate(turning) == pytest.approx([-90, -67.5, 0], abs=1e-3)
 
 
+def test_a_tool_stands_square_on_a_drum(opened):
+    """The run starts at a place that nobody has said, within the drum: no line is drawn from there."""
+    run = mnclab.run(Path(__file__).parents[2] / "data" / "programs" / "tnc-620" / "drum_cam.h")
+    page = opened(run)
+    assert page.evaluate("() => [...window.player.picture.strokes.kind.slice(0, 3)]")[:2] == [0, 0]
+    page.evaluate("() => window.player.go(window.player.atTime(0.4 * window.player.run.time))")
+    ends = page.evaluate("""() => {
+        const {player} = window, {picture} = player, {point: tip, angles} = player.now();
+        const up = tip.map((v, k) => v + (k === 2 ? 9 : 0));
+        const away = [0, ...tip.slice(1)].map((v, k, all) => tip[k] + 9 * v / Math.hypot(...all));
+        return [picture.beside(tip, angles)(up), picture.camera.project(away), picture.shown.at.tool.number, angles[0]];
+    }""")  # fmt: skip
+    assert ends[0] == pytest.approx(ends[1], abs=0.5) and ends[2:] == [1, pytest.approx(161.2, abs=0.1)]
+    assert "rotary" not in page.locator("#modal dt").all_inner_texts()
+    page.keyboard.press("End")
+    assert "M3 → M5" in page.locator("#modal .changed dd").all_inner_texts()
+
+
 def test_without_rotary_axes_and_called_programs_nothing_speaks_of_them(opened):
     page = opened(mnclab.run("G90 G54\nG0 X5\n", "mnc"))
     assert page.locator("#angles").is_hidden() and page.locator("#program").is_hidden()

@@ -148,3 +148,17 @@ def test_without_a_blank_the_insert_is_a_body_as_well(browser, tmp_path):
     }""", [-0.35, -0.14, -0.05, 0.05, 0.14, 0.35])  # fmt: skip
     assert shown == [False, True, True, True, True, False]
     page.close()
+
+
+@pytest.mark.parametrize(("program", "control", "said"), [
+    ("N1 S800\nN2 F20\nN3 X4000~\nN4 G77*~\nN5 X2440*\nN6 Z-2990*\nN7 F3000*\nN8 P400\n", "nc-31", "roughing insert 80° (no T)"),
+    ("G95 F0.2\nM3 S500\nG0 X20 Z2\nG1 Z-9\n", "jnc-t01", "default insert (no T)"),
+    ("G95 F0.2\nM3 S500 T2\nG0 X20 Z2\nG1 Z-9\n", "jnc-t01", "T2 finishing insert 35°"),
+])  # fmt: skip
+def test_without_a_tool_word_the_insert_that_is_drawn_is_named(browser, tmp_path, program, control, said):
+    page = browser.new_page()
+    page.goto(mnclab.run(program, control).save(tmp_path / "part.html").as_uri())
+    page.evaluate(BEGUN)
+    page.keyboard.press("End")
+    assert page.locator("#tool").inner_text() == said
+    page.close()

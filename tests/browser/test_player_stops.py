@@ -212,6 +212,38 @@ def test_values_are_watched(opened):
         assert watched()["coolant"] == moment.state["coolant"] and watched()["tool == 2"] == "false"
 
 
+@pytest.mark.parametrize(("program", "control", "when", "watched"), [
+    (SAMPLES / "tnc-620" / "steps.h", None, "z < -5 and tool == 2", "Q1, z, feed, x - Q1"),
+    (SAMPLES / "g43" / "bolt_circle.nc", None, "z < -5 and tool == 2", "#101, z, feed, x - #101"),
+    (MILLED, "mnc", "z < -5 and tool == 2", "z, feed"),
+    (TURNED, "jnc-t01", "d < 20 and z < -5", "d, feed"),
+])  # fmt: skip
+def test_the_examples_are_words_of_the_run(opened, program, control, when, watched):
+    page = opened(mnclab.run(program, control))
+    assert [page.locator(name).get_attribute("placeholder") for name in ("#when", "#watch")] == [when, watched]
+    fill(page, "Watch", watched)
+    assert not any("there is nothing" in told for told in page.locator("#watched dd").all_inner_texts())
+
+
+def test_x_of_a_lathe_is_called_a_radius(opened):
+    page = opened(mnclab.run(TURNED, "jnc-t01", Setup(settings={"diameter": True})))
+    fill(page, "Watch", "X, d")
+    fill(page, "Stop when", "x < 11")
+    assert page.locator("#when-said").inner_text().startswith("x (radius) < 11 becomes true")
+    page.locator("#line-7 code").click()
+    assert page.locator("#watched dt").all_inner_texts() == ["X (radius)", "d"]
+    assert page.locator("#watched dd").all_inner_texts() == ["15", "30"]
+
+
+@pytest.mark.parametrize("width", [1366, 1920])
+def test_a_stop_moves_no_button(opened, width):
+    page = opened(mnclab.run(MILLED, "mnc"), width=width, height=768)
+    places = "() => [...document.querySelectorAll('header button')].map(each => each.getBoundingClientRect().x)"
+    before = page.evaluate(places)
+    page.locator("#line-6 span").click()
+    assert page.get_by_role("button", name="Breakpoints (1)").count() == 1 and page.evaluate(places) == before
+
+
 def test_a_rapid_has_no_number_of_a_feed(opened):
     page = opened(mnclab.run("N1 G17 G90 G54 T1 S3000 M3\nN2 G0 X10\nN3 G1 X20 F300\n", "mnc"))
     fill(page, "Watch", "feed, feed / 2")

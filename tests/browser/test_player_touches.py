@@ -50,6 +50,33 @@ def test_the_part_is_the_map(page):
     assert found == pytest.approx([0, -10, 0], abs=1e-3)
 
 
+def test_the_wall_of_a_bore_is_round(page):
+    """Between cells of half a millimetre it stands where the part has it."""
+    page, _ = page
+    found = page.evaluate("""() => {
+        const {map, grid} = window.player.part.carving, found = [];
+        for (let j = 0; j < grid.ny; j++)
+            for (let i = 0; i < grid.nx; i++) {
+                const [x, y] = [grid.x(i), grid.y(j)], share = map.walled(i, j, 1, 0);
+                if (share && Math.hypot(x - 50, y - 30) < 14) found.push(Math.hypot(x + share * grid.step - 50, y - 30));
+            }
+        return found;
+    }""")
+    assert len(found) > 60 and found == pytest.approx([12] * len(found), abs=0.01)
+
+
+def test_metal_hides_a_touch(page):
+    page, _ = page
+    page.keyboard.press("End")
+    seen = page.evaluate("""() => ["top", "front"].map(name => {
+        const {player} = window;
+        player.view(name);
+        player.draw();
+        return player.picture.touches.all.filter(({from}) => player.part.sees(from)).map(({text}) => text[0]).join("");
+    })""")
+    assert seen == ["12345", "5"]
+
+
 def test_letters_of_the_axes_cover_no_number(browser, tmp_path):
     """The wall X0 is touched at Z-5: at 1.5 pixels a mm the number beside the touch would lie on the letter X, 43 pixels from
     zero."""

@@ -98,6 +98,14 @@ def test_klartext_counts_from_zero_and_keeps_its_long_blocks():
     )
 
 
+def test_lines_of_a_cycle_definition_in_parts_count_too():
+    numbered = "5 CYCL DEF 14.0 CONTOUR GEOMETRY\n6 CYCL DEF 14.1 CONTOUR LABEL 1\n7 L X+1 R0 FMAX\n"
+    counted = [line.split()[0] for line in mnclab.renumber(numbered, "tnc-620", start=0).splitlines()]
+    assert counted == ["0", "1", "2"]
+    bare = "TCH PROBE 1.0 DATUM PLANE\nTCH PROBE 1.1 X+ANGLE: +180\nTCH PROBE 1.2 X+5 Y+0 Z-5\nL X+1\n"
+    assert [line.split()[0] for line in mnclab.renumber(bare, "tnc-620").splitlines()] == ["0", "1", "2", "3"]
+
+
 def test_klartext_without_numbers_gets_them():
     text = "BEGIN PGM A MM\n\n  L X+10 FMAX\nL Y+1 FMAX\nEND PGM A MM\n"
     assert mnclab.renumber(text, "tnc-620") == "0 BEGIN PGM A MM\n\n  1 L X+10 FMAX\n2 L Y+1 FMAX\n3 END PGM A MM\n"

@@ -78,3 +78,14 @@ def test_a_probe_does_not_turn():
 def test_a_run_that_stops_before_the_cut_says_it_where_nothing_in_the_program_starts_the_spindle():
     assert told("G0 X5\nG999\nG1 X10 F100\n", "mnc") == [(3, "warning")]
     assert not told("G0 X5\nG999\nS500 M3\nG1 X10 F100\n", "mnc")
+
+
+@pytest.mark.parametrize(("control", "text"), [
+    ("mnc", "T1 S500 M3\nG1 X10 F100\nM2\n"), ("g43", "T1 M6\nS500 M3\nG1 X10 F100 M30\n"),
+    ("tnc-620", "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S500\n2 L X+10 R0 F100 M3\n3 L X+0 R0 FMAX M30\n4 END PGM A MM\n"),
+])  # fmt: skip
+def test_the_end_of_a_program_stops_it(control, text):
+    """ISO 6983: M02 and M30 stop the spindle after the motion of their block."""
+    run = mnclab.run(text, control)
+    assert run.ok and run.toolpath.spindle[run.toolpath.is_motion][-1] == 500
+    assert run.toolpath.spindle[-1] == 0 and run.at(step=len(run.steps.block) - 1).state["spindle"] == "M5"

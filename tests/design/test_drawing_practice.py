@@ -13,6 +13,7 @@ from mnclab.design import model as d
 from mnclab.design.drawing import drawing
 from mnclab.design.drawing.placing import LEADER
 from mnclab.design.drawing.view import Linear
+from mnclab.workpiece.blank import Box
 
 SAMPLES = sorted((Path(__file__).parents[2] / "data" / "designs").rglob("*.toml"))
 
@@ -68,3 +69,13 @@ def test_equal_grooves_have_one_note():
     drawn = drawing(d.TurnedDesign([(0, 20), (-50, 20)], grooves))
     assert {each.text for each in drawn.dimensions if each.measure == "width"} == {"3× 3×⌀30"}
     assert sum("3×⌀30" in box.text for box in drawn.boxes() if box.kind == "text") == 1
+
+
+def test_a_depth_that_begins_on_a_step_stands_in_the_section():
+    """Beside the diameter a depth of 6 would be taken from the upper side; in the section it goes from -5 to -11."""
+    round_ = d.Pocket.circle
+    drawn = drawing(d.Design(Box((0, 0, -20), (110, 70, 0)), [round_(40, 35, 44, 5), round_(40, 35, 28, 6, top=-5)]))
+    linear = [each for view in laid(drawn) for each in view.view.dimensions if isinstance(each, Linear)]
+    heights = [sorted((each.a[1], each.b[1])) for each in linear]
+    assert [-11, -5] in heights and [-5, 0] in heights
+    assert [each.text for each in drawn.dimensions if each.measure == "depth"] == ["⌀44\n↧5", "6"]

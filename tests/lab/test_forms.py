@@ -219,6 +219,21 @@ def test_the_picture_of_a_form_has_no_legend_and_shows_the_blank():
     live = mnclab.form("G83", "mnc")
     assert live.figure.legends == [] and len(live.figure.axes) == 2
     assert all(any(each.get_label() == "_blank" for each in ax.patches) for ax in live.figure.axes)
+    used = max(ax.get_position().y1 for ax in live.figure.axes) * live.figure.get_figheight()
+    assert live.figure.get_figheight() - used < 0.2  # the views have the room of the legend
+
+
+@pytest.mark.parametrize("code", ["22", "24", "251"])
+def test_the_blank_of_a_form_goes_round_its_pocket(code):
+    """Beyond each wall, a radius of the tool from the path, stands as much on one side as on the other."""
+    live = mnclab.form(code, "tnc-620")
+    (x0, y0, _), (x1, y1, _) = live.run.toolpath[np.isin(live.run.toolpath.kind, (1, 2))].bounds
+    patches = [each for ax in live.figure.axes for each in ax.patches if each.get_label() == "_blank"]
+    (left, low), (right, high) = patches[0].get_path().get_extents().get_points()
+    sides = x0 - left, right - x1, y0 - low, high - y1
+    assert min(sides) > live.run.toolpath.radius.max() + 2 and max(sides) - min(sides) < 1e-6
+    view = live.figure.axes[0].get_xlim()
+    assert right - left > 0.5 * (view[1] - view[0])
 
 
 def test_a_short_form_has_no_groups():

@@ -4,6 +4,7 @@ import pytest
 
 import mnclab
 from mnclab import Kind, Setup
+from mnclab.lab.forms.example import Example, near
 from mnclab.machine import trial
 from mnclab.runs.material import cutting_of
 
@@ -78,3 +79,18 @@ def test_a_dimension_across_says_where_it_is_a_radius(name, code, field, said):
     live = mnclab.form(code, name)
     live.light(field)
     assert f"<title>{said}</title>" in live.lit.value
+
+
+@pytest.mark.parametrize(("name", "code"), CASES)
+def test_the_picture_of_a_form_is_filled_by_its_bar_which_every_plunge_meets(name, code):
+    live = mnclab.form(code, name)
+    low, high = live.figure.axes[0].get_xlim()
+    made = Example(mnclab.controls[name], mnclab.controls[name].cycles[code])
+    path = near(live.run.toolpath[made.rows(live.run.toolpath)])
+    (_, _, begin), (radius, _, end) = made.blank(path, {}).bounds
+    assert end - begin > 0.6 * (high - low)
+    cuts = path[path.kind == Kind.LINE]
+    if code == "G75":
+        assert (cuts.end[:, 2] < end).all() and cuts.start[:, 0].max() == pytest.approx(radius)
+    if code == "G74":
+        assert cuts.start[:, 0].max() < radius

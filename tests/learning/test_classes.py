@@ -2,10 +2,12 @@
 
 import json
 import math
+import re
 import subprocess
 import sys
 import tomllib
 import unicodedata
+from html import unescape
 
 import pytest
 
@@ -14,9 +16,10 @@ import mnclab.learning
 from mnclab import Alarm
 from mnclab import __main__ as shell
 from mnclab.learning.answers import answers_of, pupils_copy
+from mnclab.learning.authoring import missing
 from mnclab.learning.exercise_file import load
 from mnclab.learning.giving import chosen, give
-from mnclab.learning.marking import class_page, mark
+from mnclab.learning.marking import Mark, Marks, class_page, mark
 from mnclab.learning.progress import Progress
 
 NAME = "mnc-07"
@@ -48,6 +51,31 @@ def test_a_class_is_graded_and_hostile_answers_are_refused_one_by_one(tmp_path, 
     assert "To explain again" in page and "pocket depth" in page and "<h1>9 b</h1>" in page
     assert shell.main(["grade", str(tmp_path / "ivanov"), "--csv"]) == 0
     assert capsys.readouterr().out.splitlines()[1].startswith("ivanov,mnc-07,100%,yes")
+
+
+def test_files_as_they_were_given_are_not_handed_in(tmp_path):
+    """mnc-02 gives a program with two faults, which earns something where it is handed in; nothing is said of it here."""
+    give(["mnc-02", NAME], tmp_path / "class" / "anna")
+    (tmp_path / "class" / "anna" / "mnc-07.mnc").write_text(MODEL.replace("Z-5", "Z-4"))
+    give(["mnc-02", NAME], tmp_path / "class" / "boris")
+    given = tmp_path / "class" / "boris" / "mnc-02.mnc"
+    given.write_bytes(given.read_bytes().replace(b"\n", b"\r\n"))
+    (tmp_path / "class" / "boris" / "mnc-07.mnc").write_text("")
+    done = []
+    marks = mark(tmp_path / "class", told=lambda *counts: done.append(counts))
+    assert done == [(1, 4), (2, 4), (3, 4), (4, 4)]
+    assert [(each.pupil, each.exercise) for each in marks if each.handed_in] == [("anna", NAME)]
+    assert marks.csv().splitlines()[-1].startswith("boris,mnc-07,–,–,not handed in")
+    page = class_page(marks, "9 b")
+    assert "mnc-02" not in page and "empty" not in page and "Not graded" not in page and "0 of 1" in page
+    assert re.search("boris</td><td[^>]*>–</td></tr>", page)
+
+
+def test_what_nobody_passed_is_explained_first():
+    tried = [("mnc-03", 1), ("mnc-03", 0), ("mnc-03", 0), ("mnc-05", 0), ("mnc-05", 0), ("mnc-06", 1), ("mnc-07", 0)]
+    page = class_page(Marks(Mark(f"p{k}", name, passed * 1.0, passed == 1) for k, (name, passed) in enumerate(tried)), "9 b")
+    again = re.findall(r"(mnc-\d\d): .*?(\d of \d)", page.split("To explain again")[1])
+    assert again == [("mnc-05", "0 of 2"), ("mnc-07", "0 of 1"), ("mnc-03", "1 of 3")]
 
 
 def test_a_script_that_grades_is_not_run_again_by_its_processes(tmp_path):
@@ -288,7 +316,12 @@ def test_going_on_is_graded_with_what_was_cut_before(tmp_path):
     path.write_text(RESTART.replace("[design.blank]", "[setup.tools.2]\nlength = 40\n[design.blank]"))
     nothing = rest.replace("T1 S1000 M3\n", "T2 S1000 M3\nG0 X15 Y10 Z5\nG1 Z-4 F100\nX45\nG0 Z5\nT1\n")
     assert "T2 has no radius: it cuts nothing" in " ".join(map(str, load(path).check(nothing).hints))
-    assert exercise.check("G17 G90 G54 T1 S1000 M3\nG0 X0 Y0 Z5\nM30\n").score == pytest.approx(0.5 * 0.7 / 0.8 + 0.1 / 0.8)
+    idle = exercise.check("G17 G90 G54 T1 S1000 M3\nG0 X0 Y0 Z5\nM30\n")
+    assert idle.score == 0 and idle.hints[0].text == "nothing is cut that was not cut before"
+    slow.write_text(RESTART.replace("depth = 4", "depth = 5", 1))
+    deep = load(slow).check(rest)
+    (wrong,) = {row.where for row in deep.measures if not row.ok}
+    assert wrong.startswith("the given program:") and [hint.line for hint in deep.hints] == [0]
 
 
 SETUP = RESTART.replace('"restart"', '"set up"').replace("until = 6\n", "").replace("radius = 4", "radius = 3")
@@ -302,6 +335,8 @@ def test_tables_are_answers(tmp_path):
     assert not exercise.check("[tools.1]\nradius = 3\nkind = 'mill'\n").passed
     assert "no table 'stock'" in exercise.check("[stock]\nradius = 4\n").hints[0].text
     assert exercise.check("[tools.1\n").hints[0].line == 1
+    opened = exercise.check("[datums]\n1 = [10, 20, 0\n2 = [1, 2, 3]\n[tools.1]\nradius = 4\n")
+    assert str(opened.hints[0]) == "line 2: the bracket is not closed"
     assert exercise.check("radius = ").score == 0
 
 
@@ -329,7 +364,12 @@ def test_a_strategy_is_tried_on_the_pocket(tmp_path):
     exercise = load(path)
     assert exercise.check('strategy = "adaptive"\nstepover = 2.5\n').passed
     zigzag = exercise.check('strategy = "zigzag"\nstepover = 4\n')
-    assert not zigzag.passed and "engaged by more than 95 degrees" in zigzag.hints[0].text and zigzag.points["part"] == 1
+    assert not zigzag.passed and zigzag.points["part"] == 1 and zigzag.score == pytest.approx(0.2)
+    told = zigzag.hints[0].text
+    found = re.fullmatch(r"on 95 % of the way the tool is engaged by up to (\S+) degrees, 95 at most are allowed", told)
+    assert float(found[1]) > 95
+    assert str(exercise.check('strategy = "rings"\nstepover = 1,5\n').hints[0]) == "line 2: a number has a point: write 1.5"
+    assert all(name in exercise._repr_html_() for name in ("adaptive", "morphed spiral", "rounded zigzag"))
     rings = 'strategy = "rings"\n'
     for wrong in ('strategy = "zag"', "strategy = 5", "stepover = 2", f"{rings}stepover = -1", f"{rings}tool = 9"):
         assert exercise.check(wrong).score == 0
@@ -363,12 +403,35 @@ def test_progress_keeps_the_best_and_counts_faults(tmp_path):
     again = Progress(path)
     assert again.done[NAME]["passed"] and again.done[NAME]["score"] == 1 and again.done[NAME]["tries"] == 3
     assert again.tried(NAME) == {"pocket depth": 2}
-    assert f"{NAME} ✓" in again._repr_html_()
+    shown = again._repr_html_()
+    assert f"{NAME} ✓" in shown and ">Radius compensation</td>" in shown and "○ not tried" in shown
+    assert shown.count("<td") == shown.count("text-align:left") == 3 * 35
     record = '{"mnc-07": {"score": %s, "passed": false, "tries": %s, "faults": {"stopped": %s}}}'
     damaged = [record % each for each in ((0.5, 1, '"x"'), ("NaN", 1, 1), (0.5, -5, 1), (2, 1, 1), (0.5, 1, "Infinity"))]
     for spoilt in (*damaged, "", "[]", '{"mnc-07": 5}', "\x00", "[" * 100_000):
         path.write_text(spoilt)
         assert Progress(path).done == {}
+
+
+def test_the_help_of_an_exercise_is_one_that_is_ready(tmp_path):
+    (tmp_path / "mine.toml").write_text(str(mnclab.help("exercise")))
+    assert missing(tmp_path / "mine.toml") == []
+    assert "[[features]]" in mnclab.help("design")._repr_html_()
+
+
+def test_the_shell_grades_exercises_of_ones_own_and_keeps_tables_apart(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "own").mkdir()
+    (tmp_path / "own" / "mine.toml").write_text(mnclab.exercise(NAME).file.read_text("utf-8"), "utf-8")
+    (tmp_path / "class" / "anna").mkdir(parents=True)
+    for path in ("mine.mnc", "class/anna/mine.mnc"):
+        (tmp_path / path).write_text(MODEL)
+    assert shell.main(["grade", "mine.mnc", "--exercises", "own"]) == 0 and "passed" in capsys.readouterr().out
+    assert shell.main(["grade", "class"]) == 1 and "--exercises mine.toml" in capsys.readouterr().err
+    assert shell.main(["grade", "class", "--exercises", "own", "--json", "--csv"]) == 1
+    assert "only one of --csv and --json goes to stdout" in capsys.readouterr().err
+    assert shell.main(["grade", "class", "--exercises", "own", "--json", "--csv", "marks.csv"]) == 0
+    assert json.loads(capsys.readouterr().out)[0]["passed"] and "anna,mine,100%" in (tmp_path / "marks.csv").read_text("utf-8")
 
 
 def test_the_shell_lists_shows_checks_and_grades(tmp_path, capsys, monkeypatch):
@@ -414,3 +477,20 @@ def test_a_teachers_slip_is_named_at_its_line(tmp_path, change, says):
     with pytest.raises(Alarm, match=says) as found:
         load(path)
     assert found.value.span is not None and found.value.source.name == str(path)
+
+
+# --- the teacher's pages ---------------------------------------------------------------------------------------------
+
+
+def test_the_teachers_pages_have_answers_and_usual_faults_of_a_lessons_exercises(tmp_path):
+    from mnclab.shell.handout import answers, teachers
+
+    page = unescape(teachers("05"))
+    for each in mnclab.exercises(lesson="05"):
+        found = answers_of(each.file)
+        assert found.model.strip() in page and found.why in page
+        assert all(f"the hint says: {fault.hint}" in page for fault in found.faults)
+    copy = tmp_path / "mnc-07.toml"
+    copy.write_text(pupils_copy(mnclab.exercise("mnc-07").file), "utf-8")
+    with pytest.raises(Alarm, match="no solution"):
+        answers(load(copy))

@@ -225,9 +225,10 @@ def test_a_hole_that_a_lathe_drills_too_shallow_is_told_at_its_block():
 
 
 def test_where_an_arc_begins_and_what_only_a_rapid_passes_over_are_named(made):
-    """An arc of R3 over 10 mm, in line 5, begins where line 4 ends; the drill that is never fed comes to its hole in line 7."""
-    assert [hint.line for hint in made().check(RIGHT.replace("F300\n", "F300\nG3 Y30 R3\n")).hints] == [5, 4]
-    (hint,) = made().check(re.sub(r"G1 Z-\S+ F80\n", "", RIGHT)).hints
+    """An arc of R3 in line 5 begins at X of line 4, Y of line 2; the drill that is never fed comes to its hole in line 7."""
+    hints = made().check(RIGHT.replace("F300\n", "F300\nG3 Y30 R3\n")).hints
+    assert {hint.line: hint.text[-20:-14] for hint in hints[1:]} == {4: " the X", 2: " the Y"} and hints[0].line == 5
+    hint, *_ = made().check(re.sub(r"G1 Z-\S+ F80\n", "", RIGHT)).hints
     assert hint.line == 7 and "hole: nothing is cut there" in hint.text
 
 

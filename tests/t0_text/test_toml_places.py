@@ -2,7 +2,8 @@
 
 import pytest
 
-from mnclab.text.file import File
+from mnclab.text.alarm import Alarm
+from mnclab.text.file import File, table_of
 
 TEXT = """\
 title = "a"
@@ -56,3 +57,24 @@ def test_a_table_that_only_its_parts_name():
 
 def test_what_is_not_there():
     assert File("design.toml", TEXT).place_of("nothing") is None
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "column", "says"),
+    [
+        ('name = "a"\nstepover = 1,5\nfeed = 800\n', 2, 12, "write 1.5"),
+        ("a = -0,25 # mm\r\nb = 1\r\n", 1, 5, "write -0.25"),
+        ("[t]\n1 = [10, 20, 0\n2 = [1, 2, 3]\n", 2, 5, "the bracket is not closed"),
+        ("[t]\n1 = [10, 20, 0,\n\n[u]\nb = 1\n", 2, 5, "the bracket is not closed"),
+        ("a = [[1, 2],\n     [3, 4]\n# ] \nb = ']'\n", 1, 5, "the bracket is not closed"),
+        ('a = """\n[ {\n"""\nb = [1,\nc = 3\n', 4, 5, "the bracket is not closed"),
+        ("a = [\n 1,\n 2\n", 1, 5, "the bracket is not closed"),
+        ("a = [\n [1, 2],\n x\n]\n", 3, 2, "Invalid value"),
+        ("a = 1\nb = \n", 2, 5, "Invalid value"),
+    ],
+)
+def test_a_slip_is_shown_where_it_was_made(text, line, column, says):
+    """Not where a reader of TOML can go no further."""
+    with pytest.raises(Alarm, match=says) as found:
+        table_of(text)
+    assert (found.value.span.line, found.value.span.column) == (line, column)

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
+from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour, rectangle
 from mnclab.geometry.regions import Region
+from mnclab.geometry.sweeps import covered, polygons
 from mnclab.machining.milling.engagement import engagement, stretches
 from mnclab.machining.milling.rings import rings
 from mnclab.machining.milling.trochoids import trochoidal
@@ -114,3 +116,17 @@ def test_trochoids_cut_no_wider_than_their_step(region, step):
     later = found.chosen((found.move > 0) | (np.cumsum(found.step) > opening))
     assert later.width.max() < 2 * step
     assert later.step[later.width > 1.05 * step].sum() < 0.02 * later.step.sum()
+
+
+def test_trochoids_leave_out_the_ends_of_arcs_that_cut_only_air():
+    """Round an island the middle line comes back to the first disc: each arc still meets what those before it have left in
+    an eighth of it at one of its ends."""
+    region = Region([rectangle(60, 40), rectangle(14, 10, centre=(8, 2)).reversed()])
+    clearing = trochoidal(region, 4.0, 2.0)
+    left = polygons(region)
+    for contour, label in zip(clearing.passes, clearing.labels, strict=True):
+        parts = (0, contour.length / 8), (7 / 8 * contour.length, contour.length)
+        ends = [covered([contour.between(*part)], 4.0) for part in parts]
+        if "arc" in label and "arc 1 " not in label:
+            assert any(shapely.intersection(left, end).area > 1e-4 for end in ends), label
+        left = shapely.difference(left, covered([contour], 4.0))

@@ -75,7 +75,7 @@ def test_every_part_arrives(tmp_path):
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("start = [0, 0", "machine.toml:1:14: alarm: "),
+        ("start = [0, 0", "machine.toml:1:9: alarm: the bracket is not closed"),
         ("[tools.1]\nradiux = 3\n", "tools.1 has no 'radiux' (near: radius)"),
         ("[tool.1]\nradius = 3\n", "a setup has no 'tool' (near: tools)"),
         ("[tools.one]\nradius = 3\n", "a row of tools must be a whole number, got 'one'"),

@@ -70,6 +70,16 @@ def test_a_scale_says_how_deep_colours_are(run):
     assert "line 5" in texts(run.workpiece().plot(colour="line"))
 
 
+def test_the_scale_ends_in_a_number():
+    text = "G17 G90 G54\nT1 M6 S2000 M3\nG0 X30 Y20 Z5\nG1 Z-7.35 F300\nG0 Z20\n"
+    figure = mnclab.run(text, "g43", Setup(tools=TOOLS, stock=STOCK)).workpiece().plot()
+    scale = next(ax for ax in figure.axes if ax.get_ylabel() == "depth, mm")
+    figure.canvas.draw()
+    told = [(each.get_text(), each.get_window_extent()) for each in scale.get_xticklabels()]
+    assert (told[0][0], told[-1][0]) == ("0", "7.35") and scale.get_xlim() == (0, 7.35)
+    assert all(left.x1 < right.x0 for (_, left), (_, right) in zip(told, told[1:]))
+
+
 def test_a_part_with_nothing_but_through_holes_has_no_scale():
     text = "G17 G90 G54\nT2 M6 S2000 M3\nG0 X50 Y10 Z5\nG1 Z-30 F300\nG0 Z20\n"
     figure = mnclab.run(text, "g43", Setup(tools=TOOLS, stock=STOCK)).workpiece().plot()

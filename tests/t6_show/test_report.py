@@ -34,9 +34,9 @@ class Page(HTMLParser):
         self.text.append(data)
 
 
-def printed(run, title=None):
+def printed(run, title=None, profile=None):
     """The pages of a report."""
-    return sheets(document(run, report(run, title), run.plot(size=PICTURE)))
+    return sheets(document(run, report(run, title), run.plot(size=PICTURE), profile=profile))
 
 
 def lines_of(pages):
@@ -74,7 +74,7 @@ def test_the_page_stands_alone_and_is_well_formed(run, tmp_path):
 def test_the_pages_are_the_same_every_time(run, tmp_path):
     one, other = (run.report(tmp_path / f"{name}.pdf", colour="feed").read_bytes() for name in "ab")
     assert one == other and one.startswith(b"%PDF")
-    assert one.count(b"/Type /Page\n") + one.count(b"/Type /Page ") == len(printed(run))
+    assert one.count(b"/Type /Page\n") + one.count(b"/Type /Page ") == len(printed(run, profile=run.profile()))
 
 
 LONG = "G17 G90 G54 T1 S1000 M3\nG0 X0 Y0 Z5\n" + "G1 X9 F100\n" * 200 + "// " + "x" * 300 + "\nG1 X,5\n"

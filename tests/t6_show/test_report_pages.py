@@ -9,7 +9,7 @@ from tools.together import deep_but_one_in
 
 import mnclab as mnc
 from mnclab.show.plot.page_sheet import BOTTOM, TOP
-from mnclab.show.plot.pages import _parts, sheets
+from mnclab.show.plot.pages import HEADING, _parts, sheets
 from mnclab.show.plot.set_up import plot_set_up
 from mnclab.show.report import gathering
 
@@ -40,10 +40,14 @@ def filled(page):
     return (max(low) - TOP) / (end - TOP)
 
 
-@pytest.mark.parametrize("name", deep_but_one_in(5, ["sheet", "tnc-620/pockets.h", "tnc-620/holes.h", "nc-31/shaft.nc31"]))
-def test_no_page_but_the_last_is_less_than_half_full(name):
-    *pages, _ = sheets(document(run(name)))
-    assert pages and all(filled(page) > 0.5 for page in pages)
+REPORTS = ["jnc-t01/shaft.jnc", "sheet", "tnc-620/lid.h", "tnc-620/pockets.h", "tnc-620/holes.h", "nc-31/shaft.nc31"]
+
+
+@pytest.mark.parametrize("name", deep_but_one_in(6, REPORTS))
+def test_no_page_is_less_than_half_full_or_without_a_heading(name):
+    pages = sheets(document(run(name)))
+    assert len(pages) > 1 and all(filled(page) > 0.5 for page in pages)
+    assert all(page.texts_on_it[0].bold and page.texts_on_it[0].size >= HEADING for page in pages)
 
 
 def test_a_report_has_the_part_and_the_feed():

@@ -145,6 +145,13 @@ def test_numbers_of_the_rulers_are_round_in_the_picture_and_apart(written, run):
     assert {"0", "10", "20", "30"} <= {text for text, _ in along}
 
 
+def test_a_flat_body_has_two_numbers_along_its_short_axis(written):
+    text = "G17 G90 G54\nG0 X0 Y0 Z0\nG1 X120 Y90 F100\n"
+    mnclab.run(text, "mnc").scene(stock=((0, 0, -20), (120, 90, 0)), tool=False)
+    upright = [text for text, at in written if at[0] < 0 and text.startswith("\N{MINUS SIGN}")]
+    assert upright == ["\N{MINUS SIGN}20", "\N{MINUS SIGN}10"]
+
+
 def test_a_program_in_inches_has_rulers_and_scales_in_inches(written):
     run = mnclab.run("G20 G17 G90 G54\nT1 M6\nS1000 M3\nG0 X0 Y0 Z0.5\nG1 Z-1 F10\nX2 F20\nY2\n", "iso")
     scene = run.scene("feed", tool=False)

@@ -67,6 +67,7 @@ RIGHT = {
     "design.Thread end": -15.0, "thread": "M20", "pilot": 4.0, "inner": 10.0, "outer": 20.0, "design.RingGroove width": 3.0,
     "design.RingGroove depth": 1.0, "design.RingGroove z": -10.0, "Design blank": BLANK, "TurnedDesign profile": TURNED,
     "design.Outline points": ((0, 0), (10, 0), (0, 10)), "design.Undercut z": -10.0, "given": None,
+    "times": {10.0: 0.3, 100.0: 0.9, 400.0: 2.4},
     "blank.Revolved profile": ((20, -60), (20, 0)),
     "blank.Box low": (0, 0, 0), "blank.Box high": (1, 1, 1), "kind": "vertical", "design.Design blank": BLANK,
     "design.TurnedDesign profile": TURNED, "slope": 0.0, "r": 16.0, "area.Contour points": CIRCLE,

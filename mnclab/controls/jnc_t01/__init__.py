@@ -73,8 +73,8 @@ TRIAL_TOOLS = {"G73": 6, "G74": 7, "G75": 3}
 
 def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
     """A cycle in one block, before the face of the part, with a tool that suits it."""
-    x = 0 if cycle.code == "G73" else 40
-    return f"G90 G94 F100\nT{TRIAL_TOOLS.get(cycle.code, 1)} S800 M3\nG0 X{x} Z5\n{in_block(cycle, words)}\n"
+    x, z = 0 if cycle.code == "G73" else 40, -5 if cycle.code == "G75" else 5  # grooves round the bar, not before it
+    return f"G90 G94 F100\nT{TRIAL_TOOLS.get(cycle.code, 1)} S800 M3\nG0 X{x}\nZ{z}\n{in_block(cycle, words)}\n"
 
 
 FUNCTIONS = functions.FUNCTIONS

@@ -42,8 +42,8 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
     """The code of a cycle in a frame with its marks, each word in one of its own; holes in the face lie on the axis."""
     marks = [address for address, value in words if address in "~@" and value]
     frames = [" ".join([cycle.code, *marks]), *(a + number(value) for a, value in words if a not in "~@")]
-    x = 0 if cycle.code in ("G73", "G33") else 4000
-    return "\n".join(["S800", "M3", "F20", f"X{x} ~ *", "Z200 ~", " *\n".join(frames), ""])
+    x, z = 0 if cycle.code in ("G73", "G33") else 4000, -600 if cycle.code == "G75" else 200  # grooves in the bar
+    return "\n".join(["S800", "M3", "F20", f"X{x} ~ *", f"Z{z} ~", " *\n".join(frames), ""])
 
 
 #: The source has no tool words: the operator put the tool of a cycle in.

@@ -42,6 +42,7 @@ SIGNS = (
 
 # The numbers of blocks of the TNC: 0, 1, 2 … of Klartext, N of DIN/ISO. Jumps lead to labels, so nothing names them.
 
+_SUB_BLOCK = re.compile(r"(?im)^(?:[ \t]*+\d++)?[ \t]*+(?:CYCL[ \t]++DEF|TCH[ \t]++PROBE)[ \t]++\d++\.[1-9]")  # counts too
 _NUMBER = re.compile(r"[ \t\ufeff]*+(?:/[ \t]*+)?(\d++)(?![.,])")
 
 
@@ -49,7 +50,7 @@ def numbers(program: Program) -> Numbers:
     """Those of blocks that have one; where none has, each block gets one."""
     if din_reader.begins(program.text):
         return words.numbers(program)
-    starts = program.start.tolist()
+    starts = sorted({*program.start.tolist(), *(found.start() for found in _SUB_BLOCK.finditer(program.text))})
     matches = [_NUMBER.match(program.text, at) for at in starts]
     blocks = [Numbered(match.start(1), len(match[1]), match[1]) for match in matches if match]
     return Numbers(blocks or [Numbered(at, 0, "") for at in starts], first=0, step=1)

@@ -175,16 +175,14 @@ def remark(m: Machine, setting: str, sentence: str, word: Word | None) -> None:
 
 def feed(m: Machine, words: Words) -> None:
     """F: the feed along the path, kept until a new one."""
-    value = m.value(words["F"])
-    if value <= 0:
+    if (value := m.value(words["F"])) <= 0:
         m.alarm(f"F (feed rate) must be greater than 0, got {value:g}", words["F"])
     m.change("feed", value * m.variable_unit)
 
 
 def spindle_speed(m: Machine, words: Words) -> None:
     """S: the spindle speed."""
-    value = m.value(words["S"])
-    if value < 0:
+    if (value := m.value(words["S"])) < 0:
         m.alarm(f"S (spindle speed) must be at least 0, got {value:g}", words["S"])
     m.spindle(speed=value)
 
@@ -283,8 +281,8 @@ FEEDS = {"G94": "Feed per minute", "G95": "Feed per revolution"}
 STOPS = {"G61": "Exact stop between blocks", "G64": "Block blending"}
 SIDES = {"G40": 0, "G41": 1, "G42": -1}
 COMPENSATION = {"G40": "Radius compensation off", "G41": "Radius compensation left", "G42": "Radius compensation right"}
-RETURN = {"G98": "Return to the initial level", "G99": "Return to level R"}
 PAUSES = {"M0": "Program stop", "M1": "Optional stop"}
+RETURN = {"G98": "Return to the initial level", "G99": "Return to level R"}
 COOLANT = {"M7": "Coolant 2 on", "M8": "Coolant on", "M9": "Coolant off"}
 
 
@@ -351,8 +349,10 @@ def functions(remark: Obey, source: str, **sources: str) -> FunctionTable:
 
     @table("M2 M30", "Program end", phase="end", modal=False, leads_away=True, source=source)
     def program_end(m: Machine, words: Words) -> None:
-        """The program ends here, after the motion of the block; without it, at the end of the text."""
+        """The program ends here, after the motion of the block, and the spindle stops; without it, at the end of the text."""
         remark(m, words)
+        m.spindle(turning=0)
+        m.set_modal("spindle", "M5")
         m.ended = True
 
     @table("M9", COOLANT, group="coolant", phase="end", power_on="M9", source=source)

@@ -156,7 +156,8 @@ class Side:
             self._rectangle(first.contour, known, numbers)
             self._fall(first, known, numbers)
         elif shape is not None:
-            deep = isinstance(shape, Circle) and not isinstance(first, Stud)
+            # at a leader a depth counts from the upper side; where it begins deeper only a section says from where
+            deep = isinstance(shape, Circle) and not isinstance(first, Stud) and first.top is None
             self._shape(shape, first.measures(), numbers, (written(known["depth"]),) if deep else ())
             if not deep:
                 self._deep(numbers, shape.contour)

@@ -37,8 +37,8 @@ if TYPE_CHECKING:
 Values = Mapping[str, Any]  # by the name of a parameter; what is left out is not in it
 STEP = 1e-4  # by which a value is changed to see what it measures, in its own unit; whole numbers by 1
 ROOM = 0.15  # of a blank around what is cut, of its greatest side
-HEAD = 0.12  # inches over the axes
-BAR = 0.35  # radius of a bar that is worked on its axis, of its length
+BAR, BAR_LONG = 0.35, 1.4  # radius of a bar that is worked on its axis, of its length; least length of a bar, of its radius
+WALL = 0.05  # of what is cut: a thinner wall between it and the datum stands on no corner of the blank
 NEAR = 2.0  # times its own size: from so far away the datum is a corner of the blank
 CUTS = (Kind.LINE, Kind.ARC)
 
@@ -97,11 +97,15 @@ class Example:
         low, high = cuts.bounds
         size = float((high - low).max())
         if path.lathe:
-            radius, end = max(float(high[0]), BAR * size), float(low[2])
-            return Revolved(((radius, end - ROOM * size), (radius, max(0.0, end))))
-        room = max(ROOM * size, 2 * float(np.nan_to_num(cuts.radius).max()), 1.0) * np.array([1.0, 1.0, 0.7])
+            radius, end = max(float(path.bounds[1, 0]), BAR * size), float(low[2])  # the cycle begins at its skin
+            level = cuts.end[cuts.start[:, 0] == cuts.end[:, 0], 0]
+            radius += ROOM * size if len(level) and level.max() > radius - SAME else 0.0  # but grooves of a face within it
+            far = min(end - ROOM * size, max(0.0, end) - BAR_LONG * radius)  # it fills the picture, which is wider than high
+            return Revolved(((radius, far), (radius, max(0.0, end))))
+        tool = float(np.nan_to_num(cuts.radius).max())
+        room = max(ROOM * size, 2 * tool, 1.0) * np.array([1.0, 1.0, 0.7])
         top = float(values.get("surface") or 0.0)
-        corner = np.where((low > 0) & (low < NEAR * size + 2 * room), 0.0, low - room)
+        corner = np.where((low - tool > WALL * size) & (low < NEAR * size + 2 * room), 0.0, low - room)
         corner[2], end = low[2] - room[2], high + room
         end[2] = top if top > corner[2] else float(high[2])
         return Box(tuple(corner.tolist()), tuple(end.tolist()))
@@ -110,10 +114,11 @@ class Example:
         """The moves of the cycle with a blank behind them; `options` are those of `plot_path`."""
         from mnclab.show.plot.datums import places_of
         from mnclab.show.plot.path import overlays_of, plot_path
+        from mnclab.show.plot.unrolled import plot_unrolled
         from mnclab.show.probed import felt as felt_of
 
         if (run.toolpath.cylinder >= 0).any():
-            return plain(run.plot(size=options["size"]))
+            return unlinked(plot_unrolled(run.toolpath, size=options["size"], legend=False))
         rows = self.rows(run.toolpath)
         path = near(run.toolpath[rows])
         shown: dict[str, Any] = {"stock": run.stock or self.blank(path, values), "places": places_of(run), "felt": felt_of(run)}
@@ -124,7 +129,7 @@ class Example:
                 with suppress(Alarm):
                     shown["part"] = run.workpiece(stock=shown["stock"].moved(path.origin))
         shown["overlays"] = overlays_of(run, centres=False, original=True, holes=True, fixtures=True)
-        return plain(plot_path(path, alarms=run.alarms, rapids=run.rapids, **shown, **options))
+        return unlinked(plot_path(path, alarms=run.alarms, rapids=run.rapids, legend=False, **shown, **options))
 
     def measured(self, run: Run, p: Parameter, values: Values) -> Measured | None:
         """What a parameter measures in the run with these values."""
@@ -142,21 +147,15 @@ class Example:
         return None
 
 
-def plain(picture: Any) -> Picture:
-    """A picture without the legend and its room, whose moves, all of one line, cannot be clicked on; its `views` are kept."""
-    from mnclab.show.plot.sizes import reframe
-
-    for legend in list(picture.legends):
-        legend.remove()
-    width, height = picture.get_size_inches().tolist()
-    reframe(picture, 0.0, 0.0, width, height * max((ax.get_position().y1 for ax in picture.axes), default=1.0) + HEAD)
+def unlinked(picture: Any) -> Picture:
+    """A picture whose moves, all of one line, cannot be clicked on; its `views` are kept."""
     picture.views, picture.seen = picture.seen, ()
     return cast("Picture", picture)
 
 
 # Rapids from and to the heights where nothing happens would make what is cut small: they are cut off.
 
-ABOVE = 0.25  # of the greatest side of what is cut, if it is not as deep
+ABOVE, OVER = 0.1, 0.5  # of the greatest side of what is cut, or of how deep it is
 
 
 def near(path: Toolpath) -> Toolpath:
@@ -165,7 +164,7 @@ def near(path: Toolpath) -> Toolpath:
     if not len(cuts):
         return path
     low, high = cuts.bounds
-    roof = high + np.maximum(high - low, ABOVE * (high - low).max())
+    roof = high + np.maximum(OVER * (high - low), ABOVE * (high - low).max())
     roof[[1] if path.lathe else [0, 1]] = np.inf
     way = path.end - path.start
     over = [(each > roof) & (path.kind == Kind.RAPID)[:, None] for each in (path.start, path.end)]

@@ -11,7 +11,9 @@ far outside the disc before it, both about one centre and r being its radius:
 
 So what lies within the rim is always cleared, if k ≤ R. Where a branch leaves a larger disc its first arcs cut up to twice
 as much; on the first turn out of the plunged hole the tool works with nearly its whole rim, whatever the step. The spiral of
-the first disc grows by k·r / (r + R) a turn. In the end the walls are followed, which takes away the cusps between the arcs.
+the first disc grows by k·r / (r + R) a turn. Where a line comes back to what others have cleared, as behind an island, the
+ends of an arc that lie within their discs would cut air and are left out. In the end the walls are followed, which takes away
+the cusps between the arcs.
 """
 
 from __future__ import annotations
@@ -32,6 +34,7 @@ from mnclab.machining.milling.pocket_steps import half_circles
 from mnclab.machining.milling.spirals import half_circles as opening
 from mnclab.machining.milling.spirals import through
 
+SAMPLES = 33  # of an arc that may lie in what is cleared
 SMALLEST = 0.05  # of the tool radius: discs of tool centres below that are left to the passes along the walls
 FINEST = 1 / 32  # of the stepover: the places on the middle line that are tried; in the smallest disc 1/21 is gone on
 
@@ -48,9 +51,9 @@ def trochoidal(
 def _piece(centres: Region, radius: float, stepover: float, climb: bool) -> Piece:
     passes: list[Contour] = []
     labels: list[str] = []
-    found = skeleton(centres, min(stepover, radius) / 2)
+    found, cleared = skeleton(centres, min(stepover, radius) / 2), np.empty((0, 3))
     for number, (branch, fresh) in enumerate(_branches(found, SMALLEST * radius), 1):
-        arcs = _discs(found.points[branch], centres, radius, stepover, climb, fresh)
+        arcs, cleared = _discs(found.points[branch], centres, radius, stepover, climb, fresh, cleared)
         passes += arcs
         labels += [f"branch {number}, {name}" for name in numbered("arc", len(arcs))]
     place = passes[0].points[0] if passes else None
@@ -58,14 +61,18 @@ def _piece(centres: Region, radius: float, stepover: float, climb: bool) -> Piec
     return Piece(centres, tuple(passes), links(centres, passes, stepover), tuple(labels), place)
 
 
-def _discs(points: Floats, centres: Region, radius: float, stepover: float, climb: bool, first: bool) -> list[Contour]:
-    """The arcs along a branch `(n, 2)` of the middle line; the first branch opens on a spiral."""
+def _discs(
+    points: Floats, centres: Region, radius: float, stepover: float, climb: bool, first: bool, cleared: Floats
+) -> tuple[list[Contour], Floats]:
+    """The arcs along a branch `(n, 2)` of the middle line, and the discs of tool centres `(m, 3)` that are `cleared` behind it;
+    the first branch opens on a spiral."""
     arcs = []
     centre, reach = points[0], float(centres.distance(points[:1])[0])
     if first:
         away = _widening(reach, radius, stepover)
         arcs.append(through(centre, away, clockwise=not climb))
         arcs.append(Contour.circle(centre, reach, np.pi * (len(away) - 1), clockwise=not climb))
+        cleared = np.vstack([cleared, (*centre, reach)])
     middles = _finer(points, stepover * FINEST) if len(points) > 1 else points
     rooms = centres.distance(middles)
     while len(middles) > 1:
@@ -74,11 +81,19 @@ def _discs(points: Floats, centres: Region, radius: float, stepover: float, clim
         last = max(int(over[0]) - 1, 1) if len(over) else len(middles) - 1
         new, size = middles[last], float(rooms[last])
         arc = _outside(new, size, centre, reach, climb) if size >= SMALLEST * radius else None
-        if arc is not None:
-            arcs.append(arc)
+        arcs += [] if arc is None else _beyond(arc, cleared)
+        cleared = np.vstack([cleared, (*new, size)])
         centre, reach = new, size
         middles, rooms = middles[last:], rooms[last:]
-    return arcs
+    return arcs, cleared
+
+
+def _beyond(arc: Contour, discs: Floats) -> list[Contour]:
+    """An arc without the ends that lie within discs `(m, 3)`, each place in one of them; nothing where all of it does."""
+    ways = np.linspace(0, arc.length, SAMPLES)
+    off = np.hypot(*(arc.point_at(ways)[0][:, None] - discs[:, :2]).transpose(2, 0, 1)) - discs[:, 2]
+    out = np.flatnonzero(off.min(axis=1, initial=np.inf) > SAME)
+    return [arc.between(ways[max(out[0] - 1, 0)], ways[min(out[-1] + 1, SAMPLES - 1)])] if len(out) else []
 
 
 def _widening(reach: float, radius: float, stepover: float) -> list[float]:

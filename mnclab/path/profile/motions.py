@@ -10,7 +10,9 @@ import numpy as np
 from mnclab.path.feeds import spindle_speed
 from mnclab.path.limits import Limits
 from mnclab.path.places import Bends
-from mnclab.path.toolpath import Array, Kind, Mask, Toolpath
+from mnclab.path.profile.lookahead import running_sum
+from mnclab.path.profile.ramps import gain
+from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 from mnclab.text.tables import shapes
 
 # How fast a corner is taken: the square of the speed from the two tangents that meet there.
@@ -302,6 +304,29 @@ def _stops(path: Toolpath, rows: Rows) -> None:
     alone = (path.kind == Kind.RAPID) | (path.kind >= Kind.PROBE)
     if alone.any():
         rows.corner[:-1][alone] = rows.corner[1:][alone] = 0.0
+
+
+def in_sight(rows: Rows, block: Index | None, ahead: int | None) -> None:
+    """Hold the nodes at speeds from which the tool can stop where the blocks end that the control knows.
+
+    It knows the block that it runs and `ahead` more (None: all of them), and what comes then may be a stop. `block` (n,)
+    says which block each row is a part of, None: the rows are the blocks. Under a jerk limit the least acceleration and
+    jerk among these rows hold for all of them.
+    """
+    if ahead is None or not len(rows.length):
+        return
+    ends = np.arange(1, len(rows.corner)) if block is None else np.flatnonzero(np.diff(block, append=-1)) + 1
+    nodes = np.flatnonzero(rows.corner)
+    last = ends[np.minimum(np.searchsorted(ends, nodes) + ahead, len(ends) - 1)]
+    stops = np.flatnonzero(rows.corner == 0)
+    unseen = last < stops[np.searchsorted(stops, nodes)]  # a stop that is seen is planned as it is
+    nodes, last = nodes[unseen], last[unseen]
+    behind = running_sum(rows.length if len(rows.j) else 2 * rows.a * rows.length)
+    w = behind[last] - behind[nodes]
+    if len(rows.j) and len(nodes):
+        a, j = np.minimum.reduceat((rows.a, rows.j), np.stack([nodes, last], axis=1).ravel(), axis=1)[:, ::2]
+        w = np.where(w > 0, gain(np.zeros(len(w)), w, a, j), 0.0) ** 2
+    rows.corner[nodes] = np.minimum(rows.corner[nodes], w)
 
 
 def _bend_joints(path: Toolpath, rows: Rows, limits: Limits, slack: Slack) -> None:

@@ -1,6 +1,6 @@
 """Look-ahead over a whole path: when the tool is where, and how fast.
 
-1. `path.profile.motions`: what each row and each corner allows by itself.
+1. `path.profile.motions`: what each row and each corner allows by itself, and what a look-ahead of some blocks does.
 2. `path.profile.lookahead`: from that the speeds at the nodes between rows, by two scans.
 3. `path.profile.lookahead`: arcs that do not reach their feed are cut finer and planned again.
 4. `path.profile.smooth`: under a jerk limit, S-curves over groups of rows instead of trapezoids; arcs are cut into
@@ -17,7 +17,7 @@ import numpy as np
 from mnclab.path.limits import Limits
 from mnclab.path.places import divided
 from mnclab.path.profile.lookahead import FEWEST, PART, Turns, reachable
-from mnclab.path.profile.motions import PIECE, Rows, measure
+from mnclab.path.profile.motions import PIECE, Rows, in_sight, measure
 from mnclab.path.profile.ramps import Rapids
 from mnclab.path.profile.smooth import Groups, smooth, staged
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
@@ -64,12 +64,14 @@ def plan(
         path, row = divided(path, np.where(turning & path.is_motion, SURFACE, 1))
         waits = None if waits is None else waits[row]
     rows = measure(path, limits, override)
+    in_sight(rows, row, limits.look_ahead)
     if len(rows.j):
         if (cut := staged(path, rows, limits)) is not None:
             path, inner = cut.path, cut.inner
             row, waits = cut.part if row is None else row[cut.part], None if waits is None else waits[cut.part]
             rows = measure(path, limits, override, turning=cut.turning)
             rows.corner[inner] = np.minimum(rows.cap[inner - 1], rows.cap[inner])
+            in_sight(rows, row, limits.look_ahead)
         w = reachable(rows.corner, 2 * rows.a * rows.length)
         v, top, seconds, groups = smooth(rows, w) if cut is None else smooth(rows, w, cut.knots, cut.bound)
         found = PlannedRows(path, row, rows, v, top, seconds, groups=groups)
@@ -124,9 +126,10 @@ def _turned(found: PlannedRows, slow: Mask, limits: Limits, override: float) -> 
     rows = measure(path, limits, override, caps)
     inner = np.setdiff1d(turns.rows, turns.rows[turns.first[:-1]])  # no corners, if both ends of an arc miss its circle
     rows.corner[inner] = np.minimum(rows.cap[inner - 1], rows.cap[inner])
+    row = part if found.row is None else found.row[part]
+    in_sight(rows, row, limits.look_ahead)
     w = turns.speeds_at(rows.corner, rows.a, rows.length)
     w0, w1 = w[turns.rows], w[turns.rows + 1]
-    row = part if found.row is None else found.row[part]
     again = _trapezoids(path, row, rows, w)
     again.ramps = turns.rows
     again.top[turns.rows] = np.sqrt(np.maximum(w0, w1))

@@ -15,6 +15,7 @@ class Carving {
     this.cutters = part.cutters;
     [this.which, this.does, this.lift] = ["which", "does", "lift"].map(name => new Log(columns, part[name]));
     const blank = Heights.of(this.grid, columns[part.top].map(v => v / part.parts));
+    if (part.walls !== undefined) blank.stand(columns[part.walls], columns[part.shares]);
     if (part.round) {  // the walls of a standing cylinder
       const [x, y, radius, bore] = part.round, {low, high} = part, left = (a, b) => {
         const out = Math.hypot(a - x, b - y);

@@ -50,6 +50,19 @@ class Log {  // places where a value changes, and the values from there on
   }
 }
 
+// An element of the page with its properties and what is within.
+function made(tag, properties, ...within) {
+  const found = Object.assign(document.createElement(tag), properties);
+  found.append(...within);
+  return found;
+}
+
+// A vector about a unit vector n by an angle, right-handed.
+function turned(v, n, angle) {
+  const [c, s] = [Math.cos(angle), Math.sin(angle)], along = (1 - c) * v.reduce((sum, value, i) => sum + value * n[i], 0);
+  return v.map((value, i) => c * value + s * (n[(i + 1) % 3] * v[(i + 2) % 3] - n[(i + 2) % 3] * v[(i + 1) % 3]) + along * n[i]);
+}
+
 class Path {  // kinds, vertices and arcs; positions in mm
   constructor(columns, packed, scale, angles, bent = null) {
     this.kind = Uint8Array.from(columns[packed.kind]);
@@ -86,9 +99,7 @@ class Path {  // kinds, vertices and arcs; positions in mm
     let u = a.map((start, i) => start - c[i]);
     const along = u[0] * n[0] + u[1] * n[1] + u[2] * n[2];
     u = u.map((value, i) => value - along * n[i]);
-    const v = [n[1] * u[2] - n[2] * u[1], n[2] * u[0] - n[0] * u[2], n[0] * u[1] - n[1] * u[0]];
-    const turned = angle => u.map((value, i) => Math.cos(angle) * value + Math.sin(angle) * v[i]);
-    const here = turned(this.sweep[k] * share), full = turned(this.sweep[k]);
+    const here = turned(u, n, this.sweep[k] * share), full = turned(u, n, this.sweep[k]);
     return a.map((start, i) => start - u[i] + here[i] + share * (b[i] - (start - u[i] + full[i])));
   }
   length(row) {

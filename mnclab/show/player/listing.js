@@ -10,8 +10,7 @@ class Listing {
     this.going = {program: 0, from: -1, to: -1};  // the block going on, lines from 1
     this.choice = choice;
     this.heads = box.previousElementSibling;
-    this.sheet = document.createElement("div");
-    this.sheet.className = "sheet";
+    this.sheet = made("div", {className: "sheet"});
     box.append(this.sheet);
     this.height = 20;
     box.parentElement.style.setProperty("--digits", Math.max(3, ...run.texts.map(text => String(text.length).length)));
@@ -37,12 +36,10 @@ class Listing {
   coloured(string) {
     const pieces = [], stream = {string, pos: 0, sol: () => false, next: () => stream.pos++}, token = this.tokens[this.program];
     while (token && stream.pos < string.length) {
-      const from = stream.pos, name = token(stream), piece = document.createElement("i"), [before] = pieces.slice(-1);
-      piece.className = (name || "").split(".")[0];
-      piece.textContent = string.slice(from, stream.pos);
-      if (name) pieces.push(piece);
-      else if (typeof before === "string") pieces[pieces.length - 1] += piece.textContent;
-      else pieces.push(piece.textContent);
+      const from = stream.pos, name = token(stream), piece = string.slice(from, stream.pos), [before] = pieces.slice(-1);
+      if (name) pieces.push(made("i", {className: name.split(".")[0]}, piece));
+      else if (typeof before === "string") pieces[pieces.length - 1] += piece;
+      else pieces.push(piece);
     }
     return token ? pieces : [string];
   }
@@ -93,23 +90,19 @@ class Listing {
     this.sheet.style.height = text.length * height + "px";
     const lines = [];
     for (let k = first; k < end; k++) {
-      const row = document.createElement("div"), now = k + 1 >= from && k + 1 <= to, alarm = this.alarms.get(`${this.program} ${k + 1}`);
+      const now = k + 1 >= from && k + 1 <= to, alarm = this.alarms.get(`${this.program} ${k + 1}`);
       const stops = this.stops && this.stops.has(this.program, k + 1);
+      const title = `${this.place(this.program, k + 1)}: a click sets a stop, or takes it away`;
+      const row = made("div", {id: "line-" + (k + 1)}, made("span", {title}, k + 1), made("code", {}, ...this.coloured(text[k])));
       row.className = "line" + (now ? " now" : "") + (alarm ? " " + alarm.severity : "") + (stops ? " stops" : "");
       row.style.top = k * height + "px";
       row.dataset.line = k + 1;
-      row.id = "line-" + (k + 1);
       row.setAttribute("role", "option");
       row.setAttribute("aria-setsize", text.length);
       row.setAttribute("aria-posinset", k + 1);
       row.setAttribute("aria-selected", now);
       row.setAttribute("aria-label", `line ${k + 1}: ${text[k].trim() || "empty"}${stops ? "; stops here" : ""}`);
       if (alarm) row.title = alarm.message;
-      const figure = document.createElement("span"), code = document.createElement("code");
-      figure.textContent = k + 1;
-      figure.title = `${this.place(this.program, k + 1)}: a click sets a stop, or takes it away`;
-      code.append(...this.coloured(text[k]));
-      row.append(figure, code);
       lines.push(row);
     }
     this.sheet.replaceChildren(...lines);

@@ -127,16 +127,8 @@ class Measure {
     points.forEach(({what, at, off, round}, k) => rows.push([`${k + 1}`, ...this.columns(at).map(v => number(v, run.unit.decimals)),
       `${what}${this.doubt(off)}${round ? `, ${this.round(round)}` : ""}`]));
     if (b) rows.push(["Δ", ...b.map((v, k) => number(v - a[k], run.unit.decimals)), this.summary()]);
-    this.find("values").replaceChildren(...rows.map((row, i) => {
-      const line = document.createElement("tr");
-      line.append(...row.map((text, k) => {
-        const cell = document.createElement(i && k ? "td" : "th");
-        cell.textContent = text;
-        if (!i || !k) cell.scope = i ? "row" : "col";
-        return cell;
-      }));
-      return line;
-    }));
+    this.find("values").replaceChildren(...rows.map((row, i) => made("tr", {}, ...row.map((text, k) =>
+      i && k ? made("td", {}, text) : made("th", {scope: i ? "row" : "col"}, text)))));
     this.find("copy").hidden = !points.length;
   }
   copy() {  // a frame of a notebook may not ask for the clipboard, but copy what is selected

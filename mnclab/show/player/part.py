@@ -28,7 +28,7 @@ from mnclab.show.probed import Felt
 from mnclab.text.alarm import several
 from mnclab.text.file import printable
 from mnclab.workpiece.blank import Revolved
-from mnclab.workpiece.cutting import Cutting
+from mnclab.workpiece.cutting import Cutting, tool_exists
 from mnclab.workpiece.milling.moves import cutter_of
 from mnclab.workpiece.milling.raster import Raster
 from mnclab.workpiece.turning.section import SectionDrawing, cuts, held, left_of
@@ -265,12 +265,13 @@ def inserts(pack: Packer, run: Any) -> dict[str, Any]:
     ends = [path.bounds] if len(path.motion) else []
     ends += [run.stock.bounds] if run.stock else []
     size = (LONG * float(np.ptp(np.concatenate(ends), axis=0).max()) if ends else 0.0) or 1.0
-    known = np.unique(numbers).tolist()
-    shapes = [as_drawn(table.get(number, Tool()), lead_of(path, numbers == number)) for number in known]
-    tools = [
-        {"insert": _corners(insert(tool, size).points_within(FINE * size)), "holder": _corners(holder(tool, size))}
-        for tool in shapes
-    ]
+    known, tools = np.unique(numbers).tolist(), []
+    for number in known:
+        tool = table.get(number, Tool())
+        name = tool.name or tool.kind or "insert of the setup" if tool_exists(tool) else "default insert"
+        shape = as_drawn(tool, lead_of(path, numbers == number))
+        edges = insert(shape, size).points_within(FINE * size)
+        tools.append({"name": name, "insert": _corners(edges), "holder": _corners(holder(shape, size))})
     return {"which": log(pack, np.searchsorted(known, numbers)), "tools": tools}
 
 
@@ -281,6 +282,9 @@ def _corners(points: Array | Sequence[Any]) -> list[list[float]]:
 # To show what a probe meets: the map of its heights, and the touches with their numbers.
 
 PROBED_CELLS = 200  # along the longer side of the part
+BEFORE = 1.0  # mm
+WALL = 1.0  # of a cell that two neighbours differ in height where there is a wall
+SHARES = 2**9  # parts of the way from one to the other
 DIGITS = 4
 
 
@@ -293,6 +297,7 @@ def felt_part(pack: Packer, found: Felt, path: Toolpath) -> dict[str, Any]:
     y, x = (each.ravel() for each in np.meshgrid(raster.y, raster.x, indexing="ij"))
     low, high = ends[:, 2].tolist()
     top = np.nan_to_num(found.heights(x, y, low, high, raster.step), nan=low)
+    walls, shares = _walls(found, raster, np.column_stack([x, y, top]))
     nothing = np.zeros(len(path))
     return {
         "low": list(raster.low),
@@ -302,6 +307,8 @@ def felt_part(pack: Packer, found: Felt, path: Toolpath) -> dict[str, Any]:
         "parts": PARTS,
         "top": pack.add(parted(top, PARTS)),
         "floor": pack.add(parted(np.full(len(top), low), PARTS)),
+        "walls": pack.add(walls),
+        "shares": pack.add(shares),
         "cutters": [],
         "which": log(pack, nothing),
         "does": log(pack, np.full(len(path), NOTHING)),
@@ -310,14 +317,32 @@ def felt_part(pack: Packer, found: Felt, path: Toolpath) -> dict[str, Any]:
     }
 
 
+def _walls(found: Felt, raster: Raster, tops: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Where walls stand between the cells of a map `tops` (n, 3): twice the number of a cell, and one more along Y, and the parts
+    of the way to its neighbour."""
+    assert found.part is not None
+    heights, n = tops[:, 2].reshape(raster.shape), np.arange(len(tops)).reshape(raster.shape)
+    along = np.concatenate([2 * n[:, :-1].ravel(), 2 * n[:-1].ravel() + 1])
+    rise = np.concatenate([np.diff(heights, axis=0 if up else 1).ravel() for up in (False, True)])
+    walls, rise = (each[np.abs(rise) > WALL * raster.step] for each in (along, rise))
+    places = tops[walls // 2] + found.origin + rise[:, None] * [0.0, 0.0, 0.5]
+    low, high = np.zeros(len(walls)), np.ones(len(walls))
+    for _ in range(SHARES.bit_length() - 1):
+        middle = (low + high) / 2
+        before = (found.part(places + (raster.step * middle)[:, None] * np.eye(3)[walls % 2]) <= 0) == (rise < 0)
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    return walls, np.round((low + high) / 2 * SHARES).astype(np.int64)
+
+
 def felt_touches(found: Felt | None, path: Toolpath) -> dict[str, Any]:
     """The corners of what is to be seen, the ends of a beam, and of each touch its row, its place and what is written there."""
     if found is None:
         return {"corners": [], "touches": [], "beam": []}
-    touches = zip(found.rows, found.places.round(DIGITS).tolist(), found.texts)
+    before = found.places - BEFORE * found.ways  # where the ball came from: what hides it hides the touch
+    touches = zip(found.rows, found.places.round(DIGITS).tolist(), before.round(DIGITS).tolist(), found.texts)
     corners = _ends(found, path).round(DIGITS).tolist() if found.part is not None or found.beam is not None else []
     beam = [] if found.beam is None else found.beam.round(DIGITS).tolist()
-    told = [{"row": row, "at": at, "text": text} for row, at, (text, _) in touches]
+    told = [{"row": row, "at": at, "from": off, "text": text} for row, at, off, (text, _) in touches]
     return {"corners": corners, "touches": told, "beam": beam}
 
 

@@ -106,7 +106,8 @@ def payload(
         "rotary": columns(pack, parted(turned, degrees)) if turned.any() else None,
         "degrees": degrees,
         "stock": _edges([run.stock] if run.stock else []) + _cylinders(run.toolpath),
-        "turning": bool(run.toolpath.cylinders),
+        "turning": sorted({(*one.direction, one.rotary) for one in run.toolpath.cylinders}) or None,  # the axes of drums
+        "home": run.rows_from_home if run.toolpath.cylinders else 0,  # rows that nobody has said the beginning of
         "bent": _bent(pack, run.toolpath, scale) if run.toolpath.cylinders else None,
         "fixtures": _edges(cutting.fixtures) if cutting and not path.lathe else [],
         "held": [plain(each) for each in cutting.fixtures if isinstance(each, tuple)] if cutting and not path.lathe else [],

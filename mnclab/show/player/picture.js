@@ -14,7 +14,7 @@ class Picture {
     this.run = run;
     const rough = new Strokes(run.path, 0.5), size = box => box ? Math.hypot(...box[1].map((v, k) => v - box[0][k])) : 0;
     this.extent = size(rough.box(RAPIDS, CUTS, PROBINGS)) || 100;
-    this.strokes = new Strokes(run.path, Math.max(1e-6, this.extent / 2e4), run.course);
+    this.strokes = new Strokes(run.path, Math.max(1e-6, this.extent / 2e4), run.course, run.header.home);
     this.contour = run.programmed && new Strokes(run.programmed, Math.max(1e-6, this.extent / 2e4));
     this.fills = [CUTS, PROBINGS];  // what fills the picture: rapids run out of it, where there is anything else
     if (!size(this.strokes.box(...this.fills))) this.fills.push(RAPIDS);
@@ -146,7 +146,7 @@ class Picture {
       this.lines(this.pen(this.canvas), whole, until, false);
     }
     const taken = this.moment(this.pen(this.canvas), at);
-    this.touches.draw(this.pen(this.canvas), camera, this.colours, rowsDone, taken);
+    this.touches.draw(this.pen(this.canvas), camera, this.colours, rowsDone, taken, inSpace ? at => this.part.sees(at) : undefined);
   }
 
   blank(pen) {  // and what holds it
@@ -172,8 +172,14 @@ class Picture {
     pen.globalAlpha = 1;
   }
 
+  // How places about the tip are projected: those of a tool, round which a drum has turned.
+  beside(tip, angles) {
+    const [[...drum]] = this.run.header.turning || [[]], angle = (angles || [])[drum.pop()] * Math.PI / 180;
+    if (!angle) return point => this.camera.project(point);
+    return point => this.camera.project(turned(point.map((v, k) => v - tip[k]), drum, angle).map((v, k) => v + tip[k]));
+  }
   // Returns the boxes of what is written.
-  moment(pen, {row, tip, tool, along, at}) {
+  moment(pen, {row, tip, tool, along, at, angles}) {
     const {camera, colours, strokes, run} = this, project = point => camera.project(point);
     const inSpace = this.part && this.part.inSpace;
     if (row >= 0 && run.path.isMotion(row) && !inSpace) {
@@ -183,7 +189,7 @@ class Picture {
     }
     const held = run.lathe && run.inserts.tools[run.inserts.which.value(row < 0 ? at : row) || 0];
     if (held && !inSpace) drawInsert(pen, held, tip, project, colours);
-    else if (!run.lathe && !inSpace && tool && (tool.number || tool.radius)) drawTool(pen, tool, tip, along, project, colours, this.extent);
+    else if (!run.lathe && !inSpace && tool && (tool.number || tool.radius)) drawTool(pen, tool, tip, along, this.beside(tip, angles), colours, this.extent);
     const [x, y] = project(tip);
     pen.beginPath();
     pen.arc(x, y, 3.2, 0, 7);

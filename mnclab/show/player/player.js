@@ -205,15 +205,16 @@ class PlayerPage {
   }
   draw(turning = false) {
     const {run, picture} = this, now = this.now(), going = now.item >= 0 && run.itemRow[now.item] === now.row ? now.row : -1;
-    const tool = run.history.has("tool") && !run.header.turning ? run.history.get("tool").value(now.step) : null;
+    const tool = run.history.has("tool") && !(run.header.turning?.length > 1) ? run.history.get("tool").value(now.step) : null;
     const lies = run.history.has("tool axis") ? run.history.get("tool axis").value(now.step) : null, along = lies ? "XYZ".indexOf(lies) : 2;
     this.measure.draw();
-    picture.draw({row: going, tip: now.point, tool, along, at: Math.max(now.row, 0)}, now.rowsDone);
+    picture.draw({row: going, tip: now.point, tool, along, at: Math.max(now.row, 0), angles: now.angles}, now.rowsDone);
     if (this.part && !this.part.draw(now.rowsDone, now.share, going, turning, this.late)) this.show();  // not there yet: go on with the next frame
   }
   showPart(on) {
     if (!this.part) return;
-    this.part.show(on);
+    this.picture.part = on ? this.part : null;
+    this.find("part").hidden = !on;
     this.find("show-part").hidden = false;
     this.find("show-part").setAttribute("aria-pressed", on);
     this.find("note").textContent = this.part.note;
@@ -241,8 +242,7 @@ class PlayerPage {
     this.show();
   }
   sample(name, text, dashes = "solid") {  // a word of a legend
-    const word = document.createElement("span");
-    word.textContent = text;
+    const word = made("span", {}, text);
     word.style.cssText = `--colour: var(--${name}); --dashes: ${dashes}`;
     return word;
   }
@@ -313,11 +313,8 @@ class PlayerPage {
       : [["top", "Top"], ["front", "Front"], ["right", "Side"], ["isometric", "3D"]];
     this.viewNames = names.map(([name]) => name);
     find("views").replaceChildren(...names.map(([name, text], k) => {
-      const button = document.createElement("button");
-      button.type = "button";
+      const button = made("button", {type: "button", title: `view (${k + 1})`}, text);
       button.dataset.view = name;
-      button.textContent = text;
-      button.title = `view (${k + 1})`;
       button.addEventListener("click", () => this.view(name));
       return button;
     }));
@@ -341,15 +338,9 @@ class PlayerPage {
     find("theme").addEventListener("click", () => this.theme(this.root.dataset.shown === "dark" ? "light" : "dark"));
     find("help").addEventListener("click", () => this.help());
     find("slider").addEventListener("input", event => this.jump(() => this.atTime(event.target.value * run.time)));
-    const list = document.createElement("dl");
-    for (const [key, what] of [...KEYS, ...this.part ? PART_KEYS : []]) {
-      const [head, text] = [document.createElement("dt"), document.createElement("dd")];
-      head.textContent = key;
-      text.textContent = run.lathe && LATHE_KEYS.get(key) || what;
-      list.append(head, text);
-    }
-    const legend = document.createElement("p");
-    legend.append(...[["cut", "cut"], ["rapid", "rapid", "dashed"], ["probing", "probing", "dotted"], ["contour", "programmed contour"],
+    const list = made("dl", {}, ...[...KEYS, ...this.part ? PART_KEYS : []]
+      .flatMap(([key, what]) => [made("dt", {}, key), made("dd", {}, run.lathe && LATHE_KEYS.get(key) || what)]));
+    const legend = made("p", {}, ...[["cut", "cut"], ["rapid", "rapid", "dashed"], ["probing", "probing", "dotted"], ["contour", "programmed contour"],
       ["blank", "blank"], ["now", "this move"], ...run.header.fixtures.length ? [["edge", "fixture"]] : [],
       ...this.part ? [["crash", "rapid in material"]] : []].map(word => this.sample(...word)));
     find("keys").append(list, legend);

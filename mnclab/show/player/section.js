@@ -38,10 +38,6 @@ class ShownSection {
   get inSpace() {  // but for the view of the drawing, in which the section is one
     return Boolean(this.body.gl) && this.picture.camera.near[1] < 0.99999;
   }
-  show(on) {
-    this.picture.part = on ? this : null;
-    this.canvas.hidden = !on;
-  }
   // (z, r) to pixels of the canvas, of the upper half or the lower one: the plane as the camera sees it.
   place(pen, side) {
     const {camera, ratio} = this.picture, {axis} = this.section, zero = camera.project([axis, 0, 0]);

@@ -16,10 +16,6 @@ class ShownPart {
     this.scouted = () => {};  // what is to be done when all is cut ahead
     this.scout();
   }
-  show(on) {
-    this.picture.part = on ? this : null;
-    this.canvas.hidden = !on;
-  }
   // True once the part is cut to there.
   draw(rows, share, row, turning = false, late = false) {
     const {canvas, picture, carving} = this, {camera, ratio, colours} = picture;
@@ -40,11 +36,11 @@ class ShownPart {
       .map(([dx, dy]) => surface.hit(camera, x + dx, y + dy)), own = hits[0], some = hits.filter(Boolean);
     surface.look(some.map(({at}) => at), reach);
     const found = some.flatMap(hit => surface.near(hit, reach).filter(each => hit === own || each.cost !== FREE));
-    const depth = at => at.reduce((sum, v, k) => sum + v * camera.near[k], 0);
-    return {hit: own && own.at, found, sees: at => {
-      const front = surface.hit(camera, ...camera.project(at));
-      return !front || depth(front.at) - depth(at) < 4 * surface.grid.step;
-    }};
+    return {hit: own && own.at, found, sees: at => this.sees(at)};
+  }
+  sees(at) {  // whether no metal stands before a place
+    const {surface, picture: {camera}} = this, front = surface.hit(camera, ...camera.project(at));
+    return !front || front.at.reduce((sum, v, k) => sum + (v - at[k]) * camera.near[k], 0) < 4 * surface.grid.step;
   }
   // Cut ahead while the page has nothing else to do.
   scout() {

@@ -1,6 +1,6 @@
 // What is active, in words: position, feed, spindle, tool, modal state, and what the block changed.
 
-const APART = ["position", "feed", "per_rev", "speed", "turning", "tool"];  // said by the read-outs
+const APART = ["position", "rotary", "feed", "per_rev", "speed", "turning", "tool"];  // said by the read-outs
 
 function frameText(rows, mm) {
   const at = rows.slice(0, 3).map(row => row[3]), parts = [], m = rows.map(row => row.slice(0, 3));
@@ -75,17 +75,8 @@ class Board {
     find("position-unit").textContent = find("feed-unit").textContent = run.unit.short;
     const axes = run.lathe ? ["⌀ X", "Z"] : ["X", "Y", "Z"];
     this.axes = run.lathe ? [0, 2] : [0, 1, 2];
-    find("axes").replaceChildren(...axes.map((name, row) => {
-      const line = document.createElement("tr"), head = document.createElement("th");
-      head.scope = "row";
-      head.textContent = name;
-      line.append(head, ...["program", "tool", "machine"].map(column => {
-        const cell = document.createElement("td");
-        cell.id = `${column}-${"XYZ"[this.axes[row]]}`;
-        return cell;
-      }));
-      return line;
-    }));
+    find("axes").replaceChildren(...axes.map((name, row) => made("tr", {}, made("th", {scope: "row"}, name),
+      ...["program", "tool", "machine"].map(column => made("td", {id: `${column}-${"XYZ"[this.axes[row]]}`})))));
   }
   // A coordinate as the operator reads it: a lathe's X is a diameter; or as the program says it, where that may be a radius.
   shown(point, axis, told = false) {
@@ -109,11 +100,12 @@ class Board {
     const label = row >= 0 && own ? run.row.label.value(row) : "";
     find("doing").textContent = !own ? "" : label || KINDS[kind];
     if (angles) find("rotary").textContent = anglesText(angles, run.turned);
+    const tool = toolText(step >= 0 && run.history.get("tool")?.value(step), unit.length), drawn = run.inserts?.tools[run.inserts.which.value(at) || 0];
+    find("tool").textContent = tool === "none" && drawn ? `${drawn.name} (no T)` : tool;
     if (step === this.step) return;
     this.step = step;
     this.positions("program", step >= 0 ? run.position(step) : null);
     const state = step >= 0 ? run.state(step) : {};
-    find("tool").textContent = toolText(state.tool, run.unit.length);
     this.modal(step, state);
   }
   modal(step, state) {
@@ -122,16 +114,12 @@ class Board {
     const names = [...new Set([...Object.keys(state), ...[...changed].filter(name => before[name] !== undefined)])];
     const cells = names.filter(name => !APART.includes(name) || (changed.has(name) && name !== "position" && step > 0)).map(name => {
       const mm = name === "feed" && state.per_time ? 1 : run.unit.length;
-      const now = valueText(name, state[name], mm), old = before[name] === undefined ? "" : valueText(name, before[name], mm);
+      const now = valueText(name, state[name], mm), old = before[name] === undefined ? (name === "rotary" ? "0°" : "") : valueText(name, before[name], mm);
       // the first step also sets what is active at power-on: there only what stands in the block is its doing
       const mark = step > 0 ? changed.has(name) && now !== (old || "none") : text.includes(now) && changed.has(name);
       if (!mark && (now === "none" || APART.includes(name))) return null;
-      const cell = document.createElement("div"), head = document.createElement("dt"), value = document.createElement("dd");
-      if (mark) cell.className = "changed";
-      head.textContent = name.replace(/_/g, " ");
-      value.textContent = mark && old ? `${old} → ${now}` : now;
-      cell.append(head, value);
-      return cell;
+      const told = mark && old ? `${old} → ${now}` : now;
+      return made("div", mark && {className: "changed"}, made("dt", {}, name.replace(/_/g, " ")), made("dd", {}, told));
     }).filter(Boolean);
     cells.sort((a, b) => (b.className > a.className) - (b.className < a.className));
     this.find("modal").replaceChildren(...cells);

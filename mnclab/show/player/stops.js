@@ -12,6 +12,9 @@ class Stops {
   constructor(page) {
     const {run, find} = page;
     Object.assign(this, {page, run, find, asked: new Asked(run), blocks: new Map(), all: [], moments: [], once: null, watched: []});
+    const own = [...run.history.keys()].find(name => /^(Q[LR]?|#)\d+$/.test(name)), axis = run.lathe ? "d" : "z";  // as examples
+    find("when").placeholder = run.lathe ? "d < 20 and z < -5" : "z < -5 and tool == 2";
+    find("watch").placeholder = [...own ? [own] : [], axis, "feed", ...own ? [`x - ${own}`] : []].join(", ");
     find("stops").addEventListener("click", () => this.open());
     find("when").addEventListener("change", () => this.ask());
     find("watch").addEventListener("change", () => this.watch());
@@ -39,6 +42,9 @@ class Stops {
     const {run, page: {step}} = this;
     if (step >= 0) this.turn(run.program[step], run.lineOf(step));
   }
+  told(text) {  // a question as it is meant: of a lathe the programs mostly say diameters
+    return this.run.lathe ? text.replace(/\bx\b/gi, "$& (radius)") : text;
+  }
   ask() {
     const text = this.find("when").value.trim();
     let said = "", wrong = false;
@@ -46,8 +52,9 @@ class Stops {
     if (text) try {
       const question = this.asked.question(text);
       question.logical(question.tree);
-      this.moments = this.asked.moments(question).map(each => ({...this.asked.place(each), why: text}));
+      this.moments = this.asked.moments(question).map(each => ({...this.asked.place(each), why: this.told(text)}));
       said = this.moments.length ? `becomes true ${this.moments.length === 1 ? "once" : `${this.moments.length} times`}` : "never true";
+      if (this.told(text) !== text) said = `${this.told(text)} ${said}`;
     } catch (fault) {
       [said, wrong] = [fault.message, true];
     }
@@ -82,16 +89,15 @@ class Stops {
   }
   list() {
     const {run, page, blocks} = this, button = (textContent, title, act) => {
-      const made = Object.assign(document.createElement("button"), {type: "button", textContent, title});
-      made.addEventListener("click", act);
-      return made;
+      const found = made("button", {type: "button", textContent, title});
+      found.addEventListener("click", act);
+      return found;
     };
     const items = [...blocks.values()].map(({program, block}) => {
-      const line = run.lines[program][block], place = page.listing.place(program, line), item = document.createElement("li");
+      const line = run.lines[program][block], place = page.listing.place(program, line);
       const away = button("×", `no stop at ${place}`, () => this.turn(program, line));
       away.setAttribute("aria-label", away.title);
-      item.append(button(`${place}: ${run.texts[program][line - 1].trim()}`, "goes there", () => page.goLine(program, line)), away);
-      return item;
+      return made("li", {}, button(`${place}: ${run.texts[program][line - 1].trim()}`, "goes there", () => page.goLine(program, line)), away);
     });
     this.find("breaks").replaceChildren(...items);
     this.find("stops").textContent = this.all.length ? `Breakpoints (${this.all.length})` : "Breakpoints";
@@ -141,14 +147,11 @@ class Stops {
     const {run, page, find, asked} = this, {item, t, done} = page.place, row = run.items ? run.itemRow[item] : -1;
     const share = done || row < 0 ? 1 : asked.loose(item) ? (t - run.begin[item]) / (run.end[item] - run.begin[item]) : run.tool(item, t).share;
     find("watched").replaceChildren(...(run.items ? this.watched : []).map(({text, name, question, fault}) => {
-      const cell = document.createElement("div"), head = document.createElement("dt"), value = document.createElement("dd");
       const told = question && (question.tree.value || question.tree.truth)(asked.values(item, share));
-      head.textContent = text;
-      value.textContent = fault || (name ? valueText(name, run.history.get(name).value(page.step), run.unit.length)
+      const value = fault || (name ? valueText(name, run.history.get(name).value(page.step), run.unit.length)
         : typeof told === "boolean" ? (told ? "true" : "false") : told === null || Number.isNaN(told) ? "not known"
         : Number.isFinite(told) ? short(told, 4) : question.names.has("feed") ? "rapid" : "no limit");
-      cell.append(head, value);
-      return cell;
+      return made("div", {}, made("dt", {}, this.told(text)), made("dd", {}, value));
     }));
   }
 }

@@ -6,8 +6,9 @@ class Touches {
   constructor(run) {
     this.all = run.header.felt.touches;
   }
-  draw(pen, camera, colours, rowsDone, taken = []) {  // `taken` are the boxes of what is written already
-    const done = this.all.filter(({row}) => row < rowsDone), places = done.map(({at}) => camera.project(at));
+  // `taken` are the boxes of what is written already; `sees` says of a place whether metal hides it.
+  draw(pen, camera, colours, rowsDone, taken = [], sees = () => true) {
+    const done = this.all.filter(({row, from}) => row < rowsDone && sees(from)), places = done.map(({at}) => camera.project(at));
     pen.fillStyle = colours.probing;
     pen.strokeStyle = colours.paper;
     pen.lineWidth = 1;

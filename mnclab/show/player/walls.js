@@ -30,6 +30,15 @@ Heights.prototype.wall = function (piece) {
   return seen;
 };
 
+// Walls that are known: twice a cell and one more along Y, and the parts of the way to its neighbour.
+Heights.prototype.stand = function (places, shares) {
+  const {nx, across} = this.grid;
+  places.forEach((at, k) => {
+    const [i, j] = [(at >> 1) % nx, (at >> 1) / nx | 0];
+    this.tiles[(j >> 5) * across + (i >> 5)].walls[2 * ((j & 31) * TILE + (i & 31)) + (at & 1)] = shares[k] / 512;
+  });
+};
+
 // Whether a cell and its neighbour are so different that there may be a wall.
 Heights.prototype.differ = function (i, j, di, dj) {
   const {nx, ny, step} = this.grid;

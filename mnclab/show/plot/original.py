@@ -82,7 +82,7 @@ class Original(NamedTuple):
         return found
 
     def write(self, ax: Axes, view: View, lines: Sequence[Array]) -> None:
-        axes, said, places, wishes = [view.right, view.up], [], [], []
+        axes, told = [view.right, view.up], []
         limits = np.array([ax.get_xlim(), ax.get_ylim()])
         for point, way, name in self._lines(view):
             for share in (0.94, 0.06):  # near an end of the line, where it is seen
@@ -93,17 +93,13 @@ class Original(NamedTuple):
                     break
             xyz = np.full(3, np.nan)
             xyz[axes] = place
-            said.append(name)
-            places.append(xyz)
-            wishes.append((abs(way[1]), -abs(way[0])))
+            told.append((name, xyz, (abs(way[1]), -abs(way[0]))))
         for each in self._turns(view):
             middle = _arc(each, WAY * REACH * self.size[-1])[8]
             away = (middle - each.pole)[axes]
-            said.append(f"{figure(math.degrees(each.angle), 3)}°".replace("-", "\N{MINUS SIGN}"))
-            places.append(middle)
-            wishes.append(tuple(away / np.hypot(*away)))
-        drawn = [*lines, self.points]
-        texts(ax, view, said, np.array(places).reshape(-1, 3), np.array(wishes), drawn, colours.CENTRE.colour)
+            said = f"{figure(math.degrees(each.angle), 3)}°".replace("-", "\N{MINUS SIGN}")
+            told.append((said, middle, away / np.hypot(*away)))
+        texts(ax, view, told, [*lines, self.points], colours.CENTRE.colour)
 
     def _turns(self, view: View) -> list[Turn]:
         return self.turns if across(view) == 2 else []

@@ -6,7 +6,7 @@ A mirror line is in `original`, a hole at its diameter in `holes`.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -71,20 +71,21 @@ def line(ax: Axes, view: View, points: Array, look: LineStyle | Mark, **more: An
 
 
 def texts(
-    ax: Axes, view: View, said: Sequence[str | Sequence[str]], places: Array, wishes: Array, lines: Sequence[Array],
+    ax: Axes, view: View, told: Iterable[tuple[str | Sequence[str], Any, Any]], lines: Sequence[Array],
     colour: str = colours.INK, mark: float = 0.0,
 ) -> int:  # fmt: skip
-    """Write beside places (n, 3), best in the directions `wishes` (n, 2), off a mark of a radius in points; how many had no
+    """Write texts, each beside its place (3,) and best in a direction (2,), off a mark of a radius in points; how many had no
     room is returned."""
-    if not said:
+    if not (found := [*told]):
         return 0
+    said, places, wishes = zip(*found)
     axes = [view.right, view.up]
     choices = [(one,) if isinstance(one, str) else tuple(one) for one in said]
     drawn = [_dense(each[:, axes]) for each in lines if 1 < len(each) < 2000]
     figure = ax.get_figure(root=True)
     pixels = float(np.ptp(ax.transData.transform([(0.0, 0.0), (1.0, 0.0)])[:, 0]))  # of a mm
     radius = mark * (figure.dpi if figure else 72.0) / 72 / pixels
-    return write_beside(ax, choices, places[:, axes], [radius] * len(places), wishes, drawn, colour)
+    return write_beside(ax, choices, np.array(places)[:, axes], [radius] * len(places), np.array(wishes), drawn, colour)
 
 
 def _dense(points: Array) -> Array:
@@ -141,23 +142,18 @@ class Centres(NamedTuple):
         return [line(ax, view, places, colours.CENTRE)] if seen else []
 
     def write(self, ax: Axes, view: View, lines: Sequence[Array]) -> None:
-        said, places, wishes = [], [], []
-        axes = [view.right, view.up]
+        told, axes = [], [view.right, view.up]
         for arc in self._seen(view):
             middle = (arc.start + arc.centre) / 2
             for begin, end, text in arc.legs:
                 away = (begin + end) / 2 - middle
-                said.append(text)
-                places.append((begin + end) / 2)
-                wishes.append(_unit(away[axes], (0.0, -1.0)))
+                told.append((text, (begin + end) / 2, _unit(away[axes], (0.0, -1.0))))
             if arc.radius:
-                said.append(arc.radius)
-                places.append(middle)
                 along = _unit((arc.centre - arc.start)[axes], (1.0, 0.0))
-                wishes.append((-along[1], along[0]))
+                told.append((arc.radius, middle, (-along[1], along[0])))
         own = [np.array([arc.start, arc.centre]) for arc in self._seen(view)]
         own += [np.array(leg[:2]) for arc in self._seen(view) for leg in arc.legs]
-        texts(ax, view, said, np.array(places).reshape(-1, 3), np.array(wishes), [*lines, *own], colours.CENTRE.colour)
+        texts(ax, view, told, [*lines, *own], colours.CENTRE.colour)
 
 
 def _unit(way: Array, otherwise: tuple[float, float]) -> tuple[float, float]:
@@ -263,17 +259,16 @@ class PolarRays(NamedTuple):
         return next(turned, None) if across(view) == 2 else None
 
     def write(self, ax: Axes, view: View, lines: Sequence[Array]) -> None:
-        said, places, wishes, told = [], [], [], None
+        told, before = [], None
         for ray in self.rays if across(view) == 2 else ():
             radius = f"R{self.unit.figure(ray.radius, 1)}"
             angle = f"{figure(ray.angle, 3)}°".replace("-", "\N{MINUS SIGN}")
-            said.append(angle if radius == told else f"{radius}, {angle}")
-            told = radius
-            places.append(ray.pole + PLACE * (ray.point - ray.pole))
-            way = (ray.point - ray.pole)[:2]
-            wishes.append((-way[1] / np.hypot(*way), way[0] / np.hypot(*way)))
+            x, y, _ = way = ray.point - ray.pole
+            said = angle if radius == before else f"{radius}, {angle}"
+            told.append((said, ray.pole + PLACE * way, (-y / np.hypot(x, y), x / np.hypot(x, y))))
+            before = radius
         own = [np.array([ray.pole, ray.point]) for ray in self.rays]
-        texts(ax, view, said, np.array(places).reshape(-1, 3), np.array(wishes), [*lines, *own], colours.CENTRE.colour)
+        texts(ax, view, told, [*lines, *own], colours.CENTRE.colour)
 
 
 def _bow(ray: Ray, radius: float) -> Array:

@@ -74,28 +74,35 @@ TONES = {"": colours.INK, BAD: "#a3221a", "good": "#1b5e20"}
 SHADES = {ALARM: "#f9d9d6", WARNING: "#fbebc4"}
 SIGNS = {ALARM: "!", WARNING: "?"}
 LISTED = 2000  # lines of the programs
-SHARES = 0.85, 0.7  # of their size, to which pictures are drawn smaller
+SHARES = 1.0, 0.85, 0.7  # of their size, to which pictures are drawn smaller
 LESS = 0.42  # of a page: in so much room a picture is drawn smaller, in less it stands on the next page
 SHORT = 12  # rows of a table that stays with the words below it
 
 
 def sheets(document: Document) -> list[Sheet]:
-    """The pages of a document; where the last would be less than half full, all pictures but the first are drawn smaller if that
-    helps."""
-    set_ = _Setter(document)
-    for share in SHARES if len(set_.pages) > 1 and not set_.half_full else ():
-        if (smaller := _Setter(document, share)).half_full or len(smaller.pages) == 1:
-            return smaller.pages
-    return set_.pages
+    """The pages of a document; where one would be less than half full, all pictures but the first are drawn smaller, or the page
+    before the last ends earlier, if that helps."""
+    tried: list[_Setter] = []
+    for share in SHARES:
+        tried.append(_Setter(document, share))
+        if tried[-1].half_full:
+            return tried[-1].pages
+    for each in tried:
+        end = each.ends[-1] - (TOP + TALL / 2 - each.y) - CODE * LINE  # a line more than what is missing
+        if (other := _Setter(document, each.share, len(each.pages) - 1, end)).half_full:
+            return other.pages
+    return tried[0].pages
 
 
 class _Setter:
     """Puts one piece after the other below what is there, on a new page where there is no room."""
 
-    def __init__(self, document: Document, share: float = 1.0) -> None:
+    def __init__(self, document: Document, share: float = 1.0, short: int = 0, end: float = 0.0) -> None:
         self.document, self.share = document, share  # of the size of pictures
+        self.short, self.end = short, end  # a page, by its number, that ends before its foot
         self.pages: list[Sheet] = []
-        self.figures, self.listed = 0, 0
+        self.ends: list[float] = []  # how far the pages before the last are filled
+        self.figures, self.listed, self.heading, self.y = 0, 0, "", TOP
         self.begin()
         self.title()
         for section in document.sections:
@@ -110,19 +117,30 @@ class _Setter:
     @property
     def fresh(self) -> bool:
         """Whether nothing stands on the page yet."""
-        return self.y <= TOP
+        return self.y <= self.top
 
     @property
     def half_full(self) -> bool:
-        return self.y - TOP >= TALL / 2
+        return len(self.pages) == 1 or min(*self.ends, self.y) - TOP >= TALL / 2
 
     @property
     def bottom(self) -> float:
-        return self.page.size[1] - BOTTOM
+        return self.end if len(self.pages) == self.short else self.page.size[1] - BOTTOM
 
     def begin(self, size: tuple[float, float] = A4) -> None:
+        """A new page; the heading of a section goes on with it."""
+        self.ends += [self.y] * bool(self.pages)
         self.pages.append(Sheet(size))
         self.y = TOP
+        if self.heading:
+            self.head(f"{self.heading}, continued")
+        self.top = self.y
+
+    def head(self, said: str) -> None:
+        """A heading below what is there."""
+        self.y += HEADING
+        self.page.write(LEFT, self.y - 2, fitted(_line(said), WIDE, HEADING, True), HEADING, bold=True)
+        self.y += AFTER
 
     def room(self, tall: float) -> None:
         """A new page unless there is room for so much."""
@@ -159,12 +177,12 @@ class _Setter:
         self.y += 10
 
     def section(self, section: Section) -> None:
+        self.heading = ""
         if section.title:
             self.room(GAP + HEADING + min(self.least(section.pieces), TALL - 40))
             self.y += 0 if self.fresh else GAP
-            self.y += HEADING
-            self.page.write(LEFT, self.y - 2, fitted(_line(section.title), WIDE, HEADING, True), HEADING, bold=True)
-            self.y += AFTER
+            self.head(section.title)
+            self.heading = section.title
         for piece in section.pieces:
             self.put(piece)
             self.y += AFTER
@@ -248,7 +266,7 @@ class _Setter:
         self.figures += 1
         caption = folded(f"Figure {self.figures}: {printable(piece.caption)}", WIDE, CAPTION)
         under = 6 + CAPTION * LINE * len(caption)
-        if wide > WIDE + 1 or tall + under > TALL:  # of a size that somebody chose: a page as large as it needs
+        if wide > WIDE + 1 or tall + under > TALL - HEADING - AFTER:  # of a size that somebody chose: a page as large as it needs
             self.begin((max(A4[0], wide + LEFT + RIGHT), max(A4[1], tall + under + TOP + BOTTOM)))
         if LESS * TALL < (room := self.bottom - self.y - 1) < tall + under and picture.again:
             smaller = picture.again(size=(WIDE / POINTS, (room - under) / POINTS))

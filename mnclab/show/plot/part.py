@@ -39,7 +39,7 @@ from mnclab.show.plot.sections import (
 )
 from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import choice, shown
+from mnclab.text.given import choice
 from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.cutting import CUTS
 from mnclab.workpiece.milling.lattice import THIN, Lattice, lattice_of, rows_at
@@ -83,7 +83,7 @@ def plot_part(
     - `size`: the greatest width and height in inches.
     """
     choice(colour, "colour", COLOURS)
-    marks = _places(collisions)
+    marks = looks.places_of(collisions)
     if workpiece.cutting.lathe:
         from mnclab.show.plot.part import plot_turned
 
@@ -123,14 +123,6 @@ def plot_part(
 
 BLANK = {**colours.BLANK.style(), "linestyle": (0, (6, 2)), "linewidth": 0.9}
 MARK = colours.Mark("collision", looks.RED, "x", 9, True, 4.2).style()
-
-
-def _places(collisions: Iterable[Collision]) -> Array:
-    """Where something collides (n, 3)."""
-    try:
-        return np.array([each.place for each in collisions], dtype=np.float64).reshape(-1, 3)
-    except (TypeError, AttributeError):
-        raise Alarm(f"collisions must be those of a run, got {shown(collisions)}", hint="run.collisions()") from None
 
 
 def _draw(ax: Axes, part: Milled, seen: Relief, image: Array, marks: Array) -> None:
@@ -190,9 +182,10 @@ def _scale(picture: Picture, title: str, low: float, high: float, shades: Any) -
     long, thick = min(3.4, width - 1.9), 0.1
     ax = picture.add_axes((1.0 / width, 1 - (0.07 + thick) / height, long / width, thick / height))
     ax.imshow(np.linspace(0, 1, 256)[None], cmap=shades, extent=(low, high, 0, 1), aspect="auto")
-    ax.set_yticks([])
+    inner = [each for each in ax.get_xticks().tolist() if 0.08 < (each - low) / (high - low) < 0.92]
+    ax.set(xticks=[low, *inner, high], yticks=[])  # its ends are told, and nothing stands in their way
     ax.tick_params(labelsize=SMALL, length=2, pad=1)
-    ax.xaxis.set_major_formatter(lambda value, _: number(value))
+    ax.xaxis.set_major_formatter(lambda value, _: number(round(value, 3)))
     ax.set_ylabel(title, fontsize=SMALL, rotation=0, ha="right", va="center", labelpad=5)
     ax.spines[:].set_linewidth(0.5)
 

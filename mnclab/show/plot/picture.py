@@ -10,6 +10,7 @@ import base64
 import math
 import re
 from collections.abc import Callable, Collection, Sequence
+from contextvars import ContextVar
 from functools import partial
 from html import escape
 from io import BytesIO
@@ -38,6 +39,7 @@ SIZE = (7.0, 6.0)  # the greatest width and height, unless something else is sai
 LEAST = (4.6, 2.4)
 SMALL = 8.0  # points: ticks, legend, alarm
 SHARE = 0.2  # of a picture that its legend takes at most
+LEGEND: ContextVar[bool] = ContextVar("LEGEND", default=True)  # else the views have its room
 SUFFIXES = (".svg", ".pdf", ".png")
 SPARE = ("part", "blank", "tool change", "from home", "plunge")  # what a legend that is too long leaves out first
 GAP, BELOW, RIGHT, ROW, NEXT_ROW, LINE, SCALE, NARROW = 0.14, 0.52, 0.18, 0.22, 0.17, 0.15, 0.34, 1.4
@@ -195,9 +197,8 @@ def write_table(
         look["color"] = looks.WRONG if line in out else colours.INK
         y = (bottom + LINE * (len(rows) - 1 - line)) / height
         for k, text in enumerate(row):
-            right = k in numbers
-            x = left + sum(wide[: k + right]) - BETWEEN * right
-            picture.text(x / width, y, text, fontsize=SMALL, ha="right" if right else "left", va="bottom", **look)
+            x = left + sum(wide[: k + (k in numbers)]) - BETWEEN * (k in numbers)
+            picture.text(x / width, y, text, fontsize=SMALL, ha="right" if k in numbers else "left", va="bottom", **look)
 
 
 # --- layout ----------------------------------------------------------------------------------------------------------
@@ -212,6 +213,7 @@ def arrange(
     The views stand above one another, side by side or in columns, whichever is largest. `names` get room for a legend above,
     and `scale_above` keeps room for a scale of colours above that; `foot` is text below.
     """
+    names = names if LEGEND.get() else ()
     low, high = roomy(low, high, views)
     span, digits = high - low, digits_of(low, high, views)
     left = beside_ticks(digits)
@@ -339,10 +341,8 @@ def dress(ax: Axes, view: View, box: Sequence[float] | None = None, digits: int 
         axis.set_label_text(label, fontsize=SMALL + 1)
         counts = view.unit.length / (2 if doubled else 1)  # mm of the path to 1 at the axis
         axis.set_major_formatter(FuncFormatter(partial(_plain, counts=counts)))
-        if length:
-            axis.set_major_locator(Round(max(1, min(9, int(length / room))), view.unit.length))
-        elif view.unit is not MM:
-            axis.set_major_locator(Round(9, view.unit.length))
+        if length or view.unit is not MM:
+            axis.set_major_locator(Round(max(1, min(9, int(length / room))) if length else 9, view.unit.length))
     calm(ax)
 
 

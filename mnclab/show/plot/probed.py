@@ -20,7 +20,7 @@ from mnclab.show import looks, probed
 from mnclab.show.plot import colours
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.placing import write_beside
-from mnclab.show.plot.strokes import outline
+from mnclab.show.plot.sections import outline_of
 from mnclab.show.probed import Felt, Sections
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.part.pictures import UPRIGHT
@@ -101,7 +101,7 @@ def _draw_loops(ax: Axes, loops: Sequence[Contour]) -> None:
         return
     look: dict[str, Any] = {"facecolor": "none", "edgecolor": "none", "linewidth": FACE["linewidth"]}
     for name, order in (("facecolor", 0.6), ("edgecolor", 0.7)):
-        ax.add_collection(PathCollection([outline(loops)], **look | {name: FACE[name]}, zorder=order), autolim=False)
+        ax.add_collection(PathCollection([outline_of(loops)], **look | {name: FACE[name]}, zorder=order), autolim=False)
 
 
 def _draw_side(ax: Axes, part: Part, view: View, level: float) -> None:

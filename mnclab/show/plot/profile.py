@@ -274,7 +274,7 @@ def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits:
     if not whole and fast > RAPIDS * cut > 0:
         top = clear(ax, min(max(cut, float(np.nanmax(wanted[cuts], initial=0.0))), RAPIDS * cut), 0.14)
         fastest = "rapids" if rapid[np.argmax(reached)] else "retractions"
-        write_cut_off(ax, f"{fastest} reach {fast:.0f} {unit.short}/min")
+        write_cut_off(ax, f"{fastest} reach {fast:.0f} {unit.short}/min along the path")
     p = profile.pieces
     at = p.t if over == "time" else p.s / unit.length
     ax.set_xlim(0, max(float(at[-1]), 1e-9) if len(at) else 1.0)
@@ -352,7 +352,7 @@ class SlowCorners(NamedTuple):
         """The feed at the slowest of them, in the unit of the path a minute."""
         places = self.places[: len(self.said)]
         out = (places - places.mean(axis=0))[:, [view.right, view.up]] if len(places) else np.empty((0, 2))
-        texts(ax, view, self.said, places, out, lines, colours.SLOW_CORNER.colour, mark=3.0)
+        texts(ax, view, zip(self.said, places, out), lines, colours.SLOW_CORNER.colour, mark=3.0)
 
 
 def slow_at(profile: Profile) -> np.ndarray:

@@ -180,7 +180,7 @@ def plot_datums(run: Any, ax: Axes | None = None, *, view: str = "XY", size: tup
     middle = (low + high) / 2
     wishes = np.array([(0.7, -0.7), *(_way(spot, middle, looked) for spot in spots)])
     labels = [_told(place, spot, path.unit) for place, spot in zip(places, spots)]
-    texts(ax, looked, [*names, *labels], np.vstack([zero[None], spots]), wishes, [cuts, *vectors], mark=7.0)
+    texts(ax, looked, zip([*names, *labels], np.vstack([zero[None], spots]), wishes), [cuts, *vectors], mark=7.0)
     if picture is None:
         return figure_of(ax)
     write_legend(picture, handles)

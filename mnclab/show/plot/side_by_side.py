@@ -33,8 +33,9 @@ from mnclab.show.plot.picture import (
     legend_rows,
     write_legend,
 )  # fmt: skip
+from mnclab.show.plot.sections import outline_of
 from mnclab.show.plot.sizes import placed, sized
-from mnclab.show.plot.strokes import corners, line_of, outline
+from mnclab.show.plot.strokes import corners, line_of
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import choice, shown
 
@@ -125,7 +126,7 @@ REST, CORNER = looks.WRONG, looks.GREY
 def area(ax: Axes, region: Region, **look: Any) -> None:
     """A region with its holes as one patch."""
     if region.loops:
-        ax.add_patch(PathPatch(outline(region.loops), **look))
+        ax.add_patch(PathPatch(outline_of(region.loops), **look))
 
 
 def hatch(ax: Axes, rest: Region, beyond: Region) -> None:

@@ -24,7 +24,7 @@ from matplotlib.patches import FancyArrowPatch, Patch, Rectangle
 from matplotlib.quiver import Quiver
 from matplotlib.text import Annotation, Text
 
-from mnclab.show.plot.picture import SIZE, SMALL, Picture
+from mnclab.show.plot.picture import LEGEND, SIZE, SMALL, Picture
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, choice, near_option, shown, whole
 
@@ -40,7 +40,7 @@ TALL = 1.4  # height to width at most, where the height is free
 PAGE = 257.0  # mm: the height of the text of an A4 page, which no figure of free height exceeds
 LEAST, MOST = 40.0, 2000.0  # mm of a side
 TRIES, WIDER, NARROWER = 6, 2, 0.6  # times a figure is drawn narrower to fit its height, and in more room; the least share
-COLUMNS, NAMED = range(2, 7), 0.75  # of views of a figure that is too high; inches of a view that has room for its name
+COLUMNS, NAMED = range(2, 7), 0.55  # of views of a figure that is too high; inches of a view that has room for its name
 HINT = 'size="a4", size="column", size="slide", size=(7, 5), size_mm=(85, None)'
 
 
@@ -118,7 +118,11 @@ def sized(*, also: Any = None, tall: float | None = None) -> Callable[[Callable[
                 return draw(*given, **options)
 
             def drawn(inches: Room | None, **more: int) -> AnyFigure:
-                return _without_legend(draw(*given, **_inches(known, inches, tall), **{**options, **more}), legend)
+                wanted = LEGEND.set(legend)
+                try:
+                    return _without_legend(draw(*given, **_inches(known, inches, tall), **{**options, **more}), legend)
+                finally:
+                    LEGEND.reset(wanted)
 
             bare: list[Any] = []  # tries in whose axes nothing is drawn yet
 

@@ -10,10 +10,8 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.path import Path
 from numpy.typing import NDArray
 
-from mnclab.geometry.contours import Contour
 from mnclab.path.limits import Limits
 from mnclab.path.profile.ramps import courses
 from mnclab.path.toolpath import Kind, Toolpath
@@ -22,7 +20,6 @@ FINENESS = 10_000  # chord errors in the length of a path's box: about ten in a 
 BENT, SHORT = 1 / 2000, 1 / 200  # of the box: rapids that leave their line by less, or are shorter, are drawn straight
 
 Array = NDArray[np.float64]
-WITHIN = 0.02  # mm: chords of an outline
 
 
 class Strokes(NamedTuple):
@@ -121,10 +118,3 @@ def corners(clouds: Sequence[Array], centre_line: bool) -> tuple[Array, Array] |
     if centre_line:
         low[0], high[0] = min(low[0], 0.0), max(high[0], 0.0)
     return low, high
-
-
-def outline(loops: Sequence[Contour]) -> Path:
-    """Closed contours as one path, in which inner ones are holes."""
-    rings = [loop.points_within(WITHIN) for loop in loops]
-    codes = [np.r_[Path.MOVETO, np.full(len(ring) - 2, Path.LINETO), Path.CLOSEPOLY] for ring in rings]
-    return Path(np.vstack(rings), np.concatenate(codes).astype(np.uint8))

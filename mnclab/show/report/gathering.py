@@ -32,10 +32,10 @@ from mnclab.show.report.document import (
     Words,
     html,
 )
-from mnclab.show.times import clock
 from mnclab.text.alarm import ALARM, WARNING, Alarm, amounts, several
-from mnclab.text.file import replaced
+from mnclab.text.file import named, replaced
 from mnclab.text.given import choice, shown
+from mnclab.text.tables import clock
 from mnclab.workpiece.blank import Revolved
 from mnclab.workpiece.collision import Collisions
 from mnclab.workpiece.removal import Removal
@@ -228,14 +228,9 @@ def _sheet(run: Any, which: str, title: str, known: Mapping[str, str]) -> Docume
 
 def checked(path: str | Path, title: str | None) -> Path:
     """The path of a file that can be written; an Alarm for one that cannot, or a title that is no text."""
-    if not isinstance(path, str | Path):
-        raise Alarm(f"a file is written to a path, got {shown(path)}")
     if not isinstance(title, str | None):
         raise Alarm(f"the title of a report must be a text, got {shown(title)}")
-    path = Path(path)
-    if path.suffix.lower() not in (".html", ".pdf"):
-        raise Alarm(f"a report is an .html or a .pdf file, got {path.name!r}")
-    return path
+    return named(path, (".html", ".pdf"), "a report is an .html or a .pdf file, got {}")[0]
 
 
 def write(document: Document, path: Path) -> None:

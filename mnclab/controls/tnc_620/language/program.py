@@ -70,6 +70,7 @@ def finish(m: Machine) -> None:
     if half_given(m):
         m.warn("the blank has no greatest corner: BLK FORM 0.2 is missing")
     m.spindle(turning=0)
+    m.set_modal("spindle", "M5")
     if m.modal.get("coolant", "M9") != "M9":
         m.set_modal("coolant", "M9")
         m.coolant()
@@ -82,8 +83,7 @@ def finish(m: Machine) -> None:
 def dwell(m: Machine, words: Words) -> None:
     """Waits for a time, or for turns of the spindle."""
     if "TIME" in words:
-        m.dwell(not_negative(m, words["TIME"], "FUNCTION DWELL TIME (seconds)"))
-        return
+        return m.dwell(not_negative(m, words["TIME"], "FUNCTION DWELL TIME (seconds)"))
     turns = not_negative(m, words["REV"], "FUNCTION DWELL REV (turns of the spindle)")
     if not m.spindle_speed:
         m.alarm("FUNCTION DWELL REV needs a turning spindle", words["REV"], m.control.to_turn)

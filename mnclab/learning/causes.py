@@ -1,0 +1,145 @@
+"""Where what is wrong may come from: blocks beside the one at which it shows, the likeliest first, as (line, what it does)."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+
+from mnclab.runs.run import Run
+
+Place: TypeAlias = tuple[float, float, float]
+
+WORDS = re.compile(r"(?<![A-Z])(I?)([XY])\s*([-+]?\d*\.?\d+)")
+CENTRE, LABEL = re.compile(r"\bCC\b"), re.compile(r"^(?:N?\d+ +)?(?:LBL |G98 L)((?!0\b)\w+)")
+ARC = re.compile("between start and end|not on the circle|angle of the arc")
+NEAR = re.compile(r"near \(([-\d.]+), ([-\d.]+)\)")
+END, START = re.compile(r"M0?2\b|M30\b|LBL 0|G98 L0"), re.compile(r"LBL|G98 L|END PGM")
+
+
+class Cause(NamedTuple):
+    """A block that a fault may come from: its line, and what it does; `sure` where it is told before another fault of a line that
+    was named."""
+
+    line: int
+    text: str
+    sure: bool = False
+
+
+class Corner(NamedTuple):
+    """The end of a piece of a contour, or a pole, as it is written: behind which label of all, its line, where."""
+
+    label: int
+    line: int
+    point: tuple[float, float]
+
+
+def of_row(run: Run, row: int, places: Sequence[Place | None], first: int | str | None = None) -> Iterator[Cause]:
+    """Of a row of the path: its own block; the pieces of its contour about some places; what brought the tool where it begins,
+    the axis `first` before the others, one along which it stands still before one along which it goes; its cycle, its tool."""
+    path, step, of = run.toolpath, int(run.toolpath.step[row]), int(run.toolpath.line[row])
+    if path.program[row]:
+        return
+    yield Cause(of, "the tool passes there in this block")
+    if path.label[row]:
+        yield from of_contour(run, places)
+    names = ("cycle", "tool") if path.label[row] else ("tool",)
+    told = [Cause(line_of(run, name, step), f"line {of} works with the {name} of this block", name == first) for name in names]
+    if path.label[row] and first not in (0, 1) or first == "tool":
+        yield from told
+    moved = np.abs(path.end - path.start)
+    for axis in sorted((0, 2) if path.lathe else (0, 1, 2), key=lambda axis: (axis != first, moved[row, axis])):
+        before = np.flatnonzero(path.is_motion[:row] & (moved[:row, axis] > 1e-9) & (path.line[:row] != of))
+        if len(before) and path.program[before[-1]] == 0:
+            yield Cause(int(path.line[before[-1]]), f"line {of} begins at the {'XYZ'[axis]} of this block")
+    yield from told
+
+
+def of_alarm(run: Run, said: str, line: int) -> Iterator[Cause]:
+    """Of an alarm in a line: where an arc begins, what a spindle that stands still lacks, where a tool or a label is missing."""
+    code = code_of(run)
+    if ARC.search(said):
+        ahead = [(k, text) for k, text in code if k < line and not CENTRE.search(text)]
+        last = {axis: max((k for k, text in ahead if re.search(rf"(?<![A-Z]){axis}\s*[-+=.\d]", text)), default=0)
+                for axis in ("XZ" if run.toolpath.lathe else "XY")}  # fmt: skip
+        yield from (Cause(last[axis], f"the arc of line {line} begins at the {axis} of this block", True)
+                    for axis in sorted(last, key=last.__getitem__, reverse=True))  # fmt: skip
+    if near := NEAR.search(said):
+        yield from of_contour(run, [(float(near[1]), float(near[2]), 0.0)])
+    yield from _of_labels(code)
+    if "spindle" in said:
+        lacks = "speed S" if run.history.value("turning", len(run.steps.block) - 1) else "direction, as M3"
+        yield Cause(spindle_line(run), f"no block up to this one gives the spindle a {lacks}", True)
+    if "tool" in said and not run.toolpath.tool.any():  # not every control has a word for it
+        yield Cause(first_move(run) or code[0][0], "no tool is called before this block", True)
+
+
+def code_of(run: Run) -> list[tuple[int, str]]:
+    """The blocks of the program: the line of each, and its text without comments in capitals."""
+    program = run.program
+    return [(int(program.line_of(k)), " ".join(program.code_of(k)).upper()) for k in range(len(program))]
+
+
+def _of_labels(code: list[tuple[int, str]]) -> Iterator[Cause]:
+    """Where a label, or the end of what stands before one, is missing."""
+    within = ended = False
+    for k, text in code:
+        label = LABEL.search(text) is not None
+        if label and (within or not ended):
+            yield Cause(k, "what stands before this label has no end", True)
+        elif ended and not within and not START.search(text):
+            yield Cause(k, "no label stands before this block, so that no program comes to it", True)
+            within = True
+        within, ended = (False, True) if END.search(text) else (within or label, ended)
+
+
+def first_move(run: Run, rows: Any = True) -> int:
+    """The line of the first motion of the program, among some rows; 0 for none."""
+    some = np.flatnonzero(run.toolpath.is_motion & (run.toolpath.program == 0) & rows)
+    return int(run.toolpath.line[some[0]]) if len(some) else 0
+
+
+def line_of(run: Run, name: str, step: int) -> int:
+    """The line of the main program that last said something of a name, up to a step; 0 for none."""
+    at = [k for k, _ in run.history.changed(name) if k <= step]
+    return int(run.lines()[at[-1]]) if at and run.steps.program[at[-1]] == 0 else 0
+
+
+def spindle_line(run: Run, step: int | None = None) -> int:
+    """The line of the last block (up to a step) that changed tool, speed or direction of the spindle, or of the first motion."""
+    last = len(run.steps.block) - 1 if step is None else step
+    return max((line_of(run, name, last) for name in ("turning", "speed", "tool")), default=0) or first_move(run)
+
+
+def corners(run: Run) -> tuple[list[Corner], list[Corner]]:
+    """Where the pieces of contours behind labels end that no tool follows itself, as cycles read them; and their poles."""
+    here, label = (0.0, 0.0), 0
+    found: tuple[list[Corner], list[Corner]] = [], []
+    for line, text in code_of(run):
+        label += bool(LABEL.search(text))
+        if label and (words := WORDS.findall(text)) and line not in run.toolpath.line:
+            said = {axis: float(number) + (here["XY".index(axis)] if more else 0.0) for more, axis, number in words}
+            point = said.get("X", here[0]), said.get("Y", here[1])
+            centre = CENTRE.search(text) is not None
+            here = here if centre else point
+            found[centre].append(Corner(label, line, point))
+    return found
+
+
+def of_contour(run: Run, places: Sequence[Place | None]) -> Iterator[Cause]:
+    """The pieces of a contour that are nearest to some places, then the nearest poles, then where those pieces begin."""
+    ends, poles = corners(run)
+    pairs, there = [pair for pair in zip(ends, ends[1:]) if pair[0].label == pair[1].label], [each for each in places if each]
+    near = [min(pairs, key=lambda pair: _detour(place, *pair)) for place in there if pairs]
+    yield from (Cause(b.line, "this piece of the contour passes there", True) for _, b in near)
+    yield from (Cause(min(poles, key=lambda each: math.dist(each.point, place[:2])).line, "this pole is the nearest", True)
+                for place in there if poles)  # fmt: skip
+    yield from (Cause(a.line, f"line {b.line} goes on from here", True) for a, b in near)
+
+
+def _detour(place: Place, a: Corner, b: Corner) -> float:
+    """How much longer the way from corner to corner is by a place."""
+    return math.dist(a.point, place[:2]) + math.dist(place[:2], b.point) - math.dist(a.point, b.point)
