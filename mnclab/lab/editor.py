@@ -16,34 +16,30 @@ import os
 from html import escape
 from pathlib import Path
 from typing import Any
+from weakref import WeakValueDictionary
 
 from mnclab.controls.choice import choose, read_text
 from mnclab.controls.choice import run as run_text
-from mnclab.lab.forms.live import DRAWING, SIZE, live_class, verdict
+from mnclab.lab.forms.live import DRAWING, SIZE, live_class, verdict, widgets
 from mnclab.machine.setup import Setup
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import decode, read, reason, replaced
 from mnclab.text.given import fitting, shown
-from mnclab.text.opening import require
 
 FIRST = 10.0  # s for the first picture, which has none before it
 PATIENCE = 0.5  # s; work that takes longer goes on elsewhere, and what was good last stays in sight
 PAST = "mnclab-past"  # alarms of a text that was typed over
+OPENED: WeakValueDictionary[Path, Any] = WeakValueDictionary()  # a cell that is run again finds what was typed and not saved
 MARKED = 100  # faults that are underlined at most
-STYLE = (
-    "<style>.mnclab-editor textarea{font-family:monospace;font-size:13px;line-height:1.35;white-space:pre}"
-    ".mnclab-editor label{position:absolute;width:1px!important;height:1px;overflow:hidden;clip-path:inset(50%)}"
-    ".mnclab-picture .widget-html-content{min-width:0}"  # a wide picture shrinks
-    f".{PAST}{{opacity:.4}}</style>"
-)
 
 
 class Document:
-    """A file and what was read from it: line ends and code page are kept, a change by somebody else is noticed."""
+    """A file and what was read from it: line ends and code page are kept, a change elsewhere is noticed."""
 
     def __init__(self, path: Path) -> None:
         self.path, self.encoding, self.ends, self.content, self.text = path, "utf-8", "\n", b"", ""
+        self.told: bytes | None = None  # a change elsewhere that was told of
         try:
             os.stat(path)
         except FileNotFoundError:
@@ -57,10 +53,13 @@ class Document:
         self.ends = "\r\n" if "\r\n" in text else "\n"
         self.text = text.replace("\r\n", "\n")
 
-    def save(self, text: str) -> None:
-        """Write the text; an Alarm if the file was changed since, or holds no such letters."""
-        if (read(self.path, self.path) if self.path.exists() else b"") != self.content:
-            raise Alarm(f"{self.path} was changed by somebody else since it was opened: not saved")
+    def save(self, text: str, over: bool = True) -> None:
+        """Write the text; an Alarm for letters it cannot hold, or a change since it was read; asked again, `over` that one."""
+        found = read(self.path, self.path) if self.path.exists() else b""
+        if found != self.content and not (over and found == self.told):
+            self.told = found
+            raise Alarm(f"not saved: {self.path.name} was changed elsewhere. Save again to write over it, "
+                        "or run the cell again to read it")  # fmt: skip
         content = self._encoded(text.replace("\n", self.ends))
         with replaced(self.path) as beside:
             beside.write_bytes(content)
@@ -81,30 +80,35 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
     A file that does not exist yet is made when it is saved. The result has `text`, `button` and `status` (boxes),
     `run` (the last run) and `document`.
     """
-    require("ipywidgets", "editors")
-    require("matplotlib", "pictures")
     if not isinstance(path, str | Path):
         raise Alarm(f"an editor is opened on the path of a file, got {shown(path)}")
-    import ipywidgets
-
-    document = Document(Path(path))
     if control is not None:
         choose(control, "", "")
-    size = {"width": "34em", "height": "26em"}
-    text = ipywidgets.Textarea(document.text, description="part program", layout=size, continuous_update=True)
+    return opened(Path(path), control, setup, view)
+
+
+def opened(
+    path: Path, control: str | None, setup: Setup | None, view: str = "auto", begins: str = "", program: bool = True
+) -> Any:
+    """The same; a new file `begins` as a text, and what is no `program` is not run."""
+    ipywidgets = widgets("editors")
+    document, whole = Document(path), path.absolute()
+    document.text = document.text or begins
+    former = OPENED.get(whole)
+    known = former.text.value if former is not None and former.document.content == document.content else document.text
+    size, said = {"width": "34em", "height": "26em"}, "part program" if program else "answer"
+    text = ipywidgets.Textarea(known, description=said, layout=size, continuous_update=True)
     button = ipywidgets.Button(description="Save", tooltip=f"write {path}")
     picture = ipywidgets.HTML(layout={"flex": "1 1 380px", "min_width": "380px"})  # so wide at least, or below
     status, alarms = ipywidgets.HTML(), ipywidgets.HTML()
     kept = ipywidgets.Textarea(layout={"display": "none"})  # what an editor saves: a click would overtake what was typed last
-    left = ipywidgets.VBox([ipywidgets.HTML(STYLE), text, ipywidgets.HBox([button, status, kept])])
+    left = ipywidgets.VBox([text, ipywidgets.HBox([button, status, kept])])
     live: Any = live_class()([ipywidgets.HBox([left, picture], layout={"flex_flow": "row wrap"}), alarms])
-    live.title, live.boxes = document.path.name, {"text": text}
+    name, at_work = path.name, sentence(f"{path.name}: at work")
+    live.title, live.boxes = name, {"text": text}
     named = {"editor": text, "save": button, "kept": kept, "picture": picture, "alarms": alarms, "live": live}
-    for name, box in named.items():
-        box.add_class(f"mnclab-{name}")
-
-    def say(sentence: str, fault: bool = False) -> None:
-        status.value = f'<span role="{"alert" if fault else "status"}">{escape(sentence)}</span>'
+    for place, box in named.items():
+        box.add_class(f"mnclab-{place}")
 
     def check(_: Any = None) -> None:
         source = text.value if text.value.endswith("\n") else text.value + "\n"
@@ -114,7 +118,7 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
         try:
             future.result(FIRST if live.run is None else PATIENCE)
         except TimeoutError:
-            say(f"{document.path.name}: at work")  # what was good last stays in sight, its alarms dimmed
+            status.value = at_work  # what was good last stays in sight, its alarms dimmed
             alarms.add_class(PAST)
             future.add_done_callback(lambda done: fresh() if live.source == source else None)
         else:
@@ -122,17 +126,18 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
 
     def fresh() -> None:
         alarms.remove_class(PAST)
-        state()
+        if status.value == at_work:  # and not that it could not be saved
+            state()
 
     def state() -> None:
-        changed = text.value != document.text
-        say(f"{document.path.name}: {'changed' if changed else 'new' if not document.content else 'saved'}")
+        stands = "changed" if text.value != document.text else "saved" if document.content else "new"
+        status.value = sentence(f"{name}: {stands}")
 
     def work(source: str) -> None:
-        if live.source != source:  # typed over in the meantime
+        if live.source != source or not program:  # typed over in the meantime
             return
         try:
-            run = run_text(read_text(source, document.path.name, control, str(document.path.parent)), None, setup)
+            run = run_text(read_text(source, name, control, str(document.path.parent)), None, setup)
             moved = bool(run.toolpath.is_motion.any())
             drawn = run.plot(view=view, size=SIZE).html() if moved or live.run is None else ""  # type: ignore[attr-defined]
             told = marked(run)
@@ -147,25 +152,31 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
             live.renew()
 
     def keep(change: dict[str, Any]) -> None:
-        if change["new"]:  # behind a sign: an empty program can be saved too
-            save(change["new"][1:])
+        if change["new"]:  # behind the sign of what to do: an empty program can be saved too
+            live.sent[change["new"][0]](change["new"][1:])
             kept.value = ""
 
-    def save(source: str) -> None:
+    def save(source: str, over: bool = True) -> None:
         try:
-            document.save(source)
+            document.save(source, over)
         except Alarm as alarm:
-            say(alarm.message, fault=True)
+            status.value = sentence(alarm.message, fault=True)
         else:
-            say(f"{document.path.name}: saved")
+            status.value = sentence(f"{name}: saved")
 
     live.text, live.button, live.status, live.picture, live.alarms = text, button, status, picture, alarms
-    live.run, live.document, live.source = None, document, ""
+    live.run, live.document, live.source, live.save, live.sent = None, document, "", save, {"=": save}
+    OPENED[whole] = live
     check()
     text.observe(check, "value")
     button.on_click(lambda _: save(text.value))
     kept.observe(keep, "value")
     return live
+
+
+def sentence(text: str, fault: bool = False) -> str:
+    """What is said beside the buttons."""
+    return f'<span style="display:block;line-height:1.35" role="{"alert" if fault else "status"}">{escape(text)}</span>'
 
 
 def marked(run: Run) -> str:

@@ -28,12 +28,14 @@ def card(exercise: Exercise, drawing: bool = True) -> str:
     task = "".join(map(_paragraph, exercise.task.strip("\n").split("\n\n")))
     rows = "\n".join(f"{NUMBER.format(k)}{escape(row)}" for k, row in enumerate(exercise.program.rstrip().split("\n"), 1))
     given = f"<pre>{rows}</pre>" if exercise.program else ""
+    if given:  # what is asked of it stands beside it, where there is room
+        given = f'<div style="display:flex;flex-wrap:wrap;gap:0 1.5em">{given}{questions(exercise)}</div>'
     asked = "".join(f"<li>{escape(each)}</li>" for each in wanted(exercise))
     why = f"<p><em>{escape(exercise.why)}</em></p>" if exercise.why else ""
     return (
         f'<div class="mnclab-exercise" style="line-height:1.35">{head}<br>{under}{task}'
         f"{picture(exercise) if drawing else ''}{given}"
-        f"{machine(exercise)}{tools(exercise)}{questions(exercise)}{f'<ul>{asked}</ul>' if asked else ''}{why}</div>"
+        f"{machine(exercise)}{tools(exercise)}{f'<ul>{asked}</ul>' if asked else ''}{why}</div>"
     )
 
 
@@ -49,7 +51,8 @@ def picture(exercise: Exercise) -> str:
         return ""
     try:
         drawn: Any = exercise.drawing()
-        return f'<div style="width:{round(100 * DRAWING * drawn.get_figwidth())}px">{drawn.html(2 * DRAWING)}</div>'
+        width = round(100 * DRAWING * drawn.get_figwidth())
+        return f'<div style="width:{width}px;max-width:100%">{drawn.html(2 * DRAWING)}</div>'
     except Alarm as alarm:
         return str(alarm._repr_html_())
 
@@ -94,7 +97,7 @@ def _said(value: Any) -> str:
 def questions(exercise: Exercise) -> str:
     """What is to be predicted, numbered."""
     rows = "".join(f"<li>{escape(each.text)}</li>" for each in exercise.questions)
-    return f"<ol>{rows}</ol>" if rows else ""
+    return f'<ol style="flex:1 1 10em;margin-bottom:1em;padding-left:1.6em">{rows}</ol>' if rows else ""
 
 
 #: What a card says of a strategy, and in which unit; the feed is worked out.

@@ -91,7 +91,7 @@ class Exercise:
     """One exercise; `mnclab.exercise("mnc-03")` finds it by its `id`.
 
     `task` is what to do, `design` the part as drawn (None where nothing is cut), `setup` the machine with blank and tools,
-    `template` the text that an answer begins as, `program` what is given beside it; of one that goes on after line `until`
+    `template` a text that an answer begins as, `program` what is given beside it; of one that goes on after line `until`
     of that program, the part was cut so far. `tolerance` mm holds where the drawing gives none. `weights` by heading.
     The model is not in it: `solution()` reads it from the file when it is called.
     """
@@ -119,6 +119,12 @@ class Exercise:
     def answer(self) -> str:
         """What an answer is written as: "program", "setup", "strategy" or "numbers"."""
         return KINDS[self.kind][1]
+
+    @property
+    def begins(self) -> str:
+        """The text that an answer begins as: the template, the program to make quicker, or the numbers of the questions."""
+        numbers = "".join(f"{k} =\n" for k in range(1, len(self.questions) + 1))
+        return self.template or (self.program if self.kind == "quicker" else numbers)
 
     @property
     def does(self) -> str:

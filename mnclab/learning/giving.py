@@ -66,7 +66,7 @@ def give(names: Sequence[str], folder: str | Path = "exercises", pupil: str | No
         begun = folder / f"{name}{SUFFIXES[exercise.control] if exercise.answer == 'program' else '.txt'}"
         written = {copy: text, folder / f"{name}.html": page(exercise.title, card(exercise))}
         if not begun.exists():
-            written[begun] = exercise.template or "\n"
+            written[begun] = exercise.begins or "\n"
         for path, content in written.items():
             with replaced(path) as beside:
                 beside.write_text(content, encoding="utf-8", newline="\n")

@@ -167,6 +167,18 @@ def test_control_s_saves_the_file(opened):
     assert file.read_text() == PROGRAM + "Y0"
 
 
+def test_control_z_takes_back_what_was_typed_and_no_more(opened):
+    page, _ = opened
+    page.get_by_role("textbox", name="part program").click()
+    page.keyboard.press("Control+End")
+    page.keyboard.type("Y0")
+    page.keyboard.press("Control+z")
+    page.keyboard.press("Control+z")
+    assert page.locator(".mnclab-code .cm-line").all_inner_texts() == [*PROGRAM.splitlines(), "\n"]
+    page.keyboard.press("Control+y")
+    page.locator(".mnclab-code .cm-line", has_text="Y0").last.wait_for(timeout=5000)
+
+
 def test_what_python_writes_stands_in_the_editor(opened):
     page, _ = opened
     edit(page, "box.text.value = 'G90 S500 M3\\nG1 X7 F100\\n'")

@@ -77,12 +77,26 @@ def test_saving_keeps_the_code_page(tmp_path):
     assert "cannot be written in" in box.status.value and path.read_bytes().endswith(b"X6\n")
 
 
-def test_a_change_by_somebody_else_is_not_overwritten(file):
+def test_a_change_elsewhere_is_written_over_only_when_saved_once_more(file):
     box = mnclab.editor(str(file))
     file.write_text("G0 X1\n")
-    box.text.value += "Y5\n"
+    box.text.value = "G0 Y5\n"
     box.button.click()
-    assert "changed by somebody else" in box.status.value and file.read_text() == "G0 X1\n"
+    assert "changed elsewhere" in box.status.value and file.read_text() == "G0 X1\n"
+    file.write_text("G0 X2\n")  # and again: what is written over is what was told of
+    box.button.click()
+    assert "changed elsewhere" in box.status.value and file.read_text() == "G0 X2\n"
+    box.button.click()
+    assert "saved" in box.status.value and file.read_bytes() == b"G0 Y5\r\n"
+
+
+def test_what_was_typed_and_not_saved_is_there_when_the_cell_is_run_again(file):
+    box = mnclab.editor(str(file))
+    box.text.value += "Y5\n"
+    again = mnclab.editor(str(file))
+    assert again.text.value == box.text.value and "changed" in again.status.value
+    file.write_text("G0 X1\n")  # the file is newer
+    assert mnclab.editor(str(file)).text.value == "G0 X1\n"
 
 
 def test_a_new_file_is_made_when_it_is_saved(tmp_path):
@@ -160,7 +174,7 @@ def test_half_a_program_is_never_a_fault_of_python(file):
 
 def test_what_an_editor_keeps_is_saved_whatever_the_box_holds(file):
     box = mnclab.editor(str(file))
-    (kept,) = (each for each in box.children[0].children[0].children[2].children if "mnclab-kept" in each._dom_classes)
+    (kept,) = (each for each in box.children[0].children[0].children[1].children if "mnclab-kept" in each._dom_classes)
     kept.value = "=G0 X1\n"
     assert file.read_bytes() == b"G0 X1\r\n" and kept.value == ""
     kept.value = "="
@@ -169,4 +183,4 @@ def test_what_an_editor_keeps_is_saved_whatever_the_box_holds(file):
 
 def test_the_box_has_a_name_that_is_heard_and_not_seen(file):
     box = mnclab.editor(str(file))
-    assert box.text.description == "part program" and "clip-path" in box.children[0].children[0].children[0].value
+    assert box.text.description == "part program" and "clip-path" in box.children[-1].value

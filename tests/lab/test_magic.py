@@ -180,13 +180,43 @@ def test_the_editor_of_an_exercise_begins_as_its_template_and_grades(tmp_path, m
     monkeypatch.chdir(tmp_path)
     exercise = mnclab.exercise("mnc-02")  # to mend
     live = exercise.editor(tmp_path)
-    assert live.text.value == exercise.template != "" and live.sheets.selected_index in (None, 0)
+    assert live.text.value == exercise.template != "" and live.sheets.titles == ("task", "drawing", "path")
+    assert "new" in live.status.value  # nobody changed it yet
     live.check.click()
     assert live.grade is not None and not live.grade.passed and "not yet" in live.told.value
+    assert "not yet" not in live.part.value and "saved" in live.status.value
     live.text.value = exercise.solution()
+    assert "mnclab-old" in live.told._dom_classes
     live.check.click()
-    assert live.grade.passed and live.sheets.selected_index == 2 and "<img" in live.part.value
-    predicted = mnclab.exercise("mnc-13").editor(tmp_path)
-    assert len(predicted.children) == 1 and len(predicted.sheets.children) == 2
-    live.button.click()
+    assert "mnclab-old" not in live.told._dom_classes
+    assert live.grade.passed and live.sheets.titles[live.sheets.selected_index] == "part" and "<img" in live.part.value
     assert (tmp_path / "mnc-02.mnc").read_text() == exercise.solution()
+
+
+def test_a_grade_does_not_write_over_what_was_changed_elsewhere(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    one, two = (mnclab.exercise("mnc-02").editor(tmp_path) for _ in range(2))
+    one.check.click()
+    two.text.value += "M5\n"
+    for _ in range(2):
+        two.check.click()
+        assert "not saved" in two.status.value and two.grade is not None
+    assert (tmp_path / "mnc-02.mnc").read_text() == one.text.value
+    two.button.click()
+    assert (tmp_path / "mnc-02.mnc").read_text() == two.text.value
+
+
+def test_an_answer_that_is_no_program_is_not_read_as_one(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    predicted = mnclab.exercise("nc-31-01").editor(tmp_path)
+    assert predicted.text.value.startswith("1 =\n2 =\n") and predicted.sheets.titles == ("task",)
+    predicted.check.click()
+    still = predicted.still()["text/html"]
+    assert "which control" not in still and "part program" not in still and not predicted.alarms.value
+    assert ".mnclab-still { display: none; }" in predicted.children[-1].value  # the widget hides its still picture
+
+
+@pytest.mark.parametrize("name", ["jnc-t01-08", "nc-31-07"])
+def test_a_program_to_make_quicker_is_there_from_the_beginning(tmp_path, name):
+    exercise = mnclab.exercise(name)
+    assert exercise.editor(tmp_path).text.value == exercise.program

@@ -16,14 +16,13 @@ from mnclab.controls.cycle_steps import CycleSteps
 from mnclab.lab.forms.dimension_lines import over, windows
 from mnclab.lab.forms.example import Example
 from mnclab.lab.forms.fields import Field, field_of, folded, grouped, groups, parameter_box, tick_of
-from mnclab.lab.forms.live import DRAWING, NewPicture, following, of_run, value_of
+from mnclab.lab.forms.live import DRAWING, NewPicture, following, of_run, value_of, widgets
 from mnclab.lab.forms.measuring import Length
 from mnclab.machine.cycle import Cycle, Parameter, left_out, limits
 from mnclab.machine.trial import number
 from mnclab.path.listing import table as moves_html
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import choice, fitting, shown
-from mnclab.text.opening import require
 from mnclab.text.tables import html_table
 
 SIZE = (4.9, 4.2)  # inches: beside the fields there is so much room in JupyterLab on a small laptop
@@ -39,9 +38,7 @@ def form(code: str, control: str) -> Any:
     the parameter), `ticks`, `run`, the last run, `steps()`, the steps of the cycle with these values as a table, and
     `light(name)`, which shows in the picture what a parameter measures, as the cursor in its box does.
     """
-    require("ipywidgets", "forms")
-    import ipywidgets
-
+    ipywidgets = widgets("forms")
     help_page = help_on(code, control)
     cycle = help_page.entry
     if not (isinstance(cycle, type) and issubclass(cycle, Cycle)):

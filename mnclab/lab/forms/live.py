@@ -30,6 +30,15 @@ PAST = "last good picture"
 IMAGE = re.compile('<img [^>]*base64,([^"]*)"[^>]*>')
 
 
+def widgets(what: str) -> Any:
+    """ipywidgets, whose boxes have pictures beside them; an Alarm that says `what` needs it where it is missing."""
+    require("ipywidgets", what)
+    require("matplotlib", "pictures")
+    import ipywidgets
+
+    return ipywidgets
+
+
 @cache
 def live_class() -> type:
     """The class of live boxes; ipywidgets is imported when the first is made."""
@@ -119,22 +128,20 @@ class NewPicture(NamedTuple):
 
 
 def following(
-    boxes: Mapping[str, Any], fields: Mapping[str, Field], left: Any, work: Callable[[Any], NewPicture | None],
+    boxes: Mapping[str, Any], fields: Mapping[str, Field], left: Any | None, work: Callable[[Any], NewPicture | None],
     field_of: Callable[[Alarm], str] = lambda alarm: "", *also: Any, title: str = "panel", classes: str = "",
     below: Iterable[Any] = (), above: Iterable[Any] = (), over: Iterable[Any] = (),
 ) -> Any:  # fmt: skip
-    """What is `left` with the picture and the alarms beside it; `work` is done when a box, or one `also`, changes.
+    """What is `left`, the rows of the fields if None, with the picture and the alarms beside it.
 
-    What is `over` the picture lies in front of it. A fault stands at the field that `field_of` names, one of no field above
-    them all.
+    `work` is done when a box, or one `also`, changes. What is `over` the picture lies in front of it. A fault stands at the
+    field that `field_of` names, one of no field above them all.
     """
-    require("matplotlib", "pictures")
-    import ipywidgets
-
+    ipywidgets = widgets("forms")
     picture, alarms, first = ipywidgets.HTML(), ipywidgets.HTML(), ipywidgets.HTML()
     view = ipywidgets.VBox([picture, *over])
     right = ipywidgets.VBox([view, alarms, *below])
-    column = ipywidgets.VBox([first, left])
+    column = ipywidgets.VBox([first, left or ipywidgets.VBox([field.row for field in fields.values()])])
     parts = {"right": right, "left": column, "first": first, "view": view, "drawn": picture, "said": alarms}
     for name, part in parts.items():
         part.add_class(f"mnclab-{name}")

@@ -15,7 +15,7 @@ from mnclab.controls.choice import run as run_text
 from mnclab.geometry.contours import Contour, rectangle
 from mnclab.geometry.regions import Region
 from mnclab.lab.forms.fields import ORDERS, Field, Number, NumberField, number_box, place_of, slider_of
-from mnclab.lab.forms.live import SIZE, NewPicture, cell, following, of_run
+from mnclab.lab.forms.live import SIZE, NewPicture, cell, following, of_run, widgets
 from mnclab.machine import trial
 from mnclab.machine.setup import Setup
 from mnclab.machining.milling.strategies import STRATEGIES
@@ -23,7 +23,6 @@ from mnclab.path.profile import Profile
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm, hint
 from mnclab.text.given import check_number, choice, fitting, shown
-from mnclab.text.opening import require
 
 PLACE = re.compile(r"\{(\w+)\}")
 
@@ -47,7 +46,7 @@ def panel(
     its axes while a number is changed, and shows in grey where the path went before. `view` and `setup` are those of
     `Run.plot` and `run`. The result has `boxes` (by name) and `run`, the last run.
     """
-    require("ipywidgets", "forms")
+    widgets("forms")
     if not (isinstance(template, str) or callable(template)):
         wanted = "a panel is made of the text of a program, or of a function that makes it"
         raise Alarm(f"{wanted}, got {shown(template)}", hint='panel("G0 X{x}\\n", "mnc", x=5)')
@@ -74,10 +73,7 @@ def panel(
     def field_of(alarm: Alarm) -> str:
         return place_at(alarm, written)
 
-    import ipywidgets
-
-    rows = ipywidgets.VBox([field.row for field in fields.values()])
-    return following(boxes, fields, rows, work, field_of, title="panel", classes="mnclab-panel")
+    return following(boxes, fields, None, work, field_of, title="panel", classes="mnclab-panel")
 
 
 def check_names(template: str | Callable[..., str], numbers: Mapping[str, Any]) -> None:
@@ -147,9 +143,7 @@ def compensation_panel(run: Run, **options: Any) -> Any:
     """
     if not isinstance(run, Run):
         raise Alarm(f"a run is compensated, got {shown(run)}", hint='compensation_panel(mnclab.run("part.mnc"))')
-    require("ipywidgets", "forms")
-    require("matplotlib", "pictures")
-    import ipywidgets
+    ipywidgets = widgets("forms")
 
     from mnclab.show.plot.compensation import compensation
 
@@ -189,10 +183,7 @@ def profile_panel(profile: Profile | Run, **options: Any) -> Any:
     profile = profile.profile() if isinstance(profile, Run) else profile
     if not isinstance(profile, Profile):
         raise Alarm(f"a profile is that of a run, got {shown(profile)}", hint='run.profile("small-mill")')
-    require("ipywidgets", "forms")
-    require("matplotlib", "pictures")
-    import ipywidgets
-
+    widgets("forms")
     from mnclab.show.plot.profile import plot_profile
 
     refuse_unknown(options, plot_profile)
@@ -215,8 +206,7 @@ def profile_panel(profile: Profile | Run, **options: Any) -> Any:
     def field_of(alarm: Alarm) -> str:
         return next((name for name in boxes if name.replace("_", " ") in alarm.message.replace("_", " ")), "")
 
-    rows = ipywidgets.VBox([field.row for field in fields.values()])
-    return following(boxes, fields, rows, work, field_of, title="feed-rate profile", classes="mnclab-panel")
+    return following(boxes, fields, None, work, field_of, title="feed-rate profile", classes="mnclab-panel")
 
 
 # One way to clear a pocket, which follows the tool and the stepover.
@@ -235,9 +225,7 @@ def pocket_panel(
     the area is a pocket of 60 by 40 mm with a round island. `options` are those of `compare`, such as feed and machine.
     The result has `boxes` ("strategy", "diameter", "share", "limit") and `trial`, the last one.
     """
-    require("ipywidgets", "forms")
-    require("matplotlib", "pictures")
-    import ipywidgets
+    ipywidgets = widgets("forms")
 
     from mnclab.comparison.strategies import compare
 
@@ -245,19 +233,18 @@ def pocket_panel(
         if name in options:
             raise Alarm(f"a pocket panel has boxes in place of {name}", hint="pocket_panel(diameter=8, share=0.4)")
     pocket = Region.of(rectangle(60, 40, 6), holes=[Contour.circle((12, 2), 7)]) if region is None else region
-    first = {"tool diameter [mm]": diameter, "stepover [share of it]": share, "limit [°]": limit}
-    names = ("diameter", "share", "limit")
-    numbers = {name: number_box(said, place_of(name, value)) for name, (said, value) in zip(names, first.items(), strict=True)}
-    kind = ipywidgets.Dropdown(
-        options=[(name, name) for name in STRATEGIES], value=choice(strategy, "a strategy", STRATEGIES), description="strategy"
-    )
+    first = {"diameter": ("tool diameter [mm]", diameter), "share": ("stepover [share of it]", share)}
+    first |= {"limit": ("limit [°]", limit)}
+    numbers = {name: number_box(said, place_of(name, value)) for name, (said, value) in first.items()}
+    chosen = choice(strategy, "a strategy", STRATEGIES)
+    kind = ipywidgets.Dropdown(options=[(name, name) for name in STRATEGIES], value=chosen, description="strategy")
     boxes = {"strategy": kind, **numbers}
     fields = {name: Field(box) for name, box in boxes.items()}
     compare(pocket, 1e-3 + diameter / 2, (), **options)  # what no box can mend is refused at once
 
     def work(live: Any) -> NewPicture:
         live.alarms.value = '<div role="status">working…</div>'
-        for name in names:
+        for name in numbers:
             check_number(numbers[name].value, name, above=0 if name != "limit" else None)
         wide = numbers["diameter"].value
         step = {"stepover": wide * numbers["share"].value, "limit": numbers["limit"].value}
@@ -270,8 +257,7 @@ def pocket_panel(
         words = {"stepover": "share", "radius": "diameter", "too large": "diameter"} | {name: name for name in boxes}
         return next((name for said, name in words.items() if said in alarm.message), "")
 
-    rows = ipywidgets.VBox([field.row for field in fields.values()])
-    return following(boxes, fields, rows, work, field_of, title="pocket", classes="mnclab-panel")
+    return following(boxes, fields, None, work, field_of, title="pocket", classes="mnclab-panel")
 
 
 def refuse_unknown(options: dict[str, Any], plot: Any) -> None:

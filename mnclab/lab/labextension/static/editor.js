@@ -13,13 +13,14 @@ const STYLE = `
 .mnclab-alarm { text-decoration-color: var(--jp-error-color1, #b3261e); }
 .mnclab-warning { text-decoration-color: var(--jp-warn-color1, #8a5a00); }
 .cm-line.mnclab-alarm, .cm-line.mnclab-warning { box-shadow: inset 3px 0 var(--jp-error-color1, #b3261e); }
+.mnclab-help strong { color: var(--jp-error-color1, #b3261e); }
 .mnclab-help { min-height: 1.4em; padding: 2px 0; white-space: normal; color: var(--jp-ui-font-color1, #1a1a1a); }
 `;
 const MIME = { mnc: 'text/x-mnc', 'tnc-620': 'text/x-klartext', 'nc-31': 'text/x-nc31', g43: 'text/x-g43', 'jnc-t01': 'text/x-jnc' };
 let count = 0;
 
 /** Upgrade every editor of mnclab that comes into the page. */
-export const watchEditors = ({ services, CodeEditor, view, state }) => {
+export const watchEditors = ({ services, CodeEditor, view, state, commands, menu }) => {
   const known = new WeakSet();
   const pointed = new Map(); // hosts that the pointer was on, with their views
   const setFaults = state.StateEffect.define();
@@ -30,7 +31,7 @@ export const watchEditors = ({ services, CodeEditor, view, state }) => {
       const line = doc.line(fault.line);
       const from = Math.max(line.from, Math.min(line.from + fault.column - 1, line.to - 1));
       const to = Math.max(from, Math.min(from + fault.length, line.to));
-      const look = { class: `mnclab-${fault.severity}`, attributes: { title: fault.message } };
+      const look = { class: `mnclab-${fault.severity}`, fault };
       return to > from ? view.Decoration.mark(look).range(from, to) : view.Decoration.line(look).range(line.from);
     });
     return view.Decoration.set(ranges, true);
@@ -43,6 +44,27 @@ export const watchEditors = ({ services, CodeEditor, view, state }) => {
     },
     provide: field => view.EditorView.decorations.from(field),
   });
+  /** The faults from a place of a text to another, the alarms first. */
+  const faultsIn = (shown, from, to) => {
+    const found = [];
+    shown.field(faultsField).between(from, to, (begin, end, { spec: { fault } }) => { found.push({ ...fault, begin, end }); });
+    return found.sort((a, b) => a.severity.localeCompare(b.severity));
+  };
+  const faultHover = view.hoverTooltip((shown, at) => {
+    const [fault] = faultsIn(shown.state, at, at);
+    const dom = Object.assign(document.createElement('div'), { className: 'mnclab-word', textContent: fault?.message });
+    return fault ? { pos: fault.begin, end: fault.end, above: true, create: () => ({ dom }) } : null;
+  });
+  let last = null; // the editor that had the cursor last, with the page it stands in
+  document.addEventListener('focusin', ({ target }) => {
+    if (target.closest?.('.cm-editor')) last = edited.get(target.closest('.mnclab-code')) || null;
+  });
+  const edited = new WeakMap();
+  for (const act of ['undo', 'redo']) {
+    const id = `mnclab:${act}`;
+    commands.addCommand(id, { label: act === 'undo' ? 'Undo' : 'Redo', execute: () => last[act]() });
+    menu?.editMenu.undoers[act].add({ id, rank: 0, isEnabled: widget => !!last && widget.node.contains(last.host) });
+  }
 
   const upgrade = area => {
     const root = area.closest('.mnclab-live');
@@ -61,6 +83,7 @@ export const watchEditors = ({ services, CodeEditor, view, state }) => {
     const native = Object.getOwnPropertyDescriptor(HTMLTextAreaElement.prototype, 'value');
     const model = new CodeEditor.Model({ mimeType: MIME[root.querySelector('[data-control]')?.dataset.control] || 'text/plain' });
     model.sharedModel.setSource(area.value);
+    model.sharedModel.clearUndoHistory(); // the text that it begins with stays
     let line = 0;
     const moved = update => {
       if (update.docChanged && update.state.doc.toString() !== native.get.call(area)) {
@@ -69,12 +92,13 @@ export const watchEditors = ({ services, CodeEditor, view, state }) => {
       }
       if (update.docChanged || update.selectionSet) here(update.view);
     };
-    const name = { 'aria-label': 'part program', 'aria-describedby': help.id };
+    const name = { 'aria-label': root.querySelector('.mnclab-editor label').textContent, 'aria-describedby': help.id };
     const editor = services.factoryService.newDocumentEditor({
       host, model, config: { lineNumbers: true, lineWrap: false },
-      extensions: [faultsField, view.EditorView.updateListener.of(moved), view.EditorView.contentAttributes.of(name)],
+      extensions: [faultsField, faultHover, view.EditorView.updateListener.of(moved), view.EditorView.contentAttributes.of(name)],
     });
     const shown = editor.editor;
+    edited.set(host, editor);
     host.addEventListener('pointerenter', () => pointed.set(host, shown));
     shown.setTabFocusMode?.(true); // Tab leaves the editor; programs have no tabs
     Object.defineProperty(area, 'value', {
@@ -85,16 +109,20 @@ export const watchEditors = ({ services, CodeEditor, view, state }) => {
       },
     });
 
-    /** Say what the word at the cursor means, and mark the moves of its line. */
+    /** Say what is wrong in the line of the cursor, or first of all, and what its word means; mark the moves of the line. */
     const here = async at => {
       const { head } = at.state.selection.main;
       const on = at.state.doc.lineAt(head);
       mark(on.number);
+      const [fault] = [...faultsIn(at.state, on.from, on.to), ...faultsIn(at.state, 0, at.state.doc.length)];
+      const wrong = Object.assign(document.createElement('strong'), {
+        textContent: fault ? `line ${at.state.doc.lineAt(fault.begin).number}: ${fault.message} ` : '' });
+      help.replaceChildren(wrong);
       const words = await vocabulary(root.querySelector('[data-control]')?.dataset.control);
       if (!words || at.state.selection.main.head !== head) return;
       const lines = at.state.doc.sliceString(0, on.to).split('\n');
       const found = meaningAt(lines, head - on.from, words) || meaningAt(lines, Math.max(head - on.from - 1, 0), words);
-      help.textContent = found ? inWords(found, words) : '';
+      help.replaceChildren(wrong, found ? inWords(found, words) : '');
     };
     const mark = number => {
       line = number;
@@ -107,11 +135,12 @@ export const watchEditors = ({ services, CodeEditor, view, state }) => {
       const mime = MIME[verdict.dataset.control];
       if (mime && model.mimeType !== mime) model.mimeType = mime;
       shown.dispatch({ effects: setFaults.of(JSON.parse(verdict.dataset.faults)) });
+      here(shown);
     };
     /** Through a box of its own: a click on the button would overtake what was typed last. */
-    const save = () => {
+    const send = sign => {
       const kept = root.querySelector('.mnclab-kept textarea');
-      kept.value = '=' + shown.state.doc.toString();
+      kept.value = sign + shown.state.doc.toString();
       kept.dispatchEvent(new Event('input', { bubbles: true }));
     };
     const watch = (selector, done) => {
@@ -122,14 +151,17 @@ export const watchEditors = ({ services, CodeEditor, view, state }) => {
     watch('.mnclab-picture', () => mark(line));
     told();
     host.addEventListener('keydown', event => {
-      if (event.key.toLowerCase() !== 's' || !(event.ctrlKey || event.metaKey)) return;
+      const key = (event.shiftKey ? 'shift ' : '') + event.key.toLowerCase();
+      const act = { s: () => send('='), z: () => editor.undo(), 'shift z': () => editor.redo(), y: () => editor.redo() }[key];
+      if (!act || !(event.ctrlKey || event.metaKey)) return;
       event.preventDefault();
-      save();
+      act();
     });
     root.addEventListener('click', event => {
-      if (!event.target.closest?.('.mnclab-save')) return;
+      const button = event.target.closest?.('.mnclab-save, .mnclab-grade-box:not(div)');
+      if (!button) return;
       event.stopPropagation();
-      save();
+      send(button.matches('.mnclab-save') ? '=' : '!');
     }, true);
     root.addEventListener('click', event => {
       const move = event.target.closest?.('.mnclab-moves g');

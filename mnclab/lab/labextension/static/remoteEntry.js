@@ -55,15 +55,15 @@
 
   const plugin = (
     { IEditorLanguageRegistry }, { HighlightStyle, LanguageSupport, StreamLanguage, syntaxHighlighting },
-    { INotebookTracker }, { IEditorTracker }, { CodeEditor, IEditorServices }, view, state, { tags }, completer, { hover }, { watchEditors },
-    { watchForms }, { showWords }, { tokenOf },
+    { INotebookTracker }, { IEditorTracker }, { IMainMenu }, { CodeEditor, IEditorServices }, view, state, { tags }, completer,
+    { hover }, { watchEditors }, { watchForms }, { showWords }, { tokenOf },
   ) => ({
     id: 'mnclab:languages',
     description: 'Colours, words and the editor for part programs of CNC controls',
     autoStart: true,
     requires: [IEditorLanguageRegistry, IEditorServices],
-    optional: [INotebookTracker, IEditorTracker],
-    activate: (app, languages, services, notebooks, editors) => {
+    optional: [INotebookTracker, IEditorTracker, IMainMenu],
+    activate: (app, languages, services, notebooks, editors, menu) => {
       // that of JupyterLab is too dim on a dark page
       const grey = 'color-mix(in srgb, #408080 65%, var(--jp-content-font-color0, #000)) !important';
       const readable = HighlightStyle.define([{ tag: tags.comment, color: grey, fontStyle: 'italic' }]);
@@ -84,7 +84,7 @@
         editors.forEach(watchFile);
         editors.widgetAdded.connect((_, widget) => watchFile(widget));
       }
-      watchEditors({ services, CodeEditor, view, state });
+      watchEditors({ services, CodeEditor, view, state, commands: app.commands, menu });
       watchForms();
       showWords(completer, editor => LANGUAGES.some(language => language.mime === editor?.model.mimeType));
     },
@@ -103,7 +103,7 @@
     init: scope => { shared = scope; },
     get: async () => {
       const names = [
-        '@jupyterlab/codemirror', '@codemirror/language', '@jupyterlab/notebook', '@jupyterlab/fileeditor',
+        '@jupyterlab/codemirror', '@codemirror/language', '@jupyterlab/notebook', '@jupyterlab/fileeditor', '@jupyterlab/mainmenu',
         '@jupyterlab/codeeditor', '@codemirror/view', '@codemirror/state', '@lezer/highlight', '@jupyterlab/completer',
       ];
       const files = ['hover.js', 'editor.js', 'forms.js', 'completer.js', 'languages.js'].map(beside);
