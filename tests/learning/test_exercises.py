@@ -68,7 +68,7 @@ def test_dimensions_that_make_no_part_for_some_pupils_are_missed(tmp_path):
     text = FILES["mnc-14"].read_text("utf-8")
     file = tmp_path / "mnc-14.toml"
     ranges = '[vary]\n"shoulder.length" = [94, 102, 2]\n"shoulder.width" = [64, 72, 2]\n'
-    file.write_text(text.replace("\n[setup", f"\n{ranges}\n[setup", 1), "utf-8")
+    file.write_text(text.replace("[vary]\n", ranges, 1), "utf-8")
     assert [each for each in missing(file) if each.startswith("[vary]: ") and "chamfer" in each]
 
 
