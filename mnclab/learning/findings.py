@@ -197,7 +197,7 @@ def _of_feature(feature: str, rows: list[Any], run: Run, before: int, begun: boo
     if not line:
         line, near = nearest(run, there)
     causes = tuple(of_row(run, near, [there, *(each.place for each in rows)], _axis(row, run))) if near >= 0 else ()
-    if row.deviation > 0:  # something is left: another block may have been to take it
+    if row.deviation > 0 and line:  # something is left: another block may have been to take it
         causes = (*causes[:1], Cause(nearest(run, there, but=line)[0], "this block passes there too"), *causes[1:])
     why = _why(row, run, before, line)
     if row.feature == "blank" or row.measure == "form":
@@ -293,7 +293,7 @@ NEAR = 1.0  # mm, beyond the largest tool: a row that is farther away has nothin
 
 def nearest(run: Run, place: Place | None, over: bool = False, but: int = 0) -> tuple[int, int]:
     """The line of the row at feed that passes nearest to a place, `over` it at any height, and rapid if none at feed is nearly
-    as near, 0 where it has nothing to do with it, and this row, -1 without one; the last of some as near; an arc is its chord.
+    as near, and this row; 0 and -1 where none has to do with it; the last of some as near; an arc is its chord.
     Rows of the line `but` are left out."""
     path = run.toolpath
     across = path.lathe | (path.start != path.end)[:, :2].any(axis=1)  # a retract is no way to a place
@@ -307,7 +307,7 @@ def nearest(run: Run, place: Place | None, over: bool = False, but: int = 0) -> 
     far = np.linalg.norm(start + share[:, None] * along - there, axis=1) + NEAR * (path.kind[rows] == Kind.RAPID)
     k = int(np.flatnonzero(far <= far.min() + 1e-6)[-1])
     reach = NEAR + max((tool.radius for tool in run.tools_that_cut[0].values()), default=0.0)
-    return (int(path.line[rows[k]]) if far[k] <= reach else 0), int(rows[k])
+    return (int(path.line[rows[k]]), int(rows[k])) if far[k] <= reach else (0, -1)
 
 
 def _at(place: Place | None) -> str:

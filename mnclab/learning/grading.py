@@ -81,7 +81,7 @@ def beside(exercise: Exercise, findings: list[Finding], run: Run, text: str) -> 
     if exercise.answer != "setup":
         return findings
     tables = [(k, row.strip()) for head in TABLES for k, row in enumerate(text.split("\n"), 1) if row.strip().startswith(head)]
-    causes = tuple(Cause(k, f"or is it a number below {row}?", True) for k, row in tables)
+    causes = tuple(Cause(k, f"or is it a number below {row}?") for k, row in tables)
     return [each._replace(line=_table(text, each, run), steps=tuple(_beside(step, each.line) for step in each.steps),
                           causes=causes)
             for each in findings]  # fmt: skip
