@@ -144,7 +144,8 @@ def of_run(exercise: Exercise, run: Run, tried: Mapping[str, int], text: str = "
         findings += slow
     points = {name: marks.get(name, 0.0) for name in headings(exercise)}
     earned = not danger and points.get("part", 1.0) > 0
-    remarks = (Cause(each.span.line, each.message, True) for each in run.alarms if each.span and not each.span.program)
+    remarks = (Cause(each.span.line, each.message, True) for each in run.alarms
+               if each.span and not each.span.program and "the manual" not in each.message)  # which has no such word
     hints, faults = hints_of(beside(exercise, findings, run, text), tried, remarks if exercise.answer == "program" else ())
     measures = difference.features if difference is not None else None
     passed = earned and whole and not asked and not (slow and exercise.kind in TIMED)
