@@ -132,25 +132,32 @@ def first_line(code: str, lines: list[tuple[int, str]]) -> int | None:
 def economy(exercise: Exercise, run: Run) -> tuple[float, list[Finding]]:
     """The mark for time and length, from 1 within what was stated down to 0 at twice as much, and what to say of it."""
     asked, marks, found = exercise.asked, [1.0], []
-    for name, most, have in (("time", asked.time, lambda: run.profile().time), ("length", asked.length, lambda: length(run))):
+    for name, most in (("time", asked.time), ("length", asked.length)):
         if most is None:
             continue
-        share = have() / most
-        marks.append(min(1.0, max(0.0, 2.0 - share)))
-        if share > 1:
-            told = {"time": "it can be quicker", "length": "the way can be shorter"}[name]
-            much = f"{told}: {share - 1:.0%} over what the task states"
-            line = _idle(run, name == "time")
-            found.append(Finding(SLOW, f"economy of {name}", line, (told, much, f"{much}; look for cuts in air and long rapids")))
+        timed = name == "time"
+        have = run.profile().time if timed else length(run)
+        marks.append(min(1.0, max(0.0, 2.0 - have / most)))
+        if have > most:
+            line, why = lost(run, timed)
+            said = f"it can be quicker: {have:.1f} s" if timed else f"the way can be shorter: {have:.0f} mm"
+            told = f"{said} of {most:g}"
+            found.append(Finding(SLOW, f"economy of {name}", line, (told, f"{told}; {why}")))
     return min(marks), found
 
 
-def _idle(run: Run, at_feed: bool) -> int:
-    """The line of the longest row that takes nothing away, by the time of those at feed or the way of the rapids; 0 for none."""
-    path, cut = run.toolpath, run.removal().volumes > 0 if run.stock is not None else False
-    idle = path.is_motion & ~cut & ((path.kind == Kind.RAPID) != at_feed) & (path.program == 0)
-    wide = np.where(idle, path.lengths / (path.feed if at_feed else 1.0), 0.0)
-    return int(path.line[wide.argmax()]) if idle.any() else 0
+def lost(run: Run, timed: bool) -> tuple[int, str]:
+    """What most of the time, or else of the way, goes to beside the cuts, in words, and the line that spends most on it."""
+    path, profile = run.toolpath, run.profile()
+    rapid, cuts = path.kind == Kind.RAPID, run.removal().volumes > 0 if run.stock is not None else False
+    each = profile.seconds - profile.lost if timed else path.lengths
+    spent = {"rapids": each * rapid, "moves at feed that take nothing away": each * (path.is_motion & ~rapid & ~cuts)}
+    if timed:
+        spent |= {"speeding up and braking": profile.lost, "changes of tools": each * (path.kind == Kind.TOOL),
+                  "changes of the spindle's speed": each * (path.kind == Kind.SPINDLE)}  # fmt: skip
+    what = max(spent, key=lambda name: float(spent[name].sum()))
+    much = f"{spent[what].sum():.1f} s" if timed else f"{spent[what].sum():.0f} mm"
+    return int(path.line[spent[what].argmax()]), f"{much} go to {what}"
 
 
 def length(run: Run) -> float:

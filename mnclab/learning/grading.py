@@ -149,7 +149,8 @@ def of_run(exercise: Exercise, run: Run, tried: Mapping[str, int], text: str = "
     hints, faults = hints_of(beside(exercise, findings, run, text), tried, remarks if exercise.answer == "program" else ())
     measures = difference.features if difference is not None else None
     passed = earned and whole and not asked and not (slow and exercise.kind in TIMED)
-    return Grade(exercise.id, earned * score(exercise, points), passed, points, hints, faults, measures, difference, run)
+    marked = min(earned * score(exercise, points), 1.0 if passed else 0.99)  # what lacks something is not 100 %
+    return Grade(exercise.id, marked, passed, points, hints, faults, measures, difference, run)
 
 
 def score(exercise: Exercise, points: Mapping[str, float]) -> float:

@@ -48,15 +48,16 @@ def of_row(run: Run, row: int, places: Sequence[Place | None], first: int | str 
     if path.program[row]:
         return
     yield Cause(of, "the tool passes there in this block")
-    if path.label[row]:
+    if path.label[row] and first != 2:  # a depth is none of its contour
         yield from of_contour(run, places)
     for line, name in [*_values(run, of, step)][::-1]:  # the numbers that were typed before what was worked out of them
         yield Cause(line, f"line {of} works with the {name} of this block", True)
     for name in run.history:
         if name.startswith(FRAME) and (line := line_of(run, name, step)) > 1:
             yield Cause(line, f"line {of} works with what this block sets", True)
-    names = ("cycle", "tool") if path.label[row] else ("tool",)
-    told = [Cause(line_of(run, name, step), f"line {of} works with the {name} of this block", name == first) for name in names]
+    names = ("cycle", "Q1", "tool") if path.label[row] else ("tool",)  # Q1: the depth of contour cycles
+    said = [(line_of(run, name, step), name) for name in names]
+    told = [Cause(line, f"line {of} works with the {name} of this block", name == first) for line, name in said if line]
     if path.label[row] and first not in (0, 1) or first == "tool":
         yield from told
     moved = np.abs(path.end - path.start)

@@ -128,6 +128,21 @@ def test_a_folder_for_pupils_has_no_answers_and_keeps_what_they_began(tmp_path):
         give(["mnc-77"], tmp_path)
 
 
+def test_a_pupil_grades_his_own_drawing_from_the_shell(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    names = ("Anna", "Boris", "Vera", "Georgi", "Dina")
+    found = set()
+    for name in names:
+        give([NAME], tmp_path / name, name)
+        size = load(tmp_path / name / f"{NAME}.toml").design.features[0].contour
+        model = (tmp_path / name / f"{NAME}.mnc")
+        found.add(str(size))
+        model.write_text(MODEL)
+        own = load(tmp_path / name / f"{NAME}.toml").check(MODEL).passed
+        assert shell.main(["grade", str(model)]) == (0 if own else 1)
+    assert len(found) > 1
+
+
 def test_a_teachers_own_file_is_given_and_graded(tmp_path, monkeypatch):
     """His answers stay with him, and his folder is no place for the copies."""
     monkeypatch.chdir(tmp_path)
