@@ -14,6 +14,7 @@ const STYLE = `
 .mnclab-warning { text-decoration-color: var(--jp-warn-color1, #8a5a00); }
 .cm-line.mnclab-alarm, .cm-line.mnclab-warning { box-shadow: inset 3px 0 var(--jp-error-color1, #b3261e); }
 .mnclab-help strong { color: var(--jp-error-color1, #b3261e); }
+.mnclab-help strong.warning { color: var(--jp-warn-color1, #8a5a00); font-weight: normal; }
 .mnclab-help { min-height: 1.4em; padding: 2px 0; white-space: normal; color: var(--jp-ui-font-color1, #1a1a1a); }
 `;
 const MIME = { mnc: 'text/x-mnc', 'tnc-620': 'text/x-klartext', 'nc-31': 'text/x-nc31', g43: 'text/x-g43', 'jnc-t01': 'text/x-jnc' };
@@ -115,7 +116,7 @@ export const watchEditors = ({ services, CodeEditor, view, state, commands, menu
       const on = at.state.doc.lineAt(head);
       mark(on.number);
       const [fault] = [...faultsIn(at.state, on.from, on.to), ...faultsIn(at.state, 0, at.state.doc.length)];
-      const wrong = Object.assign(document.createElement('strong'), {
+      const wrong = Object.assign(document.createElement('strong'), { className: fault?.severity ?? '',
         textContent: fault ? `line ${at.state.doc.lineAt(fault.begin).number}: ${fault.message} ` : '' });
       help.replaceChildren(wrong);
       const words = await vocabulary(root.querySelector('[data-control]')?.dataset.control);
