@@ -110,23 +110,24 @@ def _encoded(text: str, page: str) -> bytes:
 
 def first_run(result: Run) -> Iterator[str]:
     """What is done before the first run, and at which blocks the eye is on the tool."""
-    path, profile = result.toolpath, result.profile()
+    path, profile, tools = result.toolpath, result.profile(), result.tools_that_cut[1]
     yield f"First run of {result.program.title}, {result.control.title}; {profile.time / 60:.1f} min at 100 %."
     yield ""
-    yield "[ ] zero points, tools and correctors are those of the sheets; the blank is clamped as drawn"
+    blank = "; the blank is clamped as drawn" if result.stock is not None else ""
+    yield f"[ ] zero points, tools and correctors are those of the sheets{blank}"
     yield "[ ] in the air first: zero point raised by more than the part is high, guard closed, hand at the stop"
     yield "[ ] single block on, rapid and feed override at the least; single block off when the first cut is seen"
     yield ""
     yield "Watch at these blocks; the place is that of the read-out when the block is done:"
     for row, why in watched(result):
-        line, tool = int(path.line[row]), f", T{path.tool[row]}" if path.tool[row] else ""
+        line, tool = int(path.line[row]), f", T{tools[row]}" if tools[row] else ""
         yield f"[ ] line {line}{tool}: {why}; {point(result.at(line=line).position, lathe=result.control.lathe)}"
 
 
 def watched(result: Run) -> Iterator[tuple[int, str]]:
     """Rows of the path to look at, and why: of each tool the first rapid and the first cut; stops."""
-    path = result.toolpath
-    change = np.flatnonzero(np.diff(path.tool, prepend=path.tool[:1] - 1))
+    path, tools = result.toolpath, result.tools_that_cut[1]  # of a lathe without T, what each cycle takes
+    change = np.flatnonzero(np.diff(tools, prepend=tools[:1] - 1))
     stops = np.flatnonzero((path.kind == Kind.STOP) & (path.program == 0))
     found = [(int(row), "the program stops") for row in stops]
     for begin, end in zip(change, [*change[1:], len(path)]):
