@@ -134,8 +134,9 @@ class Example:
         if (run.toolpath.cylinder >= 0).any():
             return unlinked(plot_unrolled(run.toolpath, size=options["size"], legend=False))
         rows = self.rows(run.toolpath)
-        path = near(run.toolpath[rows])
-        shown: dict[str, Any] = {"stock": run.stock or self.blank(path, values), "places": places_of(run), "felt": felt_of(run)}
+        path, close = run.toolpath[rows], near(run.toolpath[rows])
+        path = path if path.lathe else close  # the border of a lathe's picture cuts off: its tool stands at no end that is none
+        shown: dict[str, Any] = {"stock": run.stock or self.blank(close, values), "places": places_of(run), "felt": felt_of(run)}
         if path.lathe and len(path):
             tools, numbers = run.tools_that_cut
             shown["tools"] = tools | {0: tools.get(int(numbers[rows][-1]), Tool())}
