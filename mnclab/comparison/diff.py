@@ -8,6 +8,7 @@ every `step` mm, so the result is too small by less than half a step, and wrong 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from html import escape
 from typing import TYPE_CHECKING, Any, Protocol, overload, runtime_checkable
 
@@ -20,6 +21,7 @@ from mnclab.path.limits import Limits
 from mnclab.path.listing import MM, Unit, figure, point
 from mnclab.path.places import points
 from mnclab.path.profile import Profile
+from mnclab.path.profile.ramps import bent
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, choice, fitting, shown
@@ -33,6 +35,7 @@ Array = NDArray[np.float64]
 PLACES = 4000  # of a path, if no step is given
 MOST = 10_000_000  # of a path, whatever the step
 SAME = 1e-9  # mm; paths no farther apart than this are the same
+FINE = 0.01  # mm, beside its straight line: a rapid that goes no farther goes straight
 CHUNK, GROUP, SPARSE = 64, 64, 16  # places at a time; strokes that share a box; every which of them is tried first
 
 
@@ -131,10 +134,25 @@ class Deviation(Pictured):
         if where is None:
             return "no motion on either path" if self.largest == 0 else "only one of the paths has motion"
         if self.largest < SAME:
-            return "the paths are the same"
+            if self.rapids_apart < FINE:
+                return "the paths are the same"
+            return f"the cuts are the same; the axes lead the rapids up to {self._length(self.rapids_apart)} apart"
+        straight = ", rapids taken as straight lines" if self.rapids_apart >= FINE else ""
+        return f"largest deviation {self._length(self.largest)} at line {where[2]} of {self.names[where[3]]}{straight}"
+
+    @cached_property
+    def rapids_apart(self) -> float:
+        """How far the paths are apart, mm, where their rapids go as two machines lead them; 0 where both lead them alike."""
+        one, other = self.rapids
+        if one is None or other is None or one == other:
+            return 0.0
+        led = [bent(path, limits, FINE) for path, limits in zip(self.paths, (one, other))]
+        bends = any(len(path) > len(straight) for path, straight in zip(led, self.paths))
+        return deviation(led[0], led[1], step=self.step).largest if bends else 0.0
+
+    def _length(self, length: float) -> str:
         unit = self.unit
-        largest = figure(self.largest / unit.length, unit.decimals - 1 if self.largest >= 0.001 else unit.decimals + 2)
-        return f"largest deviation {largest} {unit.short} at line {where[2]} of {self.names[where[3]]}"
+        return f"{figure(length / unit.length, unit.decimals - 1 if length >= 0.001 else unit.decimals + 2)} {unit.short}"
 
     def __str__(self) -> str:
         head = f"{self.names[0]} and {self.names[1]}: {self.sentence}"

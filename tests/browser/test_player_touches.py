@@ -6,6 +6,7 @@ import pytest
 from tools.pages import BEGUN
 from tools.toy_probing import toy_run
 
+import mnclab
 from mnclab.workpiece.part import box, hole
 
 PART = box((0, 0, -20), (100, 60, 0)) - hole((50, 30, 0), 24, 10)
@@ -42,6 +43,22 @@ def test_touches_appear_one_after_the_other(page):
     assert page.evaluate(WRITTEN, rows[0]) == []
     assert page.evaluate(WRITTEN, rows[0] + 1) == ["1   X 62.000"]
     assert len(page.evaluate(WRITTEN, len(run.toolpath))) == len(run.touches) == 5
+
+
+def test_what_a_probe_does_at_feed_is_no_cut(browser, tmp_path):
+    """G400 of the MNC goes from touch to touch at the fast feed of the probe table; the mill that follows cuts."""
+    tools = {1: mnclab.Tool(5, 100, kind="mill"), 20: mnclab.Tool(3, 150, kind="probe")}
+    probe = mnclab.Probe(clearance=2, reach=10, rapid=3000)
+    setup = mnclab.Setup(tools=tools, probe=probe, part=box((0, 0, -20), (80, 60, 0)), start=(-20, -20, 50))
+    run = mnclab.run("G54 G17 G90\nT20\nG0 Z50\nG400 X20 Y0 U60 V0 L2 K1 Z-5 H20\nT1 S900 M3\nG1 Y50 F500\n", "mnc", setup)
+    assert run.ok and (run.toolpath.kind[run.toolpath.tool == 20] == mnclab.Kind.LINE).any()
+    page = browser.new_page()
+    page.goto(run.save(tmp_path / "touch.html").as_uri())
+    page.evaluate(BEGUN)
+    drawn = page.evaluate("() => [...player.picture.strokes.row].filter((_, k) => player.picture.strokes.kind[k] === CUTS)")
+    assert drawn and (run.toolpath.tool[drawn] == 1).all()
+    assert page.locator("#legend").inner_text().split() == ["cut", "rapid", "probing"]
+    page.close()
 
 
 def test_the_part_is_the_map(page):

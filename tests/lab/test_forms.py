@@ -263,6 +263,11 @@ def test_the_steps_of_a_form_follow_it():
 def test_the_moves_in_the_program_stand_for_steps_that_need_one():
     live = mnclab.form("CYCL DEF 275", "tnc-620")
     assert live.run.ok and "layer 1 of 2, trochoid" in live.steps_view.value
+    moved = live.run.toolpath
+    own = [label.startswith("CYCL DEF 275 ") for label in np.array(moved.labels)[moved.label]]
+    assert live.steps_view.value.count("<tr>") == 1 + sum(own) > 200, "a row of each of its moves, none cut"
+    heads = [re.findall("<th[^>]*>([^<]*)", form.steps_view.value) for form in (live, mnclab.form("CYCL DEF 251", "tnc-620"))]
+    assert heads[0] == heads[1] and "feed, mm/min" in heads[0]
     live.boxes["infeed"].value = 0.0
     assert "<table" not in live.steps_view.value and "other values" in live.steps_view.value
 

@@ -81,6 +81,14 @@ def test_a_dimension_across_says_where_it_is_a_radius(name, code, field, said):
     assert f"<title>{said}</title>" in live.lit.value
 
 
+@pytest.mark.parametrize("code", ["G72", "G73", "G75"])
+def test_no_end_is_marked_where_the_way_is_cut_off(code):
+    """G73 leaves for X60 (diameter), far beside its hole: it goes out through the border, the drill stands before it."""
+    live = mnclab.form(code, "nc-31")
+    ends = [place for line in live.figure.axes[0].lines if line.get_label() == "end" for place in line.get_xydata().tolist()]
+    assert ends == ([] if code == "G73" else [live.run.toolpath.end[-1, [2, 0]].tolist()])
+
+
 @pytest.mark.parametrize(("name", "code"), CASES)
 def test_the_picture_of_a_form_is_filled_by_its_bar_which_every_plunge_meets(name, code):
     live = mnclab.form(code, name)

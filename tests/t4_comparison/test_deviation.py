@@ -24,6 +24,21 @@ def test_the_same_path_has_none():
     assert "farthest apart" not in str(found) + found._repr_html_()
 
 
+def test_rapids_that_two_machines_lead_are_told_apart():
+    """Axes of 1000 mm/min and no inertia to speak of: X40 Y20 goes in a slant to X20 Y20 and on along X, and X20 Y20 is
+    20 / √5 mm beside the straight line."""
+    limits = mnclab.Limits(rapid=1000, acceleration=1e6)
+    setup = mnclab.Setup(limits=limits)
+    milled, klartext = "G90 G54\nG0 X40 Y20\nG1 Y50 F100\n", "L X+40 Y+20 R0 FMAX\nL Y+50 F100\n"
+    by_axes, in_line = mnclab.run(milled, "mnc", setup), mnclab.run(klartext, "tnc-620", setup)
+    found = mnclab.diff(in_line, by_axes)
+    assert not found and found.rapids_apart == pytest.approx(20 / math.sqrt(5), abs=0.01)
+    assert found.sentence.startswith("the cuts are the same; the axes lead the rapids up to 8.94")
+    other = mnclab.diff(in_line, mnclab.run(milled.replace("Y50", "Y60"), "mnc", setup))
+    assert other.largest == pytest.approx(10) and other.sentence.endswith(", rapids taken as straight lines")
+    assert mnclab.diff(by_axes, by_axes).sentence == "the paths are the same"
+
+
 def test_places_are_a_step_apart_however_short_the_chords_are():
     """Of 10 circles of 36,000 chords in all, only as many places are looked at as the step asks for."""
     run = mnclab.run("G0 X0 Y0\n" + "G3 I1.7 F100\n" * 10, "mnc")

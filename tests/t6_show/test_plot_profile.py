@@ -1,5 +1,7 @@
 """Pictures of a profile, and the panel of its limits."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -7,6 +9,8 @@ import mnclab
 from mnclab import Alarm, Limits
 from mnclab.show.plot import colours
 from mnclab.show.plot.profile import curve, holds, plot_profile
+
+SAMPLES = Path(__file__).parents[2] / "data" / "programs"
 
 PROGRAM = """G90 G54 T1 S1000 M3
 G0 X0 Y0 Z5
@@ -60,6 +64,15 @@ def test_what_holds_the_speed(run):
     assert (profile.a[names == "acceleration"] != 0).all()
     slow = mnclab.run("G90 G54\nG1 X40 F30000\n", "mnc").profile(Limits(rapid=6000))
     assert "axis speed" in np.array(list(colours.HOLDS))[holds(slow)]
+
+
+@pytest.mark.parametrize("jerk", [None, 20_000])
+@pytest.mark.parametrize("sample", ["mnc/one_part.mnc", "jnc-t01/shaft.jnc", "tnc-620/lid.h", "tnc-620/pockets.h"])
+def test_no_acceleration_is_drawn_beyond_its_limit(sample, jerk):
+    """Neither of rapids whose axes go by themselves, which may have more together than each, nor along arcs; and without gaps."""
+    picture = mnclab.run(SAMPLES / sample).profile(Limits(rapid=8000, acceleration=1500, jerk=jerk)).plot()
+    drawn = {line.get_label(): np.array(line.get_ydata()) for line in picture.axes[1].lines}
+    assert (np.abs(drawn["_a"]) <= drawn["limit"] + 1e-6).all() and np.isfinite(drawn["limit"]).all()
 
 
 def test_the_path_is_coloured_by_what_is_reached(run):

@@ -20,13 +20,11 @@ from mnclab.lab.forms.live import DRAWING, NewPicture, following, of_run, value_
 from mnclab.lab.forms.measuring import Length
 from mnclab.machine.cycle import Cycle, Parameter, left_out, limits
 from mnclab.machine.trial import number
-from mnclab.path.listing import table as moves_html
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import choice, fitting, shown
 from mnclab.text.tables import html_table
 
 SIZE = (4.9, 4.2)  # inches: beside the fields there is so much room in JupyterLab on a small laptop
-MOST = 60  # steps of the table
 LONG = 34  # letters of a choice in the picture
 
 
@@ -75,8 +73,10 @@ def form(code: str, control: str) -> Any:
             try:
                 table.value = steps_html(example.steps(now))
             except Alarm:
-                moves = f"<p>what it does in the program below:</p>{moves_html(example.own(run.toolpath))}"
-                table.value = moves if run.ok else "<p>its steps need other values</p>"
+                told = "its steps need other values"
+                if run.ok and len(run.toolpath):
+                    told = f"what it does in the program below:</p>{steps_html(example.moves(run.toolpath, now))}"
+                table.value = f"<p>{told}"
 
         drawn = of_run(run, lambda **kept: example.plot(run, now, size=SIZE, **kept))
         return drawn._replace(after=after, made=example.own(run.toolpath))
@@ -140,10 +140,9 @@ def worth(p: Parameter, box: Any) -> str:
 
 
 def steps_html(listed: CycleSteps) -> str:
-    """The table of the steps of a cycle; of a long one the beginning."""
-    cells, numbers = listed.cells(), range(2, len(listed.head) - 1)
-    more = f"<p>… and {len(cells) - MOST} more; <code>form.steps()</code> has all of them</p>" if len(cells) > MOST else ""
-    return html_table(listed.head, cells[:MOST], numbers=numbers) + more
+    """The table of the steps of a cycle, all of them."""
+    head, rows, numbers = listed.table()
+    return html_table(head, rows, numbers=numbers)
 
 
 # What a field is about: all cards are one widget; the style sheet shows the one whose field has the cursor or lies under the

@@ -16,14 +16,15 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from mnclab.controls.choice import run as run_text
-from mnclab.controls.cycle_steps import CycleSteps, steps
+from mnclab.controls.cycle_steps import DECIMALS, CycleSteps, StepRow, steps
 from mnclab.lab.forms.measuring import Measured, measured
 from mnclab.machine import trial
 from mnclab.machine.control import Control
 from mnclab.machine.cycle import Cycle, Parameter
 from mnclab.machine.setup import Setup
 from mnclab.machine.touching import FEELS, PROBES
-from mnclab.machining.steps import Touch, Turn
+from mnclab.machining.steps import Go, Step, Touch, Turn, Wait
+from mnclab.path.listing import figure
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Array, Kind, Mask, Toolpath
 from mnclab.runs.run import Run
@@ -89,6 +90,19 @@ class Example:
         on = path.cylinder == 0
         return path[on].unrolled() if on.any() else path[self.rows(path)]
 
+    def moves(self, path: Toolpath, values: Values) -> CycleSteps:
+        """What the cycle does in its program, as steps: it may have none without one."""
+        found, rows = self.own(path), []
+        for move in found[found.kind <= Kind.DWELL]:
+            label, (x, y, z) = move.label.removeprefix(f"{self.cycle.code} "), move.end.tolist()
+            feed = move.per_rev if np.isfinite(move.per_rev) else move.feed
+            steps_of: dict[int, Step] = {Kind.ARC: Turn(label, move.sweep), Kind.PROBE: Touch(label, x, y, z, feed)}
+            said = "rapid" if move.kind == Kind.RAPID else figure(feed, DECIMALS)
+            moved = StepRow(steps_of.get(move.kind, Go(label)), (x, y, z), said)
+            rows.append(StepRow(Wait(label, move.time)) if move.kind == Kind.DWELL else moved)
+        per_rev = bool(np.isfinite(found.per_rev).any())
+        return CycleSteps(self.cycle, values, tuple(found.start[0].tolist()), rows, lathe=path.lathe, per_rev=per_rev)
+
     def blank(self, path: Toolpath, values: Values) -> Blank | None:
         """A blank for what is cut: a bar, or a block with the datum at its corner where it is near."""
         cuts = path[np.isin(path.kind, CUTS)]
@@ -120,8 +134,9 @@ class Example:
         if (run.toolpath.cylinder >= 0).any():
             return unlinked(plot_unrolled(run.toolpath, size=options["size"], legend=False))
         rows = self.rows(run.toolpath)
-        path = near(run.toolpath[rows])
-        shown: dict[str, Any] = {"stock": run.stock or self.blank(path, values), "places": places_of(run), "felt": felt_of(run)}
+        path, close = run.toolpath[rows], near(run.toolpath[rows])
+        path = path if path.lathe else close  # the border of a lathe's picture cuts off: its tool stands at no end that is none
+        shown: dict[str, Any] = {"stock": run.stock or self.blank(close, values), "places": places_of(run), "felt": felt_of(run)}
         if path.lathe and len(path):
             tools, numbers = run.tools_that_cut
             shown["tools"] = tools | {0: tools.get(int(numbers[rows][-1]), Tool())}

@@ -132,6 +132,11 @@ class Turns:
         i = np.arange(len(part))
         return low[i, l], high[i, k], -lean[i, l], -lean[i, k]
 
+    def most_of(self, w0: Array, w1: Array) -> Array:
+        """The greatest acceleration, or braking, (m,) that the axes allow on parts from w0 to w1."""
+        low, high, _, _ = self._range(np.arange(len(self.rows)), w0)
+        return np.where(w1 < w0, -low, high)
+
     def back(self, part: Index, after: Array, cap: Array) -> Array:
         """The greatest w (k,) at the start of parts, not above `cap`, that can become `after` or less at the end.
 

@@ -145,6 +145,8 @@ class Rapids:
         self.start, self.travel = path.start[rows], path.end[rows] - path.start[rows]
         distance = np.abs(self.travel)
         self.length = np.linalg.norm(self.travel, axis=1)
+        #: The greatest acceleration (m,) along the straight line, of all axes together.
+        self.most = distance @ limits.axes("acceleration") / self.length
         speeds = np.broadcast_to(limits.axes("rapid"), distance.shape)
         cruise = (distance / speeds).max(axis=1)  # seconds at full speed
         if motion == "proportional":

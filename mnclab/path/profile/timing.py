@@ -32,7 +32,8 @@ class PlannedRows:
     """The planned rows (n,) of `path`; `row` (n,) of the path that was asked for, None if they are the same.
 
     `v` (n + 1,) the speeds at the nodes, `top` (n,) the greatest speed within a row (mm, s), `seconds` (n,); `groups`
-    under a jerk limit. `ramps` are rows that are one ramp from end to end, the others speed up and brake with `rows.a`.
+    under a jerk limit. `ramps` are rows that are one ramp from end to end, the others speed up and brake with `rows.a`, which no
+    row goes beyond: of a ramp it is the most in its direction, of a rapid whose axes go by themselves that of all together.
     """
 
     path: Toolpath
@@ -87,7 +88,7 @@ def plan(
     motion = limits.rapid_motion or rapid_motion
     if motion != "line" and (rapid := np.flatnonzero((path.kind == Kind.RAPID) & (rows.length > 0))).size:
         found.rapids = Rapids(path, rapid, limits, motion)
-        found.seconds[rapid] = found.rapids.seconds
+        found.seconds[rapid], rows.a[rapid] = found.rapids.seconds, found.rapids.most
     return found
 
 
@@ -131,7 +132,7 @@ def _turned(found: PlannedRows, slow: Mask, limits: Limits, override: float) -> 
     w = turns.speeds_at(rows.corner, rows.a, rows.length)
     w0, w1 = w[turns.rows], w[turns.rows + 1]
     again = _trapezoids(path, row, rows, w)
-    again.ramps = turns.rows
+    again.ramps, again.rows.a[turns.rows] = turns.rows, turns.most_of(w0, w1)
     again.top[turns.rows] = np.sqrt(np.maximum(w0, w1))
     again.seconds[turns.rows] = 2 * turns.length / (np.sqrt(w0) + np.sqrt(w1))
     return again, part

@@ -248,6 +248,9 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
     }
   }
 
+  probes(row) {  // with a probe in the spindle, which cuts nothing at feed either
+    return /probe/i.test(this.history.get("tool")?.value(this.rowStep[row])?.kind);
+  }
   get time() {
     return this.items ? this.end[this.items - 1] : 0;
   }

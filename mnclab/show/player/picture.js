@@ -14,7 +14,7 @@ class Picture {
     this.run = run;
     const rough = new Strokes(run.path, 0.5), size = box => box ? Math.hypot(...box[1].map((v, k) => v - box[0][k])) : 0;
     this.extent = size(rough.box(RAPIDS, CUTS, PROBINGS)) || 100;
-    this.strokes = new Strokes(run.path, Math.max(1e-6, this.extent / 2e4), run.course, run.header.home);
+    this.strokes = new Strokes(run.path, Math.max(1e-6, this.extent / 2e4), run.course, run.header.home, row => run.probes(row));
     this.contour = run.programmed && new Strokes(run.programmed, Math.max(1e-6, this.extent / 2e4));
     this.fills = [CUTS, PROBINGS];  // what fills the picture: rapids run out of it, where there is anything else
     if (!size(this.strokes.box(...this.fills))) this.fills.push(RAPIDS);

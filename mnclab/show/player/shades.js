@@ -12,7 +12,7 @@ class Shades {
   }
   by(name) {
     const {run} = this, {path, row: columns} = run, {length, short: unit} = run.unit;
-    const cuts = [...path.kind.keys()].filter(row => path.kind[row] === LINE || path.kind[row] === ARC);
+    const cuts = [...path.kind.keys()].filter(row => (path.kind[row] === LINE || path.kind[row] === ARC) && !run.probes(row));
     this.name = name;
     this.of = this.classes = null;
     this.title = "";

@@ -5,7 +5,7 @@ const NOTHING = 0, RAPIDS = 1, CUTS = 2, PROBINGS = 3;
 const MOST = 400;  // pieces of one arc
 
 class Strokes {
-  constructor(path, chord, course = null, home = 0) {
+  constructor(path, chord, course = null, home = 0, probes = () => false) {
     this.path = path;
     const loose = new Map();
     if (course) for (const i of course.loose.keys()) (loose.get(course.row[i]) || loose.set(course.row[i], []).get(course.row[i])).push(i);
@@ -25,7 +25,7 @@ class Strokes {
     [this.x[0], this.y[0], this.z[0]] = path.vertex(0);
     for (let row = 0, at = 1; row < path.n; row++) {
       const kind = path.kind[row], count = counts[row];
-      const drawn = row < home ? NOTHING : kind === RAPID ? RAPIDS : kind === PROBE ? PROBINGS : kind <= ARC ? CUTS : NOTHING;
+      const drawn = row < home || kind > PROBE ? NOTHING : kind === RAPID ? RAPIDS : kind === PROBE || probes(row) ? PROBINGS : CUTS;
       if (path.arc[row] >= 0 || path.bends.has(row)) this.bend(row, at, count);
       else if (loose.has(row)) this.course(course, loose.get(row), at);
       const end = at + count - 1;

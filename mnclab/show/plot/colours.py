@@ -72,7 +72,7 @@ ALARM = Mark("alarm", looks.WRONG, "x", 9, True, 4.2)
 #: Curves of a feed-rate profile: what was programmed, what is reached, and limits.
 WANTED = LineStyle("programmed feed", looks.GREY, (0, (4, 1.5)), 1.3, 2.2)
 REACHED = LineStyle("reached feed", looks.BLUE, "-", 1.5, 2.8)
-LIMIT = LineStyle("limit", looks.WRONG, (0, (1, 1.5)), 1.2, 2.0)
+LIMIT = LineStyle("limit", looks.WRONG, (0, (1, 1.5)), 1.2, 3.0)  # over what reaches it
 AXES = (
     LineStyle("X", looks.BLUE, "-", 1.3, 2.8),
     LineStyle("Y", looks.WRONG, (0, (5, 1.5)), 1.3, 2.7),

@@ -175,7 +175,9 @@ def plot_path(
         insert = int(np.flatnonzero(seen)[-1])  # not beyond the border
     if path.lathe and len(path) and insert is not False:
         room = 2.8 * INSERT * float((high - low).max())
-        high = np.fmax(high, path.end[-1 if insert is True else insert] + (room, 0.0, room))
+        stands = path.end[-1 if insert is True else insert]
+        low = np.fmin(low, stands - (room / 2, 0.0, 0.0))  # a drill stands on both sides of the axis
+        high = np.fmax(high, stands + (room, 0.0, room))
     own, (low, high) = (low, high), held_box(low, high, limits)
     box = low, high
     views = views_of(view, path, low, high, single=ax is not None)

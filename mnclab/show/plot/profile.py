@@ -53,7 +53,8 @@ HIDDEN_LIMIT = colours.LIMIT.style() | {"label": "_limit"}  # not in the legend
 
 
 class Curve(NamedTuple):
-    """Points (k,) of a profile: time, place, speed, acceleration and jerk, and the piece each belongs to."""
+    """Points (k,) of a profile: time, place, speed, acceleration and jerk, the piece each belongs to, and the one whose
+    acceleration it has: in a brief piece, the one before it."""
 
     t: Array
     s: Array
@@ -61,10 +62,11 @@ class Curve(NamedTuple):
     a: Array
     j: Array
     piece: NDArray[np.int64]
+    lasting: NDArray[np.int64]
 
     def counted(self, length: float) -> Curve:
         """The same in units of so many mm."""
-        return Curve(self.t, self.s / length, self.v / length, self.a / length, self.j / length, self.piece)
+        return Curve(self.t, self.s / length, self.v / length, self.a / length, self.j / length, *self[5:])
 
 
 BRIEF = 1e-4  # s, less than a control counts in: a step of the feed under G96, or what rounding leaves
@@ -83,7 +85,7 @@ def curve(profile: Profile, over: str = "path") -> Curve:
     place = p.s[:-1, None] + dt * (v + dt * (a / 2 + dt * j / 6))
     speed = np.maximum(v + dt * (a + dt * j / 2), 0.0)
     t, s, v, a, j = (one.ravel() for one in (p.t[:-1, None] + dt, place, speed, a + dt * j, j + 0 * dt))
-    return Curve(t, s, v, a, j, np.repeat(np.arange(m), points))
+    return Curve(t, s, v, a, j, np.repeat(np.arange(m), points), np.repeat(lasting, points))
 
 
 def holds(profile: Profile) -> NDArray[np.int64]:
@@ -131,8 +133,9 @@ def plot_profile(
     - `ax`: draw only the feed, into these axes of one's own.
     - `over`: "time" (s) or "path" (its length). Lengths count in the unit of the program.
     - `axes`: also the speed and acceleration of X, Y and Z.
-    - `limits`: dotted lines at the limits, and a band below the feed that says what holds the speed: the acceleration,
-      the jerk, a corner, the turning on an arc, the speed of an axis, or nothing but the programmed feed.
+    - `limits`: dotted lines at what the axes allow along the path, in a slant more than along one of them, and a band below the
+      feed that says what holds the speed: the acceleration, the jerk, a corner, the turning on an arc, the speed of an axis, or
+      nothing but the programmed feed.
     - `whole`: show the rapids up to their full speed. Otherwise the scale ends a little above the fastest cut where
       rapids are more than three times as fast and would flatten it, and a note says how far they go.
     - `size`: width and height in inches.
@@ -163,13 +166,8 @@ def plot_profile(
     for each, title in zip(rows, titles):
         each.set_ylabel(title.replace(", ", ",\n"), fontsize=SMALL)
     handles = _feed(rows[0], profile, drawn, x, over, limits, whole)
-    plan, kind = profile.plan, profile.path.kind
-    unknown = kind > Kind.PROBE
-    if plan.rapids is not None:  # their axes have their own
-        unknown |= kind == Kind.RAPID
-    if plan.ramps is not None:  # it changes along arcs
-        unknown |= kind == Kind.ARC
-    most = np.where(unknown[profile.move], np.nan, _of_pieces(profile, plan.rows.a) / length)[drawn.piece]
+    standing, any_way = profile.path.kind[profile.move] > Kind.PROBE, profile.limits.axes("acceleration").min()
+    most = np.where(standing, any_way, _of_pieces(profile, profile.plan.rows.a))[drawn.lasting] / length
     rows[1].plot(x, drawn.a, **{**colours.REACHED.style(), "label": "_a"})
     if limits:
         handles += rows[1].plot(x, most, **colours.LIMIT.style())
