@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field
+from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -103,6 +104,13 @@ class Ledger:
                 known += claims
                 return
         self.say(draft, dimension, claims)
+
+    def once(self, draft: Draft) -> None:
+        """A length that says no measure, such as that of an island, goes where another one says the same."""
+        lengths = [each for each in draft.dimensions if isinstance(each, Linear)]
+        mine = {id(said) for said, _ in self.said}
+        gone = {id(b) for a, b in product(lengths, lengths) if id(a) in mine and id(b) not in mine and _alike(a, b)}
+        draft.dimensions = [each for each in draft.dimensions if id(each) not in gone]
 
     def cell(self, table: str, row: int, column: int, claims: Sequence[Claim]) -> None:
         """A cell of a table by its title; rows count from 0 below the head."""
