@@ -6,6 +6,7 @@ keep their proportions whatever the paper. The options of every figure are check
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from contextvars import ContextVar
 from functools import wraps
@@ -195,12 +196,14 @@ def _in_columns(figure: AnyFigure, asked: Room, draw: Callable[..., AnyFigure]) 
         boxes, size = [ax.get_position() for ax in one.axes], one.get_size_inches()
         rows = {round(box.y0, 3): box.height for box in boxes}
         left = 1 - (1 - (asked.height or size[1]) / size[1]) / sum(rows.values())
-        return sum(box.width * box.height for box in boxes) * float(size.prod()) * max(left, 0.0) ** 3  # letters count, too
+        return sum(box.width * box.height for box in boxes) * float(size.prod()) * min(max(left, 0.0), 1.0) ** 3  # letters count, too
 
     found: list[tuple[float, AnyFigure, dict[str, int]]] = [(area(figure), figure, {})]
     for count in COLUMNS:
         if _over(found[-1][1], asked) <= 1:
             break
+        if math.ceil(len(figure.axes) / math.ceil(len(figure.axes) / count)) < count:
+            continue  # fewer fill as many rows
         tried = draw(asked, columns=count)
         if tried.axes[0].get_position().width * tried.get_figwidth() < NAMED:
             break
