@@ -256,7 +256,7 @@ def test_a_value_covers_no_symbol_no_tool_and_no_arrow_of_its_own(control, code,
     root, shown, *_ = sheet(control, code, address)
     (text,) = root.iter("text")
     place = np.array([float(text.get("x")), float(text.get("y")) - 6])
-    half = half_of(text.text), 8.5
+    half = half_of(text.text) + 5, 8.5 + 5  # with half of a symbol
     for taken in (*(each.taken for each in shown), heads(root)):
         assert not (np.abs(taken - place) < half).all(axis=1).any()
 

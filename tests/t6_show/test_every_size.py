@@ -175,7 +175,8 @@ def test_all_texts_stand_inside_and_apart(name, size):
 @pytest.mark.parametrize("name", ["strategies", "passes", "threads", "engagement", "turning schemes"])
 def test_views_side_by_side_use_the_width_of_a_slide(name):
     boxes = [ax.get_position() for ax in FIGURES[name](size="slide").axes]
-    assert max(box.x1 for box in boxes) - min(box.x0 for box in boxes) > 0.8
+    least = 0.7 if name == "passes" else 0.8  # five stand in two rows, larger than in one
+    assert max(box.x1 for box in boxes) - min(box.x0 for box in boxes) > least
 
 
 def test_four_schemes_of_a_groove_fill_a_slide():

@@ -23,7 +23,7 @@ HEAD, SHORT, TAIL = 11.0, 30.0, 16.0  # of an arrow; a dimension whose arrows st
 ASIDE, INSET, BEYOND = 26.0, 13.0, 5.0  # from what is measured to the line, from the border at least, of lines over it
 MANY, CHORD = 400, 0.05  # lines of moves that are marked; mm, of their arcs
 SEEN = 0.1  # of a way, at least
-CLEAR = 7.0  # from a value to the middle of a symbol
+CLEAR = 5.0  # from a value to the middle of a symbol
 GRID = np.array([(u, v) for u in np.linspace(0, 1, 9) for v in (0.0, 0.5, 1.0)])  # over a name or a tool
 PART = 2.5  # order of what is drawn: tools lie over it
 NUMBERS = (40.0, 20.0)  # pixels of the numbers beside a window and below it
@@ -195,9 +195,16 @@ def length(
     middle, off = held.mean(axis=0), across * side * (wide + 8)
     out = way * (half_of(text) * abs(way[0]) + LETTERS / 2 * abs(way[1]) + 6 + outside * (TAIL + HEAD))
     ends = sorted((held[0] - out, held[1] + out), key=lambda place: -float(np.hypot(*(points - place).T).min()))
-    places = [place for place in (middle + off, *ends) if fits(place, text, shown, size)]  # else over what is measured
+    aside = [end + turn * 1.1 * LETTERS + one * off for end, turn in zip(held, (-way, way)) for one in (1, -1)]
+    places = [place for place in (middle + off, *ends, *aside) if fits(place, text, shown, size)]  # else over what is measured
     half = np.array([half_of(text) + CLEAR, LETTERS / 2 + CLEAR])
-    sheet.write(text, min([*places, middle - off], key=lambda at: (np.abs(window.taken - at) < half).all(axis=1).sum()), size)
+    taken, moved = window.taken, window.at(path.points(CHORD)[0])
+
+    def covered(at: Array) -> int:
+        others = taken if not any(at is one for one in aside) else np.concatenate([taken, moved])
+        return int((np.abs(others - at) < half).all(axis=1).sum())
+
+    sheet.write(text, min([*places, middle - off], key=covered), size)
 
 
 def seen_in(way: Array, shown: Sequence[Window]) -> Window:
