@@ -151,9 +151,8 @@ def write_pattern(side: Side, numbers: Sequence[int], pattern: Ring | Lattice) -
         at = {k: getattr(side.features[k], axis) for k in numbers}
         first = min((some[0], *some), key=lambda each: abs(each - datum) > 2 * SAME)  # a hole at the zero point says where
         rest = [k for k in numbers if _even(some) and abs(at[k] - first) > 2 * SAME]
-        for k in numbers:
-            if k not in rest:
-                side.place(k, axis)
+        for k in sorted({*numbers} - {*rest}):
+            side.place(k, axis)
         if not _even(some):
             continue
         count, whole = len(some) - 1, some[-1] - some[0]

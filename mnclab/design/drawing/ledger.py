@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field
-from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -107,10 +106,10 @@ class Ledger:
 
     def once(self, draft: Draft) -> None:
         """A length that says no measure, such as that of an island, goes where another one says the same."""
-        lengths = [each for each in draft.dimensions if isinstance(each, Linear)]
         mine = {id(said) for said, _ in self.said}
-        gone = {id(b) for a, b in product(lengths, lengths) if id(a) in mine and id(b) not in mine and _alike(a, b)}
-        draft.dimensions = [each for each in draft.dimensions if id(each) not in gone]
+        say = [each for each in draft.dimensions if id(each) in mine]
+        alike = {id(b) for b in draft.dimensions if isinstance(b, Linear) and any(_alike(a, b) for a in say)}
+        draft.dimensions = [each for each in draft.dimensions if id(each) in mine or id(each) not in alike]
 
     def cell(self, table: str, row: int, column: int, claims: Sequence[Claim]) -> None:
         """A cell of a table by its title; rows count from 0 below the head."""
@@ -146,7 +145,7 @@ class Ledger:
 
 def _alike(one: Any, other: Linear) -> bool:
     """Whether two dimensions along x or y have one value between ends that lie at the same places along it."""
-    if not isinstance(one, Linear) or (one.value, one.along) != (other.value, other.along):
+    if not isinstance(one, Linear) or other.along == "ab" or (one.value, one.along) != (other.value, other.along):
         return False
     k = "xy".index(other.along)
     first, second = (sorted((each.a[k], each.b[k])) for each in (one, other))

@@ -327,8 +327,8 @@ class Side:
         edges = self.datum[axis], *self.design.bounds[:, axis].tolist()
         for said, claims in self.ledger.said if not (place.limits or place.fit) else ():
             if isinstance(said, Linear) and said.along == place.name and any(c[:2] == (self.back, k) for c in claims):
-                ends = said.a[axis], said.b[axis]
-                if abs(sum(ends) / 2 - place.nominal) < SAME and any(abs(a - b) < SAME for a in ends for b in edges):
+                a, b = said.a[axis], said.b[axis]
+                if abs((a + b) / 2 - place.nominal) < SAME and min(abs(end - edge) for end in (a, b) for edge in edges) < SAME:
                     return claims
         return []
 
