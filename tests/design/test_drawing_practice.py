@@ -1,5 +1,6 @@
 """Drawings as ISO 129-1 wants them: no dimension twice, leaders that do not cross, no number finer than its tolerance."""
 
+from collections import Counter
 from itertools import combinations
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from design.random_designs import milled, turned
 from shapely import LineString
 from tools.together import deep_but_one_in
 
+import mnclab as mnc
 from mnclab.design import model as d
 from mnclab.design.drawing import drawing
 from mnclab.design.drawing.placing import LEADER
@@ -16,6 +18,7 @@ from mnclab.design.drawing.view import Linear
 from mnclab.workpiece.blank import Box
 
 SAMPLES = sorted((Path(__file__).parents[2] / "data" / "designs").rglob("*.toml"))
+EXERCISES = sorted((Path(__file__).parents[2] / "data" / "exercises").rglob("*.toml"))
 
 
 def laid(drawn):
@@ -39,6 +42,41 @@ def crossing(drawn):
         for one, other in combinations([each for each in leaders if each], 2):
             if any(a.crosses(b) for a in one for b in other):
                 yield view.view.name
+
+
+def coordinates(view, axis):
+    """The places along an axis that are dimensioned from 0, and those of rows but for their first."""
+    k = "xy".index(axis)
+    for each in view.dimensions:
+        if isinstance(each, Linear) and each.along == axis and "⌀" not in each.value.text:
+            a, b = sorted((each.a[k], each.b[k]), key=abs)
+            count, row, _ = each.value.text.partition("× ")
+            if "(=" in row:
+                a, b = sorted((a, b))
+                yield from (np.round(place, 6) for place in np.linspace(a, b, int(count) + 1)[1:])
+            elif abs(a) < 1e-6:
+                yield round(b, 6)
+
+
+def drawn_of(path):
+    """The drawing of a design, or of that of an exercise; None without one."""
+    design = d.Design.load(path) if path in SAMPLES else mnc.exercise(path).design
+    return drawing(design) if design is not None else None
+
+
+FOUND = [next(path for path in EXERCISES if path.stem == name) for name in ("tnc-620-05", "tnc-620-24", "g43-05", "mnc-18")]
+
+
+@pytest.mark.parametrize("path", [*FOUND, *deep_but_one_in(12, [each for each in [*SAMPLES, *EXERCISES] if each not in FOUND])])
+def test_no_coordinate_is_dimensioned_twice_on_an_axis(path):
+    """Lengths from 0, places and rows of holes each say where something lies along an axis: one of them does, no second."""
+    drawn = drawn_of(path)
+    if drawn is None:
+        return
+    assert not [*twice(drawn)]
+    for view in laid(drawn):
+        if view.view.name == "from above":
+            assert all(count == 1 for axis in "xy" for count in Counter(coordinates(view.view, axis)).values())
 
 
 @pytest.mark.parametrize("path", deep_but_one_in(5, SAMPLES))

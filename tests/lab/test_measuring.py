@@ -249,6 +249,19 @@ def heads(root):
 
 
 @pytest.mark.parametrize(
+    ("control", "code", "address"),
+    [("tnc-620", "CYCL DEF 251", "Q219"), ("tnc-620", "CYCL DEF 275", "Q368"), ("jnc-t01", "G75", "Z")],
+)
+def test_a_value_covers_no_symbol_no_tool_and_no_arrow_of_its_own(control, code, address):
+    root, shown, *_ = sheet(control, code, address)
+    (text,) = root.iter("text")
+    place = np.array([float(text.get("x")), float(text.get("y")) - 6])
+    half = half_of(text.text) + 5, 8.5 + 5  # with half of a symbol
+    for taken in (*(each.taken for each in shown), heads(root)):
+        assert not (np.abs(taken - place) < half).all(axis=1).any()
+
+
+@pytest.mark.parametrize(
     ("control", "code", "address", "view"),
     [("mnc", "G83", "Z", 1), ("mnc", "G83", "X", 0), ("tnc-620", "CYCL DEF 251", "Q218", 0), ("nc-31", "G77", "Z", 0)],
 )

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib import path as shape
 from matplotlib.collections import EllipseCollection
 from matplotlib.quiver import Quiver
 from tools.together import deep_but_one_in
@@ -53,7 +54,7 @@ def lines(ax):
 
 
 def legend(picture):
-    return [text.get_text() for text in picture.legends[0].get_texts()]
+    return [text.get_text() for each in picture.legends for text in each.get_texts()]
 
 
 @pytest.mark.parametrize("radius", [0.5, 5.0, 12.0])
@@ -84,7 +85,7 @@ def test_rows_are_drawn_by_their_rule_and_the_legend_names_them():
     names = {"programmed", "along the side", "outside corner, arc", "inside corner", "entry", "exit", "rapid"}
     assert set(legend(picture)) == names
     written = {text.get_text() for text in picture.axes[0].texts}
-    assert {"entry", "exit", "inside corner", "outside corner, arc"} <= written
+    assert written == {"entry", "exit", "inside", "arc"}
     assert lines(picture.axes[0])["programmed"].get_color() == colours.INK
 
 
@@ -319,14 +320,31 @@ def test_compensated_rapids_decide_no_scale(far):
     assert ax.get_xlim() == pytest.approx(near.get_xlim(), rel=0.02)
 
 
-@pytest.mark.parametrize("size", ["column", "slide"])
-def test_names_stand_off_lines_and_are_led_to_their_corners_from_afar(size):
-    picture = with_radius(PLATE).plot_compensation(rules=["G160", "G161"], size=size)
+#: Where the centre of a tool of radius 5 turns outside a rectangular corner, inside one, and where it comes to the contour.
+ARC, ENTERED = 5 / np.sqrt(2), (-5, 20)
+TURNS = {
+    "G160": ("arc", [(-ARC, 40 + ARC), (35 + ARC, 40 + ARC), (-ARC, -ARC)]),
+    "G161": ("straight", [(-5, 45), (40, 45), (-5, -5)]),
+}
+
+
+@pytest.mark.parametrize("size", ["column", "slide", "a4", None])
+def test_names_stand_off_lines_and_are_led_to_the_tool_centre_at_their_corners(size):
+    picture = with_radius(PLATE).plot_compensation(rules=[*TURNS], size=size)
     picture.draw_without_rendering()
-    for ax in picture.axes:
-        leaders = [line.get_xydata()[0] for line in ax.lines if line.get_label() == "_leader"]
+    for ax, (name, corners) in zip(picture.axes, TURNS.values()):
+        shown = [(text.get_text(), tuple(np.round(text.xy, 6) + 0.0)) for text in ax.texts]
+        assert sorted(said for said, _ in shown) == sorted(["entry", "exit", "inside"] + [name] * 5)
+        known = [("entry", ENTERED), ("exit", ENTERED), ("inside", (40, 25)), *((name, each) for each in corners)]
+        assert {(said, tuple(np.round(at, 6))) for said, at in known} <= set(shown)
+        drawn = [line for line in ax.lines if len(line.get_xydata()) > 1]
         for text in ax.texts:
-            box, corner = text.get_window_extent(), ax.transData.transform(text.xy)
-            away = np.hypot(*(np.clip(corner, box.min, box.max) - corner)) / (text.get_fontsize() * picture.dpi / 72)
-            led = any(np.allclose(place, text.xy) for place in leaders)
-            assert led or away < 2.0, text.get_text()  # in heights of its letters
+            leads = [line for line in drawn if line.get_label() == "_leader" and np.allclose(line.get_xydata()[0], text.xy)]
+            assert leads, text.get_text()
+            box = text.get_window_extent().padded(picture.dpi / 72)  # a point around the letters
+            others = [line for line in drawn if line not in leads]
+            assert not box.count_contains(ax.transData.transform(np.concatenate([line.get_xydata() for line in others])))
+            for xy in (line.get_xydata() for line in others if line.get_linestyle() != "None"):
+                pieces = [piece[~np.isnan(piece[:, 0])] for piece in np.split(xy, np.flatnonzero(np.isnan(xy[:, 0])))]
+                paths = [shape.Path(ax.transData.transform(piece)) for piece in pieces if len(piece) > 1]
+                assert not any(path.intersects_bbox(box, filled=False) for path in paths), text.get_text()

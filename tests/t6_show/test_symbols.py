@@ -1,6 +1,7 @@
 """Symbols on one spot stand apart, rapids beside cuts have pixels of their own: places and colours, counted in pixels."""
 
 from itertools import combinations
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -54,6 +55,18 @@ def test_the_datum_keeps_its_place_and_the_others_have_leaders_to_it():
     assert len(ends) == 4 and ends[:, 0] == pytest.approx(np.zeros((4, 2)), abs=1e-9)
     others = np.concatenate([places for name, places in symbols(above).items() if name != "datum"])
     assert np.sort(above.transData.transform(ends[:, 1]), axis=0) == pytest.approx(np.sort(others, axis=0))
+
+
+@pytest.mark.parametrize("size", ["column", "slide", "a4"])
+def test_symbols_that_moved_are_near_their_place_and_their_leaders_lie_over_the_path(size):
+    """The lid begins and ends over X58 Y40, where it changes tools: both stand aside by 5 mm on an A4 page at most."""
+    picture = mnc.run(Path(__file__).parents[2] / "data/programs/tnc-620/lid.h").plot(size=size)
+    above = picture.axes[0]
+    (leaders,) = (each for each in above.collections if each.get_label() == "_leader")
+    moves = [each for each in (*above.lines, *above.collections) if each.get_label() in ("rapid", "feed", "_arrows")]
+    assert len(moves) > 2 and leaders.get_zorder() > max(each.get_zorder() for each in moves)
+    away = above.transData.transform([(58, 40)]) - np.concatenate([symbols(above)[name] for name in ("from home", "end")])
+    assert np.hypot(*away.T).max() / picture.dpi * 25.4 < {"column": 4, "a4": 5, "slide": 9}[size]
 
 
 def test_symbols_stay_inside_and_alone_ones_where_they_are():

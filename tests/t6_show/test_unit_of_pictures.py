@@ -47,8 +47,8 @@ def test_the_crosses_where_a_tool_has_no_room_are_named():
     begin = "G54 G17 G90 T1 S1000 M3\nG0 X-20 Y-20 Z5\nG1 Z-2 F200\n"
     text = f"{begin}G41 X0 Y0\nY40\nX8\nY20\nX12\nY40\nX40\nY0\nX-10\nG40 X-20 Y-20\n"
     picture = mnc.run(text, "mnc").plot_compensation()
-    legend = picture.legends[0]
-    named = {each.get_text(): handle for each, handle in zip(legend.get_texts(), legend.legend_handles)}
+    legends = [(legend.get_texts(), legend.legend_handles) for legend in picture.legends]
+    named = {each.get_text(): handle for pairs in legends for each, handle in zip(*pairs)}
     (drawn,) = (line for line in picture.axes[0].lines if line.get_label() == "_gouges")
     assert named["no room for the tool"].get_marker() == drawn.get_marker() == "x"
     assert named["no room for the tool"].get_color() == drawn.get_color()

@@ -147,18 +147,14 @@ def write_pattern(side: Side, numbers: Sequence[int], pattern: Ring | Lattice) -
     if isinstance(pattern, Ring):
         _write_ring(side, numbers, pattern)
         return
-    holes = [(k, side.features[k]) for k in numbers]
-    for axis, some, other in (("x", pattern.x, pattern.y), ("y", pattern.y, pattern.x)):
+    for axis, some, other, datum in zip("xy", (pattern.x, pattern.y), (pattern.y, pattern.x), side.datum):
+        at = {k: getattr(side.features[k], axis) for k in numbers}
+        first = min((some[0], *some), key=lambda each: abs(each - datum) > 2 * SAME)  # a hole at the zero point says where
+        rest = [k for k in numbers if _even(some) and abs(at[k] - first) > 2 * SAME]
+        for k in sorted({*numbers} - {*rest}):
+            side.place(k, axis)
         if not _even(some):
-            for k in numbers:
-                side.place(k, axis)
             continue
-        rest = []
-        for k, hole in holes:
-            if abs(getattr(hole, axis) - some[0]) < 2 * SAME:
-                side.place(k, axis)
-            else:
-                rest.append(k)
         count, whole = len(some) - 1, some[-1] - some[0]
         text = f"{count}{TIMES} {number(whole / count)} (={number(whole)})"
         ends = [(each, other[0]) if axis == "x" else (other[0], each) for each in (some[0], some[-1])]

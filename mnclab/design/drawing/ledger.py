@@ -104,6 +104,13 @@ class Ledger:
                 return
         self.say(draft, dimension, claims)
 
+    def once(self, draft: Draft) -> None:
+        """A length that says no measure, such as that of an island, goes where another one says the same."""
+        mine = {id(said) for said, _ in self.said}
+        say = [each for each in draft.dimensions if id(each) in mine]
+        alike = {id(b) for b in draft.dimensions if isinstance(b, Linear) and any(_alike(a, b) for a in say)}
+        draft.dimensions = [each for each in draft.dimensions if id(each) in mine or id(each) not in alike]
+
     def cell(self, table: str, row: int, column: int, claims: Sequence[Claim]) -> None:
         """A cell of a table by its title; rows count from 0 below the head."""
         self.cells.append((table, row, column, list(claims)))
@@ -138,7 +145,7 @@ class Ledger:
 
 def _alike(one: Any, other: Linear) -> bool:
     """Whether two dimensions along x or y have one value between ends that lie at the same places along it."""
-    if not isinstance(one, Linear) or (one.value, one.along) != (other.value, other.along):
+    if not isinstance(one, Linear) or other.along == "ab" or (one.value, one.along) != (other.value, other.along):
         return False
     k = "xy".index(other.along)
     first, second = (sorted((each.a[k], each.b[k])) for each in (one, other))

@@ -131,6 +131,7 @@ class Side:
             feature_table(self, [k for k, each in enumerate(self.features) if not isinstance(each, Face | Chamfer)])
         elif in_table:
             hole_table(self, holes)
+        self.ledger.once(self.draft)
         self._coordinates()
 
     # ---- sizes ----
@@ -309,14 +310,27 @@ class Side:
     # ---- places ----
 
     def place(self, k: int, axes: str = "xy") -> None:
-        """The coordinates of a feature are dimensioned."""
+        """The coordinates of a feature are dimensioned, but those that follow from a length which begins at an edge."""
         shape = self.features[k].shape
         if isinstance(shape, Outline):
             return
         centre = centre_of(self.features[k])
         for place, each in enumerate(self.features[k].measures()):
             if each.name in self.places and each.name in axes:
-                self.places[each.name].append((each, centre, Claim(self.back, k, place, each.name)))
+                claim, known = Claim(self.back, k, place, each.name), self._from_edge(k, each)
+                self.places[each.name] += [] if known else [(each, centre, claim)]
+                known.append(claim)
+
+    def _from_edge(self, k: int, place: Measure) -> list[Claim]:
+        """The claims of a length of a feature that begins at an edge and has a place in its middle; none without one."""
+        axis = "xy".index(place.name)
+        edges = self.datum[axis], *self.design.bounds[:, axis].tolist()
+        for said, claims in self.ledger.said if not (place.limits or place.fit) else ():
+            if isinstance(said, Linear) and said.along == place.name and any(c[:2] == (self.back, k) for c in claims):
+                a, b = said.a[axis], said.b[axis]
+                if abs((a + b) / 2 - place.nominal) < SAME and min(abs(end - edge) for end in (a, b) for edge in edges) < SAME:
+                    return claims
+        return []
 
     def _coordinates(self) -> None:
         """One dimension for each distance from the datum."""

@@ -23,6 +23,9 @@ HEAD, SHORT, TAIL = 11.0, 30.0, 16.0  # of an arrow; a dimension whose arrows st
 ASIDE, INSET, BEYOND = 26.0, 13.0, 5.0  # from what is measured to the line, from the border at least, of lines over it
 MANY, CHORD = 400, 0.05  # lines of moves that are marked; mm, of their arcs
 SEEN = 0.1  # of a way, at least
+CLEAR = 5.0  # from a value to the middle of a symbol
+GRID = np.array([(u, v) for u in np.linspace(0, 1, 9) for v in (0.0, 0.5, 1.0)])  # over a name or a tool
+PART = 2.5  # order of what is drawn: tools lie over it
 NUMBERS = (40.0, 20.0)  # pixels of the numbers beside a window and below it
 ARM = 0.36  # radius of the arc of an angle, of the lesser side of a window
 STYLE = (
@@ -39,6 +42,7 @@ class Window(NamedTuple):
     box: tuple[float, float, float, float]  # left, top, right, bottom
     origin: Array  # (2,) pixels
     scale: Array  # (2,) pixels to a mm; downwards the second
+    taken: Array = np.empty((0, 2))  # pixels of symbols, names and tools: what a value should not cover
 
     def at(self, places: Array) -> Array:
         """The pixels (n, 2) of places (n, 3)."""
@@ -67,7 +71,13 @@ def windows(figure: Any) -> list[Window]:
         top, bottom = (tall * (1 - each) for each in (box.y1, box.y0))
         (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
         scale = np.array([(right - left) / (x1 - x0), (top - bottom) / (y1 - y0)])
-        found.append(Window(view.right, view.up, (left, top, right, bottom), np.array([left, bottom]) - scale * (x0, y0), scale))
+        origin = np.array([left, bottom]) - scale * (x0, y0)
+        over = [*(text for text in ax.texts if text.get_text()), *(patch for patch in ax.patches if patch.get_zorder() > PART)]
+        names = [each.get_window_extent() for each in over]
+        pixels = [ax.transData.inverted().transform(box.min + np.ptp(box, axis=0) * GRID) for box in names]
+        pixels += [line.get_xydata() for line in ax.lines if line.get_marker() not in ("None", "", None)]
+        taken = origin + scale * np.concatenate([np.empty((0, 2)), *pixels])
+        found.append(Window(view.right, view.up, (left, top, right, bottom), origin, scale, taken))
     return found
 
 
@@ -183,12 +193,18 @@ def length(
     if not outside:
         sheet.line(held[0], held[1])
     middle, off = held.mean(axis=0), across * side * (wide + 8)
-    out = way * (half_of(text) * abs(way[0]) + LETTERS / 2 * abs(way[1]) + 6)
-    if not fits(middle + off, text, shown, size):  # beyond an end, else over what is measured
-        others = [place for place in (held[0] - out, held[1] + out) if fits(place, text, shown, size)]
-        middle = max(others, key=lambda place: float(np.hypot(*(points - place).T).min()), default=middle - off)
-        off = 0 * off
-    sheet.write(text, middle + off, size)
+    out = way * (half_of(text) * abs(way[0]) + LETTERS / 2 * abs(way[1]) + 6 + outside * (TAIL + HEAD))
+    ends = sorted((held[0] - out, held[1] + out), key=lambda place: -float(np.hypot(*(points - place).T).min()))
+    aside = [end + turn * 1.1 * LETTERS + one * off for end, turn in zip(held, (-way, way)) for one in (1, -1)]
+    places = [place for place in (middle + off, *ends, *aside) if fits(place, text, shown, size)]  # else over what is measured
+    half = np.array([half_of(text) + CLEAR, LETTERS / 2 + CLEAR])
+    taken, moved = window.taken, window.at(path.points(CHORD)[0])
+
+    def covered(at: Array) -> int:
+        others = taken if not any(at is one for one in aside) else np.concatenate([taken, moved])
+        return int((np.abs(others - at) < half).all(axis=1).sum())
+
+    sheet.write(text, min([*places, middle - off], key=covered), size)
 
 
 def seen_in(way: Array, shown: Sequence[Window]) -> Window:

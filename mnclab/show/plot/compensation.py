@@ -62,6 +62,7 @@ GOUGES = {
     "exit": "exit cuts into line {other}",
 }
 WIDE = (12.0, 7.0)  # several pictures side by side
+NAMES = 0.06  # of the greatest side: room for names above and below
 LARGER = 3.0  # a blank of so many times the size of the picture is left out
 
 
@@ -191,8 +192,10 @@ def _picture(
     limits: Box | None, stock: bool,
 ) -> Picture:  # fmt: skip
     box = held_box(*_box(panels, discs), limits)
-    low, high = roomy(*box, [panels[0].view])
     seen = panels[0].view
+    low, high = roomy(*box, [seen])
+    more = np.eye(3)[seen.up] * names * NAMES * float((high - low).max())
+    low, high = low - more, high + more
     wide, tall = float((high - low)[seen.right]), float((high - low)[seen.up])
     handles = _handles(panels)
     if stock and any(_shown(panel, low, high) for panel in panels):
@@ -227,7 +230,7 @@ def _picture(
             draw_ghost(ax, panel.view, gone(under, panel.run.toolpath))
         outlines = draw(ax, panel, discs, vectors)
         _blank(ax, panel, low, high, stock)
-        write(ax, panel, outlines, names, len(panels) > 1)
+        write(ax, panel, outlines, names)
     label_outer(axes, *seen.labels)
     picture.box = box
     if foot:

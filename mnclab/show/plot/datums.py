@@ -5,7 +5,6 @@ The places come out of the history of a run: its frames are put together again s
 
 from __future__ import annotations
 
-import math
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from itertools import groupby, product
@@ -27,10 +26,8 @@ SHIFTS = ("local", "set", "shift")
 NEAR = 1.5  # places that would make the box longer than this many times are not shown
 MANY = 8  # places beyond which only zero points have names
 LOOKED_AT = 20_000  # strokes that a name avoids
-OFF, FARTHER = (8.0, 13.0), 20.0  # points from a cross to its name, tried one after the other
-FROM_AFAR = 1.9  # heights of letters between a name and its corner, from where on a line leads to it
+OFF = (8.0, 13.0)  # points from a cross to its name, tried one after the other
 BESIDE = 1.0  # points from a name to the middle of a line: half of its width
-AWAY = 0.5  # of a stroke under a name: what a side costs that is not wished
 SIDES = ((1, 1), (-1, 1), (1, -1), (-1, -1), (1, 0), (-1, 0), (0, 1), (0, -1))
 
 
@@ -126,57 +123,40 @@ def crosses(places: Sequence[DatumCross], view: View) -> list[Line2D]:
 # --- names -----------------------------------------------------------------------------------------------------------
 
 
-def write_names(
-    ax: Axes, view: View, places: Sequence[DatumCross], occupied: Array, drawn: Sequence[Array], covering: float = np.inf,
-    wishes: Array | None = None,
-) -> list[DatumCross]:
+def write_names(ax: Axes, view: View, places: Sequence[DatumCross], occupied: Array, drawn: Sequence[Array]) -> None:
     """The names of the places in a view, where they cover no mark (`occupied` (n, 2), mm) and least of the lines.
 
-    The limits of the axes must be final. A name without a free place is left out and returned, and so is one that
-    would cover more strokes than `covering`. Texts that stand there are not covered. `wishes` (n, 2) are directions in which
-    they stand best.
+    The limits of the axes must be final. A name without a free place is left out. Texts that stand there are not covered.
     """
-    wished = np.zeros((len(places), 2)) if wishes is None else wishes
-    shown = [(place, wish) for place, wish in zip(places, wished) if len(places) <= MANY or place.mark is colours.DATUM]
-    spots = [(p, np.array(p.xyz)[[view.right, view.up]], wish) for p, wish in shown]
-    spots = [(p, at, wish) for p, at, wish in spots if np.isfinite(at).all()]
-    left: list[DatumCross] = []
+    spots = [(p, np.array(p.xyz)[[view.right, view.up]]) for p in places if len(places) <= MANY or p.mark is colours.DATUM]
+    spots = [(p, at) for p, at in spots if np.isfinite(at).all()]
     if not spots:
-        return left
+        return
     unit = figure_of(ax).dpi / 72
     begin, end = segments(ax, view, drawn)
-    crowd = ax.transData.transform(np.concatenate([occupied, [at for _, at, _ in spots]]))
+    crowd = ax.transData.transform(np.concatenate([occupied, [at for _, at in spots]]))
     taken = [*np.hstack([crowd - 6 * unit, crowd + 6 * unit]), *map(_extent, ax.texts)]
     inner = np.array(ax.bbox.extents) + np.array([2, 2, -2, -2]) * unit
-    for place, at, wish in spots:
+    for place, at in spots:
         text = ax.annotate(
             place.name, (float(at[0]), float(at[1])), (0, 0), textcoords="offset points", fontsize=SMALL,
             color=place.mark.colour, zorder=4.5,
             parse_math=False, bbox={"boxstyle": "square,pad=0.1", "fc": colours.PAPER, "ec": "none", "alpha": 0.75},
         )  # fmt: skip
         best = None
-        towards = sorted(SIDES, key=lambda side: -float(np.dot(side, wish)) / math.hypot(*side))
-        for off, side in product(OFF if wishes is None else (*OFF, FARTHER), towards):
+        for off, side in product(OFF, SIDES):
             _put(text, side, off)
             box = _extent(text)
             if (box[:2] < inner[:2]).any() or (box[2:] > inner[2:]).any() or any(_overlap(box, t) for t in taken):
                 continue
-            wider = box + BESIDE * unit * np.array([-1, -1, 1, 1])
-            covered = crossing(wider, begin, end) + AWAY * (float(np.dot(side, wish)) < 0)
+            covered = crossing(box + BESIDE * unit * np.array([-1, -1, 1, 1]), begin, end)
             if best is None or covered < best[0]:
                 best = covered, side, off
-        if best is None or int(best[0]) > covering:
+        if best is None:
             text.remove()
-            left.append(place)
             continue
         _put(text, best[1], best[2])
         taken.append(_extent(text))
-        spot = ax.transData.transform(at)
-        edge = np.clip(spot, taken[-1][:2], taken[-1][2:])
-        if wishes is not None and np.hypot(*(edge - spot)) > FROM_AFAR * SMALL * unit:
-            leader = ax.transData.inverted().transform([spot, edge])
-            ax.add_line(Line2D(*leader.T, color=place.mark.colour, linewidth=0.6, zorder=4.4, label="_leader"))
-    return left
 
 
 def _extent(text: Text) -> Array:

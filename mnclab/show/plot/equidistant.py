@@ -14,11 +14,11 @@ from matplotlib.collections import EllipseCollection
 from matplotlib.lines import Line2D
 
 from mnclab.path.compensation.construction import Construction, GougedWall, gouged_walls
-from mnclab.path.toolpath import RULE_NAMES, Kind, Rule, Toolpath
+from mnclab.path.toolpath import RULE_NAMES, Index, Kind, Rule, Toolpath
 from mnclab.show.plot import colours
-from mnclab.show.plot.colours import LineStyle, Mark
-from mnclab.show.plot.datums import DatumCross, write_names
+from mnclab.show.plot.colours import LineStyle
 from mnclab.show.plot.picture import View
+from mnclab.show.plot.placing import dense, write_beside
 from mnclab.show.plot.strokes import Array, Strokes, parted, strokes
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
@@ -38,6 +38,7 @@ CORNERS = ROWS | {Rule.OUTSIDE_STRAIGHT: colours.STRAIGHT_CORNER, Rule.INSIDE: c
 NAMED = 8  # corners beyond which only the first of each rule has its name beside it
 MANY = 400  # offset vectors beyond which they say nothing and are not drawn
 COARSE, FINE = 90, 300  # points along the longer side of a box in which the cut-away area is looked for
+CLOSE = 1500  # of lines that names keep off, across a view
 MOST_DISCS = 10_000  # along a path
 SQUARE = 0.16  # of the radius: the mark of a right angle
 
@@ -200,33 +201,38 @@ def _hatch(ax: Axes, panel: Panel, overcut: GougedWall) -> list[Array]:
     return outlines
 
 
-def write(ax: Axes, panel: Panel, outlines: Sequence[Array], names: bool, short: bool = False) -> None:
-    """What was done at the corners, beside them on the side of the tool; `short` without what most corners share."""
+def write(ax: Axes, panel: Panel, outlines: Sequence[Array], names: bool) -> None:
+    """What was done at the corners, in the words that the legend does not share among them: beside the tool centre there."""
     made = panel.made
     if not names or not len(made.rule):
         return
     k = np.flatnonzero(made.rule != Rule.SIDE)
     if len(k) > NAMED:
-        k = k[np.unique(made.rule[k], return_index=True)[1]]
-    occupied = panel.flat(np.concatenate([made.place, made.tip]))
+        k = np.sort(k[np.unique(made.rule[k], return_index=True)[1]])
+    places, out = _corners(made, k)
     lines = [xyz for _, xyz in [*panel.contour, *panel.rows]]
     lines += [_strokes(made.foot, made.tip), _squares(made, Rule.ENTRY, Rule.EXIT, Rule.CHANGE), *outlines]
-    left = np.sort(k).tolist()
-    for brief in (True,) if short else (False, True):
-        places = [_named(made, at, brief) for at in left]
-        wishes = np.array([panel.flat((made.tip - made.foot)[made.of == at]).sum(axis=0) for at in left])
-        missing = write_names(ax, panel.view, places, occupied, lines, 0, wishes.reshape(-1, 2))
-        left = [at for at, place in zip(left, places) if place in missing]
+    rules = [Rule(rule) for rule in made.rule[k]]
+    texts = [(RULE_NAMES[rule].split(", ")[-1].removesuffix(" corner"),) for rule in rules]
+    along = [dense(panel.flat(xyz), float(np.ptp(ax.get_xlim())) / CLOSE) for xyz in lines]
+    write_beside(ax, texts, panel.flat(places), [0.0] * len(k), panel.flat(out), along, [CORNERS[rule].colour for rule in rules])
+
+
+def _corners(made: Construction, k: Index) -> tuple[Array, Array]:
+    """Where the tool centre turns (n, 3) at some corners, on its arc the middle, and unit vectors (n, 3) to its side."""
+    at, out = made.place[k].copy(), np.zeros((len(k), 3))
+    for n, corner in enumerate(k.tolist()):
+        mine = made.of == corner
+        vectors, rule = made.tip[mine] - made.foot[mine], made.rule[corner]
+        way, radius = vectors.sum(axis=0), float(np.linalg.norm(vectors[0]))
+        size = max(float(np.linalg.norm(way)), 1e-9)
+        out[n] = way / size
+        at[n] = made.tip[mine].mean(axis=0)
+        if rule in (Rule.OUTSIDE_ARC, Rule.OUTSIDE_STRAIGHT):
+            at[n] = made.place[corner] + out[n] * (radius if rule == Rule.OUTSIDE_ARC else 2 * radius**2 / size)
+    return at, out
 
 
 def _strokes(*points: Array) -> Array:
     """Strokes through one point (n, 3) of each kind, as one line broken by nan."""
     return np.stack([*points, np.full_like(points[0], np.nan)], axis=1).reshape(-1, 3)
-
-
-def _named(made: Construction, at: int, short: bool) -> DatumCross:
-    """A corner with the name of its rule; in short without what most corners share."""
-    rule = Rule(made.rule[at])
-    name = RULE_NAMES[rule]
-    x, y, z = made.place[at].tolist()
-    return DatumCross(Mark(name, CORNERS[rule].colour, "", 0, True, 4.0), name.split(", ")[-1] if short else name, (x, y, z))

@@ -34,12 +34,13 @@ CARD = {"boxstyle": "round,pad=0.12", "facecolor": "#ffffffd8", "edgecolor": "no
 
 def write_beside(
     ax: Axes, texts: Sequence[Sequence[str]], places: Array, radii: Sequence[float], wishes: Array, lines: Sequence[Array],
-    colour: str = colours.INK, marks: Array | None = None,
+    colour: str | Sequence[str] = colours.INK, marks: Array | None = None,
 ) -> int:  # fmt: skip
     """Write one of the `texts` of each place (n, 2) beside its mark: the first that has room; returns how many have none.
 
     `radii` are those of the marks in mm, `wishes` (n, 2) the directions in which a text stands best, `lines` what it should
-    rather not cover, `marks` (m, 2) what it must not. The limits of the axes must be those of the finished picture.
+    rather not cover, `marks` (m, 2) what it must not; `colour` is one for all or one for each. The limits of the axes must
+    be those of the finished picture.
     """
     figure = ax.get_figure(root=True)
     assert isinstance(figure, Figure)
@@ -57,11 +58,12 @@ def write_beside(
         if other.get_text():
             taken = np.vstack([taken, np.ravel(other.get_window_extent().extents) / pixels])
     left_out = 0
-    for spot, disc, wish, choices in zip(spots, discs, wishes, texts):
+    inks = [colour] * len(spots) if isinstance(colour, str) else colour
+    for spot, disc, wish, choices, ink in zip(spots, discs, wishes, texts, inks):
         written = False
         for text in choices:
             label = ax.annotate(
-                text, (0, 0), (0, 0), textcoords="offset points", fontsize=FONT, color=colour, va="center", ha="center",
+                text, (0, 0), (0, 0), textcoords="offset points", fontsize=FONT, color=ink, va="center", ha="center",
                 zorder=6, annotation_clip=False, bbox=CARD,
             )  # fmt: skip
             label.set_parse_math(False)
@@ -74,7 +76,7 @@ def write_beside(
             label.xy = tuple(ax.transData.inverted().transform(spot * pixels))
             label.set_position(tuple(middle - spot))
             taken = np.vstack([taken, [*(middle - half), *(middle + half)]])
-            _lead(ax, spot, disc, middle, half, pixels, colour)
+            drawn = np.vstack([drawn, _lead(ax, spot, disc, middle, half, pixels, ink)])
             written = True
             break
         left_out += not written
@@ -101,15 +103,25 @@ def _free(spot: Array, disc: float, half: Array, wish: Array, taken: Array, fram
     return best
 
 
-def _lead(ax: Axes, spot: Array, disc: float, middle: Array, half: Array, pixels: float, colour: str) -> None:
-    """A thin line from the edge of the mark to the nearest place of the text's box."""
+def _lead(ax: Axes, spot: Array, disc: float, middle: Array, half: Array, pixels: float, colour: str) -> Array:
+    """A thin line from the edge of the mark to the nearest place of the text's box; points (n, 2) of it."""
     end = np.clip(spot, middle - half + APART / 2, middle + half - APART / 2)
     size = float(np.hypot(*(end - spot)))
     if size - disc < 3:
-        return
-    begin = spot + (end - spot) * disc / size
-    line = ax.transData.inverted().transform(np.array([begin, end]) * pixels)
-    ax.plot(*line.T, color=colour, linewidth=0.6, zorder=5.5, scalex=False, scaley=False)
+        return np.empty((0, 2))
+    ends = np.array([spot + (end - spot) * disc / size, end])
+    line = ax.transData.inverted().transform(ends * pixels)
+    ax.plot(*line.T, color=colour, linewidth=0.6, zorder=5.5, scalex=False, scaley=False, label="_leader")
+    return dense(ends, 1.0)
+
+
+def dense(points: Array, step: float) -> Array:
+    """Points (n, 2) along strokes (m, 2), which are broken by nan, at most a `step` apart."""
+    way = np.diff(points, axis=0)
+    count = np.ceil(np.nan_to_num(np.hypot(*way.T)) / step).astype(int)
+    k = np.repeat(np.arange(len(count)), count)
+    share = (np.arange(len(k)) - np.repeat(np.cumsum(count) - count, count)) / count[k]
+    return np.asarray(points[k] + share[:, None] * way[k])
 
 
 # Symbols that fall on one spot of a view are spread: one stays, the others stand around it, each at the end of a leader.
@@ -117,7 +129,7 @@ def _lead(ax: Axes, spot: Array, disc: float, middle: Array, half: Array, pixels
 
 #: Who stays, the first of these that is there; what is not named here stands where it is in any case.
 STAYS = ("datum", "machine zero", "pole", "plunge", "stop", "dwell", "tool change", "alarm", "end", "start", "from home")
-ONE_SPOT, REACH, TURNED = 7.0, 13.0, 50.0  # points between symbols on one spot; to one that is moved; degrees between two
+ONE_SPOT, REACH, TURNED = 7.0, 11.0, 50.0  # points between symbols on one spot; to one that is moved; degrees between two
 MANY, GROUPS = 400, 12  # symbols that are looked at; spots on which more than the ends of the path are spread
 ENDS = (colours.START.name, colours.HOME.name, colours.END.name, colours.ALARM.name)
 

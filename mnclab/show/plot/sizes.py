@@ -6,6 +6,7 @@ keep their proportions whatever the paper. The options of every figure are check
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from contextvars import ContextVar
 from functools import wraps
@@ -194,13 +195,16 @@ def _in_columns(figure: AnyFigure, asked: Room, draw: Callable[..., AnyFigure]) 
         """That of the axes as they are when what is too high has been taken from the heights of their rows."""
         boxes, size = [ax.get_position() for ax in one.axes], one.get_size_inches()
         rows = {round(box.y0, 3): box.height for box in boxes}
-        left = 1 - (1 - (asked.height or size[1]) / size[1]) / sum(rows.values())
-        return sum(box.width * box.height for box in boxes) * float(size.prod()) * max(left, 0.0) ** 3  # letters count, too
+        left = min(1.0, max(0.0, 1 - (1 - (asked.height or size[1]) / size[1]) / sum(rows.values())))
+        return sum(box.width * box.height for box in boxes) * float(size.prod()) * left**3  # letters count, too
 
     found: list[tuple[float, AnyFigure, dict[str, int]]] = [(area(figure), figure, {})]
+    views = sum(bool(ax.get_title(loc="left")) for ax in figure.axes)
     for count in COLUMNS:
         if _over(found[-1][1], asked) <= 1:
             break
+        if math.ceil(views / math.ceil(views / count)) < count:
+            continue  # fewer fill as many rows
         tried = draw(asked, columns=count)
         if tried.axes[0].get_position().width * tried.get_figwidth() < NAMED:
             break
