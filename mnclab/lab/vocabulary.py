@@ -196,17 +196,13 @@ def completions(text: str, at: int, control: Control, files: Iterable[str] = ())
     if not begun and (before.endswith(("+", "-", "=")) or before[-1:].isalnum()):  # a number comes; a letter of no word
         return "", []
     words = [*_words(text, at, known, at - len(begun))]
-    codes = [(code, one.title) for code, one in known.codes.items() if " " not in code and not _begins_blocks(code, known)]
+    codes = [(code, one.title) for code, one in known.codes.items()  # a keyword stands at the beginning of a block alone
+             if " " not in code and (not known.keywords or re.fullmatch(r"M\d+", code))]  # fmt: skip
     if not begun:
         alone = not known.keywords and not any(word.code for word in found_in(before, known))
         return "", words + codes if alone else words
     wanted = re.sub(r"(?<=[A-Z])0+(?=\d)", "", begun.upper())
     return begun, [each for each in [*words, *codes] if each[0].startswith(wanted) and each[0] != wanted]
-
-
-def _begins_blocks(code: str, known: Vocabulary) -> bool:
-    """Whether a code is a keyword at the beginning of a block, and stands nowhere else."""
-    return known.keywords and not re.fullmatch(r"M\d+", code)
 
 
 def _keywords(before: str, known: Vocabulary) -> tuple[str, Choices] | None:

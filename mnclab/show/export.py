@@ -50,11 +50,6 @@ def _body(run: Any, suffix: str, of: str = "part", **more: Any) -> Callable[...,
     return lambda run, path: of_part(run.workpiece(), path)
 
 
-def write_svg(run: Any, path: Path, true_size: bool = False, **options: Any) -> None:
-    """The views of the path, or the path alone in true size."""
-    (write_true_size if true_size else write_picture)(run, path, **options)
-
-
 def write_csv(run: Any, path: Path) -> None:
     """The columns of the toolpath under their names; `kind` and `label` as text, numbers with all their digits."""
     columns = {name: _texts(column) for name, column in run.toolpath.columns().items()} | _words(run.toolpath)
@@ -121,7 +116,7 @@ BODIES: dict[str, tuple[Callable[..., None], Callable[..., None]]] = {
     ".vtk": (export_mesh.write_part_vtk, export_mesh.write_vtk),
 }
 WRITERS: dict[str, Callable[..., None]] = {
-    ".svg": write_svg,
+    ".svg": lambda run, path, true_size=False, **more: (write_true_size if true_size else write_picture)(run, path, **more),
     ".pdf": write_picture,
     ".png": write_picture,
     ".csv": write_csv,

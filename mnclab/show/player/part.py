@@ -164,6 +164,7 @@ def part(pack: Packer, cutting: Cutting, path: Toolpath) -> dict[str, Any]:
     y, x = (each.ravel() for each in np.meshgrid(raster.y, raster.x, indexing="ij"))
     floor, top = (np.nan_to_num(side, nan=float(bounds[0, 2])) for side in stock.faces(x, y))  # beside the blank nothing is left
     tilted = np.zeros(len(path), dtype=bool) if cutting.tilted is None else cutting.tilted
+    count = int((tilted & np.isin(path.kind, (Kind.LINE, Kind.ARC))).sum())
     does = np.where(cutting.cuts & ~tilted, np.where(cutting.from_home, ARRIVES, CUTS), NOTHING)
     return {
         "low": list(raster.low),
@@ -178,12 +179,8 @@ def part(pack: Packer, cutting: Cutting, path: Toolpath) -> dict[str, Any]:
         "which": log(pack, cutting.which),
         "does": log(pack, does),
         "lift": log(pack, cutting.path.start[:, 2] - path.start[:, 2]),
-        "note": _note(int((tilted & np.isin(path.kind, (Kind.LINE, Kind.ARC))).sum())),
+        "note": f"{several(count, 'move')} of a tool not along Z: not cut here" if count else "",
     }
-
-
-def _note(tilted: int) -> str:
-    return f"{several(tilted, 'move')} of a tool not along Z: not cut here" if tilted else ""
 
 
 # To turn it: the bar, what each row takes away in the plane of z and r, the inserts. The areas are those of the kernel, as

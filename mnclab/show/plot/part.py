@@ -27,9 +27,8 @@ from mnclab.show.plot.picture import SCALE, SIZE, SMALL, VIEWS, Foot, Picture, a
 from mnclab.show.plot.sections import (
     CARD,
     CHORD,
-    FACE,
     FIXTURE,
-    HATCH,
+    draw_cut,
     draw_fixtures,
     draw_section,
     held,
@@ -405,11 +404,7 @@ def _draw_turned(ax: Axes, part: Turned, chucks: list[Array], known: bool) -> No
         for side in (1, -1):
             ax.add_line(Line2D(*(np.concatenate([points, points[:1]]) * (1, side)).T, **{**_BLANK, "label": "_blank"}))
     if part.section:
-        shape = outline_of(part.section)
-        ax.add_patch(PathPatch(shape, **FACE, zorder=1.5, label="part"))
-        hatch = PathPatch(shape, **HATCH, zorder=1.6)
-        hatch.set_hatch_linewidth(0.6)
-        ax.add_patch(hatch)
+        draw_cut(ax, part.section, "part")
         _outside(ax, part)
     reach = BEYOND * (part.high - part.low)
     ends = [stub - reach, part.high + reach]

@@ -170,7 +170,8 @@ def _passes(trials: Sequence[Trial], width: float, columns: int | None) -> Pictu
     if len(trials) > 1:  # each within a row
         most = min(2 if many else count, count, *(len(trial.clearing.passes) for trial in trials))
         count -= count % most
-    chosen = [_steps(len(trial.clearing.passes), most) for trial in trials]
+    counts = [len(trial.clearing.passes) for trial in trials]  # shown: at most so many, evenly chosen, the last among them
+    chosen = [np.unique(np.linspace(0, n, min(n, most) + 1).round().astype(int))[1:].tolist() for n in counts]
     names = [f"pass {k}" for each in chosen for k in each]
     for k, trial in enumerate(trials if len(trials) > 1 else ()):
         names[k * most] = f"{trial.name}: {names[k * most].replace(' ', chr(160))}"  # in one line with its number
@@ -191,11 +192,6 @@ def _passes(trials: Sequence[Trial], width: float, columns: int | None) -> Pictu
                 ax.plot(*contour.points_within(0.01).T, color=colours.FEED.colour, linewidth=0.9, zorder=2.0)
             _beside(ax, f"{left.area:.0f} mm²", f"{left.area:.0f}")
     return picture
-
-
-def _steps(count: int, most: int) -> list[int]:
-    """Numbers of passes, at most so many and evenly chosen, the last among them."""
-    return np.unique(np.linspace(0, count, min(count, most) + 1).round().astype(int))[1:].tolist()
 
 
 # Times of several comparisons: over the stepover, a view a tool, a line a strategy.

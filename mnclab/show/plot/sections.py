@@ -78,15 +78,20 @@ def sections_of(workpiece: Workpiece, planes: str | Sequence[str], at: float | S
     ]
 
 
+def draw_cut(ax: Axes, contours: Sequence[Contour], label: str = "") -> None:
+    """The faces that a plane cuts, hatched."""
+    shape = outline_of(contours)
+    hatch = PathPatch(shape, **HATCH, zorder=1.6)
+    hatch.set_hatch_linewidth(0.6)
+    ax.add_patch(PathPatch(shape, **FACE, zorder=1.5, label=label))
+    ax.add_patch(hatch)
+
+
 def draw_section(ax: Axes, workpiece: Workpiece, section: Section) -> None:
     """The material that a plane cuts, hatched, and the blank around it."""
     view = section.view
     if section.contours:
-        shape = outline_of(section.contours)
-        ax.add_patch(PathPatch(shape, **FACE, zorder=1.5))
-        hatch = PathPatch(shape, **HATCH, zorder=1.6)
-        hatch.set_hatch_linewidth(0.6)
-        ax.add_patch(hatch)
+        draw_cut(ax, section.contours)
     for line in workpiece.cutting.stock.outline(view.right, view.up):
         ax.add_line(Line2D(line[:, 0], line[:, 1], **{**colours.BLANK.style(), "linestyle": (0, (6, 2))}))
     draw_fixtures(ax, workpiece, view, section.at)
