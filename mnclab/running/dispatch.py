@@ -212,14 +212,15 @@ class Planner:
         for i, word in enumerate(self.words):
             if i in own:
                 continue
-            alike = sum(self.words[k].address == word.address for k in own)
+            alike, before = sum(self.words[k].address == word.address for k in own), self.words[i - 1].span.line
+            goes_on = f"line {before} ends with the mark * of a command that goes on" if before < word.span.line else ""
             if alike:
                 times = "once" if alike == 1 else f"{alike} times"
-                self.alarm(f"{command.code} takes {word.address} {times}: {word.rounded} is one too many", i)
+                self.alarm(f"{command.code} takes {word.address} {times}: {word.rounded} is one too many", i, goes_on)
             what = command.what
             takes = what.takes if isinstance(what, Function) else [p.address for p in what.parameters() if not p.mark]
             whose = f", which takes {' '.join(takes).replace('*', '')}" if takes else ""
-            self.alarm(f"{word.rounded} does not belong to the command {command.code}{whose}", i)
+            self.alarm(f"{word.rounded} does not belong to the command {command.code}{whose}", i, goes_on)
 
     def modal_motion(self, functions: list[Function]) -> None:
         """Axis words that are left belong to the modal motion."""

@@ -501,6 +501,7 @@ def test_text_stands_out_from_its_ground(open_file, theme):
     """4.5 to 1 by the formula of WCAG 2.1 for all that is written, in both themes."""
     page = open_file(mnclab.run("G0 X1 ' far\nG1 X4,5 F100\n", "jnc-t01"), color_scheme=theme)
     page.get_by_role("option", name="line 1:").click()
+    page.evaluate("() => Promise.all(document.getAnimations().map(each => each.finished))")  # buttons change their colour slowly
     pairs = page.evaluate(GROUNDS)
     assert len(pairs) > 30
     for text, ink, ground in pairs:

@@ -139,12 +139,20 @@ def test_rotary_axes_arrive_with_the_tip(opened):
     assert page.evaluate(turning) == pytest.approx([-90, -67.5, 0], abs=1e-3)
 
 
+#: Waits until the picture has a tool in it.
+DRAWN = """() => new Promise(done => {
+    const look = () => window.player.picture.shown?.at?.tool ? done() : requestAnimationFrame(look);
+    look();
+})"""
+
+
 def test_a_tool_stands_square_on_a_drum(opened):
     """The run starts at a place that nobody has said, within the drum: no line is drawn from there."""
     run = mnclab.run(Path(__file__).parents[2] / "data" / "programs" / "tnc-620" / "drum_cam.h")
     page = opened(run)
     assert page.evaluate("() => [...window.player.picture.strokes.kind.slice(0, 3)]")[:2] == [0, 0]
     page.evaluate("() => window.player.go(window.player.atTime(0.4 * window.player.run.time))")
+    page.evaluate(DRAWN)
     ends = page.evaluate("""() => {
         const {player} = window, {picture} = player, {point: tip, angles} = player.now();
         const up = tip.map((v, k) => v + (k === 2 ? 9 : 0));
