@@ -286,7 +286,7 @@ def table_of(text: str) -> dict[str, Any]:
 
 LONG_STRING = re.compile(r"(\"{3}|'{3}).*?\1", re.DOTALL)
 COMMA = re.compile(rf"[ \t]*{PATH}[ \t]*=[ \t]*(([+-]?\d+),(\d+))[ \t]*(?:#.*)?")
-BRACKET = re.compile(r"""\"(?:\\.|[^"\\])*\"|'[^']*'|\#.*|[][{}]""")
+BRACKET = re.compile(r"""\"(?:\\.|[^"\\])*+\"?|'[^']*+'?|\#.*|[][{}]""")
 BEGINS = re.compile(rf"[ \t]*(?:\[\[?[ \t]*[A-Za-z_]|{PATH}[ \t]*=)")  # a table, or a value of one: nothing in a list does
 
 

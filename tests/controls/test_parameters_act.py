@@ -145,20 +145,27 @@ def test_a_parameter_changes_what_it_means(code, parameter):
 def test_left_out_it_is_its_default_or_missing(code, parameter):
     values = beginning(code, parameter.name)
     given = {k: v for k, v in values.items() if k != parameter.name}
-    found = mnclab.run(trial.program(mnclab.controls[control_of(code)], CYCLES[code], given), control_of(code))
+    text = trial.program(mnclab.controls[control_of(code)], CYCLES[code], given)
+    found = mnclab.run(text, control_of(code))
     if parameter.required:
         assert f"{code} {parameter.address} ({parameter.meaning}) is missing" in found.alarms[0].message
-        assert found.alarms[0].span[:2] == (4, 1)
+        assert found.alarms[0].span[:2] == (line_of(code, text), 1)
     elif parameter.default is not None and (code, parameter.name) not in BESIDE:
         assert found.ok, found.alarms
         assert seen(found.toolpath) == seen(path_of(code, values | {parameter.name: parameter.default}))
 
 
+def line_of(code, text):
+    """The line of the cycle in a program that tries it."""
+    return next(k for k, line in enumerate(text.split("\n"), 1) if line.startswith(code))
+
+
 def test_every_event_and_every_step_of_a_cycle_is_labelled():
     """The row after each positioning says what is happening, in the name of its cycle."""
     for code in CYCLES:
-        path = path_of(code, beginning(code, "clearance"))
-        rows = path[path.line >= 4]
-        if rows[0].line != 4:  # the block with M99 positions first; END PGM stops the spindle
-            rows = rows[rows.line == rows.line[0]][1:]
+        values = beginning(code, "clearance")
+        path, line = path_of(code, values), line_of(code, trial.program(mnclab.controls[control_of(code)], CYCLES[code], values))
+        rows = path[path.line >= line]
+        first = int(rows[0].line != line)  # the block with M99 positions first; the end of a program stops the spindle
+        rows = rows[rows.line == rows.line[0]][first:]
         assert all(rows.labels[k].startswith(f"{code} ") and len(rows.labels[k]) > len(code) + 1 for k in rows.label)

@@ -43,6 +43,7 @@ PUT_TOGETHER = {
     "fields.py: words": (r"Q215(?![A-Za-z])", "match"),
     "kinds.py": (r"straight side|\bangle\b|^measuring( in three dimensions)?$", "search"),
     "__init__.py": (r"(pocket|stud) (length|width)", "fullmatch"),
+    "causes.py": (r"(?<![A-Z])X\s*[-+=.\d]", "search"),
     "asked.py": (r"(?<![A-Z_])CYCL\s+DEF\s*0*200(?![0-9.])", "search"),
     "file.py": (r"""(?:^|[\s.{,])(["']?start["']?)\s*=""", "search"),
 }
