@@ -26,16 +26,18 @@ from mnclab.text.file import replaced
 from mnclab.text.given import shown
 
 NAME = re.compile(r"[A-Za-z][\w-]{0,23}", re.ASCII)
+FRAME = re.compile(r"^([ \t]*+(?:\d++[ \t]++)?(?:BEGIN|END)[ \t]++PGM)[ \t]++\S++", re.M | re.I)
+DIN = re.compile(r"^([ \t]*+(?:N\d++[ \t]*+)?)%[^ \t\n*]++(?=[ \t]++G7[01]\b)", re.M | re.I)  # the head of a DIN/ISO program
 FRAMES = 5  # of an NC-31 in a line of its listing
 
 
 def klartext(text: str, name: str) -> str:
-    """With the name of its file in BEGIN PGM and END PGM, and numbered from 0."""
-    unit = "INCH" if re.search(r"^\d*\s*BEGIN PGM\b.*\bINCH\s*$", text, re.M) else "MM"
-    inner = [line for line in text.strip().splitlines() if not re.match(r"\d*\s*(?:BEGIN|END) PGM\b", line)]
-    numbered = renumber("\n".join([f"BEGIN PGM {name} {unit}", *inner, f"END PGM {name} {unit}"]), "tnc-620", start=1)
-    last = max(int(number) for number in re.findall(r"^(\d+) ", numbered, re.M)) + 1
-    return re.sub(r"^(?=END PGM)", f"{last} ", f"0 {numbered}", flags=re.M)
+    """With the name of its file at its beginning and its end, unit and comments as they are, and numbered from 0."""
+    if DIN.search(text):
+        return re.sub(DIN, rf"\1%{name}", text)
+    if not re.search(FRAME, text):
+        text = f"BEGIN PGM {name} MM\n{text.strip()}\nEND PGM {name} MM\n"
+    return renumber(re.sub(FRAME, rf"\1 {name}", text), "tnc-620")
 
 
 def listing(text: str, name: str) -> str:
@@ -75,12 +77,15 @@ def send(chosen: argparse.Namespace) -> int:
     if not result.ok or len(crashes):
         print("mnclab: not sent: mend this first", file=sys.stderr)
         return ALARMS
+    if called := ", ".join(Path(each.name).name for each in result.programs[1:]):
+        print(f"mnclab: it calls programs that are files of their own, send them too: {called}", file=sys.stderr)
     folder, name = Path(chosen.output or "."), sensible(_name, chosen.name or Path(chosen.file).stem)
     form = FORMS.get(result.control.name, Form(Path(chosen.file).suffix))
+    suffix = ".I" if result.control.name == "tnc-620" and DIN.search(result.program.text) else form.suffix
     content = _encoded(form.written(result.program.text, name), form.page)
     first = "\n".join(first_run(result))
     sensible(lambda: folder.mkdir(parents=True, exist_ok=True))
-    for path, data in ((folder / f"{name}{form.suffix}", content), (folder / f"{name}_first_run.txt", first.encode())):
+    for path, data in ((folder / f"{name}{suffix}", content), (folder / f"{name}_first_run.txt", first.encode())):
         with replaced(path) as beside:
             beside.write_bytes(data)
         print(path)

@@ -12,7 +12,7 @@ from mnclab import __main__ as shell
 PROGRAMS = Path(__file__).parents[2] / "data" / "programs"
 SENT = [
     ("mnc/first_path.mnc", ".mnc"), ("mnc/compensated.mnc", ".mnc"), ("tnc-620/lid.h", ".H"), ("tnc-620/holes.h", ".H"),
-    ("jnc-t01/shaft.jnc", ".jnc"), ("g43/bolt_circle.nc", ".nc"),
+    ("tnc-620/cover.i", ".I"), ("jnc-t01/shaft.jnc", ".jnc"), ("g43/bolt_circle.nc", ".nc"),
 ]  # fmt: skip
 
 
@@ -35,9 +35,23 @@ def test_what_is_sent_moves_as_the_program_does(name, suffix, tmp_path):
 def test_a_klartext_program_bears_the_name_of_its_file_and_is_numbered_from_0(tmp_path):
     shell.main(["send", str(PROGRAMS / "tnc-620/lid.h"), "-o", str(tmp_path), "--name", "deckel"])
     lines = (tmp_path / "DECKEL.H").read_text("ascii").splitlines()
-    assert lines[0] == "0 BEGIN PGM DECKEL MM" and lines[-1] == f"{lines[-1].split()[0]} END PGM DECKEL MM"
+    assert lines[0].startswith("0 BEGIN PGM DECKEL MM ;") and lines[-1] == f"{lines[-1].split()[0]} END PGM DECKEL MM"
     numbers = [int(line.split()[0]) for line in lines if line.split()[0].isdigit()]
     assert numbers == list(range(len(numbers)))
+
+
+@pytest.mark.parametrize("text", [
+    "BEGIN PGM A INCH ; note\nTOOL CALL 1 Z S900\nL X+1 R0 F9 M3\nEND PGM A INCH\n",
+    "0 BEGIN PGM A INCH\n1 TOOL CALL 1 Z S900\n2 L X+1 R0 F9 M3\n3 END PGM A INCH\n",
+    "TOOL CALL 1 Z S900\nL X+1 R0 F9 M3\n",
+])  # fmt: skip
+def test_the_unit_of_a_klartext_program_stays(text, tmp_path):
+    source = tmp_path / "in.h"
+    source.write_text(text)
+    assert shell.main(["send", str(source), "--control", "tnc-620", "-o", str(tmp_path)]) == 0
+    sent = (tmp_path / "IN.H").read_text("ascii")
+    assert mnclab.run(sent, "tnc-620").toolpath.end[-1, 0] == pytest.approx(25.4 if "INCH" in text else 1.0)
+    assert [line.split()[0] for line in sent.splitlines()] == ["0", "1", "2", "3"] and "PGM A" not in sent
 
 
 def test_frames_to_key_in_are_counted_and_are_those_of_the_program(tmp_path):
@@ -77,3 +91,10 @@ def test_what_would_not_run_is_not_sent(text, said, tmp_path, capsys):
 def test_an_odd_name_is_refused(tmp_path):
     with pytest.raises(SystemExit):
         shell.main(["send", str(PROGRAMS / "mnc/first_path.mnc"), "-o", str(tmp_path), "--name", "../x"])
+
+
+def test_programs_that_are_called_are_named(tmp_path, capsys):
+    (tmp_path / "main.h").write_text("BEGIN PGM MAIN MM\nCALL PGM SUB.H\nEND PGM MAIN MM\n")
+    (tmp_path / "sub.h").write_text("BEGIN PGM SUB MM\nTOOL CALL 1 Z S900\nL X+1 R0 F9 M3\nEND PGM SUB MM\n")
+    assert shell.main(["send", str(tmp_path / "main.h"), "-o", str(tmp_path / "out")]) == 0
+    assert "send them too: sub.h" in capsys.readouterr().err.lower()
