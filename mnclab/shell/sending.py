@@ -34,10 +34,10 @@ FRAMES = 5  # of an NC-31 in a line of its listing
 def klartext(text: str, name: str) -> str:
     """With the name of its file at its beginning and its end, unit and comments as they are, and numbered from 0."""
     if DIN.search(text):
-        return re.sub(DIN, rf"\1%{name}", text)
-    if not re.search(FRAME, text):
+        return DIN.sub(rf"\1%{name}", text)
+    if not FRAME.search(text):
         text = f"BEGIN PGM {name} MM\n{text.strip()}\nEND PGM {name} MM\n"
-    return renumber(re.sub(FRAME, rf"\1 {name}", text), "tnc-620")
+    return renumber(FRAME.sub(rf"\1 {name}", text), "tnc-620")
 
 
 def listing(text: str, name: str) -> str:

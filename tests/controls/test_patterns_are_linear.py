@@ -196,7 +196,6 @@ def test_a_pattern_takes_time_in_proportion_to_its_line(part):
     assert slow == []
 
 
-@pytest.mark.deep
 def test_every_pattern_that_is_put_together_is_tried():
     assert {file for _, pattern, file in written() if pattern is None} <= set(PUT_TOGETHER)
     assert len(all_uses()) > 90
