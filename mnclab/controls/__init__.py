@@ -1,21 +1,23 @@
 """Who speaks: a folder a control, each built of functions, cycles and a reader.
 
 May import everything below; a control imports `word_address`, never another control. A new control is a folder whose
-`__init__` builds one `Control` and one line in `MODULES`; third parties use the entry-point group
-`mnclab.controls`.
+`__init__` has its suffixes and signs and whose `control` builds one `Control`, and one line in `MODULES`; third parties
+use the entry-point group `mnclab.controls`.
 """
 
 from __future__ import annotations
 
-import copyreg
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 from importlib import import_module
-from importlib.metadata import entry_points
 from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
 
-from mnclab.machine.control import Control
+from mnclab.text.dialect import Sign
 from mnclab.text.tables import html_table
+
+if TYPE_CHECKING:  # what stands at the front door imports no room
+    from mnclab.machine.control import Control
 
 #: Name of a control -> the folder that builds it, if it was not left out.
 MODULES = {
@@ -28,7 +30,15 @@ MODULES = {
 ALSO = {"iso": "g43"}
 
 
-class Controls(Mapping[str, Control]):
+class Signed(NamedTuple):
+    """By what the programs of a control are told from those of others."""
+
+    name: str
+    suffixes: tuple[str, ...]
+    signs: tuple[Sign, ...]
+
+
+class Controls(Mapping[str, "Control"]):
     """All controls by name; a control is imported when it is first asked for."""
 
     def __init__(self) -> None:
@@ -38,7 +48,7 @@ class Controls(Mapping[str, Control]):
         name = ALSO.get(name, name)
         if name not in self._built:
             if name in MODULES:
-                self._built[name] = import_module(MODULES[name]).CONTROL
+                self._built[name] = import_module(f"{MODULES[name]}.control").CONTROL
             else:
                 self._built[name] = self._foreign[name]
         return self._built[name]
@@ -48,6 +58,12 @@ class Controls(Mapping[str, Control]):
 
     def __len__(self) -> int:
         return len(list(iter(self)))
+
+    def signed(self) -> Iterator[Signed]:
+        """By what the programs of each are told: read without what obeys them, which takes ten times as long."""
+        for name in self:
+            light = None if name in self._built or name not in MODULES else import_module(MODULES[name])
+            yield Signed(name, light.SUFFIXES, light.SIGNS) if light else Signed(name, self[name].suffixes, self[name].signs)
 
     def add(self, control: Control) -> None:
         """Make a control known to the running Python."""
@@ -60,6 +76,8 @@ class Controls(Mapping[str, Control]):
     @cached_property
     def _foreign(self) -> dict[str, Control]:
         """Controls of other packages: what is installed is read once, as that takes longer than a short program."""
+        from importlib.metadata import entry_points  # its import takes half as long as the rest of the front door
+
         return {
             point.name: point.load() for point in entry_points(group="mnclab.controls") if point.name not in MODULES
         }
@@ -74,11 +92,3 @@ class Controls(Mapping[str, Control]):
 
 
 CONTROLS = Controls()
-
-
-def _known(name: str) -> Control:
-    """The control of a name, in whatever process it is wanted."""
-    return CONTROLS[name]
-
-
-copyreg.pickle(Control, lambda control: (_known, (control.name,)))  # so that a run can go from one process to another

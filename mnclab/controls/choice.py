@@ -132,7 +132,7 @@ def _names_a_file(text: str, control: str | None) -> bool:
     a slash that has no two letters beside one another (`X10/2`) divides.
     """
     name = text.strip()
-    suffixed = PurePath(name).suffix.lower() in {suffix for one in CONTROLS.values() for suffix in one.suffixes}
+    suffixed = PurePath(name).suffix.lower() in {suffix for one in CONTROLS.signed() for suffix in one.suffixes}
     word = " " not in name and "\t" not in name
     if suffixed and word:
         return True

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import PurePath
 from typing import NamedTuple
 
+from mnclab.controls import Controls
 from mnclab.machine.control import Control
 from mnclab.text.alarm import Alarm
 from mnclab.text.dialect import Finding, Sign, code_of, found, sign
@@ -163,15 +163,16 @@ def is_binary(text: str) -> bool:
     return "\0" in head.rstrip("\0") or strange > max(2.0, BINARY * len(head))
 
 
-def candidates(name: str, text: str, controls: Mapping[str, Control]) -> list[Candidate]:
+def candidates(name: str, text: str, controls: Controls) -> list[Candidate]:
     """Whatever has signs in a text or the suffix of its file, the weightiest first."""
     head = text[:LOOKED_AT].replace("\r\n", "\n").replace("\r", "\n").removeprefix("\ufeff")
     if len(text) > LOOKED_AT:  # whole lines
         head = head[: head.rfind("\n") + 1] or head
     code, suffix = code_of(head), PurePath(name).suffix.lower()
-    of_suffix = {one.name: SHARED[suffix] for one in controls.values() if suffix in one.suffixes and suffix in SHARED}
+    known = list(controls.signed())
+    of_suffix = {one.name: SHARED[suffix] for one in known if suffix in one.suffixes and suffix in SHARED}
     of_suffix |= dict([SUFFIXES[suffix]]) if suffix in SUFFIXES else {}
-    listed = [(one.name, one.signs, False) for one in controls.values()]
+    listed = [(one.name, one.signs, False) for one in known]
     listed += [(name, signs, True) for name, signs in FOREIGN.items()]
     made = []
     for name, signs, foreign in listed:
@@ -190,12 +191,12 @@ def leading(ranked: list[Candidate]) -> list[Candidate]:
     return [one for one in ranked if one.weight > best - max(AHEAD, SHARE * best) or one is ranked[0]]
 
 
-def recognise(name: str, text: str, controls: Mapping[str, Control]) -> Control:
+def recognise(name: str, text: str, controls: Controls) -> Control:
     """The control that a program is for; an Alarm says what else it looks like, or between which it cannot be decided."""
     suffix = PurePath(name).suffix.lower()
-    by_suffix = [one for one in controls.values() if suffix and suffix in one.suffixes and suffix not in SHARED]
+    by_suffix = [one.name for one in controls.signed() if suffix and suffix in one.suffixes and suffix not in SHARED]
     if len(by_suffix) == 1:
-        return by_suffix[0]
+        return controls[by_suffix[0]]
     choose = f"control= one of {', '.join(controls)}"
     if is_binary(text):
         hint = f"Mazatrol and other programs of menus are no text; {choose} reads it all the same"
@@ -217,7 +218,7 @@ def recognise(name: str, text: str, controls: Mapping[str, Control]) -> Control:
     return controls[fitting[0].name]
 
 
-def looks_like(text: str, controls: Mapping[str, Control]) -> str:
+def looks_like(text: str, controls: Controls) -> str:
     """What a text plainly looks like, in words: "a program of mnc", "a SINUMERIK program"; empty where that is not plain."""
     fitting = leading(candidates("", text, controls))
     return fitting[0].described if len(fitting) == 1 else ""

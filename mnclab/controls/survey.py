@@ -12,7 +12,6 @@ from typing import Any, NamedTuple
 
 from mnclab.controls import CONTROLS
 from mnclab.controls.choice import run
-from mnclab.machine.control import Control
 from mnclab.machine.setup import Setup
 from mnclab.text.alarm import ALARM, WARNING, Alarm, amounts, several
 from mnclab.text.given import fitting, shown
@@ -229,8 +228,7 @@ def files_of(place: Path) -> list[Path]:
 def _suffixes(given: Iterable[str] | None) -> frozenset[str] | None:
     """The suffixes of the files that are wanted; None: all."""
     if given is None:
-        controls: Iterable[Control] = CONTROLS.values()
-        return frozenset((*SHARED, *(suffix for one in controls for suffix in one.suffixes)))
+        return frozenset((*SHARED, *(suffix for one in CONTROLS.signed() for suffix in one.suffixes)))
     given = [given] if isinstance(given, str) else list(given)
     return None if "*" in given else frozenset(f".{one.strip().lower().lstrip('*').lstrip('.')}" for one in given)
 

@@ -263,7 +263,7 @@ def _beginning(typed: str, known: Mapping[str, str]) -> Choices:
 def files(typed: str) -> list[str]:
     """Programs and folders whose path begins as typed, a folder with a slash."""
     folder, name = os.path.split(typed)
-    suffixes = {suffix for control in CONTROLS.values() for suffix in control.suffixes} | {".pnt", ".tab", ".d"}
+    suffixes = {suffix for control in CONTROLS.signed() for suffix in control.suffixes} | {".pnt", ".tab", ".d"}
     try:
         with os.scandir(folder or ".") as entries:
             found = [entry.name + "/" * entry.is_dir() for entry in islice(entries, MOST)]

@@ -20,6 +20,7 @@ from mnclab.machine.setup import MILLS, Magazine
 from mnclab.text.alarm import Alarm, hint
 from mnclab.text.dialect import Notation, Numbers, Sign
 from mnclab.text.given import shown
+from mnclab.text.opening import opened
 from mnclab.text.program import Program, Word
 from mnclab.text.tables import html_table, text_table, written
 
@@ -137,6 +138,12 @@ class FunctionTable(dict[str, Function]):
         return FunctionTable({**self, **other})
 
 
+def _known(name: str) -> Control:
+    """The control of a name, in whatever process it is wanted."""
+    control: Control = opened("mnclab.controls", "CONTROLS")[name]
+    return control
+
+
 @dataclass(frozen=True)
 class Control:
     """A control as one value; nothing is inherited, two controls that agree share a function.
@@ -215,6 +222,10 @@ class Control:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "settings", with_every(self.settings))
+
+    def __reduce__(self) -> tuple[Callable[[str], Control], tuple[str]]:
+        """By its name, so that a run can go from one process to another."""
+        return _known, (self.name,)
 
     def __copy__(self) -> Control:
         return self

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import threading
 import time
@@ -16,9 +17,8 @@ from typing import Any
 from mnclab.text.alarm import Alarm, hint
 from mnclab.text.given import checked
 
-# Names that are opened when they are first asked for, so that `import mnclab` needs numpy only.
-# What is opened is the real thing: its signature, its docstring, its own file. Where it stands is written as an import
-# is, a module and its names: `{"mnclab.geometry.contours": "arc, slot", "mnclab.geometry.svg": "contours as svg"}`.
+# Names that are opened when they are first asked for, so that `import mnclab` takes little more than numpy does.
+# What is opened is the real thing: its signature, its docstring, its own file.
 # The core of the house imports no wing (`design`, `lab`, the controls): it opens by name what a wing offers, and where that
 # wing was left out, an alarm says so.
 
@@ -43,22 +43,24 @@ def opened(module: str, name: str) -> Any:
         raise Alarm(f"{name} is not there: {fault.name} was left out of this mnclab (it holds {held})") from None
 
 
+_LINES = re.compile(r"^from (mnclab\.\S+) import (\w+) as (\w+)$", re.M)
+
+
 class Shelf(ModuleType):
     """A module of names that stand in several files: `mnc.part.box(…)`. Printed, it says what each of them is.
 
-    One with a folder of its own, as a wing has, is a package besides: `__path__` says where its files are. One that
-    `judges` gives out functions that look at what they are given first, which the house, whose files import each other, need not.
+    The names are those that a stub (`part.pyi`) imports, a line each: there editors and type checkers read them too. One whose
+    stub is that of a folder, as a wing's, is a package besides: `__path__` says where its files are. One that `judges` gives
+    out functions that look at what they are given first, which the house, whose files import each other, need not.
     """
 
-    def __init__(
-        self, name: str, doc: str, imports: Mapping[str, str], folder: Path | None = None, judges: bool = True
-    ) -> None:  # fmt: skip
-        super().__init__(name, doc)
+    def __init__(self, name: str, stub: str | Path, judges: bool = True) -> None:
+        text = stub.read_text("utf-8") if isinstance(stub, Path) else stub
+        super().__init__(name, text.split('"""', 2)[1].removesuffix("."))
         self._judges = judges
-        if folder is not None:
-            self.__path__ = [str(folder)]
-        written = ((module, each.split(" as ")) for module, names in imports.items() for each in names.split(", "))
-        self._places = {each[-1]: (module, each[0]) for module, each in written}
+        if isinstance(stub, Path) and stub.name == "__init__.pyi" and name.count("."):
+            self.__path__ = [str(stub.parent)]
+        self._places = {here: (module, there) for module, there, here in _LINES.findall(text)}
         self.__all__ = list(self._places)
         sys.modules.setdefault(name, self)  # for `from mnclab.part import box`
 
@@ -91,7 +93,8 @@ def _shelf_of(module: ModuleType, name: str) -> Shelf:
     }
     own = [each for each, of in made.items() if of == module.__name__ or (not of and each.isupper())]  # a constant is of a class
     public = [each for each in own if not each.startswith("_") and not isinstance(vars(module)[each], ModuleType)]
-    return Shelf(name, (getdoc(module) or "").partition("\n")[0], {module.__name__: ", ".join(public)})
+    lines = (f"from {module.__name__} import {each} as {each}" for each in public)
+    return Shelf(name, "\n".join([f'"""{(getdoc(module) or "").partition(chr(10))[0]}"""', *lines]))
 
 
 def _said(found: Any) -> str:

@@ -12,7 +12,7 @@ import pytest
 
 import mnclab as mnc
 from mnclab import Kind
-from mnclab.controls.tnc_620 import CONTROL as TNC
+from mnclab.controls.tnc_620.control import CONTROL as TNC
 
 UNITS = pytest.mark.parametrize(("unit", "length", "feed"), [("MM", 1.0, 1.0), ("INCH", 25.4, 2.54)])
 SETUP = mnc.Setup(tools={1: mnc.Tool(radius=1, teeth=4, length=50)}, start=(0, 0, 100))

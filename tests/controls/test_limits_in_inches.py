@@ -13,8 +13,8 @@ import pytest
 from tools.together import together
 
 import mnclab as mnc
-from mnclab.controls.g43 import CONTROL as G43
-from mnclab.controls.tnc_620 import CONTROL as TNC
+from mnclab.controls.g43.control import CONTROL as G43
+from mnclab.controls.tnc_620.control import CONTROL as TNC
 from mnclab.controls.tnc_620.trial import definition, first_words
 from mnclab.machine.cycle import Cycle, Parameter
 from mnclab.machine.trial import first_value

@@ -5,7 +5,6 @@ import functools
 import numpy as np
 import pytest
 import shapely
-from mnclab.strategies import STRATEGIES, rest
 from tools.together import deep_but_one_in
 
 import mnclab
@@ -17,6 +16,7 @@ from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import polygons
 from mnclab.machining.milling.entries import VERTICAL, Entry
 from mnclab.path.toolpath import Kind
+from mnclab.strategies import STRATEGIES, rest
 
 CONTROLS = ("g43", "mnc", "tnc-620")
 SETUP = mnclab.Setup(tools={1: mnclab.Tool(radius=4, length=60, teeth=3)}, stock=((-50, -50, -10), (70, 70, 0)))

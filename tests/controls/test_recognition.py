@@ -4,6 +4,8 @@
 may be for two. They are written for this test.
 """
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -23,6 +25,16 @@ KINDS = {
     "printer": "a program of a 3D printer", "hpgl": "an HPGL drawing",
     "apt": "an APT source or CLDATA", "drawing": "a drawing or a model", "source": "source code or a page",
 }  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "text"), [("part.nc31", "N1 X100\n"), ("", "BEGIN PGM A MM\nL X+5 R0 FMAX\n")])
+def test_only_the_control_that_is_found_is_imported(name, text):
+    """The signs of the others are read without what obeys them."""
+    code = f"""import sys; from mnclab.controls import CONTROLS; from mnclab.controls.recognition import recognise
+found = recognise({name!r}, {text!r}, CONTROLS).name
+print(found, *sorted(each for each in sys.modules if each.endswith(".control") and each.count(".") == 3))"""
+    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    assert len(said) == 2 and said[1] == f"mnclab.controls.{said[0].replace('-', '_')}.control"
 
 
 def test_there_are_programs_of_everything():

@@ -3,10 +3,10 @@
 import math
 
 import pytest
-from mnclab.area import Region
 
 import mnclab
 from mnclab import Alarm, Design, area
+from mnclab.area import Region
 from mnclab.design import Chamfer, Circle, Face, Groove, Hole, Pocket, Rectangle, Slope, Slot, Stud
 
 BLANK = ((0, 0, -20), (60, 40, 0))

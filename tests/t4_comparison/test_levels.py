@@ -4,12 +4,12 @@ import math
 
 import numpy as np
 import pytest
-from mnclab.strategies import STRATEGIES, Entry
 from tools.together import deep_but_one_in
 
 import mnclab
 from mnclab import Alarm, Tool, area, compare, tool_sets
 from mnclab.machining.milling.clearing import LINKED
+from mnclab.strategies import STRATEGIES, Entry
 
 BOX = area.Region.of(area.rectangle(60, 40))
 ISLAND = area.Region.of(area.rectangle(60, 40), holes=[area.Contour.circle((3, 2), 6)])

@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 import shapely
-from mnclab.strategies import STRATEGIES, rest
 
 import mnclab
 from mnclab import Alarm, area, compare
 from mnclab.geometry.sweeps import polygons
+from mnclab.strategies import STRATEGIES, rest
 
 BOX = area.Region.of(area.rectangle(60, 40))
 RIGHT = area.Region.of(area.rectangle(20, 60, centre=(20, 0)))  # x from 10 to 30: the third of the box on the right

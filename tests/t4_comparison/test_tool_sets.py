@@ -4,10 +4,10 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from mnclab.strategies import rest
 
 import mnclab
 from mnclab import Alarm, area, compare, tool_sets
+from mnclab.strategies import rest
 
 BOX = area.Region.of(area.rectangle(60, 40, 2.0))  # corners of a radius of 2
 TOOLS = [mnclab.Tool(diameter=d, teeth=3) for d in (4, 8, 12)]

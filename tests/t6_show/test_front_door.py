@@ -182,10 +182,9 @@ SHELVES = ["area", "blank", "part", "probing", "schemes", "strategies"]
 
 
 def imports_for_types():
-    """What the front door imports for editors and mypy alone: name here -> module and name there."""
-    branches = (node for node in ast.parse(HOME.read_text("utf-8")).body if isinstance(node, ast.If))
-    (types,) = (branch for branch in branches if ast.unparse(branch.test) == "TYPE_CHECKING")
-    return {name.asname: (line.module, name.name) for line in types.body for name in line.names}
+    """What the stub of the front door imports from the rooms: name here -> module and name there."""
+    lines = (node for node in ast.parse(HOME.with_suffix(".pyi").read_text("utf-8")).body if isinstance(node, ast.ImportFrom))
+    return {line.names[0].asname: (line.module, line.names[0].name) for line in lines if line.level == 0}
 
 
 def test_what_is_opened_later_is_the_real_thing():
@@ -194,7 +193,7 @@ def test_what_is_opened_later_is_the_real_thing():
     for name, (module, there) in told.items():
         real = getattr(__import__(module, fromlist=[there]), there)
         assert getattr(mnclab, name) is real and (name in dir(mnclab) or name == "load_ipython_extension")
-        assert inspect.signature(getattr(mnclab, name)) == inspect.signature(real) and inspect.getdoc(real)
+        assert inspect.getdoc(real)
 
 
 @pytest.mark.parametrize("name", sorted({*mnclab.__all__, *mnclab.OPENED.__all__}))

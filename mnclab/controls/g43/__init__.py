@@ -4,85 +4,43 @@ So it is the ISO mill that its users take it for: `language.tools` holds what th
 `language` the functions of its example and what ISO controls mean by the others, `cycles` their drilling cycles.
 """
 
-from __future__ import annotations
+from mnclab.text.dialect import sign
 
-from mnclab.controls.g43 import cycles
-from mnclab.controls.g43.language import corners, modes, motion, o_words, offsets, programs, tools, variables
-from mnclab.controls.g43.reading.reader import numbers, read
-from mnclab.controls.g43.refused import (
-    COMPENSATED,
-    NOT_OF_LINUXCNC,
-    REFUSED,
-    compensated_on_linuxcnc,
-    unknown_to_linuxcnc,
-)
-from mnclab.controls.g43.settings import MEANINGS, SETTINGS, SIGNS
-from mnclab.controls.g43.state import Memory
-from mnclab.controls.word_address.motion import more_helices
-from mnclab.machine.control import Control, FunctionTable
-from mnclab.machine.cycle import Cycle
-from mnclab.machine.machine import Machine
-from mnclab.machine.trial import TrialWords, in_block
-from mnclab.path.compensation import Compensation
-from mnclab.running.bulk import PlainWords
-
-#: Order inside a block.
-PHASES = (
-    *("plane", "feed", "spindle", "tool", "change", "auxiliary", "uncompensate", "data", "corrector", "length", "frames"),
-    *("local", "transformation", "compensation", "blending", "dwell", "motion", "call", "end"),
-)
-
-
-def start(m: Machine) -> None:
-    """G54 and a unit are active at the start; the tip hangs below the spindle by the length of the tool."""
-    offsets.start(m)
-    tools.place(m, "tip")
-    modes.start_units(m)
-    modes.start(m)
-    variables.start(m)
-
-
-def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
-    """A cycle in one block, and its end."""
-    return f"T2 M6\nG43 G0 X0 Y0 Z20 S1000 M3\n{in_block(cycle, words)}\nG80\n"
-
-
-#: What help lists, and hints name, before the others.
-FIRST = "G0 G1 G2 G3 G17 G18 G19 G90 G91 G54 G55 G56 G57 G58 G59 G53 G52 G92 G28 G68 G51 G10 F S G94 G95 G61 G64"
-_PARTS = (modes, motion, offsets, tools, variables, programs, corners, o_words)
-_ALL = {code: function for part in _PARTS for code, function in part.FUNCTIONS.items()}
-_ALL |= {code: compensated_on_linuxcnc(_ALL[code]) for code in COMPENSATED}
-_ALL |= {code: unknown_to_linuxcnc(_ALL[code]) for code in NOT_OF_LINUXCNC}
-FUNCTIONS = FunctionTable({code: _ALL[code] for code in (*FIRST.split(), *_ALL)})
-
-CONTROL = Control(
-    name="g43",
-    title="ISO mill (control with G43, G44, G49)",
-    suffixes=(".g43", ".iso"),
-    read=read,
-    functions=FUNCTIONS,
-    cycles=cycles.CYCLES,
-    phases=PHASES,
-    settings=SETTINGS,
-    frames=("length", "external", "datum", "set", "local", "mirror", "rotation", "scaling"),
-    memory=Memory,
-    compensation=Compensation(approach="corner", change=True, look_ahead=True, rapid=True),
-    start=start,
-    finish=programs.without_end,
-    signs=SIGNS,
-    numbers=numbers,
-    refused=REFUSED,
-    meanings=MEANINGS,
-    together=motion.together,
-    computed=programs.computed,
-    preassigned=variables.PREASSIGNED,
-    calls_again=programs.calls_again,
-    bulk=PlainWords(
-        motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
-        ready=lambda m: motion.is_plain(m) and not m.modal.get("call"),
-        helices=more_helices,
-        zero_along=True,
-        unit=lambda m: m.variable_unit,
+#: Suffixes of its files. These and the signs are read before the control itself is imported.
+SUFFIXES = (".g43", ".iso")
+#: Signs of ISO milling programs: what most makers of mills have in common.
+SIGNS = (
+    sign(
+        r"\A(?=[\s\S]*[XIUR][ \t]*[-+.\d#\[])(?=[\s\S]*Y[ \t]*[-+.\d#\[])(?=[\s\S]*(?<![A-Z])[GM][ \t]*\d)",
+        2.5, "words G, X and Y",
     ),
-    trial=trial_program,
+    sign(r"(?<![A-Z])G[ \t]*0*[0-3](?![\d.])[ \t]*[A-Z-]", 1, "motion of ISO words"),
+    sign(r"(?<![A-Z])G4[34](?![\d.])[^\n]*[HZ]|(?<![A-Z])G49(?![\d.])", 4, "tool length compensation"),
+    sign(r"(?<![A-Z])T[ \t]*\d{1,5}[ \t]*M0?6(?!\d)|(?<![A-Z])M0?6[ \t]*T\d", 2, "a tool change"),
+    sign(r"(?<![A-Z])G2[01](?![\d.])", 2, "a unit"),
+    sign(r"(?<![A-Z])G17(?![\d.])", 1, "the plane of X and Y"),
+    sign(r"(?<![A-Z])G5[4-9](?!\d)", 1, "a work offset"),
+    sign(r"(?<![A-Z])G(?:28|30)(?![\d.])", 1, "a reference point"),
+    sign(r"(?<![A-Z])G(?:7[346]|8[1-9])(?![\d.])[^\n]*R", 2, "a drilling cycle"),
+    sign(r"^%[ \t]*$", 1.5, "% alone in a line"),
+    sign(r"^[ \t]*[O:][ \t]*\d{1,8}\b", 2, "the number of a program"),
+    sign(r"\(", 1, "comments in brackets"),
+    sign(r"^[^;\n]*\b[GM]\d[^;\n]*;", 0.5, "comments behind a semicolon"),
+    sign(r"#[ \t]*\d+[ \t]*=|\b(?:WHILE|IF)[ \t]*\[", 4, "variables"),
+    sign(r"#<[\w ]+>", 8, "a variable with a name"),
+    sign(
+        r"^[ \t]*+O[ \t]*+(?:<[\w. -]++>|\d++|[\[#])[^\n(]*(?:sub|endsub|call|if|while|repeat|do|return|endif|endwhile)\b",
+        20, "an O word of LinuxCNC",
+    ),
+    sign(r"(?<![A-Z])M98[ \t]*[PQ]|(?<![A-Z])G65[ \t]*P", 3, "a sub-program"),
+    sign(r"(?<![A-Z])M(?:0?2|30|99)(?!\d)", 0.5, "an end of the program"),
+    sign(
+        r"(?<![A-Z])G50[ \t]*S|(?<![A-Z])G(?:7[0-3][ \t]*[PUW]|28[ \t]*[UW])|(?<![A-Z])T\d{4}(?!\d)(?![ \t]*M)|(?<![A-Z])G96\b",
+        -4, "words of lathes",
+    ),
+    sign(
+        r"\A(?![\s\S]*Y[ \t]*[-+.\d#\[])(?=[\s\S]*X[ \t]*[-+.\d])(?=[\s\S]*Z[ \t]*[-+.\d])",
+        -1, "positions of X and Z, and no Y",
+    ),
+    sign(r"'|[~@][ \t]*$|^[^\n/;]*\*[ \t]*$", -6, "marks of other controls"),
 )

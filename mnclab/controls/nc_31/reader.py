@@ -21,7 +21,7 @@ from collections.abc import Iterator, Sequence
 from string import ascii_lowercase
 
 from mnclab.text.alarm import Alarm
-from mnclab.text.dialect import Numbered, Numbers, Reference, sign, unknown
+from mnclab.text.dialect import Numbered, Numbers, Reference, unknown
 from mnclab.text.program import AT_MARK, GROUP_MARK, INCREMENTAL, RAPID_MARK, Program, ProgramBuilder, readable
 from mnclab.text.words import characters, line_starts
 
@@ -267,22 +267,3 @@ def written(values: Sequence[int]) -> str:
     if max(values) > LAST:
         raise Alarm(f"G25 P would name frame {max(values)}, and names frames up to {LAST}", hint="choose a smaller step")
     return str(1000 * first + last)
-
-
-# Signs of NC-31 programs: one word a line, whole numbers, marks behind them.
-
-_FRAME = r"^[ \t]*+(?:N[ \t]*+\d++[ \t]*+)?"
-
-SIGNS = (
-    sign(
-        _FRAME + r"[GXZFSPMTХМРТСЗ][ \t]*+@?[ \t]*+[-+]?\d++[ \t]*+(?:\*[ \t]*+)?[~@][ \t*~@]*+(?:;[^\n]*)?$",
-        7, "a frame with marks", 2,
-    ),
-    sign(
-        _FRAME + r"[GXZFSPM][ \t]*+@?[ \t]*+[-+]?\d++[ \t]*+\*[ \t]*(?:;[^\n]*)?$",
-        4, "a frame that the next one belongs to", 2,
-    ),
-    sign(r"^(?:[ \t]*(?:N\d+[ \t]*)?[GXZFSPMT]-?\d+[ \t]*(?:;[^\n]*)?\n){4}", 3, "one word a line, whole numbers"),
-    sign(_FRAME + r"[A-MO-Z][ \t]*+[-+]?[\d.]++[ \t]*+[A-Z][ \t]*[-+]?[\d.]", -6, "two words in a line"),
-    sign(r"\b[XZ][ \t]*[-+]?\d*\.", -6, "decimal points"),
-)

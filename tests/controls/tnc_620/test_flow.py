@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mnclab.controls.tnc_620 import CONTROL, later
+from mnclab.controls.tnc_620.control import CONTROL, later
 
 
 def test_subprogram_and_repeat(inside) -> None:

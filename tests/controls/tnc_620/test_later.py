@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import mnclab as mnc
-from mnclab.controls.tnc_620 import CONTROL, later
+from mnclab.controls.tnc_620.control import CONTROL, later
 from mnclab.controls.tnc_620.later import PARAMETERS
 
 CATALOGUE = Path(__file__).parents[2] / "authorities" / "catalogue"

@@ -9,7 +9,7 @@ import pytest
 
 import mnclab as mnc
 from mnclab import Kind
-from mnclab.controls.tnc_620 import CONTROL
+from mnclab.controls.tnc_620.control import CONTROL
 
 LONG = mnc.Setup(
     tools={1: mnc.Tool(radius=5, length=80), 2: mnc.Tool(radius=3, length=100)},

@@ -152,7 +152,7 @@ def test_a_text_has_no_folder(tnc, tmp_path: Path, monkeypatch) -> None:
 
 
 def test_a_program_is_read_once(calling, monkeypatch) -> None:
-    from mnclab.controls.tnc_620 import CONTROL
+    from mnclab.controls.tnc_620.control import CONTROL
 
     read = []
     monkeypatch.setattr(

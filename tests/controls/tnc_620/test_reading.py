@@ -6,7 +6,7 @@ import pytest
 
 import mnclab as mnc
 from mnclab.controls.recognition import looks_like
-from mnclab.controls.tnc_620 import CONTROL
+from mnclab.controls.tnc_620.control import CONTROL
 
 PROGRAM = """\
 0 BEGIN PGM PART MM

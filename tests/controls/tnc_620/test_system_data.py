@@ -8,7 +8,7 @@ import math
 import pytest
 
 import mnclab as mnc
-from mnclab.controls.tnc_620 import CONTROL
+from mnclab.controls.tnc_620.control import CONTROL
 from mnclab.controls.tnc_620.language.system_data import ROWS, TABLES
 
 TOOLS = {
