@@ -1,5 +1,5 @@
 """mnclab from a shell: check, run, renumber, plot, part, compare, drawing, report, time, help, exercise, grade,
-handout, send, lab.
+handout, send, lessons, lab.
 
 `python -m mnclab` is the same.
 
@@ -26,7 +26,7 @@ from mnclab.machine.setup_file import FORMAT, load
 from mnclab.shell.checking import check
 from mnclab.shell.grading import exercise, grade
 from mnclab.shell.handout import handout
-from mnclab.shell.lessons import lab
+from mnclab.shell.lessons import lab, lessons
 from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, USAGE, describe, program, say, sensible, with_blank
 from mnclab.shell.sending import send
 from mnclab.shell.timing import time
@@ -217,6 +217,8 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("-o", "--output", metavar="DIR", help="the folder (default: this one)")
     sub.add_argument("--name", help="of the program on the control (default: that of the file)")
     options(sub)
+    sub = command("lessons", lessons, "copy the lessons, with their programs and setups, to a folder", "")
+    sub.add_argument("folder", nargs="?", default="mnclab-lessons", help="a new or an empty one (default: %(default)s)")
     command("lab", lab, "open the lessons in JupyterLab, which gets all options that follow", "")
     return top
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mnclab.machine.setup import Setup
 from mnclab.text.alarm import Alarm, hint
+from mnclab.text.file import COURSE
 from mnclab.text.given import choice, fitting, shown
 from mnclab.text.opening import opened
 from mnclab.text.tables import Rows
@@ -19,8 +20,8 @@ if TYPE_CHECKING:
     from mnclab.learning.grade import Grade
 
 #: Where the exercises of the house lie: a folder a control.
-FOLDER = Path(__file__).resolve().parents[2] / "data" / "exercises"
-LESSONS = FOLDER.parents[1] / "notebooks"
+FOLDER = COURSE / "data" / "exercises"
+LESSONS = COURSE / "notebooks"
 
 #: Kind -> what the learner does, and what the answer is written as.
 KINDS = {

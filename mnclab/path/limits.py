@@ -16,7 +16,7 @@ from mnclab.path.tool import record
 from mnclab.path.toolpath import Array, Kind, Toolpath
 from mnclab.text.alarm import Alarm
 from mnclab.text.alarm import hint as near
-from mnclab.text.file import File, check_names, parse
+from mnclab.text.file import COURSE, File, check_names, parse
 from mnclab.text.given import check_number, choice, fitting, fitting_class, of_python, plain, shown, whole
 from mnclab.text.tables import Listing, written
 
@@ -123,8 +123,7 @@ class Limits:
 # The named ones lie in `data/machines`. A file has `title`, `assumes` (a list of sentences) and the table
 # `[limits]`, whose keys are the fields of `Limits`.
 
-_PACKAGE = Path(__file__).resolve().parent.parent
-PLACES = (_PACKAGE / "data" / "machines", _PACKAGE.parent / "data" / "machines")  # installed; in the sources
+FOLDER = COURSE / "data" / "machines"
 
 
 class MachineFile(NamedTuple):
@@ -183,7 +182,7 @@ def limits_of(limits: Limits | str | None, machine: Limits | str | None = None) 
 
 def names() -> list[str]:
     """The machines that have a name."""
-    return sorted({file.stem for place in PLACES for file in place.glob("*.toml")})
+    return sorted(file.stem for file in FOLDER.glob("*.toml"))
 
 
 def load(machine: str | Path) -> MachineFile:
@@ -191,9 +190,8 @@ def load(machine: str | Path) -> MachineFile:
     text = str(machine)
     if isinstance(machine, Path) or text.endswith(".toml"):
         return parse(Path(machine), _machine, "machine")
-    for place in PLACES:
-        if os.path.isfile(place / f"{text}.toml"):
-            return parse(place / f"{text}.toml", _machine, "machine")
+    if os.path.isfile(FOLDER / f"{text}.toml"):
+        return parse(FOLDER / f"{text}.toml", _machine, "machine")
     hint = near(text[:40], names(), 1) or f"known: {', '.join(names())}; or the name of a .toml file"
     raise Alarm(f"no machine has the name {shown(text)}", hint=hint)
 

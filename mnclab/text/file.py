@@ -20,6 +20,9 @@ from typing import Any, TypeVar
 from mnclab.text.alarm import Alarm, Span, hint
 from mnclab.text.given import shown
 
+#: The folder of `notebooks` and `data`: in the sources that of the house, in an installed mnclab one within.
+COURSE = next((each for each in [Path(__file__).parents[1] / "course"] if each.is_dir()), Path(__file__).parents[2])
+
 # Which code page the bytes of a program are written in.
 
 _BY_FREQUENCY = "ъёфэщцюшжхйчбзгьыяупдмклврстниаео"  # Russian letters, the rarest first
