@@ -38,7 +38,7 @@ from mnclab.controls import CONTROLS as controls  # noqa: F401
 from mnclab.text.alarm import nearest as _nearest
 from mnclab.text.opening import Shelf
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 _HERE = _Path(__file__).parent
 OPENED = Shelf("mnclab", _HERE / "__init__.pyi", judges=False)

@@ -12,6 +12,7 @@ from mnclab.controls.choice import renumber as renumber
 from mnclab.controls.choice import run as run
 from mnclab.controls.cycle_steps import steps as steps
 from mnclab.controls.survey import check as check
+from mnclab.controls.survey import run_many as run_many
 from mnclab.design.model import Design as Design
 from mnclab.design.model import TurnedDesign as TurnedDesign
 from mnclab.lab.editor import editor as editor

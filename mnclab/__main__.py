@@ -27,7 +27,18 @@ from mnclab.shell.checking import check
 from mnclab.shell.grading import exercise, grade
 from mnclab.shell.handout import handout
 from mnclab.shell.lessons import lab, lessons
-from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, USAGE, describe, program, say, sensible, with_blank
+from mnclab.shell.saying import (
+    ALARMS,
+    CLEAN,
+    INTERRUPTED,
+    USAGE,
+    describe,
+    environment,
+    program,
+    say,
+    sensible,
+    with_blank,
+)
 from mnclab.shell.sending import send
 from mnclab.shell.timing import time
 from mnclab.show.export import BODIES
@@ -101,6 +112,14 @@ def give_up_printing() -> None:
             os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
+class Version(argparse.Action):
+    """Print the version and what a report of a fault needs: Python, system, packages."""
+
+    def __call__(self, top: argparse.ArgumentParser, *given: Any) -> None:
+        print(f"mnclab {mnclab.__version__}, {environment()}")
+        top.exit()
+
+
 def parser() -> argparse.ArgumentParser:
     """The commands and their options."""
     top = argparse.ArgumentParser(
@@ -109,7 +128,7 @@ def parser() -> argparse.ArgumentParser:
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    top.add_argument("--version", action="version", version=f"mnclab {mnclab.__version__}")
+    top.add_argument("--version", action=Version, nargs=0, help="that of mnclab, and what it runs with")
     commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     def command(name: str, do: Any, does: str, file: str = "file", **more: Any) -> argparse.ArgumentParser:
@@ -138,6 +157,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--csv", action="store_true", help="the table as comma-separated values on stdout instead")
     says = "of a folder, the files with these suffixes (default: those that part programs usually have; * for all)"
     sub.add_argument("--suffixes", type=words, metavar=".nc,.h", help=says)
+    sub.add_argument("-j", "--jobs", type=int, default=1, metavar="N", help="how many processes share the files (default: 1)")
     says = "find the collisions with the blank too (of the setup, or of the program); status 1 if there is one"
     sub.add_argument("--material", action="store_true", help=says)
     sub = command("run", run, "run a program and print its moves, one a line, and what it measured")

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor
+from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from html import escape
 from pathlib import Path
+from signal import SIG_IGN, SIGINT, signal
 from typing import Any, NamedTuple
 
 from mnclab.controls import CONTROLS
 from mnclab.controls.choice import run
 from mnclab.machine.setup import Setup
 from mnclab.text.alarm import ALARM, WARNING, Alarm, amounts, several
-from mnclab.text.given import fitting, shown
+from mnclab.text.given import fitting, shown, whole
 from mnclab.text.opening import progress
 from mnclab.text.tables import csv_text, html_table, text_table
 
@@ -25,6 +29,7 @@ SHARED = (
     ".prg .ptp .sbp .spf .tap .txt"
 ).split()
 SHOWN = 200  # rows of a table in a notebook
+TOGETHER = 32  # files that a process is given at a time
 WIDE = 90  # characters of a sentence in a table
 COUNTED = 110  # letters of a row from which on counts have room in it
 _VALUES = re.compile(
@@ -177,31 +182,79 @@ def _cells(row: Checked) -> tuple[str, ...]:
 @fitting
 def check(
     where: str | Path | Iterable[str | Path], control: str | None = None, setup: Setup | None = None,
-    *, suffixes: Iterable[str] | None = None,
+    *, suffixes: Iterable[str] | None = None, jobs: int = 1, executor: Executor | None = None,
 ) -> Survey:  # fmt: skip
     """Run all programs of a folder and those below it, and tell what ran, what was refused, and why; nothing is drawn.
 
     `where`: a folder, a file, or several. `control`, `setup`: as in `mnclab.run`, for all files. `suffixes`: which files
-    of a folder are programs (default: those that part programs usually have), `("*",)` all. Ctrl-C ends it, and what was
-    checked so far is returned.
+    of a folder are programs (default: those that part programs usually have), `("*",)` all. `jobs`: how many processes
+    share them; an `executor` of your own (`concurrent.futures`) takes their place. Ctrl-C ends
+    it, and what was checked so far is returned.
     """
     given = [where] if isinstance(where, str | os.PathLike) or not isinstance(where, Iterable) else list(where)
     if not all(isinstance(place, str | os.PathLike) for place in given):
         raise Alarm(f"programs are checked in a folder or in files, got {shown(where)}", hint='mnclab.check("jobs")')
+    if whole(jobs, "jobs") < 1:
+        raise Alarm(f"jobs must be at least 1, got {shown(jobs)}")
     places, wanted = [Path(place) for place in given], _suffixes(suffixes)
     files = list(dict.fromkeys(file for place in places for file in _files(place, wanted)))
     below = str(places[0]) if len(places) == 1 and places[0].is_dir() else ""
+    names = [str(file.relative_to(below) if below else file) for file in files]
+    named = list(zip(files, ("".join(c if c.isprintable() else "?" for c in name) for name in names)))
     rows: list[Checked] = []
     interrupted = False
     try:
-        with progress("checking", len(files), "files") as at:
-            for file in files:
+        with progress("checking", len(files), "files") as at, _shared(jobs, executor) as share:
+            for some in share(partial(_all_checked, control, setup), batched(named, jobs if executor is None else jobs + 1)):
+                rows += some
                 at(len(rows))
-                name = str(file.relative_to(below) if below else file)
-                rows.append(checked(file, "".join(c if c.isprintable() else "?" for c in name), control, setup))
     except KeyboardInterrupt:
         interrupted = True
+    except BrokenExecutor:
+        found = f"a process ended by itself after {several(len(rows), 'file')}, as it does where memory is short"
+        raise Alarm(found, hint="fewer jobs need less; with jobs=1 the file is seen") from None
     return Survey(tuple(rows), below, interrupted)
+
+
+@fitting
+def run_many(
+    paths: str | Path | Iterable[str | Path], control: str | None = None, setup: Setup | None = None,
+    *, jobs: int | None = None, executor: Executor | None = None,
+) -> Survey:  # fmt: skip
+    """The same as `check`, on all cores if `jobs` does not say on how many: for an archive of programs.
+
+    On a cluster, with the extra `dask`: `client = distributed.Client(address)`, then `executor=client.get_executor()`.
+    """
+    return check(paths, control, setup, jobs=os.cpu_count() or 1 if jobs is None else jobs, executor=executor)
+
+
+Share = Callable[[Callable[[Any], list[Checked]], Iterable[Any]], Iterable[list[Checked]]]
+
+
+@contextmanager
+def _shared(jobs: int, executor: Executor | None) -> Iterator[Share]:
+    """What hands work out: to this process, to processes of its own, or to those of an executor."""
+    if executor is not None:
+        yield executor.map
+    elif jobs == 1:
+        yield map
+    else:
+        with ProcessPoolExecutor(jobs, initializer=signal, initargs=(SIGINT, SIG_IGN)) as own:
+            try:
+                yield own.map
+            except KeyboardInterrupt:
+                own.shutdown(wait=False, cancel_futures=True)  # what is not begun is left alone
+                raise
+
+
+def batched(named: Sequence[tuple[Path, str]], jobs: int) -> list[Sequence[tuple[Path, str]]]:
+    """One by one for one process; for several, so many at a time that handing out costs little and none ends late."""
+    size = 1 if jobs == 1 else max(1, min(TOGETHER, len(named) // (4 * jobs)))
+    return [named[k : k + size] for k in range(0, len(named), size)]
+
+
+def _all_checked(control: str | None, setup: Setup | None, named: Iterable[tuple[Path, str]]) -> list[Checked]:
+    return [checked(file, name, control, setup) for file, name in named]
 
 
 def checked(file: Path, name: str, control: str | None = None, setup: Setup | None = None) -> Checked:

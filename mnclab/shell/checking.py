@@ -25,7 +25,7 @@ def check(chosen: argparse.Namespace) -> int:
     """Report the alarms of several programs, or what became of those of a folder."""
     status, report = CLEAN, []
     setup = None if chosen.setup is None else sensible(load, chosen.setup)
-    if chosen.csv or chosen.suffixes or any(map(os.path.isdir, filter(None, chosen.files))):
+    if chosen.csv or chosen.suffixes or chosen.jobs > 1 or any(map(os.path.isdir, filter(None, chosen.files))):
         found = sensible(survey_of, chosen, setup)
         if not (found.rows or found.interrupted):
             sensible(nothing_in, chosen.files)
@@ -65,4 +65,4 @@ def survey_of(chosen: argparse.Namespace, setup: Setup | None) -> Survey:
     """What became of the programs of folders; an Alarm where that was not meant."""
     if chosen.material:
         raise Alarm("--material is for files, not for folders and tables")
-    return survey(map(program, chosen.files), chosen.control, setup, suffixes=chosen.suffixes)
+    return survey(map(program, chosen.files), chosen.control, setup, suffixes=chosen.suffixes, jobs=chosen.jobs)

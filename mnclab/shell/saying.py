@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import platform
 import sys
 from collections.abc import Callable, Iterable
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
@@ -12,6 +14,18 @@ from mnclab.text.alarm import Alarm
 
 Result = TypeVar("Result")
 CLEAN, ALARMS, USAGE, INTERRUPTED = 0, 1, 2, 130
+PACKAGES = ("numpy", "shapely", "matplotlib", "pyvista", "ipywidgets", "jupyterlab", "ezdxf", "pandas")
+
+
+def environment() -> str:
+    """Python, the system and the packages that mnclab runs with, in a line for who reports a fault."""
+    found = []
+    for name in PACKAGES:
+        try:
+            found.append(f"{name} {version(name)}")
+        except PackageNotFoundError:
+            found.append(f"no {name}")
+    return f"Python {platform.python_version()} on {platform.system()} {platform.machine()}; {', '.join(found)}"
 
 
 def say(alarm: Alarm, file: str = "") -> None:

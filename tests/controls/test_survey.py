@@ -5,6 +5,8 @@ import io
 import json
 import os
 import sys
+from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 
 import pytest
@@ -108,6 +110,46 @@ def test_what_was_checked_before_ctrl_c_is_told(folder, monkeypatch, capsys):
     assert shell.main(["check", str(folder)]) == 130 and "interrupted" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("many", [
+    lambda where: mnclab.check(where, jobs=2),
+    lambda where: mnclab.run_many(where),
+    lambda where: mnclab.run_many(where, executor=ThreadPoolExecutor(2)),
+    pytest.param(lambda where: mnclab.run_many(where, executor=processes("spawn")), marks=pytest.mark.deep),
+    pytest.param(lambda where: mnclab.run_many(where, executor=processes("fork")), marks=pytest.mark.deep),
+    pytest.param(lambda where: of_dask(where), marks=pytest.mark.deep),
+], ids=["jobs", "all cores", "threads", "spawn", "fork", "dask"])  # fmt: skip
+def test_whoever_shares_the_files_finds_the_same(folder, many):
+    for k in range(20):
+        (folder / f"{k}.mnc").write_text(GOOD.replace("10.5", str(k)))
+    assert [row.as_dict() for row in many(folder).rows] == [row.as_dict() for row in mnclab.check(folder).rows]
+
+
+def processes(begun):
+    return ProcessPoolExecutor(2, get_context(begun))
+
+
+def of_dask(where):
+    """The example of `run_many`: a cluster of dask, here of two workers on this machine."""
+    from distributed import Client, LocalCluster
+
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
+        return mnclab.run_many(where, executor=client.get_executor())
+
+
+def test_a_process_that_dies_is_told(folder):
+    with pytest.raises(Alarm, match="a process ended by itself"):
+        mnclab.run_many(folder, executor=Broken())
+    with pytest.raises(Alarm, match="jobs must be at least 1, got 0"):
+        mnclab.check(folder, jobs=0)
+
+
+class Broken(ThreadPoolExecutor):
+    """As an executor whose process was killed."""
+
+    def map(self, *given, **more):
+        raise BrokenExecutor
+
+
 def test_a_fault_of_the_library_does_not_end_the_others(folder, monkeypatch):
     obey = survey.run
 
@@ -151,6 +193,7 @@ def test_the_command_prints_the_table_and_its_status(folder, capsys):
     assert err == "" and "good.mnc" in out and out.rstrip().endswith("(mnc 3, tnc-620 1)")
     assert shell.main(["check", str(folder), "--suffixes", ".h"]) == 0
     assert "1 file: 1 ran" in capsys.readouterr().out
+    assert shell.main(["check", "-j", "2", str(folder)]) == 1 and capsys.readouterr().out == out
 
 
 def test_the_command_as_json_and_csv(folder, capsys):

@@ -75,8 +75,8 @@ RIGHT = {
 #: Not called: what is no value of a user, opens files or folders, or has a page of its own tests.
 LEFT = {
     "Alarm", "Collision", "Help", "Kind", "Program", "Run", "Removal", "Workpiece", "Profile", "Toolpath", "check", "editor",
-    "form", "panel", "profile_panel", "compensation_panel", "pocket_panel", "area.svg", "area.dxf", "part.Part", "part.mesh",
-    "modern", "help", "renumber", "area.Joined", "design.Design", "design.TurnedDesign",
+    "run_many", "form", "panel", "profile_panel", "compensation_panel", "pocket_panel", "area.svg", "area.dxf", "part.Part",
+    "part.mesh", "modern", "help", "renumber", "area.Joined", "design.Design", "design.TurnedDesign",
 }  # fmt: skip
 #: What has public methods that are called: name -> the thing.
 THINGS = {
