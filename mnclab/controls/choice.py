@@ -12,11 +12,13 @@ from pathlib import Path, PurePath
 from typing import Any
 
 from mnclab.controls import CONTROLS
+from mnclab.controls.glossary import Entry, Glossary, glossary, named
 from mnclab.controls.recognition import looks_like, recognise
 from mnclab.machine.control import Control, Function, Setting, settings_html, settings_text
 from mnclab.machine.cycle import Cycle, help_html, help_text
 from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import load
+from mnclab.machine.terms import BETWEEN, Term, having, plain, terms
 from mnclab.path.limits import limits_of
 from mnclab.path.tool import Tool
 from mnclab.runs.run import EXAMPLE, Run, run_program
@@ -27,6 +29,7 @@ from mnclab.text.file import read as read_file
 from mnclab.text.given import LARGEST, fitting, near_option, shown, whole
 from mnclab.text.opening import opened
 from mnclab.text.program import Program
+from mnclab.text.tables import Rows
 
 MOST_FILES = 1000  # of a folder, looked through for a name
 
@@ -181,17 +184,33 @@ PAGES = {
 }  # fmt: skip
 
 
-class Help:
-    """What a code or a setting means on a control, all its codes, or a page for every control: shown as text or as a table."""
+class Found(Rows[tuple[str, str, str, str]]):
+    """What has some words in its title or in its term: code, control, title, and what the manual calls it."""
 
-    def __init__(self, entry: Function | type[Cycle] | tuple[Setting, ...] | Control | str, control: Control) -> None:
+    HEAD = ("code", "control", "title", "in the manual")
+    CODE = (0,)
+
+    def texts(self) -> list[tuple[str, ...]]:
+        return list(self)
+
+
+class Help:
+    """What a code, a setting or a term means, all codes of a control, or a page for every control: shown as text or as a table."""
+
+    def __init__(
+        self, entry: Function | type[Cycle] | tuple[Setting, ...] | Control | Term | Entry | Glossary | Found | str, control: Control
+    ) -> None:
         self.entry, self.control = entry, control
+        known = terms(control.terms).get(plain(getattr(entry, "code", "")))
+        self.term = known.shown if known else ""
         self._iso = [name for name, known in control.names.items() if known == getattr(entry, "code", None)]
 
     def __str__(self) -> str:
         entry = self.entry
-        if isinstance(entry, str):
-            return entry
+        if isinstance(entry, str | Entry | Glossary | Found):
+            return str(entry)
+        if isinstance(entry, Term):
+            return f"{entry.code}  {_titled(entry.title, entry.shown)}\n{entry.kind} of {self.control.title}"
         if isinstance(entry, Control):
             rows = [(code, one.title) for code, one in entry.listed.items()]
             rows += [(code, cycle.title) for code, cycle in entry.cycles.items()]
@@ -203,37 +222,49 @@ class Help:
         if isinstance(entry, Function):
             takes = f"\ntakes {' '.join(entry.takes)}" if entry.takes else ""
             group = f", group {entry.group}" if entry.group else ""
-            return f"{entry.code}  {entry.title}  ({self.control.name} {entry.source}{group})\n{entry.doc}{takes}"
-        return help_text(entry) + (f"\n\nDIN/ISO {', '.join(self._iso)}" if self._iso else "")
+            title = _titled(entry.title, self.term)
+            return f"{entry.code}  {title}  ({self.control.name} {entry.source}{group})\n{entry.doc}{takes}"
+        return help_text(entry, self.term) + (f"\n\nDIN/ISO {', '.join(self._iso)}" if self._iso else "")
 
     __repr__ = __str__
 
+    def plot(self, **options: Any) -> Any:
+        """The picture of a term of the glossary."""
+        if not isinstance(self.entry, Entry):
+            raise Alarm("only a term of the glossary has a picture", hint='mnclab.help("equidistant").plot()')
+        return self.entry.plot(**options)
+
     def _repr_html_(self) -> str:
-        if isinstance(self.entry, Control):
+        if isinstance(self.entry, Control | Entry | Glossary | Found):
             return self.entry._repr_html_()
         if isinstance(self.entry, tuple):
             return settings_html(self.entry)
-        if isinstance(self.entry, Function | str):
+        if isinstance(self.entry, Function | Term | str):
             return f"<pre>{escape(str(self))}</pre>"
         iso = ", ".join(f"<code>{name}</code>" for name in self._iso)
-        return help_html(self.entry) + (f"<p>DIN/ISO {iso}</p>" if iso else "")
+        return help_html(self.entry, self.term) + (f"<p>DIN/ISO {iso}</p>" if iso else "")
 
 
 @fitting
 def help(code: str | Control = "", control: str | None = None) -> Help:
-    """The parameter table of a cycle, the meaning of a function or setting; "settings" is the table of all settings, and
-    the name of a control alone the table of its codes. Of "exercise" and "design" it shows such a file.
+    """The parameter table of a cycle, the meaning of a function, setting or term; "settings" is the table of all settings,
+    "glossary" that of all terms, the name of a control alone the table of its codes. Of "exercise" and "design" it shows such a
+    file.
 
-    Without `control` that of the only control which has the code. An Alarm with the nearest codes if there is none.
+    Without `control` that of the only control which has the code. Words in English or in the language of a manual find what
+    has them in its title: one thing is shown, of several a table. An Alarm with the nearest codes if there is none.
     """
     code = code.name if isinstance(code, Control) else code
     if not isinstance(code, str):
         raise Alarm(f"help is about a code or a setting, got {shown(code)}", hint='mnclab.help("G83", "mnc")')
     if control is None and code in PAGES:
         text = "".join(head + opened(file, "FORMAT") for head, file in PAGES[code])
+        text = "".join(f"# {line}\n" for entry in named(code) for line in str(entry).splitlines()) + text
         return Help(text.rstrip(), next(iter(CONTROLS.values())))
     if control is None and code in CONTROLS:
         return Help(CONTROLS[code], CONTROLS[code])
+    if control is None and (found := _of_words(code, None)):
+        return found
     chosen = choose(control, "", "") if control is not None else _only_one_with(code)
     if code == chosen.name or not code.strip():
         return Help(chosen, chosen)
@@ -245,10 +276,49 @@ def help(code: str | Control = "", control: str | None = None) -> Help:
     if entry:
         return Help(entry, chosen)
     if wanted in chosen.refused:
-        raise Alarm(f"{wanted}: {chosen.refused[wanted]}")
+        term = chosen.term(wanted)
+        raise Alarm(f"{wanted}{f' ({term})' * bool(term)}: {chosen.refused[wanted]}")
+    if found := _of_words(code, chosen):
+        return found
     names = (setting.name for setting in chosen.settings)
     near = hint(wanted, (*chosen.functions, *chosen.cycles, "settings", *names), 5)
     raise Alarm(f"{chosen.name} has no code {code!r}", hint=near)
+
+
+def _titled(title: str, term: str) -> str:
+    """A title with what the manual calls it."""
+    return BETWEEN.join(filter(None, (title, term)))
+
+
+def _of_words(words: str, chosen: Control | None) -> Help | None:
+    """What words lead to that are no code: a term of the glossary, a concept of a manual, or all that have them in their
+    titles, as a table if it is more than one."""
+    controls = [chosen] if chosen else list(CONTROLS.values())
+    if not words.strip() or (chosen is None and (words.strip().lower() == "settings" or _with(words))):
+        return None
+    if chosen is None and words.strip().lower() in ("glossary", "terms"):
+        return Help(glossary(), controls[0])
+    hits: list[tuple[Any, Control]] = [(entry, controls[0]) for entry in named(words)] if chosen is None else []
+    if not hits:
+        hits = [(term, one) for one in controls if (term := terms(one.terms).get(plain(words)))]
+    if not hits and len(words.strip()) > 2 and not re.search(r"\d", words):
+        every: list[tuple[Any, Control]] = [(entry, controls[0]) for entry in glossary()] if chosen is None else []
+        for one in controls:
+            known = {each.code: each for each in (*one.listed.values(), *one.cycles.values())}
+            every += [(each, one) for each in {**{t.code: t for t in terms(one.terms).values() if _normal(t.code, one) not in known}, **known}.values()]
+        texts = [(*entry.words,) if isinstance(entry, Entry) else (entry.title, one.term(entry.code)) for entry, one in every]
+        hits = [hit for hit, has in zip(every, having(words, texts)) if has]
+    if len(hits) < 2:
+        return Help(*hits[0]) if hits else None
+    return Help(Found(
+        (each.term, "glossary", each.means, each.manuals) if isinstance(each, Entry)
+        else (each.code, one.name, each.title, one.term(each.code)) for each, one in hits
+    ), controls[0])  # fmt: skip
+
+
+def _with(code: str) -> list[Control]:
+    """The controls that have a code, or refuse it."""
+    return [one for one in CONTROLS.values() if _normal(code, one) in {*one.functions, *one.cycles, *one.refused}]
 
 
 def _only_one_with(code: str) -> Control:
@@ -256,14 +326,15 @@ def _only_one_with(code: str) -> Control:
     if code.strip().lower() == "settings":
         known = f'help("settings", "mnc"); controls: {", ".join(CONTROLS)}'
         raise Alarm("every control has its own settings: name it", hint=known)
-    having = [one for one in CONTROLS.values() if _normal(code, one) in {*one.functions, *one.cycles, *one.refused}]
-    if code.strip() and len(having) == 1:
-        return having[0]
-    whose = f"a code of {', '.join(one.name for one in having)}" if having else "no code of any control"
-    example = f'help("{code.strip()}", "{having[0].name}")' if having else 'help("G83", "mnc")'
+    owners = _with(code)
+    if code.strip() and len(owners) == 1:
+        return owners[0]
+    whose = f"a code of {', '.join(one.name for one in owners)}" if owners else "no code of any control"
+    example = f'help("{code.strip()}", "{owners[0].name}")' if owners else 'help("G83", "mnc")'
+    near = "" if owners else hint(code.strip().lower(), [word for entry in glossary() for word in entry.words])
     raise Alarm(
         f"{code} is {whose}: name the control" if code.strip() else "help needs a code and a control",
-        hint=f'{example}, or help("mnc") for all its codes; controls: {", ".join(CONTROLS)}',
+        hint=f'{near + "; " if near else ""}{example}, or help("mnc") for all its codes; controls: {", ".join(CONTROLS)}',
     )
 
 
