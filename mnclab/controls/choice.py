@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from html import escape
 from itertools import islice
@@ -12,10 +12,10 @@ from pathlib import Path, PurePath
 from typing import Any
 
 from mnclab.controls import CONTROLS
-from mnclab.controls.glossary import Entry, Glossary, glossary, named
+from mnclab.controls.glossary import Entry, Glossary, glossary, instead_of, named
 from mnclab.controls.recognition import looks_like, recognise
-from mnclab.machine.control import Control, Function, Setting, settings_html, settings_text
-from mnclab.machine.cycle import Cycle, help_html, help_text
+from mnclab.machine.control import Control, Function, settings_html, settings_text
+from mnclab.machine.cycle import help_html, help_text
 from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import load
 from mnclab.machine.terms import BETWEEN, Term, having, plain, terms
@@ -24,7 +24,7 @@ from mnclab.path.tool import Tool
 from mnclab.runs.run import EXAMPLE, Run, run_program
 from mnclab.text.alarm import ALARM, Alarm, hint
 from mnclab.text.dialect import Notation, renumbered
-from mnclab.text.file import decode, encode_like, replaced
+from mnclab.text.file import decode, encode_like, replaced, save_as
 from mnclab.text.file import read as read_file
 from mnclab.text.given import LARGEST, fitting, near_option, shown, whole
 from mnclab.text.opening import opened
@@ -195,11 +195,9 @@ class Found(Rows[tuple[str, str, str, str]]):
 
 
 class Help:
-    """What a code, a setting or a term means, all codes of a control, or a page for every control: shown as text or as a table."""
+    """What a code, a setting or a term means, all codes of a control, or a page for every control: as text or as a table."""
 
-    def __init__(
-        self, entry: Function | type[Cycle] | tuple[Setting, ...] | Control | Term | Entry | Glossary | Found | str, control: Control
-    ) -> None:
+    def __init__(self, entry: Any, control: Control) -> None:
         self.entry, self.control = entry, control
         known = terms(control.terms).get(plain(getattr(entry, "code", "")))
         self.term = known.shown if known else ""
@@ -228,6 +226,10 @@ class Help:
 
     __repr__ = __str__
 
+    def save(self, path: str | Path) -> Path:
+        """Write it as a page to print (.html), the glossary with its pictures."""
+        return save_as(self, path, {".html": _write_page}, "help is saved as .html, not as {}")
+
     def plot(self, **options: Any) -> Any:
         """The picture of a term of the glossary."""
         if not isinstance(self.entry, Entry):
@@ -237,12 +239,18 @@ class Help:
     def _repr_html_(self) -> str:
         if isinstance(self.entry, Control | Entry | Glossary | Found):
             return self.entry._repr_html_()
-        if isinstance(self.entry, tuple):
-            return settings_html(self.entry)
         if isinstance(self.entry, Function | Term | str):
             return f"<pre>{escape(str(self))}</pre>"
+        if isinstance(self.entry, tuple):
+            return settings_html(self.entry)
         iso = ", ".join(f"<code>{name}</code>" for name in self._iso)
         return help_html(self.entry, self.term) + (f"<p>DIN/ISO {iso}</p>" if iso else "")
+
+
+def _write_page(page: Help, path: Path) -> None:
+    made = opened("mnclab.show.report.document", "page")
+    shown = page.entry.entries if isinstance(page.entry, Glossary) else page._repr_html_()
+    path.write_text(made("mnclab help", shown), "utf-8")
 
 
 @fitting
@@ -293,27 +301,45 @@ def _titled(title: str, term: str) -> str:
 def _of_words(words: str, chosen: Control | None) -> Help | None:
     """What words lead to that are no code: a term of the glossary, a concept of a manual, or all that have them in their
     titles, as a table if it is more than one."""
-    controls = [chosen] if chosen else list(CONTROLS.values())
-    if not words.strip() or (chosen is None and (words.strip().lower() == "settings" or _with(words))):
+    asked, wordy = instead_of(words.strip()), not re.search(r"\d", words)
+    first = next(iter(CONTROLS.values()))
+    if chosen is None and wordy:
+        if asked.lower() == "glossary":
+            return Help(glossary(), first)
+        if entries := named(asked):
+            return _found([(entry, first) for entry in entries])
+    if not asked or (chosen is None and (asked.lower() == "settings" or _with(asked))):
         return None
-    if chosen is None and words.strip().lower() in ("glossary", "terms"):
-        return Help(glossary(), controls[0])
-    hits: list[tuple[Any, Control]] = [(entry, controls[0]) for entry in named(words)] if chosen is None else []
-    if not hits:
-        hits = [(term, one) for one in controls if (term := terms(one.terms).get(plain(words)))]
-    if not hits and len(words.strip()) > 2 and not re.search(r"\d", words):
-        every: list[tuple[Any, Control]] = [(entry, controls[0]) for entry in glossary()] if chosen is None else []
-        for one in controls:
-            known = {each.code: each for each in (*one.listed.values(), *one.cycles.values())}
-            every += [(each, one) for each in {**{t.code: t for t in terms(one.terms).values() if _normal(t.code, one) not in known}, **known}.values()]
-        texts = [(*entry.words,) if isinstance(entry, Entry) else (entry.title, one.term(entry.code)) for entry, one in every]
-        hits = [hit for hit, has in zip(every, having(words, texts)) if has]
+    controls = [chosen] if chosen else CONTROLS.values()
+    hits = [(term, one) for one in controls if (term := terms(one.terms).get(plain(asked)))]
+    if not hits and wordy and len(asked) > 2:
+        titles = [each for one in controls for each in _titles(one)]
+        titles += [(entry, first, entry.words) for entry in glossary()] if chosen is None else []
+        has = having(asked, [texts for _, _, texts in titles])
+        hits = [(thing, one) for (thing, one, _), good in zip(titles, has) if good]
+    return _found(hits)
+
+
+def _titles(control: Control) -> Iterator[tuple[Any, Control, tuple[str, ...]]]:
+    """All that a control and its manual have, with the words by which it is found."""
+    every: list[Any] = [*control.listed.values(), *control.cycles.values()]
+    known, manual = {each.code: each for each in every}, terms(control.terms)
+    for code, each in known.items():
+        yield each, control, (each.title, *(manual[plain(code)].said if plain(code) in manual else ()))
+    for term in manual.values():
+        if _normal(term.code, control) not in known:
+            yield term, control, (term.title, *term.said)
+
+
+def _found(hits: Sequence[tuple[Any, Control]]) -> Help | None:
+    """The help on one thing, the table of several."""
     if len(hits) < 2:
         return Help(*hits[0]) if hits else None
-    return Help(Found(
+    rows = [
         (each.term, "glossary", each.means, each.manuals) if isinstance(each, Entry)
         else (each.code, one.name, each.title, one.term(each.code)) for each, one in hits
-    ), controls[0])  # fmt: skip
+    ]  # fmt: skip
+    return Help(Found(rows), hits[0][1])
 
 
 def _with(code: str) -> list[Control]:

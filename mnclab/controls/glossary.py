@@ -12,13 +12,17 @@ from dataclasses import dataclass
 from functools import cache
 from html import escape
 from pathlib import Path
+from textwrap import wrap
 from typing import Any
 
 from mnclab.machine.terms import beside, folded
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import table_of
 from mnclab.text.opening import opened
-from mnclab.text.tables import Rows, paragraphs
+from mnclab.text.tables import Rows, paragraphs, text_table
+
+NAMES = {"not": "instead_of"}  # of the file, and of an entry
+WIDE = (22, 48, 18, 26, 26)  # letters of the columns of the table as text
 
 
 @dataclass(frozen=True)
@@ -75,10 +79,14 @@ class Entry:
 class Glossary(Rows[Entry]):
     """All terms; `entries` shows each with its picture."""
 
-    HEAD = ("term", "means", "not", "Russian manuals", "Romanian manual")
+    HEAD = ("term", "means", "not", "Russian", "Romanian")
 
     def texts(self) -> list[tuple[str, ...]]:
         return [(e.term, e.means, *(", ".join(said) for said in (e.instead_of, e.ru, e.ro))) for e in self]
+
+    def __repr__(self) -> str:
+        rows = [["\n".join(wrap(cell, wide)) for cell, wide in zip(row, WIDE)] for row in self.texts()]
+        return text_table(self.HEAD, rows)
 
     @property
     def entries(self) -> str:
@@ -87,13 +95,27 @@ class Glossary(Rows[Entry]):
 
 
 @cache
+def _table() -> dict[str, dict[str, Any]]:
+    return table_of(Path(__file__).with_name("glossary.toml").read_text("utf-8"))
+
+
+@cache
 def glossary() -> Glossary:
     """The terms in their order."""
-    rows = table_of(Path(__file__).with_name("glossary.toml").read_text("utf-8")).items()
-    return Glossary(Entry(term, **{n: tuple(v) if isinstance(v, list) else v for n, v in row.items()}) for term, row in rows)
+    rows, found = _table(), []
+    for term, row in rows.items():
+        if term != "also":
+            said = {NAMES.get(name, name): tuple(words) for name, words in row.items() if isinstance(words, list)}
+            found.append(Entry(term, row["means"], picture=rows[row.get("like", term)].get("picture", ""), **said))
+    return Glossary(found)
 
 
 def named(word: str) -> list[Entry]:
     """The terms that a word leads to."""
     asked = folded(word.strip())
     return [entry for entry in glossary() if asked in map(folded, entry.words)]
+
+
+def instead_of(word: str) -> str:
+    """What the manuals call what the trade has another word for."""
+    return str(_table()["also"].get(folded(word.strip()), word))

@@ -85,7 +85,8 @@ def form(code: str, control: str) -> Any:
     card = ipywidgets.HTML(about(parameters))
     rows = ipywidgets.VBox(grouped(parameters, fields))
     rows.add_class("mnclab-fields")
-    title = ipywidgets.HTML(f"<strong><code>{escape(chosen.code)}</code> {escape(chosen.title)}</strong>{beside(example.control.term(chosen.code))}")
+    term = beside(example.control.term(chosen.code))
+    title = ipywidgets.HTML(f"<strong><code>{escape(chosen.code)}</code> {escape(chosen.title)}</strong>{term}")
     live = following(
         boxes, fields, ipywidgets.VBox([rows, card]), work, lambda alarm: field_of(alarm, parameters, chosen.code),
         *ticks.values(), title=f"{chosen.code} {chosen.title}", classes="mnclab-form", above=[title], over=[lit, asked],
