@@ -188,7 +188,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--csv", nargs="?", const="", metavar="OUT.csv", help=says)
     sub.add_argument("--override", type=float, default=100.0, metavar="PERCENT", help="feed override (default: 100)")
     sub = command("help", explain, "show the parameters of a cycle or the meaning of a function", "")
-    codes = "such as G83 or CYCL DEF 200, or words; the name of a control: all its codes; glossary: all terms; design, exercise: a file"
+    codes = "such as G83, CYCL DEF 200, or words; the name of a control: all its codes; glossary; design, exercise: such a file"
     sub.add_argument("code", nargs="+", metavar="CODE", help=codes)
     sub.add_argument("--control", choices=[*mnclab.controls, *ALSO], help="default: the only one that has the code")
     sub.add_argument("-o", "--output", metavar="OUT.html", help="a page to print instead, the glossary with its pictures")

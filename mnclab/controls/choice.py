@@ -284,8 +284,8 @@ def help(code: str | Control = "", control: str | None = None) -> Help:
     if entry:
         return Help(entry, chosen)
     if wanted in chosen.refused:
-        term = chosen.term(wanted)
-        raise Alarm(f"{wanted}{f' ({term})' * bool(term)}: {chosen.refused[wanted]}")
+        known = terms(chosen.terms).get(plain(wanted))
+        raise Alarm(f"{wanted}{f' ({known.shown})' if known and known.shown else ''}: {chosen.refused[wanted]}")
     if found := _of_words(code, chosen):
         return found
     names = (setting.name for setting in chosen.settings)

@@ -72,12 +72,17 @@ class Entry:
             return str(self.plot().html(1.5)) if self.picture else ""
         return ""
 
+    def html(self, drawn: bool = True) -> str:
+        """Its words and its meaning, with the picture or without."""
+        picture = f'<div style="max-width:510px">{self.drawn}</div>' if drawn else ""
+        return f"<h4>{escape(self.term)}{beside(self.manuals)}</h4>{paragraphs(self.meaning)}{picture}"
+
     def _repr_html_(self) -> str:
-        return f"<h4>{escape(self.term)}{beside(self.manuals)}</h4>{paragraphs(self.meaning)}{self.drawn}"
+        return self.html()
 
 
 class Glossary(Rows[Entry]):
-    """All terms; `entries` shows each with its picture."""
+    """All terms; `entries` shows them with their pictures."""
 
     HEAD = ("term", "means", "not", "Russian", "Romanian")
 
@@ -90,8 +95,10 @@ class Glossary(Rows[Entry]):
 
     @property
     def entries(self) -> str:
-        """All terms as HTML, one below the other."""
-        return "".join(f'<section style="break-inside:avoid">{entry._repr_html_()}</section>' for entry in self)
+        """All terms as HTML, one below the other, each picture once."""
+        first = {entry.picture or entry.term: entry for entry in reversed(self)}
+        shown = (entry.html(first[entry.picture or entry.term] is entry) for entry in self)
+        return "".join(f'<section style="break-inside:avoid">{each}</section>' for each in shown)
 
 
 @cache
