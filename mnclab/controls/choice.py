@@ -208,7 +208,7 @@ class Help:
         if isinstance(entry, str | Entry | Glossary | Found):
             return str(entry)
         if isinstance(entry, Term):
-            return f"{entry.code}  {_titled(entry.title, entry.shown)}\n{entry.kind} of {self.control.title}"
+            return f"{entry.code}  {_titled(entry.title, entry.shown)}\n{entry.kind} in the manual of {self.control.title}"
         if isinstance(entry, Control):
             rows = [(code, one.title) for code, one in entry.listed.items()]
             rows += [(code, cycle.title) for code, cycle in entry.cycles.items()]

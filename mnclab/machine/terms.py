@@ -19,7 +19,7 @@ STEM = 6  # letters: of a word that has so many the last two may be others, as t
 class Term(NamedTuple):
     """A code or a concept of a manual: its title in English, and what the manual itself calls it, first in its own section.
 
-    `kind` is function, cycle, statement, word, table, concept or turning (the technology of it).
+    `kind` is function, cycle, statement, word, table, concept or turning technology.
     """
 
     code: str

@@ -36,7 +36,6 @@ SAID = {
     ("mnc", "probe touch"): "точка касания; срабатывание щупа",
     ("mnc", "tolerance check"): "предельные отклонения",
     ("mnc", "meas_prot"): "протокол измерений; meas_prot",
-    **{("mnc", f"G5{k}"): f"Рабочая система координат №1-№6 ({k - 3})" for k in range(5, 10)},
     ("nc-31", "frame"): "кадр",
     ("nc-31", "*"): "признак",
     ("nc-31", "~"): "признак; ускоренный ход",
@@ -94,10 +93,11 @@ def main(catalogue: Path, seeds: Path) -> None:
     found: dict[str, dict[str, dict[str, list[str]]]] = {}
     expected, missing, manuals = [], [], {}
     for control, stem, source, each in entries:
-        code, kind = str(each["code"]), "turning" if stem == "turning-technology" else each["kind"]
+        code, kind = str(each["code"]), "turning technology" if stem == "turning-technology" else each["kind"]
         term = term_of(control, code, each["title_source"])
         manual = manuals.get(source) or manuals.setdefault(source, alike((seeds / source).read_text("utf-8")))
         parts = [term] if alike(term) in manual else re.split(r" / |[;:,.()/]", term)
+        parts = [re.sub("№[2-6]$", "№1-№6", part) for part in parts]  # six in one row
         missing += [f"{control} {code}: {part.strip()}" for part in parts if not stands(alike(part), manual)]
         if each["title_source"].startswith("("):
             continue
@@ -110,7 +110,7 @@ def main(catalogue: Path, seeds: Path) -> None:
         text = ["# The manual's own terms: code = [title, term, another term in the same manual]", ""]
         for kind, rows in kinds.items():
             lines = (f"{json.dumps(code)} = {json.dumps(row, ensure_ascii=False)}" for code, row in rows.items())
-            text += [f"[{kind}]", *lines, ""]
+            text += [f"[{json.dumps(kind) if ' ' in kind else kind}]", *lines, ""]
         (HOUSE / "controls" / FOLDERS[control] / "terms.toml").write_text("\n".join(text), "utf-8")
     lines = ",\n".join(json.dumps(each, ensure_ascii=False) for each in expected)
     (HERE / "catalogue" / "terms.json").write_text(f"[\n{lines}\n]\n", "utf-8")
