@@ -260,12 +260,12 @@ class Control:
         return {code: each for code, each in self.functions.items() if each.listed}
 
     def _repr_html_(self) -> str:
-        rows = [(f.code, f.title, f.group or "", "●" if f.power_on else "", f.source) for f in self.listed.values()]
-        rows += [(code, cycle.title, "cycle", "", cycle.source) for code, cycle in self.cycles.items()]
-        head = ["code", "title", "group", "at power-on", "source"]
-        if self.terms:
-            head, rows = [*head, "in the manual"], [(*row, self.term(row[0])) for row in rows]
-        table = html_table(head, rows, code=(0,))
+        rows = [
+            (f.code, f.title, f.group or "", "●" if f.power_on else "", f.source, self.term(f.code)) for f in self.listed.values()
+        ]
+        rows += [(code, c.title, "cycle", "", c.source, self.term(c.code)) for code, c in self.cycles.items()]
+        head = ["code", "title", "group", "at power-on", "source", "in the manual"][: 6 if self.terms else 5]
+        table = html_table(head, [row[: len(head)] for row in rows], code=(0,))
         settings = f"<h5>Settings</h5>{settings_html(self.settings)}" if self.settings else ""
         return f"<h4>{escape(self.title)}</h4>{table}{settings}"
 
