@@ -208,9 +208,10 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--csv", nargs="?", const="", metavar="OUT.csv", help=says)
     sub.add_argument("--override", type=float, default=100.0, metavar="PERCENT", help="feed override (default: 100)")
     sub = command("help", explain, "show the parameters of a cycle or the meaning of a function", "")
-    codes = "such as G83 or CYCL DEF 200; the name of a control: all its codes; design, exercise: such a file"
+    codes = "such as G83, CYCL DEF 200, or words; the name of a control: all its codes; glossary; design, exercise: such a file"
     sub.add_argument("code", nargs="+", metavar="CODE", help=codes)
     sub.add_argument("--control", choices=[*mnclab.controls, *ALSO], help="default: the only one that has the code")
+    sub.add_argument("-o", "--output", metavar="OUT.html", help="a page to print instead, the glossary with its pictures")
     sub = command("exercise", exercise, "list exercises, show them, check a teacher's file, or write the folder for pupils", "")
     sub.add_argument("what", choices=("list", "show", "check", "give"))
     says = "ids such as mnc-03, or mnc-03..mnc-09; of give, lessons too (05, 12-19); of check and give, files of exercises"
@@ -361,8 +362,9 @@ def verdict(result: mnclab.Run, quiet: bool = False) -> int:
 
 
 def explain(chosen: argparse.Namespace) -> int:
-    """Print what a code means, or what the file of an exercise or of a design looks like."""
-    print(sensible(mnclab.help, " ".join(chosen.code), chosen.control))
+    """Print what a code or a term means, or what the file of an exercise or of a design looks like."""
+    found = sensible(mnclab.help, " ".join(chosen.code), chosen.control)
+    sensible(found.save, chosen.output) if chosen.output else print(found)
     return CLEAN
 
 

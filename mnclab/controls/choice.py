@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from html import escape
 from itertools import islice
@@ -12,21 +12,24 @@ from pathlib import Path, PurePath
 from typing import Any
 
 from mnclab.controls import CONTROLS
+from mnclab.controls.glossary import Entry, Glossary, glossary, instead_of, named
 from mnclab.controls.recognition import looks_like, recognise
-from mnclab.machine.control import Control, Function, Setting, settings_html, settings_text
-from mnclab.machine.cycle import Cycle, help_html, help_text
+from mnclab.machine.control import Control, Function, settings_html, settings_text
+from mnclab.machine.cycle import help_html, help_text
 from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import load
+from mnclab.machine.terms import BETWEEN, Term, having, plain, terms
 from mnclab.path.limits import limits_of
 from mnclab.path.tool import Tool
 from mnclab.runs.run import EXAMPLE, Run, run_program
 from mnclab.text.alarm import ALARM, Alarm, hint
 from mnclab.text.dialect import Notation, renumbered
-from mnclab.text.file import decode, encode_like, replaced
+from mnclab.text.file import decode, encode_like, replaced, save_as
 from mnclab.text.file import read as read_file
 from mnclab.text.given import LARGEST, fitting, near_option, shown, whole
 from mnclab.text.opening import opened
 from mnclab.text.program import Program
+from mnclab.text.tables import Rows
 
 MOST_FILES = 1000  # of a folder, looked through for a name
 
@@ -181,17 +184,31 @@ PAGES = {
 }  # fmt: skip
 
 
-class Help:
-    """What a code or a setting means on a control, all its codes, or a page for every control: shown as text or as a table."""
+class Found(Rows[tuple[str, str, str, str]]):
+    """What has some words in its title or in its term: code, control, title, and what the manual calls it."""
 
-    def __init__(self, entry: Function | type[Cycle] | tuple[Setting, ...] | Control | str, control: Control) -> None:
+    HEAD = ("code", "control", "title", "in the manual")
+    CODE = (0,)
+
+    def texts(self) -> list[tuple[str, ...]]:
+        return list(self)
+
+
+class Help:
+    """What a code, a setting or a term means, all codes of a control, or a page for every control: as text or as a table."""
+
+    def __init__(self, entry: Any, control: Control) -> None:
         self.entry, self.control = entry, control
+        known = terms(control.terms).get(plain(getattr(entry, "code", "")))
+        self.term = known.shown if known else ""
         self._iso = [name for name, known in control.names.items() if known == getattr(entry, "code", None)]
 
     def __str__(self) -> str:
         entry = self.entry
-        if isinstance(entry, str):
-            return entry
+        if isinstance(entry, str | Entry | Glossary | Found):
+            return str(entry)
+        if isinstance(entry, Term):
+            return f"{entry.code}  {_titled(entry.title, entry.shown)}\n{entry.kind} in the manual of {self.control.title}"
         if isinstance(entry, Control):
             rows = [(code, one.title) for code, one in entry.listed.items()]
             rows += [(code, cycle.title) for code, cycle in entry.cycles.items()]
@@ -203,37 +220,59 @@ class Help:
         if isinstance(entry, Function):
             takes = f"\ntakes {' '.join(entry.takes)}" if entry.takes else ""
             group = f", group {entry.group}" if entry.group else ""
-            return f"{entry.code}  {entry.title}  ({self.control.name} {entry.source}{group})\n{entry.doc}{takes}"
-        return help_text(entry) + (f"\n\nDIN/ISO {', '.join(self._iso)}" if self._iso else "")
+            title = _titled(entry.title, self.term)
+            return f"{entry.code}  {title}  ({self.control.name} {entry.source}{group})\n{entry.doc}{takes}"
+        return help_text(entry, self.term) + (f"\n\nDIN/ISO {', '.join(self._iso)}" if self._iso else "")
 
     __repr__ = __str__
 
+    def save(self, path: str | Path) -> Path:
+        """Write it as a page to print (.html), the glossary with its pictures."""
+        return save_as(self, path, {".html": _write_page}, "help is saved as .html, not as {}")
+
+    def plot(self, **options: Any) -> Any:
+        """The picture of a term of the glossary."""
+        if not isinstance(self.entry, Entry):
+            raise Alarm("only a term of the glossary has a picture", hint='mnclab.help("equidistant").plot()')
+        return self.entry.plot(**options)
+
     def _repr_html_(self) -> str:
-        if isinstance(self.entry, Control):
+        if isinstance(self.entry, Control | Entry | Glossary | Found):
             return self.entry._repr_html_()
+        if isinstance(self.entry, Function | Term | str):
+            return f"<pre>{escape(str(self))}</pre>"
         if isinstance(self.entry, tuple):
             return settings_html(self.entry)
-        if isinstance(self.entry, Function | str):
-            return f"<pre>{escape(str(self))}</pre>"
         iso = ", ".join(f"<code>{name}</code>" for name in self._iso)
-        return help_html(self.entry) + (f"<p>DIN/ISO {iso}</p>" if iso else "")
+        return help_html(self.entry, self.term) + (f"<p>DIN/ISO {iso}</p>" if iso else "")
+
+
+def _write_page(page: Help, path: Path) -> None:
+    made = opened("mnclab.show.report.document", "page")
+    shown = page.entry.entries if isinstance(page.entry, Glossary) else page._repr_html_()
+    path.write_text(made("mnclab help", shown), "utf-8")
 
 
 @fitting
 def help(code: str | Control = "", control: str | None = None) -> Help:
-    """The parameter table of a cycle, the meaning of a function or setting; "settings" is the table of all settings, and
-    the name of a control alone the table of its codes. Of "exercise" and "design" it shows such a file.
+    """The parameter table of a cycle, the meaning of a function, setting or term; "settings" is the table of all settings,
+    "glossary" that of all terms, the name of a control alone the table of its codes. Of "exercise" and "design" it shows such a
+    file.
 
-    Without `control` that of the only control which has the code. An Alarm with the nearest codes if there is none.
+    Without `control` that of the only control which has the code. Words in English or in the language of a manual find what
+    has them in its title: one thing is shown, of several a table. An Alarm with the nearest codes if there is none.
     """
     code = code.name if isinstance(code, Control) else code
     if not isinstance(code, str):
         raise Alarm(f"help is about a code or a setting, got {shown(code)}", hint='mnclab.help("G83", "mnc")')
     if control is None and code in PAGES:
         text = "".join(head + opened(file, "FORMAT") for head, file in PAGES[code])
+        text = "".join(f"# {line}\n" for entry in named(code) for line in str(entry).splitlines()) + text
         return Help(text.rstrip(), next(iter(CONTROLS.values())))
     if control is None and code in CONTROLS:
         return Help(CONTROLS[code], CONTROLS[code])
+    if control is None and (found := _of_words(code, None)):
+        return found
     chosen = choose(control, "", "") if control is not None else _only_one_with(code)
     if code == chosen.name or not code.strip():
         return Help(chosen, chosen)
@@ -245,10 +284,67 @@ def help(code: str | Control = "", control: str | None = None) -> Help:
     if entry:
         return Help(entry, chosen)
     if wanted in chosen.refused:
-        raise Alarm(f"{wanted}: {chosen.refused[wanted]}")
+        known = terms(chosen.terms).get(plain(wanted))
+        raise Alarm(f"{wanted}{f' ({known.shown})' if known and known.shown else ''}: {chosen.refused[wanted]}")
+    if found := _of_words(code, chosen):
+        return found
     names = (setting.name for setting in chosen.settings)
     near = hint(wanted, (*chosen.functions, *chosen.cycles, "settings", *names), 5)
     raise Alarm(f"{chosen.name} has no code {code!r}", hint=near)
+
+
+def _titled(title: str, term: str) -> str:
+    """A title with what the manual calls it."""
+    return BETWEEN.join(filter(None, (title, term)))
+
+
+def _of_words(words: str, chosen: Control | None) -> Help | None:
+    """What words lead to that are no code: a term of the glossary, a concept of a manual, or all that have them in their
+    titles, as a table if it is more than one."""
+    asked, wordy = instead_of(words.strip()), not re.search(r"\d", words)
+    first = next(iter(CONTROLS.values()))
+    if chosen is None and wordy:
+        if asked.lower() == "glossary":
+            return Help(glossary(), first)
+        if entries := named(asked):
+            return _found([(entry, first) for entry in entries])
+    if not asked or (chosen is None and (asked.lower() == "settings" or _with(asked))):
+        return None
+    controls = [chosen] if chosen else CONTROLS.values()
+    hits = [(term, one) for one in controls if (term := terms(one.terms).get(plain(asked)))]
+    if not hits and wordy and len(asked) > 2:
+        titles = [each for one in controls for each in _titles(one)]
+        titles += [(entry, first, entry.words) for entry in glossary()] if chosen is None else []
+        has = having(asked, [texts for _, _, texts in titles])
+        hits = [(thing, one) for (thing, one, _), good in zip(titles, has) if good]
+    return _found(hits)
+
+
+def _titles(control: Control) -> Iterator[tuple[Any, Control, tuple[str, ...]]]:
+    """All that a control and its manual have, with the words by which it is found."""
+    every: list[Any] = [*control.listed.values(), *control.cycles.values()]
+    known, manual = {each.code: each for each in every}, terms(control.terms)
+    for code, each in known.items():
+        yield each, control, (each.title, *(manual[plain(code)].said if plain(code) in manual else ()))
+    for term in manual.values():
+        if _normal(term.code, control) not in known:
+            yield term, control, (term.title, *term.said)
+
+
+def _found(hits: Sequence[tuple[Any, Control]]) -> Help | None:
+    """The help on one thing, the table of several."""
+    if len(hits) < 2:
+        return Help(*hits[0]) if hits else None
+    rows = [
+        (each.term, "glossary", each.means, each.manuals) if isinstance(each, Entry)
+        else (each.code, one.name, each.title, one.term(each.code)) for each, one in hits
+    ]  # fmt: skip
+    return Help(Found(rows), hits[0][1])
+
+
+def _with(code: str) -> list[Control]:
+    """The controls that have a code, or refuse it."""
+    return [one for one in CONTROLS.values() if _normal(code, one) in {*one.functions, *one.cycles, *one.refused}]
 
 
 def _only_one_with(code: str) -> Control:
@@ -256,14 +352,15 @@ def _only_one_with(code: str) -> Control:
     if code.strip().lower() == "settings":
         known = f'help("settings", "mnc"); controls: {", ".join(CONTROLS)}'
         raise Alarm("every control has its own settings: name it", hint=known)
-    having = [one for one in CONTROLS.values() if _normal(code, one) in {*one.functions, *one.cycles, *one.refused}]
-    if code.strip() and len(having) == 1:
-        return having[0]
-    whose = f"a code of {', '.join(one.name for one in having)}" if having else "no code of any control"
-    example = f'help("{code.strip()}", "{having[0].name}")' if having else 'help("G83", "mnc")'
+    owners = _with(code)
+    if code.strip() and len(owners) == 1:
+        return owners[0]
+    whose = f"a code of {', '.join(one.name for one in owners)}" if owners else "no code of any control"
+    example = f'help("{code.strip()}", "{owners[0].name}")' if owners else 'help("G83", "mnc")'
+    near = "" if owners else hint(code.strip().lower(), [word for entry in glossary() for word in entry.words])
     raise Alarm(
         f"{code} is {whose}: name the control" if code.strip() else "help needs a code and a control",
-        hint=f'{example}, or help("mnc") for all its codes; controls: {", ".join(CONTROLS)}',
+        hint=f'{near + "; " if near else ""}{example}, or help("mnc") for all its codes; controls: {", ".join(CONTROLS)}',
     )
 
 

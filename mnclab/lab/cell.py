@@ -243,7 +243,8 @@ def _of_codes(typed: str, call: Call, kind: str) -> tuple[str, Choices]:
         for code, title in known.items():
             titles.setdefault(code, title if chosen else f"{title} ({control.name})")
     if kind == "code":
-        titles |= {"settings": "the readings of a control"} | ({} if chosen else {n: one.title for n, one in CONTROLS.items()})
+        known = {n: one.title for n, one in CONTROLS.items()} | {"glossary": "the words of the trade"}
+        titles |= {"settings": "the readings of a control"} | ({} if chosen else known)
     return rest_of(typed, titles)
 
 

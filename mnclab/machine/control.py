@@ -12,11 +12,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from html import escape
 from numbers import Real
+from pathlib import Path
 from textwrap import wrap
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from mnclab.machine.setup import MILLS, Magazine
+from mnclab.machine.terms import plain, terms
 from mnclab.text.alarm import Alarm, hint
 from mnclab.text.dialect import Notation, Numbers, Sign
 from mnclab.text.given import shown
@@ -171,7 +173,8 @@ class Control:
     value), for its form; None where it cannot; `trial_files` are programs that it may call, by name, `trial_setup` is the
     machine that it runs on. `magazine` are the tools of a setup that was given none; of a control without tool words
     `cycle_tools` says which of them cut, by the code of a cycle (`mnclab.runs.material`).
-    `signs` tell its programs from those of others; `numbers` finds the numbers of blocks, and what names them.
+    `signs` tell its programs from those of others; `numbers` finds the numbers of blocks, and what names them. `terms` is the
+    file of what its manual calls all these (`mnclab.machine.terms`).
     """
 
     name: str
@@ -219,6 +222,7 @@ class Control:
     modern: Callable[[Program], Notation] | None = None
     magazine: Magazine = field(default_factory=lambda: MILLS)
     cycle_tools: Mapping[str, int] = field(default_factory=dict)
+    terms: Path | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "settings", with_every(self.settings))
@@ -237,6 +241,11 @@ class Control:
         """The modal state at the start: group -> code."""
         return {f.group: f.code for f in self.functions.values() if f.group and f.power_on}
 
+    def term(self, code: str) -> str:
+        """What the manual calls a code, empty where it has no term of its own."""
+        found = terms(self.terms).get(plain(code))
+        return found.shown.partition("; ")[0] if found else ""
+
     def across(self, settings: Mapping[str, Any]) -> str:
         """What X is in the programs of a lathe, where its settings are these: a "diameter" or a "radius"."""
         typed = settings.get("diameter") or self.meanings.get("X", "").startswith("diameter")
@@ -251,9 +260,12 @@ class Control:
         return {code: each for code, each in self.functions.items() if each.listed}
 
     def _repr_html_(self) -> str:
-        rows = [(f.code, f.title, f.group or "", "●" if f.power_on else "", f.source) for f in self.listed.values()]
-        rows += [(code, cycle.title, "cycle", "", cycle.source) for code, cycle in self.cycles.items()]
-        table = html_table(("code", "title", "group", "at power-on", "source"), rows, code=(0,))
+        rows = [
+            (f.code, f.title, f.group or "", "●" if f.power_on else "", f.source, self.term(f.code)) for f in self.listed.values()
+        ]
+        rows += [(code, c.title, "cycle", "", c.source, self.term(c.code)) for code, c in self.cycles.items()]
+        head = ["code", "title", "group", "at power-on", "source", "in the manual"][: 6 if self.terms else 5]
+        table = html_table(head, [row[: len(head)] for row in rows], code=(0,))
         settings = f"<h5>Settings</h5>{settings_html(self.settings)}" if self.settings else ""
         return f"<h4>{escape(self.title)}</h4>{table}{settings}"
 

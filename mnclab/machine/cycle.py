@@ -19,6 +19,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeVar
 
 from mnclab.machine import coordinates
+from mnclab.machine.terms import BETWEEN, beside
 from mnclab.machining.depths import TooMany
 from mnclab.machining.steps import Step
 from mnclab.text.program import Word
@@ -318,14 +319,15 @@ def _filled(cycle: type[Cycle]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]
     return ParameterRow._fields[:width], [each[:width] for each in rows]
 
 
-def help_text(cycle: type[Cycle]) -> str:
-    """The title of a cycle, what it does, and its parameters."""
+def help_text(cycle: type[Cycle], term: str = "") -> str:
+    """The title of a cycle, what the manual calls it, what it does, and its parameters."""
     table = text_table(*_filled(cycle))
-    return f"{cycle.code}  {cycle.title}  ({cycle.source})\n{(cycle.__doc__ or '').strip()}\n\n{table}"
+    title = BETWEEN.join(filter(None, (cycle.title, term)))
+    return f"{cycle.code}  {title}  ({cycle.source})\n{(cycle.__doc__ or '').strip()}\n\n{table}"
 
 
-def help_html(cycle: type[Cycle]) -> str:
+def help_html(cycle: type[Cycle], term: str = "") -> str:
     """The same as HTML."""
     table = html_table(*_filled(cycle), code=(0,))
     about = f"<p>{escape(cycle.__doc__ or '')} ({escape(cycle.source)})</p>"
-    return f"<h4><code>{cycle.code}</code> {escape(cycle.title)}</h4>{about}{table}"
+    return f"<h4><code>{cycle.code}</code> {escape(cycle.title)}{beside(term)}</h4>{about}{table}"

@@ -89,7 +89,8 @@ _UNIT = re.compile(r", ([\d. ]*(?:mm|m|rev|s)(?:/(?:min|rev))?)$")  # at the end
 
 
 class Meaning(NamedTuple):
-    """One word of a block: as written, its value, the code that takes it, in plain words, the section of the manual."""
+    """One word of a block: as written, its value, the code that takes it, in plain words, the section of the manual, what
+    changed, and of a cycle what the manual calls it."""
 
     word: str
     value: str
@@ -97,6 +98,12 @@ class Meaning(NamedTuple):
     says: str
     source: str
     changed: str
+    term: str = ""
+
+    @property
+    def shown(self) -> str:
+        """What it says, with the term of the manual."""
+        return f"{self.says} [{self.term}]" if self.term else self.says
 
 
 def meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> list[Meaning]:
@@ -138,7 +145,8 @@ def meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> l
             elif name in changed and index == action.head:
                 happened = f"{name}: {_became(*changed[name])}"
             place = len(block.words) if kept and block.keyword else index
-            found[place] = [Meaning(shown, value, action.code, says, source, happened)]
+            term = "" if isinstance(what, Function) or index != action.head else run.control.term(what.code)
+            found[place] = [Meaning(shown, value, action.code, says, source, happened, term)]
             if word is not None and run.control.marks:
                 marks = run.control.marks(what, word, index == action.head)
                 found[place] += [Meaning(mark, "", action.code, f"on {shown}: {does}", "", "") for mark, does in marks]
@@ -333,7 +341,7 @@ class Explanation:
         for m in self.meanings:
             source = f"  [{m.source}]" if m.source else ""
             changed = f"  ({m.changed})" if m.changed else ""
-            lines.append(f"  {m.word.ljust(wide)}  {m.says}{changed}{source}")
+            lines.append(f"  {m.word.ljust(wide)}  {m.shown}{changed}{source}")
         wide = max(len(stage.name) for stage in self.stages)
         parts = {
             f"moves{self.radii}": self._moves_told(),
@@ -356,7 +364,7 @@ class Explanation:
         if STEP in told:
             count = len(self.run.toolpath[self.moment.rows])
             moves = f"<details><summary>{several(count, 'move')} of the cycle</summary>{moves}</details>"
-        words = [(m.word, m.says, m.changed, m.source) for m in self.meanings]
+        words = [(m.word, m.shown, m.changed, m.source) for m in self.meanings]
         stages = [(s.name, *map(self.unit.figure, s.point), s.note) for s in self.stages]
         parts = [
             f"<h4>{escape(self.title)}</h4>",

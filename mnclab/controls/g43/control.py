@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from mnclab.controls.g43 import SIGNS, SUFFIXES, cycles
 from mnclab.controls.g43.language import corners, modes, motion, o_words, offsets, programs, tools, variables
 from mnclab.controls.g43.reading.reader import numbers, read
@@ -55,6 +57,7 @@ CONTROL = Control(
     name="g43",
     title="ISO mill (control with G43, G44, G49)",
     suffixes=SUFFIXES,
+    terms=Path(__file__).with_name("terms.toml"),
     read=read,
     functions=FUNCTIONS,
     cycles=cycles.CYCLES,

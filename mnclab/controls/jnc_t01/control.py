@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from mnclab.controls.jnc_t01 import SIGNS, SUFFIXES, cycles, functions
 from mnclab.controls.jnc_t01.functions import Memory
 from mnclab.controls.jnc_t01.reader import read
@@ -79,6 +81,7 @@ CONTROL = Control(
     name="jnc-t01",
     title="JNC-T01 (lathe)",
     suffixes=SUFFIXES,
+    terms=Path(__file__).with_name("terms.toml"),
     axes="XZ",
     read=read,
     functions=FUNCTIONS,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from mnclab.controls.mnc import SIGNS, SUFFIXES, language, transforms
 from mnclab.controls.mnc.cycles import drilling, fixed, milling, prepared
 from mnclab.controls.mnc.language import Memory
@@ -67,6 +69,7 @@ CONTROL = Control(
     name="mnc",
     title="Mechatronics MNC (2015)",
     suffixes=SUFFIXES,
+    terms=Path(__file__).with_name("terms.toml"),
     read=reader("mnc"),
     functions=FUNCTIONS,
     cycles=CYCLES,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from mnclab.controls.nc_31 import SIGNS, SUFFIXES, cycles, functions, notation, threads
 from mnclab.controls.nc_31.functions import Memory
 from mnclab.controls.nc_31.reader import numbers, read
@@ -53,6 +55,7 @@ CONTROL = Control(
     name="nc-31",
     title="Elektronika NC-31 (lathe)",
     suffixes=SUFFIXES,
+    terms=Path(__file__).with_name("terms.toml"),
     axes="XZ",
     codes=("G",),
     read=read,

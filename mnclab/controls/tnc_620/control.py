@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from mnclab.controls.tnc_620 import SIGNS, SUFFIXES, later, printing, tables, trial
 from mnclab.controls.tnc_620.block_numbers import numbers
 from mnclab.controls.tnc_620.contours import area, area_cycles, cylinder, formulas, train, trochoidal_slot
@@ -146,6 +148,7 @@ MEANINGS = {
 
 CONTROL = Control(
     name="tnc-620", title="HEIDENHAIN TNC 620 (2018)", suffixes=SUFFIXES,
+    terms=Path(__file__).with_name("terms.toml"),
     read=reader.read, signs=SIGNS, numbers=numbers,
     functions=FUNCTIONS, cycles=CYCLES, names=ISO_NAMES, refused=later.REFUSED, together=later.strange_parameters(CYCLES),
     phases=PHASES, codes=("M",), word_functions=False, meanings=MEANINGS, told=motion.turning_sense, trial=trial_program,

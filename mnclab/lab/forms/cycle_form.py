@@ -19,6 +19,7 @@ from mnclab.lab.forms.fields import Field, field_of, folded, grouped, groups, pa
 from mnclab.lab.forms.live import DRAWING, NewPicture, following, of_run, value_of, widgets
 from mnclab.lab.forms.measuring import Length
 from mnclab.machine.cycle import Cycle, Parameter, left_out, limits
+from mnclab.machine.terms import beside
 from mnclab.machine.trial import number
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import choice, fitting, shown
@@ -84,7 +85,8 @@ def form(code: str, control: str) -> Any:
     card = ipywidgets.HTML(about(parameters))
     rows = ipywidgets.VBox(grouped(parameters, fields))
     rows.add_class("mnclab-fields")
-    title = ipywidgets.HTML(f"<strong><code>{escape(chosen.code)}</code> {escape(chosen.title)}</strong>")
+    term = beside(example.control.term(chosen.code))
+    title = ipywidgets.HTML(f"<strong><code>{escape(chosen.code)}</code> {escape(chosen.title)}</strong>{term}")
     live = following(
         boxes, fields, ipywidgets.VBox([rows, card]), work, lambda alarm: field_of(alarm, parameters, chosen.code),
         *ticks.values(), title=f"{chosen.code} {chosen.title}", classes="mnclab-form", above=[title], over=[lit, asked],
@@ -125,6 +127,13 @@ def form(code: str, control: str) -> Any:
     live.ticks, live.steps, live.program, live.steps_view = ticks, lambda: example.steps(values()), program, table
     live.light, live.lit, live.asked = light, lit, asked
     return live
+
+
+def scheme(code: str, control: str, address: str) -> str:
+    """The picture of a form as HTML, and over it what one parameter measures."""
+    live = form(code, control)
+    live.light(next(name for name, field in live.fields.items() if field.parameter.address == address))
+    return f'<div style="position:relative">{live.picture.value}{live.lit.value}</div>'
 
 
 def worth(p: Parameter, box: Any) -> str:
