@@ -55,7 +55,8 @@ class Shelf(ModuleType):
     """
 
     def __init__(self, name: str, stub: str | Path, judges: bool = True) -> None:
-        text = stub.read_text("utf-8") if isinstance(stub, Path) else stub
+        self._left_out = isinstance(stub, Path) and not stub.is_file()
+        text = '"""left out of this mnclab"""' if self._left_out else stub.read_text("utf-8") if isinstance(stub, Path) else stub
         super().__init__(name, text.split('"""', 2)[1].removesuffix("."))
         self._judges = judges
         if isinstance(stub, Path) and stub.name == "__init__.pyi" and name.count("."):
@@ -65,6 +66,8 @@ class Shelf(ModuleType):
         sys.modules.setdefault(name, self)  # for `from mnclab.part import box`
 
     def __getattr__(self, name: str) -> Any:
+        if self._left_out and not name.startswith("_"):
+            opened(f"{self.__name__}.{name}", name)  # an alarm that says what was left out
         if name not in self._places:
             near = "" if name.startswith("_") else hint(name, self._places)
             raise AttributeError(f"{self.__name__} has no {name!r}" + (f" ({near})" if near else ""))
@@ -80,7 +83,7 @@ class Shelf(ModuleType):
         return [*self.__all__, "__all__", "__doc__", "__name__"]
 
     def __repr__(self) -> str:
-        wide = max(map(len, self.__all__))
+        wide = max(map(len, self.__all__), default=0)
         lines = (f"    {name:{wide}}  {_said(getattr(self, name))}".rstrip() for name in self.__all__)
         return "\n".join([f"{self.__name__}: {self.__doc__}", *lines])
 
