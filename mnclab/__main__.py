@@ -199,6 +199,8 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("-o", "--output", metavar="DIR", help="of give: the folder (default: exercises)")
     sub.add_argument("--answers", action="store_true", help="of show: the model too, and why")
     sub.add_argument("--pupil", metavar="NAME", help="of give: with the dimensions that this name draws")
+    says = "of give: a text file with a name a line; each gets a folder, with the dimensions of the name"
+    sub.add_argument("--pupils", metavar="NAMES.txt", help=says)
     sub = command("grade", grade, "grade a program that answers an exercise, or a folder a pupil; status 1 if one has not passed")
     sub.add_argument("--exercise", metavar="ID", help="default: the name of the file, mnc-03 of mnc-03.mnc")
     sub.add_argument("--json", action="store_true", help="score, passed, points and hints on stdout, of a folder a list")
