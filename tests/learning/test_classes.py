@@ -525,7 +525,8 @@ def test_a_class_gets_a_folder_a_name_and_is_graded_by_it(tmp_path, monkeypatch,
     assert len({(path / f"{NAME}.html").read_text("utf-8") for path in (tmp_path / "class").iterdir()}) == 2
     for bad in ("../Anna", "a:b"):
         (tmp_path / "names.txt").write_text(bad, "utf-8")
-        assert shell.main(["exercise", "give", NAME, "-o", "other", "--pupils", "names.txt"]) != 0
+        with pytest.raises(SystemExit):
+            shell.main(["exercise", "give", NAME, "-o", "other", "--pupils", "names.txt"])
         assert "name" in capsys.readouterr().err and not (tmp_path / "other").exists()
 
 
