@@ -218,6 +218,7 @@ def parser() -> argparse.ArgumentParser:
     sub = command("send", send, "write a program as its control takes it, with the sheets that the first run needs")
     sub.add_argument("-o", "--output", metavar="DIR", help="the folder (default: this one)")
     sub.add_argument("--name", help="of the program on the control (default: that of the file)")
+    sub.add_argument("--exercise", metavar="ID", help="with tools, blank and fixtures of an exercise, of which it is the answer")
     options(sub)
     command("lab", lab, "open the lessons in JupyterLab, which gets all options that follow", "")
     return top
