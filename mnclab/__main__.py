@@ -220,6 +220,8 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("-o", "--output", metavar="DIR", help="of give: the folder (default: exercises)")
     sub.add_argument("--answers", action="store_true", help="of show: the model too, and why")
     sub.add_argument("--pupil", metavar="NAME", help="of give: with the dimensions that this name draws")
+    says = "of give: a text file with a name a line; each gets a folder, with the dimensions of the name"
+    sub.add_argument("--pupils", metavar="NAMES.txt", help=says)
     sub = command("grade", grade, "grade a program that answers an exercise, or a folder a pupil; status 1 if one has not passed")
     sub.add_argument("--exercise", metavar="ID", help="default: the name of the file, mnc-03 of mnc-03.mnc")
     sub.add_argument("--json", action="store_true", help="score, passed, points and hints on stdout, of a folder a list")
@@ -237,6 +239,7 @@ def parser() -> argparse.ArgumentParser:
     sub = command("send", send, "write a program as its control takes it, with the sheets that the first run needs")
     sub.add_argument("-o", "--output", metavar="DIR", help="the folder (default: this one)")
     sub.add_argument("--name", help="of the program on the control (default: that of the file)")
+    sub.add_argument("--exercise", metavar="ID", help="with tools, blank and fixtures of an exercise, of which it is the answer")
     options(sub)
     sub = command("lessons", lessons, "copy the lessons, with their programs and setups, to a folder", "")
     sub.add_argument("folder", nargs="?", default="mnclab-lessons", help="a new or an empty one (default: %(default)s)")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import re
 import sys
 import time
 from pathlib import Path
@@ -11,9 +12,11 @@ from typing import Any
 
 from mnclab.shell.saying import ALARMS, CLEAN, program, sensible
 from mnclab.text.alarm import Alarm
-from mnclab.text.file import replaced
+from mnclab.text.file import decode, read, replaced
+from mnclab.text.given import shown
 from mnclab.text.opening import opened
 
+FORBIDDEN = re.compile(r'[\\/:*?"<>|]')  # in the name of a folder
 SAYING = 5.0  # s between two lines that say how far it is
 
 
@@ -60,10 +63,23 @@ def _check(chosen: argparse.Namespace) -> int:
 
 
 def _give(chosen: argparse.Namespace) -> int:
-    give = opened("mnclab.learning.giving", "give")
-    for path in sensible(give, chosen.names, chosen.output or "exercises", chosen.pupil):
-        print(path)
+    """Write the folder for pupils, or for a list of names a folder each."""
+    give, folder = opened("mnclab.learning.giving", "give"), Path(chosen.output or "exercises")
+    pupils = {folder: chosen.pupil}
+    if chosen.pupils:
+        listed = decode(read(chosen.pupils, chosen.pupils))[0].splitlines()
+        pupils = {folder / name: name for each in listed if (name := sensible(_folder, each.strip(" .")))}
+    for place, pupil in pupils.items():
+        for path in sensible(give, chosen.names, place, pupil):
+            print(path)
     return CLEAN
+
+
+def _folder(name: str) -> str:
+    """The name of a pupil, as that of a folder, by which the class is graded."""
+    if bad := FORBIDDEN.search(name):
+        raise Alarm(f"a folder has no {shown(bad[0])} in its name, got {shown(name)}", hint="a name a line, letters and spaces")
+    return name
 
 
 def grade(chosen: argparse.Namespace) -> int:

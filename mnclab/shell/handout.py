@@ -30,6 +30,7 @@ from mnclab.text.opening import opened, require
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "msedge")
 LINES = 8  # ruled ones below an exercise
+HALF = 45  # minutes, of a double lesson
 LONGEST = 300  # s that a cell of a lesson may take
 WIDGET = "application/vnd.jupyter.widget-view+json"
 PACKAGES = ("nbformat", "nbclient", "nbconvert")
@@ -95,10 +96,26 @@ def page(found: Mapping[str, Path], answers: bool = False) -> str:
 
 
 def teachers(lesson: str) -> str:
-    """The graded exercises of a lesson, each with its card, its answers and what usually goes wrong."""
+    """Aim, time and what to show of a lesson; then its graded exercises, each with its card, its answers and what usually goes
+    wrong."""
+    from nbconvert.filters import markdown2html
+
     card = opened("mnclab.learning.card", "card")
     each = opened("mnclab.learning.exercise", "exercises")(lesson=lesson)
-    return "<h2>For the teacher</h2>" + "".join(f"<section>{card(one)}{answers(one)}</section>" for one in each)
+    head = markdown2html("\n\n".join(plan(json.loads(lessons([lesson])[lesson].read_text("utf-8")))))
+    graded = "".join(f"<section>{card(one)}{answers(one)}</section>" for one in each)
+    return f'<h2>For the teacher</h2><div class="plan">{head}</div>{graded}'
+
+
+def plan(notebook: Mapping[str, Any]) -> Iterator[str]:
+    """What a teacher reads first, as Markdown: what the head of a lesson says of aim and time, its metadata of what to show."""
+    told = "\n".join("".join(cell["source"]) for cell in notebook["cells"][:3])
+    head = dict(re.findall(r"^\*\*What you (.*?)\.\*\* *(.*)", told, re.M))
+    yield f"**Aim.** {head.get('will do', '')}\n\n**They learn.** {head.get('will learn', '')}"
+    minutes = re.search(r"(\d+) minutes", head.get("need", ""))
+    yield f"**Time.** The lesson {minutes[1] if minutes else HALF} minutes, the exercises {HALF} minutes: a double lesson."
+    if show := notebook["metadata"].get("teacher"):
+        yield "**What to show.**\n\n" + "\n".join(f"- {each}" for each in show)
 
 
 def answers(exercise: Any) -> str:

@@ -24,6 +24,7 @@ from mnclab.shell.saying import ALARMS, CLEAN, program, say, sensible
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.file import replaced
 from mnclab.text.given import shown
+from mnclab.text.opening import opened
 
 NAME = re.compile(r"[A-Za-z][\w-]{0,23}", re.ASCII)
 FRAME = re.compile(r"^([ \t]*+(?:\d++[ \t]++)?(?:BEGIN|END)[ \t]++PGM)[ \t]++\S++", re.M | re.I)
@@ -68,6 +69,8 @@ FORMS = {
 def send(chosen: argparse.Namespace) -> int:
     """Write the program, set-up sheet, tool sheet and the list for the first run; nothing of a program that has an alarm."""
     setup = None if chosen.setup is None else sensible(load, chosen.setup)
+    if chosen.exercise:
+        setup = sensible(opened("mnclab.learning.exercise", "exercise"), chosen.exercise).setup
     result = run(program(chosen.file), chosen.control, setup)
     for alarm in result.alarms:
         say(alarm)

@@ -421,7 +421,7 @@ def test_progress_keeps_the_best_and_counts_faults(tmp_path):
     assert again.tried(NAME) == {"pocket depth": 2}
     shown = again._repr_html_()
     assert f"{NAME} ✓" in shown and ">Radius compensation</td>" in shown and "○ not tried" in shown
-    assert shown.count("<td") == shown.count("text-align:left") == 3 * 36
+    assert shown.count("<td") == shown.count("text-align:left") == 3 * len({each.lesson for each in mnclab.exercises()})
     record = '{"mnc-07": {"score": %s, "passed": false, "tries": %s, "faults": {"stopped": %s}}}'
     damaged = [record % each for each in ((0.5, 1, '"x"'), ("NaN", 1, 1), (0.5, -5, 1), (2, 1, 1), (0.5, 1, "Infinity"))]
     for spoilt in (*damaged, "", "[]", '{"mnc-07": 5}', "\x00", "[" * 100_000):
@@ -495,6 +495,41 @@ def test_a_teachers_slip_is_named_at_its_line(tmp_path, change, says):
     assert found.value.span is not None and found.value.source.name == str(path)
 
 
+def test_a_plan_shows_its_weeks_and_what_comes_next(tmp_path):
+    done = Progress(tmp_path / "progress.json", "mnc_mill")
+    assert "next: week 1, lesson 00, mnc-17" in repr(done) and len(done.plan) == 36
+    for name in ("mnc-17", "mnc-01", "mnc-18"):
+        done.done[name] = {"score": 1.0, "passed": True, "tries": 1, "faults": {}}
+    page = unescape(done._repr_html_())
+    assert page.count("<tr>") == 36 and "mnc-18 ✓" in page and "next: week 2, lesson 01, mnc-02" in page
+    assert not re.search(r"\]\(|`|\*\*", page)
+    for row in done.plan:
+        done.done |= {name: {"score": 1.0, "passed": True, "tries": 1, "faults": {}} for name in row.exercises}
+    assert "the plan is done" in repr(done) and "next" not in repr(Progress(tmp_path / "progress.json"))
+    for unknown in ("mill", "marks", ""):
+        with pytest.raises(Alarm, match="plan must be jnc_lathe, mnc_mill, nc31_lathe or tnc_mill"):
+            mnclab.progress(plan=unknown)
+
+
+def test_the_map_has_the_order_of_the_course(tmp_path):
+    lessons = re.findall(r"<tr><td[^>]*>(\d\d)<", Progress(tmp_path / "progress.json")._repr_html_())
+    assert sorted(lessons) == sorted({each.lesson for each in mnclab.exercises()})
+    assert lessons.index("33") == lessons.index("08") + 1 and lessons.index("21") < lessons.index("12") < lessons.index("09")
+
+
+def test_a_class_gets_a_folder_a_name_and_is_graded_by_it(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "names.txt").write_text("Anna\n\nBoris Ș.\r\n".replace(" Ș.", "ka Ș"), "utf-8")
+    assert shell.main(["exercise", "give", NAME, "mnc-02", "-o", "class", "--pupils", "names.txt"]) == 0
+    assert {each.name for each in (tmp_path / "class").iterdir()} == {"Anna", "Boriska Ș"}
+    assert len({(path / f"{NAME}.html").read_text("utf-8") for path in (tmp_path / "class").iterdir()}) == 2
+    for bad in ("../Anna", "a:b"):
+        (tmp_path / "names.txt").write_text(bad, "utf-8")
+        with pytest.raises(SystemExit):
+            shell.main(["exercise", "give", NAME, "-o", "other", "--pupils", "names.txt"])
+        assert "name" in capsys.readouterr().err and not (tmp_path / "other").exists()
+
+
 # --- the teacher's pages ---------------------------------------------------------------------------------------------
 
 
@@ -506,7 +541,19 @@ def test_the_teachers_pages_have_answers_and_usual_faults_of_a_lessons_exercises
         found = answers_of(each.file)
         assert found.model.strip() in page and found.why in page
         assert all(f"the hint says: {fault.hint}" in page for fault in found.faults)
+    assert page.index("Aim.") < page.index("minutes") < page.index(mnclab.exercises(lesson="05")[0].title)
     copy = tmp_path / "mnc-07.toml"
     copy.write_text(pupils_copy(mnclab.exercise("mnc-07").file), "utf-8")
     with pytest.raises(Alarm, match="no solution"):
         answers(load(copy))
+
+
+def test_the_teachers_page_begins_with_aim_time_and_what_to_show():
+    from mnclab.shell.handout import plan
+
+    head = "**What you will do.** Turn a pin.\n\n**What you will learn.** `G96`.\n\n**What you need.** *Arcs*; 40 minutes."
+    cells = [{"source": ["# Pins\n", "\n", "Why?"]}, {"source": ["import mnclab"]}, {"source": head.splitlines(keepends=True)}]
+    aim, time, *rest = plan({"cells": cells, "metadata": {}})
+    assert aim == "**Aim.** Turn a pin.\n\n**They learn.** `G96`." and "40 minutes" in time and "45 minutes" in time and not rest
+    *_, show = plan({"cells": cells, "metadata": {"teacher": ["Stop at cell 3.", "Ask why."]}})
+    assert show == "**What to show.**\n\n- Stop at cell 3.\n- Ask why."

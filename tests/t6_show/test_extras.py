@@ -5,6 +5,7 @@ import sys
 import pytest
 
 import mnclab
+import mnclab.lab.forms  # whose own imports are not what is tried here
 from mnclab import Alarm
 from mnclab import __main__ as shell
 from mnclab.geometry import dxf

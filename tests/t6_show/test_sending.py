@@ -32,6 +32,15 @@ def test_what_is_sent_moves_as_the_program_does(name, suffix, tmp_path):
     }  # fmt: skip
 
 
+def test_an_answer_is_sent_with_the_tools_and_the_blank_of_its_exercise(tmp_path, capsys):
+    (tmp_path / "mnc-07.mnc").write_text(mnclab.exercise("mnc-07").solution())
+    assert shell.main(["send", str(tmp_path / "mnc-07.mnc"), "--exercise", "mnc-07", "-o", str(tmp_path / "stick")]) == 0
+    assert "the blank is clamped as drawn" in (tmp_path / "stick" / "MNC-07_first_run.txt").read_text()
+    with pytest.raises(SystemExit):
+        shell.main(["send", str(tmp_path / "mnc-07.mnc"), "--exercise", "mnc-77"])
+    assert "there is no exercise" in capsys.readouterr().err
+
+
 def test_a_klartext_program_bears_the_name_of_its_file_and_is_numbered_from_0(tmp_path):
     shell.main(["send", str(PROGRAMS / "tnc-620/lid.h"), "-o", str(tmp_path), "--name", "deckel"])
     lines = (tmp_path / "DECKEL.H").read_text("ascii").splitlines()
