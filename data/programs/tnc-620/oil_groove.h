@@ -1,4 +1,4 @@
-0 BEGIN PGM OIL_GROOVE MM ; A groove that falls and rises: a contour train in space (8.13). Made for this project.
+0 BEGIN PGM OIL_GROOVE MM ; A groove that falls and rises: a contour train in space (8.10). Made for this project.
 1 BLK FORM 0.1 Z X+0 Y+0 Z-15
 2 BLK FORM 0.2 X+80 Y+60 Z+0
 3 TOOL CALL 3 Z S4500 ; end mill 6

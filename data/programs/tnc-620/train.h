@@ -1,4 +1,4 @@
-0 BEGIN PGM TRAIN MM ; Three sides of a plate in three levels, as a contour train (8.13). Made for this project.
+0 BEGIN PGM TRAIN MM ; Three sides of a plate in three levels, as a contour train (8.9). Made for this project.
 1 BLK FORM 0.1 Z X+0 Y+0 Z-20
 2 BLK FORM 0.2 X+80 Y+60 Z+0
 3 TOOL CALL 1 Z S3000 ; end mill 10

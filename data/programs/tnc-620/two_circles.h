@@ -1,4 +1,4 @@
-0 BEGIN PGM TWO_CIRCLES MM ; Two circles that overlap, as one contour: where a label begins says what they make (8.13). Made for this project.
+0 BEGIN PGM TWO_CIRCLES MM ; Two circles that overlap, as one contour: where a label begins says what they make (8.6). Made for this project.
 1 BLK FORM 0.1 Z X+0 Y+15 Z-10
 2 BLK FORM 0.2 X+100 Y+85 Z+0
 3 TOOL CALL 3 Z S4000 ; end mill 6
