@@ -28,11 +28,11 @@
 10 L A+0 R0 FMAX M99
 11 L Z+120 R0 FMAX M30
 12 LBL 1 ; the walls of the first
-13 L X+4 Y+0 RL
+13 L X+4.0 Y+0 RL
 14 L Y+40
-15 L X-4
+15 L X-4.0
 16 L Y+0
-17 L X+4
+17 L X+4.0
 18 LBL 0
 19 LBL 2 ; the middle of the second
 20 L X+0 Y+60 RL

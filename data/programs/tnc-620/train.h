@@ -1,8 +1,8 @@
 0 BEGIN PGM TRAIN MM ; Three sides of a plate in three levels, as a contour train (8.9). Made for this project.
-1 BLK FORM 0.1 Z X+0 Y+0 Z-20
-2 BLK FORM 0.2 X+80 Y+60 Z+0
+1 BLK FORM 0.1 Z X+0 Y+10 Z-20
+2 BLK FORM 0.2 X+80 Y+70 Z+0
 3 TOOL CALL 1 Z S3000 ; end mill 10
-4 L X-20 Y-20 Z+50 R0 FMAX M3
+4 L X-20 Y-10 Z+50 R0 FMAX M3
 5 CYCL DEF 14.0 CONTOUR GEOMETRY
 6 CYCL DEF 14.1 CONTOUR LABEL 1
 7 CYCL DEF 25 CONTOUR TRAIN
@@ -17,10 +17,10 @@
 8 CYCL CALL
 9 L Z+50 R0 FMAX M30
 10 LBL 1 ; it begins and ends beside the plate
-11 L X+6 Y-8 RL
-12 L Y+54
+11 L X+6 Y+2 RL
+12 L Y+64
 13 RND R12
 14 L X+74
-15 L Y-8
+15 L Y+2
 16 LBL 0
 17 END PGM TRAIN MM
