@@ -1,5 +1,6 @@
 """Every notebook is a lesson: short cells, exercises at the end, no stored outputs; and it runs."""
 
+import ast
 import json
 import os
 import re
@@ -36,6 +37,31 @@ def test_notebook_is_a_lesson(path):
     assert headings and headings[-1] == "Exercises", "the last section is headed Exercises"
     exercises = re.findall(r"^\d+\. ", prose.rpartition("## Exercises")[2], re.M)
     assert exercises == ["1. ", "2. ", "3. "], "three exercises"
+
+
+@each_notebook
+def test_a_lesson_begins_with_its_question_and_the_part_and_asks_for_no_python(path):
+    """A question and a picture stand on the first screen; programs are typed in cells of blocks, and no cell loops."""
+    cells = cells_of(path)
+    question, picture, head = cells[:3]
+    assert [cell.cell_type for cell in cells[:3]] == ["markdown", "code", "markdown"]
+    assert "?" in question.source and len(question.source.split()) <= 80
+    assert len(picture.source.splitlines()) <= 6 and "import mnclab as mnc" in picture.source and "plot" in picture.source
+    parts = re.split(r"\*\*What you (?:will do|will learn|need)\.\*\*", head.source)
+    assert len(parts) == 4 and 20 <= int(re.search(r"(\d+) minutes", parts[3])[1]) <= 45
+    code = [cell.source for cell in cells if cell.cell_type == "code"]
+    assert any(source.startswith("%%mnc") for source in code)
+    plain = "\n".join(line for source in code if source[:2] != "%%" for line in source.splitlines() if line[:1] not in "%!")
+    nodes = list(ast.walk(ast.parse(plain)))
+    assert not [node for node in nodes if isinstance(node, ast.For | ast.While | ast.If | ast.With | ast.Lambda)]
+    assert sum(isinstance(node, ast.ListComp | ast.DictComp | ast.SetComp | ast.GeneratorExp) for node in nodes) <= 2
+    assert sum(isinstance(node, ast.Constant) and "\n" in str(node.value).strip() for node in nodes) <= 2
+
+
+@each_notebook
+def test_the_teacher_is_told_what_to_show(path):
+    told = json.loads(path.read_text("utf-8"))["metadata"]["teacher"]
+    assert 2 <= len(told) <= 4 and all(len(sentence.split()) > 3 for sentence in told)
 
 
 SLIDES = {"slide", "subslide", "fragment", "-", "skip", "notes"}  # of JupyterLab, which `jupyter nbconvert --to slides` reads
