@@ -123,9 +123,10 @@ def executed(run: Run) -> Iterator[tuple[int, str]]:
 def first_line(code: str, lines: list[tuple[int, str]]) -> int | None:
     """The first line that has a code: "G1" is found in N10G01X5, not in G10."""
     found = ((part.rstrip("0123456789"), part) for part in code.upper().split())
-    parts = ((letters, part[len(letters) :].lstrip("0") or "0") if part != letters else (letters, "") for letters, part in found)
+    parts = [(letters, part[len(letters) :].lstrip("0") or "0") if part != letters else (letters, "") for letters, part in found]
     written = r"\s+".join(re.escape(letters) + (rf"\s*0*{number}" if number else "") for letters, number in parts)
-    wanted = re.compile(rf"(?<![A-Z_]){written}(?![{'0-9.' if code[-1:].isdigit() else 'A-Z'}])")
+    follows = "A-Z" if not code[-1:].isdigit() else "0-9" if not parts[-1][0] else "0-9."  # CYCL DEF 10 is written 10.0, 10.1
+    wanted = re.compile(rf"(?<![A-Z_]){written}(?![{follows}])")
     return next((line for line, text in lines if wanted.search(text)), None)
 
 

@@ -10,6 +10,7 @@ from mnclab.learning.asked import length
 from mnclab.learning.exercise import Exercise, Question
 from mnclab.learning.findings import ASKED, Finding, hints_of
 from mnclab.learning.grade import Grade
+from mnclab.runs.material import truly_higher
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.given import shown
@@ -49,8 +50,9 @@ def value_of(question: Question, run: Run) -> float:
         return float(profile.time if question.line is None else profile.time_by("line").get(question.line, 0.0))
     moment = run.at(question.line) if question.line is not None else run.at(step=len(run.steps.block) - 1)
     if question.what[-1] in "xyz":
-        place = moment.point if question.what.startswith("tip") else moment.position
-        return float(place["xyz".index(question.what[-1])])
+        tip, axis = question.what.startswith("tip"), "xyz".index(question.what[-1])
+        place = moment.point if tip else moment.position
+        return float(place[axis]) + (truly_higher(run, moment.step) if tip and axis == 2 else 0.0)
     value = moment.state.get(question.what, 0.0)
     return float(getattr(value, "number", value))
 

@@ -245,7 +245,7 @@ class Moment(NamedTuple):
             ("programmed point", point(self.position, unit_of(self.state), self.lathe)),
             ("tool tip", point(self.point, unit_of(self.state), self.lathe)),
             ("rows of the path", rows + inside),
-            ("changed", _listed(told(changed, self.state))),
+            ("changed", _listed(told(changed, self.state), "the position" if "position" in self.changed else "nothing")),
             ("active", _listed(told(active, self.state))),
         ]
 
@@ -262,9 +262,9 @@ class Moment(NamedTuple):
         return f"<h4>{title}</h4>{html_table((), self.page())}"
 
 
-def _listed(words: list[str]) -> str:
+def _listed(words: list[str], none: str = "nothing") -> str:
     more = [f"… {len(words) - SHOWN} more"] if len(words) > SHOWN else []
-    return ", ".join(words[:SHOWN] + more) or "nothing"
+    return ", ".join(words[:SHOWN] + more) or none
 
 
 # The tables of the machine as a run leaves them.

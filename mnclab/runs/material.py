@@ -119,6 +119,12 @@ def tools_that_cut(run: Run) -> tuple[dict[int, Tool], Index]:
     return {tool.number: tool for tool in tools} | run.tables.tools, numbers_of(run.toolpath, tools, which)
 
 
+def truly_higher(run: Run, step: int) -> float:
+    """How much higher than on its path the tip really is after a step, mm: where a tool is not as its table says."""
+    row = int(np.searchsorted(run.toolpath.step, step, "right")) - 1
+    return float(_held(run)[2][row]) if row >= 0 else 0.0
+
+
 def _held(run: Run) -> tuple[list[Tool], Index, Any]:
     step, setup, history = run.toolpath.step, run.setup, run.history
     tools, which, lift = tools_of_rows(step, history.changed("tool"), setup.tools, history.value, setup.true_tools)

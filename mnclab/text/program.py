@@ -255,9 +255,13 @@ class Program:
         return self.text[begin:end].rstrip("\r\n")
 
     def _parted(self, line: str) -> tuple[str, str]:
-        """A line before its comment, and the comment."""
-        mark = re.search(self.comment_mark, line)
-        return (line[: mark.start()], line[mark.end() :]) if mark else (line, "")
+        """A line with blanks in the place of its comments, and these; one that begins with a bracket ends with one."""
+        said = []
+        while mark := re.search(self.comment_mark, line):
+            inside, closed, behind = line[mark.end() :].partition(")" if mark[0] == "(" else "\n")
+            said.append(inside.strip())
+            line = line[: mark.start()].ljust(len(line) - len(behind)) + behind
+        return line, " ".join(said)
 
     def code_of(self, index: int) -> list[str]:
         """The lines of a block without its comments."""

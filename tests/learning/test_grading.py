@@ -7,8 +7,10 @@ import pytest
 
 import mnclab
 from mnclab import Alarm
-from mnclab.learning.asked import pass_of
+from mnclab.learning.asked import first_line, pass_of
+from mnclab.learning.exercise import Question
 from mnclab.learning.exercise_file import load
+from mnclab.learning.predicting import value_of
 
 SQUARE = """
 title = "A step"
@@ -143,6 +145,21 @@ def test_what_must_be_used_is_found_as_a_word(made, code, found):
     grade = made(f"[asked]\nmust = ['{code}']").check(RIGHT.replace("\n", " // G91 G4 G10\n"))
     assert grade.passed is found and grade.points["asked"] == float(found)
     assert made(f"[asked]\nmust_not = ['{code}']").check(RIGHT).passed is not found
+
+
+def test_a_cycle_that_is_written_in_parts_is_found_by_its_number():
+    lines = [(4, "CYCL DEF 10.0 ROTATION"), (5, "CYCL DEF 10.1 ROT+30"), (6, "L Z-9.64")]
+    assert first_line("CYCL DEF 10", lines) == 4 and first_line("CYCL DEF 10.1", lines) == 5
+    assert first_line("CYCL DEF 1", lines) is None and first_line("Z-9", lines) is None
+
+
+def test_a_prediction_of_the_tip_knows_how_long_the_tool_truly_is():
+    """80 mm in the table and 80.3 in truth: the tip is 0.3 lower than the control counts."""
+    tools, true = {1: mnclab.Tool(radius=5, length=80)}, {1: mnclab.Tool(radius=5, length=80.3)}
+    text = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+10 R0 FMAX M3\nL Z-9.64 F100\nEND PGM A MM\n"
+    run = mnclab.run(text, "tnc-620", mnclab.Setup(tools=tools, true_tools=true))
+    counted, truly = (value_of(Question("where?", what), run) for what in ("z", "tip z"))
+    assert (counted, round(truly, 9)) == (-9.64, -9.94)
 
 
 def test_blocks_values_and_weights(made):

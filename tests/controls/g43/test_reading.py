@@ -65,6 +65,12 @@ def test_corners():
     assert np.allclose(inch.toolpath.end / 25.4, [[0.75, 0, 0], [1, 0.25, 0], [1, 1, 0]], atol=1e-12)
 
 
+def test_comments_are_told_without_their_brackets():
+    program = mnclab.read("(a line)\nG0 (at rapid) X1 (and) (more)\nG1 Y2 F100; far\n", "g43")
+    assert [block.comment for block in program] == ["a line", "at rapid and more", "far"]
+    assert [" ".join(program.code_of(k)[0].split()) for k in range(3)] == ["", "G0 X1", "G1 Y2 F100"]
+
+
 def test_a_long_program_with_comments():
     """Comments and blank lines among many plain blocks change nothing but the lines of the rows."""
     lines = [f"N{k} G1 X{math.sin(k):.4f} Y{math.cos(k):.4f} F100" for k in range(1, 3000)]
