@@ -53,6 +53,7 @@ def options() -> argparse.ArgumentParser:
     parser.add_argument("--exercise", metavar="ID", help="grade the cell as the answer to this exercise")
     parser.add_argument("--name", default="run", help="what the run is called in the notebook")
     parser.add_argument("--colour", default="kind", help="what the colour of the cuts shows")
+    parser.add_argument("--card", action="store_true", help="show the card alone, without the picture")
     parser.add_argument("--quiet", action="store_true", help="show the alarms alone")
     return parser
 

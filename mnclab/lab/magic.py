@@ -51,7 +51,7 @@ def load_ipython_extension(shell: Any) -> None:
                 display(alarm)
             return
         display(run)
-        if run.toolpath.is_motion.any():  # an early fault leaves nothing to draw: the card says it all
+        if run.toolpath.is_motion.any() and not chosen.card:  # an early fault leaves nothing to draw: the card says it all
             display(run.plot(colour=chosen.colour))
 
     shell.register_magic_function(mnc, "cell", "mnc")

@@ -68,6 +68,11 @@ def test_quiet_shows_alarms_alone(shell):
     assert "no feed rate" in alarm["text/html"]
 
 
+def test_the_card_alone_has_no_picture(shell):
+    (card,) = shown(shell, "--control mnc --card")
+    assert "blocks" in card["text/html"] and len(shown(shell, "--control mnc")) == 2
+
+
 @pytest.mark.parametrize(
     ("line", "sentence"),
     [
