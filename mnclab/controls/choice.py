@@ -90,6 +90,9 @@ def _point_out_another(program: Program) -> None:
         return
     alike = looks_like(program.text, CONTROLS)
     if alike and alike != f"a program of {program.control}":
+        other = alike.removeprefix("a program of ")
+        if other in CONTROLS and 2 * len(CONTROLS[other].read(program.text, "").faulty_blocks()) > len(program.faulty_blocks()):
+            return  # there it would be faulty too: slips, as GO for G0
         said = f"this looks like {alike}, and was read as one of {program.control}"
         first.hint = f"{said}; {first.hint}" if first.hint else said
 

@@ -26,7 +26,7 @@ def of_asked(exercise: Exercise, run: Run) -> Iterator[Finding]:
     asked, lines = exercise.asked, list(executed(run))
     for code in asked.must:
         if first_line(code, lines) is None:
-            yield Finding(ASKED, f"without {code}", 0, (f"the task asks for {code}, and no block that was run has it",))
+            yield _without(code)
     for code in asked.must_not:
         if (line := first_line(code, lines)) is not None:
             yield Finding(ASKED, f"with {code}", line, (f"the task does not allow {code}",))
@@ -42,6 +42,16 @@ def of_asked(exercise: Exercise, run: Run) -> Iterator[Finding]:
         yield from _of_cutting(exercise, run)
     if asked.cabinet:
         yield from _of_cabinet(exercise, run)
+
+
+def unwritten(exercise: Exercise, run: Run) -> Iterator[Finding]:
+    """What a program that stops was asked for and does not have in any block: G42 is written where G41 was meant."""
+    lines = [(0, " ".join(run.program.code_of(k))) for k in range(len(run.program))]
+    return (_without(code) for code in exercise.asked.must if first_line(code, lines) is None)
+
+
+def _without(code: str) -> Finding:
+    return Finding(ASKED, f"without {code}", 0, (f"the task asks for {code}, and no block that was run has it",))
 
 
 NAMES = {
@@ -60,7 +70,8 @@ def _of_cutting(exercise: Exercise, run: Run) -> Iterator[Finding]:
     for wanted in exercise.asked.cutting:
         cut = found.get(wanted.tool)
         if cut is None:
-            yield Finding(ASKED, f"tool {wanted.tool} cuts", 0, (f"tool {wanted.tool} cuts nothing",))
+            told = f"tool {wanted.tool} cuts nothing: does its spindle turn, and does it move at feed?"
+            yield Finding(ASKED, f"tool {wanted.tool} cuts", 0, (told,))
             continue
         for name, (column, said) in NAMES.items():
             if (limits := getattr(wanted, name)) is None:

@@ -83,7 +83,7 @@ def _body(body: Any) -> str:
 def tools(exercise: Exercise) -> str:
     """The tools of the machine as a table."""
     names = ("radius", "length", "corner", "angle", "width", "teeth", "cutting_length", "pitch")
-    table = exercise.setup.tools or {}
+    table = {} if exercise.kind == "set up" else exercise.setup.tools or {}  # which the answer fills
     used = [name for name in names if any(getattr(tool, name, None) for tool in table.values())]
     rows = [(f"T{number}", tool.name or tool.kind, *(_said(getattr(tool, name, None)) for name in used))
             for number, tool in table.items()]  # fmt: skip

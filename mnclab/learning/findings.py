@@ -52,7 +52,7 @@ def hints_of(
     found = [first[kind] for kind in kinds[:HINTS]]
     told = [each.hint(tried.get(each.kind, 0) + 1) for each in found]
     causes = [*remarks, *(cause for each in found for cause in each.causes if cause.line)] if found else []
-    hints = [*told, *(Hint(cause.line, cause.text) for cause in causes)]
+    hints = [*told, *(Hint(cause.line, cause.text if cause.sure else f"or here: {cause.text}") for cause in causes)]
     off = [min((abs(hint.line - each.line) for each in hints[:k]), default=9) for k, hint in enumerate(hints)]
     ranks = [int(k > 0 and (off[k] == 0 or hint.line == 0)) for k, hint in enumerate(told)]  # a neighbour is seen anyway
     ranks += [4 - off[k] if off[k] < 2 else 2 * (not cause.sure) for k, cause in enumerate(causes, len(told))]
@@ -63,11 +63,10 @@ def of_alarms(run: Run) -> Iterator[Finding]:
     """The alarms of a run."""
     for alarm in run.alarms:
         if alarm.severity == "alarm":
-            said = f"the control stops: {alarm.message}"
-            more = (f"{said} ({alarm.hint})",) if alarm.hint else ()
+            said = f"the control stops: {alarm.message}{f' ({alarm.hint})' * bool(alarm.hint)}"
             line = alarm.span.line if alarm.span else 0
             causes = tuple(of_alarm(run, alarm.message, line))
-            yield Finding(STOPPED, f"alarm {alarm.message}", line, (said, *more), causes=causes)
+            yield Finding(STOPPED, f"alarm {alarm.message}", line, (said,), causes=causes)
 
 
 #: What to look at, by the kind of a collision.

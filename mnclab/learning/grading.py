@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from mnclab.learning.answered import run_of
-from mnclab.learning.asked import economy, of_asked, wishes
+from mnclab.learning.asked import economy, of_asked, unwritten, wishes
 from mnclab.learning.exercise import Exercise
 from mnclab.learning.findings import STOPPED, ZERO, Finding, hints_of, of_alarms, of_danger, of_part, of_threads
 from mnclab.learning.grade import Grade
@@ -117,6 +117,7 @@ def of_run(exercise: Exercise, run: Run, tried: Mapping[str, int], text: str = "
     findings = list(of_alarms(run))
     if findings or run.reach or run.halt is not None:
         stopped = findings or [Finding(STOPPED, "stopped", 0, ("the program stops before its end",))]
+        stopped += unwritten(exercise, run)
         return nothing(exercise, beside(exercise, stopped, run, text), tried, run)
     if not run.toolpath.is_motion.any():
         told = "the program moves nothing"

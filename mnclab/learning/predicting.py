@@ -8,11 +8,10 @@ from collections.abc import Mapping
 from mnclab.learning.answered import given_run
 from mnclab.learning.asked import length
 from mnclab.learning.exercise import Exercise, Question
-from mnclab.learning.findings import ASKED, Finding, hints_of
+from mnclab.learning.findings import ASKED, STOPPED, Finding, hints_of
 from mnclab.learning.grade import Grade
 from mnclab.runs.material import truly_higher
 from mnclab.runs.run import Run
-from mnclab.text.alarm import Alarm, Span
 from mnclab.text.given import shown
 
 ANSWER = re.compile(r"^[ \t]*(\d{1,3})[ \t]*[=:][ \t]*([+-]?\d{1,12}(?:[.,]\d{0,12})?)[ \t]*([^\s#;]{0,9})[ \t]*(?:[#;].*)?$")
@@ -25,19 +24,20 @@ def minus(line: str) -> str:
     return line.replace("−", "-")
 
 
-def numbers_of(text: str) -> dict[int, float]:
-    """Numbers by questions, a line each: `1 = 12.5`; a line that is none of these is an Alarm, comments (#, ;) are not."""
-    found = {}
+def numbers_of(text: str) -> tuple[dict[int, float], list[Finding]]:
+    """Numbers by questions, a line each: `1 = 12.5`, and what is wrong with lines that are none of these; comments (#, ;) are
+    left out."""
+    found, wrong = {}, []
     for number, line in enumerate(text.split("\n"), 1):
-        if not line.strip() or line.strip()[0] in "#;":
-            continue
-        if EMPTY.match(line):
+        if not line.strip() or line.strip()[0] in "#;" or EMPTY.match(line):
             continue
         said = ANSWER.match(minus(line))
         if said is None or (said[3] and said[3].lower() not in UNITS):
-            raise Alarm(f"an answer is written as 1 = 12.5, got {shown(line.strip()[:40])}", Span(number, 1))
-        found[int(said[1])] = float(said[2].replace(",", "."))
-    return found
+            told = f"an answer is written as 1 = 12.5, in digits and a point, got {shown(line.strip()[:40])}"
+            wrong.append(Finding(STOPPED, f"line {number}", number, (told,)))
+        else:
+            found[int(said[1])] = float(said[2].replace(",", "."))
+    return found, wrong
 
 
 def value_of(question: Question, run: Run) -> float:
@@ -59,8 +59,8 @@ def value_of(question: Question, run: Run) -> float:
 
 def predicted(exercise: Exercise, text: str, tried: Mapping[str, int]) -> Grade:
     """The grade of predictions: the share that is right."""
-    said, run = numbers_of(text), given_run(exercise)
-    findings, lines = [], {int(m[1]): k for k, line in enumerate(text.split("\n"), 1) if (m := ANSWER.match(minus(line)))}
+    (said, findings), run = numbers_of(text), given_run(exercise)
+    lines = {int(m[1]): k for k, line in enumerate(text.split("\n"), 1) if (m := ANSWER.match(minus(line)))}
     for number, question in enumerate(exercise.questions, 1):
         if number in said and abs(said[number] - value_of(question, run)) <= question.tolerance:
             continue
@@ -69,6 +69,6 @@ def predicted(exercise: Exercise, text: str, tried: Mapping[str, int]) -> Grade:
         steps = steps if number not in said else steps[1:] or steps
         line = lines.get(number) or max((lines[k] for k in lines if k < number), default=0)  # after which it is to stand
         findings.append(Finding(ASKED, f"question {number}", line, steps))
-    share = 1 - len(findings) / len(exercise.questions)
+    share = 1 - sum(each.rank == ASKED for each in findings) / len(exercise.questions)
     hints, faults = hints_of(findings, tried)
     return Grade(exercise.id, share, not findings, {"asked": share}, hints, faults, run=run)

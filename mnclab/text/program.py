@@ -279,7 +279,8 @@ class Program:
     def _repr_html_(self) -> str:
         blocks = [self[i] for i in range(min(len(self), 40))]
         words = (" ".join(filter(None, [block.keyword, *map(str, block.words)])) for block in blocks)
-        rows = [(str(block.span.line), block.number, said, block.comment) for block, said in zip(blocks, words)]
+        named = ("/" * bool(block.skip) + block.number for block in blocks)
+        rows = [(str(block.span.line), *row, block.comment) for block, *row in zip(blocks, named, words)]
         more = f"<p>… {len(self) - 40} more blocks</p>" if len(self) > 40 else ""
         table = html_table(("line", "block", "words", "comment"), rows, numbers=(0,), code=(2,))
         return table + more + card_html(self.alarms)

@@ -54,7 +54,8 @@ class Worst(NamedTuple):
         x, y, z = self.place
         return f"{self.value:.4f} mm at X{x:.3f} Y{y:.3f} Z{z:.3f}, {self.feature}: {self.where}"
 
-    __repr__ = __str__
+    def __repr__(self) -> str:
+        return str(self)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
