@@ -7,7 +7,7 @@ within their limits. A measure that the blank had already earns nothing by itsel
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -80,11 +80,24 @@ def beside(exercise: Exercise, findings: list[Finding], run: Run, text: str) -> 
     """Findings of a run: where tables are the answer, at the table they come from; their own line is that of the program."""
     if exercise.answer != "setup":
         return findings
-    tables = [(k, row.strip()) for head in TABLES for k, row in enumerate(text.split("\n"), 1) if row.strip().startswith(head)]
-    causes = tuple(Cause(k, f"or is it a number below {row}?") for k, row in tables)
+    rows = [row.strip() for row in text.split("\n")]
+    tables = [(k, row) for head in TABLES for k, row in enumerate(rows, 1) if row.startswith(head)]
+    causes = [Cause(k, f"a number below {row}?") for k, row in tables]
     return [each._replace(line=_table(text, each, run), steps=tuple(_beside(step, each.line) for step in each.steps),
-                          causes=causes)
+                          causes=(*_datum_of(each, run, rows), *causes))
             for each in findings]  # fmt: skip
+
+
+def _datum_of(finding: Finding, run: Run, rows: list[str]) -> Iterator[Cause]:
+    """The row of the work offsets that holds where a fault was cut; all of them where nothing was."""
+    head = rows.index("[datums]") if "[datums]" in rows else len(rows)
+    end = next((k for k in range(head + 1, len(rows)) if rows[k].startswith("[")), len(rows))
+    numbered = {name: k for k, row in enumerate(rows[head:end], head + 1) if (name := row.partition("=")[0].strip()).isdigit()}
+    held = run.at(line=finding.line).state.get("datum row") if (run.toolpath.line == finding.line).any() else None
+    known = {name: k for name, k in numbered.items() if held is None or int(name) == int(held)}
+    if known:
+        told = f"{'row' if len(known) == 1 else 'rows'} {' and '.join(known)} of [datums]: are X, Y and Z right?"
+        yield Cause(min(known.values()), told, True)
 
 
 def _beside(step: str, line: int) -> str:

@@ -33,6 +33,12 @@ def _list(chosen: argparse.Namespace) -> int:
 def _show(chosen: argparse.Namespace) -> int:
     for each in _named(chosen):
         print(f"{each!r}\n\n{each.task}\n")
+        if each.program:
+            print("\n".join(f"{k:4d}  {row}" for k, row in enumerate(each.program.rstrip().split("\n"), 1)), end="\n\n")
+        for k, question in enumerate(each.questions, 1):
+            print(f"{k}. {question.text}")
+        wanted = sensible(opened("mnclab.learning.card", "wanted"), each)
+        print("\n".join(f"- {sentence}" for sentence in wanted), end="\n\n" if wanted else "")
         if each.why:
             print(f"{each.why}\n")
         if chosen.answers:
