@@ -82,7 +82,7 @@ class Progress:
         """The map of the course, or the weeks of the plan: lessons, and their exercises as they stand."""
         left = '<td style="text-align:left">'
         heads = ("week", "lesson", "in class", "exercises") if self.plan else ("", "lesson", "exercises")
-        rows = f"<tr>{''.join(f'<th style=\"text-align:left\">{head}</th>' for head in heads)}</tr>"
+        rows = f"<tr>{''.join(f'{left}<strong>{head}</strong></td>' for head in heads)}</tr>"
         table = [tuple(map(escape, row[:3])) + (map(exercise, row.exercises),) for row in self.plan] or self._map()
         for *told, some in table:
             rows += f"<tr>{''.join(f'{left}{each}</td>' for each in told)}{left}{''.join(map(self._box, some))}</td></tr>"
