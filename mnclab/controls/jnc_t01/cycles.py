@@ -117,7 +117,7 @@ class CylindricalGrooves(LatheCycle):
 
 
 def check_removal(cycle: LongitudinalTurning | Facing, m: Machine) -> Iterator[tuple[str, str]]:
-    """Something to cut on both axes, the bevel in between, and not too many passes."""
+    """Something to cut on both axes, the taper in between, and not too many passes."""
     x1, _, z1 = m.programmed
     infeed = "Z" if cycle.transverse else "X"
     ways = ("x", "X", x1, cycle.end_x, cycle.taper_x), ("z", "Z", z1, cycle.end_z, cycle.taper_z)
@@ -134,16 +134,16 @@ def check_removal(cycle: LongitudinalTurning | Facing, m: Machine) -> Iterator[t
 
 
 def removal(cycle: LongitudinalTurning | Facing, m: Machine) -> Iterator[Step]:
-    """Infeed across, cuts along; the bevel goes through U and W."""
+    """Infeed across, cuts along; the taper goes through U and W."""
     x1, _, z1 = m.programmed
     finish, far = cycle.across_along(cycle.end_x, cycle.end_z)
-    bevel = x1 if cycle.taper_x is None else cycle.taper_x, z1 if cycle.taper_z is None else cycle.taper_z
-    rim, corner = cycle.across_along(*bevel)
+    taper = x1 if cycle.taper_x is None else cycle.taper_x, z1 if cycle.taper_z is None else cycle.taper_z
+    rim, corner = cycle.across_along(*taper)
     retract, feed = m.settings["retract"], standing_feed(m)
     wall = RAPID if m.settings["wall"] == "rapid" else feed
     shoulder, start = Shoulder(finish, corner, rim, far), cycle.across_along(x1, z1)
     if cycle.taper_x is None and cycle.taper_z is None:
-        yield Say("without U and W the bevel begins at the start: a cone is cut (U = X and W = Z make a square shoulder)")
+        yield Say("without U and W the taper begins at the start: a cone is cut (U = X and W = Z make a square shoulder)")
     yield from cycle.in_axes(remove_stock(start, shoulder, cycle.depth, retract=retract, feed=feed, wall=wall))
 
 
@@ -157,8 +157,8 @@ class LongitudinalTurning(LatheCycle):
 
     end_x: float = param("X", "end of the cut along X", note=ACROSS, example=20)
     end_z: float = param("Z", "end of the cut along Z", note=INCREMENT, example=-75)
-    taper_x: float | None = optional("U", "X of the bevel", "X of the start", 30)
-    taper_z: float | None = optional("W", "Z of the bevel", "Z of the start", -60)
+    taper_x: float | None = optional("U", "X of the taper", "X of the start", 30)
+    taper_z: float | None = optional("W", "Z of the taper", "Z of the start", -60)
     depth: float | None = pass_of("depth of cut", "the contour alone")
 
     check, moves = check_removal, removal
@@ -174,8 +174,8 @@ class Facing(LatheCycle):
 
     end_x: float = param("X", "end of the cut along X", note=ACROSS, example=20)
     end_z: float = param("Z", "end of the cut along Z", note=INCREMENT, example=-75)
-    taper_x: float | None = optional("U", "X of the bevel", "X of the start", 30)
-    taper_z: float | None = optional("W", "Z of the bevel", "Z of the start", -60)
+    taper_x: float | None = optional("U", "X of the taper", "X of the start", 30)
+    taper_z: float | None = optional("W", "Z of the taper", "Z of the start", -60)
     depth: float | None = pass_of("depth of cut", "the contour alone", 5)  # a pass at W: the wall is free up to there
 
     transverse = True

@@ -20,7 +20,7 @@ PARTS = {"G77": (0, 2), "G78": (2, 0)}  # axis of the infeed, axis of the cut
 
 def motion_of(program, x, z, **settings):
     found = run(f"F100 S500 M3\n{program}", "jnc-t01", start=(x / 100, 0, z / 100), **settings)
-    cone = found.alarms and "without U and W the bevel begins at the start: a cone is cut" in found.alarms[0].message
+    cone = found.alarms and "without U and W the taper begins at the start: a cone is cut" in found.alarms[0].message
     assert found.ok and len(found.alarms) == int(bool(cone)), (program, found.alarms)
     assert bool(cone) == (program.split()[1] in ("G77", "G78") and not {"U", "W"} & {word[0] for word in program.split()})
     path = found.toolpath.motion
