@@ -89,7 +89,7 @@ class Table(Pictured, Listing, Generic[One]):
     def only(self, *columns: str) -> Table[One]:
         """The same table with these columns alone (`columns()` lists their names)."""
         found = copy(self)
-        vars(found)["titles"] = {name: self.titles[name] for name in (choice("a column", each, self.titles) for each in columns)}
+        vars(found)["titles"] = {name: self.titles[name] for name in (choice(each, "a column", self.titles) for each in columns)}
         return found
 
     def columns(self) -> dict[str, np.ndarray]:
