@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, Generic, TypeVar
@@ -13,7 +14,7 @@ from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.text.alarm import Alarm, hint
-from mnclab.text.given import shown
+from mnclab.text.given import choice, shown
 from mnclab.text.tables import Listing, Pictured
 
 Titles = dict[str, tuple[str, str, Callable[[Any], Any]]]  # of every column what it is, how it is written, and its value
@@ -84,6 +85,12 @@ class Table(Pictured, Listing, Generic[One]):
     def told(self) -> Titles:
         """The columns of which something is known."""
         return {name: told for name, told in self.titles.items() if all(name in row for row in self.rows)}
+
+    def only(self, *columns: str) -> Table[One]:
+        """The same table with these columns alone (`columns()` lists their names)."""
+        found = copy(self)
+        vars(found)["titles"] = {name: self.titles[name] for name in (choice(each, "a column", self.titles) for each in columns)}
+        return found
 
     def columns(self) -> dict[str, np.ndarray]:
         """The table as arrays, for pandas, polars or matplotlib."""

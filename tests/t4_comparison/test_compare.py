@@ -272,3 +272,11 @@ def test_names_of_strategies_are_read_in_any_case_of_letters():
 def test_a_contour_of_two_lines_encloses_nothing():
     with pytest.raises(ValueError, match="encloses nothing"):
         Region.of(Contour([(0, 0), (10, 0)]))
+
+
+def test_a_table_may_have_some_of_its_columns_alone():
+    found = compare(Region.of(rectangle(30, 20)), 3.0, "rings")
+    few = found.only("strategy", "time")
+    assert few.head == ("strategy", "time, s") and [*few.columns()] == ["strategy", "time"] and len(found.head) > 10
+    with pytest.raises(Alarm, match="a column must be strategy"):
+        found.only("colour")
