@@ -18,10 +18,10 @@ SLACK = 40  # code lines: a mend must not wait for a budget
 
 #: Room -> code lines.
 BUDGETS = {
-    "front door": 325, "comparison": 1_137, "controls": 1_130, "controls/g43": 3_480, "controls/jnc_t01": 509,
+    "front door": 325, "comparison": 1_142, "controls": 1_133, "controls/g43": 3_480, "controls/jnc_t01": 509,
     "controls/mnc": 2_338, "controls/nc_31": 879, "controls/tnc_620": 14_295, "controls/word_address": 562,
-    "design": 9_895, "geometry": 2_585, "lab": 2_067, "learning": 1_780, "machine": 2_868, "machining": 4_987,
-    "path": 4_396, "running": 1_760, "runs": 2_540, "shell": 642, "show": 8_547, "text": 2_092, "workpiece": 5_633,
+    "design": 9_897, "geometry": 2_585, "lab": 2_068, "learning": 1_800, "machine": 2_868, "machining": 4_987,
+    "path": 4_396, "running": 1_760, "runs": 2_543, "shell": 648, "show": 8_547, "text": 2_097, "workpiece": 5_633,
 }  # fmt: skip
 FILES = 480
 
