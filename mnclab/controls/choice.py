@@ -88,11 +88,8 @@ def _point_out_another(program: Program) -> None:
     first = next((alarm for alarm in program.alarms if alarm.severity == ALARM), None)
     if first is None or len(program.faulty_blocks()) < max(3, len(program) / 4):  # a slip or two
         return
-    alike = looks_like(program.text, CONTROLS)
+    alike = looks_like(program.text, CONTROLS, program.control)
     if alike and alike != f"a program of {program.control}":
-        other = alike.removeprefix("a program of ")
-        if other in CONTROLS and 2 * len(CONTROLS[other].read(program.text, "").faulty_blocks()) > len(program.faulty_blocks()):
-            return  # there it would be faulty too: slips, as GO for G0
         said = f"this looks like {alike}, and was read as one of {program.control}"
         first.hint = f"{said}; {first.hint}" if first.hint else said
 
@@ -252,8 +249,9 @@ class Help:
 
 def _write_page(page: Help, path: Path) -> None:
     made = opened("mnclab.show.report.document", "page")
-    shown = page.entry.entries if isinstance(page.entry, Glossary) else page._repr_html_()
-    path.write_text(made("mnclab help", shown), "utf-8")
+    terms = isinstance(page.entry, Glossary)
+    shown = f"<h1>Glossary</h1>{page.entry.entries}" if terms else page._repr_html_()
+    path.write_text(made("Glossary" if terms else "mnclab help", shown), "utf-8")
 
 
 @fitting
@@ -358,11 +356,11 @@ def _only_one_with(code: str) -> Control:
     owners = _with(code)
     if code.strip() and len(owners) == 1:
         return owners[0]
-    whose = f"a code of {', '.join(one.name for one in owners)}" if owners else "no code of any control"
+    whose = f"a code of {', '.join(one.name for one in owners)}" if owners else "no code of any control and no word of a manual"
     example = f'help("{code.strip()}", "{owners[0].name}")' if owners else 'help("G83", "mnc")'
     near = "" if owners else hint(code.strip().lower(), [word for entry in glossary() for word in entry.words])
     raise Alarm(
-        f"{code} is {whose}: name the control" if code.strip() else "help needs a code and a control",
+        f"{code} is {whose}{': name the control' * bool(owners)}" if code.strip() else "help needs a code and a control",
         hint=f'{near + "; " if near else ""}{example}, or help("mnc") for all its codes; controls: {", ".join(CONTROLS)}',
     )
 

@@ -129,6 +129,7 @@ SUFFIXES = {
 LOOKED_AT = 20_000  # characters of a program that tell its control
 LEAST = 2.0  # what the signs of a control must weigh
 AHEAD, SHARE = 1.0, 0.2  # by how much more than those of the next: so much, and so much of the whole
+CLEARLY = 5.0  # more than the control that was named, which has signs too, before another is thought of
 TOLD = 3  # findings that an alarm tells of each
 #: Suffixes of a control that others use too, and what they weigh.
 SHARED = {".h": 4.0, ".i": 4.0, ".iso": 4.0}
@@ -218,7 +219,10 @@ def recognise(name: str, text: str, controls: Controls) -> Control:
     return controls[fitting[0].name]
 
 
-def looks_like(text: str, controls: Controls) -> str:
-    """What a text plainly looks like, in words: "a program of mnc", "a SINUMERIK program"; empty where that is not plain."""
-    fitting = leading(candidates("", text, controls))
-    return fitting[0].described if len(fitting) == 1 else ""
+def looks_like(text: str, controls: Controls, read_as: str = "") -> str:
+    """What a text plainly looks like, in words: "a program of mnc", "a SINUMERIK program"; empty where that is not plain, or
+    where it has signs of the control that it was `read_as` too: two ISO mills share most words, and a slip is a slip."""
+    ranked = candidates("", text, controls)
+    fitting = leading(ranked)
+    own = max((one.weight for one in ranked if one.name == read_as), default=-CLEARLY)
+    return fitting[0].described if len(fitting) == 1 and fitting[0].weight - own > CLEARLY else ""

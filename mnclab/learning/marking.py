@@ -25,7 +25,7 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, fitting, shown, whole
 from mnclab.text.tables import Rows, html_table
 
-SECONDS = 5.0  # of the processor, for one answer
+SECONDS = 10.0  # of the processor, for one answer
 PATIENCE = 60.0  # s on the clock, where the machine is busy, or cannot count the other
 MEMORY = 1 << 30  # bytes
 START = 60.0  # s for a process to begin

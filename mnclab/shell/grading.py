@@ -7,6 +7,7 @@ import json
 import re
 import sys
 import time
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -43,7 +44,9 @@ def _show(chosen: argparse.Namespace) -> int:
             print(f"{each.why}\n")
         if chosen.answers:
             answers = sensible(opened("mnclab.learning.answers", "answers_of"), each.file)
-            print("\n".join(["answer:", answers.model, *filter(None, [answers.why])]))
+            own = "\n[vary]" in each.file.read_text("utf-8")
+            head = "answer, of the drawing before a name draws its dimensions:" if own else "answer:"
+            print("\n".join([head, answers.model, *filter(None, [answers.why])]))
     return CLEAN
 
 
@@ -74,7 +77,9 @@ def _give(chosen: argparse.Namespace) -> int:
     pupils = {folder: chosen.pupil}
     if chosen.pupils:
         listed = decode(read(chosen.pupils, chosen.pupils))[0].splitlines()
-        pupils = {folder / name: name for each in listed if (name := sensible(_folder, each.strip(" .")))}
+        names = [name for each in listed if (name := sensible(_folder, each.strip(" .")))]
+        sensible(_apart, names)
+        pupils = {folder / name: name for name in names}
     for place, pupil in pupils.items():
         for path in sensible(give, chosen.names, place, pupil):
             print(path)
@@ -86,6 +91,13 @@ def _folder(name: str) -> str:
     if bad := FORBIDDEN.search(name):
         raise Alarm(f"a folder has no {shown(bad[0])} in its name, got {shown(name)}", hint="a name a line, letters and spaces")
     return name
+
+
+def _apart(names: list[str]) -> None:
+    """Two pupils of one name would share a folder, and where large and small letters are the same, Anna and anna too."""
+    often = Counter(name.casefold() for name in names)
+    for name in (name for name in names if often[name.casefold()] > 1):
+        raise Alarm(f"two pupils have the name {shown(name)}", hint="write them apart: Anna B, Anna K")
 
 
 def grade(chosen: argparse.Namespace) -> int:

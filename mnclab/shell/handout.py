@@ -39,7 +39,7 @@ PACKAGES = ("nbformat", "nbclient", "nbconvert")
 def handout(chosen: argparse.Namespace) -> int:
     """Write lessons as one set of pages, .html or .pdf or both."""
     found = sensible(lessons, chosen.lesson)
-    out = Path(chosen.output or f"handout_{'_'.join(found)}.html")
+    out = Path(chosen.output or f"handout_{'_'.join([*found, *['answers'] * chosen.answers])}.html")
     suffix = out.suffix.lower()
     if suffix not in (".html", ".pdf"):
         sensible(_refuse, f"a handout is an .html or a .pdf file, got {shown(out.name)}")
