@@ -97,6 +97,14 @@ def test_notebook_runs(path):
     NotebookClient(notebook, timeout=120, kernel_name="python3", resources=place).execute(env=environment)
 
 
+@pytest.mark.parametrize("path", sorted((ROOT / "data" / "lessons").glob("*.[hm]*")), ids=lambda path: path.stem)
+def test_a_program_that_a_lesson_shows_runs_and_collides_nowhere(path):
+    setup = path.with_suffix(".toml")
+    run = mnclab.run(path, setup=setup if setup.exists() else None)
+    assert run.ok
+    assert run.stock is None or len(run.collisions()) == 0
+
+
 def test_the_map_of_the_course_has_every_lesson():
     text = (ROOT / "notebooks" / "README.md").read_text("utf-8")
     assert sorted(re.findall(r"\]\((\w+\.ipynb)\)", text)) == [path.name for path in NOTEBOOKS]
