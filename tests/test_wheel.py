@@ -62,4 +62,4 @@ def test_a_wheel_is_whole_and_runs_alone(built, tmp_path):
     said = subprocess.run([python, "-c", asked], cwd=tmp_path, capture_output=True, text=True, check=True).stdout
     assert "environment" in said and mnclab.exercise("mnc-07").title in said
     run = [python, "-c", LESSON, "notebooks/00_first_path.ipynb"]
-    assert int(subprocess.run(run, cwd=tmp_path / "course", capture_output=True, text=True, check=True).stdout) > 10
+    assert int(subprocess.run(run, cwd=tmp_path / "course", capture_output=True, text=True, check=True).stdout) >= 8
