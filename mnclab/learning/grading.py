@@ -93,8 +93,9 @@ def _datum_of(finding: Finding, run: Run, rows: list[str]) -> Iterator[Cause]:
     head = rows.index("[datums]") if "[datums]" in rows else len(rows)
     end = next((k for k in range(head + 1, len(rows)) if rows[k].startswith("[")), len(rows))
     numbered = {name: k for k, row in enumerate(rows[head:end], head + 1) if (name := row.partition("=")[0].strip()).isdigit()}
-    held = run.at(line=finding.line).state.get("datum row") if (run.toolpath.line == finding.line).any() else None
-    known = {name: k for name, k in numbered.items() if held is None or int(name) == int(held)}
+    cut = (run.toolpath.line == finding.line) & (run.toolpath.program == 0)  # a line of a program that is called is another
+    held = run.at(line=finding.line).state.get("datum row") if cut.any() else None
+    known = {name: k for name, k in numbered.items() if held is None or int(name) == held}
     if known:
         told = f"{'row' if len(known) == 1 else 'rows'} {' and '.join(known)} of [datums]: are X, Y and Z right?"
         yield Cause(min(known.values()), told, True)

@@ -256,12 +256,15 @@ class Program:
 
     def _parted(self, line: str) -> tuple[str, str]:
         """A line with blanks in the place of its comments, and these; one that begins with a bracket ends with one."""
-        said = []
-        while mark := re.search(self.comment_mark, line):
-            inside, closed, behind = line[mark.end() :].partition(")" if mark[0] == "(" else "\n")
-            said.append(inside.strip())
-            line = line[: mark.start()].ljust(len(line) - len(behind)) + behind
-        return line, " ".join(said)
+        code, said, at = [], [], 0
+        pattern = re.compile(self.comment_mark)
+        while mark := pattern.search(line, at):
+            closed = line.find(")", mark.end()) if mark[0] == "(" else -1
+            end = closed + 1 or len(line)
+            said.append(line[mark.end() : end - (closed >= 0)].strip())
+            code += [line[at : mark.start()], " " * (end - mark.start())]
+            at = end
+        return "".join([*code, line[at:]]), " ".join(filter(None, said))
 
     def code_of(self, index: int) -> list[str]:
         """The lines of a block without its comments."""
