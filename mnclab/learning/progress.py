@@ -115,8 +115,8 @@ def _rows(plan: str) -> Iterator[Row]:
     for line in filter(re.compile(r"\| (\d+ )?\| ").match, _text(known[choice(plan, "plan", known)]).splitlines()):
         number, lesson, what, given = (each.strip() for each in line.split("|")[1:5])
         week = number or week
-        lesson, what = (re.sub(r"\[(.*?)\]\(.*?\)|[*`]", r"\1", each) for each in (lesson, what))
-        yield Row(week, lesson, what, tuple(name for name in re.findall(r"[\w-]+-\d\d", given) if name in files()))
+        lesson, what = (re.sub(r"\[([^][]*)\]\([^()]*\)|[*`]", r"\1", each) for each in (lesson, what))
+        yield Row(week, lesson, what, tuple(name for name in re.findall(r"`([^`]*)`", given) if name in files()))
 
 
 def _text(path: Path) -> str:

@@ -112,7 +112,7 @@ def plan(notebook: Mapping[str, Any]) -> Iterator[str]:
     told = "\n".join("".join(cell["source"]) for cell in notebook["cells"][:3])
     head = dict(re.findall(r"^\*\*What you (.*?)\.\*\* *(.*)", told, re.M))
     yield f"**Aim.** {head.get('will do', '')}\n\n**They learn.** {head.get('will learn', '')}"
-    minutes = re.search(r"(\d+) minutes", head.get("need", ""))
+    minutes = re.search(r"(?<!\d)(\d+) minutes", head.get("need", ""))
     yield f"**Time.** The lesson {minutes[1] if minutes else HALF} minutes, the exercises {HALF} minutes: a double lesson."
     if show := notebook["metadata"].get("teacher"):
         yield "**What to show.**\n\n" + "\n".join(f"- {each}" for each in show)
