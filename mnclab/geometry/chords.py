@@ -190,6 +190,20 @@ def _pairs(walls: Walls, width: Floats, coarse: Chunks) -> Iterator[tuple[Index,
                     yield i[keep_pair], j[keep_pair]
 
 
+def may_cross(walls: Walls, coarse: Chunks) -> Index:
+    """The walls that may cross another one (m,). A chunk whose directions keep within half a turn always goes on in one
+    direction, so it cannot cross itself, nor the next one while both together keep so."""
+    n, begin = len(walls.s), np.arange(len(coarse.spread)) * COARSE
+    torn = ~walls.joined
+    torn[begin] = False
+    looked = (coarse.spread >= np.pi / 2 - 1e-6) | np.logical_or.reduceat(torn, begin)
+    for a, b in near(coarse.low, coarse.high, 0.0):
+        between = np.arccos(np.clip(dot(coarse.middle[a], coarse.middle[b]), -1.0, 1.0))
+        onward = (b == a + 1) & walls.joined[begin[b]] & (between + coarse.spread[a] + coarse.spread[b] < np.pi - 1e-6)
+        looked[a[~onward]] = looked[b[~onward]] = True
+    return np.flatnonzero(np.repeat(looked, COARSE)[:n])
+
+
 def _inside(a: Index, b: Index, size: int, n: int) -> Iterator[tuple[Index, Index]]:
     """The parts of chunks a and b (k,), each with each, where a chunk has `size` of them and there are n in all."""
     one, two = np.divmod(np.arange(size * size), size)

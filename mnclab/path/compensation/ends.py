@@ -75,10 +75,10 @@ def _outside(el: Elements, i: Index, j: Index) -> Iterator[tuple[Array, Mask]]:
             yield p, np.isfinite(p[:, 0]) & ~joint & (el.s[first] * turn < -ALONG)
 
 
-def crossed(el: Elements, contour: Index) -> tuple[Index, Index]:
-    """Walls first < last (m,) of a contour that cross as at an inside corner from the last to the first and run on. Not
-    on a retracted way, with a lift before it and a plunge after it: what it crosses is in the air."""
-    k, found = np.flatnonzero(el.wall & ~retracted(el, contour)), []
+def crossed(el: Elements, contour: Index, k: Index) -> tuple[Index, Index]:
+    """Of walls k (m,) those first < last of a contour that cross as at an inside corner from the last to the first and run on.
+    Not on a retracted way, with a lift before it and a plunge after it: what it crosses is in the air."""
+    k, found = k[~retracted(el, contour)[k]] if len(k) else k, []
     if not len(k):
         return k, k
     for one, two in near(*el.boxes(k, contour), 0.0):

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mnclab.geometry.chords import Chunks, Walls, chunks, facing
+from mnclab.geometry.chords import Chunks, Walls, chunks, facing, may_cross
 from mnclab.geometry.curves import Curves, beside, distance, nearest, part
 from mnclab.path.compensation import neighbours
 from mnclab.path.compensation.elements import (
@@ -222,7 +222,7 @@ def _global(found: Equidistant, contour: Index) -> list[Places]:
     n_out = beside(np.zeros((1, 2)), el.t_out[run], s) if el.arc.any() else n_in
     walls = Walls(el.curves(run), n_in, n_out, joined, s, group)
     coarse = chunks(walls)
-    facing_and_crossed = [_bottlenecks(found, contour, k, walls, coarse), _crossed(found, contour)]
+    facing_and_crossed = [_bottlenecks(found, contour, k, walls, coarse), _crossed(found, contour, k[may_cross(walls, coarse)])]
     leads = [*arrivals(found, contour, k, walls, coarse), *rolled(found, contour, k, coarse)]
     return [*facing_and_crossed, *leads, *cut_off(found, contour, k, walls, coarse), *_tips(found, contour)]
 
@@ -244,9 +244,9 @@ def _bottlenecks(found: Equidistant, contour: Index, k: Index, walls: Walls, coa
     return Places("bottleneck", i, j, width, 2 * el.R[i] - width, width / 2, text)
 
 
-def _crossed(found: Equidistant, contour: Index) -> Places:
-    """Walls that lead the tool through another one that stands."""
-    first, last = crossed(found.el, contour)
+def _crossed(found: Equidistant, contour: Index, k: Index) -> Places:
+    """Of walls k (m,) those that lead the tool through another one that stands."""
+    first, last = crossed(found.el, contour, k)
     bad = ~given_up(found, contour, first, last)
     first, last = first[bad], last[bad]
     none, R = np.zeros(len(first)), found.el.R[last]
