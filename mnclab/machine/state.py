@@ -201,7 +201,6 @@ class Measured(Kept):
 
 PLAIN = frozenset((str, int, float, bool, type(None)))
 FIXED: tuple[type, ...] = (Toolpath, MappingProxyType)
-HOLDERS = (list, set, frozenset)
 
 
 class Snapshot:
@@ -216,11 +215,11 @@ class Snapshot:
         """The values once more, in objects that may change."""
         return {name: copied(value) for name, value in self._values.items()}
 
-    def differences(self, other: Snapshot) -> list[str]:
-        """The names whose values are not the same in another snapshot."""
-        names = dict.fromkeys((*self._values, *other._values))
-        both = self._values.keys() & other._values.keys()
-        return [name for name in names if name not in both or not same(self._values[name], other._values[name])]
+    def differences(self, other: Snapshot | Mapping[str, Any]) -> list[str]:
+        """The names whose values are not the same in another snapshot, or among others as they are now."""
+        now = other._values if isinstance(other, Snapshot) else other
+        names, both = dict.fromkeys((*self._values, *now)), self._values.keys() & now.keys()
+        return [name for name in names if name not in both or not same(self._values[name], now[name])]
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Snapshot) and not self.differences(other)
@@ -236,8 +235,10 @@ def copied(value: Any) -> Any:
         return value
     if kind is dict:
         return {key: copied(one) for key, one in value.items()}
-    if kind in HOLDERS:
-        return kind(map(copied, value))
+    if kind is list:
+        return [copied(one) for one in value]
+    if kind is set or kind is frozenset:  # what is in a set cannot change
+        return kind(value)
     if isinstance(value, tuple):
         if PLAIN.issuperset(map(type, value)):
             return value
@@ -322,7 +323,7 @@ class State:
     recorded_only: bool = part(False)  # a contour is recorded: nothing moves
     unheard: str = part("")  # functions whose codes begin so do nothing: where only the contour counts
     block_end: list[Callable[[], None]] = part(lambda m: [])  # to be done when the block is over
-    alarms: Alarms = part(lambda m: Alarms(), outlives=True)
+    alarms: Alarms = part(lambda m: Alarms(), outlives=True, compared=())  # those of blocks are noted
     noted: set[tuple[str, Span | None]] = part(lambda m: set(), outlives=True)  # of which a warning was given
     logs: Logs = part(lambda m: Logs(), outlives=True, compared=())
 

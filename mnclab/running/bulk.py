@@ -47,7 +47,8 @@ class PlainWords:
     `motions` maps the value of a G word to the code of its motion and its sense (0 rapid, 1 line, ±2 arcs, sign as in
     +2 counter-clockwise); a control without such words has one entry, None. `ready` says whether plain words mean
     plain motion now, `absolute` whether positions are absolute. Addresses other than `LETTERS` change nothing in
-    a plain block (R0 of Klartext): its reader calls no other block plain. `helices` says whether arcs with a third
+    a plain block, unless `ends_at` says that such an address ends the run now (R0 of Klartext, beside a contour): its reader
+    calls no other block plain. `helices` says whether arcs with a third
     coordinate need no word of their own now, and hears how many more were made. `letters` are the addresses that the
     control has; `straight_arcs` says whether an arc without R and centre is a straight line without a word,
     `whole_circles`: one without coordinates is a circle; where they are not, that is a fault. `zero_along`: a centre may be
@@ -66,6 +67,7 @@ class PlainWords:
     whole_circles: bool = True
     unit: Callable[[Machine], float] = lambda m: 1.0
     feed: Callable[[Machine], float] = lambda m: 1.0
+    ends_at: Callable[[Machine], str] = lambda m: ""
 
 
 @dataclass
@@ -132,6 +134,10 @@ class Bulk:
             return done
         if self.machine.per_rev or self.machine.pending or not rule.ready(self.machine):
             return 0
+        end = self.before_word(first, end, rule.ends_at(self.machine))
+        if end - first < SHORTEST:
+            self.not_before = end + 1
+            return 0
         run = self.work_out(first, end)
         good = int(np.argmax(run.fault)) if run.fault.any() else end - first
         if good:
@@ -141,6 +147,15 @@ class Bulk:
         else:
             self.size = min(2 * self.size, LARGEST)
         return good
+
+    def before_word(self, first: int, end: int, address: str) -> int:
+        """Where the blocks [first, end) end that do not have an address."""
+        program = self.program
+        if address not in program.addresses:
+            return end
+        a = int(program.first[first])
+        words = np.flatnonzero(program.address[a : program.first[end]] == program.addresses.index(address))
+        return int(np.searchsorted(program.first, a + words[0], "right")) - 1 if len(words) else end
 
     # --- what the run is ---------------------------------------------------------------------------------------------
 

@@ -62,9 +62,10 @@ def repeat_hole(bulk: Bulk, first: int, end: int, least: int) -> int:
         bulk.not_before = first + max(good, 1)
         return 0
     visits: list[Visit | None] = []
+    before = Snapshot(lasting_over_blocks(machine))
     for block in (first, first + 1):
         step = machine.step
-        visits.append(visit(machine, places[block - first], partial(_obey, bulk.flow, block), lasting_over_blocks))
+        visits.append(visit(machine, places[block - first], partial(_obey, bulk.flow, block), before, lasting_over_blocks))
         if visits[-1] is None or machine.step != step + 1:  # the other tier makes them
             bulk.not_before = first + least
             return block - first + 1
@@ -105,21 +106,22 @@ def _obey(flow: Course, block: int) -> None:
     flow.obey(block)
 
 
-def lasting(m: Machine) -> tuple[object, ...]:
+def lasting(m: Machine) -> dict[str, Any]:
     """Everything that stays from one visit to the next within a block: equal where the machine is as it was."""
-    return _level(m), m.snapshot(COMPARED[PATTERN]), course(m).standing()
+    return _of(m, PATTERN) | {"where": course(m).standing()}
 
 
-def lasting_over_blocks(m: Machine) -> tuple[object, ...]:
+def lasting_over_blocks(m: Machine) -> dict[str, Any]:
     """The same where each visit is a plain block under the same cycle, of which only what is modal stays."""
     definition = m.position_cycle
     assert definition is not None
     modal = {p.name: definition.values.get(p.name) for p in definition.cycle.parameters() if p.modal}
-    return _level(m), m.snapshot(COMPARED[HOLES]), definition.cycle, Snapshot(modal), Snapshot(definition.extra)
+    return _of(m, HOLES) | {"called": definition.cycle, "modal values": modal, "extra": definition.extra}
 
 
-def _level(m: Machine) -> tuple[float, int]:
-    return m.programmed[2], len(m.recorder.joints)
+def _of(m: Machine, kind: str) -> dict[str, Any]:
+    here = {"level": m.programmed[2], "joints": len(m.recorder.joints)}
+    return here | {name: getattr(m, name) for name in COMPARED[kind]}
 
 
 def at_each(m: Machine, points: Array, make: Callable[[float, float], None]) -> None:
@@ -131,7 +133,8 @@ def at_each(m: Machine, points: Array, make: Callable[[float, float], None]) -> 
     places, done = points.tolist(), 0
     if len(points) >= FEWEST and _anywhere(m):
         make(*places[0])
-        visits = [visit(m, points[k], partial(make, *places[k]), lasting) for k in (1, 2)]
+        before = Snapshot(lasting(m))
+        visits = [visit(m, points[k], partial(make, *places[k]), before, lasting) for k in (1, 2)]
         model, done = _model(visits, points[1:-1]), 3
         if model is not None:
             between = len(points) - 4
@@ -146,15 +149,17 @@ def _anywhere(m: Machine) -> bool:
     return m.surface is None and not m.per_time
 
 
-def visit(m: Machine, place: Array, make: Callable[[], None], state: Callable[[Machine], Any]) -> Visit | None:
-    """Make a visit to a place (2,) of the program; None if it left the machine as another one, has rows that are gone or
-    wait for later ones, or does not come over the place."""
-    before, came, tip = state(m), m.programmed[:2], m.tip
+def visit(
+    m: Machine, place: Array, make: Callable[[], None], before: Snapshot, state: Callable[[Machine], dict[str, Any]]
+) -> Visit | None:  # fmt: skip
+    """Make a visit to a place (2,) of the program; None if it left the machine with another `state` than `before`, has rows
+    that are gone or wait for later ones, or does not come over the place."""
+    came, tip = m.programmed[:2], m.tip
     m.recorder.room(0)  # its rows will stand alone
     waiting = m.recorder.count
     make()
     rows = np.array(m.recorder.rows).reshape(-1, len(ROW))
-    if m.recorder.count != waiting or not len(rows) or state(m) != before:
+    if m.recorder.count != waiting or not len(rows) or before.differences(state(m)):
         return None
     inside = frames.apply(frames.inverse(m.frames.matrix), rows[:, _END])[:, :2]
     there = np.asarray((np.abs(inside - place) < SAME).all(axis=1))

@@ -84,7 +84,7 @@ def test_pattern_of_points(monkeypatch):
     grid = "PATTERN DEF PAT1 (X+0 Y+0 DX+1 DY+1 NUMX{} NUMY100 ROT+0 ROTX+0 ROTY+0 Z+0)\nCYCL CALL PAT FMAX M3\n"
     text = f"BEGIN PGM P MM\nTOOL CALL 2 Z S1000\n{cycle}{grid.format(HOLES // 100)}END PGM P MM\n"
     tenth = text.replace(f"NUMX{HOLES // 100}", f"NUMX{HOLES // 1000}")
-    many = mnclab.Setup(settings={"most_rows": 10 * HOLES})
+    many = mnclab.Setup(settings={"most_rows": 20 * HOLES})
     columns, _, run = seconds(lambda: mnclab.run(text, "tnc-620", setup=many))
     assert run.ok and (run.toolpath.kind == Kind.LINE).sum() == 3 * HOLES
     monkeypatch.setattr("mnclab.running.repeating.FEWEST", HOLES)

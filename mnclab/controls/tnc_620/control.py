@@ -160,6 +160,7 @@ CONTROL = Control(
     compensation=Compensation(approach="perpendicular", rapid=True),
     bulk=PlainWords(
         motions={None: ("L", 1)}, keyword="L", feed=lambda m: m.feed_unit,
-        ready=lambda m: m.side == 0 and not m.modal.get("call") and m.memory.developed is None,
+        ready=lambda m: not m.modal.get("call") and m.memory.developed is None,
+        ends_at=lambda m: "R0" if m.side else "",
     ),
 )  # fmt: skip
