@@ -46,13 +46,14 @@ class PlainWords:
 
     `motions` maps the value of a G word to the code of its motion and its sense (0 rapid, 1 line, ±2 arcs, sign as in
     +2 counter-clockwise); a control without such words has one entry, None. `ready` says whether plain words mean
-    plain motion now, `absolute` whether positions are absolute. Addresses other than `LETTERS` change nothing in
-    a plain block, unless `ends_at` says that such an address ends the run now (R0 of Klartext, beside a contour): its reader
-    calls no other block plain. `helices` says whether arcs with a third
-    coordinate need no word of their own now, and hears how many more were made. `letters` are the addresses that the
-    control has; `straight_arcs` says whether an arc without R and centre is a straight line without a word,
-    `whole_circles`: one without coordinates is a circle; where they are not, that is a fault. `zero_along`: a centre may be
-    0 along the axis of the arc. `unit` is what its lengths and feeds are multiplied with, `feed` what feeds are besides.
+    plain motion now, `absolute` whether positions are absolute. `letters` are those of `LETTERS` that the control has;
+    other addresses change nothing in a plain block, but for three: `rapid`, one without a number, makes the motion of
+    its block alone rapid, a block with `call` runs a cycle where it ends, and `ends_at` names one that ends a run now
+    (R0 of Klartext, beside a contour). `helices` says whether arcs with a third coordinate need no word of their own now,
+    and hears how many more were made; `straight_arcs` says whether an arc without R and centre is a straight line
+    without a word, `whole_circles`: one without coordinates is a circle; where they are not, that is a fault.
+    `zero_along`: a centre may be 0 along the axis of the arc. `unit` is what lengths and feeds are multiplied with, `feed`
+    what feeds are besides.
     """
 
     motions: Mapping[float | None, tuple[str, int]]
@@ -67,6 +68,8 @@ class PlainWords:
     whole_circles: bool = True
     unit: Callable[[Machine], float] = lambda m: 1.0
     feed: Callable[[Machine], float] = lambda m: 1.0
+    rapid: str = ""
+    call: str = ""
     ends_at: Callable[[Machine], str] = lambda m: ""
 
 
@@ -97,6 +100,7 @@ class Bulk:
         self.enabled = self.rule is not None and machine.settings.get("bulk", True)
         self.not_before, self.size, self.last = 0, SHORTEST, 0
         self.next_break = -1
+        self.once_more = False  # the first of two holes was not like any other
         if self.rule is None:
             return
         plain = program.plain.copy()
@@ -107,11 +111,26 @@ class Bulk:
         strange = [k for name, k in self.index.items() if name not in self.rule.letters]
         if strange and len(of_them := np.flatnonzero(np.isin(program.address, strange))):
             plain[np.searchsorted(program.first, of_them, "right") - 1] = False
+        self.calls_end = self._ends_of_calls(plain)
         self.breaks = np.append(np.flatnonzero(~plain), len(program))
-        self.enabled = self.enabled and len(program) - len(self.breaks) + 1 >= SHORTEST
+        self.enabled = self.enabled and (len(program) - len(self.breaks) + 1 >= SHORTEST or len(self.calls_end) > 0)
         self.codes = {value: code for value, (code, _) in self.rule.motions.items()}
         self.senses = {code: sense for code, sense in self.rule.motions.values()}
         self.next_break = int(self.breaks[0])
+
+    def _ends_of_calls(self, plain: Mask) -> NDArray[np.int64]:
+        """Of each block (b + 1,) where the run of plain blocks ends that call a cycle, of others the block itself; nothing
+        where no block calls one. Those that do are plain no more."""
+        program, rule = self.program, self.rule
+        if rule is None or rule.call not in program.addresses:
+            return np.empty(0, np.int64)
+        words = np.flatnonzero(program.address == program.addresses.index(rule.call))
+        called = np.zeros(len(program) + 1, dtype=bool)
+        called[np.searchsorted(program.first, words, "right") - 1] = True
+        called[:-1] &= plain
+        plain &= ~called[:-1]
+        ends = np.where(called, len(program), np.arange(len(program) + 1))
+        return np.minimum.accumulate(ends[::-1])[::-1] if called.any() else ends[:0]
 
     def obey(self, first: int, stop: int) -> int:
         """Obey the plain blocks from `first` on; how many were, 0 if that one goes to the other tier."""
@@ -120,6 +139,8 @@ class Bulk:
         self.last = first
         if not self.enabled or first < self.not_before:
             return 0
+        if len(self.calls_end) and self.calls_end[first] > first:
+            return self.call_at_each(first, min(int(self.calls_end[first]), stop))
         if first > self.next_break or self.next_break - first < SHORTEST:
             self.next_break = int(self.breaks[np.searchsorted(self.breaks, first)])
         end = min(self.next_break, stop, first + self.size)
@@ -129,9 +150,7 @@ class Bulk:
         rule = self.rule
         assert rule is not None
         if self.machine.position_cycle:
-            done = repeat_hole(self, first, end, SHORTEST)
-            self.size = min(8 * self.size, LARGEST) if done == end - first - 1 else SHORTEST
-            return done
+            return self.holes(first, end, self.next_break)
         if self.machine.per_rev or self.machine.pending or not rule.ready(self.machine):
             return 0
         end = self.before_word(first, end, rule.ends_at(self.machine))
@@ -148,14 +167,32 @@ class Bulk:
             self.size = min(2 * self.size, LARGEST)
         return good
 
+    def call_at_each(self, first: int, end: int) -> int:
+        """Obey blocks of the run up to `end` that call the cycle at their places; how many were."""
+        m, rule = self.machine, self.rule
+        assert rule is not None
+        if m.cycle is None or m.position_cycle or m.pending or m.side or not rule.ready(m):
+            return 0
+        return self.holes(first, min(end, first + self.size), end) if end - first >= SHORTEST else 0
+
+    def holes(self, first: int, end: int, last: int) -> int:
+        """Obey those of the blocks [first, end) that make the same hole, in a run up to `last`; how many were."""
+        done = repeat_hole(self, first, end, last, SHORTEST)
+        self.size = min(8 * self.size, LARGEST) if done == end - first - 1 else SHORTEST
+        return done
+
     def before_word(self, first: int, end: int, address: str) -> int:
         """Where the blocks [first, end) end that do not have an address."""
-        program = self.program
-        if address not in program.addresses:
-            return end
-        a = int(program.first[first])
-        words = np.flatnonzero(program.address[a : program.first[end]] == program.addresses.index(address))
-        return int(np.searchsorted(program.first, a + words[0], "right")) - 1 if len(words) else end
+        addresses = self.program.addresses
+        having = self.having(first, end, addresses.index(address)).tolist() if address in addresses else []
+        return first + having[0] if having else end
+
+    def having(self, first: int, end: int, address: int) -> NDArray[np.int64]:
+        """Which of the blocks [first, end), from 0, have an address, by its number in the program."""
+        starts = self.program.first
+        a, b = int(starts[first]), int(starts[end])
+        words = a + np.flatnonzero(self.program.address[a:b] == address)
+        return np.asarray(np.searchsorted(starts, words, "right") - 1 - first)
 
     # --- what the run is ---------------------------------------------------------------------------------------------
 
@@ -211,6 +248,8 @@ class Bulk:
         no_feed = np.nan if machine.feed is None else machine.feed
         feed = _filled(no_feed, words["F"]) if "F" in words else np.full(n, no_feed)
         motion, fault = self.motions(words.get("G"), n)
+        if rule.rapid in self.program.addresses:
+            motion[self.having(first, end, self.program.addresses.index(rule.rapid))] = 0
         arc = shaped = np.zeros(n, dtype=bool)
         for name in "IJKR":
             if name in words:

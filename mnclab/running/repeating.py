@@ -49,8 +49,8 @@ class Visit(NamedTuple):
     left: tuple[Array, Array]
 
 
-def repeat_hole(bulk: Bulk, first: int, end: int, least: int) -> int:
-    """Obey the plain blocks [first, end) that say the same hole at other places; how many were, one
+def repeat_hole(bulk: Bulk, first: int, end: int, last: int, least: int) -> int:
+    """Obey the plain blocks [first, end) that say the same hole at other places, in a run up to `last`; how many were, one
     fewer than belong to them, and 0 if fewer than `least` do.
 
     A block belongs to them if it moves in the plane and all its other words are those of the first block.
@@ -67,14 +67,16 @@ def repeat_hole(bulk: Bulk, first: int, end: int, least: int) -> int:
         step = machine.step
         visits.append(visit(machine, places[block - first], partial(_obey, bulk.flow, block), before, lasting_over_blocks))
         if visits[-1] is None or machine.step != step + 1:  # the other tier makes them
-            bulk.not_before = first + least
+            bulk.once_more = block == first and not bulk.once_more  # the first of many may only have to come to their height
+            bulk.not_before = first + (1 if bulk.once_more else least)
             return block - first + 1
+    bulk.once_more = False
     model = _model(visits, places[:good])
     if model is None or model.rows[0, 0] != Kind.RAPID:
         bulk.not_before = first + least
         return 2
     count = good - 3
-    machine.recorder.expect(len(model.rows) * (bulk.next_break - first) + bulk.next_break - first)
+    machine.recorder.expect((len(model.rows) + 1) * (last - first))
     changed = {
         name: log.values[-1]
         for name, log in machine.logs.by_name.items()
@@ -95,7 +97,8 @@ def repeat_hole(bulk: Bulk, first: int, end: int, least: int) -> int:
 def _position_alone(bulk: Bulk, block: int) -> bool:
     """Whether a block says one hole: another motion, or a count of holes, is for the other tier."""
     program, definition = bulk.program, bulk.machine.position_cycle
-    assert definition is not None
+    if definition is None:  # the block calls the cycle itself
+        return True
     counts = {a for p in definition.cycle.parameters() if p.name == "repeats" for a in (p.address, *p.aliases)}
     words = program.address[program.first[block] : program.first[block + 1]]
     return all(program.addresses[k] != "G" and program.addresses[k] not in counts for k in words)
@@ -114,7 +117,8 @@ def lasting(m: Machine) -> dict[str, Any]:
 def lasting_over_blocks(m: Machine) -> dict[str, Any]:
     """The same where each visit is a plain block under the same cycle, of which only what is modal stays."""
     definition = m.position_cycle
-    assert definition is not None
+    if definition is None:
+        return _of(m, HOLES)
     modal = {p.name: definition.values.get(p.name) for p in definition.cycle.parameters() if p.modal}
     return _of(m, HOLES) | {"called": definition.cycle, "modal values": modal, "extra": definition.extra}
 
@@ -207,6 +211,12 @@ def _places(bulk: Bulk, first: int, end: int) -> tuple[Array, NDArray[np.bool_]]
     alike &= (np.abs(places[1:]) < LARGEST).all(axis=1)
     for column in words.values():
         alike &= (column == column[0]) | (np.isnan(column) & np.isnan(column[0]))
+    program = bulk.program
+    seen = np.unique(program.address[program.first[first] : program.first[end]])
+    for address in seen[~np.isin(seen, list(bulk.index.values()))].tolist():
+        there = np.zeros(n, dtype=bool)  # a word without a letter of its own, such as FMAX
+        there[bulk.having(first, end, address)] = True
+        alike &= there == there[0]
     return places[1:], alike
 
 

@@ -161,6 +161,7 @@ CONTROL = Control(
     bulk=PlainWords(
         motions={None: ("L", 1)}, keyword="L", feed=lambda m: m.feed_unit,
         ready=lambda m: not m.modal.get("call") and m.memory.developed is None,
+        rapid="FMAX", call="M",
         ends_at=lambda m: "R0" if m.side else "",
     ),
 )  # fmt: skip

@@ -42,8 +42,10 @@ _MEANT = {
     "ERROR": "a control writes ERROR = before a block that it could not read: write the block anew, formulas in one of their own",
     "IF": "a jump is FN 9: IF +Q1 EQU +Q3 GOTO LBL 5", "SPINDLE": "M3, M4 and M5 are the spindle", "COOLANT": "write M8 or M9",
 }  # fmt: skip
-_PLAIN = "FRXYZ"  # letters of plain lines
-_FEED = _PLAIN.index("F")
+_PLAIN = "FRXYZKM"  # letters of plain lines: K stands for FMAX, M for M99
+_FEED, _M = _PLAIN.index("F"), _PLAIN.index("M")
+_RAPID, _SCANNED = "FMAX", "K000"  # what the words of a whole text are found in has a word with a number in its place
+_CALL = 99.0  # M99 calls the cycle where the line ends
 MOST_LETTERS = 30  # of a word that may have been meant as a statement
 PIECE = 1 << 14  # lines whose words are looked at together
 
@@ -54,7 +56,8 @@ _DIGIT_OF_LETTER = np.full(256, _STRANGE, np.int32)
 _PLACE_OF_LETTER, _FORM_OF_LETTER = np.zeros(256, np.int16), np.zeros(256, np.uint8)
 for _place, _letter in enumerate(_PLAIN):
     _DIGIT_OF_LETTER[ord(_letter)], _PLACE_OF_LETTER[ord(_letter)] = 1 << 4 * _place, _place
-_FORM_OF_LETTER[ord("R")] = NONE
+_DIGIT_OF_LETTER[ord("K")] = _DIGIT_OF_LETTER[ord("F")]  # one feed in a line
+_FORM_OF_LETTER[[ord("R"), ord("K")]] = NONE
 
 
 @readable
@@ -63,7 +66,7 @@ def read(text: str, name: str = "program") -> Program:
     unit = _UNIT.search(text)
     if unit is None and (din_reader.begins(text) or name.lower().endswith(".i")):
         return din_reader.read(text, name)
-    found = scan(text, leading_number=True, bare="L")
+    found = scan(text.replace(_RAPID, _SCANNED), leading_number=True, bare="L")
     builder = ProgramBuilder(text, name, "tnc-620", found.starts, ";")
     inch = unit is not None and unit.group(1).upper().split()[-1:] == ["INCH"]
     plain, bulk = _plain_lines(found, text, inch)
@@ -280,12 +283,12 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
     The columns of `found` are used up: the words that stay are moved to their beginning, in pieces that stay in the
     cache, because new columns would cost more than the work on them.
     """
-    with_words = np.flatnonzero(found.count)  # lines
+    with_words, data = np.flatnonzero(found.count), characters(text)  # lines
     count = found.count[with_words]
     first = first_words(count)
     good = (count > 1) & (count <= 1 + len(_PLAIN))
     if "~" in text:  # the line after it goes on with a block
-        tildes = np.flatnonzero(characters(text) == ord("~"))
+        tildes = np.flatnonzero(data == ord("~"))
         good &= ~np.isin(with_words, np.searchsorted(found.starts, tildes, "right"))
 
     address, form = np.empty(len(found.letter), np.int16), np.empty(len(found.letter), np.uint8)
@@ -294,7 +297,8 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
     for i in range(0, len(count), PIECE):
         here = slice(int(first[i]), int(first[min(i + PIECE, len(count))]))
         letter, heads = found.letter[here], first[i : i + PIECE][: len(count) - i] - first[i]
-        good[i : i + PIECE] &= _are_plain(letter, found.value[here], found.length[here], heads)
+        strange = _strange(letter, found.value[here], found.length[here], found.offset[here], data)
+        good[i : i + PIECE] &= _are_plain(letter, strange, found.length[here], heads)
         keep = np.repeat(good[i : i + PIECE], count[i : i + PIECE])
         keep[heads] = False
         letter = letter[keep]
@@ -310,13 +314,12 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
     plain[with_words[good]] = True
     starts = found.starts[with_words[good]]
     if found.indented:
-        data = characters(text)
         while (indented := (data[starts] == 32) | (data[starts] == 9)).any():
             starts = starts + indented
     return plain, BulkBlocks(
-        addresses=tuple("R0" if c == "R" else c for c in _PLAIN),
+        addresses=tuple({"R": "R0", "K": _RAPID}.get(c, c) for c in _PLAIN),
         address=address,
-        value=np.where(address == _FEED, found.value, found.value * INCH) if inch else found.value,
+        value=np.where((address == _FEED) | (address == _M), found.value, found.value * INCH) if inch else found.value,
         offset=found.offset,
         length=found.length,
         keyword="L",
@@ -327,15 +330,30 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
     )
 
 
+def _strange(
+    letter: NDArray[np.uint8], value: NDArray[np.float64], length: NDArray[np.int16], offset: NDArray[np.int32],
+    data: NDArray[np.uint8],
+) -> NDArray[np.intp]:  # fmt: skip
+    """Which words are none of plain lines: an R that is not R0, a K that is written, an M that calls no cycle, large numbers."""
+    found = []
+    for wanted, size, number in (("R", 2, 0.0), ("K", 4, 0.0), ("M", 3, _CALL)):
+        of = np.flatnonzero(letter == ord(wanted))
+        wrong = (value[of] != number) | (length[of] != size)
+        if wanted == "K":  # FMAX, and no letter behind it
+            behind = data.take(offset[of] + len(_RAPID), mode="clip") | 32
+            wrong |= (data[offset[of]] != ord(_RAPID[0])) | (behind >= ord("a")) & (offset[of] + len(_RAPID) < len(data))
+        found.append(of[wrong])
+    if max(value.max(), -value.min()) >= LARGEST:
+        found.append(np.flatnonzero(np.abs(value) >= LARGEST))
+    return np.concatenate(found)
+
+
 def _are_plain(
-    letter: NDArray[np.uint8], value: NDArray[np.float64], length: NDArray[np.int16], heads: NDArray[np.int32]
+    letter: NDArray[np.uint8], strange: NDArray[np.intp], length: NDArray[np.int16], heads: NDArray[np.int32]
 ) -> NDArray[np.bool_]:
     """Which lines are an L alone and plain words, each once; of their words (w,), `heads` are the first ones."""
     digits = _DIGIT_OF_LETTER[letter]
     digits[heads] = 0
-    radius = np.flatnonzero(letter == ord("R"))
-    digits[radius[(value[radius] != 0) | (length[radius] != 2)]] = _STRANGE  # an R that is not R0
-    if max(value.max(), -value.min()) >= LARGEST:
-        digits[np.abs(value) >= LARGEST] = _STRANGE
+    digits[strange] = _STRANGE
     good = (letter[heads] == ord("L")) & (length[heads] == 1)
     return good & ((np.add.reduceat(digits, heads) & ~_ONCE) == 0)
