@@ -98,8 +98,9 @@ def test_whatever_a_visit_changes_is_seen(name):
 
 
 def test_the_place_and_what_a_visit_makes_are_left_out():
-    """The place is moved; the rows are those of the visit; the history and the part are made from them."""
-    assert set(state.TABLE) - COMPARED == {"tip", "programmed", "recorder", "logs", "cut_so_far"}
+    """The place is moved; the rows are those of the visit; the history and the part are made from them; of an alarm it is
+    noted where it stands."""
+    assert set(state.TABLE) - COMPARED == {"tip", "programmed", "recorder", "logs", "cut_so_far", "alarms"}
 
 
 @pytest.mark.parametrize("what", ["a number in the depth", "an array", "a program called", "a row of the datum table"])

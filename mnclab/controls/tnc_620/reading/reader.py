@@ -42,8 +42,9 @@ _MEANT = {
     "ERROR": "a control writes ERROR = before a block that it could not read: write the block anew, formulas in one of their own",
     "IF": "a jump is FN 9: IF +Q1 EQU +Q3 GOTO LBL 5", "SPINDLE": "M3, M4 and M5 are the spindle", "COOLANT": "write M8 or M9",
 }  # fmt: skip
-_PLAIN = "FRXYZKM"  # letters of plain lines: K stands for FMAX, M for M99
+_PLAIN = "FXYZRKM"  # letters of plain lines: K stands for FMAX, M for M99
 _FEED, _M = _PLAIN.index("F"), _PLAIN.index("M")
+_NAMES = "F", "X", "Y", "Z", "R0", "FMAX", "M"
 _RAPID, _SCANNED = "FMAX", "K000"  # what the words of a whole text are found in has a word with a number in its place
 _CALL = 99.0  # M99 calls the cycle where the line ends
 MOST_LETTERS = 30  # of a word that may have been meant as a statement
@@ -56,7 +57,8 @@ _DIGIT_OF_LETTER = np.full(256, _STRANGE, np.int32)
 _PLACE_OF_LETTER, _FORM_OF_LETTER = np.zeros(256, np.int16), np.zeros(256, np.uint8)
 for _place, _letter in enumerate(_PLAIN):
     _DIGIT_OF_LETTER[ord(_letter)], _PLACE_OF_LETTER[ord(_letter)] = 1 << 4 * _place, _place
-_DIGIT_OF_LETTER[ord("K")] = _DIGIT_OF_LETTER[ord("F")]  # one feed in a line
+_LOOKED_AT = _DIGIT_OF_LETTER[ord("R")]  # from this letter on the number counts too
+_TWO_FEEDS = _DIGIT_OF_LETTER[ord("F")] | _DIGIT_OF_LETTER[ord("K")]
 _FORM_OF_LETTER[[ord("R"), ord("K")]] = NONE
 
 
@@ -297,8 +299,7 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
     for i in range(0, len(count), PIECE):
         here = slice(int(first[i]), int(first[min(i + PIECE, len(count))]))
         letter, heads = found.letter[here], first[i : i + PIECE][: len(count) - i] - first[i]
-        strange = _strange(letter, found.value[here], found.length[here], found.offset[here], data)
-        good[i : i + PIECE] &= _are_plain(letter, strange, found.length[here], heads)
+        good[i : i + PIECE] &= _are_plain(letter, found.value[here], found.length[here], found.offset[here], heads, data)
         keep = np.repeat(good[i : i + PIECE], count[i : i + PIECE])
         keep[heads] = False
         letter = letter[keep]
@@ -317,7 +318,7 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
         while (indented := (data[starts] == 32) | (data[starts] == 9)).any():
             starts = starts + indented
     return plain, BulkBlocks(
-        addresses=tuple({"R": "R0", "K": _RAPID}.get(c, c) for c in _PLAIN),
+        addresses=_NAMES[: int(address.max(initial=-1)) + 1],
         address=address,
         value=np.where((address == _FEED) | (address == _M), found.value, found.value * INCH) if inch else found.value,
         offset=found.offset,
@@ -330,30 +331,23 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
     )
 
 
-def _strange(
-    letter: NDArray[np.uint8], value: NDArray[np.float64], length: NDArray[np.int16], offset: NDArray[np.int32],
-    data: NDArray[np.uint8],
-) -> NDArray[np.intp]:  # fmt: skip
-    """Which words are none of plain lines: an R that is not R0, a K that is written, an M that calls no cycle, large numbers."""
-    found = []
-    for wanted, size, number in (("R", 2, 0.0), ("K", 4, 0.0), ("M", 3, _CALL)):
-        of = np.flatnonzero(letter == ord(wanted))
-        wrong = (value[of] != number) | (length[of] != size)
-        if wanted == "K":  # FMAX, and no letter behind it
-            behind = data.take(offset[of] + len(_RAPID), mode="clip") | 32
-            wrong |= (data[offset[of]] != ord(_RAPID[0])) | (behind >= ord("a")) & (offset[of] + len(_RAPID) < len(data))
-        found.append(of[wrong])
-    if max(value.max(), -value.min()) >= LARGEST:
-        found.append(np.flatnonzero(np.abs(value) >= LARGEST))
-    return np.concatenate(found)
-
-
 def _are_plain(
-    letter: NDArray[np.uint8], strange: NDArray[np.intp], length: NDArray[np.int16], heads: NDArray[np.int32]
-) -> NDArray[np.bool_]:
-    """Which lines are an L alone and plain words, each once; of their words (w,), `heads` are the first ones."""
+    letter: NDArray[np.uint8], value: NDArray[np.float64], length: NDArray[np.int16], offset: NDArray[np.int32],
+    heads: NDArray[np.int32], data: NDArray[np.uint8],
+) -> NDArray[np.bool_]:  # fmt: skip
+    """Which lines are an L alone and plain words, each once and one feed; of their words (w,), `heads` are the first ones."""
     digits = _DIGIT_OF_LETTER[letter]
     digits[heads] = 0
-    digits[strange] = _STRANGE
+    of = np.flatnonzero(digits >= _LOOKED_AT)  # an R that is not R0, a K that is written, an M that calls no cycle
+    if len(of):
+        what, number, size, at = letter[of], value[of], length[of], offset[of]
+        plain = (what == ord("R")) & (number == 0) & (size == 2) | (what == ord("M")) & (number == _CALL) & (size == 3)
+        rapid = (what == ord("K")) & (size == len(_RAPID)) & (data[at] == ord(_RAPID[0]))
+        behind = at + len(_RAPID)
+        rapid &= (behind >= len(data)) | (data.take(behind, mode="clip") | 32 < ord("a"))
+        digits[of[~plain & ~rapid]] = _STRANGE
+    if max(value.max(), -value.min()) >= LARGEST:
+        digits[np.abs(value) >= LARGEST] = _STRANGE
     good = (letter[heads] == ord("L")) & (length[heads] == 1)
-    return good & ((np.add.reduceat(digits, heads) & ~_ONCE) == 0)
+    total = np.add.reduceat(digits, heads)
+    return good & (total & ~_ONCE == 0) & (total & _TWO_FEEDS != _TWO_FEEDS)
