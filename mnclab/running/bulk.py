@@ -382,14 +382,15 @@ class Bulk:
             history.extend("feed", steps[changed], feed[changed])
             machine.put(feed=float(feed[-1]))
 
-        names = {sense: code for code, sense in self.senses.items()}
         if self.group and None not in self.codes:
             active = self.senses.get(machine.modal.get(self.group, ""), 99)
             motion = run.motion[:count]
             changed = np.flatnonzero(motion != np.concatenate([[active], motion[:-1]]))
             if len(changed):
-                history.extend(self.group, steps[changed], [names[int(m)] for m in motion[changed]])
-                machine.modal[self.group] = names[int(motion[-1])]
+                names = np.empty(2 * NO_MOTION, dtype=object)  # by the sense, negative ones from the end
+                names[list(self.senses.values())] = list(self.senses)
+                history.extend(self.group, steps[changed], names[motion[changed]].tolist())
+                machine.modal[self.group] = names[motion[-1]]
 
 
 def _differ(a: Array, b: Array) -> Mask:
