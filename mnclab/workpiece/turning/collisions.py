@@ -62,7 +62,7 @@ class Back(NamedTuple):
 
 def taken_by_back(tool: Tool, shape: Floats, way: Floats, left: Any) -> Back | None:
     """What the back of an insert takes of an area `left` along a way (m, 2); `shape` (k, 2) is the tool about its tip."""
-    mirror = mirror_of(tool)
+    tool, mirror = usual(tool), mirror_of(tool)
     if tool.kind in ("thread", FACE) or not (tool.width or tool.auxiliary_angle):
         return None
     places, corners = way * mirror, shape * mirror

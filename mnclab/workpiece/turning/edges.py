@@ -103,16 +103,16 @@ class Edges:
         return found
 
     def _beside(self, row: int, tool: Tool, way: Floats, stands: Any) -> list[TooDeep]:
-        """What stands beside a blade on both sides, or before a tooth, higher than it reaches."""
+        """What stands beside a blade on both sides, or before a tooth, higher than it reaches; on the axis a piece falls off."""
         up, slope, boxes = self._of(tool)
-        found = list[TooDeep]()
+        found, tips = list[TooDeep](), way if tool.kind == "boring" else way.clip((-math.inf, 0.0))
         for box in boxes:
-            met = broad(shapely.intersection(stands, _swept(box, way)), TOLERANCE)
+            met = broad(shapely.intersection(stands, _swept(box, tips)), TOLERANCE)
             if met.is_empty:
                 return []
             points = shapely.get_coordinates(met)
             z, r = points[(points @ up).argmax()].tolist()
-            found.append(TooDeep(row, tool, float((points @ up).max() - (way @ up).min()) / slope, (z, r)))
+            found.append(TooDeep(row, tool, float((points @ up).max() - (tips @ up).min()) / slope, (z, r)))
         return [min(found, key=lambda each: each.deep)] if found else []
 
     def _of(self, tool: Tool) -> Any:
