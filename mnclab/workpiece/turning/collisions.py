@@ -22,7 +22,7 @@ from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
 from mnclab.geometry.sweeps import CHORD_ERROR, broad
-from mnclab.path.inserts import BLADES, EDGE, FACE, angles_of, cutting_part, edge_of, mirror_of, turns, usual
+from mnclab.path.inserts import EDGE, FACE, angles_of, cutting_part, edge_of, mirror_of, turns, usual
 from mnclab.path.listing import Unit
 from mnclab.path.tool import CHAMFER, LATHE, Tool
 from mnclab.path.toolpath import Index, Kind
@@ -211,7 +211,6 @@ HOLDER = "the holder of the insert in material"
 BAR = "the bar of the boring tool in material: it stands between its tip and the axis"
 FULL = "the boring tool, or its bar, in full material: it needs a bore"
 BESIDE = "the {} {:.3f} mm beside the axis of the part, which alone turns: it cuts a ring"
-BEYOND_EDGE = ("cut is {} deep along the edge", "edge is {} long")
 FAR = 1e6  # mm
 
 
@@ -272,7 +271,7 @@ def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
                 stays = shapely.difference(left, shapely.union(spared, later(k)))
                 back = taken_by_back(tool, shape, way, stays)
                 found = [*found[:-1], *([_backed(back)] if back else [])]
-            too_deep = edges.judge(row, way, shapely.difference(left, spared), covered)
+            too_deep = edges.judge(row, way, shapely.difference(left, spared), rest, covered)
             if len(way) == 2 and not found and path.kind[row] == Kind.LINE:
                 wedge = left_by_lean(tool, way, shapely.intersection(left, covered))
                 spared = shapely.union(spared, wedge) if wedge.area > AREA else spared
@@ -287,19 +286,13 @@ def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
             if met := _deepest(kind, left, covered):
                 yield row, met._replace(said=HOLDER) if kind == "insert" else met
                 left = _held(shapely.difference(left, covered))
-    for deep in sorted((each for _, each in edges.lacking), key=lambda each: -each.deep):
-        if deep.row not in told and not cutting.reach:  # where a program stopped, nobody knows what its edges would still take
-            told.add(deep.row)
-            yield deep.row, _beyond(deep, path.unit)
+    for row, (_, too_deep) in edges.lacking.items():
+        if row not in told and not cutting.reach:  # where a program stopped, nobody knows what its edges would still take
+            yield row, _beyond(too_deep, path.unit)
 
 
 def _beyond(found: TooDeep, unit: Unit) -> Met:
-    """A cut deeper than an edge is long: how deep it is along the edge, what is allowed, and by whom."""
-    deep, long = (f"{unit.figure(length, 1)} {unit.short}" for length in (found.deep, edge_of(found.tool)))
-    what, that = ("groove is {} deep", "blade reaches {}") if found.tool.kind in BLADES else BEYOND_EDGE
-    usual = "" if found.tool.cutting_length else ", as is usual: its table gives no cutting length"
-    said = f"material beyond the edge of the tool: the {what.format(deep)}, the {that.format(long)}{usual}"
-    return Met("insert", said, found.place, found.deep - edge_of(found.tool))
+    return Met("insert", found.told(unit), found.place, found.deep - found.long)
 
 
 def _swept(shapes: list[Floats], ways: list[Floats]) -> list[Any]:
