@@ -108,7 +108,7 @@ def edges_of(tool: Tool, height: float) -> Floats:
 def cutting_part(tool: Tool, height: float) -> Contour:
     """What of a tool takes material away, prolonged away from the part up to a height above its tip: convex.
 
-    An edge is as long as `edge_of` says; beyond it the insert goes on, straight up where it leaned out. So the part is what
+    An edge is as long as `edge_length` says; beyond it the insert goes on, straight up where it leaned out. So the part is what
     the way of the tip makes of it, however deep: what only the prolonged edges take is a collision of the tool, not a step
     in the part. A blade without width and nose is a line, a contour of two points.
     """
@@ -118,7 +118,7 @@ def cutting_part(tool: Tool, height: float) -> Contour:
     return _placed(tool, np.vstack([points, behind, ahead[::-1]]), bulges)
 
 
-def edge_of(tool: Tool) -> float:
+def edge_length(tool: Tool) -> float:
     """The length of the edges of an insert, mm, from the tip; of a blade how deep it reaches. Usual ones where none is given."""
     blade = tool.kind != "thread" and BLADE * tool.width
     return tool.cutting_length or blade or EDGE
@@ -136,7 +136,7 @@ def beyond_edges(tool: Tool, height: float) -> tuple[Floats, list[Beyond]]:
     """Of an insert: the corners (k, 2) of its nose and its edges, and what of its cutting part goes on where these end."""
     tool, sides = usual(tool), list[Beyond]()
     points, _, *rays = _sides(tool, height)
-    corners, long, mirror = points, edge_of(tool), mirror_of(tool)
+    corners, long, mirror = points, edge_length(tool), mirror_of(tool)
     main, auxiliary = angles_of(tool)
     for start, ray, angle, turn in zip(points[[0, -1]], rays, (math.pi - main, auxiliary), (1.0, -1.0)):
         edge = at_angle(angle)
@@ -154,8 +154,8 @@ def _sides(tool: Tool, height: float) -> tuple[Floats, list[float], Floats, Floa
     main, auxiliary = angles_of(tool)
     points, bulges = _nose(tool, main, auxiliary)
     height = max(height, float(points[:, 1].max()))
-    behind = _ray(points[-1], auxiliary, 1.0, edge_of(tool), height)
-    ahead = _ray(points[0], math.pi - main, -1.0, edge_of(tool), height)
+    behind = _ray(points[-1], auxiliary, 1.0, edge_length(tool), height)
+    ahead = _ray(points[0], math.pi - main, -1.0, edge_length(tool), height)
     if (far := float(ahead[-1, 0])) > behind[-1, 0]:  # a main edge that leans back over the insert: the other one is longer
         behind = np.array([(far, points[-1, 1] + (far - points[-1, 0]) * math.tan(auxiliary)), (far, height)])
     return points, bulges, ahead, behind

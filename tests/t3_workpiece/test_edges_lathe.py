@@ -226,3 +226,12 @@ def test_random_cuts_within_and_beyond_the_edge(seed):
             assert not found
         else:
             only(found, 4, share * length, length)
+
+
+def test_a_thread_on_a_cone_is_as_deep_as_it_stands_under_it():
+    """A cone of 1 : 16 on the diameter, its thread 1 mm and 2 mm under it: the flanks are 1.73 mm high."""
+    cone, tools = "G00 X50 Z2|G01 X52 Z-62|X62|G00 Z20|T4|", {1: Tool(kind="turning"), 4: Tool(kind="thread", cutting_length=2)}
+    assert not met(cone + "G00 X49 Z2|G32 X50.625 Z-50 F2|G00 X62", tools=tools)
+    (each,) = met(cone + "G00 X48 Z2|G32 X49.625 Z-50 F2|G00 X62", tools=tools)
+    half = cos(radians(60))  # the tooth is as wide as its edge: the cone rises beside its tip
+    assert each.line == 9 and each.depth + 2 == pytest.approx((2 + 2 * half / 32) / sin(radians(60)), abs=0.05)

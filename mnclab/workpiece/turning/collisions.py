@@ -22,7 +22,7 @@ from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
 from mnclab.geometry.sweeps import CHORD_ERROR, broad
-from mnclab.path.inserts import EDGE, FACE, angles_of, cutting_part, edge_of, mirror_of, turns, usual
+from mnclab.path.inserts import EDGE, FACE, angles_of, cutting_part, edge_length, mirror_of, turns, usual
 from mnclab.path.listing import Unit
 from mnclab.path.tool import CHAMFER, LATHE, Tool
 from mnclab.path.toolpath import Index, Kind
@@ -227,7 +227,8 @@ def collisions_of(cutting: Cutting, step: float | None = None) -> Collisions:
     """What the rows of a cutting meet that they must not, at most one of each row and kind; see `KINDS`.
 
     What only touches, within 0.01 mm, meets nothing. The depth of the back of an insert is how far beyond the way of the
-    nose it cuts, any other how far inside the material, or the chuck, the tool is. Areas need no `step`.
+    nose it cuts, of a cut deeper than its edge how much deeper, along the edge; any other how far inside the material, or the
+    chuck, the tool is. Areas need no `step`.
     """
     return Collisions(_collision(cutting, row, met) for row, met in _met(cutting))
 
@@ -271,7 +272,7 @@ def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
                 stays = shapely.difference(left, shapely.union(spared, later(k)))
                 back = taken_by_back(tool, shape, way, stays)
                 found = [*found[:-1], *([_backed(back)] if back else [])]
-            too_deep = edges.judge(row, way, shapely.difference(left, spared), rest, covered)
+            too_deep = edges.judge(row, way, left, rest, spared, covered)
             if len(way) == 2 and not found and path.kind[row] == Kind.LINE:
                 wedge = left_by_lean(tool, way, shapely.intersection(left, covered))
                 spared = shapely.union(spared, wedge) if wedge.area > AREA else spared
@@ -372,7 +373,7 @@ def _bored(tool: Tool, shape: Floats, way: Floats, left: Any, covered: Any) -> I
     if tool.kind != "boring" or not _on_axis(left, covered):
         return
     if not tool.width:
-        below = shapely.box(-FAR, -FAR, FAR, -edge_of(tool))
+        below = shapely.box(-FAR, -FAR, FAR, -edge_length(tool))
         bar = shapely.get_coordinates(shapely.intersection(shapely.Polygon(shape), below))
         if len(bar) and (met := _deepest("holder", left, _swept([bar], [way])[0])):
             yield met._replace(said=BAR)

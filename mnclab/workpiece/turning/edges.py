@@ -1,6 +1,6 @@
 """What of a bar meets a tool beyond the end of its edge: a cut deeper than the edge is long.
 
-An insert cuts as far along its edge as `inserts.edge_of` says, from the tip. What meets it further up stands before its
+An insert cuts as far along its edge as `inserts.edge_length` says, from the tip. What meets it further up stands before its
 holder. That stands back a little, so that the stock on a high wall passes before it; but an edge must take it later, or
 the part that is shown is none that this tool makes.
 
@@ -44,7 +44,7 @@ class TooDeep(NamedTuple):
 
     @property
     def long(self) -> float:
-        return inserts.edge_of(self.tool)
+        return inserts.edge_length(self.tool)
 
     def told(self, unit: Unit) -> str:
         """What was found and what is allowed, by the tool table or as usual."""
@@ -62,8 +62,11 @@ class Edges:
         self.unthreaded: Any = None  # what is left without the threads in it, once there is one
         self._known: dict[Tool, Any] = {}
 
-    def judge(self, row: int, way: Floats, left: Any, rest: Any, covered: Any) -> TooDeep | None:
-        """What is too deep where a tool goes along a way (m, 2) and leaves the `rest` of an area, without what it `covered`."""
+    def judge(self, row: int, way: Floats, left: Any, rest: Any, spared: Any, covered: Any) -> TooDeep | None:
+        """What is too deep where a tool goes along a way (m, 2) and leaves the `rest` of an area, without what it `covered`.
+
+        Of what is `spared` nobody is blamed.
+        """
         tool, thread = inserts.as_drawn(self.cutting.tool(row), float(self.leads[row])), self.leads[row] > 0
         if self.cutting.path.kind[row] == Kind.RAPID or not inserts.turns(tool) or left.area - rest.area < AREA:
             self.passed(row, way, covered)
@@ -71,7 +74,7 @@ class Edges:
         if thread and self.unthreaded is None:
             self.unthreaded = left
         if not _ends_above(tool):
-            found = self._before(row, tool, way, left)
+            found = self._before(row, tool, way, shapely.difference(left, spared))
         elif tool.kind == "thread":
             found = self._beside(row, tool, way, left if self.unthreaded is None else self.unthreaded)
         else:
@@ -124,9 +127,11 @@ class Edges:
             met = broad(shapely.intersection(stands, _swept(box, tips)), TOLERANCE)
             if met.is_empty:
                 return []
-            points = shapely.get_coordinates(met)
-            z, r = points[(points @ up).argmax()].tolist()
-            found.append(TooDeep(row, tool, float((points @ up).max() - (tips @ up).min()) / slope, (z, r)))
+            points, order = shapely.get_coordinates(met), tips[(tips @ up[::-1]).argsort()]
+            tip = np.interp(points @ up[::-1], order @ up[::-1], order @ up) if np.ptp(order @ up[::-1]) else (tips @ up).min()
+            high = points @ up - tip
+            z, r = points[high.argmax()].tolist()
+            found.append(TooDeep(row, tool, float(high.max()) / slope, (z, r)))
         return [min(found, key=lambda each: each.deep)] if found else []
 
     def _of(self, tool: Tool) -> Any:
@@ -136,10 +141,10 @@ class Edges:
 
 
 def _deepest(row: int, tool: Tool, met: Any, tip: Floats, ahead: Floats, side: inserts.Beyond) -> TooDeep:
-    """How deep an area is along an edge that goes ahead from a tip."""
+    """How deep an area is along an edge that goes ahead from a tip, and where it is met first as deep as that."""
     points, (begin, _), edge = shapely.get_coordinates(met), side.line, side.edge
     off = np.abs(_across(points - tip - begin, ahead)) / max(abs(_across(edge, ahead)), FLAT)
-    z, r = points[off.argmax()].tolist()
+    z, r = points[np.where(off > off.max() - TOLERANCE, points @ ahead, np.inf).argmin()].tolist()
     return TooDeep(row, tool, float(begin @ edge + off.max()), (z, r))
 
 
@@ -158,7 +163,7 @@ def _boxes(tool: Tool, height: float) -> tuple[Floats, float, list[Floats]]:
     turn = slice(None, None, -1 if tool.kind == inserts.FACE else 1)
     (left, _), (right, _) = sorted((inserts.cutting_part(tool, height).bounds * mirror)[:, turn].tolist())
     slope = 1.0 if _is_blade(tool) else min(math.sin(angle) for angle in inserts.angles_of(tool))
-    low = inserts.edge_of(tool) * slope
+    low = inserts.edge_length(tool) * slope
     spans = [(left - RELIEF, left), (right, right + RELIEF)] if _is_blade(tool) else [(left, right)]
     boxes = [np.array([(a, low), (b, low), (b, height), (a, height)])[:, turn] * mirror for a, b in spans if height > low]
     return np.array([0.0, 1.0])[turn] * mirror, slope, boxes
