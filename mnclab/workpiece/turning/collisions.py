@@ -251,7 +251,7 @@ def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
     bodies = [behind(tool, height) for tool in cutting.tools]
     ways = [_way(cutting, row) for row in rows.tolist()]
     areas = _swept([shapes[k] for k in cutting.which[rows].tolist()], ways)
-    edges, told = Edges(cutting, height), set[int]()
+    edges = Edges(cutting, height)
     later = _Later(path.step[rows].tolist(), (cutting.cuts & (path.kind != Kind.RAPID))[rows].tolist(), areas)
     for k, (row, way, covered) in enumerate(zip(rows.tolist(), ways, areas, strict=True)):
         which = int(cutting.which[row])
@@ -279,7 +279,8 @@ def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
             if too_deep and not any(each.kind == "holder" for each in found):
                 beyond = [each for each in [*found, _beyond(too_deep, path.unit)] if each.kind == "insert"]
                 found = [*(each for each in found if each.kind != "insert"), max(beyond, key=lambda each: each.depth)]
-            told |= {row} if any(each.kind == "insert" for each in found) else set()
+            if any(each.kind == "insert" for each in found):
+                edges.lacking.pop(row, None)  # one of each row and kind
             yield from ((row, met) for met in found)
             left = _held(rest)
         for kind, body in bodies[which]:
@@ -288,7 +289,7 @@ def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
                 yield row, met._replace(said=HOLDER) if kind == "insert" else met
                 left = _held(shapely.difference(left, covered))
     for row, (_, too_deep) in edges.lacking.items():
-        if row not in told and not cutting.reach:  # where a program stopped, nobody knows what its edges would still take
+        if not cutting.reach:  # where a program stopped, nobody knows what its edges would still take
             yield row, _beyond(too_deep, path.unit)
 
 

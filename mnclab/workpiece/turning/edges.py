@@ -67,18 +67,17 @@ class Edges:
 
         Of what is `spared` nobody is blamed.
         """
-        tool, thread = inserts.as_drawn(self.cutting.tool(row), float(self.leads[row])), self.leads[row] > 0
+        tool = inserts.as_drawn(self.cutting.tool(row), float(self.leads[row]))
         if self.cutting.path.kind[row] == Kind.RAPID or not inserts.turns(tool) or left.area - rest.area < AREA:
             self.passed(row, way, covered)
             return None
-        if thread and self.unthreaded is None:
+        if self.leads[row] and self.unthreaded is None:
             self.unthreaded = left
-        if not _ends_above(tool):
-            found = self._before(row, tool, way, shapely.difference(left, spared))
-        elif tool.kind == "thread":
-            found = self._beside(row, tool, way, left if self.unthreaded is None else self.unthreaded)
+        if _ends_above(tool):
+            crests = left if self.unthreaded is None else self.unthreaded
+            found = self._beside(row, tool, way, crests if tool.kind == "thread" else rest)
         else:
-            found = self._beside(row, tool, way, rest)
+            found = self._before(row, tool, way, shapely.difference(left, spared))
         if found:
             self.lacking.pop(row, None)
             self._take(covered)  # it is told once
