@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.path.profile.ramps import bent
-from mnclab.path.toolpath import Kind, Toolpath
+from mnclab.path.toolpath import MOTION_KINDS, Kind, Toolpath
 from mnclab.show.export_gcode import number
 from mnclab.show.looks import MOVES, OF_KIND, RAPID
+from mnclab.text.columns import filled, parts, spelled
 from mnclab.text.given import choice
 
 MARGIN = 2.0  # mm
@@ -112,16 +113,19 @@ Tag = tuple[int, Any]
 
 def write_dxf(run: Any, path: Path) -> None:
     """Write the toolpath of a run as a drawing."""
+    drawn = _as_it_goes(run)
     with path.open("w", encoding="ascii", newline="\n") as file:
-        file.writelines(f"{code:3d}\n{_text(value)}\n" for code, value in tags(_as_it_goes(run)))
+        file.write(_written(head(drawn)))
+        file.writelines(entities(drawn))
+        file.write(_written([(0, "ENDSEC"), (0, "EOF")]))
 
 
-def _text(value: Any) -> str:
-    return repr(float(value) + 0.0) if isinstance(value, float) else str(value)
+def _written(tags: Iterable[Tag]) -> str:
+    return "".join(f"{code:3d}\n{repr(value + 0.0) if isinstance(value, float) else value}\n" for code, value in tags)
 
 
-def tags(path: Toolpath) -> Iterator[Tag]:
-    """The drawing as pairs of a group code and a value."""
+def head(path: Toolpath) -> Iterator[Tag]:
+    """What stands before the moves, as pairs of a group code and a value."""
     low, high = np.nan_to_num(path.bounds)
     yield 999, "tool path in millimetres"
     yield from [(0, "SECTION"), (2, "HEADER"), (9, "$ACADVER"), (1, "AC1009")]
@@ -136,40 +140,42 @@ def tags(path: Toolpath) -> Iterator[Tag]:
         dashes = "DASHED" if move.line is RAPID else "CONTINUOUS"
         yield from [(0, "LAYER"), (2, move.name.upper()), (70, 0), (62, move.number), (6, dashes)]
     yield from [(0, "ENDTAB"), (0, "ENDSEC"), (0, "SECTION"), (2, "ENTITIES")]
-    yield from entities(path)
-    yield from [(0, "ENDSEC"), (0, "EOF")]
 
 
-def entities(path: Toolpath) -> Iterator[Tag]:
-    """The moves of a path, in their order."""
-    climb = np.einsum("ij,ij->i", path.end - path.start, path.axis)
-    columns = (path.kind, path.start, path.end, climb, path.is_motion)
-    for row, (kind, start, end, rise, moves) in enumerate(zip(*(column.tolist() for column in columns))):
-        if not moves:
-            continue
-        layer = OF_KIND[Kind(kind)].name.upper()
-        if kind != Kind.ARC:
-            yield from [(0, "LINE"), (8, layer), *_point(start), *_point(end, 11)]
-        elif abs(rise) > 1e-9:
-            yield from polyline(path[row : row + 1].points(CHORD)[0].tolist(), layer)
-        else:
-            yield from arc(path, row, layer)
+LINE = _written([(0, "LINE"), (8, "%s"), *((10 + 10 * k + end, "%s") for end in (0, 1) for k in range(3))])
+LAYERS = {kind: OF_KIND[kind].name.upper() for kind in MOTION_KINDS}
 
 
-def arc(path: Toolpath, row: int, layer: str) -> Iterable[Tag]:
+def entities(path: Toolpath) -> Iterator[str]:
+    """The moves of a path, in their order; those that are straight many at a time."""
+    moves = np.flatnonzero(path.is_motion)
+    for some in parts(len(moves)):
+        rows = moves[some]
+        for these in np.split(rows, np.flatnonzero(np.diff(path.kind[rows] == Kind.ARC)) + 1):
+            if path.kind[these[0]] != Kind.ARC:
+                ends = np.hstack([path.start[these], path.end[these]]) + 0.0  # no negative zero
+                yield filled(LINE, [spelled(LAYERS.values(), path.kind[these]), *ends.T])
+                continue
+            for row in these.tolist():
+                rise = float((path.end[row] - path.start[row]) @ path.axis[row])
+                helix = abs(rise) > 1e-9
+                yield _written(polyline(path[row : row + 1].points(CHORD)[0].tolist()) if helix else arc(path, row))
+
+
+def arc(path: Toolpath, row: int) -> Iterable[Tag]:
     """An arc in the coordinates of its plane, always counter-clockwise about the extrusion; whole turns are a circle."""
     axis, centre, sweep = path.axis[row], path.centre[row], float(path.sweep[row])
     basis = plane(axis)
     spoke = basis @ (path.start[row] - centre)
     middle = basis @ centre
     middle[2] = float(axis @ path.start[row])
-    head = [(8, layer), *_point(middle), (40, float(np.hypot(spoke[0], spoke[1])))]
+    begin = [(8, LAYERS[Kind.ARC]), *_point(middle), (40, float(np.hypot(spoke[0], spoke[1])))]
     extrusion = list(_point(axis, 210)) if axis[2] != 1.0 else []
     if abs(sweep) >= 2 * np.pi - 1e-12:
-        return [(0, "CIRCLE"), *head, *extrusion]
+        return [(0, "CIRCLE"), *begin, *extrusion]
     angle = np.arctan2(spoke[1], spoke[0])
     ends = np.degrees([angle, angle + sweep] if sweep > 0 else [angle + sweep, angle]) % 360.0
-    return [(0, "ARC"), *head, (50, float(ends[0])), (51, float(ends[1])), *extrusion]
+    return [(0, "ARC"), *begin, (50, float(ends[0])), (51, float(ends[1])), *extrusion]
 
 
 def plane(axis: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -180,8 +186,9 @@ def plane(axis: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.stack([first, np.cross(axis, first), axis])
 
 
-def polyline(points: list[list[float]], layer: str) -> Iterator[Tag]:
+def polyline(points: list[list[float]]) -> Iterator[Tag]:
     """A line through points in space."""
+    layer = LAYERS[Kind.ARC]
     yield from [(0, "POLYLINE"), (8, layer), (66, 1), *_point((0.0, 0.0, 0.0)), (70, 8)]
     for point in points:
         yield from [(0, "VERTEX"), (8, layer), *_point(point), (70, 32)]
