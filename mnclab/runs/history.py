@@ -67,7 +67,8 @@ class History(Mapping[str, Any]):
         if name not in self._open:
             return []
         at, values = self.log(name)
-        return [(int(step), _python(value)) for step, value in zip(at, values)]
+        plain = map(_python, values) if isinstance(values, list) or values.ndim > 1 else values.tolist()
+        return [*zip(at.tolist(), plain)]
 
     def at(self, step: int) -> dict[str, Any]:
         """Everything that had a value after a step."""

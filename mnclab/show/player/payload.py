@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from mnclab.path.cylinder import parted_rapids
 from mnclab.path.profile import Profile
@@ -41,11 +41,12 @@ from mnclab.show.probed import Felt
 from mnclab.show.solids import cylinder_body
 from mnclab.text.alarm import Alarm, amounts, several
 from mnclab.text.program import Program
+from mnclab.text.words import characters, scan
 from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.part import Part
 
-NUMBERS = [re.compile(axis + "([-+]?[0-9]*[.]?[0-9]+)") for axis in "XYZ"]  # as data.js looks for them
+NUMBERS = [re.compile(axis + "([-+]?[0-9]*[.]?[0-9]+)") for axis in "XYZ"]  # as data.js looks for them; `_said` too
 SCALES = (1e3, 1e4, 1e6)  # parts of a millimetre
 ANGLES = 1e9  # parts of a radian
 DEGREES = 1e6  # parts of a degree, of rotary axes
@@ -67,8 +68,8 @@ def payload(
     shown = probed if probed is not None and probed.part is not None and not run.toolpath.lathe else None
     path = run.toolpath.on_workpiece()
     programmed = path if run.programmed is run.toolpath else run.programmed.on_workpiece()
-    moved, places = _parted(run, "position")
-    positions = np.array(places, dtype=np.float64).reshape(-1, 3)
+    moved, places = run.history.log("position") if "position" in run.history else ([], [])
+    positions = np.asarray(places, dtype=np.float64).reshape(-1, 3)
     scale = _scale([path, programmed], positions, profile.pieces.s)
     angles, turned = parts_of(ANGLES, path.sweep, programmed.sweep), np.degrees(run.toolpath.rotary)
     degrees = parts_of(DEGREES, turned)
@@ -170,19 +171,33 @@ def _scale(paths: list[Toolpath], positions: Array, ways: Array) -> float:
 
 def _told(run: Any, path: Toolpath, scale: float) -> NDArray[np.int64]:
     """Where the rows end (n + 1, 3) as far as their blocks say it, else where the row before ends."""
-    texts = [re.sub("\r\n?", "\n", program.text).split("\n") for program in run.programs]
-    lines = [program.lines()[0].tolist() for program in run.programs]
     ends = parted(_vertices(path), scale)
     found = np.concatenate([np.zeros((1, 3), dtype=np.int64), ends[:-1]])
-    steps = path.step
-    for row, (which, block) in enumerate(zip(run.steps.program[steps].tolist(), run.steps.block[steps].tolist()), 1):
-        text, line = texts[which], lines[which][block] - 1
-        for axis, number in enumerate(NUMBERS):
-            said = number.search(text[line]) if line < len(text) else None
-            value = float(said[1]) * path.unit.length * scale + 0.5 if said else ROOM
-            if abs(value) < ROOM:
-                found[row, axis] = math.floor(value)
+    block, program = run.steps.block[path.step], run.steps.program[path.step]
+    for which, source in enumerate(run.programs):
+        rows = np.flatnonzero(program == which)
+        if not len(rows):
+            continue
+        lines, line = np.unique(source.lines()[0][block[rows]] - 1, return_inverse=True)
+        value = _said(source.text, lines)[line] * path.unit.length * scale + 0.5
+        row, axis = np.nonzero(np.abs(value) < ROOM)
+        found[rows[row] + 1, axis] = np.floor(value[row, axis])
     return found
+
+
+def _said(text: str, lines: NDArray[np.int64]) -> Array:
+    """The first number after each of X, Y and Z in some lines (l, 3), counted from 0; nan where there is none."""
+    words, data = scan(text, leading_number=True), characters(text)
+    found = np.full((len(words.clean), 3), np.nan)
+    at_once = ~np.isin(data[np.minimum(words.offset + 1, len(data) - 1)], (9, 32))
+    for axis, letter in enumerate(b"XYZ"):
+        some = np.flatnonzero((data[words.offset] == letter) & at_once)[::-1]  # of a line the first comes last
+        found[words.line[some], axis] = words.value[some]
+    texts = re.sub("\r\n?", "\n", text).split("\n")
+    for line in lines[~words.clean[lines]].tolist():
+        said = (number.search(texts[line]) for number in NUMBERS)
+        found[line] = [float(number[1]) if number else np.nan for number in said]
+    return found[lines]
 
 
 def _geometry(
@@ -209,7 +224,7 @@ def _bent(pack: Packer, path: Toolpath, scale: float) -> dict[str, Any]:
     return {"row": pack.add(row[within]), "at": columns(pack, parted(pieces.on_workpiece().end[within], scale))}
 
 
-def _tips(path: Toolpath, steps: list[int], scale: float) -> NDArray[np.int64]:
+def _tips(path: Toolpath, steps: ArrayLike, scale: float) -> NDArray[np.int64]:
     """Where the tool is when the programmed point changes (k, 3): mostly at the same distance from it."""
     return parted(_vertices(path), scale)[np.searchsorted(path.step, steps, "right")]
 
