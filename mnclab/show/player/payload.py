@@ -158,13 +158,13 @@ def _parted(run: Any, name: str) -> tuple[list[int], list[Any]]:
 
 def _scale(paths: list[Toolpath], positions: Array, ways: Array) -> float:
     """Parts of a millimetre that lengths are counted in."""
-    arcs = [path.centre[path.kind == Kind.ARC] for path in paths]
-    lengths = np.concatenate([each for path in paths for each in (path.start[:1], path.end)] + arcs + [positions])
-    most = parts_of(SCALES[-1], lengths, ways)
+    ends = [each for path in paths for each in (path.start[:1], path.end, path.centre[path.kind == Kind.ARC])]
+    lengths = [column for each in (*ends, positions) for column in each.T]
+    most = parts_of(SCALES[-1], *lengths, ways)
     for scale in SCALES[:-1]:
         if scale > most:
             break
-        if np.abs(np.round(lengths * scale) / scale - lengths).max(initial=0.0) < 1e-9:
+        if all(np.abs(np.round(column * scale) / scale - column).max(initial=0.0) < 1e-9 for column in lengths):
             return scale
     return most
 
@@ -176,28 +176,27 @@ def _told(run: Any, path: Toolpath, scale: float) -> NDArray[np.int64]:
     block, program = run.steps.block[path.step], run.steps.program[path.step]
     for which, source in enumerate(run.programs):
         rows = np.flatnonzero(program == which)
-        if not len(rows):
-            continue
-        lines, line = np.unique(source.lines()[0][block[rows]] - 1, return_inverse=True)
-        value = _said(source.text, lines)[line] * path.unit.length * scale + 0.5
-        row, axis = np.nonzero(np.abs(value) < ROOM)
-        found[rows[row] + 1, axis] = np.floor(value[row, axis])
+        said = _said(source.text, source.lines()[0][block[rows]] - 1)
+        for axis, value in enumerate(said.T):
+            value = value * path.unit.length * scale + 0.5
+            known = np.abs(value) < ROOM
+            found[rows[known] + 1, axis] = np.floor(value[known])
     return found
 
 
-def _said(text: str, lines: NDArray[np.int64]) -> Array:
-    """The first number after each of X, Y and Z in some lines (l, 3), counted from 0; nan where there is none."""
+def _said(text: str, line: NDArray[np.integer[Any]]) -> Array:
+    """The first number after each of X, Y and Z in lines (n, 3), counted from 0; nan where there is none."""
     words, data = scan(text, leading_number=True), characters(text)
-    found = np.full((len(words.clean), 3), np.nan)
+    found, lines = np.full((len(words.clean), 3), np.nan), words.line
     at_once = ~np.isin(data[np.minimum(words.offset + 1, len(data) - 1)], (9, 32))
     for axis, letter in enumerate(b"XYZ"):
         some = np.flatnonzero((data[words.offset] == letter) & at_once)[::-1]  # of a line the first comes last
-        found[words.line[some], axis] = words.value[some]
-    texts = re.sub("\r\n?", "\n", text).split("\n")
-    for line in lines[~words.clean[lines]].tolist():
-        said = (number.search(texts[line]) for number in NUMBERS)
-        found[line] = [float(number[1]) if number else np.nan for number in said]
-    return found[lines]
+        found[lines[some], axis] = words.value[some]
+    ends = np.append(words.starts[1:], len(text))
+    for odd in np.unique(line[~words.clean[line]]).tolist():
+        said = (number.search(text, words.starts[odd], ends[odd]) for number in NUMBERS)
+        found[odd] = [float(number[1]) if number else np.nan for number in said]
+    return found[line]
 
 
 def _geometry(
