@@ -37,7 +37,7 @@ from mnclab.workpiece.turning.turned import half_section, room_of
 
 LARGEST = 2**53 // 4  # what a number of a browser holds without loss, as a zigzag difference
 ROOM = LARGEST // 4  # of what the page holds: places are sent as differences
-HUGE = 1 << 20  # bytes, from which on a page is pressed in a fifth of the time: it is a twentieth larger
+HUGE = 1 << 23  # bytes, from which on a page is pressed in an eighth of the time: it is a fourteenth larger
 
 Array = NDArray[np.float64]
 
@@ -63,8 +63,9 @@ def plain(value: Any) -> Any:
 
 def parted(values: ArrayLike, scale: float) -> NDArray[np.int64]:
     """Whole numbers of the parts of a unit; what has no end is as large as can be."""
-    found = np.nan_to_num(np.round(np.asarray(values, dtype=np.float64) * scale), posinf=ROOM, neginf=-ROOM)
-    return found.clip(-ROOM, ROOM).astype(np.int64)
+    found = np.asarray(values, dtype=np.float64) * scale
+    np.nan_to_num(np.round(found, out=found), copy=False, posinf=ROOM, neginf=-ROOM)
+    return found.clip(-ROOM, ROOM, out=found).astype(np.int64)
 
 
 def columns(pack: Packer, values: NDArray[np.int64]) -> list[int]:
@@ -110,7 +111,7 @@ def varints(values: NDArray[np.int64]) -> bytes:
     """Whole numbers (n,) of either sign as bytes."""
     rest = ((values << 1) ^ (values >> 63)).astype(np.uint64)
     size = np.ones(len(rest), dtype=np.int64)
-    for k in range(1, 10):
+    for k in range(1, -(-int(rest.max(initial=0)).bit_length() // 7)):
         size += rest >= np.uint64(1 << 7 * k)
     at = np.cumsum(size) - size
     found = np.zeros(int(size.sum()), dtype=np.uint8)
@@ -145,10 +146,10 @@ class Packer:
 
     def text(self, header: dict[str, Any]) -> str:
         """Header and columns as base64: length of the header (4 bytes, low first), header as JSON, columns."""
-        head = json.dumps({**header, "columns": self.sizes}, ensure_ascii=False, allow_nan=False)
-        start = printable(head).encode()
-        content = b"".join([len(start).to_bytes(4, "little"), start, *self._parts])
-        return base64.b64encode(zlib.compress(content, 9 if len(content) < HUGE else 5)).decode("ascii")
+        start = printable(json.dumps({**header, "columns": self.sizes}, ensure_ascii=False, allow_nan=False)).encode()
+        pressed = zlib.compressobj(9 if len(start) + sum(map(len, self._parts)) < HUGE else 4)
+        content = [*map(pressed.compress, (len(start).to_bytes(4, "little"), start, *self._parts)), pressed.flush()]
+        return base64.b64encode(b"".join(content)).decode("ascii")
 
 
 # What the page needs of the part: to cut it while it plays, to turn it, and to show what a probe meets.

@@ -171,27 +171,28 @@ def _scale(paths: list[Toolpath], positions: Array, ways: Array) -> float:
 
 def _told(run: Any, path: Toolpath, scale: float) -> NDArray[np.int64]:
     """Where the rows end (n + 1, 3) as far as their blocks say it, else where the row before ends."""
-    ends = parted(_vertices(path), scale)
-    found = np.concatenate([np.zeros((1, 3), dtype=np.int64), ends[:-1]])
     block, program = run.steps.block[path.step], run.steps.program[path.step]
+    said = np.full((len(path), 3), np.nan)
     for which, source in enumerate(run.programs):
         rows = np.flatnonzero(program == which)
-        said = _said(source.text, source.lines()[0][block[rows]] - 1)
-        for axis, value in enumerate(said.T):
-            value = value * path.unit.length * scale + 0.5
-            known = np.abs(value) < ROOM
-            found[rows[known] + 1, axis] = np.floor(value[known])
+        said[rows] = _said(source.text, source.lines()[0][block[rows]] - 1)
+    found = np.concatenate([np.zeros((1, 3), dtype=np.int64), parted(_vertices(path), scale)[:-1]])
+    for axis in range(3):
+        value = said[:, axis] * path.unit.length * scale + 0.5
+        known = np.flatnonzero(np.abs(value) < ROOM)
+        found[known + 1, axis] = np.floor(value[known])
     return found
 
 
 def _said(text: str, line: NDArray[np.integer[Any]]) -> Array:
     """The first number after each of X, Y and Z in lines (n, 3), counted from 0; nan where there is none."""
     words, data = scan(text, leading_number=True), characters(text)
-    found, lines = np.full((len(words.clean), 3), np.nan), words.line
-    at_once = ~np.isin(data[np.minimum(words.offset + 1, len(data) - 1)], (9, 32))
+    found = np.full((len(words.clean), 3), np.nan)
     for axis, letter in enumerate(b"XYZ"):
-        some = np.flatnonzero((data[words.offset] == letter) & at_once)[::-1]  # of a line the first comes last
-        found[lines[some], axis] = words.value[some]
+        some = np.flatnonzero(words.letter == letter)[::-1]  # of a line the first comes last
+        at = words.offset[some]
+        meant = (data[at] == letter) & ~np.isin(data[np.minimum(at + 1, len(data) - 1)], (9, 32))  # no x, and no blank after it
+        found[np.searchsorted(words.starts, at[meant], "right") - 1, axis] = words.value[some[meant]]
     ends = np.append(words.starts[1:], len(text))
     for odd in np.unique(line[~words.clean[line]]).tolist():
         said = (number.search(text, words.starts[odd], ends[odd]) for number in NUMBERS)
