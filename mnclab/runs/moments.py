@@ -162,7 +162,8 @@ def _is_number(run: Run, name: str) -> bool:
     values = run.history.log(name)[1]
     if isinstance(values, np.ndarray):
         return len(values) > 0 and values.ndim == 1 and values.dtype.kind in "biuf"
-    return any(value is not None for value in values) and all(isinstance(v, int | float | np.number | np.bool_ | None) for v in values)
+    known = [value for value in values if value is not None]
+    return bool(known) and all(isinstance(value, int | float | np.number | np.bool_) for value in known)
 
 
 class _Search:

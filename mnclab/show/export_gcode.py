@@ -120,7 +120,7 @@ class Writer:
         code = spelled(("G0", "G1", "G1", "G1"), kind)
         more, planes = _empty(len(path)), _empty(len(path))
         code[threads] = "G33"
-        for row in np.flatnonzero(threads):
+        for row in np.flatnonzero(threads).tolist():
             more[row] = f" K{number(feed[row] / abs(path.spindle[row]))}"
         for row in np.flatnonzero((kind == Kind.ARC) & ~threads).tolist():
             if found := self.arc(path, row):

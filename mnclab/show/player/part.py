@@ -102,8 +102,8 @@ def parts_of(finest: float, *columns: Array) -> float:
     """How many parts a unit is counted in: `finest`, or the power of ten at which no value is too large for the page."""
     most = 0.0
     for column in columns:
-        low, high = column.min(initial=0.0), column.max(initial=0.0)  # of a million numbers, most often of an end
-        most = max(most, high, -low) if np.isfinite(high - low) else max(most, np.abs(column[np.isfinite(column)]).max(initial=0.0))
+        known = column if np.isfinite(column.min(initial=0.0) - column.max(initial=0.0)) else column[np.isfinite(column)]
+        most = max(most, float(known.max(initial=0.0)), -float(known.min(initial=0.0)))
     return finest if most * finest <= ROOM else 10.0 ** np.floor(np.log10(ROOM / most))
 
 

@@ -10,7 +10,6 @@ changes and the values from there on.
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Sequence
 from typing import Any
