@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from mnclab.path.profile.ramps import bent
 from mnclab.path.toolpath import MOTION_KINDS, Kind, Toolpath
-from mnclab.show.export_gcode import number
+from mnclab.show.export_gcode import number, numbers
 from mnclab.show.looks import MOVES, OF_KIND, RAPID
 from mnclab.text.columns import filled, parts, spelled
 from mnclab.text.given import choice
@@ -30,7 +30,7 @@ STYLE = "path{fill:none;stroke-linejoin:round}" + "".join(move.css for move in M
 def write_true_size(run: Any, path: Path, view: str = "auto") -> None:
     """Write the toolpath of a run as a drawing in true size."""
     with path.open("w", encoding="utf-8", errors="replace", newline="\n") as file:
-        file.writelines(line + "\n" for line in lines(_as_it_goes(run), view, run.program.title))
+        file.writelines(drawing(_as_it_goes(run), view, run.program.title))
 
 
 def _as_it_goes(run: Any) -> Toolpath:
@@ -38,8 +38,8 @@ def _as_it_goes(run: Any) -> Toolpath:
     return bent(run.toolpath, run.rapids, BENT)
 
 
-def lines(path: Toolpath, view: str = "auto", title: str = "tool path") -> Iterator[str]:
-    """The lines of the file: one path element for each run of moves of a class."""
+def drawing(path: Toolpath, view: str = "auto", title: str = "tool path") -> Iterator[str]:
+    """The file, piece by piece: one path element for each run of moves of a class."""
     view = choice(view, "view", ("auto", *VIEWS))
     view = ("ZX" if path.lathe else "XY") if view == "auto" else view
     right, up = VIEWS[view]
@@ -47,45 +47,41 @@ def lines(path: Toolpath, view: str = "auto", title: str = "tool path") -> Itera
     width, height = (float(high[k] - low[k]) + 2 * MARGIN for k in (right, up))
     box = f"{number(low[right] - MARGIN)} {number(-high[up] - MARGIN)} {number(width)} {number(height)}"
     size = f'width="{number(width)}mm" height="{number(height)}mm"'
-    yield f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="{box}">'
-    yield f"<title>{escape(title)}</title>"
-    yield f"<style>{STYLE}</style>"
-    for kind, commands in groups(path, right, up):
-        yield f'<path class="{kind}" d="{" ".join(commands)}"/>'
-    yield "</svg>"
+    yield f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="{box}">\n'
+    yield f"<title>{escape(title)}</title>\n<style>{STYLE}</style>\n"
+    yield from elements(path, right, up)
+    yield "</svg>\n"
 
 
-def groups(path: Toolpath, right: int, up: int) -> Iterator[tuple[str, list[str]]]:
-    """Runs of moves of one class, as commands of a path."""
-    current, commands = "", [""]
-    here: tuple[float, float] | None = None
-    for row in np.flatnonzero(path.is_motion).tolist():
-        kind = OF_KIND[Kind(int(path.kind[row]))].name
-        start = float(path.start[row, right]), float(path.start[row, up])
-        if kind != current or start != here:
-            if current and len(commands) > 1:
-                yield current, commands
-            current, commands = kind, [f"M{number(start[0])} {number(-start[1])}"]
-        commands += strokes(path, row, right, up)
-        here = float(path.end[row, right]), float(path.end[row, up])
-    if current and len(commands) > 1:
-        yield current, commands
+def elements(path: Toolpath, right: int, up: int) -> Iterator[str]:
+    """The elements, many moves at a time; a run that draws nothing is left out."""
+    moves, along = np.flatnonzero(path.is_motion), 3 - right - up
+    kind, start, end = path.kind[moves], path.start[moves][:, [right, up]], path.end[moves][:, [right, up]]
+    arc, round_ = kind == Kind.ARC, np.abs(path.axis[moves, along]) > 1 - 1e-12  # seen along its axis
+    draws = np.where(arc, ~round_ | (np.abs(path.sweep[moves]) > 1e-9 * np.pi), (start != end).any(axis=1))
+    classes = np.array([OF_KIND[kind].name for kind in MOTION_KINDS], dtype=object)[kind]
+    begins = np.append(True, (classes[1:] != classes[:-1]) | (start[1:] != end[:-1]).any(axis=1))[: len(moves)]
+    ends = np.append(begins[1:], True)[: len(moves)]
+    run = np.cumsum(begins) - 1
+    shown = (np.bincount(run, draws) > 0)[run]
+    for some in parts(len(moves)):
+        to = " L" + numbers(end[some, 0]) + " " + numbers(-end[some, 1])
+        for k in np.flatnonzero(arc[some]).tolist():
+            at = some.start + k
+            bent = turns(path, moves[at], right, up, along) if round_[at] else chords(path, moves[at], right, up)
+            to[k] = "".join(f" {command}" for command in bent)
+        first = '<path class="' + classes[some] + '" d="M' + numbers(start[some, 0]) + " " + numbers(-start[some, 1])
+        said = np.where(begins[some], first, "") + np.where(draws[some], to, "") + np.where(ends[some], '"/>\n', "")
+        yield "".join(said[shown[some]])
 
 
-def strokes(path: Toolpath, row: int, right: int, up: int) -> Iterator[str]:
-    """The commands of one move: arcs seen along their axis are arcs, of at most half a turn each."""
-    if path.kind[row] == Kind.ARC:
-        along = 3 - right - up
-        if abs(path.axis[row, along]) > 1 - 1e-12:
-            yield from turns(path, row, right, up, along)
-            return
-        for point in path[row : row + 1].points(0.001)[0][1:].tolist():
-            yield f"L{number(point[right])} {number(-point[up])}"
-    elif (path.start[row, [right, up]] != path.end[row, [right, up]]).any():
-        yield f"L{number(path.end[row, right])} {number(-path.end[row, up])}"
+def chords(path: Toolpath, row: Any, right: int, up: int) -> Iterator[str]:
+    """An arc that is not seen along its axis as short lines."""
+    for point in path[row : row + 1].points(0.001)[0][1:].tolist():
+        yield f"L{number(point[right])} {number(-point[up])}"
 
 
-def turns(path: Toolpath, row: int, right: int, up: int, along: int) -> Iterator[str]:
+def turns(path: Toolpath, row: Any, right: int, up: int, along: int) -> Iterator[str]:
     """An arc as commands A."""
     sense = 1.0 if np.linalg.det(np.eye(3)[[right, up, along]]) * path.axis[row, along] > 0 else -1.0
     sweep = float(path.sweep[row]) * sense
