@@ -125,7 +125,7 @@ def varints(values: NDArray[np.int64]) -> bytes:
 def size(values: NDArray[np.int64]) -> int:
     """Bytes of a column (n,) once it is packed."""
     data = varints(np.diff(values, prepend=0))
-    return len(zlib.compress(data, 6 if len(data) < HUGE else 1))
+    return len(zlib.compress(data, 6 if len(data) < HUGE // 8 else 1))
 
 
 class Packer:

@@ -70,7 +70,8 @@ def payload(
     moved, places = run.history.log("position") if "position" in run.history else ([], [])
     positions = np.asarray(places, dtype=np.float64).reshape(-1, 3)
     scale = _scale([path, programmed], positions, profile.pieces.s)
-    angles, turned = parts_of(ANGLES, path.sweep, programmed.sweep), np.degrees(run.toolpath.rotary)
+    rotates = run.toolpath.rotary.any()
+    angles, turned = parts_of(ANGLES, path.sweep, programmed.sweep), np.degrees(run.toolpath.rotary[: None if rotates else 0])
     degrees = parts_of(DEGREES, turned)
     lines, lasts = zip(*(_lines(pack, program) for program in run.programs))
     header = {
@@ -103,7 +104,7 @@ def payload(
             "at": pack.add(moved),
             "from": columns(pack, parted(positions, scale) - _tips(path, moved, scale)),
         },
-        "rotary": columns(pack, parted(turned, degrees)) if turned.any() else None,
+        "rotary": columns(pack, parted(turned, degrees)) if rotates else None,
         "degrees": degrees,
         "stock": _edges([run.stock] if run.stock else []) + _cylinders(run.toolpath),
         "turning": sorted({(*one.direction, one.rotary) for one in run.toolpath.cylinders}) or None,  # the axes of drums
@@ -261,7 +262,8 @@ def _guessed(profile: Profile, time: NDArray[np.int64], seconds: float, v: Array
     """Durations of the pieces (n,) as straight rows of three let guess them: the first one as in the row before, the last one
     by the same acceleration, between them what is left of the length."""
     row, lasts, path = profile.pieces.row, np.diff(time), profile.path.on_workpiece()
-    straight = np.linalg.norm(np.diff(parted(_vertices(path), scale) / scale, axis=0), axis=1)
+    at = (parted(column, scale) / scale for column in _vertices(path).T)
+    straight = np.sqrt(sum(np.diff(column) ** 2 for column in at))
     whole = (np.bincount(row, minlength=1)[row] == 3) & (path.kind[row] != Kind.ARC)
     first = np.flatnonzero(whole & (np.diff(row, prepend=-1) > 0))
     steps = np.abs(np.diff(v))
