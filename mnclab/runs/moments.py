@@ -160,8 +160,8 @@ def _of_block(node: Node, first: NDArray[np.integer[Any]], last: NDArray[np.inte
 
 def _is_number(run: Run, name: str) -> bool:
     values = run.history.log(name)[1]
-    if isinstance(values, np.ndarray):
-        return len(values) > 0 and values.ndim == 1 and values.dtype.kind in "biuf"
+    if isinstance(values, np.ndarray) and (values.ndim > 1 or values.dtype.kind in "biuf"):
+        return values.ndim == 1 and len(values) > 0
     known = [value for value in values if value is not None]
     return bool(known) and all(isinstance(value, int | float | np.number | np.bool_) for value in known)
 
