@@ -260,7 +260,8 @@ def run(chosen: argparse.Namespace) -> int:
     if chosen.json:
         from mnclab.show.export import document
 
-        print(json.dumps(document(result), allow_nan=False))
+        sys.stdout.writelines(document(result))
+        print()
     elif len(result.toolpath):
         print(result.toolpath)
     if result.measurements and not chosen.json:

@@ -262,7 +262,10 @@ class Toolpath(Pictured, Columns):
             return Move(**plain)
         if not isinstance(index, slice) and np.asarray(index).dtype.kind not in "iub" and len(np.atleast_1d(index)):
             raise Alarm(f"a row of a toolpath is named by a whole number, some by a slice, numbers or a mask, got {shown(index)}")
-        return self.replace(**{name: getattr(self, name)[index] for name in COLUMNS})
+        if isinstance(index, slice):
+            return self.replace(**{name: getattr(self, name)[index] for name in COLUMNS})
+        rows = np.arange(self._n)[index]
+        return self.replace(**{name: gathered(getattr(self, name), rows) for name in COLUMNS})
 
     def __iter__(self) -> Iterator[Move]:
         return (self[i] for i in range(self._n))

@@ -67,7 +67,9 @@ class History(Mapping[str, Any]):
         if name not in self._open:
             return []
         at, values = self.log(name)
-        return [(int(step), _python(value)) for step, value in zip(at, values)]
+        if isinstance(values, np.ndarray) and values.ndim == 1 and values.dtype != object:
+            return [*zip(at.tolist(), values.tolist())]
+        return [*zip(at.tolist(), map(_python, values))]
 
     def at(self, step: int) -> dict[str, Any]:
         """Everything that had a value after a step."""

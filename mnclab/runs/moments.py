@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cached_property
 from html import escape
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -24,6 +25,7 @@ from mnclab.path.places import points_at, spokes, turning_points, turns_of_sum
 from mnclab.path.toolpath import Kind
 from mnclab.runs.conditions import Condition, Node, parse
 from mnclab.runs.history import unit_of
+from mnclab.text.columns import parts
 from mnclab.text.tables import Listing
 
 if TYPE_CHECKING:
@@ -56,19 +58,47 @@ COLUMN = {
 FOLLOW_RADIUS = {"spindle", "feed"}
 
 
-class Moments(Listing, tuple["Moment", ...]):
-    """The moments at which a condition becomes true, in order; `exact`: whether nothing can lie between two looks. `reach` is
-    "up to line 12, where the run stopped" of a run that stopped before its end, else empty."""
+class Looks(NamedTuple):
+    """Places at which a condition is looked at (m,): row of the path or -1, share of the row, step."""
+
+    row: Rows
+    share: Array
+    step: Rows
+
+    def take(self, index: NDArray[Any] | slice) -> Looks:
+        return Looks(self.row[index], self.share[index], self.step[index])
+
+
+class Moments(Listing, Sequence["Moment"]):
+    """The moments at which a condition becomes true, in order, each made when it is asked for; `exact`: whether nothing can lie
+    between two looks. `reach` is "up to line 12, where the run stopped" of a run that stopped before its end, else empty."""
 
     HEAD, NUMBERS, CODE, MOST = ("line", "block", "tool tip", "of the move"), (0, 3), (1,), 50
-    condition = ""
-    exact = True
+
+    def __init__(self, run: Run, looks: Looks, points: Array, condition: str, exact: bool) -> None:
+        self.condition, self.exact, self.reach = condition, exact, run.reach
+        self._run, self._looks, self._points = run, looks, points
+
+    def __len__(self) -> int:
+        return len(self._looks.row)
+
+    def __getitem__(self, which: Any) -> Any:
+        if isinstance(which, slice):
+            return Moments(self._run, self._looks.take(which), self._points[which], self.condition, self.exact)
+        k = range(len(self))[which]
+        row, share, step = (column[k].item() for column in self._looks)
+        x, y, z = self._points[k].tolist()
+        return self._run.at(step=step)._replace(row=row, share=share, point=(x, y, z))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Sequence) and tuple(self) == tuple(other)
 
     def rows(self) -> list[tuple[str, ...]]:
         """Line, block, place of the tool tip, and how much of the move was done."""
-        shares = (f"{100 * moment.share:.4g} %" if moment.row >= 0 else "" for moment in self)
-        places = (point(moment.point, unit_of(moment.state), moment.lathe) for moment in self)
-        return [(str(m.line), str(m.block), *rest) for m, *rest in zip(self, places, shares)]
+        return [
+            (str(m.line), str(m.block), point(m.point, unit_of(m.state), m.lathe), f"{100 * m.share:.4g} %" if m.row >= 0 else "")
+            for m in self
+        ]
 
     texts = rows
 
@@ -89,20 +119,12 @@ class Moments(Listing, tuple["Moment", ...]):
     def _repr_html_(self) -> str:
         if not self:
             return f"<p><code>{escape(self.condition)}</code>: never {escape(self.reach)}".rstrip() + "</p>"
-        told = f"<br>{self.counts}" if self.counts else ""
+        first = self[: self.MOST]
+        told = f"<br>{first.counts}" if first.counts else ""
         told += "" if self.exact else f"<br>looked at in {LOOKS} places of each line and quarter of a turn"
-        return f"<p><code>{escape(self.condition)}</code>{told}</p>{super()._repr_html_()}"
-
-
-class Looks(NamedTuple):
-    """Places at which a condition is looked at (m,): row of the path or -1, share of the row, step."""
-
-    row: Rows
-    share: Array
-    step: Rows
-
-    def take(self, index: NDArray[Any]) -> Looks:
-        return Looks(self.row[index], self.share[index], self.step[index])
+        more = f"… {len(self) - len(first)} more" if len(self) > len(first) else ""
+        first.notes, first.reach = (more, self.reach), ""
+        return f"<p><code>{escape(self.condition)}</code>{told}</p>{super(Moments, first)._repr_html_()}"
 
 
 def when(run: Run, text: str) -> Moments:
@@ -113,13 +135,14 @@ def when(run: Run, text: str) -> Moments:
         condition = replace(condition, tree=_of_block(condition.tree, *run.program.lines()))
     search = _Search(run, condition)
     looks, place = search.looks()
-    truth = condition.truth(search.values(looks))
-    known = np.flatnonzero(np.broadcast_to(truth.true | truth.false, looks.share.shape))
-    true = np.broadcast_to(truth.true, looks.share.shape)[known]
-    begins = known[true & ~np.concatenate([[False], true[:-1]])]
-    found = Moments(search.moment(looks.take(place)[0:3], int(i)) for i in begins)
-    found.condition, found.exact, found.reach = text, not any(map(_mixed, condition.comparisons)), run.reach
-    return found
+    true, known = np.zeros((2, len(looks.row)), dtype=bool)
+    for some in parts(len(looks.row)):
+        truth = condition.truth(search.values(looks.take(some)))
+        true[some], known[some] = truth.true, truth.true | truth.false
+    seen = np.flatnonzero(known)
+    begins = seen[true[seen] & ~np.concatenate([[False], true[seen[:-1]]])]
+    found = looks.take(place[begins])
+    return Moments(run, found, search.points(found), text, not any(map(_mixed, condition.comparisons)))
 
 
 def _of_block(node: Node, first: NDArray[np.integer[Any]], last: NDArray[np.integer[Any]]) -> Node:
@@ -136,8 +159,11 @@ def _of_block(node: Node, first: NDArray[np.integer[Any]], last: NDArray[np.inte
 
 
 def _is_number(run: Run, name: str) -> bool:
-    changes = run.history.changed(name)
-    return any(value is not None for _, value in changes) and all(isinstance(v, int | float | None) for _, v in changes)
+    values = run.history.log(name)[1]
+    if isinstance(values, np.ndarray) and (values.ndim > 1 or values.dtype.kind in "biuf"):
+        return values.ndim == 1 and len(values) > 0
+    known = [value for value in values if value is not None]
+    return bool(known) and all(isinstance(value, int | float | np.number | np.bool_) for value in known)
 
 
 class _Search:
@@ -150,6 +176,10 @@ class _Search:
         self.along = PLACE.keys() | (FOLLOW_RADIUS if follows else set())  # the names that change on a move
         self.state = {name: self._state(name) for name in condition.names - PLACE.keys() - COLUMN.keys()}
 
+    @cached_property
+    def lines(self) -> NDArray[np.integer[Any]]:
+        return self.run.lines()
+
     def _state(self, name: str) -> Array:
         values = self.run.history[name]
         return np.array([np.nan if value is None else value for value in values], dtype=np.float64)
@@ -158,7 +188,8 @@ class _Search:
         """Where to look, in order; and for each place the one at which what is seen there begins."""
         row, share = self.divided()
         between = np.flatnonzero((row[1:] == row[:-1]) & (share[1:] > share[:-1]))
-        still = np.setdiff1d(np.arange(len(self.run.steps.block)), self.step)
+        count = len(self.run.steps.block)
+        still = np.flatnonzero(np.bincount(self.step, minlength=count)[:count] == 0)
         every, none, count = np.arange(len(row)), np.full(len(still), -1), len(row) + len(between)
         rows = np.concatenate([row, row[between], none])
         shares = np.concatenate([share, (share[between] + share[between + 1]) / 2, np.ones(len(still))])
@@ -225,9 +256,11 @@ class _Search:
         return which, high
 
     def gap(self, node: Node, row: Rows, share: Array) -> Array:
-        with np.errstate(all="ignore"):
-            found = node.gap(self.values(Looks(row, share, self.step[row])))
-        return np.broadcast_to(np.asarray(found, dtype=np.float64), share.shape)
+        found = np.empty(len(row))
+        for some in parts(len(row)):
+            with np.errstate(all="ignore"):
+                found[some] = node.gap(self.values(Looks(row[some], share[some], self.step[row[some]])))
+        return found
 
     def values(self, looks: Looks) -> dict[str, Array]:
         """The value of every name of the condition at some places."""
@@ -241,7 +274,7 @@ class _Search:
         row = self.standing(looks)
         for name in names & COLUMN.keys():
             if name == "line":
-                found[name] = self.run.lines()[looks.step].astype(np.float64)
+                found[name] = self.lines[looks.step].astype(np.float64)
                 continue
             column = getattr(self.path, name)
             before = column[row] if len(column) else np.zeros(len(row))
@@ -280,13 +313,6 @@ class _Search:
         before = np.where(row[:, None] > 0, self.path.rotary[np.maximum(row - 1, 0)], 0.0)
         share = np.where(looks.row >= 0, looks.share, 1.0)[:, None]
         return before + share * (there - before)
-
-    def moment(self, looks: Sequence[NDArray[Any]], index: int) -> Moment:
-        """A place as a moment of the run."""
-        here = Looks(*(column[index : index + 1] for column in looks))
-        x, y, z = self.points(here)[0].tolist()
-        found = self.run.at(step=int(here.step[0]))
-        return found._replace(row=int(here.row[0]), share=float(here.share[0]), point=(x, y, z))
 
 
 def _sorted(row: Rows, share: Array) -> tuple[Rows, Array]:

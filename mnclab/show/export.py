@@ -7,23 +7,23 @@ line ends on every system. A new kind of file is a function here and a line in `
 
 from __future__ import annotations
 
-import csv
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.toolpath import COLUMNS, Kind, Toolpath
+from mnclab.path.toolpath import COLUMNS, Kind
 from mnclab.show import export_mesh
 from mnclab.show.export_drawing import write_dxf, write_true_size
 from mnclab.show.export_gcode import write_gcode
 from mnclab.text.alarm import Alarm
+from mnclab.text.columns import filled, parts, spelled
 from mnclab.text.file import named, save_as
 from mnclab.text.given import choice
-from mnclab.text.tables import write_picture
+from mnclab.text.tables import csv_text, write_picture
 
 
 def save(run: Any, path: str | Path, **options: Any) -> Path:
@@ -52,27 +52,30 @@ def _body(run: Any, suffix: str, of: str = "part", **more: Any) -> Callable[...,
 
 def write_csv(run: Any, path: Path) -> None:
     """The columns of the toolpath under their names; `kind` and `label` as text, numbers with all their digits."""
-    columns = {name: _texts(column) for name, column in run.toolpath.columns().items()} | _words(run.toolpath)
+    columns, labels = run.toolpath.columns(), [csv_text((text, "")).removesuffix(",\n") for text in run.toolpath.labels]
+    columns |= {name: column.view(np.uint8) for name, column in columns.items() if column.dtype == np.bool_}
     with path.open("w", encoding="utf-8", errors="replace", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(columns)
-        writer.writerows(zip(*columns.values()))
+        file.write(",".join(columns) + "\n")
+        for rows in parts(len(run.toolpath)):
+            some = {name: column[rows] for name, column in columns.items()}
+            some |= {"kind": spelled(KINDS, some["kind"]), "label": spelled(labels, some["label"])}
+            file.write(filled(",".join(["%s"] * len(some)) + "\n", some.values()))
 
 
 def write_json(run: Any, path: Path) -> None:
     """The run as one JSON object, see `document`."""
     with path.open("w", encoding="utf-8", newline="\n") as file:
-        json.dump(document(run), file, allow_nan=False)
+        file.writelines(document(run))
         file.write("\n")
 
 
-def document(run: Any) -> dict[str, Any]:
-    """Summary, alarms and columns of a run, ready for JSON: nan (no value) and inf (rapid feed) are null."""
+def document(run: Any) -> Iterator[str]:
+    """Summary, alarms and columns of a run as the pieces of one JSON object: nan (no value) and inf (rapid feed) are null."""
     path, summary = run.toolpath, run.summary()
     for name, value in summary.items():
         if isinstance(value, float):
             summary[name] = round(value, 6) if np.isfinite(value) else None
-    return {
+    head = {
         "summary": summary,
         "ok": run.ok,
         "alarms": [alarm.without_folders().as_dict() for alarm in run.alarms],
@@ -80,34 +83,29 @@ def document(run: Any) -> dict[str, Any]:
         "lathe": path.lathe,
         "origin": path.origin.tolist(),
         "meaning": {name: ", ".join(filter(None, (each.meaning, each.unit))) for name, each in COLUMNS.items()},
-        "columns": {name: _plain(column) for name, column in path.columns().items()} | _words(path),
     }
+    yield json.dumps(head, allow_nan=False).removesuffix("}") + ', "columns": {'
+    names = {name: [*map(json.dumps, texts)] for name, texts in (("kind", KINDS), ("label", path.labels))}
+    for k, (name, column) in enumerate(path.columns().items()):
+        yield f'{", " * (k > 0)}"{name}": ['
+        for rows in parts(len(path)):
+            some = spelled(names[name], column[rows]) if name in names else _plain(column[rows])
+            yield ", " * (rows.start > 0) + filled("%s, ", [some]).removesuffix(", ")
+        yield "]"
+    yield "}}"
 
 
-def _words(path: Toolpath) -> dict[str, list[Any]]:
-    """The columns that are names: RAPID, LINE, … and labels."""
-    names = {kind.value: kind.name for kind in Kind}
-    kinds, labels = path.kind.tolist(), path.label.tolist()
-    return {"kind": [names[kind] for kind in kinds], "label": [path.labels[label] for label in labels]}
-
-
-def _texts(column: NDArray[Any]) -> Iterable[str]:
-    """A column as text; `repr` of a float is the shortest text that reads back as the same number."""
+def _plain(column: NDArray[Any]) -> NDArray[Any]:
+    """A column (n,), not empty, as JSON has its values."""
+    if column.strides == (0,):  # a constant
+        return np.broadcast_to(_plain(column[:1].copy()), len(column))
     if column.dtype == np.bool_:
-        column = column.astype(np.uint8)
-    if len(column) and column.strides == (0,):  # a constant
-        return [repr(column[0].item())] * len(column)
-    return map(repr, column.tolist())
+        return spelled(("false", "true"), column.view(np.uint8))
+    known = np.isfinite(column)
+    return column if known.all() else np.where(known, column.astype(object), "null")
 
 
-def _plain(column: NDArray[Any]) -> list[Any]:
-    if column.dtype.kind != "f" or np.isfinite(column).all():
-        return column.tolist()
-    values = column.astype(object)
-    values[~np.isfinite(column)] = None
-    return values.tolist()
-
-
+KINDS = [kind.name for kind in Kind]
 OF = ("part", "path")
 BODIES: dict[str, tuple[Callable[..., None], Callable[..., None]]] = {
     ".stl": (export_mesh.write_part_stl, export_mesh.write_stl),

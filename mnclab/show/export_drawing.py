@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.path.profile.ramps import bent
-from mnclab.path.toolpath import Kind, Toolpath
-from mnclab.show.export_gcode import number
+from mnclab.path.toolpath import MOTION_KINDS, Kind, Toolpath
+from mnclab.show.export_gcode import number, numbers
 from mnclab.show.looks import MOVES, OF_KIND, RAPID
+from mnclab.text.columns import filled, parts, spelled
 from mnclab.text.given import choice
 
 MARGIN = 2.0  # mm
@@ -29,7 +30,7 @@ STYLE = "path{fill:none;stroke-linejoin:round}" + "".join(move.css for move in M
 def write_true_size(run: Any, path: Path, view: str = "auto") -> None:
     """Write the toolpath of a run as a drawing in true size."""
     with path.open("w", encoding="utf-8", errors="replace", newline="\n") as file:
-        file.writelines(line + "\n" for line in lines(_as_it_goes(run), view, run.program.title))
+        file.writelines(drawing(_as_it_goes(run), view, run.program.title))
 
 
 def _as_it_goes(run: Any) -> Toolpath:
@@ -37,8 +38,8 @@ def _as_it_goes(run: Any) -> Toolpath:
     return bent(run.toolpath, run.rapids, BENT)
 
 
-def lines(path: Toolpath, view: str = "auto", title: str = "tool path") -> Iterator[str]:
-    """The lines of the file: one path element for each run of moves of a class."""
+def drawing(path: Toolpath, view: str = "auto", title: str = "tool path") -> Iterator[str]:
+    """The file, piece by piece: one path element for each run of moves of a class."""
     view = choice(view, "view", ("auto", *VIEWS))
     view = ("ZX" if path.lathe else "XY") if view == "auto" else view
     right, up = VIEWS[view]
@@ -46,45 +47,41 @@ def lines(path: Toolpath, view: str = "auto", title: str = "tool path") -> Itera
     width, height = (float(high[k] - low[k]) + 2 * MARGIN for k in (right, up))
     box = f"{number(low[right] - MARGIN)} {number(-high[up] - MARGIN)} {number(width)} {number(height)}"
     size = f'width="{number(width)}mm" height="{number(height)}mm"'
-    yield f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="{box}">'
-    yield f"<title>{escape(title)}</title>"
-    yield f"<style>{STYLE}</style>"
-    for kind, commands in groups(path, right, up):
-        yield f'<path class="{kind}" d="{" ".join(commands)}"/>'
-    yield "</svg>"
+    yield f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="{box}">\n'
+    yield f"<title>{escape(title)}</title>\n<style>{STYLE}</style>\n"
+    yield from elements(path, right, up)
+    yield "</svg>\n"
 
 
-def groups(path: Toolpath, right: int, up: int) -> Iterator[tuple[str, list[str]]]:
-    """Runs of moves of one class, as commands of a path."""
-    current, commands = "", [""]
-    here: tuple[float, float] | None = None
-    for row in np.flatnonzero(path.is_motion).tolist():
-        kind = OF_KIND[Kind(int(path.kind[row]))].name
-        start = float(path.start[row, right]), float(path.start[row, up])
-        if kind != current or start != here:
-            if current and len(commands) > 1:
-                yield current, commands
-            current, commands = kind, [f"M{number(start[0])} {number(-start[1])}"]
-        commands += strokes(path, row, right, up)
-        here = float(path.end[row, right]), float(path.end[row, up])
-    if current and len(commands) > 1:
-        yield current, commands
+def elements(path: Toolpath, right: int, up: int) -> Iterator[str]:
+    """The elements, many moves at a time; a run that draws nothing is left out."""
+    moves, along = np.flatnonzero(path.is_motion), 3 - right - up
+    kind, start, end = path.kind[moves], path.start[moves][:, [right, up]], path.end[moves][:, [right, up]]
+    arc, round_ = kind == Kind.ARC, np.abs(path.axis[moves, along]) > 1 - 1e-12  # seen along its axis
+    draws = np.where(arc, ~round_ | (np.abs(path.sweep[moves]) > 1e-9 * np.pi), (start != end).any(axis=1))
+    classes = np.array([OF_KIND[kind].name for kind in MOTION_KINDS], dtype=object)[kind]
+    begins = np.append(True, (classes[1:] != classes[:-1]) | (start[1:] != end[:-1]).any(axis=1))[: len(moves)]
+    ends = np.append(begins[1:], True)[: len(moves)]
+    run = np.cumsum(begins) - 1
+    shown = (np.bincount(run, draws) > 0)[run]
+    for some in parts(len(moves)):
+        to = " L" + numbers(end[some, 0]) + " " + numbers(-end[some, 1])
+        for k in np.flatnonzero(arc[some]).tolist():
+            at = some.start + k
+            bent = turns(path, moves[at], right, up, along) if round_[at] else chords(path, moves[at], right, up)
+            to[k] = "".join(f" {command}" for command in bent)
+        first = '<path class="' + classes[some] + '" d="M' + numbers(start[some, 0]) + " " + numbers(-start[some, 1])
+        said = np.where(begins[some], first, "") + np.where(draws[some], to, "") + np.where(ends[some], '"/>\n', "")
+        yield "".join(said[shown[some]])
 
 
-def strokes(path: Toolpath, row: int, right: int, up: int) -> Iterator[str]:
-    """The commands of one move: arcs seen along their axis are arcs, of at most half a turn each."""
-    if path.kind[row] == Kind.ARC:
-        along = 3 - right - up
-        if abs(path.axis[row, along]) > 1 - 1e-12:
-            yield from turns(path, row, right, up, along)
-            return
-        for point in path[row : row + 1].points(0.001)[0][1:].tolist():
-            yield f"L{number(point[right])} {number(-point[up])}"
-    elif (path.start[row, [right, up]] != path.end[row, [right, up]]).any():
-        yield f"L{number(path.end[row, right])} {number(-path.end[row, up])}"
+def chords(path: Toolpath, row: Any, right: int, up: int) -> Iterator[str]:
+    """An arc that is not seen along its axis as short lines."""
+    for point in path[row : row + 1].points(0.001)[0][1:].tolist():
+        yield f"L{number(point[right])} {number(-point[up])}"
 
 
-def turns(path: Toolpath, row: int, right: int, up: int, along: int) -> Iterator[str]:
+def turns(path: Toolpath, row: Any, right: int, up: int, along: int) -> Iterator[str]:
     """An arc as commands A."""
     sense = 1.0 if np.linalg.det(np.eye(3)[[right, up, along]]) * path.axis[row, along] > 0 else -1.0
     sweep = float(path.sweep[row]) * sense
@@ -112,16 +109,19 @@ Tag = tuple[int, Any]
 
 def write_dxf(run: Any, path: Path) -> None:
     """Write the toolpath of a run as a drawing."""
+    drawn = _as_it_goes(run)
     with path.open("w", encoding="ascii", newline="\n") as file:
-        file.writelines(f"{code:3d}\n{_text(value)}\n" for code, value in tags(_as_it_goes(run)))
+        file.write(_written(head(drawn)))
+        file.writelines(entities(drawn))
+        file.write(_written([(0, "ENDSEC"), (0, "EOF")]))
 
 
-def _text(value: Any) -> str:
-    return repr(float(value) + 0.0) if isinstance(value, float) else str(value)
+def _written(tags: Iterable[Tag]) -> str:
+    return "".join(f"{code:3d}\n{repr(value + 0.0) if isinstance(value, float) else value}\n" for code, value in tags)
 
 
-def tags(path: Toolpath) -> Iterator[Tag]:
-    """The drawing as pairs of a group code and a value."""
+def head(path: Toolpath) -> Iterator[Tag]:
+    """What stands before the moves, as pairs of a group code and a value."""
     low, high = np.nan_to_num(path.bounds)
     yield 999, "tool path in millimetres"
     yield from [(0, "SECTION"), (2, "HEADER"), (9, "$ACADVER"), (1, "AC1009")]
@@ -136,40 +136,42 @@ def tags(path: Toolpath) -> Iterator[Tag]:
         dashes = "DASHED" if move.line is RAPID else "CONTINUOUS"
         yield from [(0, "LAYER"), (2, move.name.upper()), (70, 0), (62, move.number), (6, dashes)]
     yield from [(0, "ENDTAB"), (0, "ENDSEC"), (0, "SECTION"), (2, "ENTITIES")]
-    yield from entities(path)
-    yield from [(0, "ENDSEC"), (0, "EOF")]
 
 
-def entities(path: Toolpath) -> Iterator[Tag]:
-    """The moves of a path, in their order."""
-    climb = np.einsum("ij,ij->i", path.end - path.start, path.axis)
-    columns = (path.kind, path.start, path.end, climb, path.is_motion)
-    for row, (kind, start, end, rise, moves) in enumerate(zip(*(column.tolist() for column in columns))):
-        if not moves:
-            continue
-        layer = OF_KIND[Kind(kind)].name.upper()
-        if kind != Kind.ARC:
-            yield from [(0, "LINE"), (8, layer), *_point(start), *_point(end, 11)]
-        elif abs(rise) > 1e-9:
-            yield from polyline(path[row : row + 1].points(CHORD)[0].tolist(), layer)
-        else:
-            yield from arc(path, row, layer)
+LINE = _written([(0, "LINE"), (8, "%s"), *((10 + 10 * k + end, "%s") for end in (0, 1) for k in range(3))])
+LAYERS = {kind: OF_KIND[kind].name.upper() for kind in MOTION_KINDS}
 
 
-def arc(path: Toolpath, row: int, layer: str) -> Iterable[Tag]:
+def entities(path: Toolpath) -> Iterator[str]:
+    """The moves of a path, in their order; those that are straight many at a time."""
+    moves = np.flatnonzero(path.is_motion)
+    for some in parts(len(moves)):
+        rows = moves[some]
+        for these in np.split(rows, np.flatnonzero(np.diff(path.kind[rows] == Kind.ARC)) + 1):
+            if path.kind[these[0]] != Kind.ARC:
+                ends = np.hstack([path.start[these], path.end[these]]) + 0.0  # no negative zero
+                yield filled(LINE, [spelled(LAYERS.values(), path.kind[these]), *ends.T])
+                continue
+            for row in these.tolist():
+                rise = float((path.end[row] - path.start[row]) @ path.axis[row])
+                helix = abs(rise) > 1e-9
+                yield _written(polyline(path[row : row + 1].points(CHORD)[0].tolist()) if helix else arc(path, row))
+
+
+def arc(path: Toolpath, row: int) -> Iterable[Tag]:
     """An arc in the coordinates of its plane, always counter-clockwise about the extrusion; whole turns are a circle."""
     axis, centre, sweep = path.axis[row], path.centre[row], float(path.sweep[row])
     basis = plane(axis)
     spoke = basis @ (path.start[row] - centre)
     middle = basis @ centre
     middle[2] = float(axis @ path.start[row])
-    head = [(8, layer), *_point(middle), (40, float(np.hypot(spoke[0], spoke[1])))]
+    begin = [(8, LAYERS[Kind.ARC]), *_point(middle), (40, float(np.hypot(spoke[0], spoke[1])))]
     extrusion = list(_point(axis, 210)) if axis[2] != 1.0 else []
     if abs(sweep) >= 2 * np.pi - 1e-12:
-        return [(0, "CIRCLE"), *head, *extrusion]
+        return [(0, "CIRCLE"), *begin, *extrusion]
     angle = np.arctan2(spoke[1], spoke[0])
     ends = np.degrees([angle, angle + sweep] if sweep > 0 else [angle + sweep, angle]) % 360.0
-    return [(0, "ARC"), *head, (50, float(ends[0])), (51, float(ends[1])), *extrusion]
+    return [(0, "ARC"), *begin, (50, float(ends[0])), (51, float(ends[1])), *extrusion]
 
 
 def plane(axis: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -180,8 +182,9 @@ def plane(axis: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.stack([first, np.cross(axis, first), axis])
 
 
-def polyline(points: list[list[float]], layer: str) -> Iterator[Tag]:
+def polyline(points: list[list[float]]) -> Iterator[Tag]:
     """A line through points in space."""
+    layer = LAYERS[Kind.ARC]
     yield from [(0, "POLYLINE"), (8, layer), (66, 1), *_point((0.0, 0.0, 0.0)), (70, 8)]
     for point in points:
         yield from [(0, "VERTEX"), (8, layer), *_point(point), (70, 32)]

@@ -11,40 +11,44 @@ within `CHORD` mm, a probing move is a cut that ends where the probe touched.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mnclab.path.toolpath import COLUMNS, MOTION_KINDS, Kind, Toolpath, concatenate
+from mnclab.path.toolpath import COLUMNS, Index, Kind, Mask, Toolpath, concatenate
+from mnclab.text.columns import parts, spelled
 
 CHORD = 0.001
 DECIMALS = 6  # a millionth of a millimetre: LinuxCNC compares the radii of an arc's ends
-#: The columns of a path that blocks are made of.
-WORDS = "kind line label start end centre axis sweep rotary feed time spindle tool exact synchronous step".split()
 #: Number of a normal's axis -> plane, first and second axis, their words of the centre.
 PLANES = {2: ("G17", 0, 1, "IJ"), 1: ("G18", 2, 0, "KI"), 0: ("G19", 1, 2, "JK")}
 COOLANT = ("M7", "M8", "M9")
+Words = NDArray[np.object_]
 
 
 def write_gcode(run: Any, path: Path) -> None:
     """Write a run as RS-274."""
     with path.open("w", encoding="ascii", newline="\n") as file:
-        file.writelines(line + "\n" for line in lines(run))
+        file.writelines(text(run))
 
 
-def lines(run: Any) -> Iterator[str]:
+def lines(run: Any) -> list[str]:
     """The lines of the file."""
-    writer = Writer(run)
-    yield "%"
-    yield comment(f"{Path(run.program.name).name} for {run.control.title}, as plain moves")
-    for alarm in run.alarms:
-        yield comment(alarm.without_folders().headline)
-    yield f"G21 {'G18 G8' if run.toolpath.lathe else 'G17'} G90 G94 G91.1 G40 G49 G80 G54 G61"
-    yield from writer.rows(plain(run.toolpath))
-    yield "M2"
-    yield "%"
+    return "".join(text(run)).splitlines()
+
+
+def text(run: Any) -> Iterator[str]:
+    """The file, many lines at a time."""
+    yield f"%\n{comment(f'{Path(run.program.name).name} for {run.control.title}, as plain moves')}\n"
+    yield from (f"{comment(alarm.without_folders().headline)}\n" for alarm in run.alarms)
+    yield f"G21 {'G18 G8' if run.toolpath.lathe else 'G17'} G90 G94 G91.1 G40 G49 G80 G54 G61\n"
+    path = plain(run.toolpath)
+    writer = Writer(run, path.labels)
+    yield from ("".join(writer.rows(path[some])) for some in parts(len(path)))
+    yield "M2\n%\n"
 
 
 def comment(text: str) -> str:
@@ -55,9 +59,9 @@ def comment(text: str) -> str:
 
 def plain(path: Toolpath) -> Toolpath:
     """The path with arcs in tilted planes as chords."""
-    tilted = (path.kind == Kind.ARC) & (np.abs(path.axis).max(axis=1) < 1 - 1e-12)
+    arcs = np.flatnonzero(path.kind == Kind.ARC)
     pieces, at = [], 0
-    for row in np.flatnonzero(tilted).tolist():
+    for row in arcs[np.abs(path.axis[arcs]).max(axis=1) < 1 - 1e-12].tolist():
         xyz, _ = path[row : row + 1].points(CHORD)
         copies = path[np.full(len(xyz) - 1, row)]
         chords = {name: getattr(copies, name) for name in COLUMNS}
@@ -68,112 +72,128 @@ def plain(path: Toolpath) -> Toolpath:
 
 
 class Writer:
-    """Turns rows into blocks; keeps what is modal, so that a word is written only where it changes."""
+    """Turns rows into blocks, by columns; keeps what is modal, so that a word is written only where it changes."""
 
-    def __init__(self, run: Any) -> None:
+    def __init__(self, run: Any, labels: Sequence[str]) -> None:
         self.run = run
+        self.begun = self.exact = False
         self.motion = self.feed = ""
         self.unknown = ["", "0", ""] if run.toolpath.lathe else [""] * 3  # a lathe has no Y to go to
-        self.at = list(self.unknown)  # the coordinates as written last
-        self.rotary = ["0"] * 3
+        self.at = [*self.unknown, "0", "0", "0"]  # X Y Z A B C as written last
         self.plane = "G18" if run.toolpath.lathe else "G17"
-        self.exact = False
         self.spindle = 0.0
-        self.label = (0, "")
+        numbers: dict[str, int] = {"": -1}
+        self.labels = np.array([numbers.setdefault(label, k) for k, label in enumerate(labels)])
+        self.notes = [comment(f"line 0{': ' * bool(label)}{label}").removeprefix("(line 0") for label in labels]
+        self.source = 0, -1  # line and label
 
-    def rows(self, path: Toolpath) -> Iterator[str]:
-        columns = {name: getattr(path, name) for name in WORDS} | {"rotary": np.degrees(path.rotary)}
-        first = True
-        for row in zip(*(column.tolist() for column in columns.values())):
-            values = dict(zip(columns, row))
-            kind, label = values["kind"], path.labels[values["label"]]
-            if (values["line"], label) != self.label:
-                self.label = values["line"], label
-                yield comment(f"line {values['line']}{': ' + label if label else ''}")
-            if kind in MOTION_KINDS:
-                if first and kind != Kind.RAPID:
-                    yield self.move("G0", values["start"], [0.0, 0.0, 0.0])
-                first = False
-                yield from self.travel(values)
-            else:
-                yield from self.event(values)
+    def rows(self, path: Toolpath) -> Words:
+        """The lines that each row of the next part of the path becomes (n,)."""
+        label = self.labels[path.label]
+        fresh = np.flatnonzero((path.line != _before(path.line, self.source[0])) | (label != _before(label, self.source[1])))
+        said = _empty(len(path))
+        said[fresh] = [*map("(line %s%s\n".__mod__, zip(path.line[fresh].tolist(), spelled(self.notes, path.label[fresh])))]
+        self.source = int(path.line[-1]), int(label[-1])
+        moves, changes = np.flatnonzero(path.is_motion), np.cumsum(path.kind == Kind.TOOL)
+        if len(moves):
+            said[moves] += self.travel(path[moves], changes[moves])
+        if changes[-1] > (changes[moves[-1]] if len(moves) else 0):
+            self.change()
+        for row in np.flatnonzero(~path.is_motion).tolist():
+            said[row] += "".join(line + "\n" for line in self.event(path, row))
+        return said
 
-    def travel(self, row: dict[str, Any]) -> Iterator[str]:
-        kind, end = row["kind"], row["end"]
-        feed = math.degrees(row["feed"]) if row["start"] == end and kind == Kind.LINE else row["feed"]  # rotary alone
-        if row["exact"] != self.exact:
-            self.exact = row["exact"]
-            yield "G61.1" if self.exact else "G61"
-        if row["synchronous"] and row["spindle"]:
+    def change(self) -> None:
+        """With another tool the tip has jumped, and no motion is modal."""
+        self.at[:3], self.motion = self.unknown, ""
+
+    def travel(self, path: Toolpath, changes: Index) -> Words:
+        """The lines of moves (k,); `changes` of tools before each."""
+        kind, feed, since, lead = path.kind, path.feed, 0, ""
+        if not self.begun and kind[0] != Kind.RAPID:
+            start = [number(value) for value in path.start[0].tolist()]
+            lead = "G0" + "".join(f" {a}{new}" for a, new, old in zip("XYZ", start, self.unknown) if new != old) + "\n"
+            self.at[:3], self.motion, since = start, "G0", int(changes[0])
+        self.begun = True
+        axes = self.axes(path, changes > _before(changes, since))
+        threads = path.synchronous & (path.spindle != 0)
+        code = spelled(("G0", "G1", "G1", "G1"), kind)
+        more, planes = _empty(len(path)), _empty(len(path))
+        code[threads] = "G33"
+        for row in np.flatnonzero(threads).tolist():
+            more[row] = f" K{number(feed[row] / abs(path.spindle[row]))}"
+        for row in np.flatnonzero((kind == Kind.ARC) & ~threads).tolist():
+            if found := self.arc(path, row):
+                planes[row], code[row], more[row] = found
+        # a straight move that moves nothing at the precision of the file is none
+        written = np.flatnonzero((axes != "") | (code == "G33") | (code == "G2") | (code == "G3"))
+        code, at = code[written], changes[written]
+        head = np.where((code != _before(code, self.motion)) | (at > _before(at, since)) | (code == "G33"), code, "")
+        turning = (kind == Kind.LINE) & (path.start == path.end).all(axis=1)  # rotary alone
+        feed = np.where(turning, np.degrees(feed), feed)[written]
+        fed = np.isfinite(feed) & (code != "G0") & (code != "G33")
+        texts, fed = numbers(feed[fed], 4), written[fed]
+        more[fed] += np.where(texts != _before(texts, self.feed), " F" + texts, "")
+        more[written[(kind[written] == Kind.PROBE) & (code != "G33")]] += " " + comment("probing, to the point touched")
+        blocks = _empty(len(path))
+        blocks[written] = [block.strip() + "\n" for block in head + axes[written] + more[written]]
+        stops = np.where(path.exact != _before(path.exact, self.exact), spelled(("G61\n", "G61.1\n"), path.exact.astype(int)), "")
+        self.exact = bool(path.exact[-1])
+        self.feed = texts[-1] if len(texts) else self.feed
+        self.motion = code[-1] if len(code) else self.motion
+        if changes[-1] > (at[-1] if len(at) else since):
             self.motion = ""
-            yield f"G33{self.axes(end, row['rotary'])} K{number(row['feed'] / abs(row['spindle']))}"
-        elif kind == Kind.ARC and (words := self.arc(row)):
-            yield from words
-        elif block := self.move("G0" if kind == Kind.RAPID else "G1", end, row["rotary"], feed):
-            yield block + (" " + comment("probing, to the point touched") if kind == Kind.PROBE else "")
+        said: Words = stops + planes + blocks
+        said[0] = lead + said[0]
+        return said
 
-    def move(self, code: str, end: list[float], rotary: list[float], feed: float = math.inf) -> str:
-        """A straight block; empty if it would move nothing at the precision of the file."""
-        axes = self.axes(end, rotary)
-        if not axes:
-            return ""
-        return (self.head(code) + axes + ("" if code == "G0" else self.feed_word(feed))).strip()
+    def axes(self, path: Toolpath, jumped: Mask) -> Words:
+        """The coordinates that change, of moves (k,); all of them where the tip has `jumped` to where it begins."""
+        found = _empty(len(path))
+        for k, (letter, column) in enumerate(zip("XYZABC", (*path.end.T, *np.degrees(path.rotary).T))):
+            texts = numbers(column)
+            before = _before(texts, self.at[k])
+            if k < 3:
+                before[jumped] = self.unknown[k]
+            fresh = texts != before
+            found[fresh] += f" {letter}" + texts[fresh]
+            self.at[k] = texts[-1]
+        return found
 
-    def head(self, code: str) -> str:
-        """The code of a motion where it changes."""
-        before, self.motion = self.motion, code
-        return "" if code == before else code
-
-    def axes(self, end: list[float], rotary: list[float]) -> str:
-        words = []
-        for letters, kept, values in (("XYZ", self.at, end), ("ABC", self.rotary, rotary)):
-            for k, value in enumerate(values):
-                text = number(value)
-                if text != kept[k]:
-                    kept[k] = text
-                    words.append(f" {letters[k]}{text}")
-        return "".join(words)
-
-    def feed_word(self, feed: float) -> str:
-        text = number(feed, 4)
-        if text == self.feed or not math.isfinite(feed):
-            return ""
-        self.feed = text
-        return f" F{text}"
-
-    def arc(self, row: dict[str, Any]) -> list[str]:
-        """The blocks of an arc; none where it is so short that its ends are written alike, and a line says it."""
-        normal = max(range(3), key=lambda k: abs(row["axis"][k]))
+    def arc(self, path: Toolpath, row: int) -> tuple[str, str, str] | None:
+        """The line of the plane, the code and the words of the centre of an arc; None where it is so short that its ends are
+        written alike, and a line says it."""
+        axis = path.axis[row].tolist()
+        normal = max(range(3), key=lambda k: abs(axis[k]))
         plane, first, second, letters = PLANES[normal]
-        start, end, centre, sweep = row["start"], row["end"], row["centre"], row["sweep"]
+        start, end, centre = (column[row].tolist() for column in (path.start, path.end, path.centre))
+        sweep = float(path.sweep[row])
         closed = all(number(start[k]) == number(end[k]) for k in (first, second))
         turns = abs(sweep) / (2 * math.pi)
         if closed and turns < 0.5:
-            return []
+            return None
         count = round(turns) if closed else math.floor(turns) + 1
-        blocks, self.plane = ([plane] if plane != self.plane else []), plane
-        head = self.head("G3" if (sweep > 0) == (row["axis"][normal] > 0) else "G2")
+        before, self.plane = self.plane, plane
         # I J K from the start as it was written, so that rounding does not add up
         away = (float(number(centre[k])) - float(number(start[k])) for k in (first, second))
         offsets = "".join(f" {letter}{number(value)}" for letter, value in sorted(zip(letters, away)))
-        times = f" P{count}" if count > 1 else ""
-        axes = self.axes(end, row["rotary"])
-        return [*blocks, (head + axes + offsets + times + self.feed_word(row["feed"])).strip()]
+        code = "G3" if (sweep > 0) == (axis[normal] > 0) else "G2"
+        return f"{plane}\n" * (plane != before), code, offsets + f" P{count}" * (count > 1)
 
-    def event(self, row: dict[str, Any]) -> Iterator[str]:
-        match row["kind"]:
+    def event(self, path: Toolpath, row: int) -> Iterator[str]:
+        speed, tool = float(path.spindle[row]), int(path.tool[row])
+        match path.kind[row]:
             case Kind.DWELL:
-                yield f"G4 P{number(row['time'])}"
+                yield f"G4 P{number(path.time[row])}"
             case Kind.TOOL:
-                yield f"T{row['tool']} M6"
-                yield f"G43 H{row['tool']}" if row["tool"] else "G49"
-                self.at = list(self.unknown)  # the tip has jumped
-                self.motion, self.spindle = "", 0.0  # a tool change stops the spindle
-                yield from self.turn(row["spindle"])
+                yield f"T{tool} M6"
+                yield f"G43 H{tool}" if tool else "G49"
+                self.spindle = 0.0  # a tool change stops the spindle
+                yield from self.turn(speed)
             case Kind.SPINDLE:
-                yield from self.turn(row["spindle"])
+                yield from self.turn(speed)
             case Kind.COOLANT:
-                code = self.run.history.value("coolant", row["step"])
+                code = self.run.history.value("coolant", int(path.step[row]))
                 yield code if code in COOLANT else comment(f"coolant: {code or 'changed'}")
             case Kind.STOP:
                 yield "M0"
@@ -183,6 +203,22 @@ class Writer:
         if speed != self.spindle:
             self.spindle = speed
             yield f"S{number(abs(speed), 4)} {'M3' if speed > 0 else 'M4'}" if speed else "M5"
+
+
+def _before(column: NDArray[Any], first: Any) -> NDArray[Any]:
+    """The value before each of a column (n,)."""
+    return np.concatenate([[first], column])[:-1]
+
+
+def _empty(count: int) -> Words:
+    return np.full(count, "", dtype=object)
+
+
+def numbers(column: NDArray[np.float64], decimals: int = DECIMALS) -> Words:
+    """The numbers (n,) of a column as texts."""
+    if (column == column[:1]).all():
+        return np.full(len(column), "".join(number(value, decimals) for value in column[:1]), dtype=object)
+    return np.array([number(value, decimals) for value in column.tolist()], dtype=object)
 
 
 def number(value: float, decimals: int = DECIMALS) -> str:

@@ -150,12 +150,16 @@ def named(path: str | Path, known: Collection[str], refused: str) -> tuple[Path,
 
 
 CONTROLS = {code: "\N{REPLACEMENT CHARACTER}" for code in (*range(9), *range(14, 32), *range(127, 160))}
+CONTROL_BYTES = bytes(code for code in CONTROLS if code < 128)
 
 
 def printable(text: str) -> str:
     """A text that can be written: half a pair of surrogates, which is no letter, becomes a question mark, and a control
     character, which no font has, the sign for what cannot be shown."""
-    return text.encode("utf-8", "replace").decode().translate(CONTROLS)
+    data = text.encode("utf-8", "replace")
+    if len(data.translate(None, CONTROL_BYTES)) == len(data) and not re.search(rb"\xc2[\x80-\x9f]", data):
+        return data.decode()  # as most texts, and all long ones
+    return data.decode().translate(CONTROLS)
 
 
 def save_as(what: Any, path: str | Path, writers: Mapping[str, Callable[..., None]], refused: str, **options: Any) -> Path:

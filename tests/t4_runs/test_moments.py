@@ -177,3 +177,17 @@ def test_places_of_a_program_in_inches():
     assert "the condition counts mm" in found._repr_html_()
     metric = mnclab.run("G21 G17 G90 S100 M3\nG0 X0 Y0\nG1 X2 F10\n", "g43").when("x > 1")
     assert str(metric) == "line 3: X1 Y0 Z0  50 %      G1 X2 F10"
+
+
+def test_moments_are_made_when_they_are_asked_for(monkeypatch):
+    """Of 300 strokes down through Z0 a page shows the first 50, and nothing else is worked out."""
+    run = mnclab.run("G90 F100\n" + "G1 Z1\nZ-1\n" * 300, "mnc")
+    asked, at = [], type(run).at
+    monkeypatch.setattr(type(run), "at", lambda self, *given, **more: asked.append(more["step"]) or at(self, *given, **more))
+    found = run.when("z < 0")
+    assert (len(found), asked) == (300, [])
+    assert [found[k].line for k in (0, 1, -1)] == [3, 5, 601] and asked == [2, 4, 600]
+    assert "250 more" in found._repr_html_() and max(asked[3:]) == 100
+    assert found[10:12] == (found[10], found[11]) and found[5].share == 0.5
+    with pytest.raises(IndexError):
+        found[300]

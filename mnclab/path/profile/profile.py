@@ -45,10 +45,12 @@ def pieces(plan: PlannedRows) -> Pieces:
     tables = [_trapezoids(plan) if plan.groups is None else plan.groups.items(plan.seconds, left_out)]
     if plan.rapids is not None:
         tables.append(_rapids(plan))
-    row, order, dt, ds, v, a, j = (np.concatenate(column) for column in zip(*tables))
+    columns = [*zip(*tables)]
     if len(tables) > 1 or plan.groups is not None:
-        sorted_ = np.lexsort((order, row))
-        row, dt, ds, v, a, j = (column[sorted_] for column in (row, dt, ds, v, a, j))
+        sorted_ = np.argsort(np.concatenate(columns[0]), kind="stable")
+        tables.clear()  # a column after the other is let go
+        columns = [(np.concatenate(columns.pop(0))[sorted_],) for _ in range(len(columns))]
+    row, dt, ds, v, a, j = (column for (column,) in columns)
     if plan.row is not None:
         row = plan.row[row]
     join = np.zeros(len(row), dtype=bool)  # pieces that only go on at the speed of the one before
@@ -61,7 +63,7 @@ def pieces(plan: PlannedRows) -> Pieces:
     return Pieces(running_sum(dt), running_sum(ds), np.append(v, 0.0), a, j, row)
 
 
-Table = tuple[NDArray[Any], ...]  # row, order within it, seconds, length, speed and acceleration at the start, jerk
+Table = tuple[NDArray[Any], ...]  # row, seconds, length, speed and acceleration at the start, jerk; those of a row in order
 
 
 def _trapezoids(plan: PlannedRows) -> Table:
@@ -78,21 +80,22 @@ def _trapezoids(plan: PlannedRows) -> Table:
     ds[~moving] = 0.0
     with np.errstate(divide="ignore", invalid="ignore"):
         dt = np.stack([2 * ds[:, 0] / (v0 + top), ds[:, 1] / top, 2 * ds[:, 2] / (v1 + top)], axis=1)
-    a = np.stack([plan.rows.a, np.zeros(n), -plan.rows.a], axis=1)
-    v = np.stack([v0, top, top], axis=1)
     dt[ds <= 0] = 0.0
+    up = plan.rows.a.copy()
     if plan.ramps is not None:
         one = plan.ramps
         length, total = plan.rows.length[one], v0[one] + v1[one]
         dt[one], ds[one] = 0.0, 0.0
         dt[one, 0], ds[one, 0] = 2 * length / total, length
-        a[one, 0] = (v1[one] - v0[one]) * total / (2 * length)
+        up[one] = (v1[one] - v0[one]) * total / (2 * length)
     events = plan.rows.length == 0
-    if events.any():
-        dt[events, 1], v[events], a[events] = plan.seconds[events], 0.0, 0.0
-    kept = dt > 0
-    row, order = np.nonzero(kept)
-    return row, order, dt[kept], ds[kept], v[kept], a[kept], np.zeros(len(row))
+    dt[events, 1] = plan.seconds[events]
+    kept = np.flatnonzero(dt > 0)
+    row, part, dt, ds = kept // 3, (kept % 3).astype(np.int8), dt.ravel()[kept], ds.ravel()[kept]
+    v, a, first = top[row], -plan.rows.a[row], part == 0
+    v[first], a[first], a[part == 1] = v0[row[first]], up[row[first]], 0.0
+    v[events[row]] = 0.0
+    return row, dt, ds, v, a, np.zeros(len(row))
 
 
 def _rapids(plan: PlannedRows) -> Table:
@@ -111,7 +114,7 @@ def _rapids(plan: PlannedRows) -> Table:
     half = (end - begin) / 2
     a -= j * half
     v = (at[1] - at[0]) / (2 * half) - a * half - j * (2 * half) ** 2 / 6
-    return rapids.rows[which], order, 2 * half, at[1] - at[0], v, a, j
+    return rapids.rows[which], 2 * half, at[1] - at[0], v, a, j
 
 
 #: What time goes to. "cutting" is what the programmed feed alone would take, "rapid" the axes' greatest speed;

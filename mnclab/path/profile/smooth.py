@@ -69,7 +69,7 @@ class Groups:
         return up + cruise + down, up, up + cruise
 
     def items(self, row_seconds: Array, left_out: Index) -> tuple[NDArray[np.generic], ...]:
-        """Pieces: row, order, seconds, length, speed, acceleration, jerk; `left_out` rows have none. `row_seconds` (n,)
+        """Pieces: row, seconds, length, speed, acceleration, jerk; `left_out` rows have none. `row_seconds` (n,)
         is the time of the rows, which for rows without length is not in the groups."""
         seconds, starts = self.phases()
         ends = np.cumsum(seconds, axis=1)
@@ -94,11 +94,11 @@ class Groups:
         v, a = v + tau * (a + tau * j / 2), a + tau * j
         ds = dt * (v + dt * (a / 2 + dt * j / 6))
         kept = (dt > 0) & ~np.isin(row, left_out)
-        found = [each[kept] for each in (row, np.arange(len(row)), dt, ds, v, a, j)]
+        found = [each[kept] for each in (row, dt, ds, v, a, j)]
         still = np.flatnonzero((seconds.sum(axis=1) == 0)[self.group] & (row_seconds > 0))
         still = still[~np.isin(still, left_out)]
         none = np.zeros(len(still))
-        rest = [still, none, row_seconds[still], none, none, none, none]
+        rest = [still, row_seconds[still], none, none, none, none]
         return tuple(np.concatenate(each) for each in zip(found, rest))
 
 

@@ -10,13 +10,12 @@ changes and the values from there on.
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from mnclab.path.cylinder import parted_rapids
 from mnclab.path.profile import Profile
@@ -41,11 +40,12 @@ from mnclab.show.probed import Felt
 from mnclab.show.solids import cylinder_body
 from mnclab.text.alarm import Alarm, amounts, several
 from mnclab.text.program import Program
+from mnclab.text.words import characters, scan
 from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.part import Part
 
-NUMBERS = [re.compile(axis + "([-+]?[0-9]*[.]?[0-9]+)") for axis in "XYZ"]  # as data.js looks for them
+NUMBERS = [re.compile(axis + "([-+]?[0-9]*[.]?[0-9]+)") for axis in "XYZ"]  # as data.js looks for them; `_said` too
 SCALES = (1e3, 1e4, 1e6)  # parts of a millimetre
 ANGLES = 1e9  # parts of a radian
 DEGREES = 1e6  # parts of a degree, of rotary axes
@@ -67,10 +67,11 @@ def payload(
     shown = probed if probed is not None and probed.part is not None and not run.toolpath.lathe else None
     path = run.toolpath.on_workpiece()
     programmed = path if run.programmed is run.toolpath else run.programmed.on_workpiece()
-    moved, places = _parted(run, "position")
-    positions = np.array(places, dtype=np.float64).reshape(-1, 3)
+    moved, places = run.history.log("position") if "position" in run.history else ([], [])
+    positions = np.asarray(places, dtype=np.float64).reshape(-1, 3)
     scale = _scale([path, programmed], positions, profile.pieces.s)
-    angles, turned = parts_of(ANGLES, path.sweep, programmed.sweep), np.degrees(run.toolpath.rotary)
+    rotates = run.toolpath.rotary.any()
+    angles, turned = parts_of(ANGLES, path.sweep, programmed.sweep), np.degrees(run.toolpath.rotary[: None if rotates else 0])
     degrees = parts_of(DEGREES, turned)
     lines, lasts = zip(*(_lines(pack, program) for program in run.programs))
     header = {
@@ -103,7 +104,7 @@ def payload(
             "at": pack.add(moved),
             "from": columns(pack, parted(positions, scale) - _tips(path, moved, scale)),
         },
-        "rotary": columns(pack, parted(turned, degrees)) if turned.any() else None,
+        "rotary": columns(pack, parted(turned, degrees)) if rotates else None,
         "degrees": degrees,
         "stock": _edges([run.stock] if run.stock else []) + _cylinders(run.toolpath),
         "turning": sorted({(*one.direction, one.rotary) for one in run.toolpath.cylinders}) or None,  # the axes of drums
@@ -157,32 +158,46 @@ def _parted(run: Any, name: str) -> tuple[list[int], list[Any]]:
 
 def _scale(paths: list[Toolpath], positions: Array, ways: Array) -> float:
     """Parts of a millimetre that lengths are counted in."""
-    arcs = [path.centre[path.kind == Kind.ARC] for path in paths]
-    lengths = np.concatenate([each for path in paths for each in (path.start[:1], path.end)] + arcs + [positions])
-    most = parts_of(SCALES[-1], lengths, ways)
+    ends = [each for path in paths for each in (path.start[:1], path.end, path.centre[path.kind == Kind.ARC])]
+    lengths = [column for each in (*ends, positions) for column in each.T]
+    most = parts_of(SCALES[-1], *lengths, ways)
     for scale in SCALES[:-1]:
         if scale > most:
             break
-        if np.abs(np.round(lengths * scale) / scale - lengths).max(initial=0.0) < 1e-9:
+        if all(np.abs(np.round(column * scale) / scale - column).max(initial=0.0) < 1e-9 for column in lengths):
             return scale
     return most
 
 
 def _told(run: Any, path: Toolpath, scale: float) -> NDArray[np.int64]:
     """Where the rows end (n + 1, 3) as far as their blocks say it, else where the row before ends."""
-    texts = [re.sub("\r\n?", "\n", program.text).split("\n") for program in run.programs]
-    lines = [program.lines()[0].tolist() for program in run.programs]
-    ends = parted(_vertices(path), scale)
-    found = np.concatenate([np.zeros((1, 3), dtype=np.int64), ends[:-1]])
-    steps = path.step
-    for row, (which, block) in enumerate(zip(run.steps.program[steps].tolist(), run.steps.block[steps].tolist()), 1):
-        text, line = texts[which], lines[which][block] - 1
-        for axis, number in enumerate(NUMBERS):
-            said = number.search(text[line]) if line < len(text) else None
-            value = float(said[1]) * path.unit.length * scale + 0.5 if said else ROOM
-            if abs(value) < ROOM:
-                found[row, axis] = math.floor(value)
+    block, program = run.steps.block[path.step], run.steps.program[path.step]
+    said = np.full((len(path), 3), np.nan)
+    for which, source in enumerate(run.programs):
+        rows = np.flatnonzero(program == which)
+        said[rows] = _said(source.text, source.lines()[0][block[rows]] - 1)
+    found = np.concatenate([np.zeros((1, 3), dtype=np.int64), parted(_vertices(path), scale)[:-1]])
+    for axis in range(3):
+        value = said[:, axis] * path.unit.length * scale + 0.5
+        known = np.flatnonzero(np.abs(value) < ROOM)
+        found[known + 1, axis] = np.floor(value[known])
     return found
+
+
+def _said(text: str, line: NDArray[np.integer[Any]]) -> Array:
+    """The first number after each of X, Y and Z in lines (n, 3), counted from 0; nan where there is none."""
+    words, data = scan(text, leading_number=True), characters(text)
+    found = np.full((len(words.clean), 3), np.nan)
+    for axis, letter in enumerate(b"XYZ"):
+        some = np.flatnonzero(words.letter == letter)[::-1]  # of a line the first comes last
+        at = words.offset[some]
+        meant = (data[at] == letter) & ~np.isin(data[np.minimum(at + 1, len(data) - 1)], (9, 32))  # no x, and no blank after it
+        found[np.searchsorted(words.starts, at[meant], "right") - 1, axis] = words.value[some[meant]]
+    ends = np.append(words.starts[1:], len(text))
+    for odd in np.unique(line[~words.clean[line]]).tolist():
+        said = (number.search(text, words.starts[odd], ends[odd]) for number in NUMBERS)
+        found[odd] = [float(number[1]) if number else np.nan for number in said]
+    return found[line]
 
 
 def _geometry(
@@ -209,7 +224,7 @@ def _bent(pack: Packer, path: Toolpath, scale: float) -> dict[str, Any]:
     return {"row": pack.add(row[within]), "at": columns(pack, parted(pieces.on_workpiece().end[within], scale))}
 
 
-def _tips(path: Toolpath, steps: list[int], scale: float) -> NDArray[np.int64]:
+def _tips(path: Toolpath, steps: ArrayLike, scale: float) -> NDArray[np.int64]:
     """Where the tool is when the programmed point changes (k, 3): mostly at the same distance from it."""
     return parted(_vertices(path), scale)[np.searchsorted(path.step, steps, "right")]
 
@@ -247,7 +262,8 @@ def _guessed(profile: Profile, time: NDArray[np.int64], seconds: float, v: Array
     """Durations of the pieces (n,) as straight rows of three let guess them: the first one as in the row before, the last one
     by the same acceleration, between them what is left of the length."""
     row, lasts, path = profile.pieces.row, np.diff(time), profile.path.on_workpiece()
-    straight = np.linalg.norm(np.diff(parted(_vertices(path), scale) / scale, axis=0), axis=1)
+    at = (parted(column, scale) / scale for column in _vertices(path).T)
+    straight = np.sqrt(sum(np.diff(column) ** 2 for column in at))
     whole = (np.bincount(row, minlength=1)[row] == 3) & (path.kind[row] != Kind.ARC)
     first = np.flatnonzero(whole & (np.diff(row, prepend=-1) > 0))
     steps = np.abs(np.diff(v))

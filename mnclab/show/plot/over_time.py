@@ -17,7 +17,7 @@ from mnclab.path.toolpath import Kind
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import LineStyle
 from mnclab.show.plot.picture import SMALL, Picture, calm, clear, figure_of, stacked, write_cut_off, write_legend
-from mnclab.show.plot.profile import curve, plot_profile
+from mnclab.show.plot.profile import curve, drawn_pieces, plot_profile, thinned
 from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import choice, fitting, shown
@@ -64,13 +64,14 @@ def plot_profiles(
     rows[-1].set_xlabel("time, s" if over == "time" else f"path, {unit.short}", fontsize=SMALL + 1)
     said = f"feed, {unit.short}/min"
     picture.text(0.16 / width, 0.5 + (0.5 - 0.27) / 2 / height, said, rotation=90, va="center", ha="center", fontsize=SMALL + 1)
-    write_legend(picture, [Line2D([], [], color=LOOKS[0], label="feed"), Patch(facecolor=RAPID, label="rapid")])
+    notes = max((thinned(drawn_pieces(each, over)) for each in found), key=len)
+    write_legend(picture, [Line2D([], [], color=LOOKS[0], label="feed"), Patch(facecolor=RAPID, label="rapid"), *notes])
     return picture
 
 
 def _draw(ax: Axes, profile: Profile, over: str, shade: str, unit: Unit) -> tuple[float, float]:
     """The feed of one profile and its rapids as bands; returns where it ends and its greatest feed."""
-    drawn = curve(profile, over).counted(unit.length)
+    drawn = curve(profile, over, drawn_pieces(profile, over)).counted(unit.length)
     x, v = (drawn.t if over == "time" else drawn.s), drawn.v * 60
     if not len(x):
         return 0.0, 0.0

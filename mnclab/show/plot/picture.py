@@ -38,6 +38,7 @@ from mnclab.text.given import shown
 SIZE = (7.0, 6.0)  # the greatest width and height, unless something else is said
 LEAST = (4.6, 2.4)
 SMALL = 8.0  # points: ticks, legend, alarm
+CARD = {"facecolor": colours.PAPER, "edgecolor": "none", "pad": 1.5}  # curves run behind words
 SHARE = 0.2  # of a picture that its legend takes at most
 LEGEND: ContextVar[bool] = ContextVar("LEGEND", default=True)  # else the views have its room
 SUFFIXES = (".svg", ".pdf", ".png")
@@ -424,8 +425,7 @@ def clear(ax: Axes, high: float, below: float = 0.0) -> float:
 
 def write_cut_off(ax: Axes, said: str) -> None:
     """What is beyond the upper border of axes, in their corner."""
-    card = {"facecolor": colours.PAPER, "edgecolor": "none", "pad": 1.5}  # the spikes of rapids run behind it
-    look: dict[str, Any] = {"fontsize": SMALL - 1, "color": looks.RED, "bbox": card, "zorder": 5}
+    look: dict[str, Any] = {"fontsize": SMALL - 1, "color": looks.RED, "bbox": CARD, "zorder": 5}
     ax.text(0.995, 0.98, said, transform=ax.transAxes, ha="right", va="top", **look)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain
 from textwrap import wrap
 from typing import Any, NamedTuple, cast
 
@@ -24,6 +25,7 @@ from mnclab.show.plot.layers import held_axes
 from mnclab.show.plot.overlay import line, texts
 from mnclab.show.plot.path import plot_path
 from mnclab.show.plot.picture import (
+    CARD,
     SHARE,
     SMALL,
     Picture,
@@ -40,16 +42,22 @@ from mnclab.show.plot.picture import (
 )
 from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import Array, Strokes
+from mnclab.text.columns import parts
 from mnclab.text.given import choice
 
 SIZE = (7.0, 6.0)  # inches
 FINE, MANY = 9, 20_000  # points of a piece, as long as all of them are not more than so many
+COLUMNS = 3000  # of a curve of more pieces than that: more than a page at 300 points an inch shows
 BAND, FEW = 500, 60  # steps of the band that says what holds the speed; boxes of it that are hatched
 LINES, LETTERS, FURTHER = 30, 36, 0.65  # of a program beside their bars, how wide each is, and rows of a further line of it
 FLAT = View(0, 1)  # of points (time or path, feed), whose rows can be clicked on
 RAPIDS = 3  # times the fastest cut, beyond which rapids and retractions are cut off
 PARTS = 3000  # of a path that is coloured by the speed reached
 HIDDEN_LIMIT = colours.LIMIT.style() | {"label": "_limit"}  # not in the legend
+
+
+Some = NDArray[np.int64] | slice  # of the pieces of a profile
+ALL = slice(None)
 
 
 class Curve(NamedTuple):
@@ -69,49 +77,100 @@ class Curve(NamedTuple):
         return Curve(self.t, self.s / length, self.v / length, self.a / length, self.j / length, *self[5:])
 
 
+WITHIN = 1e-9  # of a piece, from its ends
 BRIEF = 1e-4  # s, less than a control counts in: a step of the feed under G96, or what rounding leaves
 
 
-def curve(profile: Profile, over: str = "path") -> Curve:
-    """Enough points of a profile for a picture: both ends of every piece, and some between."""
+def drawn_pieces(profile: Profile, over: str, axes: bool = False) -> Some:
+    """The pieces that a picture shows, with `axes` of X, Y and Z too. Where they are too many, those at the ends of each of its
+    columns and those with the least and the greatest of each curve in it: the curves look as all of them do."""
+    p, rows = profile.pieces, profile.plan.rows
+    if len(p.row) <= MANY:
+        return ALL
+    x = p.t if over == "time" else p.s
+    first = np.unique(np.searchsorted(x[:-1], np.linspace(x[0], x[-1], COLUMNS, endpoint=False)))
+    wide = np.diff(first, append=len(p.row))
+    kept = np.zeros(len(p.row), dtype=bool)
+    kept[first] = kept[first + wide - 1] = True
+    cuts, feed = _cuts(profile)[p.row], _of_pieces(profile, rows.feed)
+    feed[~np.isfinite(feed)] = np.nan
+    curves = (p.v[:-1], p.v[1:], p.a, p.a + np.diff(p.t) * p.j, p.j, feed, _of_pieces(profile, rows.a))
+    of_cuts = (np.where(cuts, each, np.nan) for each in (p.v[1:], feed))
+    for values in chain(curves, of_cuts, _of_axes(profile) if axes else ()):
+        for least in (np.fmin, np.fmax):
+            found = np.flatnonzero(values == np.repeat(least.reduceat(values, first), wide))
+            kept[found[np.diff(np.searchsorted(first, found, "right"), prepend=0) > 0]] = True  # one in each column
+    return np.flatnonzero(kept)
+
+
+def _of_axes(profile: Profile) -> NDArray[np.float32]:
+    """Speed and acceleration of X, Y and Z at both ends of all pieces (12, m)."""
+    begin, lasts = profile.t[:-1], np.diff(profile.t)
+    found = np.empty((12, len(lasts)), dtype=np.float32)
+    for some in parts(len(lasts)):
+        now = [profile.at(begin[some] + share * lasts[some]) for share in (WITHIN, 1 - WITHIN)]  # within the piece
+        found[:, some] = np.hstack([each for one in now for each in (one.velocity, one.acceleration)]).T
+    return found
+
+
+THINNED = f"thinned: least and greatest in {COLUMNS} columns"
+
+
+def thinned(some: Some) -> list[Line2D]:
+    """What a legend says of curves that are drawn of `some` pieces."""
+    return [] if isinstance(some, slice) else [Line2D([], [], linestyle="none", label=THINNED)]
+
+
+def curve(profile: Profile, over: str = "path", some: Some = ALL) -> Curve:
+    """Enough points of a profile, or of `some` of its pieces, for a picture: both ends of every piece, and some between."""
     p = profile.pieces
     m = len(p.row)
     straight = over == "time" and not p.j.any()
     points = 2 if straight else max(2, min(FINE, MANY // max(m, 1)))
     share = np.linspace(0, 1, points)
-    dt = np.diff(p.t)[:, None] * share
-    lasting = np.maximum.accumulate(np.where(np.diff(p.t) > BRIEF, np.arange(m), 0))  # else as the piece before
-    a, j, v = p.a[lasting, None], p.j[lasting, None], p.v[:-1, None]
-    place = p.s[:-1, None] + dt * (v + dt * (a / 2 + dt * j / 6))
+    lasts, piece = np.diff(p.t), np.arange(m)
+    lasting = np.maximum.accumulate(np.where(lasts > BRIEF, piece, 0))[some]  # else as the piece before
+    piece, dt = piece[some], lasts[some, None] * share
+    a, j, v = p.a[lasting, None], p.j[lasting, None], p.v[piece, None]
+    place = p.s[piece, None] + dt * (v + dt * (a / 2 + dt * j / 6))
     speed = np.maximum(v + dt * (a + dt * j / 2), 0.0)
-    t, s, v, a, j = (one.ravel() for one in (p.t[:-1, None] + dt, place, speed, a + dt * j, j + 0 * dt))
-    return Curve(t, s, v, a, j, np.repeat(np.arange(m), points), np.repeat(lasting, points))
+    t, s, v, a, j = (one.ravel() for one in (p.t[piece, None] + dt, place, speed, a + dt * j, j + 0 * dt))
+    return Curve(t, s, v, a, j, np.repeat(piece, points), np.repeat(lasting, points))
 
 
-def holds(profile: Profile) -> NDArray[np.int64]:
-    """What holds the speed in each piece (m,): an index into `colours.HOLDS`."""
+def holds(profile: Profile, some: Some = ALL) -> NDArray[np.int64]:
+    """What holds the speed in `some` pieces (k,): an index into `colours.HOLDS`."""
     p = profile.pieces
     at = {name: k for k, name in enumerate(colours.HOLDS)}
-    feed, cap = (_of_pieces(profile, values) for values in (profile.plan.rows.feed, np.sqrt(profile.plan.rows.cap)))
-    v, kind = p.v[:-1], profile.path.kind[p.row]
+    feed, cap = (_of_pieces(profile, values, some) for values in (profile.plan.rows.feed, np.sqrt(profile.plan.rows.cap)))
+    v, kind = p.v[:-1][some], profile.path.kind[p.row[some]]
     found = np.full(len(v), at["corner"])
     found[v >= cap * (1 - 1e-9)] = at["axis speed"]
     found[(kind == Kind.ARC)] = at["turning"]
     found[(kind == Kind.RAPID)] = at["axis speed"]
     found[v >= feed * (1 - 1e-9)] = at["feed"]
-    found[p.a != 0] = at["acceleration"]
-    found[p.j != 0] = at["jerk"]
+    found[p.a[some] != 0] = at["acceleration"]
+    found[p.j[some] != 0] = at["jerk"]
     found[(kind > Kind.PROBE)] = at["standing"]
     return found
 
 
-def _of_pieces(profile: Profile, values: Array) -> Array:
-    """A value for each piece (m,) from those of planned rows: an arc, or a row at constant cutting speed, is planned in parts."""
+def _cuts(profile: Profile) -> NDArray[np.bool_]:
+    """Which rows (n,) are no rapids and no retractions out of the material."""
+    path = profile.path
+    up = path.end - path.start
+    rises = (path.kind == Kind.LINE) & (up[:, 2] > 0) & ~up[:, :2].any(axis=1) & (not path.lathe)
+    return ~((path.kind == Kind.RAPID) | rises)
+
+
+def _of_pieces(profile: Profile, values: Array, some: Some = ALL) -> Array:
+    """A value for pieces (k,) from those of planned rows: an arc, or a row at constant cutting speed, is planned in parts."""
     p, plan = profile.pieces, profile.plan
+    row = p.row[some]
     if plan.row is None:
-        return values[p.row]
-    first, last = np.searchsorted(plan.row, p.row), np.searchsorted(plan.row, p.row, "right") - 1
-    part = np.searchsorted(np.cumsum(plan.rows.length), (p.s[:-1] + p.s[1:]) / 2)
+        return values[row]
+    first, last = np.searchsorted(plan.row, row), np.searchsorted(plan.row, row, "right") - 1
+    part = np.searchsorted(np.cumsum(plan.rows.length), ((p.s[:-1] + p.s[1:]) / 2)[some])
     return values[np.clip(part, first, last)]
 
 
@@ -146,10 +205,13 @@ def plot_profile(
     """
     over = choice(over, "over", ("time", "path"))
     length, unit = profile.path.unit.length, profile.path.unit.short
-    drawn = curve(profile, over).counted(length)
+    some = drawn_pieces(profile, over, axes)
+    drawn = curve(profile, over, some).counted(length)
     x, below = (drawn.t, "time, s") if over == "time" else (drawn.s, f"path, {unit}")
     if ax is not None:
         _feed(ax, profile, drawn, x, over, limits, whole)
+        if thinned(some):
+            ax.text(0.005, 0.98, THINNED, transform=ax.transAxes, ha="left", va="top", fontsize=SMALL - 1, bbox=CARD, zorder=5)
         ax.set_xlabel(below, fontsize=SMALL + 1)
         if not ax.get_ylabel():
             ax.set_ylabel(f"feed, {unit}/min", fontsize=SMALL + 1)
@@ -166,8 +228,9 @@ def plot_profile(
     for each, title in zip(rows, titles):
         each.set_ylabel(title.replace(", ", ",\n"), fontsize=SMALL)
     handles = _feed(rows[0], profile, drawn, x, over, limits, whole)
-    standing, any_way = profile.path.kind[profile.move] > Kind.PROBE, profile.limits.axes("acceleration").min()
-    most = np.where(standing, any_way, _of_pieces(profile, profile.plan.rows.a))[drawn.lasting] / length
+    standing = profile.path.kind[profile.move[drawn.lasting]] > Kind.PROBE
+    any_way = profile.limits.axes("acceleration").min()
+    most = np.where(standing, any_way, _of_pieces(profile, profile.plan.rows.a, drawn.lasting)) / length
     rows[1].plot(x, drawn.a, **{**colours.REACHED.style(), "label": "_a"})
     if limits:
         handles += rows[1].plot(x, most, **colours.LIMIT.style())
@@ -176,9 +239,10 @@ def plot_profile(
         rows[2].plot(x, drawn.j, **{**colours.REACHED.style(), "label": "_j"})
     if axes:
         handles += _axes(rows[-2:], profile, drawn, x, limits)
+    handles += thinned(some)
     rows[-1].set_xlabel(below, fontsize=SMALL + 1)
     if under is not None:
-        before = curve(under, over).counted(length)
+        before = curve(under, over, drawn_pieces(under, over)).counted(length)
         for each, values in zip(rows, (before.v * 60, before.a, before.j)[: 3 if len(profile.plan.rows.j) else 2]):
             each.plot(before.t if over == "time" else before.s, values, **colours.GHOST.style(), scaley=False)
     picture.box = held_axes(rows, held)
@@ -256,15 +320,13 @@ def plot_lost(profile: Profile, ax: Axes | None = None, *, most: int = LINES, wi
 def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits: bool, whole: bool) -> list[Any]:
     """Programmed and reached feed, stops, corners, and the band of what holds the speed; returns legend entries."""
     unit = profile.path.unit
-    feed = _of_pieces(profile, profile.plan.rows.feed) / unit.length
-    known = np.isfinite(feed) & (profile.path.kind[profile.move] <= Kind.PROBE)
-    wanted, reached = np.where(known, feed * 60, np.nan)[drawn.piece], drawn.v * 60
+    path, row = profile.path, profile.move[drawn.piece]
+    feed = _of_pieces(profile, profile.plan.rows.feed, drawn.piece) / unit.length
+    known = np.isfinite(feed) & (path.kind[row] <= Kind.PROBE)
+    wanted, reached = np.where(known, feed * 60, np.nan), drawn.v * 60
     lines: list[Any] = ax.plot(x, wanted, **colours.WANTED.style()) + ax.plot(x, reached, **colours.REACHED.style())
     fast, most = float(reached.max(initial=0.0)), float(np.nanmax(wanted, initial=0.0))
-    path, row = profile.path, profile.move[drawn.piece]
-    up = path.end - path.start
-    rises = (path.kind == Kind.LINE) & (up[:, 2] > 0) & ~up[:, :2].any(axis=1) & (not path.lathe)  # out of the material
-    rapid, cuts = path.kind[row] == Kind.RAPID, ~((path.kind == Kind.RAPID) | rises)[row]
+    rapid, cuts = path.kind[row] == Kind.RAPID, _cuts(profile)[row]
     cut = float(reached[cuts].max(initial=0.0))
     top = 1.08 * max(fast, most, 1e-3)
     if not np.isfinite(top) or top > 40 * max(fast, 1e-3):
@@ -285,11 +347,12 @@ def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits:
         lines += ax.plot(at[turn], p.v[turn] * 60 / unit.length, **colours.SLOW_CORNER.style())
     if not limits or not len(p.row):
         return lines
-    which, edges = holds(profile), at
-    if len(which) > BAND:  # more pieces than the band can show
+    piece, edges = np.arange(len(p.row)), at
+    if len(piece) > BAND:  # more pieces than the band can show
         edges = np.linspace(at[0], at[-1], BAND + 1)
         middle = (edges[1:] + edges[:-1]) / 2
-        which = which[np.clip(np.searchsorted(at, middle, "right") - 1, 0, len(which) - 1)]
+        piece = np.clip(np.searchsorted(at, middle, "right") - 1, 0, len(p.row) - 1)
+    which = holds(profile, piece)
     for k, (name, (shade, hatch)) in enumerate(colours.HOLDS.items()):
         first, last = np.flatnonzero(np.diff(which == k, prepend=False, append=False)).reshape(-1, 2).T
         if not len(first) or name == "standing":
@@ -304,7 +367,7 @@ def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits:
 
 def _axes(rows: list[Axes], profile: Profile, drawn: Curve, x: Array, limits: bool) -> list[Line2D]:
     begin, end = profile.t[:-1][drawn.piece], profile.t[1:][drawn.piece]
-    now = profile.at(np.clip(drawn.t, begin + 1e-9 * (end - begin), end - 1e-9 * (end - begin)))  # within the piece
+    now = profile.at(np.clip(drawn.t, begin + WITHIN * (end - begin), end - WITHIN * (end - begin)))  # within the piece
     length = profile.path.unit.length
     limit = profile.limits.axes("rapid") * 60 / length, profile.limits.axes("acceleration") / length
     handles = []
