@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mnclab.text.alarm import Absent, Alarm, several
 from mnclab.text.given import fitting_class, shown
-from mnclab.text.tables import Pictured, fixed
+from mnclab.text.tables import Columned, Pictured, fixed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -188,7 +188,7 @@ class Move(fields("Move", COLUMNS)):  # type: ignore[misc]
 # Columns are read-only: what is to be changed is copied first (`Toolpath.replace` takes other columns).
 
 @fitting_class
-class Toolpath(Pictured, Columns):
+class Toolpath(Pictured, Columned, Columns):
     """Moves and events in columns of n rows; the names and meanings are in `COLUMNS`.
 
     `labels`, `joints` and `cylinders` are what columns index; `origin` (3,) is the machine position, mm,
@@ -350,6 +350,13 @@ class Toolpath(Pictured, Columns):
             column = getattr(self, name)
             flat |= {one: column[:, k] if each.parts else column for k, one in enumerate(each.flat(name))}
         return flat
+
+    @property
+    def words(self) -> dict[str, list[str]]:
+        """The columns that are names: RAPID, LINE, … and labels."""
+        names = {kind.value: kind.name for kind in Kind}
+        kinds, labels = self.kind.tolist(), self.label.tolist()
+        return {"kind": [names[kind] for kind in kinds], "label": [self.labels[label] for label in labels]}
 
     def __str__(self) -> str:
         from mnclab.path.listing import listing

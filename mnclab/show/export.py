@@ -7,16 +7,15 @@ line ends on every system. A new kind of file is a function here and a line in `
 
 from __future__ import annotations
 
-import csv
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.toolpath import COLUMNS, Kind, Toolpath
+from mnclab.path.toolpath import COLUMNS
 from mnclab.show import export_mesh
 from mnclab.show.export_drawing import write_dxf, write_true_size
 from mnclab.show.export_gcode import write_gcode
@@ -52,11 +51,7 @@ def _body(run: Any, suffix: str, of: str = "part", **more: Any) -> Callable[...,
 
 def write_csv(run: Any, path: Path) -> None:
     """The columns of the toolpath under their names; `kind` and `label` as text, numbers with all their digits."""
-    columns = {name: _texts(column) for name, column in run.toolpath.columns().items()} | _words(run.toolpath)
-    with path.open("w", encoding="utf-8", errors="replace", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(columns)
-        writer.writerows(zip(*columns.values()))
+    path.write_text(run.toolpath.csv(), "utf-8", "replace", newline="")
 
 
 def write_json(run: Any, path: Path) -> None:
@@ -80,24 +75,8 @@ def document(run: Any) -> dict[str, Any]:
         "lathe": path.lathe,
         "origin": path.origin.tolist(),
         "meaning": {name: ", ".join(filter(None, (each.meaning, each.unit))) for name, each in COLUMNS.items()},
-        "columns": {name: _plain(column) for name, column in path.columns().items()} | _words(path),
+        "columns": {name: _plain(column) for name, column in path.columns().items()} | path.words,
     }
-
-
-def _words(path: Toolpath) -> dict[str, list[Any]]:
-    """The columns that are names: RAPID, LINE, … and labels."""
-    names = {kind.value: kind.name for kind in Kind}
-    kinds, labels = path.kind.tolist(), path.label.tolist()
-    return {"kind": [names[kind] for kind in kinds], "label": [path.labels[label] for label in labels]}
-
-
-def _texts(column: NDArray[Any]) -> Iterable[str]:
-    """A column as text; `repr` of a float is the shortest text that reads back as the same number."""
-    if column.dtype == np.bool_:
-        column = column.astype(np.uint8)
-    if len(column) and column.strides == (0,):  # a constant
-        return [repr(column[0].item())] * len(column)
-    return map(repr, column.tolist())
 
 
 def _plain(column: NDArray[Any]) -> list[Any]:

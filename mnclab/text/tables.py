@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
@@ -112,6 +113,21 @@ def text_table(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Coll
 
 # Records that know their columns: one declaration gives the text, the table of a notebook, the file and the data frame.
 
+def data_frame(columns: Mapping[str, Any]) -> Any:
+    """Columns by their names as a data frame of pandas."""
+    require("pandas", "data frames", "pandas", instead="columns() needs nothing")
+    import pandas
+
+    return pandas.DataFrame(columns)
+
+
+def _of_text(cell: Any) -> Any:
+    """A number that a table shows; nan for a cell without one, and what is no number as it is."""
+    if cell in ("", "\N{EN DASH}"):
+        return math.nan
+    return float(cell.replace("\N{MINUS SIGN}", "-")) if isinstance(cell, str) and NUMBER.fullmatch(cell) else cell
+
+
 class Listing(ABC):
     """What prints as a table and is saved as one: a class says its heads and the texts of its rows.
 
@@ -170,9 +186,14 @@ class Listing(ABC):
         said = [more, self.reach] if rows else [self.nothing]
         return paragraphs(self.above) + shown + paragraphs(*said, *self.notes)
 
+    def record(self) -> tuple[Sequence[str], Sequence[Sequence[Any]]]:
+        """The names of the columns and the rows of the file and of the data frame."""
+        return self.head, self.texts()
+
     def csv(self) -> str:
         """The table as comma-separated values."""
-        return csv_text(self.head, *self.texts())
+        head, rows = self.record()
+        return csv_text(head, *rows)
 
     def columns(self) -> dict[str, np.ndarray]:
         """The table as arrays, as it is shown."""
@@ -180,19 +201,19 @@ class Listing(ABC):
         return {name: np.array([row[k] for row in rows]) for k, name in enumerate(head)}
 
     def to_pandas(self) -> Any:
-        """The table as a data frame of pandas."""
-        require("pandas", "data frames", "pandas", instead="columns() needs nothing")
-        import pandas
-
-        return pandas.DataFrame(self.columns())
+        """The table as a data frame of pandas: the columns of `csv()`, numbers as numbers, nan where there is none."""
+        head, rows = self.record()
+        columns = [[row[k] for row in rows] for k in range(len(head))]
+        return data_frame({name: list(map(_of_text, each)) if k in self.NUMBERS else each
+                           for k, (name, each) in enumerate(zip(head, columns))})  # fmt: skip
 
     def save(self, path: str | Path, **options: Any) -> Path:
         """Write the table (.csv), which takes no options."""
         return save_as(self, path, {".csv": write_csv}, "tables are saved as .csv, not as {}", **options)
 
 
-def write_csv(listing: Listing, path: Path) -> None:
-    """The table of a listing as a file."""
+def write_csv(listing: Any, path: Path) -> None:
+    """The table of a listing, or of columns, as a file."""
     path.write_text(listing.csv(), "utf-8", newline="")
 
 
@@ -213,8 +234,39 @@ class Pictured(ABC):
     def save(self, path: str | Path, **options: Any) -> Path:
         """Write the picture (.svg, .pdf, .png), `options` such as `size="column"` are those of `plot`; or a table (.csv)."""
         writers: dict[str, Callable[..., None]] = dict.fromkeys((".svg", ".pdf", ".png"), write_picture)
-        writers |= {".csv": write_csv} if isinstance(self, Listing) else {}
+        writers |= {".csv": write_csv} if hasattr(self, "csv") else {}
         return save_as(self, path, writers, "cannot write a picture as {}", **options)
+
+
+class Columned(ABC):
+    """What has long columns of numbers: an array by each name, all of one length."""
+
+    @abstractmethod
+    def columns(self) -> dict[str, np.ndarray]:
+        """The columns (n,)."""
+
+    @property
+    def words(self) -> dict[str, list[str]]:
+        """The columns whose numbers stand for names."""
+        return {}
+
+    def csv(self) -> str:
+        """The columns as comma-separated values, numbers with all their digits and names as such."""
+        columns = {name: _texts(column) for name, column in self.columns().items()} | self.words
+        return csv_text([*columns], *zip(*columns.values()))
+
+    def to_pandas(self) -> Any:
+        """The columns as a data frame of pandas: those of `csv()`."""
+        return data_frame(self.columns() | self.words)
+
+
+def _texts(column: np.ndarray) -> Iterable[str]:
+    """A column as text; `repr` of a float is the shortest text that reads back as the same number."""
+    if column.dtype == np.bool_:
+        column = column.astype(np.uint8)
+    if len(column) and column.strides == (0,):  # a constant
+        return [repr(column[0].item())] * len(column)
+    return map(repr, column.tolist())
 
 
 def paragraphs(*sentences: str) -> str:

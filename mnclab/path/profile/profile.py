@@ -17,7 +17,7 @@ from mnclab.path.profile.timing import PlannedRows, plan
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import choice, fitting_class, shown
-from mnclab.text.tables import Pictured, Rounded, fixed, html_table, shapes
+from mnclab.text.tables import Columned, Pictured, Rounded, fixed, html_table, shapes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -148,7 +148,7 @@ class Instant(NamedTuple):
 
 
 @fitting_class
-class Profile(Pictured):
+class Profile(Pictured, Columned):
     """A path under limits, as pieces of constant jerk, or of constant acceleration without a jerk limit.
 
     Columns: `t` s, `s` mm, `v` mm/s at the nodes (m + 1,); `a` mm/s² at the start and `j` mm/s³ of each piece
