@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -150,11 +150,12 @@ class Survey(Listing):
             "reasons": [one._asdict() for one in self.reasons],
         }  # fmt: skip
 
-    def record(self) -> tuple[Sequence[str], Sequence[Sequence[Any]]]:
+    def record(self) -> tuple[Sequence[str], Sequence[Sequence[Any]], Collection[int]]:
         """Columns of the file, with the moves and the reason of each row."""
         head = ("file", "result", "control", "blocks", "moves", "alarms", "warnings", "line", "first alarm", "reason")
         said = (" ".join(row.first.message.split()) if row.first else "" for row in self.rows)
-        return head, [(*row[:7], row.line or "", why, row.reason) for row, why in zip(self.rows, said)]
+        rows = [(*row[:7], row.line or "", why, row.reason) for row, why in zip(self.rows, said)]
+        return head, rows, range(3, 8)
 
 
 def reason(message: str) -> str:

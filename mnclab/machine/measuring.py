@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -183,10 +183,11 @@ class Measurements(Rows[Measurement]):
         lengths = {name: row[name] / self.unit.length for name in self.HEAD[3:8] if row[name] is not None}
         return row | lengths | {"unit": self.unit.short}
 
-    def record(self) -> tuple[Sequence[str], Sequence[Sequence[Any]]]:
+    def record(self) -> tuple[Sequence[str], Sequence[Sequence[Any]], Collection[int]]:
         """Columns and rows in the unit of the program, numbers with all their digits."""
         names = ("line", "cycle", "what", "unit", *self.HEAD[3:])
-        return names, [[row[name] for name in names] for row in map(self._in_unit, self.as_dicts())]
+        rows = [[row[name] for name in names] for row in map(self._in_unit, self.as_dicts())]
+        return names, rows, (0, *range(4, 9))
 
     def save(self, path: str | Path, **options: Any) -> Path:
         """Write the table as .csv, in the unit of the program, or as .json, in mm, numbers with all their digits; the file."""

@@ -186,13 +186,14 @@ class Listing(ABC):
         said = [more, self.reach] if rows else [self.nothing]
         return paragraphs(self.above) + shown + paragraphs(*said, *self.notes)
 
-    def record(self) -> tuple[Sequence[str], Sequence[Sequence[Any]]]:
-        """The names of the columns and the rows of the file and of the data frame."""
-        return self.head, self.texts()
+    def record(self) -> tuple[Sequence[str], Sequence[Sequence[Any]], Collection[int]]:
+        """Heads, each in a line, and rows of the file and of the data frame, and which columns are numbers."""
+        head, rows, numbers = self.table()
+        return [name.replace("\n", ", ") for name in head], rows, numbers
 
     def csv(self) -> str:
         """The table as comma-separated values."""
-        head, rows = self.record()
+        head, rows, _ = self.record()
         return csv_text(head, *rows)
 
     def columns(self) -> dict[str, np.ndarray]:
@@ -202,10 +203,9 @@ class Listing(ABC):
 
     def to_pandas(self) -> Any:
         """The table as a data frame of pandas: the columns of `csv()`, numbers as numbers, nan where there is none."""
-        head, rows = self.record()
-        columns = [[row[k] for row in rows] for k in range(len(head))]
-        return data_frame({name: list(map(_of_text, each)) if k in self.NUMBERS else each
-                           for k, (name, each) in enumerate(zip(head, columns))})  # fmt: skip
+        head, rows, numbers = self.record()
+        of = [_of_text if k in numbers else str for k in range(len(head))]
+        return data_frame({name: [of[k](row[k]) for row in rows] for k, name in enumerate(head)})
 
     def save(self, path: str | Path, **options: Any) -> Path:
         """Write the table (.csv), which takes no options."""

@@ -288,7 +288,8 @@ def _without_legend(figure: AnyFigure, wanted: bool) -> AnyFigure:
 
 # The options of a figure: one that it does not have, or of another kind than it says, is an Alarm that names what it takes.
 
-ADDED = {"size": (None, "Any"), "size_mm": (None, "Any"), "legend": (True, "bool"), "title": (None, "str | None")}  # of every figure: default and kind
+#: Of every figure: default and kind.
+ADDED = {"size": (None, "Any"), "size_mm": (None, "Any"), "legend": (True, "bool"), "title": (None, "str | None")}
 BOUNDS = {"width": (1.0, 100.0), "columns": (1, 100), "most": (0, None)}  # of numbers, wherever they are options
 #: What shows that an object is of its kind, and how an alarm calls that kind, by the annotation of the option.
 KINDS = {
