@@ -44,7 +44,7 @@ def drawing(design: Any, *, size: str | None = None, scale: float | None = None,
     design = design if title is None else replace(design, title=title)
     if not design.volume > 0:
         raise Alarm("there is nothing to draw: the features take the whole blank away")
-    title = Title(design.title or "part", design.number, design.material, design.general, design.date, design.author)
+    block = Title(design.title or "part", design.number, design.material, design.general, design.date, design.author)
     best: DesignDrawing | None = None
     refused: Alarm | None = None
     for attempt in _attempts(design):
@@ -53,7 +53,7 @@ def drawing(design: Any, *, size: str | None = None, scale: float | None = None,
         if attempt[0] < TABLES[-1] and max(len(view.dimensions) for view in views) > MOST:
             continue
         try:
-            found = draw(views, title, size=size, scale=scale, tables=ledger.tables)
+            found = draw(views, block, size=size, scale=scale, tables=ledger.tables)
         except Alarm as fault:
             refused = fault
             continue

@@ -38,6 +38,7 @@ def panel(
 
     - `side=40.0`: a number; a whole number (`side=40`) stays whole.
     - `side=(40, 10, 60)`: value, least, greatest.
+    - `side=(10, 60)`: least, greatest; it begins in the middle.
     - `depth=(-10, -1, 0.5)`: least, greatest, step; it begins on a step in the middle. This order is taken where the first
       number does not lie between the other two.
 
