@@ -111,6 +111,33 @@ def text_table(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Coll
     return "\n".join("  ".join(side(text, width) for side, text, width in zip(sides, line, widths)).rstrip() for line in lines)
 
 
+# Outlines for a cell: views of a body, of an area or of a tool, side by side at one scale, each with its measures.
+
+ROOM, BESIDE = 220.0, 24.0  # pixels: of the longest side of a view, and between two
+LOOK = 'fill-rule="evenodd" stroke="#1f5fa8" stroke-width="1.5" stroke-linejoin="round"'
+
+
+def svg_of(*views: Sequence[np.ndarray], filled: bool = True, sketch: bool = False) -> str | None:
+    """Views of lines (k, 2) in mm, areas with holes inside `filled` ones, as an SVG; a `sketch` has bodies over one another, and
+    no measures. None where there is nothing to see."""
+    boxes = [np.concatenate(view) for view in views if len(view)]
+    size = max((float(np.ptp(box, axis=0).max()) for box in boxes), default=0.0)
+    if not 0 < size < math.inf:
+        return None
+    drawn, left, scale = [], BESIDE / 2, ROOM / size
+    tall = scale * max(float(np.ptp(box, axis=0)[1]) for box in boxes) + BESIDE / 2
+    for view, box in zip(filter(len, views), boxes):
+        low, (wide, high) = box.min(axis=0), np.ptp(box, axis=0)
+        places = [((line - low) * scale * (1, -1) + (left, tall)).round(2).tolist() for line in view]
+        paths = [f"M{' '.join(f'{x:g},{y:g}' for x, y in line)}{'Z' * filled}" for line in places]
+        paths = paths if sketch else ["".join(paths)]
+        drawn += [f'<path d="{path}" fill="{"#cfe0f1" if filled else "none"}" {LOOK}/>' for path in paths]
+        said = "" if sketch else f"{wide:.5g} × {high:.5g} mm"
+        drawn.append(f'<text x="{left:g}" y="{tall + 16:g}" font-size="12" font-family="sans-serif" fill="#777">{said}</text>')
+        left += max(scale * wide, 8.0 * len(said)) + BESIDE
+    return f'<svg xmlns="http://www.w3.org/2000/svg" width="{left:.0f}" height="{tall + BESIDE:.0f}">{"".join(drawn)}</svg>'
+
+
 # Records that know their columns: one declaration gives the text, the table of a notebook, the file and the data frame.
 
 def data_frame(columns: Mapping[str, Any]) -> Any:

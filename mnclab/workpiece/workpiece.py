@@ -220,6 +220,10 @@ class Workpiece(ABC):
         """How far a surface may be off, in words; nothing where it is no more than the rounding of numbers."""
         return f", within {1000 * self.error:.3g} µm" if self.error > ROUNDING else ""
 
+    def _repr_html_(self) -> str:
+        picture: Any = self.plot()
+        return str(picture.html(2.0))
+
     def __repr__(self) -> str:
         told = f"{self.volume:.3f} mm³ left, {self.removed:.3f} mm³ removed"
         head = f"<{type(self).__name__}: {told}; {self.method}{self.error_told}>"
