@@ -299,7 +299,7 @@ def plot(chosen: argparse.Namespace) -> int:
         drawn = sensible(result.plot_measured)
         sensible(drawn.save, chosen.output)
     else:
-        of_path = {"of": "path"} if Path(chosen.output).suffix.lower() in BODIES else {}
+        of_path: Any = {"of": "path"} if Path(chosen.output).suffix.lower() in BODIES else {}
         sensible(partial(result.save, **of_path), chosen.output)
     return verdict(result)
 

@@ -6,13 +6,13 @@ from collections import namedtuple
 from collections.abc import Iterable, Iterator, Sequence
 from enum import IntEnum
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast, overload
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, Unpack, cast, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.text.alarm import Absent, Alarm, several
-from mnclab.text.given import fitting_class, shown
+from mnclab.text.given import PathOptions, fitting_class, shown
 from mnclab.text.tables import Columned, Pictured, fixed
 
 if TYPE_CHECKING:
@@ -372,7 +372,7 @@ class Toolpath(Pictured, Columned, Columns):
 
         return table(self)
 
-    def plot(self, **options: Any) -> Figure:
+    def plot(self, **options: Unpack[PathOptions]) -> Figure:
         """Views of the path, coloured by `colour` "kind", "feed", "tool", "line" or "z"; see `show.plot.path.plot_path`."""
         from mnclab.show.plot.path import plot_path
 

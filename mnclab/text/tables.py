@@ -252,11 +252,9 @@ def write_picture(what: Any, path: Path, **options: Any) -> None:
 
 
 class Pictured(ABC):
-    """What has a picture, and is saved as one: a class says how to `plot` it."""
+    """What has a picture, and is saved as one: a class says how to `plot` it (needs matplotlib)."""
 
-    @abstractmethod
-    def plot(self, **options: Any) -> Any:
-        """The picture (needs matplotlib)."""
+    plot: Callable[..., Any]
 
     def save(self, path: str | Path, **options: Any) -> Path:
         """Write the picture (.svg, .pdf, .png), `options` such as `size="column"` are those of `plot`; or a table (.csv)."""

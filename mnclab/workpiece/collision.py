@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Unpack
 
 from mnclab.path.listing import Unit
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import SHOWN, Alarm, several
+from mnclab.text.given import SectionOptions, fitting
 from mnclab.text.tables import Listing, Pictured, html_table, paragraphs, written
 
 if TYPE_CHECKING:
@@ -98,11 +99,12 @@ class Collisions(Pictured, Listing, tuple[Collision, ...]):
         made.notes, made.reach, made.part = tuple(notes), reach, part
         return made
 
-    def plot(self, **options: Any) -> Figure:
+    @fitting
+    def plot(self, *, colour: str = "depth", **options: Unpack[SectionOptions]) -> Figure:
         """The part that the run leaves, with a red cross at each; options as in `Workpiece.plot`."""
         if self.part is None:
             raise Alarm("these collisions are of no run that could be drawn", hint="run.collisions().plot()")
-        return self.part().plot(collisions=self, **options)
+        return self.part().plot(collisions=self, colour=colour, **options)
 
     @property
     def ok(self) -> bool:

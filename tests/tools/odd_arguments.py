@@ -178,6 +178,6 @@ def called(door, values):
 
 
 def parameters(door):
-    """The names of the parameters that take a value each."""
+    """The names of the parameters that take a value each, without the options that are handed on."""
     takes = inspect.signature(door).parameters.values()
-    return [each.name for each in takes if each.kind not in (each.VAR_KEYWORD, each.VAR_POSITIONAL)]
+    return [each.name for each in takes if each.kind not in (each.VAR_KEYWORD, each.VAR_POSITIONAL) and each.default is not ...]

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,7 +21,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.path.toolpath import Array
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, check_point, choice, fitting_class, shown
+from mnclab.text.given import DesignFileOptions, DrawingOptions, check_number, check_point, choice, fitting_class, shown
 from mnclab.text.tables import exactly, html_table
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 from mnclab.workpiece.cutting import Cutting
@@ -67,13 +67,13 @@ class AsDrawn(ABC):
 
         return load(path)
 
-    def save(self, path: str | Path, **options: Any) -> Path:
+    def save(self, path: str | Path, **options: Unpack[DesignFileOptions]) -> Path:
         """Write one file: toml the design; svg, pdf, png, dxf its drawing; stl, gltf, glb, vtk, csv its body."""
         from mnclab.design.model.design_file import save
 
         return save(self, path, **options)
 
-    def plot(self, **options: Any) -> Figure:
+    def plot(self, **options: Unpack[DrawingOptions]) -> Figure:
         """The dimensioned drawing in true size; `size` "A4", "A4 landscape", "A3" or "A2", `scale` 0.5 for 1:2, and `sheet`."""
         from mnclab.design.drawing import plot
 
