@@ -420,8 +420,7 @@ class Run(Pictures):
         """
         from mnclab.show.report.gathering import save_report
 
-        options |= {"design": design, "tolerance": tolerance, "limits": limits, "machine": machine}
-        return save_report(self, path, title, **options)
+        return save_report(self, path, title, design=design, tolerance=tolerance, limits=limits, machine=machine, **options)
 
     # --- shown -------------------------------------------------------------------------------------------------------
 

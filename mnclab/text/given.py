@@ -18,12 +18,6 @@ from mnclab.text.alarm import Absent, Alarm, Refused, hint
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from mnclab.path.limits import Limits
-    from mnclab.path.profile import Profile
-    from mnclab.path.tool import Tool
-    from mnclab.path.toolpath import Toolpath
-    from mnclab.workpiece.workpiece import Workpiece
-
 #: No coordinate, feed, speed or other number is as large, whether it is written or worked out.
 LARGEST = 1e9
 #: Nor is one that is not 0 as small: its square would be none any more.
@@ -130,7 +124,8 @@ def check_point(value: Any, what: str, *, flat: bool = False) -> None:
 
 
 # The options of pictures, which the doors to them hand on: `run.plot(**options: Unpack[RunOptions])`. Type checkers read them
-# here, and so does Tab in a notebook (`fitting` writes them into the signature). The defaults are those of what draws.
+# here, and so does Tab in a notebook (`fitting` writes them into the signature). The defaults are those of what draws. What is
+# of a floor above, such as a path or a part, is Any here.
 
 class FigureOptions(TypedDict, total=False):
     """Of every figure: `size` "a4", "column", "slide" or inches, `size_mm` (85, None), `legend`, `title`."""
@@ -155,16 +150,16 @@ class OnlyPathOptions(AxesOptions, total=False):
     arrows: bool
     marks: bool
     frame: str
-    programmed: Toolpath | None
+    programmed: Any
     alarms: Sequence[Alarm]
     places: Sequence[Any]
-    tools: Mapping[int, Tool]
+    tools: Mapping[int, Any]
     insert: bool | int
     home: bool
     felt: Any
     gouged: Any
-    rapids: Limits | str | None
-    under: Toolpath | None
+    rapids: Any
+    under: Any
     limits: Any
     overlays: Sequence[Any]
     band: bool | None
@@ -174,7 +169,7 @@ class PathOptions(OnlyPathOptions, total=False):
     """Of a path, with the blank and the part as they are."""
 
     stock: Any
-    part: Workpiece | None
+    part: Any
 
 
 class RunOptions(OnlyPathOptions, total=False):
@@ -224,7 +219,7 @@ class ProfileOptions(AxesOptions, total=False):
     axes: bool
     limits: bool
     whole: bool
-    under: Profile | None
+    under: Any
     held: Any
 
 
@@ -255,7 +250,7 @@ class CompensationOptions(AxesOptions, total=False):
     names: bool
     stock: bool
     view: str
-    under: Toolpath | None
+    under: Any
     limits: Any
 
 

@@ -86,7 +86,7 @@ def test_every_kind_of_options_is_used():
 
 
 @pytest.mark.parametrize("refused", [
-    lambda: RUN.plot(colr="feed"), lambda: RUN.save("a.png", colr="feed"), lambda: RUN.workpiece(step=1.0).save("a.png", colr="tool"),
+    lambda: RUN.plot(colr="feed"), lambda: RUN.save("a.png", colr="feed"), lambda: RUN.workpiece(step=1.0).save("a.png", colr=1),
     lambda: RUN.plot_compensation(colr=1), lambda: mnc.plot_runs(RUN, colr="feed"), lambda: RUN.save("a.csv", colr=1),
     lambda: RUN.plot(title=5), lambda: RUN.profile().plot(colr=1), lambda: RUN.report("a.html", colr=1),
 ])  # fmt: skip
