@@ -349,8 +349,14 @@ class Ran(Protocol):
     toolpath: Toolpath
     program: Any
     control: Any
-    reach: str
-    rapids: Limits
+
+    @property
+    def reach(self) -> str:
+        """Up to where it ran, empty where it ran to its end."""
+
+    @property
+    def rapids(self) -> Limits:
+        """The limits under which its rapids go."""
 
     def holes(self) -> Holes:
         """What is drilled."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -99,8 +99,8 @@ class Design(AsDrawn):
     """
 
     blank: Any
-    features: tuple[Feature, ...] = ()
-    back: tuple[Feature, ...] = ()
+    features: Sequence[Feature] = ()
+    back: Sequence[Feature] = ()
     turn: str = field(default="x", kw_only=True)
     title: str = field(default="", kw_only=True)
     number: str = field(default="", kw_only=True)
@@ -159,7 +159,7 @@ class Design(AsDrawn):
             found.append(Taken(k, True, body.turned_over(*self.flip)))
         return tuple(found)
 
-    def _taken(self, features: tuple[Feature, ...], where: str) -> Iterator[tuple[int, Removal]]:
+    def _taken(self, features: Sequence[Feature], where: str) -> Iterator[tuple[int, Removal]]:
         """The bodies of the features of one side, in its own frame."""
         site, late = self._site(where == "back"), list[int]()
         found: list[tuple[int, Removal]] = []
@@ -173,7 +173,7 @@ class Design(AsDrawn):
             found += [(k, body) for body in self._removals(features, k, site, where)]
         yield from found
 
-    def _removals(self, features: tuple[Feature, ...], k: int, site: Site, where: str) -> list[Removal]:
+    def _removals(self, features: Sequence[Feature], k: int, site: Site, where: str) -> list[Removal]:
         each = features[k]
         top = site.top if each.top is None else each.top
         if isinstance(each, Stud) and any(_stands_in(each, other) for other in features):
@@ -321,7 +321,7 @@ class Design(AsDrawn):
         return tuple(name_of(features, k) for k in range(len(features)))
 
 
-def name_of(features: tuple[Any, ...], k: int) -> str:
+def name_of(features: Sequence[Any], k: int) -> str:
     """The name of a feature, else its kind, with a number where there are several."""
     each = features[k]
     same = [i for i, other in enumerate(features) if other.kind == each.kind and not other.name]
