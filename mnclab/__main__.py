@@ -92,15 +92,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def obeyed(arguments: Sequence[str] | None) -> int:
     """Do what a command line says."""
     commands = parser()
-    chosen, rest = commands.parse_known_args(arguments)
+    chosen, rest = commands.parse_known_args(_own_tables(sys.argv[1:] if arguments is None else arguments))
     if rest and chosen.do is not lab:
         commands.error(f"unrecognized arguments: {' '.join(rest)}")
     chosen.rest = rest
     try:
+        if getattr(chosen, "json", False) and getattr(chosen, "csv", None) in ("", "-"):
+            raise Alarm("only one of --csv and --json goes to stdout", hint="write the table to a file: --csv OUT.csv")
         return int(chosen.do(chosen))
     except Alarm as alarm:  # there is no program in the file
         say(alarm, getattr(chosen, "file", ""))
         return ALARMS
+
+
+def _own_tables(words: Sequence[str]) -> list[str]:
+    """A command line in which only a name of a table stands as one behind --csv: what follows may be a program."""
+    after = [*words[1:], ""]
+    return [f"{word}=" if word == "--csv" and then != "-" and not then.lower().endswith(".csv") else word
+            for word, then in zip(words, after)]  # fmt: skip
 
 
 def give_up_printing() -> None:
@@ -141,6 +150,9 @@ def parser() -> argparse.ArgumentParser:
     def output(sub: argparse.ArgumentParser, says: str) -> None:
         sub.add_argument("-o", "--output", required=True, metavar="OUT", help=says)
 
+    def table(sub: argparse.ArgumentParser, says: str) -> None:
+        sub.add_argument("--csv", nargs="?", const="", metavar="OUT.csv", help=f"{says}, to a file or to stdout")
+
     def options(sub: argparse.ArgumentParser, json_says: str = "", starts: bool = False) -> None:
         sub.add_argument("--control", choices=[*mnclab.controls, *ALSO], help="default: from the file's suffix or its text")
         says = "tools, datums, blank, start, settings (mnclab --help shows one)"
@@ -154,7 +166,7 @@ def parser() -> argparse.ArgumentParser:
     does = "run programs and report their alarms; of a folder, a table of what ran, what was refused, and why"
     sub = command("check", check, does, "files", nargs="+")
     options(sub, "a list of files with their alarms on stdout instead; of a folder, the table and the reasons")
-    sub.add_argument("--csv", action="store_true", help="the table as comma-separated values on stdout instead")
+    table(sub, "the table as comma-separated values instead")
     says = "of a folder, the files with these suffixes (default: those that part programs usually have; * for all)"
     sub.add_argument("--suffixes", type=words, metavar=".nc,.h", help=says)
     sub.add_argument("-j", "--jobs", type=int, default=1, metavar="N", help="how many processes share the files (default: 1)")
@@ -204,8 +216,7 @@ def parser() -> argparse.ArgumentParser:
     options(sub, "the times on stdout as one object instead, of several programs a list", starts=True)
     says = "a named machine, or a .toml file (default: limits of the setup)"
     sub.add_argument("--machine", "--limits", metavar="M", help=says)
-    says = "the table as comma-separated values, to a file or to stdout, with a column that says which are complete"
-    sub.add_argument("--csv", nargs="?", const="", metavar="OUT.csv", help=says)
+    table(sub, "the table as comma-separated values, with a column that says which are complete")
     sub.add_argument("--override", type=float, default=100.0, metavar="PERCENT", help="feed override (default: 100)")
     sub = command("help", explain, "show the parameters of a cycle or the meaning of a function", "")
     codes = "such as G83, CYCL DEF 200, or words; the name of a control: all its codes; glossary; design, exercise: such a file"
@@ -219,13 +230,14 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--control", choices=list(mnclab.controls), help="of list: those of one control")
     sub.add_argument("-o", "--output", metavar="DIR", help="of give: the folder (default: exercises)")
     sub.add_argument("--answers", action="store_true", help="of show: the model too, and why")
+    table(sub, "of list: the table as comma-separated values instead")
     sub.add_argument("--pupil", metavar="NAME", help="of give: with the dimensions that this name draws")
     says = "of give: a text file with a name a line; each gets a folder, with the dimensions of the name"
     sub.add_argument("--pupils", metavar="NAMES.txt", help=says)
     sub = command("grade", grade, "grade a program that answers an exercise, or a folder a pupil; status 1 if one has not passed")
     sub.add_argument("--exercise", metavar="ID", help="default: the name of the file, mnc-03 of mnc-03.mnc")
     sub.add_argument("--json", action="store_true", help="score, passed, points and hints on stdout, of a folder a list")
-    sub.add_argument("--csv", nargs="?", const="", metavar="OUT.csv", help="of a folder: the table, to a file or to stdout")
+    table(sub, "of a folder: the table")
     sub.add_argument("--exercises", metavar="PATH", help="a file of an exercise of your own, or a folder of such")
     says = "of a folder: the drawing of each pupil has the dimensions that the name of the folder draws"
     sub.add_argument("--neighbours", action="store_true", help=says)
@@ -288,7 +300,7 @@ def plot(chosen: argparse.Namespace) -> int:
         drawn = sensible(result.plot_measured)
         sensible(drawn.save, chosen.output)
     else:
-        of_path = {"of": "path"} if Path(chosen.output).suffix.lower() in BODIES else {}
+        of_path: Any = {"of": "path"} if Path(chosen.output).suffix.lower() in BODIES else {}
         sensible(partial(result.save, **of_path), chosen.output)
     return verdict(result)
 

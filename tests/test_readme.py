@@ -1,8 +1,10 @@
 """What the README shows is so: its program, its alarm, and every call of its table."""
 
 import ast
+import os
 import re
 import shlex
+import subprocess
 import sys
 from functools import partial
 from importlib import import_module
@@ -49,6 +51,41 @@ def test_every_call_of_the_table_runs(names):
     for call in (call for row in ROWS[:-1] for call in row):
         exec(compile(ast.parse(call), call, "exec"), names)
     assert mnclab.run(names["run"].program, setup=names["shop"]).workpiece().removed > 0  # its tools and its blank are those
+
+
+WRONG = ("run.plot(colr='feed')", "run.save('a.svg', size_mm='wide')", "run.profile('small-mill').plot(whole='yes')",
+         "mnc.Tool(diametr=8)", "mnc.compare(region, 4.0).best(1)", "run.toolpath.nothing", "mnc.Setup(limits=5)",
+         "run.workpiece().plot(section=5)", "plate.plot(size=5)", "run.collisions().plot(sections='XZ')")  # fmt: skip
+
+
+@pytest.mark.deep
+def test_type_checkers_know_every_call(tmp_path):
+    """The Python of the README and of its table, as a file of a user; below it are wrong calls, which alone are told."""
+    (block,) = re.findall(r"```python\n(.*?)```", TEXT, re.S)
+    right = [*block.splitlines(), *NAMES.splitlines(), *(call for row in ROWS[:-1] for call in row)]
+    right.append("run.plot(title='mine').savefig('a.png')")
+    told = typed(tmp_path, "\n".join([*right, *WRONG]))
+    lines = [int(line.split(":")[1]) for line in told]
+    assert lines == [len(right) + k for k in range(1, len(WRONG) + 1)], told
+
+
+NAMES = """
+other = mnc.run("data/programs/mnc/compensated.mnc")
+blank = ((0.0, 0.0, -20.0), (100.0, 60.0, 0.0))
+part = run.workpiece(stock=blank)
+plate = mnc.Design(blank, [mnc.design.Hole(14, 14, 8)])
+region = mnc.area.Region.of(mnc.area.rectangle(30, 20, 5))
+profile = mnc.area.Contour([(0, 20), (-40, 20), (-50, 30)], closed=False)
+"""
+
+
+def typed(folder, text):
+    """What mypy says of a file."""
+    file = folder / "readme.py"
+    file.write_text(text, "utf-8")
+    command = [sys.executable, "-m", "mypy", "--config-file", str(ROOT / "pyproject.toml"), str(file)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(ROOT)})
+    return [line for line in done.stdout.splitlines() if "error:" in line]
 
 
 def test_every_command_is_known():

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
-from typing import TYPE_CHECKING, Any, Protocol, overload, runtime_checkable
+from typing import TYPE_CHECKING, Any, Protocol, Unpack, overload, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,7 @@ from mnclab.path.profile import Profile
 from mnclab.path.profile.ramps import bent
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm, several
-from mnclab.text.given import check_number, choice, fitting, shown
+from mnclab.text.given import FigureOptions, check_number, choice, fitting, shown
 from mnclab.text.tables import Listing, Pictured, html_table, shapes
 
 if TYPE_CHECKING:
@@ -163,7 +163,8 @@ class Deviation(Pictured):
     def _repr_html_(self) -> str:
         return f"<p>{escape(self.sentence)}</p>{html_table(('', *self.names), self.rows())}"
 
-    def plot(self, view: str = "auto", **options: Any) -> object:
+    @fitting
+    def plot(self, view: str = "auto", **options: Unpack[FigureOptions]) -> Picture:
         """Both paths in one `view`, with the largest deviation marked."""
         from mnclab.show.plot.side_by_side import plot_deviation
 
@@ -311,7 +312,8 @@ class HolesCompared(Pictured, Listing):
 
     texts = rows
 
-    def plot(self, **options: Any) -> Picture:
+    @fitting
+    def plot(self, **options: Unpack[FigureOptions]) -> Picture:
         """The holes from above at their diameters, told apart by what has them."""
         from mnclab.show.plot.holes import plot_holes
 
@@ -347,8 +349,14 @@ class Ran(Protocol):
     toolpath: Toolpath
     program: Any
     control: Any
-    reach: str
-    rapids: Limits
+
+    @property
+    def reach(self) -> str:
+        """Up to where it ran, empty where it ran to its end."""
+
+    @property
+    def rapids(self) -> Limits:
+        """The limits under which its rapids go."""
 
     def holes(self) -> Holes:
         """What is drilled."""

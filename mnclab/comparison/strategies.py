@@ -12,7 +12,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property, partial
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Unpack
 
 import numpy as np
 
@@ -29,7 +29,7 @@ from mnclab.machining.milling.strategies import STRATEGIES, TANGENT, clear
 from mnclab.path.limits import Limits, limits_of
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, choice, faults_as_alarms, fitting, plain, shown
+from mnclab.text.given import ColumnsOptions, check_number, choice, faults_as_alarms, fitting, plain, shown
 from mnclab.text.opening import progress
 from mnclab.text.tables import Pictured
 
@@ -107,7 +107,8 @@ class Trial(Pictured, Tried, Level):
         """
         return program(self.path, control, tool, spindle, decimals)
 
-    def plot(self, kind: str = "paths", **options: Any) -> Picture:
+    @fitting
+    def plot(self, kind: str = "paths", **options: Unpack[ColumnsOptions]) -> Picture:
         """The picture of a comparison, of this trial alone."""
         return Comparison((self,)).plot(kind, **options)
 
@@ -124,7 +125,8 @@ class Comparison(Table[Trial]):
         """What one should know of a clearing, such as that it has no spiral."""
         return tuple(f"{trial.name}: {trial.clearing.note}" for trial in self.trials if trial.clearing.note)
 
-    def plot(self, kind: str = "paths", **options: Any) -> Picture:
+    @fitting
+    def plot(self, kind: str = "paths", **options: Unpack[ColumnsOptions]) -> Picture:
         """Side by side "paths", coloured by engagement, "engagement" along the way, or what "passes" leave: that of
         the first level of each (needs matplotlib)."""
         from mnclab.show.plot.pocketing import plot_strategies

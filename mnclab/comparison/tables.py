@@ -15,7 +15,7 @@ from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.text.alarm import Alarm, hint
 from mnclab.text.given import choice, shown
-from mnclab.text.tables import Listing, Pictured
+from mnclab.text.tables import Listing, Pictured, data_frame
 
 Titles = dict[str, tuple[str, str, Callable[[Any], Any]]]  # of every column what it is, how it is written, and its value
 
@@ -98,7 +98,7 @@ class Table(Pictured, Listing, Generic[One]):
 
     def to_pandas(self) -> Any:
         """The table as a data frame of pandas, its titles as columns."""
-        return super().to_pandas().rename(columns={name: title for name, (title, _, _) in self.told.items()})
+        return data_frame(dict(zip(self.head, self.columns().values())))
 
     def best(self, by: str = "time") -> One:
         """The trial with the least value in a column: its name (`columns()` lists them) or its title; the greatest where more

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Unpack
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from mnclab.path.limits import Limits, limits_of
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath, concatenate
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, choice, faults_as_alarms, fitting, plain, shown, whole
+from mnclab.text.given import WidthOptions, check_number, choice, faults_as_alarms, fitting, plain, shown, whole
 from mnclab.text.opening import progress
 
 if TYPE_CHECKING:
@@ -74,7 +74,8 @@ class ToolSets(Table[ToolSet]):
     titles: ClassVar = COLUMNS
     trials: tuple[ToolSet, ...]
 
-    def plot(self, **options: Any) -> Picture:
+    @fitting
+    def plot(self, **options: Unpack[WidthOptions]) -> Picture:
         """The time of every set over how many tools it has (needs matplotlib)."""
         from mnclab.show.plot.pocketing import plot_tool_sets
 

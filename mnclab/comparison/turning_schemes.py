@@ -26,7 +26,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, reduce
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Unpack
 
 import numpy as np
 
@@ -44,7 +44,7 @@ from mnclab.path.limits import Limits, limits_of
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, choice, faults_as_alarms, fitting, plain, shown
+from mnclab.text.given import ColumnsOptions, check_number, choice, faults_as_alarms, fitting, plain, shown
 from mnclab.text.tables import Pictured
 
 if TYPE_CHECKING:
@@ -155,7 +155,8 @@ class TurningTrial(Pictured, Tried):
                 left = left.difference(cover)
         return struck
 
-    def plot(self, **options: Any) -> Picture:
+    @fitting
+    def plot(self, **options: Unpack[ColumnsOptions]) -> Picture:
         """The picture of a comparison, of this trial alone."""
         return TurningComparison((self,)).plot(**options)
 
@@ -167,7 +168,8 @@ class TurningComparison(Table[TurningTrial]):
     titles: ClassVar = COLUMNS
     trials: tuple[TurningTrial, ...]
 
-    def plot(self, **options: Any) -> Picture:
+    @fitting
+    def plot(self, **options: Unpack[ColumnsOptions]) -> Picture:
         """The strokes side by side, rapids dashed, what is left hatched (needs matplotlib)."""
         from mnclab.show.plot.turning_schemes import plot_schemes
 

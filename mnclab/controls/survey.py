@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ from mnclab.machine.setup import Setup
 from mnclab.text.alarm import ALARM, WARNING, Alarm, amounts, several
 from mnclab.text.given import fitting, shown, whole
 from mnclab.text.opening import progress
-from mnclab.text.tables import csv_text, html_table, text_table
+from mnclab.text.tables import Listing, html_table, text_table
 
 RAN, REFUSED, NOT_READ = "ran", "refused", "not read"
 #: Suffixes of part programs that many makers share, beside those of the controls.
@@ -74,15 +74,21 @@ class Reason(NamedTuple):
 
 
 @dataclass(frozen=True, repr=False)
-class Survey:
+class Survey(Listing):
     """What became of many files; `interrupted` where Ctrl-C ended it before the last.
 
     It shows itself as a table of reasons and one of files; `rows` and `reasons` are these, `ok` whether all ran.
     """
 
+    HEAD = ("file", "control", "blocks", "alarms", "warnings", "result")
+    NUMBERS = (2, 3, 4)
     rows: tuple[Checked, ...]
     folder: str = ""
     interrupted: bool = False
+
+    def texts(self) -> list[tuple[str, ...]]:
+        """What became of each file, in short."""
+        return [_cells(row) for row in self.rows]
 
     @property
     def ok(self) -> bool:
@@ -118,8 +124,7 @@ class Survey:
         out the counts where sentences would have no room beside them."""
         narrow = width is not None and width < COUNTED
         head = ("file", "control", *(() if narrow else ("blocks", "alarms", "warnings")), "result")
-        cells = map(_cells, self.rows)
-        rows = [(name, control, *(() if narrow else counts), _short(said)) for name, control, *counts, said in cells]
+        rows = [(name, control, *(() if narrow else counts), _short(said)) for name, control, *counts, said in self.texts()]
         why = [(str(one.files), _short(one.reason), one.example) for one in self.reasons]
         if width is not None:
             free = width - sum(2 + max(map(len, column)) for column in list(zip(head, *rows))[1:-1])
@@ -133,8 +138,7 @@ class Survey:
         title = f"<h4>{escape(self.folder)}</h4>" * bool(self.folder) + f"<p>{escape(self.summary)}</p>"
         why = [(str(one.files), one.reason, one.example) for one in self.reasons[:SHOWN]]
         reasons = "<h5>Why</h5>" + html_table(("files", "reason", "for example"), why, numbers=(0,)) if why else ""
-        head = ("file", "control", "blocks", "alarms", "warnings", "result")
-        files = html_table(head, map(_cells, self.rows[:SHOWN]), numbers=(2, 3, 4))
+        files = html_table(self.HEAD, self.texts()[:SHOWN], numbers=self.NUMBERS)
         left = len(self.rows) - SHOWN
         return f"{title}{reasons}<h5>Files</h5>{files}{f'<p>… {left} more files</p>' if left > 0 else ''}"
 
@@ -146,11 +150,12 @@ class Survey:
             "reasons": [one._asdict() for one in self.reasons],
         }  # fmt: skip
 
-    def csv(self) -> str:
-        """The rows as comma-separated values, a line each."""
+    def record(self) -> tuple[Sequence[str], Sequence[Sequence[Any]], Collection[int]]:
+        """Columns of the file, with the moves and the reason of each row."""
         head = ("file", "result", "control", "blocks", "moves", "alarms", "warnings", "line", "first alarm", "reason")
         said = (" ".join(row.first.message.split()) if row.first else "" for row in self.rows)
-        return csv_text(head, *((*row[:7], row.line or "", why, row.reason) for row, why in zip(self.rows, said)))
+        rows = [(*row[:7], row.line or "", why, row.reason) for row, why in zip(self.rows, said)]
+        return head, rows, range(3, 8)
 
 
 def reason(message: str) -> str:

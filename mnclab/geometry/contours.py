@@ -20,11 +20,13 @@ from numpy.typing import ArrayLike, NDArray
 from mnclab.geometry.curves import Curves, Floats, at_angle, counted, cross, left, length_of, turned
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, refusing_class, shown, whole
+from mnclab.text.tables import svg_of
 
 NOISE = 1e-9  # mm, by which two ways that are equally far may differ
 FULL_TURN = 2 * np.pi
 CUSP = 1e-8  # rad, by which opposite directions may be off
 SHORTEST = 1e-9  # mm, of a piece
+SEEN = 0.01  # mm, by which a drawn arc may be off
 FLAT = 1e-9  # a smaller bulge is a line: over a chord of 1 m it would rise by half a nanometre
 
 
@@ -66,9 +68,7 @@ class Contour:
         if not closed:
             bent[-1] = 0.0
         corners.flags.writeable = bent.flags.writeable = False
-        object.__setattr__(self, "points", corners)
-        object.__setattr__(self, "bulge", bent)
-        object.__setattr__(self, "closed", bool(closed))
+        vars(self).update(points=corners, bulge=bent, closed=bool(closed))
 
     @classmethod
     def circle(cls, centre: ArrayLike, radius: float, start: float = 0.0, clockwise: bool = False) -> Contour:
@@ -77,8 +77,10 @@ class Contour:
         return cls([middle + arm, middle - arm], [-1.0, -1.0] if clockwise else [1.0, 1.0])
 
     def __repr__(self) -> str:
-        kind = "closed" if self.closed else "open"
-        return f"<Contour {kind}, {len(self.starts)} elements, {self.length:.3f} mm>"
+        return f"<Contour {'closed' if self.closed else 'open'}, {len(self.starts)} elements, {self.length:.3f} mm>"
+
+    def _repr_svg_(self) -> str | None:
+        return svg_of([self.points_within(SEEN)], filled=self.closed)
 
     # ---- elements, as columns ----
 
@@ -219,10 +221,8 @@ class Contour:
         return (place, tangent) if way.ndim else (place[0], tangent[0])
 
     def points_within(self, chord_error: float) -> Floats:
-        """A polyline `(m, 2)` with its points on the contour, nowhere farther off than `chord_error`.
-
-        Ends where the contour ends: for a closed one the first point comes again.
-        """
+        """A polyline `(m, 2)` with its points on the contour, nowhere farther off than `chord_error`; the first point of a closed
+        one comes again."""
         steps = steps_within(self.radii, self.sweeps, chord_error)
         element, rank = counted(steps)
         places = self.at(rank / steps[element], element)[0]

@@ -18,12 +18,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry import shapely
 from mnclab.geometry.chords import near
-from mnclab.geometry.contours import Contour
+from mnclab.geometry.contours import SEEN, Contour
 from mnclab.geometry.curves import Floats, cross, gap, length_of
 from mnclab.geometry.cutting import Outlines, boxes, inset, outlines_of
 from mnclab.geometry.tracing import GRID, SAME, TaggedPolylines, inset_by_bands
 from mnclab.text.alarm import Alarm, Refused
 from mnclab.text.given import check_number, refusing_class, shown
+from mnclab.text.tables import svg_of
 
 
 class CrossesItself(Refused):
@@ -57,6 +58,9 @@ class Region:
 
     def __repr__(self) -> str:
         return f"<Region: {len(self.loops)} loop{'s' * (len(self.loops) != 1)}, {self.area:.3f} mm²>"
+
+    def _repr_svg_(self) -> str | None:
+        return svg_of([loop.points_within(SEEN) for loop in self.loops])
 
     @classmethod
     def of(cls, *outer: Any, holes: Iterable[Contour] = ()) -> Region:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
 from mnclab.machine.setup import Setup
 from mnclab.text.alarm import Alarm, hint
 from mnclab.text.file import COURSE
-from mnclab.text.given import choice, fitting, shown
+from mnclab.text.given import DrawingOptions, choice, fitting, shown
 from mnclab.text.opening import opened
 from mnclab.text.tables import Rows
 
@@ -143,7 +143,8 @@ class Exercise:
 
         return graded(self, answer, tried or {})
 
-    def drawing(self, **options: Any) -> Figure:
+    @fitting
+    def drawing(self, **options: Unpack[DrawingOptions]) -> Figure:
         """The drawing of the part; the options are those of `Design.plot`. An Alarm where there is none."""
         if self.design is None:
             raise Alarm(f"{self.id} has no drawing", hint=f"it asks you to {self.does}: see its task")

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -17,7 +17,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.path.listing import INCHES, MM, Unit
 from mnclab.text.alarm import several
 from mnclab.text.file import save_as
-from mnclab.text.tables import Listing, Rows, csv_text, write_csv
+from mnclab.text.tables import Listing, Rows, write_csv
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -183,10 +183,11 @@ class Measurements(Rows[Measurement]):
         lengths = {name: row[name] / self.unit.length for name in self.HEAD[3:8] if row[name] is not None}
         return row | lengths | {"unit": self.unit.short}
 
-    def csv(self) -> str:
-        """The table as comma-separated values in the unit of the program, numbers with all their digits."""
+    def record(self) -> tuple[Sequence[str], Sequence[Sequence[Any]], Collection[int]]:
+        """Columns and rows in the unit of the program, numbers with all their digits."""
         names = ("line", "cycle", "what", "unit", *self.HEAD[3:])
-        return csv_text(names, *([row[name] for name in names] for row in map(self._in_unit, self.as_dicts())))
+        rows = [[row[name] for name in names] for row in map(self._in_unit, self.as_dicts())]
+        return names, rows, (0, *range(4, 9))
 
     def save(self, path: str | Path, **options: Any) -> Path:
         """Write the table as .csv, in the unit of the program, or as .json, in mm, numbers with all their digits; the file."""

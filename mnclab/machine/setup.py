@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from pathlib import Path
 from types import MappingProxyType, UnionType
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mnclab.machine.probe import Probe, Setter
 from mnclab.path.limits import Limits, limits_of
@@ -222,6 +222,15 @@ MEANT: Mapping[str, tuple[Check, str]] = {
 }  # fmt: skip
 
 
+if TYPE_CHECKING:
+
+    class LimitsOf:
+        """Limits, also where the name of a machine was given."""
+
+        def __get__(self, setup: Any, kind: Any = None) -> Limits: ...
+        def __set__(self, setup: Any, given: Limits | str) -> None: ...
+
+
 @fitting_class
 @dataclass(frozen=True)
 class Setup:
@@ -248,9 +257,12 @@ class Setup:
     correctors: Mapping[int, Datum | tuple[float, ...]] = field(default_factory=dict)
     stock: Any = None
     part: Any = None
-    fixtures: tuple[Any, ...] = ()
+    fixtures: Sequence[Any] = ()
     probe: Probe = Probe()
-    limits: Limits = field(default_factory=Limits)
+    if TYPE_CHECKING:
+        limits: LimitsOf = LimitsOf()
+    else:
+        limits: Limits = field(default_factory=Limits)
     start: tuple[float, float, float] = (0.0, 0.0, 0.0)
     files: Mapping[str, str | Path] = field(default_factory=dict)
     settings: Mapping[str, Any] = field(default_factory=dict)

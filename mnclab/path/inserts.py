@@ -21,11 +21,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour
+from mnclab.geometry.contours import SEEN, Contour
 from mnclab.geometry.curves import Floats, at_angle, length_of
 from mnclab.path.tool import LATHE, POINTED, Tool
 from mnclab.path.toolpath import Kind, Mask, Toolpath
 
+BEHIND = 4.0  # radii, as long as a mill cuts in a picture where its table does not say
 EDGE = 12.0  # length of an edge that the table does not give: the usual insert, a C of 12 (ISO 1832)
 BLADE = 8.0  # widths: how deep a blade reaches whose table does not say it, as catalogues have it for grooving and parting
 USUAL = (95.0, 5.0)  # degrees, where the table has none: an insert of 80 degrees (ISO 1832, C) in its holder (ISO 5608, L)
@@ -243,6 +244,24 @@ def _round(tool: Tool, height: float) -> Contour:
     long = max(height, point + 1.0)
     corners = [(point, -radius), (long, -radius), (long, radius), (point, radius)]
     return Contour([*corners, (0.0, 0.0)] if point else corners)
+
+
+def silhouette(tool: Tool) -> list[Floats]:
+    """A tool as one sees it from the side, its tip at 0 0: closed lines (k, 2), mm; none of a tool without a size."""
+    if tool.kind in LATHE:
+        return [holder(tool), insert(tool).points_within(SEEN)]
+    radius, pointed = tool.effective_radius, tool.angle or POINTED.get(tool.kind, 0.0)
+    if radius <= 0:
+        return []
+    point = radius / math.tan(math.radians(pointed) / 2) if 0 < pointed < 180 else 0.0
+    corner, bend = min(tool.corner, radius), np.linspace(0, math.pi / 2, 24)
+    tip = [(0.0, 0.0), (radius, point)] if point else [*zip(radius - corner * (1 - np.sin(bend)), corner * (1 - np.cos(bend)))]
+    high = max(tool.cutting_length or BEHIND * radius, point, corner)
+    bodies = [*filter(None, [tool.shank or (0.9 * radius, high)]), *tool.holder]
+    found = [[*tip, (radius, bodies[0][1])]]
+    for (wide, begin), (_, end) in zip(bodies, [*bodies[1:], (0.0, 0.0)]):
+        found.append([(wide, begin), (wide, max(end, begin + 2 * radius))])
+    return [np.concatenate([half, half[::-1] * np.array([-1.0, 1.0])]) for half in map(np.array, found)]
 
 
 def mirror_of(tool: Tool) -> Floats:

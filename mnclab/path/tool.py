@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from mnclab.text.alarm import Alarm, hint
 from mnclab.text.file import File, as_table, check_names
 from mnclab.text.given import check_number, check_point, fitting, fitting_class, of_python, shown
-from mnclab.text.tables import written
+from mnclab.text.tables import svg_of, written
 
 # What a tool table says for measuring a tool: how far it may wear, when it counts as broken, and where it is measured.
 
@@ -153,6 +153,11 @@ class Tool:
         diameter: InitVar[float | None] = None
 
     __repr__ = written
+
+    def _repr_svg_(self) -> str | None:
+        from mnclab.path.inserts import silhouette
+
+        return svg_of(silhouette(self), sketch=True)
 
     def __post_init__(self, diameter: float | None = None) -> None:  # `diameter` for type checkers alone
         for each in fields(self):

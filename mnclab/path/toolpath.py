@@ -6,14 +6,14 @@ from collections import namedtuple
 from collections.abc import Iterable, Iterator, Sequence
 from enum import IntEnum
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast, overload
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, Unpack, cast, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.text.alarm import Absent, Alarm, several
-from mnclab.text.given import fitting_class, shown
-from mnclab.text.tables import Pictured, fixed
+from mnclab.text.given import PathOptions, fitting_class, shown
+from mnclab.text.tables import Columned, Pictured, fixed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -38,6 +38,7 @@ class Kind(IntEnum):
     STOP = 8
 
 
+KINDS = tuple(kind.name for kind in Kind)  # by their numbers
 MOTION_KINDS = (Kind.RAPID, Kind.LINE, Kind.ARC, Kind.PROBE)
 
 
@@ -188,7 +189,7 @@ class Move(fields("Move", COLUMNS)):  # type: ignore[misc]
 # Columns are read-only: what is to be changed is copied first (`Toolpath.replace` takes other columns).
 
 @fitting_class
-class Toolpath(Pictured, Columns):
+class Toolpath(Pictured, Columned, Columns):
     """Moves and events in columns of n rows; the names and meanings are in `COLUMNS`.
 
     `labels`, `joints` and `cylinders` are what columns index; `origin` (3,) is the machine position, mm,
@@ -354,6 +355,11 @@ class Toolpath(Pictured, Columns):
             flat |= {one: column[:, k] if each.parts else column for k, one in enumerate(each.flat(name))}
         return flat
 
+    @property
+    def names(self) -> dict[str, Sequence[str]]:
+        """What the numbers of `kind` and `label` stand for."""
+        return {"kind": KINDS, "label": self.labels}
+
     def __str__(self) -> str:
         from mnclab.path.listing import listing
 
@@ -368,7 +374,7 @@ class Toolpath(Pictured, Columns):
 
         return table(self)
 
-    def plot(self, **options: Any) -> Figure:
+    def plot(self, **options: Unpack[PathOptions]) -> Figure:
         """Views of the path, coloured by `colour` "kind", "feed", "tool", "line" or "z"; see `show.plot.path.plot_path`."""
         from mnclab.show.plot.path import plot_path
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -248,7 +248,8 @@ def _collisions(run: Run, stock: Any, step: float | None) -> Collisions:
         found = Collisions(kept, found.notes)
     notes = *found.notes, *cutting.bare_told()
     reach = run.reach or ("" if run.toolpath.is_motion.any() else "since nothing moves")
-    return Collisions([*found, *_beyond_travel(run)], notes, reach)
+    part = partial(workpiece, run, step=step, stock=stock)
+    return Collisions([*found, *_beyond_travel(run)], notes, reach, part)
 
 
 def _beyond_travel(run: Run) -> Iterator[Collision]:

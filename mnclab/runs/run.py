@@ -10,7 +10,7 @@ import gc
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,7 +40,19 @@ from mnclab.runs.material import cutting_data, measuring_sheet, setup_sheet, too
 from mnclab.runs.moments import Moments, when
 from mnclab.runs.start import MissedOnes, start_at
 from mnclab.text.alarm import ALARM, Alarm, Span, by_place, quoted
-from mnclab.text.given import fitting_class, shown, whole
+from mnclab.text.given import (
+    AxesOptions,
+    CompensationOptions,
+    FigureOptions,
+    MeasuredOptions,
+    PlayerOptions,
+    RunFileOptions,
+    RunOptions,
+    SceneOptions,
+    fitting_class,
+    shown,
+    whole,
+)
 from mnclab.text.program import Program
 from mnclab.text.tables import fixed
 from mnclab.workpiece.blank import Blank
@@ -62,30 +74,30 @@ if TYPE_CHECKING:
 class Pictures:
     """What a run shows beside its path."""
 
-    def plot_depth(self, **options: Any) -> Figure:
+    def plot_depth(self, *, line: int | None = None, pass_: int = 1, **options: Unpack[AxesOptions]) -> Figure:
         """Z over time: pecks, dwells and retractions of a hole, by `line`; see `mnclab.show.plot.over_time`."""
         from mnclab.show.plot.over_time import plot_depth
 
-        return plot_depth(self, **options)
+        return plot_depth(self, line=line, pass_=pass_, **options)
 
-    def plot_datums(self, **options: Any) -> Figure:
+    def plot_datums(self, *, view: str = "XY", **options: Unpack[AxesOptions]) -> Figure:
         """Machine zero and the zero points of the program as vectors from it; see `mnclab.show.plot.set_up`."""
         from mnclab.show.plot.set_up import plot_datums
 
-        return plot_datums(self, **options)
+        return plot_datums(self, view=view, **options)
 
-    def plot_face(self, **options: Any) -> Figure:
+    def plot_face(self, **options: Unpack[AxesOptions]) -> Figure:
         """The spirals that a lathe cuts in a face, seen from the tailstock; see `mnclab.show.plot.face`."""
         from mnclab.show.plot.face import plot_face
 
         return plot_face(self, **options)
 
-    def plot_lengths(self, line: int, **options: Any) -> Figure:
+    def plot_lengths(self, line: int, *, pass_: int = 1, **options: Unpack[AxesOptions]) -> Figure:
         """Spindle nose, tool and tip with their heights after a line: a wrong length offset is seen; see
         `mnclab.show.plot.set_up`."""
         from mnclab.show.plot.set_up import plot_lengths
 
-        return plot_lengths(self, line, **options)
+        return plot_lengths(self, line, pass_=pass_, **options)
 
 
 EXAMPLE = 'a machine is its limits: run(…, limits="small-mill"); a setup: ' "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
@@ -330,7 +342,7 @@ class Run(Pictures):
 
     # --- doors -------------------------------------------------------------------------------------------------------
 
-    def plot(self, **options: Any) -> Figure:
+    def plot(self, **options: Unpack[RunOptions]) -> Figure:
         """Views of the path: from above and the side for a mill, X and Z for a lathe.
 
         `colour` "kind", "feed" (mm/min), "speed" (of the spindle, rev/min), "tool", "line" or "z" (mm) says what the
@@ -343,19 +355,21 @@ class Run(Pictures):
 
         return plot_run(self, **options)
 
-    def plot_measured(self, **options: Any) -> Figure:
+    def plot_measured(self, **options: Unpack[MeasuredOptions]) -> Figure:
         """What was measured, deviations magnified: `line`, `factor`, `part`, `width`; see `mnclab.show.plot.measured`."""
         from mnclab.show.plot.measured import plot_measured
 
         return plot_measured(self, **options)
 
-    def plot_speed(self, **options: Any) -> Figure:
+    def plot_speed(self, *, most: float = np.inf, **options: Unpack[FigureOptions]) -> Figure:
         """Spindle speed and diameter over the way of a lathe's tool; `most` is the greatest speed, rev/min."""
         from mnclab.show.plot.lathe import plot_speed_of
 
-        return plot_speed_of(self, **options)
+        return plot_speed_of(self, most, **options)
 
-    def player(self, limits: Limits | str | None = None, *, machine: Limits | str | None = None, **options: Any) -> Player:
+    def player(
+        self, limits: Limits | str | None = None, *, machine: Limits | str | None = None, **options: Unpack[PlayerOptions]
+    ) -> Player:
         """A page to play the run in: forwards and backwards, by block, move or time; orbit, pan and zoom.
 
         Where there is a blank the page cuts it as it plays; of runs that are not too long it marks the collisions.
@@ -366,7 +380,7 @@ class Run(Pictures):
 
         return player(self, self.profile(limits, machine=machine), *material.played(self), **options)
 
-    def plot_compensation(self, **options: Any) -> Figure:
+    def plot_compensation(self, **options: Unpack[CompensationOptions]) -> Figure:
         """The contour, the tool-centre path beside it, and how its corners were found.
 
         `rules=("G160", "G161", "G162")` and `radii=(2, 5)` run the program once more for each and show the results
@@ -376,7 +390,7 @@ class Run(Pictures):
 
         return compensation(self, **options)
 
-    def scene(self, colour: str = "kind", **options: Any) -> pyvista.Plotter:
+    def scene(self, colour: str = "kind", **options: Unpack[SceneOptions]) -> pyvista.Plotter:
         """Path, tool and blank in three dimensions (needs pyvista); shows itself as a still picture.
 
         `colour` of the cuts: "kind", "feed", "tool", "z", "line"; `row`: where the tool stands; `stock`:
@@ -386,7 +400,7 @@ class Run(Pictures):
 
         return scene(self, colour, **options)
 
-    def save(self, path: str | Path, **options: Any) -> Path:
+    def save(self, path: str | Path, **options: Unpack[RunFileOptions]) -> Path:
         """Write one file; the suffix says what: svg, pdf, png, csv, json, html (the player), dxf, ngc, stl, gltf, glb, vtk.
 
         Pictures take the options of `plot`; `true_size=True` makes an svg in true millimetres. The bodies (stl, gltf, glb,
@@ -396,7 +410,10 @@ class Run(Pictures):
 
         return save(self, path, **options)
 
-    def report(self, path: str | Path, title: str | None = None, **options: Any) -> Path:
+    def report(
+        self, path: str | Path, title: str | None = None, *, design: Any = None, tolerance: float = 0.05,
+        limits: Limits | str | None = None, machine: Limits | str | None = None, **options: Any,
+    ) -> Path:  # fmt: skip
         """Write a report, .html or .pdf: figures, path, tools, time, cutting data, alarms, set-up, programs; `options` of `plot`.
 
         `design=`, or what else `Workpiece.compare` takes, adds a measuring record; `tolerance=0.05` mm. Times and limits are
@@ -404,7 +421,7 @@ class Run(Pictures):
         """
         from mnclab.show.report.gathering import save_report
 
-        return save_report(self, path, title, **options)
+        return save_report(self, path, title, design=design, tolerance=tolerance, limits=limits, machine=machine, **options)
 
     # --- shown -------------------------------------------------------------------------------------------------------
 

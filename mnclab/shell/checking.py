@@ -14,7 +14,8 @@ from mnclab.controls.survey import Survey
 from mnclab.controls.survey import check as survey
 from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import load
-from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, describe, nothing_in, program, say, sensible, with_blank
+from mnclab.shell import saying
+from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, describe, program, say, sensible
 from mnclab.text.alarm import ALARM, Alarm
 from mnclab.workpiece.collision import Collisions
 
@@ -25,13 +26,15 @@ def check(chosen: argparse.Namespace) -> int:
     """Report the alarms of several programs, or what became of those of a folder."""
     status, report = CLEAN, []
     setup = None if chosen.setup is None else sensible(load, chosen.setup)
-    if chosen.csv or chosen.suffixes or chosen.jobs > 1 or any(map(os.path.isdir, filter(None, chosen.files))):
+    if chosen.csv is not None or chosen.suffixes or chosen.jobs > 1 or any(map(os.path.isdir, filter(None, chosen.files))):
         found = sensible(survey_of, chosen, setup)
         if not (found.rows or found.interrupted):
-            sensible(nothing_in, chosen.files)
+            sensible(saying.nothing_in, chosen.files)
         width = max(shutil.get_terminal_size().columns, NARROWEST) if sys.stdout.isatty() else None  # a pipe gets all of it
-        told = json.dumps(found.as_dict(), indent=1) if chosen.json else found.csv() if chosen.csv else f"{found.text(width)}\n"
-        print(told, end="")
+        if chosen.csv is not None:
+            sensible(saying.write_table, chosen.csv, found.csv())
+        if chosen.json or chosen.csv is None:
+            print(json.dumps(found.as_dict(), indent=1) if chosen.json else found.text(width))
         return INTERRUPTED if found.interrupted else CLEAN if found.ok else ALARMS
     for file in chosen.files:
         alarms: tuple[Alarm, ...] = ()
@@ -39,7 +42,7 @@ def check(chosen: argparse.Namespace) -> int:
         try:
             result = run(program(file), chosen.control, setup)
             alarms = result.alarms
-            met = with_blank(result).collisions() if chosen.material else None
+            met = saying.with_blank(result).collisions() if chosen.material else None
         except Alarm as fault:  # no program, or no blank
             alarms = (*alarms, fault)
         if met or any(alarm.severity == ALARM for alarm in alarms):

@@ -11,7 +11,7 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
-from mnclab.shell.saying import ALARMS, CLEAN, program, sensible
+from mnclab.shell.saying import ALARMS, CLEAN, program, sensible, write_table
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import decode, read, replaced
 from mnclab.text.given import shown
@@ -27,7 +27,11 @@ def exercise(chosen: argparse.Namespace) -> int:
 
 
 def _list(chosen: argparse.Namespace) -> int:
-    print(sensible(opened("mnclab.learning.exercise", "exercises"), chosen.control))
+    found = sensible(opened("mnclab.learning.exercise", "exercises"), chosen.control)
+    if chosen.csv is None:
+        print(found)
+    else:
+        sensible(write_table, chosen.csv, found.csv())
     return CLEAN
 
 
@@ -116,8 +120,6 @@ def grade(chosen: argparse.Namespace) -> int:
 
 def _class(folder: Path, chosen: argparse.Namespace) -> int:
     """Grade a class as the command line says; status 1 where an answer has not passed."""
-    if chosen.json and chosen.csv == "":
-        raise Alarm("only one of --csv and --json goes to stdout", hint="write the table to a file: --csv OUT.csv")
     mark, class_page = (opened("mnclab.learning.marking", name) for name in ("mark", "class_page"))
     said = time.monotonic()
 
@@ -131,12 +133,10 @@ def _class(folder: Path, chosen: argparse.Namespace) -> int:
     if chosen.html:
         with replaced(chosen.html) as beside:
             beside.write_text(class_page(marks, folder.resolve().name, chosen.exercises), encoding="utf-8")
-    if chosen.csv:
-        marks.save(chosen.csv)
+    if chosen.csv is not None:
+        sensible(write_table, chosen.csv, marks.csv())
     if chosen.json:
         print(json.dumps(marks.as_dicts(), ensure_ascii=False))
-    elif chosen.csv == "":
-        print(marks.csv(), end="")
     elif chosen.csv is None and not chosen.html:
         print(marks)
     return CLEAN if all(each.passed for each in marks if each.handed_in) else ALARMS

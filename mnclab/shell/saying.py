@@ -11,6 +11,7 @@ from typing import Any, NoReturn, TypeVar
 
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import named, replaced
 
 Result = TypeVar("Result")
 CLEAN, ALARMS, USAGE, INTERRUPTED = 0, 1, 2, 130
@@ -40,6 +41,16 @@ def say(alarm: Alarm, file: str = "") -> None:
 def describe(alarm: Alarm, file: str) -> dict[str, Any]:
     """An alarm for programs that read JSON."""
     return alarm.as_dict() if alarm.source else alarm.as_dict() | {"file": file}
+
+
+def write_table(out: str, text: str) -> bool:
+    """The comma-separated values of --csv: to stdout, or to a file; whether to a file."""
+    if out in ("", "-"):
+        print(text, end="")
+        return False
+    with replaced(named(out, (".csv",), "a table is written as .csv, not as {}")[0]) as beside:
+        beside.write_text(text, "utf-8", newline="")
+    return True
 
 
 def program(file: str) -> Path:

@@ -7,7 +7,6 @@ import json
 import os
 import sys
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 from mnclab.controls.choice import run
@@ -18,9 +17,8 @@ from mnclab.path.limits import Limits
 from mnclab.path.limits import load as load_machine
 from mnclab.path.profile import Profile
 from mnclab.runs.run import Run
-from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, nothing_in, program, say, sensible
+from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, nothing_in, program, say, sensible, write_table
 from mnclab.text.alarm import ALARM, Alarm, several
-from mnclab.text.file import replaced
 from mnclab.text.opening import progress
 from mnclab.text.tables import clock, csv_text, text_table
 
@@ -64,14 +62,12 @@ def _many(chosen: argparse.Namespace, setup: Setup | None, limits: Limits | None
     status = status or (CLEAN if all(row["complete"] for row in rows) else ALARMS)
     cells = [tuple(_text(row[name]) for name in HEAD) for row in rows]
     done = f"{several(len(rows), 'program')}, {sum(row['complete'] for row in rows)} complete"
-    if chosen.csv not in (None, "", "-"):
-        sensible(_write, Path(chosen.csv), csv_text(HEAD, *cells))
-        print(f"{chosen.csv}: {done}", file=sys.stderr)
-    elif chosen.csv is not None:
-        print(csv_text(HEAD, *cells), end="")
-    elif chosen.json:
+    if chosen.csv is not None:
+        if sensible(write_table, chosen.csv, csv_text(HEAD, *cells)):
+            print(f"{chosen.csv}: {done}", file=sys.stderr)
+    if chosen.json:
         print(json.dumps(rows, indent=1))
-    else:
+    elif chosen.csv is None:
         print(text_table(HEAD, cells))
         whole = sum(row["time, s"] or 0.0 for row in rows)
         print(f"\n{done}, {clock(whole)} in all")
@@ -112,11 +108,6 @@ def _text(value: Any) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     return f"{value:.3f}" if isinstance(value, float) else "" if value is None else " ".join(str(value).split())
-
-
-def _write(path: Path, text: str) -> None:
-    with replaced(path) as beside:
-        beside.write_text(text, "utf-8", newline="")
 
 
 def _refuse(said: str) -> None:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.toolpath import COLUMNS, Kind
+from mnclab.path.toolpath import COLUMNS
 from mnclab.show import export_mesh
 from mnclab.show.export_drawing import write_dxf, write_true_size
 from mnclab.show.export_gcode import write_gcode
@@ -23,7 +23,7 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.columns import filled, parts, spelled
 from mnclab.text.file import named, save_as
 from mnclab.text.given import choice
-from mnclab.text.tables import csv_text, write_picture
+from mnclab.text.tables import write_picture
 
 
 def save(run: Any, path: str | Path, **options: Any) -> Path:
@@ -52,14 +52,8 @@ def _body(run: Any, suffix: str, of: str = "part", **more: Any) -> Callable[...,
 
 def write_csv(run: Any, path: Path) -> None:
     """The columns of the toolpath under their names; `kind` and `label` as text, numbers with all their digits."""
-    columns, labels = run.toolpath.columns(), [csv_text((text, "")).removesuffix(",\n") for text in run.toolpath.labels]
-    columns |= {name: column.view(np.uint8) for name, column in columns.items() if column.dtype == np.bool_}
     with path.open("w", encoding="utf-8", errors="replace", newline="") as file:
-        file.write(",".join(columns) + "\n")
-        for rows in parts(len(run.toolpath)):
-            some = {name: column[rows] for name, column in columns.items()}
-            some |= {"kind": spelled(KINDS, some["kind"]), "label": spelled(labels, some["label"])}
-            file.write(filled(",".join(["%s"] * len(some)) + "\n", some.values()))
+        file.writelines(run.toolpath.csv_parts())
 
 
 def write_json(run: Any, path: Path) -> None:
@@ -85,7 +79,7 @@ def document(run: Any) -> Iterator[str]:
         "meaning": {name: ", ".join(filter(None, (each.meaning, each.unit))) for name, each in COLUMNS.items()},
     }
     yield json.dumps(head, allow_nan=False).removesuffix("}") + ', "columns": {'
-    names = {name: [*map(json.dumps, texts)] for name, texts in (("kind", KINDS), ("label", path.labels))}
+    names = {name: [*map(json.dumps, texts)] for name, texts in path.names.items()}
     for k, (name, column) in enumerate(path.columns().items()):
         yield f'{", " * (k > 0)}"{name}": ['
         for rows in parts(len(path)):
@@ -105,7 +99,6 @@ def _plain(column: NDArray[Any]) -> NDArray[Any]:
     return column if known.all() else np.where(known, column.astype(object), "null")
 
 
-KINDS = [kind.name for kind in Kind]
 OF = ("part", "path")
 BODIES: dict[str, tuple[Callable[..., None], Callable[..., None]]] = {
     ".stl": (export_mesh.write_part_stl, export_mesh.write_stl),

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import wraps
-from inspect import Parameter, isfunction, signature
+from inspect import Parameter, Signature, isfunction, signature
 from numbers import Real
 from reprlib import Repr
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypedDict, TypeVar
 
 import numpy as np
 
 from mnclab.text.alarm import Absent, Alarm, Refused, hint
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 #: No coordinate, feed, speed or other number is as large, whether it is written or worked out.
 LARGEST = 1e9
@@ -120,6 +123,205 @@ def check_point(value: Any, what: str, *, flat: bool = False) -> None:
         check_number(each, what)
 
 
+# The options of pictures, which the doors to them hand on: `run.plot(**options: Unpack[RunOptions])`. Type checkers read them
+# here, and so does Tab in a notebook (`fitting` writes them into the signature). The defaults are those of what draws. What is
+# of a floor above, such as a path or a part, is Any here.
+
+class FigureOptions(TypedDict, total=False):
+    """Of every figure: `size` "a4", "column", "slide" or inches, `size_mm` (85, None), `legend`, `title`."""
+
+    size: str | tuple[float, float] | None
+    size_mm: tuple[float, float | None] | None
+    legend: bool
+    title: str | None
+
+
+class AxesOptions(FigureOptions, total=False):
+    """What can be drawn into axes of one's own, too."""
+
+    ax: Axes | None
+
+
+class OnlyPathOptions(AxesOptions, total=False):
+    """Of a path, with a blank and a part or without; see `show.plot.path.plot_path`."""
+
+    view: str
+    colour: str
+    arrows: bool
+    marks: bool
+    frame: str
+    programmed: Any
+    alarms: Sequence[Alarm]
+    places: Sequence[Any]
+    tools: Mapping[int, Any]
+    insert: bool | int
+    home: bool
+    felt: Any
+    gouged: Any
+    rapids: Any
+    under: Any
+    limits: Any
+    overlays: Sequence[Any]
+    band: bool | None
+
+
+class PathOptions(OnlyPathOptions, total=False):
+    """Of a path, with the blank and the part as they are."""
+
+    stock: Any
+    part: Any
+
+
+class RunOptions(OnlyPathOptions, total=False):
+    """Of a run, which knows its blank and its part; see `show.plot.path.plot_run`."""
+
+    stock: bool
+    part: bool
+    probed: bool
+    centres: bool | None
+    original: bool
+    holes: bool
+    fixtures: bool
+
+
+class RunFileOptions(RunOptions, total=False):
+    """Of a run as a file: an svg in true millimetres, bodies `of` the "part" or the "path"."""
+
+    true_size: bool
+    of: str
+
+
+class SectionOptions(AxesOptions, total=False):
+    """Planes of sections, and where they lie, mm."""
+
+    section: str | Sequence[str]
+    at: float | Sequence[float] | None
+
+
+class PartOptions(SectionOptions, total=False):
+    """See `show.plot.part.plot_part`."""
+
+    colour: str
+    collisions: Iterable[Any]
+
+
+class DifferenceOptions(SectionOptions, total=False):
+    """See `design.difference.plot.plot_difference`."""
+
+    table: bool
+    limit: float | None
+
+
+class ProfileOptions(AxesOptions, total=False):
+    """See `show.plot.profile.plot_profile`."""
+
+    over: str
+    axes: bool
+    limits: bool
+    whole: bool
+    under: Any
+    held: Any
+
+
+class LostOptions(AxesOptions, total=False):
+    """How many lines, and the width in inches."""
+
+    most: int
+    width: float
+
+
+class MeasuredOptions(FigureOptions, total=False):
+    """See `show.plot.measured.plot_measured`."""
+
+    line: int | None
+    factor: float | None
+    part: bool
+    width: float
+    height: float | None
+
+
+class CompensationOptions(AxesOptions, total=False):
+    """See `show.plot.compensation.compensation`."""
+
+    rules: Sequence[str] | None
+    radii: Sequence[float] | None
+    discs: bool | float | Sequence[int]
+    vectors: bool
+    names: bool
+    stock: bool
+    view: str
+    under: Any
+    limits: Any
+
+
+class WidthOptions(FigureOptions, total=False):
+    """The width in inches."""
+
+    width: float
+
+
+class ColumnsOptions(WidthOptions, total=False):
+    """How many views stand in a row."""
+
+    columns: int | None
+
+
+class BodyOptions(TypedDict, total=False):
+    """Of a body in three dimensions; `size` in pixels."""
+
+    axes: bool
+    size: tuple[int, int]
+
+
+class PartBodyOptions(BodyOptions, total=False):
+    """Of a part."""
+
+    collisions: Iterable[Any]
+
+
+class SceneOptions(BodyOptions, total=False):
+    """Of a run; see `show.scene.scene`."""
+
+    row: int
+    tool: bool
+    stock: Any
+    part: bool
+    probed: bool
+
+
+class PlayerOptions(TypedDict, total=False):
+    """Height in pixels; see `show.player.page.Player`."""
+
+    height: int | None
+    theme: str
+    speed: float
+
+
+class DrawingOptions(TypedDict, total=False):
+    """Of a dimensioned drawing: `size` "A4", "A4 landscape", "A3" or "A2", `scale` 0.5 for 1:2."""
+
+    size: str | None
+    scale: float | None
+    sheet: int
+    title: str | None
+
+
+class DesignFileOptions(DrawingOptions, total=False):
+    """Of a design as a file: `step` mm of the cells of its body."""
+
+    step: float | None
+
+
+def _written_out(door: Callable[..., Any], kind: str) -> Signature:
+    """The signature of a door with the options of a kind, "Unpack[RunOptions]", that it hands on."""
+    takes = signature(door)
+    *own, _ = takes.parameters.values()
+    names = globals()[kind.removeprefix("Unpack[").removesuffix("]")].__annotations__
+    options = [Parameter(name, Parameter.KEYWORD_ONLY, default=..., annotation=each.__forward_arg__)
+               for name, each in names.items() if name not in takes.parameters]  # fmt: skip
+    return takes.replace(parameters=[*own, *options])
+
+
 # A call that does not fit a function (an option it does not have, a value it needs) is an Alarm that says what it takes.
 
 #: What is often typed, and how it is called here.
@@ -153,6 +355,8 @@ def fitting(door: Door) -> Door:
             _check(door, given, options)
             raise
 
+    if "Unpack" in (kind := str(door.__annotations__.get("options"))):
+        called.__signature__ = _written_out(door, kind)  # type: ignore[attr-defined]
     return called  # type: ignore[return-value]
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
@@ -16,6 +17,7 @@ from typing import Any, ClassVar, Self, TypeVar
 
 import numpy as np
 
+from mnclab.text.columns import filled, parts, spelled
 from mnclab.text.file import save_as
 from mnclab.text.opening import require
 
@@ -110,7 +112,49 @@ def text_table(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Coll
     return "\n".join("  ".join(side(text, width) for side, text, width in zip(sides, line, widths)).rstrip() for line in lines)
 
 
+# Outlines for a cell: views of a body, of an area or of a tool, side by side at one scale, each with its measures.
+
+ROOM, BESIDE = 220.0, 24.0  # pixels: of the longest side of a view, and between two
+LOOK = 'fill-rule="evenodd" stroke="#1f5fa8" stroke-width="1.5" stroke-linejoin="round"'
+
+
+def svg_of(*views: Sequence[np.ndarray], filled: bool = True, sketch: bool = False) -> str | None:
+    """Views of lines (k, 2) in mm, areas with holes inside `filled` ones, as an SVG; a `sketch` has bodies over one another, and
+    no measures. None where there is nothing to see."""
+    boxes = [np.concatenate(view) for view in views if len(view)]
+    size = max((float(np.ptp(box, axis=0).max()) for box in boxes), default=0.0)
+    if not 0 < size < math.inf:
+        return None
+    drawn, left, scale = [], BESIDE / 2, ROOM / size
+    tall = scale * max(float(np.ptp(box, axis=0)[1]) for box in boxes) + BESIDE / 2
+    for view, box in zip(filter(len, views), boxes):
+        low, (wide, high) = box.min(axis=0), np.ptp(box, axis=0)
+        places = [((line - low) * scale * (1, -1) + (left, tall)).round(2).tolist() for line in view]
+        paths = [f"M{' '.join(f'{x:g},{y:g}' for x, y in line)}{'Z' * filled}" for line in places]
+        paths = paths if sketch else ["".join(paths)]
+        drawn += [f'<path d="{path}" fill="{"#cfe0f1" if filled else "none"}" {LOOK}/>' for path in paths]
+        said = "" if sketch else f"{wide:.5g} × {high:.5g} mm"
+        drawn.append(f'<text x="{left:g}" y="{tall + 16:g}" font-size="12" font-family="sans-serif" fill="#777">{said}</text>')
+        left += max(scale * wide, 8.0 * len(said)) + BESIDE
+    return f'<svg xmlns="http://www.w3.org/2000/svg" width="{left:.0f}" height="{tall + BESIDE:.0f}">{"".join(drawn)}</svg>'
+
+
 # Records that know their columns: one declaration gives the text, the table of a notebook, the file and the data frame.
+
+def data_frame(columns: Mapping[str, Any]) -> Any:
+    """Columns by their names as a data frame of pandas."""
+    require("pandas", "data frames", "pandas", instead="columns() needs nothing")
+    import pandas
+
+    return pandas.DataFrame(columns)
+
+
+def _of_text(cell: Any) -> Any:
+    """A number that a table shows; nan for a cell without one, and what is no number as it is."""
+    if cell in ("", "\N{EN DASH}"):
+        return math.nan
+    return float(cell.replace("\N{MINUS SIGN}", "-")) if isinstance(cell, str) and NUMBER.fullmatch(cell) else cell
+
 
 class Listing(ABC):
     """What prints as a table and is saved as one: a class says its heads and the texts of its rows.
@@ -170,9 +214,15 @@ class Listing(ABC):
         said = [more, self.reach] if rows else [self.nothing]
         return paragraphs(self.above) + shown + paragraphs(*said, *self.notes)
 
+    def record(self) -> tuple[Sequence[str], Sequence[Sequence[Any]], Collection[int]]:
+        """Heads, each in a line, and rows of the file and of the data frame, and which columns are numbers."""
+        head, rows, numbers = self.table()
+        return [name.replace("\n", ", ") for name in head], rows, numbers
+
     def csv(self) -> str:
         """The table as comma-separated values."""
-        return csv_text(self.head, *self.texts())
+        head, rows, _ = self.record()
+        return csv_text(head, *rows)
 
     def columns(self) -> dict[str, np.ndarray]:
         """The table as arrays, as it is shown."""
@@ -180,20 +230,20 @@ class Listing(ABC):
         return {name: np.array([row[k] for row in rows]) for k, name in enumerate(head)}
 
     def to_pandas(self) -> Any:
-        """The table as a data frame of pandas."""
-        require("pandas", "data frames", "pandas", instead="columns() needs nothing")
-        import pandas
-
-        return pandas.DataFrame(self.columns())
+        """The table as a data frame of pandas: the columns of `csv()`, numbers as numbers, nan where there is none."""
+        head, rows, numbers = self.record()
+        of = [_of_text if k in numbers else str for k in range(len(head))]
+        return data_frame({name: [of[k](row[k]) for row in rows] for k, name in enumerate(head)})
 
     def save(self, path: str | Path, **options: Any) -> Path:
         """Write the table (.csv), which takes no options."""
         return save_as(self, path, {".csv": write_csv}, "tables are saved as .csv, not as {}", **options)
 
 
-def write_csv(listing: Listing, path: Path) -> None:
-    """The table of a listing as a file."""
-    path.write_text(listing.csv(), "utf-8", newline="")
+def write_csv(listing: Any, path: Path) -> None:
+    """The table of a listing, or of columns, as a file."""
+    with path.open("w", encoding="utf-8", newline="") as file:
+        file.writelines(listing.csv_parts() if isinstance(listing, Columned) else [listing.csv()])
 
 
 def write_picture(what: Any, path: Path, **options: Any) -> None:
@@ -204,17 +254,48 @@ def write_picture(what: Any, path: Path, **options: Any) -> None:
 
 
 class Pictured(ABC):
-    """What has a picture, and is saved as one: a class says how to `plot` it."""
+    """What has a picture, and is saved as one: a class says how to `plot` it (needs matplotlib)."""
 
-    @abstractmethod
-    def plot(self, **options: Any) -> Any:
-        """The picture (needs matplotlib)."""
+    plot: Callable[..., Any]
 
     def save(self, path: str | Path, **options: Any) -> Path:
         """Write the picture (.svg, .pdf, .png), `options` such as `size="column"` are those of `plot`; or a table (.csv)."""
         writers: dict[str, Callable[..., None]] = dict.fromkeys((".svg", ".pdf", ".png"), write_picture)
-        writers |= {".csv": write_csv} if isinstance(self, Listing) else {}
+        writers |= {".csv": write_csv} if hasattr(self, "csv") else {}
         return save_as(self, path, writers, "cannot write a picture as {}", **options)
+
+
+class Columned(ABC):
+    """What has long columns of numbers: an array by each name, all of one length."""
+
+    @abstractmethod
+    def columns(self) -> dict[str, np.ndarray]:
+        """The columns (n,)."""
+
+    @property
+    def names(self) -> dict[str, Sequence[str]]:
+        """Of columns whose numbers stand for names, by the name of the column."""
+        return {}
+
+    def csv_parts(self) -> Iterator[str]:
+        """`csv()` some rows at a time; a label may need quotes."""
+        columns = self.columns()
+        columns |= {name: column.view(np.uint8) for name, column in columns.items() if column.dtype == np.bool_}
+        quoted = {name: [csv_text((text, "")).removesuffix(",\n") for text in texts] for name, texts in self.names.items()}
+        yield csv_text([*columns])
+        for rows in parts(len(next(iter(columns.values())))):
+            some = {name: column[rows] for name, column in columns.items()}
+            some |= {name: spelled(texts, some[name]) for name, texts in quoted.items()}
+            yield filled(",".join(["%s"] * len(some)) + "\n", some.values())
+
+    def csv(self) -> str:
+        """The columns as comma-separated values, numbers with all their digits and names as such."""
+        return "".join(self.csv_parts())
+
+    def to_pandas(self) -> Any:
+        """The columns as a data frame of pandas: those of `csv()`."""
+        columns = self.columns()
+        return data_frame(columns | {name: spelled(texts, columns[name]) for name, texts in self.names.items()})
 
 
 def paragraphs(*sentences: str) -> str:

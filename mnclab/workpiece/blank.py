@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import File, check_names
 from mnclab.text.given import check_number, check_point, either, fitting, refusing_class, shown
-from mnclab.text.tables import written
+from mnclab.text.tables import svg_of, written
 
 CORNERS = 96  # of a circle in a picture
 FARTHEST = 1e9  # mm, where a blank may stand
@@ -30,6 +30,9 @@ class Box(NamedTuple):
 
     def __repr__(self) -> str:
         return written(self)
+
+    def _repr_svg_(self) -> str | None:
+        return svg_of(self.outline(0, 1), self.outline(0, 2))
 
     def moved(self, by: ArrayLike) -> Box:
         low, high = (np.asarray(corner, dtype=np.float64) + np.asarray(by) for corner in self)
@@ -83,6 +86,9 @@ class Revolved(NamedTuple):
 
     def __repr__(self) -> str:
         return written(self)
+
+    def _repr_svg_(self) -> str | None:
+        return svg_of(self.outline(0, 1), self.outline(0, 2))
 
     @property
     def along(self) -> int:

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import NamedTuple
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, NamedTuple, Unpack
 
 from mnclab.path.listing import Unit
 from mnclab.path.tool import Tool
-from mnclab.text.alarm import SHOWN, several
-from mnclab.text.tables import Listing, html_table, paragraphs, written
+from mnclab.text.alarm import SHOWN, Alarm, several
+from mnclab.text.given import SectionOptions, fitting
+from mnclab.text.tables import Listing, Pictured, html_table, paragraphs, written
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from mnclab.workpiece.workpiece import Workpiece
 
 KINDS = {
     "rapid": "rapid motion in material",
@@ -70,7 +76,7 @@ class Collision(NamedTuple):
         return self._asdict() | {"place": list(self.place)}
 
 
-class Collisions(Listing, tuple[Collision, ...]):
+class Collisions(Pictured, Listing, tuple[Collision, ...]):
     """Collisions in the order of the rows, each row and kind once.
 
     Shows itself as a table of the first lines, where those of one kind in one line stand together: the deepest, and how
@@ -83,11 +89,22 @@ class Collisions(Listing, tuple[Collision, ...]):
     """
 
     HEAD = ("place", "kind", "message")
+    part: Callable[[], Workpiece] | None = None
 
-    def __new__(cls, found: Iterable[Collision] = (), notes: Iterable[str] = (), reach: str = "") -> Collisions:
+    def __new__(
+        cls, found: Iterable[Collision] = (), notes: Iterable[str] = (), reach: str = "",
+        part: Callable[[], Workpiece] | None = None,
+    ) -> Collisions:  # fmt: skip
         made = super().__new__(cls, sorted(found, key=lambda each: (each.row, each.kind)))
-        made.notes, made.reach = tuple(notes), reach
+        made.notes, made.reach, made.part = tuple(notes), reach, part
         return made
+
+    @fitting
+    def plot(self, *, colour: str = "depth", **options: Unpack[SectionOptions]) -> Figure:
+        """The part that the run leaves, with a red cross at each; options as in `Workpiece.plot`."""
+        if self.part is None:
+            raise Alarm("these collisions are of no run that could be drawn", hint="run.collisions().plot()")
+        return self.part().plot(collisions=self, colour=colour, **options)
 
     @property
     def ok(self) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from mnclab.path.listing import MM, Unit
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Array, Index, Kind
-from mnclab.text.given import choice, fitting_class
+from mnclab.text.given import FigureOptions, choice, fitting_class
 from mnclab.text.tables import Listing, Pictured, Rounded, written
 from mnclab.workpiece.ahead import FEW, RATE, Looks
 from mnclab.workpiece.workpiece import Workpiece
@@ -200,7 +200,7 @@ class Removal(Pictured, Listing):
         """Where the largest rate is: the line, with its program where that was called."""
         return str(fastest.line) if not fastest.program else f"{fastest.program}:{fastest.line}"
 
-    def plot(self, **options: Any) -> Figure:
+    def plot(self, **options: Unpack[FigureOptions]) -> Figure:
         """The feed over time and the removal rate under it; see `show.plot.over_time.plot_removal`."""
         from mnclab.show.plot.over_time import plot_removal
 

@@ -6,14 +6,14 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, NamedTuple, Self, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mnclab.path.toolpath import Array, Index
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_point, choice, fitting_class
+from mnclab.text.given import PartBodyOptions, PartOptions, check_point, choice, fitting_class
 from mnclab.text.opening import opened
 from mnclab.text.tables import Rounded
 from mnclab.workpiece.ahead import Ahead
@@ -197,19 +197,19 @@ class Workpiece(ABC):
 
     # --- doors -------------------------------------------------------------------------------------------------------
 
-    def plot(self, **options: Any) -> Figure:
+    def plot(self, **options: Unpack[PartOptions]) -> Figure:
         """The part from above in shaded relief, or the half section of a lathe; see `show.plot.part.plot_part`."""
         from mnclab.show.plot.part import plot_part
 
         return plot_part(self, **options)
 
-    def scene(self, colour: str = "depth", **options: Any) -> pyvista.Plotter:
+    def scene(self, colour: str = "depth", **options: Unpack[PartBodyOptions]) -> pyvista.Plotter:
         """The part as a body (needs pyvista); see `show.scene.part_body`."""
         from mnclab.show.scene import part_body
 
         return part_body(self, colour, **options)
 
-    def save(self, path: str | Path, **options: Any) -> Path:
+    def save(self, path: str | Path, **options: Unpack[PartOptions]) -> Path:
         """Write one file; the suffix says what: stl, gltf, glb, vtk (the body), svg, pdf, png (the picture), csv."""
         from mnclab.show.export_mesh import save
 
@@ -219,6 +219,10 @@ class Workpiece(ABC):
     def error_told(self) -> str:
         """How far a surface may be off, in words; nothing where it is no more than the rounding of numbers."""
         return f", within {1000 * self.error:.3g} µm" if self.error > ROUNDING else ""
+
+    def _repr_html_(self) -> str:
+        picture: Any = self.plot()
+        return str(picture.html(2.0))
 
     def __repr__(self) -> str:
         told = f"{self.volume:.3f} mm³ left, {self.removed:.3f} mm³ removed"

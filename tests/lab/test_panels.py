@@ -37,15 +37,22 @@ def grey(ax):
         ((10, 10, 60), 10, (10, 60), None),
         ((-10, -1, 0.5), -5.5, (-10, -1), 0.5),  # the middle, and a step
         ((0, 10, 3), 6, (0, 10), 3),  # 5 lies between the steps 3 and 6
+        ((0, 50), 25, (0, 50), None),  # as ipywidgets.interact has it: the middle of whole numbers is whole
+        ((0, 5), 2, (0, 5), None),
+        ((0.0, 5.0), 2.5, (0, 5), None),
         ((0.1, 0.5, 0.1), 0.3, (0.1, 0.5), 0.1),  # and not 0.30000000000000004
     ],
 )
-def test_the_two_orders_of_three_numbers(given, value, limits, step):
+def test_a_range_and_the_two_orders_of_three_numbers(given, value, limits, step):
     place = place_of("depth", given)
     assert (place.value, place.limits, place.step) == (value, limits, step)
+    assert isinstance(place.value, int) == all(isinstance(each, int) for each in (given if isinstance(given, tuple) else [given]))
 
 
-@pytest.mark.parametrize("given", [(5, 3, 1), (1, 2, 3), (0, 10, 0), (0, 10, -1), (0, 10, 11), (1, 2), "5", (1, "2", 3)])
+WRONG = [(5, 3, 1), (1, 2, 3), (0, 10, 0), (0, 10, -1), (0, 10, 11), (2, 1), (1, 1), (), "5", (1, "2", 3)]
+
+
+@pytest.mark.parametrize("given", WRONG)
 def test_an_order_that_means_nothing_is_refused_with_what_to_write(given):
     with pytest.raises(Alarm) as caught:
         mnclab.panel("G0 Z{depth}\n", "mnc", depth=given)

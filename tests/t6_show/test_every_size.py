@@ -172,6 +172,22 @@ def test_all_texts_stand_inside_and_apart(name, size):
     assert not wrong, "\n".join(wrong)
 
 
+@pytest.mark.parametrize("name", deep_but_one_in(6, FIGURES))
+def test_every_figure_has_its_title_above_all_else(name):
+    """Two lines of it in a column; a page is as wide as without, and a slide as high, too."""
+    said = "A title that is too long for one line of a column of a page"
+    for size in SIZES:
+        figure = FIGURES[name](size=size, title=said)
+        assert not faults(figure)
+        (box,) = [box for text, box in texts(figure) if text.replace("\n", " ") == said]
+        assert all(box.y0 >= other.y1 - 1 for text, other in texts(figure) if text.replace("\n", " ") != said)
+        assert figure.get_size_inches()[0] * 25.4 == pytest.approx({"a4": 170, "column": 85, "slide": 338.582}[size], abs=0.1)
+        assert size != "slide" or figure.get_size_inches()[1] == pytest.approx(7.5)
+    figure = FIGURES[name](title="A title")
+    assert "A title" in [text for text, _ in texts(figure)] and figure.alt.startswith("A title: ")
+    assert figure.get_figheight() == pytest.approx(FIGURES[name]().get_figheight() + 0.08 + 12 / 72, abs=1e-9)
+
+
 @pytest.mark.parametrize("name", ["strategies", "passes", "threads", "engagement", "turning schemes"])
 def test_views_side_by_side_use_the_width_of_a_slide(name):
     boxes = [ax.get_position() for ax in FIGURES[name](size="slide").axes]

@@ -157,7 +157,7 @@ def test_words_of_a_table_stand_to_the_left(notebook):
 
 
 @pytest.mark.parametrize(
-    "number", [(1, 2), (1, 5, 9), (5, 1, 2), (1, 2, 3, 4), float("nan"), (1, 0, float("inf")), "5", True, [1, 0, 2]]
+    "number", [(2, 1), (1, 5, 9), (5, 1, 2), (1, 2, 3, 4), float("nan"), (1, 0, float("inf")), "5", True, [1, 0, 2]]
 )
 def test_a_number_of_a_panel_has_a_value_and_limits(number):
     with pytest.raises(Alarm, match="x "):

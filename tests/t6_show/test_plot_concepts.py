@@ -262,6 +262,23 @@ def test_runs_stand_side_by_side_at_one_scale():
             mnc.plot_runs(wrong)
 
 
+def test_runs_are_named_as_profiles_are():
+    """One after the other, as a list, by a dict or by names; those that are called alike have their number."""
+    one, other = run("G0 X0\nG1 X10 F100\n"), run("G0 X0\nG1 X20 F100\n")
+    called = one.program.title
+    for draw, said in (
+        (mnc.plot_runs, lambda picture: [ax.get_title(loc="left") for ax in picture.axes]),
+        (mnc.plot_profiles, lambda picture: [ax.texts[0].get_text().rpartition(": ")[0] for ax in picture.axes]),
+    ):
+        for picture in (draw(one, other), draw([one, other])):
+            assert said(picture) == [f"{called} (1)", f"{called} (2)"]
+        for picture in (draw(one, other, names=["a", "b"]), draw({"a": one, "b": other})):
+            assert said(picture) == ["a", "b"]
+        for given, names in (((one,), ["a", "b"]), (([],), ()), (({"a": 1},), ()), ((one, 5), ())):
+            with pytest.raises(mnc.Alarm):
+                draw(*given, names=names)
+
+
 def test_a_spiral_in_a_face_comes_in_by_the_feed_in_every_turn():
     path = sample("nc-31/spiral_groove.nc31").toolpath  # from X105 to X4 (diameters) at 2 mm a turn
     row = faces(path)[0]

@@ -344,6 +344,23 @@ def test_a_part_that_cannot_be_saved_is_a_wrong_command_line(material, capsys, w
     assert capsys.readouterr().err.startswith("mnclab: alarm: ")
 
 
+@pytest.mark.parametrize("command", [["check"], ["time"], ["exercise", "list"], ["grade"]])
+def test_a_table_is_asked_for_alike_and_no_program_is_taken_for_its_name(folder, capsys, command):
+    """`--csv`, `--csv -` and `--csv OUT.csv` wherever there is a table; what follows and is no .csv stays as it was."""
+    (folder / "pupils" / "anna").mkdir(parents=True)
+    (folder / "pupils" / "anna" / "mnc-03.mnc").write_text("G0 X0\n")
+    places = {"check": ["good.mnc"], "time": ["good.mnc"], "grade": ["pupils"]}.get(command[0], [])
+    before = (folder / "good.mnc").read_bytes()
+    for words in ([*places, "--csv"], ["--csv", *places], [*places, "--csv", "-"]):
+        assert mnclab(*command, *words) in (0, 1)
+        printed = capsys.readouterr().out
+        assert len(printed.splitlines()[0].split(",")) > 2
+    assert mnclab(*command, "--csv", "out.csv", *places) in (0, 1)
+    assert (folder / "out.csv").read_text("utf-8") == printed and capsys.readouterr().out == ""
+    assert mnclab(*command, *places, "--csv=out.txt") == 2 and not (folder / "out.txt").exists()
+    assert (folder / "good.mnc").read_bytes() == before
+
+
 def test_a_stroke_is_stdout_and_no_file(folder, capsys):
     assert mnclab("time", "good.mnc", "--csv", "-") == 0
     dashed = capsys.readouterr().out

@@ -60,7 +60,7 @@ RIGHT = {
     "box length": 80.0, "box width": 60.0, "box height": 20.0, "blank.cylinder radius": 20.0, "cylinder radius": 20.0,
     "blank.cylinder low": -60.0, "cylinder low": -60.0, "low": (0.0, 0.0), "high": (1.0, 1.0),
     "source": MILLED, "control": "mnc", "code": "G83", "one": RUN, "other": RUN, "compare tool": Tool(5.0), "tools": [Tool(5.0)],
-    "compare_turning tool": Tool(kind="turning"), "runs": {"a": RUN}, "plot_profiles profile": RUN.profile(),
+    "compare_turning tool": Tool(kind="turning"), "plot_runs run": RUN, "plot_profiles profile": RUN.profile(),
     "design.Chamfer contour": SQUARE, "contour": SQUARE, "design.Chamfer width": 1.0, "design.Groove width": 3.0,
     "start": (0.0, 0.0),
     "end": (10.0, 0.0), "start_depth": 1.0, "end_depth": 2.0, "design.Thread thread": "M20", "design.Thread start": 0.0,
@@ -178,6 +178,6 @@ def called(door, values):
 
 
 def parameters(door):
-    """The names of the parameters that take a value each."""
+    """The names of the parameters that take a value each, without the options that are handed on."""
     takes = inspect.signature(door).parameters.values()
-    return [each.name for each in takes if each.kind not in (each.VAR_KEYWORD, each.VAR_POSITIONAL)]
+    return [each.name for each in takes if each.kind not in (each.VAR_KEYWORD, each.VAR_POSITIONAL) and each.default is not ...]

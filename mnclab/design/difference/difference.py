@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
 from mnclab.design.model.measures import Measure
 from mnclab.path.toolpath import Array
+from mnclab.text.given import DifferenceOptions, fitting
 from mnclab.text.tables import Rows, html_table
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.workpiece import ROUNDING
@@ -113,7 +114,8 @@ class Difference:
 
     # --- doors -------------------------------------------------------------------------------------------------------
 
-    def plot(self, **options: Any) -> Figure:
+    @fitting
+    def plot(self, **options: Unpack[DifferenceOptions]) -> Figure:
         """The signed map, of a lathe the half section, with sections and table; see `design.difference.plot.plot_difference`."""
         from mnclab.design.difference.plot import plot_difference
 
@@ -125,7 +127,8 @@ class Difference:
 
         return scene(self, **options)
 
-    def save(self, path: str | Path, **options: Any) -> Path:
+    @fitting
+    def save(self, path: str | Path, **options: Unpack[DifferenceOptions]) -> Path:
         """Write one file; the suffix says what: svg, pdf, png (the picture), csv (the table), json, html (a record)."""
         from mnclab.design.difference.export import save
 

@@ -80,7 +80,7 @@ class Side:
     side_levels: list[DepthLine] = field(default_factory=list)
 
     @property
-    def features(self) -> tuple[Feature, ...]:
+    def features(self) -> Sequence[Feature]:
         return self.design.back if self.back else self.design.features
 
     @property

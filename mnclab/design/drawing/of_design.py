@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -32,18 +32,19 @@ class DesignDrawing(Drawing):
     dimensions: tuple[Dimensioned, ...] = ()
 
 
-def drawing(design: Any, *, size: str | None = None, scale: float | None = None) -> DesignDrawing:
+def drawing(design: Any, *, size: str | None = None, scale: float | None = None, title: str | None = None) -> DesignDrawing:
     """The dimensioned drawing of a design, on "A4", "A4 landscape", "A3" or "A2" and at a scale (0.5 is 1:2), both chosen
-    where they are not given.
+    where they are not given; with a `title` in place of its own.
 
     Where a view has no room for its dimensions, or only in a small scale, holes, then all features stand in a table, and the
     sheet may be A2; an Alarm where that fails too.
     """
     if not isinstance(design, Design | TurnedDesign):
         raise Alarm(f"a drawing is made of a design, got {shown(design)}", hint="Design(blank, features).plot()")
+    design = design if title is None else replace(design, title=title)
     if not design.volume > 0:
         raise Alarm("there is nothing to draw: the features take the whole blank away")
-    title = Title(design.title or "part", design.number, design.material, design.general, design.date, design.author)
+    block = Title(design.title or "part", design.number, design.material, design.general, design.date, design.author)
     best: DesignDrawing | None = None
     refused: Alarm | None = None
     for attempt in _attempts(design):
@@ -52,7 +53,7 @@ def drawing(design: Any, *, size: str | None = None, scale: float | None = None)
         if attempt[0] < TABLES[-1] and max(len(view.dimensions) for view in views) > MOST:
             continue
         try:
-            found = draw(views, title, size=size, scale=scale, tables=ledger.tables)
+            found = draw(views, block, size=size, scale=scale, tables=ledger.tables)
         except Alarm as fault:
             refused = fault
             continue
@@ -84,14 +85,17 @@ def _drafts(design: Design | TurnedDesign, ledger: Ledger, tabled: int, beside: 
 
 
 @fitting
-def plot(design: Any, *, size: str | None = None, scale: float | None = None, sheet: int = 1) -> Picture:
-    """The drawing of a design as a figure in true size; `sheet` where there are several."""
-    return drawing(design, size=size, scale=scale).figure(sheet)
+def plot(
+    design: Any, *, size: str | None = None, scale: float | None = None, sheet: int = 1, title: str | None = None
+) -> Picture:
+    """The drawing of a design as a figure in true size; `sheet` where there are several, `title` in place of its own."""
+    return drawing(design, size=size, scale=scale, title=title).figure(sheet)
 
 
 @fitting
 def save(
-    design: Any, path: str | Path, *, size: str | None = None, scale: float | None = None, sheet: int | None = None
-) -> Path:
+    design: Any, path: str | Path, *, size: str | None = None, scale: float | None = None, sheet: int | None = None,
+    title: str | None = None,
+) -> Path:  # fmt: skip
     """Write the drawing of a design: pdf with all its sheets, or one sheet as svg, png or dxf."""
-    return drawing(design, size=size, scale=scale).save(path, sheet)
+    return drawing(design, size=size, scale=scale, title=title).save(path, sheet)

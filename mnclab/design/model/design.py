@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,7 +21,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.path.toolpath import Array
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, check_point, choice, fitting_class, shown
+from mnclab.text.given import DesignFileOptions, DrawingOptions, check_number, check_point, choice, fitting_class, shown
 from mnclab.text.tables import exactly, html_table
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 from mnclab.workpiece.cutting import Cutting
@@ -67,13 +67,13 @@ class AsDrawn(ABC):
 
         return load(path)
 
-    def save(self, path: str | Path, **options: Any) -> Path:
+    def save(self, path: str | Path, **options: Unpack[DesignFileOptions]) -> Path:
         """Write one file: toml the design; svg, pdf, png, dxf its drawing; stl, gltf, glb, vtk, csv its body."""
         from mnclab.design.model.design_file import save
 
         return save(self, path, **options)
 
-    def plot(self, **options: Any) -> Figure:
+    def plot(self, **options: Unpack[DrawingOptions]) -> Figure:
         """The dimensioned drawing in true size; `size` "A4", "A4 landscape", "A3" or "A2", `scale` 0.5 for 1:2, and `sheet`."""
         from mnclab.design.drawing import plot
 
@@ -99,8 +99,8 @@ class Design(AsDrawn):
     """
 
     blank: Any
-    features: tuple[Feature, ...] = ()
-    back: tuple[Feature, ...] = ()
+    features: Sequence[Feature] = ()
+    back: Sequence[Feature] = ()
     turn: str = field(default="x", kw_only=True)
     title: str = field(default="", kw_only=True)
     number: str = field(default="", kw_only=True)
@@ -159,7 +159,7 @@ class Design(AsDrawn):
             found.append(Taken(k, True, body.turned_over(*self.flip)))
         return tuple(found)
 
-    def _taken(self, features: tuple[Feature, ...], where: str) -> Iterator[tuple[int, Removal]]:
+    def _taken(self, features: Sequence[Feature], where: str) -> Iterator[tuple[int, Removal]]:
         """The bodies of the features of one side, in its own frame."""
         site, late = self._site(where == "back"), list[int]()
         found: list[tuple[int, Removal]] = []
@@ -173,7 +173,7 @@ class Design(AsDrawn):
             found += [(k, body) for body in self._removals(features, k, site, where)]
         yield from found
 
-    def _removals(self, features: tuple[Feature, ...], k: int, site: Site, where: str) -> list[Removal]:
+    def _removals(self, features: Sequence[Feature], k: int, site: Site, where: str) -> list[Removal]:
         each = features[k]
         top = site.top if each.top is None else each.top
         if isinstance(each, Stud) and any(_stands_in(each, other) for other in features):
@@ -321,7 +321,7 @@ class Design(AsDrawn):
         return tuple(name_of(features, k) for k in range(len(features)))
 
 
-def name_of(features: tuple[Any, ...], k: int) -> str:
+def name_of(features: Sequence[Any], k: int) -> str:
     """The name of a feature, else its kind, with a number where there are several."""
     each = features[k]
     same = [i for i, other in enumerate(features) if other.kind == each.kind and not other.name]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -49,7 +49,7 @@ class TurnedDesign(AsDrawn):
     """
 
     profile: Any
-    features: tuple[TurnedFeature, ...] = ()
+    features: Sequence[TurnedFeature] = ()
     blank: Any = field(default=None, kw_only=True)
     roundings: Mapping[int, float] = field(default_factory=dict, kw_only=True, hash=False)
     chamfers: Mapping[int, Any] = field(default_factory=dict, kw_only=True, hash=False)

@@ -97,9 +97,9 @@ def grouped(parameters: Iterable[Any], fields: dict[str, Field]) -> list[Any]:
 LONG = 50  # letters of a choice that have no room in a form in letters of the usual size
 STEPS = 100  # of a slider that was given none
 NO_UNITS = ("choice", "count", "text")
-ORDERS = "(value, least, greatest) or (least, greatest, step)"
+ORDERS = "(least, greatest), (value, least, greatest) or (least, greatest, step)"
 
-Number = float | tuple[float, float, float]
+Number = float | tuple[float, float] | tuple[float, float, float]
 
 
 class NumberField(NamedTuple):
@@ -111,20 +111,24 @@ class NumberField(NamedTuple):
 
 
 def place_of(name: str, number: Any) -> NumberField:
-    """A number, `(value, least, greatest)`, or `(least, greatest, step)`, which begins on a step in the middle.
+    """A number, `(value, least, greatest)`, or `(least, greatest, step)`, which begins on a step in the middle; or, as in
+    ipywidgets, `(least, greatest)`, which begins in the middle, of whole numbers on a whole one.
 
-    Which of the two orders is meant is never in doubt: the first of (40, 10, 60) lies between the others, that of
+    Which of the two orders of three is meant is never in doubt: the first of (40, 10, 60) lies between the others, that of
     (-10, -1, 0.5) does not.
     """
     parts = number if isinstance(number, tuple) else (number,)
-    if len(parts) not in (1, 3):
+    if not 1 <= len(parts) <= 3:
         raise Alarm(f"{name} takes a number, {ORDERS}, got {shown(number)}")
     for part in parts:
         check_number(part, name)
     if len(parts) == 1:
         return NumberField(parts[0])
-    first, second, third = parts
-    if second <= first <= third:
+    first, second, third = (*parts, 0)[:3]
+    if len(parts) == 2 and first < second:
+        half = (second - first) // 2 if isinstance(second - first, int) else (second - first) / 2
+        return NumberField(round(first + half, 9), (first, second))
+    if len(parts) == 3 and second <= first <= third:
         return NumberField(first, (second, third))
     if first < second and 0 < third <= second - first:
         return NumberField(on_step(first + (second - first) / 2, first, second, third), (first, second), third)

@@ -6,7 +6,7 @@ import inspect
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from mnclab.machining.milling.strategies import STRATEGIES
 from mnclab.path.profile import Profile
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm, hint
-from mnclab.text.given import check_number, choice, fitting, shown
+from mnclab.text.given import CompensationOptions, ProfileOptions, check_number, choice, fitting, shown
 
 PLACE = re.compile(r"\{(\w+)\}")
 
@@ -38,6 +38,7 @@ def panel(
 
     - `side=40.0`: a number; a whole number (`side=40`) stays whole.
     - `side=(40, 10, 60)`: value, least, greatest.
+    - `side=(10, 60)`: least, greatest; it begins in the middle.
     - `depth=(-10, -1, 0.5)`: least, greatest, step; it begins on a step in the middle. This order is taken where the first
       number does not lie between the other two.
 
@@ -135,7 +136,7 @@ SIZE_BELOW = (6.4, 4.9)  # inches, below a row of boxes
 
 
 @fitting
-def compensation_panel(run: Run, **options: Any) -> Any:
+def compensation_panel(run: Run, **options: Unpack[CompensationOptions]) -> Any:
     """A box for the tool radius and a choice for outside corners, with contour and tool-centre path that follow.
 
     `options` are those of `show.plot.compensation.compensation`. The result has `boxes` ("radius", and
@@ -162,7 +163,8 @@ def compensation_panel(run: Run, **options: Any) -> Any:
         if corners:
             setup = setup.with_settings(outside_corners=boxes["corners"].value)
         live.run = again = run.again(setup)
-        work = of_run(again, lambda **kept: again.plot_compensation(**{"size": SIZE_BELOW} | kept | options))
+        plot: Callable[..., Any] = again.plot_compensation
+        work = of_run(again, lambda **kept: plot(**{"size": SIZE_BELOW, **kept, **options}))
         return work._replace(shows=True)  # hatched, where the tool does not fit
 
     def field_of(alarm: Alarm) -> str:
@@ -173,7 +175,7 @@ def compensation_panel(run: Run, **options: Any) -> Any:
 
 
 @fitting
-def profile_panel(profile: Profile | Run, **options: Any) -> Any:
+def profile_panel(profile: Profile | Run, **options: Unpack[ProfileOptions]) -> Any:
     """Number boxes for the limits of a machine, with the profile (that of a run too) and its times following.
 
     A box has the least of the limits of all axes and, once it was changed, counts for all of them; a jerk of 0 means no
@@ -260,7 +262,7 @@ def pocket_panel(
     return following(boxes, fields, None, work, field_of, title="pocket", classes="mnclab-panel")
 
 
-def refuse_unknown(options: dict[str, Any], plot: Any) -> None:
+def refuse_unknown(options: Mapping[str, Any], plot: Any) -> None:
     """An Alarm for options that a figure does not have: no value in a box would mend them."""
     from mnclab.show.plot.sizes import ADDED, check_options
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 from operator import attrgetter
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,8 +16,8 @@ from mnclab.path.profile.lookahead import running_sum
 from mnclab.path.profile.timing import PlannedRows, plan
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import choice, fitting_class, shown
-from mnclab.text.tables import Pictured, Rounded, fixed, html_table, shapes
+from mnclab.text.given import LostOptions, PathOptions, ProfileOptions, choice, fitting_class, shown
+from mnclab.text.tables import Columned, Pictured, Rounded, fixed, html_table, shapes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -151,7 +151,7 @@ class Instant(NamedTuple):
 
 
 @fitting_class
-class Profile(Pictured):
+class Profile(Pictured, Columned):
     """A path under limits, as pieces of constant jerk, or of constant acceleration without a jerk limit.
 
     Columns: `t` s, `s` mm, `v` mm/s at the nodes (m + 1,); `a` mm/s² at the start and `j` mm/s³ of each piece
@@ -312,7 +312,7 @@ class Profile(Pictured):
         rows = [(cause, f"{took:.3f} s", f"{100 * took / self.time:.1f} %") for cause, took in causes.items()]
         return html_table(("time", f"{self.time:.3f} s", self.reach), rows, numbers=(1, 2))
 
-    def plot(self, **options: Any) -> Figure:
+    def plot(self, **options: Unpack[ProfileOptions]) -> Figure:
         """Programmed and reached feed, acceleration and jerk over time, stops, limits, and which of them governs where.
 
         `over="path"` shows them over the path length, `axes=True` adds X, Y and Z; see `mnclab.show.plot.profile.plot_profile`.
@@ -321,13 +321,13 @@ class Profile(Pictured):
 
         return plot_profile(self, **options)
 
-    def plot_reached(self, **options: Any) -> Figure:
+    def plot_reached(self, **options: Unpack[PathOptions]) -> Figure:
         """The path coloured by the feed that is reached; options as in `mnclab.show.plot.path.plot_path`."""
         from mnclab.show.plot.profile import plot_reached
 
         return plot_reached(self, **options)
 
-    def plot_lost(self, **options: Any) -> Figure:
+    def plot_lost(self, **options: Unpack[LostOptions]) -> Figure:
         """The time of each line beside its text, and how much of it the machine adds; `most` lines."""
         from mnclab.show.plot.profile import plot_lost
 

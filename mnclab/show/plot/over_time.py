@@ -18,6 +18,7 @@ from mnclab.show.plot import colours
 from mnclab.show.plot.colours import LineStyle
 from mnclab.show.plot.picture import SMALL, Picture, calm, clear, figure_of, stacked, write_cut_off, write_legend
 from mnclab.show.plot.profile import curve, drawn_pieces, plot_profile, thinned
+from mnclab.show.plot.side_by_side import by_name
 from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import choice, fitting, shown
@@ -37,19 +38,16 @@ def plot_profiles(
 ) -> Picture:
     """The feed of several profiles, or runs, under one another: `plot_profiles(run.profile("small-mill"), run)`.
 
-    They may be a list, too. All begin at 0 and have the same scales; bands stand for rapids. `names` are what they are called
-    (default: program and machine), each with its time; `over` "time" (s) or "path"; `width` of the figure in inches. Lengths
-    are in inches where all programs are, else in mm.
+    They may be a list or a dict, too. All begin at 0 and have the same scales; bands stand for rapids. `names` are what they are
+    called (default: program and machine), each with its time; `over` "time" (s) or "path"; `width` of the figure in inches.
+    Lengths are in inches where all programs are, else in mm.
     """
     over = choice(over, "over", ("time", "path"))
-    found = [_profile(each) for each in (*(profile if isinstance(profile, list | tuple) else [profile]), *others)]
-    if not 0 < len(found) <= MOST:
-        hint = 'plot_profiles(run.profile("small-mill"), run.profile("fast-mill"))'
+    hint = 'plot_profiles(run.profile("small-mill"), run.profile("fast-mill"))'
+    profiles = by_name((profile, *others), names, _profile, hint)
+    if len(found := list(profiles.values())) > MOST:
         raise Alarm(f"a picture has 1 to {MOST} profiles, got {len(found)}", hint=hint)
-    named = isinstance(names, tuple | list) and all(isinstance(name, str) for name in names)
-    if not named or names and len(names) != len(found):
-        raise Alarm(f"there must be a name for each of {len(found)} profiles, got {shown(names)}")
-    called = [f"{name}: {each.time:.2f} s" for name, each in zip(names or _names(found), found)]
+    called = [f"{name}: {each.time:.2f} s" for name, each in profiles.items()]
     height = min(HIGH, 0.5 * width) * len(found) + 0.75
     picture = Picture((width, height), f"feed over {over}: {'; '.join(called)}")
     rows = stacked(picture, [1.0] * len(found), 0.27, left=0.72, ticks=4, one_scale=True)
@@ -83,17 +81,11 @@ def _draw(ax: Axes, profile: Profile, over: str, shade: str, unit: Unit) -> tupl
     return float(x[-1]), float(np.nanmax(feed, initial=0.0))
 
 
-def _profile(given: Any) -> Profile:
+def _profile(given: Any) -> tuple[str, Profile]:
     found = given if isinstance(given, Profile) else given.profile() if hasattr(given, "toolpath") else None
     if found is None:
         raise Alarm(f"a profile is that of a run, got {shown(given)}", hint='run.profile("small-mill")')
-    return found
-
-
-def _names(profiles: Sequence[Profile]) -> list[str]:
-    """What each is called; those that are called alike by their number."""
-    called = [each.name or "path" for each in profiles]
-    return [f"{name} ({k})" if called.count(name) > 1 else name for k, name in enumerate(called, 1)]
+    return found.name or "path", found
 
 
 # Removal over time as a picture: the feed, and under it how much material is taken away a minute.

@@ -180,20 +180,46 @@ LEADS["DEP"] = colours.EXIT._replace(name="departure", dashes="-", width=2.8)
 MARGIN = 0.12  # of the greatest side
 
 
+def by_name(given: tuple[Any, ...], names: Sequence[str], known: Callable[[Any], tuple[str, Any]], hint: str) -> dict[str, Any]:
+    """What is put side by side, by its names: those of a dict, `names`, or what `known` says that each is called by itself; an
+    Alarm where there is nothing, or not a name for each. Those that are called alike have their number."""
+    first = given[0]
+    if isinstance(first, Mapping) and len(given) == 1 and not names:
+        given, names = tuple(first.values()), list(first)
+    elif isinstance(first, list | tuple):
+        given = (*first, *given[1:])
+    found = [known(each) for each in given]
+    if not found:
+        raise Alarm("there is nothing to put side by side", hint=hint)
+    named = isinstance(names, tuple | list) and all(isinstance(name, str) for name in names)
+    if not named or names and len(names) != len(found):
+        raise Alarm(f"there must be a name for each of {len(found)}, got {shown(names)}", hint=hint)
+    called = list(names) or [name for name, _ in found]
+    numbered = (f"{name} ({k})" if called.count(name) > 1 else name for k, name in enumerate(called, 1))
+    return dict(zip(numbered, (each for _, each in found)))
+
+
+def _run(given: Any) -> tuple[str, Any]:
+    if not isinstance(getattr(given, "toolpath", None), Toolpath) or not hasattr(given, "program"):
+        raise Alarm(f"runs are put side by side, got {shown(given)}", hint=BESIDE)
+    return given.program.title, given
+
+
+BESIDE = 'mnclab.plot_runs(run, other), mnclab.plot_runs({"LT": run, "CT": other})'
+
+
 @sized(also=plot_run)
 def plot_runs(
-    runs: Mapping[str, Any], view: str = "XY", *, columns: int | None = None, width: float = 9.0, **options: Any
-) -> Picture:
-    """Runs by name, as small pictures at one scale: `mnclab.plot_runs({"LT": one, "CT": other})`.
+    run: Any, *others: Any, names: Sequence[str] = (), view: str = "XY", columns: int | None = None, width: float = 9.0,
+    **options: Any,
+) -> Picture:  # fmt: skip
+    """Runs as small pictures at one scale: `plot_runs(one, other)`, or by name `plot_runs({"LT": one, "CT": other})`.
 
-    `view` is that of all, `columns` how many stand in a row, `width` in inches; the `options` are those of `run.plot()`. The
-    frame holds the cuts of all of them: rapids from far away are cut off.
+    They may be a list, too. `names` are what they are called (default: their programs), `view` is that of all, `columns` how
+    many stand in a row, `width` in inches; the `options` are those of `run.plot()`. The frame holds the cuts of all of them:
+    rapids from far away are cut off.
     """
-    if not isinstance(runs, Mapping) or not runs or not all(isinstance(name, str) for name in runs):
-        raise Alarm(f"runs must be a dict of runs by name, got {shown(runs)}", hint='mnclab.plot_runs({"a": run})')
-    for name, run in runs.items():
-        if not isinstance(getattr(run, "toolpath", None), Toolpath):
-            raise Alarm(f"{shown(name)} must be a run, got {shown(run)}")
+    runs = by_name((run, *others), names, _run, BESIDE)
     view = choice(view, "view", VIEWS)
     count = evenly(len(runs), width / WIDE) if columns is None else min(columns, len(runs))
     axes = list(VIEWS[view][:2])

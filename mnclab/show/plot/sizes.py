@@ -1,4 +1,4 @@
-"""Figures in the sizes of a report: `size="a4" | "column" | "slide" | (width, height) inches`, `size_mm=(85, None)`, `legend`.
+"""What every figure takes: `size="a4" | "column" | "slide" | (width, height) inches`, `size_mm=(85, None)`, `legend`, `title`.
 
 A figure is composed for letters of 8 points and then enlarged or reduced as a whole, so that its letters, lines and marks
 keep their proportions whatever the paper. The options of every figure are checked here.
@@ -25,8 +25,9 @@ from matplotlib.patches import FancyArrowPatch, Patch, Rectangle
 from matplotlib.quiver import Quiver
 from matplotlib.text import Annotation, Text
 
-from mnclab.show.plot.picture import LEGEND, SIZE, SMALL, Picture
+from mnclab.show.plot.picture import LEGEND, SIZE, SMALL, Picture, broken
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import printable
 from mnclab.text.given import check_number, check_point, choice, near_option, shown, whole
 
 MM = 1 / 25.4  # inches
@@ -40,6 +41,9 @@ NARROW, LETTERS = 100.0, 7.0  # mm: figures below have letters of so many points
 TALL = 1.4  # height to width at most, where the height is free
 PAGE = 257.0  # mm: the height of the text of an A4 page, which no figure of free height exceeds
 LEAST, MOST = 40.0, 2000.0  # mm of a side
+TITLE: dict[str, Any] = {"fontsize": SMALL + 2, "fontweight": "bold", "parse_math": False}
+EDGE, LINE_HIGH = 0.08, 1.2 * (SMALL + 2) / 72  # inches: around a title, and of a line of it
+BOLD = 1.15  # times as wide as plain letters
 TRIES, WIDER, NARROWER = 6, 2, 0.6  # times a figure is drawn narrower to fit its height, and in more room; the least share
 COLUMNS, NAMED = range(2, 7), 0.55  # of views of a figure that is too high; inches of a view that has room for its name
 HINT = 'size="a4", size="column", size="slide", size=(7, 5), size_mm=(85, None)'
@@ -112,10 +116,15 @@ def sized(*, also: Any = None, tall: float | None = None) -> Callable[[Callable[
         known = {**getattr(also, "options", {}), **known}
 
         @wraps(draw)
-        def door(*given: Any, size: Any = None, size_mm: Any = None, legend: bool = True, **options: Any) -> AnyFigure:
-            check_options({**options, "legend": legend}, known)
+        def door(
+            *given: Any, size: Any = None, size_mm: Any = None, legend: bool = True, title: str | None = None, **options: Any
+        ) -> AnyFigure:
+            check_options({**options, "legend": legend, "title": title}, known)
             asked = room(size, size_mm)
-            if options.get("ax") is not None or any(isinstance(each, Axes) for each in given[1:]):
+            own = [each for each in (*given[1:], options.get("ax")) if isinstance(each, Axes)]
+            if own:
+                if title:
+                    own[0].set_title(printable(title), loc="left", **TITLE)
                 return draw(*given, **options)
 
             def drawn(inches: Room | None, **more: int) -> AnyFigure:
@@ -125,6 +134,10 @@ def sized(*, also: Any = None, tall: float | None = None) -> Callable[[Callable[
                 finally:
                     LEGEND.reset(wanted)
 
+            over, above = 1.0, _head(title, asked.width)[1] if title and asked else 0.0
+            if asked and asked.height:
+                _must(above < asked.height / 2, "the title must be shorter: a figure of this size has no room for it", title)
+                asked = asked._replace(height=asked.height - above)
             bare: list[Any] = []  # tries in whose axes nothing is drawn yet
 
             def tried(inches: Room, **more: int) -> AnyFigure:
@@ -140,20 +153,23 @@ def sized(*, also: Any = None, tall: float | None = None) -> Callable[[Callable[
             if asked is not None and asked.exact:
                 free = "columns" in known and options.get("columns") is None
                 figure, rows = tried(asked), dict[str, int]()
-                page = PAGE * MM / asked.factor
+                page = PAGE * MM / asked.factor - above
                 within = asked._replace(height=page) if asked.height is None and figure.get_figheight() > page else asked
                 if free:
                     figure, rows = _in_columns(figure, within, tried)
                 figure, inches, over = _fitted(figure, within, lambda inches: tried(inches, **rows))
                 figure = drawn(inches, **rows) if bare else figure
                 _frame(figure, asked, over)
-                enlarge(figure, asked.factor / over)
             else:
                 figure = drawn(asked)
+            if title:
+                _entitle(figure, title, over)
+            if asked is not None:
+                enlarge(figure, asked.factor / over)
 
             def again(**more: Any) -> AnyFigure:
                 sizes = {} if {"size", "size_mm"} & more.keys() else {"size": size, "size_mm": size_mm}
-                return door(*given, **{**sizes, "legend": legend, **options, **more})
+                return door(*given, **{**sizes, "legend": legend, "title": title, **options, **more})
 
             if isinstance(figure, Picture):
                 figure.again = again
@@ -238,6 +254,23 @@ def _frame(figure: Figure, asked: Room, more: float) -> None:
     reframe(figure, (width - wide) / 2, (height - tall) / 2, wide, tall)
 
 
+def _head(title: str, width: float) -> tuple[list[str], float]:
+    """The lines of a title above a figure of so many inches, and the inches that they take."""
+    lines = broken(printable(title), (width - 2 * EDGE) / BOLD, TITLE["fontsize"])
+    return lines, LINE_HIGH * len(lines) + EDGE
+
+
+def _entitle(figure: Figure, title: str, over: float) -> None:
+    """Set a title above a figure that will be made so many times smaller."""
+    width, height = figure.get_size_inches().tolist()
+    lines, above = _head(title, width / over)
+    reframe(figure, 0.0, 0.0, width, height + above * over)
+    place = EDGE * over / width, 1 - EDGE * over / (height + above * over)
+    figure.text(*place, "\n".join(lines), **TITLE | {"fontsize": TITLE["fontsize"] * over}, va="top", linespacing=1.15)
+    if isinstance(figure, Picture):
+        figure.alt = f"{title}: {figure.alt}"
+
+
 def _without_legend(figure: AnyFigure, wanted: bool) -> AnyFigure:
     """The figure without the legends above and the room that they had, unless they are wanted."""
     if wanted:
@@ -255,7 +288,8 @@ def _without_legend(figure: AnyFigure, wanted: bool) -> AnyFigure:
 
 # The options of a figure: one that it does not have, or of another kind than it says, is an Alarm that names what it takes.
 
-ADDED = {"size": (None, "Any"), "size_mm": (None, "Any"), "legend": (True, "bool")}  # of every figure: default and kind
+#: Of every figure: default and kind.
+ADDED = {"size": (None, "Any"), "size_mm": (None, "Any"), "legend": (True, "bool"), "title": (None, "str | None")}
 BOUNDS = {"width": (1.0, 100.0), "columns": (1, 100), "most": (0, None)}  # of numbers, wherever they are options
 #: What shows that an object is of its kind, and how an alarm calls that kind, by the annotation of the option.
 KINDS = {
@@ -278,7 +312,7 @@ def check_options(options: Mapping[str, Any], known: Mapping[str, Parameter]) ->
     for name, value in options.items():
         if name not in names:
             raise Alarm(f"this figure has no option {name}", hint=near_option(name, names))
-        what = str(known[name].annotation) if name in known else "bool"
+        what = str(known[name].annotation) if name in known else ADDED[name][1]
         if value is not None or "None" not in what:
             _check(name, value, what.removesuffix(" | None"), what)
 
@@ -292,7 +326,7 @@ def _check(name: str, value: Any, what: str, annotation: str) -> None:
                      at_least=least, at_most=most, endless=what == "float" and most is None)  # fmt: skip
         if what == "int":
             whole(value, name)
-    if what == "str" and isinstance(value, np.ndarray):
+    if what == "str" and (isinstance(value, np.ndarray) or name == "title" and not isinstance(value, str)):
         raise Alarm(f"{name} must be a text, got {shown(value)}")
     if what == "Axes" and not isinstance(value, Axes):
         raise Alarm(f"ax must be axes of matplotlib, got {shown(value)}")

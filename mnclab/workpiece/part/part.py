@@ -17,8 +17,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry import frames
+from mnclab.geometry.contours import SEEN
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, refusing_class, shown
+from mnclab.text.tables import svg_of
 from mnclab.workpiece.part.prisms import Operation, Prisms
 
 if TYPE_CHECKING:
@@ -27,6 +29,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Distance = Callable[[Floats], Floats]
 
+SHARES = (0.75, 0.25)  # of its height, where a cell shows what it is
 AT_ONCE = 200  # places looked at in one go
 ENDLESS = np.array([[-np.inf] * 3, [np.inf] * 3])
 WHICH: dict[Operation, tuple[np.ufunc, float]] = {"|": (np.minimum, 1.0), "&": (np.maximum, 1.0), "-": (np.maximum, -1.0)}
@@ -50,6 +53,13 @@ class Part:
 
     def __repr__(self) -> str:
         return f"<Part: {self.name}>"
+
+    def _repr_svg_(self) -> str | None:
+        """What level planes cut of it, high up and low down."""
+        (low, high), loops = self.bounds[:, 2], list[list[Floats]]()
+        if np.isfinite(self.bounds).all():
+            loops = [[loop.points_within(SEEN) for loop in self.section(low + share * (high - low))] for share in SHARES]
+        return svg_of(*loops)
 
     def __call__(self, points: ArrayLike) -> Floats:
         """Signed distance of each of the points `(n, 3)` from the surface, `(n,)`."""
