@@ -111,7 +111,7 @@ def test_a_table_is_saved_as_csv_and_refuses_options_by_name(name, tmp_path):
 
 
 def test_numbers_of_a_table_are_numbers():
-    """80 mm of a path, three pecks of 3, 3 and 2 mm: hand arithmetic."""
+    """The Z of the program; the middle and the diameter of the hole that was given."""
     assert drilled().holes().to_pandas().data["to z, mm"] == [-8.0]
     assert touched().measurements.to_pandas().data["actual"] == pytest.approx([50.1, 29.9, 24.2], abs=1e-6)
 
