@@ -18,7 +18,7 @@ from mnclab.path.limits import Limits
 from mnclab.path.limits import load as load_machine
 from mnclab.path.profile import Profile
 from mnclab.runs.run import Run
-from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, nothing_in, program, say, sensible
+from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, nothing_in, program, refuse, say, sensible
 from mnclab.text.alarm import ALARM, Alarm, several
 from mnclab.text.file import replaced
 from mnclab.text.opening import progress
@@ -54,7 +54,7 @@ def time(chosen: argparse.Namespace) -> int:
 def _many(chosen: argparse.Namespace, setup: Setup | None, limits: Limits | None) -> int:
     """A row for each program of files and folders."""
     if chosen.start_at is not None:
-        sensible(_refuse, "--start-at is for one program")
+        refuse("--start-at is for one program")
     rows, status = [], CLEAN
     try:
         for row in _rows(chosen, setup, limits):
@@ -117,10 +117,6 @@ def _text(value: Any) -> str:
 def _write(path: Path, text: str) -> None:
     with replaced(path) as beside:
         beside.write_text(text, "utf-8", newline="")
-
-
-def _refuse(said: str) -> None:
-    raise Alarm(said)
 
 
 def report(profile: Profile, machine: Any = None) -> str:
