@@ -164,15 +164,20 @@ def ran(path: Path) -> Any:
 
 def body(notebook: Any) -> str:
     """A lesson that ran, as HTML: text, code and pictures, then the exercises, each with room to write."""
-    from nbconvert import HTMLExporter
-
     last = max((k for k, cell in enumerate(notebook.cells) if cell.source.startswith("## Exercises")), default=None)
     if last is not None:
         del notebook.cells[last + 1 :]  # the empty cells for the reader's programs
         notebook.cells[last].source = "\n\n".join(exercises(notebook.cells[last].source))
+    return as_html(notebook)
+
+
+def as_html(notebook: Any, players: bool = False) -> str:
+    """What its cells say and have shown, without a head; with `players`, where their scripts may run."""
+    from nbconvert import HTMLExporter
+
     for cell in notebook.cells:
         for output in cell.get("outputs", ()):
-            still(output)
+            still(output, players)
     exporter = HTMLExporter(template_name="basic", exclude_input_prompt=True, exclude_output_prompt=True)
     return str(exporter.from_notebook_node(notebook)[0])
 
@@ -186,7 +191,7 @@ def exercises(text: str) -> Iterator[str]:
 
 
 def still(output: Any, players: bool = False) -> None:
-    """What was shown, without what needs a kernel: widgets; and, but for `players`, what paper cannot do where there is a picture."""
+    """What was shown, without widgets, which need a kernel, and without `players` where there is a picture."""
     data = output.get("data", {})
     data.pop(WIDGET, None)
     if not players and "<iframe" in data.get("text/html", "") and "image/png" in data:

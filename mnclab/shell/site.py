@@ -10,22 +10,19 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-import warnings
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from functools import cache
 from html import escape, unescape
-from inspect import formatannotation, getdoc, isclass
 from pathlib import Path
-from types import ModuleType
-from typing import Any, NamedTuple, get_args
+from typing import Any, NamedTuple
 
-import mnclab
+from mnclab.controls import CONTROLS
 from mnclab.controls.choice import Help
 from mnclab.controls.glossary import glossary
 from mnclab.machine.control import Control, settings_html
 from mnclab.machine.terms import terms
-from mnclab.shell.handout import PACKAGES, lessons, ran, still
+from mnclab.shell.handout import PACKAGES, as_html, lessons, ran
+from mnclab.shell.reference import about, documents
 from mnclab.shell.saying import ALARMS, CLEAN, refuse, say, sensible
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import replaced
@@ -34,10 +31,8 @@ from mnclab.text.opening import require
 from mnclab.text.tables import html_table
 
 MARK = '<meta name="generator" content="mnclab site">'  # of the first page, by which a site of ours is known
-ALSO_SHOWN = "controls"  # a value of the front door that no stub imports
-HIDDEN = {"load_ipython_extension"}
-RESULTS = "results"
-WHAT_RESULTS = "What calls give back: classes that have no place on a shelf, as nobody makes one by hand."
+
+FUNCTION = ("code", "title", "what it does", "group", "at power-on", "source", "in the manual")
 
 
 class Place(NamedTuple):
@@ -61,7 +56,7 @@ def site(chosen: argparse.Namespace) -> int:
         sensible(require, package, "lessons")
     made = Site(out)
     made.reference()
-    for name, control in mnclab.controls.items():
+    for name, control in CONTROLS.items():
         made.control(name, control)
     made.glossary()
     failed = made.lessons(found, chosen.jobs)
@@ -82,7 +77,7 @@ class Site:
         self.out, self.places = out, list[Place]()
         pdoc.render.configure(docformat="markdown", show_source=False, template_directory=Path(__file__).with_name("pages"))
         self.environment = pdoc.render.env
-        controls = [(name, f"controls/{name}.html") for name in mnclab.controls]
+        controls = [(name, f"controls/{name}.html") for name in CONTROLS]
         self.environment.globals["ways"] = [
             ("mnclab", "index.html"), ("reference", "reference/mnclab.html"), *controls, ("glossary", "glossary.html"),
             ("lessons", "index.html#lessons"),
@@ -127,14 +122,11 @@ class Site:
         """A page a shelf, one of what calls give back, and what pdoc needs to search them."""
         import pdoc.render
 
-        with warnings.catch_warnings():  # of an annotation that only type checkers can read: it is shown as it is written
-            warnings.simplefilter("ignore", UserWarning)
-            documented = documents()
-            for name, page in documented.items():
-                self.write(f"reference/{name.replace('.', '/')}.html", pdoc.render.html_module(page, documented))
-            self.write("reference/search.js", pdoc.render.search_index(documented))
+        documented = documents()
+        self.write("reference/search.js", pdoc.render.search_index(documented))
         for name, page in documented.items():
             href = f"reference/{name.replace('.', '/')}.html"
+            self.write(href, pdoc.render.html_module(page, documented))
             self.places.append(Place(name, "reference", href))
             for each in page.flattened_own_members:
                 self.places.append(Place(f"{name}.{each.qualname}", "reference", f"{href}#{each.qualname}"))
@@ -161,8 +153,7 @@ class Site:
             for code, each in cycles.items()
         ]
         parts = {
-            "Functions": _anchored(html_table(("code", "title", "what it does", "group", "at power-on", "source", "in the manual"),
-                                              functions, code=(0,))),
+            "Functions": _anchored(html_table(FUNCTION, functions, code=(0,))),
             "Cycles": "".join(of_cycles) + (html_table(("code", "is"), others.items(), code=(0, 1)) if others else ""),
             "Words of functions": html_table(("word", "meaning"), control.meanings.items(), code=(0,)),
             "Settings": settings_html(control.settings),
@@ -217,43 +208,35 @@ class Site:
 
     def lesson(self, path: Path, notebook: Any) -> None:
         """A lesson that ran: players stay players, of a form the text or the picture is left."""
-        from nbconvert import HTMLExporter
-        from pygments.formatters import HtmlFormatter
-
-        for cell in notebook.cells:
-            for output in cell.get("outputs", ()):
-                still(output, players=True)
-        exporter = HTMLExporter(template_name="basic", exclude_input_prompt=True, exclude_output_prompt=True)
-        text = re.sub(r'<a href="(?!https?:|#)([^"]*)">(.*?)</a>', _way, str(exporter.from_notebook_node(notebook)[0]))
-        sheet = f"<style>{HtmlFormatter(style='default').get_style_defs('.highlight')}</style>"
-        heads = [re.sub("<[^>]+>", "", head) for head in re.findall(r'<h2 id="([^"]+)"', text)]
-        entries = [(unescape(head).replace("-", " "), f"#{head}") for head in heads]
+        text = re.sub(r'<a href="(?!https?:|#)([^"]*)">(.*?)</a>', _way, as_html(notebook, players=True))
+        text = text.replace('class="highlight', 'class="pdoc-code highlight')  # in the colours of the reference
+        heads = re.findall(r'<h2 id="([^"]+)"', text)
         title = notebook.cells[0].source.splitlines()[0].lstrip("# ")
-        self.page(f"lessons/{path.stem}.html", title, sheet + text, entries)
+        self.page(f"lessons/{path.stem}.html", title, text, [(head.replace("-", " "), f"#{head}") for head in heads])
 
     # The first page.
 
     def index(self) -> None:
         """What it is, and the way to everything; the lessons are those that are in the folder, of this time or an earlier one."""
-        about = "".join(f"<p>{escape(each)}</p>" for each in (mnclab.__doc__ or "").split("\n\n")[:2])
+        says = "".join(f"<p>{escape(each)}</p>" for each in about("mnclab").split("\n\n"))
         reference = [place for place in self.places if place.what == "reference" and "#" not in place.href]
-        controls = [(name, f"controls/{name}.html", one.title) for name, one in mnclab.controls.items()]
+        controls = [(name, f"controls/{name}.html", one.title) for name, one in CONTROLS.items()]
         pages = sorted((self.out / "lessons").glob("[0-9][0-9]_*.html"))
         titles = {page: unescape(re.findall(r"<title>(.*?) · mnclab</title>", _text(page), re.S)[0]) for page in pages}
         self.places += [Place(title, "lesson", f"lessons/{page.name}") for page, title in titles.items()]
         found = "".join(f'<a href="{escape(p.href)}">{escape(p.name)} <small>{escape(p.what)}</small></a>' for p in self.places)
         parts = {
-            "Reference": [(place.name, place.href, _first(place.name)) for place in reference],
+            "Reference": [(place.name, place.href, _first(about(place.name))) for place in reference],
             "Controls": controls,
             "Words": [("glossary", "glossary.html", "the words of the trade, and what the manuals call them")],
             "Lessons": [(page.stem[:2], f"lessons/{page.name}", title) for page, title in titles.items()],
         }
         body = "".join(
             f'<h2 id="{title.lower()}">{title}</h2><table>'
-            + "".join(f'<tr><td><a href="{href}">{escape(name)}</a></td><td>{escape(says)}</td></tr>' for name, href, says in rows)
+            + "".join(f'<tr><td><a href="{to}">{escape(name)}</a></td><td>{escape(does)}</td></tr>' for name, to, does in rows)
             + "</table>" for title, rows in parts.items() if rows
         )  # fmt: skip
-        head = f'<h1>mnclab {mnclab.__version__}</h1>{about}<div class="found" hidden>{found}</div>'
+        head = f'<h1>mnclab {sys.modules["mnclab"].__version__}</h1>{says}<div class="found" hidden>{found}</div>'
         self.page("index.html", "mnclab", head + body, (), "Find a code, a name, a term", MARK)
 
 
@@ -280,103 +263,5 @@ def _way(found: re.Match[str]) -> str:
     return f'<a href="{found[1].removesuffix("ipynb")}html">{found[2]}</a>' if found[1].endswith(".ipynb") else found[2]
 
 
-def _first(name: str) -> str:
-    """The first line about a page of the reference."""
-    told = WHAT_RESULTS if name == RESULTS else getdoc(sys.modules[name]) if name != "mnclab" else "what stands at the front door"
-    return (told or "").partition("\n")[0]
-
-
-# What pdoc documents.
-
-class Told:
-    """An annotation as it is shown."""
-
-    def __init__(self, text: str) -> None:
-        self.text = text
-
-    def __repr__(self) -> str:
-        return self.text
-
-
-def public() -> dict[str, dict[str, Any]]:
-    """The names of the front door and of each shelf, a shelf on a shelf too: name of the page -> name -> what it is."""
-    front = {name: getattr(mnclab, name) for name in mnclab.OPENED.__all__ if name not in HIDDEN}
-    pages, left = {"mnclab": front | {ALSO_SHOWN: mnclab.controls}}, [mnclab.__dict__[name] for name in mnclab.__all__]
-    while left:
-        shelf = left.pop(0)
-        if isinstance(shelf, ModuleType):
-            names = {name: getattr(shelf, name) for name in shelf.__all__}
-            left += names.values()
-            pages[shelf.__name__] = {name: each for name, each in names.items() if not isinstance(each, ModuleType)}
-    return pages
-
-
-def documents() -> dict[str, Any]:
-    """The pages as pdoc has them, with annotations as one reads them."""
-    import pdoc.doc
-
-    pages = public()
-    abouts = {name: sys.modules[name].__doc__ for name in pages}
-    abouts["mnclab"] = "\n\n".join((mnclab.__doc__ or "").split("\n\n")[:2])
-    given = {f"{each.__module__}.{each.__qualname__}": f"{page}.{name}" for page, names in reversed(pages.items())
-             for name, each in names.items() if hasattr(each, "__qualname__")}  # fmt: skip
-    documented = {name: _module(name, abouts[name] or "", names) for name, names in pages.items()}
-    back = {
-        each.__qualname__: each for page in documented.values() for one in _all_of(page) for each in _classes(_answer(one))
-        if each.__module__.startswith("mnclab.") and f"{each.__module__}.{each.__qualname__}" not in given
-    }  # fmt: skip
-    documented[RESULTS] = _module(RESULTS, WHAT_RESULTS, dict(sorted(back.items())))
-    given |= {f"{each.__module__}.{name}": f"{RESULTS}.{name}" for name, each in back.items()}
-    for page in documented.values():
-        for one in _all_of(page):
-            if isinstance(one, pdoc.doc.Function):
-                parameters = [each.replace(annotation=_told(each.annotation, given)) for each in one.signature.parameters.values()]
-                answer = _told(one.signature.return_annotation, given)
-                one.signature = one.signature.replace(parameters=parameters, return_annotation=answer)
-            elif isinstance(one, pdoc.doc.Variable):
-                one.annotation = _told(one.annotation, given)
-    return documented
-
-
-def _module(name: str, about: str, names: Mapping[str, Any]) -> Any:
-    """A page of pdoc; its classes show what they have of any class of the house."""
-    import pdoc.doc
-
-    made: Any = ModuleType(name, about)
-    made.__all__ = list(names)
-    vars(made).update(names)
-    page = pdoc.doc.Module(made)
-    for one in page.classes:
-        one.own_members = [each for each in one.members.values() if each.taken_from[0].startswith("mnclab.")]
-    return page
-
-
-def _all_of(page: Any) -> Iterator[Any]:
-    """All functions and values of a page, those of its classes too."""
-    for one in page.members.values():
-        yield from getattr(one, "own_members", (one,))
-
-
-def _answer(one: Any) -> Any:
-    """What a function gives back, or what a property is."""
-    return one.signature.return_annotation if hasattr(one, "signature") else getattr(one, "annotation", None)
-
-
-def _classes(annotation: Any) -> Iterator[type]:
-    """The classes in an annotation."""
-    if isclass(annotation) and not get_args(annotation):
-        yield annotation
-    for part in get_args(annotation):
-        yield from _classes(part)
-
-
-def _told(annotation: Any, given: Mapping[str, str]) -> Any:
-    """An annotation with the public names of classes, or their last names; without modules that everyone knows."""
-    from inspect import Parameter
-
-    if annotation is Parameter.empty:
-        return annotation
-    text = annotation if isinstance(annotation, str) else formatannotation(annotation)
-    text = re.sub(r"(numpy|np)\.ndarray\[tuple\[(?:typing\.)?Any, \.\.\.\], numpy\.dtype\[(?:numpy\.)?(\w+)\]\]", r"NDArray[\2]", text)
-    text = re.sub(r"\b(?:typing|collections\.abc|pathlib|concurrent\.futures\._base)\.(?=\w)", "", text)
-    return Told(re.sub(r"\bmnclab(?:\.\w+)+", lambda found: given.get(found[0], found[0].rpartition(".")[2]), text))
+def _first(text: str) -> str:
+    return text.partition("\n")[0].removesuffix(" ::")
