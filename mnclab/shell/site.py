@@ -32,6 +32,7 @@ from mnclab.text.tables import html_table
 
 MARK = '<meta name="generator" content="mnclab site">'  # of the first page, by which a site of ours is known
 
+NO_LESSONS = "They were left out; <code>mnclab site</code> without <code>--no-lessons</code> runs them."
 FUNCTION = ("code", "title", "what it does", "group", "at power-on", "source", "in the manual")
 
 
@@ -231,11 +232,11 @@ class Site:
             "Words": [("glossary", "glossary.html", "the words of the trade, and what the manuals call them")],
             "Lessons": [(page.stem[:2], f"lessons/{page.name}", title) for page, title in titles.items()],
         }
-        body = "".join(
-            f'<h2 id="{title.lower()}">{title}</h2><table>'
-            + "".join(f'<tr><td><a href="{to}">{escape(name)}</a></td><td>{escape(does)}</td></tr>' for name, to, does in rows)
-            + "</table>" for title, rows in parts.items() if rows
-        )  # fmt: skip
+        body = ""
+        for title, rows in parts.items():
+            cells = (f'<td><a href="{to}">{escape(name)}</a></td><td>{escape(does)}</td>' for name, to, does in rows)
+            table = f"<table>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>" if rows else f"<p>{NO_LESSONS}</p>"
+            body += f'<h2 id="{title.lower()}">{title}</h2>{table}'
         head = f'<h1>mnclab {sys.modules["mnclab"].__version__}</h1>{says}<div class="found" hidden>{found}</div>'
         self.page("index.html", "mnclab", head + body, (), "Find a code, a name, a term", MARK)
 
