@@ -1,8 +1,8 @@
 """The lowest versions that pyproject.toml declares, each with the call that needs it.
 
 Authority: the release notes of the packages. shapely 2.1: `maximum_inscribed_circle`; matplotlib 3.10:
-`Artist.get_figure(root=)`; pyvista 0.47: `extract_surface(algorithm=)`; pdoc 14: a page shows the `own_members` of its classes (tried: 13.1 leaves them out).
-`tests/floors.py` runs a sample with them.
+`Artist.get_figure(root=)`; pyvista 0.47: `extract_surface(algorithm=)`. Tried, as
+no note tells it: from pdoc 14 on a page shows the `own_members` of its classes. `tests/floors.py` runs a sample with them.
 """
 
 import sys

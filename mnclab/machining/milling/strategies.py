@@ -89,6 +89,10 @@ def rest(region: Region, tool: Tool | float, before: Region | None = None) -> Re
 
     It is the `stock` of the tool after it: `mnclab.compare(region, 3.0, stock=mnclab.strategies.rest(region, 8.0))`. Everything
     where the tool does not fit; empty where it leaves nothing.
+
+    >>> pocket = mnc.area.Region.of(mnc.area.rectangle(40, 20))
+    >>> print(f"{mnc.strategies.rest(pocket, 4).area:.2f}")  # four corners: (4 - pi) x 4 x 4
+    13.73
     """
     for each in (region, *(() if before is None else (before,))):
         if not isinstance(each, Region):

@@ -154,6 +154,9 @@ def plot_regions(
     """One view of each named region with its area, all at one scale, each with the outlines of what is `over` it, dashed.
 
     `width` of the picture in inches.
+
+    >>> mnc.area.plot({"pocket": mnc.area.Region.of(mnc.area.rectangle(40, 20))}).alt
+    'regions: pocket: 800.0 mm²'
     """
     if not isinstance(regions, Mapping) or not all(isinstance(one, Region) for one in regions.values()):
         raise Alarm(f"regions must be Regions by their names, got {shown(regions)}", hint='{"A": a, "B": b, "A | B": a.union(b)}')
@@ -188,6 +191,10 @@ def plot_runs(
 
     `view` is that of all, `columns` how many stand in a row, `width` in inches; the `options` are those of `run.plot()`. The
     frame holds the cuts of all of them: rapids from far away are cut off.
+
+    >>> run = mnc.run("S800 M3\\nG1 X60 F3600\\n", "mnc")
+    >>> mnc.plot_runs({"one": run, "other": run}).alt
+    'runs side by side: one, other'
     """
     if not isinstance(runs, Mapping) or not runs or not all(isinstance(name, str) for name in runs):
         raise Alarm(f"runs must be a dict of runs by name, got {shown(runs)}", hint='mnclab.plot_runs({"a": run})')
