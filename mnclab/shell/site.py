@@ -25,13 +25,12 @@ from mnclab.shell.handout import PACKAGES, as_html, lessons, ran
 from mnclab.shell.reference import about, documents
 from mnclab.shell.saying import ALARMS, CLEAN, refuse, say, sensible
 from mnclab.text.alarm import Alarm
-from mnclab.text.file import replaced
+from mnclab.text.file import reason, replaced
 from mnclab.text.given import shown
 from mnclab.text.opening import require
 from mnclab.text.tables import html_table
 
 MARK = '<meta name="generator" content="mnclab site">'  # of the first page, by which a site of ours is known
-
 NO_LESSONS = "They were left out; <code>mnclab site</code> without <code>--no-lessons</code> runs them."
 FUNCTION = ("code", "title", "what it does", "group", "at power-on", "source", "in the manual")
 
@@ -55,14 +54,7 @@ def site(chosen: argparse.Namespace) -> int:
     found = {} if chosen.no_lessons else sensible(lessons)
     for package in PACKAGES if found else ():
         sensible(require, package, "lessons")
-    made = Site(out)
-    made.reference()
-    for name, control in CONTROLS.items():
-        made.control(name, control)
-    made.glossary()
-    failed = made.lessons(found, chosen.jobs)
-    made.index()
-    return ALARMS if failed else CLEAN
+    return CLEAN if sensible(Site(out).build, found, chosen.jobs) else ALARMS
 
 
 def _text(file: Path) -> str:
@@ -84,13 +76,23 @@ class Site:
             ("lessons", "index.html#lessons"),
         ]  # fmt: skip
 
+    def build(self, found: Mapping[str, Path], jobs: int) -> bool:
+        """Write all pages; whether every lesson ran to its end. An Alarm where a page cannot be written."""
+        self.reference()
+        for name, control in CONTROLS.items():
+            self.control(name, control)
+        self.glossary()
+        ran_all = self.lessons(found, jobs)
+        self.index()
+        return ran_all
+
     def write(self, name: str, text: str) -> None:
         """A page, by its name from the folder of the site."""
         path = self.out / name
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            refuse(f"{path.parent} cannot be made: {error.strerror}")
+            raise Alarm(f"{path.parent} cannot be made: {reason(error)}") from None
         with replaced(path) as beside:
             beside.write_text(text, "utf-8", newline="\n")
         print(path, flush=True)
@@ -192,8 +194,8 @@ class Site:
     # The lessons.
 
     def lessons(self, found: Mapping[str, Path], jobs: int) -> bool:
-        """Run lessons, `jobs` at a time, and write them; whether one did not run to its end, which is said."""
-        failed = False
+        """Run lessons, `jobs` at a time, and write them; whether each ran to its end. One that did not is said."""
+        ran_all = True
         pool = ThreadPoolExecutor(jobs)
         try:
             running = {path: pool.submit(ran, path) for path in found.values()}
@@ -202,10 +204,10 @@ class Site:
                     self.lesson(path, waiting.result())
                 except Alarm as alarm:
                     say(alarm, str(path))
-                    failed = True
+                    ran_all = False
         finally:
             pool.shutdown(cancel_futures=True)
-        return failed
+        return ran_all
 
     def lesson(self, path: Path, notebook: Any) -> None:
         """A lesson that ran: players stay players, of a form the text or the picture is left."""
@@ -223,7 +225,8 @@ class Site:
         reference = [place for place in self.places if place.what == "reference" and "#" not in place.href]
         controls = [(name, f"controls/{name}.html", one.title) for name, one in CONTROLS.items()]
         pages = sorted((self.out / "lessons").glob("[0-9][0-9]_*.html"))
-        titles = {page: unescape(re.findall(r"<title>(.*?) · mnclab</title>", _text(page), re.S)[0]) for page in pages}
+        heads = {page: re.search("<title>(.*?) · mnclab</title>", _text(page)) for page in pages}
+        titles = {page: unescape(head[1]) for page, head in heads.items() if head}
         self.places += [Place(title, "lesson", f"lessons/{page.name}") for page, title in titles.items()]
         found = "".join(f'<a href="{escape(p.href)}">{escape(p.name)} <small>{escape(p.what)}</small></a>' for p in self.places)
         parts = {

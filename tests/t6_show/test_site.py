@@ -159,7 +159,7 @@ def test_only_an_empty_folder_or_that_of_a_site_is_taken(built, tmp_path, capsys
     assert typed("-o", str(file / "site"), "--no-lessons") == 2
     assert "cannot be made" in capsys.readouterr().err
     made = Mock()
-    made.return_value.lessons.return_value = False
+    made.return_value.build.return_value = True
     monkeypatch.setattr(command, "Site", made)
     for out in (built, tmp_path / "new"):
         assert typed("-o", str(out), "--no-lessons") == 0
@@ -192,7 +192,7 @@ def test_a_lesson_that_does_not_run_is_said_and_the_others_are_written(tmp_path,
     monkeypatch.setattr(command, "ran", ran)
     made = command.Site(tmp_path)
     made.places.append(command.Place("mnclab.run", "reference", "reference/mnclab.html#run"))
-    assert made.lessons(lessons(["1", "3"]), 2)
+    assert not made.lessons(lessons(["1", "3"]), 2)
     assert "01_blocks_and_words does not run to its end" in capsys.readouterr().err
     (page,) = tmp_path.glob("lessons/*.html")
     text = page.read_text("utf-8")
