@@ -21,20 +21,13 @@ NEEDS = {"lab": "ipywidgets", "plot": "matplotlib"}  # of a folder: what its exa
 
 #: Names without an example, page by page: the list may only become shorter.
 WITHOUT = {
-    "mnclab.area": {"Contour", "Joined", "Part", "arc", "dxf", "polygon", "rectangle", "slot", "terraces"},
-    "mnclab.design": {"CentreHole", "Thread", "Undercut"},
-    "mnclab.part": {"foot", "mesh"},
-    "mnclab.probing": {"uncertainty"},
-    "mnclab.schemes": {
-        "combined", "contour", "descent", "equidistant", "loop", "pick_up", "plot_threads", "semi_finish", "toolpath", "zigzag",
-        "zone_of", "zones",
-    },
+    "mnclab.area": {"Contour", "Joined", "arc", "dxf", "polygon", "rectangle", "slot"},
+    "mnclab.design": {"CentreHole", "Undercut"},
+    "mnclab.part": {"mesh"},
+    "mnclab.schemes": {"plot_threads", "toolpath"},
     "mnclab.schemes.grooves": {"scheme_1", "scheme_2", "scheme_3", "scheme_4", "scheme_5", "scheme_6", "scheme_7"},
     "mnclab.schemes.threads": {"edge_shares", "methods_for", "thread", "thread_pass", "thread_passes"},
-    "mnclab.strategies": {
-        "adaptive", "clear", "engagement", "morphed_spiral", "one_way", "peeling", "plot_times", "rest_passes", "rounded_rings",
-        "rounded_zigzag", "spiral", "stretches", "trochoid", "trochoidal", "zigzag",
-    },
+    "mnclab.strategies": {"engagement", "plot_times", "rest_passes", "stretches", "trochoid"},
 }  # fmt: skip
 
 

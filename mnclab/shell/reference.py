@@ -65,6 +65,8 @@ def documents() -> dict[str, Any]:
         for page in documented.values():
             for one in _all_of(page):
                 _write_plainly(one, given)
+            for one in page.classes:  # what bases of the house have is shown already
+                one.bases = [(*way, repr(_told(said, given))) for *way, said in one.bases if not way[0].startswith("mnclab.")]
     return dict(sorted(documented.items()))
 
 

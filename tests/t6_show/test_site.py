@@ -112,9 +112,11 @@ def test_every_public_name_stands_in_the_reference(built):
 def test_no_private_module_is_named_in_the_reference(built):
     """But for what a docstring says: annotations have the names that a user has."""
     for path in (built / "reference").rglob("*.html"):
-        signatures = re.findall(r'<(?:span class="(?:signature|annotation)[^>]*)>(.*?)</div>', path.read_text("utf-8"), re.S)
-        text = re.sub("<[^>]+>", "", " ".join(signatures))
-        assert not re.findall(r"mnclab\.(?:runs|path|text|machine|controls|workpiece|machining|show|geometry)\.\w+", text)
+        heads = re.findall(r'<div class="attr (?:class|function)">(.*?)</div>', path.read_text("utf-8"), re.S)
+        assert len(heads) > 10
+        text = re.sub("<[^>]+>", "", " ".join(heads))
+        assert not re.findall(r"mnclab\.(?!(?:area|blank|design|part|probing|schemes|strategies)\.)[a-z]\w*\.\w+", text)
+        assert "mnclab.design.model" not in text
 
 
 def test_what_calls_give_back_is_described():

@@ -283,6 +283,12 @@ def uncertainty(
     corner of four touches is `lambda p: corner(line(p[:2]), line(p[2:]))`. `spread` is the probe's standard deviation in mm: one
     number, or numbers that fit the shape of the points, as (0, 0, 0.001) where only Z was probed. Of a touch only the part along
     the surface's normal counts. The same seed shakes alike; a thousand repeats give the uncertainty to some 2 %.
+
+    The width between two touches is off by √2 of what each is:
+
+    >>> off = mnc.probing.uncertainty(lambda both: both[1] - both[0], [0.0, 30.0], 0.001)
+    >>> print(f"{off['value']:.4f}")
+    0.0014
     """
     if not callable(fit):
         raise Alarm(f"a fit is a function of points, as circle is, got {fit!r}")

@@ -104,6 +104,10 @@ def foot(part: Part, centre: ArrayLike) -> tuple[Floats, bool]:
 
     It is not where a part is not `exact` and the point lies off a cut edge: a ball of that radius then stands farther off
     the part than its distance says.
+
+    >>> place, found = mnc.part.foot(mnc.part.box((0, 0, -20), (60, 40, 0)), (30, 20, 5))
+    >>> place.round(3).tolist(), found
+    ([30.0, 20.0, 0.0], True)
     """
     check_point(centre, "the centre of a ball")
     here = np.asarray(centre, dtype=float)
