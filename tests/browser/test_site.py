@@ -30,7 +30,8 @@ def page(browser):
     faults, context = [], browser.new_context(viewport={"width": 1366, "height": 768}, offline=True)
     context.route(re.compile("^(?!file:)"), lambda route: faults.append(route.request.url) or route.abort())
     page = context.new_page()
-    page.on("console", lambda said: said.type == "log" or READBACK.search(said.text) or faults.append(said.text))
+    plain = ("log", "info", "timeEnd")
+    page.on("console", lambda said: said.type in plain or READBACK.search(said.text) or faults.append(said.text))
     page.on("pageerror", lambda error: faults.append(str(error)))
     yield page
     context.close()
