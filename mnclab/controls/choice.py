@@ -14,7 +14,7 @@ from typing import Any
 from mnclab.controls import CONTROLS
 from mnclab.controls.glossary import Entry, Glossary, glossary, instead_of, named
 from mnclab.controls.recognition import looks_like, recognise
-from mnclab.machine.control import Control, Function, settings_html, settings_text
+from mnclab.machine.control import EVERY, Control, Function, chosen, settings_html, settings_text
 from mnclab.machine.cycle import help_html, help_text
 from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import load
@@ -24,7 +24,7 @@ from mnclab.path.tool import Tool
 from mnclab.runs.run import EXAMPLE, Run, run_program
 from mnclab.text.alarm import ALARM, Alarm, hint
 from mnclab.text.dialect import Notation, renumbered
-from mnclab.text.file import decode, encode_like, replaced, save_as
+from mnclab.text.file import MEGABYTE, MOST_MEGABYTES, decode, encode_like, replaced, save_as
 from mnclab.text.file import read as read_file
 from mnclab.text.given import LARGEST, fitting, near_option, shown, whole
 from mnclab.text.opening import opened
@@ -57,24 +57,27 @@ def run(
     if "machine" in parts:
         parts["limits"] = limits_of(parts.get("limits"), parts.pop("machine"))
     given = {name: part for name, part in (("tools", tools), ("stock", stock), *parts.items()) if part is not None}
-    program = source if isinstance(source, Program) else read(source, control)
     if not isinstance(setup, Setup | None):
         raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
     known = [each.name for each in fields(Setup) if each.name != "source"]
     for name in (name for name in given if name not in known):
         raise Alarm(f"run has no option {name!r}", hint=near_option(name, known))
     setup = replace(setup or Setup(), **given, source=None) if given else setup
+    allowed = {"most_megabytes": setup.settings["most_megabytes"]} if setup and "most_megabytes" in setup.settings else {}
+    program = source if isinstance(source, Program) else read(source, control, **allowed)
     return run_program(program, CONTROLS[program.control], setup, strict=strict)
 
 
 @fitting
-def read(source: str | Path, control: str | None = None) -> Program:
-    """Read a part program into blocks without running it; see `run` for the arguments.
+def read(source: str | Path, control: str | None = None, *, most_megabytes: float | None = None) -> Program:
+    """Read a part program into blocks without running it; see `run` for the arguments. A file larger than `most_megabytes`,
+    as the setting of this name (100), is refused: a million blocks take some 300 MB of memory while they are read.
 
     >>> mnc.read("N10 G0 X5 Y2\\nN20 M30\\n", "mnc")[1]
     <Block N20 M30, line 2>
     """
-    text, name, encoding = _text_of(source, control)
+    allowed = chosen(EVERY, {} if most_megabytes is None else {"most_megabytes": most_megabytes}, "every control")
+    text, name, encoding = _text_of(source, control, int(allowed["most_megabytes"] * MEGABYTE))
     program = read_text(text, name, control, "" if encoding == "str" else str(Path(name).parent))
     object.__setattr__(program, "encoding", encoding)
     return program
@@ -123,7 +126,7 @@ def modern(source: str | Path | Program | Run, control: str | None = None) -> No
     return chosen.modern(program)
 
 
-def _text_of(source: str | Path, control: str | None) -> tuple[str, str, str]:
+def _text_of(source: str | Path, control: str | None, most: int = MOST_MEGABYTES * MEGABYTE) -> tuple[str, str, str]:
     """Text, name and code page. A text with a line end is a program; one without is a path if there is such a file, or if
     it looks like the name of one."""
     if not isinstance(source, str | os.PathLike):
@@ -137,7 +140,7 @@ def _text_of(source: str | Path, control: str | None) -> tuple[str, str, str]:
         told = (_files_near(path), "a program ends with a line end" if isinstance(source, str) else "")
         near = "; ".join(filter(None, told))
         raise Alarm(f"{path} cannot be read: there is no such file", hint=near)
-    text, encoding = decode(read_file(path, path))
+    text, encoding = decode(read_file(path, path, most))
     return text, str(path), encoding
 
 

@@ -80,7 +80,7 @@ LOOK = {
     "fixture": "Where is the clamp, and how high must the tool pass over it?",
     "spindle": "Which block should start the spindle, and in which direction?",
     "travel": "How far does this axis go?",
-    "insert": "Which flank of the insert meets the part, and which insert would not?",
+    "insert": "Which flank of the insert meets the part, or is the pass deeper than its edge is long?",
     "chuck": "How far are the jaws from Z0?",
     "axis": "What turns about its own axis cuts at X0 alone.",
 }

@@ -158,25 +158,32 @@ class _Grader:
     It is begun as a command, so that a script which grades is not run again in it.
     """
 
+    _process: subprocess.Popen[str] | None
+
     def __init__(self) -> None:
         self._begin()
 
     def _begin(self) -> None:
         here = os.pathsep.join(filter(None, [str(Path(__file__).parents[2]), os.environ.get("PYTHONPATH")]))
-        self._process = subprocess.Popen(
-            [sys.executable, "-c", f"import {__name__} as marking; marking.grade_all()"], env={**os.environ, "PYTHONPATH": here},
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, encoding="utf-8",
-        )  # fmt: skip
-        self._told: SimpleQueue[str] = SimpleQueue()
-        Thread(target=_listen, args=(self._process.stdout, self._told), daemon=True).start()
-        self._ready = False
+        self._process, self._told, self._ready = None, SimpleQueue[str](), False
+        try:
+            self._process = subprocess.Popen(
+                [sys.executable, "-c", f"import {__name__} as marking; marking.grade_all()"],
+                env={**os.environ, "PYTHONPATH": here}, text=True, encoding="utf-8",
+                stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+            )  # fmt: skip
+            Thread(target=_listen, args=(self._process.stdout, self._told), daemon=True).start()
+        except (OSError, RuntimeError) as error:  # Python in a browser
+            self.end()
+            one = "mnclab.grade(...) grades one answer here"
+            raise Alarm(f"answers are marked in processes of their own, and none can be begun: {error}", hint=one) from None
 
     def ask(self, answer: tuple[str, str, str]) -> dict[str, Any]:
         """The grade of an answer as a record, or why it was refused."""
         why = "the grading of it came to an end by itself"
         try:
             self._ready = self._ready or bool(self._told.get(timeout=START))
-            if self._ready and self._process.stdin is not None:
+            if self._ready and self._process is not None and self._process.stdin is not None:
                 self._process.stdin.write(json.dumps(answer) + "\n")
                 self._process.stdin.flush()
                 if line := self._told.get(timeout=PATIENCE):
@@ -192,6 +199,8 @@ class _Grader:
 
     def end(self) -> None:
         """Stop the process."""
+        if self._process is None:
+            return
         self._process.kill()
         self._process.wait()
         for pipe in (self._process.stdin, self._process.stdout):

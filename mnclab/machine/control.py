@@ -21,6 +21,7 @@ from mnclab.machine.setup import MILLS, Magazine
 from mnclab.machine.terms import plain, terms
 from mnclab.text.alarm import Alarm, hint
 from mnclab.text.dialect import Notation, Numbers, Sign
+from mnclab.text.file import MOST_MEGABYTES
 from mnclab.text.given import shown
 from mnclab.text.opening import opened
 from mnclab.text.program import Program, Word
@@ -356,6 +357,10 @@ EVERY = (
     Setting(
         "most_rows", 500_000, "rows of the path beyond which a run ends, with 20 more for each block of the text",
         "the memory of the computer", unit="rows", at_least=1000, at_most=1_000_000_000,
+    ),
+    Setting(
+        "most_megabytes", MOST_MEGABYTES, "size of the file of a program beyond which it is not read",
+        "the memory of the computer", unit="MB", at_least=1, at_most=2000,
     ),
 )  # fmt: skip
 

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -25,7 +26,8 @@ from mnclab.geometry.curves import Floats, at_angle, length_of
 from mnclab.path.tool import LATHE, POINTED, Tool
 from mnclab.path.toolpath import Kind, Mask, Toolpath
 
-EDGE = 12.0  # length of an edge that the table does not give
+EDGE = 12.0  # length of an edge that the table does not give: the usual insert, a C of 12 (ISO 1832)
+BLADE = 8.0  # widths: how deep a blade reaches whose table does not say it, as catalogues have it for grooving and parting
 USUAL = (95.0, 5.0)  # degrees, where the table has none: an insert of 80 degrees (ISO 1832, C) in its holder (ISO 5608, L)
 SAME = 1e-12
 FACE = "face grooving"  # a blade across: what is Z of another one is its r
@@ -106,21 +108,57 @@ def edges_of(tool: Tool, height: float) -> Floats:
 def cutting_part(tool: Tool, height: float) -> Contour:
     """What of a tool takes material away, prolonged away from the part up to a height above its tip: convex.
 
-    An edge is as long as `Tool.cutting_length`, else `EDGE`; beyond it the insert goes straight up. A blade without width
-    and nose is a line, a contour of two points.
+    An edge is as long as `edge_length` says; beyond it the insert goes on, straight up where it leaned out. So the part is what
+    the way of the tip makes of it, however deep: what only the prolonged edges take is a collision of the tool, not a step
+    in the part. A blade without width and nose is a line, a contour of two points.
     """
     if not turns(tool):
         return _round(tool, height)
-    tool = usual(tool)
+    points, bulges, ahead, behind = _sides(usual(tool), height)
+    return _placed(tool, np.vstack([points, behind, ahead[::-1]]), bulges)
+
+
+def edge_length(tool: Tool) -> float:
+    """The length of the edges of an insert, mm, from the tip; of a blade how deep it reaches. Usual ones where none is given."""
+    blade = tool.kind != "thread" and BLADE * tool.width
+    return tool.cutting_length or blade or EDGE
+
+
+class Beyond(NamedTuple):
+    """A side of a tool where its edge has ended: the `line` from there on (2, 2), which way it looks and its edge runs (2,)."""
+
+    line: Floats
+    outwards: Floats
+    edge: Floats
+
+
+def beyond_edges(tool: Tool, height: float) -> tuple[Floats, list[Beyond]]:
+    """Of an insert: the corners (k, 2) of its nose and its edges, and what of its cutting part goes on where these end."""
+    tool, sides = usual(tool), list[Beyond]()
+    points, _, *rays = _sides(tool, height)
+    corners, long, mirror = points, edge_length(tool), mirror_of(tool)
     main, auxiliary = angles_of(tool)
-    edge = tool.cutting_length or EDGE
+    for start, ray, angle, turn in zip(points[[0, -1]], rays, (math.pi - main, auxiliary), (1.0, -1.0)):
+        edge = at_angle(angle)
+        end = start + min(max(long - float(start @ edge), 0.0), float((ray[0] - start) @ edge)) * edge
+        corners = np.vstack([corners, end])
+        for line in np.stack([np.vstack([end, ray[:-1]]), ray], axis=1):
+            if length := float(np.hypot(*(line[1] - line[0]))):
+                outwards = turn * (line[1] - line[0])[::-1] * (-1, 1) / length
+                sides.append(Beyond(line * mirror, outwards * mirror, edge * mirror))
+    return corners * mirror, sides
+
+
+def _sides(tool: Tool, height: float) -> tuple[Floats, list[float], Floats, Floats]:
+    """The nose, its points (k, 2) and their bulges, and from its ends the main edge and the other one, each (k, 2)."""
+    main, auxiliary = angles_of(tool)
     points, bulges = _nose(tool, main, auxiliary)
     height = max(height, float(points[:, 1].max()))
-    behind = _ray(points[-1], auxiliary, 1.0, edge, height)
-    ahead = _ray(points[0], math.pi - main, -1.0, edge, height)
+    behind = _ray(points[-1], auxiliary, 1.0, edge_length(tool), height)
+    ahead = _ray(points[0], math.pi - main, -1.0, edge_length(tool), height)
     if (far := float(ahead[-1, 0])) > behind[-1, 0]:  # a main edge that leans back over the insert: the other one is longer
-        behind = np.array([(far, points[-1, 1] + (far - points[-1, 0]) * math.tan(auxiliary))])
-    return _placed(tool, np.vstack([points, behind, ahead[::-1]]), bulges)
+        behind = np.array([(far, points[-1, 1] + (far - points[-1, 0]) * math.tan(auxiliary)), (far, height)])
+    return points, bulges, ahead, behind
 
 
 def insert(tool: Tool, size: float = 0.0, reach: float = 0.0) -> Contour:
@@ -184,10 +222,13 @@ def _nose(tool: Tool, main: float, auxiliary: float) -> tuple[Floats, list[float
 
 
 def _ray(start: Floats, angle: float, side: float, edge: float, height: float) -> Floats:
-    """An edge from its beginning away from the tip: one that leans out to its side ends and goes on straight up."""
+    """An edge from its beginning away from the tip: one that leans out to its side ends and goes on straight up.
+
+    Its length counts from the tip.
+    """
     ahead = at_angle(angle)
     ahead = np.where(np.abs(ahead) < SAME, 0.0, ahead)
-    way = (height - start[1]) / ahead[1]
+    way, edge = (height - start[1]) / ahead[1], max(edge - float(start @ ahead), 0.0)
     if side * ahead[0] < SAME or way <= edge:
         return np.array([start + way * ahead])
     knee = start + edge * ahead

@@ -114,10 +114,11 @@ class Tool:
     the V of a threading insert, whose included `angle` is 60 where none is given; `corner` the nose radius. Turning inserts
     and points of drills have usual angles where none are given (`path.inserts.USUAL`, `POINTED`); a blade without
     a width has no edge, and a part that it cuts says so. The programmed tip of a lathe tool is the imaginary sharp point.
+    Its edges count from there, a blade reaches `cutting_length` deep: 0 is 12 mm, of a blade 8 times its width.
 
-    Collisions are judged by `centre_cutting` (None: whether it may plunge is not judged), `hand` ("right" turns with
-    M3), `shank`, the radius of what is behind the edges and how far above the tip it begins, and `holder`, such pairs
-    from the tip up. Of chamfer tools and countersinks `angle` is the included one.
+    Collisions are judged by `cutting_length`, `centre_cutting` (None: whether it may plunge is not judged), `hand` ("right"
+    turns with M3), `shank`, the radius of what is behind the edges and how far above the tip it begins, and `holder`, such
+    pairs from the tip up. Of chamfer tools and countersinks `angle` is the included one.
 
     `wear` are the tolerances and offsets for measuring the tool, a `locked` tool is not to be called again. Of a true tool
     (`Setup.true_tools`) `edges` are the deviations (length, radius) of its single edges and `runout` is how far (x, y) its

@@ -31,11 +31,11 @@ def reach(halt: Span | None, place_of_line: Callable[[int, int], str]) -> str:
     return f"up to {place}, where the run stopped"
 
 
-def outcome(run: Run, most: int, cells: int | None = None) -> Outcome | None:
+def outcome(run: Run, most: int, cells: int | None = None, machine: Any = None) -> Outcome | None:
     """What became of the blank of a run; None without one.
 
     Of a path of more than `most` moves, or of one that is much work, only why it was not worked out. `cells` along the
-    longer side of the blank, of a card.
+    longer side of the blank, of a card; `machine` as in `Run.profile`.
     """
     if run.stock is None:
         return None
@@ -46,7 +46,7 @@ def outcome(run: Run, most: int, cells: int | None = None) -> Outcome | None:
     step = float(sides[:2].max()) / cells if cells and not run.toolpath.lathe else None
     try:
         with at_most(EFFORT if cells else 10 * EFFORT):
-            found = Outcome(run.removal(step=step), run.collisions())
+            found = Outcome(run.removal(machine=machine, step=step), run.collisions())
             found.facts()  # works them out
             return found
     except TooMuch:

@@ -13,6 +13,7 @@ import numpy as np
 from mnclab.machine.coordinates import LOG
 from mnclab.machine.cutting import TILT, lifted, start_known, tilted_rows, tools_of_rows
 from mnclab.path.limits import Limits
+from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Index, Kind, Mask, Toolpath
 from mnclab.text.alarm import Alarm, Span
@@ -25,6 +26,7 @@ from mnclab.workpiece.cutting import Cutting, numbers_of, tool_exists
 from mnclab.workpiece.cutting_data import CuttingData
 from mnclab.workpiece.cutting_data import cutting_data as data_of
 from mnclab.workpiece.part import Part
+from mnclab.workpiece.removal import Removal
 from mnclab.workpiece.workpiece import Workpiece, no_blank
 
 if TYPE_CHECKING:
@@ -86,7 +88,7 @@ def _inside(path: Toolpath, codes: list[str], known: tuple[str, ...]) -> list[st
 
 
 Made = TypeVar("Made")
-KEPT = 6  # parts and lists of collisions that a run keeps
+KEPT = 8  # parts, removals and lists of collisions that a run keeps
 JUDGED = 3000  # rows up to which a player asks for collisions
 
 
@@ -213,6 +215,11 @@ def _workpiece(run: Run, last: int | None, step: float | None, stock: Any) -> Wo
     return Milled(cutting, step, whole)
 
 
+def removal(run: Run, profile: Profile, step: float | None = None) -> Removal:
+    """How much material goes, and how fast under the limits of a profile."""
+    return _kept(run, ("removal", profile.limits, step), None, lambda: Removal(workpiece(run, step=step), profile))
+
+
 def design(run: Run, stock: Any = None) -> Proposal | TurnedProposal:
     """The design that a run makes, with the name of its program."""
     cutting, title = cutting_of(run, stock), Path(run.program.name).stem
@@ -310,16 +317,16 @@ def cutting_data(
     most = {name: _of_tools(given, name, tools) for name, given in (("vc", vc), ("fz", fz)) if given is not None}
     if kc is not None:
         check_number(kc, "the specific cutting force kc (N/mm²)", above=0)
-    removal, unknown = None, "Without a blank"
+    found, unknown = None, "Without a blank"
     if run.stock is not None and run.stock.volume > 0:
         unknown = f"Of more than {MOVES:,} moves"
         if int(run.toolpath.is_motion.sum()) <= MOVES:
             try:
-                removal = run.removal(profile.limits)
+                found = removal(run, profile)
             except Alarm as alarm:  # such as of a blank that no lathe turns
                 unknown = f"Of this blank ({alarm.message})"
     return data_of(
-        run.toolpath, tools, numbers, profile.limits, removal, most=most, kc=kc, reach=run.reach, unknown=unknown
+        run.toolpath, tools, numbers, profile.limits, found, most=most, kc=kc, reach=run.reach, unknown=unknown
     )
 
 

@@ -305,11 +305,12 @@ class Run(Pictures):
         self, limits: Limits | str | None = None, *, machine: Limits | str | None = None, step: float | None = None
     ) -> Removal:
         """How much material goes by row, line and tool, and how fast; `limits` as in `profile`, `step` as in `workpiece`."""
-        return Removal(self.workpiece(step=step), self.profile(limits, machine=machine))
+        return material.removal(self, self.profile(limits, machine=machine), step)
 
-    def outcome(self) -> Outcome | None:
-        """What became of the blank, for a report: removal and collisions, or why they are not known; None without one."""
-        return card.outcome(self, card.REPORT)
+    def outcome(self, machine: Limits | str | None = None) -> Outcome | None:
+        """What became of the blank, for a report: removal and collisions, or why they are not known; None without one.
+        `machine` as in `profile`."""
+        return card.outcome(self, card.REPORT, machine=machine)
 
     def again(self, setup: Setup) -> Run:
         """The same program on the same control, with another setup."""

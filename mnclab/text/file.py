@@ -67,7 +67,8 @@ def _russian(text: str) -> int:
 # Read are files alone, no device and no pipe, which may never end or never begin. A file that is written is either whole or
 # as it was: the new one grows under a name of its own in the same folder and takes the place at the end.
 
-LARGEST = 100_000_000  # bytes of a part program
+MOST_MEGABYTES = 100  # of a part program
+MEGABYTE = 1_000_000
 OLD = 3600  # s
 NO_FILE = "it is no file, but a folder, a device or a pipe"
 
@@ -77,7 +78,7 @@ def reason(error: OSError | ValueError) -> str:
     return error.strerror or str(error) if isinstance(error, OSError) else "no file has such a name"
 
 
-def read(path: str | Path, what: str | Path, most: int = LARGEST) -> bytes:
+def read(path: str | Path, what: str | Path, most: int = MOST_MEGABYTES * MEGABYTE) -> bytes:
     """The bytes of a file; an Alarm that begins with `what` if it cannot be read, is no file, or is too large."""
     try:
         if not stat.S_ISREG(os.stat(path).st_mode):
@@ -87,7 +88,8 @@ def read(path: str | Path, what: str | Path, most: int = LARGEST) -> bytes:
     except (OSError, ValueError) as error:
         raise Alarm(f"{what} cannot be read: {reason(error)}") from None
     if len(content) > most:
-        raise Alarm(f"{what} cannot be read: it has more than {most // 1_000_000} MB")
+        hint = f"the setting most_megabytes allows more than {most // MEGABYTE}" if most >= MOST_MEGABYTES * MEGABYTE else ""
+        raise Alarm(f"{what} cannot be read: it has more than {most // MEGABYTE} MB", hint=hint)
     return content
 
 

@@ -21,7 +21,7 @@ KINDS = {
     "spindle": "cutting with a spindle that stands still or turns the wrong way",
     "probe": "a probe in material between the measurements",
     "travel": "beyond the travel of the machine",
-    "insert": "the back of the insert or its holder in material",
+    "insert": "the back of the insert, what is beyond its edge, or its holder in material",
     "chuck": "the tool in the chuck",
     "axis": "a drill, or what else turns about its own axis, fed beside the axis of a part that turns",
 }

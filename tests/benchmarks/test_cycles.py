@@ -6,13 +6,12 @@ Prints processor seconds and ratios; asserts only that every hole was made. The 
 without K is G81 of rs274, with K it is G83 with Q; rs274 returns to R (G99) and writes its moves to nothing.
 """
 
-import resource
 import shutil
 import subprocess
-import time
 
 import numpy as np
 import pytest
+from tools.measuring import seconds
 
 import mnclab
 from mnclab import Kind, Setup
@@ -30,18 +29,6 @@ WORK = {
 
 def places(n, tail):
     return "".join(f"X{k % 300 * 2} Y{k // 300 * 2}{tail}\n" for k in range(1, n))
-
-
-def seconds(work):
-    """Processor seconds of this process and its children, and the result."""
-
-    def used():
-        both = resource.getrusage(resource.RUSAGE_SELF), resource.getrusage(resource.RUSAGE_CHILDREN)
-        return sum(part.ru_utime + part.ru_stime for part in both)
-
-    before, clock = used(), time.perf_counter()
-    result = work()
-    return used() - before, time.perf_counter() - clock, result
 
 
 def ours(text, bulk=True):

@@ -80,3 +80,20 @@ def test_a_text_is_read_no_further_than_it_has_faults_that_anybody_mends(control
     assert [alarm.span.line for alarm in told][0] == 2 and mnclab.run(program).alarms
     fewer = mnclab.read(FAULTY[control] * 100, control)
     assert not any("is not read" in alarm.message for alarm in fewer.alarms)
+
+
+def test_the_largest_file_is_a_setting(tmp_path):
+    """A file of 1.2 MB, below the limit of every program, is beyond one of 1 MB and within one of 2."""
+    path = tmp_path / "long.nc"
+    path.write_text("G21 G90 G94 G17 G54 S1000 M3\n" + "G1 X1.000 Y1.000 F100\nG1 X2.000 Y1.000 F100\n" * 27_300)
+    assert 1e6 < path.stat().st_size < 2e6
+    refused = "cannot be read: it has more than 1 MB"
+    with pytest.raises(mnclab.Alarm, match=refused):
+        mnclab.run(path, "g43", settings={"most_megabytes": 1})
+    with pytest.raises(mnclab.Alarm, match=refused):
+        mnclab.read(path, "g43", most_megabytes=1)
+    setup = mnclab.Setup(settings={"most_megabytes": 2})
+    assert len(mnclab.run(path, "g43", setup).toolpath) == len(mnclab.run(path, "g43").toolpath) > 54_000
+    for value in (0, 2001, "much", True):
+        with pytest.raises(mnclab.Alarm, match="most_megabytes"):
+            mnclab.run(path, "g43", settings={"most_megabytes": value})

@@ -17,6 +17,7 @@ KINDS = {
     },
 }  # fmt: skip
 BARS = {"jnc-t01": 38, "nc-31": 19}  # just within the start points of the cycles, X40 and X4000 (a diameter)
+TURNED_TO = {("nc-31", "G31"): 18}  # the crests of its thread
 CORE_HOLES = {("nc-31", "G33"): 10.2 / 2}  # for the tap M12 (ISO 2306), which needs a hole
 CASES = [(name, code) for name, kinds in KINDS.items() for code in kinds]
 ON_THE_AXIS = [("jnc-t01", "G73"), ("nc-31", "G73"), ("nc-31", "G33")]
@@ -32,7 +33,7 @@ def shown(name, code):
 
 
 def bar(name, code):
-    return mnclab.blank.cylinder(BARS[name], -120, 0, bore=CORE_HOLES.get((name, code), 0.0))
+    return mnclab.blank.cylinder(TURNED_TO.get((name, code), BARS[name]), -120, 0, bore=CORE_HOLES.get((name, code), 0.0))
 
 
 def test_every_cycle_is_here():

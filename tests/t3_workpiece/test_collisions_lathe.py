@@ -93,6 +93,12 @@ def test_a_plunge_beside_a_collar(auxiliary, deep):
     only(met(f"G00 X25 Z-30|G01 X{20 - deep}|X40", tool), "insert", 4, deep / tan(radians(auxiliary)), x=20)
 
 
+@pytest.mark.parametrize("deep", [0.5, 1])
+def test_a_plunge_of_an_insert_without_angles_has_the_usual_ones(deep):
+    """5 degrees behind the tip, as its picture has them."""
+    only(met(f"G00 X25 Z-30|G01 X{20 - deep}|X40", Tool(kind="turning")), "insert", 4, deep / tan(radians(5)), x=20)
+
+
 @pytest.mark.parametrize("deep", [3.5, 5, 7])
 def test_a_blade_that_turns_deeper_than_it_is_wide(deep):
     found = met(f"G00 X25 Z-30|G01 X{20 - deep}|Z-40|G00 X40", 3)

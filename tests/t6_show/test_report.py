@@ -250,6 +250,16 @@ def test_without_a_blank_a_report_is_as_it_was(run, tmp_path):
     assert "Collisions" not in run.report(tmp_path / "a.html").read_text("utf-8")
 
 
+def test_the_removal_rate_of_a_report_is_that_on_its_machine():
+    """A slot of 10 by 2 mm, 40 mm long: between two stops a machine of small acceleration takes it away at a lower mean rate."""
+    text = "G21 G17 G90 G94 G54\nT1 M6\nS1000 M3\nG0 X-10 Y20 Z5\nZ-2\nG1 X70 F3000\nG0 Z5\n"
+    run = mnclab.run(text, "g43", mnclab.Setup(stock=((0, 0, -20), (60, 40, 0))))
+    told = [dict(report(run, machine=machine).facts)["removal rate"].split(",")[0] for machine in ("fast-mill", "hobby-router")]
+    rates = [run.removal(machine=machine).mean / 1000 for machine in ("fast-mill", "hobby-router")]
+    assert [float(each.removesuffix(" cm³/min")) for each in told] == [float(f"{rate:.3g}") for rate in rates]
+    assert rates[0] > 1.01 * rates[1]
+
+
 def test_a_report_for_a_named_machine(run, tmp_path):
     """Its time is that of the profile on this machine; a machine that nobody knows is refused."""
     page = run.report(tmp_path / "a.html", machine="small-mill").read_text("utf-8")

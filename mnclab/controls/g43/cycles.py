@@ -141,7 +141,7 @@ class HoleCycle(holes.AtHole, Cycle):
         along_z(m, cls.code, given)
         at_a_place(m, cls.code, values, given)
         if not memory(m).machine_coordinates:
-            activate(m, "XYZ")
+            activate(m, "xyz")
             settle_doubt(m, Words(tuple(given.values()), cls.code), given.keys() & {"x", "y"})
         written_again(m, cls, given, kept)
         keep_initial_level(m, kept)

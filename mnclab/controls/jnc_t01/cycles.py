@@ -97,7 +97,7 @@ def plunge(cycle: FaceGrooves | CylindricalGrooves, m: Machine) -> Iterable[Step
 class FaceGrooves(LatheCycle):
     """Plunges along Z at X1 and at places D apart, the last one at X; between them it returns to Z1 at rapid."""
 
-    bottom: float = param("Z", "bottom of the groove", note=INCREMENT, example=-30)
+    bottom: float = param("Z", "bottom of the groove", note=INCREMENT, example=-20)
     last_x: float | None = optional("X", "place of the last groove or cut", "one groove at the present X", 20)
     step: float | None = pass_of("step between the cuts", "two cuts, at X1 and at X")
 

@@ -5,17 +5,18 @@ the values stand in its place. `_repr_mimebundle_` is asked once, when the box i
 style of the widget hides, holds the picture and is replaced after each change.
 
 JupyterLab calls widgets from another thread than cells, so figures are drawn in **one** thread, `DRAWING`, and without
-pyplot; nobody else starts threads. A picture keeps the limits of the one before and shows its path as a ghost; where a
-value is refused the last good picture stays, greyed.
+pyplot; nobody else starts threads, and where none can be started (Python in a browser) the work is done at once. A
+picture keeps the limits of the one before and shows its path as a ghost; where a value is refused the last good picture
+stays, greyed.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import suppress
-from functools import cache
+from functools import cache, cached_property
 from html import escape
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -108,7 +109,30 @@ def value_of(box: Any) -> str:
 
 # What follows the boxes.
 
-DRAWING = ThreadPoolExecutor(1, thread_name_prefix="drawing")
+class OneThread(Executor):
+    """Works done one after the other in a thread of their own, or at once where no thread can be started."""
+
+    @cached_property
+    def _thread(self) -> ThreadPoolExecutor | None:
+        thread = ThreadPoolExecutor(1, thread_name_prefix="drawing")
+        try:
+            thread.submit(int)  # the first work starts it
+        except RuntimeError:
+            return None
+        return thread
+
+    def submit(self, work: Callable[..., Any], /, *given: Any, **options: Any) -> Future[Any]:
+        if self._thread is not None:
+            return self._thread.submit(work, *given, **options)
+        done: Future[Any] = Future()
+        try:
+            done.set_result(work(*given, **options))
+        except Exception as error:
+            done.set_exception(error)
+        return done
+
+
+DRAWING = OneThread()
 SIZE = (6.4, 4.4)  # inches, of a picture beside boxes
 
 

@@ -85,7 +85,7 @@ class Report:
 
 def report(run: Any, title: str | None = None, machine: Any = None) -> Report:
     """Gather what a report says of a run, its times on a machine as in `Run.profile`."""
-    profile, became = run.profile(machine=machine), run.outcome()
+    profile, became = run.profile(machine=machine), run.outcome(machine)
     facts = [*_facts(run, run.toolpath.unit, profile.time), *(became.facts() if became else [])]
     causes = sorted(profile.time_by("cause").items(), key=lambda item: -item[1])
     times: Rows = [(str(name), clock(s), f"{100 * s / profile.time:.1f} %") for name, s in causes if s > 0]

@@ -5,5 +5,6 @@
     revolved   a half section turned about its axis: volume, radii, distance, surface
     turned     what is left, as people ask for it
 
-What they meet that they must not: `collisions`, row by row, with bars, chucks, and what is behind an insert.
+What they meet that they must not: `collisions`, row by row, with bars, chucks, and what is behind an insert;
+`edges`, with what is beyond the end of an edge.
 """

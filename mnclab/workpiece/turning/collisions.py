@@ -22,13 +22,15 @@ from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
 from mnclab.geometry.sweeps import CHORD_ERROR, broad
-from mnclab.path.inserts import EDGE, FACE, angles_of, cutting_part, mirror_of, turns, usual
+from mnclab.path.inserts import EDGE, FACE, angles_of, cutting_part, edge_length, mirror_of, turns, usual
+from mnclab.path.listing import Unit
 from mnclab.path.tool import CHAMFER, LATHE, Tool
 from mnclab.path.toolpath import Index, Kind
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import shown
 from mnclab.workpiece.collision import Collision, Collisions, deep, solid
 from mnclab.workpiece.cutting import Cutting
+from mnclab.workpiece.turning.edges import Edges, TooDeep
 from mnclab.workpiece.turning.section import SectionDrawing
 from mnclab.workpiece.turning.turned import half_section
 
@@ -60,7 +62,7 @@ class Back(NamedTuple):
 
 def taken_by_back(tool: Tool, shape: Floats, way: Floats, left: Any) -> Back | None:
     """What the back of an insert takes of an area `left` along a way (m, 2); `shape` (k, 2) is the tool about its tip."""
-    mirror = mirror_of(tool)
+    tool, mirror = usual(tool), mirror_of(tool)
     if tool.kind in ("thread", FACE) or not (tool.width or tool.auxiliary_angle):
         return None
     places, corners = way * mirror, shape * mirror
@@ -225,7 +227,8 @@ def collisions_of(cutting: Cutting, step: float | None = None) -> Collisions:
     """What the rows of a cutting meet that they must not, at most one of each row and kind; see `KINDS`.
 
     What only touches, within 0.01 mm, meets nothing. The depth of the back of an insert is how far beyond the way of the
-    nose it cuts, any other how far inside the material, or the chuck, the tool is. Areas need no `step`.
+    nose it cuts, of a cut deeper than its edge how much deeper, along the edge; any other how far inside the material, or the
+    chuck, the tool is. Areas need no `step`.
     """
     return Collisions(_collision(cutting, row, met) for row, met in _met(cutting))
 
@@ -248,6 +251,7 @@ def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
     bodies = [behind(tool, height) for tool in cutting.tools]
     ways = [_way(cutting, row) for row in rows.tolist()]
     areas = _swept([shapes[k] for k in cutting.which[rows].tolist()], ways)
+    edges = Edges(cutting, height)
     later = _Later(path.step[rows].tolist(), (cutting.cuts & (path.kind != Kind.RAPID))[rows].tolist(), areas)
     for k, (row, way, covered) in enumerate(zip(rows.tolist(), ways, areas, strict=True)):
         which = int(cutting.which[row])
@@ -259,23 +263,38 @@ def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
         if cutting.probed[row]:  # it takes nothing
             if met := _deeper(left, covered, _folded(_swept([shape], [way[:1]])[0]), len(way) > 1):
                 yield row, met
-        elif shapely.intersects(left, covered):
+        elif not shapely.intersects(left, covered):
+            edges.passed(row, way, covered)
+        else:
             rest = shapely.difference(left, covered)
             found = list(_cut(cutting, row, tool, shape, way, left, spared, covered))
             if found and found[-1].kind == "insert":  # again, where nothing is judged that this cycle takes all the same
                 stays = shapely.difference(left, shapely.union(spared, later(k)))
                 back = taken_by_back(tool, shape, way, stays)
                 found = [*found[:-1], *([_backed(back)] if back else [])]
-            yield from ((row, met) for met in found)
+            too_deep = edges.judge(row, way, left, rest, spared, covered)
             if len(way) == 2 and not found and path.kind[row] == Kind.LINE:
                 wedge = left_by_lean(tool, way, shapely.intersection(left, covered))
                 spared = shapely.union(spared, wedge) if wedge.area > AREA else spared
+            if too_deep and not any(each.kind == "holder" for each in found):
+                beyond = [each for each in [*found, _beyond(too_deep, path.unit)] if each.kind == "insert"]
+                found = [*(each for each in found if each.kind != "insert"), max(beyond, key=lambda each: each.depth)]
+            if any(each.kind == "insert" for each in found):
+                edges.lacking.pop(row, None)  # one of each row and kind
+            yield from ((row, met) for met in found)
             left = _held(rest)
         for kind, body in bodies[which]:
             covered = _folded(_swept([body], [way])[0])
             if met := _deepest(kind, left, covered):
                 yield row, met._replace(said=HOLDER) if kind == "insert" else met
                 left = _held(shapely.difference(left, covered))
+    for row, (_, too_deep) in edges.lacking.items():
+        if not cutting.reach:  # where a program stopped, nobody knows what its edges would still take
+            yield row, _beyond(too_deep, path.unit)
+
+
+def _beyond(found: TooDeep, unit: Unit) -> Met:
+    return Met("insert", found.told(unit), found.place, found.deep - found.long)
 
 
 def _swept(shapes: list[Floats], ways: list[Floats]) -> list[Any]:
@@ -347,19 +366,21 @@ class _Later:
 
 
 def _bored(tool: Tool, shape: Floats, way: Floats, left: Any, covered: Any) -> Iterator[Met]:
-    """What the bar of a boring tool takes between the tip and the axis, and what cannot be a bore: material on the axis.
+    """What a boring tool takes that cannot be a bore: material on the axis.
 
-    There either the bar is in the core that a short edge leaves, or a long one reaches over the axis and cuts backwards.
+    There either the bar, between tip and axis, is in the core that a short edge leaves, or a long one reaches over the axis
+    and cuts backwards.
     """
-    if tool.kind == "boring" and not tool.width:  # nothing says how long its edge is: no longer than the usual one
-        below = shapely.box(-FAR, -FAR, FAR, -(tool.cutting_length or EDGE))
+    if tool.kind != "boring" or not _on_axis(left, covered):
+        return
+    if not tool.width:
+        below = shapely.box(-FAR, -FAR, FAR, -edge_length(tool))
         bar = shapely.get_coordinates(shapely.intersection(shapely.Polygon(shape), below))
         if len(bar) and (met := _deepest("holder", left, _swept([bar], [way])[0])):
             yield met._replace(said=BAR)
             return
-    if tool.kind == "boring" and way[:, 1].min() > TOLERANCE and _on_axis(left, covered):
-        if met := _deepest("holder", left, covered):
-            yield met._replace(said=FULL)
+    if way[:, 1].min() > TOLERANCE and (met := _deepest("holder", left, covered)):
+        yield met._replace(said=FULL)
 
 
 def _on_axis(left: Any, covered: Any) -> bool:

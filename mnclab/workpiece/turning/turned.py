@@ -40,7 +40,8 @@ PLANES = ("ZX", "XZ", "ZY", "YZ", "XY")
 class Turned(Workpiece):
     """`section`: closed contours (z, r), mm, from the axis of the spindle outwards; outer ones counter-clockwise, holes
     clockwise. `parted` are the pieces that fell off: the bar hangs in a chuck where its z is lowest.
-    Nothing is sampled: a `step` changes nothing.
+    Nothing is sampled: a `step` changes nothing. Edges are as long as the cut is deep: that a true one is too short is told by
+    the collisions, and the part is what the program says.
     """
 
     def __init__(

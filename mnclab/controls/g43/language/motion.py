@@ -25,7 +25,7 @@ from mnclab.text.program import Word, digits
 
 def angles_of(m: Machine, words: Words) -> Angles | None:
     """Where the rotary axes go that are written, degrees; None where none is. Under G91 from where they stand."""
-    if not any(axis in words for axis in ROTARY):
+    if words.keys().isdisjoint(ROTARY):
         return None
     found = list(angles(m))
     for k, axis in enumerate(ROTARY):
@@ -36,7 +36,7 @@ def angles_of(m: Machine, words: Words) -> Angles | None:
 
 def at_zero(m: Machine, words: Words) -> Angles | None:
     """The rotary axes that are written at zero; None where none is."""
-    if not any(axis in words for axis in ROTARY):
+    if words.keys().isdisjoint(ROTARY):
         return None
     a, b, c = (0.0 if axis in words else angle for axis, angle in zip(ROTARY, angles(m), strict=True))
     return a, b, c
@@ -162,7 +162,7 @@ def targets(m: Machine, words: Words) -> dict[str, float]:
     else:
         to = motion.coordinates(m, words, m.modal["dimension"] == "G90" or kept.machine_coordinates)
     if to and not kept.machine_coordinates:
-        activate(m, "".join(to).upper())
+        activate(m, to)
         if kept.doubt is not None:
             settle_doubt(m, words, to)
     return to

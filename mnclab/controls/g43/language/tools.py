@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from mnclab.controls.g43.state import ISO, NONE, Offsets, memory, undescribed, whole, written
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import AXES, COMPENSATION, SIDES, first_word
@@ -109,16 +111,20 @@ def pending(m: Machine) -> bool:
     return memory(m).wanted_offsets != memory(m).active_offsets
 
 
-def activate(m: Machine, axes: str) -> None:
-    """The offsets along axes that move now count: programmed coordinates stay, and the next motion takes them up."""
-    if memory(m).outlived and "Z" in axes:
-        memory(m).outlived = False
-        m.warn(f"H{memory(m).length_corrector} is from before the change to T{m.tool.number}: its length still counts",
+def activate(m: Machine, to: Collection[str]) -> None:
+    """The offsets along axes that move now count (`to` has x, y, z): programmed coordinates stay, and the next motion takes
+    them up."""
+    kept = memory(m)
+    if kept.outlived and "z" in to:
+        kept.outlived = False
+        m.warn(f"H{kept.length_corrector} is from before the change to T{m.tool.number}: its length still counts",
                hint=f"write G43 H{m.tool.number} after the change")  # fmt: skip
-    wanted, active = memory(m).wanted_offsets, memory(m).active_offsets
-    x, y, z = (wanted[k] if axis in axes else active[k] for k, axis in enumerate(AXES))
+    wanted, active = kept.wanted_offsets, kept.active_offsets
+    if wanted == active:
+        return
+    x, y, z = (wanted[k] if axis in to else active[k] for k, axis in enumerate("xyz"))
     if (x, y, z) != active:
-        memory(m).active_offsets = (x, y, z)
+        kept.active_offsets = (x, y, z)
         place(m, "programmed")
 
 
