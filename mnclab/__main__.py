@@ -1,5 +1,5 @@
 """mnclab from a shell: check, run, renumber, plot, part, compare, drawing, report, time, help, exercise, grade,
-handout, send, lessons, lab.
+handout, site, send, lessons, lab.
 
 `python -m mnclab` is the same.
 
@@ -40,6 +40,7 @@ from mnclab.shell.saying import (
     with_blank,
 )
 from mnclab.shell.sending import send
+from mnclab.shell.site import site
 from mnclab.shell.timing import time
 from mnclab.show.export import BODIES
 from mnclab.text.alarm import Alarm
@@ -248,6 +249,11 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("-o", "--output", metavar="OUT", help=says)
     sub.add_argument("--pdf", action="store_true", help="a PDF too, printed by Chromium")
     sub.add_argument("--answers", action="store_true", help="for the teacher: answers of the graded exercises too")
+    does = "write pages that need no network: the reference, the tables of every control, the glossary, the lessons as they ran"
+    sub = command("site", site, does, "")
+    output(sub, "a folder: a new or an empty one, or that of a site, whose pages are written anew")
+    sub.add_argument("--no-lessons", action="store_true", help="without running lessons; those that the folder has stay")
+    sub.add_argument("-j", "--jobs", type=int, default=1, metavar="N", help="how many lessons run at a time (default: 1)")
     sub = command("send", send, "write a program as its control takes it, with the sheets that the first run needs")
     sub.add_argument("-o", "--output", metavar="DIR", help="the folder (default: this one)")
     sub.add_argument("--name", help="of the program on the control (default: that of the file)")

@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parent.parent
 SAMPLE = [
     "tests/t1_geometry/test_dxf_blocks.py", "tests/t3_workpiece/test_part_mesh.py",
     "tests/t3_workpiece/test_collisions_lathe.py", "tests/t6_show/test_plot_regions.py",
-    "tests/t6_show/test_plot_strategy.py", "tests/t6_show/test_export_read_back.py",
+    "tests/t6_show/test_plot_strategy.py", "tests/t6_show/test_export_read_back.py", "tests/t6_show/test_site.py",
 ]  # fmt: skip
 INSTALLED_ALONE = "jupyterlab"  # no module of it is imported: it finds the extension by itself
 
@@ -25,7 +25,7 @@ def floors() -> dict[str, str]:
     """The lowest version of each package, as declared."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     extras = project["optional-dependencies"]
-    words = [*project["dependencies"], *extras["lab"], *extras["dxf"]]
+    words = [*project["dependencies"], *extras["lab"], *extras["dxf"], *extras["site"]]
     return {name: low for name, low in (re.fullmatch(r"([\w-]+)>=([\d.]+)", word).groups() for word in words)}
 
 

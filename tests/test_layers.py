@@ -43,10 +43,11 @@ OUTSIDE = {  # package -> the only modules of mnclab that import it
     "nbconvert": ("shell.handout",),
     "nbformat": ("shell.handout",),
     "pygments": ("shell.handout",),
+    "pdoc": ("shell.site", "shell.reference"),
 }
 SEES_ALL = ("lab",)
 HEAVY = {"shapely", "matplotlib", "pyvista", "vtkmodules", "ipywidgets", "IPython", "tqdm", "pandas", "nbclient", "nbconvert",
-         "nbformat", "pygments"}
+         "nbformat", "pygments", "pdoc"}
 VAGUE = {"util", "utils", "helper", "helpers", "common", "base", "core", "misc"}
 LONGEST = 500
 

@@ -44,7 +44,8 @@ def built(tmp_path_factory):
 def test_a_wheel_is_whole_and_runs_alone(built, tmp_path):
     names, python = built
     inside = {name for name in names if name.startswith("mnclab/")}
-    assert {"mnclab/py.typed", "mnclab/area.pyi", "mnclab/__init__.pyi", "mnclab/course/data/exercises/mnc/mnc-07.toml"} <= inside
+    assert {"mnclab/py.typed", "mnclab/area.pyi", "mnclab/__init__.pyi", "mnclab/shell/pages/page.html.jinja2"} <= inside
+    assert "mnclab/course/data/exercises/mnc/mnc-07.toml" in inside
     assert any("share/jupyter/labextensions/mnclab/package.json" in name for name in names)
     assert not [name for name in names if "tests/" in name or "__pycache__" in name]
 

@@ -384,6 +384,10 @@ def diff(
     Two programs, two controls, two tool radii, two limits (of their setups: the times differ); `step` mm is how
     closely the paths are looked at. With `what="holes"` their holes (see `path.holes`) are compared instead, whatever the
     order and the heights: places and diameters within `tolerance` mm; `.same` says whether they are the same.
+
+    >>> one, other = mnc.run("G1 X10 F100\\n", "mnc"), mnc.run("G1 X10 Y0.5 F100\\n", "mnc")
+    >>> mnc.diff(one, other).largest
+    0.5
     """
     for each in (one, other):
         if not isinstance(each, Ran | Toolpath):

@@ -174,6 +174,10 @@ def compare(
     of the path of the strategies that round their corners (None: a tenth of the tool radius).
 
     The table has `best("time")`, `save("t.csv")` or "t.svg", `to_pandas()`, `plot()`. An Alarm where the tool does not fit.
+
+    >>> pocket = mnc.area.Region.of(mnc.area.rectangle(40, 20))
+    >>> [trial.name for trial in mnc.compare(pocket, mnc.Tool(diameter=8), "rings", "zigzag")]
+    ['rings', 'zigzag']
     """
     limits = limits_of(limits, machine)
     if isinstance(strategies, str) or more:

@@ -97,6 +97,12 @@ def tool_sets(
     what the smallest of all reaches. For each tool of a set the quickest of the `strategies` is taken, names of
     `mnclab.strategies.STRATEGIES` (None: "adaptive" and "rings"); it cuts what the tools before it have left. A change of tools
     takes `change` s. All else is as in `mnclab.compare`.
+
+    A change that takes very long leaves one tool, the smallest, which reaches everything:
+
+    >>> pocket = mnc.area.Region.of(mnc.area.rectangle(40, 20, 5))
+    >>> mnc.tool_sets(pocket, [4, 8], "rings", change=1000).best("time").tools
+    (4,)
     """
     limits = limits_of(limits, machine)
     if not isinstance(region, Region):

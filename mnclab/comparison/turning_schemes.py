@@ -191,6 +191,10 @@ def compare(
     and `step` of the descent (by default the width of the tool, or the depth) in mm; `feed` in mm/rev, `feeds` by
     role; `spindle` in rev/min: with a cutting speed `surface` in m/min it is the greatest speed. With axis `limits`
     (or those of a `machine` by its name) the time comes from the feed-rate profile.
+
+    >>> shoulder = mnc.area.Contour([(0, 10), (-30, 10), (-30, 20)], closed=False)
+    >>> [trial.name for trial in mnc.compare_turning(shoulder, 20, schemes=["loop", "zigzag"], depth=5)]
+    ['loop', 'zigzag']
     """
     limits = limits_of(limits, machine)
     tools = tool if isinstance(tool, tuple) else (tool,)

@@ -39,7 +39,11 @@ class Signed(NamedTuple):
 
 
 class Controls(Mapping[str, "Control"]):
-    """All controls by name; a control is imported when it is first asked for."""
+    """All controls by name; a control is imported when it is first asked for.
+
+    >>> mnc.controls["jnc-t01"].title
+    'JNC-T01 (lathe)'
+    """
 
     def __init__(self) -> None:
         self._built: dict[str, Control] = {}

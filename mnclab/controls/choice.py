@@ -48,6 +48,9 @@ def run(
     `tools` by their numbers, the `stock` (three sizes in mm have their corner at the datum and their top at Z0) and any other
     part of a `Setup` may be given without one, or beside one, whose parts they replace; `machine="small-mill"` stands for
     its limits. `setup` may be the name of a .toml file, which `mnclab --help` shows.
+
+    >>> mnc.run("S800 M3\\nG1 X30 Y40 F100\\n", "mnc").toolpath.length
+    50.0
     """
     if isinstance(setup, str | Path) and PurePath(setup).suffix.lower() == ".toml":
         setup = load(setup)
@@ -68,7 +71,11 @@ def run(
 @fitting
 def read(source: str | Path, control: str | None = None, *, most_megabytes: float | None = None) -> Program:
     """Read a part program into blocks without running it; see `run` for the arguments. A file larger than `most_megabytes`,
-    as the setting of this name (100), is refused: a million blocks take some 300 MB of memory while they are read."""
+    as the setting of this name (100), is refused: a million blocks take some 300 MB of memory while they are read.
+
+    >>> mnc.read("N10 G0 X5 Y2\\nN20 M30\\n", "mnc")[1]
+    <Block N20 M30, line 2>
+    """
     allowed = chosen(EVERY, {} if most_megabytes is None else {"most_megabytes": most_megabytes}, "every control")
     text, name, encoding = _text_of(source, control, int(allowed["most_megabytes"] * MEGABYTE))
     program = read_text(text, name, control, "" if encoding == "str" else str(Path(name).parent))
@@ -102,6 +109,13 @@ def modern(source: str | Path | Program | Run, control: str | None = None) -> No
     """A program beside itself in modern notation: one command a line, millimetres, decimal points (NC-31).
 
     `source` and `control` are those of `run`, or a run. An Alarm where the control's own notation is modern.
+
+    >>> print(mnc.modern("N1 X1000 ~\\nN2 Z-500\\n", "nc-31"))
+    NC-31       modern notation
+    ----------  ---------------
+                G21 G90 G95 (mm, X on the diameter, feed per revolution)
+    N1 X1000 ~  G0 X10.0
+    N2 Z-500    G1 Z-5.0
     """
     program = source.program if isinstance(source, Run) else source
     program = program if isinstance(program, Program) else read(program, control)
@@ -198,7 +212,11 @@ class Found(Rows[tuple[str, str, str, str]]):
 
 
 class Help:
-    """What a code, a setting or a term means, all codes of a control, or a page for every control: as text or as a table."""
+    """What a code, a setting or a term means, all codes of a control, or a page for every control: as text or as a table.
+
+    >>> mnc.help("G83", "mnc").term
+    'Цикл глубокого сверления'
+    """
 
     def __init__(self, entry: Any, control: Control) -> None:
         self.entry, self.control = entry, control
@@ -265,6 +283,10 @@ def help(code: str | Control = "", control: str | None = None) -> Help:
 
     Without `control` that of the only control which has the code. Words in English or in the language of a manual find what
     has them in its title: one thing is shown, of several a table. An Alarm with the nearest codes if there is none.
+
+    >>> mnc.help("word")
+    word  (ru слово; ro cuvânt)
+    An address and its number, such as X20: the smallest part of a block that means something. Not: token.
     """
     code = code.name if isinstance(code, Control) else code
     if not isinstance(code, str):
@@ -393,6 +415,10 @@ def renumber(
     `source`, `control`: as in `mnclab.run`. `start`, `step`: the first number and what is added each time, without them
     10 and 10 (Klartext: 0 and 1, NC-31: 1 and 1). Only blocks with a number get a new one; a Klartext program without any
     gets them all. An Alarm where a jump computes its target, or names a block that is not there.
+
+    >>> print(mnc.renumber("N1 G0 X5\\nN2 M30\\n", "mnc", start=100, step=5), end="")
+    N100 G0 X5
+    N105 M30
     """
     program = source if isinstance(source, Program) else read(source, control)
     chosen = CONTROLS[program.control]

@@ -216,6 +216,9 @@ def steps(code: str, control: str, /, setup: Setup | None = None, **values: Any)
 
     `values` go by address or by name, in the units of programs; those that are not given are the examples of the
     declaration. `setup` is the machine, of whose tools the first that fits is taken.
+
+    >>> [step.label for step in mnc.steps("G83", "mnc", Z=-10, R=2, K=6)][2:4]
+    ['peck 1 of 2', 'clear the chips']
     """
     if not isinstance(setup, Setup | None):
         raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint="Setup(tools={1: Tool(radius=5)})")

@@ -195,6 +195,9 @@ def check(
     of a folder are programs (default: those that part programs usually have), `("*",)` all. `jobs`: how many processes
     share them; an `executor` of your own (`concurrent.futures`) takes their place. Ctrl-C ends
     it, and what was checked so far is returned.
+
+    >>> mnc.check("data/programs/mnc").ok
+    True
     """
     given = [where] if isinstance(where, str | os.PathLike) or not isinstance(where, Iterable) else list(where)
     if not all(isinstance(place, str | os.PathLike) for place in given):
@@ -229,6 +232,9 @@ def run_many(
     """The same as `check`, on all cores if `jobs` does not say on how many: for an archive of programs.
 
     On a cluster, with the extra `dask`: `client = distributed.Client(address)`, then `executor=client.get_executor()`.
+
+    >>> mnc.run_many("data/programs/mnc", jobs=1).ok
+    True
     """
     return check(paths, control, setup, jobs=os.cpu_count() or 1 if jobs is None else jobs, executor=executor)
 

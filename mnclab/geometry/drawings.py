@@ -31,6 +31,9 @@ def area_of(contours: Iterable[Contour], tolerance: float = SAME) -> Region:
 
     Open contours are joined where their ends meet within `tolerance`; what stays open bounds nothing, and a warning says
     where it is. An Alarm where nothing is closed, or a contour crosses itself.
+
+    >>> mnc.area.area_of([mnc.area.rectangle(40, 20), mnc.area.rectangle(10, 10)]).area
+    700.0
     """
     contours = list(contours) if isinstance(contours, Iterable) else [contours]
     if wrong := [each for each in contours if not isinstance(each, Contour)]:

@@ -44,6 +44,9 @@ class Region:
     """An area of one or more pieces, each a loop counter-clockwise followed by its islands clockwise.
 
     The area lies to the left of all its loops. `Region(())` is empty.
+
+    >>> mnc.area.Region.of(mnc.area.rectangle(40, 20)).area
+    800.0
     """
 
     loops: tuple[Contour, ...] = ()

@@ -45,6 +45,10 @@ def contours(source: str | Path, tolerance: float = 0.01) -> list[Contour]:
     """All contours of a drawing, open and closed; `source` is its text or the path of its file.
 
     An Alarm where the text is no SVG, a path is misspelt or a place is farther away than a kilometre.
+
+    >>> drawing = '<svg xmlns="http://www.w3.org/2000/svg"><rect width="40" height="20"/></svg>'
+    >>> [contour.length for contour in mnc.area.svg(drawing)]
+    [120.0]
     """
     if not isinstance(source, str | Path):
         raise Alarm(f"an SVG drawing is its text or the path of a file, got {shown(source)}")

@@ -79,6 +79,9 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
 
     A file that does not exist yet is made when it is saved. The result has `text`, `button` and `status` (boxes),
     `run` (the last run) and `document`.
+
+    >>> mnc.editor("new.mnc", "mnc").text.value
+    ''
     """
     if not isinstance(path, str | Path):
         raise Alarm(f"an editor is opened on the path of a file, got {shown(path)}")

@@ -193,7 +193,11 @@ def files(folder: Path | None = None) -> dict[str, Path]:
 
 @fitting
 def exercise(id: str | Path, pupil: str = "") -> Exercise:
-    """The exercise with an id ("mnc-03"), or that of a file, with the dimensions of a pupil; an Alarm where there is none."""
+    """The exercise with an id ("mnc-03"), or that of a file, with the dimensions of a pupil; an Alarm where there is none.
+
+    >>> mnc.exercise("mnc-03").title
+    'One hook, three places'
+    """
     from mnclab.learning.exercise_file import load
 
     if isinstance(id, Path) or id.lower().endswith(".toml"):
@@ -208,7 +212,11 @@ def exercise(id: str | Path, pupil: str = "") -> Exercise:
 
 @fitting
 def exercises(control: str | None = None, *, level: int | None = None, lesson: str | None = None) -> Exercises:
-    """All exercises, or those of a control, a level (1 to 5) or a lesson ("05"), as a table to iterate over."""
+    """All exercises, or those of a control, a level (1 to 5) or a lesson ("05"), as a table to iterate over.
+
+    >>> {each.level for each in mnc.exercises("mnc", level=1)}
+    {1}
+    """
     return Exercises(_of(control, level, lesson))
 
 

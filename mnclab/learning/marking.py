@@ -83,6 +83,12 @@ def mark(
     your own. With `neighbours` each pupil's drawing has the dimensions of the name of the folder. `jobs` processes, default one
     a core; `told` is called with how many are graded, and of how many. A file that is empty, or as `exercise give` writes it,
     was not handed in. An Alarm where there is no answer.
+
+    >>> folder = Path("class/ivanov")
+    >>> folder.mkdir(parents=True)
+    >>> _ = (folder / "mnc-01.mnc").write_text("G0 X5\\n")
+    >>> len(mnc.mark("class", jobs=1))
+    1
     """
     if jobs is not None:
         check_number(whole(jobs, "jobs"), "jobs", at_least=1)

@@ -31,6 +31,9 @@ class Probe:
     As it is: the `true_offset` (x, y) of the ball (None: as the table has it), the `deflection` (x, y, z) by which it goes on
     until it triggers, the standard deviation `spread` of a trigger with the `seed` of its randomness, and the stem: a
     cylinder of `stem` radius (0: not judged) that goes up from the ball by `stem_length`.
+
+    >>> mnc.Probe(reach=20).clearance
+    2.0
     """
 
     clearance: float = 2.0
@@ -97,6 +100,9 @@ class Setter:
     `x`, `y`, `z` are where the control takes it to be: the middle of the upper side of a round plate of a `diameter`; or,
     where `axis` says "X" or "Y", a point of a beam along that axis. `off` (x, y, z) is how far it truly stands from there,
     which a control finds when it calibrates. `slope` is how much the beam rises for each mm along its axis.
+
+    >>> mnc.Setter(x=300, y=200, z=50)
+    Setter(x=300, y=200, z=50)
     """
 
     x: float = 0.0

@@ -78,6 +78,9 @@ class Datum(_Datum):
 
     `a`, `b`, `c` are where the rotary axes count from, `rotation` turns the plane; `tilt_x` and `tilt_y` are turns about the
     fixed axes X and Y before that, of a workpiece that does not lie level (SPA, SPB and SPC of a preset table).
+
+    >>> mnc.Datum(100, 50, 20)
+    Datum(x=100, y=50, z=20)
     """
 
     __slots__ = ()
@@ -249,6 +252,14 @@ class Setup:
     `true_tools` are the tools as they truly are, by the number of their row in the table, where they differ from it (what is
     not said of one is as the table has it): what cuts, and what probing and measuring find. `setter` is the tool setter that
     measures them, if there is one. `kinematics` is not built yet. An Alarm names what cannot be.
+
+    >>> mnc.Setup(tools={1: mnc.Tool(diameter=10)}, stock=(80, 60, 20))
+    Setup
+      T1: tool, radius 5 mm
+      stock: 80 x 60 x 20 mm, its corner at the datum, its top at Z0
+      probe: as usual
+      limits: as usual
+      start: X0 Y0 Z0
     """
 
     tools: Magazine | None = None

@@ -31,8 +31,8 @@ def guided(surface: float, deepened: float, clearance: float, up: float = 1.0) -
     Drilling begins 0.2 of that depth above its end, chips are cleared 0.8 of it above, but never more than `clearance`
     (TNC 620, positioning behaviour with Q379). `up` is -1 where the hole is drilled upwards.
 
-    >>> guided(0, 2, 2)
-    Guided(start=-1.6, clear=-0.4)
+    >>> guided(0, 10, 20)
+    Guided(start=-8.0, clear=-2.0)
     >>> guided(0, 0, 2)
     Guided(start=2.0, clear=2.0)
     """

@@ -54,6 +54,9 @@ class Limits:
     The defaults are those of a small machining centre whose spindle and tool changer take no time.
 
     An Alarm names a limit that makes no sense: each is from 0.001 to 1e9 in its unit, or 0 where that has a meaning.
+
+    >>> mnc.Limits(rapid=(20000, 20000, 10000), acceleration=2000)
+    Limits(rapid=(20000, 20000, 10000), acceleration=2000)
     """
 
     rapid: PerAxis = 10_000.0
@@ -163,7 +166,11 @@ def _per_axis(value: Any) -> str:
 
 @fitting
 def machines() -> Machines:
-    """The machines whose name may stand for limits: `run.profile("small-mill")`, `Setup(limits="small-mill")`."""
+    """The machines whose name may stand for limits: `run.profile("small-mill")`, `Setup(limits="small-mill")`.
+
+    >>> mnc.machines()["small-mill"].title
+    'Small vertical machining centre'
+    """
     return Machines(map(load, names()))
 
 

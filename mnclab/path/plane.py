@@ -95,6 +95,9 @@ def outline(path: Toolpath) -> Contour:
     """The closed contour along the moves of a path in the plane of its first row; a gap is closed by a straight line.
 
     Arcs of more than half a turn become several, since a bulge tan(sweep / 4) has no whole circle.
+
+    >>> mnc.area.outline(mnc.run("G1 X40 F100\\nY20\\nX0\\nY0\\n", "mnc").toolpath).area
+    800.0
     """
     _check_path(path)
     view = PlaneView(path)
@@ -133,6 +136,10 @@ def outlines(path: Toolpath, tolerance: float = 0.01) -> tuple[Contour, ...]:
     """Every closed contour that a path cuts: runs of cuts in the plane that end within `tolerance` of their start.
 
     A rapid or a move along the tool axis parts runs. What is cut and does not close, an approach for one, is left out.
+
+    >>> path = mnc.run("G1 X40 F100\\nY20\\nX0\\nY0\\nG0 Z5\\nX80\\n", "mnc").toolpath
+    >>> [contour.area for contour in mnc.area.outlines(path)]
+    [800.0]
     """
     _check_path(path)
     check_number(tolerance, "the tolerance (mm)", above=0)

@@ -28,6 +28,9 @@ class Wear:
     and `break_radius` those from which it counts as broken (LBREAK, RBREAK). `offset_radius` is how far the axis of the tool
     stands beside the middle of the setter while its length is measured (R-OFFS; None: the tool radius), `offset_length` how
     much deeper than usual it stands while its radius is measured (L-OFFS).
+
+    >>> mnc.Wear(length=0.1)
+    Wear(length=0.1)
     """
 
     length: float = 0.0
@@ -123,6 +126,9 @@ class Tool:
 
     An Alarm names a dimension that makes no sense. Negative may be the deltas, and the length against a zero tool; a
     radius below 0 is written as a negative `dr`.
+
+    >>> mnc.Tool(diameter=10, teeth=2)
+    Tool(radius=5, teeth=2)
     """
 
     radius: float = 0.0

@@ -25,7 +25,12 @@ if TYPE_CHECKING:
 # The kinds of rows in a toolpath, and the rules of radius compensation that made them.
 
 class Kind(IntEnum):
-    """What a row of a toolpath is. Motion rows are RAPID, LINE, ARC and PROBE; the others are events."""
+    """What a row of a toolpath is. Motion rows are RAPID, LINE, ARC and PROBE; the others are events.
+
+    >>> path = mnc.run("G0 X5\\nG1 Y10 F100\\n", "mnc").toolpath
+    >>> path[path.kind == mnc.Kind.LINE].length
+    10.0
+    """
 
     RAPID = 0
     LINE = 1
@@ -196,6 +201,9 @@ class Toolpath(Pictured, Columned, Columns):
     that all positions are relative to; `lathe` says that pictures and listings show X (a radius) and Z, `inches` that
     listings and tables are in inches, `tenths` that their feeds are in tenths of an inch a minute. The columns are always
     in mm.
+
+    >>> mnc.run("G0 X5\\nG1 Y10 F100\\n", "mnc").toolpath[0]
+    <Move line 1 rapid X5 Y0 Z0>
     """
 
     def __init__(

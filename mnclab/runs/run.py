@@ -111,6 +111,9 @@ class Run(Pictures):
     `gouges` are the places where a compensated tool does not fit: the one that was refused, or with the setting
     `gouge = "mark"` all of them. `stopped` is where an axis would have left its travel, machine coordinates; `halt` the block
     at which the run stopped before its end, None of a whole run.
+
+    >>> mnc.run("S800 M3\\nG1 X30 Y40 F100\\n", "mnc")
+    <Run program on mnc: 2 blocks, 1 move, cutting 50.000 mm, rapid 0.000 mm, 30.0 s at feed>
     """
 
     def __init__(

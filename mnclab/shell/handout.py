@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from mnclab.shell.lessons import home
-from mnclab.shell.saying import CLEAN, sensible
+from mnclab.shell.saying import CLEAN, refuse, sensible
 from mnclab.show.report.document import POLICY
 from mnclab.text.alarm import Alarm, hint
 from mnclab.text.file import replaced
@@ -42,7 +42,7 @@ def handout(chosen: argparse.Namespace) -> int:
     out = Path(chosen.output or f"handout_{'_'.join([*found, *['answers'] * chosen.answers])}.html")
     suffix = out.suffix.lower()
     if suffix not in (".html", ".pdf"):
-        sensible(_refuse, f"a handout is an .html or a .pdf file, got {shown(out.name)}")
+        refuse(f"a handout is an .html or a .pdf file, got {shown(out.name)}")
     printer = sensible(browser) if chosen.pdf or suffix == ".pdf" else ""
     for package in PACKAGES:
         sensible(require, package, "handouts")
@@ -58,12 +58,15 @@ def handout(chosen: argparse.Namespace) -> int:
     return CLEAN
 
 
-def lessons(names: list[str]) -> dict[str, Path]:
-    """The files of lessons by their two digits; a name is a number, with or without noughts, or that of the file."""
+def lessons(names: list[str] | None = None) -> dict[str, Path]:
+    """The files of lessons by their two digits, without names of all; a name is a number, with or without noughts, or that of
+    the file."""
     place = home()
     if place is None:
         raise Alarm("the lessons are not here", hint="start this in the folder that holds notebooks/")
     known = {path.stem[:2]: path for path in sorted((place / "notebooks").glob("[0-9][0-9]_*.ipynb"))}
+    if names is None:
+        return known
     stems = {path.stem: number for number, path in known.items()}
     found = {}
     for name in names:
@@ -161,15 +164,20 @@ def ran(path: Path) -> Any:
 
 def body(notebook: Any) -> str:
     """A lesson that ran, as HTML: text, code and pictures, then the exercises, each with room to write."""
-    from nbconvert import HTMLExporter
-
     last = max((k for k, cell in enumerate(notebook.cells) if cell.source.startswith("## Exercises")), default=None)
     if last is not None:
         del notebook.cells[last + 1 :]  # the empty cells for the reader's programs
         notebook.cells[last].source = "\n\n".join(exercises(notebook.cells[last].source))
+    return as_html(notebook)
+
+
+def as_html(notebook: Any, players: bool = False) -> str:
+    """What its cells say and have shown, without a head; with `players`, where their scripts may run."""
+    from nbconvert import HTMLExporter
+
     for cell in notebook.cells:
         for output in cell.get("outputs", ()):
-            still(output)
+            still(output, players)
     exporter = HTMLExporter(template_name="basic", exclude_input_prompt=True, exclude_output_prompt=True)
     return str(exporter.from_notebook_node(notebook)[0])
 
@@ -182,11 +190,11 @@ def exercises(text: str) -> Iterator[str]:
         yield f'<div class="exercise">\n\n{item.strip()}\n\n<div class="room">{"<div></div>" * LINES}</div>\n\n</div>'
 
 
-def still(output: Any) -> None:
-    """What was shown, without what only a screen can do: widgets, and players where there is a picture."""
+def still(output: Any, players: bool = False) -> None:
+    """What was shown, without widgets, which need a kernel, and without `players` where there is a picture."""
     data = output.get("data", {})
     data.pop(WIDGET, None)
-    if "<iframe" in data.get("text/html", "") and "image/png" in data:
+    if not players and "<iframe" in data.get("text/html", "") and "image/png" in data:
         del data["text/html"]
         told = re.sub(r"; save it.*|[<>]", "", data.get("text/plain", ""))
         output.setdefault("metadata", {})["image/png"] = {"alt": told}
@@ -219,7 +227,3 @@ def _put(source: Path, out: Path) -> None:
     with replaced(out) as beside:
         shutil.copyfile(source, beside)
     print(out)
-
-
-def _refuse(said: str) -> None:
-    raise Alarm(said)

@@ -69,6 +69,12 @@ def sensible(do: Callable[..., Result], *arguments: Any) -> Result:
         sys.exit(USAGE)
 
 
+def refuse(said: str, hint: str = "") -> NoReturn:
+    """End with the status of a wrong command line, and say why."""
+    say(Alarm(said, hint=hint))
+    sys.exit(USAGE)
+
+
 def nothing_in(places: Iterable[str]) -> NoReturn:
     """Refuse folders without a program: a mistyped one would look like one where all is well."""
     known = "programs are known by their suffix: .mnc, .jnc, .nc31, .h, .i, .nc, …; mnclab check takes --suffixes"

@@ -17,7 +17,7 @@ from mnclab.path.limits import Limits
 from mnclab.path.limits import load as load_machine
 from mnclab.path.profile import Profile
 from mnclab.runs.run import Run
-from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, nothing_in, program, say, sensible, write_table
+from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, nothing_in, program, refuse, say, sensible, write_table
 from mnclab.text.alarm import ALARM, Alarm, several
 from mnclab.text.opening import progress
 from mnclab.text.tables import clock, csv_text, text_table
@@ -52,7 +52,7 @@ def time(chosen: argparse.Namespace) -> int:
 def _many(chosen: argparse.Namespace, setup: Setup | None, limits: Limits | None) -> int:
     """A row for each program of files and folders."""
     if chosen.start_at is not None:
-        sensible(_refuse, "--start-at is for one program")
+        refuse("--start-at is for one program")
     rows, status = [], CLEAN
     try:
         for row in _rows(chosen, setup, limits):
@@ -110,8 +110,6 @@ def _text(value: Any) -> str:
     return f"{value:.3f}" if isinstance(value, float) else "" if value is None else " ".join(str(value).split())
 
 
-def _refuse(said: str) -> None:
-    raise Alarm(said)
 
 
 def report(profile: Profile, machine: Any = None) -> str:

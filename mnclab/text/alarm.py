@@ -67,6 +67,9 @@ class Alarm(Exception):
     `span` is None for a fault that is not in the text. `source` is the program it stands in; whoever reads or
     runs a program fills it in, so that the alarm can show the line. `count` is how many alarms it stands for, itself
     and others like it, `places` where the first of them stand.
+
+    >>> mnc.run("G1 X5 Q3\\n", "mnc").alarms[0]
+    Alarm('program:1:7: alarm: Q3 has no meaning in this block (G1 does not take Q)')
     """
 
     def __init__(self, message: str, span: Span | None = None, severity: str = ALARM, hint: str = "",

@@ -128,6 +128,9 @@ class Program:
 
     `address` indexes `addresses`; `value` is the number, or for other forms an index into `payload`; `first`
     (b + 1,) says where the words of a block begin. `plain` marks blocks that are textually candidates for bulk work.
+
+    >>> len(mnc.read("N10 G0 X5 Y2\\nN20 M30\\n", "mnc"))
+    2
     """
 
     text: str

@@ -23,7 +23,11 @@ Array = NDArray[np.float64]
 
 @refusing_class
 class Box(NamedTuple):
-    """A box between two opposite corners (3,), mm."""
+    """A box between two opposite corners (3,), mm.
+
+    >>> mnc.blank.Box((0, 0, -20), (80, 60, 0)).volume
+    96000.0
+    """
 
     low: tuple[float, ...]
     high: tuple[float, ...]
@@ -77,7 +81,11 @@ class Sized(Box):
 @refusing_class
 class Revolved(NamedTuple):
     """A body turned about an axis parallel to X, Y or Z. `profile`: pairs of radius and place along the axis, mm, from
-    one end to the other; `at`: a point on the axis. `bore`: the radius of a hole all along it, for a tube."""
+    one end to the other; `at`: a point on the axis. `bore`: the radius of a hole all along it, for a tube.
+
+    >>> print(f"{mnc.blank.Revolved(((10, -60), (10, 0))).volume:.1f}")  # pi x 10 x 10 x 60
+    18849.6
+    """
 
     profile: tuple[tuple[float, float], ...]
     axis: str = "Z"
@@ -199,7 +207,11 @@ class Blank(Protocol):
 @fitting
 def box(length: Any, width: Any, height: float | None = None) -> Box:
     """A box by three sizes in mm, `box(80, 60, 20)`: its corner at the datum of the program, its top at Z0; or by two opposite
-    corners in machine coordinates, `box((0, 0, -20), (80, 60, 0))`."""
+    corners in machine coordinates, `box((0, 0, -20), (80, 60, 0))`.
+
+    >>> mnc.box(80, 60, 20).volume
+    96000.0
+    """
     sizes = (length, width) if height is None else (length, width, height)
     found = blank(sizes)
     if not isinstance(found, Box):
@@ -217,6 +229,9 @@ def cylinder(
     """A cylinder from `low` to `high` along an axis through `at`, mm; a tube with a `bore` radius.
 
     A bar by its sizes is `cylinder(diameter=50, length=60)`: from Z-60 to Z0.
+
+    >>> print(f"{mnc.cylinder(diameter=20, length=60).volume:.1f}")  # pi x 10 x 10 x 60
+    18849.6
     """
     check_number(high, "the high of a cylinder (mm)")
     radius = either(radius, diameter, "radius", "diameter", lambda given: given / 2)
@@ -237,6 +252,9 @@ def chuck(radius: float, back: float, grip: float = 20.0, jaws: float = 25.0, bo
     """What holds a bar of a radius whose back end is at Z `back`: jaws around it over `grip`, mm, and the body behind.
 
     `jaws` is how thick they are, `body` how long what is behind them is. For `Setup(fixtures=(…,))`.
+
+    >>> mnc.blank.chuck(20, -60, grip=15).profile[-1]  # the front of the jaws: radius 20 + 25, 15 mm along the bar
+    (45.0, -45)
     """
     sizes = {"radius of the bar": radius, "grip": grip, "thickness of the jaws": jaws, "length of the body": body}
     for name, number in sizes.items():

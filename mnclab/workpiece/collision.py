@@ -55,6 +55,10 @@ class Collision(NamedTuple):
     """`kind` is one of `KINDS`; `place` (x, y, z) mm in the coordinates of the path, `depth` mm.
 
     `line` stands in program number `program` of the run, whose name is `file`; `row` of the path.
+
+    >>> run = mnc.run("T1 S800 M3\\nG0 X10 Y10 Z5\\nG0 Z-3\\n", "mnc", stock=(80, 60, 20))
+    >>> [(each.kind, each.line, each.depth) for each in run.collisions()]
+    [('rapid', 3, 3.0)]
     """
 
     kind: str

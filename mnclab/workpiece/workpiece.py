@@ -58,6 +58,11 @@ class Workpiece(ABC):
     `method` says how it was found, `error` (mm) how far a surface may be off, `notes` what this picture of the part
     cannot hold and which rows it leaves out. It is the next blank where a Setup is given it as its stock: as it stands, or
     `turned_over`, `turned` about Z, `moved`.
+
+    >>> slot = "T1 S800 M3\\nG0 X-10 Y10 Z-5\\nG1 X90 F100\\n"
+    >>> run = mnc.run(slot, "mnc", tools={1: mnc.Tool(diameter=10)}, stock=(80, 60, 20))
+    >>> print(f"{run.workpiece().removed:.3f}")  # 80 x 10 x 5
+    4000.000
     """
 
     cutting: Cutting

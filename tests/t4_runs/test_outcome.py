@@ -6,6 +6,7 @@ import mnclab
 from mnclab import Setup, Tool
 from mnclab.runs import card
 from mnclab.runs.card import MOST as CARD
+from mnclab.runs.material import KEPT
 from mnclab.workpiece.removal import volume
 
 BLANK = ((0, 0, -20), (60, 40, 0))
@@ -60,9 +61,9 @@ def test_the_parts_of_a_run_are_kept():
     assert cut.workpiece() is cut.workpiece() and cut.collisions() is cut.collisions()
     assert cut.workpiece(row=-1) is cut.workpiece(row=len(cut.toolpath) - 1) is not cut.workpiece(row=0)
     assert cut.workpiece(stock=BLANK) is not cut.workpiece(stock=BLANK)
-    for row in range(len(cut.toolpath)):
-        cut.workpiece(row=row)
-    assert len(cut.made) == 6
+    for step in range(2, KEPT + 4):
+        cut.workpiece(step=step)
+    assert len(cut.made) == KEPT and cut.workpiece(step=step) is cut.workpiece(step=step)
 
 
 @pytest.mark.parametrize(

@@ -96,6 +96,10 @@ class Design(AsDrawn):
 
     `plot()` is that drawing, `volume` exact, `part` what a probe touches; `workpiece.compare(design)` measures a part by it.
     In files it is a TOML, which `mnclab help design` explains; `data/designs` has some.
+
+    >>> plate = mnc.Design(mnc.box(100, 60, 20), [mnc.design.Pocket(mnc.design.Rectangle(50, 30, 30, 20), 10)])
+    >>> plate.volume  # 100 x 60 x 20 less 30 x 20 x 10
+    114000.0
     """
 
     blank: Any

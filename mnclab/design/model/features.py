@@ -36,7 +36,11 @@ LEAST = 1e-3  # mm, a slope is long and wide
 
 @dataclass(frozen=True, repr=False)
 class Face(Feature):
-    """The whole top, `depth` below it."""
+    """The whole top, `depth` below it.
+
+    >>> mnc.Design(mnc.box(100, 60, 20), [mnc.design.Face(2)]).volume
+    108000.0
+    """
 
     kind = "face"
     depth: float
@@ -87,7 +91,12 @@ class _Outlined(Feature):
 
 @dataclass(frozen=True, repr=False)
 class Pocket(_Outlined):
-    """All within a contour, down to `depth`; `islands` are contours that stay. A `Stud` of the same depth in it is one."""
+    """All within a contour, down to `depth`; `islands` are contours that stay. A `Stud` of the same depth in it is one.
+
+    >>> pocket = mnc.design.Pocket(mnc.design.Rectangle(50, 30, 30, 20), depth=10)
+    >>> mnc.Design(mnc.box(100, 60, 20), [pocket]).volume
+    114000.0
+    """
 
     kind = "pocket"
     recess = True
@@ -114,7 +123,12 @@ class Pocket(_Outlined):
 
 @dataclass(frozen=True, repr=False)
 class Stud(_Outlined):
-    """All around a contour, down to `depth`, over the whole blank; studs of one top and depth stand side by side."""
+    """All around a contour, down to `depth`, over the whole blank; studs of one top and depth stand side by side.
+
+    >>> stud = mnc.design.Stud(mnc.design.Rectangle(50, 30, 30, 20), depth=10)
+    >>> mnc.Design(mnc.box(100, 60, 20), [stud]).volume  # less (100 x 60 - 30 x 20) x 10
+    66000.0
+    """
 
     kind = "stud"
 
@@ -124,7 +138,12 @@ class Stud(_Outlined):
 
 @dataclass(frozen=True, repr=False)
 class Slot(Feature):
-    """A straight slot with round ends: `start` and `end` (x, y) are the centres of these, mm."""
+    """A straight slot with round ends: `start` and `end` (x, y) are the centres of these, mm.
+
+    >>> slot = mnc.design.Slot((20, 30), (40, 30), 10, depth=5)
+    >>> print(f"{mnc.Design(mnc.box(100, 60, 20), [slot]).volume:.1f}")  # less (20 x 10 + pi x 5 x 5) x 5
+    118607.3
+    """
 
     kind = "slot"
     recess = True
@@ -165,7 +184,13 @@ class Slot(Feature):
 
 @dataclass(frozen=True, repr=False)
 class Groove(Feature):
-    """What a tool of a `width` leaves along a contour, open or closed, the middle of the groove."""
+    """What a tool of a `width` leaves along a contour, open or closed, the middle of the groove.
+
+    >>> line = mnc.area.Contour([(20, 20), (60, 20)], closed=False)
+    >>> groove = mnc.design.Groove(line, 10, depth=5)
+    >>> print(f"{mnc.Design(mnc.box(100, 60, 20), [groove]).volume:.1f}")  # less (40 x 10 + pi x 5 x 5) x 5
+    117607.3
+    """
 
     kind = "groove"
     recess = True
@@ -209,6 +234,10 @@ def along(name: str) -> str:
 class Slope(Feature):
     """A rectangle about (x, y), `length` along X, `width` along Y, the whole `turned` by degrees, with a plane floor that
     goes from `start_depth` at its end of least X to `end_depth` at the other, mm.
+
+    >>> ramp = mnc.design.Slope(50, 30, 20, 10, start_depth=2, end_depth=4)
+    >>> mnc.Design(mnc.box(100, 60, 20), [ramp]).volume  # less 20 x 10 x 3
+    119400.0
     """
 
     kind = "slope"
@@ -256,6 +285,10 @@ class Chamfer(Feature):
     """The edge along a contour broken by `width` in the plane, with a tool of an included `angle`, degrees.
 
     On which side of the contour the material stands is found in the design, or said: `inside` True or False.
+
+    >>> edge = mnc.design.Chamfer(mnc.design.Rectangle(50, 30, 100, 60), 1)
+    >>> print(f"{mnc.Design(mnc.box(100, 60, 20), [edge]).volume:.3f}")  # less 320 x 1 / 2, and 4 corners of 1 / 3 more
+    119841.333
     """
 
     kind = "chamfer"

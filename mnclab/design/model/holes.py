@@ -29,6 +29,10 @@ class Hole(Feature):
     `countersink` (diameter, included angle). `thread` is a designation ("M8", "M8x1"), `thread_depth` how far it goes
     (None: as deep as the hole); the hole then is that for the tap: `diameter` may be None, and is the nominal
     diameter less the pitch.
+
+    >>> hole = mnc.design.Hole(20, 20, 10)
+    >>> print(f"{mnc.Design(mnc.box(100, 60, 20), [hole]).volume:.1f}")  # less pi x 5 x 5 x 20
+    118429.2
     """
 
     kind = "hole"

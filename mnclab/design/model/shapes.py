@@ -29,7 +29,12 @@ def check_place(value: Any, what: str) -> None:
 
 @dataclass(frozen=True, repr=False)
 class Rectangle:
-    """`length` along X and `width` along Y about (x, y), corners of a radius, the whole `turned` by degrees; mm."""
+    """`length` along X and `width` along Y about (x, y), corners of a radius, the whole `turned` by degrees; mm.
+
+    >>> pocket = mnc.design.Pocket(mnc.design.Rectangle(50, 30, 30, 20), depth=10)
+    >>> mnc.Design(mnc.box(100, 60, 20), [pocket]).volume
+    114000.0
+    """
 
     x: float
     y: float
@@ -72,7 +77,12 @@ class Rectangle:
 
 @dataclass(frozen=True, repr=False)
 class Circle:
-    """A diameter about (x, y), mm."""
+    """A diameter about (x, y), mm.
+
+    >>> pocket = mnc.design.Pocket(mnc.design.Circle(50, 30, 20), depth=10)
+    >>> print(f"{mnc.Design(mnc.box(100, 60, 20), [pocket]).volume:.1f}")  # less pi x 10 x 10 x 10
+    116858.4
+    """
 
     x: float
     y: float
@@ -102,7 +112,12 @@ class Circle:
 
 @dataclass(frozen=True, repr=False)
 class Outline:
-    """Points (n, 2), mm, joined by lines and arcs: `bulge` (n,) is the tangent of a quarter of an arc's angle, 0 a line."""
+    """Points (n, 2), mm, joined by lines and arcs: `bulge` (n,) is the tangent of a quarter of an arc's angle, 0 a line.
+
+    >>> pocket = mnc.design.Pocket(mnc.design.Outline(((10, 10), (40, 10), (10, 30))), depth=10)
+    >>> mnc.Design(mnc.box(100, 60, 20), [pocket]).volume  # less 30 x 20 / 2 x 10
+    117000.0
+    """
 
     points: tuple[tuple[float, float], ...]
     bulge: tuple[float, ...] = ()

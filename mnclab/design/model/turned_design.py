@@ -46,6 +46,10 @@ class TurnedDesign(AsDrawn):
     their number: a radius; a width at 45°, or (width along the axis, angle from it). `features` are those of
     `mnclab.design` that turn, in the order in which they are made. `blank`: a cylinder that it is turned from.
     `tolerances` are of the measures of the profile ("diameter 1", counted from the front; see `measures`).
+
+    >>> pin = mnc.TurnedDesign([(0, 10), (-30, 10)])
+    >>> print(f"{pin.volume:.1f}")  # pi x 10 x 10 x 30
+    9424.8
     """
 
     profile: Any

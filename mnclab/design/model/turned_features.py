@@ -34,6 +34,10 @@ class RingGroove(TurnedFeature):
     """A groove round the part, or `inside` a bore, from `z` backwards.
 
     `diameter` is that of its bottom, or `depth` how deep it is below the surface; `corner` the radius at the bottom.
+
+    >>> pin = mnc.TurnedDesign([(0, 10), (-30, 10)], [mnc.design.RingGroove(-10, 4, depth=2)])
+    >>> print(f"{pin.volume:.1f}")  # pi x (10 x 10 x 30 - (10 x 10 - 8 x 8) x 4)
+    8972.4
     """
 
     kind = "ring groove"
@@ -109,6 +113,10 @@ class FaceGroove(FromEnd):
     """A groove in a face that is seen from an end, between the diameters `inner` and `outer`.
 
     `corner` is the radius at its bottom.
+
+    >>> pin = mnc.TurnedDesign([(0, 10), (-30, 10)], [mnc.design.FaceGroove(10, 14, 3)])
+    >>> print(f"{pin.volume:.1f}")  # pi x (10 x 10 x 30 - (7 x 7 - 5 x 5) x 3)
+    9198.6
     """
 
     kind = "face groove"
@@ -161,6 +169,10 @@ class Bore(FromEnd):
 
     `point` is the included angle of the bottom, degrees, 180 for a flat one, whose edge may have a radius, `corner`.
     `chamfer`: the width at 45° at its mouth. A stepped bore is several, each deeper and narrower than the one before.
+
+    >>> bush = mnc.TurnedDesign([(0, 10), (-30, 10)], [mnc.design.Bore(10)])
+    >>> print(f"{bush.volume:.1f}")  # pi x (10 x 10 - 5 x 5) x 30
+    7068.6
     """
 
     kind = "bore"

@@ -51,6 +51,9 @@ class Thread(TurnedFeature):
 
     Outside the profile has its cylinder, of the nominal diameter (or less, down to that of the flanks). Inside it opens its
     bore to the core, D₁ = d - 1.0825 P, where that is narrower.
+
+    >>> mnc.design.Thread("M20x1.5", 0, -20)
+    Thread(thread='M20x1.5', start=0, end=-20)
     """
 
     kind = "thread"

@@ -36,6 +36,9 @@ def form(code: str, control: str) -> Any:
     A parameter that may be left out has a box to tick before its word is written. The result has `boxes` (by name of
     the parameter), `ticks`, `run`, the last run, `steps()`, the steps of the cycle with these values as a table, and
     `light(name)`, which shows in the picture what a parameter measures, as the cursor in its box does.
+
+    >>> list(mnc.form("G83", "mnc").boxes)[-3:]
+    ['peck_depth', 'dwell', 'feed']
     """
     ipywidgets = widgets("forms")
     help_page = help_on(code, control)

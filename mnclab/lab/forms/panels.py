@@ -46,6 +46,9 @@ def panel(
     given that makes the text from the numbers: `panel(lambda side: f"G0 X{side}", "mnc", side=40)`. The picture keeps
     its axes while a number is changed, and shows in grey where the path went before. `view` and `setup` are those of
     `Run.plot` and `run`. The result has `boxes` (by name) and `run`, the last run.
+
+    >>> mnc.panel("S800 M3\\nG1 X{side} F100\\n", "mnc", side=40).run.toolpath.length
+    40.0
     """
     widgets("forms")
     if not (isinstance(template, str) or callable(template)):
@@ -141,6 +144,10 @@ def compensation_panel(run: Run, **options: Unpack[CompensationOptions]) -> Any:
 
     `options` are those of `show.plot.compensation.compensation`. The result has `boxes` ("radius", and
     "corners" where the control has a choice) and `run`, the last run.
+
+    >>> run = mnc.run("T1 S800 M3\\nG1 G41 X60 F300\\nY30\\n", "mnc")
+    >>> list(mnc.compensation_panel(run).boxes)
+    ['radius', 'corners']
     """
     if not isinstance(run, Run):
         raise Alarm(f"a run is compensated, got {shown(run)}", hint='compensation_panel(mnclab.run("part.mnc"))')
@@ -181,6 +188,9 @@ def profile_panel(profile: Profile | Run, **options: Unpack[ProfileOptions]) -> 
     A box has the least of the limits of all axes and, once it was changed, counts for all of them; a jerk of 0 means no
     limit. `options` are those of `show.plot.profile.plot_profile`. The result has
     `boxes` (by name) and `profile`, the last one planned.
+
+    >>> list(mnc.profile_panel(mnc.run("S800 M3\\nG1 X60 F3600\\n", "mnc")).boxes)
+    ['acceleration', 'jerk', 'corner_tolerance', 'override']
     """
     profile = profile.profile() if isinstance(profile, Run) else profile
     if not isinstance(profile, Profile):
@@ -226,6 +236,9 @@ def pocket_panel(
     `diameter` of the tool in mm, `share` that the stepover is of it, `limit` of the engagement in degrees; without a `region`
     the area is a pocket of 60 by 40 mm with a round island. `options` are those of `compare`, such as feed and machine.
     The result has `boxes` ("strategy", "diameter", "share", "limit") and `trial`, the last one.
+
+    >>> list(mnc.pocket_panel().boxes)
+    ['strategy', 'diameter', 'share', 'limit']
     """
     ipywidgets = widgets("forms")
 

@@ -65,6 +65,10 @@ def adaptive(
     given there is material in it alone: sides beyond it are open, and the tool comes in from there. Where a pass begins, at the
     edge of what is cleared, its radius may be smaller. An Alarm for a stepover below a twentieth of the radius, where passes are
     too fine to keep the limit.
+
+    >>> pocket = mnc.area.Region.of(mnc.area.rectangle(40, 20))
+    >>> len(mnc.strategies.adaptive(pocket, 4, 3).pieces)  # it goes down once
+    1
     """
     plan = partial(adaptive_piece, radius=radius, stepover=stepover)
     return in_climb(region, radius, stepover, allowance, climb, smallest, plan, stock)
@@ -77,6 +81,10 @@ def peeling(
     """A slot peeled from one end to the other in bows from wall to wall, with the engagement and options of `adaptive`.
 
     The tool goes down where the end of the slot is wide enough for a spiral. Any other area is peeled away from there, too.
+
+    >>> slot = mnc.area.Region.of(mnc.area.rectangle(60, 14))
+    >>> len(mnc.strategies.peeling(slot, 4, 3).pieces)  # it goes down once
+    1
     """
     plan = partial(adaptive_piece, radius=radius, stepover=stepover, name="peeling", first=_farthest)
     return in_climb(region, radius, stepover, allowance, climb, smallest, plan, stock)

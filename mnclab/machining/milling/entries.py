@@ -50,6 +50,9 @@ class Entry:
     """How to go down: `kind` is "vertical", "helix" or "ramp"; `angle` the steepest plunge in degrees.
 
     `size`: the radius of the helix (None: of the tool), or the shortest stroke of the ramp (None: two tool diameters).
+
+    >>> mnc.strategies.Entry("helix", 3)
+    Entry(kind='helix', angle=3, size=None)
     """
 
     kind: str = "vertical"

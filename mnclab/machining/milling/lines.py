@@ -33,7 +33,12 @@ Segment = tuple[Floats, Floats]
 def zigzag(
     region: Region, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True, angle: float = 0.0
 ) -> Clearing:
-    """Lines in the direction `angle`, to and fro, joined along the wall; then walls and islands in one sense."""
+    """Lines in the direction `angle`, to and fro, joined along the wall; then walls and islands in one sense.
+
+    >>> pocket = mnc.area.Region.of(mnc.area.rectangle(40, 20))
+    >>> len(mnc.strategies.zigzag(pocket, 4, 3).pieces)  # it goes down once
+    1
+    """
     return piecewise(
         region, radius, stepover, allowance, lambda part: _piece(part, radius, stepover, climb, angle, False)
     )
@@ -46,6 +51,10 @@ def one_way(
 
     A frame round them comes first, so that each line begins in the clear. In climb milling the lines run against
     `angle`, the material on their right; else along it.
+
+    >>> pocket = mnc.area.Region.of(mnc.area.rectangle(40, 20))
+    >>> len(mnc.strategies.one_way(pocket, 4, 3).pieces)  # it goes down once
+    1
     """
     return piecewise(
         region, radius, stepover, allowance, lambda part: _piece(part, radius, stepover, climb, angle, True)

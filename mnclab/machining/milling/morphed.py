@@ -57,6 +57,10 @@ def morphed_spiral(
     An area with several islands, with several middles, or with open sides, where a `stock` fills a part of it, has no such
     spiral: it is cleared as `adaptive` does, and the `note` of the clearing says why. Arcs are not smaller than `smallest` (None:
     a tenth of the tool radius) beyond the entry.
+
+    >>> pocket = mnc.area.Region.of(mnc.area.rectangle(40, 20))
+    >>> len(mnc.strategies.morphed_spiral(pocket, 4, 3).pieces)  # it goes down once
+    1
     """
     notes = []
 

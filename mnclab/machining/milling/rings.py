@@ -46,6 +46,10 @@ def rings(
     Rings round islands come first, then those along the walls. In climb milling, the spindle turning clockwise, walls are
     followed counter-clockwise. `corner_radius` rounds the inside corners of the last passes, as measured on the tool centre.
     `roomiest_first` enters each piece at its infeed point and goes on at the ring nearest to it.
+
+    >>> pocket = mnc.area.Region.of(mnc.area.rectangle(40, 20))
+    >>> print(f"{mnc.strategies.rings(pocket, 4, 4).length:.3f}")  # rings of 32 x 12 and 24 x 4 mm
+    144.000
     """
     if corner_radius < 0:
         raise ValueError(f"the corner radius must not be negative, got {corner_radius:g}")

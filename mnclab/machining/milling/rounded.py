@@ -32,7 +32,12 @@ def rounded_rings(
     region: Region, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True, smallest: float | None = None
 ) -> Clearing:
     """Rings from the inside out without a corner sharper than `smallest` (None: a tenth of the tool radius) but in the last
-    pass along walls and islands; from each a tangent lead goes to the next one."""
+    pass along walls and islands; from each a tangent lead goes to the next one.
+
+    >>> pocket = mnc.area.Region.of(mnc.area.rectangle(40, 20))
+    >>> len(mnc.strategies.rounded_rings(pocket, 4, 3).pieces)  # it goes down once
+    1
+    """
     least = _least(smallest, radius)
     return piecewise(region, radius, stepover, allowance, lambda part: _rings(part, radius, stepover, climb, least))
 
@@ -44,6 +49,10 @@ def rounded_zigzag(
     """Lines in the direction `angle`, to and fro, with round turns; then walls and islands in one sense, with tangent leads.
 
     No turn is sharper than `smallest` (None: a tenth of the tool radius); between straight walls it is a half circle.
+
+    >>> pocket = mnc.area.Region.of(mnc.area.rectangle(40, 20))
+    >>> len(mnc.strategies.rounded_zigzag(pocket, 4, 3).pieces)  # it goes down once
+    1
     """
     least = _least(smallest, radius)
     return piecewise(region, radius, stepover, allowance, lambda part: _zigzag(part, radius, stepover, climb, angle, least))

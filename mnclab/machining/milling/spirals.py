@@ -79,6 +79,10 @@ def spiral(region: Region, radius: float, stepover: float, *, allowance: float =
     A round area is one spiral of true arcs. Elsewhere a turn of straight lines leads from each ring to the next one, and the
     last ring is run as it is. Where rings divide, or a turn would leave the area, one spiral ends and another begins; where
     spirals would leave something standing, the rings are run as they are.
+
+    >>> pocket = mnc.area.Region.of(mnc.area.rectangle(40, 20))
+    >>> len(mnc.strategies.spiral(pocket, 4, 3).pieces)  # it goes down once
+    1
     """
     return piecewise(region, radius, stepover, allowance, lambda part: _piece(part, radius, stepover, climb))
 

@@ -59,6 +59,10 @@ def clear(
 
     Where a `stock` is given there is material in it alone: no pass runs farther than a tool diameter from it. What is exactly
     as wide as the tool is one stroke along its middle, whatever the strategy: "slot".
+
+    >>> pocket = mnc.area.Region.of(mnc.area.rectangle(40, 20))
+    >>> print(f"{mnc.strategies.clear('rings', pocket, 4, 4, complete=False).length:.3f}")  # 32 x 12 and 24 x 4 mm
+    144.000
     """
     if not isinstance(region, Region):
         raise Alarm(f"a strategy clears a Region, got {shown(region)}", hint="mnclab.area.Region.of(a contour)")
@@ -89,6 +93,10 @@ def rest(region: Region, tool: Tool | float, before: Region | None = None) -> Re
 
     It is the `stock` of the tool after it: `mnclab.compare(region, 3.0, stock=mnclab.strategies.rest(region, 8.0))`. Everything
     where the tool does not fit; empty where it leaves nothing.
+
+    >>> pocket = mnc.area.Region.of(mnc.area.rectangle(40, 20))
+    >>> print(f"{mnc.strategies.rest(pocket, 4).area:.2f}")  # four corners: (4 - pi) x 4 x 4
+    13.73
     """
     for each in (region, *(() if before is None else (before,))):
         if not isinstance(each, Region):

@@ -28,7 +28,11 @@ SLIVER = 1e-6  # mm², an area that counts as none
 
 
 class DeepArea(NamedTuple):
-    """An area of a formula and its own depth; 0 is as deep as the whole, or for an island up to the surface."""
+    """An area of a formula and its own depth; 0 is as deep as the whole, or for an island up to the surface.
+
+    >>> mnc.area.Part(mnc.area.Region.of(mnc.area.rectangle(40, 20)), 5).depth
+    5
+    """
 
     region: Region
     depth: float = 0.0
@@ -99,6 +103,10 @@ def terraces(formula: Formula, whole: float) -> tuple[Terrace, ...]:
     """The terraces of a formula from the surface down, those of one area joined; `whole` > 0 is the milling depth.
 
     A ValueError where nothing is cut at the surface, or where the area grows with the depth, which no cutter reaches.
+
+    >>> deep = mnc.area.Part(mnc.area.Region.of(mnc.area.rectangle(40, 20)))
+    >>> [(terrace.top, terrace.bottom, terrace.region.area) for terrace in mnc.area.terraces(deep, 5)]
+    [(0.0, 5, 800.0)]
     """
     depths = sorted({min(part.depth, whole) for part in parts(formula)} - {0.0} | {whole})
     found: list[Terrace] = []

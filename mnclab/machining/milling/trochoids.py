@@ -42,7 +42,12 @@ FINEST = 1 / 32  # of the stepover: the places on the middle line that are tried
 def trochoidal(
     region: Region, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True
 ) -> Clearing:
-    """An area cleared by arcs along its middle line, from its widest place on; `stepover` is the width of cut on them."""
+    """An area cleared by arcs along its middle line, from its widest place on; `stepover` is the width of cut on them.
+
+    >>> pocket = mnc.area.Region.of(mnc.area.rectangle(40, 20))
+    >>> len(mnc.strategies.trochoidal(pocket, 4, 3).pieces)  # it goes down once
+    1
+    """
     return piecewise(
         region, radius, stepover, allowance, lambda part: _piece(part, radius, min(stepover, radius), climb)
     )

@@ -50,6 +50,9 @@ def line(points: Points) -> Line:
     """The line through two points, or with the least squares of distances to more.
 
     TNC 620: 400, 403, 414, 415, 1410. MNC: G400, G414, G415.
+
+    >>> print(f"{mnc.probing.line([(0, 0), (10, 10), (20, 20)]).angle:.3f}")
+    45.000
     """
     p = points_of(points, 2, "a line")
     if len(p) == 2:
@@ -69,6 +72,9 @@ def angle(first: Vector, second: Vector) -> float:
     """The direction from one point to another, in degrees above -180 to 180.
 
     Of two touches of an edge, of two holes or studs. TNC 620: 401, 402, 405, 420, 1411. MNC: G400, G420.
+
+    >>> mnc.probing.angle((0, 0), (0, 10))
+    90.0
     """
     return line([first, second]).angle
 
@@ -77,6 +83,9 @@ def reduced(angle: float, turn: float = 180.0) -> float:
     """The same angle in degrees, above -turn/2 to turn/2.
 
     A line without a direction is the same after 180 degrees. TNC 620: 400, 401, 403, 414, 415. MNC: G420.
+
+    >>> mnc.probing.reduced(170)
+    -10.0
     """
     if not number(turn, "a turn") > 0:
         raise Alarm(f"a turn must be greater than 0 degrees, got {turn:g}")
@@ -90,6 +99,9 @@ def circle(points: Points, by: str = "distance") -> Circle:
     by="distance": least squares of distances; "power": least squares of (distance² - radius²), as TNC 620 cycles have it (§ 15,
     16); "opposite": of four points, two along one axis and two along another square to it, the middles of both and the mean
     distance from there, as MNC cycles have it (G412, G413, G421, G422, G461, G462).
+
+    >>> print(f"{mnc.probing.circle([(10, 0), (0, 10), (-10, 0), (0, -10)]).radius:.3f}")
+    10.000
     """
     if by not in CIRCLES:
         raise Alarm(f"a circle is found by {', '.join(CIRCLES)}, not by {by!r}")
@@ -103,7 +115,12 @@ def circle(points: Points, by: str = "distance") -> Circle:
 
 
 def sphere(points: Points) -> Sphere:
-    """The ball through four points (4, 3), or with the least squares of distances to more. TNC 620: 460."""
+    """The ball through four points (4, 3), or with the least squares of distances to more. TNC 620: 460.
+
+    >>> found = mnc.probing.sphere([(10, 0, 0), (-10, 0, 0), (0, 10, 0), (0, 0, 10)])
+    >>> print(f"{found.radius:.3f}")
+    10.000
+    """
     (x, y, z), radius, roundness = _round(points_of(points, 4, "a ball", wide=3), "distance")
     return Sphere(x, y, z, radius, roundness)
 
@@ -112,6 +129,9 @@ def width(first: Vector, second: Vector, direction: float | None = None) -> Widt
     """A slot or ridge by two touches, along a direction in degrees to X, or as they lie.
 
     TNC 620: 408, 409, 425, 426. MNC: G408, G409, G425, G426.
+
+    >>> mnc.probing.width((0, 5), (30, 5)).width
+    30.0
     """
     p = points_of([first, second], 2, "a width")
     apart = p[1] - p[0]
@@ -125,6 +145,10 @@ def rectangle(points: Points, angle: float = 0.0) -> Rectangle:
     """A pocket or stud by four touches: two opposite ones along `angle` in degrees to X, two across.
 
     TNC 620: 410, 411, 423, 424. MNC: G410, G411, G423, G424.
+
+    >>> found = mnc.probing.rectangle([(0, 10), (40, 10), (20, 0), (20, 20)])
+    >>> found.length, found.width
+    (40.0, 20.0)
     """
     way = math.radians(number(angle, "an angle"))
     p = turned(points_of(points, 4, "a rectangle", most=4), -way)
@@ -134,7 +158,12 @@ def rectangle(points: Points, angle: float = 0.0) -> Rectangle:
 
 
 def corner(first: Line, second: Line) -> Point:
-    """Where two lines cross. TNC 620: 414, 415. MNC: G414, G415."""
+    """Where two lines cross. TNC 620: 414, 415. MNC: G414, G415.
+
+    >>> along, across = mnc.probing.line([(0, 5), (20, 5)]), mnc.probing.line([(3, 10), (3, 30)])
+    >>> mnc.probing.corner(along, across)
+    Point(x=3.000 mm, y=5.000 mm)
+    """
     for given in (first, second):
         if not isinstance(given, Line):
             raise Alarm(f"a corner is that of two lines, got {given!r}", hint="corner(line(p[:2]), line(p[2:]))")
@@ -147,13 +176,21 @@ def corner(first: Line, second: Line) -> Point:
 
 
 def centre_of_four(points: Points) -> Point:
-    """Where the line through points 1 and 3 crosses that through 2 and 4. TNC 620: 418, of four holes."""
+    """Where the line through points 1 and 3 crosses that through 2 and 4. TNC 620: 418, of four holes.
+
+    >>> mnc.probing.centre_of_four([(0, 0), (20, 0), (20, 10), (0, 10)])
+    Point(x=10.000 mm, y=5.000 mm)
+    """
     p = points_of(points, 4, "the middle of four points", most=4)
     return corner(line(p[::2]), line(p[1::2]))
 
 
 def plane(points: Points) -> Plane:
-    """The plane through three points (3, 3), or with the least squares of distances to more. TNC 620: 431, 1420."""
+    """The plane through three points (3, 3), or with the least squares of distances to more. TNC 620: 431, 1420.
+
+    >>> print(f"{mnc.probing.plane([(0, 0, 5), (10, 0, 5), (0, 10, 5)]).up[2]:.3f}")
+    1.000
+    """
     p = points_of(points, 3, "a plane", wide=3)
     _, sizes, axes = np.linalg.svd(p - p.mean(axis=0), full_matrices=False)
     if sizes[1] <= FLAT * sizes[0]:
@@ -171,6 +208,9 @@ def off_the_ball(balls: Vector | Points, directions: Vector | Points, radius: fl
     """Touched points (…, k) of ball centres (…, k), compensated along the probing directions (…, k), units or not.
 
     Where the surface is inclined to its direction the point is off it by radius (1 / cos - 1) along that (TNC 620 § 14.2).
+
+    >>> mnc.probing.off_the_ball((57, 20), (1, 0), 3)
+    array([60., 20.])
     """
     if (size := number(radius, "the ball radius")) < 0:
         raise Alarm(f"the ball radius must be 0 or more, got {size:g}")
@@ -243,6 +283,12 @@ def uncertainty(
     corner of four touches is `lambda p: corner(line(p[:2]), line(p[2:]))`. `spread` is the probe's standard deviation in mm: one
     number, or numbers that fit the shape of the points, as (0, 0, 0.001) where only Z was probed. Of a touch only the part along
     the surface's normal counts. The same seed shakes alike; a thousand repeats give the uncertainty to some 2 %.
+
+    The width between two touches is off by √2 of what each is:
+
+    >>> off = mnc.probing.uncertainty(lambda both: both[1] - both[0], [0.0, 30.0], 0.001)
+    >>> print(f"{off['value']:.4f}")
+    0.0014
     """
     if not callable(fit):
         raise Alarm(f"a fit is a function of points, as circle is, got {fit!r}")

@@ -143,7 +143,11 @@ class Flat(ProbingResult):
 @refusing_class
 @dataclass(frozen=True, repr=False)
 class Point(ProbingResult):
-    """A point of the plane."""
+    """A point of the plane.
+
+    >>> mnc.probing.Point(1, 2).y
+    2
+    """
 
     x: float
     y: float
@@ -156,6 +160,9 @@ class Line(Flat):
     """A line through the mean of its points, in their order, and its angle to X.
 
     `straightness` is how far apart the two parallels to it are that hold all points between them.
+
+    >>> print(f"{mnc.probing.line([(0, 0), (10, 10)]).straightness:.3f}")
+    0.000
     """
 
     x: float
@@ -187,7 +194,11 @@ class Line(Flat):
 @refusing_class
 @dataclass(frozen=True, repr=False)
 class Circle(Round):
-    """A circle; `roundness` is the difference between the farthest and the nearest point from its centre."""
+    """A circle; `roundness` is the difference between the farthest and the nearest point from its centre.
+
+    >>> print(f"{mnc.probing.circle([(10, 0), (0, 10), (-10, 0)]).radius:.3f}")
+    10.000
+    """
 
     x: float
     y: float
@@ -199,7 +210,12 @@ class Circle(Round):
 @refusing_class
 @dataclass(frozen=True, repr=False)
 class Sphere(Round):
-    """A ball; `roundness` is the difference between the farthest and the nearest point from its centre."""
+    """A ball; `roundness` is the difference between the farthest and the nearest point from its centre.
+
+    >>> found = mnc.probing.sphere([(10, 0, 0), (-10, 0, 0), (0, 10, 0), (0, 0, 10)])
+    >>> print(f"{found.roundness:.3f}")
+    0.000
+    """
 
     x: float
     y: float
@@ -212,7 +228,11 @@ class Sphere(Round):
 @refusing_class
 @dataclass(frozen=True, repr=False)
 class Width(ProbingResult):
-    """The width of a slot or a ridge, and the middle between its two touches."""
+    """The width of a slot or a ridge, and the middle between its two touches.
+
+    >>> mnc.probing.width((0, 5), (30, 5)).x
+    15.0
+    """
 
     x: float
     y: float
@@ -227,7 +247,11 @@ class Width(ProbingResult):
 @refusing_class
 @dataclass(frozen=True, repr=False)
 class Rectangle(ProbingResult):
-    """A rectangle: its middle, its length along the direction of `angle`, its width across."""
+    """A rectangle: its middle, its length along the direction of `angle`, its width across.
+
+    >>> mnc.probing.rectangle([(0, 10), (40, 10), (20, 0), (20, 20)]).x
+    20.0
+    """
 
     x: float
     y: float
@@ -247,6 +271,9 @@ class Plane(Flat):
     """A plane through the mean of its points, and its unit normal that points to +Z.
 
     `flatness` is how far apart the two parallels to it are that hold all points between them.
+
+    >>> mnc.probing.plane([(0, 0, 5), (10, 0, 5), (0, 10, 5)]).z
+    5.0
     """
 
     x: float
@@ -284,6 +311,9 @@ def axes_on(normal: Vector, along: Vector | None = None) -> Matrix:
 
     Cycle 431 has X along its points 1 and 2, and the normal (M2 - M1) x (M3 - M1), which points down where the third point lies
     to the right.
+
+    >>> mnc.probing.axes_on((0, 0, 2))[:, 2].tolist()
+    [0.0, 0.0, 1.0]
     """
     up = unit(normal, "the normal")
     level = up.shape == (3,) and math.hypot(up[0], up[2]) > SQUARE
@@ -298,6 +328,9 @@ def spatial_angles(axes: Matrix) -> tuple[float, float, float]:
     """The spatial angles A, B, C in degrees of a system whose axes are the columns (3, 3).
 
     They are turns about the fixed axes X, then Y, then Z, as cycle 19 takes them (TNC 620 § 11.9, 16.13).
+
+    >>> mnc.probing.spatial_angles(np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]]))[2]
+    90.0
     """
     given = numbers(axes, "the axes of a system")
     if given.shape != (3, 3):

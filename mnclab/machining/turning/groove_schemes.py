@@ -37,7 +37,11 @@ SHOULDER_TOOL = Tool(main_angle=90.0, auxiliary_angle=30.0, kind="turning")
 @refusing_class
 @dataclass(frozen=True)
 class Groove:
-    """`right` and `width` at the bottom, radii of the `bottom` and of the `rim`, mm; slopes of the walls from radial, degrees."""
+    """`right` and `width` at the bottom, radii of the `bottom` and of the `rim`, mm; slopes of the walls from radial, degrees.
+
+    >>> mnc.schemes.Groove(right=-20, width=10, bottom=8, rim=12).rim
+    12
+    """
 
     right: float
     width: float
@@ -74,6 +78,9 @@ def side_steps(width: float, tool: float, finish: bool = False) -> float:
 
     n strokes of step B - 1 would not cover the groove: rounded up it is the number of side steps, one less than plunges.
     Raises ValueError where the tool is wider than the groove, or too narrow for an overlap of 1 mm.
+
+    >>> mnc.schemes.grooves.side_steps(10, 4)  # (10 - 4) / 3
+    2.0
     """
     room = width - tool - (2 * ALLOWANCE if finish else 0.0)
     if not tool > OVERLAP:
@@ -85,7 +92,11 @@ def side_steps(width: float, tool: float, finish: bool = False) -> float:
 
 
 def plunges(right: float, width: float, tool: float, finish: bool = False) -> tuple[float, ...]:
-    """z of the tip at every plunge, from the right: as many as `side_steps` rounded up, and one."""
+    """z of the tip at every plunge, from the right: as many as `side_steps` rounded up, and one.
+
+    >>> mnc.schemes.grooves.plunges(-20, 10, 4)
+    (-24.0, -27.0, -30.0)
+    """
     count = math.ceil(side_steps(width, tool, finish) - 1e-9)
     spare = ALLOWANCE if finish else 0.0
     step = (width - tool - 2 * spare) / count if count else 0.0

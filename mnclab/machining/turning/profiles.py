@@ -361,7 +361,11 @@ class Zone(NamedTuple):
 
 
 def zone_of(profile: Contour, blank: float = math.inf) -> str:
-    """The kind of a whole profile under a blank of a radius: one of `KINDS`."""
+    """The kind of a whole profile under a blank of a radius: one of `KINDS`.
+
+    >>> mnc.schemes.zone_of(mnc.area.Contour([(0, 10), (-30, 10), (-30, 20)], closed=False), 20)
+    'semi-open'
+    """
     found = zones(profile, blank)
     return COMBINED if len(found) > 1 else found[0].kind
 
@@ -371,6 +375,10 @@ def zones(profile: Contour, blank: float = math.inf) -> tuple[Zone, ...]:
 
     Sections that the `blank` radius leaves nothing to cut of are left out. A closed zone with a rib inside is parted at
     the height of the rib. Raises ValueError where the blank lies nowhere above the profile.
+
+    >>> shoulder = mnc.area.Contour([(0, 10), (-30, 10), (-30, 20)], closed=False)
+    >>> len(mnc.schemes.zones(shoulder, 20))
+    1
     """
     contour = checked(profile)
     rim, pools = _poured(contour)

@@ -44,7 +44,12 @@ from mnclab.path.tool import Tool
 
 
 def loop(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
-    """Every pass by itself: along Z to the contour, off it, back at rapid; in a closed zone it plunges along the contour."""
+    """Every pass by itself: along Z to the contour, off it, back at rapid; in a closed zone it plunges along the contour.
+
+    >>> shoulder = mnc.area.Contour([(0, 10), (-30, 10), (-30, 20)], closed=False)
+    >>> mnc.schemes.loop(shoulder, blank=20, depth=5).passes  # 10 mm by 5 mm
+    2
+    """
     return cleared(_loop(task(profile, blank, depth, tool, **distances)), profile, blank, tool)
 
 
@@ -77,7 +82,12 @@ def _passes(t: Task, count: int, pick_up: bool = False) -> Cutter:
 
 
 def pick_up(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
-    """As the loop, but each pass goes on along the contour up to the level of the pass before: no ridges are left."""
+    """As the loop, but each pass goes on along the contour up to the level of the pass before: no ridges are left.
+
+    >>> shoulder = mnc.area.Contour([(0, 10), (-30, 10), (-30, 20)], closed=False)
+    >>> mnc.schemes.pick_up(shoulder, blank=20, depth=5).passes  # 10 mm by 5 mm
+    2
+    """
     t = task(profile, blank, depth, tool, **distances)
     return cleared(_passes(t, len(t.levels), pick_up=True).out("pick-up"), profile, blank, tool)
 
@@ -85,7 +95,12 @@ def pick_up(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **
 def semi_finish(
     profile: Contour, blank: float, depth: float, tool: Tool = POINT, after: str = "last", **distances: Any
 ) -> Plan:
-    """Passes as in the loop; after the last one, or in place of it after the penultimate, once along the whole contour."""
+    """Passes as in the loop; after the last one, or in place of it after the penultimate, once along the whole contour.
+
+    >>> shoulder = mnc.area.Contour([(0, 10), (-30, 10), (-30, 20)], closed=False)
+    >>> mnc.schemes.semi_finish(shoulder, blank=20, depth=5).passes  # two of 5 mm and one along the contour
+    3
+    """
     if after not in ("last", "penultimate"):
         raise ValueError(f'the clean-up follows the "last" or the "penultimate" pass, got {after!r}')
     return cleared(_semi_finish(task(profile, blank, depth, tool, **distances), after), profile, blank, tool)
@@ -109,7 +124,12 @@ def _semi_finish(t: Task, after: str = "last") -> Plan:
 
 
 def zigzag(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
-    """Passes there and back without an idle stroke, to the next level along the contour; the tool must cut both ways."""
+    """Passes there and back without an idle stroke, to the next level along the contour; the tool must cut both ways.
+
+    >>> shoulder = mnc.area.Contour([(0, 10), (-30, 10), (-30, 20)], closed=False)
+    >>> mnc.schemes.zigzag(shoulder, blank=20, depth=5).passes  # 10 mm by 5 mm
+    2
+    """
     t = task(profile, blank, depth, tool, **distances)
     pen = Cutter(t)
     for k, level in enumerate(t.levels):
@@ -140,6 +160,10 @@ def descent(
     """Radial strokes to the contour, one `step` apart; `tool.width` is the width of its edge, its left corner the tip.
 
     A tool with a width stands clear of the first wall and ends at the last one.
+
+    >>> shoulder = mnc.area.Contour([(0, 10), (-30, 10), (-30, 20)], closed=False)
+    >>> mnc.schemes.descent(shoulder, blank=20, step=5).passes  # 30 mm by 5 mm
+    6
     """
     if not step > 0 or (tool.width and step > tool.width + SAME):
         most = f" and at most the tool width {tool.width:g}" if tool.width else ""
@@ -164,7 +188,12 @@ def descent(
 
 
 def equidistant(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
-    """Strokes along offsets of the contour with sharp corners, one `depth` apart along its normal, within the blank."""
+    """Strokes along offsets of the contour with sharp corners, one `depth` apart along its normal, within the blank.
+
+    >>> shoulder = mnc.area.Contour([(0, 10), (-30, 10), (-30, 20)], closed=False)
+    >>> mnc.schemes.equidistant(shoulder, blank=20, depth=5).passes  # 10 mm by 5 mm
+    2
+    """
     t = task(profile, blank, depth, tool, **distances, slanting=True)
     strokes: list[tuple[bool, Contour]] = []
     for k in range(MOST):
@@ -193,6 +222,10 @@ def contour(
     """The contour again and again, shifted less each time: by `shift` (r, z) at first, by nothing at last.
 
     Without `shift` and `passes` the copies lie one `depth` apart on the radius.
+
+    >>> shoulder = mnc.area.Contour([(0, 10), (-30, 10), (-30, 20)], closed=False)
+    >>> mnc.schemes.contour(shoulder, blank=20, depth=5).passes  # 10 mm by 5 mm
+    2
     """
     t = task(profile, blank, depth, tool, lift, front, slanting=True)
     count = len(t.levels) if passes is None else passes
@@ -219,6 +252,10 @@ def combined(profile: Contour, blank: float, depth: float, tool: Tool = POINT, *
     """A profile of several zones: open ones by the loop, semi-open ones by the loop and a clean-up.
 
     With a closed zone the dry sections together by the loop, every closed one by passes, then one clean-up along all.
+
+    >>> shoulder = mnc.area.Contour([(0, 10), (-30, 10), (-30, 20)], closed=False)
+    >>> mnc.schemes.combined(shoulder, blank=20, depth=5).passes  # two of 5 mm and one along the contour
+    3
     """
     reached = without_drop(reachable(profile, tool))
     found = zones(reached, blank)

@@ -87,6 +87,9 @@ def factor(profile: float = 60.0) -> float:
     """The shift along Z for 1 mm of depth; the source prints it for profiles of 60 and 55 degrees.
 
     It calls the angle half the profile angle less 5 degrees; the printed factors give 26.57 and 22.78 degrees.
+
+    >>> mnc.schemes.threads.factor(60)
+    0.5
     """
     if profile not in FACTORS:
         raise ValueError(f"the factor is known for profiles of 60 and 55 degrees, got {profile:g}")
@@ -116,12 +119,20 @@ def shifts(
 
 
 def added(positions: Sequence[float]) -> tuple[float, ...]:
-    """The shift before each pass: the steps between the positions, the first one from 0."""
+    """The shift before each pass: the steps between the positions, the first one from 0.
+
+    >>> mnc.schemes.threads.added((0.25, 0.75, 1.5))
+    (0.25, 0.5, 0.75)
+    """
     return tuple(round(b - a, 12) for a, b in zip((0.0, *positions), positions, strict=False))
 
 
 def even_chips(total: float, passes: int) -> tuple[float, ...]:
-    """Depths of passes that all cut the same area of a triangular thread: total · √(k / n)."""
+    """Depths of passes that all cut the same area of a triangular thread: total · √(k / n).
+
+    >>> mnc.schemes.threads.even_chips(1.0, 4)[:1]  # the first of four passes goes half as deep as all
+    (0.5,)
+    """
     if passes < 1 or not total > 0:
         raise ValueError(f"a thread needs a depth and at least one pass, got {total:g} and {passes}")
     return tuple(total * math.sqrt(k / passes) for k in range(1, passes + 1))
@@ -138,6 +149,9 @@ def passes_for(pitch: float) -> int:
     """The usual number of passes for a metric thread of a pitch, mm: a general figure, for the table of the manual is empty.
 
     A pitch that is not listed is a ValueError.
+
+    >>> mnc.schemes.threads.passes_for(1.5)
+    6
     """
     if pitch not in USUAL_PASSES:
         raise ValueError(f"the table lists pitches {', '.join(f'{p:g}' for p in USUAL_PASSES)} mm, got {pitch:g}")

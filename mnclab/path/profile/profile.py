@@ -157,6 +157,12 @@ class Profile(Pictured, Columned):
     Columns: `t` s, `s` mm, `v` mm/s at the nodes (m + 1,); `a` mm/s² at the start and `j` mm/s³ of each piece
     (m,), and `move` (m,), the row of the path it belongs to. For every row (n,): `seconds` and `starts` (n + 1,),
     when it begins. Where rapids go axis by axis, s, v, a, j are those of the tool's projection on the straight line.
+
+    60 mm at 60 mm/s, under 60 mm/s², take 60 / 60 + 60 / 60 s:
+
+    >>> path = mnc.run("S800 M3\\nG1 X60 F3600\\n", "mnc").toolpath
+    >>> mnc.Profile(path, mnc.Limits(acceleration=60)).time
+    2.0
     """
 
     def __init__(

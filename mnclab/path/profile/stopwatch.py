@@ -56,6 +56,11 @@ def fit_limits(times: Mapping[float, float], *, jerk: bool = False, reading: flo
     Two times and more, five are a good choice: two long moves, three short ones. `jerk`: learn a jerk limit too. `reading` is
     the standard uncertainty of a time, s (0.05 of a stop-watch in the hand: time ten moves, divide both by ten); None: what
     the times themselves are off, of which there must be more than limits. An Alarm where the times do not say a limit.
+
+    A way s takes s / v + v / a; here v is 100 mm/s and v / a one second:
+
+    >>> mnc.fit_limits({100: 2.0, 200: 3.0, 300: 4.0}).limits
+    Limits(rapid=6000, acceleration=100)
     """
     names = ("rapid", "acceleration", "jerk")[: 3 if jerk else 2]
     lengths, seconds = _read(times, len(names), reading)

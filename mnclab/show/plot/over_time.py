@@ -41,6 +41,10 @@ def plot_profiles(
     They may be a list or a dict, too. All begin at 0 and have the same scales; bands stand for rapids. `names` are what they are
     called (default: program and machine), each with its time; `over` "time" (s) or "path"; `width` of the figure in inches.
     Lengths are in inches where all programs are, else in mm.
+
+    >>> run = mnc.run("S800 M3\\nG1 X60 F3600\\n", "mnc")
+    >>> mnc.plot_profiles(run.profile(mnc.Limits(acceleration=60)), names=["slow"]).alt
+    'feed over time: slow: 2.00 s'
     """
     over = choice(over, "over", ("time", "path"))
     hint = 'plot_profiles(run.profile("small-mill"), run.profile("fast-mill"))'

@@ -154,6 +154,9 @@ def plot_regions(
     """One view of each named region with its area, all at one scale, each with the outlines of what is `over` it, dashed.
 
     `width` of the picture in inches.
+
+    >>> mnc.area.plot({"pocket": mnc.area.Region.of(mnc.area.rectangle(40, 20))}).alt
+    'regions: pocket: 800.0 mm²'
     """
     if not isinstance(regions, Mapping) or not all(isinstance(one, Region) for one in regions.values()):
         raise Alarm(f"regions must be Regions by their names, got {shown(regions)}", hint='{"A": a, "B": b, "A | B": a.union(b)}')
@@ -218,6 +221,10 @@ def plot_runs(
     They may be a list, too. `names` are what they are called (default: their programs), `view` is that of all, `columns` how
     many stand in a row, `width` in inches; the `options` are those of `run.plot()`. The frame holds the cuts of all of them:
     rapids from far away are cut off.
+
+    >>> run = mnc.run("S800 M3\\nG1 X60 F3600\\n", "mnc")
+    >>> mnc.plot_runs({"one": run, "other": run}).alt
+    'runs side by side: one, other'
     """
     runs = by_name((run, *others), names, _run, BESIDE)
     view = choice(view, "view", VIEWS)

@@ -41,7 +41,12 @@ class Part:
     """Material, given by its signed distance; `name` says what it is, `at_once` at how many places a ball is tried in
     one go. `bounds` (2, 3) are the corners of a box around it, mm, infinite where it has no end. `exact` tells whether the
     distance is so off all edges, `steep` by how much more than the way it may change along a way. `bound` tells sooner, where
-    the distance takes long, one that is never larger."""
+    the distance takes long, one that is never larger.
+
+    >>> corner = mnc.part.box((0, 0, 0), (5, 5, 5)) | mnc.part.ball((10, 0, 0), 2)
+    >>> corner.distance(np.array([[10.0, 0, 7]]))
+    array([5.])
+    """
 
     distance: Distance
     name: str = "part"

@@ -22,14 +22,22 @@ LARGEST = 1e6  # mm, of a size and of a coordinate
 
 
 def plane(point: ArrayLike, normal: ArrayLike) -> Part:
-    """Half of space, bounded by the plane through `point`; the normal points away from the material."""
+    """Half of space, bounded by the plane through `point`; the normal points away from the material.
+
+    >>> mnc.part.plane((0, 0, 10), (0, 0, 1)).distance(np.array([[7, 7, 12.0]]))
+    array([2.])
+    """
     through = _place(point, "a point of a plane")
     out = unit_vector(_place(normal, "the normal of a plane"), "the normal of a plane")
     return Part(partial(_plane, through, out), "plane")
 
 
 def box(first: ArrayLike, opposite: ArrayLike, corner: float = 0.0) -> Part:
-    """A cuboid along the axes, from one corner to the opposite one; `corner`: the radius of its upright edges."""
+    """A cuboid along the axes, from one corner to the opposite one; `corner`: the radius of its upright edges.
+
+    >>> mnc.part.box((0, 0, -20), (60, 40, 0)).distance(np.array([[30, 20, 5.0]]))
+    array([5.])
+    """
     a, b = _place(first, "the corner of a box"), _place(opposite, "the opposite corner of a box")
     low, high = np.minimum(a, b), np.maximum(a, b)
     for name, size in zip(("length", "width", "height"), high - low):
@@ -39,7 +47,11 @@ def box(first: ArrayLike, opposite: ArrayLike, corner: float = 0.0) -> Part:
 
 
 def cylinder(bottom: ArrayLike, top: ArrayLike, radius: float) -> Part:
-    """A round bar between the centres of its two faces."""
+    """A round bar between the centres of its two faces.
+
+    >>> mnc.part.cylinder((0, 0, 0), (0, 0, 10), 5).distance(np.array([[8, 0, 5.0]]))
+    array([3.])
+    """
     a, b = _place(bottom, "the bottom of a cylinder"), _place(top, "the top of a cylinder")
     _check_size(radius, "the radius of a cylinder")
     along = unit_vector(b - a, "the axis of a cylinder")
@@ -49,7 +61,11 @@ def cylinder(bottom: ArrayLike, top: ArrayLike, radius: float) -> Part:
 
 
 def cone(bottom: ArrayLike, top: ArrayLike, radius: float, top_radius: float = 0.0) -> Part:
-    """A cone between the centres of its two faces, cut off where its upper one has a radius."""
+    """A cone between the centres of its two faces, cut off where its upper one has a radius.
+
+    >>> mnc.part.cone((0, 0, 0), (0, 0, 10), 5).distance(np.array([[0, 0, 12.0]]))
+    array([2.])
+    """
     a, b = _place(bottom, "the bottom of a cone"), _place(top, "the top of a cone")
     _check_size(radius, "the radius of a cone")
     check_number(top_radius, "the upper radius of a cone", at_least=0, at_most=LARGEST)
@@ -63,7 +79,11 @@ def cone(bottom: ArrayLike, top: ArrayLike, radius: float, top_radius: float = 0
 
 
 def ball(centre: ArrayLike, radius: float) -> Part:
-    """A ball about a point; the radius in mm."""
+    """A ball about a point; the radius in mm.
+
+    >>> mnc.part.ball((0, 0, 0), 10).distance(np.array([[0, 0, 15.0]]))
+    array([5.])
+    """
     middle = _place(centre, "the centre of a ball")
     _check_size(radius, "the radius of a ball")
     return Part(partial(_ball, middle, radius), "ball", bounds=np.array([middle - radius, middle + radius]))
@@ -71,7 +91,12 @@ def ball(centre: ArrayLike, radius: float) -> Part:
 
 def hole(centre: ArrayLike, diameter: float, depth: float) -> Part:
     """What a hole takes out of the face at the height of its centre, to be taken away: `block - hole(…)`. Lengths in mm; an
-    infinite depth goes through."""
+    infinite depth goes through.
+
+    >>> block = mnc.part.box((0, 0, -20), (60, 40, 0)) - mnc.part.hole((30, 20, 0), 20, 15)
+    >>> print(f"{mnc.part.contact(block, (30, 20, -5), (1, 0, 0), 3, 50):.3f}")  # 10 - 3
+    7.000
+    """
     middle = _place(centre, "the centre of a hole")
     _check_size(diameter, "the diameter of a hole")
     return _cavity("hole", _circle(middle, diameter / 2), middle[2], depth)
@@ -79,7 +104,12 @@ def hole(centre: ArrayLike, diameter: float, depth: float) -> Part:
 
 def slot(start: ArrayLike, end: ArrayLike, width: float, depth: float) -> Part:
     """What a straight slot with round ends takes out of a face, from the centre of one end to that of the other, mm:
-    `block - slot(…)`."""
+    `block - slot(…)`.
+
+    >>> block = mnc.part.box((0, 0, -20), (60, 40, 0)) - mnc.part.slot((20, 20, 0), (40, 20, 0), 12, 10)
+    >>> print(f"{mnc.part.contact(block, (30, 20, -5), (0, 1, 0), 3, 50):.3f}")  # 6 - 3
+    3.000
+    """
     a, b = _place(start, "the start of a slot"), _place(end, "the end of a slot")
     _check_size(width, "the width of a slot")
     if a[2] != b[2]:
@@ -92,7 +122,12 @@ def pocket(
     centre: ArrayLike, length: float, width: float, depth: float, corner: float = 0.0, turned: float = 0.0
 ) -> Part:
     """What a rectangular pocket takes out of a face: `length` along X, `width` along Y, before it is `turned` by degrees about
-    its centre, mm; `corner`: the radius of its corners. To be taken away: `block - pocket(…)`."""
+    its centre, mm; `corner`: the radius of its corners. To be taken away: `block - pocket(…)`.
+
+    >>> block = mnc.part.box((0, 0, -20), (60, 40, 0)) - mnc.part.pocket((30, 20, 0), 40, 20, 10)
+    >>> print(f"{mnc.part.contact(block, (30, 20, -5), (0, 1, 0), 3, 50):.3f}")  # 10 - 3
+    7.000
+    """
     middle = _place(centre, "the centre of a pocket")
     return _cavity("pocket", _rectangle("a pocket", middle, length, width, corner, turned), middle[2], depth)
 
@@ -101,7 +136,12 @@ def boss(
     centre: ArrayLike, height: float, *, diameter: float | None = None, length: float | None = None,
     width: float | None = None, corner: float = 0.0, turned: float = 0.0,
 ) -> Part:  # fmt: skip
-    """What stands on a face: round with a `diameter`, else rectangular with `length`, `width`, `corner`, `turned` as a pocket."""
+    """What stands on a face: round with a `diameter`, else rectangular with `length`, `width`, `corner`, `turned` as a pocket.
+
+    >>> table = mnc.part.plane((0, 0, 0), (0, 0, 1))
+    >>> print(f"{mnc.part.contact(table | mnc.part.boss((0, 0, 0), 8, diameter=20), (30, 0, 4), (-1, 0, 0), 2, 50):.3f}")
+    18.000
+    """
     middle = _place(centre, "the centre of a boss")
     _check_size(height, "the height of a boss")
     if (diameter is None) == (length is None and width is None) or (length is None) != (width is None):

@@ -35,6 +35,10 @@ def contact(
     nothing stands between two places no farther apart than their gaps together: the ball goes ahead by its
     gap, and on as long as this holds. Where the gap is small it creeps by steps of `creep` mm, and may miss a
     graze of less than a nanometre. Then it settles between the last free place and the first one that is not.
+
+    >>> block = mnc.part.box((0, 0, -20), (60, 40, 0))
+    >>> print(f"{mnc.part.contact(block, (75, 20, -5), (-1, 0, 0), 3, 50):.3f}")  # 75 - 60 - 3
+    12.000
     """
     check_point(start, "where a ball starts")
     check_point(direction, "the direction of a probe")
@@ -100,6 +104,10 @@ def foot(part: Part, centre: ArrayLike) -> tuple[Floats, bool]:
 
     It is not where a part is not `exact` and the point lies off a cut edge: a ball of that radius then stands farther off
     the part than its distance says.
+
+    >>> place, found = mnc.part.foot(mnc.part.box((0, 0, -20), (60, 40, 0)), (30, 20, 5))
+    >>> place.round(3).tolist(), found
+    ([30.0, 20.0, 0.0], True)
     """
     check_point(centre, "the centre of a ball")
     here = np.asarray(centre, dtype=float)
