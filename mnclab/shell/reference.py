@@ -100,7 +100,7 @@ def _module(modulename: str, says: str, names: Mapping[str, Any]) -> Any:
         elif type(each).__module__.startswith("mnclab."):
             page.members[name].docstring = getdoc(type(each)) or ""
     for one in page.classes:
-        one.own_members = [each for each in one.members.values() if each.taken_from[0].startswith("mnclab.")]
+        one.own_members = [each for each in one.members.values() if f"{each.taken_from[0]}.".startswith("mnclab.")]
     page.docstring = says  # not that of the stub, which pdoc has found by itself
     return page
 
@@ -129,6 +129,6 @@ def _told(annotation: Any, given: Mapping[str, str]) -> Any:
     if annotation is Parameter.empty:
         return annotation
     text = annotation if isinstance(annotation, str) else formatannotation(annotation)
-    text = re.sub(r"ForwardRef\('([^']+)'[^)]*\)", r"\1", ARRAY.sub(r"NDArray[\1]", text))
+    text = re.sub(r"ForwardRef\('([^']+)'[^()]*\)", r"\1", ARRAY.sub(r"NDArray[\1]", text))
     text = re.sub(r"\bmnclab(?:\.\w+)+", lambda found: given.get(found[0], found[0].rpartition(".")[2]), text)
     return Told(KNOWN.sub("", text))

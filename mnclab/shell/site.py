@@ -117,7 +117,7 @@ class Site:
             href = next((known[name] for name in names if name in known), None)
             return f'<a href="{root}{href}">{found[0]}</a>' if href else found[0]
 
-        return re.sub(r"<code>(?:mnclab|mnc)\.(\w+(?:\.\w+)*)[^<]*</code>(?!</a>)", way, body)
+        return re.sub(r"<code>(?:mnclab|mnc)\.(\w++(?:\.\w++)*+)[^<]*+</code>(?!</a>)", way, body)
 
     # The reference.
 
@@ -211,7 +211,7 @@ class Site:
 
     def lesson(self, path: Path, notebook: Any) -> None:
         """A lesson that ran: players stay players, of a form the text or the picture is left."""
-        text = re.sub(r'<a href="(?!https?:|#)([^"]*)">(.*?)</a>', _way, as_html(notebook, players=True))
+        text = re.sub(r'<a href="(?!https?:|#)([^"]*)">((?:[^<]|<(?!a |/a>))*+)</a>', _way, as_html(notebook, players=True))
         text = text.replace('class="highlight', 'class="pdoc-code highlight')  # in the colours of the reference
         heads = re.findall(r'<h2 id="([^"]+)"', text)
         title = notebook.cells[0].source.splitlines()[0].lstrip("# ")
@@ -225,8 +225,8 @@ class Site:
         reference = [place for place in self.places if place.what == "reference" and "#" not in place.href]
         controls = [(name, f"controls/{name}.html", one.title) for name, one in CONTROLS.items()]
         pages = sorted((self.out / "lessons").glob("[0-9][0-9]_*.html"))
-        heads = {page: re.search("<title>(.*?) · mnclab</title>", _text(page)) for page in pages}
-        titles = {page: unescape(head[1]) for page, head in heads.items() if head}
+        heads = {page: re.search("<title>([^<]*)</title>", _text(page)) for page in pages}
+        titles = {page: unescape(head[1]).removesuffix(" · mnclab") for page, head in heads.items() if head}
         self.places += [Place(title, "lesson", f"lessons/{page.name}") for page, title in titles.items()]
         found = "".join(f'<a href="{escape(p.href)}">{escape(p.name)} <small>{escape(p.what)}</small></a>' for p in self.places)
         parts = {

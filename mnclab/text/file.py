@@ -157,9 +157,10 @@ def printable(text: str) -> str:
     """A text that can be written: half a pair of surrogates, which is no letter, becomes a question mark, and a control
     character, which no font has, the sign for what cannot be shown."""
     data = text.encode("utf-8", "replace")
-    if len(data.translate(None, CONTROL_BYTES)) == len(data) and not re.search(rb"\xc2[\x80-\x9f]", data):
-        return data.decode()  # as most texts, and all long ones
-    return data.decode().translate(CONTROLS)
+    text = data.decode()
+    if len(data.translate(None, CONTROL_BYTES)) == len(data) and (text.isascii() or not re.search("[\x80-\x9f]", text)):
+        return text  # as most texts, and all long ones
+    return text.translate(CONTROLS)
 
 
 def save_as(what: Any, path: str | Path, writers: Mapping[str, Callable[..., None]], refused: str, **options: Any) -> Path:
