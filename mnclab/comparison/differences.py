@@ -22,7 +22,7 @@ SIDES = {0: "none", 1: "left", -1: "right"}
 
 
 class Found(NamedTuple):
-    """One difference: its `kind`, the `rows` of both paths (-1: there is none), by how much, what each has, over how many moves."""
+    """One difference: its `kind`, `rows` of both paths (-1: there is none), by how much, what each has, for how many moves."""
 
     kind: str
     rows: tuple[int, int]
@@ -223,8 +223,8 @@ def _of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float) 
     for k, moves in zip(first.tolist(), np.diff(np.append(first, len(i))).tolist()):
         amount = float(lower[k] if near[k] and lower[k] > 0 else off[k])
         said = a.said(i[k]), b.said(j[k])
-        kind = "rapid" if near[k] else "lifts"
-        found.append(Found(kind, (a.row(i[k]), b.row(j[k])), amount if np.isfinite(amount) else np.nan, "mm", said, moves))
+        kind, rank = "rapid" if near[k] else "lifts", a.until(i[k], b, j[k], tolerance)
+        found.append(Found(kind, (a.row(i[k], rank), b.row(j[k], rank)), amount if np.isfinite(amount) else np.nan, "mm", said, moves))
     return found
 
 
@@ -280,10 +280,17 @@ class _Ways:
         low, last = float(self.low[link]), float(self.last[link])
         return f"sideways at Z{figure(low, 3)}, " * bool(np.isfinite(low)) + f"rapid ends at Z{figure(last, 3)}"
 
-    def row(self, link: int) -> int:
-        """The first row of the rapids before a cut, that of the cut where there are none."""
-        if self.count[link]:
-            return int(self.motion.row[self.rapids[self.begin[link]]])
+    def until(self, link: int, other: _Ways, there: int, tolerance: float) -> int:
+        """How many of the rapids before a cut are those before another cut of the other."""
+        many = min(self.count[link], other.count[there])
+        ends = [ways.motion.end[ways.rapids[ways.begin[k] : ways.begin[k] + many]] for ways, k in ((self, link), (other, there))]
+        odd = np.flatnonzero(np.linalg.norm(ends[0] - ends[1], axis=1) > tolerance)
+        return int(odd[0]) if len(odd) else int(many)
+
+    def row(self, link: int, rank: int = 0) -> int:
+        """The row of the rapids before a cut by their rank, that of the cut where there are no more."""
+        if rank < self.count[link]:
+            return int(self.motion.row[self.rapids[self.begin[link] + rank]])
         if not len(self.motion.cuts):
             return -1
         return int(self.motion.row[self.motion.cuts[min(link, len(self.motion.cuts) - 1)]])
