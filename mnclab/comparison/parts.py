@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from mnclab.comparison.diff import _strokes
-from mnclab.comparison.differences import Found
+from mnclab.comparison.found import Found
 from mnclab.comparison.motion import Motion
 from mnclab.geometry.regions import Region
 from mnclab.path.toolpath import Array, Kind

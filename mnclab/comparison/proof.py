@@ -15,7 +15,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from mnclab.comparison.diff import _names
-from mnclab.comparison.differences import Found, differences
+from mnclab.comparison.differences import differences
+from mnclab.comparison.found import Found
 from mnclab.comparison.motion import Motion, motion_of
 from mnclab.comparison.parts import collided, not_comparable, part_apart
 from mnclab.path.listing import MM, Unit, figure, point, words
@@ -265,8 +266,8 @@ def _told(
     halts = (run.halt if found.kind == "stops" else None for run in runs)
     one, other = (_spot(run, row, halt, name) for run, row, halt, name in zip(runs, found.rows, halts, names))
     both: Any = zip(one, other)  # lines, files, blocks, places, and what is done
-    kind, rows, amount, unit, values, moves = found
-    return Difference(kind, *both, amount, unit, values, moves, rows, kind in allowed)
+    kind, rows, *more = found
+    return Difference._make((kind, *both, *more, rows, kind in allowed))
 
 
 def _spot(run: Any, row: int, halt: Any, name: str) -> tuple[int, str, str, tuple[float, ...], str]:

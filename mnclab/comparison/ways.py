@@ -1,0 +1,150 @@
+"""What is between the cuts of two programs: rapids that go another way, dwells. Lengths in mm, times in s."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mnclab.comparison.found import RATE, Found, row_of
+from mnclab.comparison.motion import Motion
+from mnclab.path.listing import figure
+from mnclab.path.toolpath import Array, Index, Kind
+
+SECONDS = 0.001
+
+def links(one: Motion, other: Motion, i: Index, j: Index, parts: list[tuple[int, int, int, int]]) -> tuple[Index, Index]:
+    """Which ways between cuts (k,), by the rank of the cut behind them, are each other's: both their ends are."""
+    wide = len(other.cuts) + 1
+    stretch = np.array(parts, dtype=np.int64).reshape(-1, 4)
+    before = np.concatenate([i * wide + j, stretch[:, 0] * wide + stretch[:, 2], [len(one.cuts) * wide + len(other.cuts)]])
+    behind = np.concatenate([[0], (i + 1) * wide + j + 1, stretch[:, 1] * wide + stretch[:, 3]])
+    both = np.intersect1d(before, behind)
+    return both // wide, both % wide
+
+
+def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float) -> list[Found]:
+    """Rapids between cuts that do not go the same way: lower than those of the first program, or not."""
+    sides = [Ways(one, tolerance), Ways(other, tolerance)]
+    many = [side.count[k] for side, k in zip(sides, (i, j))]
+    odd = many[0] != many[1]
+    at = np.flatnonzero(~odd & (many[0] > 0))
+    if len(at):
+        which = np.repeat(at, many[0][at])
+        rank = np.arange(len(which)) - np.repeat(np.cumsum(many[0][at]) - many[0][at], many[0][at])
+        ends = [m.end[s.rapids[s.begin[k[which]] + rank]] for m, s, k in ((one, sides[0], i), (other, sides[1], j))]
+        off = np.linalg.norm(ends[0] - ends[1], axis=1)
+        odd[which[off > tolerance]] = True
+    a, b = sides
+    found = _beyond(a, b, i, j, tolerance)
+    i, j = i[odd], j[odd]
+    if not len(i):
+        return found
+    heights = np.stack([a.low[i], b.low[j], a.last[i], b.last[j]], axis=1)
+    lower = np.maximum(_gap(heights[:, 0], heights[:, 1]), _gap(heights[:, 2], heights[:, 3]))
+    beside = np.abs(a.box[i] - b.box[j]).max(axis=1)
+    near = (lower > tolerance) | ((beside > tolerance) & (b.low[j] < a.high[i] - tolerance)) | one.path.lathe | other.path.lathe
+    off = np.maximum(beside, np.abs(_gap(heights[:, ::2], heights[:, 1::2])).max(axis=1))
+    new = (np.diff(i) != 1) | (np.diff(j) != 1) | (near[1:] != near[:-1]) | (heights[1:] != heights[:-1]).any(axis=1)
+    first = np.flatnonzero(np.append(True, new))
+    for k, moves in zip(first.tolist(), np.diff(np.append(first, len(i))).tolist()):
+        amount = float(lower[k] if near[k] and lower[k] > 0 else off[k])
+        said = a.said(i[k]), b.said(j[k])
+        until = a.until(i[k], b, j[k], tolerance)
+        rows = a.row(i[k], until), b.row(j[k], until)
+        found.append(Found("rapid" if near[k] else "lifts", rows, amount if np.isfinite(amount) else np.nan, "mm", said, moves))
+    return found
+
+
+def _gap(a: Array, b: Array) -> Array:
+    """How much lower b is than a, inf where a has none."""
+    with np.errstate(invalid="ignore"):
+        return np.where(a == b, 0.0, a - b)
+
+
+def _beyond(a: Ways, b: Ways, i: Index, j: Index, tolerance: float) -> list[Found]:
+    """Of ways that are nobody's counterpart: whether those of b go sideways lower than all of a."""
+    rest = [np.setdiff1d(np.arange(len(side.count)), k) for side, k in ((a, i), (b, j))]
+    if not len(rest[1]):
+        return []
+    deepest, low = int(rest[1][b.low[rest[1]].argmin()]), a.low[rest[0]].min() if len(rest[0]) else a.low.min()
+    lower = float(_gap(low, b.low[deepest]))
+    highest = int(a.low.argmin())
+    if not lower > tolerance:
+        return []
+    return [Found("rapid", (a.row(highest), b.row(deepest)), lower if np.isfinite(lower) else np.nan, "mm",
+                  (a.said(highest), b.said(deepest)))]  # fmt: skip
+
+
+class Ways:
+    """The rapids between cuts, by the rank of the cut behind (n + 1,): their `count`, the lowest height at which they go sideways
+    (`low`), the highest of all (`high`) and the `last`, and the `box` (n + 1, 4) that they keep in X and Y."""
+
+    def __init__(self, motion: Motion, tolerance: float) -> None:
+        self.motion = motion
+        self.rapids = np.flatnonzero(motion.kind == Kind.RAPID)
+        link, n = motion.link[self.rapids], len(motion.cuts) + 1
+        self.count = np.bincount(link, minlength=n)
+        self.begin = np.cumsum(self.count) - self.count
+        start, end = motion.start[self.rapids], motion.end[self.rapids]
+        if len(self.rapids) and self.rapids[0] == 0:  # from where the machine stands
+            start[0] = end[0]
+        aside = np.hypot(*(end - start)[:, :2].T) > tolerance
+        self.low, self.high = np.full(n, np.inf), np.full(n, -np.inf)
+        np.minimum.at(self.low, link[aside], np.minimum(start[aside, 2], end[aside, 2]))
+        np.maximum.at(self.high, link, np.maximum(start[:, 2], end[:, 2]))
+        self.last = np.full(n, np.inf)
+        self.last[link] = end[:, 2]
+        self.box = np.zeros((n, 4))
+        some = np.flatnonzero(self.count)
+        if len(some):
+            low, high = (ufunc.reduceat(end[:, :2], self.begin[some]) for ufunc in (np.minimum, np.maximum))
+            self.box[some] = np.hstack([low, high])
+
+    def said(self, link: int) -> str:
+        """What they do, in words."""
+        if not self.count[link]:
+            return "no rapid"
+        low, last = float(self.low[link]), float(self.last[link])
+        return f"sideways at Z{figure(low, 3)}, " * bool(np.isfinite(low)) + f"rapid ends at Z{figure(last, 3)}"
+
+    def until(self, link: int, other: Ways, there: int, tolerance: float) -> int:
+        """How many of the rapids before a cut are those before another cut of the other."""
+        many = min(self.count[link], other.count[there])
+        ends = [ways.motion.end[ways.rapids[ways.begin[k] : ways.begin[k] + many]] for ways, k in ((self, link), (other, there))]
+        odd = np.flatnonzero(np.linalg.norm(ends[0] - ends[1], axis=1) > tolerance)
+        return int(odd[0]) if len(odd) else int(many)
+
+    def row(self, link: int, rank: int = 0) -> int:
+        """The row of the rapids before a cut by their rank, that of the cut where there are no more."""
+        if rank < self.count[link]:
+            return int(self.motion.row[self.rapids[self.begin[link] + rank]])
+        if not len(self.motion.cuts):
+            return -1
+        return int(self.motion.row[self.motion.cuts[min(link, len(self.motion.cuts) - 1)]])
+
+
+def of_dwells(one: Motion, other: Motion, i: Index, j: Index) -> list[Found]:
+    """Dwells and stops of the program between cuts, at the end of a cut and elsewhere."""
+    found = []
+    for at_cut in (True, False):
+        times, rows = [], []
+        for motion in (one, other):
+            slot = np.arange(len(motion) + 1)
+            here = np.append(False, motion.kind != Kind.RAPID) == at_cut
+            link = np.searchsorted(motion.cuts, slot)
+            times.append(np.bincount(link[here], motion.dwell[here], len(motion.cuts) + 1))
+            row = np.full(len(motion.cuts) + 1, -1)
+            paused = here & (motion.pause >= 0)
+            row[link[paused]] = motion.pause[paused]
+            rows.append(row)
+        a, b = times[0][i], times[1][j]
+        with np.errstate(invalid="ignore"):
+            wrong = np.flatnonzero(~((np.abs(a - b) <= SECONDS + RATE * np.abs(a)) | (a == b)))
+        for k in wrong.tolist():
+            ends = (one, rows[0], int(i[k])), (other, rows[1], int(j[k]))
+            p, q = (int(row[rank]) if row[rank] >= 0 else row_of(m, rank - 1) for m, row, rank in ends)
+            found.append(Found("dwell", (p, q), float(abs(a[k] - b[k])), "s", (_waits(a[k]), _waits(b[k]))))
+    return found
+
+
+def _waits(time: float) -> str:
+    return "a stop" if np.isinf(time) else f"{figure(float(time), 3)} s" if time else "no dwell"
