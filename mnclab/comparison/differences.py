@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.comparison.diff import deviation
-from mnclab.comparison.found import RATE, Found, grouped, rows_of
+from mnclab.comparison.found import RATE, Found, from_where, grouped, rows_of
 from mnclab.comparison.motion import Motion
 from mnclab.comparison.pairs import Pairs, apart, paired
 from mnclab.comparison.ways import links, of_dwells, of_links
@@ -27,8 +27,9 @@ def differences(one: Motion, other: Motion, tolerance: float) -> list[Found]:
     pairs = paired(one, other, tolerance)
     found, more, parts = _of_stretches(one, other, pairs, tolerance)
     i, j = np.concatenate([pairs.i, more[:, 0]]), np.concatenate([pairs.j, more[:, 1]])
-    found += _of_settings(one, other, i, j)
-    between = links(one, other, i, j, [*pairs.chords, *parts])
+    within = [_side_by_side(one, other, *each) for each in parts]
+    found += _of_settings(one, other, *np.unique(np.hstack([(i, j), *within]), axis=1))
+    between = links(one, other, i, j, parts)
     found += of_links(one, other, *between, tolerance)
     found += of_dwells(one, other, *between)
     found += _left_over(one, other)
@@ -42,13 +43,14 @@ def _of_stretches(
 ) -> tuple[list[Found], NDArray[np.int64], list[tuple[int, int, int, int]]]:
     """What differs where cuts are not the same, the pairs (k, 2) of cuts that are still each other's, and stretches that are."""
     chords = [*pairs.chords]
-    odd, whole, same = [], [], list[tuple[int, int, int, int]]()
+    odd, same = [], list[tuple[int, int, int, int]]()
     for stretch in pairs.odd:
         i, to_i, j, to_j = stretch
-        whole.append(stretch)
-        if _one_way(one, other, *stretch, tolerance):
+        longer = (i, min(to_i + 1, len(one.cuts)), j, min(to_j + 1, len(other.cuts)))  # a line that one of them goes in two
+        alike = next((each for each in (stretch, longer) if _one_way(one, other, *each, tolerance)), None)
+        if alike is not None:
             bent = [(motion.kind[motion.cuts[a:b]] == Kind.ARC).any() for motion, a, b in ((one, i, to_i), (other, j, to_j))]
-            (chords if bent[0] != bent[1] else same).append(stretch)
+            (chords if bent[0] != bent[1] else same).append(alike)
         else:
             odd.append(stretch)
     found = []
@@ -56,7 +58,7 @@ def _of_stretches(
         arcs = "arcs", f"{to_j - j} lines"
         arcs = arcs if (one.kind[one.cuts[i:to_i]] == Kind.ARC).any() else (f"{to_i - i} lines", "arcs")
         found.append(Found("chords", rows_of(one, i, other, j), 0.0, "mm", arcs, max(to_i - i, to_j - j)))
-    more = [(i, j) for i, _, j, _ in (*chords, *same)]
+    more = []
     left = [np.concatenate([np.arange(s[k], s[k + 1]) for s in odd] or [np.empty(0, np.int64)]) for k in (0, 2)]
     moved = _elsewhere(one, left[0], other, left[1], tolerance)
     found += grouped("order", one, moved[:, 0], other, moved[:, 1], lambda k: ("here", "at another place in the order"))
@@ -67,23 +69,36 @@ def _of_stretches(
         many = min(len(a), len(b))
         found += _not_alike(one, a[:many], other, b[:many], tolerance)
         more += zip(a[:many].tolist(), b[:many].tolist())
-        near = (min(to_i - (to_i > i), len(one.cuts) - 1), min(to_j - (to_j > j), len(other.cuts) - 1))
-        where = rows_of(one, near[0], other, near[1])
         if len(a) > many:
-            found.append(_only(one, a[many:], where[1], 0))
+            found.append(_only(one, a[many:], other, to_j, 0, tolerance))
         if len(b) > many:
-            found.append(_only(other, b[many:], where[0], 1))
-    return found, np.array(more, dtype=np.int64).reshape(-1, 2), whole
+            found.append(_only(other, b[many:], one, to_i, 1, tolerance))
+    return found, np.array(more, dtype=np.int64).reshape(-1, 2), [*chords, *same]
 
 
-def _only(motion: Motion, ranks: Index, there: int, k: int) -> Found:
-    """Cuts that one of the two has alone; `there` is the row of the other by them, `k` which of the two it is."""
+def _only(motion: Motion, ranks: Index, other: Motion, there: int, k: int, tolerance: float) -> Found:
+    """Cuts that one of the two has alone, before the cut `there` of the other; `k` is which of the two it is."""
     cuts = motion.cuts[ranks]
-    way = float(sum(motion.path.lengths[motion.row[e] : motion.last[e] + 1].sum() for e in cuts[:LONGEST].tolist()))
-    here, said = int(motion.row[cuts[0]]), several(len(cuts), "cut")
-    if k:
-        return Found("geometry", (there, here), way, "mm", ("none", said), len(cuts))
-    return Found("geometry", (here, there), way, "mm", (said, "none"), len(cuts))
+    begin = other.cuts[there - 1] + 1 if there else 0
+    moves = np.arange(begin, min(other.cuts[there] + 1 if there < len(other.cuts) else len(other), len(other)))
+    way, row, said = float(motion.lengths[cuts].sum()), -1, "none"
+    if len(moves):  # the nearest to it, which may be the same at rapid
+        off = np.linalg.norm(other.end[moves] - motion.end[cuts[0]], axis=1)
+        near = moves[off.argmin()]
+        rapid = off.min() <= tolerance and other.kind[near] == Kind.RAPID
+        row, said = int((other.last if rapid else other.row)[near]), "at rapid" if rapid else said
+    both = [(int(motion.row[cuts[0]]), several(len(cuts), "cut")), (row, said)]
+    (one_row, one_said), (other_row, other_said) = both[::-1] if k else both
+    return Found("geometry", (one_row, other_row), way, "mm", (one_said, other_said), len(cuts))
+
+
+def _side_by_side(one: Motion, other: Motion, i: int, to_i: int, j: int, to_j: int) -> tuple[Index, Index]:
+    """Of stretches that are one way divided otherwise, which cuts of both go along each other."""
+    ways = [np.cumsum(motion.lengths[motion.cuts[a:b]]) for motion, a, b in ((one, i, to_i), (other, j, to_j))]
+    places = np.sort(np.concatenate([way / way[-1] for way in ways]))
+    middles = (np.append(0.0, places[:-1]) + places)[np.diff(places, prepend=0.0) > 1e-4] / 2
+    a, b = (np.minimum(np.searchsorted(way / way[-1], middles), len(way) - 1) for way in ways)
+    return i + a, j + b
 
 
 def _one_way(one: Motion, other: Motion, i: int, to_i: int, j: int, to_j: int, tolerance: float) -> bool:
@@ -115,7 +130,8 @@ def _not_alike(one: Motion, i: Index, other: Motion, j: Index, tolerance: float)
     off = np.where(np.isfinite(off), off, np.linalg.norm(step, axis=1))
     found = []
     for kind, mask in (("geometry", ~deep), ("depth", deep)):
-        found += grouped(kind, one, i[mask], other, j[mask], lambda k: ("", ""), off[mask])
+        for each in grouped(kind, one, i[mask], other, j[mask], lambda k: ("", ""), off[mask]):
+            found.append(each._replace(rows=from_where(one, other, each.rows, tolerance)))
     return found
 
 
@@ -142,8 +158,6 @@ def _elsewhere(one: Motion, i: Index, other: Motion, j: Index, tolerance: float)
 
 def _of_settings(one: Motion, other: Motion, i: Index, j: Index) -> Iterator[Found]:
     """Feed, speed, coolant, tool and side of cuts that are each other's."""
-    order = np.argsort(j, kind="stable")
-    i, j = i[order], j[order]
     p, q = one.cuts[i], other.cuts[j]
 
     def told(kind: str, a: Array, b: Array, unit: str, name: Callable[[Any], str], near: float = 0.0) -> list[Found]:

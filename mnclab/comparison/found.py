@@ -7,10 +7,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.comparison.motion import Motion
+from mnclab.comparison.motion import NO_WAY, Motion
 from mnclab.path.toolpath import Array, Index
 
 RATE = 0.005  # of a feed, a speed or a dwell: as much goes by rounding in inches
+LOOK = 64  # rows
 
 
 class Found(NamedTuple):
@@ -51,3 +52,16 @@ def grouped(
         Found(kind, rows_of(one, int(i[k]), other, int(j[k])), float(much), unit, said(k), many)
         for k, much, many in zip(first.tolist(), most.tolist(), moves.tolist())
     ]
+
+
+def from_where(one: Motion, other: Motion, rows: tuple[int, int], tolerance: float) -> tuple[int, int]:
+    """The rows from which on moves are not the same that are made of several blocks, which may be alike at first."""
+    found = []
+    for motion, row in zip((one, other), rows):
+        path = motion.path[row : row + LOOK]
+        found.append(row + np.flatnonzero(path.is_motion & (path.lengths > NO_WAY)))
+    many = min(map(len, found))
+    a, b = (each[:many] for each in found)
+    odd = np.linalg.norm(one.path.end[a] - other.path.end[b], axis=1) > tolerance
+    odd |= (one.path.kind[a] != other.path.kind[b]) | (np.sign(one.path.sweep[a]) != np.sign(other.path.sweep[b]))
+    return (int(a[odd.argmax()]), int(b[odd.argmax()])) if odd.any() else rows

@@ -61,6 +61,11 @@ class Motion:
         return len(self.row)
 
     @cached_property
+    def lengths(self) -> Array:
+        """The way of each move (m,), mm."""
+        return np.add.reduceat(self.path.lengths, self.row) if len(self) else np.empty(0)
+
+    @cached_property
     def turns(self) -> bool:
         """Whether a rotary axis stands anywhere but at zero."""
         return bool(self.rotary.any())

@@ -13,6 +13,7 @@ from mnclab.geometry.curves import counted
 from mnclab.path.places import Bends
 from mnclab.path.toolpath import Array, Index, Kind, Mask
 
+SPREAD = 1.25  # how much more than its ends the quarters of an arc may be off
 QUARTERS = (0.25, 0.5, 0.75)  # of an arc: where two are compared beside their ends
 
 
@@ -34,8 +35,7 @@ def apart(one: Motion, i: Index, other: Motion, j: Index) -> Array:
         off = [np.linalg.norm(bends[0].place(share) - bends[1].place(share), axis=1) for share in QUARTERS]
         radius = np.minimum(bends[0].radius, bends[1].radius)
         whole = np.where(turn > 0.5, turn * radius / np.pi, 0.0)  # another sense, other turns
-        # An end that is within the tolerance moves the rest of the arc by a little more.
-        found[arcs] = np.maximum.reduce([found[arcs], whole, *(each / 2 for each in off)])
+        found[arcs] = np.maximum.reduce([found[arcs], whole, *(each / SPREAD for each in off)])
     return found
 
 

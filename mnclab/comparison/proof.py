@@ -202,7 +202,7 @@ def _write_json(proof: Proof, path: Path) -> None:
 
 def _write_page(proof: Proof, path: Path) -> None:
     """A page that needs nothing else, with the picture of the first difference."""
-    picture = proof.plot()._repr_html_() if proof.first is not None else ""
+    picture = proof.plot()._repr_mimebundle_()["text/html"] if proof.first is not None else ""
     title = escape(f"{proof.names[0]} and {proof.names[1]}: {proof.verdict}")
     style = "body{font-family:sans-serif;margin:2em;max-width:75em}td,th{padding:2px 8px;text-align:left}"
     page = f"<!doctype html><html lang=en><meta charset=utf-8><title>{title}</title><style>{style}</style>"

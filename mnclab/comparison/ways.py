@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mnclab.comparison.found import RATE, Found, row_of
+from mnclab.comparison.found import RATE, Found, from_where, row_of
 from mnclab.comparison.motion import Motion
 from mnclab.path.listing import figure
 from mnclab.path.toolpath import Array, Index, Kind
@@ -49,7 +49,7 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float) -
         amount = float(lower[k] if near[k] and lower[k] > 0 else off[k])
         said = a.said(i[k]), b.said(j[k])
         until = a.until(i[k], b, j[k], tolerance)
-        rows = a.row(i[k], until), b.row(j[k], until)
+        rows = from_where(one, other, (a.row(i[k], until), b.row(j[k], until)), tolerance)
         found.append(Found("rapid" if near[k] else "lifts", rows, amount if np.isfinite(amount) else np.nan, "mm", said, moves))
     return found
 
@@ -62,16 +62,17 @@ def _gap(a: Array, b: Array) -> Array:
 
 def _beyond(a: Ways, b: Ways, i: Index, j: Index, tolerance: float) -> list[Found]:
     """Of ways that are nobody's counterpart: whether those of b go sideways lower than all of a."""
-    rest = [np.setdiff1d(np.arange(len(side.count)), k) for side, k in ((a, i), (b, j))]
+    rest = [np.setdiff1d(np.flatnonzero(np.isfinite(side.low)), k) for side, k in ((a, i), (b, j))]
     if not len(rest[1]):
         return []
-    deepest, low = int(rest[1][b.low[rest[1]].argmin()]), a.low[rest[0]].min() if len(rest[0]) else a.low.min()
-    lower = float(_gap(low, b.low[deepest]))
-    highest = int(a.low.argmin())
+    deepest = int(rest[1][b.low[rest[1]].argmin()])
+    highest = int(rest[0][a.low[rest[0]].argmin()] if len(rest[0]) else a.low.argmin())
+    lower = float(_gap(a.low[highest], b.low[deepest]))
     if not lower > tolerance:
         return []
-    return [Found("rapid", (a.row(highest), b.row(deepest)), lower if np.isfinite(lower) else np.nan, "mm",
-                  (a.said(highest), b.said(deepest)))]  # fmt: skip
+    rows = a.row(highest, a.lowest(highest)), b.row(deepest, b.lowest(deepest))
+    amount = lower if np.isfinite(lower) else np.nan
+    return [Found("rapid", rows, amount, "mm", (a.said(highest), b.said(deepest)))]
 
 
 class Ways:
@@ -87,9 +88,10 @@ class Ways:
         start, end = motion.start[self.rapids], motion.end[self.rapids]
         if len(self.rapids) and self.rapids[0] == 0:  # from where the machine stands
             start[0] = end[0]
-        aside = np.hypot(*(end - start)[:, :2].T) > tolerance
+        self.aside = aside = np.hypot(*(end - start)[:, :2].T) > tolerance
+        self.heights = np.minimum(start[:, 2], end[:, 2])
         self.low, self.high = np.full(n, np.inf), np.full(n, -np.inf)
-        np.minimum.at(self.low, link[aside], np.minimum(start[aside, 2], end[aside, 2]))
+        np.minimum.at(self.low, link[aside], self.heights[aside])
         np.maximum.at(self.high, link, np.maximum(start[:, 2], end[:, 2]))
         self.last = np.full(n, np.inf)
         self.last[link] = end[:, 2]
@@ -98,6 +100,11 @@ class Ways:
         if len(some):
             low, high = (ufunc.reduceat(end[:, :2], self.begin[some]) for ufunc in (np.minimum, np.maximum))
             self.box[some] = np.hstack([low, high])
+
+    def lowest(self, link: int) -> int:
+        """Which of the rapids before a cut goes sideways the lowest, by its rank."""
+        here = slice(self.begin[link], self.begin[link] + self.count[link])
+        return int(np.where(self.aside[here], self.heights[here], np.inf).argmin()) if self.count[link] else 0
 
     def said(self, link: int) -> str:
         """What they do, in words."""
