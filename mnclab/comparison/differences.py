@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mnclab.comparison.diff import deviation
 from mnclab.comparison.found import RATE, Found, from_where, grouped, rows_of
-from mnclab.comparison.motion import Motion
+from mnclab.comparison.motion import NO_WAY, Motion
 from mnclab.comparison.pairs import Pairs, apart, paired
 from mnclab.comparison.ways import links, of_dwells, of_links
 from mnclab.path.listing import figure
@@ -103,15 +103,18 @@ def _side_by_side(one: Motion, other: Motion, i: int, to_i: int, j: int, to_j: i
 
 def _one_way(one: Motion, other: Motion, i: int, to_i: int, j: int, to_j: int, tolerance: float) -> bool:
     """Whether two stretches of cuts are one way divided otherwise: no place of either is off the other by more."""
-    if i == to_i or j == to_j or max(to_i - i, to_j - j) > LONGEST or (to_i - i == to_j - j == 1):
+    if i == to_i or j == to_j or max(to_i - i, to_j - j) > LONGEST:
         return False
     paths = []
     for motion, a, b in ((one, i, to_i), (other, j, to_j)):
         cuts = motion.cuts[a:b]
         if cuts[-1] - cuts[0] != b - a - 1 or motion.turns:  # there are rapids between
             return False
-        paths.append(motion.path[motion.row[cuts[0]] : motion.last[cuts[-1]] + 1].motion)
+        path = motion.path[motion.row[cuts[0]] : motion.last[cuts[-1]] + 1]
+        paths.append(path[path.is_motion & (path.lengths > NO_WAY)])
     p, q = paths
+    if to_i - i == to_j - j:  # as many: block by block, or not at all
+        return len(p) == len(q) > to_i - i and bool((np.linalg.norm(p.end - q.end, axis=1) <= tolerance).all())
     ends = max(np.abs(p.start[0] - q.start[0]).max(), np.abs(p.end[-1] - q.end[-1]).max())
     if ends > tolerance or abs(p.length - q.length) > 1e-3 * p.length + tolerance or not p.length:
         return False
@@ -177,6 +180,7 @@ def _of_settings(one: Motion, other: Motion, i: Index, j: Index) -> Iterator[Fou
     yield from told("spindle", one.surface[p], other.surface[q], "m/min", _named("cutting speed "), RATE)
     yield from told("coolant", one.coolant[p], other.coolant[q], "", lambda value: FLOWS[value])
     yield from told("tool", one.tool[p], other.tool[q], "", lambda value: f"tool {value}")
+    yield from told("tool", one.radius[p], other.radius[q], "mm", _named("radius "), 1e-4)
     yield from told("side", one.side[p], other.side[q], "", lambda value: SIDES[int(value)])
 
 

@@ -47,10 +47,10 @@ def grouped(
     for each in values:
         new |= (each[1:] != each[:-1]) & ~(np.isnan(each[1:]) & np.isnan(each[:-1]))
     first = np.flatnonzero(np.append(True, new))
-    most, moves = np.maximum.reduceat(off, first), np.diff(np.append(first, len(i)))
+    moves = np.diff(np.append(first, len(i)))
     return [
         Found(kind, rows_of(one, int(i[k]), other, int(j[k])), float(much), unit, said(k), many)
-        for k, much, many in zip(first.tolist(), most.tolist(), moves.tolist())
+        for k, much, many in zip(first.tolist(), off[first].tolist(), moves.tolist())
     ]
 
 

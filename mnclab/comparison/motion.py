@@ -20,7 +20,7 @@ STRAIGHT = 1e-8  # mm beside the chord of two moves: they go straight on
 ALIKE = 1e-6  # mm between the centres, and mm/rad between the pitches, of two arcs of one circle
 ARM = 100.0  # mm from a rotary axis: a place there must agree too
 KEPT = (
-    "kind", "start", "end", "centre", "axis", "sweep", "rotary", "feed", "per_rev", "surface", "spindle", "side"
+    "kind", "start", "end", "centre", "axis", "sweep", "rotary", "feed", "per_rev", "surface", "spindle", "radius", "side"
 )  # fmt: skip
 OFF = ("M9", None)  # what stands in the history while there is no coolant
 
@@ -48,6 +48,7 @@ class Motion:
     per_rev: Array
     surface: Array
     spindle: Array
+    radius: Array
     coolant: Array
     tool: Array
     side: Array
@@ -113,7 +114,7 @@ def _goes_on(columns: dict[str, Any], event: NDArray[Any]) -> Mask:
     found = np.zeros(k, dtype=bool)
     same = (kind[1:] == kind[:-1]) & (event[1:] == event[:-1]) & (columns["rotary"][1:] == columns["rotary"][:-1]).all(axis=1)
     alike = np.ones(len(same), dtype=bool)
-    for name in ("feed", "per_rev", "surface", "spindle", "coolant", "side", "tool"):
+    for name in ("feed", "per_rev", "surface", "spindle", "coolant", "side", "tool", "radius"):
         here = columns[name]
         if k and here.strides[0]:
             alike &= (here[1:] == here[:-1]) | ((here[1:] != here[1:]) & (here[:-1] != here[:-1]))

@@ -34,7 +34,7 @@ def apart(one: Motion, i: Index, other: Motion, j: Index) -> Array:
         turn = np.abs(bends[0].sweep - sense * bends[1].sweep)
         off = [np.linalg.norm(bends[0].place(share) - bends[1].place(share), axis=1) for share in QUARTERS]
         radius = np.minimum(bends[0].radius, bends[1].radius)
-        whole = np.where(turn > 0.5, turn * radius / np.pi, 0.0)  # another sense, other turns
+        whole = np.where(turn > 0.5, np.minimum(turn / np.pi, 2) * radius, 0.0)  # another sense, other turns
         found[arcs] = np.maximum.reduce([found[arcs], whole, *(each / SPREAD for each in off)])
     return found
 

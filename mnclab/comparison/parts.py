@@ -10,11 +10,15 @@ from mnclab.comparison.diff import _strokes
 from mnclab.comparison.found import Found
 from mnclab.comparison.motion import Motion
 from mnclab.geometry.regions import Region
-from mnclab.path.toolpath import Array, Kind
+from mnclab.path.toolpath import Array, Mask
 from mnclab.workpiece.blank import Box
 
-STROKES = 6000  # of each path: beside their middles the walls are looked at
-GRID = 120  # places of the longer side
+GEOMETRIC = ("geometry", "depth", "order", "chords", "lifts", "rapid")
+STROKES = 1500  # of each path: beside them the walls are looked at
+BESIDE = 1.3  # of the tolerance
+GRID = 50  # places of the longer side
+MOST_ASKED = 500  # places where the parts differ most: the surroundings are looked at too
+NOTHING = 1e6  # mm: the height of no material
 MOST = 20_000  # cuts: a part of more takes too long
 ROUND = np.array([(0, 0), (1, 0), (0, 1), (-1, 0), (0, -1), (0.7, 0.7), (-0.7, 0.7), (0.7, -0.7), (-0.7, -0.7)])
 
@@ -31,11 +35,14 @@ def not_comparable(runs: tuple[Any, Any], motions: tuple[Motion, Motion]) -> str
     return ""
 
 
-def part_apart(runs: tuple[Any, Any], motions: tuple[Motion, Motion], tolerance: float) -> str:
+def part_apart(runs: tuple[Any, Any], motions: tuple[Motion, Motion], tolerance: float, found: list[Found]) -> str:
     """Where the parts of two runs differ by more than the tolerance, in words; empty if they do not.
 
-    A place of the one part has the height of the other, or what lies within the tolerance about it has.
+    Cuts that are the same take the same away, so what is looked at is beside those that are not, and in a grid all over. A place
+    of the one part has the height of the other, or what lies within the tolerance about it has.
     """
+    if not any(each.kind in (*GEOMETRIC, "tool") for each in found):
+        return ""
     parts = [run.workpiece() for run in runs]
     sections = [part.half_section() for part in parts]
     if sections[0] is not None and sections[1] is not None:
@@ -46,34 +53,49 @@ def part_apart(runs: tuple[Any, Any], motions: tuple[Motion, Motion], tolerance:
                 z, r = more.bounds.mean(axis=0)
                 return f"the turned parts differ at Z{z:.3f}, diameter {2 * r:.3f}"
         return ""
-    points = np.concatenate([*(_beside(motion, tolerance) for motion in motions), _all_over(parts[0].bounds)])
-    off = np.zeros(len(points))
-    for a, b in (parts, parts[::-1]):
-        for side in (0, 1):
-            heights = [_height(part, points, side) for part in (a, b)]
-            apart = np.abs(heights[0] - heights[1])
-            ask = np.flatnonzero(apart > tolerance)
-            if len(ask):
-                about = (points[ask, None] + tolerance * ROUND).reshape(-1, 2)
-                near = _height(b, about, side).reshape(-1, len(ROUND))
-                here = heights[0][ask]
-                apart[ask] = np.maximum.reduce([np.zeros(len(ask)), near.min(axis=1) - here, here - near.max(axis=1)])
-            off = np.maximum(off, apart)
-    worst = int(off.argmax())
-    if off[worst] <= tolerance:
+    rows = [_rows_that_differ(motion, found, k) for k, motion in enumerate(motions)]
+    beside = [_beside(motion, each, tolerance) for motion, each in zip(motions, rows)]
+    points = np.concatenate([*beside, _all_over(parts[0].bounds)])
+    heights = [_heights(part, points) for part in parts]
+    worst = (0.0, 0)
+    apart = np.abs(heights[0] - heights[1])
+    for k, part in enumerate(parts[::-1]):  # beside a wall that is within the tolerance heights may be far apart
+        at = np.flatnonzero((apart > tolerance).any(axis=0))
+        at = at[np.argsort(-apart[:, at].max(axis=0), kind="stable")[:MOST_ASKED]]
+        here = heights[k][:, at, None]
+        about = _heights(part, (points[at, None] + tolerance * ROUND).reshape(-1, 2)).reshape(2, -1, len(ROUND))
+        off = np.maximum(about.min(axis=2) - here[:, :, 0], here[:, :, 0] - about.max(axis=2)).max(axis=0, initial=0.0)
+        if len(at):
+            worst = max(worst, (float(off.max()), int(at[off.argmax()])))
+    if worst[0] <= tolerance:
         return ""
-    return f"the parts differ by {off[worst]:.3f} mm in height at X{points[worst, 0]:.3f} Y{points[worst, 1]:.3f}"
+    x, y = points[worst[1]].tolist()
+    by = f"by {worst[0]:.3f} mm in height" if worst[0] < NOTHING / 2 else "in where there is material"
+    return f"the parts differ {by} at X{x:.3f} Y{y:.3f}"
 
 
-def _height(part: Any, points: Array, side: int) -> Array:
-    """The upper or the lower face (m,); where there is no material, far below or above."""
-    found = part.faces(points[:, 0], points[:, 1])[1 - side]
-    return np.where(np.isnan(found), 1e6 if side else -1e6, found)
+def _rows_that_differ(motion: Motion, found: list[Found], k: int) -> Mask:
+    """The rows (n,) of the one or the other path where cuts or ways between them are not the same."""
+    mask = np.zeros(len(motion.path), dtype=bool)
+    bounds = np.append(motion.row[motion.cuts], len(mask))
+    for each in found:
+        if each.kind == "tool":
+            mask[:] = True
+        elif each.kind in GEOMETRIC and each.rows[k] >= 0:
+            rank = int(np.searchsorted(bounds, each.rows[k], "right"))
+            mask[bounds[max(rank - 2, 0)] : bounds[min(rank + each.moves, len(bounds) - 1)]] = True
+    return mask
 
 
-def _beside(motion: Motion, tolerance: float) -> Array:
-    """Points (m, 2) at the middle of the tool and just within and without its walls."""
-    cuts = motion.path[np.isin(motion.path.kind, (Kind.LINE, Kind.ARC))]
+def _heights(part: Any, points: Array) -> Array:
+    """The upper and the lower face (2, m); where there is no material, far below and far above."""
+    low, high = part.faces(points[:, 0], points[:, 1])
+    return np.stack([np.where(np.isnan(high), -NOTHING, high), np.where(np.isnan(low), NOTHING, low)])
+
+
+def _beside(motion: Motion, rows: Mask, tolerance: float) -> Array:
+    """Points (m, 2) at the middle of the tool and just within and without its walls, along some rows."""
+    cuts = motion.path[rows & motion.path.is_motion]
     start, end, row = _strokes(cuts, max(tolerance, 1e-3))
     if not len(row):
         return np.empty((0, 2))
@@ -84,9 +106,9 @@ def _beside(motion: Motion, tolerance: float) -> Array:
     normal = np.where(long[:, None] > 0, way[:, ::-1] * [-1, 1] / np.maximum(long, 1e-12)[:, None], [1.0, 0.0])
     radius = np.abs(cuts.radius[row])[:, None]
     found = []
-    for share in (0.21, 0.5, 0.79):
+    for share in (0.27, 0.79):
         middle = start[:, :2] + share * way
-        beyond = (radius - 1.3 * tolerance, radius + 1.3 * tolerance)
+        beyond = (radius - BESIDE * tolerance, radius + BESIDE * tolerance)
         found += [middle, *(middle + sign * each * normal for sign in (1, -1) for each in beyond)]
     return np.concatenate(found)
 

@@ -131,6 +131,8 @@ class Proof(Pictured, Listing):
     def sentence(self) -> str:
         """The verdict with its reasons, and the first place where they differ."""
         counts = ", ".join(f"{many} {kind}" for kind, many in self.counts.items())
+        if not any(path.is_motion.any() for path in self.paths) and not counts:
+            return "no motion in either"
         if self.verdict == SAME_MOTION:
             return f"the same motion within {self.tolerance:g} mm" + (f"; harmless: {counts}" if counts else "")
         assert self.first is not None
@@ -242,7 +244,7 @@ def _parts(
     """The collisions besides, and why the parts are not the same."""
     if why := not_comparable(runs, motions):
         return found, f"the parts were not compared: {why}"
-    return sorted([*collided(runs), *found], key=lambda each: each.rows[1]), part_apart(runs, motions, tolerance)
+    return sorted([*found, *collided(runs)], key=lambda each: each.rows[1]), part_apart(runs, motions, tolerance, found)
 
 
 def _stopped(runs: tuple[Any, Any], found: list[Found]) -> list[Found]:

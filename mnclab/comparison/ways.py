@@ -39,7 +39,8 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float) -
     if not len(i):
         return found
     heights = np.stack([a.low[i], b.low[j], a.last[i], b.last[j]], axis=1)
-    lower = np.maximum(_gap(heights[:, 0], heights[:, 1]), _gap(heights[:, 2], heights[:, 3]))
+    upright = np.isinf(a.low[i]) & (a.count[i] > 0)  # only up and down
+    lower = np.maximum(_gap(np.where(upright, a.high[i], a.low[i]), b.low[j]), _gap(a.last[i], b.last[j]))
     beside = np.abs(a.box[i] - b.box[j]).max(axis=1)
     near = (lower > tolerance) | ((beside > tolerance) & (b.low[j] < a.high[i] - tolerance)) | one.path.lathe | other.path.lathe
     off = np.maximum(beside, np.abs(_gap(heights[:, ::2], heights[:, 1::2])).max(axis=1))
