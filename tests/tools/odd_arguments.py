@@ -59,7 +59,7 @@ RIGHT = {
     "blank.box length": 80.0, "blank.box width": 60.0, "blank.box height": 20.0, "blank.chuck radius": 40.0, "back": -60.0,
     "box length": 80.0, "box width": 60.0, "box height": 20.0, "blank.cylinder radius": 20.0, "cylinder radius": 20.0,
     "blank.cylinder low": -60.0, "cylinder low": -60.0, "low": (0.0, 0.0), "high": (1.0, 1.0),
-    "source": MILLED, "control": "mnc", "code": "G83", "one": RUN, "other": RUN, "compare tool": Tool(5.0), "tools": [Tool(5.0)],
+    "source": MILLED, "control": "mnc", "code": "G83", "one": RUN, "other": RUN, "prove a": RUN, "prove b": RUN, "compare tool": Tool(5.0), "tools": [Tool(5.0)],
     "compare_turning tool": Tool(kind="turning"), "runs": {"a": RUN}, "plot_profiles profile": RUN.profile(),
     "design.Chamfer contour": SQUARE, "contour": SQUARE, "design.Chamfer width": 1.0, "design.Groove width": 3.0,
     "start": (0.0, 0.0),
