@@ -176,6 +176,8 @@ def _of_settings(one: Motion, other: Motion, i: Index, j: Index) -> Iterator[Fou
     yield from told("feed", a, b, "mm/min", _named("F"), RATE)
     a, b = (np.where(turns, m.per_rev[e], np.nan) for m, e in ((one, p), (other, q)))
     yield from told("feed", a, b, "mm/rev", _named("F", " a turn"), RATE)
+    a, b = one.synchronous[p].astype(int), other.synchronous[q].astype(int)
+    yield from told("feed", a, b, "", lambda value: "locked to the spindle" if value else "free of the spindle")
     yield from told("spindle", one.spindle[p], other.spindle[q], "rev/min", _turning, RATE)
     yield from told("spindle", one.surface[p], other.surface[q], "m/min", _named("cutting speed "), RATE)
     yield from told("coolant", one.coolant[p], other.coolant[q], "", lambda value: FLOWS[value])

@@ -20,7 +20,8 @@ STRAIGHT = 1e-8  # mm beside the chord of two moves: they go straight on
 ALIKE = 1e-6  # mm between the centres, and mm/rad between the pitches, of two arcs of one circle
 ARM = 100.0  # mm from a rotary axis: a place there must agree too
 KEPT = (
-    "kind", "start", "end", "centre", "axis", "sweep", "rotary", "feed", "per_rev", "surface", "spindle", "radius", "side"
+    "kind", "start", "end", "centre", "axis", "sweep", "rotary", "feed", "per_rev", "surface", "spindle", "radius", "side",
+    "synchronous",
 )  # fmt: skip
 OFF = ("M9", None)  # what stands in the history while there is no coolant
 
@@ -52,6 +53,7 @@ class Motion:
     coolant: Array
     tool: Array
     side: Array
+    synchronous: Mask
     dwell: Array
     pause: Index
     cuts: Index
@@ -114,7 +116,7 @@ def _goes_on(columns: dict[str, Any], event: NDArray[Any]) -> Mask:
     found = np.zeros(k, dtype=bool)
     same = (kind[1:] == kind[:-1]) & (event[1:] == event[:-1]) & (columns["rotary"][1:] == columns["rotary"][:-1]).all(axis=1)
     alike = np.ones(len(same), dtype=bool)
-    for name in ("feed", "per_rev", "surface", "spindle", "coolant", "side", "tool", "radius"):
+    for name in ("feed", "per_rev", "surface", "spindle", "coolant", "side", "tool", "radius", "synchronous"):
         here = columns[name]
         if k and here.strides[0]:
             alike &= (here[1:] == here[:-1]) | ((here[1:] != here[1:]) & (here[:-1] != here[:-1]))

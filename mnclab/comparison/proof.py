@@ -1,7 +1,8 @@
 """Whether two programs make the same motion, or the same part: the verdict, and all that differs by kinds.
 
 Two moves are the same that end within the tolerance of each other, arcs at their quarters too, with feeds and speeds within half
-a percent, which rounding in inches needs. Rapids are compared from cut to cut. Lengths are in mm, feeds in mm/min.
+a percent, which rounding in inches needs. Rapids are compared from cut to cut. What a machine makes of it is not compared: how it
+rounds corners (G64, cycle 32), how long it takes. Lengths are in mm, feeds in mm/min.
 """
 
 from __future__ import annotations
@@ -13,6 +14,8 @@ from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from mnclab.comparison.diff import _names
 from mnclab.comparison.differences import differences
@@ -29,7 +32,7 @@ from mnclab.text.tables import Listing, Pictured, html_table, paragraphs, save_a
 KINDS = {
     "stops": "a program stops before its end, so that nothing is proven",
     "collision": "only one of them collides",
-    "rapid": "the second goes lower or nearer at rapid",
+    "rapid": "the second goes lower or nearer at rapid, or on a lathe elsewhere",
     "geometry": "other cuts",
     "depth": "the same cuts at another depth",
     "side": "radius compensation on another side",
@@ -122,6 +125,14 @@ class Proof(Pictured, Listing):
         return next((each for each in self.differences if not each.harmless), next(iter(self.differences), None))
 
     @property
+    def zeros(self) -> str:
+        """Where the two zero points are from which places count, the first that each program selects; empty if they are one."""
+        one, other = (path.origin for path in self.paths)
+        if np.abs(one - other).max() <= self.tolerance:
+            return ""
+        return f"places count from the first zero point of each, in machine coordinates {point(one)} and {point(other)}"
+
+    @property
     def counts(self) -> dict[str, int]:
         """How many differences of each kind there are, the worst kind first."""
         many = Counter(each.kind for each in self.differences)
@@ -134,13 +145,14 @@ class Proof(Pictured, Listing):
         if not any(path.is_motion.any() for path in self.paths) and not counts:
             return "no motion in either"
         if self.verdict == SAME_MOTION:
-            return f"the same motion within {self.tolerance:g} mm" + (f"; harmless: {counts}" if counts else "")
+            more = f"harmless: {counts}" if counts else ""
+            return "; ".join(filter(None, [f"the same motion within {self.tolerance:g} mm", more, self.zeros]))
         assert self.first is not None
         if "stops" in self.counts:
             verdict = "not proven"
         else:
             verdict = "the same part, made another way" if self.verdict == SAME_PART else "different"
-        return f"{verdict} ({counts}){f'; {self.part}' if self.part else ''}; first {self.first.sentence}"
+        return "; ".join(filter(None, [f"{verdict} ({counts})", self.part, f"first {self.first.sentence}", self.zeros]))
 
     @property
     def above(self) -> str:
@@ -223,11 +235,12 @@ def proof(one: Any, other: Any, tolerance: float = 0.001, allow: Collection[str]
     motions = motion_of(one, tools), motion_of(other, tools)
     found = differences(*motions, tolerance)
     part = ""
-    if any(run.reach for run in runs):
+    broken = any(map(_broken, runs))
+    if broken:
         found = _stopped(runs, found)
     if not {each.kind for each in found} - {*allowed}:
         verdict = SAME_MOTION
-    elif any(run.reach for run in runs):
+    elif broken:
         verdict = DIFFERENT
     else:
         found, part = _parts(runs, motions, tolerance, found)
@@ -250,10 +263,15 @@ def _parts(
 def _stopped(runs: tuple[Any, Any], found: list[Found]) -> list[Found]:
     """Where the programs stop, and what differs before."""
     rows = tuple(len(run.toolpath) - 1 for run in runs)
-    ends = tuple(row if run.reach else 1 << 40 for row, run in zip(rows, runs))
+    ends = tuple(row if _broken(run) else 1 << 40 for row, run in zip(rows, runs))
     known = [each for each in found if each.rows[0] < ends[0] and each.rows[1] < ends[1] and "none" not in each.values]
-    said = tuple(_why(run) if run.reach else "goes on" for run in runs)
+    said = tuple(_why(run) if _broken(run) else "goes on" for run in runs)
     return [*(each for each in known if each.kind != "leftovers"), Found("stops", rows, float("nan"), "", said)]  # type: ignore[arg-type]
+
+
+def _broken(run: Any) -> bool:
+    """Whether a run stopped before its end, or something in it was refused."""
+    return bool(run.reach) or not run.ok
 
 
 def _why(run: Any) -> str:

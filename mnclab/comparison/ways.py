@@ -8,6 +8,7 @@ from mnclab.comparison.found import RATE, Found, from_where, row_of
 from mnclab.comparison.motion import Motion
 from mnclab.path.listing import figure
 from mnclab.path.toolpath import Array, Index, Kind
+from mnclab.text.alarm import several
 
 SECONDS = 0.001
 
@@ -111,6 +112,8 @@ class Ways:
         """What they do, in words."""
         if not self.count[link]:
             return "no rapid"
+        if self.motion.path.lathe:
+            return several(int(self.count[link]), "rapid")
         low, last = float(self.low[link]), float(self.last[link])
         return f"sideways at Z{figure(low, 3)}, " * bool(np.isfinite(low)) + f"rapid ends at Z{figure(last, 3)}"
 

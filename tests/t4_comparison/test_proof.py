@@ -53,8 +53,8 @@ def some_mutants(seeds):
     for seed in seeds:
         first, lines = mnc.run(text(iso(part(seed))), "g43", SETUP), klartext(part(seed))
         for kind in MUTANTS:
-            other, places = mutant(lines, kind, random.Random(f"{kind} {seed}")) or (lines, {})
-            if kind == "dropped" and straight_on(lines, min(places)):
+            other, places = mutant(lines, kind, random.Random(f"{kind} {seed}")) or (lines, None)
+            if places is None or (kind == "dropped" and straight_on(lines, min(places))):
                 continue
             found = mnc.prove(first, mnc.run(text(other), "tnc-620", SETUP))
             assert found.verdict == "different" if kind != "order" else found, (seed, kind)
@@ -347,15 +347,26 @@ def test_a_program_that_stops_proves_nothing():
     assert proof("", "").sentence == "no motion in either"
 
 
+TURNED = "M3\nT1\nS800 G97 G95 F0.25\nG00 X32 Z3\nG01 X14\nZ-25\nX32\nG00 Z3\nX60 Z50\nM5\n"
+BAR = mnc.Setup(tools={1: mnc.Tool(kind="turning")}, stock=mnc.cylinder(30, -60))
+
+
 def test_a_lathe():
-    """A bar of radius 20 turned to 18, in two ways of saying it: in absolute and in incremental words."""
-    absolute = "G90 G54 S500 M3\nT1\nG0 X50 Z2\nX36\nG1 Z-20 F100\nX44\nG0 Z2\nM2\n"
-    incremental = absolute.replace("G1 Z-20 F100\nX44", "G91\nG1 Z-22 F100\nX8\nG90")
-    bar = mnc.Setup(tools={1: mnc.Tool(kind="turning")}, stock=mnc.cylinder(20, -60))
-    control = next((name for name in ("jnc-t01", "nc-31") if mnc.run(absolute, name, bar).ok), None)
-    if control is None:
-        pytest.skip("these words are those of no lathe here")
-    assert proof(absolute, incremental, (control, control), bar).verdict == "same motion"
+    """A bar of radius 30 turned to 14, in one cut and in two: the part is the same, as is not one 0.01 mm thicker."""
+    controls = ("jnc-t01", "jnc-t01")
+    twice = TURNED.replace("G01 X14\nZ-25\nX32\nG00 Z3\n", "G01 X16\nZ-25\nX32\nG00 Z3\nG01 X14\nZ-25\nX32\nG00 Z3\n")
+    assert proof(TURNED, TURNED, controls, BAR).verdict == "same motion"
+    assert proof(TURNED, twice, controls, BAR).verdict == "same part"
+    for old, new, line in (("X14", "X14.01", 5), ("Z-25", "Z-25.01", 6), ("F0.25", "F0.3", 5), ("G97 G95", "G96 G95", 5)):
+        found = proof(TURNED, TURNED.replace(old, new), controls, BAR)
+        assert found.verdict == "different" and found.first.lines[1] == line, found.sentence
+
+
+def test_zero_points_that_are_two_are_told():
+    setup = mnc.Setup(tools=TOOLS, datums={1: (100, 0, 0), 2: (200, 0, 0)})
+    found = proof(PATH.replace("M6\n", "M6\nG0 X0 Y0 Z100\n"), PATH.replace("M6\n", "M6\nG0 X0 Y0 Z100\n"), setup=setup)
+    assert found.sentence == "the same motion within 0.001 mm"
+    assert "X100 Y0 Z0 and X200 Y0 Z0" in proof(PATH, PATH.replace("G54", "G55"), setup=setup).sentence
 
 
 # What is given and what is shown.
