@@ -14,9 +14,11 @@ from mnclab.comparison.motion import NO_WAY, Motion
 from mnclab.comparison.pairs import Pairs, apart, paired
 from mnclab.comparison.ways import links, of_dwells, of_links
 from mnclab.path.listing import figure
-from mnclab.path.toolpath import Array, Index, Kind
+from mnclab.path.places import points_at
+from mnclab.path.toolpath import Array, Index, Kind, Toolpath
 from mnclab.text.alarm import several
 
+ROUGH = 0.02  # of a way: how far apart the tool may be on two that are divided otherwise
 LONGEST = 4000  # cuts of a stretch that is looked at as a whole
 FLOWS = ("off", "on (M8)", "on (M7)")
 SIDES = {0: "none", 1: "left", -1: "right"}
@@ -114,11 +116,23 @@ def _one_way(one: Motion, other: Motion, i: int, to_i: int, j: int, to_j: int, t
         paths.append(path[path.is_motion & (path.lengths > NO_WAY)])
     p, q = paths
     if to_i - i == to_j - j:  # as many: block by block, or not at all
-        return len(p) == len(q) > to_i - i and bool((np.linalg.norm(p.end - q.end, axis=1) <= tolerance).all())
+        straight = (p.kind == Kind.LINE).all() and (q.kind == Kind.LINE).all()
+        return bool(straight) and len(p) == len(q) > to_i - i and bool((np.linalg.norm(p.end - q.end, axis=1) <= tolerance).all())
     ends = max(np.abs(p.start[0] - q.start[0]).max(), np.abs(p.end[-1] - q.end[-1]).max())
     if ends > tolerance or abs(p.length - q.length) > 1e-3 * p.length + tolerance or not p.length:
         return False
+    halfway = [points_at(each, *_at_shares(each)) for each in (p, q)]  # the same way round
+    if np.linalg.norm(halfway[0] - halfway[1], axis=1).max() > tolerance + ROUGH * p.length:
+        return False
     return bool(deviation(p, q, step=max(p.length / 2000, tolerance), chord_error=tolerance / 10).largest <= tolerance)
+
+
+def _at_shares(path: Toolpath) -> tuple[Index, Array]:
+    """Rows (k,) and their shares where a tenth, two tenths, … of the way of a path are behind."""
+    upto = np.cumsum(path.lengths)
+    way = np.arange(0.1, 0.95, 0.1) * upto[-1]
+    rows = np.minimum(np.searchsorted(upto, way), len(path) - 1)
+    return rows, 1 - (upto[rows] - way) / path.lengths[rows]
 
 
 def _not_alike(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) -> list[Found]:

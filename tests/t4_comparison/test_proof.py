@@ -7,6 +7,7 @@ known block. Cycle 200, DIN cycle G81 and the sense of CP are those of the manua
 import json
 import math
 import random
+import time
 
 import numpy as np
 import pytest
@@ -318,6 +319,15 @@ def test_chords_of_an_arc_are_harmless_where_they_are_allowed():
     assert proof(arc, coarse, allow=["chords"], tolerance=0.01).verdict == "same motion"
 
 
+def test_a_circle_in_two_halves_is_not_one_the_other_way_round():
+    whole = PATH.replace("Y10\n", "Y10\nG3 X20 Y10 I-10 J0\n")
+    halves = PATH.replace("Y10\n", "Y10\nG3 X0 Y10 I-10 J0\nX20 I10 J0\n")
+    assert proof(whole, halves).verdict == "same motion"
+    found = proof(whole, halves.replace("G3", "G2"))
+    assert found.verdict == "different" and found.first.lines == (11, 11)
+    assert proof(whole.replace("I-10 J0", "I-10 J0.0005"), halves).verdict == "same motion"
+
+
 def test_another_order_and_another_way():
     more = PATH.replace("M5\n", "X-30 Y-30\nG1 Z-4 F200\nX-10 F300\nG0 Z20\nM5\n")
     head, foot = PATH.split("G0 X0 Y0")[0], "M5\nM30\n"
@@ -367,6 +377,17 @@ def test_zero_points_that_are_two_are_told():
     found = proof(PATH.replace("M6\n", "M6\nG0 X0 Y0 Z100\n"), PATH.replace("M6\n", "M6\nG0 X0 Y0 Z100\n"), setup=setup)
     assert found.sentence == "the same motion within 0.001 mm"
     assert "X100 Y0 Z0 and X200 Y0 Z0" in proof(PATH, PATH.replace("G54", "G55"), setup=setup).sentence
+
+
+@pytest.mark.benchmark
+def test_a_million_moves_a_side():
+    k = np.arange(1_000_000)
+    places = zip((k % 1000 * 0.1).tolist(), (k // 1000 * 0.5).tolist(), (np.sin(k * 0.01) * 2 - 3).tolist())
+    head, foot = PATH.split("X10 F300")[0], "G0 Z20\nM5\nM30\n"
+    one = mnc.run(head + "F300\n" + "".join(f"X{x:.3f} Y{y:.3f} Z{z:.3f}\n" for x, y, z in places) + foot, "g43", SETUP)
+    begun = time.perf_counter()
+    assert mnc.prove(one, one).verdict == "same motion"
+    assert time.perf_counter() - begun < 10
 
 
 # What is given and what is shown.
