@@ -20,13 +20,13 @@ import numpy as np
 from mnclab.comparison.diff import _names
 from mnclab.comparison.differences import differences
 from mnclab.comparison.found import Found
-from mnclab.comparison.motion import Motion, motion_of
+from mnclab.comparison.motion import motion_of
 from mnclab.comparison.parts import collided, not_comparable, part_apart
 from mnclab.path.listing import MM, Unit, figure, point, words
 from mnclab.path.toolpath import Kind
 from mnclab.text.alarm import ALARM, Alarm
 from mnclab.text.given import check_number, choice, shown
-from mnclab.text.tables import Listing, Pictured, html_table, paragraphs, save_as, write_csv, write_picture
+from mnclab.text.tables import Listing, Pictured, html_table, paragraphs, save_as, text_table, write_csv, write_picture
 
 #: What may differ, the worst first -> what it means.
 KINDS = {
@@ -103,7 +103,7 @@ class Proof(Pictured, Listing):
     truth is whether the motion is not the same, as that of `mnclab.diff`: `if mnclab.prove(a, b): print("look")`.
     """
 
-    NUMBERS, CODE, MOST, NOTHING = (1, 3), (2, 4), 30, "no differences"
+    NUMBERS, CODE, MOST = (1, 3), (2, 4), 30
 
     verdict: str
     differences: tuple[Difference, ...]
@@ -157,6 +157,11 @@ class Proof(Pictured, Listing):
     @property
     def above(self) -> str:
         return f"{self.names[0]} and {self.names[1]}: {self.sentence}"
+
+    def __repr__(self) -> str:
+        head, rows, numbers = self.table()
+        more = f"… {len(rows) - self.MOST} more" if len(rows) > self.MOST else ""
+        return "\n".join(filter(None, [self.above, text_table(head, rows[: self.MOST], numbers) if rows else "", more]))
 
     @property
     def unit(self) -> Unit:
@@ -235,29 +240,18 @@ def proof(one: Any, other: Any, tolerance: float = 0.001, allow: Collection[str]
     motions = motion_of(one, tools), motion_of(other, tools)
     found = differences(*motions, tolerance)
     part = ""
-    broken = any(map(_broken, runs))
-    if broken:
+    if any(map(_broken, runs)):
         found = _stopped(runs, found)
-    if not {each.kind for each in found} - {*allowed}:
-        verdict = SAME_MOTION
-    elif broken:
-        verdict = DIFFERENT
-    else:
-        found, part = _parts(runs, motions, tolerance, found)
-        unsafe = part or any(each.kind in UNSAFE for each in found)
-        verdict = DIFFERENT if unsafe else SAME_PART
+    elif found:
+        why = not_comparable(runs, motions)
+        found = found if why else sorted([*found, *collided(runs)], key=lambda each: each.rows[1])
+        if not {each.kind for each in found} <= {*allowed}:
+            part = f"the parts were not compared: {why}" if why else part_apart(runs, motions, tolerance, found)
+    serious = {each.kind for each in found} - {*allowed}
+    verdict = SAME_MOTION if not serious else DIFFERENT if part or serious & {*UNSAFE} else SAME_PART
     names = _names(one, other)
     told = tuple(_told(each, runs, names, allowed) for each in found)
     return Proof(verdict, told, names, float(tolerance), (one.toolpath, other.toolpath), part)
-
-
-def _parts(
-    runs: tuple[Any, Any], motions: tuple[Motion, Motion], tolerance: float, found: list[Found]
-) -> tuple[list[Found], str]:
-    """The collisions besides, and why the parts are not the same."""
-    if why := not_comparable(runs, motions):
-        return found, f"the parts were not compared: {why}"
-    return sorted([*found, *collided(runs)], key=lambda each: each.rows[1]), part_apart(runs, motions, tolerance, found)
 
 
 def _stopped(runs: tuple[Any, Any], found: list[Found]) -> list[Found]:
@@ -297,12 +291,12 @@ def _spot(run: Any, row: int, halt: Any, name: str) -> tuple[int, str, str, tupl
     path = run.toolpath
     line, which = (halt.line, halt.program) if halt else (int(path.line[row]), int(path.program[row]))
     place = tuple(path.end[row].tolist()) if row >= 0 else ()
-    program = run.programs[which]
-    return line, program.name if which else name, program.line_text(line).strip(), place, "" if halt else _doing(path[row])
+    program, doing = run.programs[which], "" if halt else _doing(path[row], path.lathe)
+    return line, program.name if which else name, program.line_text(line).strip(), place, doing
 
 
-def _doing(move: Any) -> str:
+def _doing(move: Any, lathe: bool) -> str:
     """What a row does, in words."""
-    name = Kind(move.kind).name.lower()
-    side = {1: ", left of the contour", -1: ", right of the contour"}.get(move.side, "")
-    return f"{name} {'to ' if move.kind <= Kind.PROBE else ''}{words(move)}{side if move.kind != Kind.RAPID else ''}".strip()
+    said = words(move).replace(point(move.end), point(move.end, lathe=lathe))
+    side = {1: ", left of the contour", -1: ", right of the contour"}.get(move.side, "") if move.kind != Kind.RAPID else ""
+    return f"{Kind(move.kind).name.lower()} {'to ' if move.kind <= Kind.PROBE else ''}{said}{side}".strip()

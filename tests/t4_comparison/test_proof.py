@@ -341,6 +341,14 @@ def test_another_order_and_another_way():
     assert off.verdict == "different" and "the parts differ" in off.part
 
 
+def test_an_order_that_collides_is_never_harmless():
+    """A pocket floor at Z-4 first, then across it at rapid at Z-3: the other way round that rapid goes through metal."""
+    head, foot = PATH.split("G0 X0 Y0")[0], "G0 Z20\nM5\nM30\n"
+    slot, rapid = "G0 X0 Y0 Z20\nG1 Z-4 F200\nX30 F300\nG0 Z20\n", "G0 X0 Y0\nZ-3\nX30\nG1 Y4 F300\nG0 Z20\n"
+    found = proof(head + slot + rapid + foot, head + rapid + slot + foot, setup=BLANK, allow=("order", "lifts"))
+    assert found.verdict == "different" and "collision" in found.counts, found.sentence
+
+
 def test_a_move_in_two_blocks_is_one_move():
     two = PATH.replace("X20\n", "X13.3333 F300\nX20\n")
     assert proof(PATH, two).verdict == "same motion"
