@@ -47,6 +47,7 @@ KINDS = {
     "leftovers": "something else is on at the end",
 }
 MAY_BE_ALLOWED = ("lifts", "chords", "order")
+BESIDE = ("leftovers",)  # told, but no motion
 #: With one of these the part is not the same, even where the sweep of the tool says so: a tool breaks, a clamp is hit.
 UNSAFE = ("stops", "collision", "rapid", "side", "spindle", "feed")
 SAME_MOTION, SAME_PART, DIFFERENT = "same motion", "same part", "different"
@@ -145,8 +146,9 @@ class Proof(Pictured, Listing):
         if not any(path.is_motion.any() for path in self.paths) and not counts:
             return "no motion in either"
         if self.verdict == SAME_MOTION:
-            more = f"harmless: {counts}" if counts else ""
-            return "; ".join(filter(None, [f"the same motion within {self.tolerance:g} mm", more, self.zeros]))
+            more = f"beside it: {counts}" if counts else ""
+            left = "".join(each.sentence for each in self.differences if each.kind in BESIDE)
+            return "; ".join(filter(None, [f"the same motion within {self.tolerance:g} mm", more, left, self.zeros]))
         assert self.first is not None
         if "stops" in self.counts:
             verdict = "not proven"
@@ -245,9 +247,9 @@ def proof(one: Any, other: Any, tolerance: float = 0.001, allow: Collection[str]
     elif found:
         why = not_comparable(runs, motions)
         found = found if why else sorted([*found, *collided(runs)], key=lambda each: each.rows[1])
-        if not {each.kind for each in found} <= {*allowed}:
+        if not {each.kind for each in found} <= {*allowed, *BESIDE}:
             part = f"the parts were not compared: {why}" if why else part_apart(runs, motions, tolerance, found)
-    serious = {each.kind for each in found} - {*allowed}
+    serious = {each.kind for each in found} - {*allowed, *BESIDE}
     verdict = SAME_MOTION if not serious else DIFFERENT if part or serious & {*UNSAFE} else SAME_PART
     names = _names(one, other)
     told = tuple(_told(each, runs, names, allowed) for each in found)

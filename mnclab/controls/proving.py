@@ -29,8 +29,9 @@ def prove(
     differences. Else "different", as of a program that stops before its end, which proves nothing. `first` is the first place
     where they differ: lines, blocks, places, what each does.
 
-    Differences of the kinds in `allow`, of "lifts", "chords" and "order", are harmless: the motion is the same in spite of them.
-    Rapids of `b` that go lower or nearer than those of `a` are a kind of their own, which cannot be allowed.
+    What is still on at the end, such as the spindle, is told and is no motion. Differences of the kinds in `allow`, of "lifts",
+    "chords" and "order", are harmless: the motion is the same in spite of them. Rapids of `b` that go lower or nearer than
+    those of `a` are a kind of their own, and a collision that only one of the two has is another: neither can be allowed.
 
     Example:
         proof = mnc.prove("part.nc", "part.h", setup=mnc.Setup(tools={1: mnc.Tool(radius=5)}))

@@ -264,7 +264,6 @@ M30
         ("M3\n", "M3 M8\n", "coolant", 6, "same part"),
         ("Y5\n", "Y5\nG4 P500\n", "dwell", 9, "same part"),
         ("Y5\n", "Y5\nM0\n", "dwell", 9, "same part"),
-        ("M5\nM30\n", "", "leftovers", 11, "same part"),
         ("T1 M6\nG43 H1", "T2 M6\nG43 H2", "tool", 6, "different"),
         ("Z-2", "Z-2.01", "depth", 6, "different"),
         ("Y5\n", "Y5.01\n", "geometry", 8, "different"),
@@ -275,6 +274,12 @@ def test_each_kind_is_told_at_its_line(old, new, kind, line, verdict):
     found = proof(PATH, PATH.replace(old, new, 1), setup=BLANK)
     assert (found.first.kind, found.first.lines[1], found.verdict) == (kind, line, verdict), found.sentence
     assert proof(PATH, PATH.replace(old, new, 1)).verdict == "different"  # without a blank
+
+
+def test_a_spindle_that_is_left_on_is_told_beside_the_motion():
+    found = proof(PATH, PATH.replace("M5\nM30\n", ""))
+    assert found.verdict == "same motion" and found.counts == {"leftovers": 1}
+    assert "spindle off against S1000 M3" in found.sentence and not found.first.harmless
 
 
 def test_the_same_feed_in_other_words():
