@@ -40,7 +40,7 @@ def number(value, inches=False):
     return "0" if text in ("-0", "") else text
 
 
-def iso(moves, control="g43", inches=False, frame="", back=lambda x, y: (x, y)):
+def iso(moves, control="g43", inches=False, frame="", back=lambda x, y: (x, y), by_radius=False):
     """The lines of a program in G words; `frame` turns or shifts it, `back` undoes that for its coordinates."""
     lines = [*(["G20"] if inches else []), "G17 G90 G40 G54", "T1 M6" if control == "g43" else "T1", f"S{SPEED} M3"]
     lines += ["G43 H1"] if control == "g43" else []
@@ -53,7 +53,8 @@ def iso(moves, control="g43", inches=False, frame="", back=lambda x, y: (x, y)):
         if kind == "arc":
             words.pop()
             cu, cv = back(more[1], more[2])
-            words += [f"I{number(cu - a, inches)}", f"J{number(cv - b, inches)}"]
+            radius = f"R{number(math.dist((cu, cv), (a, b)), inches)}"
+            words += [radius] if by_radius else [f"I{number(cu - a, inches)}", f"J{number(cv - b, inches)}"]
         if more and more[0] != feed:
             feed = more[0]
             words.append(f"F{number(feed, inches)}")
@@ -62,14 +63,17 @@ def iso(moves, control="g43", inches=False, frame="", back=lambda x, y: (x, y)):
     return [*lines, "M5", "M30"]
 
 
-def klartext(moves, inches=False):
-    """The same for an iTNC, with circles about CC."""
+def klartext(moves, inches=False, mirrored=False):
+    """The same in Klartext, with circles about CC; `mirrored` at X0 by a cycle, so that it is written the other way round."""
     def word(axis, value):
         text = number(value, inches)
         return axis + (text if text.startswith("-") else "+" + text)
 
     lines = [f"BEGIN PGM TWIN {'INCH' if inches else 'MM'}", f"TOOL CALL 1 Z S{SPEED}", "M3"]
+    lines += ["CYCL DEF 8.0 MIRRORING", "CYCL DEF 8.1 X"] if mirrored else []
     for kind, x, y, z, *more in moves:
+        if mirrored:
+            x, more = -x, [*more[:1], -more[1], more[2], -more[3]] if kind == "arc" else more
         feed = "FMAX" if kind == "rapid" else f"F{number(more[0] / (1 if not inches else 2.54), False)}"
         if kind == "arc":
             lines += [f"CC {word('X', more[1])} {word('Y', more[2])}",
