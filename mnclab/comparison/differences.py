@@ -19,6 +19,7 @@ from mnclab.path.toolpath import Array, Index, Kind, Toolpath
 from mnclab.text.alarm import several
 
 ROUGH = 0.02  # of a way: how far apart the tool may be on two that are divided otherwise
+BENT = 0.01  # rad: as much less of arcs has the one that has chords in their place
 LONGEST = 4000  # cuts of a stretch that is looked at as a whole
 FLOWS = ("off", "on (M8)", "on (M7)")
 SIDES = {0: "none", 1: "left", -1: "right"}
@@ -33,7 +34,7 @@ def differences(one: Motion, other: Motion, tolerance: float) -> list[Found]:
     found += _of_settings(one, other, *np.unique(np.hstack([(i, j), *within]), axis=1))
     between = links(one, other, i, j, parts)
     found += of_links(one, other, *between, tolerance)
-    found += of_dwells(one, other, *between)
+    found += of_dwells(one, other, *between, parts)
     found += _left_over(one, other)
     return sorted(found, key=lambda each: (each.rows[1], each.rows[0]))
 
@@ -51,14 +52,14 @@ def _of_stretches(
         longer = (i, min(to_i + 1, len(one.cuts)), j, min(to_j + 1, len(other.cuts)))  # a line that one of them goes in two
         alike = next((each for each in (stretch, longer) if _one_way(one, other, *each, tolerance)), None)
         if alike is not None:
-            bent = [(motion.kind[motion.cuts[a:b]] == Kind.ARC).any() for motion, a, b in ((one, i, to_i), (other, j, to_j))]
-            (chords if bent[0] != bent[1] else same).append(alike)
+            bent = [np.abs(motion.sweep[motion.cuts[a:b]]).sum() for motion, a, b in ((one, i, to_i), (other, j, to_j))]
+            (same if abs(bent[0] - bent[1]) < BENT else chords).append(alike)
         else:
             odd.append(stretch)
     found = []
     for i, to_i, j, to_j in chords:
-        arcs = "arcs", f"{to_j - j} lines"
-        arcs = arcs if (one.kind[one.cuts[i:to_i]] == Kind.ARC).any() else (f"{to_i - i} lines", "arcs")
+        bent = [np.abs(motion.sweep[motion.cuts[a:b]]).sum() for motion, a, b in ((one, i, to_i), (other, j, to_j))]
+        arcs = ("arcs", several(to_j - j, "line")) if bent[0] > bent[1] else (several(to_i - i, "line"), "arcs")
         found.append(Found("chords", rows_of(one, i, other, j), 0.0, "mm", arcs, max(to_i - i, to_j - j)))
     more = []
     left = [np.concatenate([np.arange(s[k], s[k + 1]) for s in odd] or [np.empty(0, np.int64)]) for k in (0, 2)]

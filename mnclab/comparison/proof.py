@@ -201,13 +201,9 @@ class Proof(Pictured, Listing):
         return save_as(self, path, writers, "cannot write a proof as {}", **options)
 
     def _repr_html_(self) -> str:
-        first = self.first
-        if first is None:
-            return paragraphs(self.above)
-        rows = [(name, *pair) for name, *pair in _two(first)]
-        return paragraphs(self.above) + html_table(("first difference", *self.names), rows) + Listing._repr_html_(self).replace(
-            paragraphs(self.above), "", 1
-        )
+        shown = Listing._repr_html_(self)
+        two = html_table(("first difference", *self.names), _two(self.first)) if self.first else ""
+        return shown.replace("</p>", f"</p>{two}", 1)
 
 
 def _two(first: Difference) -> list[tuple[str, str, str]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mnclab.comparison.found import RATE, Found, from_where, row_of
+from mnclab.comparison.found import RATE, Found, from_where
 from mnclab.comparison.motion import Motion
 from mnclab.path.listing import figure
 from mnclab.path.toolpath import Array, Index, Kind
@@ -133,27 +133,26 @@ class Ways:
         return int(self.motion.row[self.motion.cuts[min(link, len(self.motion.cuts) - 1)]])
 
 
-def of_dwells(one: Motion, other: Motion, i: Index, j: Index) -> list[Found]:
-    """Dwells and stops of the program between cuts, at the end of a cut and elsewhere."""
+def of_dwells(one: Motion, other: Motion, i: Index, j: Index, parts: list[tuple[int, int, int, int]]) -> list[Found]:
+    """Dwells and stops of the program between cuts, at the end of a cut and elsewhere; `parts` are stretches that are one way."""
     found = []
     for at_cut in (True, False):
-        times, rows = [], []
-        for motion in (one, other):
-            slot = np.arange(len(motion) + 1)
+        sides = []
+        for motion, links, k in ((one, i, 0), (other, j, 2)):
             here = np.append(False, motion.kind != Kind.RAPID) == at_cut
-            link = np.searchsorted(motion.cuts, slot)
-            times.append(np.bincount(link[here], motion.dwell[here], len(motion.cuts) + 1))
-            row = np.full(len(motion.cuts) + 1, -1)
-            paused = here & (motion.pause >= 0)
-            row[link[paused]] = motion.pause[paused]
-            rows.append(row)
-        a, b = times[0][i], times[1][j]
+            link = np.searchsorted(motion.cuts, np.arange(len(motion) + 1))[here]
+            times = np.bincount(link, motion.dwell[here], len(motion.cuts) + 1)
+            row = np.append(-1, motion.row[motion.cuts])  # of the cut before, unless there is a dwell
+            np.maximum.at(row, link, motion.pause[here])
+            inner = [slice(part[k] + 1, part[k + 1]) for part in parts]
+            time = np.append(times[links], [times[each].sum() for each in inner])
+            sides.append((time, np.append(row[links], [row[each].max(initial=-1) for each in inner])))
+        (a, p), (b, q) = sides
         with np.errstate(invalid="ignore"):
             wrong = np.flatnonzero(~((np.abs(a - b) <= SECONDS + RATE * np.abs(a)) | (a == b)))
         for k in wrong.tolist():
-            ends = (one, rows[0], int(i[k])), (other, rows[1], int(j[k]))
-            p, q = (int(row[rank]) if row[rank] >= 0 else row_of(m, rank - 1) for m, row, rank in ends)
-            found.append(Found("dwell", (p, q), float(abs(a[k] - b[k])), "s", (_waits(a[k]), _waits(b[k]))))
+            rows = int(p[k]), int(q[k])
+            found.append(Found("dwell", rows, float(abs(a[k] - b[k])), "s", (_waits(a[k]), _waits(b[k]))))
     return found
 
 

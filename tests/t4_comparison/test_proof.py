@@ -358,6 +358,8 @@ def test_an_order_that_collides_is_never_harmless():
 def test_a_move_in_two_blocks_is_one_move():
     two = PATH.replace("X20\n", "X13.3333 F300\nX20\n")
     assert proof(PATH, two).verdict == "same motion"
+    waits = proof(PATH, PATH.replace("X20\n", "X13.3333\nG4 P500\nX20\n"))
+    assert waits.counts == {"dwell": 1} and waits.first.lines[1] == 10
     slower = PATH.replace("X20\n", "X13.3333\nX20 F100\n").replace("Y10\n", "Y10 F300\n")
     found = proof(PATH, slower)
     assert found.first.kind == "feed" and found.first.lines == (9, 10)
