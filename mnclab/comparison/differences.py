@@ -202,7 +202,7 @@ def _of_settings(one: Motion, other: Motion, i: Index, j: Index) -> Iterator[Fou
 
 
 def _named(before: str, behind: str = "") -> Callable[[Any], str]:
-    return lambda value: f"{before}{figure(float(value), 3)}{behind}"
+    return lambda value: "not given" if np.isnan(value) else f"{before}{figure(float(value), 3)}{behind}"
 
 
 def _turning(speed: float) -> str:

@@ -26,7 +26,7 @@ from mnclab.path.listing import MM, Unit, figure, point, words
 from mnclab.path.toolpath import Kind
 from mnclab.text.alarm import ALARM, Alarm
 from mnclab.text.given import check_number, choice, shown
-from mnclab.text.tables import Listing, Pictured, html_table, paragraphs, save_as, text_table, write_csv, write_picture
+from mnclab.text.tables import Listing, Pictured, html_table, save_as, text_table, write_csv, write_picture
 
 #: What may differ, the worst first -> what it means.
 KINDS = {
@@ -77,10 +77,11 @@ class Difference(NamedTuple):
     def told(self) -> str:
         """By how much, in words."""
         amount = f"{figure(self.amount, 4)} {self.unit}" if self.unit and 0 < self.amount < float("inf") else ""
-        values = f"{self.values[0]} against {self.values[1]}" if any(self.values) else "apart" if amount else ""
-        behind = f"({amount})" if amount and any(self.values) else amount
-        moves = f"over {self.moves} moves" if self.moves > 1 else ""
-        return " ".join(filter(None, [values, behind] if any(self.values) else [behind, values])) + f" {moves}".rstrip()
+        if any(self.values):
+            said = f"{self.values[0]} against {self.values[1]}" + (f" ({amount})" if amount else "")
+        else:
+            said = f"{amount} apart" if amount else ""
+        return f"{said} over {self.moves} moves" if self.moves > 1 else said
 
     @property
     def sentence(self) -> str:
