@@ -17,7 +17,6 @@ GEOMETRIC = ("geometry", "depth", "order", "chords", "lifts", "rapid")
 STROKES = 1500  # of each path: beside them the walls are looked at
 BESIDE = 1.3  # of the tolerance
 GRID = 50  # places of the longer side
-MOST_ASKED = 500  # places where the parts differ most: the surroundings are looked at too
 NOTHING = 1e6  # mm: the height of no material
 MOST = 20_000  # cuts: a part of more takes too long
 ROUND = np.array([(0, 0), (1, 0), (0, 1), (-1, 0), (0, -1), (0.7, 0.7), (-0.7, 0.7), (0.7, -0.7), (-0.7, -0.7)])
@@ -61,7 +60,6 @@ def part_apart(runs: tuple[Any, Any], motions: tuple[Motion, Motion], tolerance:
     apart = np.abs(heights[0] - heights[1])
     for k, part in enumerate(parts[::-1]):  # beside a wall that is within the tolerance heights may be far apart
         at = np.flatnonzero((apart > tolerance).any(axis=0))
-        at = at[np.argsort(-apart[:, at].max(axis=0), kind="stable")[:MOST_ASKED]]
         here = heights[k][:, at, None]
         about = _heights(part, (points[at, None] + tolerance * ROUND).reshape(-1, 2)).reshape(2, -1, len(ROUND))
         off = np.maximum(about.min(axis=2) - here[:, :, 0], here[:, :, 0] - about.max(axis=2)).max(axis=0, initial=0.0)

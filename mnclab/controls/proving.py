@@ -26,9 +26,9 @@ def prove(
     `a` and `b` are runs, or texts or files, which are run with the `setup`. The `verdict` is "same motion": every cut and every
     rapid agrees within the `tolerance` (mm), with feed, speed, coolant, tool, side and dwells. Or "same part": made another way,
     and what is left of the blank agrees (a milled one beside the cuts that differ, at 15,000 places of each program at most, and
-    in a grid; a turned one in its whole section), and neither a collision nor a lower rapid, another side, speed or feed is among the
-    differences. Else "different", as of a program that stops before its end, which proves nothing. `first` is the first place
-    where they differ: lines, blocks, places, what each does.
+    in a grid; a turned one in its whole section), and neither a collision nor a lower rapid, another side, speed or feed is
+    among the differences. Else "different", as of a program that stops before its end, which proves nothing. `first` is the
+    first place where they differ: lines, blocks, places, what each does.
 
     What is still on at the end, such as the spindle, is told and is no motion. Differences of the kinds in `allow`, of "lifts",
     "chords" and "order", are harmless: the motion is the same in spite of them. Rapids of `b` that go lower or nearer than
