@@ -43,6 +43,8 @@ def part_apart(runs: tuple[Any, Any], motions: tuple[Motion, Motion], tolerance:
     if not any(each.kind in (*GEOMETRIC, "tool") for each in found):
         return ""
     parts = [run.workpiece() for run in runs]
+    if (error := max(part.error for part in parts)) > tolerance:
+        return f"the parts are known to {error:g} mm alone"
     sections = [part.half_section() for part in parts]
     if sections[0] is not None and sections[1] is not None:
         one, other = (Region.of(*section[0]) for section in sections)

@@ -438,6 +438,7 @@ def test_from_a_shell(tmp_path, capsys):
     one.write_text(HELIX_ISO)
     other.write_text(HELIX)
     wrong.write_text(HELIX.replace("F300", "F3000"))
+    assert mnc.prove(str(one), other).verdict == "same motion" and not mnc.prove(one, HELIX, setup=SETUP)
     assert main(["prove", str(one), str(other)]) == 0 and "the same motion" in capsys.readouterr().out
     assert main(["prove", str(one), str(wrong), "--json", "--allow", "lifts,order"]) == 1
     assert json.loads(capsys.readouterr().out)["counts"] == {"feed": 1}
