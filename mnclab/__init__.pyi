@@ -11,6 +11,7 @@ from mnclab.controls.choice import read as read
 from mnclab.controls.choice import renumber as renumber
 from mnclab.controls.choice import run as run
 from mnclab.controls.cycle_steps import steps as steps
+from mnclab.controls.proving import prove as prove
 from mnclab.controls.survey import check as check
 from mnclab.controls.survey import run_many as run_many
 from mnclab.design.model import Design as Design

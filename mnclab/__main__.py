@@ -1,4 +1,4 @@
-"""mnclab from a shell: check, run, renumber, plot, part, compare, drawing, report, time, help, exercise, grade,
+"""mnclab from a shell: check, run, renumber, plot, part, compare, prove, drawing, report, time, help, exercise, grade,
 handout, site, send, lessons, lab.
 
 `python -m mnclab` is the same.
@@ -201,6 +201,15 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--tolerance", type=float, default=0.05, metavar="MM", help=says)
     sub.add_argument("-o", "--output", metavar="OUT", help=f"the suffix says what: {COMPARED}")
     options(sub, "verdict, worst places and table on stdout as one object instead")
+    sub = command("prove", prove, "say whether two programs make the same motion, or the same part; status 1 if they do not")
+    sub.add_argument("other", metavar="OTHER", help="the program that is compared with the first one, which is trusted")
+    sub.add_argument("--tolerance", type=float, default=0.001, metavar="MM", help="(default: 0.001)")
+    says = "what may differ: lifts (between cuts, nowhere lower), chords (for arcs, within the tolerance), order (of the cuts)"
+    sub.add_argument("--allow", type=words, default=(), metavar="lifts,chords,order", help=says)
+    sub.add_argument("--html", metavar="OUT.html", help="a page with the first difference and its picture")
+    sub.add_argument("--controls", type=words, metavar="A,B", help="of both (default: from their suffixes or texts)")
+    sub.add_argument("--setup", metavar="S.toml", help="of both: tools, datums, blank, start, settings")
+    sub.add_argument("--json", action="store_true", help="verdict and differences on stdout as one object instead")
     sub = command("drawing", drawing, "save the dimensioned drawing of a design (.toml), or of the part that a program makes")
     output(sub, f"the suffix says what: {DRAWN}")
     sub.add_argument("--size", metavar="SIZE", help='A4, "A4 landscape", A3 or A2 (default: the smallest that will do)')
@@ -337,6 +346,19 @@ def compare(chosen: argparse.Namespace) -> int:
                 told = str(place).removesuffix(f": {place.where}") if place.line else str(place)
                 print(f"{place.where if place.line else chosen.file}: {kind}: {told}", file=sys.stderr)
     return verdict(result, quiet=chosen.json) or (CLEAN if found.ok else ALARMS)
+
+
+def prove(chosen: argparse.Namespace) -> int:
+    """Compare the motion of two programs."""
+    setup = None if chosen.setup is None else sensible(load, chosen.setup)
+    controls = chosen.controls or [None]
+    files = chosen.file, chosen.other
+    one, other = (mnclab.run(program(file), control, setup) for file, control in zip(files, (controls[0], controls[-1])))
+    found = sensible(partial(mnclab.prove, tolerance=chosen.tolerance, allow=chosen.allow), one, other)
+    if chosen.html:
+        sensible(found.save, chosen.html)
+    print(json.dumps(found.as_dict(), allow_nan=False) if chosen.json else found)
+    return ALARMS if found.verdict == "different" else CLEAN
 
 
 def drawing(chosen: argparse.Namespace) -> int:

@@ -1,0 +1,220 @@
+"""What differs in the motion of two programs, by kinds, each at its row of both paths. Lengths in mm, feeds in mm/min."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.comparison.diff import deviation
+from mnclab.comparison.found import RATE, Found, from_where, grouped, rows_of
+from mnclab.comparison.motion import NO_WAY, Motion
+from mnclab.comparison.pairs import Pairs, apart, paired
+from mnclab.comparison.ways import links, of_dwells, of_links
+from mnclab.path.listing import figure
+from mnclab.path.places import points_at
+from mnclab.path.toolpath import Array, Index, Kind, Toolpath
+from mnclab.text.alarm import several
+
+ROUGH = 0.02  # of a way: how far apart the tool may be on two that are divided otherwise
+BENT = 0.01  # rad: as much less of arcs has the one that has chords in their place
+LONGEST = 4000  # cuts of a stretch that is looked at as a whole
+FLOWS = ("off", "on (M8)", "on (M7)")
+SIDES = {0: "none", 1: "left", -1: "right"}
+
+
+def differences(one: Motion, other: Motion, tolerance: float) -> list[Found]:
+    """All that differs, in the order of the motion."""
+    pairs = paired(one, other, tolerance)
+    found, more, parts = _of_stretches(one, other, pairs, tolerance)
+    i, j = np.concatenate([pairs.i, more[:, 0]]), np.concatenate([pairs.j, more[:, 1]])
+    within = [_side_by_side(one, other, *each) for each in parts]
+    found += _of_settings(one, other, *np.unique(np.hstack([(i, j), *within]), axis=1))
+    between = links(one, other, i, j, parts)
+    found += of_links(one, other, *between, tolerance)
+    found += of_dwells(one, other, *between, parts)
+    found += _left_over(one, other)
+    return sorted(found, key=lambda each: (each.rows[1], each.rows[0]))
+
+
+# Cuts that are not the same.
+
+def _of_stretches(
+    one: Motion, other: Motion, pairs: Pairs, tolerance: float
+) -> tuple[list[Found], NDArray[np.int64], list[tuple[int, int, int, int]]]:
+    """What differs where cuts are not the same, the pairs (k, 2) of cuts that are still each other's, and stretches that are."""
+    chords = [*pairs.chords]
+    odd, same = [], list[tuple[int, int, int, int]]()
+    for stretch in pairs.odd:
+        i, to_i, j, to_j = stretch
+        longer = (i, min(to_i + 1, len(one.cuts)), j, min(to_j + 1, len(other.cuts)))  # a line that one of them goes in two
+        alike = next((each for each in (stretch, longer) if _one_way(one, other, *each, tolerance)), None)
+        if alike is not None:
+            bent = [np.abs(motion.sweep[motion.cuts[a:b]]).sum() for motion, a, b in ((one, i, to_i), (other, j, to_j))]
+            (same if abs(bent[0] - bent[1]) < BENT else chords).append(alike)
+        else:
+            odd.append(stretch)
+    found = []
+    for i, to_i, j, to_j in chords:
+        bent = [np.abs(motion.sweep[motion.cuts[a:b]]).sum() for motion, a, b in ((one, i, to_i), (other, j, to_j))]
+        arcs = ("arcs", several(to_j - j, "line")) if bent[0] > bent[1] else (several(to_i - i, "line"), "arcs")
+        found.append(Found("chords", rows_of(one, i, other, j), 0.0, "mm", arcs, max(to_i - i, to_j - j)))
+    more = []
+    left = [np.concatenate([np.arange(s[k], s[k + 1]) for s in odd] or [np.empty(0, np.int64)]) for k in (0, 2)]
+    moved = _elsewhere(one, left[0], other, left[1], tolerance)
+    found += grouped("order", one, moved[:, 0], other, moved[:, 1], lambda k: ("here", "at another place in the order"))
+    more += [(i, j) for i, j in moved.tolist()]
+    for i, to_i, j, to_j in odd:
+        a = np.setdiff1d(np.arange(i, to_i), moved[:, 0])
+        b = np.setdiff1d(np.arange(j, to_j), moved[:, 1])
+        many = min(len(a), len(b))
+        found += _not_alike(one, a[:many], other, b[:many], tolerance)
+        more += zip(a[:many].tolist(), b[:many].tolist())
+        if len(a) > many:
+            found.append(_only(one, a[many:], other, to_j, 0, tolerance))
+        if len(b) > many:
+            found.append(_only(other, b[many:], one, to_i, 1, tolerance))
+    return found, np.array(more, dtype=np.int64).reshape(-1, 2), [*chords, *same]
+
+
+def _only(motion: Motion, ranks: Index, other: Motion, there: int, k: int, tolerance: float) -> Found:
+    """Cuts that one of the two has alone, before the cut `there` of the other; `k` is which of the two it is."""
+    cuts = motion.cuts[ranks]
+    begin = other.cuts[there - 1] + 1 if there else 0
+    moves = np.arange(begin, min(other.cuts[there] + 1 if there < len(other.cuts) else len(other), len(other)))
+    way, row, said = float(motion.lengths[cuts].sum()), -1, "none"
+    if len(moves):  # the nearest to it, which may be the same at rapid
+        off = np.linalg.norm(other.end[moves] - motion.end[cuts[0]], axis=1)
+        near = moves[off.argmin()]
+        rapid = off.min() <= tolerance and other.kind[near] == Kind.RAPID
+        row, said = int((other.last if rapid else other.row)[near]), "at rapid" if rapid else said
+    both = [(int(motion.row[cuts[0]]), several(len(cuts), "cut")), (row, said)]
+    (one_row, one_said), (other_row, other_said) = both[::-1] if k else both
+    return Found("geometry", (one_row, other_row), way, "mm", (one_said, other_said), len(cuts))
+
+
+def _side_by_side(one: Motion, other: Motion, i: int, to_i: int, j: int, to_j: int) -> tuple[Index, Index]:
+    """Of stretches that are one way divided otherwise, which cuts of both go along each other."""
+    ways = [np.cumsum(motion.lengths[motion.cuts[a:b]]) for motion, a, b in ((one, i, to_i), (other, j, to_j))]
+    places = np.sort(np.concatenate([way / way[-1] for way in ways]))
+    middles = (np.append(0.0, places[:-1]) + places)[np.diff(places, prepend=0.0) > 1e-4] / 2
+    a, b = (np.minimum(np.searchsorted(way / way[-1], middles), len(way) - 1) for way in ways)
+    return i + a, j + b
+
+
+def _one_way(one: Motion, other: Motion, i: int, to_i: int, j: int, to_j: int, tolerance: float) -> bool:
+    """Whether two stretches of cuts are one way divided otherwise: no place of either is off the other by more."""
+    if i == to_i or j == to_j or max(to_i - i, to_j - j) > LONGEST:
+        return False
+    paths = []
+    for motion, a, b in ((one, i, to_i), (other, j, to_j)):
+        cuts = motion.cuts[a:b]
+        if cuts[-1] - cuts[0] != b - a - 1 or motion.turns:  # there are rapids between
+            return False
+        path = motion.path[motion.row[cuts[0]] : motion.last[cuts[-1]] + 1]
+        paths.append(path[path.is_motion & (path.lengths > NO_WAY)])
+    p, q = paths
+    if to_i - i == to_j - j:  # as many: block by block, or not at all
+        straight = (p.kind == Kind.LINE).all() and (q.kind == Kind.LINE).all()
+        return bool(straight) and len(p) == len(q) > to_i - i and bool((np.linalg.norm(p.end - q.end, axis=1) <= tolerance).all())
+    ends = max(np.abs(p.start[0] - q.start[0]).max(), np.abs(p.end[-1] - q.end[-1]).max())
+    if ends > tolerance or abs(p.length - q.length) > 1e-3 * p.length + tolerance or not p.length:
+        return False
+    halfway = [points_at(each, *_at_shares(each)) for each in (p, q)]  # the same way round
+    if np.linalg.norm(halfway[0] - halfway[1], axis=1).max() > tolerance + ROUGH * p.length:
+        return False
+    return bool(deviation(p, q, step=max(p.length / 2000, tolerance), chord_error=tolerance / 10).largest <= tolerance)
+
+
+def _at_shares(path: Toolpath) -> tuple[Index, Array]:
+    """Rows (k,) and their shares where a tenth, two tenths, … of the way of a path are behind."""
+    upto = np.cumsum(path.lengths)
+    way = np.arange(0.1, 0.95, 0.1) * upto[-1]
+    rows = np.minimum(np.searchsorted(upto, way), len(path) - 1)
+    return rows, 1 - (upto[rows] - way) / path.lengths[rows]
+
+
+def _not_alike(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) -> list[Found]:
+    """What is wrong with cuts that are each other's."""
+    p, q = one.cuts[i], other.cuts[j]
+    off = apart(one, p, other, q)
+    wrong = off > tolerance
+    i, j, p, q, off = i[wrong], j[wrong], p[wrong], q[wrong], off[wrong]
+    step = np.abs(one.end[p] - other.end[q])
+    mill = not (one.path.lathe or other.path.lathe)
+    deep = mill & (np.hypot(step[:, 0], step[:, 1]) <= tolerance) & (np.abs(off - step[:, 2]) <= tolerance)
+    off = np.where(np.isfinite(off), off, np.linalg.norm(step, axis=1))
+    found = []
+    for kind, mask in (("geometry", ~deep), ("depth", deep)):
+        for each in grouped(kind, one, i[mask], other, j[mask], lambda k: ("", ""), off[mask]):
+            found.append(each._replace(rows=from_where(one, other, each.rows, tolerance)))
+    return found
+
+
+def _elsewhere(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) -> NDArray[np.int64]:
+    """Of cuts that are left, those pairs (k, 2) that are the same, whatever the order."""
+    p, q = one.cuts[i], other.cuts[j]
+    if not (len(p) and len(q)):
+        return np.empty((0, 2), dtype=np.int64)
+    places = np.concatenate([np.hstack([m.kind[e, None].astype(float), m.start[e], m.end[e]]) for m, e in ((one, p), (other, q))])
+    keys = np.zeros(places.shape, dtype=np.int64)
+    for k in range(places.shape[1]):  # numbers with no gap between them are one number
+        order = np.argsort(places[:, k], kind="stable")
+        keys[order[1:], k] = np.cumsum(np.diff(places[order, k]) > tolerance)
+    known: dict[bytes, list[int]] = {}
+    for rank, key in enumerate(keys[len(p) :]):
+        known.setdefault(key.tobytes(), []).append(rank)
+    met = [(a, known[key.tobytes()].pop(0)) for a, key in enumerate(keys[: len(p)]) if known.get(key.tobytes())]
+    pair = np.array(met, dtype=np.int64).reshape(-1, 2)
+    good = apart(one, p[pair[:, 0]], other, q[pair[:, 1]]) <= tolerance
+    return np.stack([i[pair[good, 0]], j[pair[good, 1]]], axis=1)
+
+
+# How they are cut.
+
+def _of_settings(one: Motion, other: Motion, i: Index, j: Index) -> Iterator[Found]:
+    """Feed, speed, coolant, tool and side of cuts that are each other's."""
+    p, q = one.cuts[i], other.cuts[j]
+
+    def told(kind: str, a: Array, b: Array, unit: str, name: Callable[[Any], str], near: float = 0.0) -> list[Found]:
+        with np.errstate(invalid="ignore"):
+            wrong = ~((np.abs(a - b) <= near * np.maximum(np.abs(a), np.abs(b))) | (a == b) | (np.isnan(a) & np.isnan(b)))
+        at = np.flatnonzero(wrong)
+        off = np.abs(a[at] - b[at]).astype(float) if unit else np.zeros(len(at))
+        a, b = a[at], b[at]
+        return grouped(kind, one, i[at], other, j[at], lambda k: (name(a[k]), name(b[k])), off, unit, (a, b))
+
+    turns = np.isfinite(one.per_rev[p]) & np.isfinite(other.per_rev[q])
+    a, b = (np.where(turns, np.nan, m.feed[e]) for m, e in ((one, p), (other, q)))
+    yield from told("feed", a, b, "mm/min", _named("F"), RATE)
+    a, b = (np.where(turns, m.per_rev[e], np.nan) for m, e in ((one, p), (other, q)))
+    yield from told("feed", a, b, "mm/rev", _named("F", " a turn"), RATE)
+    a, b = one.synchronous[p].astype(int), other.synchronous[q].astype(int)
+    yield from told("feed", a, b, "", lambda value: "locked to the spindle" if value else "free of the spindle")
+    yield from told("spindle", one.spindle[p], other.spindle[q], "rev/min", _turning, RATE)
+    yield from told("spindle", one.surface[p], other.surface[q], "m/min", _named("cutting speed "), RATE)
+    yield from told("coolant", one.coolant[p], other.coolant[q], "", lambda value: FLOWS[value])
+    yield from told("tool", one.tool[p], other.tool[q], "", lambda value: f"tool {value}")
+    yield from told("tool", one.radius[p], other.radius[q], "mm", _named("radius "), 1e-4)
+    yield from told("side", one.side[p], other.side[q], "", lambda value: SIDES[int(value)])
+
+
+def _named(before: str, behind: str = "") -> Callable[[Any], str]:
+    return lambda value: "not given" if np.isnan(value) else f"{before}{figure(float(value), 3)}{behind}"
+
+
+def _turning(speed: float) -> str:
+    return f"S{figure(abs(speed), 1)} {'M3' if speed > 0 else 'M4'}" if speed else "spindle off"
+
+
+def _left_over(one: Motion, other: Motion) -> list[Found]:
+    """What is still switched on at the end."""
+    rows = len(one.path) - 1, len(other.path) - 1
+    names = (_turning, lambda value: f"coolant {FLOWS[value]}", lambda value: f"compensation {SIDES[int(value)]}")
+    return [
+        Found("leftovers", rows, 0.0, "", (name(a), name(b)))
+        for name, a, b in zip(names, one.at_end, other.at_end)
+        if abs(a - b) > RATE * max(abs(a), abs(b))
+    ]

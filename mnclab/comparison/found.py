@@ -1,0 +1,67 @@
+"""A difference of two programs, and those in a row as one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mnclab.comparison.motion import NO_WAY, Motion
+from mnclab.path.toolpath import Array, Index
+
+RATE = 0.005  # of a feed, a speed or a dwell: as much goes by rounding in inches
+LOOK = 64  # rows
+
+
+class Found(NamedTuple):
+    """One difference: its `kind`, `rows` of both paths (-1: there is none), by how much, what each has, for how many moves."""
+
+    kind: str
+    rows: tuple[int, int]
+    amount: float
+    unit: str
+    values: tuple[str, str]
+    moves: int = 1
+
+
+def row_of(motion: Motion, rank: int) -> int:
+    """The row of a cut by its rank; -1 where there is none."""
+    return int(motion.row[motion.cuts[rank]]) if 0 <= rank < len(motion.cuts) else -1
+
+
+def rows_of(one: Motion, i: int, other: Motion, j: int) -> tuple[int, int]:
+    """The rows of two cuts by their ranks."""
+    return row_of(one, i), row_of(other, j)
+
+
+def grouped(
+    kind: str, one: Motion, i: Index, other: Motion, j: Index, said: Callable[[int], tuple[str, str]], off: Any = None,
+    unit: str = "mm", values: tuple[Array, ...] = (),
+) -> list[Found]:  # fmt: skip
+    """Differences of a kind at cuts by their ranks (k,): those that follow each other, with the same `values`, are one."""
+    if not len(i):
+        return []
+    off = np.zeros(len(i)) if off is None else off
+    new = (np.diff(i) != 1) | (np.diff(j) != 1)
+    for each in values:
+        new |= (each[1:] != each[:-1]) & ~(np.isnan(each[1:]) & np.isnan(each[:-1]))
+    first = np.flatnonzero(np.append(True, new))
+    moves = np.diff(np.append(first, len(i)))
+    return [
+        Found(kind, rows_of(one, int(i[k]), other, int(j[k])), float(much), unit, said(k), many)
+        for k, much, many in zip(first.tolist(), off[first].tolist(), moves.tolist())
+    ]
+
+
+def from_where(one: Motion, other: Motion, rows: tuple[int, int], tolerance: float) -> tuple[int, int]:
+    """The rows from which on moves are not the same that are made of several blocks, which may be alike at first."""
+    found = []
+    for motion, row in zip((one, other), rows):
+        path = motion.path[row : row + LOOK]
+        found.append(row + np.flatnonzero(path.is_motion & (path.lengths > NO_WAY)))
+    many = min(map(len, found))
+    a, b = (each[:many] for each in found)
+    odd = np.linalg.norm(one.path.end[a] - other.path.end[b], axis=1) > tolerance
+    odd |= (one.path.kind[a] != other.path.kind[b]) | (np.sign(one.path.sweep[a]) != np.sign(other.path.sweep[b]))
+    return (int(a[odd.argmax()]), int(b[odd.argmax()])) if odd.any() else rows

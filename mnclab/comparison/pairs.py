@@ -1,0 +1,148 @@
+"""Which cut of one program is which of another, and whether the two are the same. Lengths in mm, angles in rad."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, cast
+
+import numpy as np
+
+from mnclab.comparison.motion import ARM, Motion
+from mnclab.geometry.curves import counted
+from mnclab.path.places import Bends
+from mnclab.path.toolpath import Array, Index, Kind, Mask
+
+SPREAD = 1.25  # how much more than its ends the quarters of an arc may be off
+QUARTERS = (0.25, 0.5, 0.75)  # of an arc: where two are compared beside their ends
+
+
+def apart(one: Motion, i: Index, other: Motion, j: Index) -> Array:
+    """How far (k,) moves i (k,) of one are from moves j (k,) of the other at their ends, and arcs between; mm, inf of two kinds.
+
+    The start is that of the move before, so one wrong end is one difference.
+    """
+    found = np.linalg.norm(one.end[i] - other.end[j], axis=1)
+    if one.turns or other.turns:
+        found = np.maximum(found, np.abs(one.rotary[i] - other.rotary[j]).max(axis=1) * ARM)
+    kind = one.kind[i]
+    found[kind != other.kind[j]] = np.inf
+    arcs = np.flatnonzero((kind == Kind.ARC) & np.isfinite(found))
+    if len(arcs):
+        bends = [Bends(cast(Any, motion), rows[arcs]) for motion, rows in ((one, i), (other, j))]
+        sense = np.sign(np.einsum("ij,ij->i", one.axis[i[arcs]], other.axis[j[arcs]]))
+        turn = np.abs(bends[0].sweep - sense * bends[1].sweep)
+        off = [np.linalg.norm(bends[0].place(share) - bends[1].place(share), axis=1) for share in QUARTERS]
+        radius = np.minimum(bends[0].radius, bends[1].radius)
+        whole = np.where(turn > 0.5, np.minimum(turn / np.pi, 2) * radius, 0.0)  # another sense, other turns
+        found[arcs] = np.maximum.reduce([found[arcs], whole, *(each / SPREAD for each in off)])
+    return found
+
+
+def as_chords(one: Motion, i: int, other: Motion, j: int, tolerance: float) -> int:
+    """How many lines from j on lie on the arc i within the tolerance, chord error included, and end where it ends; else 0."""
+    lines = np.flatnonzero(other.kind[j : j + 4096] != Kind.LINE)
+    many = int(lines[0]) if len(lines) else len(other.kind[j : j + 4096])
+    if not many:
+        return 0
+    arc = Bends(cast(Any, one), np.full(1, i))
+    ends = other.end[j : j + many]
+    places = np.concatenate([other.start[j : j + 1], ends])
+    places = np.stack([(places[:-1] + places[1:]) / 2, places[1:]], axis=1).reshape(-1, 3)  # the middle of each, and its end
+    middle = arc.start[0] - arc.spoke[0]
+    angle = np.unwrap(np.append(0.0, np.arctan2((places - middle) @ arc.side[0], (places - middle) @ arc.spoke[0])))[1:]
+    share = angle / arc.sweep[0]
+    bends = Bends(cast(Any, one), np.full(len(share), i))
+    fits = np.linalg.norm(bends.place(share) - places, axis=1) <= tolerance
+    fits &= (share > -1e-3) & (np.diff(share, prepend=0.0) > -1e-9)
+    upto = int(np.argmin(fits)) if not fits.all() else len(fits)
+    there = np.flatnonzero((np.linalg.norm(ends - one.end[i], axis=1) <= tolerance) & (share[1::2] > 0.9))
+    return int(there[0]) + 1 if len(there) and 2 * (there[0] + 1) <= upto else 0
+
+
+# Which cut of one program is which of the other.
+
+WINDOWS = (4, 24, 160, 800)  # cuts ahead in which two programs are sought to go on alike
+ENOUGH = 3  # cuts in a row
+MOST = 2000  # places where they do not
+
+
+@dataclass(frozen=True, eq=False)
+class Pairs:
+    """Cuts by their ranks: i (k,) of one are j (k,) of the other; `chords` and `odd` are stretches (i, to, j, to) that are not.
+
+    Those of `chords` are arcs of the one and lines of the other.
+    """
+
+    i: Index
+    j: Index
+    chords: list[tuple[int, int, int, int]]
+    odd: list[tuple[int, int, int, int]]
+
+
+def paired(one: Motion, other: Motion, tolerance: float) -> Pairs:
+    """The cuts of two motions, as far as they go alike."""
+    n, m = len(one.cuts), len(other.cuts)
+    i = j = 0
+    runs: list[tuple[int, int, int]] = []
+    chords: list[tuple[int, int, int, int]] = []
+    odd: list[tuple[int, int, int, int]] = []
+
+    def alike(p: Index, q: Index) -> Mask:
+        return np.asarray(apart(one, one.cuts[p], other, other.cuts[q]) <= tolerance)
+
+    while True:
+        many, chunk = 0, 64
+        while (room := min(n - i, m - j) - many) > 0:
+            k = np.arange(many, many + min(chunk, room))
+            fits = alike(i + k, j + k)
+            many += len(fits) if fits.all() else int(np.argmin(fits))
+            if not fits.all():
+                break
+            chunk = min(4 * chunk, 1 << 16)
+        runs.append((i, j, many))
+        i, j = i + many, j + many
+        if i == n or j == m or len(odd) == MOST:
+            break
+        found = _chords(one, i, other, j, tolerance)
+        if any(found):
+            chords.append((i, i + found[0], j, j + found[1]))
+        else:
+            found = _ahead(alike, n - i, m - j, i, j)
+            odd.append((i, i + found[0], j, j + found[1]))
+        i, j = i + found[0], j + found[1]
+    if i < n or j < m:
+        odd.append((i, n, j, m))
+    counts = np.array([many for _, _, many in runs])
+    which, rank = counted(counts)
+    begin = np.array([(i, j) for i, j, _ in runs])[which]
+    return Pairs(begin[:, 0] + rank, begin[:, 1] + rank, chords, odd)
+
+
+def _chords(one: Motion, i: int, other: Motion, j: int, tolerance: float) -> tuple[int, int]:
+    """How many cuts of both are one arc here, said as lines by one of them; none if it is not so."""
+    p, q = int(one.cuts[i]), int(other.cuts[j])
+    if one.kind[p] == Kind.ARC and (many := as_chords(one, p, other, q, tolerance)):
+        return 1, many
+    if other.kind[q] == Kind.ARC and (many := as_chords(other, q, one, p, tolerance)):
+        return many, 1
+    return 0, 0
+
+
+def _ahead(alike: Callable[[Index, Index], Mask], n: int, m: int, i: int, j: int) -> tuple[int, int]:
+    """How many cuts of both to pass over until they go alike again; all of them if they never do."""
+    for window in WINDOWS:
+        p, q = (grid.ravel() for grid in np.meshgrid(np.arange(min(window, n)), np.arange(min(window, m)), indexing="ij"))
+        good = np.ones(len(p), dtype=bool)
+        for k in range(ENOUGH):
+            at = np.flatnonzero(good & (p + k < n) & (q + k < m))
+            good[at] = alike(i + p[at] + k, j + q[at] + k)
+            if k:  # one that is over has no more to show; the other must be over too
+                good &= (p + k < n) == (q + k < m)
+        if good.any():
+            at = np.flatnonzero(good)
+            best = at[np.lexsort((np.abs(p[at] - q[at]), p[at] + q[at]))[0]]
+            return int(p[best]), int(q[best])
+        if window >= n and window >= m:
+            break
+    return n, m

@@ -1,0 +1,134 @@
+"""Whether two programs leave the same part of one blank: by heights beside all walls and all over it, or by the section."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from mnclab.comparison.diff import _strokes
+from mnclab.comparison.found import Found
+from mnclab.comparison.motion import Motion
+from mnclab.geometry.regions import Region
+from mnclab.path.toolpath import Array, Mask
+from mnclab.workpiece.blank import Box
+
+GEOMETRIC = ("geometry", "depth", "order", "chords", "lifts", "rapid")
+STROKES = 1500  # of each path: beside them the walls are looked at
+BESIDE = 1.3  # of the tolerance
+GRID = 50  # places of the longer side
+NOTHING = 1e6  # mm: the height of no material
+MOST = 20_000  # cuts: a part of more takes too long
+ROUND = np.array([(0, 0), (1, 0), (0, 1), (-1, 0), (0, -1), (0.7, 0.7), (-0.7, 0.7), (0.7, -0.7), (-0.7, -0.7)])
+
+
+def not_comparable(runs: tuple[Any, Any], motions: tuple[Motion, Motion]) -> str:
+    """Why the parts of two runs are not compared, in words; empty if they can be."""
+    stocks = [run.stock for run in runs]
+    if None in stocks:
+        return "there is no blank in either" if stocks == [None, None] else "only one of them has a blank"
+    if max(len(motion.cuts) for motion in motions) > MOST:
+        return f"there are more than {MOST:,} cuts"
+    if any(isinstance(stock, Box) for stock in stocks) and np.abs(stocks[0].bounds - stocks[1].bounds).max() > 1e-6:
+        return "they have two blanks"
+    return ""
+
+
+def part_apart(runs: tuple[Any, Any], motions: tuple[Motion, Motion], tolerance: float, found: list[Found]) -> str:
+    """Where the parts of two runs differ by more than the tolerance, in words; empty if they do not.
+
+    Cuts that are the same take the same away, so what is looked at is beside those that are not, and in a grid all over. A place
+    of the one part has the height of the other, or what lies within the tolerance about it has.
+    """
+    if not any(each.kind in (*GEOMETRIC, "tool") for each in found):
+        return ""
+    parts = [run.workpiece() for run in runs]
+    if (error := max(part.error for part in parts)) > tolerance:
+        return f"the parts are known to {error:g} mm alone"
+    sections = [part.half_section() for part in parts]
+    if sections[0] is not None and sections[1] is not None:
+        one, other = (Region.of(*section[0]) for section in sections)
+        for over, under in ((one, other), (other, one)):
+            more = over.difference(under).inset(tolerance / 2)
+            if more.loops:
+                z, r = more.bounds.mean(axis=0)
+                return f"the turned parts differ at Z{z:.3f}, diameter {2 * r:.3f}"
+        return ""
+    rows = [_rows_that_differ(motion, found, k) for k, motion in enumerate(motions)]
+    beside = [_beside(motion, each, tolerance) for motion, each in zip(motions, rows)]
+    points = np.concatenate([*beside, _all_over(parts[0].bounds)])
+    heights = [_heights(part, points) for part in parts]
+    worst = (0.0, 0)
+    apart = np.abs(heights[0] - heights[1])
+    for k, part in enumerate(parts[::-1]):  # beside a wall that is within the tolerance heights may be far apart
+        at = np.flatnonzero((apart > tolerance).any(axis=0))
+        here = heights[k][:, at, None]
+        about = _heights(part, (points[at, None] + tolerance * ROUND).reshape(-1, 2)).reshape(2, -1, len(ROUND))
+        off = np.maximum(about.min(axis=2) - here[:, :, 0], here[:, :, 0] - about.max(axis=2)).max(axis=0, initial=0.0)
+        if len(at):
+            worst = max(worst, (float(off.max()), int(at[off.argmax()])))
+    if worst[0] <= tolerance:
+        return ""
+    x, y = points[worst[1]].tolist()
+    by = f"by {worst[0]:.3f} mm in height" if worst[0] < NOTHING / 2 else "in where there is material"
+    return f"the parts differ {by} at X{x:.3f} Y{y:.3f}"
+
+
+def _rows_that_differ(motion: Motion, found: list[Found], k: int) -> Mask:
+    """The rows (n,) of the one or the other path where cuts or ways between them are not the same."""
+    mask = np.zeros(len(motion.path), dtype=bool)
+    bounds = np.append(motion.row[motion.cuts], len(mask))
+    for each in found:
+        if each.kind == "tool":
+            mask[:] = True
+        elif each.kind in GEOMETRIC and each.rows[k] >= 0:
+            rank = int(np.searchsorted(bounds, each.rows[k], "right"))
+            mask[bounds[max(rank - 2, 0)] : bounds[min(rank + each.moves, len(bounds) - 1)]] = True
+    return mask
+
+
+def _heights(part: Any, points: Array) -> Array:
+    """The upper and the lower face (2, m); where there is no material, far below and far above."""
+    low, high = part.faces(points[:, 0], points[:, 1])
+    return np.stack([np.where(np.isnan(high), -NOTHING, high), np.where(np.isnan(low), NOTHING, low)])
+
+
+def _beside(motion: Motion, rows: Mask, tolerance: float) -> Array:
+    """Points (m, 2) at the middle of the tool and just within and without its walls, along some rows."""
+    cuts = motion.path[rows & motion.path.is_motion]
+    start, end, row = _strokes(cuts, max(tolerance, 1e-3))
+    if not len(row):
+        return np.empty((0, 2))
+    some = np.unique(np.linspace(0, len(row) - 1, STROKES).astype(int))
+    start, end, row = start[some], end[some], row[some]
+    way = (end - start)[:, :2]
+    long = np.linalg.norm(way, axis=1)
+    normal = np.where(long[:, None] > 0, way[:, ::-1] * [-1, 1] / np.maximum(long, 1e-12)[:, None], [1.0, 0.0])
+    radius = np.abs(cuts.radius[row])[:, None]
+    found = []
+    for share in (0.27, 0.79):
+        middle = start[:, :2] + share * way
+        beyond = (radius - BESIDE * tolerance, radius + BESIDE * tolerance)
+        found += [middle, *(middle + sign * each * normal for sign in (1, -1) for each in beyond)]
+    return np.concatenate(found)
+
+
+def _all_over(bounds: Array) -> Array:
+    low, high = bounds[:, :2]
+    step = (high - low).max() / GRID
+    grid = np.meshgrid(*(np.arange(a + step / 3, b, step) for a, b in zip(low, high)))
+    return np.stack([each.ravel() for each in grid], axis=1)
+
+
+def collided(runs: tuple[Any, Any]) -> list[Found]:
+    """Collisions of a kind that only one of two runs has."""
+    both = [run.collisions() for run in runs]
+    found = []
+    for kind in dict.fromkeys(each.kind for each in (*both[0], *both[1])):
+        first = [next((each for each in one if each.kind == kind), None) for one in both]
+        if None in first:
+            rows = tuple(-1 if each is None else each.row for each in first)
+            said = tuple("none" if each is None else each.message for each in first)
+            depth = max(each.depth for each in first if each is not None)
+            found.append(Found("collision", rows, depth, "mm", said))  # type: ignore[arg-type]
+    return found

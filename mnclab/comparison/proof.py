@@ -1,0 +1,301 @@
+"""Whether two programs make the same motion, or the same part: the verdict, and all that differs by kinds.
+
+Two moves are the same that end within the tolerance of each other, arcs at their quarters too, with feeds and speeds within half
+a percent, which rounding in inches needs. Rapids are compared from cut to cut. What a machine makes of it is not compared: how it
+rounds corners (G64, cycle 32), how long it takes. Lengths are in mm, feeds in mm/min.
+"""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Collection
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mnclab.comparison.diff import _names
+from mnclab.comparison.differences import differences
+from mnclab.comparison.found import Found
+from mnclab.comparison.motion import motion_of
+from mnclab.comparison.parts import collided, not_comparable, part_apart
+from mnclab.path.listing import MM, Unit, figure, point, words
+from mnclab.path.toolpath import Kind
+from mnclab.text.alarm import ALARM, Alarm
+from mnclab.text.given import check_number, choice, shown
+from mnclab.text.tables import Listing, Pictured, html_table, save_as, text_table, write_csv, write_picture
+
+#: What may differ, the worst first -> what it means.
+KINDS = {
+    "stops": "a program stops before its end, so that nothing is proven",
+    "collision": "only one of them collides",
+    "rapid": "the second goes lower or nearer at rapid, or on a lathe elsewhere",
+    "geometry": "other cuts",
+    "depth": "the same cuts at another depth",
+    "side": "radius compensation on another side",
+    "tool": "another tool",
+    "spindle": "another speed or sense of the spindle",
+    "feed": "another feed",
+    "dwell": "another dwell, or a stop",
+    "coolant": "another coolant",
+    "order": "the same cuts in another order",
+    "chords": "lines within the tolerance of an arc",
+    "lifts": "other ways between cuts, nowhere lower",
+    "leftovers": "something else is on at the end",
+}
+MAY_BE_ALLOWED = ("lifts", "chords", "order")
+BESIDE = ("leftovers",)  # told, but no motion
+#: With one of these the part is not the same, even where the sweep of the tool says so: a tool breaks, a clamp is hit.
+UNSAFE = ("stops", "collision", "rapid", "side", "spindle", "feed")
+SAME_MOTION, SAME_PART, DIFFERENT = "same motion", "same part", "different"
+
+
+class Difference(NamedTuple):
+    """One difference: its kind, and of both programs the line, its file, the block, the place (mm) and what is done there.
+
+    `rows` are those of the paths, -1 where there is none; `amount` in `unit`, nan where there is no number; `moves` in a row
+    are alike; `values` are what each has. `harmless` ones were allowed.
+    """
+
+    kind: str
+    lines: tuple[int, int]
+    files: tuple[str, str]
+    blocks: tuple[str, str]
+    places: tuple[tuple[float, ...], tuple[float, ...]]
+    doing: tuple[str, str]
+    amount: float
+    unit: str
+    values: tuple[str, str]
+    moves: int
+    rows: tuple[int, int]
+    harmless: bool
+
+    @property
+    def told(self) -> str:
+        """By how much, in words."""
+        amount = f"{figure(self.amount, 4)} {self.unit}" if self.unit and 0 < self.amount < float("inf") else ""
+        if any(self.values):
+            said = f"{self.values[0]} against {self.values[1]}" + (f" ({amount})" if amount else "")
+        else:
+            said = f"{amount} apart" if amount else ""
+        return f"{said} over {self.moves} moves" if self.moves > 1 else said
+
+    @property
+    def sentence(self) -> str:
+        """Where it is, in both programs, and what it is."""
+        here, there = (
+            f"line {number} of {file}, `{block}`{f', {doing}' if doing else ''}" if number else f"nothing in {file}"
+            for number, file, block, doing in zip(self.lines, self.files, self.blocks, self.doing)
+        )
+        return f"{self.kind}: {KINDS[self.kind]}{f', {self.told}' if self.told else ''}: {there}; against {here}"
+
+    def as_dict(self) -> dict[str, Any]:
+        """The same for JSON."""
+        return {**self._asdict(), "amount": self.amount if abs(self.amount) < float("inf") else None, "told": self.told}
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Proof(Pictured, Listing):
+    """What `mnclab.prove` found: `verdict` is "same motion", "same part" or "different"; a table of the differences.
+
+    `paths` and `names` are those of the two programs, `part` says why their parts are not the same or were not compared. Its
+    truth is whether the motion is not the same, as that of `mnclab.diff`: `if mnclab.prove(a, b): print("look")`.
+    """
+
+    NUMBERS, CODE, MOST = (1, 3), (2, 4), 30
+
+    verdict: str
+    differences: tuple[Difference, ...]
+    names: tuple[str, str]
+    tolerance: float
+    paths: tuple[Any, Any]
+    part: str = ""
+
+    def __bool__(self) -> bool:
+        """Whether the motion is not the same."""
+        return self.verdict != SAME_MOTION
+
+    def __len__(self) -> int:
+        return len(self.differences)
+
+    @property
+    def first(self) -> Difference | None:
+        """The first place where they differ and it is not harmless, in the order of the motion; of harmless ones the first."""
+        return next((each for each in self.differences if not each.harmless), next(iter(self.differences), None))
+
+    @property
+    def zeros(self) -> str:
+        """Where the two zero points are from which places count, the first that each program selects; empty if they are one."""
+        one, other = (path.origin for path in self.paths)
+        if np.abs(one - other).max() <= self.tolerance:
+            return ""
+        return f"places count from the first zero point of each, in machine coordinates {point(one)} and {point(other)}"
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many differences of each kind there are, the worst kind first."""
+        many = Counter(each.kind for each in self.differences)
+        return {kind: many[kind] for kind in KINDS if kind in many}
+
+    @property
+    def sentence(self) -> str:
+        """The verdict with its reasons, and the first place where they differ."""
+        counts = ", ".join(f"{many} {kind}" for kind, many in self.counts.items())
+        if not any(path.is_motion.any() for path in self.paths) and not counts:
+            return "no motion in either"
+        if self.verdict == SAME_MOTION:
+            more = f"beside it: {counts}" if counts else ""
+            left = "".join(each.sentence for each in self.differences if each.kind in BESIDE)
+            return "; ".join(filter(None, [f"the same motion within {self.tolerance:g} mm", more, left, self.zeros]))
+        assert self.first is not None
+        if "stops" in self.counts:
+            verdict = "not proven"
+        else:
+            verdict = "the same part, made another way" if self.verdict == SAME_PART else "different"
+        return "; ".join(filter(None, [f"{verdict} ({counts})", self.part, f"first {self.first.sentence}", self.zeros]))
+
+    @property
+    def above(self) -> str:
+        return f"{self.names[0]} and {self.names[1]}: {self.sentence}"
+
+    def __repr__(self) -> str:
+        head, rows, numbers = self.table()
+        more = f"… {len(rows) - self.MOST} more" if len(rows) > self.MOST else ""
+        return "\n".join(filter(None, [self.above, text_table(head, rows[: self.MOST], numbers) if rows else "", more]))
+
+    @property
+    def unit(self) -> Unit:
+        """In what it is drawn: the unit of both paths, mm where they have two."""
+        one, other = self.paths
+        return one.unit if one.unit == other.unit else MM
+
+    @property
+    def head(self) -> tuple[str, ...]:
+        one, other = self.names
+        return "kind", f"line of {one}", "block", f"line of {other}", "its block", "difference", "harmless"
+
+    def texts(self) -> list[tuple[str, ...]]:
+        """The differences, in the order of the motion."""
+        return [
+            (each.kind, str(each.lines[0] or "–"), each.blocks[0], str(each.lines[1] or "–"), each.blocks[1], each.told,
+             "yes" if each.harmless else "no") for each in self.differences
+        ]  # fmt: skip
+
+    def as_dict(self) -> dict[str, Any]:
+        """All of it for JSON."""
+        found = {name: getattr(self, name) for name in ("verdict", "sentence", "names", "tolerance", "counts", "part")}
+        return found | {"differences": [each.as_dict() for each in self.differences]}
+
+    def plot(self, **options: Any) -> Any:
+        """Both paths about the first difference, with both places marked; `number` of another one, `view`, `size`."""
+        from mnclab.show.plot.proof import plot_proof
+
+        return plot_proof(self, **options)
+
+    def save(self, path: str | Path, **options: Any) -> Path:
+        """Write all of it (.html, .json), the table (.csv) or the picture (.svg, .pdf, .png, with the options of `plot`)."""
+        writers = dict.fromkeys((".svg", ".pdf", ".png"), write_picture)
+        writers |= {".html": _write_page, ".json": _write_json, ".csv": write_csv}  # type: ignore[dict-item]
+        return save_as(self, path, writers, "cannot write a proof as {}", **options)
+
+    def _repr_html_(self) -> str:
+        shown = Listing._repr_html_(self)
+        two = html_table(("first difference", *self.names), _two(self.first)) if self.first else ""
+        return shown.replace("</p>", f"</p>{two}", 1)
+
+
+def _two(first: Difference) -> list[tuple[str, str, str]]:
+    """A difference as rows of what each program has."""
+    places = (point(each) if each else "–" for each in first.places)
+    rows = [("line", *(str(each or "–") for each in first.lines)), ("block", *first.blocks), ("place, mm", *places)]
+    return [*rows, ("does", *first.doing), *([("has", *first.values)] if any(first.values) else [])]  # type: ignore[list-item]
+
+
+def _write_json(proof: Proof, path: Path) -> None:
+    path.write_text(json.dumps(proof.as_dict(), allow_nan=False), "utf-8")
+
+
+def _write_page(proof: Proof, path: Path) -> None:
+    """A page that needs nothing else, with the picture of the first difference."""
+    picture = proof.plot()._repr_mimebundle_()["text/html"] if proof.first is not None else ""
+    title = escape(f"{proof.names[0]} and {proof.names[1]}: {proof.verdict}")
+    style = "body{font-family:sans-serif;margin:2em;max-width:75em}td,th{padding:2px 8px;text-align:left}"
+    page = f"<!doctype html><html lang=en><meta charset=utf-8><title>{title}</title><style>{style}</style>"
+    path.write_text(f"{page}<h1>{title}</h1>{proof._repr_html_()}{picture}</html>\n", "utf-8")
+
+
+def proof(one: Any, other: Any, tolerance: float = 0.001, allow: Collection[str] = ()) -> Proof:
+    """The proof of two runs; see `mnclab.prove`."""
+    check_number(tolerance, "the tolerance (mm)", at_least=1e-6, at_most=1.0)
+    if isinstance(allow, str):
+        allow = (allow,)
+    if not isinstance(allow, Collection):
+        raise Alarm(f"allow must be a list of kinds, got {shown(allow)}", hint=f"allow={MAY_BE_ALLOWED}")
+    allowed = tuple(choice(each, "what is allowed", MAY_BE_ALLOWED) for each in allow)
+    runs, tools = (one, other), list[Any]()
+    motions = motion_of(one, tools), motion_of(other, tools)
+    found = differences(*motions, tolerance)
+    part = ""
+    if any(map(_broken, runs)):
+        found = _stopped(runs, found)
+    elif found:
+        why = not_comparable(runs, motions)
+        found = found if why else sorted([*found, *collided(runs)], key=lambda each: each.rows[1])
+        if not {each.kind for each in found} <= {*allowed, *BESIDE}:
+            part = f"the parts were not compared: {why}" if why else part_apart(runs, motions, tolerance, found)
+    serious = {each.kind for each in found} - {*allowed, *BESIDE}
+    verdict = SAME_MOTION if not serious else DIFFERENT if part or serious & {*UNSAFE} else SAME_PART
+    names = _names(one, other)
+    told = tuple(_told(each, runs, names, allowed) for each in found)
+    return Proof(verdict, told, names, float(tolerance), (one.toolpath, other.toolpath), part)
+
+
+def _stopped(runs: tuple[Any, Any], found: list[Found]) -> list[Found]:
+    """Where the programs stop, and what differs before."""
+    rows = tuple(len(run.toolpath) - 1 for run in runs)
+    ends = tuple(row if _broken(run) else 1 << 40 for row, run in zip(rows, runs))
+    known = [each for each in found if each.rows[0] < ends[0] and each.rows[1] < ends[1] and "none" not in each.values]
+    said = tuple(_why(run) if _broken(run) else "goes on" for run in runs)
+    return [*(each for each in known if each.kind != "leftovers"), Found("stops", rows, float("nan"), "", said)]  # type: ignore[arg-type]
+
+
+def _broken(run: Any) -> bool:
+    """Whether a run stopped before its end, or something in it was refused."""
+    return bool(run.reach) or not run.ok
+
+
+def _why(run: Any) -> str:
+    alarm = next((each for each in run.alarms if each.severity == ALARM), None)
+    return f"stops{f': {alarm.message}' if alarm else ''}"
+
+
+def _told(
+    found: Found, runs: tuple[Any, Any], names: tuple[str, str], allowed: Collection[str]
+) -> Difference:
+    """A difference with the lines, blocks and places of its rows."""
+    halts = (run.halt if found.kind == "stops" else None for run in runs)
+    one, other = (_spot(run, row, halt, name) for run, row, halt, name in zip(runs, found.rows, halts, names))
+    both: Any = zip(one, other)  # lines, files, blocks, places, and what is done
+    kind, rows, *more = found
+    return Difference._make((kind, *both, *more, rows, kind in allowed))
+
+
+def _spot(run: Any, row: int, halt: Any, name: str) -> tuple[int, str, str, tuple[float, ...], str]:
+    """Of a row, or where the program stopped: the line, its file, the block, the place and what is done there."""
+    if row < 0 and halt is None:
+        return 0, name, "", (), ""
+    path = run.toolpath
+    line, which = (halt.line, halt.program) if halt else (int(path.line[row]), int(path.program[row]))
+    place = tuple(path.end[row].tolist()) if row >= 0 else ()
+    program, doing = run.programs[which], "" if halt else _doing(path[row], path.lathe)
+    return line, program.name if which else name, program.line_text(line).strip(), place, doing
+
+
+def _doing(move: Any, lathe: bool) -> str:
+    """What a row does, in words."""
+    said = words(move).replace(point(move.end), point(move.end, lathe=lathe))
+    side = {1: ", left of the contour", -1: ", right of the contour"}.get(move.side, "") if move.kind != Kind.RAPID else ""
+    return f"{Kind(move.kind).name.lower()} {'to ' if move.kind <= Kind.PROBE else ''}{said}{side}".strip()

@@ -1,0 +1,160 @@
+"""What is between the cuts of two programs: rapids that go another way, dwells. Lengths in mm, times in s."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mnclab.comparison.found import RATE, Found, from_where
+from mnclab.comparison.motion import Motion
+from mnclab.path.listing import figure
+from mnclab.path.toolpath import Array, Index, Kind
+from mnclab.text.alarm import several
+
+SECONDS = 0.001
+
+def links(one: Motion, other: Motion, i: Index, j: Index, parts: list[tuple[int, int, int, int]]) -> tuple[Index, Index]:
+    """Which ways between cuts (k,), by the rank of the cut behind them, are each other's: both their ends are."""
+    wide = len(other.cuts) + 1
+    stretch = np.array(parts, dtype=np.int64).reshape(-1, 4)
+    before = np.concatenate([i * wide + j, stretch[:, 0] * wide + stretch[:, 2], [len(one.cuts) * wide + len(other.cuts)]])
+    behind = np.concatenate([[0], (i + 1) * wide + j + 1, stretch[:, 1] * wide + stretch[:, 3]])
+    both = np.intersect1d(before, behind)
+    return both // wide, both % wide
+
+
+def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float) -> list[Found]:
+    """Rapids between cuts that do not go the same way: lower than those of the first program, or not."""
+    sides = [Ways(one, tolerance), Ways(other, tolerance)]
+    many = [side.count[k] for side, k in zip(sides, (i, j))]
+    odd = many[0] != many[1]
+    at = np.flatnonzero(~odd & (many[0] > 0))
+    if len(at):
+        which = np.repeat(at, many[0][at])
+        rank = np.arange(len(which)) - np.repeat(np.cumsum(many[0][at]) - many[0][at], many[0][at])
+        ends = [m.end[s.rapids[s.begin[k[which]] + rank]] for m, s, k in ((one, sides[0], i), (other, sides[1], j))]
+        off = np.linalg.norm(ends[0] - ends[1], axis=1)
+        odd[which[off > tolerance]] = True
+    a, b = sides
+    found = _beyond(a, b, i, j, tolerance)
+    i, j = i[odd], j[odd]
+    if not len(i):
+        return found
+    heights = np.stack([a.low[i], b.low[j], a.last[i], b.last[j]], axis=1)
+    upright = np.isinf(a.low[i]) & (a.count[i] > 0)  # only up and down
+    lower = np.maximum(_gap(np.where(upright, a.high[i], a.low[i]), b.low[j]), _gap(a.last[i], b.last[j]))
+    beside = np.abs(a.box[i] - b.box[j]).max(axis=1)
+    near = (lower > tolerance) | ((beside > tolerance) & (b.low[j] < a.high[i] - tolerance)) | one.path.lathe | other.path.lathe
+    off = np.maximum(beside, np.abs(_gap(heights[:, ::2], heights[:, 1::2])).max(axis=1))
+    new = (np.diff(i) != 1) | (np.diff(j) != 1) | (near[1:] != near[:-1]) | (heights[1:] != heights[:-1]).any(axis=1)
+    first = np.flatnonzero(np.append(True, new))
+    for k, moves in zip(first.tolist(), np.diff(np.append(first, len(i))).tolist()):
+        amount = float(lower[k] if near[k] and lower[k] > 0 else off[k])
+        said = a.said(i[k]), b.said(j[k])
+        until = a.until(i[k], b, j[k], tolerance)
+        rows = from_where(one, other, (a.row(i[k], until), b.row(j[k], until)), tolerance)
+        found.append(Found("rapid" if near[k] else "lifts", rows, amount if np.isfinite(amount) else np.nan, "mm", said, moves))
+    return found
+
+
+def _gap(a: Array, b: Array) -> Array:
+    """How much lower b is than a, inf where a has none."""
+    with np.errstate(invalid="ignore"):
+        return np.where(a == b, 0.0, a - b)
+
+
+def _beyond(a: Ways, b: Ways, i: Index, j: Index, tolerance: float) -> list[Found]:
+    """Of ways that are nobody's counterpart: whether those of b go sideways lower than all of a."""
+    rest = [np.setdiff1d(np.flatnonzero(np.isfinite(side.low)), k) for side, k in ((a, i), (b, j))]
+    if not len(rest[1]):
+        return []
+    deepest = int(rest[1][b.low[rest[1]].argmin()])
+    highest = int(rest[0][a.low[rest[0]].argmin()] if len(rest[0]) else a.low.argmin())
+    lower = float(_gap(a.low[highest], b.low[deepest]))
+    if not lower > tolerance:
+        return []
+    rows = a.row(highest, a.lowest(highest)), b.row(deepest, b.lowest(deepest))
+    amount = lower if np.isfinite(lower) else np.nan
+    return [Found("rapid", rows, amount, "mm", (a.said(highest), b.said(deepest)))]
+
+
+class Ways:
+    """The rapids between cuts, by the rank of the cut behind (n + 1,): their `count`, the lowest height at which they go sideways
+    (`low`), the highest of all (`high`) and the `last`, and the `box` (n + 1, 4) that they keep in X and Y."""
+
+    def __init__(self, motion: Motion, tolerance: float) -> None:
+        self.motion = motion
+        self.rapids = np.flatnonzero(motion.kind == Kind.RAPID)
+        link, n = motion.link[self.rapids], len(motion.cuts) + 1
+        self.count = np.bincount(link, minlength=n)
+        self.begin = np.cumsum(self.count) - self.count
+        start, end = motion.start[self.rapids], motion.end[self.rapids]
+        if len(self.rapids) and self.rapids[0] == 0:  # from where the machine stands
+            start[0] = end[0]
+        self.aside = aside = np.hypot(*(end - start)[:, :2].T) > tolerance
+        self.heights = np.minimum(start[:, 2], end[:, 2])
+        self.low, self.high = np.full(n, np.inf), np.full(n, -np.inf)
+        np.minimum.at(self.low, link[aside], self.heights[aside])
+        np.maximum.at(self.high, link, np.maximum(start[:, 2], end[:, 2]))
+        self.last = np.full(n, np.inf)
+        self.last[link] = end[:, 2]
+        self.box = np.zeros((n, 4))
+        some = np.flatnonzero(self.count)
+        if len(some):
+            low, high = (ufunc.reduceat(end[:, :2], self.begin[some]) for ufunc in (np.minimum, np.maximum))
+            self.box[some] = np.hstack([low, high])
+
+    def lowest(self, link: int) -> int:
+        """Which of the rapids before a cut goes sideways the lowest, by its rank."""
+        here = slice(self.begin[link], self.begin[link] + self.count[link])
+        return int(np.where(self.aside[here], self.heights[here], np.inf).argmin()) if self.count[link] else 0
+
+    def said(self, link: int) -> str:
+        """What they do, in words."""
+        if not self.count[link]:
+            return "no rapid"
+        if self.motion.path.lathe:
+            return several(int(self.count[link]), "rapid")
+        low, last = float(self.low[link]), float(self.last[link])
+        return f"sideways at Z{figure(low, 3)}, " * bool(np.isfinite(low)) + f"rapid ends at Z{figure(last, 3)}"
+
+    def until(self, link: int, other: Ways, there: int, tolerance: float) -> int:
+        """How many of the rapids before a cut are those before another cut of the other."""
+        many = min(self.count[link], other.count[there])
+        ends = [ways.motion.end[ways.rapids[ways.begin[k] : ways.begin[k] + many]] for ways, k in ((self, link), (other, there))]
+        odd = np.flatnonzero(np.linalg.norm(ends[0] - ends[1], axis=1) > tolerance)
+        return int(odd[0]) if len(odd) else int(many)
+
+    def row(self, link: int, rank: int = 0) -> int:
+        """The row of the rapids before a cut by their rank, that of the cut where there are no more."""
+        if rank < self.count[link]:
+            return int(self.motion.row[self.rapids[self.begin[link] + rank]])
+        if not len(self.motion.cuts):
+            return -1
+        return int(self.motion.row[self.motion.cuts[min(link, len(self.motion.cuts) - 1)]])
+
+
+def of_dwells(one: Motion, other: Motion, i: Index, j: Index, parts: list[tuple[int, int, int, int]]) -> list[Found]:
+    """Dwells and stops of the program between cuts, at the end of a cut and elsewhere; `parts` are stretches that are one way."""
+    found = []
+    for at_cut in (True, False):
+        sides = []
+        for motion, links, k in ((one, i, 0), (other, j, 2)):
+            here = np.append(False, motion.kind != Kind.RAPID) == at_cut
+            link = np.searchsorted(motion.cuts, np.arange(len(motion) + 1))[here]
+            times = np.bincount(link, motion.dwell[here], len(motion.cuts) + 1)
+            row = np.append(-1, motion.row[motion.cuts])  # of the cut before, unless there is a dwell
+            np.maximum.at(row, link, motion.pause[here])
+            inner = [slice(part[k] + 1, part[k + 1]) for part in parts]
+            time = np.append(times[links], [times[each].sum() for each in inner])
+            sides.append((time, np.append(row[links], [row[each].max(initial=-1) for each in inner])))
+        (a, p), (b, q) = sides
+        with np.errstate(invalid="ignore"):
+            wrong = np.flatnonzero(~((np.abs(a - b) <= SECONDS + RATE * np.abs(a)) | (a == b)))
+        for k in wrong.tolist():
+            rows = int(p[k]), int(q[k])
+            found.append(Found("dwell", rows, float(abs(a[k] - b[k])), "s", (_waits(a[k]), _waits(b[k]))))
+    return found
+
+
+def _waits(time: float) -> str:
+    return "a stop" if np.isinf(time) else f"{figure(float(time), 3)} s" if time else "no dwell"

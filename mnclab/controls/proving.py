@@ -1,0 +1,49 @@
+"""Two programs, of whatever controls, and whether they do the same."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from pathlib import Path
+from typing import Any
+
+from mnclab.comparison.proof import Proof, proof
+from mnclab.controls.choice import run
+from mnclab.machine.setup import Setup
+from mnclab.machine.setup_file import load
+from mnclab.runs.run import Run
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import fitting, shown
+from mnclab.text.program import Program
+
+
+@fitting
+def prove(
+    a: Run | str | Path | Program, b: Run | str | Path | Program, *, tolerance: float = 0.001, allow: Collection[str] = (),
+    setup: Setup | str | Path | None = None,
+) -> Proof:  # fmt: skip
+    """Whether two programs of any controls make the same motion, or the same part; `a` is the one that is trusted.
+
+    `a` and `b` are runs, or texts or files, which are run with the `setup`. The `verdict` is "same motion": every cut and every
+    rapid agrees within the `tolerance` (mm), with feed, speed, coolant, tool, side and dwells. Or "same part": made another way,
+    and what is left of the blank agrees (a milled one beside the cuts that differ, at 15,000 places of each program at most, and
+    in a grid; a turned one in its whole section), and neither a collision nor a lower rapid, another side, speed or feed is
+    among the differences. Else "different", as of a program that stops before its end, which proves nothing. `first` is the
+    first place where they differ: lines, blocks, places, what each does.
+
+    What is still on at the end, such as the spindle, is told and is no motion. Differences of the kinds in `allow`, of "lifts",
+    "chords" and "order", are harmless: the motion is the same in spite of them. Rapids of `b` that go lower or nearer than
+    those of `a` are a kind of their own, and a collision that only one of the two has is another: neither can be allowed.
+
+    Example:
+        proof = mnc.prove("part.nc", "part.h", setup=mnc.Setup(tools={1: mnc.Tool(radius=5)}))
+        proof.verdict, proof.first, proof.plot(), proof.save("proof.html")
+    """
+    return proof(_ran(a, setup), _ran(b, setup), tolerance, allow)
+
+
+def _ran(given: Any, setup: Any) -> Run:
+    if isinstance(given, Run):
+        return given if setup is None else given.again(setup if isinstance(setup, Setup) else load(setup))
+    if not isinstance(given, str | Path | Program):
+        raise Alarm(f"a proof needs two runs, texts or files, got {shown(given)}", hint='mnclab.prove("part.nc", "part.h")')
+    return run(given, None, setup)
