@@ -54,6 +54,7 @@ TABLES = {
     "Collisions": lambda: RUN.collisions(),
     "CuttingData": lambda: RUN.cutting_data(),
     "Removal": lambda: RUN.removal(),
+    "Proof": lambda: mnc.prove(RUN, drilled()),
 }
 
 

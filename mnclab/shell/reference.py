@@ -18,6 +18,9 @@ HIDDEN = {"load_ipython_extension"}
 NOT_SAID = re.compile(r"^(Alias for field number|Create new instance of).*")  # what Python says of a named tuple
 RESULTS = "results"
 WHAT_RESULTS = "What calls give back: classes that have no place on a shelf, as nobody makes one by hand."
+UNPACKED = re.compile(r"\*?<class '([\w.]+)'>")
+LONG = 60  # letters of a default
+OF_GETTERS = "Return a callable object that fetches"  # the text of Python's attrgetter
 ARRAY = re.compile(r"(?:numpy|np)\.ndarray\[tuple\[(?:typing\.)?Any, \.\.\.\], numpy\.dtype\[(?:numpy\.)?(\w+)\]\]")
 KNOWN = re.compile(r"\b(?:typing|collections\.abc|pathlib|concurrent\.futures\._base)\.(?=\w)")  # modules that need not be said
 
@@ -74,16 +77,29 @@ def _write_plainly(one: Any, given: Mapping[str, str]) -> None:
     """Give a function or a value the annotations that are shown, and take from its docstring what only Python says."""
     if hasattr(one, "signature"):
         signature = one.signature
-        takes = [each.replace(annotation=_told(each.annotation, given)) for each in signature.parameters.values()]
+        takes = [
+            each.replace(annotation=_told(each.annotation, given), default=_short(each.default))
+            for each in signature.parameters.values()
+        ]
         one.signature = signature.replace(parameters=takes, return_annotation=_told(signature.return_annotation, given))
     else:
         one.annotation = _told(one.annotation, given)
-    one.docstring = NOT_SAID.sub("", one.docstring).replace("::\n", ":\n")
+    own = getattr(one.obj, "__doc__", None) if one.name == "__init__" else one.docstring
+    said = NOT_SAID.sub("", one.docstring if own else "").replace("::\n", ":\n")
+    one.docstring = "" if OF_GETTERS in said else said
+
+
+def _short(default: Any) -> Any:
+    """A default as it is shown: an ellipsis where that is long, or nothing that could be typed."""
+    if default is Parameter.empty or (len(said := repr(default)) <= LONG and "<" not in said):
+        return default
+    return Told("…")
 
 
 def about(name: str) -> str:
     """What a page says of itself: of the front door the beginning, without the map of the house."""
-    return WHAT_RESULTS if name == RESULTS else "\n\n".join((getdoc(sys.modules[name]) or "").split("\n\n")[:2])
+    said = (getdoc(sys.modules[name]) or "").replace("::", ":") if name != RESULTS else WHAT_RESULTS
+    return "\n\n".join(said.split("\n\n")[:2])
 
 
 def _module(modulename: str, says: str, names: Mapping[str, Any]) -> Any:
@@ -129,6 +145,8 @@ def _told(annotation: Any, given: Mapping[str, str]) -> Any:
     if annotation is Parameter.empty:
         return annotation
     text = annotation if isinstance(annotation, str) else formatannotation(annotation)
+    text = UNPACKED.sub(lambda found: found[1].rpartition(".")[2], text)
+    text = "ArrayLike" + " | None" * text.endswith("| None") if "_array_like." in text else text
     text = re.sub(r"ForwardRef\('([^']+)'[^()]*\)", r"\1", ARRAY.sub(r"NDArray[\1]", text))
     text = re.sub(r"\bmnclab(?:\.\w+)+", lambda found: given.get(found[0], found[0].rpartition(".")[2]), text)
     return Told(KNOWN.sub("", text))

@@ -172,7 +172,8 @@ class Site:
         suffixes = f"Programs end in {', '.join(control.suffixes)}. " if control.suffixes else ""
         called = f'{suffixes}In Python it is <code>control="{escape(name)}"</code>.'
         entries = [*((title, f"#{anchor(title)}") for title in parts), *((code, f"#{anchor(code)}") for code in cycles)]
-        self.page(href, control.title, f"<h1>{escape(control.title)}</h1><p>{called}</p>{body}", entries, "Filter the tables")
+        body = re.sub(r"`([^`<>]+)`", r"<code>\1</code>", f"<h1>{escape(control.title)}</h1><p>{called}</p>{body}")
+        self.page(href, control.title, body, entries, "Filter the tables")
         for code, title in [*((one.code, one.title) for one in listed.values()), *((c, one.title) for c, one in cycles.items())]:
             self.places.append(Place(code, f"{name}: {title}", f"{href}#{anchor(code)}"))
         for setting in control.settings:

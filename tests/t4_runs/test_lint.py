@@ -243,3 +243,12 @@ def test_a_tool_that_waits_for_its_change():
         assert [alarm.message for alarm in alarms] == [
             f"the program works without a tool: {tool} is chosen, but not in the spindle" for tool in says
         ], words
+
+
+@pytest.mark.parametrize("program, control, blank", [
+    ("M3 S900 G97 G94 F80 T1\nG00 X17 Z1\nG01 X21 Z-4\nG00 X30\n", "jnc-t01", BAR),  # a chamfer, cut outwards
+    ("G17 G90 G54 T1 M6 S900 M3\nG0 X-20 Y30 Z-5\nG1 X120 Z1 F100\n", "g43", BLANK),
+])  # fmt: skip
+def test_a_cut_that_rises_out_of_the_blank_is_in_it(program, control, blank):
+    run = mnclab.run(program, control, mnclab.Setup(stock=blank, start=(60, 0, 20)))
+    assert run.ok and not [alarm for alarm in run.alarms if AIR in alarm.message] and run.workpiece().removed > 1

@@ -118,6 +118,9 @@ def has_point(m: Machine, word: Word) -> bool:
     return "." in written(m, word)
 
 
+BRIEF = 10  # ms: nobody waits for less, so seconds were meant
+
+
 def seconds_of_p(m: Machine, word: Word) -> float:
     """What 1 of a P that is a dwell stands for, s."""
     counted = m.settings["dwell_p"]
@@ -126,4 +129,7 @@ def seconds_of_p(m: Machine, word: Word) -> float:
     elif counted == "milliseconds" and has_point(m, word):  # Fanuc permits it in X alone
         hint = "write whole milliseconds, or X for seconds; setting dwell_p"
         m.warn(f"{word.rounded} counts milliseconds, decimal point or not: {m.value(word) / 1000:g} s", word, hint)
+    elif counted == "milliseconds" and 0 < m.value(word) < BRIEF:
+        hint = f"seconds are X{m.value(word):g}, or P with the setting dialect 'linuxcnc'"
+        m.warn(f"{word.rounded} counts milliseconds: {m.value(word) / 1000:g} s", word, hint)
     return 1.0 if counted == "seconds" else 0.001

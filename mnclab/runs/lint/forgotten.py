@@ -213,7 +213,8 @@ def above_blank(run: Run) -> Iterator[Alarm]:
     cuts &= np.array([tool.kind != "probe" for tool in cutting.tools])[cutting.which]
     if not cuts.any() or cutting.tilted is not None:
         return
-    above = float(extents(cutting.path)[0][cuts, axis].min() - top)
+    low = np.minimum(extents(cutting.path)[0], cutting.path.start)  # a cut may begin where a rapid has gone down
+    above = float(low[cuts, axis].min() - top)
     if above < least:
         return
     first = int(path.step[np.argmax(cuts)])

@@ -127,11 +127,12 @@ def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
     if most:
         middle = (begin[most.row] + end[most.row]) / 2
         rate.plot([middle], [high], **colours.SLOW_CORNER.style())
-        late = middle > removal.profile.time / 2
+        said, wide = f"line {removal.place(most)}: {largest}", rate.get_window_extent().width * 72 / picture.dpi
+        half, at = LETTER * len(said) / 2, middle / removal.profile.time * wide
+        aside = max(half, min(at, wide - half)) - at  # not beyond the border
         rate.annotate(
-            f"line {removal.place(most)}: {largest}", (middle, high), (-6 if late else 6, 5), textcoords="offset points",
-            fontsize=SMALL, ha="right" if late else "left", color=colours.INK,
-        )  # fmt: skip
+            said, (middle, high), (aside, 5), textcoords="offset points", fontsize=SMALL, ha="center", color=colours.INK
+        )
     feed.set(xlabel="", ylabel=feed.get_ylabel().replace(", ", ",\n"))
     rate.set_ylabel(f"mean of a row,\n{name}/min", fontsize=feed.yaxis.label.get_fontsize())
     rate.set_xlabel("time, s", fontsize=SMALL + 1)

@@ -471,9 +471,9 @@ def rows_within(height: float) -> int:
 
 
 def _shortened(names: Sequence[str], width: float, most: int) -> list[int]:
-    """The entries for which a legend of at most so many rows has room: what explains itself or is nowhere hidden goes first."""
-    kept = list(range(len(names)))
-    spare = sorted(kept, key=lambda k: (SPARE.index(names[k]) if names[k] in SPARE else len(SPARE), -k))
+    """The entries that a legend of at most so many rows holds: what explains itself goes first, last that a curve is thinned."""
+    kept, rank = list(range(len(names))), {name: k for k, name in enumerate(SPARE)}
+    spare = sorted(kept, key=lambda k: (names[k].startswith("thinned"), rank.get(names[k], len(SPARE)), -k))
     while len(legend_rows([names[k] for k in kept], width)) > most and len(kept) > 1:
         kept.remove(spare.pop(0))
     return kept

@@ -37,7 +37,7 @@ from mnclab.show.plot.sections import outline_of
 from mnclab.show.plot.sizes import placed, sized
 from mnclab.show.plot.strokes import corners, line_of
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import choice, shown
+from mnclab.text.given import choice, fitting, shown
 
 # Pictures of several trials: one view of each, all of one size, each under its name.
 
@@ -212,6 +212,7 @@ BESIDE = 'mnclab.plot_runs(run, other), mnclab.plot_runs({"LT": run, "CT": other
 
 
 @sized(also=plot_run)
+@fitting
 def plot_runs(
     run: Any, *others: Any, names: Sequence[str] = (), view: str = "XY", columns: int | None = None, width: float = 9.0,
     **options: Any,

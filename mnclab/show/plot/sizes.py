@@ -120,6 +120,7 @@ def sized(*, also: Any = None, tall: float | None = None) -> Callable[[Callable[
             *given: Any, size: Any = None, size_mm: Any = None, legend: bool = True, title: str | None = None, **options: Any
         ) -> AnyFigure:
             check_options({**options, "legend": legend, "title": title}, known)
+            title = " ".join(title.split()) if title else title  # a line end is broken anew
             asked = room(size, size_mm)
             own = [each for each in (*given[1:], options.get("ax")) if isinstance(each, Axes)]
             if own:

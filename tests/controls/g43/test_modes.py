@@ -132,7 +132,8 @@ def test_a_dwell_in_milliseconds_with_a_point():
     """Fanuc: X "decimal point permitted", P "decimal point not permitted"; G4 P1.5 of other controls means seconds."""
     for dialect, text, seconds, said in (
         ("fanuc", "P1.5", 0.0015, ["P1.5 counts milliseconds, decimal point or not: 0.0015 s"]),
-        ("fanuc", "P1500", 1.5, []), ("fanuc", "X1.5", 1.5, []),
+        ("fanuc", "P2", 0.002, ["P2 counts milliseconds: 0.002 s"]), ("fanuc", "P10", 0.01, []),
+        ("linuxcnc", "P2", 2, []), ("fanuc", "P1500", 1.5, []), ("fanuc", "X1.5", 1.5, []),
         ("haas", "P1.5", 1.5, []), ("linuxcnc", "P1.5", 1.5, []),
     ):  # fmt: skip
         run = mnclab.run(f"G21\nG4 {text}\nM30\n", "g43", mnclab.Setup(settings={"dialect": dialect}))

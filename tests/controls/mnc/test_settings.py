@@ -307,7 +307,7 @@ def test_every_setting_is_tested_here_or_with_its_cycle():
     text = open(__file__, encoding="utf-8").read()
     for setting in SETTINGS.values():
         elsewhere = ("block_skip", "peck_clearance", "bulk", "rapid_motion", "stopped_spindle", "most_rows", "most_blocks",
-                     "corner_spacing", "measurements_per_point", "g491_l2_plane", "raw_z", "lint")
+                     "most_megabytes", "corner_spacing", "measurements_per_point", "g491_l2_plane", "raw_z", "lint")
         of_tools = setting.name.startswith("laser_") or setting.name == "spindle_max"  # test_tool_setting.py
         assert setting.name in text or setting.name in elsewhere or of_tools
         assert setting.check(setting.default) == setting.default and setting.meaning
