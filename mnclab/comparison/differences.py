@@ -92,7 +92,8 @@ def _only(motion: Motion, ranks: Index, other: Motion, there: int, k: int, toler
         row, said = int((other.last if rapid else other.row)[near]), "at rapid" if rapid else said
     both = [(int(motion.row[cuts[0]]), several(len(cuts), "cut")), (row, said)]
     (one_row, one_said), (other_row, other_said) = both[::-1] if k else both
-    return Found("geometry", (one_row, other_row), way, "mm", (one_said, other_said), len(cuts))
+    kind = "rapid" if not k and said == "at rapid" else "geometry"  # what one cuts the other goes at rapid
+    return Found(kind, (one_row, other_row), way, "mm", (one_said, other_said), len(cuts))
 
 
 def _side_by_side(one: Motion, other: Motion, i: int, to_i: int, j: int, to_j: int) -> tuple[Index, Index]:
@@ -178,12 +179,14 @@ def _of_settings(one: Motion, other: Motion, i: Index, j: Index) -> Iterator[Fou
     """Feed, speed, coolant, tool and side of cuts that are each other's."""
     p, q = one.cuts[i], other.cuts[j]
 
-    def told(kind: str, a: Array, b: Array, unit: str, name: Callable[[Any], str], near: float = 0.0) -> list[Found]:
+    def told(
+        kind: str, a: Array, b: Array, unit: str, name: Callable[[Any], str], near: float = 0.0, shown: Any = None
+    ) -> list[Found]:
         with np.errstate(invalid="ignore"):
             wrong = ~((np.abs(a - b) <= near * np.maximum(np.abs(a), np.abs(b))) | (a == b) | (np.isnan(a) & np.isnan(b)))
         at = np.flatnonzero(wrong)
         off = np.abs(a[at] - b[at]).astype(float) if unit else np.zeros(len(at))
-        a, b = a[at], b[at]
+        a, b = (each[at] for each in shown or (a, b))
         return grouped(kind, one, i[at], other, j[at], lambda k: (name(a[k]), name(b[k])), off, unit, (a, b))
 
     turns = np.isfinite(one.per_rev[p]) & np.isfinite(other.per_rev[q])
@@ -196,7 +199,10 @@ def _of_settings(one: Motion, other: Motion, i: Index, j: Index) -> Iterator[Fou
     yield from told("spindle", one.spindle[p], other.spindle[q], "rev/min", _turning, RATE)
     yield from told("spindle", one.surface[p], other.surface[q], "m/min", _named("cutting speed "), RATE)
     yield from told("coolant", one.coolant[p], other.coolant[q], "", lambda value: FLOWS[value])
-    yield from told("tool", one.tool[p], other.tool[q], "", lambda value: f"tool {value}")
+    numbers = [m.path.tool[m.row[e]] for m, e in ((one, p), (other, q))]
+    yield from told("tool", one.tool[p], other.tool[q], "", lambda value: f"T{value}", shown=numbers)
+    a, b = (np.where(one.tool[p] == other.tool[q], each, 0) for each in numbers)
+    yield from told("number", a, b, "", lambda value: f"T{value}")
     yield from told("tool", one.radius[p], other.radius[q], "mm", _named("radius "), 1e-4)
     yield from told("side", one.side[p], other.side[q], "", lambda value: SIDES[int(value)])
 

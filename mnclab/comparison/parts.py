@@ -9,13 +9,16 @@ import numpy as np
 from mnclab.comparison.diff import _strokes
 from mnclab.comparison.found import Found
 from mnclab.comparison.motion import Motion
+from mnclab.geometry.curves import at_angle, counted
 from mnclab.geometry.regions import Region
-from mnclab.path.toolpath import Array, Mask
+from mnclab.path.toolpath import Array, Kind, Mask
 from mnclab.workpiece.blank import Box
 
 GEOMETRIC = ("geometry", "depth", "order", "chords", "lifts", "rapid")
-STROKES = 1500  # of each path: beside them the walls are looked at
+PLACES = 20_000  # of each path: beside so many the walls are looked at; of more nothing is proven
+CLOSE, ABOUT = 4, 64  # places a tool radius along a cut, and about each of its ends
 BESIDE = 1.3  # of the tolerance
+GAP = 0.1  # mm, between places along a cut, no less
 GRID = 50  # places of the longer side
 NOTHING = 1e6  # mm: the height of no material
 MOST = 20_000  # cuts: a part of more takes too long
@@ -54,8 +57,12 @@ def part_apart(runs: tuple[Any, Any], motions: tuple[Motion, Motion], tolerance:
                 z, r = more.bounds.mean(axis=0)
                 return f"the turned parts differ at Z{z:.3f}, diameter {2 * r:.3f}"
         return ""
+    if not any(part.removed > 0 for part in parts):
+        return "neither of them cuts anything of its blank, so the parts prove nothing"
     rows = [_rows_that_differ(motion, found, k) for k, motion in enumerate(motions)]
-    beside = [_beside(motion, each, tolerance) for motion, each in zip(motions, rows)]
+    beside = [_beside(motion, each, float(parts[0].bounds[1, 2]), tolerance) for motion, each in zip(motions, rows)]
+    if any(each is None for each in beside):
+        return f"the parts are not proven to agree: the cuts that differ have more than {PLACES:,} places"
     points = np.concatenate([*beside, _all_over(parts[0].bounds)])
     heights = [_heights(part, points) for part in parts]
     worst = (0.0, 0)
@@ -81,7 +88,7 @@ def _rows_that_differ(motion: Motion, found: list[Found], k: int) -> Mask:
     for each in found:
         if each.kind == "tool":
             mask[:] = True
-        elif each.kind in GEOMETRIC and each.rows[k] >= 0:
+        elif each.kind in GEOMETRIC and each.kind != "order" and each.rows[k] >= 0:
             rank = int(np.searchsorted(bounds, each.rows[k], "right"))
             mask[bounds[max(rank - 2, 0)] : bounds[min(rank + each.moves, len(bounds) - 1)]] = True
     return mask
@@ -93,23 +100,29 @@ def _heights(part: Any, points: Array) -> Array:
     return np.stack([np.where(np.isnan(high), -NOTHING, high), np.where(np.isnan(low), NOTHING, low)])
 
 
-def _beside(motion: Motion, rows: Mask, tolerance: float) -> Array:
-    """Points (m, 2) at the middle of the tool and just within and without its walls, along some rows."""
-    cuts = motion.path[rows & motion.path.is_motion]
+def _beside(motion: Motion, rows: Mask, top: float, tolerance: float) -> Array | None:
+    """Points (m, 2) at the middle of the tool and just within and without its walls, along some rows that go below the top of
+    the blank, and all round their ends; None if they would be too many."""
+    path = motion.path
+    cuts = path[rows & path.is_motion & ((np.minimum(path.start, path.end)[:, 2] < top) | (path.kind == Kind.ARC))]
     start, end, row = _strokes(cuts, max(tolerance, 1e-3))
     if not len(row):
         return np.empty((0, 2))
-    some = np.unique(np.linspace(0, len(row) - 1, STROKES).astype(int))
-    start, end, row = start[some], end[some], row[some]
     way = (end - start)[:, :2]
-    long = np.linalg.norm(way, axis=1)
-    normal = np.where(long[:, None] > 0, way[:, ::-1] * [-1, 1] / np.maximum(long, 1e-12)[:, None], [1.0, 0.0])
-    radius = np.abs(cuts.radius[row])[:, None]
-    found = []
-    for share in (0.27, 0.79):
-        middle = start[:, :2] + share * way
-        beyond = (radius - BESIDE * tolerance, radius + BESIDE * tolerance)
-        found += [middle, *(middle + sign * each * normal for sign in (1, -1) for each in beyond)]
+    long, radius = np.linalg.norm(way, axis=1), np.abs(cuts.radius[row])[:, None]
+    many = np.ceil(CLOSE * long / np.maximum(radius[:, 0], CLOSE * GAP)).clip(1).astype(np.int64)
+    discs = np.column_stack([np.vstack([cuts.start, cuts.end])[:, :2], np.tile(np.abs(cuts.radius), 2)])
+    ends = np.unique(np.round(discs, 6), axis=0)
+    if many.sum() + len(ends) * ABOUT // 4 > PLACES:
+        return None
+    of, rank = counted(many)
+    middle = start[of, :2] + ((rank + 0.5) / many[of])[:, None] * way[of]
+    normal = np.where(long[:, None] > 0, way[:, ::-1] * [-1, 1] / np.maximum(long, 1e-12)[:, None], [1.0, 0.0])[of]
+    round_ = at_angle(np.arange(ABOUT) * 2 * np.pi / ABOUT)
+    found = [middle, ends[:, :2]]
+    for off in (-BESIDE * tolerance, BESIDE * tolerance):
+        found += [middle + sign * (radius[of] + off) * normal for sign in (1, -1)]
+        found.append((ends[:, None, :2] + (ends[:, 2] + off)[:, None, None] * round_).reshape(-1, 2))
     return np.concatenate(found)
 
 

@@ -45,9 +45,10 @@ KINDS = {
     "chords": "lines within the tolerance of an arc",
     "lifts": "other ways between cuts, nowhere lower",
     "leftovers": "something else is on at the end",
+    "number": "another tool number, of a tool with the same measures",
 }
 MAY_BE_ALLOWED = ("lifts", "chords", "order")
-BESIDE = ("leftovers",)  # told, but no motion
+BESIDE = ("leftovers", "number")  # told, but no motion
 #: With one of these the part is not the same, even where the sweep of the tool says so: a tool breaks, a clamp is hit.
 UNSAFE = ("stops", "collision", "rapid", "side", "spindle", "feed")
 SAME_MOTION, SAME_PART, DIFFERENT = "same motion", "same part", "different"
@@ -124,7 +125,8 @@ class Proof(Pictured, Listing):
     @property
     def first(self) -> Difference | None:
         """The first place where they differ and it is not harmless, in the order of the motion; of harmless ones the first."""
-        return next((each for each in self.differences if not each.harmless), next(iter(self.differences), None))
+        serious = (each for each in self.differences if not each.harmless and each.kind not in BESIDE)
+        return next(serious, next(iter(self.differences), None))
 
     @property
     def zeros(self) -> str:
@@ -145,7 +147,7 @@ class Proof(Pictured, Listing):
         """The verdict with its reasons, and the first place where they differ."""
         counts = ", ".join(f"{many} {kind}" for kind, many in self.counts.items())
         if not any(path.is_motion.any() for path in self.paths) and not counts:
-            return "no motion in either"
+            return "not proven: there is no motion in either"
         if self.verdict == SAME_MOTION:
             more = f"beside it: {counts}" if counts else ""
             left = "".join(each.sentence for each in self.differences if each.kind in BESIDE)
@@ -244,10 +246,11 @@ def proof(one: Any, other: Any, tolerance: float = 0.001, allow: Collection[str]
     elif found:
         why = not_comparable(runs, motions)
         found = found if why else sorted([*found, *collided(runs)], key=lambda each: each.rows[1])
-        if not {each.kind for each in found} <= {*allowed, *BESIDE}:
-            part = f"the parts were not compared: {why}" if why else part_apart(runs, motions, tolerance, found)
+        serious = {each.kind for each in found} - {*allowed, *BESIDE}
+        part = f"the parts were not compared: {why}" * bool(serious) if why else part_apart(runs, motions, tolerance, found)
     serious = {each.kind for each in found} - {*allowed, *BESIDE}
-    verdict = SAME_MOTION if not serious else DIFFERENT if part or serious & {*UNSAFE} else SAME_PART
+    still = not any(motion.path.is_motion.any() for motion in motions)  # which proves nothing
+    verdict = DIFFERENT if part or still or serious & {*UNSAFE} else SAME_PART if serious else SAME_MOTION
     names = _names(one, other)
     told = tuple(_told(each, runs, names, allowed) for each in found)
     return Proof(verdict, told, names, float(tolerance), (one.toolpath, other.toolpath), part)

@@ -370,7 +370,7 @@ def test_a_program_that_stops_proves_nothing():
     for one, other in ((PATH, broken), (broken, PATH), (broken, broken)):
         found = proof(one, other, allow=("lifts", "chords", "order"))
         assert found.verdict == "different" and found.sentence.startswith("not proven") and "stops" in found.counts
-    assert proof("", "").sentence == "no motion in either"
+    assert proof("", "").sentence == "not proven: there is no motion in either" and proof("", "").verdict == "different"
 
 
 TURNED = "M3\nT1\nS800 G97 G95 F0.25\nG00 X32 Z3\nG01 X14\nZ-25\nX32\nG00 Z3\nX60 Z50\nM5\n"
@@ -442,3 +442,47 @@ def test_from_a_shell(tmp_path, capsys):
     assert main(["prove", str(one), str(other)]) == 0 and "the same motion" in capsys.readouterr().out
     assert main(["prove", str(one), str(wrong), "--json", "--allow", "lifts,order"]) == 1
     assert json.loads(capsys.readouterr().out)["counts"] == {"feed": 1}
+
+
+# Parts that differ where a few samples would miss it: each of these was once called the same part.
+
+HOLE = "G21 G17 G90 G94 G54 T1 M6\nS1000 M3\nG0 X{} Y{} Z5\nG1 Z-9 F200\n{}G0 Z5\nM30\n"
+CUTS = {  # a program, another one that leaves another part, and one that leaves the same
+    "a hole": ((50, 40, ""), [(50, y, "") for y in (40.01, 40.1, 39.9)], []),
+    "a slot": (
+        (40, 20, "Y60\n"), [(40, 20, "Y60.1\n"), (40, 19.9, "Y60\n"), (40, 20, "Y45\nX40.1\nX40\nY60\n")],
+        [(40, 60, "Y20\n")],
+    ),
+    "a contour": (
+        (10, 10, "X90\nY70\nX10\nY10\n"), [(10, 10, f"X50\nY{10 + g}\nY10\nX90\nY70\nX10\nY10\n") for g in (0.1, 0.5, 1.5)],
+        [(10, 10, "Y70\nX90\nY10\nX10\n")],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("what", CUTS)
+def test_a_part_that_is_gouged_in_one_place_is_not_the_same(what):
+    setup = mnc.Setup(tools={1: mnc.Tool(radius=5, number=1)}, stock=((0, 0, -20), (100, 80, 0)))
+    one, others, same = CUTS[what]
+    for cut, verdict in [*((each, "different") for each in others), *((each, "same part") for each in same)]:
+        found = mnc.prove(*(mnc.run(HOLE.format(*each), "g43", setup) for each in (one, cut)))
+        assert found.verdict == verdict, cut
+
+
+def test_cuts_that_meet_no_blank_prove_no_part():
+    setup = mnc.Setup(tools={1: mnc.Tool(radius=5, number=1)}, stock=((200, 200, -20), (300, 280, 0)))
+    found = mnc.prove(*(mnc.run(HOLE.format(x, 40, ""), "g43", setup) for x in (50, 70)))
+    assert found.verdict == "different" and "neither of them cuts anything" in found.part
+
+
+def test_what_one_cuts_the_other_must_not_go_at_rapid():
+    runs = [mnc.run(HOLE.format(-30, -30, "").replace(*each), "g43") for each in (("", ""), ("G1 Z-9 F200", "G0 Z-9"))]
+    found = mnc.prove(*runs)
+    assert found.verdict == "different" and found.counts["rapid"] == 1
+
+
+def test_another_number_of_the_same_tool_is_told_and_no_motion():
+    tools = {1: mnc.Tool(radius=5, number=1), 2: mnc.Tool(radius=5, number=2), 3: mnc.Tool(radius=4, number=3)}
+    one, two, three = (mnc.run(HOLE.format(5, 5, "").replace("T1", f"T{k}"), "g43", tools=tools) for k in (1, 2, 3))
+    assert mnc.prove(one, two).verdict == "same motion" and mnc.prove(one, two).differences[0].values == ("T1", "T2")
+    assert mnc.prove(one, three).verdict == "different" and mnc.prove(one, three).differences[0].values == ("T1", "T3")
