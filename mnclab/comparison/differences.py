@@ -219,8 +219,10 @@ def _left_over(one: Motion, other: Motion) -> list[Found]:
     """What is still switched on at the end."""
     rows = len(one.path) - 1, len(other.path) - 1
     names = (_turning, lambda value: f"coolant {FLOWS[value]}", lambda value: f"compensation {SIDES[int(value)]}")
-    return [
+    found = [
         Found("leftovers", rows, 0.0, "", (name(a), name(b)))
         for name, a, b in zip(names, one.at_end, other.at_end)
         if abs(a - b) > RATE * max(abs(a), abs(b))
     ]
+    left = [(name, one.left[name], other.left[name]) for name in one.left if name in other.left]
+    return [*found, *(Found("leftovers", rows, 0.0, "", (f"{name} {a}", f"{name} {b}")) for name, a, b in left if a != b)]

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.listing import point
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath, gathered
 
 NO_WAY = 1e-6  # mm: less is no move
@@ -23,6 +24,8 @@ KEPT = (
     "kind", "start", "end", "centre", "axis", "sweep", "rotary", "feed", "per_rev", "surface", "spindle", "radius", "side",
     "synchronous",
 )  # fmt: skip
+MODAL = ("dimension", "plane", "datum")
+OF_MACHINE = ("frame datum", "frame preset", "frame secondary", "frame length")
 OFF = ("M9", None)  # what stands in the history while there is no coolant
 
 
@@ -32,7 +35,8 @@ class Motion:
 
     `dwell` (m + 1,) is the time before the first move and behind each, s, inf where the program stops (M0), `pause` the row of
     it. `tool` (m,) are places in one list of tools, of which what cuts alike is one. `cuts` are the moves but rapids, `link` (m,)
-    says before which of the cuts a move stands. `at_end` is speed, coolant, side as the program leaves them.
+    says before which of the cuts a move stands. `at_end` is speed, coolant, side as the program leaves them, `left` what
+    else of it is modal, in words.
     """
 
     path: Toolpath
@@ -59,6 +63,7 @@ class Motion:
     cuts: Index
     link: Index
     at_end: tuple[float, int, int]
+    left: dict[str, str]
 
     def __len__(self) -> int:
         return len(self.row)
@@ -107,7 +112,8 @@ def motion_of(run: Any, tools: list[Any]) -> Motion:
     cuts = np.flatnonzero(columns["kind"] != Kind.RAPID)
     at_end = (float(path.spindle[-1]), int(coolant[-1]), int(path.side[-1])) if n else (0.0, 0, 0)
     link = np.searchsorted(cuts, np.arange(len(first)))
-    return Motion(path, rows[first], rows[last], **columns, dwell=dwell, pause=pause, cuts=cuts, link=link, at_end=at_end)
+    beside: dict[str, Any] = {"dwell": dwell, "pause": pause, "cuts": cuts, "link": link}
+    return Motion(path, rows[first], rows[last], **columns, **beside, at_end=at_end, left=_left(run))
 
 
 def _goes_on(columns: dict[str, Any], event: NDArray[Any]) -> Mask:
@@ -150,6 +156,19 @@ def _coolant(run: Any) -> Array:
     said = [known.value("coolant", step) for step in path.step[rows].tolist()]
     states = np.array([0, *(0 if each in off else 2 if each == "M7" and len(off) == len(OFF) else 1 for each in said)])
     return states[np.searchsorted(rows, np.arange(len(path)), "right")]
+
+
+def _left(run: Any) -> dict[str, str]:
+    """What a program leaves active that the next one may not expect: dimension, plane and datum, and what frames do."""
+    known, end = run.history, 1 << 30
+    found = {name: str(value) for name in MODAL if (value := known.value(name, end)) is not None}
+    frame = np.eye(4)
+    for name in known:
+        if name.startswith("frame ") and name not in OF_MACHINE and (matrix := known.value(name, end)) is not None:
+            frame = frame @ np.array(matrix)
+    turned = ", turned or scaled" if np.abs(frame[:3, :3] - np.eye(3)).max() > ALIKE else ""
+    moved = np.abs(frame - np.eye(4)).max() > ALIKE
+    return found | {"frame": f"shifted by {point(frame[:3, 3])}{turned}" if moved else "none"}
 
 
 def _tools(run: Any, tools: list[Any]) -> Index:
