@@ -63,7 +63,7 @@ def lessons(names: list[str] | None = None) -> dict[str, Path]:
     the file."""
     place = home()
     if place is None:
-        raise Alarm("the lessons are not here", hint="start this in the folder that holds notebooks/; mnclab lessons DIR makes one")
+        raise Alarm("the lessons are not here", hint="start this in the folder of notebooks/; mnclab lessons DIR makes one")
     known = {path.stem[:2]: path for path in sorted((place / "notebooks").glob("[0-9][0-9]_*.ipynb"))}
     if names is None:
         return known

@@ -59,6 +59,12 @@ def test_tables_are_narrowed_down(built, page):
     page.locator("#find").fill("постоянная скорость")  # the manual's own words, 8.20: G96
     assert page.locator("tr#G96").is_visible()
     assert page.locator("tr#G90").is_hidden() and page.locator("section#G73").is_hidden()
+    rows = page.locator("section#G77 tr:has(td)").count()
+    page.locator("#find").fill("G77")  # the section of a cycle stays whole
+    assert page.locator("section#G77 tr:has(td):visible").count() == rows > 3
+    assert page.locator("#none").is_hidden()
+    page.locator("#find").fill("zzz")
+    assert page.locator("#none").is_visible()
 
 
 def test_the_player_of_a_lesson_moves(built, page):

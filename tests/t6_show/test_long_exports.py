@@ -224,6 +224,8 @@ def test_a_thinned_picture_says_so():
         figure = profile.plot()
         names = [text.get_text() for legend in figure.legends for text in legend.get_texts()]
         assert (THINNED in names) is said
+        small = [text.get_text() for legend in profile.plot(size=(3, 3)).legends for text in legend.get_texts()]
+        assert (THINNED in small) is said  # whatever else has no room
         ax = figure.add_subplot()
         profile.plot(ax=ax)
         assert (THINNED in [text.get_text() for text in ax.texts]) is said

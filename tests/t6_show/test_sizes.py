@@ -167,3 +167,21 @@ def test_a_number_is_not_parted_from_its_unit():
     for room in np.arange(1.0, 6.0, 0.1):
         lines = broken(said, float(room))
         assert " ".join(lines) == said and not any(re.match("(mm³?|µm)(?![a-z])", line) for line in lines)
+
+
+def test_a_title_of_two_lines_is_broken_anew(run, recwarn):
+    figure = run.plot(title="First\nSecond")
+    assert figure.alt.startswith("First Second: ") and not [each for each in recwarn if "Glyph" in str(each.message)]
+
+
+@pytest.mark.parametrize("size", [None, "column", (3, 2), (4, 3)])
+def test_the_label_of_the_largest_rate_stays_in_the_picture(size):
+    """A cut near the end of a long program: what is written of it would run out to the right."""
+    text = "G21 G17 G90 G94 G54 T1 M6 S900 M3\nG0 X-10 Y20 Z5\nG1 Z-1 F100\nX5\nG0 Y50\nG1 X40 F50\nZ-4 F600\nX60 F900\nG0 Z5\n"
+    run = mnc.run(text, "g43", stock=((0, 0, -20), (100, 60, 0)), tools={1: mnc.Tool(radius=5, number=1)})
+    figure = run.removal().plot(**({} if size is None else {"size": size}))
+    figure.draw_without_rendering()
+    wide = figure.bbox.width
+    for text in (each for ax in figure.axes for each in ax.texts if "line" in each.get_text()):
+        box = text.get_window_extent()
+        assert 0 <= box.x0 and box.x1 <= wide
