@@ -258,11 +258,20 @@ def proof(one: Any, other: Any, tolerance: float = 0.001, allow: Collection[str]
 
 def _stopped(runs: tuple[Any, Any], found: list[Found]) -> list[Found]:
     """Where the programs stop, and what differs before."""
-    rows = tuple(len(run.toolpath) - 1 for run in runs)
-    ends = tuple(row if _broken(run) else 1 << 40 for row, run in zip(rows, runs))
+    last = [len(run.toolpath) - 1 for run in runs]
+    ends = tuple(row if _broken(run) else 1 << 40 for row, run in zip(last, runs))
+    rows = tuple(row if _broken(run) else _beside(run, other) for row, run, other in zip(last, runs, runs[::-1]))
     known = [each for each in found if each.rows[0] < ends[0] and each.rows[1] < ends[1] and "none" not in each.values]
+    known = [each for each in known if each.rows[0] < rows[0] and each.rows[1] < rows[1]]
     said = tuple(_why(run) if _broken(run) else "goes on" for run in runs)
     return [*(each for each in known if each.kind != "leftovers"), Found("stops", rows, float("nan"), "", said)]  # type: ignore[arg-type]
+
+
+def _beside(run: Any, other: Any) -> int:
+    """The row of a run that ends nearest to where the other one stopped."""
+    if not (len(run.toolpath) and len(other.toolpath)):
+        return len(run.toolpath) - 1
+    return int(np.linalg.norm(run.toolpath.end - other.toolpath.end[-1], axis=1).argmin())
 
 
 def _broken(run: Any) -> bool:
