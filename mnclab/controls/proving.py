@@ -23,20 +23,21 @@ def prove(
 ) -> Proof:  # fmt: skip
     """Whether two programs of any controls make the same motion, or the same part; `a` is the one that is trusted.
 
-    `a` and `b` are runs, or texts or files, which are run with the `setup`. The `verdict` is "same motion": every cut and every
-    rapid agrees within the `tolerance` (mm), with feed, speed, coolant, tool, side and dwells. Or "same part": made another way,
-    and what is left of the blank agrees (a milled one beside the cuts that differ, at 15,000 places of each program at most, and
-    in a grid; a turned one in its whole section), and neither a collision nor a lower rapid, another side, speed or feed is
-    among the differences. Else "different", as of a program that stops before its end, which proves nothing. `first` is the
-    first place where they differ: lines, blocks, places, what each does.
+    `a` and `b` are runs, or texts or files, which are run with the `setup`. The `verdict` is "same motion": every cut and
+    every rapid agrees within the `tolerance` (mm), with feed, speed, coolant, tool, side and dwells. Or "same part": made
+    another way, and what is left of the blank agrees (a milled one all along and all round the cuts that differ, of 20,000
+    places of each program at most, and in a grid; a turned one in its whole section), and neither a collision nor a lower
+    rapid, another side, speed or feed is among the differences. Else "different", as of a program that stops before its end,
+    which proves nothing. `first` is the first place where they differ: lines, blocks, places, what each does.
 
     What is still on at the end, such as the spindle, is told and is no motion. Differences of the kinds in `allow`, of "lifts",
     "chords" and "order", are harmless: the motion is the same in spite of them. Rapids of `b` that go lower or nearer than
     those of `a` are a kind of their own, and a collision that only one of the two has is another: neither can be allowed.
 
-    Example:
-        proof = mnc.prove("part.nc", "part.h", setup=mnc.Setup(tools={1: mnc.Tool(radius=5)}))
-        proof.verdict, proof.first, proof.plot(), proof.save("proof.html")
+    >>> iso = mnc.run("G21 G17 G90 G54\\nT1 M6 S900 M3\\nG0 X0 Y0 Z5\\nG1 X40 F300\\nG3 X40 Y20 R10\\nM5\\n", "g43")
+    >>> post = "T1 S900 M3\\nG54 G90 G0 X0 Y0 Z5\\nG1 X40 F300\\nG{} X40 Y20 I0 J10\\nM5\\n"
+    >>> [mnc.prove(iso, mnc.run(post.format(sense), "mnc")).verdict for sense in (3, 2)]
+    ['same motion', 'different']
     """
     return proof(_ran(a, setup), _ran(b, setup), tolerance, allow)
 

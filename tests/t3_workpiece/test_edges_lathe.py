@@ -5,7 +5,7 @@ the table gives no `cutting_length`, a blade reaches 8 times its width.
 """
 
 import random
-from math import cos, radians, sin
+from math import cos, radians, sin, tan
 
 import pytest
 
@@ -78,7 +78,7 @@ def test_just_below_the_edge_none_and_just_above_one(main, long, hand, kind):
         if off < 0:
             assert not found, found
         else:
-            only(found, 6, deep / sin(radians(main)), edge)
+            only([each for each in found if each.line == 6], 6, deep / sin(radians(main)), edge)  # the way out may meet a wedge
 
 
 def test_in_passes_a_bar_is_turned_down_and_a_bore_turned_out():
@@ -235,3 +235,12 @@ def test_a_thread_on_a_cone_is_as_deep_as_it_stands_under_it():
     (each,) = met(cone + "G00 X48 Z2|G32 X49.625 Z-50 F2|G00 X62", tools=tools)
     half = cos(radians(60))  # the tooth is as wide as its edge: the cone rises beside its tip
     assert each.line == 9 and each.depth + 2 == pytest.approx((2 + 2 * half / 32) / sin(radians(60)), abs=0.05)
+
+
+@pytest.mark.parametrize("deep, lean, collides", [(3, 30, False), (8, 30, True), (11, 10, False), (11, 14, True)])
+def test_a_rapid_through_a_thick_wedge_collides(deep, lean, collides):
+    """An auxiliary edge of so many degrees leaves deep x tan(lean) on the wall of a facing cut: up to 2.5 mm are excused."""
+    assert (deep * tan(radians(lean)) > 2.5) is collides
+    tool = Tool(kind="turning", corner=0.4, main_angle=93, auxiliary_angle=lean, cutting_length=40)
+    found = met(f"G00 X62 Z{-deep}|G01 X1|G00 Z5", tool, BAR)
+    assert [each.kind for each in found] == ["rapid"] * collides

@@ -4,7 +4,7 @@ Before each row stands what the rows before it have left. A rapid takes nothing 
 back of the insert takes nothing that stays when its cycle is over. A thread counts as cut down to its root: what runs in it
 later is not judged there.
 What an edge that leans leaves on the wall that ends a pass, some tenths for 5 degrees, is cut by what follows and blamed
-on no rapid and on no back: cycles run along their walls, by their manual.
+on no rapid and on no back, as far as it is no thicker than `WEDGE`: cycles run along their walls, by their manual.
 
 Areas are shapely's, in the plane of z and r, mm. A tool is given about its tip; what lies behind its insert is known only
 where its table says so.
@@ -49,6 +49,7 @@ from mnclab.workpiece.turning.turned import half_section
 # The sides of a blade may turn along the axis, but no deeper than the blade is wide. Coordinates (z, r), mm.
 
 ALONG = math.radians(15)  # between feed and edge: below, the edge rubs
+WEDGE = 2.5  # mm: a thicker wedge at a wall is material that a rapid meets
 BEYOND = 1e5  # mm
 TOLERANCE = 0.01  # mm
 
@@ -95,10 +96,10 @@ def left_by_lean(tool: Tool, way: Floats, taken: Any) -> Any:
     right, top = (shapely.get_coordinates(taken) * mirror).max(axis=0)
     along, down = end - start
     if along < 0 and -along >= abs(down) and main > math.pi / 2 - 1e-9:
-        high = max(top - end[1], 0.0)
+        high = min(max(top - end[1], 0.0), WEDGE * abs(math.tan(main)))
         wedge = [(0.0, 0.0), (tool.corner, 0.0), (-high / math.tan(main), high), (0.0, high)]
     elif down < 0 and -down >= abs(along) and tool.auxiliary_angle and auxiliary < math.pi / 2:
-        long = max(right - end[0], 0.0)
+        long = min(max(right - end[0], 0.0), WEDGE / math.tan(auxiliary))
         wedge = [(0.0, 0.0), (long, 0.0), (long, long * math.tan(auxiliary)), (0.0, tool.corner)]
     else:
         return shapely.Polygon()
