@@ -90,10 +90,27 @@ def _only(motion: Motion, ranks: Index, other: Motion, there: int, k: int, toler
         near = moves[off.argmin()]
         rapid = off.min() <= tolerance and other.kind[near] == Kind.RAPID
         row, said = int((other.last if rapid else other.row)[near]), "at rapid" if rapid else said
-    both = [(int(motion.row[cuts[0]]), several(len(cuts), "cut")), (row, said)]
+    both = [(_leaves(motion, cuts, other, there, tolerance), several(len(cuts), "cut")), (row, said)]
     (one_row, one_said), (other_row, other_said) = both[::-1] if k else both
     kind = "rapid" if not k and said == "at rapid" else "geometry"  # what one cuts the other goes at rapid
     return Found(kind, (one_row, other_row), way, "mm", (one_said, other_said), len(cuts))
+
+
+def _leaves(motion: Motion, cuts: Index, other: Motion, there: int, tolerance: float) -> int:
+    """The row of cuts, each of many blocks maybe, that first leaves the way of the cut `there` of the other; else the first."""
+    rows = np.arange(motion.row[cuts[0]], motion.last[cuts[-1]] + 1)
+    if there >= len(other.cuts):
+        return int(rows[0])
+    cut, ends = other.cuts[there], motion.path.end[rows]
+    if other.kind[cut] == Kind.ARC:
+        spokes = np.stack([ends, np.broadcast_to(other.start[cut], ends.shape)]) - other.centre[cut]
+        spokes -= (spokes @ other.axis[cut])[..., None] * other.axis[cut]
+        off = np.abs(np.subtract(*np.linalg.norm(spokes, axis=2)))
+    else:
+        begin, way = other.start[cut], other.end[cut] - other.start[cut]
+        share = ((ends - begin) @ way / max(float(way @ way), 1e-12)).clip(0.0, 1.0)
+        off = np.linalg.norm(ends - begin - share[:, None] * way, axis=1)
+    return int(rows[np.argmax(off > tolerance)])
 
 
 def _side_by_side(one: Motion, other: Motion, i: int, to_i: int, j: int, to_j: int) -> tuple[Index, Index]:

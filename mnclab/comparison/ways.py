@@ -7,7 +7,7 @@ import numpy as np
 from mnclab.comparison.found import RATE, Found, from_where
 from mnclab.comparison.motion import Motion
 from mnclab.path.listing import figure
-from mnclab.path.toolpath import Array, Index, Kind
+from mnclab.path.toolpath import Array, Index, Kind, Mask
 from mnclab.text.alarm import several
 
 SECONDS = 0.001
@@ -41,7 +41,10 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float) -
         return found
     heights = np.stack([a.low[i], b.low[j], a.last[i], b.last[j]], axis=1)
     upright = np.isinf(a.low[i]) & (a.count[i] > 0)  # only up and down
-    lower = np.maximum(_gap(np.where(upright, a.high[i], a.low[i]), b.low[j]), _gap(a.last[i], b.last[j]))
+    down = _gap(a.last[i], b.last[j])
+    deep = np.flatnonzero(down > tolerance)
+    down[deep[b.in_own_hole(j[deep], tolerance)]] = 0.0
+    lower = np.maximum(_gap(np.where(upright, a.high[i], a.low[i]), b.low[j]), down)
     beside = np.abs(a.box[i] - b.box[j]).max(axis=1)
     near = (lower > tolerance) | ((beside > tolerance) & (b.low[j] < a.high[i] - tolerance)) | one.path.lathe | other.path.lathe
     off = np.maximum(beside, np.abs(_gap(heights[:, ::2], heights[:, 1::2])).max(axis=1))
@@ -102,6 +105,23 @@ class Ways:
         if len(some):
             low, high = (ufunc.reduceat(end[:, :2], self.begin[some]) for ufunc in (np.minimum, np.maximum))
             self.box[some] = np.hstack([low, high])
+
+    def in_own_hole(self, links: Index, tolerance: float) -> Mask:
+        """Which of the rapids before cuts end straight down in a hole that the same tool has cut as deep: pecks go on there."""
+        if not len(links):
+            return np.zeros(0, dtype=bool)
+        last = self.rapids[self.begin[links] + np.maximum(self.count[links], 1) - 1]
+        ends, cuts, tool = self.motion.end[last], self.motion.end[self.motion.cuts], self.motion.tool
+        _, place = np.unique(np.round(np.vstack([ends, cuts])[:, :2] / (2 * tolerance)), axis=0, return_inverse=True)
+        place = place.reshape(-1)
+        of, order = place[: len(ends)], np.argsort(place[len(ends) :], kind="stable")
+        known = place[len(ends) :][order]
+        found = np.zeros(len(links), dtype=bool)
+        for k, (begin, stop) in enumerate(zip(np.searchsorted(known, of), np.searchsorted(known, of, "right"))):
+            here = order[begin:stop]  # cuts that end at this place
+            here = here[(here < links[k]) & (tool[self.motion.cuts[here]] == tool[last[k]])]
+            found[k] = bool((cuts[here, 2] <= ends[k, 2] + tolerance).any())
+        return found & (self.count[links] > 0) & ~self.aside[self.begin[links] + np.maximum(self.count[links], 1) - 1]
 
     def lowest(self, link: int) -> int:
         """Which of the rapids before a cut goes sideways the lowest, by its rank."""

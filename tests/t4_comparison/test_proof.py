@@ -498,3 +498,17 @@ def test_what_is_left_active_is_told_beside_the_motion(more, told):
     text = HOLE.format(5, 5, "").removesuffix("M30\n")
     found = mnc.prove(mnc.run(text, "g43"), mnc.run(text + more, "g43"))
     assert found.verdict == "same motion" and [each.values for each in found.differences] == [told]
+
+
+def test_pecks_that_go_on_in_their_own_hole_are_no_lower_rapid():
+    """G81 and cycle 200 with pecks of 3 mm make one part, whichever is trusted; a rapid beside the hole is lower."""
+    setup = mnc.Setup(tools={1: mnc.Tool(radius=3, number=1, kind="drill")}, stock=((0, 0, -20), (100, 80, 0)))
+    one = "G21 G17 G90 G94 G54 T1 M6\nS1000 M3\nG0 X20 Y20 Z20\nG99 G81 X20 Y20 Z-10 R2 F150\nX60\nX60 Y60\nG80\nG0 Z50\nM30\n"
+    other = (
+        "BEGIN PGM A MM\nTOOL CALL 1 Z S1000 F150\nL Z+20 R0 FMAX M3\nCYCL DEF 200 D\nQ200=2\nQ201=-10\nQ206=150\nQ202=3\n"
+        "Q210=0\nQ203=0\nQ204=2\nQ211=0\nL X+20 Y+20 FMAX M99\nL X+60 FMAX M99\nL Y+60 FMAX M99\nL Z+50 FMAX\nEND PGM A MM\n"
+    )
+    runs = mnc.run(one, "g43", setup), mnc.run(other, "tnc-620", setup)
+    assert [mnc.prove(*pair).verdict for pair in (runs, runs[::-1])] == ["same part", "same part"]
+    beside = mnc.run(other.replace("L Z+50 FMAX", "L X+40 FMAX\nL Z-1 FMAX\nL Z+50 FMAX"), "tnc-620", setup)
+    assert mnc.prove(runs[0], beside).verdict == "different"
