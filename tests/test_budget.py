@@ -18,7 +18,7 @@ SLACK = 40  # code lines: a mend must not wait for a budget
 
 #: Room -> code lines.
 BUDGETS = {
-    "front door": 367, "comparison": 2108, "controls": 1163, "controls/g43": 3488, "controls/jnc_t01": 509,
+    "front door": 367, "comparison": 2156, "controls": 1163, "controls/g43": 3488, "controls/jnc_t01": 509,
     "controls/mnc": 2_338, "controls/nc_31": 879, "controls/tnc_620": 14309, "controls/word_address": 562,
     "design": 9904, "geometry": 2599, "lab": 2090, "learning": 1810, "machine": 2882, "machining": 4_987,
     "path": 4449, "running": 1817, "runs": 2591, "shell": 975, "show": 8731, "text": 2292, "workpiece": 5802,

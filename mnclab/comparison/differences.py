@@ -20,6 +20,7 @@ from mnclab.text.alarm import several
 
 ROUGH = 0.02  # of a way: how far apart the tool may be on two that are divided otherwise
 BENT = 0.01  # rad: as much less of arcs has the one that has chords in their place
+CHAIN = 3  # cuts in place of one: fewer are compared one by one
 LONGEST = 4000  # cuts of a stretch that is looked at as a whole
 FLOWS = ("off", "on (M8)", "on (M7)")
 SIDES = {0: "none", 1: "left", -1: "right"}
@@ -70,6 +71,17 @@ def _of_stretches(
         a = np.setdiff1d(np.arange(i, to_i), moved[:, 0])
         b = np.setdiff1d(np.arange(j, to_j), moved[:, 1])
         many = min(len(a), len(b))
+        if many == 1 and max(len(a), len(b)) > CHAIN:  # an arc, say, and the chords in its place
+            begins = int(one.row[one.cuts[a[0]]]), int(other.row[other.cuts[b[0]]])
+            if len(a) == 1:
+                row, off = _leaves(other, other.cuts[b], one, int(a[0]), tolerance)
+                rows = begins[0], row
+            else:
+                row, off = _leaves(one, one.cuts[a], other, int(b[0]), tolerance)
+                rows = row, begins[1]
+            found.append(Found("geometry", rows, off, "mm", ("", ""), max(len(a), len(b))))
+            more.append((int(a[0]), int(b[0])))
+            continue
         found += _not_alike(one, a[:many], other, b[:many], tolerance)
         more += zip(a[:many].tolist(), b[:many].tolist())
         if len(a) > many:
@@ -90,17 +102,18 @@ def _only(motion: Motion, ranks: Index, other: Motion, there: int, k: int, toler
         near = moves[off.argmin()]
         rapid = off.min() <= tolerance and other.kind[near] == Kind.RAPID
         row, said = int((other.last if rapid else other.row)[near]), "at rapid" if rapid else said
-    both = [(_leaves(motion, cuts, other, there, tolerance), several(len(cuts), "cut")), (row, said)]
+    both = [(_leaves(motion, cuts, other, there, tolerance)[0], several(len(cuts), "cut")), (row, said)]
     (one_row, one_said), (other_row, other_said) = both[::-1] if k else both
     kind = "rapid" if not k and said == "at rapid" else "geometry"  # what one cuts the other goes at rapid
     return Found(kind, (one_row, other_row), way, "mm", (one_said, other_said), len(cuts))
 
 
-def _leaves(motion: Motion, cuts: Index, other: Motion, there: int, tolerance: float) -> int:
-    """The row of cuts, each of many blocks maybe, that first leaves the way of the cut `there` of the other; else the first."""
+def _leaves(motion: Motion, cuts: Index, other: Motion, there: int, tolerance: float) -> tuple[int, float]:
+    """The row of cuts, each of many blocks maybe, that first leaves the way of the cut `there` of the other, else the first, and
+    by how much, mm."""
     rows = np.arange(motion.row[cuts[0]], motion.last[cuts[-1]] + 1)
     if there >= len(other.cuts):
-        return int(rows[0])
+        return int(rows[0]), float("nan")
     cut, ends = other.cuts[there], motion.path.end[rows]
     if other.kind[cut] == Kind.ARC:
         spokes = np.stack([ends, np.broadcast_to(other.start[cut], ends.shape)]) - other.centre[cut]
@@ -110,7 +123,8 @@ def _leaves(motion: Motion, cuts: Index, other: Motion, there: int, tolerance: f
         begin, way = other.start[cut], other.end[cut] - other.start[cut]
         share = ((ends - begin) @ way / max(float(way @ way), 1e-12)).clip(0.0, 1.0)
         off = np.linalg.norm(ends - begin - share[:, None] * way, axis=1)
-    return int(rows[np.argmax(off > tolerance)])
+    first = int(np.argmax(off > tolerance))
+    return int(rows[first]), float(off[first]) if off[first] > tolerance else float("nan")
 
 
 def _side_by_side(one: Motion, other: Motion, i: int, to_i: int, j: int, to_j: int) -> tuple[Index, Index]:

@@ -43,7 +43,7 @@ KINDS = {
     "coolant": "another coolant",
     "order": "the same cuts in another order",
     "chords": "lines within the tolerance of an arc",
-    "lifts": "other ways between cuts, nowhere lower",
+    "lifts": "other ways between cuts, also sideways, nowhere lower",
     "leftovers": "something else is on at the end",
     "number": "another tool number, of a tool with the same measures",
 }

@@ -512,3 +512,22 @@ def test_pecks_that_go_on_in_their_own_hole_are_no_lower_rapid():
     assert [mnc.prove(*pair).verdict for pair in (runs, runs[::-1])] == ["same part", "same part"]
     beside = mnc.run(other.replace("L Z+50 FMAX", "L X+40 FMAX\nL Z-1 FMAX\nL Z+50 FMAX"), "tnc-620", setup)
     assert mnc.prove(runs[0], beside).verdict == "different"
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+def test_of_many_blocks_on_one_way_the_one_that_leaves_it_is_told(swapped):
+    """A line in 200 blocks, one of them 0.01 mm off; an arc of radius 20 in 90 chords, one of their ends 1 mm off in X."""
+    head = "G21 G17 G90 G94 G54 T1 M6\nS1000 M3\nG0 X0 Y20 Z5\nG1 Z-2 F200\n"
+    line = "".join(f"X{k / 2:.1f}\n" for k in range(1, 201))
+    ends = [(20 * math.sin(math.radians(k)), 40 - 20 * math.cos(math.radians(k))) for k in range(1, 91)]
+    chords = ["".join(f"X{x + (k == off):.4f} Y{y:.4f}\n" for k, (x, y) in enumerate(ends)) for off in (-1, 40)]
+    pairs = {
+        104: (line, line.replace("X50.0\n", "X50.0 Y20.01\n").replace("X50.5\n", "X50.5 Y20\n")),
+        45: ("G3 X20 Y40 R20\n", chords[1]),
+    }
+    for number, pair in pairs.items():
+        runs = [mnc.run(head + text + "G0 Z5\nM30\n", "g43") for text in pair]
+        found = mnc.prove(*(runs[::-1] if swapped else runs), allow=["chords"], tolerance=0.005)
+        assert found.verdict == "different" and found.first.lines[not swapped] == number
+    good = [mnc.run(head + text + "G0 Z5\nM30\n", "g43") for text in (pairs[45][0], chords[0])]
+    assert mnc.prove(*good, tolerance=0.005, allow="chords").verdict == "same motion"
