@@ -47,9 +47,10 @@ def plot_proof(found: Any, number: int | None = None, view: str = "auto", size: 
     view = choice(view, "view", ("auto", *VIEWS))
     views = [VIEWS["ZX"]] if lathe else [VIEWS["XY"], VIEWS["XZ"]]
     views = [each._replace(unit=found.unit) for each in (views if view == "auto" else [VIEWS[view]])]
-    marks = [(mark, place) for mark, place in zip((HERE, THERE), places) if place is not None]
+    named = (mark._replace(name=f"end of it in {name}") for mark, name in zip((HERE, THERE), found.names))
+    marks = [(mark, place) for mark, place in zip(named, places) if place is not None]
     names = [line.name for line, _ in lines if not line.name.startswith("_")] + [mark.name for mark, _ in marks]
-    picture, axes = arrange(views, low, high, names, Foot(one.sentence), f"{one.kind}: {one.sentence}", size)
+    picture, axes = arrange(views, low, high, names, Foot(one.sentence), one.sentence, size)
     artists: list[Line2D] = []
     for ax, each in zip(axes, views):
         drawn = [Line2D(xyz[:, each.right], xyz[:, each.up], **line.style()) for line, xyz in lines]
