@@ -35,6 +35,7 @@ from mnclab.shell.saying import (
     describe,
     environment,
     program,
+    refuse,
     say,
     sensible,
     with_blank,
@@ -99,7 +100,7 @@ def obeyed(arguments: Sequence[str] | None) -> int:
     chosen.rest = rest
     try:
         if getattr(chosen, "json", False) and getattr(chosen, "csv", None) in ("", "-"):
-            raise Alarm("only one of --csv and --json goes to stdout", hint="write the table to a file: --csv OUT.csv")
+            refuse("only one of --csv and --json goes to stdout", "write the table to a file: --csv OUT.csv")
         return int(chosen.do(chosen))
     except Alarm as alarm:  # there is no program in the file
         say(alarm, getattr(chosen, "file", ""))

@@ -96,7 +96,8 @@ class Revolved(NamedTuple):
         return written(self)
 
     def _repr_svg_(self) -> str | None:
-        return svg_of(self.outline(0, 1), self.outline(0, 2))
+        body = blank(self)  # None where the profile is none
+        return svg_of(body.outline(0, 1), body.outline(0, 2)) if body else None
 
     @property
     def along(self) -> int:
