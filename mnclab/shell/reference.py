@@ -14,11 +14,16 @@ from inspect import Parameter, formatannotation, getdoc, isclass
 from types import ModuleType
 from typing import Any, get_args
 
+from numpy.typing import ArrayLike
+
+from mnclab.text.signatures import parts
+
 HIDDEN = {"load_ipython_extension"}
 NOT_SAID = re.compile(r"^(Alias for field number|Create new instance of).*")  # what Python says of a named tuple
 RESULTS = "results"
 WHAT_RESULTS = "What calls give back: classes that have no place on a shelf, as nobody makes one by hand."
 UNPACKED = re.compile(r"\*?<class '([\w.]+)'>")
+LIKE = formatannotation(ArrayLike)  # a union of what numpy makes an array of
 LONG = 60  # letters of a default
 OF_GETTERS = "Return a callable object that fetches"  # the text of Python's attrgetter
 ARRAY = re.compile(r"(?:numpy|np)\.ndarray\[tuple\[(?:typing\.)?Any, \.\.\.\], numpy\.dtype\[(?:numpy\.)?(\w+)\]\]")
@@ -98,7 +103,7 @@ def _short(default: Any) -> Any:
 
 def about(name: str) -> str:
     """What a page says of itself: of the front door the beginning, without the map of the house."""
-    said = (getdoc(sys.modules[name]) or "").replace("::", ":") if name != RESULTS else WHAT_RESULTS
+    said = (getdoc(sys.modules[name]) or "").replace(" ::", "").replace("::", ":") if name != RESULTS else WHAT_RESULTS
     return "\n\n".join(said.split("\n\n")[:2])
 
 
@@ -146,7 +151,10 @@ def _told(annotation: Any, given: Mapping[str, str]) -> Any:
         return annotation
     text = annotation if isinstance(annotation, str) else formatannotation(annotation)
     text = UNPACKED.sub(lambda found: found[1].rpartition(".")[2], text)
-    text = "ArrayLike" + " | None" * text.endswith("| None") if "_array_like." in text else text
+    text = text.replace(LIKE, "ArrayLike")
+    if "_array_like." in text:  # in one union with what stands beside it
+        kinds = parts(text.replace(LIKE.partition("[")[2][:-1], "ArrayLike").partition("[")[2].removesuffix("]"), ",")
+        text = " | ".join(each.replace("NoneType", "None") for each in kinds)
     text = re.sub(r"ForwardRef\('([^']+)'[^()]*\)", r"\1", ARRAY.sub(r"NDArray[\1]", text))
     text = re.sub(r"\bmnclab(?:\.\w+)+", lambda found: given.get(found[0], found[0].rpartition(".")[2]), text)
     return Told(KNOWN.sub("", text))
