@@ -180,13 +180,13 @@ def deviation(
     longest = max(one.length, other.length, 1e-3)
     step = longest / PLACES if step is None else step
     check_number(step, "step (mm)", above=0, at_least=longest / MOST)
-    strokes = [_strokes(path, chord_error) for path in (one, other)]
+    strokes = [strokes_of(path, chord_error) for path in (one, other)]
     looks = [_places(*parts, step) for parts in strokes]
     first, second = (Traces(*look, _nearest(look[0], *against[:2])) for look, against in zip(looks, strokes[::-1]))
     return Deviation((one, other), names, first, second, step, times, reaches, rapids)
 
 
-def _strokes(path: Toolpath, chord_error: float) -> tuple[Array, Array, NDArray[np.int64]]:
+def strokes_of(path: Toolpath, chord_error: float) -> tuple[Array, Array, NDArray[np.int64]]:
     """Straight pieces of the motion: starts and ends (n, 3) and rows (n,)."""
     xyz, row = points(path, chord_error)
     if not len(row):
@@ -395,13 +395,13 @@ def diff(
     check_number(tolerance, "the tolerance (mm)", at_least=0)
     if choice(what, "what", ("path", "holes")) == "holes":
         found = [holes(each) if isinstance(each, Toolpath) else each.holes() for each in (one, other)]
-        return compare_holes(found[0], found[1], _names(one, other), tolerance)
+        return compare_holes(found[0], found[1], names_of(one, other), tolerance)
     times = None
     if not isinstance(one, Toolpath) and not isinstance(other, Toolpath):
         times = one.profile().time, other.profile().time
     paths = [each if isinstance(each, Toolpath) else each.toolpath for each in (one, other)]
     reaches, rapids = (_reach(one), _reach(other)), (_rapids(one), _rapids(other))
-    return deviation(paths[0], paths[1], _names(one, other), step, times=times, reaches=reaches, rapids=rapids)
+    return deviation(paths[0], paths[1], names_of(one, other), step, times=times, reaches=reaches, rapids=rapids)
 
 
 def _rapids(one: Ran | Toolpath) -> Limits | None:
@@ -414,7 +414,7 @@ def _reach(one: Ran | Toolpath) -> str:
     return "" if isinstance(one, Toolpath) else one.reach
 
 
-def _names(one: Ran | Toolpath, other: Ran | Toolpath) -> tuple[str, str]:
+def names_of(one: Ran | Toolpath, other: Ran | Toolpath) -> tuple[str, str]:
     """What both are called: their programs, and where these are called alike, their controls or their order too."""
     first, second = ("path" if isinstance(each, Toolpath) else str(each.program.title) for each in (one, other))
     if first != second:

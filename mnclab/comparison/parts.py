@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.comparison.diff import _strokes
+from mnclab.comparison.diff import strokes_of
 from mnclab.comparison.found import Found
 from mnclab.comparison.motion import Motion
 from mnclab.geometry.curves import at_angle, counted
@@ -105,7 +105,7 @@ def _beside(motion: Motion, rows: Mask, top: float, tolerance: float) -> Array |
     the blank, and all round their ends; None if they would be too many."""
     path = motion.path
     cuts = path[rows & path.is_motion & ((np.minimum(path.start, path.end)[:, 2] < top) | (path.kind == Kind.ARC))]
-    start, end, row = _strokes(cuts, max(tolerance, 1e-3))
+    start, end, row = strokes_of(cuts, max(tolerance, 1e-3))
     if not len(row):
         return np.empty((0, 2))
     way = (end - start)[:, :2]

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.comparison.diff import _names
+from mnclab.comparison.diff import names_of
 from mnclab.comparison.differences import differences
 from mnclab.comparison.found import Found
 from mnclab.comparison.motion import motion_of
@@ -251,7 +251,7 @@ def proof(one: Any, other: Any, tolerance: float = 0.001, allow: Collection[str]
     serious = {each.kind for each in found} - {*allowed, *BESIDE}
     still = not any(motion.path.is_motion.any() for motion in motions)  # which proves nothing
     verdict = DIFFERENT if part or still or serious & {*UNSAFE} else SAME_PART if serious else SAME_MOTION
-    names = _names(one, other)
+    names = names_of(one, other)
     told = tuple(_told(each, runs, names, allowed) for each in found)
     return Proof(verdict, told, names, float(tolerance), (one.toolpath, other.toolpath), part)
 
