@@ -17,6 +17,8 @@ from mnclab.controls.survey import run_many as run_many
 from mnclab.design.model import Design as Design
 from mnclab.design.model import TurnedDesign as TurnedDesign
 from mnclab.lab.editor import editor as editor
+from mnclab.geometry.kinematics import Axis as Axis
+from mnclab.geometry.kinematics import Kinematics as Kinematics
 from mnclab.lab.forms import compensation_panel as compensation_panel
 from mnclab.lab.forms import form as form
 from mnclab.lab.forms import panel as panel
@@ -32,7 +34,7 @@ from mnclab.machine.probe import Setter as Setter
 from mnclab.machine.setup import Datum as Datum
 from mnclab.machine.setup import Setup as Setup
 from mnclab.path.limits import Limits as Limits
-from mnclab.path.limits import machines as machines
+from mnclab.path.machines import machines as machines
 from mnclab.path.profile import Profile as Profile
 from mnclab.path.profile.stopwatch import fit_limits as fit_limits
 from mnclab.path.tool import Tool as Tool

@@ -26,7 +26,8 @@ from mnclab.machining.milling.engagement import Engagement
 from mnclab.machining.milling.entries import VERTICAL, Entry, toolpath
 from mnclab.machining.milling.rest import left_between, reached, rest_passes
 from mnclab.machining.milling.strategies import STRATEGIES, TANGENT, clear
-from mnclab.path.limits import Limits, limits_of
+from mnclab.path.limits import Limits
+from mnclab.path.machines import limits_of
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import ColumnsOptions, check_number, choice, faults_as_alarms, fitting, plain, shown

@@ -23,7 +23,8 @@ from mnclab.geometry.regions import Region
 from mnclab.machining.milling.entries import VERTICAL, Entry
 from mnclab.machining.milling.strategies import STRATEGIES, rest
 from mnclab.machining.steps import RAPID, Go, traced
-from mnclab.path.limits import Limits, limits_of
+from mnclab.path.limits import Limits
+from mnclab.path.machines import limits_of
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath, concatenate
 from mnclab.text.alarm import Alarm

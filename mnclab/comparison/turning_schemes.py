@@ -40,7 +40,8 @@ from mnclab.machining.turning.profiles import CLOSED, COMBINED, OPEN, SEMI_OPEN,
 from mnclab.machining.turning.schemes import SCHEMES
 from mnclab.machining.turning.strokes import PLUNGE, RAPID, ROLES, Plan
 from mnclab.path.inserts import edges_of
-from mnclab.path.limits import Limits, limits_of
+from mnclab.path.limits import Limits
+from mnclab.path.machines import limits_of
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.text.alarm import Alarm

@@ -19,7 +19,7 @@ from mnclab.machine.cycle import help_html, help_text
 from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import load
 from mnclab.machine.terms import BETWEEN, Term, having, plain, terms
-from mnclab.path.limits import limits_of
+from mnclab.path.machines import limits_of
 from mnclab.path.tool import Tool
 from mnclab.runs.run import EXAMPLE, Run, run_program
 from mnclab.text.alarm import ALARM, Alarm, hint

@@ -122,6 +122,13 @@ class Kinematics:
         if not isinstance(self.title, str):
             raise Alarm(f"title must be a text, got {shown(self.title)}")
 
+    def __str__(self) -> str:
+        """`A and C in the table, A from -120 to 120°`."""
+        sides = [(each, where) for each, where in ((self.head, "head"), (self.table, "table")) if each]
+        said = [f"{' and '.join(axis.name for axis in each)} in the {where}" for each, where in sides]
+        bounds = [(axis, axis.limits) for axis in self.sequence if axis.limits != (-math.inf, math.inf)]
+        return ", ".join(said + [f"{axis.name} from {low:g} to {high:g}°" for axis, (low, high) in bounds])
+
     @property
     def sequence(self) -> tuple[Axis, ...]:
         """The axes from the part to the tool."""
@@ -222,8 +229,8 @@ class Kinematics:
             else:
                 outer = outer @ axis.turns(now[:, axis.number])[:, :3, :3]
         tool = outer[:, :, 2]
-        pairs = _one(lines[0], tool, d, now[:, used[0].number]) if len(used) == 1 else _two(
-            *lines, tool, d, now[:, used[0].number])  # fmt: skip
+        first = now[:, used[0].number]
+        pairs = _one(lines[0], tool, d, first) if len(used) == 1 else _two(lines[0], lines[1], tool, d, first)
         found = np.stack([now, now])
         for axis, angles in zip(used, pairs):
             found[..., axis.number] = [_nearest(axis, each, now[:, axis.number]) for each in angles]

@@ -31,7 +31,7 @@ from mnclab.lab.vocabulary import Choices, completions, meaning_at, rest_of, voc
 from mnclab.machine.control import Control
 from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import load
-from mnclab.path.limits import machines
+from mnclab.path.machines import machines
 from mnclab.path.tool import Tool
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm

@@ -168,9 +168,7 @@ def along_z(m: Machine) -> Iterator[None]:
     m.set_register(place[order.index(axis)] for axis in range(3))
 
 
-# Rotary axes: their angles are told in the rows of a path; where the tool tip stands on the workpiece is not changed.
-# Without the kinematics of a machine the axes A, B and C are positions of their own. A move of theirs alone is a row without
-# length that takes the time of the axis with the longest way; beside a move of the linear axes they arrive with the tip.
+# Rotary axes: their angles are told in the rows of a path; how they move stands in `machine.axes`.
 
 AXES = "ABC"
 Angles = tuple[float, float, float]
@@ -186,23 +184,6 @@ def angles(m: Machine) -> Angles:
 def set_angles(m: Machine, to: Angles) -> None:
     """The next row arrives at these angles, degrees."""
     m.change("rotary", tuple(map(math.radians, to)))
-
-
-def turning_feed(m: Machine) -> float:
-    """The modal feed for axes that turn alone: the number of the program as degrees a minute, a reading in inches too."""
-    return m.feed_of(None) / (m.variable_unit if m.per_rev else m.feed_unit)
-
-
-def turn_axes(m: Machine, to: Angles, f: float | None) -> None:
-    """Turn to angles (degrees) while the tip stands; `f` is in degrees a minute, infinite at rapid, None the modal feed.
-
-    The time of a rapid turn is not known: no limits of rotary axes are.
-    """
-    way = max(abs(new - old) for new, old in zip(to, angles(m), strict=True))
-    set_angles(m, to)
-    rate = turning_feed(m) if f is None else f
-    kind = Kind.LINE if math.isfinite(rate) else Kind.RAPID
-    m.add_row(kind, m.tip, feed=math.radians(rate), time=60 * way / rate if kind == Kind.LINE else math.nan)
 
 
 def roll(m: Machine, cylinder: Cylinder, points: NDArray[np.float64], angles: NDArray[np.float64],

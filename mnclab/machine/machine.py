@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import numpy as np
 
 from mnclab.machine import rows
+from mnclab.machine.axes import change_length, stand
 from mnclab.machine.control import chosen
 from mnclab.machine.coordinates import Placed
 from mnclab.machine.flow import Flow, Recording
@@ -228,16 +229,22 @@ class Machine(Placed):
 
         The tool lies along an `axis` of the machine, the one that was there along the axis `before`.
         """
-        tip = list(self.tip)
-        if axis == before:
-            tip[axis] += self.tool.effective_length - tool.effective_length
-        else:
-            tip[before] += self.tool.effective_length
-            tip[axis] -= tool.effective_length
+        length = self.tool.effective_length
         self.change("tool", tool)
-        self.tip = tuple(tip)  # type: ignore[assignment]
+        if self.setup.kinematics is not None:
+            if axis != 2:
+                self.alarm(f"the tool must lie along Z on a machine with rotary axes, got {'XYZ'[axis]}")
+            change_length(self, length)
+        else:
+            tip = list(self.tip)
+            if axis == before:
+                tip[axis] += length - tool.effective_length
+            else:
+                tip[before] += length
+                tip[axis] -= tool.effective_length
+            self.tip = tuple(tip)  # type: ignore[assignment]
         self.add_row(Kind.TOOL, self.tip)
-        self.read_position()
+        stand(self)
 
     def stop(self) -> None:
         self.add_row(Kind.STOP, self.tip)

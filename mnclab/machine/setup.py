@@ -9,9 +9,11 @@ from pathlib import Path
 from types import MappingProxyType, UnionType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from mnclab.geometry.kinematics import Kinematics
 from mnclab.machine.probe import Probe, Setter
-from mnclab.path.limits import Limits, limits_of
+from mnclab.path.limits import Limits
 from mnclab.path.listing import figure
+from mnclab.path.machines import MachineFile, kinematics_of, limits_of
 from mnclab.path.tool import Tool, Wear
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import LARGEST, check_number, check_point, fitting_class, of_python, shown
@@ -100,7 +102,8 @@ class Datum(_Datum):
 
 ROWS = ("tools", "datums", "presets", "correctors", "true_tools")
 NAMED = ("files", "settings", "variables")
-NOT_BUILT = ("kinematics",)
+
+NAMED_BY: dict[str, Callable[[Any], Any]] = {"limits": limits_of, "kinematics": kinematics_of}
 
 Check = Callable[[str, Any], None]  # an Alarm unless what is given for a part, or for a piece of it, is right
 
@@ -188,10 +191,7 @@ def _tool(what: str, given: Any) -> None:
         raise Alarm(f"{what} must be a Tool, got {shown(given)}", hint=hint)
 
 
-def _not_built(what: str, given: Any) -> None:
-    if given is not None:
-        raise Alarm(f"Setup({what}=…) is not built yet: {MEANT[what][1]}", hint=f"leave {what} out")
-
+TURNS = 'the rotary axes of the machine: Setup(kinematics="table-ac"), or mnclab.Kinematics(table=(mnclab.Axis("C"),))'
 
 #: What each part of a setup is: what checks it, and the hint of an alarm about it.
 MEANT: Mapping[str, tuple[Check, str]] = {
@@ -219,7 +219,8 @@ MEANT: Mapping[str, tuple[Check, str]] = {
                  "choices of the control, listed by mnclab.help(\"settings\", control): "
                  'Setup(settings={"block_skip": True})'),
     "variables": (_names(_variable), 'values that are there before the program: Setup(variables={"QR1": 2.5})'),
-    "kinematics": (_not_built, "the axes of the machine stand square to each other"),
+    "kinematics": (_a(Kinematics | None, "a Kinematics, or the name of a machine that has one"), TURNS),
+    "true_kinematics": (_a(Kinematics | None, "a Kinematics"), "where the rotary axes truly are: Setup(true_kinematics=…)"),
     "true_tools": (_by_number(_a(Tool, "a Tool")),
                    "what a tool truly is, beside its row of the table: Setup(true_tools={1: mnclab.Tool(radius=3.98)})"),
 }  # fmt: skip
@@ -251,7 +252,9 @@ class Setup:
     (`run.variables`). `source` is the file that the setup was read from: an alarm about a setting shows its line.
     `true_tools` are the tools as they truly are, by the number of their row in the table, where they differ from it (what is
     not said of one is as the table has it): what cuts, and what probing and measuring find. `setter` is the tool setter that
-    measures them, if there is one. `kinematics` is not built yet. An Alarm names what cannot be.
+    measures them, if there is one. `kinematics` are the rotary axes of the machine, or the name of one that has some; None:
+    three axes, and A B C are positions of their own. `true_kinematics` is where they truly are, None: as the control has it. An
+    Alarm names what cannot be.
 
     >>> mnc.Setup(tools={1: mnc.Tool(diameter=10)}, stock=(80, 60, 20))
     Setup
@@ -278,6 +281,7 @@ class Setup:
     files: Mapping[str, str | Path] = field(default_factory=dict)
     settings: Mapping[str, Any] = field(default_factory=dict)
     kinematics: Any = None
+    true_kinematics: Kinematics | None = None
     true_tools: Mapping[int, Tool] = field(default_factory=dict)
     setter: Setter | None = None
     variables: Mapping[str, float | str] = field(default_factory=dict)
@@ -286,11 +290,12 @@ class Setup:
     def __post_init__(self) -> None:
         if isinstance(own := getattr(self.part, "part", None), Part):  # of a workpiece or a design
             object.__setattr__(self, "part", own)
-        if isinstance(self.limits, str):
-            try:
-                object.__setattr__(self, "limits", limits_of(self.limits))
-            except Alarm as alarm:
-                raise Alarm(f"limits: {alarm.message}", hint=alarm.hint) from None
+        for name, named in NAMED_BY.items():
+            if isinstance(given := getattr(self, name), str | MachineFile):
+                try:
+                    object.__setattr__(self, name, named(given))
+                except Alarm as alarm:
+                    raise Alarm(f"{name}: {alarm.message}", hint=alarm.hint) from None
         for name, (check, means) in MEANT.items():
             try:
                 check(name, getattr(self, name))
@@ -418,6 +423,8 @@ def _told(setup: Setup) -> Iterator[tuple[str, str]]:
     if setup.setter is not None:
         yield "setter", ", ".join(_different(setup.setter, type(setup.setter)())) or "as usual"
     yield "limits", ", ".join(_different(setup.limits, Limits())) or "as usual"
+    if setup.kinematics is not None:
+        yield "rotary axes", str(setup.kinematics)
     yield "start", place(setup.start)
     for name, title in NAMED_TITLES.items():
         yield from ((f"{title} {key}", shown(each)) for key, each in getattr(setup, name).items())

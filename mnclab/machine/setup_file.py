@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from mnclab.machine.probe import Probe, Setter
-from mnclab.machine.setup import NOT_BUILT, Datum, Setup
-from mnclab.path.limits import Limits, limits_of
+from mnclab.machine.setup import Datum, Setup
+from mnclab.path.limits import Limits
+from mnclab.path.machines import kinematics_in, kinematics_of, limits_of
 from mnclab.path.tool import Tool, record
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import File, as_table, as_tables, check_names, parse
@@ -52,6 +53,9 @@ high = [0, 40, 15]
                                # spindle, spindle_acceleration, tool_change; a number, or [x, y, z] per axis;
                                # travel = [[0, 400], [0, 300], [-200, 0]]: how far the axes go, machine coordinates;
                                # or, above all tables, limits = "small-mill", a machine that has a name
+[kinematics]                   # the rotary axes, from the machine on: head to the tool, table to the part; or, above all
+table = [{ name = "A", centre = [0, 0, 50], limits = [-120, 120] }, { name = "C" }]  # tables, kinematics = "table-ac"
+                               # of an axis also direction = [x, y, z] and home, degrees; [true_kinematics] is written alike
 [probe]                        # clearance, reach, feed, rapid, positioning, track, angle, offset [x, y]: as its table has it;
                                # true_offset, deflection [x, y, z], spread, seed, stem, stem_length: as it is
 [setter]                       # what measures tools, machine coordinates: x, y, z, diameter of a plate; or axis "X" or "Y" of a
@@ -65,7 +69,8 @@ high = [0, 40, 15]
 
 ROWS = {"tools": Tool, "datums": Datum, "presets": Datum, "correctors": Datum, "true_tools": Tool}
 RECORDS = {"limits": Limits, "probe": Probe, "setter": Setter}
-KNOWN = ("start", "stock", "part", "fixtures", *ROWS, *RECORDS, "settings", "files", "variables")
+TURNING = ("kinematics", "true_kinematics")
+KNOWN = ("start", "stock", "part", "fixtures", *ROWS, *RECORDS, *TURNING, "settings", "files", "variables")
 
 
 def load(path: str | Path) -> Setup:
@@ -75,7 +80,7 @@ def load(path: str | Path) -> Setup:
 
 def setup_of(table: Mapping[str, Any], file: File) -> Setup:
     """The setup that a table writes."""
-    check_names(table, (*KNOWN, *NOT_BUILT), "a setup", file)
+    check_names(table, KNOWN, "a setup", file)
     found: dict[str, Any] = {}
     for name, value in table.items():
         with file.at(name):
@@ -90,8 +95,8 @@ def setup_of(table: Mapping[str, Any], file: File) -> Setup:
                 found[name] = limits_of(value)
             elif name in RECORDS:
                 found[name] = _record(RECORDS[name], value, file, name)
-            elif name in NOT_BUILT:
-                found[name] = value or True
+            elif name in TURNING:
+                found[name] = kinematics_of(value) if isinstance(value, str) else kinematics_in(value, file, name=name)
             else:
                 found[name] = TABLES[name](as_table(value, name), name, file)
             Setup(**{name: found[name]})  # what is wrong with this part alone is shown at its place

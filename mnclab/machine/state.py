@@ -334,7 +334,10 @@ class State:
     origin: Place | None = part(None)  # the first datum, from which the path counts
     origin_chosen: bool = part(False)  # by a block
     pole: tuple[float, float] | None = part(None)
-    rotary: Place = part((0.0, 0.0, 0.0), rows=True, history=True)  # A, B, C, radians
+    rotary: Place = part(lambda m: m.setup.kinematics.home if m.setup.kinematics else (0.0, 0.0, 0.0), rows=True, history=True)
+    """A, B, C, radians."""
+    reckoned: Place | None = part((0.0, 0.0, 0.0))  # with which coordinates count; None: as they stand, the tip is led
+    turned: Matrix | None = part(None)  # what becomes of the part where they stand elsewhere, before all frames
     cylinder: int = part(-1, rows=True)  # of those of the recorder, on which the rows lie that are made now
     from_angle: float = part(NAN, rows=True)  # where its axis stood before the row, rad
     pending: Pending | None = part(None)  # motion that waits for later blocks
@@ -398,14 +401,14 @@ class State:
 
     def compose(self) -> None:
         """The chain of frames has changed."""
-        self.matrix = self.frames.matrix
+        self.matrix = self.frames.matrix if self.turned is None else self.turned @ self.frames.matrix
         x, y, z = self.matrix[:3, 3].tolist()
         self.shift = (x, y, z) if frames.is_shift(self.matrix) else None
         self.row_state = None
 
     def put(self, **values: Any) -> None:
         vars(self).update(values)
-        if "frames" in values:
+        if "frames" in values or "turned" in values:
             self.compose()
         elif not ROWS.isdisjoint(values):
             self.row_state = None

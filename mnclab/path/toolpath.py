@@ -18,6 +18,7 @@ from mnclab.text.tables import Columned, Pictured, fixed
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from mnclab.geometry.kinematics import Kinematics
     from mnclab.path.cylinder import Cylinder
     from mnclab.path.listing import Unit
 
@@ -200,7 +201,7 @@ class Toolpath(Pictured, Columned, Columns):
     `labels`, `joints` and `cylinders` are what columns index; `origin` (3,) is the machine position, mm,
     that all positions are relative to; `lathe` says that pictures and listings show X (a radius) and Z, `inches` that
     listings and tables are in inches, `tenths` that their feeds are in tenths of an inch a minute. The columns are always
-    in mm.
+    in mm. `kinematics` is what turns the tool and the part by the angles of `rotary`, None where nobody says.
 
     >>> mnc.run("G0 X5\\nG1 Y10 F100\\n", "mnc").toolpath[0]
     <Move line 1 rapid X5 Y0 Z0>
@@ -209,7 +210,7 @@ class Toolpath(Pictured, Columned, Columns):
     def __init__(
         self, columns: dict[str, NDArray[Any]], labels: Sequence[str] = ("",), joints: Sequence[Any] = (),
         origin: Iterable[float] = (0.0, 0.0, 0.0), lathe: bool = False, inches: bool = False,
-        cylinders: Sequence[Cylinder] = (), tenths: bool = False,
+        cylinders: Sequence[Cylinder] = (), tenths: bool = False, kinematics: Kinematics | None = None,
     ) -> None:  # fmt: skip
         self._n = len(columns["kind"])
         for name, each in COLUMNS.items():
@@ -221,7 +222,7 @@ class Toolpath(Pictured, Columned, Columns):
             setattr(self, name, fixed(np.asarray(column, dtype=each.dtype)))
         self.labels, self.joints, self.cylinders = tuple(labels), tuple(joints), tuple(cylinders)
         self.origin = fixed(np.asarray(tuple(origin), dtype=np.float64))
-        self.lathe, self.inches, self.tenths = lathe, inches, tenths
+        self.lathe, self.inches, self.tenths, self.kinematics = lathe, inches, tenths, kinematics
 
     @classmethod
     def chain(cls, vertices: Array, columns: dict[str, NDArray[Any]], **more: Any) -> Toolpath:
@@ -235,7 +236,7 @@ class Toolpath(Pictured, Columned, Columns):
 
     def notes(self) -> dict[str, Any]:
         """What is known of the path as a whole."""
-        return {name: getattr(self, name) for name in ("origin", "lathe", "inches", "cylinders", "tenths")}
+        return {name: getattr(self, name) for name in ("origin", "lathe", "inches", "cylinders", "tenths", "kinematics")}
 
     @property
     def unit(self) -> Unit:
@@ -285,7 +286,7 @@ class Toolpath(Pictured, Columned, Columns):
         return Toolpath(whole, self.labels, self.joints, **self.notes())
 
     def annotated(self, **more: Any) -> Toolpath:
-        """The same columns with other `labels`, `joints`, `origin`, `lathe`, `inches`, `cylinders` or `tenths`."""
+        """The same columns with other `labels`, `joints`, `origin`, `lathe`, `inches`, `cylinders`, `tenths`, `kinematics`."""
         kept = {"labels": self.labels, "joints": self.joints, **self.notes()}
         return Toolpath({name: getattr(self, name) for name in COLUMNS}, **{**kept, **more})
 
@@ -302,6 +303,14 @@ class Toolpath(Pictured, Columned, Columns):
     @property
     def motion(self) -> Toolpath:
         return self[self.is_motion]
+
+    @cached_property
+    def directions(self) -> Array:
+        """The direction of the tool on the part at the end of each row (n, 3), from the tip to the spindle: along Z of a machine
+        without kinematics."""
+        if self.kinematics is None or not self.rotary.any():
+            return fixed(np.broadcast_to(np.array([0.0, 0.0, 1.0]), (self._n, 3)))
+        return fixed(self.kinematics.orientation(self.rotary)[:, :, 2])
 
     @cached_property
     def lengths(self) -> Array:

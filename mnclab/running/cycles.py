@@ -14,7 +14,8 @@ import numpy as np
 from mnclab.geometry.arcs import FULL
 from mnclab.geometry.contours import Contour
 from mnclab.machine import coordinates
-from mnclab.machine.coordinates import FRAME, MILLS, in_mm, roll, tool_axis, turn_axes
+from mnclab.machine.axes import turn_axes
+from mnclab.machine.coordinates import FRAME, MILLS, in_mm, roll, tool_axis
 from mnclab.machine.cycle import Cycle, Definition, Parameter
 from mnclab.machine.flow import put_out
 from mnclab.machine.machine import Machine

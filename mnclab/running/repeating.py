@@ -165,7 +165,7 @@ def visit(
     rows = np.array(m.recorder.rows).reshape(-1, len(ROW))
     if m.recorder.count != waiting or not len(rows) or before.differences(state(m)):
         return None
-    inside = frames.apply(frames.inverse(m.frames.matrix), rows[:, _END])[:, :2]
+    inside = frames.apply(frames.inverse(m.matrix), rows[:, _END])[:, :2]
     there = np.asarray((np.abs(inside - place) < SAME).all(axis=1))
     lead = int(np.argmax(there))
     if not there[lead] or not (np.abs(inside[:lead] - came) < SAME).all():
@@ -225,7 +225,7 @@ def _moved(
 ) -> None:  # fmt: skip
     """Hand the rows of a visit, repeated at the places (n, 2) of the program, to the recorder; the tool is at the last."""
     level = m.programmed[2]
-    tips = frames.apply(m.frames.matrix, np.column_stack([places, np.full(len(places), level)]))
+    tips = frames.apply(m.matrix, np.column_stack([places, np.full(len(places), level)]))
     base = np.broadcast_to(tips[:, None, :], (len(tips), len(model.rows), 3))
     if model.lead:
         base = base.copy()

@@ -25,13 +25,15 @@ from mnclab.machine.setup import Setup, Tables
 from mnclab.machine.touching import stop_at_part
 from mnclab.path.compensation import Gouge
 from mnclab.path.holes import Holes, holes
-from mnclab.path.limits import Limits, Stopped, limits_of
+from mnclab.path.limits import Limits, Stopped
+from mnclab.path.machines import limits_of
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Index, Kind
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs import card, lint, material
+from mnclab.runs.axes import AxisPositions
 from mnclab.runs.explanation import Explanation
 from mnclab.runs.faults_ahead import faults_ahead
 from mnclab.runs.history import History, Moment, tables_at_end
@@ -150,6 +152,11 @@ class Run(Pictures):
         last = len(self.steps.block) - 1
         found = {name: self.history.value(prefix + name, last) for name in values}
         return {name: value for name, value in found.items() if value is not None}
+
+    def axes(self) -> AxisPositions:
+        """Where the axes of the machine stand at the end of every row of `toolpath`; see `AxisPositions`."""
+        first = self.setup.tools[0] if self.setup.tools and 0 in self.setup.tools else self.control.magazine[0]
+        return AxisPositions(self.toolpath, self.history, first.effective_length)
 
     @property
     def ok(self) -> bool:

@@ -14,7 +14,7 @@ from mnclab.controls.survey import files_of
 from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import load
 from mnclab.path.limits import Limits
-from mnclab.path.limits import load as load_machine
+from mnclab.path.machines import load as load_machine
 from mnclab.path.profile import Profile
 from mnclab.runs.run import Run
 from mnclab.shell.saying import ALARMS, CLEAN, INTERRUPTED, nothing_in, program, refuse, say, sensible, write_table

@@ -9,7 +9,7 @@ import mnclab
 from mnclab import Alarm, Setup
 from mnclab.geometry import dxf, svg
 from mnclab.machine.setup_file import load
-from mnclab.path.limits import load as load_machine
+from mnclab.path.machines import load as load_machine
 from mnclab.text import file
 
 CALL = "0 BEGIN PGM A MM\n1 CALL PGM {}\n2 END PGM A MM\n"

@@ -8,7 +8,7 @@ import pytest
 
 from mnclab import Alarm
 from mnclab import __main__ as shell
-from mnclab.path import limits
+from mnclab.path import machines as limits
 from mnclab.text.tables import clock
 
 PROGRAM = "G90 G54\nT1\nG1 X30 F6000\nG4 P0.5\nG0 X0\n"

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mnclab.path.limits import Limits, limits_of
+from mnclab.path.limits import Limits
 from mnclab.path.listing import point
+from mnclab.path.machines import limits_of
 from mnclab.path.places import Bends
 from mnclab.path.profile.lookahead import running_sum
 from mnclab.path.profile.timing import PlannedRows, plan

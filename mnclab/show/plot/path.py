@@ -14,7 +14,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from mnclab.path.limits import Limits, limits_of
+from mnclab.path.limits import Limits
+from mnclab.path.machines import limits_of
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Kind, Mask, Toolpath
 from mnclab.show.plot import colours

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.path.limits import limits_of
 from mnclab.path.listing import Unit, figure
+from mnclab.path.machines import limits_of
 from mnclab.path.tool import LATHE, Tool
 from mnclab.path.toolpath import Kind
 from mnclab.show.report.document import (

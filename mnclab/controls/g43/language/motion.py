@@ -13,9 +13,10 @@ from mnclab.controls.g43.settings import REFERENCES
 from mnclab.controls.g43.state import ISO, Offsets, Polar, memory, seconds_of_p, silent, undescribed, whole
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import ARCS, AXES, CENTRE, SPINDLE, first_word
+from mnclab.machine.axes import travel, turn_axes
 from mnclab.machine.control import Control, FunctionTable, Modal, Words
 from mnclab.machine.coordinates import AXES as ROTARY
-from mnclab.machine.coordinates import PLANES, Angles, angles, set_angles, turn_axes
+from mnclab.machine.coordinates import PLANES, Angles, angles, set_angles
 from mnclab.machine.cycle import Given, Values
 from mnclab.machine.machine import Machine
 from mnclab.text.alarm import Alarm
@@ -46,6 +47,9 @@ def go(m: Machine, to: dict[str, float], turned: Angles | None, rapid: bool, wor
     """A straight move, at rapid or at the modal feed, with which the rotary axes arrive; they may also turn alone."""
     f = math.inf if rapid else None
     if turned is not None and turned != angles(m):
+        if m.setup.kinematics is not None:
+            travel(m, turned, m.target(to.get("x"), to.get("y"), to.get("z")) if to else None, f, word)
+            return
         if math.dist(m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z"))), m.tip) <= 1e-9:  # a frame rounds
             turn_axes(m, turned, f)
             return

@@ -13,9 +13,10 @@ from mnclab.controls.tnc_620.language.m_functions import refuse_rotary
 from mnclab.controls.tnc_620.language.values import above_zero, counted, in_units, one_of, refuse_on_cylinder
 from mnclab.controls.tnc_620.state import Place, memory
 from mnclab.geometry.arcs import tangent_arc_of_one
+from mnclab.machine.axes import travel, turn_axes
 from mnclab.machine.control import Function, FunctionTable, Words
 from mnclab.machine.coordinates import AXES as AXES_OF_ROTATION
-from mnclab.machine.coordinates import PLANES, Angles, angles, set_angles, turn_axes
+from mnclab.machine.coordinates import PLANES, Angles, angles, set_angles
 from mnclab.machine.machine import Machine
 from mnclab.path.corners import Chamfer, Corner, Open, Prolonged, Rounding
 from mnclab.text.program import Word
@@ -181,6 +182,9 @@ def line(m: Machine, words: Words) -> None:
         refuse_rotary(m, turns[0])
         if memory(m).developed is not None:
             m.alarm(f"{turns[0]}: the contour of a cylinder has X and Y alone, X for the rotary axis", turns[0])
+        if m.setup.kinematics is not None:
+            travel(m, turned, m.target(to.get("x"), to.get("y"), to.get("z")) if to else None, f, turns[0])
+            return
         target = m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z")))
         if math.dist(target, m.tip) <= 1e-9:  # a frame rounds
             turn_axes(m, turned, f)

@@ -15,8 +15,9 @@ from mnclab.controls.tnc_620.language.m_functions import refuse_rotary, retract
 from mnclab.controls.tnc_620.language.tools import refuse_other
 from mnclab.controls.tnc_620.language.values import above_zero, counted, not_negative, one_of
 from mnclab.geometry import frames
+from mnclab.machine.axes import turning_feed
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.coordinates import STILL, turning_feed
+from mnclab.machine.coordinates import STILL
 from mnclab.machine.machine import INF, Machine
 from mnclab.machining.steps import Step, Write
 from mnclab.running.cycles import perform

@@ -1,0 +1,254 @@
+"""How rotary axes move, and what becomes of the tip: as positions of their own, or by the kinematics of the machine.
+
+Positions of the program are places on the part (`tip`), told as they are with all rotary axes at zero. Coordinates are
+*reckoned* with rotary axes at some angles: zero at first, in a tilted plane where the axes must stand for it. Where they
+stand elsewhere the linear axes go to the same X Y Z all the same, and the tip is somewhere else on the part: that is a frame
+before all others (`turned`). A tip that is *led* is reckoned with the axes as they stand.
+
+Without the kinematics of a machine the tip stays where it is on the part. A move of rotary axes alone is a row without length
+that takes the time of the axis with the longest way; beside a move of the linear axes they arrive with the tip.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.geometry import frames
+from mnclab.geometry.kinematics import NAMES, Kinematics
+from mnclab.machine.coordinates import STILL, Angles, angles, set_angles
+from mnclab.machine.state import Place
+from mnclab.path.limits import NOISE, Beyond
+from mnclab.path.toolpath import Array, Index, Kind, Toolpath
+from mnclab.text.program import Word
+
+if TYPE_CHECKING:
+    from mnclab.machine.machine import Machine
+
+TOLERANCE = 0.01  # mm, how far the tip may be from the rows of a move with rotary axes, if nothing else is said
+MOST = 100_000  # rows of one move
+SAME = 1e-12  # rad
+
+
+def turning_feed(m: Machine) -> float:
+    """The modal feed for axes that turn alone: the number of the program as degrees a minute, a reading in inches too."""
+    return m.feed_of(None) / (m.variable_unit if m.per_rev else m.feed_unit)
+
+
+def reference(m: Machine) -> Place:
+    """X Y Z of the spindle reference, machine coordinates, mm."""
+    kinematics, length = m.setup.kinematics, m.tool.effective_length
+    if kinematics is None:
+        x, y, z = m.tip
+        return x, y, z + length
+    x, y, z = kinematics.references(np.array(m.tip), np.array(m.rotary), length).tolist()
+    return x, y, z
+
+
+def direction(m: Machine) -> Array:
+    """The direction (3,) of the tool on the part, from the tip to the spindle; along Z without a kinematics."""
+    kinematics = m.setup.kinematics
+    return np.array([0.0, 0.0, 1.0]) if kinematics is None else kinematics.orientation(np.array(m.rotary))[:, 2]
+
+
+def reckon(m: Machine, with_axes: Place | None) -> None:
+    """Coordinates count from now on with A, B, C at angles, rad; None: as they stand, the tip is led. No axis moves."""
+    m.put(reckoned=with_axes)
+    stand(m)
+
+
+def stand(m: Machine) -> None:
+    """The register reads the place anew: rotary axes, tool or reckoning are others, while no axis moves."""
+    m.put(turned=_turned(m))
+    m.compose()
+    m.read_position()
+
+
+def _turned(m: Machine) -> Array | None:
+    kinematics, reckoned = m.setup.kinematics, m.reckoned
+    if kinematics is None or reckoned is None or np.abs(np.subtract(m.rotary, reckoned)).max() < SAME:
+        return None
+    now, then = kinematics.carried(np.array([m.rotary, reckoned]), m.tool.effective_length)
+    return np.asarray(now @ frames.inverse(then))
+
+
+def change_length(m: Machine, length: float) -> None:
+    """The tip is where another tool brings it, while all axes stand; `length` is that of the tool before, mm."""
+    kinematics: Kinematics = m.setup.kinematics
+    now = np.array(m.rotary)
+    place = kinematics.references(np.array(m.tip), now, length)
+    x, y, z = kinematics.tips(place, now, m.tool.effective_length).tolist()
+    m.tip = x, y, z
+
+
+def turn_axes(m: Machine, to: Angles, f: float | None, word: Word | None = None) -> None:
+    """Turn to angles (degrees) while the linear axes stand, or the tip that is led; `f` is in degrees a minute, infinite at
+    rapid, None the modal feed.
+
+    The time of a rapid turn is not known: no limits of rotary axes are.
+    """
+    rate = turning_feed(m) if f is None else f
+    way = max(abs(new - old) for new, old in zip(to, angles(m), strict=True))
+    if m.setup.kinematics is not None:
+        swing(m, to, None, math.inf if math.isinf(rate) else way / rate, word)
+        return
+    set_angles(m, to)
+    kind = Kind.LINE if math.isfinite(rate) else Kind.RAPID
+    m.add_row(kind, m.tip, feed=math.radians(rate), time=60 * way / rate if kind == Kind.LINE else math.nan)
+
+
+def travel(m: Machine, to: Angles, point: Place | None, f: float | None, word: Word | None = None) -> None:
+    """Go to a point of the program (None: the linear axes stand, or the tip that is led) while the rotary axes turn to angles
+    (degrees), by the kinematics of the machine, at `f` mm/min, infinite at rapid, None the modal feed.
+
+    The feed is that of the tip where it is led, else that of the linear axes, as X Y Z go; where neither moves, that of the
+    rotary axis with the longest way.
+    """
+    rate = m.feed_of(f, word)
+    if math.isinf(rate):
+        return swing(m, to, point, math.inf, word)
+    led = m.reckoned is None
+    start, end = led_ends(m, point, 0.0) if led else linear_ends(m, m.setup.kinematics, point)
+    way = float(np.linalg.norm(end - start))
+    if rate < 0:  # a time for the move
+        swing(m, to, point, -rate / 60, word)
+    elif way <= STILL:
+        turn_axes(m, to, f, word)
+        if point is not None:
+            m.set_register(point)
+    elif led:
+        swing(m, to, point, None, word, f=rate)
+    else:
+        swing(m, to, point, way / rate, word)
+
+
+def swing(
+    m: Machine, to: Angles, point: Place | None, minutes: float | None, word: Word | None = None, below: float = 0.0,
+    f: float = math.inf,
+) -> None:  # fmt: skip
+    """Turn to angles (degrees) and go to a point of the program (None: stay) together: all axes run evenly, and rows are cut so
+    fine that none leaves the way of the tip by more than the tolerance.
+
+    `minutes` the move takes, infinite at rapid; None: as long as the tip needs at `f` mm/min. `below` the tip, mm, is the point
+    that a move with a led tip keeps.
+    """
+    kinematics: Kinematics = m.setup.kinematics
+    check_angles(m, to, word)
+    length = m.tool.effective_length + below
+    before, after = np.array(m.rotary), np.radians(to)
+    led = m.reckoned is None or bool(below)
+    start, end = led_ends(m, point, below) if led else linear_ends(m, kinematics, point)
+    count = 8
+
+    def places(share: Array) -> tuple[Array, Array]:
+        """X Y Z (n, 3) of the spindle reference, and the angles."""
+        turning = before + share[:, None] * (after - before)
+        even = start + share[:, None] * (end - start)
+        return (kinematics.references(even, turning, length) if led else even), turning
+
+    tolerance = allowed(m)
+    while True:
+        linear, turning = places(np.linspace(0, 1, count + 1))
+        if led:  # between rows all axes run evenly, and the tip leaves its line
+            middle, half = (linear[1:] + linear[:-1]) / 2, (turning[1:] + turning[:-1]) / 2
+        else:
+            middle, half = places((np.arange(count) + 0.5) / count)
+        tips = kinematics.tips(linear, turning, m.tool.effective_length)
+        off = kinematics.tips(middle, half, m.tool.effective_length) - (tips[1:] + tips[:-1]) / 2
+        worst = float(np.linalg.norm(off, axis=1).max())
+        if worst <= tolerance or count > MOST:
+            break
+        count = int(math.ceil(count * max(math.sqrt(worst / tolerance), 1.01)))
+    if count > MOST:
+        m.alarm(f"the move turns so far that it needs {count} rows to stay within {tolerance:g} mm, {MOST} are allowed", word)
+    label = m.label or (f"tip led within {tolerance:g} mm" if led else "")
+    ways = np.linalg.norm(np.diff(tips, axis=0), axis=1)
+    x, y, z = tips[-1].tolist()
+    with m.within(label=label):
+        for k in range(count):
+            a, b, c = turning[k + 1].tolist()
+            m.put(rotary=(a, b, c))
+            tip = tuple(tips[k + 1].tolist())
+            way = float(ways[k])
+            if minutes is None:
+                m.add_row(Kind.RAPID if math.isinf(f) else Kind.LINE, tip, feed=f)
+            elif math.isinf(minutes):
+                m.add_row(Kind.RAPID, tip, feed=math.inf)
+            else:
+                seconds = 60 * minutes / count
+                turned = float(np.abs(turning[k + 1] - turning[k]).max())
+                m.add_row(Kind.LINE, tip, feed=60 * (way if way > STILL else turned) / seconds, time=seconds)
+            m.tip = tip
+    m.log("rotary", m.rotary)
+    m.tip = (x, y, z)
+    stand(m)
+    if point is not None:
+        m.set_register(point)
+
+
+def led_ends(m: Machine, point: Place | None, below: float) -> tuple[Array, Array]:
+    """Where the point of the tool that is led is on the part before and after a move."""
+    down = -below * direction(m)
+    start = np.array(m.tip) + down
+    return start, start if point is None else np.array(m.to_machine(point)) + down
+
+
+def linear_ends(m: Machine, kinematics: Kinematics, point: Place | None) -> tuple[Array, Array]:
+    """X Y Z (3,) of the spindle reference before and after a move."""
+    start = np.array(reference(m))
+    if point is None:
+        return start, start
+    inner = frames.apply(m.frames.matrix, point)
+    return start, kinematics.references(inner, np.array(m.reckoned), m.tool.effective_length)
+
+
+def allowed(m: Machine) -> float:
+    """How far the tip may be from the rows, mm: what the program lets corners be cut, else the setting."""
+    own = m.tolerance
+    return float(own if own > 0 else m.settings.get("tcpm_tolerance", TOLERANCE))
+
+
+def check_angles(m: Machine, to: Angles, word: Word | None = None) -> None:
+    """An Alarm where the machine lacks an axis that would turn, or where one would leave its limits."""
+    kinematics: Kinematics = m.setup.kinematics
+    for name, new, old in zip(NAMES, to, angles(m), strict=True):
+        if name not in kinematics.names and abs(new - old) > math.degrees(STILL):
+            m.alarm(f"the machine has no rotary axis {name}: {kinematics}", word)
+    a, b, c = np.radians(to).tolist()
+    if (axis := kinematics.beyond((a, b, c))) is not None:
+        low, high = axis.limits
+        m.alarm(f"{axis.name} (rotary axis) must be from {low:g} to {high:g} degrees, and would be {to[axis.number]:g}", word)
+
+
+# The axes behind the rows of a path: X Y Z of the spindle reference and A B C, by which the tip is where a row says.
+
+def lengths_of_rows(step: NDArray[np.integer[Any]], changes: Sequence[tuple[int, Any]], first: float) -> Array:
+    """The length of the tool (n,), mm, at rows of some steps; `changes` are those of the tool, `first` is the length before."""
+    at, tools = zip(*changes) if changes else ((), ())
+    lengths = np.array([first, *(tool.effective_length for tool in tools)])
+    return np.asarray(lengths[np.searchsorted(np.array(at, dtype=np.int64), step, "right")])
+
+
+def references(path: Toolpath, points: Array, row: Index, lengths: Array) -> Array:
+    """X Y Z (m, 3), machine coordinates, for tips (m, 3) of a path on its rows (m,), whose tools are so long (n,)."""
+    tips = points + path.origin
+    if path.kinematics is None:
+        return np.asarray(tips + np.multiply.outer(lengths[row], [0.0, 0.0, 1.0]))
+    return path.kinematics.references(tips, path.rotary[row], lengths[row])
+
+
+def first_beyond(path: Toolpath, lengths: Array, travel: Array) -> Beyond | None:
+    """The first row on which the axes of a machine with kinematics leave their travel (3, 2), mm; None if none does."""
+    points, row = path.points()
+    place = references(path, points, row, lengths)
+    over = np.maximum(travel[:, 0] - place, place - travel[:, 1])
+    out = np.flatnonzero((over > NOISE).any(axis=1))
+    if not len(out):
+        return None
+    worst = out[row[out] == row[out[0]]]
+    k, axis = np.unravel_index(int(np.argmax(over[worst])), over[worst].shape)
+    return Beyond(int(row[out[0]]), int(axis), float(place[worst[k], axis]))

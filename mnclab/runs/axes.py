@@ -1,0 +1,71 @@
+"""The positions of the axes of a machine at the end of every row of a path."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.machine.axes import lengths_of_rows, references
+from mnclab.path.listing import figure
+from mnclab.path.toolpath import Array, Toolpath
+from mnclab.runs.history import History
+from mnclab.text.alarm import several
+from mnclab.text.given import choice, fitting_class
+from mnclab.text.tables import Columned, html_table, text_table
+
+NAMES = "XYZABC"
+SHOWN = 20  # rows, of more the first and the last
+
+
+@fitting_class
+class AxisPositions(Columned):
+    """`X`, `Y`, `Z` (n,) of the spindle reference, mm, `A`, `B`, `C`, degrees, never reduced to a turn: machine coordinates.
+
+    As an array (n, 6). `line` (n,) is that of the row of the path.
+
+    >>> run = mnc.run("T1\\nG0 X10 Z5\\n", "mnc", tools={1: mnc.Tool(length=80)})
+    >>> run.axes().Z.tolist()
+    [0.0, 85.0]
+    """
+
+    def __init__(self, path: Toolpath, history: History, first: float) -> None:
+        changes = history.changed("tool")
+        lengths = lengths_of_rows(path.step, changes, first)
+        found = references(path, path.end, np.arange(len(path)), lengths)
+        self.line = path.line
+        self._axes = np.concatenate([found, np.degrees(path.rotary)], axis=1)
+        self.X, self.Y, self.Z, self.A, self.B, self.C = self._axes.T
+
+    def __len__(self) -> int:
+        return len(self._axes)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:
+        return np.array(self._axes, dtype=dtype)
+
+    def __getitem__(self, name: str) -> Array:
+        """A column by its name."""
+        column: Array = getattr(self, choice(name, "an axis", NAMES))
+        return column
+
+    def columns(self) -> dict[str, NDArray[Any]]:
+        return {"line": self.line, **{name: self[name] for name in NAMES}}
+
+    def rows(self) -> list[tuple[str, ...]]:
+        """The first and the last, as people read them."""
+        n = len(self)
+        shown = range(n) if n <= SHOWN else [*range(SHOWN // 2), *range(n - SHOWN // 2, n)]
+        found = [(str(self.line[k]), *(figure(value, 4) for value in self._axes[k].tolist())) for k in shown]
+        if n > SHOWN:
+            found.insert(SHOWN // 2, ("…",) * 7)
+        return found
+
+    def __str__(self) -> str:
+        return text_table(("line", *NAMES), self.rows(), range(7))
+
+    def __repr__(self) -> str:
+        return f"<AxisPositions: {several(len(self), 'row')}>"
+
+    def _repr_html_(self) -> str:
+        return html_table(("line", *NAMES), self.rows(), numbers=range(7))
