@@ -41,7 +41,7 @@ def turning_feed(m: Machine) -> float:
 
 def reference(m: Machine) -> Place:
     """X Y Z of the spindle reference, machine coordinates, mm."""
-    kinematics, length = m.setup.kinematics, m.tool.effective_length
+    kinematics, length = m.tables.kinematics, m.tool.effective_length
     if kinematics is None:
         x, y, z = m.tip
         return x, y, z + length
@@ -49,9 +49,15 @@ def reference(m: Machine) -> Place:
     return x, y, z
 
 
+def chain(m: Machine) -> Kinematics:
+    """The kinematics of a machine that has one."""
+    assert m.tables.kinematics is not None
+    return m.tables.kinematics
+
+
 def direction(m: Machine) -> Array:
     """The direction (3,) of the tool on the part, from the tip to the spindle; along Z without a kinematics."""
-    kinematics = m.setup.kinematics
+    kinematics = m.tables.kinematics
     return np.array([0.0, 0.0, 1.0]) if kinematics is None else kinematics.orientation(np.array(m.rotary))[:, 2]
 
 
@@ -69,7 +75,7 @@ def stand(m: Machine) -> None:
 
 
 def _turned(m: Machine) -> Array | None:
-    kinematics, reckoned = m.setup.kinematics, m.reckoned
+    kinematics, reckoned = m.tables.kinematics, m.reckoned
     if kinematics is None or reckoned is None or np.abs(np.subtract(m.rotary, reckoned)).max() < SAME:
         return None
     now, then = kinematics.carried(np.array([m.rotary, reckoned]), m.tool.effective_length)
@@ -78,7 +84,7 @@ def _turned(m: Machine) -> Array | None:
 
 def change_length(m: Machine, length: float) -> None:
     """The tip is where another tool brings it, while all axes stand; `length` is that of the tool before, mm."""
-    kinematics: Kinematics = m.setup.kinematics
+    kinematics = chain(m)
     now = np.array(m.rotary)
     place = kinematics.references(np.array(m.tip), now, length)
     x, y, z = kinematics.tips(place, now, m.tool.effective_length).tolist()
@@ -93,7 +99,7 @@ def turn_axes(m: Machine, to: Angles, f: float | None, word: Word | None = None)
     """
     rate = turning_feed(m) if f is None else f
     way = max(abs(new - old) for new, old in zip(to, angles(m), strict=True))
-    if m.setup.kinematics is not None:
+    if m.tables.kinematics is not None:
         swing(m, to, None, math.inf if math.isinf(rate) else way / rate, word)
         return
     set_angles(m, to)
@@ -112,7 +118,7 @@ def travel(m: Machine, to: Angles, point: Place | None, f: float | None, word: W
     if math.isinf(rate):
         return swing(m, to, point, math.inf, word)
     led = m.reckoned is None
-    start, end = led_ends(m, point, 0.0) if led else linear_ends(m, m.setup.kinematics, point)
+    start, end = led_ends(m, point, 0.0) if led else linear_ends(m, chain(m), point)
     way = float(np.linalg.norm(end - start))
     if rate < 0:  # a time for the move
         swing(m, to, point, -rate / 60, word)
@@ -136,7 +142,7 @@ def swing(
     `minutes` the move takes, infinite at rapid; None: as long as the tip needs at `f` mm/min. `below` the tip, mm, is the point
     that a move with a led tip keeps.
     """
-    kinematics: Kinematics = m.setup.kinematics
+    kinematics = chain(m)
     check_angles(m, to, word)
     length = m.tool.effective_length + below
     before, after = np.array(m.rotary), np.radians(to)
@@ -214,7 +220,7 @@ def allowed(m: Machine) -> float:
 
 def check_angles(m: Machine, to: Angles, word: Word | None = None) -> None:
     """An Alarm where the machine lacks an axis that would turn, or where one would leave its limits."""
-    kinematics: Kinematics = m.setup.kinematics
+    kinematics = chain(m)
     for name, new, old in zip(NAMES, to, angles(m), strict=True):
         if name not in kinematics.names and abs(new - old) > math.degrees(STILL):
             m.alarm(f"the machine has no rotary axis {name}: {kinematics}", word)

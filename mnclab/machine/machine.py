@@ -231,7 +231,7 @@ class Machine(Placed):
         """
         length = self.tool.effective_length
         self.change("tool", tool)
-        if self.setup.kinematics is not None:
+        if self.tables.kinematics is not None:
             if axis != 2:
                 self.alarm(f"the tool must lie along Z on a machine with rotary axes, got {'XYZ'[axis]}")
             change_length(self, length)

@@ -371,6 +371,7 @@ class Tables:
             for table in (setup.datums, setup.presets, setup.correctors)
         )
         self.probe = setup.probe
+        self.kinematics: Kinematics | None = setup.kinematics
 
     def __repr__(self) -> str:
         rows = (several(len(getattr(self, name)), name[:-1]) for name in ("tools", "datums", "presets"))

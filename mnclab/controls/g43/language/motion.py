@@ -47,7 +47,7 @@ def go(m: Machine, to: dict[str, float], turned: Angles | None, rapid: bool, wor
     """A straight move, at rapid or at the modal feed, with which the rotary axes arrive; they may also turn alone."""
     f = math.inf if rapid else None
     if turned is not None and turned != angles(m):
-        if m.setup.kinematics is not None:
+        if m.tables.kinematics is not None:
             travel(m, turned, m.target(to.get("x"), to.get("y"), to.get("z")) if to else None, f, word)
             return
         if math.dist(m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z"))), m.tip) <= 1e-9:  # a frame rounds

@@ -182,7 +182,7 @@ def line(m: Machine, words: Words) -> None:
         refuse_rotary(m, turns[0])
         if memory(m).developed is not None:
             m.alarm(f"{turns[0]}: the contour of a cylinder has X and Y alone, X for the rotary axis", turns[0])
-        if m.setup.kinematics is not None:
+        if m.tables.kinematics is not None:
             travel(m, turned, m.target(to.get("x"), to.get("y"), to.get("z")) if to else None, f, turns[0])
             return
         target = m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z")))
