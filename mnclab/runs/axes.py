@@ -35,7 +35,7 @@ class AxisPositions(Columned):
         lengths = lengths_of_rows(path.step, changes, first)
         found = references(path, path.end, np.arange(len(path)), lengths)
         self.line = path.line
-        self._axes = np.concatenate([found, np.degrees(path.rotary)], axis=1)
+        self._axes = np.concatenate([found, np.degrees(path.rotary).round(12)], axis=1)  # 30 degrees in rad and back are not 30
         self.X, self.Y, self.Z, self.A, self.B, self.C = self._axes.T
 
     def __len__(self) -> int:
