@@ -243,8 +243,10 @@ def allowed(m: Machine) -> float:
 
 
 def check_angles(m: Machine, to: Angles, word: Word | None = None) -> None:
-    """An Alarm where the machine lacks an axis that would turn, or where one would leave its limits."""
+    """An Alarm where the machine lacks an axis that would turn, or one would leave its limits, and within a contour."""
     kinematics = chain(m)
+    if m.recorded_only or m.side:
+        m.alarm(f"rotary axes cannot turn {'within a contour' if m.recorded_only else 'under radius compensation'}", word)
     for name, new, old in zip(NAMES, to, angles(m), strict=True):
         if name not in kinematics.names and abs(new - old) > math.degrees(STILL):
             m.alarm(f"the machine has no rotary axis {name}: {kinematics}", word)
