@@ -11,8 +11,8 @@ from mnclab.machine.axes import lengths_of_rows, references
 from mnclab.path.listing import figure
 from mnclab.path.toolpath import Array, Toolpath
 from mnclab.runs.history import History
-from mnclab.text.alarm import several
-from mnclab.text.given import choice, fitting_class
+from mnclab.text.alarm import Absent, several
+from mnclab.text.given import choice, fitting_class, shown
 from mnclab.text.tables import Columned, html_table, text_table
 
 NAMES = "XYZABC"
@@ -44,9 +44,14 @@ class AxisPositions(Columned):
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:
         return np.array(self._axes, dtype=dtype)
 
-    def __getitem__(self, name: str) -> Array:
-        """A column by its name."""
-        column: Array = getattr(self, choice(name, "an axis", NAMES))
+    def __getitem__(self, which: Any) -> Array:
+        """A column by its name, or rows (…, 6) by their numbers."""
+        if not isinstance(which, str):
+            try:
+                return np.asarray(self._axes[which])
+            except IndexError:
+                raise Absent(f"the axes have {several(len(self), 'row')}: there is no row {shown(which)}") from None
+        column: Array = getattr(self, choice(which, "an axis", NAMES))
         return column
 
     def columns(self) -> dict[str, NDArray[Any]]:
