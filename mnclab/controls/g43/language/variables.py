@@ -266,7 +266,7 @@ def give_own(m: Machine, word: Word, name: str, value: float | None, message: st
         if m.side:
             m.alarm("a work offset cannot change under radius compensation", word, hint="write G40 first")
         write_offset(m, name, value * m.variable_unit, Words((word,), name))
-    elif name in PREASSIGNED:
+    elif name in PREASSIGNED or name in parameters.PROBED:
         m.alarm(f"{name} is kept by the control and cannot be written", word)
     else:
         m.alarm(f"{name} is a variable of the control that is not built", word, "#1 to #999 are free")
