@@ -77,7 +77,7 @@ def goal(m: Machine, words: Words) -> tuple[float, float, float]:
     if m.per_time:
         m.alarm(f"{code} cannot stand under G93: how long its way is, the part says", head, hint="write G94 and F")
     for _, sentence in unfit(m):
-        m.alarm(f"{code} {sentence}", head)
+        m.alarm(f"{code} {sentence}", head, hint="" if m.tool.number else "write T and M6")
     turned = angles_of(m, words)
     if turned is not None and turned != angles(m):
         axis = next(axis for axis, now, then in zip("ABC", angles(m), turned, strict=True) if now != then)
