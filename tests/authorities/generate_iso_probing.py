@@ -16,16 +16,18 @@ SEED = 38
 HEAD = "G21 G17 G90 G94 F100\nG0 X1 Y2 Z10\n"
 PLACE = "\nG21 G90 G0 X#5061 Y#5062 Z#5063\nX#5070 Y#5064"
 BLOCKS = (
-    *("G38.2", "G38.2 F50", "G38.2 Z10", "G38.3 Z10", "G94\nG38.3 Z3", "F0 G38.3 Z3", "G95 F.1 G38.3 Z3", "G41.1 D4\nG38.3 X9"),
-    *("G95 F.1 S100 M3\nG38.3 Z3", "G41.1 D4\nG1 X20\nG38.3 X40", "G53 G38.3 Z3", "G1 X2\nG53 G38.3 Z3", "G38.3 Z3 R2", "G38.3 Z3 P2"),
-    *("G38.3 Z3 I1", "G38.3 Z3 G1", "G38.3 Z3 G38.2", "G38 Z3", "G38.1 Z3", "G38.6 Z3", "G31 Z3", "G28 G38.3 Z3", "G30 G38.3 Z3"),
-    *("G38.3 G92 Z3", "G38.3 G10 L2 P1 Z3", "G38.3 G52 Z3", "G36 Z3"),
-    *("G38.3 Z3\nX7", "G38.3 Z3\nG0 X7\nX8", "G80 G38.3 Z3", "G81 X3 Z1 R2\nG38.3 Z3\nX9", "G38.3 Z3\nG81 X3 Z1 R2", "G18 G38.3 Y7"),
-    *("S100 M3\nG38.3 Z3", "G38.3 Z3 S100 M3 M8", "G61\nG38.3 Z3", "G38.3 Z3 F60"),
-    *("G91 G38.3 Z-3", "G91 G38.3 X1 Y1 Z-3\nX2", "G20 G38.3 Z.1", "G20 G38.3 Z.1\nG21", "G38.3 Z3\nG20", "G55 G38.3 Z3\nG54"),
-    *("#5061=3", "#5070=3", "G38.3 Z3\n#5063=8", "G38.3 Z[#5063-4]", "G38.3 Z3\nG38.3 X5\nG38.3 Y6 Z#5063", "G38.3 X2\nG92 X8"),
-    *("G92 X8\nG38.3 X2", "G92 X8\nG38.3 X2\nG92.1", "G43.1 Z4\nG38.3 Z3", "G10 L2 P1 R30\nG38.3 X5", "G10 L2 P2 X3 Y4 Z5 R30\nG55\nG38.3 X5"),
-    *("O1 sub\nG38.3 Z#1\nO1 endsub\nO1 call [4]", "O1 while [#5063 LT 4]\nG91 G38.3 Z1\nO1 endwhile", "G38.3 Z3\nG40", "G64 P.1\nG38.3 Z3"),
+    *("G38.2", "G38.2 F50", "G38.2 Z10", "G38.3 Z10", "G94\nG38.3 Z3", "F0 G38.3 Z3", "G95 F.1 G38.3 Z3"),
+    *("G41.1 D4\nG38.3 X9", "G95 F.1 S100 M3\nG38.3 Z3", "G41.1 D4\nG1 X20\nG38.3 X40", "G53 G38.3 Z3"),
+    *("G1 X2\nG53 G38.3 Z3", "G38.3 Z3 R2", "G38.3 Z3 P2", "G38.3 Z3 I1", "G38.3 Z3 G1", "G38.3 Z3 G38.2", "G38 Z3"),
+    *("G38.1 Z3", "G38.6 Z3", "G31 Z3", "G28 G38.3 Z3", "G30 G38.3 Z3", "G38.3 G92 Z3", "G38.3 G10 L2 P1 Z3", "G38.3 G52 Z3"),
+    *("G36 Z3", "G38.3 Z3\nX7", "G38.3 Z3\nG0 X7\nX8", "G80 G38.3 Z3", "G81 X3 Z1 R2\nG38.3 Z3\nX9"),
+    *("G38.3 Z3\nG81 X3 Z1 R2", "G18 G38.3 Y7", "S100 M3\nG38.3 Z3", "G38.3 Z3 S100 M3 M8", "G61\nG38.3 Z3", "G38.3 Z3 F60"),
+    *("G91 G38.3 Z-3", "G91 G38.3 X1 Y1 Z-3\nX2", "G20 G38.3 Z.1", "G20 G38.3 Z.1\nG21", "G38.3 Z3\nG20"),
+    *("G55 G38.3 Z3\nG54", "#5061=3", "#5070=3", "G38.3 Z3\n#5063=8", "G38.3 Z[#5063-4]"),
+    *("G38.3 Z3\nG38.3 X5\nG38.3 Y6 Z#5063", "G38.3 X2\nG92 X8", "G92 X8\nG38.3 X2", "G92 X8\nG38.3 X2\nG92.1"),
+    *("G43.1 Z4\nG38.3 Z3", "G10 L2 P1 R30\nG38.3 X5", "G10 L2 P2 X3 Y4 Z5 R30\nG55\nG38.3 X5"),
+    *("O1 sub\nG38.3 Z#1\nO1 endsub\nO1 call [4]", "O1 while [#5063 LT 4]\nG91 G38.3 Z1\nO1 endwhile", "G38.3 Z3\nG40"),
+    *("G64 P.1\nG38.3 Z3"),
 )  # fmt: skip
 
 
@@ -69,7 +71,8 @@ def main():
     records = []
     for name, text in programs():
         answer = ask(text)
-        records.append({"name": name, "text": text} | ({"motion": answer["motion"]} if answer["ok"] else {"error": answer["error"]}))
+        said = {"motion": answer["motion"]} if answer["ok"] else {"error": answer["error"]}
+        records.append({"name": name, "text": text} | said)
     save("iso_probing.json", SEED, records)
 
 
