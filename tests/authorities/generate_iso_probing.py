@@ -27,7 +27,7 @@ BLOCKS = (
     *("G38.3 Z3\nG38.3 X5\nG38.3 Y6 Z#5063", "G38.3 X2\nG92 X8", "G92 X8\nG38.3 X2", "G92 X8\nG38.3 X2\nG92.1"),
     *("G43.1 Z4\nG38.3 Z3", "G10 L2 P1 R30\nG38.3 X5", "G10 L2 P2 X3 Y4 Z5 R30\nG55\nG38.3 X5"),
     *("O1 sub\nG38.3 Z#1\nO1 endsub\nO1 call [4]", "O1 while [#5063 LT 4]\nG91 G38.3 Z1\nO1 endwhile", "G38.3 Z3\nG40"),
-    *("G64 P.1\nG38.3 Z3"),
+    "G64 P.1\nG38.3 Z3",
 )  # fmt: skip
 
 

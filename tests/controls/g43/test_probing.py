@@ -5,6 +5,7 @@ The probe T9 has a ball of radius 3; what is programmed is its lowest point, so 
 
 import math
 import random
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -312,6 +313,17 @@ def test_the_middle_of_a_bore(code, dialect, write, turned):
     assert found.ok, found.alarms
     assert found.tables.datums[1][:2] == pytest.approx((302.75, 198.5), abs=1e-9)
     assert (found.toolpath.end[-1] + found.toolpath.origin)[:2] == pytest.approx((302.75, 198.5), abs=1e-9)
+
+
+def test_the_bore_of_the_lesson():
+    """The plate of the lesson, turned by 2 degrees: the datum is the middle of its bore."""
+    design = mnc.Design(((0, 0, -20), (80, 60, 0)), [mnc.design.Hole(40, 30, 30, 12, point=180)])
+    setup = Setup(tools={20: Tool(3, 150, kind="probe")}, datums={1: (300, 200, -400)}, start=(280, 180, -300),
+                  part=design.part.turned(2).shifted(303, 198.5, -400))  # fmt: skip
+    found = mnc.run(Path(__file__).parents[3] / "data" / "lessons" / "bore_middle.nc", "g43", setup)
+    assert found.ok and not found.alarms and [touch.label for touch in found.touches] == ["G31"] * 4
+    cos, sin = math.cos(math.radians(2)), math.sin(math.radians(2))
+    assert found.tables.datums[1][:2] == pytest.approx((303 + 40 * cos - 30 * sin, 198.5 + 40 * sin + 30 * cos), abs=1e-9)
 
 
 def bodies(rng):

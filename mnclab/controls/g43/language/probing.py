@@ -19,7 +19,7 @@ from mnclab.controls.word_address.motion import first_word
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import angles
 from mnclab.machine.machine import Machine
-from mnclab.machine.touching import release, rests, unfit
+from mnclab.machine.touching import release, rests, turning_told, unfit
 from mnclab.path.listing import INCHES, MM
 
 FUNCTIONS = FunctionTable()
@@ -94,11 +94,13 @@ def probe_to(m: Machine, target: tuple[float, float, float], words: Words) -> bo
     code, head, ball = words.code, first_word(words), m.tool.effective_radius
     way = math.dist(m.to_machine(target), m.tip)
     feed = m.feed_of(None, head)
-    if code in AWAY:
-        found = release(m, target, feed, ball, head)
-        memory(m).released = m.tip if found else None
-    else:
-        found = m.touch(*target, f=feed, ball=ball, word=head, miss="return").hit
+    turning_told(m, head)
+    with m.within(label=code):
+        if code in AWAY:
+            found = release(m, target, feed, ball, head)
+            memory(m).released = m.tip if found else None
+        else:
+            found = m.touch(*target, f=feed, ball=ball, word=head, miss="return").hit
     if not found and code in STRICT:
         what = "still touches after" if code in AWAY else "touched nothing within"
         unit = MM if m.variable_unit == 1 else INCHES
