@@ -89,12 +89,6 @@ def unfit(m: Machine, *, still: bool = False) -> Iterator[tuple[str, str]]:
         yield "", "cannot run under radius compensation"
 
 
-def turning_told(m: Machine, word: Word | None = None) -> None:
-    """Warn of a probe that turns with the spindle."""
-    if m.turning:
-        m.warn("the spindle turns with a touch probe in it", word, hint="M5 before a touch probe moves")
-
-
 def part_to_touch(m: Machine, word: Word | None = None) -> Part | None:
     """The part of the setup, or what the program has cut up to here: only that needs the path of the tool settled."""
     if m.setup.part != CUT:
@@ -161,6 +155,8 @@ def part_that_is_touched(m: Machine, word: Word | None) -> Part:
     part = m.felt.part if m.felt else part_to_touch(m, word)
     assert part is not None
     m.variables.state_read = m.step
+    if m.turning:
+        m.warn("the spindle turns with a touch probe in it", hint="M5 before a touch probe moves")
     return part
 
 

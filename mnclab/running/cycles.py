@@ -20,17 +20,7 @@ from mnclab.machine.flow import put_out
 from mnclab.machine.machine import Machine
 from mnclab.machine.measuring import Measurement, TouchedFigure, judged
 from mnclab.machine.tool_setting import SETS, at_setter
-from mnclab.machine.touching import (
-    FEELS,
-    PROBES,
-    Contact,
-    Felt,
-    ball_from_axis,
-    guarded,
-    guarded_turn,
-    part_to_touch,
-    turning_told,
-)
+from mnclab.machine.touching import FEELS, PROBES, Contact, Felt, ball_from_axis, guarded, guarded_turn, part_to_touch
 from mnclab.machining.depths import TooMany
 from mnclab.machining.steps import (
     Along,
@@ -282,7 +272,6 @@ def feels(m: Machine, does: str) -> dict[str, Felt]:
         return {"felt": Felt(None, by_ball=False, setter=True)}
     if does not in (PROBES, FEELS):
         return {}
-    turning_told(m)
     return {"felt": Felt(part_to_touch(m), does == PROBES)}
 
 

@@ -268,6 +268,12 @@ def test_what_the_program_has_cut():
     assert [found.variables[f"#{k}"] for k in (1, 2)] == pytest.approx([22, 18], abs=1e-6)
 
 
+def test_a_spindle_that_turns():
+    """No control minds it, and it is said."""
+    found = run(f"{LEAVES}S100 M3\nG38.2 X5")
+    assert found.ok and [alarm.message for alarm in found.alarms] == ["the spindle turns with a touch probe in it"]
+
+
 def test_the_stem():
     """Below an overhang the stem meets the part before the ball does."""
     shelf = BLOCK | part.box((-10, 0, 5), (0, 40, 10))

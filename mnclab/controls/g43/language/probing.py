@@ -19,7 +19,7 @@ from mnclab.controls.word_address.motion import first_word
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import angles
 from mnclab.machine.machine import Machine
-from mnclab.machine.touching import release, rests, turning_told, unfit
+from mnclab.machine.touching import release, rests, unfit
 from mnclab.path.listing import INCHES, MM
 
 FUNCTIONS = FunctionTable()
@@ -37,7 +37,7 @@ def skip(m: Machine, words: Words) -> None:
     """A straight line at feed F; at the contact the rest of it is left out, without one it goes to its end. #5061 to #5063
     tell where it ended; on Fanuc #5063 with the length offset of G43, as #5043 (setting skip_position)."""
     target = goal(m, words)
-    if rests(m, m.tool.effective_radius, first_word(words)):
+    if touches(m, words):
         m.warn("the probe touches already: G31 ends where it stands", first_word(words), "lead it away from the part before")
     elif target != m.programmed:
         probe_to(m, target, words)
@@ -55,7 +55,7 @@ def probe(m: Machine, words: Words) -> None:
     moves = target != m.programmed
     if not moves and code in STRICT:
         m.alarm(f"{code} leads to where the probe stands: it needs a way", head)
-    touching = rests(m, m.tool.effective_radius, head) and memory(m).released != m.tip
+    touching = touches(m, words)
     found = touching != (code in AWAY)
     if found and code in STRICT:
         said = "touches already" if touching else "touches nothing"
@@ -66,6 +66,11 @@ def probe(m: Machine, words: Words) -> None:
         found = probe_to(m, target, words)
     keep(m)
     m.variables[parameters.FOUND] = float(found)
+
+
+def touches(m: Machine, words: Words) -> bool:
+    """Whether the ball touches the part where it stands; one that has just come free of it does not."""
+    return rests(m, m.tool.effective_radius, first_word(words)) and m.tip != memory(m).released
 
 
 def goal(m: Machine, words: Words) -> tuple[float, float, float]:
@@ -94,7 +99,6 @@ def probe_to(m: Machine, target: tuple[float, float, float], words: Words) -> bo
     code, head, ball = words.code, first_word(words), m.tool.effective_radius
     way = math.dist(m.to_machine(target), m.tip)
     feed = m.feed_of(None, head)
-    turning_told(m, head)
     with m.within(label=code):
         if code in AWAY:
             found = release(m, target, feed, ball, head)
