@@ -225,9 +225,9 @@ def test_transformed(text, end, place):
 
 def test_the_length_of_the_probe():
     """On Fanuc positions of the tool count with the offset of G43, #5063 like #5043; on a Haas as they are programmed."""
-    text = "G0 X10 Y10 Z5\nG31 Z-5 F50\n#101=#5063\n#102=#5043"
+    text = "G0 X10 Y10 Z5\nG31 Z-5 F50\n#101=#5063\n#102=#5043\n#103=#5063-#5083"
     fanuc, haas = run(text, dialect="fanuc").variables, run(text, dialect="haas").variables
-    assert (fanuc["#101"], fanuc["#102"], haas["#101"]) == pytest.approx((LONG, LONG, 0), abs=1e-9)
+    assert (fanuc["#101"], fanuc["#102"], fanuc["#103"], haas["#101"]) == pytest.approx((LONG, LONG, 0, 0), abs=1e-9)
     assert run("G49\nG0 X10 Y10 Z60\nG31 Z40", dialect="fanuc").variables["#5063"] == pytest.approx(LONG, abs=1e-9)
 
 
@@ -254,6 +254,16 @@ def test_in_a_loop():
     assert found.ok, found.alarms
     expected = [5 * k - BALL for k in range(12)]  # the ball, 5 mm beside the corner of the step before, passes it
     assert [found.variables[f"#{120 + k}"] for k in range(12)] == pytest.approx(expected, abs=1e-9)
+
+
+def test_300_touches_of_a_loop():
+    """Down on a slope of 15 degrees: its height, and what the ball stands higher than its lowest point."""
+    made = part.plane((0, 0, 0), (math.sin(LEAN), 0, math.cos(LEAN)))
+    text = ("#1=0\nWHILE [#1 LT 300] DO1\nG0 X[-#1]\nZ[#1*.4+10]\nG31 Z-10\n#[200+#1]=#5063-#5083\nG0 Z400\n#1=#1+1\nEND1")
+    found = run(f"G0 Z400\n{text}", made, "fanuc")
+    assert found.ok and len(found.touches) == 300, found.alarms
+    heights = [k * math.tan(LEAN) + BALL / math.cos(LEAN) - BALL for k in range(300)]
+    assert [found.variables[f"#{200 + k}"] for k in range(300)] == pytest.approx(heights, abs=1e-9)
 
 
 def test_what_the_program_has_cut():

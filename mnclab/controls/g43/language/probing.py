@@ -35,7 +35,7 @@ STRICT = ("G38.2", "G38.4")
            source="Fanuc, Haas")  # fmt: skip
 def skip(m: Machine, words: Words) -> None:
     """A straight line at feed F; at the contact the rest of it is left out, without one it goes to its end. #5061 to #5063
-    tell where it ended; on Fanuc #5063 with the length offset of G43, as #5043 (setting skip_position)."""
+    tell where it ended; on Fanuc #5063 with the length offset of G43, which is #5083 (setting skip_position)."""
     target = goal(m, words)
     if touches(m, words):
         m.warn("the probe touches already: G31 ends where it stands", first_word(words), "lead it away from the part before")
