@@ -24,7 +24,7 @@ from mnclab.path.toolpath import Kind, Toolpath, concatenate
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 from mnclab.workpiece.part import Part, box, contact, cylinder, foot, hole
-from mnclab.workpiece.part.touching import GRAZE, blocked
+from mnclab.workpiece.part.touching import GRAZE, blocked, released
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -125,6 +125,41 @@ def true_ball(m: Machine, ball: float) -> Ball:
     return Ball(offset(m, where) + up * (radius - longer), radius, up)
 
 
+class Way(NamedTuple):
+    """A straight way of the tip, machine coordinates: from where, which way, how far at most, and the ball that goes it."""
+
+    start: Floats
+    direction: Floats
+    reach: float
+    ball: Ball
+
+    @property
+    def begin(self) -> Floats:
+        """Where the centre of the ball begins."""
+        return self.start + self.ball.beside
+
+
+def way_to(m: Machine, target: Point, ball: float, word: Word | None) -> Way:
+    """The way to a point in program coordinates."""
+    start, goal = np.array(m.tip), np.array(m.to_machine(target))
+    reach = float(np.linalg.norm(goal - start))
+    if reach == 0:
+        m.alarm("a touch needs a direction", word)
+    return Way(start, (goal - start) / reach, reach, true_ball(m, ball))
+
+
+def part_that_is_touched(m: Machine, word: Word | None) -> Part:
+    """The part; an Alarm where there is none."""
+    if m.setup.part is None:
+        m.alarm("there is no part to touch", word, hint='give one: Setup(part=…); "cut" is what the program has cut')
+    part = m.felt.part if m.felt else part_to_touch(m, word)
+    assert part is not None
+    m.variables.state_read = m.step
+    if m.turning:
+        m.warn("the spindle turns with a touch probe in it", hint="M5 before a touch probe moves")
+    return part
+
+
 def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, miss: str) -> Contact:
     """Move the tip (the south pole of the ball) towards a point in program coordinates at feed `f`.
 
@@ -133,17 +168,8 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
     """
     if m.side:
         m.alarm("a probe cannot move under radius compensation", word)
-    if m.setup.part is None:
-        m.alarm("there is no part to touch", word, hint='give one: Setup(part=…); "cut" is what the program has cut')
-    part = m.felt.part if m.felt else part_to_touch(m, word)
-    assert part is not None
-    m.variables.state_read = m.step
-    start, goal = np.array(m.tip), np.array(m.to_machine(target))
-    reach = float(np.linalg.norm(goal - start))
-    if reach == 0:
-        m.alarm("a touch needs a direction", word)
-    direction, true = (goal - start) / reach, true_ball(m, ball)
-    begin = start + true.beside
+    part, way = part_that_is_touched(m, word), way_to(m, target, ball, word)
+    begin, direction, reach, true = way.begin, way.direction, way.reach, way.ball
     room = float(part(begin)[0])
     if room - true.radius < -DEEP - slack(m):
         m.alarm("the stylus is in contact before it touches", word, hint="the touch begins where the ball is free")
@@ -154,25 +180,51 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
         m.warn("the ball touches off a cut edge of the part, where the distance is only bounded", word, hint=hint)
     if travel is not None:
         travel += trigger(m, direction)
-    way = reach if travel is None else travel
-    if (stopped := stem_meets(m, part, true, begin, begin + direction * way)) is not None:
-        m.probe_to(_point(start + direction * stopped), f)
-        m.alarm("the stem of the probe touches the part before the ball does", word)
-    end = start + direction * way
-    m.probe_to(_point(end), f)
+    end = go_along(m, part, way, travel, f, word)
     if travel is None and miss == "alarm":
         m.alarm(f"touch point inaccessible: the probe did not trigger within {reach:g} mm", word)
     centre = _point(end + offset(m, m.tables.probe.offset) + np.array(true.up) * ball)
-    number = -1
-    if travel is not None:
-        number = len(m.touches)
-        surface = _point(begin + direction * (travel + true.radius))
-        found = m.to_program(_point(np.array(centre) + direction * ball))
-        m.touches.append(
-            Touched(m.step, m.source_line, m.program, m.label, _point(begin), _point(begin + direction * travel),
-                    _point(direction), true.radius, surface, m.to_program(centre), found, m.matrix, axes_of(m))
-        )  # fmt: skip
+    number = -1 if travel is None else noted(m, way, travel, direction, centre, ball)
     return Contact(m.to_program(centre), centre, travel is not None, _point(end), number)
+
+
+def release(m: Machine, target: Point, f: float, ball: float, word: Word | None) -> bool:
+    """Move a probe that touches towards a point in program coordinates until its ball is free; whether it came to that."""
+    part, way = part_that_is_touched(m, word), way_to(m, target, ball, word)
+    travel = released(part, way.begin, way.direction, way.ball.radius, way.reach)
+    end = go_along(m, part, way, travel, f, word)
+    if travel is not None:
+        centre = _point(end + offset(m, m.tables.probe.offset) + np.array(way.ball.up) * ball)
+        noted(m, way, travel, -way.direction, centre, ball)
+    return travel is not None
+
+
+def go_along(m: Machine, part: Part, way: Way, travel: float | None, f: float, word: Word | None) -> Floats:
+    """A probing move of so much of a way, or of all of it; where it ends, machine coordinates (3,). The stem must not touch."""
+    along = way.direction * (way.reach if travel is None else travel)
+    if (stopped := stem_meets(m, part, way.ball, way.begin, way.begin + along)) is not None:
+        m.probe_to(_point(way.start + way.direction * stopped), f)
+        m.alarm("the stem of the probe touches the part before the ball does", word)
+    end = way.start + along
+    m.probe_to(_point(end), f)
+    return end
+
+
+def noted(m: Machine, way: Way, travel: float, direction: Floats, centre: Point, ball: float) -> int:
+    """Keep a touch for `run.touches`: the part lies in that direction from the ball. Its number."""
+    surface = _point(way.begin + way.direction * travel + direction * way.ball.radius)
+    found = m.to_program(_point(np.array(centre) + direction * ball))
+    m.touches.append(
+        Touched(m.step, m.source_line, m.program, m.label, _point(way.begin), _point(way.begin + way.direction * travel),
+                _point(direction), way.ball.radius, surface, m.to_program(centre), found, m.matrix, axes_of(m))
+    )  # fmt: skip
+    return len(m.touches) - 1
+
+
+def rests(m: Machine, ball: float, word: Word | None) -> bool:
+    """Whether the ball touches the part where it stands."""
+    true = true_ball(m, ball)
+    return float(part_that_is_touched(m, word)(np.array(m.tip) + true.beside)[0]) - true.radius <= RESTS
 
 
 def deflected(m: Machine, part: Part | None, ball: float) -> bool:

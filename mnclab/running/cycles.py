@@ -273,8 +273,6 @@ def feels(m: Machine, does: str) -> dict[str, Felt]:
         return {"felt": Felt(None, by_ball=False, setter=True)}
     if does not in (PROBES, FEELS):
         return {}
-    if m.turning:
-        m.warn("the spindle turns with a touch probe in it", hint="M5 before a touch probe moves")
     return {"felt": Felt(part_to_touch(m), does == PROBES)}
 
 
