@@ -72,12 +72,14 @@ def direction(m: Machine) -> Array:
 
 
 def leaning(m: Machine) -> float:
-    """By how much the tool leans from Z of the active coordinates, degrees, 0 where that is too little to count; a machine
-    without a kinematics does not say it."""
+    """By how much the tool leans from Z of the active coordinates, degrees, 0 where that is too little to count: as the axes
+    lead it, and in a tilted plane as that lies on the part. A machine without a kinematics does not say it."""
     if m.tables.kinematics is None:
         return 0.0
-    up, tool = m.matrix[:3, 2] / np.linalg.norm(m.matrix[:3, 2]), direction(m)
-    found = math.atan2(float(np.linalg.norm(np.cross(up, tool))), float(up @ tool))
+    tool, found = direction(m), 0.0
+    for frame in (m.matrix, m.frames.matrix) if m.reckoned is not None and any(m.reckoned) else (m.matrix,):
+        up = frame[:3, 2]
+        found = max(found, math.atan2(float(np.linalg.norm(np.cross(up, tool))), float(up @ tool)))
     return math.degrees(found) if found > SQUARE else 0.0
 
 
@@ -234,7 +236,7 @@ def swing(
 
 
 def between(kinematics: Kinematics, before: Array, after: Array, share: Array) -> Array:
-    """A, B, C (n, 3), rad, where the tool turns evenly in the plane of its directions at both ends, at shares (n,) of the turn."""
+    """A, B, C (n, 3), rad, where the tool turns evenly in the plane of its directions at both ends, at shares (n,) of it."""
     one, other = kinematics.orientation(np.stack([before, after]))[:, :, 2]
     even = before + share[:, None] * (after - before)
     angle = math.atan2(float(np.linalg.norm(np.cross(one, other))), float(one @ other))

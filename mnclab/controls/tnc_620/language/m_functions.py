@@ -157,7 +157,7 @@ def room(m: Machine, code: str, tool: NDArray[np.float64], word: Word) -> float:
     for k in range(3):
         if abs(along[k]) < FLAT:
             continue
-        if travel is not None and math.isfinite(end := travel[k][along[k] > 0]):
+        if travel is not None and math.isfinite(end := travel[k][int(along[k] > 0)]):
             ways.append((end - here[k]) / along[k])
         elif k == 2 and along[k] > 0:
             ways.append((end_of_travel(m, code, k, word) - here[k]) / along[k])

@@ -103,7 +103,7 @@ def plane_relative(m: Machine, words: Words) -> None:
     """Turns the active plane about one of its own axes."""
     word = one_of(m, words, ANGLES, "one angle")
     if word is None:
-        m.alarm("PLANE RELATIV needs SPA, SPB or SPC", first(words))
+        m.alarm("PLANE RELATIV needs SPA, SPB or SPC")
     turn = frames.turn(math.radians(angle(m, words, word.address)), "xyz"[ANGLES.index(word.address)])
     tilt(m, words, m.frames[TILT] @ turn)
 
@@ -115,7 +115,7 @@ def plane_axial(m: Machine, words: Words) -> None:
     refuse_other(m, words.code)
     there, named = tilting.rotary_axes(m).names, [words[axis] for axis in AXES if axis in words]
     if not named:
-        m.alarm(f"PLANE AXIAL needs a position of {' or '.join(there)}", first(words))
+        m.alarm(f"PLANE AXIAL needs a position of {' or '.join(there)}")
     for word in named:
         if word.address not in there:
             m.alarm(f"PLANE AXIAL {word.address}: the rotary axes are {' and '.join(there)}", word)

@@ -217,7 +217,8 @@ WORDS: dict[str, Read] = {
     "PATTERN DEF": plain, "DECLARE CONTOUR": plain, "CONTOUR DEF": plain,  # whose lines LINES read
     "SEL CONTOUR": definitions.selected,
     "BEGIN PGM": program_name, "END PGM": program_end, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
-    **{f"PLANE {form}": plane for form in "RESET SPATIAL PROJECTED EULER VECTOR POINTS RELATIV AXIAL".split()}, "TRANS DATUM AXIS": plain, "TRANS DATUM RESET": plain,
+    **{f"PLANE {form}": plane for form in "RESET SPATIAL PROJECTED EULER VECTOR POINTS RELATIV AXIAL".split()},
+    "TRANS DATUM AXIS": plain, "TRANS DATUM RESET": plain,
     "FUNCTION RESET TCPM": plain, "FUNCTION TCPM": led, "FUNCTION DWELL": waiting,
     "BLK FORM CYLINDER": with_axis, "BLK FORM ROTATION": turned_blank,
     **{f"{way} {form}": plain for way in ("APPR", "DEP") for form in _FORMS},
