@@ -1,5 +1,5 @@
-"""PLANE in all its forms on three machines with rotary axes: 200 random rotations said in every form and rebuilt, and which of two
-ways the axes go. What is expected is worked out here, from rotations alone."""
+"""PLANE in all its forms on three machines with rotary axes: 200 random rotations said in every form and rebuilt, and which of
+two ways the axes go. What is expected is worked out here, from rotations alone."""
 
 from __future__ import annotations
 
@@ -55,8 +55,8 @@ def projected(r: np.ndarray) -> str:
 
 def vector(r: np.ndarray) -> str:
     """A base vector that is not square to the normal, neither of them of length 1."""
-    base, normal = 3 * r[:, 0] - 1.5 * r[:, 2], 0.7 * r[:, 2]
-    return "PLANE VECTOR " + words(**{f"{which}{a}": v for which, of in (("B", base), ("N", normal)) for a, v in zip("XYZ", of, strict=True)})
+    two = {"B": 3 * r[:, 0] - 1.5 * r[:, 2], "N": 0.7 * r[:, 2]}
+    return "PLANE VECTOR " + words(**{f"{which}{a}": v for which in "BN" for a, v in zip("XYZ", two[which], strict=True)})
 
 
 def points(r: np.ndarray) -> str:
@@ -210,8 +210,8 @@ def test_without_a_kinematics_the_setting_names_the_axes(kinematics: str | None)
 
 
 def on_the_trunnion(x: float, y: float, z: float, a: float, c: float) -> np.ndarray:
-    """Where the tip is on the part of table-ac, the tip at X Y Z of the machine: A about (0, 0, 50), C about Z; each turns the part
-    by minus its angle, so that the tip turns by the angle itself as the part sees it."""
+    """Where the tip is on the part of table-ac, the tip at X Y Z of the machine: A about (0, 0, 50), C about Z; each turns the
+    part by minus its angle, so that the tip turns by the angle itself as the part sees it."""
     place = about("A", a) @ (x, y, z - 50) + (0, 0, 50)
     return about("C", c) @ place
 

@@ -18,7 +18,7 @@ from mnclab.controls.tnc_620.language.auxiliary import auto_feed
 from mnclab.controls.tnc_620.language.m_functions import retract
 from mnclab.controls.tnc_620.language.rotary import refuse_rotary
 from mnclab.controls.tnc_620.language.tools import refuse_other
-from mnclab.controls.tnc_620.language.values import above_zero, counted, first, not_negative, one_of
+from mnclab.controls.tnc_620.language.values import above_zero, counted, not_negative, one_of
 from mnclab.controls.tnc_620.state import Place, memory
 from mnclab.geometry import frames
 from mnclab.geometry.frames import Matrix
