@@ -3,9 +3,11 @@ two ways the axes go. What is expected is worked out here, from rotations alone.
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -149,6 +151,18 @@ def test_forty_five_degrees_about_x_on_a_trunnion() -> None:
     beyond = run("\nPLANE SPATIAL SPA+135 SPB+0 SPC+0 STAY", kinematics="table-ac", ok=False).alarms[0]
     assert beyond.span[:2] == (3, 1) and "no position of A and C turns the tool square to this plane" in beyond.message
     assert "A from -120 to 120°" in beyond.hint
+
+
+EXAMPLES = json.loads((Path(__file__).parents[2] / "authorities/catalogue/tnc620-klartext.json").read_text(encoding="utf-8"))
+
+
+def test_the_plane_of_the_manual() -> None:
+    """PGM C27: the axes of the plane, and the spindle at the end of its travel before the head turns."""
+    (example,) = (each for each in EXAMPLES if each["code"] == "PLANE SPATIAL")
+    limits = mnc.Limits(travel=((-500, 500), (-500, 500), (-500, 350)))
+    found = run(f"L X+10 FMAX\n{example['program']}", kinematics="head-b-table-c", limits=limits)
+    assert dict(found.frames)["tilt"][:3, :3].T == pytest.approx(np.array([example["check"][axis] for axis in "xyz"]))
+    assert np.array(found.axes())[-1] == pytest.approx([10, 0, 350, 0, 90, 0])
 
 
 def test_euler_turns_about_z_x_and_z() -> None:
