@@ -309,6 +309,23 @@ def test_a_datum_that_leans_leans_the_plane() -> None:
     assert level.toolpath.end[-1] == pytest.approx(leans @ (3, 4, 5))
 
 
+@pytest.mark.parametrize("leads", ["", "FUNCTION TCPM F TCP AXIS POS\n"])
+def test_a_table_that_counts_from_elsewhere(leads: str) -> None:
+    """C_OFFS 20: the part was measured with C at 20 of the machine, so the plane lies turned by 20 on the part, and C shows 90
+    where it stands at 110; TABLE ROT and the end of the tilt count from there too."""
+    presets = {0: mnc.Datum(5, 6, 7, c=20)}
+    tilt = f"{leads}PLANE SPATIAL SPA+0 SPB+30 SPC+0 TURN FMAX SEQ+\nL X+3 Y+4 Z+5 FMAX"
+    found = run(tilt, kinematics="table-ac", presets=presets)
+    assert stands(found) == pytest.approx([30, 0, 90])
+    assert np.array(found.axes())[-1, 3:] == pytest.approx([30, 0, 110])
+    place = about("C", 20) @ (np.array([5, 6, 7]) + about("B", 30) @ (3, 4, 5))
+    assert found.toolpath.end[-1] + found.toolpath.origin == pytest.approx(place)
+    back = run(f"{tilt}\nPLANE RESET TURN FMAX\nL X+1 Y+2 Z+3 FMAX", kinematics="table-ac", presets=presets)
+    assert np.array(back.axes())[-1] == pytest.approx([6, 8, 90, 0, 0, 20])
+    level = "PLANE SPATIAL SPA+0 SPB+0 SPC+15 TURN FMAX TABLE ROT\nL X+3 Y+0 Z+5 FMAX"
+    assert np.array(run(level, kinematics="table-ac", presets=presets).axes())[-1, 5] == pytest.approx(35)
+
+
 def test_shift_rotation_and_mirror_behind_the_tilt() -> None:
     found = run(
         "PLANE SPATIAL SPA+0 SPB+40 SPC+0 TURN FMAX\nTRANS DATUM AXIS X+10 Y-5\nCYCL DEF 10.0 R\nCYCL DEF 10.1 ROT+30\n"
