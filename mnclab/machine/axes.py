@@ -22,6 +22,7 @@ from mnclab.geometry import frames
 from mnclab.geometry.kinematics import NAMES, Kinematics, shorter
 from mnclab.machine.coordinates import STILL, Angles, angles, set_angles
 from mnclab.machine.state import Place
+from mnclab.path.cylinder import Cylinder
 from mnclab.path.limits import NOISE, Beyond
 from mnclab.path.toolpath import Array, Index, Kind, Toolpath
 from mnclab.text.program import Word
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 
 TOLERANCE = 0.01  # mm, how far the tip may be from the rows of a move with rotary axes, if nothing else is said
 MOST = 100_000  # rows of one move
+FIRST, FINE = 8, math.radians(2)  # rows that a move is tried with at first; a turn so small is tried as one
 SAME = 1e-12  # rad
 SQUARE = 2e-4  # rad, by which a tool may lean that stands square to its plane: angles are typed with three decimals
 
@@ -183,7 +185,7 @@ def swing(
     led = m.reckoned is None or below is not None
     length = own + (below or 0.0)
     start, end = led_ends(m, point, below or 0.0) if led else linear_ends(m, kinematics, point)
-    count = 8
+    count = max(1, min(FIRST, math.ceil(float(np.abs(after - before).max()) / FINE)))
 
     def places(share: Array) -> tuple[Array, Array]:
         """X Y Z (n, 3) of the spindle reference, and the angles."""
@@ -233,6 +235,16 @@ def swing(
     stand(m)
     if point is not None:
         m.set_register(point)
+
+
+def roll_over(m: Machine, cylinder: Cylinder, points: Array, angles: Array, ways: Array, f: float | None) -> None:
+    """Go over a cylinder that one rotary axis turns, as `coordinates.roll` does, by the kinematics of the machine: through tips
+    (n, 3) of the program, for which the linear axes go where they would with the rotary axes as coordinates are reckoned."""
+    rate, size = m.feed_of(f), math.hypot(*m.frames.matrix[:3, 0].tolist())
+    for point, angle, way in zip(points.tolist(), np.degrees(angles).tolist(), ways.tolist(), strict=True):
+        a, b, c = (angle if k == cylinder.rotary else math.degrees(old) for k, old in enumerate(m.rotary))
+        if math.dist((a, b, c), map(math.degrees, m.rotary)) > STILL or math.dist(point, m.programmed) > STILL:
+            swing(m, (a, b, c), point, math.inf if math.isinf(rate) else way * size / rate)
 
 
 def between(kinematics: Kinematics, before: Array, after: Array, share: Array) -> Array:

@@ -14,7 +14,7 @@ import numpy as np
 from mnclab.geometry.arcs import FULL
 from mnclab.geometry.contours import Contour
 from mnclab.machine import coordinates
-from mnclab.machine.axes import leaning, reckon, turn_axes
+from mnclab.machine.axes import leaning, reckon, roll_over, turn_axes
 from mnclab.machine.coordinates import CALLS, FRAME, MILLS, NOTHING, in_mm, roll, tool_axis
 from mnclab.machine.cycle import Cycle, Definition, Parameter
 from mnclab.machine.flow import put_out
@@ -335,7 +335,8 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = 
             case Swivel():
                 turn_axes(m, step.angles, step.feed, below=step.below)
             case Rolled():
-                roll(m, step.cylinder, step.points, step.angles, step.ways, step.feed)
+                follow_axis = roll if m.tables.kinematics is None else roll_over
+                follow_axis(m, step.cylinder, step.points, step.angles, step.ways, step.feed)
             case Each():
                 at_each(m, step.points, lambda *point, visit=step.visit: perform(m, name, visit(*point), (x, y)))
             case Call():

@@ -416,7 +416,8 @@ def probing(form: str, machine: str) -> mnc.Run:
     words = "Q273=0 Q274=0 Q262=40 Q325=0 Q247=90 Q261=-5 Q320=0 Q260=20 Q301=0 Q275=0 Q276=0 Q279=0 Q280=0 Q281=0 Q309=0 Q330=0"
     tilt = f"L Z+200 R0 FMAX\nPLANE SPATIAL SPA+20 SPB+10 SPC+0 {form}\nL Z+80 R0 FMAX"
     return mnc.run(
-        f"TOOL CALL 7 Z\n{tilt}\nTCH PROBE 421 X\n" + words.replace(" ", "\n") + "\n", "tnc-620", tools={7: mnc.Tool(radius=2, length=60, kind="probe")}, part=made,
+        f"TOOL CALL 7 Z\n{tilt}\nTCH PROBE 421 X\n" + words.replace(" ", "\n") + "\n", "tnc-620",
+        tools={7: mnc.Tool(radius=2, length=60, kind="probe")}, part=made,
         kinematics=machine, start=(0, 0, 300),
     )  # fmt: skip
 
