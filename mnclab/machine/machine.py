@@ -43,6 +43,11 @@ class Machine(Placed):
         self.control, self.setup, self.flow = control, setup, flow
         self.settings = chosen(control.settings, setup.settings, control.name, setup.source)
         self.begin()
+        if (kinematics := self.tables.kinematics) is not None:  # the axes stand at home, and the tip where that leads it
+            x, y, z = kinematics.tips(np.array(self.tip), np.array(self.rotary), self.tool.effective_length).tolist()
+            self.tip = x, y, z
+            self.recorder.start = np.array(self.tip)
+            stand(self)
         self.log("position", self.programmed)
 
     def __repr__(self) -> str:

@@ -2,7 +2,8 @@
 
 What the control knows of its probe stands in the tables: the radius of the ball, the length (to the south pole of the ball),
 the offset of the ball from the spindle axis. The part meets the probe as it is: `Setup(true_tools=…)` and the truths of
-`Probe`. So a probe that is not calibrated measures wrong, as on a machine.
+`Probe`. So a probe that is not calibrated measures wrong, as on a machine. So does one on rotary axes whose centres are not
+where the control has them: `Setup(true_kinematics=…)`.
 """
 
 from __future__ import annotations
@@ -15,6 +16,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from mnclab.geometry.curves import turned
+from mnclab.geometry.kinematics import moved
+from mnclab.machine.axes import direction as direction_of_tool
+from mnclab.machine.axes import orientation, truth
 from mnclab.machine.coordinates import FRAME, LOG, PLANES, axes_of, tool_axis
 from mnclab.machine.cutting import CUT, TILT, part_before, start_known, tilted_rows
 from mnclab.machine.measuring import Touched
@@ -67,11 +71,22 @@ class Felt(NamedTuple):
 
 
 class Ball(NamedTuple):
-    """The ball as it is: where its centre stands beside the programmed tip, its radius, and the way up its stem."""
+    """The ball as it is: where its centre stands beside the tip, its radius, the way up its stem, and what leads from the tip as
+    the control has it to where that truly is (4, 4), None where both are one."""
 
     beside: Floats
     radius: float
     up: Floats
+    moved: Floats | None = None
+
+    def at(self, tip: Any) -> Floats:
+        """Where its centre truly is on the part while the control has the tip at a place (…, 3)."""
+        there = np.asarray(tip)
+        return (there if self.moved is None else moved(self.moved, there)) + self.beside
+
+    def way(self, direction: Floats) -> Floats:
+        """How it truly goes on the part while the control has the tip go in a direction (3,)."""
+        return direction if self.moved is None else self.moved[:3, :3] @ direction
 
 
 def unfit(m: Machine, *, still: bool = False) -> Iterator[tuple[str, str]]:
@@ -98,12 +113,12 @@ def part_to_touch(m: Machine, word: Word | None = None) -> Part | None:
 
 
 def offset(m: Machine, of: tuple[float, float]) -> Floats:
-    """An offset (x, y) of the ball from the spindle axis, turned with the spindle, in machine coordinates (3,)."""
+    """An offset (x, y) of the ball from the spindle axis, turned with spindle and rotary axes, on the part (3,)."""
     found, turn = np.zeros(3), math.radians((m.spindle_angle or 0.0) - m.tables.probe.angle)
     first, second, _ = next(axes for axes in PLANES.values() if axes[2] == tool_axis(m))
     x, y = of
     found[[first, second]] = x * math.cos(turn) - y * math.sin(turn), x * math.sin(turn) + y * math.cos(turn)
-    return found
+    return orientation(m) @ found
 
 
 def ball_from_axis(m: Machine) -> tuple[float, float]:
@@ -114,15 +129,26 @@ def ball_from_axis(m: Machine) -> tuple[float, float]:
     return x, y
 
 
+def up_the_tool(m: Machine) -> Floats:
+    """The direction (3,) on the part from the tip up the tool, as the control has it."""
+    if m.tables.kinematics is not None:
+        return direction_of_tool(m)
+    up = np.array(m.matrix[:3, 2 if FRAME in m.frames else tool_axis(m)])
+    return np.asarray(up / np.linalg.norm(up))
+
+
 def true_ball(m: Machine, ball: float) -> Ball:
     """The ball of the tool in the spindle, as it is; `ball` is the radius where nobody says it."""
     true = m.setup.true_tools.get(m.tool.number)
-    up = np.array(m.matrix[:3, 2 if FRAME in m.frames else tool_axis(m)])
-    up /= np.linalg.norm(up)
     radius = ball if true is None else true.effective_radius
     longer = 0.0 if true is None else true.effective_length - m.tool.effective_length
     where = m.tables.probe.offset if m.setup.probe.true_offset is None else m.setup.probe.true_offset
-    return Ball(offset(m, where) + up * (radius - longer), radius, up)
+    if (there := truth(m)) is None:
+        up = up_the_tool(m)
+        return Ball(offset(m, where) + up * (radius - longer), radius, up)
+    up = there.orientation[:, 2]
+    beside = there.orientation @ orientation(m).T @ offset(m, where)
+    return Ball(beside + up * (radius - longer), radius, up, there.moved)
 
 
 def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, miss: str) -> Contact:
@@ -143,34 +169,34 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
     if reach == 0:
         m.alarm("a touch needs a direction", word)
     direction, true = (goal - start) / reach, true_ball(m, ball)
-    begin = start + true.beside
+    begin, ahead = true.at(start), true.way(direction)
     room = float(part(begin)[0])
     if room - true.radius < -DEEP - slack(m):
         m.alarm("the stylus is in contact before it touches", word, hint="the touch begins where the ball is free")
     # a ball that only rests on the part goes along it, and on to what stands in its way
-    travel = contact(part, begin, direction, min(true.radius, max(room - RESTS, DEEP)), reach)
-    if travel is not None and not part.exact and not foot(part, begin + direction * travel)[1]:
+    travel = contact(part, begin, ahead, min(true.radius, max(room - RESTS, DEEP)), reach)
+    if travel is not None and not part.exact and not foot(part, begin + ahead * travel)[1]:
         hint = "it may touch a little later; parts of boxes, holes, slots, pockets and bosses with one axis are exact there"
         m.warn("the ball touches off a cut edge of the part, where the distance is only bounded", word, hint=hint)
     if travel is not None:
-        travel += trigger(m, direction)
+        travel += trigger(m, ahead)
     way = reach if travel is None else travel
-    if (stopped := stem_meets(m, part, true, begin, begin + direction * way)) is not None:
+    if (stopped := stem_meets(m, part, true, begin, begin + ahead * way)) is not None:
         m.probe_to(_point(start + direction * stopped), f)
         m.alarm("the stem of the probe touches the part before the ball does", word)
     end = start + direction * way
     m.probe_to(_point(end), f)
     if travel is None and miss == "alarm":
         m.alarm(f"touch point inaccessible: the probe did not trigger within {reach:g} mm", word)
-    centre = _point(end + offset(m, m.tables.probe.offset) + np.array(true.up) * ball)
+    centre = _point(end + offset(m, m.tables.probe.offset) + up_the_tool(m) * ball)
     number = -1
     if travel is not None:
         number = len(m.touches)
-        surface = _point(begin + direction * (travel + true.radius))
+        surface = _point(begin + ahead * (travel + true.radius))
         found = m.to_program(_point(np.array(centre) + direction * ball))
         m.touches.append(
-            Touched(m.step, m.source_line, m.program, m.label, _point(begin), _point(begin + direction * travel),
-                    _point(direction), true.radius, surface, m.to_program(centre), found, m.matrix, axes_of(m))
+            Touched(m.step, m.source_line, m.program, m.label, _point(begin), _point(begin + ahead * travel),
+                    _point(ahead), true.radius, surface, m.to_program(centre), found, m.matrix, axes_of(m))
         )  # fmt: skip
     return Contact(m.to_program(centre), centre, travel is not None, _point(end), number)
 
@@ -178,7 +204,7 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
 def deflected(m: Machine, part: Part | None, ball: float) -> bool:
     """Whether the stylus stands in contact already."""
     true = true_ball(m, ball)
-    return part is not None and float(part(np.array(m.tip) + true.beside)[0]) - true.radius < -DEEP - slack(m)
+    return part is not None and float(part(true.at(m.tip))[0]) - true.radius < -DEEP - slack(m)
 
 
 def trigger(m: Machine, direction: Floats) -> float:
@@ -216,17 +242,17 @@ def guarded(m: Machine, part: Part, target: Point, feed: float | None) -> None:
     way = float(np.linalg.norm(goal - start))
     if way > 0:
         ball, direction = true_ball(m, m.tool.effective_radius), (goal - start) / way
-        begin, radius = start + ball.beside, max(ball.radius - DEEP - slack(m), DEEP)
-        end = begin + direction * way
+        begin, ahead, radius = ball.at(start), ball.way(direction), max(ball.radius - DEEP - slack(m), DEEP)
+        end = begin + ahead * way
         far = is_free(part, begin, end, radius)
-        free = None if far else contact(part, begin, direction, radius, way, GRAZE)
+        free = None if far else contact(part, begin, ahead, radius, way, GRAZE)
         stem = stem_meets(m, part, ball, begin, end)
         stopped = min((each for each in (free, stem) if each is not None), default=None)
         if stopped is not None:
             m.line(*m.to_program(_point(start + direction * stopped)), f=feed)
             which = "stylus" if stopped == free else "stem of the probe"
             hint = "the axes stop there; a larger clearance, another height or nominal sizes nearer to the part help"
-            if not part.exact and not foot(part, begin + direction * stopped)[1]:
+            if not part.exact and not foot(part, begin + ahead * stopped)[1]:
                 hint = "its distance is only bounded there: what is taken out of it should stick out by more than the ball"
             m.alarm(f"path obstructed: the {which} touches the part at {place_of(m, m.programmed)} while positioning", hint=hint)
     m.line(*target, f=feed)
@@ -240,7 +266,7 @@ def guarded_turn(m: Machine, part: Part, centre: tuple[float, float], angle: flo
     turns = np.linspace(0.0, angle, min(count, 4000))
     places = np.column_stack([turned(np.broadcast_to(spoke, (len(turns), 2)), turns) + centre, np.full(len(turns), start[2])])
     ball = true_ball(m, m.tool.effective_radius)
-    centres = np.array([m.to_machine(place) for place in places.tolist()]) + ball.beside
+    centres = ball.at([m.to_machine(place) for place in places.tolist()])
     hit = np.flatnonzero(part(centres) < ball.radius - DEEP - slack(m))
     if len(hit):
         m.alarm(f"path obstructed: the stylus touches the part at {place_of(m, places[hit[0]])} while positioning")
