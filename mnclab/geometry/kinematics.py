@@ -31,6 +31,7 @@ Triple = tuple[float, float, float]
 NAMES = "ABC"
 UP = np.array([0.0, 0.0, 1.0])
 FREE = 1e-9  # a direction so near to that of an axis does not say where the axis stands
+SHORT = 1e-15  # by which the length of a direction is off that has the length 1
 WITHIN = 1e-9  # rad, by which a limit may be passed, of numbers alone
 
 
@@ -74,6 +75,7 @@ class Axis:
             raise Alarm(f"limits of {what} must go up, got {limits[0]:g} to {limits[1]:g}")
         check_number(self.home, f"home of {what}", at_least=limits[0], at_most=limits[1])
         check_number(self.backlash, f"backlash of {what}", at_least=0, at_most=180)
+        length = length if abs(length - 1) > SHORT else 1.0
         x, y, z = (number / length for number in direction)
         found = {"centre": tuple(map(float, centre)), "direction": (x, y, z), "limits": tuple(map(float, limits))}
         for name, value in (found | {"home": float(self.home), "backlash": float(self.backlash)}).items():

@@ -138,8 +138,8 @@ def change_length(m: Machine, length: float) -> None:
     m.tip = x, y, z
 
 
-def turn_axes(m: Machine, to: Angles, f: float | None, word: Word | None = None) -> None:
-    """Turn to angles (degrees) while the linear axes stand, or the tip that is led; `f` is in degrees a minute, infinite at
+def turn_axes(m: Machine, to: Angles, f: float | None, word: Word | None = None, below: float = 0.0) -> None:
+    """Turn to angles (degrees) while the linear axes stand, the tip that is led, or the place `below` it, mm; `f` is in degrees a minute, infinite at
     rapid, None the modal feed.
 
     The time of a rapid turn is not known: no limits of rotary axes are.
@@ -147,7 +147,7 @@ def turn_axes(m: Machine, to: Angles, f: float | None, word: Word | None = None)
     rate = turning_feed(m) if f is None else f
     way = max(abs(new - old) for new, old in zip(to, angles(m), strict=True))
     if m.tables.kinematics is not None:
-        swing(m, to, None, math.inf if math.isinf(rate) else way / rate, word)
+        swing(m, to, None, math.inf if math.isinf(rate) else way / rate, word, below)
         return
     set_angles(m, to)
     kind = Kind.LINE if math.isfinite(rate) else Kind.RAPID

@@ -127,11 +127,15 @@ class Touch(NamedTuple):
 
 
 class Swivel(NamedTuple):
-    """The rotary axes turn to the angles A, B and C, degrees, at degrees a minute, while the tip of the tool stands."""
+    """The rotary axes turn to the angles A, B and C, degrees, at degrees a minute, while the tip of the tool stands.
+
+    With the kinematics of a machine the linear axes stand, or with `below` the place on the part that is so far below the tip.
+    """
 
     label: str
     angles: tuple[float, float, float]
     feed: float | None
+    below: float = 0.0
 
 
 class Rolled(NamedTuple):
@@ -226,8 +230,8 @@ class Write(NamedTuple):
     """A value that stays: an attribute of the machine that rows carry ("side"), or with a `key` one of these.
 
     A "variable", a "measured" value, a row of "tools", "datums" or "presets", the "probe" table, the "tool" in the spindle as it
-    is from now on, a whole "file" by its name or what is "appended" to it, a "frame", the new name of a frame ("renamed"),
-    the "datum" as a frame, or as a "chosen datum", a "modal" group, "memory" of the control, what is "kept" for the next
+    is from now on, a whole "file" by its name (None: it is deleted) or what is "appended" to it, the "kinematics" from now
+    on, the angles with which coordinates are "reckoned", a "frame", the new name of a frame ("renamed"), the "datum" as a frame, or as a "chosen datum", a "modal" group, "memory" of the control, what is "kept" for the next
     call of the cycle, a value that only the "history" keeps.
     """
 

@@ -14,7 +14,7 @@ import numpy as np
 from mnclab.geometry.arcs import FULL
 from mnclab.geometry.contours import Contour
 from mnclab.machine import coordinates
-from mnclab.machine.axes import turn_axes
+from mnclab.machine.axes import correct, reckon, turn_axes
 from mnclab.machine.coordinates import FRAME, MILLS, in_mm, roll, tool_axis
 from mnclab.machine.cycle import Cycle, Definition, Parameter
 from mnclab.machine.flow import put_out
@@ -326,7 +326,7 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = 
             case Touch():
                 answer = m.touch(x + step.x, y + step.y, step.z, f=step.feed, ball=step.ball, miss=step.miss)
             case Swivel():
-                turn_axes(m, step.angles, step.feed)
+                turn_axes(m, step.angles, step.feed, below=step.below)
             case Rolled():
                 roll(m, step.cylinder, step.points, step.angles, step.ways, step.feed)
             case Each():
@@ -399,6 +399,10 @@ def write(m: Machine, step: Write) -> None:
         case "probe":
             m.tables.probe = step.value
             m.log("probe", step.value)
+        case "kinematics":
+            correct(m, step.value)
+        case "reckoned":
+            reckon(m, step.value)
         case "file" | "appended":
             put_out(m, step.key, step.value, anew=step.what == "file")
         case "frame":
