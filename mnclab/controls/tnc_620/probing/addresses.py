@@ -148,7 +148,7 @@ _start = partial(angle, at_least=-359.999, at_most=359.999, example=-90)
 _end = partial(_start, example=90)
 _incidence = partial(_start, note="while the other rotary axes are measured", example=0)
 _points = partial(count, at_most=12, note="0: it is not measured", example=0)
-optimizing = partial(choice, "Q406", meaning="mode", choices=OPTIMIZING, example=1)
+mode = partial(choice, "Q406", meaning="mode", choices=OPTIMIZING, example=1)
 sphere_radius = partial(length, "Q407", "exact radius of the calibration sphere", at_least=0.0001, at_most=99.9999, example=12.5)
 retraction_height = partial(
     length, "Q408", meaning="retraction height", default=0, example=0,
@@ -170,9 +170,9 @@ start_angle_c = partial(_start, "Q419", meaning="start angle of the C axis", exa
 end_angle_c = partial(_end, "Q420", meaning="end angle of the C axis", example=270)
 incidence_angle_c = partial(_incidence, "Q421", meaning="angle of incidence of the C axis")
 measuring_points_c = partial(_points, "Q422", meaning="measuring points of the C axis", example=3)
-touch_points = partial(count, "Q423", meaning="number of touch points on the equator", at_least=3, at_most=8, example=4)
-sphere_preset = partial(choice, "Q431", meaning="preset in the middle of the sphere", choices=SPHERE_PRESETS, example=0)
-backlash_angle = partial(
+number_of_touch_points = partial(count, "Q423", meaning="number of touch points on the equator", at_least=3, at_most=8, example=4)
+preset = partial(choice, "Q431", meaning="preset in the middle of the sphere", choices=SPHERE_PRESETS, example=0)
+backlash_angular_range = partial(
     angle, "Q432", meaning="angle to measure the backlash by", at_least=-3, at_most=3, default=0, note="0: it is not measured",
     example=0,
 )  # fmt: skip

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any, ClassVar
 
 import numpy as np
@@ -56,6 +57,7 @@ CHECK, POSITION, POSE, DATUM = OPTIMIZING
 BEFORE, AFTER = (1, 3), (2, 3)  # of Q431
 NEVER = -1.0  # of a result that there is none of
 SLACK = 1e-9  # mm, of numbers alone
+first_angle = partial(addresses.reference_angle, meaning="angle of the first touch on the equator", at_least=0)
 
 
 @dataclass
@@ -71,13 +73,13 @@ class MeasuringKinematics(ProbingCycle):
     """Base of 451 and 452: the axes are measured one after the other, the others at their angles of incidence."""
 
     tilted: ClassVar[bool] = True
-    optimizing: float = POSITION
-    sphere_preset: float = 0.0
+    mode: float = POSITION
+    preset: float = 0.0
     sphere_radius: float = 0.0
     retraction_height: float = 0.0
     feed_pre_positioning: Any = 0.0
-    touch_points: float = 4.0
-    backlash_angle: float = 0.0
+    number_of_touch_points: float = 4.0
+    backlash_angular_range: float = 0.0
 
     def of(self, what: str, axis: str) -> float:
         """A parameter of an axis."""
@@ -98,7 +100,7 @@ class MeasuringKinematics(ProbingCycle):
     def reverses(self, m: Machine, axis: str) -> float:
         """The angle by which the backlash of an axis is measured, degrees; 0: it is not."""
         can = m.settings["m_strobe_rot_ax_pos"] == -1 and not m.settings[f"hirth_{axis.lower()}"]
-        return self.backlash_angle if can else 0.0
+        return self.backlash_angular_range if can else 0.0
 
     def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
@@ -144,30 +146,30 @@ class MeasuringKinematics(ProbingCycle):
         found = Measuring()
         yield Write("memory", {}, "tilt_angles")
         yield from with_axes(m)
-        if self.sphere_preset in BEFORE:
+        if self.preset in BEFORE:
             x, y, z = m.programmed
             about, _ = yield from self.touched(m, a, (x, y, z - a.gap - self.sphere_radius), watched=False)
             centre, _ = yield from self.touched(m, a, about)
-            yield from self.preset(m, np.array(m.to_machine(centre)))
+            yield from self.set_preset(m, np.array(m.to_machine(centre)))
         for axis in self.measured(m):
             found.axes[axis] = yield from self.one_axis(m, a, axis, found)
-        if not found.all or self.sphere_preset in AFTER:
+        if not found.all or self.preset in AFTER:
             found.all.append((yield from self.reading(m, a, found)))
-        after, axes = evaluated(before, below(m), found.axes, askew=self.optimizing in (POSE, DATUM))
+        after, axes = evaluated(before, below(m), found.axes, askew=self.mode in (POSE, DATUM))
         drift = self.drift(m, found, after)
         after = replace(after, shift=tuple((after.shift - drift).tolist()))
         yield from self.told(m, axes, found, after, drift)
-        if self.optimizing != CHECK and after != before:
+        if self.mode != CHECK and after != before:
             yield from self.confirmed(m, before, after)
             yield Write("kinematics", after, label="the kinematics is corrected")
             yield from with_axes(m)
-        if self.sphere_preset in AFTER:
-            yield from self.preset(m, self.seen(m, chain(m), found.all[-1]))
+        if self.preset in AFTER:
+            yield from self.set_preset(m, self.seen(m, chain(m), found.all[-1]))
 
     def touched(self, m: Machine, a: Approach, centre: Any, watched: bool = True) -> Moves:
         """The middle of the sphere, measured about a place of it (x, y, z), and the contacts."""
         yield from self.over_pole(m, a, centre)
-        contacts = yield from on_sphere(a, centre, self.sphere_radius, self.reference_angle, int(self.touch_points))
+        contacts = yield from on_sphere(a, centre, self.sphere_radius, self.reference_angle, int(self.number_of_touch_points))
         ball = needed(fits.sphere, [each.point for each in contacts], m=m, code=self.code)
         off, most = ball.radius - a.ball - self.sphere_radius, m.settings["max_dev_cal_ball"]
         if watched and abs(off) > most:
@@ -230,7 +232,7 @@ class MeasuringKinematics(ProbingCycle):
                 yield Swivel(f"{axis} to {to[axis]:.10g}", (stands[0], stands[1], stands[2]), self.rate, away)
         yield from with_axes(m)
 
-    def preset(self, m: Machine, place: Floats) -> Iterator[Step]:
+    def set_preset(self, m: Machine, place: Floats) -> Iterator[Step]:
         """The active preset is a place on the part."""
         x, y, z = (frames.inverse(m.frames.before("preset")) @ (*place, 1.0))[:3].tolist()
         yield from store(m, active_preset(m), x=x, y=y, z=z)
@@ -256,7 +258,7 @@ class MeasuringKinematics(ProbingCycle):
         measured = {q: axes[axis].scatter for q, axis in zip(("Q141", "Q142", "Q143"), NAMES) if axis in axes}
         optimized = {q: axes[axis].optimized for q, axis in zip(("Q144", "Q145", "Q146"), NAMES) if axis in axes}
         yield from results(**{f"Q{n}": NEVER for n in range(141, 147)})
-        yield from lengths(m, **measured, **(optimized if self.optimizing != CHECK else {}))
+        yield from lengths(m, **measured, **(optimized if self.mode != CHECK else {}))
         yield from lengths(m, **dict(zip(("Q147", "Q148", "Q149"), self.offset_error(m, axes, drift).tolist())))
         for name, axis in axes.items():
             touches = tuple(found.touches)
@@ -335,23 +337,26 @@ def with_axes(m: Machine, turned: bool = True) -> Iterator[Step]:
 
 @CYCLES(
     "TCH PROBE 451", "Measure kinematics", source="18.4",
-    takes=f"optimizing {MEASURED_BY} {OF_AXES} touch_points sphere_preset backlash_angle",
+    takes=f"mode {MEASURED_BY} {OF_AXES} number_of_touch_points preset backlash_angular_range",
 )  # fmt: skip
 class MeasureKinematics(MeasuringKinematics):
-    """Checks the rotary axes, or puts them where a sphere shows them: 5 to 9 touches at each of their positions."""
+    """Checks the rotary axes, or puts them where a sphere shows them: 4 to 9 touches at each of their positions."""
+
+    clearance: float = addresses.clearance(predef=True)
+    reference_angle: float = first_angle()
 
     def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
-        if self.optimizing in (POSE, DATUM) and not m.settings["kinematics_comp"]:
-            yield "optimizing", "2 and 3 need the software option KinematicsComp, which is switched off (setting kinematics_comp)"
-        if self.optimizing == DATUM and (machine := m.tables.kinematics) is not None:
+        if self.mode in (POSE, DATUM) and not m.settings["kinematics_comp"]:
+            yield "mode", "2 and 3 need the software option KinematicsComp, which is switched off (setting kinematics_comp)"
+        if self.mode == DATUM and (machine := m.tables.kinematics) is not None:
             sides = ([axis.name for axis in side if axis.name in self.measured(m)] for side in (machine.head, machine.table))
             if not any(len(side) > 1 for side in sides):
-                yield "optimizing", "3 needs two axes that are measured, one upon the other in the head or in the table"
+                yield "mode", "3 needs two axes that are measured, one upon the other in the head or in the table"
 
     def drift(self, m: Machine, found: Measuring, after: Kinematics) -> Floats:
         """What is common to all measurements, the references included."""
-        if self.optimizing != DATUM:
+        if self.mode != DATUM:
             return np.zeros(3)
         return np.asarray(np.mean([self.seen(m, after, each) for each in found.all], axis=0) - m.to_machine((0.0, 0.0, 0.0)))
 
@@ -360,14 +365,16 @@ class MeasureKinematics(MeasuringKinematics):
         return [np.zeros(3), *(axis.compensation for axis in axes.values())][-1]
 
     def log_of_mode(self) -> Iterator[str]:
-        yield f"Mode: {self.optimizing:g}, {OPTIMIZING[self.optimizing]}"
+        yield f"Mode: {self.mode:g}, {OPTIMIZING[self.mode]}"
 
 
 @CYCLES(
-    "TCH PROBE 452", "Preset compensation", source="18.5", takes=f"{MEASURED_BY} {OF_AXES} touch_points backlash_angle",
+    "TCH PROBE 452", "Preset compensation", source="18.5", takes=f"{MEASURED_BY} {OF_AXES} number_of_touch_points backlash_angular_range",
 )  # fmt: skip
 class PresetCompensation(MeasuringKinematics):
     """Puts the rotary axes where a sphere shows them, and the part so that the active preset is in the middle of the sphere."""
+
+    reference_angle: float = first_angle()
 
     def drift(self, m: Machine, found: Measuring, after: Kinematics) -> Floats:
         """The middle of the sphere from the preset, at the first reference position."""
