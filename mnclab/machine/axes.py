@@ -139,10 +139,10 @@ def change_length(m: Machine, length: float) -> None:
 
 
 def turn_axes(m: Machine, to: Angles, f: float | None, word: Word | None = None, below: float = 0.0) -> None:
-    """Turn to angles (degrees) while the linear axes stand, the tip that is led, or the place `below` it, mm; `f` is in degrees a minute, infinite at
-    rapid, None the modal feed.
+    """Turn to angles (degrees) while the linear axes stand, the tip that is led, or the place that is `below` it, mm.
 
-    The time of a rapid turn is not known: no limits of rotary axes are.
+    `f` is in degrees a minute, infinite at rapid, None the modal feed. The time of a rapid turn is not known: no limits of rotary
+    axes are.
     """
     rate = turning_feed(m) if f is None else f
     way = max(abs(new - old) for new, old in zip(to, angles(m), strict=True))

@@ -266,7 +266,7 @@ def guarded_turn(m: Machine, part: Part, centre: tuple[float, float], angle: flo
     turns = np.linspace(0.0, angle, min(count, 4000))
     places = np.column_stack([turned(np.broadcast_to(spoke, (len(turns), 2)), turns) + centre, np.full(len(turns), start[2])])
     ball = true_ball(m, m.tool.effective_radius)
-    centres = ball.at([m.to_machine(place) for place in places.tolist()])
+    centres = ball.at(moved(m.matrix, places))
     hit = np.flatnonzero(part(centres) < ball.radius - DEEP - slack(m))
     if len(hit):
         m.alarm(f"path obstructed: the stylus touches the part at {place_of(m, places[hit[0]])} while positioning")

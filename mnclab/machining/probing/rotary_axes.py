@@ -184,7 +184,7 @@ def _across(k: Floats) -> Floats:
 
 def _distance(axis: Axis, point: Floats) -> float:
     """Of a point (3,) from an axis."""
-    return float(np.linalg.norm(np.cross(axis.direction, point - axis.centre)))
+    return float(np.linalg.norm(np.cross(np.array(axis.direction), point - axis.centre)))
 
 
 def _angles(axis: Axis, one: Floats, other: Floats) -> Floats:

@@ -280,7 +280,7 @@ def corner(a: Approach, first: Sequence[Aim], second: Sequence[Aim], now: float)
 
 
 def on_sphere(a: Approach, centre: tuple[float, float, float], radius: float, first: float, count: int) -> Steps:
-    """Touches of a sphere (its radius, mm): the pole, then points of the equator from an angle on (degrees); returns the contacts.
+    """Touches of a sphere of a radius: the pole, then points of the equator from an angle on (degrees); returns the contacts.
 
     The probe begins over the pole, goes round on an arc, and ends over the pole (TNC 620 18.4).
     """

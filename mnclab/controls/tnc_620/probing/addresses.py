@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from functools import partial
 
-from mnclab.controls.tnc_620.cycles.addresses import POSITIONING, angle, choice, coordinate, count, distance, feed, length
+from mnclab.controls.tnc_620.cycles.addresses import (
+    POSITIONING,
+    angle,
+    choice,
+    coordinate,
+    count,
+    distance,
+    feed,
+    length,
+)
 from mnclab.machine.cycle import param
 
 #: Names of parameters that follow each other in many cycles.

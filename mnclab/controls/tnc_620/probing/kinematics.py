@@ -29,19 +29,20 @@ from mnclab.machine.control import Setting
 from mnclab.machine.coordinates import STILL, angles, in_mm, tool_axis
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
+from mnclab.machine.state import Place
 from mnclab.machining.probing import fits
 from mnclab.machining.probing.found import Floats
 from mnclab.machining.probing.rotary_axes import AxisReadings, MeasuredAxis, Reading, evaluated
-from mnclab.machining.probing.sequences import Approach, numbers, on_sphere, results
+from mnclab.machining.probing.sequences import Approach, Steps, numbers, on_sphere, results
 from mnclab.machining.steps import Go, Measure, Pause, Say, Step, Swivel, Write
 
 CYCLES = CycleTable(addresses=addresses, runs="definition")
 SETTINGS = (
     Setting("kinematics_comp", True, "software option 52, KinematicsComp: cycle 451 can optimize angles", "18.4"),
-    Setting("software_option_2", True, "cycles 451 and 452 may lead the probe round the sphere, without a retraction height", "18.4"),
+    Setting("software_option_2", True, "451 and 452 may lead the probe round the sphere, without a retraction height", "18.4"),
     Setting(
-        "max_modification", 0.05, "a greater change of the kinematics by 451 and 452 must be confirmed (maxModification, no. 204801)",
-        "18.2", unit="mm", at_least=0,
+        "max_modification", 0.05, "greater changes of the kinematics must be confirmed (maxModification, no. 204801)", "18.2",
+        unit="mm", at_least=0,
     ),
     Setting(
         "max_dev_cal_ball", 0.02, "how far the radius of the calibration sphere may be off (maxDevCalBall, no. 204802)", "18.2",
@@ -166,18 +167,19 @@ class MeasuringKinematics(ProbingCycle):
         if self.preset in AFTER:
             yield from self.set_preset(m, self.seen(m, chain(m), found.all[-1]))
 
-    def touched(self, m: Machine, a: Approach, centre: Any, watched: bool = True) -> Moves:
+    def touched(self, m: Machine, a: Approach, centre: Place, watched: bool = True) -> Steps:
         """The middle of the sphere, measured about a place of it (x, y, z), and the contacts."""
         yield from self.over_pole(m, a, centre)
         contacts = yield from on_sphere(a, centre, self.sphere_radius, self.reference_angle, int(self.number_of_touch_points))
         ball = needed(fits.sphere, [each.point for each in contacts], m=m, code=self.code)
         off, most = ball.radius - a.ball - self.sphere_radius, m.settings["max_dev_cal_ball"]
         if watched and abs(off) > most:
-            said = f"{self.code} Q407 (exact radius of the calibration sphere) is {self.sphere_radius:g}, and {self.sphere_radius + off:.4f} was measured"
-            m.alarm(in_mm(f"{said}: it may be off by {most:g}", m.variable_unit), hint="setting max_dev_cal_ball")
+            said = f"is {self.sphere_radius:g}, and {self.sphere_radius + off:.4f} was measured: it may be off by {most:g}"
+            sentence = f"{self.code} Q407 (exact radius of the calibration sphere) {said}"
+            m.alarm(in_mm(sentence, m.variable_unit), hint="setting max_dev_cal_ball")
         return (ball.x, ball.y, ball.z), contacts
 
-    def over_pole(self, m: Machine, a: Approach, centre: Any) -> Iterator[Step]:
+    def over_pole(self, m: Machine, a: Approach, centre: Place) -> Iterator[Step]:
         """From where the probe stands, and not below that height."""
         x, y, z = centre
         top, slower = z - a.ball + self.sphere_radius + a.away, min(self.rate, a.positioning)
@@ -188,14 +190,14 @@ class MeasuringKinematics(ProbingCycle):
         if abs(m.programmed[2] - top) > STILL:
             yield Go("over the pole", top, slower)
 
-    def reading(self, m: Machine, a: Approach, found: Measuring) -> Moves:
+    def reading(self, m: Machine, a: Approach, found: Measuring) -> Steps:
         """The sphere, which is where the preset is, measured with the axes as they stand."""
         centre, contacts = yield from self.touched(m, a, (0.0, 0.0, 0.0))
         found.touches += numbers(contacts)
         stands = np.array(m.rotary)
         return Reading(stands, chain(m).references(np.array(m.to_machine(centre)), stands, -below(m)[2]))
 
-    def one_axis(self, m: Machine, a: Approach, axis: str, found: Measuring) -> Moves:
+    def one_axis(self, m: Machine, a: Approach, axis: str, found: Measuring) -> Steps:
         """The reference, with the axis at 0 and the others at their angles of incidence, and its positions."""
         yield from self.turn(m, a, {other: self.of("incidence_angle", other) for other in chain(m).names} | {axis: 0.0})
         readings: list[list[Reading]] = [[], []]
@@ -306,7 +308,8 @@ class MeasuringKinematics(ProbingCycle):
         } | {f"{along} of the datum": new - old for along, old, new in zip("XYZ", before.shift, after.shift)}  # fmt: skip
         which = max(changes, key=lambda name: abs(changes[name]))
         if abs(changes[which]) > most + SLACK:
-            yield Say(f"changes {which} by {changes[which]:.4f}, more than {most:g}", "setting max_modification; NC start confirms it")
+            said = f"changes {which} by {changes[which]:.4f}, more than {most:g}"
+            yield Say(said, "setting max_modification; NC start confirms it")
             yield Pause("the change is confirmed")
 
 
@@ -348,7 +351,8 @@ class MeasureKinematics(MeasuringKinematics):
     def check(self, m: Machine) -> Iterator[ParameterFault]:
         yield from super().check(m)
         if self.mode in (POSE, DATUM) and not m.settings["kinematics_comp"]:
-            yield "mode", "2 and 3 need the software option KinematicsComp, which is switched off (setting kinematics_comp)"
+            what = "needs the software option KinematicsComp, which is switched off (setting kinematics_comp)"
+            yield "mode", f"{self.mode:g} {what}"
         if self.mode == DATUM and (machine := m.tables.kinematics) is not None:
             sides = ([axis.name for axis in side if axis.name in self.measured(m)] for side in (machine.head, machine.table))
             if not any(len(side) > 1 for side in sides):
@@ -369,7 +373,8 @@ class MeasureKinematics(MeasuringKinematics):
 
 
 @CYCLES(
-    "TCH PROBE 452", "Preset compensation", source="18.5", takes=f"{MEASURED_BY} {OF_AXES} number_of_touch_points backlash_angular_range",
+    "TCH PROBE 452", "Preset compensation", source="18.5",
+    takes=f"{MEASURED_BY} {OF_AXES} number_of_touch_points backlash_angular_range",
 )  # fmt: skip
 class PresetCompensation(MeasuringKinematics):
     """Puts the rotary axes where a sphere shows them, and the part so that the active preset is in the middle of the sphere."""

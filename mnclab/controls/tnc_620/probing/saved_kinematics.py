@@ -1,7 +1,7 @@
 """Saving, restoring and deleting the kinematics of the machine (TNC 620, 18.3): cycle 450, and the table that it keeps.
 
-DATA450.KD is a text (TOML): of every record its name, the kinematics as setup files write it, and the date where a run has one. It
-is read where `Setup(files=…)` has one, and stands in `run.files` once it was written.
+DATA450.KD is a text (TOML): of every record its name, the kinematics as setup files write it, and the date where a run has one.
+It is read where `Setup(files=…)` has one, and stands in `run.files` once it was written.
 """
 
 from __future__ import annotations
