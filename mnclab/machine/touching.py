@@ -20,7 +20,7 @@ from mnclab.geometry.kinematics import moved
 from mnclab.machine.axes import direction as direction_of_tool
 from mnclab.machine.axes import orientation, truth
 from mnclab.machine.coordinates import FRAME, LOG, PLANES, axes_of, tool_axis
-from mnclab.machine.cutting import CUT, TILT, part_before, start_known, tilted_rows
+from mnclab.machine.cutting import CUT, TILT, UPRIGHT, part_before, start_known, tilted_rows
 from mnclab.machine.measuring import Touched
 from mnclab.machining.probing.sequences import Approach, Steps
 from mnclab.machining.steps import Measure, Step, Touch, Write
@@ -179,7 +179,7 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
         hint = "it may touch a little later; parts of boxes, holes, slots, pockets and bosses with one axis are exact there"
         m.warn("the ball touches off a cut edge of the part, where the distance is only bounded", word, hint=hint)
     if travel is not None:
-        travel += trigger(m, ahead)
+        travel += trigger(m, orientation(m).T @ direction)
     way = reach if travel is None else travel
     if (stopped := stem_meets(m, part, true, begin, begin + ahead * way)) is not None:
         m.probe_to(_point(start + direction * stopped), f)
@@ -208,7 +208,8 @@ def deflected(m: Machine, part: Part | None, ball: float) -> bool:
 
 
 def trigger(m: Machine, direction: Floats) -> float:
-    """How far the probe goes on after the contact until it triggers: its deflection, and its randomness."""
+    """How far the probe goes on after the contact until it triggers, in a direction as the tool has it: its deflection, and its
+    randomness."""
     probe = m.setup.probe
     more = float(np.abs(direction) @ np.array(probe.deflection))
     if probe.spread:
@@ -306,6 +307,8 @@ def stop_at_part(m: Machine) -> None:
     tilted = tilted_rows(path.step, tilts, axes, path.cylinder)
     if tilted is not None:
         rows &= ~tilted
+    if (kinematics := m.setup.kinematics) is not None:
+        rows &= kinematics.orientation(path.rotary)[:, 2, 2] > UPRIGHT
     rows[: start_known(path, m.setup.start)[1]] = False
     for row in np.flatnonzero(rows)[:MOST].tolist():
         place = _met(m, part, path, row)

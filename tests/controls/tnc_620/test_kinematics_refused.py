@@ -61,6 +61,7 @@ MACHINES = [
     ("TOOL CALL 5 X\n", {}, "the tool must lie along Z on a machine with rotary axes"),
     ("L C+10 FMAX\n", {"settings": {"m_strobe_rot_ax_pos": 120}}, "needs all rotary axes at 0: an M function positions them"),
     ("CYCL DEF 7.0 D\nCYCL DEF 7.1 X+5\n", {}, "cannot run while a shift is active"),
+    ("CYCL DEF 7.0 D\nCYCL DEF 7.1 A+5\n", {}, "cannot run while a rotary axis is shifted or mirrored"),
     ("CYCL DEF 8.0 M\nCYCL DEF 8.1 X\n", {}, "cannot run while a mirror is active"),
     ("CYCL DEF 10.0 R\nCYCL DEF 10.1 ROT+5\n", {}, "cannot run while a rotation is active"),
     ("CYCL DEF 11.0 S\nCYCL DEF 11.1 SCL 0.5\n", {}, "cannot run while a scale is active"),

@@ -21,7 +21,7 @@ from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.addresses import MEASURED_BY, OF_AXES, OPTIMIZING
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, lengths, needed, store
 from mnclab.controls.tnc_620.probing.saved_kinematics import headed, no_kinematics
-from mnclab.controls.tnc_620.state import active_preset
+from mnclab.controls.tnc_620.state import active_preset, memory
 from mnclab.geometry import frames
 from mnclab.geometry.kinematics import NAMES, Kinematics
 from mnclab.machine.axes import chain, orientation
@@ -115,6 +115,8 @@ class MeasuringKinematics(ProbingCycle):
             yield "", "cannot run while the tip of the tool is led: switch off M128 or FUNCTION TCPM before it"
         if m.settings["m_strobe_rot_ax_pos"] != -1 and any(abs(each) > STILL for each in m.rotary):
             yield "", "needs all rotary axes at 0: an M function positions them (setting m_strobe_rot_ax_pos)"
+        if any(memory(m).rotary_shift) or memory(m).rotary_mirror:
+            yield "", "cannot run while a rotary axis is shifted or mirrored"
         yield from self.turning(m)
 
     def turning(self, m: Machine) -> Iterator[ParameterFault]:
@@ -124,12 +126,12 @@ class MeasuringKinematics(ProbingCycle):
                 yield "retraction_height", f"must be greater than 0 for the axis {hirth} with a Hirth coupling"
             if not m.settings["software_option_2"]:
                 yield "retraction_height", "must be greater than 0 without the software option 2 (setting software_option_2)"
-        several = len(self.measured(m)) > 1
-        for axis in self.measured(m):
+        for axis in chain(m).names:
             low, high = chain(m).axis(axis).limits
             reverse, at = abs(self.reverses(m, axis)), self.positions(m, axis)
-            ends = [("start_angle", at[0], reverse), ("end_angle", at[-1], reverse)]
-            ends += [("incidence_angle", self.of("incidence_angle", axis), 0.0)] if several else []
+            ends = [("start_angle", at[0], reverse), ("end_angle", at[-1], reverse)] if at else []
+            if any(other != axis for other in self.measured(m)):
+                ends.append(("incidence_angle", self.of("incidence_angle", axis), 0.0))
             for what, angle, more in ends:
                 if not low <= angle - more <= angle + more <= high:
                     room = f"the axis goes from {low:g} to {high:g}" + (f", and the backlash needs {more:g}" if more else "")
@@ -331,7 +333,7 @@ def with_axes(m: Machine, turned: bool = True) -> Iterator[Step]:
     """Coordinates are those of the tool as the rotary axes stand, about the preset (3D-ROT); or as if they stood at zero."""
     before = m.frames.before(TILT)[:3, :3]
     level = frames.turn(math.atan2(before[1, 0], before[0, 0]), "z")
-    tilt = frames.turn(0.0, "z") @ level
+    tilt = np.eye(4)
     tilt[:3, :3] = before.T @ (orientation(m) if turned else np.eye(3)) @ level[:3, :3]
     stands = turned and bool(np.abs(tilt[:3, :3] - np.eye(3)).max() > STILL)
     yield Write("frame", tilt if stands else None, TILT)
