@@ -35,6 +35,8 @@ from mnclab.machining.probing.found import Floats
 from mnclab.machining.probing.rotary_axes import AxisReadings, MeasuredAxis, Reading, evaluated
 from mnclab.machining.probing.sequences import Approach, Steps, numbers, on_sphere, results
 from mnclab.machining.steps import Go, Measure, Pause, Say, Step, Swivel, Write
+from mnclab.workpiece.part import Part
+from mnclab.workpiece.part import ball as sphere
 
 CYCLES = CycleTable(addresses=addresses, runs="definition")
 SETTINGS = (
@@ -74,6 +76,7 @@ class MeasuringKinematics(ProbingCycle):
     """Base of 451 and 452: the axes are measured one after the other, the others at their angles of incidence."""
 
     tilted: ClassVar[bool] = True
+    machine = "table-ac"
     mode: float = POSITION
     preset: float = 0.0
     sphere_radius: float = 0.0
@@ -136,6 +139,12 @@ class MeasuringKinematics(ProbingCycle):
                 if not low <= angle - more <= angle + more <= high:
                     room = f"the axis goes from {low:g} to {high:g}" + (f", and the backlash needs {more:g}" if more else "")
                     yield f"{what}_{axis.lower()}", f"leads to {angle:g}: {room}"
+
+    def figure(self, m: Machine) -> Part:
+        """The sphere, where the cycle looks for it first."""
+        x, y, z = m.programmed
+        under = x, y, z - self.approach(m).gap - self.sphere_radius
+        return sphere(m.to_machine(under if self.preset in BEFORE else (0.0, 0.0, 0.0)), self.sphere_radius)
 
     # --- how the probe goes about it ---------------------------------------------------------------------------------
 
