@@ -64,7 +64,10 @@ def stages(run: Run, moment: Moment) -> list[Stage]:
     tool = run.tables.tools.get(int(path.tool[last])) if last >= 0 else None
     if tool is not None and not path.lathe:
         spindle = tip + path.origin
-        spindle["XYZ".index(run.history.value(LOG, moment.step) or "Z")] += tool.effective_length
+        if path.kinematics is not None:
+            spindle = np.array(run.axes())[last, :3]
+        else:
+            spindle["XYZ".index(run.history.value(LOG, moment.step) or "Z")] += tool.effective_length
         note = f"tool length {unit.figure(tool.effective_length)}"
         found.append(Stage("spindle, machine coordinates", _tuple(spindle), note))
     return found

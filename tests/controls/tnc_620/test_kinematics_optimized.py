@@ -168,6 +168,12 @@ def test_axes_stand_still_where_the_kinematics_is_corrected():
     assert run.tables.kinematics != run.setup.kinematics == path.kinematics
 
 
+def test_an_explanation_tells_where_the_spindle_is():
+    run = measured(cycle(451, {"C": (90, 270, 0, 3)}), sphere_setup(Kinematics(table=(Axis("C"),))))
+    told = next(line for line in str(run.explain(line=2)).splitlines() if "spindle, machine coordinates" in line)
+    assert "X0 Y150 Z184.5" in told  # C270 has brought the sphere from X150 to Y150
+
+
 def test_backlash_is_measured_and_not_compensated():
     believed = Kinematics(table=(Axis("A", centre=(0, 0, -30)), Axis("C")))
     true = replace(believed, table=(replace(believed.table[0], backlash=0.02), replace(believed.table[1], backlash=0.008)))

@@ -33,6 +33,15 @@ def test_what_is_saved_comes_back_from_the_file():
     assert table["title"] == RAW.title and table["head"][0]["limits"] == [-30, 110] and table["table"][0]["home"] == 30
 
 
+@pytest.mark.parametrize("name", ["data450.kd", "TNC:\\table\\DATA450.KD", "TNC:/table/Data450.kd"])
+def test_the_table_is_found_by_its_name(name, tmp_path):
+    """With its folder on the control or without, as a text or as a file."""
+    text = measured(save("A"), sphere_setup(RAW)).files["DATA450.KD"]
+    (file := tmp_path / "saved.txt").write_text(text, encoding="utf-8")
+    for given in (text, file):
+        assert "  A: " in measured(save(0, 2), sphere_setup(RAW, files={name: given})).files["TCHPR450.TXT"]
+
+
 def test_an_optimization_is_undone():
     """Saved, optimized, restored: all in one program, and equal to what it was."""
     believed = Kinematics(table=(Axis("C"),))

@@ -220,9 +220,10 @@ def opened(m: Machine) -> Records:
     records = memory(m).saved_kinematics
     if records is not None:
         return records
-    if not any(name.replace("\\", "/").lower().endswith(TABLE.lower()) for name in m.setup.files):
+    given = next((name for name in m.setup.files if name.replace("\\", "/").rpartition("/")[2].lower() == TABLE.lower()), None)
+    if given is None:
         return {}
-    text = found(m, TABLE, "TCH PROBE 450", None, "table").text
+    text = found(m, given, "TCH PROBE 450", None, "table").text
     file = File(TABLE, text)
     records = {name: kinematics_in(_row(each, name), file, name=name) for name, each in table_of(text).items()}
     if not records:
