@@ -147,7 +147,7 @@ class Cycle:
     """Whether it turns the spindle itself, so that none need turn before it."""
     does: ClassVar[str] = coordinates.VISITS
     """What decides whether it can run under a scale; see `machine.coordinates`."""
-    machine: ClassVar[str] = ""
+    tried_on: ClassVar[str] = ""
     """The machine that has the rotary axes which it needs (`mnclab.machines`), where it is tried out."""
 
     @classmethod

@@ -45,7 +45,7 @@ def at_setter(setter: Setter, **settings: Any) -> Setup:
 
 def on_its_machine(cycle: type[Cycle], setup: Setup) -> Setup:
     """The setup with the rotary axes that a cycle needs, where it has none."""
-    return replace(setup, kinematics=cycle.machine) if cycle.machine and setup.kinematics is None else setup
+    return replace(setup, kinematics=cycle.tried_on) if cycle.tried_on and setup.kinematics is None else setup
 
 
 def number(value: float) -> str:

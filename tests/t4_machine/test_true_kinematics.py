@@ -66,7 +66,8 @@ def test_backlash_stays_behind_on_either_side():
     part = mnc.part.plane((100, -20, 0), (0, -1, 0))  # a wall along X
     found = []
     for come in ("", "L C+0.5 FMAX\nL C+0 FMAX\n", "L C-0.5 FMAX\nL C+0 FMAX\n"):
-        m = machine(f"{come}L X+100 Y-30 Z-10 R0 FMAX\n", kinematics=Kinematics(table=(Axis("C"),)), true_kinematics=true, part=part)
+        believed = Kinematics(table=(Axis("C"),))
+        m = machine(f"{come}L X+100 Y-30 Z-10 R0 FMAX\n", kinematics=believed, true_kinematics=true, part=part)
         found.append(m.touch(y=0, f=100.0).point[1])
     behind = math.radians(0.1)
     for sense, y in zip((0, 1, -1), found, strict=True):  # from the true place of the ball, (100, y) turned, to the wall

@@ -76,7 +76,7 @@ class MeasuringKinematics(ProbingCycle):
     """Base of 451 and 452: the axes are measured one after the other, the others at their angles of incidence."""
 
     tilted: ClassVar[bool] = True
-    machine = "table-ac"
+    tried_on = "table-ac"
     mode: float = POSITION
     preset: float = 0.0
     sphere_radius: float = 0.0

@@ -62,7 +62,7 @@ class SaveKinematics(Cycle):
     """
 
     does = NOTHING
-    machine = "table-ac"
+    tried_on = "table-ac"
     mode: float = choice("Q410", "mode", MODES, example=0)
     memory_designation: float | str | TextFormula = param(
         ("Q409", "QS409"), "memory designation", "choice", modal=True, type="text", example=5,
