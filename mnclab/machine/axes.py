@@ -5,6 +5,9 @@ Positions of the program are places on the part (`tip`), told as they are with a
 stand elsewhere the linear axes go to the same X Y Z all the same, and the tip is somewhere else on the part: that is a frame
 before all others (`turned`). A tip that is *led* is reckoned with the axes as they stand.
 
+What the control has as its kinematics (`m.tables.kinematics`) a cycle may correct; where the axes truly are stays as the setup
+has it, and a probe that touches the part tells the difference.
+
 Without the kinematics of a machine the tip stays where it is on the part. A move of rotary axes alone is a row without length
 that takes the time of the axis with the longest way; beside a move of the linear axes they arrive with the tip.
 """
@@ -13,18 +16,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import frames
+from mnclab.geometry.frames import Matrix
 from mnclab.geometry.kinematics import NAMES, Kinematics, shorter
 from mnclab.machine.coordinates import STILL, Angles, angles, set_angles
 from mnclab.machine.state import Place
 from mnclab.path.cylinder import Cylinder
 from mnclab.path.limits import NOISE, Beyond
-from mnclab.path.toolpath import Array, Index, Kind, Toolpath
+from mnclab.path.toolpath import Array, Kind, Toolpath
 from mnclab.text.program import Word
 
 if TYPE_CHECKING:
@@ -35,6 +39,7 @@ MOST = 100_000  # rows of one move
 FIRST, FINE = 8, math.radians(2)  # rows that a move is tried with at first; a turn so small is tried as one
 SAME = 1e-12  # rad
 SQUARE = 2e-4  # rad, by which a tool may lean that stands square to its plane: angles are typed with three decimals
+CHAIN = "kinematics"  # in the history
 
 
 def turning_feed(m: Machine) -> float:
@@ -83,10 +88,15 @@ def chain(m: Machine) -> Kinematics:
     return m.tables.kinematics
 
 
+def orientation(m: Machine) -> Array:
+    """The axes (3, 3), as columns, of the tool on the part; those of the machine without a kinematics."""
+    kinematics = m.tables.kinematics
+    return np.eye(3) if kinematics is None else kinematics.orientation(np.array(m.rotary))
+
+
 def direction(m: Machine) -> Array:
     """The direction (3,) of the tool on the part, from the tip to the spindle; along Z without a kinematics."""
-    kinematics = m.tables.kinematics
-    return np.array([0.0, 0.0, 1.0]) if kinematics is None else kinematics.orientation(np.array(m.rotary))[:, 2]
+    return orientation(m)[:, 2]
 
 
 def leaning(m: Machine) -> float:
@@ -132,6 +142,43 @@ def _turned(m: Machine) -> Array | None:
     return np.asarray(now @ frames.inverse(then))
 
 
+class Truth(NamedTuple):
+    """Where the tool truly is on the part: what leads there (4, 4) from where the control has it, and its axes there (3, 3)."""
+
+    moved: Matrix
+    orientation: Matrix
+
+
+def truth(m: Machine) -> Truth | None:
+    """What is true of where the tool is; None where the control has it so.
+
+    An axis with backlash stays behind by half of it, on the side from which it came last.
+    """
+    believed, true = m.tables.kinematics, m.setup.true_kinematics or m.setup.kinematics
+    if believed is None or true is None or (believed is true and not any(axis.backlash for axis in true.sequence)):
+        return None
+    stands = np.array(m.rotary)
+    for axis in true.sequence:
+        stands[axis.number] -= math.radians(axis.backlash) / 2 * m.arrived[axis.number]
+    length = m.tool.effective_length
+    there = true.carried(stands, length) @ frames.inverse(believed.carried(m.rotary, length))
+    return Truth(there, true.orientation(stands))
+
+
+def correct(m: Machine, kinematics: Kinematics) -> None:
+    """The control has other kinematics from now on: no axis moves, but the tip is known to be elsewhere on the part.
+
+    The row that leads there is the last one of the block.
+    """
+    x, y, z = kinematics.tips(np.array(reference(m)), np.array(m.rotary), m.tool.effective_length).tolist()
+    m.tables.kinematics = kinematics
+    m.log(CHAIN, kinematics)
+    if math.dist((x, y, z), m.tip) > STILL:
+        m.add_row(Kind.STOP, (x, y, z))
+        m.tip = x, y, z
+    stand(m)
+
+
 def change_length(m: Machine, length: float) -> None:
     """The tip is where another tool brings it, while all axes stand; `length` is that of the tool before, mm."""
     kinematics = chain(m)
@@ -144,10 +191,11 @@ def change_length(m: Machine, length: float) -> None:
 def turn_axes(
     m: Machine, to: Angles, f: float | None, word: Word | None = None, below: float | None = None, most: float = math.inf,
 ) -> None:  # fmt: skip
-    """Turn to angles (degrees) while the linear axes stand, or the tip that is led; `f` is in degrees a minute, infinite at
-    rapid, None the modal feed. `below` and `most` are those of `swing`.
+    """Turn to angles (degrees) while the linear axes stand, or the tip that is led. `below` and `most` are those of `swing`.
 
-    The time of a rapid turn is not known: no limits of rotary axes are.
+
+    `f` is in degrees a minute, infinite at rapid, None the modal feed. The time of a rapid turn is not known: no limits of rotary
+    axes are.
     """
     rate = turning_feed(m) if f is None else f
     way = max(abs(new - old) for new, old in zip(to, angles(m), strict=True))
@@ -254,6 +302,8 @@ def swing(
                 m.add_row(Kind.LINE, tip, feed=60 * (way if way > STILL else turned) / seconds, time=seconds)
             m.tip = tip
     m.log("rotary", m.rotary)
+    came = np.sign(np.where(np.abs(after - before) > SAME, after - before, m.arrived))
+    m.put(arrived=tuple(came.tolist()))
     m.tip = (x, y, z)
     stand(m)
     if point is not None:
@@ -327,18 +377,28 @@ def lengths_of_rows(step: NDArray[np.integer[Any]], changes: Sequence[tuple[int,
     return np.asarray(lengths[np.searchsorted(np.array(at, dtype=np.int64), step, "right")])
 
 
-def references(path: Toolpath, points: Array, row: Index, lengths: Array) -> Array:
-    """X Y Z (m, 3), machine coordinates, for tips (m, 3) of a path on its rows (m,), whose tools are so long (n,)."""
+def references(
+    path: Toolpath, points: Array, row: NDArray[np.integer[Any]], lengths: Array, corrected: Sequence[tuple[int, Any]] = ()
+) -> Array:
+    """X Y Z (m, 3), machine coordinates, for tips (m, 3) of a path on its rows (m,), whose tools are so long (n,).
+
+    `corrected` are the changes of the kinematics: each counts from the last row of its step on.
+    """
     tips = points + path.origin
     if path.kinematics is None:
         return np.asarray(tips + np.multiply.outer(lengths[row], [0.0, 0.0, 1.0]))
-    return path.kinematics.references(tips, path.rotary[row], lengths[row])
+    found = path.kinematics.references(tips, path.rotary[row], lengths[row])
+    for step, kinematics in corrected:
+        last = int(np.searchsorted(path.step, step, "right")) - 1
+        since = row >= (last if last >= 0 and path.step[last] == step else last + 1)
+        found[since] = kinematics.references(tips[since], path.rotary[row[since]], lengths[row[since]])
+    return found
 
 
-def first_beyond(path: Toolpath, lengths: Array, travel: Array) -> Beyond | None:
+def first_beyond(path: Toolpath, lengths: Array, travel: Array, corrected: Sequence[tuple[int, Any]] = ()) -> Beyond | None:
     """The first row on which the axes of a machine with kinematics leave their travel (3, 2), mm; None if none does."""
     points, row = path.points()
-    place = references(path, points, row, lengths)
+    place = references(path, points, row, lengths, corrected)
     over = np.maximum(travel[:, 0] - place, place - travel[:, 1])
     out = np.flatnonzero((over > NOISE).any(axis=1))
     if not len(out):

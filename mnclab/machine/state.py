@@ -336,6 +336,7 @@ class State:
     pole: tuple[float, float] | None = part(None)
     rotary: Place = part(lambda m: m.setup.kinematics.home if m.setup.kinematics else (0.0, 0.0, 0.0), rows=True, history=True)
     """A, B, C, radians."""
+    arrived: Place = part((0.0, 0.0, 0.0))  # each axis from which side: 1 in positive direction, -1 in negative, 0 never
     reckoned: Place | None = part((0.0, 0.0, 0.0))  # with which coordinates count; None: as they stand, the tip is led
     turned: Matrix | None = part(None)  # what becomes of the part where they stand elsewhere, before all frames
     cylinder: int = part(-1, rows=True)  # of those of the recorder, on which the rows lie that are made now

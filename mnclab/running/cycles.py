@@ -14,7 +14,7 @@ import numpy as np
 from mnclab.geometry.arcs import FULL
 from mnclab.geometry.contours import Contour
 from mnclab.machine import coordinates
-from mnclab.machine.axes import leaning, reckon, roll_over, turn_axes
+from mnclab.machine.axes import correct, leaning, reckon, roll_over, turn_axes
 from mnclab.machine.coordinates import CALLS, FRAME, MILLS, NOTHING, in_mm, roll, tool_axis
 from mnclab.machine.cycle import Cycle, Definition, Parameter
 from mnclab.machine.flow import put_out
@@ -405,10 +405,12 @@ def write(m: Machine, step: Write) -> None:
         case "probe":
             m.tables.probe = step.value
             m.log("probe", step.value)
-        case "file" | "appended":
-            put_out(m, step.key, step.value, anew=step.what == "file")
+        case "kinematics":
+            correct(m, step.value)
         case "reckoned":
             reckon(m, step.value)
+        case "file" | "appended":
+            put_out(m, step.key, step.value, anew=step.what == "file")
         case "frame":
             m.set_frame(step.key, step.value)
         case "renamed":

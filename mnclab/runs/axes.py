@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.machine.axes import lengths_of_rows, references
+from mnclab.machine.axes import CHAIN, lengths_of_rows, references
 from mnclab.path.listing import figure
 from mnclab.path.toolpath import Array, Toolpath
 from mnclab.runs.history import History
@@ -33,7 +33,7 @@ class AxisPositions(Columned):
     def __init__(self, path: Toolpath, history: History, first: float) -> None:
         changes = history.changed("tool")
         lengths = lengths_of_rows(path.step, changes, first)
-        found = references(path, path.end, np.arange(len(path)), lengths)
+        found = references(path, path.end, np.arange(len(path)), lengths, history.changed(CHAIN))
         self.line = path.line
         self._axes = np.concatenate([found, np.degrees(path.rotary).round(12)], axis=1)  # 30 degrees in rad and back are not 30
         self.X, self.Y, self.Z, self.A, self.B, self.C = self._axes.T
