@@ -58,7 +58,7 @@ def cutting_after(exercise: Exercise, run: Run) -> Cutting:
 
 
 def _directions(cutting: Cutting) -> Any:
-    up = np.broadcast_to([0.0, 0.0, 1.0], (len(cutting), 2, 3))
+    up = np.broadcast_to([0.0, 0.0, 1.0], (len(cutting), 3, 3))
     return up if cutting.directions is None else cutting.directions
 
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from mnclab.machine.coordinates import LOG
 from mnclab.machine.setup import Magazine
-from mnclab.path.cylinder import on_drum
+from mnclab.path.cylinder import SHARE, on_drum
 from mnclab.path.recorder import join
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath, concatenate
@@ -24,7 +24,7 @@ from mnclab.text.program import Word
 from mnclab.workpiece.blank import Blank, Box, blank, from_datum, is_blank
 from mnclab.workpiece.cutting import UPRIGHT, Cutting
 from mnclab.workpiece.milling.moves import Moves, joined, moves_of
-from mnclab.workpiece.milling.tilted import Group, tilted_groups
+from mnclab.workpiece.milling.tilted import Group, screwed, tilted_groups
 from mnclab.workpiece.milling.touched import Touched
 from mnclab.workpiece.part import Part
 
@@ -62,7 +62,7 @@ def tools_of_rows(
 
 
 def lifted(path: Toolpath, lift: Array, directions: Array | None = None) -> Toolpath:
-    """A path whose rows stand higher by a lift (n,), along the tool where that has `directions` (n, 2, 3)."""
+    """A path whose rows stand higher by a lift (n,), along the tool where that has `directions` (n, 3, 3)."""
     if not lift.any():
         return path
     up = lift[:, None, None] * (np.array([[[0.0, 0.0, 1.0]]]) if directions is None else directions)
@@ -71,7 +71,8 @@ def lifted(path: Toolpath, lift: Array, directions: Array | None = None) -> Tool
 
 
 def directions_of_rows(path: Toolpath, tilts: Changes, axes: Changes = ()) -> Array | None:
-    """The directions of the tool on the part at the start and the end of each row (n, 2, 3); None where it stands along Z.
+    """The directions of the tool on the part at the start of each row, on its way and at the end (n, 3, 3); None where it always
+    stands along Z.
 
     Where the kinematics of the machine are not known, the tool stands along Z of the frame `TILT`, whose changes are `tilts`;
     `axes` are those of the tool axis. Rows on a cylinder turn the part under it.
@@ -88,7 +89,7 @@ def directions_of_rows(path: Toolpath, tilts: Changes, axes: Changes = ()) -> Ar
     end[end[:, 2] > UPRIGHT] = 0.0, 0.0, 1.0
     turned = np.append(False, (np.diff(path.rotary, axis=0) != 0).any(axis=1))[:n]
     start = np.where(turned[:, None], np.concatenate([end[:1], end[:-1]]), end)
-    found = np.stack([start, end], axis=1)
+    found = np.stack([start, screwed(start, end, 0 * start, 0 * end, SHARE)[1], end], axis=1)
     if path.cylinders:
         found = on_drum(path, found)
     return found if (found[..., 2] < UPRIGHT).any() else None

@@ -30,6 +30,7 @@ Place = tuple[float, float, float]
 NONE = -1  # the index of rows that lie on no cylinder
 STILL = 1e-9  # rad
 MOST = 4096  # pieces of one row
+SHARE = (3 - 5**0.5) / 2  # of the way of a row, where whole turns do not look as if nothing had turned: no fraction
 
 
 class Cylinder(NamedTuple):
@@ -130,11 +131,13 @@ def on_workpiece(path: Toolpath) -> Toolpath:
 
 
 def on_drum(path: Toolpath, directions: Array) -> Array:
-    """Directions (n, 2, 3) of the tool at the start and the end of rows on a workpiece that turns, as it lies at the angle 0."""
+    """Directions (n, 3, 3) of the tool at the start of rows, on their way and at the end, on a workpiece that turns, as it lies
+    at the angle 0."""
     found = directions.copy()
-    for one, rows, *angles in _turns(path):
-        for end, angle in enumerate(angles):
-            found[rows, end] = one.on_workpiece(directions[rows, end] + one.point, angle) - one.point
+    for one, rows, before, after in _turns(path):
+        for place, share in enumerate((0.0, SHARE, 1.0)):
+            angle = before + share * (after - before)
+            found[rows, place] = one.on_workpiece(directions[rows, place] + one.point, angle) - one.point
     return found
 
 

@@ -32,7 +32,6 @@ if TYPE_CHECKING:
 
 EDGE = 1e-9  # mm beside the box about a part that still count as its edge: what turning and shifting rounds
 STEPS, HALVINGS = 96, 40  # of a line through a blank that lies on its side, and of each of its ends
-SQUARES = 24  # of points that are looked at together, along the longer side
 PLACES = 200  # along the longer side of a view from the side that is not along an axis of the part
 QUARTERS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))  # cosine and sine of whole quarters of a turn
 
@@ -152,14 +151,10 @@ class Clamped:
 
     def _faces_aslant(self, x: Array, y: Array) -> tuple[Array, Array]:
         """The faces of the first blank on its side, less what was taken away, which `made_by` tells."""
-        from mnclab.workpiece.milling.sweep import grouped
-
         first, place = self.first()
         floor, top = crossed(first, place, x, y, self.bounds[:, 2])
-        solid = np.flatnonzero(top > floor)
-        for some in grouped(x[solid], y[solid], float(np.ptp(self.bounds[:, :2], axis=0).max()) / SQUARES) if self.gaps else ():
-            k = solid[some]
-            top[k], floor[k] = self.gaps.sides(x[k], y[k], top[k], floor[k])
+        if self.gaps:
+            top, floor = self.gaps.sides(x, y, top, floor)
         solid = top > floor + EDGE
         return np.where(solid, floor, np.nan), np.where(solid, top, np.nan)
 

@@ -37,7 +37,7 @@ class Cutting:
 
     `tools[which[row]]` is the tool of a row. From row `arrived` on the tool's height is known at the end of a row, from
     `known` on the start of every row: before, the tool comes from home, and only where it arrives counts. `directions`
-    (n, 2, 3) are those of the tool, from its tip to the spindle, at the start and the end of each row; None: along Z.
+    (n, 3, 3) are those of the tool, from its tip to the spindle, at the start of each row, on its way and at its end; None: along Z.
     `fixtures` hold the blank. `name` says in which program a line
     stands ("FILE:LINE"). `origin` (3,) is where the zero of the path stands on the machine. `reach` is "up to line 12, where
     the run stopped" if the path ends before its program, else empty. `across` is what X is in the program of a lathe, a
@@ -129,7 +129,7 @@ class Cutting:
     def by_direction(self, some: Mask) -> Iterator[tuple[Array, Mask]]:
         """Some rows (n,) by the direction at their end: the frame (3, 3) along it, and which they are."""
         assert self.directions is not None
-        ends, rows = self.directions[:, 1], np.flatnonzero(some)
+        ends, rows = self.directions[:, 2], np.flatnonzero(some)
         kinds, which = np.unique(np.round(ends[rows], 12), axis=0, return_inverse=True)
         for k in range(len(kinds)):
             mine = rows[which.reshape(-1) == k]

@@ -142,7 +142,7 @@ class Milled(Engaged):
         for tile in self.raster.tiles():
             x, y = self.raster.middles(tile)
             if self.many and self.sweep.gaps:
-                here = self.sweep.gaps.sunk(x, y, self.many.heights[tile].ravel(), floor[tile].ravel())
+                here = self.sweep.gaps.sides(x, y, self.many.heights[tile].ravel(), floor[tile].ravel())[0]
             else:
                 here = self.sweep.within(x, y, top[tile].ravel(), floor[tile].ravel())
             found[tile] = here.reshape(found[tile].shape)

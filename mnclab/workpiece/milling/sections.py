@@ -107,12 +107,7 @@ class HeightSection:
     height: float
 
     def __call__(self, x: Array, y: Array) -> Mask:
-        if self.sweep.gaps is None:
-            return self._among(x, y, *self.sweep.sides_at(x, y))
-        found = np.zeros(len(x), dtype=bool)
-        for some in grouped(x, y, self.sweep.raster.tile):
-            found[some] = self.nearby(x[some], y[some])
-        return found
+        return self._among(x, y, *self.sweep.sides_at(x, y))
 
     def nearby(self, x: Array, y: Array) -> Mask:
         """The same, of points that lie close together."""
@@ -144,10 +139,12 @@ class UprightSection(HeightSection):
 
     along: int
 
-    def nearby(self, x: Array, y: Array) -> Mask:
+    def __call__(self, x: Array, y: Array) -> Mask:
         beside = np.full_like(x, self.height)
         place = (x, beside) if self.along == 0 else (beside, x)
-        return self._between(*place, y, *self.sweep.sides(*place))
+        return self._between(*place, y, *self.sweep.sides_at(*place))
+
+    nearby = __call__
 
     def about(self, x: Array, y: Array) -> UprightSection:
         return self

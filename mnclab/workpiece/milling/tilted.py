@@ -16,18 +16,20 @@ from typing import Any
 import numpy as np
 
 from mnclab.geometry.curves import counted
+from mnclab.path.cylinder import SHARE
 from mnclab.path.toolpath import Array, Index, Kind, Mask
 from mnclab.workpiece.clamped import Placement
-from mnclab.workpiece.cutting import Cutting, frames_along
+from mnclab.workpiece.blank import Box, Revolved
+from mnclab.workpiece.cutting import TURNED, Cutting, frames_along
 from mnclab.workpiece.milling.moves import CHORD, STILL, Cutter, Moves, cut_up, cutter_of, joined, moves_of
-from mnclab.workpiece.milling.raster import NOISE
+from mnclab.workpiece.milling.raster import AT_ONCE, NOISE
 from mnclab.workpiece.milling.swept import left_by
 from mnclab.workpiece.outcome import spend
 
 FLOOR, WALL = 1e-3, 4e-3  # mm, of what is cut while the part turns
 MOST = 20_000  # pieces of all turns, and moves of all tilted tools
 FEW, NARROWINGS, HALVINGS = 9, 40, 40  # places of a line under a tool; of its lowest place, and of where it leaves the tool
-PAIRS = 20_000_000  # of points and moves, twice, beyond which fewer columns tell what each row took
+PAIRS, TOGETHER = 20_000_000, 1000  # points times moves, twice, beyond which fewer columns tell what each row took; points
 SWING, PLACES = 0.03, 200  # of unit vectors, between two looks at a tool that turns; places its axis, where it is looked whether it is clear
 EFFORT = 20  # times the work of a point under an upright move
 
@@ -72,36 +74,43 @@ class Gaps:
         ends = np.concatenate([ends, ends + long[:, None] * way])[..., :2]
         return np.concatenate([ends.min(axis=0) - wide, ends.max(axis=0) + wide], axis=1)
 
-    def spans(self, x: Array, y: Array) -> tuple[Index, Array, Array]:
-        """Of points (m,) close together: the moves (k,) that may have come over or under them, and from where to where each has
-        taken the upright line there (k, m); upside down where it has not."""
-        boxes = self.boxes
-        near = (boxes[:, 0] <= x.max()) & (boxes[:, 2] >= x.min()) & (boxes[:, 1] <= y.max()) & (boxes[:, 3] >= y.min())
-        which = np.flatnonzero(near)
-        spend(EFFORT * len(which) * len(x))
-        turn, shift = (each[which] for each in self.frames)
-        away = np.stack([x - shift[:, :1], y - shift[:, 1:2], np.broadcast_to(-shift[:, 2:], (len(which), len(x)))])
-        return which, *_taken(self.moves[which], np.einsum("ckm,kcj->jkm", away, turn), turn[:, 2])
-
-    def sunk(self, x: Array, y: Array, top: Array, floor: Array) -> Array:
-        """How high material stands (m,) at points close together where it went up to `top`; the floor where none is left."""
-        _, low, high = self.spans(x, y)
-        return np.maximum(_fallen(top, low, high), floor)
+    def spans(self, x: Array, y: Array) -> Iterator[tuple[Index, Index, Array, Array]]:
+        """Some of the points (m,) after the other (i,): the moves (k,) that may have come over or under them, and from where to
+        where each has taken the upright line there (k, i); upside down where it has not."""
+        boxes, left = self.boxes, [np.arange(len(x))] if len(x) else []
+        while left:
+            some = left.pop()
+            px, py = x[some], y[some]
+            near = (boxes[:, 0] <= px.max()) & (boxes[:, 2] >= px.min()) & (boxes[:, 1] <= py.max()) & (boxes[:, 3] >= py.min())
+            which = np.flatnonzero(near)
+            if len(some) > 1 and len(which) * len(some) > AT_ONCE:
+                order = some[np.argsort(px if np.ptp(px) > np.ptp(py) else py, kind="stable")]
+                left += [order[: len(some) // 2], order[len(some) // 2 :]]
+            elif len(which):
+                spend(EFFORT * len(which) * len(some))
+                turn, shift = (each[which] for each in self.frames)
+                away = np.stack([px - shift[:, :1], py - shift[:, 1:2], np.broadcast_to(-shift[:, 2:], (len(which), len(px)))])
+                yield some, which, *_taken(self.moves[which], np.einsum("ckm,kcj->jkm", away, turn), turn[:, 2])
 
     def sides(self, x: Array, y: Array, top: Array, floor: Array) -> tuple[Array, Array]:
-        """The same, and how low it stands; the former floor where none is left."""
-        _, low, high = self.spans(x, y)
-        top = np.maximum(_fallen(top, low, high), floor)
-        return top, np.where(top > floor + NOISE, np.minimum(-_fallen(-floor, -high, -low), top), floor)
+        """How high material stands at points (m,) where it went up to `top`, and how low; the former floor where none is left."""
+        top, floor = top.copy(), floor.copy()
+        for some, _, low, high in self.spans(x, y):
+            upper = np.maximum(_fallen(top[some], low, high), floor[some])
+            lower = np.minimum(-_fallen(-floor[some], -high, -low), upper)
+            top[some], floor[some] = upper, np.where(upper > floor[some] + NOISE, lower, floor[some])
+        return top, floor
 
     def left(self, x: Array, y: Array, top: Array, floor: Array) -> Array:
-        """How much material (m,), mm, there is between two sides at points close together."""
-        _, low, high = self.spans(x, y)
-        low, high = np.maximum(low, floor), np.minimum(high, top)
-        order = np.argsort(low, axis=0)
-        low, high = (np.take_along_axis(each, order, axis=0) for each in (low, high))
-        before = np.maximum.accumulate(np.concatenate([floor[None], high]), axis=0)[:-1]
-        return np.asarray(top - floor - np.maximum(high - np.maximum(low, before), 0.0).sum(axis=0))
+        """How much material (m,), mm, there is between two sides at points."""
+        found = top - floor
+        for some, _, low, high in self.spans(x, y):
+            low, high = np.maximum(low, floor[some]), np.minimum(high, top[some])
+            order = np.argsort(low, axis=0)
+            low, high = (np.take_along_axis(each, order, axis=0) for each in (low, high))
+            before = np.maximum.accumulate(np.concatenate([floor[some][None], high]), axis=0)[:-1]
+            found[some] -= np.maximum(high - np.maximum(low, before), 0.0).sum(axis=0)
+        return np.asarray(found)
 
     def taken(self, x: Array, y: Array, top: Array, height: Array, floor: Array) -> Array:
         """How much (m,), mm, of the blank between two sides is gone where upright moves leave a height."""
@@ -109,12 +118,22 @@ class Gaps:
         return np.asarray(whole - self.left(x, y, height, floor))
 
     def shares(self, moves: Moves, faces: Any, x: Array, y: Array, rows: int) -> Array:
-        """What each of so many rows took (rows,), mm, of all columns together at points close together, upright moves among
-        them: of a stretch of a column the first row that reaches it."""
-        which, low, high = self.spans(x, y)
-        own = len(self.moves) - (len(self.before.moves) if self.before else 0)
-        row = np.where(which < own, self.moves.row[which], -1)
-        few = max(int(np.sqrt(len(x) * (len(row) + len(moves)) ** 2 / PAIRS)), 1)
+        """What each of so many rows took (rows,), mm, of the columns at all points together, upright moves among them: of a stretch
+        of a column the first row that reaches it."""
+        found, seen = np.zeros(rows), np.zeros(len(x), dtype=bool)
+        none = np.zeros(0, dtype=np.int64)
+        for some, which, low, high in self.spans(x, y):
+            seen[some] = True
+            found += self._shared(moves, faces, x[some], y[some], self.rows[which], low, high, rows)
+        for some in np.array_split(np.flatnonzero(~seen), 1 + len(x) // TOGETHER):
+            empty = np.zeros((0, len(some)))
+            found += self._shared(moves, faces, x[some], y[some], none, empty, empty, rows)
+        return found
+
+    def _shared(
+        self, moves: Moves, faces: Any, x: Array, y: Array, row: Index, low: Array, high: Array, rows: int
+    ) -> Array:  # fmt: skip
+        few = max(int(len(x) * (len(row) + len(moves)) ** 2 / PAIRS), 1)
         x, y, low, high = x[::few], y[::few], low[:, ::few], high[:, ::few]
         (top, floor), left = faces(x, y), left_by(moves, x, y)
         near = (left < top).any(axis=1)
@@ -123,23 +142,31 @@ class Gaps:
         high = np.clip(np.concatenate([high, np.full(left[near].shape, np.inf)]), floor, top)
         ends = np.sort(np.concatenate([low, high]), axis=0)
         middle, long = (ends[1:] + ends[:-1]) / 2, np.diff(ends, axis=0)
-        first = np.full(middle.shape, rows + 1)
+        first = np.full(middle.shape, rows)
         for k in np.argsort(-row, kind="stable").tolist():
             first[(low[k] < middle) & (middle < high[k])] = row[k]
         taken = (first >= 0) & (first < rows) & (long > NOISE)
         return np.asarray(np.bincount(first[taken], long[taken], minlength=rows) * few)
 
+    @cached_property
+    def rows(self) -> Index:
+        """The row of each move (k,), -1 of those before."""
+        own = len(self.moves) - (len(self.before.moves) if self.before else 0)
+        return np.where(np.arange(len(self.moves)) < own, self.moves.row, -1)
+
     def last(self, x: Array, y: Array, top: Array) -> Index:
-        """The row (m,) that made the top of the material at points close together; -1 where it was none of these."""
-        which, low, _ = self.spans(x, y)
-        here = np.abs(low - top) < NOISE
-        own = which < len(self.moves) - (len(self.before.moves) if self.before else 0)
-        return np.asarray(np.where(here & own[:, None], self.moves.row[which, None], -1).max(axis=0, initial=-1))
+        """The row (m,) that made the top of the material at points; -1 where it was none of these."""
+        found = np.full(len(x), -1)
+        for some, which, low, _ in self.spans(x, y):
+            found[some] = np.where(np.abs(low - top[some]) < NOISE, self.rows[which, None], -1).max(axis=0)
+        return found
 
     def empty(self, x: Array, y: Array, z: Array | float) -> Mask:
-        """Which points (m,) close together are in a gap."""
-        _, low, high = self.spans(x, y)
-        return np.asarray(((low < z) & (z < high)).any(axis=0))
+        """Which points (m,) are in a gap."""
+        found, z = np.zeros(len(x), dtype=bool), np.broadcast_to(z, len(x))
+        for some, _, low, high in self.spans(x, y):
+            found[some] = ((low < z[some]) & (z[some] < high)).any(axis=0)
+        return found
 
 
 def _fallen(top: Array, low: Array, high: Array) -> Array:
@@ -167,7 +194,7 @@ def _taken(moves: Moves, q: Array, e: Array) -> tuple[Array, Array]:
     begin, end = _under(moves, q[:2], e)
     there = begin <= end
     low = np.minimum(moves.start[:, 2], moves.end[:, 2])[:, None]
-    plain = (moves.flat == moves.radius) & ((moves.start[:, 2] == moves.end[:, 2]) | (moves.ways <= STILL))
+    plain = (moves.flat == moves.radius) & ((np.abs(moves.end[:, 2] - moves.start[:, 2]) < NOISE) | (moves.ways <= STILL))
     with np.errstate(divide="ignore", invalid="ignore"):
         at = (low - q[2]) / e[:, 2:]
     level, rising = np.abs(e[:, 2:]) < STILL, e[:, 2:] > 0
@@ -302,7 +329,7 @@ def _turned(cutting: Cutting) -> Iterator[Group]:
     axis, centre = path.axis[row], path.centre[row]
     local = []
     for end, side in ((path.start, 0), (path.end, 1)):
-        up = cutting.directions[row, side]
+        up = cutting.directions[row, 2 * side]
         frame = np.stack([np.cross(axis, up), axis, up], axis=1)
         local.append(np.einsum("kij,kj->ki", frame, end[row] - centre))
     first = cutting.directions[row, 0]
@@ -354,30 +381,58 @@ def pieces_of(cutting: Cutting, rows: Index) -> tuple[Index, float]:
 
 
 def meeting(cutting: Cutting) -> Mask:
-    """Rows (n,) on which a tool that turns may come to the blank: it is not sure to be clear of its box all the way.
+    """Rows (n,) on which, or before which, a tool that turns may come to the blank: it is not sure to be clear of it.
 
-    Clear is what has all corners of the box below the tip, or as far from the axis of the tool as this is thick.
+    Clear is what has all of the blank below the tip, or as far from the axis of the tool as this is thick.
     """
     found = np.zeros(len(cutting), dtype=bool)
-    rows = np.flatnonzero(cutting.turning)
+    if cutting.directions is None:
+        return found
+    (first, _, last), path = np.moveaxis(cutting.directions, 1, 0), cutting.path
+    before = np.concatenate([first[:1], last[:-1]])
+    before[: cutting.known] = first[: cutting.known]
+    turns = cutting.turning
+    swings = path.is_motion & ~turns & (np.abs(before - first) > TURNED).any(axis=1)
+    for some, end, ways in ((turns, path.end, (first, last)), (swings, path.start, (before, first))):
+        for rows in np.array_split(np.flatnonzero(some), 1 + int(some.sum()) * PLACES // AT_ONCE):
+            found[rows] = _meets(cutting, rows, end[rows], *(way[rows] for way in ways))
+    rows = np.flatnonzero(turns)
+    found[rows] |= np.linalg.norm(screwed(first[rows], last[rows], path.start[rows], path.end[rows], SHARE)[1] - cutting.directions[rows, 1], axis=1) > SWING
+    return found
+
+
+def screwed(first: Array, last: Array, start: Array, end: Array, share: float) -> tuple[Array, Array]:
+    """Tip and direction (k, 3) when a share of the shorter way between two places and directions is behind, turned evenly about
+    an axis square to both directions."""
+    axis, cosine = np.cross(first, last), np.einsum("ki,ki->k", first, last)
+    sine = np.linalg.norm(axis, axis=1)
+    angle, axis = np.arctan2(sine, cosine), axis / np.maximum(sine, STILL)[:, None]
+    way = end - start
+    rise = np.einsum("ki,ki->k", way, axis)[:, None] * axis
+    half = np.where(sine > TURNED, np.tan(np.clip(angle, TURNED, np.pi - TURNED) / 2), np.inf)
+    spoke = (rise - way) / 2 + np.cross(way, axis) / (2 * half)[:, None]
+    c, s = np.cos(share * angle)[:, None], np.sin(share * angle)[:, None]
+    tips = start - spoke + c * spoke + s * np.cross(axis, spoke) + share * rise
+    tips = np.where((sine > TURNED)[:, None], tips, start + share * way)
+    return tips, c * first + s * np.cross(axis, first)
+
+
+def _meets(cutting: Cutting, rows: Index, end: Array, before: Array, after: Array) -> Mask:
+    """Which of some rows (k,) are not sure to be clear on the way to `end` (k, 3), from one direction (k, 3) to the other."""
+    found, start, stock = np.zeros(len(rows), dtype=bool), cutting.path.start[rows], cutting.stock
     if not len(rows):
         return found
-    assert cutting.directions is not None
-    (low, high), path = cutting.stock.bounds, cutting.path
-    corners, middle, far = np.array(np.meshgrid(*zip(low, high))).reshape(3, -1).T, (low + high) / 2, float(np.linalg.norm(high - low))
-    wide = np.array([max(tool.effective_radius, *(radius for radius, _ in tool.holder), 0.0) for tool in cutting.tools])
-    for some in np.split(rows, np.arange(MOST // PLACES, len(rows), MOST // PLACES)):
-        swing = np.linalg.norm(np.diff(cutting.directions[some], axis=1)[:, 0], axis=1)
-        way = np.linalg.norm(path.end[some] - path.start[some], axis=1)
-        count = int(np.clip(np.ceil(swing.max() / SWING), 1, PLACES))
-        for share in (np.arange(count) + 0.5) / count:
-            tips = path.start[some] + share * (path.end[some] - path.start[some])
-            up = (1 - share) * cutting.directions[some, 0] + share * cutting.directions[some, 1]
-            up /= np.maximum(np.linalg.norm(up, axis=1), NOISE)[:, None]
-            reach = far + np.linalg.norm(tips - middle, axis=1)
-            above = np.einsum("nk,nk->n", tips, up) - np.einsum("ck,nk->nc", corners, up).max(axis=1)
-            places = tips[:, None] + (np.linspace(0.0, 1.0, PLACES) * reach[:, None])[..., None] * up[:, None]
-            off = np.linalg.norm(np.maximum(np.maximum(low - places, places - high), 0.0), axis=2).min(axis=1)
-            room = np.maximum(above, off - wide[cutting.which[some]] - reach / PLACES)
-            found[some] |= room <= (way + swing * reach) / count
+    low, high = stock.bounds
+    hull = np.concatenate(stock.edges()) if isinstance(stock, Box | Revolved) else np.array(np.meshgrid(*zip(low, high))).reshape(3, -1).T
+    middle, far = (low + high) / 2, float(np.linalg.norm(high - low))
+    wide = np.array([max(tool.effective_radius, *(radius for radius, _ in tool.holder), 0.0) for tool in cutting.tools])[cutting.which[rows]]
+    swing, way = np.linalg.norm(after - before, axis=1), np.linalg.norm(end - start, axis=1)
+    count = int(np.clip(np.ceil(swing.max() / SWING), 1, PLACES))
+    for share in (np.arange(count) + 0.5) / count:
+        tips, up = screwed(before, after, start, end, share)
+        reach = far + np.linalg.norm(tips - middle, axis=1)
+        above = np.einsum("ki,ki->k", tips, up) - np.einsum("ci,ki->kc", hull, up).max(axis=1)
+        places = tips[:, None] + (np.linspace(0.0, 1.0, PLACES) * reach[:, None])[..., None] * up[:, None]
+        off = np.linalg.norm(np.maximum(np.maximum(low - places, places - high), 0.0), axis=2).min(axis=1)
+        found |= np.maximum(above, off - wide - reach / PLACES) <= (way + swing * reach) / (2 * count)
     return found
