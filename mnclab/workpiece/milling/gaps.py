@@ -19,7 +19,8 @@ from mnclab.workpiece.milling.raster import AT_ONCE, NOISE
 from mnclab.workpiece.milling.swept import left_by
 from mnclab.workpiece.outcome import spend
 
-FEW, NARROWINGS, HALVINGS = 9, 40, 40  # places of a line under a tool; of its lowest place, and of where it leaves the tool
+FEW, NARROWINGS, TURNS = 9, 40, 33  # places of a line under a tool; of its lowest one; of where it leaves the tool
+RIM = 1e-12  # of the way to the rim of a tool, by which the last place is nearer
 PAIRS, TOGETHER = 20_000_000, 1000  # points times moves, twice, beyond which fewer columns tell what each row took; points
 EFFORT = 20  # times the work of a point under an upright move
 
@@ -192,7 +193,7 @@ def _taken(moves: Moves, q: Array, e: Array) -> tuple[Array, Array]:
     last = np.where(level, end, np.where(rising, end, np.minimum(end, at)))
     k, m = np.nonzero(there & ~plain[:, None])
     if len(k):
-        first[k, m], last[k, m] = _searched(moves[k], q[:, k, m], e[k], begin[k, m], end[k, m], at[k, m])
+        first[k, m], last[k, m] = _searched(moves[k], q[:, k, m], e[k], begin[k, m], end[k, m])
     there &= first < last
     return np.where(there, first, np.inf), np.where(there, last, -np.inf)
 
@@ -232,44 +233,48 @@ def _under(moves: Moves, q: Array, e: Array) -> tuple[Array, Array]:
     return begin / np.where(upright, 1.0, fast), end / np.where(upright, 1.0, fast)
 
 
-def _searched(moves: Moves, q: Array, e: Array, begin: Array, end: Array, at: Array) -> tuple[Array, Array]:
-    """The same of pairs (p,) of a line and a tool that is not flat, or falls: what stands above its edges along the line is
-    convex, so that its lowest place is found by thirds, and both ends by halves."""
+def _above(moves: Moves, q: Array, e: Array, s: Array) -> Array:
+    """How high (p,) what moves leave is above places s of lines, one each."""
+    x, y, z = q + e.T * s
+    return np.asarray(left_by(moves, x[:, None], y[:, None])[:, 0] - z)
 
-    def above(which: Index, s: Array) -> Array:
-        x, y, z = q[:, which] + e[which].T * s
-        return np.asarray(left_by(moves[which], x[:, None], y[:, None])[:, 0] - z)
 
-    first, last, every = np.full(len(begin), np.inf), np.full(len(begin), -np.inf), np.arange(len(begin))
+def _searched(moves: Moves, q: Array, e: Array, begin: Array, end: Array) -> tuple[Array, Array]:
+    """The same of pairs (p,) of a line and a tool that is not flat, or falls: how high its edges are above the line is convex along
+    it, so that the lowest place is found by thirds, and then both ends."""
     upright = ~np.isfinite(begin)
-    if upright.any():
-        some = every[upright]
-        height = above(some, np.zeros(len(some))) / e[some, 2]
-        rises = e[some, 2] > 0
-        first[some], last[some] = np.where(rises, height, -np.inf), np.where(rises, np.inf, height)
-    some = every[~upright]
+    height = np.divide(_above(moves, q, e, np.zeros(len(e))), e[:, 2], out=np.zeros(len(e)), where=upright)
+    first, last = np.where(upright & (e[:, 2] > 0), height, -np.inf), np.where(upright & (e[:, 2] < 0), height, np.inf)
+    some = np.flatnonzero(~upright)
+    first[some], last[some] = np.inf, -np.inf
+    moves, q, e, begin, end = moves[some], q[:, some], e[some], begin[some], end[some]
     share = (np.arange(FEW) + 0.5) / FEW
-    begin, end = begin[some], end[some]
-    if not len(some):
-        return first, last
-    seen = np.stack([above(some, begin + (end - begin) * each) for each in share])
-    best = seen.argmin(axis=0)
-    middle, step = begin + (end - begin) * share[best], (end - begin) / FEW
-    low, high = np.maximum(middle - step, begin), np.minimum(middle + step, end)
-    going = np.flatnonzero(seen.min(axis=0) > 0)
-    for _ in range(NARROWINGS if len(going) else 0):
-        third = (high[going] - low[going]) / 3
-        one, other = low[going] + third, high[going] - third
-        nearer = above(some[going], one) < above(some[going], other)
-        low[going], high[going] = np.where(nearer, low[going], one), np.where(nearer, other, high[going])
-        middle[going] = (low[going] + high[going]) / 2
-    met = above(some, middle) <= 0
-    some, begin, end, middle = some[met], begin[met], end[met], middle[met]
-    for ends, found in ((begin, first), (end, last)):
-        inside, outside = middle.copy(), ends.copy()
-        for _ in range(HALVINGS):
-            half = (inside + outside) / 2
-            within = above(some, half) <= 0
-            inside, outside = np.where(within, half, inside), np.where(within, outside, half)
-        found[some] = inside
+    seen = np.stack([_above(moves, q, e, begin + (end - begin) * each) for each in share])
+    middle, step = begin + (end - begin) * share[seen.argmin(axis=0)], (end - begin) / FEW
+    if len(k := np.flatnonzero(seen.min(axis=0) > 0)):
+        low, high, of = np.maximum(middle - step, begin)[k], np.minimum(middle + step, end)[k], (moves[k], q[:, k], e[k])
+        for _ in range(NARROWINGS):
+            one, other = (2 * low + high) / 3, (low + 2 * high) / 3
+            nearer = _above(*of, one) < _above(*of, other)
+            low, high = np.where(nearer, low, one), np.where(nearer, other, high)
+        middle[k] = (low + high) / 2
+    k = np.flatnonzero(_above(moves, q, e, middle) <= 0)
+    some, middle, of = some[k], middle[k], (moves[k], q[:, k], e[k])
+    for ends, found in ((begin[k], first), (end[k], last)):
+        found[some] = _left(of, middle, ends + RIM * (middle - ends))
     return first, last
+
+
+def _left(of: tuple[Moves, Array, Array], inside: Array, outside: Array) -> Array:
+    """Where lines leave tools between places (p,): by halves and where the chord of both heights ends (Illinois) in turn."""
+    within, beyond, rim = _above(*of, inside), _above(*of, outside), outside
+    all_along = beyond <= 0
+    for turn in range(TURNS):
+        halves = turn % 3 == 0
+        share = 0.5 if halves else np.clip(within / np.minimum(within - beyond, -RIM), 0.0, 1.0)
+        place = inside + share * (outside - inside)
+        here = _above(*of, place)
+        met = here <= 0
+        beyond = np.where(met, beyond / (1 if halves else 2), here)
+        inside, within, outside = np.where(met, place, inside), np.where(met, here, within), np.where(met, outside, place)
+    return np.where(all_along, rim, inside)
