@@ -20,13 +20,14 @@ from mnclab.geometry.kinematics import moved
 from mnclab.machine.axes import direction as direction_of_tool
 from mnclab.machine.axes import orientation, truth
 from mnclab.machine.coordinates import FRAME, LOG, PLANES, axes_of, tool_axis
-from mnclab.machine.cutting import CUT, TILT, UPRIGHT, part_before, start_known, tilted_rows
+from mnclab.machine.cutting import CUT, TILT, directions_of_rows, part_before, start_known
 from mnclab.machine.measuring import Touched
 from mnclab.machining.probing.sequences import Approach, Steps
 from mnclab.machining.steps import Measure, Step, Touch, Write
 from mnclab.path.toolpath import Kind, Toolpath, concatenate
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
+from mnclab.workpiece.cutting import UPRIGHT
 from mnclab.workpiece.part import Part, box, contact, cylinder, foot, hole
 from mnclab.workpiece.part.touching import GRAZE, blocked, released
 
@@ -362,11 +363,9 @@ def stop_at_part(m: Machine) -> None:
     probes = [number for number, tool in m.tables.tools.items() if tool.kind == "probe"]
     rows = path.is_motion & (path.kind != Kind.PROBE) & np.isin(path.tool, probes) & (path.label == 0)
     tilts, axes = (m.logs.changed(name, m.step) for name in (TILT, LOG))
-    tilted = tilted_rows(path.step, tilts, axes, path.cylinder)
-    if tilted is not None:
-        rows &= ~tilted
-    if (kinematics := m.setup.kinematics) is not None:
-        rows &= kinematics.orientation(path.rotary)[:, 2, 2] > UPRIGHT
+    directions = directions_of_rows(path.annotated(kinematics=m.setup.kinematics), tilts, axes)
+    if directions is not None:
+        rows &= (directions[..., 2] > UPRIGHT).all(axis=1)
     rows[: start_known(path, m.setup.start)[1]] = False
     for row in np.flatnonzero(rows)[:MOST].tolist():
         place = _met(m, part, path, row)
