@@ -9,35 +9,50 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.comparison.diff import deviation
-from mnclab.comparison.found import RATE, Found, from_where, grouped, rows_of
+from mnclab.comparison.found import NONE, RATE, Found, from_where, grouped, rows_of
 from mnclab.comparison.motion import NO_WAY, Motion
-from mnclab.comparison.pairs import Pairs, apart, paired
-from mnclab.comparison.ways import links, of_dwells, of_links
+from mnclab.comparison.pairs import Pairs, alongside, apart, paired
+from mnclab.comparison.ways import Around, links, of_dwells, of_links
 from mnclab.path.listing import figure
 from mnclab.path.places import points_at
-from mnclab.path.toolpath import Array, Index, Kind, Toolpath
+from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 from mnclab.text.alarm import several
 
 ROUGH = 0.02  # of a way: how far apart the tool may be on two that are divided otherwise
 BENT = 0.01  # rad: as much less of arcs has the one that has chords in their place
 CHAIN = 3  # cuts in place of one: fewer are compared one by one
+AHEAD = 4  # rows of a contour: as far ahead as compensation looks
+CUTS = ("geometry", "depth", "side")  # kinds
 LONGEST = 4000  # cuts of a stretch that is looked at as a whole
 FLOWS = ("off", "on (M8)", "on (M7)")
 SIDES = {0: "none", 1: "left", -1: "right"}
 
 
-def differences(one: Motion, other: Motion, tolerance: float) -> list[Found]:
-    """All that differs, in the order of the motion."""
+def differences(one: Motion, other: Motion, tolerance: float, around: Around) -> list[Found]:
+    """All that differs, in the order of the motion; `around` is what stands on the machine."""
     pairs = paired(one, other, tolerance)
     found, more, parts = _of_stretches(one, other, pairs, tolerance)
     i, j = np.concatenate([pairs.i, more[:, 0]]), np.concatenate([pairs.j, more[:, 1]])
     within = [_side_by_side(one, other, *each) for each in parts]
     found += _of_settings(one, other, *np.unique(np.hstack([(i, j), *within]), axis=1))
     between = links(one, other, i, j, parts)
-    found += of_links(one, other, *between, tolerance)
+    found += of_links(one, other, *between, tolerance, around)
     found += of_dwells(one, other, *between, parts)
     found += _left_over(one, other)
+    found = [each._replace(rows=_of_contour(one, other, each.rows, tolerance)) if each.kind in CUTS else each for each in found]
     return sorted(found, key=lambda each: (each.rows[1], each.rows[0]))
+
+
+def _of_contour(one: Motion, other: Motion, rows: tuple[int, int], tolerance: float) -> tuple[int, int]:
+    """Of compensated cuts the rows of the blocks whose contour is not the same: where a tool leaves a block, the next one says."""
+    if min(rows) < 0 or not (one.path.side[rows[0]] and other.path.side[rows[1]]):
+        return rows
+    contours = one.contour, other.contour
+    at = [int(np.searchsorted(m.contour.step, m.path.step[row])) for m, row in zip((one, other), rows)]
+    found = from_where(contours, (at[0], at[1]), tolerance, AHEAD)
+    steps = (contour.step[k] for contour, k in zip(contours, found))
+    a, b = (int(np.searchsorted(motion.path.step, step)) for motion, step in zip((one, other), steps))
+    return (a, b) if one.path.step[a] >= one.path.step[rows[0]] else rows
 
 
 # Cuts that are not the same.
@@ -70,8 +85,7 @@ def _of_stretches(
     for i, to_i, j, to_j in odd:
         a = np.setdiff1d(np.arange(i, to_i), moved[:, 0])
         b = np.setdiff1d(np.arange(j, to_j), moved[:, 1])
-        many = min(len(a), len(b))
-        if many == 1 and max(len(a), len(b)) > CHAIN:  # an arc, say, and the chords in its place
+        if min(len(a), len(b)) == 1 and max(len(a), len(b)) > CHAIN:  # an arc, say, and the chords in its place
             begins = int(one.row[one.cuts[a[0]]]), int(other.row[other.cuts[b[0]]])
             if len(a) == 1:
                 row, off = _leaves(other, other.cuts[b], one, int(a[0]), tolerance)
@@ -82,12 +96,15 @@ def _of_stretches(
             found.append(Found("geometry", rows, off, "mm", ("", ""), max(len(a), len(b))))
             more.append((int(a[0]), int(b[0])))
             continue
-        found += _not_alike(one, a[:many], other, b[:many], tolerance)
-        more += zip(a[:many].tolist(), b[:many].tolist())
-        if len(a) > many:
-            found.append(_only(one, a[many:], other, to_j, 0, tolerance))
-        if len(b) > many:
-            found.append(_only(other, b[many:], one, to_i, 1, tolerance))
+        p, q = alongside(one, a, other, b, tolerance)
+        found += _not_alike(one, a[p], other, b[q], tolerance)
+        more += zip(a[p].tolist(), b[q].tolist())
+        for k, lone, here, there, met, beyond in ((0, a, one, other, (p, b[q]), to_j), (1, b, other, one, (q, a[p]), to_i)):
+            left = np.setdiff1d(np.arange(len(lone)), met[0])
+            for ranks in np.split(left, np.flatnonzero(np.diff(left) > 1) + 1):
+                if len(ranks):
+                    behind = int(np.searchsorted(met[0], ranks[0]))
+                    found.append(_only(here, lone[ranks], there, int(met[1][behind]) if behind < len(met[1]) else beyond, k, tolerance))
     return found, np.array(more, dtype=np.int64).reshape(-1, 2), [*chords, *same]
 
 
@@ -96,12 +113,15 @@ def _only(motion: Motion, ranks: Index, other: Motion, there: int, k: int, toler
     cuts = motion.cuts[ranks]
     begin = other.cuts[there - 1] + 1 if there else 0
     moves = np.arange(begin, min(other.cuts[there] + 1 if there < len(other.cuts) else len(other), len(other)))
-    way, row, said = float(motion.lengths[cuts].sum()), -1, "none"
-    if len(moves):  # the nearest to it, which may be the same at rapid
+    way, row, said = float(motion.lengths[cuts].sum()), int(other.row[-1]) if len(other) else -1, NONE
+    if len(moves):
         off = np.linalg.norm(other.end[moves] - motion.end[cuts[0]], axis=1)
         near = moves[off.argmin()]
-        rapid = off.min() <= tolerance and other.kind[near] == Kind.RAPID
-        row, said = int((other.last if rapid else other.row)[near]), "at rapid" if rapid else said
+        if off.min() <= tolerance and other.kind[near] == Kind.RAPID:  # the same at rapid
+            row, said = int(other.last[near]), "at rapid"
+        else:  # where it would stand: behind the move that ends where it begins
+            off = np.linalg.norm(other.start[moves] - motion.start[cuts[0]], axis=1)
+            row = int(other.row[moves[off.argmin()]])
     both = [(_leaves(motion, cuts, other, there, tolerance)[0], several(len(cuts), "cut")), (row, said)]
     (one_row, one_said), (other_row, other_said) = both[::-1] if k else both
     kind = "rapid" if not k and said == "at rapid" else "geometry"  # what one cuts the other goes at rapid
@@ -178,11 +198,19 @@ def _not_alike(one: Motion, i: Index, other: Motion, j: Index, tolerance: float)
     mill = not (one.path.lathe or other.path.lathe)
     deep = mill & (np.hypot(step[:, 0], step[:, 1]) <= tolerance) & (np.abs(off - step[:, 2]) <= tolerance)
     off = np.where(np.isfinite(off), off, np.linalg.norm(step, axis=1))
+    lift = [motion.end[e, 2] - motion.path.end[motion.last[e], 2] for motion, e in ((one, p), (other, q))]
     found = []
     for kind, mask in (("geometry", ~deep), ("depth", deep)):
-        for each in grouped(kind, one, i[mask], other, j[mask], lambda k: ("", ""), off[mask]):
-            found.append(each._replace(rows=from_where(one, other, each.rows, tolerance)))
+        a, b = (_off_table(each[mask], np.abs(lift[0] - lift[1])[mask] > tolerance) for each in lift)
+        for each in grouped(kind, one, i[mask], other, j[mask], lambda k: (a[k], b[k]), off[mask]):
+            found.append(each._replace(rows=from_where((one.path, other.path), each.rows, tolerance)))
     return found
+
+
+def _off_table(lift: Array, told: Mask) -> list[str]:
+    """How much higher than programmed the tip of a tool is, in words (k,), where that is `told`."""
+    words = (f"tip {figure(abs(much), 3)} mm {'higher' if much > 0 else 'lower'} by a delta length" for much in lift.tolist())
+    return [(each if much else "no delta length") if here else "" for each, much, here in zip(words, lift, told)]
 
 
 def _elsewhere(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) -> NDArray[np.int64]:
@@ -225,6 +253,8 @@ def _of_settings(one: Motion, other: Motion, i: Index, j: Index) -> Iterator[Fou
     yield from told("feed", a, b, "mm/min", _named("F"), RATE)
     a, b = (np.where(turns, m.per_rev[e], np.nan) for m, e in ((one, p), (other, q)))
     yield from told("feed", a, b, "mm/rev", _named("F", " a turn"), RATE)
+    a, b = one.held[p].astype(int), other.held[q].astype(int)
+    yield from told("restart", a, b, "", lambda held: "held through the tool change" if held else "started behind it")
     a, b = one.synchronous[p].astype(int), other.synchronous[q].astype(int)
     yield from told("feed", a, b, "", lambda value: "locked to the spindle" if value else "free of the spindle")
     yield from told("spindle", one.spindle[p], other.spindle[q], "rev/min", _turning, RATE)
@@ -235,7 +265,9 @@ def _of_settings(one: Motion, other: Motion, i: Index, j: Index) -> Iterator[Fou
     a, b = (np.where(one.tool[p] == other.tool[q], each, 0) for each in numbers)
     yield from told("number", a, b, "", lambda value: f"T{value}")
     yield from told("tool", one.radius[p], other.radius[q], "mm", _named("radius "), 1e-4)
-    yield from told("side", one.side[p], other.side[q], "", lambda value: SIDES[int(value)])
+    for kind, centre in (("side", False), ("centre", True)):  # what one compensates the other may say as the way of the centre
+        a, b = (np.where((one.side[p] * other.side[q] == 0) == centre, each, 0) for each in (one.side[p], other.side[q]))
+        yield from told(kind, a, b, "", lambda value: SIDES[int(value)])
 
 
 def _named(before: str, behind: str = "") -> Callable[[Any], str]:

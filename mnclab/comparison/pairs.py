@@ -146,3 +146,44 @@ def _ahead(alike: Callable[[Index, Index], Mask], n: int, m: int, i: int, j: int
         if window >= n and window >= m:
             break
     return n, m
+
+
+# Cuts that are not the same, and still each other's.
+
+LONE, STRANGE = 0.55, 1.0  # what a cut of one program alone costs, and two that have nothing of each other
+LIKE = (0.0, 0.1, 0.2, 0.25, 0.3)  # an arc of the same circle; the same end; the same from above, way and end, or one of them
+LARGEST = 4_000_000  # pairs
+
+
+def alongside(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) -> tuple[Index, Index]:
+    """Which of the cuts by their ranks i (n,) of one and j (m,) of the other are each other's, as places in i and j (k,).
+
+    Of all ways to put the two in order beside each other that which costs least; of very many cuts one after the other.
+    """
+    n, m = len(i), len(j)
+    if n == 0 or m == 0 or n * m > LARGEST:
+        return np.arange(min(n, m)), np.arange(min(n, m))
+    p, q = one.cuts[i], other.cuts[j]
+    step = np.abs(one.end[p][:, None] - other.end[q]) <= tolerance
+    way = np.abs((one.end[p] - one.start[p])[:, None] - (other.end[q] - other.start[q])) <= tolerance
+    flat, same = step[:, :, :2].all(axis=2), way[:, :, :2].all(axis=2)
+    kind = (one.kind[p][:, None] == other.kind[q]) & (np.sign(one.sweep[p])[:, None] == np.sign(other.sweep[q]))
+    about = kind & (np.abs(one.centre[p][:, None] - other.centre[q]) <= tolerance).all(axis=2)  # nan of lines
+    cost = np.select([about, step.all(axis=2), flat & same, same, flat], LIKE, STRANGE) + np.where(kind, 0.0, LIKE[2])
+    lone = LONE * np.arange(m + 1)
+    least = np.empty((n + 1, m + 1))
+    least[0] = lone
+    for k in range(n):
+        here = np.minimum(np.append(np.inf, least[k, :-1] + cost[k]), least[k] + LONE)
+        least[k + 1] = np.minimum.accumulate(here - lone) + lone
+    pairs, k, at = [], n, m
+    while k and at:
+        if least[k, at] >= least[k - 1, at - 1] + cost[k - 1, at - 1] - 1e-9:
+            k, at = k - 1, at - 1
+            pairs.append((k, at))
+        elif least[k, at] >= least[k - 1, at] + LONE - 1e-9:
+            k -= 1
+        else:
+            at -= 1
+    found = np.array(pairs[::-1], dtype=np.int64).reshape(-1, 2)
+    return found[:, 0], found[:, 1]

@@ -21,7 +21,7 @@ from mnclab.comparison.diff import names_of
 from mnclab.comparison.differences import differences
 from mnclab.comparison.found import Found
 from mnclab.comparison.motion import motion_of
-from mnclab.comparison.parts import collided, not_comparable, part_apart
+from mnclab.comparison.parts import around, collided, not_comparable, one_blank, part_apart
 from mnclab.path.listing import MM, Unit, figure, point, words
 from mnclab.path.toolpath import Kind
 from mnclab.text.alarm import ALARM, Alarm
@@ -32,7 +32,9 @@ from mnclab.text.tables import Listing, Pictured, html_table, save_as, text_tabl
 KINDS = {
     "stops": "a program stops before its end, so that nothing is proven",
     "collision": "only one of them collides",
-    "rapid": "the second goes lower or nearer at rapid, or on a lathe elsewhere",
+    "rapid": "the second goes lower at rapid",
+    "nearer": "the second comes nearer at rapid than the first ever does",
+    "aside": "the second goes elsewhere at rapid and no higher: a clamp may stand there (fixtures of the setup would tell)",
     "geometry": "other cuts",
     "depth": "the same cuts at another depth",
     "side": "radius compensation on another side",
@@ -43,14 +45,16 @@ KINDS = {
     "coolant": "another coolant",
     "order": "the same cuts in another order",
     "chords": "lines within the tolerance of an arc",
-    "lifts": "other ways between cuts, also sideways, nowhere lower",
+    "lifts": "other ways between cuts, nowhere lower; where sideways then higher, or clear of all fixtures",
     "leftovers": "something else is on at the end",
+    "restart": "the spindle is started again behind a tool change, or held through it: not every machine holds it",
+    "centre": "one says the way of the tool's centre, the other compensates its radius: the same with this tool alone",
     "number": "another tool number, of a tool with the same measures",
 }
 MAY_BE_ALLOWED = ("lifts", "chords", "order")
-BESIDE = ("leftovers", "number")  # told, but no motion
+BESIDE = ("leftovers", "restart", "centre", "number")  # told, but no motion
 #: With one of these the part is not the same, even where the sweep of the tool says so: a tool breaks, a clamp is hit.
-UNSAFE = ("stops", "collision", "rapid", "side", "spindle", "feed")
+UNSAFE = ("stops", "collision", "rapid", "nearer", "side", "spindle", "feed")
 SAME_MOTION, SAME_PART, DIFFERENT = "same motion", "same part", "different"
 
 
@@ -102,8 +106,8 @@ class Difference(NamedTuple):
 class Proof(Pictured, Listing):
     """What `mnclab.prove` found: `verdict` is "same motion", "same part" or "different"; a table of the differences.
 
-    `paths` and `names` are those of the two programs, `part` says why their parts are not the same or were not compared. Its
-    truth is whether the motion is not the same, as that of `mnclab.diff`: `if mnclab.prove(a, b): print("look")`.
+    `paths` and `names` are those of the two programs, `part` says why their parts are not the same or were not compared, `blank`
+    whose blank was taken where only one has any. Its truth is whether the motion is not the same, as that of `mnclab.diff`: `if mnclab.prove(a, b): print("look")`.
     """
 
     NUMBERS, CODE, MOST = (1, 3), (2, 4), 30
@@ -114,6 +118,7 @@ class Proof(Pictured, Listing):
     tolerance: float
     paths: tuple[Any, Any]
     part: str = ""
+    blank: str = ""
 
     def __bool__(self) -> bool:
         """Whether the motion is not the same."""
@@ -150,14 +155,14 @@ class Proof(Pictured, Listing):
             return "not proven: there is no motion in either"
         if self.verdict == SAME_MOTION:
             more = f"beside it: {counts}" if counts else ""
-            left = "".join(each.sentence for each in self.differences if each.kind in BESIDE)
-            return "; ".join(filter(None, [f"the same motion within {self.tolerance:g} mm", more, left, self.zeros]))
+            left = "; ".join(each.sentence for each in self.differences if each.kind in BESIDE)
+            return "; ".join(filter(None, [f"the same motion within {self.tolerance:g} mm", more, left, self.blank, self.zeros]))
         assert self.first is not None
         if "stops" in self.counts:
             verdict = "not proven"
         else:
             verdict = "the same part, made another way" if self.verdict == SAME_PART else "different"
-        return "; ".join(filter(None, [f"{verdict} ({counts})", self.part, f"first {self.first.sentence}", self.zeros]))
+        return "; ".join(filter(None, [f"{verdict} ({counts})", self.part, self.blank, f"first {self.first.sentence}", self.zeros]))
 
     @property
     def above(self) -> str:
@@ -188,7 +193,7 @@ class Proof(Pictured, Listing):
 
     def as_dict(self) -> dict[str, Any]:
         """All of it for JSON."""
-        found = {name: getattr(self, name) for name in ("verdict", "sentence", "names", "tolerance", "counts", "part")}
+        found = {name: getattr(self, name) for name in ("verdict", "sentence", "names", "tolerance", "counts", "part", "blank")}
         return found | {"differences": [each.as_dict() for each in self.differences]}
 
     def plot(self, **options: Any) -> Any:
@@ -239,21 +244,23 @@ def proof(one: Any, other: Any, tolerance: float = 0.001, allow: Collection[str]
     allowed = tuple(choice(each, "what is allowed", MAY_BE_ALLOWED) for each in allow)
     runs, tools = (one, other), list[Any]()
     motions = motion_of(one, tools), motion_of(other, tools)
-    found = differences(*motions, tolerance)
-    part = ""
+    stock = one_blank(runs)
+    found = differences(*motions, tolerance, around(runs, stock))
+    part = shared = ""
     if any(map(_broken, runs)):
         found = _stopped(runs, found)
     elif found:
         why = not_comparable(runs, motions)
-        found = found if why else sorted([*found, *collided(runs)], key=lambda each: each.rows[1])
+        found = found if why else sorted([*found, *collided(runs, stock)], key=lambda each: each.rows[1])
         serious = {each.kind for each in found} - {*allowed, *BESIDE}
-        part = f"the parts were not compared: {why}" * bool(serious) if why else part_apart(runs, motions, tolerance, found)
+        part = f"the parts were not compared: {why}" * bool(serious) if why else part_apart(runs, motions, tolerance, found, stock)
+        shared = f"the blank of {names_of(*runs)[runs[0].stock is None]} was taken for both" if stock and not why else ""
     serious = {each.kind for each in found} - {*allowed, *BESIDE}
     still = not any(motion.path.is_motion.any() for motion in motions)  # which proves nothing
     verdict = DIFFERENT if part or still or serious & {*UNSAFE} else SAME_PART if serious else SAME_MOTION
     names = names_of(one, other)
     told = tuple(_told(each, runs, names, allowed) for each in found)
-    return Proof(verdict, told, names, float(tolerance), (one.toolpath, other.toolpath), part)
+    return Proof(verdict, told, names, float(tolerance), (one.toolpath, other.toolpath), part, shared)
 
 
 def _stopped(runs: tuple[Any, Any], found: list[Found]) -> list[Found]:
@@ -302,12 +309,16 @@ def _spot(run: Any, row: int, halt: Any, name: str) -> tuple[int, str, str, tupl
     path = run.toolpath
     line, which = (halt.line, halt.program) if halt else (int(path.line[row]), int(path.program[row]))
     place = tuple(path.end[row].tolist()) if row >= 0 else ()
-    program, doing = run.programs[which], "" if halt else _doing(path[row], path.lathe)
+    program, move = run.programs[which], None if halt else path[row]
+    if move is not None and move.side:  # what the block says, not the way of the centre that follows from it
+        same = np.flatnonzero((run.programmed.step == move.step) & run.programmed.is_motion)
+        move = run.programmed[same[-1]] if len(same) else move
+    doing = "" if move is None else _doing(move, path.lathe)
     return line, program.name if which else name, program.line_text(line).strip(), place, doing
 
 
 def _doing(move: Any, lathe: bool) -> str:
     """What a row does, in words."""
     said = words(move).replace(point(move.end), point(move.end, lathe=lathe))
-    side = {1: ", left of the contour", -1: ", right of the contour"}.get(move.side, "") if move.kind != Kind.RAPID else ""
+    side = {1: ", tool left of it", -1: ", tool right of it"}.get(move.side, "") if move.kind != Kind.RAPID else ""
     return f"{Kind(move.kind).name.lower()} {'to ' if move.kind <= Kind.PROBE else ''}{said}{side}".strip()
