@@ -44,7 +44,7 @@ def differences(one: Motion, other: Motion, tolerance: float, around: Around) ->
 
 
 def _of_contour(one: Motion, other: Motion, rows: tuple[int, int], tolerance: float) -> tuple[int, int]:
-    """Of compensated cuts the rows of the blocks whose contour is not the same: where a tool leaves a block, the next one says."""
+    """Of compensated cuts the rows of the blocks whose contour is not the same: the next block says where the tool leaves one."""
     if min(rows) < 0 or not (one.path.side[rows[0]] and other.path.side[rows[1]]):
         return rows
     contours = one.contour, other.contour
@@ -103,8 +103,8 @@ def _of_stretches(
             left = np.setdiff1d(np.arange(len(lone)), met[0])
             for ranks in np.split(left, np.flatnonzero(np.diff(left) > 1) + 1):
                 if len(ranks):
-                    behind = int(np.searchsorted(met[0], ranks[0]))
-                    found.append(_only(here, lone[ranks], there, int(met[1][behind]) if behind < len(met[1]) else beyond, k, tolerance))
+                    behind = [*met[1][np.searchsorted(met[0], ranks[0]) :].tolist(), beyond][0]
+                    found.append(_only(here, lone[ranks], there, behind, k, tolerance))
     return found, np.array(more, dtype=np.int64).reshape(-1, 2), [*chords, *same]
 
 
@@ -201,8 +201,8 @@ def _not_alike(one: Motion, i: Index, other: Motion, j: Index, tolerance: float)
     lift = [motion.end[e, 2] - motion.path.end[motion.last[e], 2] for motion, e in ((one, p), (other, q))]
     found = []
     for kind, mask in (("geometry", ~deep), ("depth", deep)):
-        a, b = (_off_table(each[mask], np.abs(lift[0] - lift[1])[mask] > tolerance) for each in lift)
-        for each in grouped(kind, one, i[mask], other, j[mask], lambda k: (a[k], b[k]), off[mask]):
+        said = [_off_table(each[mask], np.abs(lift[0] - lift[1])[mask] > tolerance) for each in lift]
+        for each in grouped(kind, one, i[mask], other, j[mask], list(zip(*said)).__getitem__, off[mask]):
             found.append(each._replace(rows=from_where((one.path, other.path), each.rows, tolerance)))
     return found
 

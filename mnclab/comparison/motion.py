@@ -37,8 +37,8 @@ class Motion:
     `dwell` (m + 1,) is the time before the first move and behind each, s, inf where the program stops (M0), `pause` the row of
     it. `tool` (m,) are places in one list of tools, of which what cuts alike is one. `cuts` are the moves but rapids, `link` (m,)
     says before which of the cuts a move stands. `held` are the first cuts with a tool for which the spindle was not started: it
-    turned before the change. `contour` is the path as it was programmed, before compensation. `at_end` is speed, coolant, side as the program leaves them, `left` what
-    else of it is modal, in words.
+    turned before the change. `contour` is the path as it was programmed, before compensation. `at_end` is speed, coolant, side
+    as the program leaves them, `left` what else of it is modal, in words.
     """
 
     path: Toolpath

@@ -107,7 +107,8 @@ class Proof(Pictured, Listing):
     """What `mnclab.prove` found: `verdict` is "same motion", "same part" or "different"; a table of the differences.
 
     `paths` and `names` are those of the two programs, `part` says why their parts are not the same or were not compared, `blank`
-    whose blank was taken where only one has any. Its truth is whether the motion is not the same, as that of `mnclab.diff`: `if mnclab.prove(a, b): print("look")`.
+    whose blank was taken where only one has any. Its truth is whether the motion is not the same, as that of `mnclab.diff`:
+    `if mnclab.prove(a, b): print("look")`.
     """
 
     NUMBERS, CODE, MOST = (1, 3), (2, 4), 30
@@ -126,6 +127,11 @@ class Proof(Pictured, Listing):
 
     def __len__(self) -> int:
         return len(self.differences)
+
+    @property
+    def harmless(self) -> bool:
+        """Whether the motion is the same, or the part is and no more differs than what may be allowed."""
+        return self.verdict == SAME_MOTION or (self.verdict == SAME_PART and {*self.counts} <= {*MAY_BE_ALLOWED, *BESIDE})
 
     @property
     def first(self) -> Difference | None:
@@ -162,7 +168,8 @@ class Proof(Pictured, Listing):
             verdict = "not proven"
         else:
             verdict = "the same part, made another way" if self.verdict == SAME_PART else "different"
-        return "; ".join(filter(None, [f"{verdict} ({counts})", self.part, self.blank, f"first {self.first.sentence}", self.zeros]))
+        reasons = f"{verdict} ({counts})", self.part, self.blank, f"first {self.first.sentence}", self.zeros
+        return "; ".join(filter(None, reasons))
 
     @property
     def above(self) -> str:
@@ -249,12 +256,12 @@ def proof(one: Any, other: Any, tolerance: float = 0.001, allow: Collection[str]
     part = shared = ""
     if any(map(_broken, runs)):
         found = _stopped(runs, found)
+    elif found and (why := not_comparable(runs, motions)):
+        part = f"the parts were not compared: {why}" if {each.kind for each in found} - {*allowed, *BESIDE} else ""
     elif found:
-        why = not_comparable(runs, motions)
-        found = found if why else sorted([*found, *collided(runs, stock)], key=lambda each: each.rows[1])
-        serious = {each.kind for each in found} - {*allowed, *BESIDE}
-        part = f"the parts were not compared: {why}" * bool(serious) if why else part_apart(runs, motions, tolerance, found, stock)
-        shared = f"the blank of {names_of(*runs)[runs[0].stock is None]} was taken for both" if stock and not why else ""
+        found = sorted([*found, *collided(runs, stock)], key=lambda each: each.rows[1])
+        part = part_apart(runs, motions, tolerance, found, stock)
+        shared = f"the blank of {names_of(*runs)[runs[0].stock is None]} was taken for both" if stock else ""
     serious = {each.kind for each in found} - {*allowed, *BESIDE}
     still = not any(motion.path.is_motion.any() for motion in motions)  # which proves nothing
     verdict = DIFFERENT if part or still or serious & {*UNSAFE} else SAME_PART if serious else SAME_MOTION

@@ -11,7 +11,6 @@ from mnclab.comparison.found import RATE, Found, from_where
 from mnclab.comparison.motion import Motion
 from mnclab.path.listing import figure, point
 from mnclab.path.toolpath import Array, Index, Kind, Mask
-from mnclab.text.alarm import several
 
 SECONDS = 0.001
 LOWER, NEARER, ASIDE, HIGHER = range(4)
@@ -99,8 +98,8 @@ def _elsewhere(
 
 @dataclass(frozen=True, eq=False)
 class Around:
-    """What stands on the machine beside the tool, by its `names`: the `bounds` (k, 2, 3) of blank and fixtures in the frame of the
-    path. `fixtures` is whether the setup names any: without, nobody knows of clamps."""
+    """What stands on the machine beside the tool, by its `names`: the `bounds` (k, 2, 3) of blank and fixtures in the frame of
+    the path. `fixtures` is whether the setup names any: without, nobody knows of clamps."""
 
     names: tuple[str, ...] = ()
     bounds: Array = field(default_factory=lambda: np.empty((0, 2, 3)))
@@ -197,8 +196,8 @@ class Ways:
         return float(self.motion.radius[self.rapids[self.begin[link]]])
 
     def off(self, link: int, other: Ways, there: int, tolerance: float) -> tuple[Array, float]:
-        """Places (m, 3) of the ways sideways before a cut (on a lathe of all) that those before a cut of the other do not go over,
-        and how far they are beside."""
+        """Places (m, 3) of the ways sideways before a cut (on a lathe of all) that those before a cut of the other do not go
+        over, and how far they are beside."""
         here, near = self.of(link), other.of(there)
         some = np.arange(here.start, here.stop)[self.aside[here] | self.lathe]
         seen = [0, 2] if self.lathe else [0, 1]
