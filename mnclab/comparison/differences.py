@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.comparison.contour import of_contour
 from mnclab.comparison.diff import deviation
 from mnclab.comparison.found import NONE, RATE, Found, from_where, grouped, rows_of
 from mnclab.comparison.motion import NO_WAY, Motion
@@ -21,7 +22,6 @@ from mnclab.text.alarm import several
 ROUGH = 0.02  # of a way: how far apart the tool may be on two that are divided otherwise
 BENT = 0.01  # rad: as much less of arcs has the one that has chords in their place
 CHAIN = 3  # cuts in place of one: fewer are compared one by one
-AHEAD = 4  # rows of a contour: as far ahead as compensation looks
 CUTS = ("geometry", "depth", "side")  # kinds
 LONGEST = 4000  # cuts of a stretch that is looked at as a whole
 FLOWS = ("off", "on (M8)", "on (M7)")
@@ -39,20 +39,8 @@ def differences(one: Motion, other: Motion, tolerance: float, around: Around) ->
     found += of_links(one, other, *between, tolerance, around)
     found += of_dwells(one, other, *between, parts)
     found += _left_over(one, other)
-    found = [each._replace(rows=_of_contour(one, other, each.rows, tolerance)) if each.kind in CUTS else each for each in found]
+    found = [each._replace(rows=of_contour(one, other, each.rows, tolerance)) if each.kind in CUTS else each for each in found]
     return sorted(found, key=lambda each: (each.rows[1], each.rows[0]))
-
-
-def _of_contour(one: Motion, other: Motion, rows: tuple[int, int], tolerance: float) -> tuple[int, int]:
-    """Of compensated cuts the rows of the blocks whose contour is not the same: the next block says where the tool leaves one."""
-    if min(rows) < 0 or not (one.path.side[rows[0]] and other.path.side[rows[1]]):
-        return rows
-    contours = one.contour, other.contour
-    at = [int(np.searchsorted(m.contour.step, m.path.step[row])) for m, row in zip((one, other), rows)]
-    found = from_where(contours, (at[0], at[1]), tolerance, AHEAD)
-    steps = (contour.step[k] for contour, k in zip(contours, found))
-    a, b = (int(np.searchsorted(motion.path.step, step)) for motion, step in zip((one, other), steps))
-    return (a, b) if one.path.step[a] >= one.path.step[rows[0]] else rows
 
 
 # Cuts that are not the same.
@@ -77,14 +65,20 @@ def _of_stretches(
         bent = [np.abs(motion.sweep[motion.cuts[a:b]]).sum() for motion, a, b in ((one, i, to_i), (other, j, to_j))]
         arcs = ("arcs", several(to_j - j, "line")) if bent[0] > bent[1] else (several(to_i - i, "line"), "arcs")
         found.append(Found("chords", rows_of(one, i, other, j), 0.0, "mm", arcs, max(to_i - i, to_j - j)))
-    more = []
-    left = [np.concatenate([np.arange(s[k], s[k + 1]) for s in odd] or [np.empty(0, np.int64)]) for k in (0, 2)]
+    more, lone = list[tuple[int, int]](), []
+    for i, to_i, j, to_j in odd:
+        a, b = np.arange(i, to_i), np.arange(j, to_j)
+        p, q = alongside(one, a, other, b, tolerance)
+        begins = one.start[one.cuts[a[p]]] - other.start[other.cuts[b[q]]]
+        fits = (apart(one, one.cuts[a[p]], other, other.cuts[b[q]]) <= tolerance) & (np.linalg.norm(begins, axis=1) <= tolerance)
+        more += zip(a[p[fits]].tolist(), b[q[fits]].tolist())
+        lone.append((np.delete(a, p[fits]), np.delete(b, q[fits])))
+    left = [np.concatenate([each[k] for each in lone] or [np.empty(0, np.int64)]) for k in (0, 1)]
     moved = _elsewhere(one, left[0], other, left[1], tolerance)
     found += grouped("order", one, moved[:, 0], other, moved[:, 1], lambda k: ("here", "at another place in the order"))
     more += [(i, j) for i, j in moved.tolist()]
-    for i, to_i, j, to_j in odd:
-        a = np.setdiff1d(np.arange(i, to_i), moved[:, 0])
-        b = np.setdiff1d(np.arange(j, to_j), moved[:, 1])
+    for (a, b), (_, to_i, _, to_j) in zip(lone, odd):
+        a, b = np.setdiff1d(a, moved[:, 0]), np.setdiff1d(b, moved[:, 1])
         if min(len(a), len(b)) == 1 and max(len(a), len(b)) > CHAIN:  # an arc, say, and the chords in its place
             begins = int(one.row[one.cuts[a[0]]]), int(other.row[other.cuts[b[0]]])
             if len(a) == 1:
@@ -99,12 +93,13 @@ def _of_stretches(
         p, q = alongside(one, a, other, b, tolerance)
         found += _not_alike(one, a[p], other, b[q], tolerance)
         more += zip(a[p].tolist(), b[q].tolist())
-        for k, lone, here, there, met, beyond in ((0, a, one, other, (p, b[q]), to_j), (1, b, other, one, (q, a[p]), to_i)):
-            left = np.setdiff1d(np.arange(len(lone)), met[0])
-            for ranks in np.split(left, np.flatnonzero(np.diff(left) > 1) + 1):
-                if len(ranks):
-                    behind = [*met[1][np.searchsorted(met[0], ranks[0]) :].tolist(), beyond][0]
-                    found.append(_only(here, lone[ranks], there, behind, k, tolerance))
+        for k, cuts, here, there, met, beyond in ((0, a, one, other, (p, b[q]), to_j), (1, b, other, one, (q, a[p]), to_i)):
+            alone = np.delete(np.arange(len(cuts)), met[0])
+            for ranks in np.split(alone, np.flatnonzero(np.diff(cuts[alone]) > 1) + 1):
+                behind = [*met[1][np.searchsorted(met[0], ranks[:1].sum()) :].tolist(), beyond][0]
+                long = here.lengths[here.cuts[cuts[ranks]]].sum()  # what rounding adds to a corner is no cut
+                if long > tolerance and not _begins(here, cuts[ranks], there, behind, tolerance):
+                    found.append(_only(here, cuts[ranks], there, behind, k, tolerance))
     return found, np.array(more, dtype=np.int64).reshape(-1, 2), [*chords, *same]
 
 
@@ -126,6 +121,17 @@ def _only(motion: Motion, ranks: Index, other: Motion, there: int, k: int, toler
     (one_row, one_said), (other_row, other_said) = both[::-1] if k else both
     kind = "rapid" if not k and said == "at rapid" else "geometry"  # what one cuts the other goes at rapid
     return Found(kind, (one_row, other_row), way, "mm", (one_said, other_said), len(cuts))
+
+
+def _begins(motion: Motion, ranks: Index, other: Motion, there: int, tolerance: float) -> bool:
+    """Whether a cut is where the cut `there` of the other, which goes on straight, begins."""
+    if len(ranks) != 1 or there >= len(other.cuts):
+        return False
+    a, b = motion.cuts[ranks[0]], other.cuts[there]
+    one, whole = motion.end[a] - motion.start[a], other.end[b] - other.start[b]
+    near = np.linalg.norm(motion.start[a] - other.start[b]) <= tolerance and one @ whole > 0 and one @ one < whole @ whole
+    lines = motion.kind[a] == other.kind[b] == Kind.LINE
+    return bool(near and lines and np.linalg.norm(np.cross(one, whole)) <= tolerance * np.linalg.norm(whole))
 
 
 def _leaves(motion: Motion, cuts: Index, other: Motion, there: int, tolerance: float) -> tuple[int, float]:
@@ -191,7 +197,9 @@ def _at_shares(path: Toolpath) -> tuple[Index, Array]:
 def _not_alike(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) -> list[Found]:
     """What is wrong with cuts that are each other's."""
     p, q = one.cuts[i], other.cuts[j]
-    off = apart(one, p, other, q)
+    off, begins = apart(one, p, other, q), np.linalg.norm(one.start[p] - other.start[q], axis=1)
+    follow = np.append(False, (np.diff(i) == 1) & (np.diff(j) == 1))  # the start is the end of a cut that is told
+    off = np.where((off <= tolerance) & ~follow[: len(off)], begins, off)
     wrong = off > tolerance
     i, j, p, q, off = i[wrong], j[wrong], p[wrong], q[wrong], off[wrong]
     step = np.abs(one.end[p] - other.end[q])
@@ -203,7 +211,7 @@ def _not_alike(one: Motion, i: Index, other: Motion, j: Index, tolerance: float)
     for kind, mask in (("geometry", ~deep), ("depth", deep)):
         said = [_off_table(each[mask], np.abs(lift[0] - lift[1])[mask] > tolerance) for each in lift]
         for each in grouped(kind, one, i[mask], other, j[mask], list(zip(*said)).__getitem__, off[mask]):
-            found.append(each._replace(rows=from_where((one.path, other.path), each.rows, tolerance)))
+            found.append(each._replace(rows=from_where(one, other, each.rows, tolerance)))
     return found
 
 

@@ -11,7 +11,6 @@ from mnclab.comparison.motion import NO_WAY, Motion
 from mnclab.path.toolpath import Array, Index, Toolpath
 
 RATE = 0.005  # of a feed, a speed or a dwell: as much goes by rounding in inches
-LOOK = 64  # rows
 CENTRE = 20  # as far apart may be the centres of arcs, in tolerances of their ends
 NONE = "none before this block"
 
@@ -56,8 +55,14 @@ def grouped(
     ]
 
 
-def from_where(paths: tuple[Toolpath, Toolpath], rows: tuple[int, int], tolerance: float, look: int = LOOK) -> tuple[int, int]:
-    """The rows from which on moves of two paths are not the same, such as are made of several blocks that are alike at first."""
+def from_where(one: Motion, other: Motion, rows: tuple[int, int], tolerance: float) -> tuple[int, int]:
+    """The rows from which on two moves are not the same that are made of several blocks, which may be alike at first."""
+    looks = [motion.last[np.searchsorted(motion.row, row, "right") - 1] - row + 1 for motion, row in zip((one, other), rows)]
+    return first_apart((one.path, other.path), rows, tolerance, int(max(looks)))
+
+
+def first_apart(paths: tuple[Toolpath, Toolpath], rows: tuple[int, int], tolerance: float, look: int) -> tuple[int, int]:
+    """The first two of so many rows of two paths that are not the same, else those from which on one looks."""
     found = []
     for path, row in zip(paths, rows):
         some = path[row : row + look]

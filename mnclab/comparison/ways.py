@@ -70,7 +70,7 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, a
         until = a.until(i[k], b, j[k], tolerance)
         if kind[k] == ASIDE or a.lathe and kind[k] != NEARER:
             said = a.route(i[k], until), b.route(j[k], until)
-        rows = from_where((one.path, other.path), (a.row(i[k], until), b.row(j[k], until)), tolerance)
+        rows = from_where(one, other, (a.row(i[k], until), b.row(j[k], until)), tolerance)
         found.append(Found(OF_WAYS[kind[k]], rows, amount if np.isfinite(amount) else np.nan, "mm", said, moves))
     return found
 
