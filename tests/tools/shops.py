@@ -14,7 +14,7 @@ SAFE, CLEAR, ABOVE = 50, 20, 2  # heights: between operations, between holes, be
 
 
 def shop(seed, count=4):
-    """Operations: ("drill", tool, feed, depth, holes) and ("contour", tool, feed, depth, side, corners); a corner is x, y, fillet."""
+    """Operations: ("drill", tool, feed, depth, holes) and ("contour", tool, feed, depth, side, corners): x, y, fillet."""
     rng, made = random.Random(seed), []
     for k in range(count):
         x, y = rng.randint(-60, 60), rng.randint(-60, 60)
@@ -49,6 +49,7 @@ def contour(corners, radius=0.0, side=0):
     for k, (x, y, fillet) in enumerate(corners):
         before, behind = ways[k], ways[(k + 1) % n]
         cross = before[0] * behind[1] - before[1] * behind[0]
+        fillet *= abs(cross) > 0.4  # an arc that is shorter than rounding may turn is none
         turn, along = (1 if cross > 0 else -1), before[0] * behind[0] + before[1] * behind[1]
         outside = turn * side < 0
         if fillet:
