@@ -22,6 +22,7 @@ from mnclab.text.alarm import several
 ROUGH = 0.02  # of a way: how far apart the tool may be on two that are divided otherwise
 BENT = 0.01  # rad: as much less of arcs has the one that has chords in their place
 CHAIN = 3  # cuts in place of one: fewer are compared one by one
+CAUSES, FIRST = ("", "tool", "side", "depth", "geometry", "rapid", "nearer", "aside", "spindle", "feed"), 4  # "": missing
 CUTS = ("geometry", "depth", "side")  # kinds
 LONGEST = 4000  # cuts of a stretch that is looked at as a whole
 FLOWS = ("off", "on (M8)", "on (M7)")
@@ -34,13 +35,26 @@ def differences(one: Motion, other: Motion, tolerance: float, around: Around) ->
     found, more, parts = _of_stretches(one, other, pairs, tolerance)
     i, j = np.concatenate([pairs.i, more[:, 0]]), np.concatenate([pairs.j, more[:, 1]])
     within = [_side_by_side(one, other, *each) for each in parts]
-    found += _of_settings(one, other, *np.unique(np.hstack([(i, j), *within]), axis=1))
+    a, b = np.unique(np.hstack([(i, j), *within]), axis=1)
+    found += _of_settings(one, other, a, b, tolerance)
     between = links(one, other, i, j, parts)
     found += of_links(one, other, *between, tolerance, around)
     found += of_dwells(one, other, *between, parts)
     found += _left_over(one, other)
     found = [each._replace(rows=of_contour(one, other, each.rows, tolerance)) if each.kind in CUTS else each for each in found]
-    return sorted(found, key=lambda each: (each.rows[1], each.rows[0]))
+    return in_order(found, one, other)
+
+
+def in_order(found: list[Found], one: Motion, other: Motion) -> list[Found]:
+    """In the order of the motion; of what differs at one cut, on the way to it or in one block first what causes the rest."""
+    def place(each: Found) -> tuple[int, bool, int, int]:
+        k = int(each.rows[1] >= 0)
+        motion, row = (one, other)[k], each.rows[k]
+        begins = int(np.searchsorted(motion.path.step, motion.path.step[row])) if row >= 0 else -1
+        cause = CAUSES.index("" if NONE in each.values else each.kind) if each.kind in CAUSES else len(CAUSES)
+        return int(np.searchsorted(motion.last[motion.cuts], row)), cause >= FIRST, begins, cause
+
+    return sorted(found, key=place)
 
 
 # Cuts that are not the same.
@@ -69,8 +83,8 @@ def _of_stretches(
     for i, to_i, j, to_j in odd:
         a, b = np.arange(i, to_i), np.arange(j, to_j)
         p, q = alongside(one, a, other, b, tolerance)
-        begins = one.start[one.cuts[a[p]]] - other.start[other.cuts[b[q]]]
-        fits = (apart(one, one.cuts[a[p]], other, other.cuts[b[q]]) <= tolerance) & (np.linalg.norm(begins, axis=1) <= tolerance)
+        begun = np.linalg.norm(one.start[one.cuts[a[p]]] - other.start[other.cuts[b[q]]], axis=1)
+        fits = np.maximum(apart(one, one.cuts[a[p]], other, other.cuts[b[q]]), begun) <= tolerance
         more += zip(a[p[fits]].tolist(), b[q[fits]].tolist())
         lone.append((np.delete(a, p[fits]), np.delete(b, q[fits])))
     left = [np.concatenate([each[k] for each in lone] or [np.empty(0, np.int64)]) for k in (0, 1)]
@@ -80,7 +94,7 @@ def _of_stretches(
     for (a, b), (_, to_i, _, to_j) in zip(lone, odd):
         a, b = np.setdiff1d(a, moved[:, 0]), np.setdiff1d(b, moved[:, 1])
         if min(len(a), len(b)) == 1 and max(len(a), len(b)) > CHAIN:  # an arc, say, and the chords in its place
-            begins = int(one.row[one.cuts[a[0]]]), int(other.row[other.cuts[b[0]]])
+            begins = rows_of(one, int(a[0]), other, int(b[0]))
             if len(a) == 1:
                 row, off = _leaves(other, other.cuts[b], one, int(a[0]), tolerance)
                 rows = begins[0], row
@@ -115,8 +129,10 @@ def _only(motion: Motion, ranks: Index, other: Motion, there: int, k: int, toler
         if off.min() <= tolerance and other.kind[near] == Kind.RAPID:  # the same at rapid
             row, said = int(other.last[near]), "at rapid"
         else:  # where it would stand: behind the move that ends where it begins
-            off = np.linalg.norm(other.start[moves] - motion.start[cuts[0]], axis=1)
-            row = int(other.row[moves[off.argmin()]])
+            gone = other.start[moves] - motion.start[cuts[0]]
+            off, flat = np.linalg.norm(gone, axis=1), np.linalg.norm(gone[:, :2], axis=1)
+            last = len(moves) - 1 - int((flat <= flat.min() + tolerance)[::-1].argmax())
+            row = int(other.row[moves[off.argmin() if off.min() <= tolerance else last]])
     both = [(_leaves(motion, cuts, other, there, tolerance)[0], several(len(cuts), "cut")), (row, said)]
     (one_row, one_said), (other_row, other_said) = both[::-1] if k else both
     kind = "rapid" if not k and said == "at rapid" else "geometry"  # what one cuts the other goes at rapid
@@ -242,7 +258,7 @@ def _elsewhere(one: Motion, i: Index, other: Motion, j: Index, tolerance: float)
 
 # How they are cut.
 
-def _of_settings(one: Motion, other: Motion, i: Index, j: Index) -> Iterator[Found]:
+def _of_settings(one: Motion, other: Motion, i: Index, j: Index, tolerance: float) -> Iterator[Found]:
     """Feed, speed, coolant, tool and side of cuts that are each other's."""
     p, q = one.cuts[i], other.cuts[j]
 
@@ -273,9 +289,12 @@ def _of_settings(one: Motion, other: Motion, i: Index, j: Index) -> Iterator[Fou
     a, b = (np.where(one.tool[p] == other.tool[q], each, 0) for each in numbers)
     yield from told("number", a, b, "", lambda value: f"T{value}")
     yield from told("tool", one.radius[p], other.radius[q], "mm", _named("radius "), 1e-4)
-    for kind, centre in (("side", False), ("centre", True)):  # what one compensates the other may say as the way of the centre
-        a, b = (np.where((one.side[p] * other.side[q] == 0) == centre, each, 0) for each in (one.side[p], other.side[q]))
-        yield from told(kind, a, b, "", lambda value: SIDES[int(value)])
+    a, b = one.side[p], other.side[q]
+    half = (a != b) & (a * b == 0)  # only one compensates: where the way is the same, the other says that of the centre
+    which = np.cumsum(half & ~np.append(False, half[:-1]))
+    alike = np.bincount(which[half], apart(one, p, other, q)[half] <= tolerance, which.max(initial=0) + 1)[which] > 0
+    for kind, here in (("side", ~(half & alike)), ("centre", half & alike)):
+        yield from told(kind, np.where(here, a, 0), np.where(here, b, 0), "", lambda value: SIDES[int(value)])
 
 
 def _named(before: str, behind: str = "") -> Callable[[Any], str]:

@@ -42,18 +42,22 @@ def not_comparable(runs: tuple[Any, Any], motions: tuple[Motion, Motion]) -> str
 
 
 def one_blank(runs: tuple[Any, Any]) -> Any:
-    """The blank, in machine coordinates, of the only one of two runs that has one; None if both have."""
+    """The blank of the only one of two runs that has one, in the frame of the path; None if both have."""
     one, other = (run.stock for run in runs)
-    run = runs[0] if other is None else runs[1]
-    return None if (one is None) == (other is None) else run.stock.moved(run.toolpath.origin)
+    return None if (one is None) == (other is None) else one or other
+
+
+def _placed(run: Any, stock: Any) -> Any:
+    """The blank in machine coordinates where a run has none of its own."""
+    return None if run.stock or stock is None else stock.moved(run.toolpath.origin)
 
 
 def around(runs: tuple[Any, Any], stock: Any) -> Around:
-    """What stands on the machine about the tool: the blank, that of one for both in machine coordinates, and fixtures."""
+    """What stands on the machine about the tool: the blank, which may be that of one for both, and fixtures."""
     run = runs[not runs[0].setup.fixtures and bool(runs[1].setup.fixtures)]
     origin, lathe = run.toolpath.origin, run.toolpath.lathe
     held = [each if isinstance(each, Part) else blank(each) for each in run.setup.fixtures]
-    bodies = {"the blank": run.stock or (stock and stock.moved(-origin))}
+    bodies = {"the blank": run.stock or stock}
     bodies |= {f"fixture {k}" if len(held) > 1 else "the fixture": each for k, each in enumerate(held, 1)}
     bounds = {name: body.bounds - (0.0 if name == "the blank" else origin) for name, body in bodies.items() if body is not None}
     return Around(tuple(bounds), np.array([*bounds.values()]).reshape(-1, 2, 3), bool(held), lathe)
@@ -67,7 +71,7 @@ def part_apart(runs: tuple[Any, Any], motions: tuple[Motion, Motion], tolerance:
     """
     if not any(each.kind in (*GEOMETRIC, "tool") for each in found):
         return ""
-    parts = [run.workpiece(stock=None if run.stock else stock) for run in runs]
+    parts = [run.workpiece(stock=_placed(run, stock)) for run in runs]
     if (error := max(part.error for part in parts)) > tolerance:
         return f"the parts are known to {error:g} mm alone"
     sections = [part.half_section() for part in parts]
@@ -157,7 +161,7 @@ def _all_over(bounds: Array) -> Array:
 
 def collided(runs: tuple[Any, Any], stock: Any) -> list[Found]:
     """Collisions of a kind that only one of two runs has."""
-    both = [run.collisions(None if run.stock else stock) for run in runs]
+    both = [run.collisions(_placed(run, stock)) for run in runs]
     found = []
     for kind in dict.fromkeys(each.kind for each in (*both[0], *both[1])):
         first = [next((each for each in one if each.kind == kind), None) for one in both]

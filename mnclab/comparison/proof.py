@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -18,10 +18,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mnclab.comparison.diff import names_of
-from mnclab.comparison.differences import differences
-from mnclab.comparison.found import Found
+from mnclab.comparison.differences import differences, in_order
+from mnclab.comparison.found import NONE, Found
 from mnclab.comparison.motion import motion_of
 from mnclab.comparison.parts import around, collided, not_comparable, one_blank, part_apart
+from mnclab.comparison.ways import Around
 from mnclab.path.listing import MM, Unit, figure, point, words
 from mnclab.path.toolpath import Kind
 from mnclab.text.alarm import ALARM, Alarm
@@ -34,7 +35,7 @@ KINDS = {
     "collision": "only one of them collides",
     "rapid": "the second goes lower at rapid",
     "nearer": "the second comes nearer at rapid than the first ever does",
-    "aside": "the second goes elsewhere at rapid and no higher: a clamp may stand there (fixtures of the setup would tell)",
+    "aside": "the second goes elsewhere at rapid, no higher: something may stand there (fixtures of the setup tell)",
     "geometry": "other cuts",
     "depth": "the same cuts at another depth",
     "side": "radius compensation on another side",
@@ -45,7 +46,7 @@ KINDS = {
     "coolant": "another coolant",
     "order": "the same cuts in another order",
     "chords": "lines within the tolerance of an arc",
-    "lifts": "other ways between cuts, nowhere lower; where sideways then higher, or clear of all fixtures",
+    "lifts": "another way between cuts, nowhere lower or nearer",
     "leftovers": "something else is on at the end",
     "restart": "the spindle is started again behind a tool change, or held through it: not every machine holds it",
     "centre": "one says the way of the tool's centre, the other compensates its radius: the same with this tool alone",
@@ -148,6 +149,13 @@ class Proof(Pictured, Listing):
         return f"places count from the first zero point of each, in machine coordinates {point(one)} and {point(other)}"
 
     @property
+    def scale(self) -> str:
+        """A unit that was mistaken, in words; empty where none was."""
+        one, other = (float(path.lengths[path.kind != Kind.RAPID].sum()) for path in self.paths)
+        small, large = sorted((one, other))
+        return "all is 25.4 times as large in one of them: inches for mm" if 0 < 24.5 * small < large < 26.3 * small else ""
+
+    @property
     def counts(self) -> dict[str, int]:
         """How many differences of each kind there are, the worst kind first."""
         many = Counter(each.kind for each in self.differences)
@@ -168,7 +176,7 @@ class Proof(Pictured, Listing):
             verdict = "not proven"
         else:
             verdict = "the same part, made another way" if self.verdict == SAME_PART else "different"
-        reasons = f"{verdict} ({counts})", self.part, self.blank, f"first {self.first.sentence}", self.zeros
+        reasons = f"{verdict} ({counts})", self.scale, self.part, self.blank, f"first {self.first.sentence}", self.zeros
         return "; ".join(filter(None, reasons))
 
     @property
@@ -253,21 +261,45 @@ def proof(one: Any, other: Any, tolerance: float = 0.001, allow: Collection[str]
     motions = motion_of(one, tools), motion_of(other, tools)
     stock = one_blank(runs)
     found = differences(*motions, tolerance, around(runs, stock))
-    part = shared = ""
+    names, part, shared = names_of(one, other), "", ""
+    told: tuple[Difference, ...] = ()
     if any(map(_broken, runs)):
         found = _stopped(runs, found)
+        told, runs = _contours(runs, found, names, allowed, tolerance) or (told, runs)
     elif found and (why := not_comparable(runs, motions)):
         part = f"the parts were not compared: {why}" if {each.kind for each in found} - {*allowed, *BESIDE} else ""
     elif found:
-        found = sorted([*found, *collided(runs, stock)], key=lambda each: each.rows[1])
+        found = in_order([*found, *collided(runs, stock)], *motions)
         part = part_apart(runs, motions, tolerance, found, stock)
-        shared = f"the blank of {names_of(*runs)[runs[0].stock is None]} was taken for both" if stock else ""
+        shared = f"the blank of {names[one.stock is None]} was taken for both" if stock else ""
     serious = {each.kind for each in found} - {*allowed, *BESIDE}
     still = not any(motion.path.is_motion.any() for motion in motions)  # which proves nothing
     verdict = DIFFERENT if part or still or serious & {*UNSAFE} else SAME_PART if serious else SAME_MOTION
-    names = names_of(one, other)
-    told = tuple(_told(each, runs, names, allowed) for each in found)
-    return Proof(verdict, told, names, float(tolerance), (one.toolpath, other.toolpath), part, shared)
+    told = told or tuple(_told(each, runs, names, allowed) for each in found)
+    return Proof(verdict, told, names, float(tolerance), (runs[0].toolpath, runs[1].toolpath), part, shared)
+
+
+def _contours(
+    runs: tuple[Any, Any], found: list[Found], names: tuple[str, str], allowed: Collection[str], tolerance: float
+) -> tuple[tuple[Difference, ...], tuple[Any, Any]] | None:
+    """Where compensation stops a program what differs in the contours, and both runs with tools of no radius, which have them."""
+    if any(each.kind == "geometry" for each in found) or not any(run.programmed.side.any() for run in runs):
+        return None
+    thin = [{number: replace(tool, radius=0.0) for number, tool in (run.setup.tools or {}).items()} for run in runs]
+    bare = tuple(run.again(replace(run.setup, tools=tools)) for run, tools in zip(runs, thin))
+    if any(map(_broken, bare)):
+        return None
+    of_tools = list[Any]()
+    one, other = (motion_of(run, of_tools) for run in bare)
+    why = [each for each in differences(one, other, tolerance, Around()) if each.kind in ("geometry", "depth")]
+    if not why:
+        return None
+    rows = [
+        int(np.searchsorted(thin.toolpath.step, run.toolpath.step[row])) if row >= 0 else row
+        for thin, run, row in zip(bare, runs, found[-1].rows)
+    ]
+    stops = _told(found[-1], runs, names, allowed)._replace(rows=(rows[0], rows[1]))
+    return (*(_told(each, (bare[0], bare[1]), names, allowed) for each in why), stops), (bare[0], bare[1])
 
 
 def _stopped(runs: tuple[Any, Any], found: list[Found]) -> list[Found]:
@@ -275,7 +307,7 @@ def _stopped(runs: tuple[Any, Any], found: list[Found]) -> list[Found]:
     last = [len(run.toolpath) - 1 for run in runs]
     ends = tuple(row if _broken(run) else 1 << 40 for row, run in zip(last, runs))
     rows = tuple(row if _broken(run) else _beside(run, other) for row, run, other in zip(last, runs, runs[::-1]))
-    known = [each for each in found if each.rows[0] < ends[0] and each.rows[1] < ends[1] and "none" not in each.values]
+    known = [each for each in found if each.rows[0] < ends[0] and each.rows[1] < ends[1] and NONE not in each.values]
     known = [each for each in known if each.rows[0] < rows[0] and each.rows[1] < rows[1]]
     said = tuple(_why(run) if _broken(run) else "goes on" for run in runs)
     return [*(each for each in known if each.kind != "leftovers"), Found("stops", rows, float("nan"), "", said)]  # type: ignore[arg-type]

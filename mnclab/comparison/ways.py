@@ -68,7 +68,7 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, a
         amount, said = float(lower[k] if kind[k] == LOWER and lower[k] > 0 else off[k]), (a.said(i[k]), b.said(j[k]))
         amount, said = told[k] if k in told and kind[k] != HIGHER else (amount, said)
         until = a.until(i[k], b, j[k], tolerance)
-        if kind[k] == ASIDE or a.lathe and kind[k] != NEARER:
+        if kind[k] == ASIDE or said[0] == said[1] or (a.lathe and kind[k] != NEARER):
             said = a.route(i[k], until), b.route(j[k], until)
         rows = from_where(one, other, (a.row(i[k], until), b.row(j[k], until)), tolerance)
         found.append(Found(OF_WAYS[kind[k]], rows, amount if np.isfinite(amount) else np.nan, "mm", said, moves))
