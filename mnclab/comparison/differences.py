@@ -51,7 +51,7 @@ def in_order(found: list[Found], one: Motion, other: Motion) -> list[Found]:
         k = int(each.rows[1] >= 0)
         motion, row = (one, other)[k], each.rows[k]
         begins = int(np.searchsorted(motion.path.step, motion.path.step[row])) if row >= 0 else -1
-        cause = CAUSES.index("" if NONE in each.values else each.kind) if each.kind in CAUSES else len(CAUSES)
+        cause = CAUSES.index("" if each.values[1] == NONE else each.kind) if each.kind in CAUSES else len(CAUSES)
         return int(np.searchsorted(motion.last[motion.cuts], row)), cause >= FIRST, begins, cause
 
     return sorted(found, key=place)
@@ -274,15 +274,19 @@ def _of_settings(one: Motion, other: Motion, i: Index, j: Index, tolerance: floa
 
     turns = np.isfinite(one.per_rev[p]) & np.isfinite(other.per_rev[q])
     a, b = (np.where(turns, np.nan, m.feed[e]) for m, e in ((one, p), (other, q)))
-    yield from told("feed", a, b, "mm/min", _named("F"), RATE)
+    mixed = np.isfinite(one.per_rev[p]) != np.isfinite(other.per_rev[q])
+    for here, name in ((~mixed, _named("F")), (mixed, _named("", " mm/min"))):
+        yield from told("feed", np.where(here, a, 0), np.where(here, b, 0), "mm/min", name, RATE)
     a, b = (np.where(turns, m.per_rev[e], np.nan) for m, e in ((one, p), (other, q)))
     yield from told("feed", a, b, "mm/rev", _named("F", " a turn"), RATE)
     a, b = one.held[p].astype(int), other.held[q].astype(int)
     yield from told("restart", a, b, "", lambda held: "held through the tool change" if held else "started behind it")
     a, b = one.synchronous[p].astype(int), other.synchronous[q].astype(int)
     yield from told("feed", a, b, "", lambda value: "locked to the spindle" if value else "free of the spindle")
-    yield from told("spindle", one.spindle[p], other.spindle[q], "rev/min", _turning, RATE)
     yield from told("spindle", one.surface[p], other.surface[q], "m/min", _named("cutting speed "), RATE)
+    even = np.isnan(one.surface[p]) == np.isnan(other.surface[q])
+    a, b = (np.where(even, m.spindle[e], 0) for m, e in ((one, p), (other, q)))
+    yield from told("spindle", a, b, "rev/min", _turning, RATE)
     yield from told("coolant", one.coolant[p], other.coolant[q], "", lambda value: FLOWS[value])
     numbers = [m.path.tool[m.row[e]] for m, e in ((one, p), (other, q))]
     yield from told("tool", one.tool[p], other.tool[q], "", lambda value: f"T{value}", shown=numbers)

@@ -166,24 +166,25 @@ def alongside(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) 
     p, q = one.cuts[i], other.cuts[j]
     step = np.abs(one.end[p][:, None] - other.end[q]) <= tolerance
     way = np.abs((one.end[p] - one.start[p])[:, None] - (other.end[q] - other.start[q])) <= tolerance
-    flat, same = step[:, :, :2].all(axis=2), way[:, :, :2].all(axis=2)
+    seen = slice(None) if one.path.lathe else slice(2)  # from above
+    flat, same = step[:, :, seen].all(axis=2), way[:, :, seen].all(axis=2)
     kind = (one.kind[p][:, None] == other.kind[q]) & (np.sign(one.sweep[p])[:, None] == np.sign(other.sweep[q]))
     about = kind & (np.abs(one.centre[p][:, None] - other.centre[q]) <= tolerance).all(axis=2)  # nan of lines
     cost = np.select([about, step.all(axis=2), flat & same, same, flat], LIKE, STRANGE) + np.where(kind, 0.0, LIKE[2])
-    lone = LONE * np.arange(m + 1)
-    least = np.empty((n + 1, m + 1))
-    least[0] = lone
-    for k in range(n):
-        here = np.minimum(np.append(np.inf, least[k, :-1] + cost[k]), least[k] + LONE)
-        least[k + 1] = np.minimum.accumulate(here - lone) + lone
-    pairs, k, at = [], n, m
-    while k and at:
-        if least[k, at] >= least[k - 1, at - 1] + cost[k - 1, at - 1] - 1e-9:
-            k, at = k - 1, at - 1
+    lone = LONE * np.arange(m, -1, -1)
+    least = np.empty((n + 1, m + 1))  # from each two cuts on
+    least[n] = lone
+    for k in range(n - 1, -1, -1):
+        here = np.minimum(np.append(least[k + 1, 1:] + cost[k], np.inf), least[k + 1] + LONE)
+        least[k] = np.minimum.accumulate((here - lone)[::-1])[::-1] + lone
+    pairs, k, at = [], 0, 0
+    while k < n and at < m:
+        if least[k, at] >= least[k + 1, at + 1] + cost[k, at] - 1e-9:
             pairs.append((k, at))
-        elif least[k, at] >= least[k - 1, at] + LONE - 1e-9:
-            k -= 1
+            k, at = k + 1, at + 1
+        elif least[k, at] >= least[k + 1, at] + LONE - 1e-9:
+            k += 1
         else:
-            at -= 1
-    found = np.array(pairs[::-1], dtype=np.int64).reshape(-1, 2)
+            at += 1
+    found = np.array(pairs, dtype=np.int64).reshape(-1, 2)
     return found[:, 0], found[:, 1]

@@ -306,11 +306,14 @@ def _stopped(runs: tuple[Any, Any], found: list[Found]) -> list[Found]:
     """Where the programs stop, and what differs before."""
     last = [len(run.toolpath) - 1 for run in runs]
     ends = tuple(row if _broken(run) else 1 << 40 for row, run in zip(last, runs))
-    rows = tuple(row if _broken(run) else _beside(run, other) for row, run, other in zip(last, runs, runs[::-1]))
-    known = [each for each in found if each.rows[0] < ends[0] and each.rows[1] < ends[1] and NONE not in each.values]
-    known = [each for each in known if each.rows[0] < rows[0] and each.rows[1] < rows[1]]
+    rows = [row if _broken(run) else _beside(run, other) for row, run, other in zip(last, runs, runs[::-1])]
+    known = [each for each in found if each.rows[0] < ends[0] and each.rows[1] < ends[1]]
+    for k, run in enumerate(runs):  # where the other one goes on, as far as that is known
+        more = [each.rows[k] for each in found if each.values[1 - k] == NONE and not _broken(run)]
+        rows[k] = min(more, default=rows[k])
+    known = [each for each in known if NONE not in each.values]
     said = tuple(_why(run) if _broken(run) else "goes on" for run in runs)
-    return [*(each for each in known if each.kind != "leftovers"), Found("stops", rows, float("nan"), "", said)]  # type: ignore[arg-type]
+    return [*(each for each in known if each.kind != "leftovers"), Found("stops", (rows[0], rows[1]), float("nan"), "", said)]  # type: ignore[arg-type]
 
 
 def _beside(run: Any, other: Any) -> int:
