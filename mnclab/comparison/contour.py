@@ -22,7 +22,7 @@ def of_contour(one: Motion, other: Motion, rows: tuple[int, int], tolerance: flo
         return rows
     at = [_row(motion.contour, motion.path.step[row]) for motion, row in zip(motions, rows)]
     if all(sides):
-        found = first_apart((one.contour, other.contour), (at[0], at[1]), tolerance, AHEAD)
+        found = first_apart((one.contour, other.contour), (at[0], at[1]), tolerance, AHEAD, sides=True)
         a, b = (_row(motion.path, motion.contour.step[row]) for motion, row in zip(motions, found))
         return (a, b) if a >= rows[0] or one.path.step[a] == one.path.step[rows[0]] else rows
     k = sides.index(True)  # the other one has the way of the centre

@@ -61,8 +61,10 @@ def from_where(one: Motion, other: Motion, rows: tuple[int, int], tolerance: flo
     return first_apart((one.path, other.path), rows, tolerance, int(max(looks)))
 
 
-def first_apart(paths: tuple[Toolpath, Toolpath], rows: tuple[int, int], tolerance: float, look: int) -> tuple[int, int]:
-    """The first two of so many rows of two paths that are not the same, else those from which on one looks."""
+def first_apart(
+    paths: tuple[Toolpath, Toolpath], rows: tuple[int, int], tolerance: float, look: int, sides: bool = False
+) -> tuple[int, int]:
+    """The first two of so many rows of two paths that are not the same, with their `sides` if asked, else the first of all."""
     found = []
     for path, row in zip(paths, rows):
         some = path[row : row + look]
@@ -72,5 +74,6 @@ def first_apart(paths: tuple[Toolpath, Toolpath], rows: tuple[int, int], toleran
     one, other = paths
     odd = np.linalg.norm(one.end[a] - other.end[b], axis=1) > tolerance
     odd |= (one.kind[a] != other.kind[b]) | (np.sign(one.sweep[a]) != np.sign(other.sweep[b]))
+    odd |= sides & (one.side[a] != other.side[b])
     odd |= np.linalg.norm(np.nan_to_num(one.centre[a] - other.centre[b]), axis=1) > CENTRE * tolerance
     return (int(a[odd.argmax()]), int(b[odd.argmax()])) if odd.any() else rows

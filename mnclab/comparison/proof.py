@@ -23,6 +23,7 @@ from mnclab.comparison.found import NONE, Found
 from mnclab.comparison.motion import motion_of
 from mnclab.comparison.parts import around, collided, not_comparable, one_blank, part_apart
 from mnclab.comparison.ways import Around
+from mnclab.path.corners import Corner
 from mnclab.path.listing import MM, Unit, figure, point, words
 from mnclab.path.toolpath import Kind
 from mnclab.text.alarm import ALARM, Alarm
@@ -363,4 +364,5 @@ def _doing(move: Any, lathe: bool) -> str:
     """What a row does, in words."""
     said = words(move).replace(point(move.end), point(move.end, lathe=lathe))
     side = {1: ", tool left of it", -1: ", tool right of it"}.get(move.side, "") if move.kind != Kind.RAPID else ""
-    return f"{Kind(move.kind).name.lower()} {'to ' if move.kind <= Kind.PROBE else ''}{said}{side}".strip()
+    joint = f", then {move.joint}" if isinstance(move.joint, Corner) else ""
+    return f"{Kind(move.kind).name.lower()} {'to ' if move.kind <= Kind.PROBE else ''}{said}{side}{joint}".strip()
