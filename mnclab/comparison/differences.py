@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.comparison.contour import of_contour
-from mnclab.comparison.diff import deviation
+from mnclab.comparison.diff import deviation, nearest_of, strokes_of
 from mnclab.comparison.found import NONE, RATE, Found, from_where, grouped, rows_of
 from mnclab.comparison.motion import NO_WAY, Motion
-from mnclab.comparison.pairs import Pairs, alongside, apart, paired
+from mnclab.comparison.pairs import Pairs, alongside, apart, paired, same_places
 from mnclab.comparison.ways import Around, links, of_dwells, of_links
 from mnclab.path.listing import figure
 from mnclab.path.places import points_at
@@ -63,22 +63,21 @@ def _of_stretches(
     one: Motion, other: Motion, pairs: Pairs, tolerance: float
 ) -> tuple[list[Found], NDArray[np.int64], list[tuple[int, int, int, int]]]:
     """What differs where cuts are not the same, the pairs (k, 2) of cuts that are still each other's, and stretches that are."""
-    chords = [*pairs.chords]
-    odd, same = [], list[tuple[int, int, int, int]]()
-    for stretch in pairs.odd:
+    found, odd, one_way = list[Found](), [], []
+    for stretch in [*pairs.chords, *pairs.odd]:
         i, to_i, j, to_j = stretch
         longer = (i, min(to_i + 1, len(one.cuts)), j, min(to_j + 1, len(other.cuts)))  # a line that one of them goes in two
-        alike = next((each for each in (stretch, longer) if _one_way(one, other, *each, tolerance)), None)
-        if alike is not None:
-            bent = [np.abs(motion.sweep[motion.cuts[a:b]]).sum() for motion, a, b in ((one, i, to_i), (other, j, to_j))]
-            (same if abs(bent[0] - bent[1]) < BENT else chords).append(alike)
-        else:
+        alike = stretch if stretch in pairs.chords else None
+        alike = alike or next((each for each in (stretch, longer) if _one_way(one, other, *each, tolerance)), None)
+        if alike is None:
             odd.append(stretch)
-    found = []
-    for i, to_i, j, to_j in chords:
+            continue
+        i, to_i, j, to_j = alike
+        one_way.append(alike)
         bent = [np.abs(motion.sweep[motion.cuts[a:b]]).sum() for motion, a, b in ((one, i, to_i), (other, j, to_j))]
-        arcs = ("arcs", several(to_j - j, "line")) if bent[0] > bent[1] else (several(to_i - i, "line"), "arcs")
-        found.append(Found("chords", rows_of(one, i, other, j), 0.0, "mm", arcs, max(to_i - i, to_j - j)))
+        if abs(bent[0] - bent[1]) >= BENT:
+            arcs = ("arcs", several(to_j - j, "line")) if bent[0] > bent[1] else (several(to_i - i, "line"), "arcs")
+            found.append(Found("chords", rows_of(one, i, other, j), 0.0, "mm", arcs, max(to_i - i, to_j - j)))
     more, lone = list[tuple[int, int]](), []
     for i, to_i, j, to_j in odd:
         a, b = np.arange(i, to_i), np.arange(j, to_j)
@@ -94,14 +93,10 @@ def _of_stretches(
     for (a, b), (_, to_i, _, to_j) in zip(lone, odd):
         a, b = np.setdiff1d(a, moved[:, 0]), np.setdiff1d(b, moved[:, 1])
         if min(len(a), len(b)) == 1 and max(len(a), len(b)) > CHAIN:  # an arc, say, and the chords in its place
-            begins = rows_of(one, int(a[0]), other, int(b[0]))
-            if len(a) == 1:
-                row, off = _leaves(other, other.cuts[b], one, int(a[0]), tolerance)
-                rows = begins[0], row
-            else:
-                row, off = _leaves(one, one.cuts[a], other, int(b[0]), tolerance)
-                rows = row, begins[1]
-            found.append(Found("geometry", rows, off, "mm", ("", ""), max(len(a), len(b))))
+            rows, k = [*rows_of(one, int(a[0]), other, int(b[0]))], int(len(a) == 1)
+            many = (one.cuts[a], other.cuts[b])[k]
+            rows[k], off = _leaves((one, other)[k], many, (other, one)[k], int((b, a)[k][0]), tolerance)
+            found.append(Found("geometry", (rows[0], rows[1]), off, "mm", ("", ""), max(len(a), len(b))))
             more.append((int(a[0]), int(b[0])))
             continue
         p, q = alongside(one, a, other, b, tolerance)
@@ -114,7 +109,7 @@ def _of_stretches(
                 long = here.lengths[here.cuts[cuts[ranks]]].sum()  # what rounding adds to a corner is no cut
                 if long > tolerance and not _begins(here, cuts[ranks], there, behind, tolerance):
                     found.append(_only(here, cuts[ranks], there, behind, k, tolerance))
-    return found, np.array(more, dtype=np.int64).reshape(-1, 2), [*chords, *same]
+    return found, np.array(more, dtype=np.int64).reshape(-1, 2), one_way
 
 
 def _only(motion: Motion, ranks: Index, other: Motion, there: int, k: int, tolerance: float) -> Found:
@@ -157,14 +152,8 @@ def _leaves(motion: Motion, cuts: Index, other: Motion, there: int, tolerance: f
     if there >= len(other.cuts):
         return int(rows[0]), float("nan")
     cut, ends = other.cuts[there], motion.path.end[rows]
-    if other.kind[cut] == Kind.ARC:
-        spokes = np.stack([ends, np.broadcast_to(other.start[cut], ends.shape)]) - other.centre[cut]
-        spokes -= (spokes @ other.axis[cut])[..., None] * other.axis[cut]
-        off = np.abs(np.subtract(*np.linalg.norm(spokes, axis=2)))
-    else:
-        begin, way = other.start[cut], other.end[cut] - other.start[cut]
-        share = ((ends - begin) @ way / max(float(way @ way), 1e-12)).clip(0.0, 1.0)
-        off = np.linalg.norm(ends - begin - share[:, None] * way, axis=1)
+    begin, end, _ = strokes_of(other.path[other.row[cut] : other.last[cut] + 1], tolerance / 10)
+    off = np.linalg.norm(ends - nearest_of(ends, begin, end), axis=1)
     first = int(np.argmax(off > tolerance))
     return int(rows[first]), float(off[first]) if off[first] > tolerance else float("nan")
 
@@ -240,18 +229,8 @@ def _off_table(lift: Array, told: Mask) -> list[str]:
 def _elsewhere(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) -> NDArray[np.int64]:
     """Of cuts that are left, those pairs (k, 2) that are the same, whatever the order."""
     p, q = one.cuts[i], other.cuts[j]
-    if not (len(p) and len(q)):
-        return np.empty((0, 2), dtype=np.int64)
-    places = np.concatenate([np.hstack([m.kind[e, None].astype(float), m.start[e], m.end[e]]) for m, e in ((one, p), (other, q))])
-    keys = np.zeros(places.shape, dtype=np.int64)
-    for k in range(places.shape[1]):  # numbers with no gap between them are one number
-        order = np.argsort(places[:, k], kind="stable")
-        keys[order[1:], k] = np.cumsum(np.diff(places[order, k]) > tolerance)
-    known: dict[bytes, list[int]] = {}
-    for rank, key in enumerate(keys[len(p) :]):
-        known.setdefault(key.tobytes(), []).append(rank)
-    met = [(a, known[key.tobytes()].pop(0)) for a, key in enumerate(keys[: len(p)]) if known.get(key.tobytes())]
-    pair = np.array(met, dtype=np.int64).reshape(-1, 2)
+    tables = [np.column_stack([m.kind[e], m.start[e], m.end[e]]) for m, e in ((one, p), (other, q))]
+    pair = same_places(tables[0], tables[1], tolerance, (slice(1), slice(1, 4), slice(4, 7)))
     good = apart(one, p[pair[:, 0]], other, q[pair[:, 1]]) <= tolerance
     return np.stack([i[pair[good, 0]], j[pair[good, 1]]], axis=1)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import dist
 from typing import Any, cast
 
 import numpy as np
@@ -188,3 +189,23 @@ def alongside(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) 
             at += 1
     found = np.array(pairs, dtype=np.int64).reshape(-1, 2)
     return found[:, 0], found[:, 1]
+
+
+def same_places(one: Array, other: Array, tolerance: float, parts: tuple[slice, ...]) -> Index:
+    """Which rows (k, 2) of two tables of numbers are the same, each but once, whatever their order: in each of the parts of a row
+    they are no farther apart than the tolerance."""
+    both = np.concatenate([one, other])
+    order = np.argsort(both, axis=0, kind="stable")
+    keys = np.zeros(both.shape, dtype=np.int64)  # numbers with no gap between them have one key
+    np.put_along_axis(keys, order[1:], np.cumsum(np.diff(np.take_along_axis(both, order, 0), axis=0) > tolerance, axis=0), 0)
+    known: dict[tuple[int, ...], list[int]] = {}
+    for rank, key in enumerate(keys[len(one) :].tolist()):
+        known.setdefault(tuple(key), []).append(rank)
+    met = []
+    for k, key in enumerate(keys[: len(one)].tolist()):
+        near = known.get(tuple(key), [])
+        fit = next((rank for rank in near if all(dist(one[k, part], other[rank, part]) <= tolerance for part in parts)), None)
+        if fit is not None:
+            near.remove(fit)
+            met.append((k, fit))
+    return np.array(met, dtype=np.int64).reshape(-1, 2)
