@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from mnclab.comparison.pairs import Pairs, alongside, apart, paired, same_places
 from mnclab.comparison.ways import Around, links, of_dwells, of_links
 from mnclab.path.listing import figure
 from mnclab.path.places import points_at
-from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
+from mnclab.path.toolpath import Array, Index, Kind, Toolpath
 from mnclab.text.alarm import several
 
 ROUGH = 0.02  # of a way: how far apart the tool may be on two that are divided otherwise
@@ -47,12 +48,14 @@ def differences(one: Motion, other: Motion, tolerance: float, around: Around) ->
 
 def in_order(found: list[Found], one: Motion, other: Motion) -> list[Found]:
     """In the order of the motion; of what differs at one cut, on the way to it or in one block first what causes the rest."""
+    lasts = [motion.last[motion.cuts] for motion in (one, other)]
+
     def place(each: Found) -> tuple[int, bool, int, int]:
         k = int(each.rows[1] >= 0)
         motion, row = (one, other)[k], each.rows[k]
         begins = int(np.searchsorted(motion.path.step, motion.path.step[row])) if row >= 0 else -1
         cause = CAUSES.index("" if each.values[1] == NONE else each.kind) if each.kind in CAUSES else len(CAUSES)
-        return int(np.searchsorted(motion.last[motion.cuts], row)), cause >= FIRST, begins, cause
+        return int(np.searchsorted(lasts[k], row)), cause >= FIRST, begins, cause
 
     return sorted(found, key=place)
 
@@ -139,10 +142,11 @@ def _begins(motion: Motion, ranks: Index, other: Motion, there: int, tolerance: 
     if len(ranks) != 1 or there >= len(other.cuts):
         return False
     a, b = motion.cuts[ranks[0]], other.cuts[there]
-    one, whole = motion.end[a] - motion.start[a], other.end[b] - other.start[b]
-    near = np.linalg.norm(motion.start[a] - other.start[b]) <= tolerance and one @ whole > 0 and one @ one < whole @ whole
-    lines = motion.kind[a] == other.kind[b] == Kind.LINE
-    return bool(near and lines and np.linalg.norm(np.cross(one, whole)) <= tolerance * np.linalg.norm(whole))
+    begins = bool(np.linalg.norm(motion.start[a] - other.start[b]) <= tolerance)
+    begins |= ranks[0] > 0 and bool(motion.cuts[ranks[0] - 1] == a - 1)  # else the cut before it is told
+    gone, whole = motion.end[a] - other.start[b], other.end[b] - other.start[b]
+    beside = float(np.linalg.norm(np.cross(gone, whole))) <= tolerance * float(np.linalg.norm(whole))
+    return begins and beside and bool(0 < gone @ whole < whole @ whole and motion.kind[a] == other.kind[b] == Kind.LINE)
 
 
 def _leaves(motion: Motion, cuts: Index, other: Motion, there: int, tolerance: float) -> tuple[int, float]:
@@ -188,7 +192,9 @@ def _one_way(one: Motion, other: Motion, i: int, to_i: int, j: int, to_j: int, t
     halfway = [points_at(each, *_at_shares(each)) for each in (p, q)]  # the same way round
     if np.linalg.norm(halfway[0] - halfway[1], axis=1).max() > tolerance + ROUGH * p.length:
         return False
-    return bool(deviation(p, q, step=max(p.length / 2000, tolerance), chord_error=tolerance / 10).largest <= tolerance)
+    bent = (p.kind == Kind.ARC).any() or (q.kind == Kind.ARC).any()  # of lines the ends are enough
+    step = max(p.length / 2000, tolerance) if bent else p.length
+    return bool(deviation(p, q, step=step, chord_error=tolerance / 10).largest <= tolerance)
 
 
 def _at_shares(path: Toolpath) -> tuple[Index, Array]:
@@ -214,16 +220,19 @@ def _not_alike(one: Motion, i: Index, other: Motion, j: Index, tolerance: float)
     lift = [motion.end[e, 2] - motion.path.end[motion.last[e], 2] for motion, e in ((one, p), (other, q))]
     found = []
     for kind, mask in (("geometry", ~deep), ("depth", deep)):
-        said = [_off_table(each[mask], np.abs(lift[0] - lift[1])[mask] > tolerance) for each in lift]
-        for each in grouped(kind, one, i[mask], other, j[mask], list(zip(*said)).__getitem__, off[mask]):
+        tips = np.stack(lift, axis=1)[mask]
+        for each in grouped(kind, one, i[mask], other, j[mask], partial(_off_table, tips, tolerance), off[mask]):
             found.append(each._replace(rows=from_where(one, other, each.rows, tolerance)))
     return found
 
 
-def _off_table(lift: Array, told: Mask) -> list[str]:
-    """How much higher than programmed the tip of a tool is, in words (k,), where that is `told`."""
-    words = (f"tip {figure(abs(much), 3)} mm {'higher' if much > 0 else 'lower'} by a delta length" for much in lift.tolist())
-    return [(each if much else "no delta length") if here else "" for each, much, here in zip(words, lift, told)]
+def _off_table(tips: Array, tolerance: float, k: int) -> tuple[str, str]:
+    """How much higher than programmed the tips (k, 2) of both tools are, in words, where that is not the same."""
+    if abs(tips[k, 0] - tips[k, 1]) <= tolerance:
+        return "", ""
+    words = (f"tip {figure(abs(much), 3)} mm {'higher' if much > 0 else 'lower'} by a delta length" for much in tips[k].tolist())
+    one, other = (word if much else "no delta length" for word, much in zip(words, tips[k]))
+    return one, other
 
 
 def _elsewhere(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) -> NDArray[np.int64]:

@@ -191,6 +191,9 @@ def alongside(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) 
     return found[:, 0], found[:, 1]
 
 
+MARK = np.int64(1_000_003)
+
+
 def same_places(one: Array, other: Array, tolerance: float, parts: tuple[slice, ...]) -> Index:
     """Which rows (k, 2) of two tables of numbers are the same, each but once, whatever their order: in each of the parts of a row
     they are no farther apart than the tolerance."""
@@ -198,11 +201,13 @@ def same_places(one: Array, other: Array, tolerance: float, parts: tuple[slice, 
     order = np.argsort(both, axis=0, kind="stable")
     keys = np.zeros(both.shape, dtype=np.int64)  # numbers with no gap between them have one key
     np.put_along_axis(keys, order[1:], np.cumsum(np.diff(np.take_along_axis(both, order, 0), axis=0) > tolerance, axis=0), 0)
+    marks = np.split(keys @ MARK ** np.arange(1, both.shape[1] + 1), [len(one)])  # of equal keys alike, of hardly any others
+    here, there = (np.flatnonzero(np.isin(a, b)) for a, b in (marks, marks[::-1]))
     known: dict[tuple[int, ...], list[int]] = {}
-    for rank, key in enumerate(keys[len(one) :].tolist()):
+    for rank, key in zip(there.tolist(), keys[len(one) + there].tolist()):
         known.setdefault(tuple(key), []).append(rank)
     met = []
-    for k, key in enumerate(keys[: len(one)].tolist()):
+    for k, key in zip(here.tolist(), keys[here].tolist()):
         near = known.get(tuple(key), [])
         fit = next((rank for rank in near if all(dist(one[k, part], other[rank, part]) <= tolerance for part in parts)), None)
         if fit is not None:

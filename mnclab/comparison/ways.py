@@ -26,8 +26,15 @@ def links(one: Motion, other: Motion, i: Index, j: Index, parts: list[tuple[int,
     stretch = np.array(parts, dtype=np.int64).reshape(-1, 4)
     before = np.concatenate([i * wide + j, stretch[:, 0] * wide + stretch[:, 2], [len(one.cuts) * wide + len(other.cuts)]])
     behind = np.concatenate([[0], (i + 1) * wide + j + 1, stretch[:, 1] * wide + stretch[:, 3]])
-    both = np.intersect1d(before, behind)
+    both = np.sort(np.concatenate([_each_once(before), _each_once(behind)]))
+    both = both[1:][both[1:] == both[:-1]]
     return both // wide, both % wide
+
+
+def _each_once(numbers: Index) -> Index:
+    """Numbers in their order; of many integers it is quicker than that of numpy."""
+    found = np.sort(numbers)
+    return found[np.append(True, found[1:] != found[:-1])]
 
 
 def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, around: Around) -> list[Found]:
