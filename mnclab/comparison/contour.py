@@ -45,8 +45,8 @@ def _alike(contour: Toolpath, at: int, bare: Toolpath, row: int, tolerance: floa
 
 
 def _row(path: Toolpath, step: Any) -> int:
-    """The first row of a step."""
-    return min(int(np.searchsorted(path.step, step)), len(path) - 1)
+    """The last row of a step, behind what leads there about a corner."""
+    return max(int(np.searchsorted(path.step, step, "right")) - 1, 0)
 
 
 def _next(path: Toolpath, row: int) -> int:
