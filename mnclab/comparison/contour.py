@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.comparison.found import first_apart
+from mnclab.comparison.found import NONE, Found, first_apart
 from mnclab.comparison.motion import Motion
 from mnclab.path.toolpath import Array, Kind, Toolpath
 
@@ -14,7 +14,17 @@ AHEAD = 4  # rows of a contour: as far as compensation looks
 NEAR = 2  # tolerances: so far off its radius a tool still touches a corner
 
 
-def of_contour(one: Motion, other: Motion, rows: tuple[int, int], tolerance: float) -> tuple[int, int]:
+def of_contour(found: Found, one: Motion, other: Motion, tolerance: float) -> Found:
+    """What was found in cuts at the blocks whose contour is not the same."""
+    rows = _rows(one, other, found.rows, tolerance)
+    if NONE in found.values and min(rows) >= 0 and one.path.side[rows[0]] and other.path.side[rows[1]]:
+        ends = (motion.contour.end[_row(motion.contour, motion.path.step[row])] for motion, row in zip((one, other), rows))
+        if np.linalg.norm(np.subtract(*ends)) <= tolerance:  # one block, which corners make more cuts of
+            return found._replace(rows=rows, values=("", ""), amount=float("nan"), moves=1)
+    return found._replace(rows=rows)
+
+
+def _rows(one: Motion, other: Motion, rows: tuple[int, int], tolerance: float) -> tuple[int, int]:
     """The rows of the blocks whose contour is not the same, from rows of both paths on that are not."""
     motions = one, other
     sides = [min(rows) >= 0 and motion.path.side[row] != 0 for motion, row in zip(motions, rows)]

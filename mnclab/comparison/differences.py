@@ -42,7 +42,7 @@ def differences(one: Motion, other: Motion, tolerance: float, around: Around) ->
     found += of_links(one, other, *between, tolerance, around)
     found += of_dwells(one, other, *between, parts)
     found += _left_over(one, other)
-    found = [each._replace(rows=of_contour(one, other, each.rows, tolerance)) if each.kind in CUTS else each for each in found]
+    found = [of_contour(each, one, other, tolerance) if each.kind in CUTS else each for each in found]
     return in_order(found, one, other)
 
 

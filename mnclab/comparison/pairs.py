@@ -169,9 +169,9 @@ def alongside(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) 
     way = np.abs((one.end[p] - one.start[p])[:, None] - (other.end[q] - other.start[q])) <= tolerance
     seen = slice(None) if one.path.lathe else slice(2)  # from above
     flat, same = step[:, :, seen].all(axis=2), way[:, :, seen].all(axis=2)
-    kind = (one.kind[p][:, None] == other.kind[q]) & (np.sign(one.sweep[p])[:, None] == np.sign(other.sweep[q]))
-    about = kind & (np.abs(one.centre[p][:, None] - other.centre[q]) <= tolerance).all(axis=2)  # nan of lines
-    cost = np.select([about, step.all(axis=2), flat & same, same, flat], LIKE, STRANGE) + np.where(kind, 0.0, LIKE[2])
+    kind, sense = (a[:, None] != b for a, b in ((one.kind[p], other.kind[q]), (np.sign(one.sweep[p]), np.sign(other.sweep[q]))))
+    about = ~sense & (np.abs(one.centre[p][:, None] - other.centre[q]) <= tolerance).all(axis=2)  # nan of lines
+    cost = np.select([about, step.all(axis=2), flat & same, same, flat], LIKE, STRANGE) + LIKE[2] * kind + LIKE[1] / 2 * sense
     lone = LONE * np.arange(m, -1, -1)
     least = np.empty((n + 1, m + 1))  # from each two cuts on
     least[n] = lone

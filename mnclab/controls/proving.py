@@ -33,9 +33,12 @@ def prove(
     rapid, another side, speed or feed is among the differences. Else "different", as of a program that stops before its end,
     which proves nothing. `first` is the first place where they differ: lines, blocks, places, what each does.
 
-    What is still on at the end, such as the spindle, is told and is no motion. Differences of the kinds in `allow`, of "lifts",
-    "chords" and "order", are harmless: the motion is the same in spite of them. Rapids of `b` that go lower or nearer than
-    those of `a` are a kind of their own, and a collision that only one of the two has is another: neither can be allowed.
+    What is still on at the end, such as the spindle, is told and is no motion, as are a spindle that one of them holds through a
+    tool change, and a radius that only one of them compensates. Differences of the kinds in `allow`, of "lifts", "chords" and
+    "order", are harmless: the motion is the same in spite of them. Rapids of `b` that go lower than those of `a` ("rapid"), or
+    elsewhere and no higher ("aside"), cannot be allowed: a clamp may stand there. With `fixtures` in the setup it is known what
+    does, and they are "lifts", unless they come nearer to it than `a` ever does ("nearer"). A blank that only one program has
+    serves both.
 
     >>> iso = mnc.run("G21 G17 G90 G54\\nT1 M6 S900 M3\\nG0 X0 Y0 Z5\\nG1 X40 F300\\nG3 X40 Y20 R10\\nM5\\n", "g43")
     >>> post = "T1 S900 M3\\nG54 G90 G0 X0 Y0 Z5\\nG1 X40 F300\\nG{} X40 Y20 I0 J10\\nM5\\n"
