@@ -229,7 +229,7 @@ class Recorder:
             return
         table = np.frombuffer(self.rows).reshape(-1, len(ROW))
         self.rows = array("d")
-        chunk = {name: _plain(name, table[:, place]) for name, place in PLACES.items()}
+        chunk = columns_of(table)
         self._append(chunk, chunk.pop("end"))
 
     def take(self) -> Toolpath:
@@ -267,6 +267,16 @@ class Recorder:
 
 def _refuse(count: int) -> NoReturn:
     raise ValueError(f"there would be {count} rows")
+
+
+def columns_of(rows: Array) -> dict[str, NDArray[Any]]:
+    """The columns of single rows (n, k) in the order of `ROW`."""
+    return {name: _plain(name, rows[:, place]) for name, place in PLACES.items()}
+
+
+def varies(name: str, column: NDArray[Any]) -> bool:
+    """Whether a column has a value for each row, and not one for all of them."""
+    return np.ndim(column) > len(SINGLE[name].shape)
 
 
 def _plain(name: str, part: Array) -> NDArray[Any]:

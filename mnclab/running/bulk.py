@@ -23,7 +23,7 @@ from mnclab.geometry.arcs import centre_from_radius, sweep
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.rows import LEAST_FEED, row_state
 from mnclab.path.toolpath import Kind
-from mnclab.running.repeating import repeat_hole
+from mnclab.running.drilling import FEWEST, Drilling
 from mnclab.text import given
 from mnclab.text.program import Program
 
@@ -100,7 +100,7 @@ class Bulk:
         self.enabled = self.rule is not None and machine.settings.get("bulk", True)
         self.not_before, self.size, self.last = 0, SHORTEST, 0
         self.next_break = -1
-        self.once_more = False  # the first of two holes was not like any other
+        self.faulty = faulty
         if self.rule is None:
             return
         plain = program.plain.copy()
@@ -117,6 +117,8 @@ class Bulk:
         self.codes = {value: code for value, (code, _) in self.rule.motions.items()}
         self.senses = {code: sense for code, sense in self.rule.motions.values()}
         self.next_break = int(self.breaks[0])
+        self.keyword = program.keywords.index(self.rule.keyword) if self.rule.keyword in program.keywords else -1
+        self.drilling = Drilling(self)
 
     def _ends_of_calls(self, plain: Mask) -> NDArray[np.int64]:
         """Of each block (b + 1,) where the run of plain blocks ends that call a cycle, of others the block itself; nothing
@@ -140,17 +142,17 @@ class Bulk:
         if not self.enabled or first < self.not_before:
             return 0
         if len(self.calls_end) and self.calls_end[first] > first:
-            return self.call_at_each(first, min(int(self.calls_end[first]), stop))
+            return self.holes(first, stop, int(self.calls_end[first])) if self.may_call() else 0
         if first > self.next_break or self.next_break - first < SHORTEST:
             self.next_break = int(self.breaks[np.searchsorted(self.breaks, first)])
+        if self.machine.position_cycle:
+            return self.holes(first, stop, self.next_break)
         end = min(self.next_break, stop, first + self.size)
         if end - first < SHORTEST:
             self.not_before = end if self.next_break > first else first + 1
             return 0
         rule = self.rule
         assert rule is not None
-        if self.machine.position_cycle:
-            return self.holes(first, end, self.next_break)
         if self.machine.per_rev or self.machine.pending or not rule.ready(self.machine):
             return 0
         end = self.before_word(first, end, rule.ends_at(self.machine))
@@ -167,17 +169,19 @@ class Bulk:
             self.size = min(2 * self.size, LARGEST)
         return good
 
-    def call_at_each(self, first: int, end: int) -> int:
-        """Obey blocks of the run up to `end` that call the cycle at their places; how many were."""
+    def may_call(self) -> bool:
+        """Whether a block may call the cycle at its place and do nothing else."""
         m, rule = self.machine, self.rule
-        assert rule is not None
-        if m.cycle is None or m.position_cycle or m.pending or m.side or not rule.ready(m):
-            return 0
-        return self.holes(first, min(end, first + self.size), end) if end - first >= SHORTEST else 0
+        return rule is not None and m.cycle is not None and not (m.position_cycle or m.side) and rule.ready(m)
 
-    def holes(self, first: int, end: int, last: int) -> int:
-        """Obey those of the blocks [first, end) that make the same hole, in a run up to `last`; how many were."""
-        done = repeat_hole(self, first, end, last, SHORTEST)
+    def holes(self, first: int, stop: int, last: int) -> int:
+        """Obey blocks of [first, stop) with holes, if those up to `last` make some; how many were."""
+        if last - first < FEWEST:
+            self.not_before = max(last, first + 1)
+            return 0
+        end = min(stop, first + self.size)
+        done = self.drilling.obey(first, end)
+        self.not_before = first + (done + 1 if done else FEWEST)
         self.size = min(8 * self.size, LARGEST) if done == end - first - 1 else SHORTEST
         return done
 

@@ -216,11 +216,9 @@ class Course:
         self._counted = 0
 
     def standing(self) -> tuple[object, ...]:
-        """Where the program stands; the same before and after what neither calls, jumps, counts nor finds a program."""
-        return (
-            self.depth, self.calls, self.limit, self.in_bulk, self.returning, self.over, self.target, self.current,
-            self.begun, *self.running, *self.found,
-        )  # fmt: skip
+        """Where the program stands; the same before and after what neither calls, jumps nor finds a program."""
+        entered = len(self.nesting)
+        return self.depth, self.calls, self.returning, self.over, self.target, entered, *self.running, *self.found
 
     @property
     def program(self) -> Program:
