@@ -269,14 +269,9 @@ def _refuse(count: int) -> NoReturn:
     raise ValueError(f"there would be {count} rows")
 
 
-def columns_of(rows: Array) -> dict[str, NDArray[Any]]:
-    """The columns of single rows (n, k) in the order of `ROW`."""
-    return {name: _plain(name, rows[:, place]) for name, place in PLACES.items()}
-
-
-def varies(name: str, column: NDArray[Any]) -> bool:
-    """Whether a column has a value for each row, and not one for all of them."""
-    return np.ndim(column) > len(SINGLE[name].shape)
+def columns_of(rows: Array, names: Iterable[str] = PLACES) -> dict[str, NDArray[Any]]:
+    """Columns of single rows (n, k) in the order of `ROW`; one value where it serves for all of them."""
+    return {name: _plain(name, rows[:, PLACES[name]]) for name in names}
 
 
 def _plain(name: str, part: Array) -> NDArray[Any]:

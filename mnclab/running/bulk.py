@@ -23,7 +23,7 @@ from mnclab.geometry.arcs import centre_from_radius, sweep
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.rows import LEAST_FEED, row_state
 from mnclab.path.toolpath import Kind
-from mnclab.running.drilling import FEWEST, Drilling
+from mnclab.running.drilling import FEWEST, Drilling, filled
 from mnclab.text import given
 from mnclab.text.program import Program
 
@@ -244,13 +244,13 @@ class Bulk:
             written = ~np.isnan(words[axis])
             moves |= written
             if absolute:
-                points[1:, k] = _filled(start, words[axis])
+                points[1:, k] = filled(start, words[axis])
             else:
                 points[:, k] = np.cumsum(np.concatenate([[start], np.where(written, words[axis], 0.0)]))
         tips = points if same else self.to_machine(points)  # no copy: memory costs more than the work on it
 
         no_feed = np.nan if machine.feed is None else machine.feed
-        feed = _filled(no_feed, words["F"]) if "F" in words else np.full(n, no_feed)
+        feed = filled(no_feed, words["F"]) if "F" in words else np.full(n, no_feed)
         motion, fault = self.motions(words.get("G"), n)
         if rule.rapid in self.program.addresses:
             motion[self.having(first, end, self.program.addresses.index(rule.rapid))] = 0
@@ -293,7 +293,7 @@ class Bulk:
             return np.full(n, self.senses[self.codes[None]]), np.zeros(n, dtype=bool) if g is None else ~np.isnan(g)
         active = self.machine.modal.get(self.group, "")
         start = next((value for value, code in self.codes.items() if code == active), None)
-        values = np.full(n, start, dtype=float) if g is None else _filled(np.nan if start is None else start, g)
+        values = np.full(n, start, dtype=float) if g is None else filled(np.nan if start is None else start, g)
         sense = np.full(n, NO_MOTION)
         for value in set(self.codes) if g is not None else {start}:
             if value is not None:
@@ -400,11 +400,3 @@ class Bulk:
 def _differ(a: Array, b: Array) -> Mask:
     """Which points (n, 3) are not equal; column by column, which is faster than along rows."""
     return (a[:, 0] != b[:, 0]) | (a[:, 1] != b[:, 1]) | (a[:, 2] != b[:, 2])
-
-
-def _filled(start: float, column: Array) -> Array:
-    """The last value that is not nan, going down a column (n,) that begins after `start`."""
-    at = np.flatnonzero(column == column)
-    if len(at) == len(column):
-        return column
-    return np.repeat(np.concatenate([[start], column[at]]), np.diff(at, prepend=0, append=len(column)))

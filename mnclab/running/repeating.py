@@ -8,6 +8,7 @@ places are worked out here: rows of all visits are those of the first, moved. `a
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -16,7 +17,7 @@ from numpy.typing import NDArray
 from mnclab.geometry import frames
 from mnclab.machine.rows import refuse_large
 from mnclab.machine.state import COMPARED, PATTERN, Snapshot
-from mnclab.path.recorder import PLACES, ROW, columns_of, varies
+from mnclab.path.recorder import PLACES, ROW, columns_of
 from mnclab.running.flow import course
 from mnclab.text.given import LARGEST
 
@@ -24,10 +25,12 @@ if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 Array = NDArray[np.float64]
+Index = NDArray[np.intp]
 FEWEST = 8  # points worth repeating as columns
 SAME = 1e-7  # mm; places nearer than this are one
 _END, _CENTRE = PLACES["end"], PLACES["centre"]
-_ELSE = [ROW.index(name) for name in ("kind", "label", "sweep", "feed", "time", "state")]
+_REPEATED = ("kind", "label", "sweep", "feed", "time", "state")
+_ELSE = [ROW.index(name) for name in _REPEATED]
 
 
 class Visit(NamedTuple):
@@ -65,7 +68,7 @@ def at_each(m: Machine, points: Array, make: Callable[[float, float], None]) -> 
         make(*places[0])
         before, visits = Snapshot(lasting(m)), []
         for k in (1, 2):
-            made = visit(m, points[k], lambda k=k: make(*places[k]))
+            made = visit(m, points[k], partial(make, *places[k]))
             visits.append(None if before.differences(lasting(m)) else made)
         model, done = _model(visits, points[1:-1]), 3
         if model is not None:
@@ -92,7 +95,8 @@ def visit(m: Machine, place: Array, make: Callable[[], None]) -> Visit | None:
     rows = np.array(m.recorder.rows).reshape(-1, len(ROW))
     if m.recorder.count != waiting:
         return None
-    inside = frames.apply(frames.inverse(m.frames.matrix), rows[:, _END])[:, :2]
+    inside = rows[:, _END] - m.shift if m.shift is not None else frames.apply(frames.inverse(m.matrix), rows[:, _END])
+    inside = inside[:, :2]
     there = np.asarray((np.abs(inside - place) < SAME).all(axis=1))
     lead = int(np.argmax(there)) if len(rows) else 0
     if len(rows) and not there[lead] or not (np.abs(inside[:lead] - came) < SAME).all():
@@ -108,7 +112,7 @@ def alike(one: Visit, two: Visit) -> bool:
     if one.lead != two.lead or len(one.rows) != len(two.rows):
         return False
     pairs = ((one.ends, two.ends), (one.centres, two.centres), (one.left[0], two.left[0]))
-    near = all(np.allclose(a, b, rtol=0, atol=SAME, equal_nan=True) for a, b in pairs)
+    near = not any((np.abs(a - b) > SAME).any() for a, b in pairs)  # nan is the centre of no arc
     return near and np.array_equal(one.rows[:, _ELSE], two.rows[:, _ELSE], equal_nan=True)
 
 
@@ -122,36 +126,46 @@ def _model(visits: list[Visit | None], places: Array) -> Visit | None:
     return two if (moves == moves[0]).all() else None
 
 
-def moved(
-    m: Machine, visits: list[Visit], which: NDArray[np.intp], places: Array, steps: Any, lines: Any
-) -> None:  # fmt: skip
+def moved(m: Machine, visits: list[Visit], which: Index, places: Array, steps: Any, lines: Any) -> None:
     """Hand the rows of visits to the recorder, of each place (n, 3) of the program those of `which` (n,) visit; the tool is at
     the last. `steps` and `lines` are (n,), or one for all."""
-    tips = frames.apply(m.frames.matrix, places)
-    left_at = tips + np.array([one.left[0] for one in visits])[which]
+    tips = frames.apply(m.matrix, places)
+    left = tips + np.array([one.left[0] for one in visits])[which]
+    if any(len(one.rows) for one in visits):
+        _repeated(m, visits, which, tips, np.concatenate([[m.tip], left[:-1]]), steps, lines)
+    m.programmed = (*(places[-1, :2] + visits[which[-1]].left[1]).tolist(), float(places[-1, 2]))
+    m.tip = tuple(left[-1].tolist())
+
+
+def _repeated(
+    m: Machine, visits: list[Visit], which: Index, tips: Array, came: Array, steps: Any, lines: Any
+) -> None:  # fmt: skip
+    """The rows over places whose `tips` (n, 3) the tool `came` to from (n, 3)."""
     size, lead = (np.array(of, np.intp) for of in ([len(one.rows) for one in visits], [one.lead for one in visits]))
     rows, ends, centres = (np.concatenate([one[k] for one in visits]) for k in range(3))
-    count = size[which]
-    visited = np.repeat(np.arange(len(which)), count)
-    number = np.arange(len(visited)) - np.repeat(np.cumsum(count) - count, count)  # of each row in its visit
-    source = number + np.repeat((np.cumsum(size) - size)[which], count)
-    base = tips.take(visited, axis=0)
-    if lead.any():
-        early = np.flatnonzero(number < lead[which][visited])
-        base[early] = np.concatenate([[m.tip], left_at[:-1]])[visited[early]]
+    count, first = size[which], np.cumsum(size) - size  # rows of each visit, and where they are among `rows`
+    visited = np.arange(len(which)).repeat(count)
+    source = np.arange(len(visited)) + (first[which] - np.cumsum(count) + count).repeat(count)
+    columns = {name: one.repeat(count) if np.ndim(one) else one for name, one in (("step", steps), ("line", lines))}
+    columns |= {name: one.take(source) if np.ndim(one) else one for name, one in columns_of(rows, _REPEATED).items()}
     room = m.recorder.room(len(source))[1:]
-    np.add(base, ends.take(source, axis=0), out=room)
+    tips.take(visited, axis=0, out=room, mode="clip")
+    if lead.any():
+        early = np.flatnonzero(source < (first + lead)[which][visited])
+        room[early] = came[visited[early]]
+    if np.isfinite(centres).any():
+        columns["centre"] = room + centres.take(source, axis=0)
+    if m.shift is None or ends[:, :2].any():
+        room += ends.take(source, axis=0)
     if m.shift is not None:
-        room[:, 2] = rows[source, _END.stop - 1]  # exactly the levels of the visit
-    if len(room) and not (room.max() < LARGEST and room.min() > -LARGEST):
-        refuse_large(m, room[np.argmax((np.abs(room) >= LARGEST).any(axis=1))].tolist())
-    columns = {name: one.take(source, axis=0) if varies(name, one) else one for name, one in columns_of(rows).items()}
-    if varies("centre", columns["centre"]):
-        columns["centre"] = base + centres.take(source, axis=0)
-    for name, values in (("step", steps), ("line", lines)):
-        columns[name] = values.repeat(count) if np.ndim(values) else values
-    del columns["end"]
-    if len(room):
-        m.recorder.bulk(columns, room)
-    m.programmed = (*(places[-1, :2] + visits[which[-1]].left[1]).tolist(), float(places[-1, 2]))
-    m.tip = tuple(left_at[-1].tolist())
+        room[:, 2] = rows[:, _END][:, 2].take(source)  # exactly the levels of the visit
+    if np.abs(tips).max() + np.abs(ends).max() >= LARGEST:
+        _refuse_far(m, room)
+    m.recorder.bulk(columns, room)
+
+
+def _refuse_far(m: Machine, ends: Array) -> None:
+    """An Alarm at the first of the ends (n, 3) that is too far away, if one is."""
+    far = (np.abs(ends) >= LARGEST).any(axis=1)
+    if far.any():
+        refuse_large(m, ends[np.argmax(far)].tolist())
