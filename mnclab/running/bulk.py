@@ -305,32 +305,36 @@ class Bulk:
         machine, rule = self.machine, self.rule
         assert rule is not None
         first, second, normal = PLANES[machine.plane]
-        k = np.flatnonzero(run.arc)
-        s, e = run.points[k][:, [first, second]], run.points[k + 1][:, [first, second]]
+        k: Any = slice(None) if run.arc.all() else np.flatnonzero(run.arc)
+        start, end = run.points[:-1][k], run.points[1:][k]
+        s, e = start[:, [first, second]], end[:, [first, second]]
         sense = np.sign(run.motion[k])
         tolerance = rule.tolerance(machine)
-        nothing = np.full(len(k), np.nan)
-        to_centre = np.stack([words[name][k] if name in words else nothing for name in "IJK"], axis=1)
-        radii = words["R"][k] if "R" in words else nothing
-        c = s + np.nan_to_num(to_centre[:, [first, second]])
+        to_centre = {axis: words[name][k] for axis, name in enumerate("IJK") if name in words}
+        c = s.copy()
+        for column, axis in enumerate((first, second)):
+            if axis in to_centre:
+                c[:, column] += np.where(np.isnan(to_centre[axis]), 0.0, to_centre[axis])
         at_start, at_end = np.hypot(*(s - c).T), np.hypot(*(e - c).T)
-        along = to_centre[:, normal]
         fault = (np.abs(c) >= given.LARGEST).any(axis=1) | (at_start < 1e-9) | (np.abs(at_start - at_end) > tolerance)
-        fault |= ~(np.isnan(along) | (along == 0) & rule.zero_along)
-        if (by := np.flatnonzero(~np.isnan(radii))).size:
-            radius, chord = radii[by], np.hypot(*(e - s)[by].T)
+        if (along := to_centre.get(normal)) is not None:
+            fault |= ~(np.isnan(along) | (along == 0) & rule.zero_along)
+        if "R" in words and (by := np.flatnonzero(~np.isnan(words["R"][k]))).size:
+            radius, chord = words["R"][k][by], np.hypot(*(e - s)[by].T)
             c[by], shortage = centre_from_radius(s[by], e[by], radius, sense[by])
             reach = machine.settings.get("arc_reach", tolerance)
-            fault[by] = (shortage > reach) | (chord < 1e-3) | (radius == 0) | ~np.isnan(to_centre[by]).all(axis=1)
+            fault[by] = (shortage > reach) | (chord < 1e-3) | (radius == 0)
+            for offset in to_centre.values():
+                fault[by] |= ~np.isnan(offset[by])
         run.fault[k] |= fault
-        rises = run.points[k, normal] != run.points[k + 1, normal]
+        rises = start[:, normal] != end[:, normal]
         if rises.any() and rule.helices(machine, 0):
-            run.helix = k[rises]
+            run.helix = np.flatnonzero(run.arc)[rises]
         else:
             run.fault[k] |= rises  # the other tier remarks on it
         angle = sweep(s, e, c, sense)
-        centre = run.points[k].copy()
-        centre[:, [first, second]] = c
+        centre = np.empty_like(start)
+        centre[:, first], centre[:, second], centre[:, normal] = c[:, 0], c[:, 1], start[:, normal]
         if machine.shift is None:
             run.fault[k] |= not machine.keeps_circles
             angle = angle * machine.orientation
