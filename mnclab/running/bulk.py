@@ -113,7 +113,7 @@ class Bulk:
             plain[np.searchsorted(program.first, of_them, "right") - 1] = False
         self.calls_end = self._ends_of_calls(plain)
         self.breaks = np.append(np.flatnonzero(~plain), len(program))
-        self.enabled = self.enabled and (len(program) - len(self.breaks) + 1 >= SHORTEST or len(self.calls_end) > 0)
+        self.enabled = self.enabled and (len(program) - len(self.breaks) + 1 >= FEWEST or len(self.calls_end) > 0)
         self.codes = {value: code for value, (code, _) in self.rule.motions.items()}
         self.senses = {code: sense for code, sense in self.rule.motions.values()}
         self.next_break = int(self.breaks[0])

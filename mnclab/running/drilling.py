@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from mnclab.running.bulk import Bulk
 
 FEWEST = 8  # holes in a row with which blocks begin to be learned, …
-MOST_NEW = 8  # … and blocks that are learned before others are repeated
+MOST_NEW = 16  # … and blocks that are learned before others are repeated
 MOST_STANDINGS = 512  # that are kept
 FAR = LARGEST / 2  # mm from zero: blocks beyond go one by one
 Key = tuple[Any, ...]  # of a block: whether it has a place, then numbers of addresses and values

@@ -241,14 +241,12 @@ class Course:
         block = first
         while block < stop and not (m.ended or self.over):
             done = self.bulk(block, stop)
-            if done:
-                block += done
-                continue
-            self.current = block
-            self.obey(block)
+            if not done:
+                self.current, done = block, 1
+                self.obey(block)
             if self.returning:
                 return
-            block += 1
+            block += done
             if self.target >= 0:
                 if not least <= self.target < stop:
                     return
