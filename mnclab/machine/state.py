@@ -324,7 +324,9 @@ class State:
     unheard: str = part("")  # functions whose codes begin so do nothing: where only the contour counts
     block_end: list[Callable[[], None]] = part(lambda m: [])  # to be done when the block is over
     alarms: Alarms = part(lambda m: Alarms(), outlives=True, compared=())  # those of blocks are noted
-    noted: set[tuple[str, Span | None]] = part(lambda m: set(), outlives=True)  # of which a warning was given
+    noted: set[tuple[str, Span | None]] = part(
+        lambda m: set(), outlives=True, compared=(PATTERN, REPEAT)
+    )  # of which a warning was given; blocks of holes give theirs again
     logs: Logs = part(lambda m: Logs(), outlives=True, compared=())
 
     # where the tool is
