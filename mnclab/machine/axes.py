@@ -189,10 +189,11 @@ def change_length(m: Machine, length: float) -> None:
 
 
 def turn_axes(
-    m: Machine, to: Angles, f: float | None, word: Word | None = None, below: float | None = None, most: float = math.inf,
+    m: Machine, to: Angles, f: float | None, word: Word | None = None, below: float | None = None,
+    most: float = math.inf, in_plane: bool = False,
 ) -> None:  # fmt: skip
-    """Turn to angles (degrees) while the linear axes stand, or the tip that is led. `below` and `most` are those of `swing`.
-
+    """Turn to angles (degrees) while the linear axes stand, or the tip that is led. `below`, `most` and `in_plane` are those of
+    `swing`.
 
     `f` is in degrees a minute, infinite at rapid, None the modal feed. The time of a rapid turn is not known: no limits of rotary
     axes are.
@@ -200,7 +201,7 @@ def turn_axes(
     rate = turning_feed(m) if f is None else f
     way = max(abs(new - old) for new, old in zip(to, angles(m), strict=True))
     if m.tables.kinematics is not None:
-        swing(m, to, None, math.inf if math.isinf(rate) else way / rate, word, below, most=most)
+        swing(m, to, None, math.inf if math.isinf(rate) else way / rate, word, below, most=most, in_plane=in_plane)
         return
     set_angles(m, to)
     kind = Kind.LINE if math.isfinite(rate) else Kind.RAPID
@@ -227,7 +228,7 @@ def travel(
     if rate < 0:  # a time for the move
         swing(m, to, point, -rate / 60, word, most=most, in_plane=in_plane)
     elif way <= STILL:
-        turn_axes(m, to, f, word, most=most)
+        turn_axes(m, to, f, word, most=most, in_plane=in_plane)
         if point is not None:
             m.set_register(point)
     elif of_all:
@@ -264,7 +265,7 @@ def swing(
         even = start + share[:, None] * (end - start)
         return (kinematics.references(even, turning, length) if led else even), turning
 
-    tolerance = allowed(m)
+    tolerance, worst = allowed(m), math.inf
     while True:
         linear, turning = places(np.linspace(0, 1, count + 1))
         if led:  # between rows all axes run evenly, and the tip leaves its line
@@ -273,9 +274,11 @@ def swing(
             middle, half = places((np.arange(count) + 0.5) / count)
         tips = kinematics.tips(linear, turning, own)
         off = kinematics.tips(middle, half, own) - (tips[1:] + tips[:-1]) / 2
-        worst = float(np.linalg.norm(off, axis=1).max())
+        wider, worst = worst, float(np.linalg.norm(off, axis=1).max())
         if worst <= tolerance or count > MOST:
             break
+        if in_plane and worst > max(wider / 2, 2 * tolerance):  # smaller rows come no nearer
+            m.alarm("the rotary axes would have to jump on the way: it leads through a place where one of them is free", word)
         count = int(math.ceil(count * max(math.sqrt(worst / tolerance), 1.01)))
     if count > MOST:
         m.alarm(f"the move turns so far that it needs {count} rows to stay within {tolerance:g} mm, {MOST} are allowed", word)

@@ -413,8 +413,8 @@ def test_called_twice_and_at_once():
 
 @pytest.mark.parametrize(("made", "depths"), [(C27, (21, 18)), (C28, (21, 18))])
 def test_on_a_machine_whose_axes_are_known(made: str, depths: tuple[int, ...]) -> None:
-    """The head lies along X, the table turns: on the part the tip goes round Z at the radius of each level, the tool points
-    to the axis, and a way of 25 angle by Z is the contour of the same program without a kinematics."""
+    """The head lies along X, the table turns: on the part the tip goes round Z at the radius of each level, the tool always
+    points to the axis, and a way of 25 angle by Z is the contour of the same program without a kinematics."""
     tools = {number: mnc.Tool(number=number, radius=tool.radius, length=70) for number, tool in TOOLS.items()}
     found = mnc.run(made, "tnc-620", mnc.Setup(tools=tools, kinematics="head-b-table-c"))
     assert found.ok, found.alarms
