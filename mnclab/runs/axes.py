@@ -85,7 +85,7 @@ class AxisPositions(Pictured, Columned):
         return html_table(("line", *NAMES), self.rows(), numbers=range(7))
 
     def plot(self, profile: Profile | None = None, **options: Unpack[FigureOptions]) -> Figure:
-        """A small curve of every axis that moves, over the rows; over the time of a `profile` of the run, s, where one is given."""
+        """A small curve of every axis that moves, over the rows, or over the time, s, of a `profile` of the run."""
         from mnclab.show.plot.axes import plot_axes
 
         return plot_axes(self, profile, **options)
