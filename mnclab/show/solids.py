@@ -227,7 +227,7 @@ def tool_of(run: Any, row: int = -1) -> Body | None:
 
 
 def holder_of(run: Any, row: int = -1) -> Body | None:
-    """What holds the tool where a row of a machine with rotary axes ends, up to the nose of the spindle; None where no tool says."""
+    """What holds the tool where a row of a machine with rotary axes ends, up to the spindle; None where no tool says."""
     path = run.toolpath
     tool = run.tables.tools.get(int(path.tool[row]), Tool())
     if path.kinematics is None or not tool.holder:
