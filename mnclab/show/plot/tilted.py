@@ -55,11 +55,11 @@ def tilted_tool_of(path: Toolpath) -> TiltedTool | None:
     if not tilted.any():
         return None
     pieces, row = strokes(path, CHORD)
+    size = float(np.ptp(pieces[cuts[row]].reshape(-1, 3), axis=0).max())
     pieces, row = pieces[tilted[row]], row[tilted[row]]
     way = np.append(0.0, np.cumsum(np.linalg.norm(pieces[:, 1] - pieces[:, 0], axis=1)))
     at = np.linspace(0, way[-1], MOST + 1)[1:] if way[-1] > 0 else way[-1:]
     some = np.clip(np.searchsorted(way, at) - 1, 0, len(row) - 1)
     share = np.divide(at - way[some], np.diff(way)[some], out=np.ones(len(at)), where=np.diff(way)[some] > 0)[:, None]
     tips = pieces[some, 0] + share * (pieces[some, 1] - pieces[some, 0])
-    size = float(np.ptp(path.end[cuts], axis=0).max())
     return TiltedTool(tips, tips + LONG * size * path.directions[row[some]])
