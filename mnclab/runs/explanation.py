@@ -59,12 +59,18 @@ def stages(run: Run, moment: Moment) -> list[Stage]:
         side = "left" if path.side[last] > 0 else "right"
         note = f"tool radius {unit.figure(float(path.radius[last]))} to the {side}: {unit.figure(away)} {unit.short} away"
     elif away > 1e-6:
-        note = f"{unit.figure(away)} {unit.short} away: a frame was changed since, or corners were rounded"
+        why = "a frame was changed since, or corners were rounded"
+        if path.kinematics is not None:
+            why = "rotary axes stand elsewhere than coordinates count with, or a frame was changed"
+        note = f"{unit.figure(away)} {unit.short} away: {why}"
     found.append(Stage("tool tip", _tuple(tip), note))
     tool = run.tables.tools.get(int(path.tool[last])) if last >= 0 else None
     if tool is not None and not path.lathe:
         spindle = tip + path.origin
-        spindle["XYZ".index(run.history.value(LOG, moment.step) or "Z")] += tool.effective_length
+        if path.kinematics is not None:
+            spindle = path.kinematics.references(spindle, path.rotary[last], tool.effective_length)
+        else:
+            spindle["XYZ".index(run.history.value(LOG, moment.step) or "Z")] += tool.effective_length
         note = f"tool length {unit.figure(tool.effective_length)}"
         found.append(Stage("spindle, machine coordinates", _tuple(spindle), note))
     return found
@@ -72,7 +78,8 @@ def stages(run: Run, moment: Moment) -> list[Stage]:
 
 def _frames(run: Run, moment: Moment) -> list[tuple[str, Matrix]]:
     """The frames after the block, the outermost first."""
-    names = list(dict.fromkeys([*run.control.frames, *(name for name, _ in run.frames)]))
+    known = [name.removeprefix("frame ") for name in run.history if name.startswith("frame ")]
+    names = list(dict.fromkeys([*run.control.frames, *(name for name, _ in run.frames), *known]))
     values = ((name, run.history.value(f"frame {name}", moment.step)) for name in names)
     return [(name, np.array(value)) for name, value in values if value is not None]
 

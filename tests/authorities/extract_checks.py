@@ -45,7 +45,7 @@ EXAMPLES = {
     ],
     "tnc620-klartext": [
         *("BLK FORM", "TOOL CALL", "L", "C", "CT", "CP", "CALL LBL", "CYCL DEF (formats)", "FN", "FK"),
-        *("contour formula", "CONTOUR DEF"),
+        *("contour formula", "CONTOUR DEF", "PLANE SPATIAL"),
     ],
     "tnc620-contour-formula": [
         *("complex contour formula", "SEL CONTOUR", "DECLARE CONTOUR", "QC contour formula"),

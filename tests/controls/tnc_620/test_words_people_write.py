@@ -11,7 +11,7 @@ import math
 import pytest
 
 import mnclab as mnc
-from mnclab.controls.tnc_620.language import m_functions
+from mnclab.controls.tnc_620.language import m_functions, rotary
 
 PATH = [(5, 0, 0), (5, 7, 0)]
 
@@ -45,7 +45,7 @@ def test_a_setting_refuses_functions_of_the_machine_tool_builder(inside) -> None
     assert (alarm.message, alarm.span[:2]) == ("M11 is not a function of this control", (3, 14))
 
 
-@pytest.mark.parametrize("code", m_functions.GROUPS.values())
+@pytest.mark.parametrize("code", rotary.GROUPS.values())
 def test_rules_for_rotary_axes_change_nothing_while_none_moves(code: str, inside) -> None:
     run = inside(f"2 L {code}\n3 L X+5 C+0 FMAX\n4 L Y+7 FMAX")
     assert ends(run) == PATH and not run.alarms

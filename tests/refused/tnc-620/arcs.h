@@ -35,14 +35,14 @@
 3 CT X+9 C+5
 
 ; == c-under-m126-not-built
-; 5:9 alarm: C under M126 (shortest way of rotary axes) is not built yet
+; 5:9 alarm: C under M126 (shortest way of rotary axes) is not built yet (Setup(kinematics="table-ac"), or one of its own, says where the rotary axes are)
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
 2 L M126
 3 L X+5 C+5
 
 ; == c-under-m128-not-built
-; 5:5 alarm: C under M128 (tool centre point management) is not built yet
+; 5:5 alarm: C under M128 (tool centre point management) is not built yet (Setup(kinematics="table-ac"), or one of its own, says where the rotary axes are)
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
 2 L X+5 F9 M128 F500

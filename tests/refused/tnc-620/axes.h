@@ -1,5 +1,5 @@
 ; == a-under-m116-not-built
-; 5:5 alarm: A under M116 (feed of rotary axes in mm/min) is not built yet
+; 5:5 alarm: A under M116 (feed of rotary axes in mm/min) is not built yet (Setup(kinematics="table-ac"), or one of its own, says where the rotary axes are)
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
 2 M116

@@ -29,7 +29,7 @@
 2 L X+5 RL M120 LA100
 
 ; == m128-refused-rotary-axes-turned
-; 5:9 alarm: M128 is not built yet where rotary axes have turned
+; 5:9 alarm: M128 is not built yet where rotary axes have turned (Setup(kinematics="table-ac"), or one of its own, says where the rotary axes are)
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
 2 L C+5 F9
@@ -42,7 +42,7 @@
 2 L X+5 M3 M13
 
 ; == m138-refused-choice-tilting-axes-not
-; 4:9 alarm: M138 is refused: choice of tilting axes, not built yet: write the angles of the rotary axes in a block L
+; 4:9 alarm: M138 needs the kinematics of the machine (Setup(kinematics="table-ac"), or one of its own, says where the rotary axes are)
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
 2 L X+5 M138 A C
@@ -103,7 +103,7 @@
 2 L X+5 F9 M140
 
 ; == m140-tilted-plane-not-built
-; 6:5 alarm: M140 in a tilted plane is not built yet
+; 6:5 alarm: M140 in a tilted plane is not built yet (with the kinematics of the machine it is: Setup(kinematics="table-ac"))
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
 2 CYCL DEF 19.0 X

@@ -44,11 +44,11 @@ CYCL DEF 19.1 IA+1
 3 CYCL DEF 19.1 A+30
 4 L X+5 M130
 
-; == plane-euler-refused
-; 4:1 alarm: PLANE EULER is refused: tilted plane, not built yet: write PLANE SPATIAL with the angles of the same plane
+; == plane-euler-needs-eulnu
+; 4:1 alarm: PLANE EULER needs EULNU (nutation, about X turned by it)
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
-2 PLANE EULER EULPR+0 EULNU+0 EULROT+0 STAY
+2 PLANE EULER EULPR+0 EULROT+0 STAY
 
 ; == plane-reset-mb-max-tilted-not-built
 ; 5:20 alarm: PLANE RESET MB MAX in a tilted plane is not built yet (with a distance, MB50, it is)
@@ -106,11 +106,11 @@ CYCL DEF 19.1 IA+1
 1 TOOL CALL 1 Z S1000 F100
 2 PLANE SPATIAL SPA+0 SPB+0 STAY
 
-; == plane-spatial-seq-not-built
-; 4:53 alarm: PLANE SPATIAL SEQ (which of two solutions) is not built yet where it tilts
+; == plane-spatial-seq-and-sym
+; 4:58 alarm: SEQ- and SYM+ stand in one block: one of SEQ, SYM is allowed
 0 BEGIN PGM A MM
 1 TOOL CALL 1 Z S1000 F100
-2 PLANE SPATIAL SPA+0 SPB+90 SPC+0 TURN MB MAX FMAX SEQ-
+2 PLANE SPATIAL SPA+0 SPB+90 SPC+0 TURN MB MAX FMAX SEQ- SYM+
 
 ; == tool-axis-x-in-tilted-plane
 ; 6:15 alarm: TOOL CALL: the tool axis X cannot stand in a tilted working plane (reset cycle 19)
