@@ -70,7 +70,8 @@ class Removal(Pictured, Listing):
         """What the rows at feed of each tool, by its number, have before them: half of `FEW` at equal distances of its way, as
         many with the greatest means, and as many more as prove the greatest rate."""
         cutting, length, found = self.workpiece.cutting, self.workpiece.cutting.path.lengths, dict[int, Looks]()
-        cuts = np.flatnonzero((self._means > 0) & self._at_feed & (length > 0) & ~cutting.path.synchronous)
+        upright = True if cutting.tilted is None else ~cutting.tilted  # what is ahead of a tilted tool nobody looks at
+        cuts = np.flatnonzero((self._means > 0) & self._at_feed & (length > 0) & ~cutting.path.synchronous & upright)
         for tool in np.unique(cutting.numbers[cuts]).tolist():
             rows = cuts[cutting.numbers[cuts] == tool]
             found[tool] = looks = Looks(rows, self.workpiece, self._speed, self._highest[rows])

@@ -10,6 +10,7 @@ kind there are, the fewer points each gets, and of more than 20,000 of a kind on
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -19,7 +20,8 @@ from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.text.alarm import several
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.collision import Collision, Collisions, deep, solid
-from mnclab.workpiece.cutting import Cutting
+from mnclab.workpiece.clamped import Clamped, Placement
+from mnclab.workpiece.cutting import TURNED, UPRIGHT, Cutting, frames_along
 from mnclab.workpiece.milling.judging import (
     MOST,
     TOLERANCE,
@@ -28,14 +30,17 @@ from mnclab.workpiece.milling.judging import (
     Judging,
     Met,
     above_edges,
+    apart,
     bodies_of,
     edges,
     holder,
     under,
 )
+from mnclab.workpiece.milling.milled import Milled
 from mnclab.workpiece.milling.moves import Cutter, cut_up, moves_of
 from mnclab.workpiece.milling.raster import AT_ONCE
 from mnclab.workpiece.milling.swept import left_by
+from mnclab.workpiece.milling.tilted import meeting
 from mnclab.workpiece.part import Part
 
 ROUGH, FEW = 60, 200  # points of a cut, enough to see whether it takes anything, and of what is behind the edges
@@ -49,26 +54,56 @@ def collisions_of(cutting: Cutting, step: float | None = None) -> Collisions:
     """What the rows of a cutting meet that they must not, one of each row and kind; see `KINDS`.
 
     `step` mm between the points that are looked at, a four-hundredth of the longer side of the blank by default. A row
-    that only touches, within 0.01 mm, meets nothing. Rows with a tilted tool are not judged, which a
+    that only touches, within 0.01 mm, meets nothing. Where the tool turns and may come to the blank, it is not judged, which a
     note says.
     """
-    scene = Judging.of(cutting, step)
     found: dict[tuple[int, str], Collision] = {}
-    for kind, said, met in _kinds(scene):
-        row = met.row
-        line, program = int(cutting.path.line[row]), int(cutting.path.program[row])
-        message = f"{said}, {deep(met.depth, 'XYZ', met.place, cutting.path.unit)}{_hint(cutting, kind, row)}"
-        each = Collision(kind, message, line, program, row, met.place, met.depth, _file(cutting, line, program))
-        known = found.get((row, kind))
-        if known is None or each.depth > known.depth:
-            found[row, kind] = each
+    for own, first, turn in [(cutting, 0, None)] if cutting.tilted is None else clampings(cutting):
+        for kind, said, met in _kinds(Judging.of(own, step or apart(cutting))):
+            row, place = met.row + first, met.place if turn is None else tuple((turn @ met.place).tolist())
+            line, program = int(cutting.path.line[row]), int(cutting.path.program[row])
+            message = f"{said}, {deep(met.depth, 'XYZ', place, cutting.path.unit)}{_hint(own, kind, met.row)}"
+            each = Collision(kind, message, line, program, row, place, met.depth, _file(cutting, line, program))
+            known = found.get((row, kind))
+            if known is None or each.depth > known.depth:
+                found[row, kind] = each
     return Collisions(found.values(), _not_judged(cutting))
+
+
+def clampings(cutting: Cutting) -> Iterator[tuple[Cutting, int, Array | None]]:
+    """Rows of one direction of the tool that follow each other, as those of an upright tool over what the rows before have
+    left; the first row of each, and the frame (3, 3) along the tool, None along Z."""
+    assert cutting.directions is not None
+    begins = np.append(True, cutting.turning[1:] | cutting.turning[:-1])
+    begins[1:] |= (np.abs(np.diff(cutting.directions[:, 2], axis=0)) > TURNED).any(axis=1)
+    ends = np.append(np.flatnonzero(begins)[1:], len(cutting))
+    for first, last in zip(np.flatnonzero(begins).tolist(), ends.tolist()):
+        some = slice(first, last)
+        if cutting.turning[first] or not cutting.path.is_motion[some].any():
+            continue
+        turn = frames_along(cutting.directions[first : first + 1, 2])[0]
+        place = Placement(turn.T)
+        before = cutting.until(first - 1) if first else replace(Cutting.of_nothing(cutting.stock), origin=cutting.origin)
+        own, upright = cutting.rows(some), bool(turn[2, 2] > UPRIGHT)
+        stock = cutting.stock if upright and not before.cuts.any() else Clamped(Milled(before), place)
+        if upright:
+            yield replace(own, directions=None, stock=stock), first, None
+            continue
+        fixtures = tuple(_seen(fixture, place) for fixture in cutting.fixtures)
+        yield replace(own.seen_along(turn), stock=stock, fixtures=fixtures), first, turn
+
+
+def _seen(fixture: Blank | Part, place: Placement) -> Blank | Part:
+    """A fixture where it stands in another frame."""
+    if isinstance(fixture, Part):
+        return fixture.placed(np.block([[place.turn, np.zeros((3, 1))], [np.zeros(3), 1.0]]))
+    return Clamped(Milled(Cutting.of_nothing(fixture)), place)
 
 
 def _not_judged(cutting: Cutting) -> Iterator[str]:
     """What is not looked at, in a sentence for people."""
-    if cutting.tilted is not None and (out := cutting.path.is_motion & cutting.tilted).any():
-        yield f"{several(int(out.sum()), 'row')} of a tool not along Z not judged ({cutting.lines(out)})"
+    if (out := meeting(cutting)).any():
+        yield f"{several(int(out.sum()), 'row')} on which the tool turns not judged ({cutting.lines(out)})"
 
 
 def _hint(cutting: Cutting, kind: str, row: int) -> str:

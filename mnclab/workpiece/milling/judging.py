@@ -164,6 +164,11 @@ class Met(NamedTuple):
     depth: float
 
 
+def apart(cutting: Cutting) -> float:
+    """How far apart points are, mm, if nobody says."""
+    return float(np.ptp(cutting.stock.bounds[:, :2], axis=0).max()) / CELLS
+
+
 @dataclass(frozen=True, eq=False)
 class Judging:
     """Moves of a cutting over its blank, and what their tools meet there."""
@@ -174,9 +179,7 @@ class Judging:
 
     @classmethod
     def of(cls, cutting: Cutting, step: float | None) -> Judging:
-        bounds = cutting.stock.bounds
-        apart = float(step) if step is not None else float((bounds[1] - bounds[0])[:2].max()) / CELLS
-        return cls(cutting, moves_of(cutting, chord=TOLERANCE / 10), apart)
+        return cls(cutting, moves_of(cutting, chord=TOLERANCE / 10), float(step) if step is not None else apart(cutting))
 
     @cached_property
     def boxes(self) -> Array:
@@ -256,6 +259,10 @@ class Judging:
         floor, top = self.cutting.stock.faces(at.x, at.y)
         at = at._replace(low=np.fmax(at.low, floor))
         deep = depths(self.moves, self.boxes, at, np.where(np.isnan(top), -np.inf, top))
+        if (gaps := getattr(self.cutting.stock, "gaps", None)) is not None:
+            met = np.flatnonzero(deep > 0)
+            low = at.low[met]
+            deep[met] = gaps.sides(at.x[met], at.y[met], low + deep[met], low)[0] - low
         ends = np.flatnonzero(np.diff(at.owner, append=-1)) + 1
         for begin, end in zip([0, *ends[:-1]], ends):
             k = begin + int(np.round(deep[begin:end], 6).argmax())

@@ -27,15 +27,17 @@ HALF = 0.75  # of a cell, a little more than its corners are away from its middl
 STEEP = 3.0  # times what the slope of a move explains: a wall
 LOW = 0.002  # of how deep its foot lies in the blank: a lower wall is not looked at
 THIN = 1.5  # cells from its axis to its edges: a groove so thin may lie between the middles
-BENT = 1e-3  # of what was taken away about a cell, by which its middle may be off
+BENT, BENT_ASLANT = 1e-3, 1e-4  # of what was taken away about a cell, by which its middle may be off; of tilted tools
 
 
 def removed(sweep: Sweep, heights: Array) -> float:
     """What all moves took away together, mm³; `heights` (ny, nx) are what they leave at the middles."""
     rims, raster, (top, _) = Rims(sweep), sweep.raster, sweep.blank
     walls, bends, pairs = np.zeros(raster.shape, dtype=bool), np.zeros(raster.shape, dtype=bool), np.zeros(2, dtype=np.int64)
-    taken, ends = top - heights, blank_ends(sweep)
-    bent = _bent(taken)
+    taken, ends = sweep.over(sweep.taken) if sweep.gaps else top - heights, blank_ends(sweep)
+    bent = _bent(taken, BENT_ASLANT if sweep.gaps else BENT)
+    if sweep.gaps:
+        ends |= bent  # the rim of a tilted tool is no wall that stands upright
     for tile in raster.tiles():
         x, y = raster.middles(tile)
         crossed, moves = rims.standing(x, y, top[tile].ravel(), _highest(heights, tile))
@@ -53,16 +55,18 @@ def removed(sweep: Sweep, heights: Array) -> float:
     return total
 
 
-def _bent(taken: Array) -> Mask:
+def _bent(taken: Array, share: float) -> Mask:
     """Cells (ny, nx) whose middle tells too little of how much was taken away (ny, nx) mm about it."""
     wide = np.pad(taken, 1, mode="edge")
     beside = np.stack([wide[:-2, 1:-1], wide[2:, 1:-1], wide[1:-1, :-2], wide[1:-1, 2:]])
     off = np.abs(beside.sum(axis=0) - 4 * taken) / 24  # of an even bend: what the middle misses of the mean
-    return np.asarray(off > np.maximum(BENT * np.maximum(beside.max(axis=0), taken), NOISE))
+    return np.asarray(off > np.maximum(share * np.maximum(beside.max(axis=0), taken), NOISE))
 
 
 def removed_by_row(sweep: Sweep, rows: int) -> Array:
     """What each of so many rows took away (rows,), mm³, on a coarser lattice."""
+    if sweep.gaps:
+        return _in_turn(sweep, rows)
     rims, raster, found = Rims(sweep), sweep.raster, np.zeros(rows)
     for tile in sweep.tiles:
         x, y = raster.middles(tile)
@@ -75,6 +79,21 @@ def removed_by_row(sweep: Sweep, rows: int) -> Array:
                     taken = before - after
                     volumes = np.where(taken > NOISE, taken, 0.0).sum(axis=1) * raster.step**2 / count
                     np.add.at(found, sweep.moves.row[which], volumes)
+    return found
+
+
+def _in_turn(sweep: Sweep, rows: int) -> Array:
+    """The same of moves of several directions, at the middles of cells and at a lattice where these tell too little; of fewer
+    columns where many moves come near."""
+    assert sweep.gaps is not None
+    raster, found = sweep.raster, np.zeros(rows)
+    bent = _bent(sweep.over(sweep.taken), BENT) | blank_ends(sweep)
+    for tile in raster.tiles():
+        (x, y), some = raster.middles(tile), bent[tile].ravel()
+        spots = within(x[some], y[some], raster.step, ROUGH)
+        for points, count in (((x[~some], y[~some]), 1), (spots, ROUGH[0])):
+            if len(points[0]):
+                found += sweep.gaps.shares(sweep.moves, sweep.faces, *points, rows) * raster.step**2 / count
     return found
 
 
