@@ -81,6 +81,16 @@ class Turning {
     this.swept = [...chain.swept(picture.box, picture.run.rotary), ...rings.flatMap(({middle}, n) => [0, 1, 2].flatMap(axis => [-1, 1].map(sense =>
       middle.map((v, k) => v + (k === axis) * sense * picture.extent * (RINGS + WIDER * n)))))];  // the rings where they are by the part
   }
+  // The middles of the rings of a head and the tips, on the part, of some rows.
+  get heads() {
+    if (this.pivots) return this.pivots;
+    const {chain, picture: {run: {path, rotary}}} = this, step = Math.max(1, Math.floor(path.n / 200)), found = [];
+    for (let row = 0; row < path.n; row += step) {
+      const angles = rotary.map(column => column[row]), tip = path.vertex(row + 1);
+      if (path.isMotion(row) && path.kind[row] !== RAPID) found.push(tip, ...chain.rings(tip, angles, chain.length.value(row) || 0, this.middle).slice(chain.table.length).map(({middle}) => middle));
+    }
+    return this.pivots = found;
+  }
   // The camera goes with the part, or stands by it; true where it has turned.
   carry(angles) {
     const {chain, picture: {camera}} = this, now = this.moves ? angles : [0, 0, 0], before = this.carried || [0, 0, 0];
@@ -91,12 +101,12 @@ class Turning {
     this.carried = now;
     return true;
   }
-  // From where to where what fills the picture lies along a direction on the part, whichever way it will turn.
+  // From where to where what fills the picture lies along a direction on the part, whichever way it will turn; with a head, as
+  // far as its axes, where that is asked for.
   reach(d) {
-    const {chain, carried: now = [0, 0, 0]} = this, all = (this.moves ? this.swept : []).map(place => {
-      const at = chain.toPart(place, now);
-      return at[0] * d[0] + at[1] * d[1] + at[2] * d[2];
-    });
+    const {chain, carried: now = [0, 0, 0], whole, picture: {extent}} = this, along = at => at[0] * d[0] + at[1] * d[1] + at[2] * d[2];
+    const all = this.moves ? this.swept.map(place => along(chain.toPart(place, now))) : [], room = extent * RINGS;
+    if (whole) all.push(...this.heads.map(along).flatMap(v => [v - room, v + room]));
     return [Math.min(...all), Math.max(...all)];
   }
   draw(pen, {row, tip, at, angles, step}) {
@@ -154,8 +164,8 @@ class Turning {
     pen.fill();
     pen.globalAlpha = 1;
     pen.stroke();
-    pen.lineWidth = 1.6;
     [["X", 1, 0, 0], ["Y", 0, 1, 0], ["Z", 0, 0, 0.6]].forEach(([name, x, y, z]) => {
+      Object.assign(pen, {strokeStyle: colours.plane, lineWidth: 1.6});
       pen.beginPath();
       pen.moveTo(...at(0, 0));
       pen.lineTo(...at(size * x, size * y, size * z));

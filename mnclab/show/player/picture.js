@@ -46,14 +46,15 @@ class Picture {
   }
   // From where to where what fills the picture lies along a direction.
   reach(d) {
-    if (this.turning && this.turning.moves) return this.turning.reach(d);
+    const [least, most] = this.turning ? this.turning.reach(d) : [Infinity, -Infinity];
+    if (this.turning && this.turning.moves) return [least, most];
     const {strokes} = this, along = ([x, y, z]) => x * d[0] + y * d[1] + z * d[2], solid = this.solid.map(along);
     const [low, high] = strokes.reach(d, this.fills);
     if (this.run.lathe || low > high) {  // the chuck, and what is turned, lie on both sides of the axis
       const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(k => along(this.box[k & 1].map((_, axis) => this.box[k >> axis & 1][axis])));
       return [Math.min(...corners), Math.max(...corners)];
     }
-    return [solid.reduce((a, b) => Math.min(a, b), low), solid.reduce((a, b) => Math.max(a, b), high)];
+    return [solid.reduce((a, b) => Math.min(a, b), Math.min(low, least)), solid.reduce((a, b) => Math.max(a, b), Math.max(high, most))];
   }
   recolour() {
     const style = getComputedStyle(document.documentElement);
@@ -73,7 +74,8 @@ class Picture {
     if (this.fitted) this.camera.fit(d => this.reach(d)); else this.camera.zoom *= scale;
     this.stale = true;
   }
-  fit() {
+  fit(whole = false) {  // of a machine with a head, as far as its axes
+    if (this.turning) this.turning.whole = whole;
     this.camera.fit(d => this.reach(d));
     this.fitted = true;  // until a person zooms or shifts: a frame may get its size late
     this.stale = true;
