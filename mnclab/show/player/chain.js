@@ -143,9 +143,9 @@ class Turning {
       Object.assign(pen, {font: "600 11px system-ui, sans-serif", textAlign: "center", textBaseline: "middle"});
       picture.label(pen, `${axis.name} ${short(angle)}°`, ...project(go(middle, [stands], [1.18 * size])));
     });
-    if (chain.head.length) this.arm(pen, [tip, chain.toPart(chain.reference(tip, angles, length), angles), ...rings.slice(chain.table.length).map(({middle}) => middle).reverse()]);
+    if (chain.head.length) this.arm(pen, [tip, go(tip, chain.tool(angles).slice(2), [length]), ...rings.slice(chain.table.length).map(({middle}) => middle).reverse()]);
   }
-  arm(pen, places) {  // from the tip to the spindle reference and to the axes of the head
+  arm(pen, places) {  // from the tip along the tool and to the axes of the head
     pen.strokeStyle = this.picture.colours.edge;
     pen.lineWidth = 1;
     pen.setLineDash([2, 3]);
